@@ -1,0 +1,146 @@
+//! When two rods collide and what a collision does (eqs 5 to 10, A.7 to A.14).
+
+use crate::contact::Contact;
+use crate::orientation::{angles, from_angles};
+use nalgebra::{UnitVector3, Vector3};
+
+/// The collision probability P_c = (α/(s/a + α))^m at the centre distance s/a `distance`, in rod lengths
+/// (eq. 7; eq. 10 with m = 3). α > 0 and m > 0 are real.
+pub fn probability(distance: f64, alpha: f64, m: f64) -> f64 {
+    (alpha / (distance + alpha)).powf(m)
+}
+
+/// The reach s*/a = α(R^{−1/m} − 1) in rod lengths: P_c > R is the same as s < s* (eqs 8 and 9, solved for s).
+/// Infinite for R = 0.
+#[inline]
+pub fn reach(r: f64, alpha: f64, m: f64) -> f64 {
+    alpha * (-r.ln() / m).exp_m1()
+}
+
+/// The direction rates ṗ′ of both rods after a collision, from those before it (eqs 5 and 6, A.7 to A.12).
+///
+/// `relative_velocity` is u(x_B) − u(x_A), `rates` are ṗ_A and ṗ_B; all in one unit of length and time. The
+/// contact points' velocities along ℓ become their mean; what is normal to ℓ stays. As ℓ is normal to both
+/// rods, only ṗ·ℓ changes: ṗ′_A = ṗ_A + ℓ (v̄ − v_A)/r_A.
+pub fn share_velocity(
+    contact: &Contact,
+    relative_velocity: &Vector3<f64>,
+    rates: [Vector3<f64>; 2],
+) -> [Vector3<f64>; 2] {
+    let line = contact.line.as_ref();
+    let [arm_a, arm_b] = contact.arms;
+    let gap = line.dot(relative_velocity) + arm_b * line.dot(&rates[1]) - arm_a * line.dot(&rates[0]);
+    [
+        rates[0] + line * (0.5 * gap / arm_a),
+        rates[1] - line * (0.5 * gap / arm_b),
+    ]
+}
+
+/// (φ̇′, θ̇′) of a rod with direction `p` whose direction moves at `rate` = V̂′_r/r (A.13, corrected:
+/// the printed φ̇′ lacks 1/sin θ, and in the printed θ̇′ sin θ and cos θ are exchanged).
+pub fn angle_rates(p: &UnitVector3<f64>, rate: &Vector3<f64>) -> (f64, f64) {
+    let (phi, theta) = angles(p);
+    let (sin_phi, cos_phi) = phi.sin_cos();
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    (
+        (-rate.x * sin_phi + rate.y * cos_phi) / sin_theta,
+        rate.x * cos_theta * cos_phi + rate.y * cos_theta * sin_phi - rate.z * sin_theta,
+    )
+}
+
+/// The direction after turning for `time` at the angular velocity p × `rate`, and the angle turned in rad:
+/// A.14 without its pole.
+pub fn turn(p: &UnitVector3<f64>, rate: &Vector3<f64>, time: f64) -> (UnitVector3<f64>, f64) {
+    let speed = norm(rate);
+    if speed == 0.0 {
+        return (*p, 0.0);
+    }
+    let angle = speed * time;
+    let (sin, cos) = angle.sin_cos();
+    let turned = p.as_ref() * cos + rate * (sin / speed);
+    (UnitVector3::new_normalize(turned), angle)
+}
+
+/// The direction after A.14 to the letter: φ′ = φ + φ̇′Δt, θ′ = θ + θ̇′Δt, and the angle |ṗ′|Δt in rad.
+///
+/// At the pole, where φ has no value, the rod turns as in [`turn`].
+pub fn step_angles(p: &UnitVector3<f64>, rate: &Vector3<f64>, time: f64) -> (UnitVector3<f64>, f64) {
+    if p.x == 0.0 && p.y == 0.0 {
+        return turn(p, rate, time);
+    }
+    let (phi, theta) = angles(p);
+    let (phi_rate, theta_rate) = angle_rates(p, rate);
+    let stepped = from_angles(phi + phi_rate * time, theta + theta_rate * time);
+    (stepped, norm(rate) * time)
+}
+
+/// |v| without overflow in the squares: a kick ∝ 1/r has no bound.
+fn norm(v: &Vector3<f64>) -> f64 {
+    let largest = v.amax();
+    if largest > 0.0 && largest.is_finite() {
+        largest * (v / largest).norm()
+    } else {
+        largest
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn the_probability_by_hand() {
+        assert_eq!(probability(0.0, 0.5, 3.0), 1.0);
+        assert_eq!(probability(0.5, 0.5, 3.0), 0.125);
+        assert_relative_eq!(probability(1.5, 0.5, 0.5), 0.5, max_relative = 1e-15);
+    }
+
+    #[test]
+    fn the_reach_inverts_the_probability() {
+        for (alpha, m) in [(0.5, 3.0), (0.01, 0.1), (7.0, 50.0), (0.3, 1.7)] {
+            for r in [1e-3, 0.1, 0.5, 0.999] {
+                assert_relative_eq!(probability(reach(r, alpha, m), alpha, m), r, max_relative = 1e-12);
+            }
+        }
+        assert_eq!(reach(0.0, 0.5, 3.0), f64::INFINITY);
+    }
+
+    #[test]
+    fn a_collision_worked_by_hand() {
+        // A along axis 1 and B along axis 2 pass with arms 2 and −3; ℓ is axis 3. Only the liquid moves:
+        // B's point at 10 along ℓ, A's at 0. Both get 5: A turns at 5/2, B at −5/−3.
+        let contact = Contact {
+            line: Vector3::z_axis(),
+            arms: [2.0, -3.0],
+        };
+        let [a, b] = share_velocity(&contact, &Vector3::new(1.0, 1.0, 10.0), [Vector3::zeros(); 2]);
+        assert_relative_eq!(a, Vector3::new(0.0, 0.0, 2.5));
+        assert_relative_eq!(b, Vector3::new(0.0, 0.0, 5.0 / 3.0), max_relative = 1e-15);
+    }
+
+    #[test]
+    fn turning_is_by_the_angle_and_towards_the_rate() {
+        let (p, angle) = turn(&Vector3::x_axis(), &Vector3::new(0.0, 2.0, 0.0), 0.25);
+        assert_eq!(angle, 0.5);
+        assert_relative_eq!(
+            p.into_inner(),
+            Vector3::new(0.5f64.cos(), 0.5f64.sin(), 0.0),
+            max_relative = 1e-15
+        );
+        let (p, angle) = turn(&Vector3::x_axis(), &Vector3::new(0.0, 1e300, 0.0), 1.0);
+        assert!((p.norm() - 1.0).abs() < 1e-15 && angle == 1e300);
+    }
+
+    #[test]
+    fn both_updates_agree_over_a_short_step() {
+        let p = from_angles(0.4, 1.1);
+        let rate = Vector3::new(0.3, -0.8, 0.5).cross(&p);
+        let dt = 1e-4;
+        let apart = turn(&p, &rate, dt).0.into_inner() - step_angles(&p, &rate, dt).0.into_inner();
+        assert!(apart.norm() < 1e-7);
+        let apart =
+            turn(&p, &rate, 10.0 * dt).0.into_inner() - step_angles(&p, &rate, 10.0 * dt).0.into_inner();
+        assert!(apart.norm() > 1e-9, "they are different updates");
+    }
+}

@@ -1,0 +1,162 @@
+//! Replicas over all cores, and the means and standard errors over them.
+
+use crate::observable::{Observable, Sum};
+use crate::plan::Plan;
+use crate::run::{Counters, Replica, RunError, run_replica};
+use rayon::prelude::*;
+
+/// A channel of an observable against time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// The name of its column.
+    pub name: String,
+    /// The mean over rods and replicas, per output.
+    pub mean: Vec<f64>,
+    /// The standard error of the mean: over replicas, or over rods where there is one replica. NaN where
+    /// there is one replica of one rod.
+    pub se: Vec<f64>,
+}
+
+/// An observable against time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Which observable.
+    pub observable: Observable,
+    /// Its channels, in the order of [`Observable::channels`].
+    pub channels: Vec<Channel>,
+}
+
+/// The results of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Results {
+    /// `t_over_T` or `strain`.
+    pub time_name: &'static str,
+    /// The outputs' times.
+    pub times: Vec<f64>,
+    /// One per observable, in the order of the plan.
+    pub series: Vec<Series>,
+    /// Work over all replicas.
+    pub counters: Counters,
+}
+
+impl Results {
+    /// The channel with the given column name.
+    pub fn channel(&self, name: &str) -> Option<&Channel> {
+        self.series
+            .iter()
+            .flat_map(|s| &s.channels)
+            .find(|c| c.name == name)
+    }
+}
+
+/// Runs every replica of the plan on the threads of the current rayon pool; `finished` is called after each
+/// replica. The results are the same bits for any number of threads.
+pub fn run(plan: &Plan, finished: impl Fn() + Sync) -> Result<Results, RunError> {
+    let replicas = plan.scene().ensemble.replicas;
+    let mut moments: Option<Moments> = None;
+    let mut counters = Counters::default();
+    let mut first = 0;
+    while first < replicas {
+        let last = replicas.min(first + batch(plan));
+        let done: Result<Vec<Replica>, RunError> = (first..last)
+            .into_par_iter()
+            .map(|replica| {
+                let result = run_replica(plan, replica);
+                finished();
+                result
+            })
+            .collect();
+        // In the order of replicas, whichever thread was first.
+        for replica in done? {
+            counters.add(&replica.counters);
+            moments
+                .get_or_insert_with(|| Moments::new(replica.sums.len()))
+                .add(&replica.sums, plan.scene().particles.count);
+        }
+        first = last;
+    }
+    let moments = moments.unwrap_or_else(|| Moments::new(0));
+    Ok(collect(plan, &moments, counters))
+}
+
+/// Replicas held in memory at a time: about 256 MB of sums.
+fn batch(plan: &Plan) -> u64 {
+    let width: usize = plan.observables().iter().map(|o| o.width()).sum();
+    let bytes = plan.outputs() * width * size_of::<Sum>();
+    ((256 << 20) / bytes.max(1)).clamp(1, 4096) as u64
+}
+
+/// Running means and squared deviations over replicas (Welford 1962).
+struct Moments {
+    replicas: f64,
+    mean: Vec<f64>,
+    deviation: Vec<f64>,
+    /// Standard errors over the rods of one replica.
+    over_rods: Vec<f64>,
+}
+
+impl Moments {
+    fn new(len: usize) -> Self {
+        Self {
+            replicas: 0.0,
+            mean: vec![0.0; len],
+            deviation: vec![0.0; len],
+            over_rods: vec![f64::NAN; len],
+        }
+    }
+
+    fn add(&mut self, sums: &[Sum], count: usize) {
+        let n = count as f64;
+        self.replicas += 1.0;
+        for (k, sum) in sums.iter().enumerate() {
+            let value = sum.value / n;
+            let change = value - self.mean[k];
+            self.mean[k] += change / self.replicas;
+            self.deviation[k] += change * (value - self.mean[k]);
+            if let Some(square) = sum.square {
+                let variance = (square / n - value * value).max(0.0);
+                self.over_rods[k] = (variance / (n - 1.0)).sqrt();
+            }
+        }
+    }
+
+    fn se(&self, k: usize) -> f64 {
+        if self.replicas > 1.0 {
+            (self.deviation[k] / (self.replicas - 1.0) / self.replicas).sqrt()
+        } else {
+            self.over_rods[k]
+        }
+    }
+}
+
+fn collect(plan: &Plan, moments: &Moments, counters: Counters) -> Results {
+    let observables = plan.observables();
+    let width: usize = observables.iter().map(|o| o.width()).sum();
+    let mut start = 0;
+    let series = observables
+        .into_iter()
+        .map(|observable| {
+            let channels = observable
+                .channels()
+                .into_iter()
+                .enumerate()
+                .map(|(channel, name)| {
+                    let at = |output: usize| output * width + start + channel;
+                    Channel {
+                        name,
+                        mean: (0..plan.outputs()).map(|k| moments.mean[at(k)]).collect(),
+                        se: (0..plan.outputs()).map(|k| moments.se(at(k))).collect(),
+                    }
+                });
+            let channels = channels.collect();
+            start += observable.width();
+            Series { observable, channels }
+        })
+        .collect();
+    Results {
+        time_name: plan.time_name(),
+        times: plan.times(),
+        series,
+        counters,
+    }
+}

@@ -1,0 +1,235 @@
+//! What is observed of the rods: means over rods of a value per rod.
+
+use crate::orientation::{bounded_orbit_constant, folded_phi};
+use serde::{Deserialize, Serialize};
+
+/// Rods handled at a time: their directions stay in the first cache while every observable reads them.
+pub const BLOCK: usize = 128;
+
+/// Directions and aspect ratios of up to [`BLOCK`] rods, as structure of arrays.
+#[derive(Clone, Debug)]
+pub struct Block {
+    /// p₁, p₂ and p₃.
+    pub p: [[f64; BLOCK]; 3],
+    /// r_e.
+    pub aspect_ratio: [f64; BLOCK],
+    /// How many rods are in the block.
+    pub len: usize,
+}
+
+impl Default for Block {
+    fn default() -> Self {
+        Self {
+            p: [[0.0; BLOCK]; 3],
+            aspect_ratio: [1.0; BLOCK],
+            len: 0,
+        }
+    }
+}
+
+/// What can be observed. Each has a file of its own, named as its key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Observable {
+    /// Means of |p_i| (eq. 4; with the signs, random rods would give 0).
+    Projections,
+    /// Mean projections on the planes x₁x₂, x₂x₃, x₁x₃ (eq. 21, with φ in the second factor).
+    PlanarProjections,
+    /// The mean of φ folded into [0, π/2] (eq. 18), in radians.
+    MeanAngle,
+    /// Mean and density of C_b = C/(1 + C) (eq. 13).
+    OrbitConstant,
+    /// ⟨pp⟩.
+    OrientationTensor,
+}
+
+/// The bins of the density of C_b over [0, 1].
+const BINS: usize = 20;
+
+impl Observable {
+    /// Every observable.
+    pub const ALL: [Self; 5] = [
+        Self::Projections,
+        Self::PlanarProjections,
+        Self::MeanAngle,
+        Self::OrbitConstant,
+        Self::OrientationTensor,
+    ];
+
+    /// The key in a scene file, and the stem of the file's name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Projections => "projections",
+            Self::PlanarProjections => "planar_projections",
+            Self::MeanAngle => "mean_angle",
+            Self::OrbitConstant => "orbit_constant",
+            Self::OrientationTensor => "orientation_tensor",
+        }
+    }
+
+    /// The names of the columns.
+    pub fn channels(self) -> Vec<String> {
+        let fixed: &[&str] = match self {
+            Self::Projections => &["x1", "x2", "x3"],
+            Self::PlanarProjections => &["x1x2", "x2x3", "x1x3"],
+            Self::MeanAngle => &["phi"],
+            Self::OrbitConstant => &["c_b"],
+            Self::OrientationTensor => &["a11", "a22", "a33", "a12", "a13", "a23"],
+        };
+        let mut names: Vec<String> = fixed.iter().map(|&name| name.to_owned()).collect();
+        if self == Self::OrbitConstant {
+            names.extend((0..BINS).map(|k| format!("density_from_{:.2}", k as f64 / BINS as f64)));
+        }
+        names
+    }
+
+    /// How many channels there are.
+    pub fn width(self) -> usize {
+        match self {
+            Self::Projections | Self::PlanarProjections => 3,
+            Self::MeanAngle => 1,
+            Self::OrbitConstant => 1 + BINS,
+            Self::OrientationTensor => 6,
+        }
+    }
+
+    /// Adds the block's rods to the sums of this observable's channels.
+    pub fn add(self, block: &Block, sums: &mut [Sum]) {
+        let [p1, p2, p3] = &block.p;
+        match self {
+            Self::Projections => {
+                for (sum, p) in sums.iter_mut().zip([p1, p2, p3]) {
+                    sum.add_each(block.len, |i| p[i].abs());
+                }
+            }
+            Self::PlanarProjections => {
+                for (sum, (a, b)) in sums.iter_mut().zip([(p1, p2), (p2, p3), (p1, p3)]) {
+                    sum.add_each(block.len, |i| (a[i] * a[i] + b[i] * b[i]).sqrt());
+                }
+            }
+            Self::MeanAngle => sums[0].add_each(block.len, |i| folded_phi(p1[i], p2[i])),
+            Self::OrbitConstant => {
+                let mut bounded = [0.0; BLOCK];
+                for (i, c) in bounded[..block.len].iter_mut().enumerate() {
+                    *c = bounded_orbit_constant([p1[i], p2[i], p3[i]], block.aspect_ratio[i]);
+                }
+                sums[0].add_each(block.len, |i| bounded[i]);
+                for (bin, sum) in sums[1..].iter_mut().enumerate() {
+                    // A density: the share of rods in the bin over the bin's width.
+                    let inside = |c: f64| ((c * BINS as f64) as usize).min(BINS - 1) == bin;
+                    sum.add_each(block.len, |i| if inside(bounded[i]) { BINS as f64 } else { 0.0 });
+                }
+            }
+            Self::OrientationTensor => {
+                let pairs = [(p1, p1), (p2, p2), (p3, p3), (p1, p2), (p1, p3), (p2, p3)];
+                for (sum, (a, b)) in sums.iter_mut().zip(pairs) {
+                    sum.add_each(block.len, |i| a[i] * b[i]);
+                }
+            }
+        }
+    }
+}
+
+/// The sum of a value over rods, and of its square where standard errors over rods are wanted.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sum {
+    /// Σ f.
+    pub value: f64,
+    /// Σ f², or `None` where replicas give the standard errors.
+    pub square: Option<f64>,
+}
+
+/// Independent partial sums, so that the compiler may keep them side by side in a register.
+const LANES: usize = 8;
+
+impl Sum {
+    #[inline]
+    fn add_each(&mut self, len: usize, f: impl Fn(usize) -> f64) {
+        self.value += lane_sum(len, &f);
+        if let Some(square) = &mut self.square {
+            *square += lane_sum(len, |i| f(i) * f(i));
+        }
+    }
+}
+
+#[inline]
+fn lane_sum(len: usize, f: impl Fn(usize) -> f64) -> f64 {
+    let mut lanes = [0.0; LANES];
+    let whole = len.min(BLOCK) / LANES * LANES;
+    for first in (0..whole).step_by(LANES) {
+        for (lane, sum) in lanes.iter_mut().enumerate() {
+            *sum += f(first + lane);
+        }
+    }
+    for i in whole..len {
+        lanes[i - whole] += f(i);
+    }
+    lanes.iter().sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    /// One rod, worked by hand: p = (2, −3, 6)/7 and r_e = 2.
+    fn observe(observable: Observable) -> Vec<f64> {
+        let mut block = Block {
+            len: 1,
+            ..Block::default()
+        };
+        for (p, value) in block.p.iter_mut().zip([2.0, -3.0, 6.0]) {
+            p[0] = value / 7.0;
+        }
+        block.aspect_ratio[0] = 2.0;
+        let mut sums = vec![Sum::default(); observable.width()];
+        observable.add(&block, &mut sums);
+        sums.iter().map(|sum| sum.value).collect()
+    }
+
+    #[test]
+    fn one_rod_by_hand() {
+        let sevenths = |v: &[f64]| v.iter().map(|x| x / 7.0).collect::<Vec<_>>();
+        let close = |found: Vec<f64>, expected: Vec<f64>| {
+            assert_eq!(found.len(), expected.len());
+            for (a, b) in found.iter().zip(&expected) {
+                assert_relative_eq!(a, b, max_relative = 1e-15);
+            }
+        };
+        close(observe(Observable::Projections), sevenths(&[2.0, 3.0, 6.0]));
+        let roots = [13f64, 45.0, 40.0].map(f64::sqrt);
+        close(observe(Observable::PlanarProjections), sevenths(&roots));
+        close(observe(Observable::MeanAngle), vec![1.5f64.atan()]);
+        let tensor = [4.0, 9.0, 36.0, -6.0, 12.0, -18.0].map(|x| x / 49.0);
+        close(observe(Observable::OrientationTensor), tensor.to_vec());
+        // C = (4·4 + 9)^½/(2·6) = 5/12, so C_b = 5/17 = 0.294.
+        let orbit = observe(Observable::OrbitConstant);
+        assert_relative_eq!(orbit[0], 5.0 / 17.0, max_relative = 1e-15);
+        let filled: Vec<_> = orbit[1..]
+            .iter()
+            .enumerate()
+            .filter(|(_, d)| **d != 0.0)
+            .collect();
+        assert_eq!(filled, [(5, &20.0)]);
+    }
+
+    #[test]
+    fn the_columns_are_as_many_as_the_sums() {
+        for observable in Observable::ALL {
+            assert_eq!(observable.channels().len(), observable.width());
+        }
+    }
+
+    #[test]
+    fn lanes_sum_every_rod_once() {
+        for len in [0, 1, 7, 8, 9, 100, BLOCK] {
+            assert_eq!(lane_sum(len, |i| (i + 1) as f64), (len * (len + 1) / 2) as f64);
+        }
+        let mut sum = Sum {
+            value: 1.0,
+            square: Some(10.0),
+        };
+        sum.add_each(3, |i| i as f64);
+        assert_eq!((sum.value, sum.square), (4.0, Some(15.0)));
+    }
+}

@@ -1,0 +1,95 @@
+//! A rod's direction p = (sin θ cos φ, sin θ sin φ, cos θ), with p ≡ −p, and what is read off it.
+//!
+//! θ is measured from axis 3 (vorticity), φ from axis 1 (gradient) towards axis 2 (flow).
+
+use nalgebra::{UnitVector3, Vector3};
+
+/// The direction with the angles `phi_rad` and `theta_rad` (Fig. 1).
+pub fn from_angles(phi_rad: f64, theta_rad: f64) -> UnitVector3<f64> {
+    let (sin_theta, cos_theta) = theta_rad.sin_cos();
+    let (sin_phi, cos_phi) = phi_rad.sin_cos();
+    UnitVector3::new_normalize(Vector3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta))
+}
+
+/// An isotropic direction from two uniform numbers in [0, 1): φ = 2πR₄, θ = arccos(1 − 2R₅) (eq. 12).
+pub fn isotropic(r4: f64, r5: f64) -> UnitVector3<f64> {
+    // sin θ without the cancellation of 1 − cos²θ near the poles.
+    let sin_theta = 2.0 * (r5 * (1.0 - r5)).sqrt();
+    let (sin_phi, cos_phi) = (std::f64::consts::TAU * r4).sin_cos();
+    UnitVector3::new_normalize(Vector3::new(
+        sin_theta * cos_phi,
+        sin_theta * sin_phi,
+        1.0 - 2.0 * r5,
+    ))
+}
+
+/// The angles (φ, θ) in radians, φ in (−π, π] and θ in [0, π].
+pub fn angles(p: &UnitVector3<f64>) -> (f64, f64) {
+    (p.y.atan2(p.x), p.x.hypot(p.y).atan2(p.z))
+}
+
+/// φ in radians folded into [0, π/2] by p ≡ −p and the mirror planes of the flow (eq. 18).
+#[inline]
+pub fn folded_phi(p1: f64, p2: f64) -> f64 {
+    p2.abs().atan2(p1.abs())
+}
+
+/// The orbit constant C = tan θ (r_e² cos²φ + sin²φ)^½ / r_e (eq. 13), in [0, ∞]: 0 for a rod along
+/// the vorticity axis, ∞ for one in the plane of shear.
+pub fn orbit_constant(p: &UnitVector3<f64>, aspect_ratio: f64) -> f64 {
+    p.x.hypot(p.y / aspect_ratio) / p.z.abs()
+}
+
+/// The bounded orbit constant C_b = C/(1 + C), in [0, 1], without the infinity of C.
+#[inline]
+pub fn bounded_orbit_constant(p: [f64; 3], aspect_ratio: f64) -> f64 {
+    let in_plane = p[0].hypot(p[1] / aspect_ratio);
+    in_plane / (in_plane + p[2].abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn angles_come_back(phi in -3.1f64..3.1, theta in 0.01f64..3.13) {
+            let (phi_back, theta_back) = angles(&from_angles(phi, theta));
+            prop_assert!((phi - phi_back).abs() < 1e-13 / theta.sin());
+            prop_assert!((theta - theta_back).abs() < 1e-14);
+        }
+
+        #[test]
+        fn the_orbit_constant_is_the_printed_one(phi in 0.0f64..6.2, theta in 0.01f64..1.5, r in 1.01f64..1e3) {
+            let printed = theta.tan() * (r * r * phi.cos().powi(2) + phi.sin().powi(2)).sqrt() / r;
+            let p = from_angles(phi, theta);
+            prop_assert!((orbit_constant(&p, r) / printed - 1.0).abs() < 1e-12);
+            let bounded = bounded_orbit_constant([p.x, p.y, p.z], r);
+            prop_assert!((bounded - printed / (1.0 + printed)).abs() < 1e-12);
+        }
+
+        #[test]
+        fn isotropic_draws_follow_equation_12(r4 in 0.0f64..1.0, r5 in 0.0f64..1.0) {
+            let p = isotropic(r4, r5);
+            let expected = from_angles(std::f64::consts::TAU * r4, (1.0 - 2.0 * r5).acos());
+            prop_assert!((p.into_inner() - expected.into_inner()).norm() < 1e-7);
+            prop_assert!((p.z - (1.0 - 2.0 * r5)).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn folding_knows_no_head_and_no_side() {
+        for (p1, p2) in [(0.3, 0.4), (-0.3, 0.4), (0.3, -0.4), (-0.3, -0.4)] {
+            assert_relative_eq!(folded_phi(p1, p2), (0.4f64 / 0.3).atan(), max_relative = 1e-15);
+        }
+    }
+
+    #[test]
+    fn the_ends_of_the_orbit_constant() {
+        assert_eq!(orbit_constant(&Vector3::z_axis(), 11.6), 0.0);
+        assert_eq!(orbit_constant(&Vector3::x_axis(), 11.6), f64::INFINITY);
+        assert_eq!(bounded_orbit_constant([0.0, 1.0, 0.0], 11.6), 1.0);
+    }
+}

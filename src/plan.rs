@@ -1,0 +1,312 @@
+//! The plan of a scene: which stages run, which are left out, and why.
+
+use crate::flow::VelocityGradient;
+use crate::observable::Observable;
+use crate::scene::{Interaction, Invalid, Orientation, Scene};
+use nalgebra::Matrix3;
+use serde::Serialize;
+use std::fmt;
+
+/// A part of a run that can be left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Stage {
+    /// Draw Gaussian aspect ratios (eq. 11).
+    AspectRatios,
+    /// Draw isotropic directions (eq. 12).
+    Orientations,
+    /// Draw positions in the control volume (eq. 12).
+    Positions,
+    /// Take time steps in which rods are carried by the liquid and replaced (eqs 3 and 14).
+    Translation,
+    /// Sort rods into cells and find nearest neighbours.
+    Neighbours,
+    /// Draw one R per rod and step (eqs 8 and 9).
+    CollisionDraws,
+    /// Apply the contact rule to colliding pairs (eqs 5 and 6, A.7 to A.14).
+    Contacts,
+    /// Compute an observable.
+    Observe(Observable),
+    /// Sum squares for standard errors over rods.
+    RodErrors,
+}
+
+impl fmt::Display for Stage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text = match self {
+            Self::AspectRatios => "aspect ratios",
+            Self::Orientations => "orientations",
+            Self::Positions => "positions",
+            Self::Translation => "translation",
+            Self::Neighbours => "neighbours",
+            Self::CollisionDraws => "collision draws",
+            Self::Contacts => "contacts",
+            Self::Observe(observable) => return f.pad(&observable.name().replace('_', " ")),
+            Self::RodErrors => "errors over rods",
+        };
+        f.pad(text)
+    }
+}
+
+/// One line of a plan.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Entry {
+    /// The stage.
+    pub stage: Stage,
+    /// Whether it runs.
+    pub kept: bool,
+    /// Why it runs or does not.
+    pub reason: String,
+}
+
+/// The units in which outputs and steps are counted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Clock {
+    /// Ticks per period of the mean aspect ratio: steps where there are steps, else outputs.
+    Periods { ticks: u64 },
+    /// Ticks per unit of strain: outputs.
+    Strain { ticks: u64 },
+}
+
+/// What will run for a scene: the scene, checked, and its stages.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    scene: Scene,
+    flow: VelocityGradient,
+    entries: Vec<Entry>,
+}
+
+impl Plan {
+    /// Checks the scene and decides what it needs.
+    pub fn new(scene: &Scene) -> Result<Self, Invalid> {
+        scene.check()?;
+        let flow = match (scene.flow.shear_rate_per_s, scene.flow.gradient_per_s) {
+            (Some(g), _) => VelocityGradient::plane_couette(g),
+            (_, rows) => {
+                let rows = rows.unwrap_or_default();
+                VelocityGradient::new(Matrix3::from_fn(|i, j| rows[i][j]))
+            }
+        };
+        let flow = flow.ok_or_else(|| Invalid::new("flow", "non-finite", "finite numbers"))?;
+        Ok(Self {
+            scene: scene.clone(),
+            flow,
+            entries: entries(scene),
+        })
+    }
+
+    /// The same plan with `stage`, and what it needs, kept although the scene does not need it: for tests
+    /// that leaving it out changes nothing, and for measuring what it would cost. `None` where the scene
+    /// lacks what the stage works on (no `[interaction]` table, no period).
+    pub fn keeping(&self, stage: Stage) -> Option<Self> {
+        let needs: &[Stage] = match stage {
+            Stage::Translation => &[Stage::Positions],
+            Stage::Neighbours => &[Stage::Translation, Stage::Positions],
+            Stage::CollisionDraws => &[Stage::Translation, Stage::Positions],
+            Stage::Contacts => &[
+                Stage::CollisionDraws,
+                Stage::Neighbours,
+                Stage::Translation,
+                Stage::Positions,
+            ],
+            _ => &[],
+        };
+        let in_volume = stage == Stage::Positions || !needs.is_empty();
+        if in_volume && self.scene.interaction.is_none() {
+            return None;
+        }
+        let mut plan = self.clone();
+        for entry in &mut plan.entries {
+            if entry.stage == stage || needs.contains(&entry.stage) {
+                entry.kept = true;
+                entry.reason = "kept by request".to_owned();
+            }
+        }
+        Some(plan)
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The imposed flow.
+    pub fn flow(&self) -> &VelocityGradient {
+        &self.flow
+    }
+
+    /// The stages, kept and dropped, in the order in which they run.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// Whether a stage runs.
+    pub fn keeps(&self, stage: Stage) -> bool {
+        self.entries
+            .iter()
+            .any(|entry| entry.stage == stage && entry.kept)
+    }
+
+    /// The observables to compute, in the order of the scene.
+    pub fn observables(&self) -> Vec<Observable> {
+        let kept = self.entries.iter().filter(|entry| entry.kept);
+        kept.filter_map(|entry| match entry.stage {
+            Stage::Observe(observable) => Some(observable),
+            _ => None,
+        })
+        .collect()
+    }
+
+    /// The number of outputs, the one at t = 0 included.
+    pub fn outputs(&self) -> usize {
+        let time = &self.scene.time;
+        let all = match time.strain {
+            Some(strain) => strain * self.scene.outputs_per_strain() as f64,
+            None => time.periods.unwrap_or(0.0) * self.scene.outputs_per_period() as f64,
+        };
+        // The slack takes in a product that was rounded down.
+        1 + (all * (1.0 + 4.0 * f64::EPSILON)).floor() as usize
+    }
+
+    /// The number of time steps; 0 where the exact motion goes straight to each output.
+    pub fn steps(&self) -> u64 {
+        if self.keeps(Stage::Translation) {
+            (self.outputs() as u64 - 1) * self.ticks_per_output()
+        } else {
+            0
+        }
+    }
+
+    /// The name of the time column: `t_over_T`, or `strain` where the scene's time is a strain.
+    pub fn time_name(&self) -> &'static str {
+        if self.scene.time.strain.is_some() {
+            "strain"
+        } else {
+            "t_over_T"
+        }
+    }
+
+    /// The times of the outputs.
+    pub fn times(&self) -> Vec<f64> {
+        let per_unit = match self.scene.time.strain {
+            Some(_) => self.scene.outputs_per_strain(),
+            None => self.scene.outputs_per_period(),
+        };
+        (0..self.outputs()).map(|k| k as f64 / per_unit as f64).collect()
+    }
+
+    pub(crate) fn clock(&self) -> Clock {
+        match self.scene.time.strain {
+            Some(_) => Clock::Strain {
+                ticks: self.scene.outputs_per_strain(),
+            },
+            None => Clock::Periods {
+                ticks: self.scene.outputs_per_period() * self.ticks_per_output(),
+            },
+        }
+    }
+
+    /// Steps between outputs; 1 where no steps are taken.
+    pub(crate) fn ticks_per_output(&self) -> u64 {
+        if self.keeps(Stage::Translation) {
+            self.scene.steps_per_period() / self.scene.outputs_per_period()
+        } else {
+            1
+        }
+    }
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let scene = &self.scene;
+        writeln!(f, "{}", scene.title)?;
+        let duration = match scene.time.strain {
+            Some(strain) => format!("strain {strain}"),
+            None => format!("{} periods", scene.time.periods.unwrap_or(0.0)),
+        };
+        let steps = match self.steps() {
+            0 => "no time steps: the exact motion goes straight to each output".to_owned(),
+            steps => format!("{steps} time steps"),
+        };
+        writeln!(
+            f,
+            "{} rods, {} replicas, {duration}, {} outputs, {steps}",
+            scene.particles.count,
+            scene.ensemble.replicas,
+            self.outputs()
+        )?;
+        for entry in &self.entries {
+            let verb = if entry.kept { "keep" } else { "drop" };
+            writeln!(f, "{verb} {:<18} {}", entry.stage, entry.reason)?;
+        }
+        Ok(())
+    }
+}
+
+/// Why no rods of this scene can meet, or `None` where they can.
+fn no_interaction(scene: &Scene) -> Option<&'static str> {
+    match &scene.interaction {
+        None => Some("no [interaction] table: free rods"),
+        Some(Interaction { alpha: 0.0, .. }) => Some("alpha = 0: the collision probability is 0"),
+        Some(_) if scene.particles.count == 1 => Some("one rod has no neighbour"),
+        Some(_) => None,
+    }
+}
+
+fn entries(scene: &Scene) -> Vec<Entry> {
+    let mut entries = Vec::new();
+    let mut add = |stage, kept, reason: &str| {
+        entries.push(Entry {
+            stage,
+            kept,
+            reason: reason.to_owned(),
+        });
+    };
+    if scene.particles.aspect_ratio_sd_percent > 0.0 {
+        add(Stage::AspectRatios, true, "Gaussian aspect ratios are drawn");
+    } else {
+        add(
+            Stage::AspectRatios,
+            false,
+            "standard deviation 0: all rods share the mean",
+        );
+    }
+    match scene.particles.orientation {
+        Orientation::Random(_) => add(Stage::Orientations, true, "isotropic directions are drawn"),
+        Orientation::Given { .. } => add(Stage::Orientations, false, "every rod starts at the given angles"),
+    }
+    let free = no_interaction(scene);
+    for (stage, why) in [
+        (Stage::Positions, "distances between rods are needed"),
+        (
+            Stage::Translation,
+            "the liquid carries rods past each other, step by step",
+        ),
+        (Stage::Neighbours, "each rod meets its nearest neighbour"),
+        (Stage::CollisionDraws, "P_c > R decides who collides"),
+        (
+            Stage::Contacts,
+            "colliding rods share their velocity along the contact line",
+        ),
+    ] {
+        add(stage, free.is_none(), free.unwrap_or(why));
+    }
+    for &observable in &scene.output.observables {
+        add(Stage::Observe(observable), true, "asked for by the scene");
+    }
+    for observable in Observable::ALL {
+        if !scene.output.observables.contains(&observable) {
+            add(Stage::Observe(observable), false, "not asked for");
+        }
+    }
+    if scene.ensemble.replicas == 1 {
+        add(
+            Stage::RodErrors,
+            true,
+            "one replica: standard errors come from the rods",
+        );
+    } else {
+        add(Stage::RodErrors, false, "standard errors come from the replicas");
+    }
+    entries
+}

@@ -1,0 +1,99 @@
+//! The cubic control volume, its rods' positions, and the replacement of rods that leave it (Fig. 3, eq. 14).
+
+use rand::{Rng, RngExt};
+
+/// The volume [0, side)³ in plane Couette flow u_2 = ±x_1, with lengths in rod lengths and time in 1/|G|.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ControlVolume {
+    /// H/a.
+    side: f64,
+}
+
+impl ControlVolume {
+    /// The volume that holds `count` rods at the concentration n a³ `per_cubed_length`:
+    /// H/a = (N/(n a³))^{1/3}.
+    pub fn holding(count: usize, per_cubed_length: f64) -> Self {
+        Self {
+            side: (count as f64 / per_cubed_length).cbrt(),
+        }
+    }
+
+    /// H/a.
+    pub fn side(&self) -> f64 {
+        self.side
+    }
+
+    /// `count` uniform positions as three arrays: x_i = H R_i, drawn rod by rod (eq. 12).
+    pub fn draw_positions(&self, count: usize, rng: &mut impl Rng) -> [Vec<f64>; 3] {
+        let mut positions = [(); 3].map(|()| Vec::with_capacity(count));
+        for _ in 0..count {
+            for axis in &mut positions {
+                axis.push(self.side * rng.random::<f64>());
+            }
+        }
+        positions
+    }
+
+    /// Moves every rod with the liquid over `strain` ≥ 0 (`sign` of G), and replaces the rods that left
+    /// through the faces normal to axis 2: x_1 = H√R, x_3 = HR, x_2 by the overshoot modulo H (eq. 14 with
+    /// the text's second coordinate read as x_3). Returns how many were replaced.
+    pub fn advance(&self, positions: &mut [Vec<f64>; 3], strain: f64, sign: f64, rng: &mut impl Rng) -> u64 {
+        let [x1, x2, x3] = positions;
+        let mut replaced = 0;
+        for ((x1, x2), x3) in x1.iter_mut().zip(x2).zip(x3) {
+            *x2 += sign * *x1 * strain;
+            if (0.0..self.side).contains(x2) {
+                continue;
+            }
+            // The inflow through a face is proportional to u_2, that is to x_1: hence the root.
+            *x1 = self.side * rng.random::<f64>().sqrt();
+            let overshoot = x2.rem_euclid(self.side);
+            // Just below 0, the remainder rounds up to the side itself.
+            *x2 = if overshoot < self.side { overshoot } else { 0.0 };
+            *x3 = self.side * rng.random::<f64>();
+            replaced += 1;
+        }
+        replaced
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::{Purpose, stream};
+
+    #[test]
+    fn the_paper_s_volume() {
+        // 100 rods of 0.72 mm at 50 per cm³ fill 2 cm³.
+        let volume = ControlVolume::holding(100, 0.05 * 0.72f64.powi(3));
+        assert!((volume.side() * 0.72 - 2000.0f64.cbrt()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn rods_that_leave_come_back_inside_and_the_others_only_move() {
+        for sign in [1.0, -1.0] {
+            let volume = ControlVolume::holding(1000, 1.0);
+            let mut positions = volume.draw_positions(1000, &mut stream(3, 0, Purpose::Positions));
+            let before = positions.clone();
+            let replaced = volume.advance(
+                &mut positions,
+                0.3,
+                sign,
+                &mut stream(3, 0, Purpose::Replacements),
+            );
+            let mut changed = 0;
+            for rod in 0..1000 {
+                let moved = before[1][rod] + sign * 0.3 * before[0][rod];
+                if (0.0..volume.side()).contains(&moved) {
+                    assert_eq!((positions[0][rod], positions[1][rod]), (before[0][rod], moved));
+                } else {
+                    changed += 1;
+                    assert!((positions[1][rod] - moved).abs() > 0.99 * volume.side());
+                }
+                assert!((0..3).all(|k| (0.0..volume.side()).contains(&positions[k][rod])));
+            }
+            assert_eq!(replaced, changed);
+            assert!(changed > 50);
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! The registry: every case, declared once. `cargo test`, the report and the catalogue are made from it.
+
+use crate::accept::FAMILY_FALSE_ALARM_RATE;
+use crate::case::{Case, Effort};
+use std::path::PathBuf;
+
+/// Every case, in the order of the report.
+pub fn all() -> Vec<Case> {
+    Vec::new()
+}
+
+/// The effort of a quick or a full run, with the level each statistical check of the registry gets.
+pub fn effort(full: bool, data: Option<PathBuf>) -> Effort {
+    let checks: usize = all().iter().map(|case| case.about.statistical_checks).sum();
+    Effort {
+        full,
+        level: FAMILY_FALSE_ALARM_RATE / checks.max(1) as f64,
+        data,
+    }
+}

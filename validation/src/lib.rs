@@ -1,0 +1,7 @@
+//! The validation suite of shearbed: cases with tolerances and controls, the oracles that judge the core,
+//! the report, and the program's commands.
+
+pub mod accept;
+pub mod case;
+pub mod cases;
+pub mod oracle;

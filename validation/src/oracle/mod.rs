@@ -1,0 +1,5 @@
+//! What judges the core: closed forms, quadratures and a naive reference. Nothing here uses the core.
+
+pub mod closed_form;
+pub mod isotropic;
+pub mod quadrature;
