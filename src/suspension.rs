@@ -208,6 +208,11 @@ impl Suspension {
         )
     }
 
+    /// The work done so far.
+    pub fn counters(&self) -> &Counters {
+        &self.counters
+    }
+
     /// Steps taken so far.
     pub fn tick(&self) -> u64 {
         self.tick

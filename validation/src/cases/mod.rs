@@ -1,12 +1,30 @@
 //! The registry: every case, declared once. `cargo test`, the report and the catalogue are made from it.
 
+mod contact_rule;
+mod encounters;
+mod free_suspension;
+pub mod lab;
+mod motion;
+mod reference;
+mod steady;
+
 use crate::accept::FAMILY_FALSE_ALARM_RATE;
 use crate::case::{Case, Effort};
 use std::path::PathBuf;
 
 /// Every case, in the order of the report.
 pub fn all() -> Vec<Case> {
-    Vec::new()
+    [
+        motion::cases(),
+        contact_rule::cases(),
+        encounters::cases(),
+        free_suspension::cases(),
+        reference::cases(),
+        steady::cases(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 /// The effort of a quick or a full run, with the level each statistical check of the registry gets.

@@ -2,4 +2,5 @@
 
 pub mod closed_form;
 pub mod isotropic;
+pub mod naive;
 pub mod quadrature;

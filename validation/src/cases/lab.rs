@@ -1,0 +1,168 @@
+//! What cases share: the paper's problem as a scene, independent samples of replicas, small statistics.
+
+use crate::accept::Rule;
+use rayon::prelude::*;
+use shearbed::plan::Plan;
+use shearbed::run::run_replica;
+use shearbed::scene::{
+    Ensemble, Flow, Interaction, Isotropic, Orientation, Output, Particles, Scene, Time, Update,
+};
+use shearbed::{Observable, Suspension};
+use statrs::distribution::Uniform;
+use statrs::statistics::Statistics;
+use statrs::stats_tests::NaNPolicy;
+use statrs::stats_tests::ks_test::{KSOneSampleAlternativeMethod, ks_onesample};
+
+/// Free rods of the paper's Fig. 6 (G = 0.5 1/s, r_e = 11.6, a = 0.72 mm): one period, projections.
+pub fn free_scene() -> Scene {
+    Scene {
+        title: "a case".to_owned(),
+        flow: Flow {
+            shear_rate_per_s: Some(0.5),
+            gradient_per_s: None,
+        },
+        particles: Particles {
+            count: 100,
+            length_mm: 0.72,
+            aspect_ratio: 11.6,
+            aspect_ratio_sd_percent: 0.0,
+            orientation: Orientation::Random(Isotropic::Isotropic),
+        },
+        interaction: None,
+        time: Time {
+            periods: Some(1.0),
+            strain: None,
+            steps_per_period: None,
+            outputs_per_period: None,
+            outputs_per_strain: None,
+        },
+        ensemble: Ensemble { replicas: 1, seed: 1 },
+        output: Output {
+            observables: vec![Observable::Projections],
+        },
+    }
+}
+
+/// The same rods at 50 per cm³ with α = 0.5 and m = 3 (Fig. 6, bottom).
+pub fn interacting_scene() -> Scene {
+    Scene {
+        interaction: Some(Interaction {
+            concentration_per_cm3: 50.0,
+            alpha: 0.5,
+            m: 3.0,
+            update: Update::Rotation,
+            min_contact_arm: 0.0,
+        }),
+        ..free_scene()
+    }
+}
+
+/// The interaction of a scene that has one.
+pub fn interaction(scene: &mut Scene) -> &mut Interaction {
+    scene.interaction.get_or_insert_with(|| Interaction {
+        concentration_per_cm3: 50.0,
+        alpha: 0.5,
+        m: 3.0,
+        update: Update::Rotation,
+        min_contact_arm: 0.0,
+    })
+}
+
+/// Mean and standard error of independent values.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    /// The mean.
+    pub mean: f64,
+    /// Its standard error.
+    pub se: f64,
+    /// How many values.
+    pub samples: u64,
+}
+
+impl Sample {
+    /// The sample of `values`.
+    pub fn of(values: &[f64]) -> Self {
+        Self {
+            mean: values.mean(),
+            se: values.std_dev() / (values.len() as f64).sqrt(),
+            samples: values.len() as u64,
+        }
+    }
+
+    /// The rule that this mean is `reference`, up to an `allowance`, with a standard error of `enough` at most.
+    pub fn is(self, reference: f64, allowance: f64, enough: f64, because: &'static str) -> Rule {
+        Rule::Mean {
+            mean: self.mean,
+            se: self.se,
+            samples: self.samples,
+            reference,
+            allowance,
+            enough,
+            because,
+        }
+    }
+}
+
+/// One value per replica of a scene with a single channel per output in mind: `value` reads the means over
+/// rods, output by output, channel by channel.
+pub fn per_replica(scene: &Scene, replicas: u64, value: impl Fn(&Means) -> f64 + Sync) -> Vec<f64> {
+    let plan = plan(scene);
+    (0..replicas)
+        .into_par_iter()
+        .map(|replica| match run_replica(&plan, replica) {
+            Ok(result) => value(&Means {
+                width: result.sums.len() / plan.outputs(),
+                count: scene.particles.count as f64,
+                sums: result.sums.iter().map(|sum| sum.value).collect(),
+            }),
+            // A run that stopped fails whatever is asked of it.
+            Err(_) => f64::NAN,
+        })
+        .collect()
+}
+
+/// The means over rods of one replica.
+pub struct Means {
+    width: usize,
+    count: f64,
+    sums: Vec<f64>,
+}
+
+impl Means {
+    /// The mean of a channel at an output.
+    pub fn at(&self, output: usize, channel: usize) -> f64 {
+        self.sums[output * self.width + channel] / self.count
+    }
+
+    /// The mean of a channel over a range of outputs.
+    pub fn over(&self, outputs: std::ops::Range<usize>, channel: usize) -> f64 {
+        let len = outputs.len() as f64;
+        outputs.map(|output| self.at(output, channel)).sum::<f64>() / len
+    }
+}
+
+/// The plan of a scene that a case has written.
+pub fn plan(scene: &Scene) -> Plan {
+    Plan::new(scene).expect("a case's scene is valid")
+}
+
+/// The suspension of a scene that a case has written, with every rod free to meet.
+pub fn suspension(scene: &Scene, replica: u64) -> Suspension {
+    Suspension::new(&plan(scene), replica).expect("a case's scene has rods that interact")
+}
+
+/// The Kolmogorov–Smirnov test that `values` in [0, 1] are uniform there.
+pub fn uniform(values: Vec<f64>, enough: u64, because: &'static str) -> Rule {
+    let samples = values.len() as u64;
+    let method = KSOneSampleAlternativeMethod::TwoSidedAsymptotic;
+    let p = Uniform::new(0.0, 1.0)
+        .ok()
+        .and_then(|unit| ks_onesample(values, &unit, method, NaNPolicy::Propogate).ok())
+        .map_or(f64::NAN, |(_, p)| p);
+    Rule::PValue {
+        p,
+        samples,
+        enough,
+        because,
+    }
+}

@@ -1,0 +1,275 @@
+//! The core against the naive reference: the same draws, collision by collision.
+
+use super::lab;
+use crate::accept::Rule;
+use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::oracle::naive::{Mistake, Naive, Problem, Start, Update};
+use shearbed::Suspension;
+use shearbed::scene::{self, Orientation, Scene};
+
+pub fn cases() -> Vec<Case> {
+    let mistakes = Mistake::ALL
+        .into_iter()
+        .map(|mistake| (name(mistake), Some(mistake)));
+    vec![Case::new(
+        About {
+            name: "naive-reference",
+            kind: Kind::Verification,
+            claim: "The core and a naive O(N²) reference with the same draws have the same collisions and, to round-off, the same rods.",
+            source: "method of solution, eqs 5–9, 11, 12, 14, A.7–A.14",
+            statistical_checks: 0,
+        },
+        None,
+        mistakes.collect(),
+        against_reference,
+    )]
+}
+
+fn name(mistake: Mistake) -> &'static str {
+    match mistake {
+        Mistake::KickSign => "the kick with the wrong sign",
+        Mistake::SumInsteadOfMean => "the sum in place of the mean",
+        Mistake::ArmsSwapped => "arms exchanged",
+        Mistake::ArmUnsigned => "arms without their sign",
+        Mistake::SpinIgnored => "ω × r left out",
+        Mistake::TranslationKept => "the translation not subtracted",
+        Mistake::PrintedA13 => "A.13 as printed",
+        Mistake::LambdaOne => "Λ = 1 in free motion",
+        Mistake::PeriodHalved => "half the period",
+        Mistake::ConcentrationUnits => "cm⁻³ taken as cm⁻²",
+        Mistake::ProbabilityComplement => "collisions where P_c < R",
+        Mistake::ProbabilityExponent => "m + 1 for m",
+        Mistake::AnyNeighbour => "any neighbour for the nearest",
+        Mistake::IndexOrder => "candidates in the order of rods",
+        Mistake::ReplacementUniform => "x_1 = HR for new rods",
+        Mistake::ReplacementNone => "leaving rods keep x_1 and x_3",
+    }
+}
+
+/// What steps beside the reference: the core, or a naive model with a mistake that stands in for it.
+enum Model {
+    Core(Box<Suspension>),
+    Broken(Box<Naive>),
+}
+
+/// The state after a step: places in rod lengths, directions, and who collided.
+struct State {
+    places: Vec<[f64; 3]>,
+    directions: Vec<[f64; 3]>,
+    pairs: Vec<(usize, usize)>,
+}
+
+impl Model {
+    fn new(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> Self {
+        match mistake {
+            None => Self::Core(Box::new(lab::suspension(scene, replica))),
+            Some(_) => Self::Broken(Box::new(Naive::new(problem(scene, replica, mistake)))),
+        }
+    }
+
+    /// Takes a step; `None` where the model stopped.
+    fn step(&mut self, length_mm: f64) -> Option<State> {
+        Some(match self {
+            Self::Core(core) => {
+                let pairs = core
+                    .step()
+                    .ok()?
+                    .iter()
+                    .map(|collision| collision.rods.into())
+                    .collect();
+                let [x1, x2, x3] = core.positions_in_lengths();
+                State {
+                    places: (0..x1.len()).map(|rod| [x1[rod], x2[rod], x3[rod]]).collect(),
+                    directions: core.directions().into_iter().map(Into::into).collect(),
+                    pairs,
+                }
+            }
+            Self::Broken(naive) => {
+                naive.step();
+                state(naive, length_mm)
+            }
+        })
+    }
+}
+
+fn state(naive: &Naive, length_mm: f64) -> State {
+    State {
+        places: naive
+            .positions_mm
+            .iter()
+            .map(|x| x.map(|x| x / length_mm))
+            .collect(),
+        directions: naive.orientations.clone(),
+        pairs: naive.last_collisions.clone(),
+    }
+}
+
+/// What was off, at worst.
+#[derive(Default)]
+struct Off {
+    steps: u64,
+    collisions: u64,
+    pairs: u64,
+    places: f64,
+    /// Over one step from the same state, over (1 + the largest angle turned)².
+    step: f64,
+    /// Over a whole period, where kicks are bounded.
+    period: f64,
+}
+
+/// One period of each problem, one step at a time.
+fn against_reference(mistake: &Option<Mistake>, effort: &Effort) -> Vec<Evidence> {
+    let mut off = Off::default();
+    for scene in scenes() {
+        for replica in 0..effort.pick(1, 8) {
+            compare(&scene, replica, *mistake, &mut off);
+        }
+    }
+    vec![
+        Evidence::new(
+            format!(
+                "steps in which other rods collided, of {} with {} collisions",
+                off.steps, off.collisions
+            ),
+            Rule::exact(off.pairs as f64),
+        ),
+        Evidence::new(
+            "largest difference of places in rod lengths, after up to one period",
+            Rule::within(off.places, 1e-11, "round-off of 200 sums of lengths up to 100"),
+        ),
+        Evidence::new(
+            "largest difference of directions after one step from the same state, over (1 + kick)²",
+            Rule::within(
+                off.step,
+                1e-10,
+                "an arm is known to ε|d|/sin², and a kick ∝ 1/r turns that into ε·kick²/sin²; the flattest of 10³ \
+                 crossings has sin² ≈ 10⁻³",
+            ),
+        ),
+        Evidence::new(
+            "largest difference of directions after up to one period, kicks bounded by min_contact_arm = 0.1",
+            Rule::within(
+                off.period,
+                1e-9,
+                "each of some ten collisions a rod grows the difference up to tenfold in the flip, Jeffery's flow r_e-fold",
+            ),
+        ),
+    ]
+}
+
+fn compare(scene: &Scene, replica: u64, mistake: Option<Mistake>, off: &mut Off) {
+    let length_mm = scene.particles.length_mm;
+    let bounded = scene
+        .interaction
+        .as_ref()
+        .is_some_and(|interaction| interaction.min_contact_arm > 0.0);
+    let mut model = Model::new(scene, replica, mistake);
+    let mut reference = Naive::new(problem(scene, replica, None));
+    for _ in 0..scene.steps_per_period() {
+        reference.step();
+        let expected = state(&reference, length_mm);
+        let Some(found) = model.step(length_mm) else {
+            off.pairs += 1;
+            return;
+        };
+        off.steps += 1;
+        off.collisions += expected.pairs.len() as u64;
+        off.pairs += u64::from(expected.pairs != found.pairs);
+        off.places = off.places.max(apart(&expected.places, &found.places, [1.0]));
+        let directions = apart(&expected.directions, &found.directions, [1.0, -1.0]);
+        if bounded {
+            off.period = off.period.max(directions);
+        } else {
+            let kick = reference
+                .last_turns_rad
+                .iter()
+                .flatten()
+                .copied()
+                .fold(0.0, f64::max);
+            off.step = off.step.max(directions / (1.0 + kick).powi(2));
+            reference.orientations = found.directions;
+        }
+    }
+}
+
+/// The largest distance between two lists of vectors, up to the given signs.
+fn apart<const K: usize>(a: &[[f64; 3]], b: &[[f64; 3]], signs: [f64; K]) -> f64 {
+    let distance = |a: &[f64; 3], b: &[f64; 3], sign: f64| {
+        (0..3).map(|k| (a[k] - sign * b[k]).powi(2)).sum::<f64>().sqrt()
+    };
+    let nearest = |(a, b)| {
+        signs
+            .iter()
+            .map(|&sign| distance(a, b, sign))
+            .fold(f64::INFINITY, f64::min)
+    };
+    a.iter().zip(b).map(nearest).fold(0.0, |worst, d| {
+        if d.is_nan() {
+            f64::INFINITY
+        } else {
+            f64::max(worst, d)
+        }
+    })
+}
+
+/// Scenes of 2 to 200 rods; the small ones are dense enough to collide.
+fn scenes() -> Vec<Scene> {
+    let scene = |count: usize, per_cm3: f64, change: fn(&mut Scene)| {
+        let mut scene = lab::interacting_scene();
+        scene.particles.count = count;
+        lab::interaction(&mut scene).concentration_per_cm3 = per_cm3;
+        scene.ensemble.seed = 1982 + count as u64;
+        change(&mut scene);
+        scene
+    };
+    vec![
+        scene(2, 1000.0, |_| {}),
+        scene(3, 1000.0, |scene| scene.particles.aspect_ratio_sd_percent = 8.5),
+        scene(10, 500.0, |scene| {
+            lab::interaction(scene).update = scene::Update::Angles
+        }),
+        scene(50, 50.0, |scene| lab::interaction(scene).m = 1.7),
+        scene(100, 50.0, |scene| scene.particles.aspect_ratio_sd_percent = 3.6),
+        scene(100, 100.0, |scene| {
+            scene.particles.orientation = Orientation::Given {
+                phi_deg: 30.0,
+                theta_deg: 70.0,
+            };
+            lab::interaction(scene).min_contact_arm = 0.1;
+            scene.time.steps_per_period = Some(100);
+        }),
+        scene(200, 50.0, |_| {}),
+    ]
+}
+
+fn problem(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> Problem {
+    let mut scene = scene.clone();
+    let interaction = lab::interaction(&mut scene).clone();
+    let particles = scene.particles.clone();
+    Problem {
+        count: particles.count,
+        shear_rate_per_s: scene.flow.shear_rate_per_s.unwrap_or(f64::NAN),
+        length_mm: particles.length_mm,
+        aspect_ratio: particles.aspect_ratio,
+        aspect_ratio_sd_percent: particles.aspect_ratio_sd_percent,
+        orientation: match particles.orientation {
+            Orientation::Random(_) => Start::Isotropic,
+            Orientation::Given { phi_deg, theta_deg } => Start::Fixed {
+                phi_rad: phi_deg.to_radians(),
+                theta_rad: theta_deg.to_radians(),
+            },
+        },
+        concentration_per_cm3: interaction.concentration_per_cm3,
+        alpha: interaction.alpha,
+        m: interaction.m,
+        min_contact_arm: interaction.min_contact_arm,
+        update: match interaction.update {
+            scene::Update::Rotation => Update::Rotation,
+            scene::Update::Angles => Update::Angles,
+        },
+        steps_per_period: scene.steps_per_period() as usize,
+        seed: scene.ensemble.seed,
+        replica,
+        mistake,
+    }
+}

@@ -1,0 +1,361 @@
+//! Tests of the naive reference itself.
+
+use super::*;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+fn fibres(count: usize, alpha: f64, change: impl FnOnce(&mut Problem)) -> Problem {
+    let mut problem = Problem {
+        count,
+        shear_rate_per_s: 0.5,
+        length_mm: 0.72,
+        aspect_ratio: 11.6,
+        aspect_ratio_sd_percent: 0.0,
+        orientation: Start::Isotropic,
+        concentration_per_cm3: 50.0,
+        alpha,
+        m: 3.0,
+        min_contact_arm: 0.0,
+        update: Update::Rotation,
+        steps_per_period: 200,
+        seed: 1,
+        replica: 0,
+        mistake: None,
+    };
+    change(&mut problem);
+    problem
+}
+
+fn run(problem: Problem, steps: usize) -> Naive {
+    let mut naive = Naive::new(problem);
+    (0..steps).for_each(|_| naive.step());
+    naive
+}
+
+fn far(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
+    let each = a.iter().zip(b).map(|(a, b)| (vector(*a) - vector(*b)).amax());
+    each.fold(0.0, f64::max)
+}
+
+#[test]
+fn streams_match_reference_output() {
+    // SplitMix64's published output for seed 1234567
+    let published = [6457827717110365317, 3203168211198807973, 9817491932198370423];
+    let state = |k| GOLDEN.wrapping_mul(k).wrapping_add(1234567);
+    assert_eq!([1, 2, 3].map(|k| mix(state(k))), published);
+    // computed apart, in unlimited integers, from the protocol and the definition of PCG-DXSM
+    let fresh = || {
+        stream(
+            0xFEDC_BA98_7654_3210,
+            0x0123_4567_89AB_CDEF,
+            0xF0E1_D2C3_B4A5_9687,
+        )
+    };
+    let expected: [u64; 3] = [11167359422600035530, 6655880631465208119, 3148222621115903633];
+    let mut draws = fresh();
+    assert_eq!([0; 3].map(|_| draws.random::<u64>()), expected);
+    assert_eq!(uniform(&mut fresh()), 0.6053837673454713);
+}
+
+#[test]
+fn the_start_follows_the_protocol() {
+    // 50 rods at 50 per cm^3: H = 10 mm
+    let naive = Naive::new(fibres(50, 0.5, |_| ()));
+    let (mut x, mut p) = (stream(1, 0, 2), stream(1, 0, 1));
+    for i in 0..50 {
+        let expected = [0; 3].map(|_| 10.0 * uniform(&mut x));
+        assert!(far(&[naive.positions_mm[i]], &[expected]) < 1e-12);
+        let [phi, theta] = angles_rad(naive.orientations[i]);
+        assert!((phi.rem_euclid(TAU) - TAU * uniform(&mut p)).abs() < 1e-12);
+        assert!((theta.cos() - (1.0 - 2.0 * uniform(&mut p))).abs() < 1e-12);
+    }
+    assert_eq!((naive.redraws, naive.aspect_ratios), (0, vec![11.6; 50]));
+    let broad = |p: &mut Problem| (p.aspect_ratio, p.aspect_ratio_sd_percent) = (1.5, 50.0);
+    let naive = Naive::new(fibres(50, 0.5, broad));
+    let normal = Normal::new(1.5, 0.75).expect("0.75 is finite");
+    let drawn = normal.sample_iter(stream(1, 0, 0));
+    let drawn = drawn.take(50 + naive.redraws as usize);
+    assert!(naive.redraws > 0);
+    assert_eq!(
+        drawn.filter(|&r| r > 1.0).collect::<Vec<f64>>(),
+        naive.aspect_ratios
+    );
+}
+
+#[test]
+fn free_rods_return_after_one_period() {
+    let away = |mistake| {
+        let [start, end] = [0, 200].map(|n| run(fibres(20, 0.0, |p| p.mistake = mistake), n));
+        assert_eq!(end.collisions, 0);
+        far(&start.orientations, &end.orientations)
+    };
+    assert!(away(None) < 1e-9);
+    assert!(away(Some(Mistake::LambdaOne)) > 1e-2);
+    assert!(away(Some(Mistake::PeriodHalved)) > 1e-2);
+}
+
+#[test]
+fn a_free_rod_follows_a4_and_a5() {
+    let worst = |mistake| {
+        let mut naive = Naive::new(fibres(1, 0.5, |p| p.mistake = mistake));
+        naive.orientations[0] = axis([0.0, 0.3]);
+        let (r, c) = (11.6, 0.3_f64.tan());
+        let mut worst: f64 = 0.0;
+        for k in 1..=200 {
+            naive.step();
+            let [phi, theta] = angles_rad(naive.orientations[0]);
+            let turn = TAU * k as f64 / 200.0;
+            // both as cross products, so that no tangent runs to infinity
+            let a4 = phi.sin() * turn.cos() - r * phi.cos() * turn.sin();
+            let a5 = theta.sin() * (r * phi.cos()).hypot(phi.sin()) - c * r * theta.cos();
+            worst = worst.max(a4.abs()).max(a5.abs());
+        }
+        worst
+    };
+    assert!(worst(None) < 1e-11);
+    assert!(worst(Some(Mistake::LambdaOne)) > 1e-2);
+}
+
+#[test]
+fn a_contact_worked_by_hand() {
+    // u_2 = 2 x_1. A: x = 0, p = e1. B: x = (2,5,3), p = e3. Line: e1 x e3 = -e2.
+    // (r_A, -c, 0) = (2, 5, 3 + r_B): r_A = 2, r_B = -3, c = -5.
+    // V_A = 2 (0,.5,1) = (0,1,2). V_B = (0,4,0) - 3 (.25,-1,0) = (-.75,7,0). Mean: 4 e2.
+    // V_A' = (0,4,2), less 0, over 2: (0,2,1).
+    // V_B' = (-.75,4,0), less (0,4,0), over -3: (.25,0,0).
+    let gradient = [[0.0; 3], [2.0, 0.0, 0.0], [0.0; 3]];
+    let (e1, e3) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
+    let (wa, wb) = ([0.0, 0.5, 1.0], [0.25, -1.0, 0.0]);
+    let with = |xb, pb| collide([0.0; 3], e1, wa, xb, pb, wb, gradient);
+    let expected = Contact {
+        line: [0.0, -1.0, 0.0],
+        arm_a_mm: 2.0,
+        arm_b_mm: -3.0,
+        gap_mm: -5.0,
+        pdot_a_per_s: [0.0, 2.0, 1.0],
+        pdot_b_per_s: [0.25, 0.0, 0.0],
+    };
+    assert_eq!(with([2.0, 5.0, 3.0], e3), Some(expected));
+    assert_eq!(with([2.0, 5.0, 3.0], e1), None, "parallel");
+    assert_eq!(with([0.0, 5.0, 3.0], e3), None, "no arm");
+}
+
+/// Worst violation of the geometry, of A.9, of A.10 and of "twice is once" over random pairs.
+fn contact_defect(made: Option<Mistake>) -> f64 {
+    let mut draws = stream(7, 0, 0);
+    let mut cube = || Vector3::from_fn(|_, _| 2.0 * uniform(&mut draws) - 1.0);
+    let gradient = Matrix3::new(0.1, 0.2, -0.3, 0.5, -0.4, 0.6, 0.7, -0.8, 0.3);
+    let mut worst: f64 = 0.0;
+    for _ in 0..200 {
+        let [a, b] = [0; 2].map(|_| {
+            let (x, p) = (cube(), cube().normalize());
+            [x, p, cube().cross(&p)]
+        });
+        let c = contact(a, b, gradient, made).expect("random rods are in contact");
+        let (line, ra, rb) = (vector(c.line), c.arm_a_mm, c.arm_b_mm);
+        let after_a = [a[0], a[1], vector(c.pdot_a_per_s)];
+        let after_b = [b[0], b[1], vector(c.pdot_b_per_s)];
+        let twice = contact(after_a, after_b, gradient, made).expect("the same geometry");
+        let v = |rod: Rod, arm: f64| gradient * rod[0] + rod[2] * arm;
+        let (va, vb, va2, vb2) = (v(a, ra), v(b, rb), v(after_a, ra), v(after_b, rb));
+        for residual in [
+            a[0] + a[1] * ra + line * c.gap_mm - b[0] - b[1] * rb,
+            line.cross(&(va2 - va)),
+            line.cross(&(vb2 - vb)),
+            line * line.dot(&(va2 - vb2)),
+            line * line.dot(&(va2 + vb2 - va - vb)),
+            (vector(twice.pdot_a_per_s) - after_a[2]) * ra,
+            (vector(twice.pdot_b_per_s) - after_b[2]) * rb,
+        ] {
+            worst = worst.max(residual.amax());
+        }
+    }
+    worst
+}
+
+#[test]
+fn contacts_keep_the_rule_and_sabotaged_ones_break_it() {
+    assert!(contact_defect(None) < 1e-9);
+    for mistake in &Mistake::ALL[..6] {
+        assert!(contact_defect(Some(*mistake)) > 1e-2, "{mistake:?}");
+    }
+}
+
+#[test]
+fn rods_in_the_shear_plane_do_not_disturb_each_other() {
+    let gradient = fibres(2, 0.5, |_| ()).gradient_per_s();
+    let changed = |theta| {
+        let [pa, pb] = [axis([0.3, FRAC_PI_2]), axis([2.0, theta])];
+        let [wa, wb] = [pa, pb].map(|p| jeffery(p, 11.6, gradient));
+        let contact = collide([0.1, 0.2, 0.3], pa, wa, [0.6, -0.4, 0.9], pb, wb, gradient);
+        let c = contact.expect("the rods are not parallel");
+        far(&[wa, wb], &[c.pdot_a_per_s, c.pdot_b_per_s])
+    };
+    assert!(changed(FRAC_PI_2) < 1e-14);
+    assert!(changed(1.2) > 1e-3);
+}
+
+#[test]
+fn a13_is_the_rate_of_the_angles_and_its_print_is_not() {
+    let p = axis([0.7, 1.1]);
+    let w: [f64; 3] = vector([0.3, -0.5, 0.8]).cross(&vector(p)).into();
+    let [after, before] = [1e-5, -1e-5].map(|dt| angles_rad(rotated(p, w, dt)));
+    let moved = |made| [moved_by_angles(p, w, 1e-5, made)];
+    assert!(far(&moved(None), &[rotated(p, w, 1e-5)]) < 1e-9);
+    assert!(far(&moved(Some(Mistake::PrintedA13)), &[rotated(p, w, 1e-5)]) > 1e-7);
+    let rates = |made| angle_rates_per_s([0.7, 1.1], w, made);
+    for k in 0..2 {
+        let rate = (after[k] - before[k]) / 2e-5;
+        assert!((rates(None)[k] - rate).abs() < 1e-8);
+        assert!((rates(Some(Mistake::PrintedA13))[k] - rate).abs() > 1e-2);
+    }
+}
+
+/// The rods of the contact worked by hand, after one step in which they are candidates.
+fn hand_pair(change: impl FnOnce(&mut Problem)) -> Naive {
+    let mut naive = Naive::new(fibres(2, 1e30, |p| {
+        (p.shear_rate_per_s, p.concentration_per_cm3) = (2.0, 0.002);
+        change(p);
+    }));
+    naive.positions_mm = vec![[0.0; 3], [2.0, 5.0, 3.0]];
+    naive.orientations = vec![[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    naive.step();
+    naive
+}
+
+#[test]
+fn one_step_by_hand() {
+    // With Jeffery's rates: pdot_A = (1+L) e2, pdot_B = 0. V_A = 2 (1+L) e2, V_B = 4 e2,
+    // mean 3 + L: pdot_A' = (3+L)/2 e2, pdot_B' = (L-1)/(-3) e2 = (1-L)/3 e2.
+    for update in [Update::Rotation, Update::Angles] {
+        let naive = hand_pair(|p| p.update = update);
+        let lambda = (11.6 * 11.6 - 1.0) / (11.6 * 11.6 + 1.0);
+        let dt = PI * (11.6 + 1.0 / 11.6) / 200.0;
+        let (a, b) = ((3.0 + lambda) / 2.0 * dt, (1.0 - lambda) / 3.0 * dt);
+        let turned = [[a.cos(), a.sin(), 0.0], [0.0, b.sin(), b.cos()]];
+        assert!(far(&naive.orientations, &turned) < 1e-14);
+        assert!(far(&naive.positions_mm, &[[0.0; 3], [2.0, 5.0 + 4.0 * dt, 3.0]]) < 1e-14);
+        assert_eq!((naive.collisions, naive.last_collisions), (1, vec![(0, 1)]));
+        let [turn_a, turn_b] = naive.last_turns_rad[0];
+        assert!((turn_a - a).abs() < 1e-14 && (turn_b - b).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn each_rod_turns_with_its_own_aspect_ratio() {
+    let mut naive = Naive::new(fibres(50, 20.0, |p| p.aspect_ratio_sd_percent = 20.0));
+    let (x, p) = (naive.positions_mm.clone(), naive.orientations.clone());
+    let (gradient, dt) = (naive.problem.gradient_per_s(), naive.problem.time_step_s());
+    let rate = |naive: &Naive, k: usize| jeffery(p[k], naive.aspect_ratios[k], gradient);
+    naive.step();
+    let mut expected: Vec<[f64; 3]> = (0..50)
+        .map(|k| {
+            let lambda = shape_factor(naive.aspect_ratios[k]);
+            let turn = (jeffery_matrix(matrix(gradient), lambda) * dt).exp();
+            (turn * vector(p[k])).normalize().into()
+        })
+        .collect();
+    for &(i, j) in &naive.last_collisions {
+        let (wi, wj) = (rate(&naive, i), rate(&naive, j));
+        let c = collide(x[i], p[i], wi, x[j], p[j], wj, gradient).expect("they collided");
+        expected[i] = rotated(p[i], c.pdot_a_per_s, dt);
+        expected[j] = rotated(p[j], c.pdot_b_per_s, dt);
+    }
+    assert!(naive.last_collisions.len() > 5);
+    assert!(far(&naive.orientations, &expected) < 1e-12);
+}
+
+#[test]
+fn only_an_arm_below_the_least_is_no_contact() {
+    // arms of 2 and 3 mm, a = 0.5 mm
+    let least = |least| hand_pair(|p| (p.length_mm, p.min_contact_arm) = (0.5, least));
+    assert_eq!(
+        [0.0, 4.0, 4.000001, 6.5].map(|x| least(x).collisions),
+        [1, 1, 0, 0]
+    );
+}
+
+/// Collisions of one step of rods on axis 1, all of them candidates unless changed.
+fn taken(x1_mm: &[f64], parallel: [usize; 2], change: fn(&mut Problem)) -> Vec<(usize, usize)> {
+    let mut naive = Naive::new(fibres(x1_mm.len(), 1e30, change));
+    naive.positions_mm = x1_mm.iter().map(|&x| [x, 0.0, 0.0]).collect();
+    naive.orientations[parallel[0]] = naive.orientations[parallel[1]];
+    naive.step();
+    naive.last_collisions
+}
+
+#[test]
+fn who_collides_by_chance() {
+    // s/a = 1/2, alpha = 1/2: P_c = (1/2)^m
+    assert_eq!(collision_probability(0.36, 0.72, 0.5, 3.0), 0.125);
+    assert_eq!(
+        [0.0, 0.36].map(|s| collision_probability(s, 0.72, 0.0, 3.0)),
+        [0.0; 2]
+    );
+    // P_c = R at s = a alpha (R^(-1/m) - 1); the smaller draw of a pair decides
+    let mut draws = stream(1, 0, 3);
+    let r = uniform(&mut draws).min(uniform(&mut draws));
+    let s_mm = 0.72 * 0.5 * (r.powf(-1.0 / 3.0) - 1.0);
+    let count = |factor| taken(&[0.0, s_mm * factor], [0, 0], |p| p.alpha = 0.5).len();
+    assert_eq!([1.0 - 1e-9, 1.0 + 1e-9].map(count), [1, 0]);
+}
+
+#[test]
+fn who_collides_by_order() {
+    let line = [[0.0; 3], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]];
+    assert_eq!(nearest(&line, 0), Some((1, 1.0)));
+    assert_eq!(taken(&[0.0, 1.0, 3.0, 4.0], [0, 0], |_| ()), [(0, 1), (2, 3)]);
+    let x1_mm = [0.0, 10.0, 11.0, 30.0];
+    assert_eq!(taken(&x1_mm, [0, 0], |_| ()), [(1, 2)]);
+    // a parallel pair is dropped before it is taken: its rods are free for later candidates
+    assert_eq!(taken(&x1_mm, [1, 2], |_| ()), [(0, 1), (3, 2)]);
+    let by_index = taken(&x1_mm, [0, 0], |p| p.mistake = Some(Mistake::IndexOrder));
+    assert_eq!(by_index, [(0, 1), (3, 2)]);
+}
+
+#[test]
+fn replacement_keeps_count_volume_and_orientation() {
+    let mut naive = Naive::new(fibres(50, 0.0, |_| ()));
+    let (start, mut draws) = (naive.orientations.clone(), stream(1, 0, 4));
+    let strain = TAU * (11.6 + 1.0 / 11.6) / 200.0;
+    let mut leavers = 0;
+    for _ in 0..200 {
+        let before = naive.positions_mm.clone();
+        naive.step();
+        for (old, new) in before.iter().zip(&naive.positions_mm) {
+            let mut expected = [old[0], old[1] + strain * old[0], old[2]];
+            if expected[1] >= 10.0 {
+                leavers += 1;
+                let x1 = 10.0 * uniform(&mut draws).sqrt();
+                expected = [x1, expected[1] - 10.0, 10.0 * uniform(&mut draws)];
+            }
+            assert!(far(&[expected], &[*new]) < 1e-12);
+            assert!(new.iter().all(|x| (0.0..10.0).contains(x)));
+        }
+    }
+    assert!(leavers > 100);
+    assert_eq!((naive.replacements, naive.positions_mm.len()), (leavers, 50));
+    // nobody collided, so after one period a rod that left and came back is where it pointed
+    assert!(far(&naive.orientations, &start) < 1e-9);
+}
+
+#[test]
+fn every_mistake_changes_a_run() {
+    let state = |mistake| {
+        let change = |p: &mut Problem| (p.update, p.mistake) = (Update::Angles, mistake);
+        let naive = run(fibres(50, 2.0, change), 30);
+        (naive.orientations, naive.positions_mm)
+    };
+    let sound = state(None);
+    assert_eq!(state(None), sound);
+    for mistake in Mistake::ALL {
+        assert_ne!(state(Some(mistake)), sound, "{mistake:?}");
+    }
+}
+
+#[test]
+fn projections_are_means_of_moduli() {
+    assert_eq!(
+        mean_projections(&[[0.6, -0.8, 0.0], [-1.0, 0.0, 0.0]]),
+        [0.8, 0.4, 0.0]
+    );
+}
