@@ -46,26 +46,22 @@ pub fn free_scene() -> Scene {
 /// The same rods at 50 per cm³ with α = 0.5 and m = 3 (Fig. 6, bottom).
 pub fn interacting_scene() -> Scene {
     Scene {
-        interaction: Some(Interaction {
-            concentration_per_cm3: 50.0,
-            alpha: 0.5,
-            m: 3.0,
-            update: Update::Rotation,
-            min_contact_arm: 0.0,
-        }),
+        interaction: Some(PAPER),
         ..free_scene()
     }
 }
 
-/// The interaction of a scene that has one.
+const PAPER: Interaction = Interaction {
+    concentration_per_cm3: 50.0,
+    alpha: 0.5,
+    m: 3.0,
+    update: Update::Rotation,
+    min_contact_arm: 0.0,
+};
+
+/// The interaction of a scene; the paper's where it had none.
 pub fn interaction(scene: &mut Scene) -> &mut Interaction {
-    scene.interaction.get_or_insert_with(|| Interaction {
-        concentration_per_cm3: 50.0,
-        alpha: 0.5,
-        m: 3.0,
-        update: Update::Rotation,
-        min_contact_arm: 0.0,
-    })
+    scene.interaction.get_or_insert(PAPER)
 }
 
 /// Mean and standard error of independent values.

@@ -4,6 +4,7 @@ mod contact_rule;
 mod encounters;
 mod free_suspension;
 pub mod lab;
+mod misprints;
 mod motion;
 mod reference;
 mod steady;
@@ -17,6 +18,7 @@ pub fn all() -> Vec<Case> {
     [
         motion::cases(),
         contact_rule::cases(),
+        misprints::cases(),
         encounters::cases(),
         free_suspension::cases(),
         reference::cases(),

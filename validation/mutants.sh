@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# Puts deliberate mistakes into the core, one at a time in a scratch clone, and prints which tests catch each.
+# Usage: bash validation/mutants.sh [NAME ...]      (each mistake costs a build and a run of the gate)
+set -euo pipefail
+root=$(git -C "$(dirname "$0")" rev-parse --show-toplevel)
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+git clone --quiet "$root" "$scratch/clone"
+cd "$scratch/clone"
+export CARGO_TARGET_DIR="$scratch/target"
+
+# name @@ file @@ what stands there @@ what is put there
+mistakes=$(cat <<'LIST'
+shape-factor-one@@src/jeffery.rs@@(aspect_ratio - inverse) / (aspect_ratio + inverse)@@1.0 + 0.0 * inverse
+period-without-inverse@@src/jeffery.rs@@TAU * (aspect_ratio + 1.0 / aspect_ratio)@@TAU * aspect_ratio
+couette-sign@@src/propagator.rs@@let q1 = p[0] * phase.cos - p[1]@@let q1 = p[0] * phase.cos + p[1]
+phase-of-collided-rod@@src/rods.rs@@let phase = phase(tick - self.since(rod), ticks, sign * periods);@@let phase = phase(tick, ticks, sign * periods);
+orbit-constant@@src/orientation.rs@@let in_plane = p[0].hypot(p[1] / aspect_ratio);@@let in_plane = p[0].hypot(p[1] * aspect_ratio);
+isotropic-angle@@src/orientation.rs@@1.0 - 2.0 * r5,@@1.0 - r5,
+arm-sign@@src/contact.rs@@separation.dot(&p_a.cross(&normal)) / square@@-separation.dot(&p_a.cross(&normal)) / square
+kick-sign@@src/collision.rs@@rates[0] + line * (0.5 * gap / arm_a)@@rates[0] - line * (0.5 * gap / arm_a)
+sum-for-mean@@src/collision.rs@@rates[1] - line * (0.5 * gap / arm_b)@@rates[1] - line * (gap / arm_b)
+printed-a13@@src/collision.rs@@(-rate.x * sin_phi + rate.y * cos_phi) / sin_theta@@(-rate.x * sin_phi + rate.y * cos_phi)
+reach-without-m@@src/collision.rs@@alpha * (-r.ln() / m).exp_m1()@@alpha * (-r.ln() / 3.0).exp_m1()
+next-nearest@@src/neighbours.rs@@let closer = square < best_square;@@let closer = square < best_square && (best.is_none() || index > 3);
+uniform-replacement@@src/volume.rs@@*x1 = self.side * rng.random::<f64>().sqrt();@@*x1 = self.side * rng.random::<f64>();
+step-length@@src/suspension.rs@@strain_per_period(scene.particles.aspect_ratio) / scene@@1.01 * strain_per_period(scene.particles.aspect_ratio) / scene
+liquid-at-rest@@src/suspension.rs@@Vector3::new(0.0, self.rule.sign * separation.x, 0.0)@@Vector3::new(0.0, 0.0 * self.rule.sign * separation.x, 0.0)
+candidate-order@@src/suspension.rs@@a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))@@a.1.cmp(&b.1)
+deviation-not-percent@@src/rods.rs@@let deviation = mean * particles.aspect_ratio_sd_percent / 100.0;@@let deviation = particles.aspect_ratio_sd_percent / 100.0;
+signed-projection@@src/observable.rs@@sum.add_each(block.len, |i| p[i].abs())@@sum.add_each(block.len, |i| p[i])
+standard-error@@src/ensemble.rs@@(self.deviation[k] / (self.replicas - 1.0) / self.replicas).sqrt()@@(self.deviation[k] / (self.replicas - 1.0)).sqrt()
+LIST
+)
+missed=0
+while IFS= read -r line; do
+  name=${line%%@@*} rest=${line#*@@}
+  file=${rest%%@@*} rest=${rest#*@@}
+  old=${rest%%@@*} new=${rest#*@@}
+  if [ $# -gt 0 ] && [[ " $* " != *" $name "* ]]; then continue; fi
+  text=$(cat "$file")
+  if [[ $text != *"$old"* ]]; then echo "$name: its text is not in $file any more"; missed=1; continue; fi
+  printf '%s\n' "${text/"$old"/"$new"}" >"$file"
+  log="$scratch/$name.txt"
+  cargo test --no-fail-fast >"$log" 2>&1 && code=0 || code=$?
+  caught=$(sed -nE 's/^test ([^ ]+) .*FAILED$/\1/p' "$log" | sort -u | paste -sd ' ')
+  if [ "$code" = 0 ]; then missed=1; echo "$name: MISSED"; else echo "$name: ${caught:-$(grep -m1 '^error' "$log")}"; fi
+  git checkout --quiet -- .
+done <<<"$mistakes"
+exit $missed

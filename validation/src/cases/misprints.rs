@@ -1,0 +1,183 @@
+//! Misprints of the paper: the printed form fails where the corrected one passes.
+//!
+//! A.13 is in `contact_rule`, eq. 14's text in `encounters`, the period's number (eq. 15) in `motion`.
+
+use super::lab;
+use crate::accept::Rule;
+use crate::case::{About, Case, Effort, Evidence, Kind};
+use nalgebra::{Matrix3, Vector3};
+use shearbed::flow::VelocityGradient;
+use shearbed::observable::{Block, Observable, Sum};
+use shearbed::orientation;
+
+pub fn cases() -> Vec<Case> {
+    vec![
+        Case::new(
+            About {
+                name: "gradient-of-eq-2",
+                kind: Kind::Verification,
+                claim: "With G_ij = ∂u_i/∂x_j, eq. 3 gives back the velocity; with the printed ∂u_i/∂x_i it does not.",
+                source: "eqs 2, 3",
+                statistical_checks: 0,
+            },
+            (|u, i, j| slope(u, i, j)) as Gradient,
+            vec![
+                ("∂u_i/∂x_i as printed", |u, i, _| slope(u, i, i)),
+                ("∂u_j/∂x_i", |u, i, j| slope(u, j, i)),
+            ],
+            gives_back_velocity,
+        ),
+        Case::new(
+            About {
+                name: "planar-projections",
+                kind: Kind::Verification,
+                claim: "The planar projections are lengths of shadows; with the printed θ for φ they are not.",
+                source: "eq. 21, Fig. 12",
+                statistical_checks: 0,
+            },
+            observed_shadows as Shadows,
+            vec![
+                ("eq. 21 as printed", |_, theta: f64| {
+                    let (s2, c2) = (theta.sin().powi(2), theta.cos().powi(2));
+                    [theta.sin(), (c2 + s2 * s2).sqrt(), (c2 + s2 * c2).sqrt()]
+                }),
+                ("the planes 2-3 and 1-3 exchanged", |phi, theta| {
+                    let [a, b, c] = observed_shadows(phi, theta);
+                    [a, c, b]
+                }),
+            ],
+            shadows,
+        ),
+        Case::new(
+            About {
+                name: "who-moves-how",
+                kind: Kind::Verification,
+                claim: "In a run, rods that move freely keep C (A.2–A.6) and colliding rods get a new one (A.7–A.14), not the other way round.",
+                source: "text after eqs 12 and 13",
+                statistical_checks: 0,
+            },
+            (|collided| collided) as Reading,
+            vec![
+                ("A.7–A.14 for free rods, as printed", |collided| !collided),
+                ("every rod free", |_| false),
+            ],
+            free_rods_keep_c,
+        ),
+    ]
+}
+
+/// A steady velocity field.
+type Field = fn(Vector3<f64>) -> Vector3<f64>;
+/// The component G_ij read off a field.
+type Gradient = fn(Field, usize, usize) -> f64;
+
+/// ∂u_i/∂x_j of a linear field.
+fn slope(u: Field, i: usize, j: usize) -> f64 {
+    let mut ahead = Vector3::zeros();
+    ahead[j] = 1.0;
+    u(ahead)[i] - u(Vector3::zeros())[i]
+}
+
+fn gives_back_velocity(component: &Gradient, _: &Effort) -> Vec<Evidence> {
+    let fields: [(&str, Field); 2] = [
+        ("plane Couette flow", |x| Vector3::new(0.0, 0.5 * x.x, 0.0)),
+        ("all nine components", |x| {
+            Vector3::new(
+                x.x + 2.0 * x.y - x.z,
+                0.5 * x.x - 3.0 * x.y + 4.0 * x.z,
+                -2.0 * x.x + x.y + 2.0 * x.z,
+            )
+        }),
+    ];
+    let error = |u: Field| {
+        let flow = VelocityGradient::new(Matrix3::from_fn(|i, j| component(u, i, j)));
+        let x = Vector3::new(1.0, -2.0, 4.0);
+        flow.map_or(f64::NAN, |flow| (flow.velocity(&x) - u(x)).norm())
+    };
+    // Small integers and halves: every operation is exact.
+    fields
+        .iter()
+        .map(|(name, u)| Evidence::new(format!("error of u, {name}"), Rule::exact(error(*u))))
+        .collect()
+}
+
+/// The projections of one rod on the planes x₁x₂, x₂x₃, x₁x₃.
+type Shadows = fn(f64, f64) -> [f64; 3];
+
+fn observed_shadows(phi: f64, theta: f64) -> [f64; 3] {
+    let p = orientation::from_angles(phi, theta);
+    let mut block = Block {
+        len: 1,
+        ..Block::default()
+    };
+    for (axis, value) in block.p.iter_mut().zip([p.x, p.y, p.z]) {
+        axis[0] = value;
+    }
+    let mut sums = [Sum::default(); 3];
+    Observable::PlanarProjections.add(&block, &mut sums);
+    sums.map(|sum| sum.value)
+}
+
+fn shadows(model: &Shadows, _: &Effort) -> Vec<Evidence> {
+    let mut worst = 0.0f64;
+    for (phi, theta) in [(0.0f64, 0.3f64), (0.4, 1.0), (1.3, 1.5), (2.5, 2.2), (-0.9, 0.0)] {
+        let p = Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos());
+        // A shadow on a plane is the rod's own length seen along the plane's normal: |p × e|.
+        let expected = [2, 0, 1].map(|axis| p.cross(&Vector3::ith(axis, 1.0)).norm());
+        for (found, expected) in model(phi, theta).into_iter().zip(expected) {
+            worst = worst.max((found - expected).abs());
+        }
+    }
+    vec![Evidence::new(
+        "largest error of a shadow",
+        Rule::within(worst, 4.0 * f64::EPSILON, "a few roundings of numbers up to 1"),
+    )]
+}
+
+/// Whether a rod is taken to move by A.7–A.14, from whether it collided.
+type Reading = fn(bool) -> bool;
+
+fn free_rods_keep_c(reading: &Reading, _: &Effort) -> Vec<Evidence> {
+    let scene = lab::interacting_scene();
+    let r = scene.particles.aspect_ratio;
+    let mut suspension = lab::suspension(&scene, 0);
+    let constants = |directions: Vec<Vector3<f64>>| -> Vec<f64> {
+        directions
+            .iter()
+            .map(|p| orientation::bounded_orbit_constant([p.x, p.y, p.z], r))
+            .collect()
+    };
+    let (mut free_change, mut colliding, mut unchanged) = (0.0f64, 0u32, 0u32);
+    let mut before = constants(suspension.directions());
+    for _ in 0..400 {
+        let mut collided = vec![false; before.len()];
+        for collision in suspension.step().unwrap_or_default() {
+            collision.rods.iter().for_each(|&rod| collided[rod] = true);
+        }
+        let after = constants(suspension.directions());
+        for rod in 0..after.len() {
+            let change = (after[rod] - before[rod]).abs();
+            if reading(collided[rod]) {
+                colliding += 1;
+                unchanged += u32::from(change < 1e-12);
+            } else {
+                free_change = free_change.max(change);
+            }
+        }
+        before = after;
+    }
+    vec![
+        Evidence::new(
+            "largest change of C_b of a free rod in one step",
+            Rule::within(free_change, 1e-14, "the exact motion keeps C to round-off"),
+        ),
+        Evidence::new(
+            format!("share of {colliding} colliding rods whose C_b stayed"),
+            Rule::within(
+                f64::from(unchanged) / f64::from(colliding.max(1)) + if colliding == 0 { 1.0 } else { 0.0 },
+                0.01,
+                "a kick that leaves C alone is a set of measure 0; a hundredth allows for weak kicks",
+            ),
+        ),
+    ]
+}
