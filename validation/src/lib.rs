@@ -5,3 +5,6 @@ pub mod accept;
 pub mod case;
 pub mod cases;
 pub mod oracle;
+pub mod plot;
+#[cfg(test)]
+mod xml;
