@@ -6,5 +6,6 @@ pub mod case;
 pub mod cases;
 pub mod oracle;
 pub mod plot;
+pub mod report;
 #[cfg(test)]
 mod xml;

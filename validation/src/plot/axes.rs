@@ -93,7 +93,11 @@ fn mesh<'a, 'b>(
 ) -> Result<Chart<'a, 'b>, Box<dyn std::error::Error>> {
     let widest = y.ticks.iter().map(|(_, label)| text_width(label, TEXT)).max();
     let (left, bottom) = (widest.unwrap_or(0) + 40 * FINE, 50 * FINE);
-    let fit = |name: &str, room: i32| TEXT.min(TEXT * f64::from(room) / f64::from(text_width(name, TEXT)));
+    // Smaller where a name is long, but not so small that nobody reads it.
+    let fit = |name: &str, room: i32| {
+        let size = TEXT * f64::from(room) / f64::from(text_width(name, TEXT));
+        size.clamp(0.7 * TEXT, TEXT)
+    };
     let name_size = fit(&figure.x_name, WIDTH - left).min(fit(&figure.y_name, AXES_HEIGHT - bottom));
     let mut chart = ChartBuilder::on(area)
         .margin_top(10 * FINE)

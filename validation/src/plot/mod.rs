@@ -8,6 +8,7 @@ mod axis;
 mod legend;
 mod style;
 
+pub(crate) use axis::power_of_ten;
 use plotters::prelude::*;
 use serde::Serialize;
 use std::error::Error;
