@@ -111,8 +111,8 @@ impl Report {
     pub fn headline(&self) -> String {
         let summary = &self.summary;
         format!(
-            "{} pass, {} fail, {} under-powered, {} without data; \
-             correct code fails by chance with a probability of at most {}.",
+            "{} pass, {} fail, {} under-powered, {} without data; family-wise false-alarm rate at most {} \
+             (the chance that correct code fails).",
             summary.pass,
             summary.fail,
             summary.underpowered,
