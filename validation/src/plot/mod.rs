@@ -49,7 +49,7 @@ pub struct Figure {
     pub title: String,
     /// The horizontal axis, with its unit.
     pub x_name: String,
-    /// The vertical axis, with its unit.
+    /// The vertical axis, with its unit; some 40 letters fit.
     pub y_name: String,
     /// Curves, drawn beneath the points.
     pub curves: Vec<Curve>,

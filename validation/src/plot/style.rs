@@ -4,13 +4,13 @@ use plotters::prelude::*;
 
 /// Plotters' SVG has whole pixels only: figures are drawn this much larger, and scaled by the view box.
 pub(super) const FINE: i32 = 4;
-pub(super) const WIDTH: i32 = 600 * FINE;
+pub(super) const WIDTH: i32 = 560 * FINE;
 pub(super) const AXES_HEIGHT: i32 = 340 * FINE;
-pub(super) const ROW: i32 = 22 * FINE;
+pub(super) const ROW: i32 = 23 * FINE;
 pub(super) const MARGIN: i32 = 12 * FINE;
 /// Sizes of letters.
-pub(super) const TEXT: f64 = 15.0;
-pub(super) const TITLE: f64 = 16.0;
+pub(super) const TEXT: f64 = 16.0;
+pub(super) const TITLE: f64 = 17.0;
 pub(super) const MARKER: i32 = 5 * FINE;
 /// Not a curve's width, so that error bars are not dashed.
 pub(super) const BAR_WIDTH: u32 = 6;

@@ -17,7 +17,7 @@ pub struct Origin {
     pub commit: String,
     /// The compiler.
     pub rustc: String,
-    /// How it was built: `release`, or with debug assertions.
+    /// How it was built: `release`, or `development` with debug assertions.
     pub build: String,
     /// The model of the processor.
     pub processor: String,
@@ -36,7 +36,7 @@ impl Origin {
     pub fn here(command: String) -> Self {
         let since_1970 = SystemTime::now().duration_since(UNIX_EPOCH);
         let build = if cfg!(debug_assertions) {
-            "with debug assertions"
+            "development"
         } else {
             "release"
         };
