@@ -5,3 +5,7 @@ pub mod accept;
 pub mod case;
 pub mod cases;
 pub mod oracle;
+pub mod plot;
+pub mod report;
+#[cfg(test)]
+mod xml;

@@ -1,0 +1,165 @@
+//! The axes and the data in them.
+
+use super::axis::{Axis, place};
+use super::style::{
+    AXES_HEIGHT, BAR_WIDTH, FINE, MARKER, TEXT, WIDTH, colour, curve, marker, text, text_width,
+};
+use super::{Drawn, Figure};
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Axis, Axis>>;
+
+/// A point in placed values, with the ends of its error bars; NaN for what it does not have.
+struct Placed {
+    x: f64,
+    y: f64,
+    left: f64,
+    right: f64,
+    low: f64,
+    high: f64,
+}
+
+impl Placed {
+    fn is_finite(&self) -> bool {
+        self.x.is_finite() && self.y.is_finite()
+    }
+}
+
+type Errors<'a> = Option<&'a [f64]>;
+
+fn placed(figure: &Figure, x: &[f64], y: &[f64], x_error: Errors, y_error: Errors) -> Vec<Placed> {
+    let half = |errors: Errors, k: usize| errors.and_then(|e| e.get(k)).map_or(f64::NAN, |half| half.abs());
+    let (px, py) = (|v| place(v, figure.x_log), |v| place(v, figure.y_log));
+    (x.iter().zip(y).enumerate())
+        .map(|(k, (x, y))| {
+            let (dx, dy) = (half(x_error, k), half(y_error, k));
+            Placed {
+                x: px(*x),
+                y: py(*y),
+                left: px(x - dx),
+                right: px(x + dx),
+                low: py(y - dy),
+                high: py(y + dy),
+            }
+        })
+        .collect()
+}
+
+/// Draws axes and data so that all of it is in the area.
+pub(super) fn draw(figure: &Figure, area: &DrawingArea<SVGBackend, Shift>) -> Drawn {
+    let curves: Vec<_> = (figure.curves.iter())
+        .map(|c| placed(figure, &c.x, &c.y, None, c.half_band.as_deref()))
+        .collect();
+    let points: Vec<_> = (figure.points.iter())
+        .map(|p| placed(figure, &p.x, &p.y, p.x_error.as_deref(), p.y_error.as_deref()))
+        .collect();
+    let shown = || (curves.iter().chain(&points).flatten()).filter(|p| p.is_finite());
+    let span = |ends: Option<(f64, f64)>, log| {
+        (ends.into_iter()).flat_map(move |(a, b)| [place(a, log), place(b, log)])
+    };
+    let x = shown().flat_map(|p| [p.x, p.left, p.right]);
+    let x = x.chain(span(figure.x_span, figure.x_log));
+    // A curve may end at the frame, half a marker may not.
+    let margin = if points.is_empty() { 0.0 } else { 0.04 };
+    let x = Axis::over(x, figure.x_log, margin);
+    let y = shown().flat_map(|p| [p.y, p.low, p.high]);
+    let y = y.chain(span(figure.y_span, figure.y_log));
+    let y = Axis::over(y, figure.y_log, 0.05);
+
+    let foot = (x.low, y.low);
+    let centre = (0.5 * (x.low + x.high), 0.5 * (y.low + y.high));
+    let mut chart = mesh(figure, area, x, y)?;
+    if shown().next().is_none() {
+        chart.draw_series([Text::new("no data", centre, text(TEXT))])?;
+    }
+    for (index, curve) in curves.iter().enumerate() {
+        band(&mut chart, curve, index, foot.1)?;
+    }
+    for (index, curve) in curves.iter().enumerate() {
+        line(&mut chart, curve, index)?;
+    }
+    for (index, points) in points.iter().enumerate() {
+        scatter(&mut chart, points, curves.len() + index, foot)?;
+    }
+    Ok(())
+}
+
+fn mesh<'a, 'b>(
+    figure: &Figure,
+    area: &DrawingArea<SVGBackend<'b>, Shift>,
+    x: Axis,
+    y: Axis,
+) -> Result<Chart<'a, 'b>, Box<dyn std::error::Error>> {
+    let widest = y.ticks.iter().map(|(_, label)| text_width(label, TEXT)).max();
+    let (left, bottom) = (widest.unwrap_or(0) + 40 * FINE, 50 * FINE);
+    // Smaller where a name is long, but not so small that nobody reads it.
+    let fit = |name: &str, room: i32| {
+        let size = TEXT * f64::from(room) / f64::from(text_width(name, TEXT));
+        size.clamp(0.7 * TEXT, TEXT)
+    };
+    let name_size = fit(&figure.x_name, WIDTH - left).min(fit(&figure.y_name, AXES_HEIGHT - bottom));
+    let mut chart = ChartBuilder::on(area)
+        .margin_top(10 * FINE)
+        .margin_right(24 * FINE)
+        .margin_bottom(8 * FINE)
+        .margin_left(8 * FINE)
+        .x_label_area_size(bottom)
+        .y_label_area_size(left)
+        .build_cartesian_2d(x, y)?;
+    (chart.configure_mesh())
+        .bold_line_style(RGBColor(224, 224, 224).stroke_width(FINE as u32))
+        .light_line_style(TRANSPARENT)
+        .axis_style(RGBColor(85, 85, 85).stroke_width(FINE as u32))
+        .label_style(text(TEXT))
+        .axis_desc_style(text(name_size))
+        .set_all_tick_mark_size(4 * FINE)
+        .x_desc(figure.x_name.as_str())
+        .y_desc(figure.y_name.as_str())
+        .draw()?;
+    Ok(chart)
+}
+
+/// The translucent band, cut at the foot of a logarithmic axis.
+fn band(chart: &mut Chart, curve: &[Placed], index: usize, foot: f64) -> Drawn {
+    for run in curve.split(|p| !p.is_finite() || !p.high.is_finite()) {
+        let above = run.iter().map(|p| (p.x, p.high));
+        let below = run.iter().rev().map(|p| (p.x, p.low.max(foot)));
+        let outline: Vec<_> = above.chain(below).collect();
+        if run.len() > 1 {
+            chart.draw_series([Polygon::new(outline, colour(index).mix(0.2).filled())])?;
+        }
+    }
+    Ok(())
+}
+
+fn line(chart: &mut Chart, points: &[Placed], index: usize) -> Drawn {
+    for run in points.split(|p| !p.is_finite()) {
+        match run {
+            [] => {}
+            [single] => {
+                let dot = Circle::new((single.x, single.y), MARKER / 2, colour(index).filled());
+                chart.draw_series([dot])?;
+            }
+            run => {
+                let path: Vec<_> = run.iter().map(|p| (p.x, p.y)).collect();
+                chart.draw_series([PathElement::new(path, curve(index))])?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn scatter(chart: &mut Chart, points: &[Placed], index: usize, foot: (f64, f64)) -> Drawn {
+    let bar = |from, to| PathElement::new(vec![from, to], colour(index).stroke_width(BAR_WIDTH));
+    for p in points.iter().filter(|p| p.is_finite()) {
+        if p.right.is_finite() {
+            chart.draw_series([bar((p.left.max(foot.0), p.y), (p.right, p.y))])?;
+        }
+        if p.high.is_finite() {
+            chart.draw_series([bar((p.x, p.low.max(foot.1)), (p.x, p.high))])?;
+        }
+        chart.draw_series([EmptyElement::at((p.x, p.y)) + marker(index)])?;
+    }
+    Ok(())
+}

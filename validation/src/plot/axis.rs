@@ -1,0 +1,235 @@
+//! An axis: what it covers, where its ticks are and what they say.
+
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+use std::ops::Range;
+
+/// Larger magnitudes are taken for infinite: differences of two of them would be.
+const LARGEST: f64 = 1e300;
+
+/// Where a value lies on an axis: itself, or its logarithm. NaN where it has no place there.
+pub(super) fn place(value: f64, log: bool) -> f64 {
+    let placed = if log { value.log10() } else { value };
+    if placed.abs() <= LARGEST { placed } else { f64::NAN }
+}
+
+/// An axis in placed values.
+pub(super) struct Axis {
+    pub(super) low: f64,
+    pub(super) high: f64,
+    /// Where the ticks are, and what they say.
+    pub(super) ticks: Vec<(f64, String)>,
+}
+
+impl Axis {
+    /// An axis that covers all `placed` values that are finite, with a margin in parts of what it covers.
+    pub(super) fn over(placed: impl Iterator<Item = f64>, log: bool, margin: f64) -> Self {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for value in placed.filter(|value| value.is_finite()) {
+            low = low.min(value);
+            high = high.max(value);
+        }
+        if low > high {
+            (low, high) = (0.0, 1.0);
+        }
+        if log {
+            logarithmic(low, high)
+        } else {
+            linear(low, high, margin)
+        }
+    }
+}
+
+impl Ranged for Axis {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, placed: &f64, (from, to): (i32, i32)) -> i32 {
+        let part = (placed - self.low) / (self.high - self.low);
+        from + (part * f64::from(to - from)).round() as i32
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        let light = hint.weight().allow_light_points();
+        let ticks = self.ticks.iter().filter(|_| !light);
+        ticks.map(|(tick, _)| *tick).collect()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.low..self.high
+    }
+}
+
+impl ValueFormatter<f64> for Axis {
+    fn format_ext(&self, placed: &f64) -> String {
+        let tick = self.ticks.iter().find(|(tick, _)| tick == placed);
+        tick.map_or_else(String::new, |(_, label)| label.clone())
+    }
+}
+
+fn linear(low: f64, high: f64, margin: f64) -> Axis {
+    let size = low.abs().max(high.abs());
+    let span = high - low;
+    // Flat but for round-off: the axis shows the value, and not its last bits.
+    let pad = if span <= 1e-9 * size || span < 1e-290 {
+        if size > 1e-280 { 0.1 * size } else { 1.0 }
+    } else {
+        margin * span
+    };
+    let (low, high) = (low - pad, high + pad);
+    let step = round_step((high - low) / 6.0);
+    let ticks = ((low / step - 1e-9).ceil() as i64..=(high / step + 1e-9).floor() as i64)
+        .map(|k| k as f64 * step)
+        .collect::<Vec<_>>();
+    let largest = ticks.iter().fold(0.0_f64, |max, tick| max.max(tick.abs()));
+    let ticks = ticks
+        .into_iter()
+        .map(|tick| (tick, linear_label(tick, step, largest)))
+        .collect();
+    Axis { low, high, ticks }
+}
+
+/// The least 1, 2 or 5 times a power of ten that is not below `least`.
+fn round_step(least: f64) -> f64 {
+    let power = 10f64.powf(least.log10().floor());
+    let factors = [1.0, 2.0, 5.0];
+    let factor = factors.into_iter().find(|f| f * power >= least * (1.0 - 1e-9));
+    factor.unwrap_or(10.0) * power
+}
+
+fn linear_label(tick: f64, step: f64, largest: f64) -> String {
+    let decimals = |step: f64| (-(step.log10() + 1e-9).floor()).max(0.0) as usize;
+    if tick == 0.0 {
+        "0".into()
+    } else if (1e-3..1e5).contains(&largest) {
+        minus(format!("{tick:.*}", decimals(step)))
+    } else {
+        let exponent = (largest.log10() + 1e-9).floor();
+        let unit = 10f64.powf(exponent);
+        let mantissa = format!("{:.*}", decimals(step / unit), tick / unit);
+        format!("{}·{}", minus(mantissa), power_of_ten(exponent as i32))
+    }
+}
+
+/// Ends on 1, 2 or 5 times a power of ten; ticks there, or at the powers alone where there are many.
+fn logarithmic(low: f64, high: f64) -> Axis {
+    let (mut low, mut high) = (one_two_five_below(low), -one_two_five_below(-high));
+    if low == high {
+        low = one_two_five_below(low - 0.1);
+        high = -one_two_five_below(-(high + 0.1));
+    }
+    let stride = ((high - low) / 8.0).ceil().max(1.0) as i32;
+    let factors: &[f64] = if high - low > 2.5 {
+        &[1.0]
+    } else {
+        &[1.0, 2.0, 5.0]
+    };
+    let ticks = (low.floor() as i32..=high.ceil() as i32)
+        .filter(|exponent| exponent % stride == 0)
+        .flat_map(|exponent| factors.iter().map(move |f| (*f, exponent)))
+        .map(|(factor, exponent)| {
+            (
+                f64::from(exponent) + factor.log10(),
+                logarithmic_label(factor, exponent),
+            )
+        })
+        .filter(|(tick, _)| (low - 1e-9..=high + 1e-9).contains(tick))
+        .collect();
+    Axis { low, high, ticks }
+}
+
+/// The largest logarithm of 1, 2 or 5 times a power of ten that is not above `logarithm`.
+fn one_two_five_below(logarithm: f64) -> f64 {
+    let power = (logarithm + 1e-9).floor();
+    let rest = logarithm - power + 1e-9;
+    let factors = [5f64.log10(), 2f64.log10(), 0.0];
+    power + factors.into_iter().find(|f| *f <= rest).unwrap_or(0.0)
+}
+
+fn logarithmic_label(factor: f64, exponent: i32) -> String {
+    if (-2..=3).contains(&exponent) {
+        let decimals = (-exponent).max(0) as usize;
+        format!("{:.decimals$}", factor * 10f64.powi(exponent))
+    } else if factor == 1.0 {
+        power_of_ten(exponent)
+    } else {
+        format!("{factor}·{}", power_of_ten(exponent))
+    }
+}
+
+/// 10 with its exponent raised.
+pub(crate) fn power_of_ten(exponent: i32) -> String {
+    let digits = exponent.to_string();
+    let raised = digits.chars().map(|c| match c {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        digit => char::from_u32('⁰' as u32 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
+    });
+    format!("10{}", raised.collect::<String>())
+}
+
+fn minus(number: String) -> String {
+    number.replace('-', "−")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(values: &[f64], log: bool) -> Vec<String> {
+        let placed = values.iter().map(|v| place(*v, log));
+        let axis = Axis::over(placed, log, 0.0);
+        axis.ticks.into_iter().map(|(_, label)| label).collect()
+    }
+
+    #[test]
+    fn linear_ticks_are_round() {
+        assert_eq!(labels(&[0.0, 6.0], false), ["0", "1", "2", "3", "4", "5", "6"]);
+        assert_eq!(labels(&[-0.2, 0.2], false), ["−0.2", "−0.1", "0", "0.1", "0.2"]);
+        assert_eq!(labels(&[0.0, 3e-6], false)[1], "0.5·10⁻⁶");
+        assert_eq!(labels(&[0.0, 1.2e6], false)[6], "1.2·10⁶");
+    }
+
+    #[test]
+    fn logarithmic_ticks_are_powers() {
+        assert_eq!(labels(&[1e-4, 1e-1], true), ["10⁻⁴", "10⁻³", "0.01", "0.1"]);
+        assert_eq!(labels(&[6.0, 40.0], true), ["5", "10", "20", "50"]);
+        assert_eq!(labels(&[1e-30, 1e30], true).len(), 7);
+    }
+
+    #[test]
+    fn any_values_give_a_few_ticks() {
+        let odd = [
+            0.0,
+            -0.0,
+            1.0,
+            -1.0,
+            5e-324,
+            1e-308,
+            f64::MAX,
+            f64::MIN,
+            f64::INFINITY,
+            f64::NAN,
+            1e300,
+            -1e300,
+        ];
+        for a in odd {
+            for b in odd {
+                for log in [false, true] {
+                    let axis = Axis::over([a, b].into_iter().map(|v| place(v, log)), log, 0.05);
+                    assert!(axis.low < axis.high, "{a} {b} {log}");
+                    assert!(
+                        (1..20).contains(&axis.ticks.len()),
+                        "{a} {b} {log}: {:?}",
+                        axis.ticks
+                    );
+                }
+            }
+        }
+        assert_eq!(
+            labels(&[0.5, 0.5 + 1e-14], false),
+            ["0.46", "0.48", "0.50", "0.52", "0.54"]
+        );
+    }
+}

@@ -1,0 +1,133 @@
+//! Sizes, colours, dashes and markers. Colours are Okabe & Ito's, safe for the colour-blind.
+
+use plotters::prelude::*;
+
+/// Plotters' SVG has whole pixels only: figures are drawn this much larger, and scaled by the view box.
+pub(super) const FINE: i32 = 4;
+pub(super) const WIDTH: i32 = 560 * FINE;
+pub(super) const AXES_HEIGHT: i32 = 340 * FINE;
+pub(super) const ROW: i32 = 23 * FINE;
+pub(super) const MARGIN: i32 = 12 * FINE;
+/// Sizes of letters.
+pub(super) const TEXT: f64 = 16.0;
+pub(super) const TITLE: f64 = 17.0;
+pub(super) const MARKER: i32 = 5 * FINE;
+/// Not a curve's width, so that error bars are not dashed.
+pub(super) const BAR_WIDTH: u32 = 6;
+const CURVE_WIDTH: u32 = 8;
+
+/// Okabe & Ito (2008), without the yellow that is lost on white.
+const PALETTE: [RGBColor; 7] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(0, 0, 0),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+];
+
+/// Dashes and gaps. Seven colours and six of these: 42 curves before a pair is used again.
+const DASHES: [&str; 6] = ["", "32 14", "8 12", "44 12 8 12", "18 10", "60 16"];
+
+/// The colour of a curve or of points. Each has a colour of its own, if only by its last bits, so that
+/// `curve_stroke` names one curve.
+pub(super) fn colour(index: usize) -> RGBColor {
+    let RGBColor(red, green, blue) = PALETTE[index % PALETTE.len()];
+    RGBColor(red, green, blue ^ (index / PALETTE.len()) as u8)
+}
+
+pub(super) fn curve(index: usize) -> ShapeStyle {
+    colour(index).stroke_width(CURVE_WIDTH)
+}
+
+/// How plotters writes the stroke of a curve.
+pub(super) fn curve_stroke(index: usize) -> String {
+    let RGBColor(red, green, blue) = colour(index);
+    format!("stroke=\"#{red:02X}{green:02X}{blue:02X}\" stroke-width=\"{CURVE_WIDTH}\"")
+}
+
+/// The attribute that makes the dashes of a curve.
+pub(super) fn dashes(index: usize) -> String {
+    match DASHES[index % DASHES.len()] {
+        "" => String::new(),
+        lengths => format!(" stroke-dasharray=\"{lengths}\""),
+    }
+}
+
+/// The mark of a point about the origin: a disc, a diamond, a triangle, a square, a triangle on its tip, as a polygon
+/// with so many corners and the first of them at an angle.
+pub(super) fn marker(index: usize) -> Polygon<(i32, i32)> {
+    let (corners, first) = [(16, 0.0), (4, 0.0), (3, 0.75), (4, 0.125), (3, 0.25)][index % 5];
+    let radius = f64::from(MARKER) * if corners == 16 { 0.85 } else { 1.1 };
+    let outline: Vec<(i32, i32)> = (0..corners)
+        .map(|corner| {
+            let angle = std::f64::consts::TAU * (first + f64::from(corner) / f64::from(corners));
+            let (sin, cos) = angle.sin_cos();
+            ((radius * cos).round() as i32, (radius * sin).round() as i32)
+        })
+        .collect();
+    Polygon::new(outline, colour(index).filled())
+}
+
+/// Dark text of a size in the units of the view.
+pub(super) fn text(size: f64) -> TextStyle<'static> {
+    styled(size, FontStyle::Normal)
+}
+
+/// The same, bold.
+pub(super) fn bold(size: f64) -> TextStyle<'static> {
+    styled(size, FontStyle::Bold)
+}
+
+fn styled(size: f64, style: FontStyle) -> TextStyle<'static> {
+    // Plotters divides by 1.24 on the way to the SVG.
+    let font = ("sans-serif", size * 1.24 * f64::from(FINE)).into_font();
+    font.style(style).color(&RGBColor(34, 34, 34))
+}
+
+/// The room a text needs, on the safe side: no font is at hand to measure it.
+pub(super) fn text_width(text: &str, size: f64) -> i32 {
+    (0.56 * size * f64::from(FINE) * text.chars().count() as f64).ceil() as i32
+}
+
+/// The lines of a text that has so much room.
+pub(super) fn wrap(text: &str, room: i32, size: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if text_width(line, size) + text_width(word, size) < room => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_string()),
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_curves_look_the_same() {
+        let looks: std::collections::BTreeSet<_> = (0..42)
+            .map(|index| (index % PALETTE.len(), dashes(index)))
+            .collect();
+        assert_eq!(looks.len(), 42);
+        let strokes: std::collections::BTreeSet<_> = (0..42).map(curve_stroke).collect();
+        assert_eq!(strokes.len(), 42);
+    }
+
+    #[test]
+    fn texts_are_wrapped_at_words() {
+        let room = text_width("a picture of", TEXT) + 1;
+        assert_eq!(
+            wrap("a picture of two words", room, TEXT),
+            ["a picture of", "two words"]
+        );
+        assert!(wrap("", room, TEXT).is_empty());
+        assert_eq!(wrap("incomprehensibilities", room, TEXT).len(), 1);
+    }
+}

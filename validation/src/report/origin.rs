@@ -1,0 +1,103 @@
+//! Where, when and from what a report was made.
+
+use super::words::utc;
+use serde::Serialize;
+use std::path::Path;
+use std::process::Command;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+/// What somebody who repeats the run has to know. What cannot be found out is "unknown".
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Origin {
+    /// The command line.
+    pub command: String,
+    /// The version of the package.
+    pub version: String,
+    /// The commit of the sources, with `-dirty` where they were changed since.
+    pub commit: String,
+    /// The compiler.
+    pub rustc: String,
+    /// How it was built: `release`, or `development` with debug assertions.
+    pub build: String,
+    /// The model of the processor.
+    pub processor: String,
+    /// Hardware threads.
+    pub threads: usize,
+    /// The operating system and the architecture.
+    pub system: String,
+    /// When the report was made, RFC 3339.
+    pub date: String,
+    /// Where random numbers come from.
+    pub seeds: String,
+}
+
+impl Origin {
+    /// This run's.
+    pub fn here(command: String) -> Self {
+        let since_1970 = SystemTime::now().duration_since(UNIX_EPOCH);
+        let build = if cfg!(debug_assertions) {
+            "development"
+        } else {
+            "release"
+        };
+        Self {
+            command,
+            version: env!("CARGO_PKG_VERSION").into(),
+            commit: commit(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap_or_else(unknown),
+            rustc: option_env!("RUSTC_VERSION").map_or_else(unknown, Into::into),
+            build: build.into(),
+            processor: processor().unwrap_or_else(unknown),
+            threads: std::thread::available_parallelism().map_or(1, Into::into),
+            system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
+            date: since_1970.map_or_else(|_| unknown(), |time| utc(time.as_secs())),
+            seeds: "fixed in the source of each case; no result depends on the number of threads".into(),
+        }
+    }
+}
+
+fn unknown() -> String {
+    "unknown".into()
+}
+
+/// The commit of `folder`, if it is in a checkout, and not in the checkout of something else.
+fn commit(folder: &Path) -> Option<String> {
+    let git = |arguments: &[&str]| output(Command::new("git").arg("-C").arg(folder).args(arguments));
+    git(&["ls-files", "--error-unmatch", "Cargo.toml"])?;
+    git(&["describe", "--always", "--dirty", "--abbrev=12", "--exclude=*"])
+}
+
+fn processor() -> Option<String> {
+    if let Ok(text) = std::fs::read_to_string("/proc/cpuinfo") {
+        let line = text.lines().find(|line| line.starts_with("model name"))?;
+        return line.split_once(':').map(|(_, name)| name.trim().to_string());
+    }
+    let mac = output(Command::new("sysctl").args(["-n", "machdep.cpu.brand_string"]));
+    mac.or_else(|| std::env::var("PROCESSOR_IDENTIFIER").ok())
+}
+
+/// What a command prints, if it is there and succeeds.
+fn output(command: &mut Command) -> Option<String> {
+    let output = command.output().ok().filter(|output| output.status.success())?;
+    let text = String::from_utf8(output.stdout).ok()?.trim().to_string();
+    (!text.is_empty()).then_some(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn outside_a_checkout_there_is_no_commit() {
+        let folder = tempfile::tempdir().unwrap();
+        assert_eq!(commit(folder.path()), None);
+        assert_eq!(commit(&folder.path().join("nowhere")), None);
+    }
+
+    #[test]
+    fn nothing_is_empty() {
+        let origin = Origin::here("shearbed validate".into());
+        assert!(origin.threads > 0);
+        assert!(!origin.commit.is_empty() && !origin.processor.is_empty());
+        assert!(origin.rustc.starts_with("rustc ") && origin.date.ends_with('Z'));
+    }
+}

@@ -1,0 +1,135 @@
+//! A case as a row of the report: every number with the bound it was judged by.
+
+use crate::accept::Rule;
+use crate::case::{Control, Effort, Judged, Kind, Outcome, Verdict};
+use serde::Serialize;
+
+/// What one rule said.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Line {
+    /// What was measured.
+    pub what: String,
+    /// How it ended.
+    pub verdict: Verdict,
+    /// The error; for a goodness-of-fit test, its p-value.
+    pub error: f64,
+    /// The largest error allowed; for a p-value, the smallest allowed.
+    pub tolerance: f64,
+    /// The share of the tolerance that is used up: above 1 fails.
+    pub used: f64,
+    /// Why that tolerance; for missing data, how to supply them.
+    pub because: String,
+    /// The rule with the numbers behind it.
+    pub judged_by: Rule,
+}
+
+impl Line {
+    fn new(judged: &Judged, level: f64) -> Self {
+        let rule = &judged.evidence.rule;
+        let (error, tolerance) = (rule.error(), rule.tolerance(level));
+        let used = match rule {
+            _ if error == 0.0 && tolerance == 0.0 => 0.0,
+            Rule::PValue { .. } => tolerance / error,
+            _ => error / tolerance,
+        };
+        Self {
+            what: judged.evidence.what.clone(),
+            verdict: judged.verdict,
+            error,
+            tolerance,
+            used,
+            because: rule.because().into(),
+            judged_by: rule.clone(),
+        }
+    }
+
+    /// Worse verdicts first, then what is nearest to its bound; what cannot be compared is worst.
+    fn badness(&self) -> (u8, f64) {
+        let used = if self.used.is_nan() {
+            f64::INFINITY
+        } else {
+            self.used
+        };
+        (severity(self.verdict), used)
+    }
+}
+
+fn severity(verdict: Verdict) -> u8 {
+    match verdict {
+        Verdict::Fail => 3,
+        Verdict::NoData => 2,
+        Verdict::Underpowered => 1,
+        Verdict::Pass => 0,
+    }
+}
+
+/// One case.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// Its name.
+    pub name: String,
+    /// Verification or validation.
+    pub kind: Kind,
+    /// The claim, in one sentence.
+    pub claim: String,
+    /// Equations, figures or sections of the paper.
+    pub source: String,
+    /// How it ended.
+    pub verdict: Verdict,
+    /// Which line of the evidence is the worst; none where there is no evidence.
+    pub worst: Option<usize>,
+    /// Everything measured.
+    pub evidence: Vec<Line>,
+    /// The deliberate mistakes, and whether the check failed on each.
+    pub controls: Vec<Control>,
+    /// How many were caught.
+    pub caught: usize,
+    /// Wall time of check and controls.
+    pub seconds: f64,
+    /// The command that repeats it.
+    pub command: String,
+}
+
+impl Row {
+    /// The outcome of a case that was run with this effort.
+    pub(super) fn new(outcome: Outcome, effort: &Effort) -> Self {
+        let evidence: Vec<_> = (outcome.evidence.iter())
+            .map(|judged| Line::new(judged, effort.level))
+            .collect();
+        // The first of equals.
+        let worst = (0..evidence.len()).rev().max_by(|a, b| {
+            let (a, b) = (evidence[*a].badness(), evidence[*b].badness());
+            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+        });
+        Self {
+            name: outcome.about.name.into(),
+            kind: outcome.about.kind,
+            claim: outcome.about.claim.into(),
+            source: outcome.about.source.into(),
+            verdict: outcome.verdict,
+            worst,
+            evidence,
+            caught: outcome.controls.iter().filter(|control| control.caught).count(),
+            controls: outcome.controls,
+            seconds: outcome.seconds,
+            command: command(outcome.about.name, effort),
+        }
+    }
+
+    /// The worst line of the evidence.
+    pub fn worst(&self) -> Option<&Line> {
+        self.worst.and_then(|index| self.evidence.get(index))
+    }
+}
+
+fn command(name: &str, effort: &Effort) -> String {
+    let mut command = format!("cargo run --release -- validate --case {name}");
+    if effort.full {
+        command += " --full";
+    }
+    if let Some(data) = &effort.data {
+        // Quoted for the shell.
+        command += &format!(" --data '{}'", data.display().to_string().replace('\'', r"'\''"));
+    }
+    command
+}

@@ -1,0 +1,254 @@
+//! The writers on made-up outcomes of every verdict. Nothing here was measured.
+
+use super::*;
+use crate::accept::{Rule, judge};
+use crate::case::{About, Control, Evidence, Judged, Kind};
+use crate::plot::Curve;
+use crate::xml::is_well_formed;
+
+const EFFORT: Effort = Effort {
+    full: false,
+    level: 2.5e-5,
+    data: None,
+};
+
+fn outcome(
+    name: &'static str,
+    verdict: Verdict,
+    rules: Vec<Rule>,
+    controls: &[(&'static str, bool)],
+) -> Outcome {
+    let judged = |(k, rule): (usize, Rule)| Judged {
+        verdict: judge(&rule, EFFORT.level),
+        evidence: Evidence::new(format!("synthetic number {k} with a < b & c"), rule),
+    };
+    Outcome {
+        about: About {
+            name,
+            kind: match verdict {
+                Verdict::Pass | Verdict::Fail => Kind::Verification,
+                _ => Kind::Validation,
+            },
+            claim: "Synthetic claim: <b>|p₁|</b> & more.",
+            source: "eqs A.4, A.5",
+            statistical_checks: 0,
+        },
+        verdict,
+        evidence: rules.into_iter().enumerate().map(judged).collect(),
+        controls: (controls.iter())
+            .map(|&(mistake, caught)| Control { mistake, caught })
+            .collect(),
+        seconds: 1.25,
+    }
+}
+
+fn mean(se: f64) -> Rule {
+    Rule::Mean {
+        mean: 0.5012,
+        se,
+        samples: 400,
+        reference: 0.5,
+        allowance: 0.0,
+        enough: 0.01,
+        because: "synthetic: 2 % of the amplitude",
+    }
+}
+
+fn p_value(p: f64) -> Rule {
+    Rule::PValue {
+        p,
+        samples: 1000,
+        enough: 100,
+        because: "synthetic: Kolmogorov–Smirnov",
+    }
+}
+
+fn synthetic() -> Report {
+    let caught = [("sign of the spin", true), ("factor 2", true)];
+    let within = |error| Rule::within(error, 1e-12, "synthetic: 10⁴ round-offs");
+    let supply = "Put the points of Fig. 3 into a file, and call with --data DIR.";
+    let outcomes = vec![
+        outcome(
+            "synthetic-pass",
+            Verdict::Pass,
+            vec![Rule::exact(0.0), mean(0.001), within(-2.5e-13), p_value(0.31)],
+            &caught,
+        ),
+        outcome("synthetic-p-value", Verdict::Pass, vec![p_value(0.31)], &caught),
+        outcome(
+            "synthetic-fail",
+            Verdict::Fail,
+            vec![within(0.9e-12), within(f64::NAN), within(3e-12)],
+            &caught,
+        ),
+        outcome(
+            "synthetic-blind",
+            Verdict::Fail,
+            vec![Rule::exact(0.0)],
+            &[("sign of the spin", true), ("factor < 2", false)],
+        ),
+        outcome("synthetic-empty", Verdict::Fail, vec![], &[]),
+        outcome(
+            "synthetic-underpowered",
+            Verdict::Underpowered,
+            vec![mean(0.02)],
+            &caught,
+        ),
+        outcome(
+            "synthetic-no-data",
+            Verdict::NoData,
+            vec![Rule::NoData { supply }],
+            &[],
+        ),
+    ];
+    let x: Vec<f64> = (0..=60).map(|k| 0.1 * f64::from(k)).collect();
+    let figure = ReportFigure {
+        name: "synthetic".into(),
+        figure: Figure {
+            title: "Synthetic curve".into(),
+            x_name: "t/T (periods)".into(),
+            y_name: "mean axial projection (–)".into(),
+            curves: vec![Curve {
+                label: "synthetic".into(),
+                y: x.iter().map(|x| x.sin()).collect(),
+                x,
+                half_band: None,
+            }],
+            ..Default::default()
+        },
+        caption: "What to see: a wave & nothing else.".into(),
+        source: "Fig. 4".into(),
+        cases: vec!["synthetic-pass".into()],
+    };
+    let mut report = build(
+        outcomes,
+        vec![figure],
+        &EFFORT,
+        "shearbed validate --out 'a<b'".into(),
+    );
+    report.origin = Origin {
+        command: "shearbed validate --out 'a<b'".into(),
+        version: "0.0.0".into(),
+        commit: "0123456789ab".into(),
+        rustc: "rustc 0.0.0".into(),
+        build: "release".into(),
+        processor: "a synthetic processor".into(),
+        threads: 2,
+        system: "none".into(),
+        date: "2000-01-01T00:00:00Z".into(),
+        seeds: "none".into(),
+    };
+    report
+}
+
+#[test]
+fn markdown_is_as_before() {
+    insta::assert_snapshot!(synthetic().markdown());
+}
+
+#[test]
+fn counts_and_exit_code() {
+    let report = synthetic();
+    let summary = &report.summary;
+    let counts = (summary.pass, summary.fail, summary.underpowered, summary.nodata);
+    assert_eq!(counts, (2, 3, 1, 1));
+    assert_eq!(report.exit_code(), 1);
+    let only = |verdict| {
+        let outcomes = vec![outcome("synthetic", verdict, vec![], &[])];
+        build(outcomes, vec![], &EFFORT, String::new()).exit_code()
+    };
+    let verdicts = [
+        Verdict::Pass,
+        Verdict::Fail,
+        Verdict::Underpowered,
+        Verdict::NoData,
+    ];
+    assert_eq!(verdicts.map(only), [0, 1, 1, 0]);
+    assert_eq!(build(vec![], vec![], &EFFORT, String::new()).exit_code(), 0);
+}
+
+#[test]
+fn the_worst_evidence_is_shown() {
+    let worst: Vec<_> = synthetic().cases.iter().map(|row| row.worst).collect();
+    // Of the passing ones what is nearest to its bound, of the failing ones what cannot be compared.
+    assert_eq!(
+        worst,
+        [Some(1), Some(0), Some(1), Some(0), None, Some(0), Some(0)]
+    );
+}
+
+#[test]
+fn a_command_repeats_the_run() {
+    let effort = Effort {
+        full: true,
+        level: 1e-3,
+        data: Some("my data".into()),
+    };
+    let row = Row::new(outcome("synthetic", Verdict::Pass, vec![], &[]), &effort);
+    let command = "cargo run --release -- validate --case synthetic --full --data 'my data'";
+    assert_eq!(row.command, command);
+}
+
+#[test]
+fn html_stands_alone() {
+    let report = synthetic();
+    let html = report.html().unwrap();
+    assert!(is_well_formed(&html), "{html}");
+    for load in [
+        "<script",
+        "<link",
+        "<img",
+        "<iframe",
+        "src=",
+        "@import",
+        "url(",
+        "href=\"http",
+    ] {
+        assert!(!html.contains(load), "{load}");
+    }
+    assert!(html.contains(&report.headline()));
+    for name in report.cases.iter().map(|row| &row.name) {
+        assert_eq!(html.matches(&format!("id=\"case-{name}\"")).count(), 1, "{name}");
+        assert!(html.contains(&format!("validate --case {name}</code>")), "{name}");
+    }
+    for text in [
+        "✓ pass",
+        "✗ fail",
+        "△ under-powered",
+        "○ no data",
+        "&lt;b&gt;|p₁|&lt;&#x2f;b&gt; &amp; more.",
+        "not caught: factor &lt; 2",
+        "a&lt;b",
+        "p = 0.31",
+        "p ≥ 2.5·10⁻⁵",
+        "mean 0.5012 ± 0.02 (standard error of 400)",
+        "id=\"figure-synthetic\"",
+        "a wave &amp; nothing else",
+        "href=\"#figure-synthetic\"",
+    ] {
+        assert!(html.contains(text), "{text}");
+    }
+}
+
+#[test]
+fn every_link_leads_somewhere() {
+    let html = synthetic().html().unwrap();
+    for link in html.split("href=\"#").skip(1) {
+        let anchor = link.split('"').next().unwrap();
+        assert!(html.contains(&format!("id=\"{anchor}\"")), "{anchor}");
+    }
+}
+
+#[test]
+fn json_has_numbers_as_numbers() {
+    let report: serde_json::Value = serde_json::from_str(&synthetic().json()).unwrap();
+    assert_eq!(report["summary"]["fail"], 3);
+    assert_eq!(report["cases"][0]["evidence"][2]["error"], 2.5e-13);
+    assert_eq!(report["cases"][0]["evidence"][2]["judged_by"]["rule"], "within");
+    assert!(
+        report["cases"][2]["evidence"][1]["error"].is_null(),
+        "NaN is null"
+    );
+    assert_eq!(report["cases"][3]["controls"][1]["caught"], false);
+    assert_eq!(report["figures"][0]["figure"]["curves"][0]["y"][0], 0.0);
+}
