@@ -7,5 +7,6 @@ pub mod cases;
 pub mod oracle;
 pub mod plot;
 pub mod report;
+pub mod scenes;
 #[cfg(test)]
 mod xml;
