@@ -1,0 +1,222 @@
+//! Checking a scene: each value, and which values go together.
+
+use super::allowed::{Invalid, number, positive, refused, whole};
+use super::{Interaction, Orientation, Scene};
+use crate::flow::VelocityGradient;
+use crate::propagator::Propagator;
+use crate::volume::ControlVolume;
+use nalgebra::Matrix3;
+
+/// The most steps and the most outputs of one scene.
+const MAX_STEPS: f64 = 1e9;
+const MAX_OUTPUTS: f64 = 1e7;
+
+impl Scene {
+    /// Checks every value and every combination of values.
+    pub fn check(&self) -> Result<(), Invalid> {
+        let flow = self.check_flow()?;
+        self.check_particles()?;
+        if let Some(interaction) = &self.interaction {
+            self.check_interaction(interaction, &flow)?;
+        }
+        self.check_time(&flow)?;
+        whole("ensemble.replicas", self.ensemble.replicas)?;
+        whole("ensemble.seed", self.ensemble.seed)?;
+        let observables = &self.output.observables;
+        let repeated = observables
+            .iter()
+            .enumerate()
+            .any(|(k, o)| observables[..k].contains(o));
+        if observables.is_empty() || repeated {
+            let names: Vec<_> = observables.iter().map(|o| o.name()).collect();
+            return Err(refused("output.observables", format!("{names:?}")));
+        }
+        Ok(())
+    }
+
+    fn check_flow(&self) -> Result<VelocityGradient, Invalid> {
+        match (self.flow.shear_rate_per_s, self.flow.gradient_per_s) {
+            (Some(g), None) => {
+                positive("flow.shear_rate_per_s", g)?;
+                VelocityGradient::plane_couette(g).ok_or_else(|| refused("flow.shear_rate_per_s", g))
+            }
+            (None, Some(rows)) => VelocityGradient::new(Matrix3::from_fn(|i, j| rows[i][j]))
+                .ok_or_else(|| refused("flow.gradient_per_s", format!("{rows:?}"))),
+            (Some(g), Some(_)) => Err(Invalid::new(
+                "flow.shear_rate_per_s",
+                g,
+                "either shear_rate_per_s or gradient_per_s, not both",
+            )),
+            (None, None) => Err(Invalid::missing(
+                "flow.shear_rate_per_s",
+                "shear_rate_per_s or gradient_per_s must be given",
+            )),
+        }
+    }
+
+    fn check_particles(&self) -> Result<(), Invalid> {
+        let particles = &self.particles;
+        whole("particles.count", particles.count as u64)?;
+        positive("particles.length_mm", particles.length_mm)?;
+        let (r, sd) = (particles.aspect_ratio, particles.aspect_ratio_sd_percent);
+        number("particles.aspect_ratio", r, (1e-100..=1e100).contains(&r))?;
+        let key = "particles.aspect_ratio_sd_percent";
+        number(key, sd, sd >= 0.0)?;
+        // Three standard deviations: P(r_e ≤ 1) = 0.0013 per rod.
+        let deviation = 3.0 * r * sd / 100.0;
+        let too_wide = sd > 0.0 && ((r - 1.0).abs() <= deviation || r <= deviation);
+        if too_wide {
+            let widest = 100.0 * ((r - 1.0).abs().min(r) / (3.0 * r));
+            return Err(Invalid::new(
+                key,
+                sd,
+                format!(
+                    "so wide that r_e ≤ 1 (for discs: r_e ≥ 1 or ≤ 0) is likely; with mean {r} below {widest:.4}, \
+                     three standard deviations"
+                ),
+            ));
+        }
+        if let Orientation::Given { phi_deg, theta_deg } = particles.orientation
+            && !(phi_deg.is_finite() && (0.0..=180.0).contains(&theta_deg))
+        {
+            let value = format!("{{ phi_deg = {phi_deg}, theta_deg = {theta_deg} }}");
+            return Err(refused("particles.orientation", value));
+        }
+        Ok(())
+    }
+
+    fn check_interaction(&self, interaction: &Interaction, flow: &VelocityGradient) -> Result<(), Invalid> {
+        positive(
+            "interaction.concentration_per_cm3",
+            interaction.concentration_per_cm3,
+        )?;
+        let alpha = interaction.alpha;
+        number("interaction.alpha", alpha, alpha >= 0.0)?;
+        positive("interaction.m", interaction.m)?;
+        let arm = interaction.min_contact_arm;
+        number("interaction.min_contact_arm", arm, arm >= 0.0)?;
+        let side = ControlVolume::holding(self.particles.count, self.concentration(interaction)).side();
+        if !(side.is_finite() && side > 0.0) {
+            return Err(Invalid::new(
+                "interaction.concentration_per_cm3",
+                interaction.concentration_per_cm3,
+                "such that the control volume's side (N/(n a³))^⅓ is a finite number > 0",
+            ));
+        }
+        if flow.shear_rate_per_s().is_none() {
+            return Err(Invalid::new(
+                "flow.gradient_per_s",
+                format!("{:?}", self.flow.gradient_per_s.unwrap_or_default()),
+                "interacting rods need plane Couette flow: only ∂u_2/∂x_1 other than 0",
+            ));
+        }
+        let r = self.particles.aspect_ratio;
+        if r <= 1.0 {
+            let allowed = "interacting rods need a number > 1";
+            return Err(Invalid::new("particles.aspect_ratio", r, allowed));
+        }
+        Ok(())
+    }
+
+    fn check_time(&self, flow: &VelocityGradient) -> Result<(), Invalid> {
+        let time = &self.time;
+        for (key, value) in [
+            ("time.steps_per_period", time.steps_per_period),
+            ("time.outputs_per_period", time.outputs_per_period),
+            ("time.outputs_per_strain", time.outputs_per_strain),
+        ] {
+            whole(key, value.unwrap_or(1))?;
+        }
+        match (time.periods, time.strain) {
+            (Some(periods), None) => self.check_periods(periods, flow),
+            (None, Some(strain)) => self.check_strain(strain, flow),
+            (Some(periods), Some(_)) => Err(Invalid::new(
+                "time.periods",
+                periods,
+                "either periods or strain, not both",
+            )),
+            (None, None) => Err(Invalid::missing(
+                "time.periods",
+                "periods or strain must be given",
+            )),
+        }
+    }
+
+    fn check_periods(&self, periods: f64, flow: &VelocityGradient) -> Result<(), Invalid> {
+        let key = "time.periods";
+        number(key, periods, periods >= 0.0)?;
+        if Propagator::new(flow, self.particles.aspect_ratio)
+            .period_s()
+            .is_none()
+        {
+            return Err(Invalid::new(
+                key,
+                periods,
+                "rods of this aspect ratio have no period in this flow: give strain",
+            ));
+        }
+        if let Some(outputs) = self.time.outputs_per_strain {
+            return Err(Invalid::new(
+                "time.outputs_per_strain",
+                outputs,
+                "goes with strain; periods take outputs_per_period",
+            ));
+        }
+        let outputs = self.outputs_per_period();
+        bounded(key, periods, outputs, "outputs", MAX_OUTPUTS)?;
+        if self.interaction.is_some() {
+            let steps = self.steps_per_period();
+            bounded(key, periods, steps, "steps", MAX_STEPS)?;
+            if !steps.is_multiple_of(outputs) {
+                return Err(Invalid::new(
+                    "time.outputs_per_period",
+                    outputs,
+                    format!("interacting rods need a divisor of steps_per_period = {steps}"),
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_strain(&self, strain: f64, flow: &VelocityGradient) -> Result<(), Invalid> {
+        let key = "time.strain";
+        number(key, strain, strain >= 0.0)?;
+        if flow.magnitude_per_s() == 0.0 {
+            return Err(Invalid::new(
+                key,
+                strain,
+                "this flow has no strain rate: give periods",
+            ));
+        }
+        if self.interaction.is_some() {
+            return Err(Invalid::new(
+                key,
+                strain,
+                "interacting rods take steps per period: give periods",
+            ));
+        }
+        for (key, value) in [
+            ("time.steps_per_period", self.time.steps_per_period),
+            ("time.outputs_per_period", self.time.outputs_per_period),
+        ] {
+            if let Some(value) = value {
+                return Err(Invalid::new(
+                    key,
+                    value,
+                    "goes with periods; strain takes outputs_per_strain",
+                ));
+            }
+        }
+        bounded(key, strain, self.outputs_per_strain(), "outputs", MAX_OUTPUTS)
+    }
+}
+
+fn bounded(key: &'static str, duration: f64, per_unit: u64, what: &str, most: f64) -> Result<(), Invalid> {
+    let all = duration * per_unit as f64;
+    if all <= most {
+        Ok(())
+    } else {
+        let allowed = format!("at most {most:e} {what} in all, not {all:e}");
+        Err(Invalid::new(key, duration, allowed))
+    }
+}
