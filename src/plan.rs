@@ -222,18 +222,18 @@ impl fmt::Display for Plan {
         writeln!(f, "{}", scene.title)?;
         let duration = match scene.time.strain {
             Some(strain) => format!("strain {strain}"),
-            None => format!("{} periods", scene.time.periods.unwrap_or(0.0)),
+            None => format!("t/T = {}", scene.time.periods.unwrap_or(0.0)),
         };
         let steps = match self.steps() {
             0 => "no time steps: the exact motion goes straight to each output".to_owned(),
-            steps => format!("{steps} time steps"),
+            steps => counted(steps, "time step"),
         };
         writeln!(
             f,
-            "{} rods, {} replicas, {duration}, {} outputs, {steps}",
-            scene.particles.count,
-            scene.ensemble.replicas,
-            self.outputs()
+            "{}, {}, {duration}, {}, {steps}",
+            counted(scene.particles.count as u64, "rod"),
+            counted(scene.ensemble.replicas, "replica"),
+            counted(self.outputs() as u64, "output"),
         )?;
         for entry in &self.entries {
             let verb = if entry.kept { "keep" } else { "drop" };
@@ -241,6 +241,11 @@ impl fmt::Display for Plan {
         }
         Ok(())
     }
+}
+
+fn counted(count: u64, what: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {what}{plural}")
 }
 
 /// Why no rods of this scene can meet, or `None` where they can.

@@ -1,0 +1,193 @@
+//! Plans, printed; and that no stage, where it is left out, would have changed a bit of the results.
+
+use shearbed::plan::Stage;
+use shearbed::{Observable, Plan, Results, Scene, ensemble, scene_file};
+
+const FREE: &str = r#"
+title = "rods in plane Couette flow"
+[flow]
+shear_rate_per_s = 0.5
+[particles]
+count = 150
+length_mm = 0.72
+aspect_ratio = 11.6
+orientation = "isotropic"
+[time]
+periods = 2
+"#;
+
+const ALPHA_0: &str = "[interaction]\nconcentration_per_cm3 = 50\nalpha = 0\n";
+const INTERACTING: &str =
+    "[interaction]\nconcentration_per_cm3 = 50\nalpha = 0.5\n[ensemble]\nreplicas = 3\n";
+const ALL_OBSERVABLES: &str = r#"
+[output]
+observables = ["orbit_constant", "projections", "orientation_tensor", "mean_angle", "planar_projections"]
+"#;
+
+const EXTENSION: &str = r#"
+title = "planar extension"
+[flow]
+gradient_per_s = [[1, 0, 0], [0, -1, 0], [0, 0, 0]]
+[particles]
+count = 1
+length_mm = 1
+aspect_ratio = 0.5
+orientation = { phi_deg = 10, theta_deg = 90 }
+[time]
+strain = 4
+"#;
+
+fn scene(text: &str) -> Scene {
+    scene_file::parse("scene.toml", text).unwrap()
+}
+
+fn plan(text: &str) -> Plan {
+    Plan::new(&scene(text)).unwrap()
+}
+
+#[test]
+fn a_free_scene_takes_no_steps() {
+    insta::assert_snapshot!(plan(FREE));
+}
+
+#[test]
+fn rods_of_many_aspect_ratios_at_given_angles() {
+    let text = FREE
+        .replace("= 11.6", "= 11.6\naspect_ratio_sd_percent = 3.6")
+        .replace("\"isotropic\"", "{ phi_deg = 0, theta_deg = 45 }");
+    insta::assert_snapshot!(plan(&(text + ALL_OBSERVABLES)));
+}
+
+#[test]
+fn an_interacting_scene_needs_every_stage() {
+    insta::assert_snapshot!(plan(&format!("{FREE}{INTERACTING}")));
+}
+
+#[test]
+fn rods_that_cannot_collide_are_free() {
+    insta::assert_snapshot!(plan(&format!("{FREE}{ALPHA_0}")));
+}
+
+#[test]
+fn one_rod_is_free() {
+    let text = format!("{FREE}{INTERACTING}");
+    insta::assert_snapshot!(plan(&text.replace("count = 150", "count = 1")));
+}
+
+#[test]
+fn extension_counts_strain() {
+    insta::assert_snapshot!(plan(EXTENSION));
+}
+
+/// The channels of `part`, found in `whole` with the same bits.
+fn assert_same_bits(part: &Results, whole: &Results, what: &str) {
+    let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+    assert_eq!(bits(&part.times), bits(&whole.times), "{what}");
+    for channel in part.series.iter().flat_map(|series| &series.channels) {
+        let other = whole
+            .channel(&channel.name)
+            .expect("the whole has every channel of the part");
+        assert_eq!(bits(&channel.mean), bits(&other.mean), "{what}: {}", channel.name);
+        assert_eq!(
+            bits(&channel.se),
+            bits(&other.se),
+            "{what}: standard errors of {}",
+            channel.name
+        );
+    }
+}
+
+fn run(plan: &Plan) -> Results {
+    ensemble::run(plan, || ()).unwrap()
+}
+
+fn stages() -> impl Iterator<Item = Stage> {
+    [
+        Stage::AspectRatios,
+        Stage::Orientations,
+        Stage::Positions,
+        Stage::Translation,
+        Stage::Neighbours,
+        Stage::CollisionDraws,
+        Stage::Contacts,
+        Stage::RodErrors,
+    ]
+    .into_iter()
+    .chain(Observable::ALL.map(Stage::Observe))
+}
+
+#[test]
+fn keeping_a_stage_that_is_left_out_changes_no_bit() {
+    let polydisperse = "= 11.6\naspect_ratio_sd_percent = 3.6";
+    for sizes in ["= 11.6", polydisperse] {
+        for orientation in ["\"isotropic\"", "{ phi_deg = 20, theta_deg = 60 }"] {
+            for replicas in [1, 3] {
+                let text = format!("{FREE}{ALPHA_0}[ensemble]\nreplicas = {replicas}\n")
+                    .replace("= 11.6", sizes)
+                    .replace("\"isotropic\"", orientation);
+                let plan = plan(&text);
+                let without = run(&plan);
+                for stage in stages().filter(|stage| !plan.keeps(*stage)) {
+                    let with = plan.keeping(stage).expect("the scene has a control volume");
+                    assert!(with.keeps(stage));
+                    assert_same_bits(&without, &run(&with), &format!("{stage} in {text}"));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_stage_kept_by_request_does_run() {
+    let plan = plan(&format!("{FREE}{ALPHA_0}"));
+    let counters = |stage| run(&plan.keeping(stage).unwrap()).counters;
+    assert_eq!(run(&plan).counters.steps, 0);
+    assert_eq!(counters(Stage::Translation).steps, 400);
+    assert!(counters(Stage::Translation).replacements > 0);
+    assert_eq!(counters(Stage::CollisionDraws).draws, 400 * 150);
+    assert_eq!(counters(Stage::Contacts).collisions, 0);
+}
+
+#[test]
+fn a_stage_without_what_it_works_on_cannot_be_kept() {
+    assert!(plan(FREE).keeping(Stage::Neighbours).is_none());
+    assert!(plan(EXTENSION).keeping(Stage::Positions).is_none());
+    assert!(
+        plan(FREE)
+            .keeping(Stage::Observe(Observable::MeanAngle))
+            .is_some()
+    );
+}
+
+#[test]
+fn leaving_out_an_observable_changes_no_bit_of_the_others() {
+    for interaction in ["", INTERACTING] {
+        let all = scene(&format!("{FREE}{interaction}{ALL_OBSERVABLES}"));
+        let whole = run(&Plan::new(&all).unwrap());
+        for left_out in Observable::ALL {
+            let mut fewer = all.clone();
+            fewer
+                .output
+                .observables
+                .retain(|observable| *observable != left_out);
+            let part = run(&Plan::new(&fewer).unwrap());
+            assert_eq!(part.series.len(), 4);
+            assert_same_bits(&part, &whole, left_out.name());
+        }
+    }
+}
+
+#[test]
+fn writing_the_defaults_out_changes_nothing() {
+    for text in [
+        FREE.to_owned(),
+        format!("{FREE}{INTERACTING}"),
+        EXTENSION.to_owned(),
+    ] {
+        let scene = scene(&text);
+        let resolved = Plan::new(&scene.resolved()).unwrap();
+        assert_eq!(resolved.to_string(), plan(&text).to_string());
+        let (part, whole) = (run(&plan(&text)), run(&resolved));
+        assert_same_bits(&part, &whole, &text);
+    }
+}
