@@ -1,7 +1,8 @@
 //! A scene: what a scene file says, checked. Units stand in the names of the keys.
 
 use crate::observable::Observable;
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
 mod allowed;
 mod check;
@@ -39,8 +40,22 @@ pub struct Flow {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_rate_per_s: Option<f64>,
     /// Row i and column j hold ∂u_i/∂x_j.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "three_by_three"
+    )]
     pub gradient_per_s: Option<[[f64; 3]; 3]>,
+}
+
+/// Reads three rows of three. Reading into an array would stop after three and let what follows pass.
+fn three_by_three<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[[f64; 3]; 3]>, D::Error> {
+    let rows = Vec::<Vec<f64>>::deserialize(deserializer)?;
+    let rows: Result<Vec<[f64; 3]>, _> = rows.into_iter().map(TryInto::try_into).collect();
+    let gradient = rows.and_then(|rows| rows.try_into().map_err(|_| Vec::new()));
+    gradient
+        .map(Some)
+        .map_err(|_| D::Error::custom("three rows of three numbers are allowed"))
 }
 
 /// `[particles]`.

@@ -60,6 +60,10 @@ impl Scene {
         positive("particles.length_mm", particles.length_mm)?;
         let (r, sd) = (particles.aspect_ratio, particles.aspect_ratio_sd_percent);
         number("particles.aspect_ratio", r, (1e-100..=1e100).contains(&r))?;
+        if self.interaction.is_some() && r <= 1.0 {
+            let allowed = "interacting rods need a number > 1";
+            return Err(Invalid::new("particles.aspect_ratio", r, allowed));
+        }
         let key = "particles.aspect_ratio_sd_percent";
         number(key, sd, sd >= 0.0)?;
         // Three standard deviations: P(r_e ≤ 1) = 0.0013 per rod.
@@ -109,11 +113,6 @@ impl Scene {
                 format!("{:?}", self.flow.gradient_per_s.unwrap_or_default()),
                 "interacting rods need plane Couette flow: only ∂u_2/∂x_1 other than 0",
             ));
-        }
-        let r = self.particles.aspect_ratio;
-        if r <= 1.0 {
-            let allowed = "interacting rods need a number > 1";
-            return Err(Invalid::new("particles.aspect_ratio", r, allowed));
         }
         Ok(())
     }

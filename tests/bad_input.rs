@@ -1,0 +1,263 @@
+//! Scene files that must be refused, each with line, key, value as written and what is allowed.
+
+use shearbed::scene_file;
+
+const INTERACTING: &str = r#"title = "t"
+[flow]
+shear_rate_per_s = 0.5
+[particles]
+count = 10
+length_mm = 0.72
+aspect_ratio = 11.6
+aspect_ratio_sd_percent = 3.6
+orientation = "isotropic"
+[interaction]
+concentration_per_cm3 = 50
+alpha = 0.5
+m = 3
+update = "rotation"
+min_contact_arm = 0.0
+[time]
+periods = 1
+steps_per_period = 20
+outputs_per_period = 10
+[ensemble]
+replicas = 2
+seed = 1
+[output]
+observables = ["projections"]
+"#;
+
+const EXTENSION: &str = r#"title = "t"
+[flow]
+gradient_per_s = [[-0.5, 0, 0], [0, 1, 0], [0, 0, -0.5]]
+[particles]
+count = 10
+length_mm = 0.72
+aspect_ratio = 11.6
+orientation = "isotropic"
+[time]
+strain = 2
+outputs_per_strain = 10
+"#;
+
+/// The file's text with `table.key` set to `value`, and the line of the key. `None` where the text lacks it.
+fn set(text: &str, path: &str, value: &str) -> Option<(String, usize)> {
+    let (table, key) = path.split_once('.').unwrap_or(("", path));
+    let mut inside = table.is_empty();
+    let mut found = None;
+    let mut lines = Vec::new();
+    for (k, line) in text.lines().enumerate() {
+        if line.starts_with('[') {
+            inside = line == format!("[{table}]");
+        }
+        if inside && line.starts_with(&format!("{key} =")) {
+            found = Some(k + 1);
+            lines.push(format!("{key} = {value}"));
+        } else {
+            lines.push(line.to_owned());
+        }
+    }
+    Some((lines.join("\n"), found?))
+}
+
+fn refusal(text: &str) -> String {
+    match scene_file::parse("dir/s.toml", text) {
+        Ok(_) => format!("accepted:\n{text}"),
+        Err(error) => error.to_string(),
+    }
+}
+
+/// Each key, what its errors say is allowed, and values that are not.
+#[rustfmt::skip]
+const KEYS: &[(&str, &str, &[&str])] = &[
+    ("title", "a text in quotes", &["3", "true", "[]", "{ }", "1979-05-27"]),
+    ("flow.shear_rate_per_s", "a finite number > 0", NOT_POSITIVE),
+    ("flow.gradient_per_s", "three rows of three finite numbers", NOT_A_GRADIENT),
+    ("particles.count", "a whole number from 1 to 100000000", NOT_A_COUNT),
+    ("particles.count", "a whole number from 1 to 100000000", &["100000001"]),
+    ("particles.length_mm", "a finite number > 0", NOT_POSITIVE),
+    ("particles.aspect_ratio", "a number from 1e-100 to 1e100", NOT_POSITIVE),
+    ("particles.aspect_ratio", "a number from 1e-100 to 1e100", &["1e-101", "1e101"]),
+    ("particles.aspect_ratio", "interacting rods need a number > 1", &["1", "1.0", "0.5"]),
+    ("particles.aspect_ratio_sd_percent", "a finite number ≥ 0", NEGATIVE),
+    ("particles.aspect_ratio_sd_percent", "so wide that r_e ≤ 1", &["30.5", "100", "1e300"]),
+    ("particles.orientation", "\"isotropic\" or { phi_deg = a finite number, theta_deg = ", NOT_A_DIRECTION),
+    ("interaction.concentration_per_cm3", "a finite number > 0", NOT_POSITIVE),
+    ("interaction.alpha", "a finite number ≥ 0", NEGATIVE),
+    ("interaction.m", "a finite number > 0", NOT_POSITIVE),
+    ("interaction.update", "\"rotation\" or \"angles\"", &["\"Angles\"", "\"\"", "1", "true"]),
+    ("interaction.min_contact_arm", "a finite number ≥ 0", NEGATIVE),
+    ("time.periods", "a finite number ≥ 0", NEGATIVE),
+    ("time.periods", "at most 1e7 outputs in all", &["1e9", "1e308"]),
+    ("time.strain", "a finite number ≥ 0", NEGATIVE),
+    ("time.strain", "at most 1e7 outputs in all", &["1e7"]),
+    ("time.steps_per_period", "a whole number from 1 to 10000000", NOT_A_COUNT),
+    ("time.outputs_per_period", "a whole number from 1 to 10000000", NOT_A_COUNT),
+    ("time.outputs_per_period", "interacting rods need a divisor of steps_per_period = 20", &["3", "40"]),
+    ("time.outputs_per_strain", "a whole number from 1 to 10000000", NOT_A_COUNT),
+    ("ensemble.replicas", "a whole number from 1 to 10000000", NOT_A_COUNT),
+    ("ensemble.replicas", "a whole number from 1 to 10000000", &["10000001"]),
+    ("ensemble.seed", "a whole number from 0 to 9223372036854775807", &["-1", "1.0", "\"1\""]),
+    ("ensemble.seed", "a whole number from 0 to 9223372036854775807", &["9223372036854775808"]),
+    ("output.observables", "a list of one or more of \"projections\", \"planar", NOT_OBSERVABLES),
+];
+
+#[rustfmt::skip]
+const NOT_POSITIVE: &[&str] = &[
+    "0", "-0.0", "-1", "nan", "-nan", "inf", "-inf", "1e400", "-1e400", "\"1\"", "true", "[]", "[1]", "{ }",
+];
+#[rustfmt::skip]
+const NEGATIVE: &[&str] = &[
+    "-1", "-1e-300", "nan", "inf", "-inf", "1e400", "\"1\"", "true", "[]", "{ }",
+];
+#[rustfmt::skip]
+const NOT_A_COUNT: &[&str] = &[
+    "0", "-1", "1.5", "1.0", "nan", "inf", "1e3", "18446744073709551616",
+    "99999999999999999999999999999999999999999", "\"1\"", "true", "[]", "{ }",
+];
+#[rustfmt::skip]
+const NOT_A_GRADIENT: &[&str] = &[
+    "1", "\"1\"", "[]", "[[0, 0, 0], [1, 0, 0]]", "[[0, 0, 0], [1, 0], [0, 0, 0]]",
+    "[0, 0, 0, 1, 0, 0, 0, 0, 0]", "[[0, 0, 0], [nan, 0, 0], [0, 0, 0]]",
+    "[[0, 0, 0], [\"1\", 0, 0], [0, 0, 0]]", "[[0, 0, inf], [1, 0, 0], [0, 0, 0]]",
+    "[[0, 0, 0], [1, 0, 0], [0, 0, 0], [0, 0, 0]]",
+];
+#[rustfmt::skip]
+const NOT_A_DIRECTION: &[&str] = &[
+    "\"random\"", "3", "[0, 90]", "{ }", "{ phi_deg = 0 }", "{ theta_deg = 0 }",
+    "{ phi_deg = 0, theta_deg = \"90\" }", "{ phi_deg = 0, theta_deg = 90, psi_deg = 0 }",
+    "{ phi_deg = nan, theta_deg = 90 }", "{ phi_deg = inf, theta_deg = 90 }",
+    "{ phi_deg = 0, theta_deg = nan }", "{ phi_deg = 0, theta_deg = -1 }", "{ phi_deg = 0, theta_deg = 180.1 }",
+];
+#[rustfmt::skip]
+const NOT_OBSERVABLES: &[&str] = &[
+    "[]", "\"projections\"", "3", "[3]", "[\"projection\"]", "[\"mean_angle\", \"\"]",
+    "[\"projections\", \"mean_angle\", \"projections\"]",
+];
+
+#[test]
+fn the_scenes_to_spoil_are_good() {
+    for text in [INTERACTING, EXTENSION] {
+        assert_eq!(
+            scene_file::parse("s.toml", text).map(|scene| scene.title),
+            Ok("t".to_owned())
+        );
+    }
+}
+
+#[test]
+fn a_bad_value_is_named_with_line_key_and_what_is_allowed() {
+    for (key, allowed, values) in KEYS {
+        for value in *values {
+            let spoiled = set(INTERACTING, key, value).or_else(|| set(EXTENSION, key, value));
+            let (text, line) = spoiled.expect("one of the two scenes has the key");
+            let start = format!("dir/s.toml:{line}: {key} = {value} is not allowed: {allowed}");
+            let refusal = refusal(&text);
+            assert!(refusal.starts_with(&start), "{start}\n{refusal}");
+            assert_eq!(refusal.lines().count(), 1, "{refusal}");
+        }
+    }
+}
+
+#[test]
+fn every_key_of_a_scene_is_spoiled_above() {
+    let tables = [INTERACTING, EXTENSION].map(|text| text.parse::<toml::Table>().unwrap());
+    for (table, content) in tables.iter().flatten() {
+        let keys = match content {
+            toml::Value::Table(keys) => keys.keys().map(|key| format!("{table}.{key}")).collect(),
+            _ => vec![table.clone()],
+        };
+        for key in keys {
+            assert!(KEYS.iter().any(|(spoiled, ..)| *spoiled == key), "{key}");
+        }
+    }
+}
+
+/// A part of the scene, what takes its place, and the message.
+#[rustfmt::skip]
+const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
+    // A table or a key that is missing.
+    (INTERACTING, "title = \"t\"\n", "", "1: title is missing: a text in quotes"),
+    (INTERACTING, "[flow]\nshear_rate_per_s = 0.5\n", "", "1: flow is missing: a table [flow] with "),
+    (INTERACTING, "shear_rate_per_s = 0.5", "", "2: flow.shear_rate_per_s is missing: shear_rate_per_s or grad"),
+    (INTERACTING, "count = 10\n", "", "4: particles.count is missing: a whole number from 1 to 100000000"),
+    (INTERACTING, "alpha = 0.5\n", "", "10: interaction.alpha is missing: a finite number ≥ 0"),
+    (INTERACTING, "periods = 1\n", "", "16: time.periods is missing: periods or strain must be given"),
+    (EXTENSION, "[time]\nstrain = 2\noutputs_per_strain = 10\n", "",
+     "1: time is missing: a table [time] with periods"),
+    // An unknown key or table.
+    (INTERACTING, "count", "cuont", "5: cuont = 10: unknown key `cuont`, expected one of `count`, `length_mm`"),
+    (INTERACTING, "alpha", "α", "12: α = 0.5: "),
+    (INTERACTING, "[particles]", "[particle]",
+     "4: [particle]: unknown key `particle`, expected one of `title`, `flow`"),
+    (INTERACTING, "title", "name = 1\ntitle", "1: name = 1: unknown key `name`, expected one of `title`"),
+    (INTERACTING, "seed", "speed", "22: speed = 1: unknown key `speed`, expected `replicas` or `seed`"),
+    (INTERACTING, "observables", "observable",
+     "24: observable = [\"projections\"]: unknown key `observable`, expected"),
+    // Something else where a table should be.
+    (EXTENSION, "title = \"t\"\n", "title = \"t\"\noutput = 3\n", "2: output = 3 is not allowed: a table [output]"),
+    (EXTENSION, "[time]", "[[time]]", "9: time = "),
+    // What does not go together.
+    (INTERACTING, "shear_rate", "gradient_per_s = [[0,0,0],[1,0,0],[0,0,0]]\nshear_rate",
+     "4: flow.shear_rate_per_s = 0.5 is not allowed: either shear_rate_per_s or gradient_per_s, not both"),
+    (INTERACTING, "shear_rate_per_s = 0.5", "gradient_per_s = [\n  [1, 0, 0],\n  [0, -1, 0], [0, 0, 0]]",
+     "3: flow.gradient_per_s = [ [1, 0, 0], [0, -1, 0], [0, 0, 0]] is not allowed: interacting rods need plane"),
+    (INTERACTING, "periods = 1", "periods = 1\nstrain = 1",
+     "17: time.periods = 1 is not allowed: either periods or strain, not both"),
+    (INTERACTING, "periods = 1\nsteps_per_period = 20", "periods = 101\nsteps_per_period = 10000000",
+     "17: time.periods = 101 is not allowed: at most 1e9 steps in all"),
+    (INTERACTING, "periods = 1", "strain = 1",
+     "17: time.strain = 1 is not allowed: interacting rods take steps per period: give periods"),
+    (INTERACTING, "steps_per_period = 20", "outputs_per_strain = 5",
+     "18: time.outputs_per_strain = 5 is not allowed: goes with strain"),
+    (INTERACTING, "concentration_per_cm3 = 50", "concentration_per_cm3 = 1e-320",
+     "11: interaction.concentration_per_cm3 = 1e-320 is not allowed: such that the control volume"),
+    (EXTENSION, "strain = 2\noutputs_per_strain = 10", "periods = 2",
+     "10: time.periods = 2 is not allowed: rods of this aspect ratio have no period in this flow: give strain"),
+    (EXTENSION, "strain = 2", "strain = 2\noutputs_per_period = 5",
+     "11: time.outputs_per_period = 5 is not allowed: goes with periods"),
+    (EXTENSION, "strain = 2", "strain = 2\nsteps_per_period = 5",
+     "11: time.steps_per_period = 5 is not allowed: goes with periods"),
+    (EXTENSION, "[[-0.5, 0, 0], [0, 1, 0], [0, 0, -0.5]]", "[[0, -1, 0], [1, 0, 0], [0, 0, 0]]",
+     "10: time.strain = 2 is not allowed: this flow has no strain rate: give periods"),
+    // What is no TOML.
+    (INTERACTING, "alpha = 0.5", "alpha =", "12: alpha =: "),
+    (INTERACTING, "alpha = 0.5", "alpha = 0.5.1", "12: alpha = 0.5.1: "),
+    (INTERACTING, "alpha = 0.5", "alpha", "12: alpha: key with no value, expected `=`"),
+    (INTERACTING, "alpha = 0.5", "alpha = 0.5\nalpha = 0.5", "13: alpha = 0.5: duplicate key"),
+    (INTERACTING, "[time]", "[flow]", "16: [flow]: duplicate key"),
+    (INTERACTING, "[time]", "[time", "16: [time: unclosed table, expected `]`"),
+    (INTERACTING, "title = \"t\"", "title = \"t", "1: title = \"t: "),
+];
+
+#[test]
+fn any_other_mistake_is_named_with_its_line() {
+    for (scene, part, replacement, start) in OTHER_MISTAKES {
+        assert!(scene.contains(part), "{part}");
+        let refusal = refusal(&scene.replacen(part, replacement, 1));
+        assert!(
+            refusal.starts_with(&format!("dir/s.toml:{start}")),
+            "{start}\n{refusal}"
+        );
+        assert_eq!(refusal.lines().count(), 1, "{refusal}");
+    }
+}
+
+#[test]
+fn an_empty_file_lacks_a_title() {
+    for text in ["", "\n\n", "# nothing\n"] {
+        assert_eq!(refusal(text), "dir/s.toml:1: title is missing: a text in quotes");
+    }
+}
+
+#[test]
+fn no_part_of_a_file_makes_the_reader_panic() {
+    for text in [INTERACTING, EXTENSION] {
+        for end in 0..=text.len() {
+            // A file cut short, and one that starts in the middle.
+            let _ = scene_file::parse("s.toml", &text[..end]);
+            let _ = scene_file::parse("s.toml", &text[end..]);
+        }
+    }
+}
