@@ -4,7 +4,9 @@
 pub mod accept;
 pub mod case;
 pub mod cases;
+pub mod cli;
 pub mod oracle;
+pub mod output;
 pub mod plot;
 pub mod report;
 pub mod scenes;

@@ -1,1 +1,7 @@
-fn main() {}
+//! The program `shearbed`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    validation::cli::main()
+}

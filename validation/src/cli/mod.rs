@@ -1,0 +1,97 @@
+//! The commands of the program `shearbed`.
+
+mod pictures;
+mod record;
+mod run;
+mod scene;
+mod show;
+mod tables;
+mod validate;
+
+use clap::{Parser, Subcommand};
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+/// Rigid slender rods in a sheared viscous liquid, after Lee & Springer (1982).
+#[derive(Parser)]
+#[command(name = "shearbed", version, arg_required_else_help = true)]
+#[command(after_help = "Exit codes: 0 all well, 1 a case failed or a run stopped, 2 bad input or usage.")]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run a scene: tables (CSV), pictures (SVG) and a record of the run (run.json)
+    Run(run::Args),
+    /// Show what a scene will run, what it leaves out, and why
+    Plan(show::PlanArgs),
+    /// List the built-in scenes, or print one to start your own from
+    Scenes(show::ScenesArgs),
+    /// Run the verification and validation cases and write the report
+    Validate(validate::Args),
+}
+
+/// Why a command did not end well.
+enum Failure {
+    /// Bad input or usage, or a file that cannot be read or written.
+    Input(String),
+    /// A case failed, or a run stopped.
+    Failed(String),
+}
+
+/// Runs the command of the program's arguments.
+pub fn main() -> ExitCode {
+    let ended = match Cli::parse().command {
+        Command::Run(args) => run::run(&args),
+        Command::Plan(args) => show::plan(&args),
+        Command::Scenes(args) => show::scenes(&args),
+        Command::Validate(args) => validate::validate(args),
+    };
+    let (message, code) = match ended {
+        Ok(()) => return ExitCode::SUCCESS,
+        Err(Failure::Failed(message)) => (message, 1),
+        Err(Failure::Input(message)) => (message, 2),
+    };
+    // Where even this cannot be written, the exit code has to say it.
+    let _ = writeln!(io::stderr(), "error: {message}");
+    ExitCode::from(code)
+}
+
+/// Prints to standard output. A reader that has gone away, as `head` does, is no error.
+fn print(text: &str) -> Result<(), Failure> {
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Input(format!(
+            "standard output: cannot be written: {error}"
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// Calls `work` on `threads` threads, or on one for each core.
+fn on_threads<T: Send>(threads: Option<u64>, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+    // 0 stands for one thread a core.
+    let count = threads.unwrap_or(0) as usize;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
+    let pool = pool.map_err(|error| Failure::Input(format!("--threads {count}: {error}")))?;
+    Ok(pool.install(work))
+}
+
+/// A parser of whole numbers whose error says what is allowed.
+fn whole(least: u64, most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone + Send + Sync + 'static {
+    move |text| match text.parse() {
+        Ok(number) if (least..=most).contains(&number) => Ok(number),
+        _ => Err(format!("a whole number from {least} to {most} is allowed")),
+    }
+}
+
+/// The most threads that can be asked for.
+const MAX_THREADS: u64 = 1024;
+
+impl From<crate::output::OutputError> for Failure {
+    fn from(error: crate::output::OutputError) -> Self {
+        Self::Input(error.to_string())
+    }
+}

@@ -1,0 +1,56 @@
+//! `run.json`: what ran, so that it can be run again.
+
+use serde::Serialize;
+use shearbed::plan::Entry;
+use shearbed::run::Counters;
+use shearbed::{Plan, Results, Scene};
+
+/// Wall times in seconds.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub(super) struct Seconds {
+    /// Reading the scene and planning.
+    pub(super) plan: f64,
+    /// All replicas.
+    pub(super) run: f64,
+    /// Tables and pictures, without writing them.
+    pub(super) tables_and_pictures: f64,
+}
+
+#[derive(Serialize)]
+struct Record<'a> {
+    program: &'static str,
+    version: &'static str,
+    /// With every default written out.
+    scene: Scene,
+    seed: u64,
+    plan: &'a [Entry],
+    plan_text: String,
+    counters: Counters,
+    threads: usize,
+    seconds: Seconds,
+    files: Vec<&'a str>,
+}
+
+/// The text of `run.json`.
+pub(super) fn json(
+    plan: &Plan,
+    results: &Results,
+    threads: usize,
+    seconds: Seconds,
+    files: Vec<&str>,
+) -> Result<String, String> {
+    let record = Record {
+        program: "shearbed",
+        version: env!("CARGO_PKG_VERSION"),
+        scene: plan.scene().resolved(),
+        seed: plan.scene().ensemble.seed,
+        plan: plan.entries(),
+        plan_text: plan.to_string(),
+        counters: results.counters,
+        threads,
+        seconds,
+        files,
+    };
+    let text = serde_json::to_string_pretty(&record).map_err(|error| error.to_string())?;
+    Ok(text + "\n")
+}

@@ -1,0 +1,110 @@
+//! `shearbed run`.
+
+use super::record::Seconds;
+use super::{Failure, MAX_THREADS, on_threads, pictures, print, record, scene, tables, whole};
+use crate::output::{self, Output};
+use crate::plot;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
+use shearbed::{Plan, Results, ensemble};
+use std::ffi::OsString;
+use std::io::{IsTerminal, stderr};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Arguments of `run`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// A scene file, or the name of a built-in scene (`shearbed scenes` lists them)
+    scene: OsString,
+    /// The folder for tables, pictures and run.json [default: out/<scene>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Independent runs of the scene, in place of the scene's own number
+    #[arg(long, value_name = "N", value_parser = whole(1, MAX_REPLICAS), allow_negative_numbers = true)]
+    replicas: Option<u64>,
+    /// The seed of all random numbers, in place of the scene's own
+    #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), allow_negative_numbers = true)]
+    seed: Option<u64>,
+    /// Threads to run on; the results do not depend on it [default: one for each core]
+    #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
+    threads: Option<u64>,
+    /// Print nothing but errors
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Runs a scene and writes its results.
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let start = Instant::now();
+    let named = scene::load(&args.scene)?;
+    let mut scene = named.scene;
+    scene.ensemble.replicas = args.replicas.unwrap_or(scene.ensemble.replicas);
+    scene.ensemble.seed = args.seed.unwrap_or(scene.ensemble.seed);
+    let plan = Plan::new(&scene).map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
+    let out = args
+        .out
+        .clone()
+        .unwrap_or_else(|| Path::new("out").join(&named.stem));
+    // A run may be long: what cannot be written is better known now.
+    output::probe(&out)?;
+    let mut seconds = Seconds {
+        plan: start.elapsed().as_secs_f64(),
+        ..Seconds::default()
+    };
+
+    let bar = progress(scene.ensemble.replicas, args.quiet);
+    let start = Instant::now();
+    let (results, threads) = on_threads(args.threads, || {
+        (ensemble::run(&plan, || bar.inc(1)), rayon::current_num_threads())
+    })?;
+    bar.finish_and_clear();
+    let results = results.map_err(|error| Failure::Failed(format!("{}: {error}", named.source)))?;
+    seconds.run = start.elapsed().as_secs_f64();
+
+    let start = Instant::now();
+    let mut files = files(&plan, &results).map_err(Failure::Failed)?;
+    seconds.tables_and_pictures = start.elapsed().as_secs_f64();
+    let names = files.iter().map(|(name, _)| name.as_str()).collect();
+    let record = record::json(&plan, &results, threads, seconds, names).map_err(Failure::Failed)?;
+    files.push(("run.json".to_owned(), record));
+    output::write_all(&out, &files)?;
+    if args.quiet {
+        return Ok(());
+    }
+    let names: Vec<_> = files.iter().map(|(name, _)| name.as_str()).collect();
+    print(&format!(
+        "{}\nMeans ± standard errors, rods: {}, replicas: {}\n\n{}in {}: {}\n",
+        scene.title,
+        scene.particles.count,
+        scene.ensemble.replicas,
+        tables::summary(&results),
+        out.display(),
+        names.join(", ")
+    ))
+}
+
+/// A table and the pictures of each observable.
+fn files(plan: &Plan, results: &Results) -> Result<Vec<Output>, String> {
+    let mut files = Vec::new();
+    for series in &results.series {
+        files.push((
+            format!("{}.csv", series.observable.name()),
+            tables::csv(results, series)?,
+        ));
+        for (stem, figure) in pictures::figures(plan.scene(), results, series) {
+            files.push((format!("{stem}.svg"), plot::svg(&figure)?));
+        }
+    }
+    Ok(files)
+}
+
+/// A bar over the replicas on a terminal, and nothing elsewhere.
+fn progress(replicas: u64, quiet: bool) -> ProgressBar {
+    if quiet || !stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let style = ProgressStyle::with_template("{wide_bar} {pos}/{len} replicas, {eta} left");
+    ProgressBar::with_draw_target(Some(replicas), ProgressDrawTarget::stderr())
+        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}

@@ -1,0 +1,62 @@
+//! Finding the scene that the command line names.
+
+use super::Failure;
+use crate::scenes;
+use shearbed::{Scene, scene_file};
+use std::ffi::OsStr;
+use std::path::Path;
+
+/// A scene with the name of what is made from it.
+pub(super) struct Named {
+    pub(super) scene: Scene,
+    /// The file as given, or the built-in scene's name: for messages.
+    pub(super) source: String,
+    /// The stem of the file's name, or the built-in scene's name.
+    pub(super) stem: String,
+}
+
+/// Reads the file `given`, or where there is none the built-in scene of that name.
+pub(super) fn load(given: &OsStr) -> Result<Named, Failure> {
+    let path = Path::new(given);
+    let source = path.display().to_string();
+    let built_in = scenes::find(&source).filter(|_| !path.exists() || path.is_dir());
+    if let Some(built_in) = built_in {
+        let scene = built_in
+            .scene()
+            .map_err(|error| Failure::Input(error.to_string()))?;
+        let stem = source.clone();
+        return Ok(Named { scene, source, stem });
+    }
+    let text = read(path)?;
+    let scene = scene_file::parse(&source, &text).map_err(|error| Failure::Input(error.to_string()))?;
+    let stem = path.file_stem().unwrap_or(given).to_string_lossy().into_owned();
+    Ok(Named { scene, source, stem })
+}
+
+fn read(path: &Path) -> Result<String, Failure> {
+    let source = path.display();
+    let bytes = std::fs::read(path).map_err(|error| {
+        let known = if path.exists() {
+            String::new()
+        } else {
+            built_in_names(&source.to_string())
+        };
+        Failure::Input(format!("{source}: cannot be read: {error}{known}"))
+    })?;
+    String::from_utf8(bytes).map_err(|error| {
+        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
+        Failure::Input(format!(
+            "{source}:{line}: not a text in UTF-8, as a scene file must be"
+        ))
+    })
+}
+
+fn built_in_names(name: &str) -> String {
+    let close = scenes::close_to(name);
+    let close = match close.is_empty() {
+        true => String::new(),
+        false => format!(" (close names: {})", close.join(", ")),
+    };
+    format!("; nor is it a built-in scene{close}: `shearbed scenes` lists them")
+}

@@ -1,0 +1,63 @@
+//! `shearbed plan` and `shearbed scenes`.
+
+use super::{Failure, print, scene};
+use crate::scenes;
+use shearbed::Plan;
+use std::ffi::OsString;
+
+/// Arguments of `plan`.
+#[derive(clap::Args)]
+pub(super) struct PlanArgs {
+    /// A scene file, or the name of a built-in scene
+    scene: OsString,
+}
+
+/// Arguments of `scenes`.
+#[derive(clap::Args)]
+pub(super) struct ScenesArgs {
+    /// Print this built-in scene's file, to start a scene of your own from:
+    /// `shearbed scenes --show fig4-n50 > mine.toml`
+    #[arg(long, value_name = "NAME")]
+    show: Option<String>,
+}
+
+/// Prints a scene's plan.
+pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
+    let named = scene::load(&args.scene)?;
+    let plan =
+        Plan::new(&named.scene).map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
+    print(&plan.to_string())
+}
+
+/// Lists the built-in scenes, or prints one.
+pub(super) fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
+    let Some(name) = &args.show else {
+        return print(&table()?);
+    };
+    match scenes::find(name) {
+        Some(built_in) => print(built_in.text),
+        None => {
+            let names: Vec<_> = scenes::ALL.iter().map(|built_in| built_in.name).collect();
+            let names = names.join(", ");
+            Err(Failure::Input(format!(
+                "--show {name}: no built-in scene has this name; there are {names}"
+            )))
+        }
+    }
+}
+
+fn table() -> Result<String, Failure> {
+    let width = scenes::ALL
+        .iter()
+        .map(|built_in| built_in.name.len())
+        .max()
+        .unwrap_or(0);
+    let mut lines = String::new();
+    for built_in in scenes::ALL {
+        let scene = built_in
+            .scene()
+            .map_err(|error| Failure::Input(error.to_string()))?;
+        lines.push_str(&format!("{:<width$}  {}\n", built_in.name, scene.title));
+    }
+    Ok(lines)
+}

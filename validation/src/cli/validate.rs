@@ -1,0 +1,113 @@
+//! `shearbed validate`.
+
+use super::{Failure, MAX_THREADS, on_threads, print, whole};
+use crate::case::{Case, Outcome, Verdict};
+use crate::{cases, output, report};
+use std::path::PathBuf;
+
+/// Arguments of `validate`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Run this case only; can be given more than once
+    #[arg(long = "case", value_name = "NAME")]
+    cases: Vec<String>,
+    /// More replicas and samples: the same cases, judged more sharply
+    #[arg(long)]
+    full: bool,
+    /// A folder with measured points, for the cases that compare with experiments
+    #[arg(long, value_name = "DIR", value_parser = folder)]
+    data: Option<PathBuf>,
+    /// The folder for report.html, report.json and report.md
+    #[arg(long, value_name = "DIR", default_value = "out/report")]
+    out: PathBuf,
+    /// Threads to run on [default: one for each core]
+    #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
+    threads: Option<u64>,
+    /// Print nothing but errors
+    #[arg(long)]
+    quiet: bool,
+}
+
+fn folder(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.metadata() {
+        Ok(metadata) if metadata.is_dir() => Ok(path),
+        Ok(_) => Err("it is no folder; an existing folder is allowed".to_owned()),
+        Err(error) => Err(format!("{error}; an existing folder is allowed")),
+    }
+}
+
+/// Runs the cases and writes the report.
+pub(super) fn validate(args: Args) -> Result<(), Failure> {
+    let chosen = chosen(&args.cases)?;
+    output::probe(&args.out)?;
+    let effort = cases::effort(args.full, args.data);
+    let outcomes = on_threads(args.threads, || {
+        let run = |case: &Case| {
+            let outcome = case.run(&effort);
+            if !args.quiet {
+                print(&line(&outcome))?;
+            }
+            Ok(outcome)
+        };
+        chosen.iter().map(run).collect::<Result<Vec<_>, Failure>>()
+    })??;
+    let report = report::build(outcomes, Vec::new(), &effort, command());
+    let files = [
+        ("report.html", report.html().map_err(Failure::Failed)?),
+        ("report.json", report.json()),
+        ("report.md", report.markdown()),
+    ];
+    output::write_all(&args.out, &files.map(|(name, text)| (name.to_owned(), text)))?;
+    if !args.quiet {
+        let page = args.out.join("report.html");
+        print(&format!("\n{}\nreport: {}\n", report.headline(), page.display()))?;
+    }
+    match report.exit_code() {
+        0 => Ok(()),
+        _ => Err(Failure::Failed(format!(
+            "not every case passed: {}",
+            report.headline()
+        ))),
+    }
+}
+
+/// The cases of these names in the order of the registry, or all.
+fn chosen(names: &[String]) -> Result<Vec<Case>, Failure> {
+    let mut all = cases::all();
+    if let Some(unknown) = names
+        .iter()
+        .find(|name| !all.iter().any(|case| case.about.name == **name))
+    {
+        let known: Vec<_> = all.iter().map(|case| case.about.name).collect();
+        let known = known.join(", ");
+        return Err(Failure::Input(format!(
+            "--case {unknown}: no case has this name; there are {known}"
+        )));
+    }
+    all.retain(|case| names.is_empty() || names.iter().any(|name| name == case.about.name));
+    Ok(all)
+}
+
+/// The command as given, for the report.
+fn command() -> String {
+    let arguments = std::env::args_os().skip(1);
+    let words = arguments.map(|argument| argument.to_string_lossy().into_owned());
+    std::iter::once("shearbed".to_owned())
+        .chain(words)
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+fn line(outcome: &Outcome) -> String {
+    let verdict = match outcome.verdict {
+        Verdict::Pass => "pass",
+        Verdict::Fail => "FAIL",
+        Verdict::Underpowered => "UNDERPOWERED",
+        Verdict::NoData => "no data",
+    };
+    format!(
+        "{verdict:<12}  {:<40}  {:>7.2} s\n",
+        outcome.about.name, outcome.seconds
+    )
+}

@@ -1,0 +1,368 @@
+//! The program as a user meets it: exit codes, messages and files.
+
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use tempfile::TempDir;
+
+const SMALL: &str = r#"title = "A small scene"
+[flow]
+shear_rate_per_s = 0.5
+[particles]
+count = 20
+length_mm = 0.72
+aspect_ratio = 11.6
+aspect_ratio_sd_percent = 3.6
+orientation = "isotropic"
+[interaction]
+concentration_per_cm3 = 50
+alpha = 0.5
+[time]
+periods = 1
+steps_per_period = 20
+outputs_per_period = 4
+[ensemble]
+replicas = 3
+[output]
+observables = ["projections", "planar_projections", "mean_angle", "orbit_constant", "orientation_tensor"]
+"#;
+
+struct Ended {
+    code: Option<i32>,
+    stdout: String,
+    stderr: String,
+}
+
+/// Runs `shearbed` in `dir` with arguments separated by blanks.
+fn shearbed(dir: &Path, arguments: &str) -> Ended {
+    let output = Command::new(env!("CARGO_BIN_EXE_shearbed"))
+        .args(arguments.split_whitespace())
+        .current_dir(dir)
+        .output()
+        .unwrap();
+    Ended {
+        code: output.status.code(),
+        stdout: String::from_utf8(output.stdout).unwrap(),
+        stderr: String::from_utf8(output.stderr).unwrap(),
+    }
+}
+
+/// A folder with `small.toml` in it.
+fn folder() -> TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("small.toml"), SMALL).unwrap();
+    dir
+}
+
+fn names(dir: &Path) -> Vec<String> {
+    let entries = fs::read_dir(dir).unwrap();
+    let mut names: Vec<_> = entries
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+fn read(path: &Path) -> String {
+    fs::read_to_string(path).unwrap()
+}
+
+/// The text without the numbers of its tables, which are not the same on every machine.
+fn without_means(text: &str) -> String {
+    let lines = text.lines().map(|line| match line.find(" ± ") {
+        Some(_) if line.starts_with(' ') => line.get(..8).unwrap_or(line),
+        _ => line.trim_end(),
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn a_run_writes_a_table_and_a_picture_of_each_observable_and_a_record() {
+    let dir = folder();
+    let ended = shearbed(dir.path(), "run small.toml");
+    assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""));
+    insta::assert_snapshot!(without_means(&ended.stdout));
+    let out = dir.path().join("out/small");
+    let columns: Vec<_> = names(&out)
+        .into_iter()
+        .map(|name| match name.ends_with(".csv") {
+            true => format!("{name}: {}\n", read(&out.join(&name)).lines().next().unwrap()),
+            false => name + "\n",
+        })
+        .collect();
+    insta::assert_snapshot!(columns.concat());
+    let record: Value = serde_json::from_str(&read(&out.join("run.json"))).unwrap();
+    let files: Vec<_> = record["files"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|name| name.as_str().unwrap())
+        .collect();
+    assert!(files.iter().all(|name| out.join(name).is_file()));
+    assert_eq!(files.len() + 1, names(&out).len());
+}
+
+#[test]
+fn the_scene_in_run_json_gives_the_same_bits() {
+    let dir = folder();
+    assert_eq!(
+        shearbed(
+            dir.path(),
+            "run small.toml --replicas 4 --seed 7 --threads 2 --out a"
+        )
+        .code,
+        Some(0)
+    );
+    let record: Value = serde_json::from_str(&read(&dir.path().join("a/run.json"))).unwrap();
+    assert_eq!((&record["seed"], &record["threads"]), (&7.into(), &2.into()));
+    let scene: shearbed::Scene = serde_json::from_value(record["scene"].clone()).unwrap();
+    let plan = shearbed::Plan::new(&scene).unwrap();
+    assert_eq!(record["plan_text"], plan.to_string());
+    let results = shearbed::ensemble::run(&plan, || ()).unwrap();
+    assert_eq!(record["counters"]["collisions"], results.counters.collisions);
+    // Every number of the tables reads back as the same bits.
+    for series in &results.series {
+        let file = dir.path().join(format!("a/{}.csv", series.observable.name()));
+        let mut reader = csv::Reader::from_path(file).unwrap();
+        for (k, row) in reader.deserialize::<Vec<f64>>().enumerate() {
+            let channels = series
+                .channels
+                .iter()
+                .flat_map(|channel| [channel.mean[k], channel.se[k]]);
+            let expected: Vec<_> = std::iter::once(results.times[k]).chain(channels).collect();
+            assert_eq!(row.unwrap(), expected, "{} {k}", series.observable.name());
+        }
+    }
+}
+
+#[test]
+fn quiet_prints_nothing() {
+    let dir = folder();
+    let ended = shearbed(dir.path(), "run extension --quiet");
+    assert_eq!(
+        (ended.code, ended.stdout + &ended.stderr),
+        (Some(0), String::new())
+    );
+    let table = read(&dir.path().join("out/extension/projections.csv"));
+    assert!(
+        table.starts_with("strain,x1,x1_se,x2,x2_se,x3,x3_se\n0.0,"),
+        "{table}"
+    );
+}
+
+#[test]
+fn a_name_with_a_dot_keeps_it_in_the_folder() {
+    let dir = folder();
+    assert_eq!(
+        shearbed(dir.path(), "run fig8-a0.36 --replicas 1 --quiet").code,
+        Some(0)
+    );
+    assert_eq!(names(&dir.path().join("out")), ["fig8-a0.36"]);
+}
+
+#[test]
+fn a_file_wins_over_a_built_in_scene_and_a_folder_does_not() {
+    let dir = folder();
+    fs::create_dir(dir.path().join("fig5")).unwrap();
+    assert!(shearbed(dir.path(), "plan fig5").stdout.starts_with("Fig. 5"));
+    fs::rename(dir.path().join("small.toml"), dir.path().join("fig12")).unwrap();
+    assert!(
+        shearbed(dir.path(), "plan fig12")
+            .stdout
+            .starts_with("A small scene")
+    );
+}
+
+#[test]
+fn plans_of_built_in_scenes() {
+    let dir = folder();
+    let plan = |name: &str| shearbed(dir.path(), &format!("plan {name}")).stdout;
+    insta::assert_snapshot!(plan("fig9-sd3.6"));
+    insta::assert_snapshot!(plan("fig4-n50"));
+    insta::assert_snapshot!(plan("extension"));
+}
+
+#[test]
+fn the_built_in_scenes_are_listed_and_shown() {
+    let dir = folder();
+    insta::assert_snapshot!(shearbed(dir.path(), "scenes").stdout);
+    let shown = shearbed(dir.path(), "scenes --show fig5").stdout;
+    fs::write(dir.path().join("mine.toml"), shown).unwrap();
+    let plan = |scene| shearbed(dir.path(), &format!("plan {scene}")).stdout;
+    assert_eq!(plan("mine.toml"), plan("fig5"));
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_shearbed"))
+        .arg("scenes")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), output.stderr.len()), (Some(0), 0));
+}
+
+#[test]
+fn bad_input_ends_with_2_and_a_message() {
+    let dir = folder();
+    let put = |name: &str, text: &[u8]| fs::write(dir.path().join(name), text).unwrap();
+    put("file", b"");
+    put("latin.toml", b"title = \"a\"\n# n = 50 cm\xb3\n");
+    put("zero.toml", SMALL.replace("count = 20", "count = 0").as_bytes());
+    put("wide.toml", SMALL.replace("= 3.6", "= 40").as_bytes());
+    put(
+        "sphere.toml",
+        SMALL.replace("= 11.6", "= 1").replace("= 3.6", "= 0").as_bytes(),
+    );
+    let rejected = [
+        ("", "Usage: shearbed <COMMAND>"),
+        ("rnu small.toml", "unrecognized subcommand 'rnu'"),
+        ("run", "<SCENE>"),
+        (
+            "run no.toml",
+            "no.toml: cannot be read: No such file or directory",
+        ),
+        ("run fig4n50", "close names: fig4-n50"),
+        ("plan .", ".: cannot be read: Is a directory"),
+        ("plan latin.toml", "latin.toml:2: not a text in UTF-8"),
+        ("plan file", "file:1: title is missing: a text in quotes"),
+        (
+            "run zero.toml",
+            "zero.toml:5: particles.count = 0 is not allowed: a whole number from 1 to 100000000",
+        ),
+        (
+            "run wide.toml",
+            "wide.toml:8: particles.aspect_ratio_sd_percent = 40 is not allowed: so wide that r_e ≤ 1",
+        ),
+        (
+            "run sphere.toml",
+            "sphere.toml:7: particles.aspect_ratio = 1 is not allowed: interacting rods need",
+        ),
+        (
+            "run small.toml --replicas 0",
+            "'0' for '--replicas <N>': a whole number from 1 to 10000000 is allowed",
+        ),
+        (
+            "run small.toml --replicas 1.5",
+            "'1.5' for '--replicas <N>': a whole number from 1 to",
+        ),
+        (
+            "run small.toml --replicas 10000001",
+            "'10000001' for '--replicas <N>': a whole number from 1 to",
+        ),
+        (
+            "run small.toml --seed -1",
+            "'-1' for '--seed <S>': a whole number from 0 to 9223372036854775807 is",
+        ),
+        (
+            "run small.toml --seed 9223372036854775808",
+            "for '--seed <S>': a whole number from 0 to",
+        ),
+        (
+            "run small.toml --threads 0",
+            "'0' for '--threads <K>': a whole number from 1 to 1024 is allowed",
+        ),
+        (
+            "run small.toml --threads many",
+            "'many' for '--threads <K>': a whole number from 1 to 1024",
+        ),
+        ("run small.toml --out file", "file: cannot be written: "),
+        (
+            "run small.toml --out file/below",
+            "file/below: cannot be written: ",
+        ),
+        ("run small.toml --fast", "unexpected argument '--fast'"),
+        (
+            "scenes --show fig13",
+            "--show fig13: no built-in scene has this name; there are fig4-n20, fig4-n50",
+        ),
+        (
+            "validate --case no-such-case",
+            "--case no-such-case: no case has this name; there are ",
+        ),
+        (
+            "validate --data no-such-folder",
+            "'no-such-folder' for '--data <DIR>': No such file or directory",
+        ),
+        (
+            "validate --data file",
+            "'file' for '--data <DIR>': it is no folder; an existing folder is allowed",
+        ),
+        ("validate --out file", "file: cannot be written: "),
+    ];
+    let before = names(dir.path());
+    for (arguments, message) in rejected {
+        let ended = shearbed(dir.path(), arguments);
+        assert_eq!(ended.code, Some(2), "{arguments}: {}", ended.stderr);
+        assert!(ended.stderr.contains(message), "{arguments}: {}", ended.stderr);
+        assert_eq!(ended.stdout, "", "{arguments}");
+    }
+    assert_eq!(names(dir.path()), before, "nothing was written");
+    assert_eq!(read(&dir.path().join("file")), "");
+}
+
+#[test]
+fn a_file_that_cannot_be_replaced_leaves_all_as_it_was() {
+    let dir = folder();
+    let out = dir.path().join("out");
+    fs::create_dir_all(out.join("run.json")).unwrap();
+    fs::write(out.join("projections.csv"), "old").unwrap();
+    let ended = shearbed(dir.path(), "run small.toml --out out");
+    assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""));
+    assert_eq!(
+        ended.stderr,
+        "error: out/run.json: cannot be written: is a directory\n"
+    );
+    assert_eq!(names(&out), ["projections.csv", "run.json"]);
+    assert_eq!(read(&out.join("projections.csv")), "old");
+}
+
+#[test]
+fn chosen_cases_are_run_and_reported() {
+    let dir = folder();
+    let ended = shearbed(
+        dir.path(),
+        "validate --case jeffery-period --data . --threads 2 --out report",
+    );
+    assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""));
+    let lines: Vec<_> = ended.stdout.lines().collect();
+    assert!(lines[0].starts_with("pass          jeffery-period "), "{lines:?}");
+    assert!(lines[2].starts_with("1 pass, 0 fail, "), "{lines:?}");
+    assert_eq!(
+        lines[3],
+        format!("report: {}", Path::new("report/report.html").display())
+    );
+    let report = dir.path().join("report");
+    assert_eq!(names(&report), ["report.html", "report.json", "report.md"]);
+    let json: Value = serde_json::from_str(&read(&report.join("report.json"))).unwrap();
+    assert_eq!(json["cases"].as_array().map(Vec::len), Some(1));
+
+    let quiet = shearbed(dir.path(), "validate --case jeffery-period --quiet");
+    assert_eq!(
+        (quiet.code, quiet.stdout + &quiet.stderr),
+        (Some(0), String::new())
+    );
+    assert!(dir.path().join("out/report/report.html").is_file());
+}
+
+/// A full device: every write to it fails as on a full disk.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_under_standard_output_ends_with_2() {
+    let full = fs::File::options().write(true).open("/dev/full").unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_shearbed"))
+        .arg("scenes")
+        .stdout(full)
+        .output()
+        .unwrap();
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr.starts_with("error: standard output: cannot be written: No space left"),
+        "{stderr}"
+    );
+}
