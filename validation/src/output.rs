@@ -71,8 +71,9 @@ fn write_and_rename(dir: &Path, files: &[Output]) -> Result<(), OutputError> {
 
 /// A temporary file with the contents, on the disk. It is removed when dropped.
 fn written(dir: &Path, contents: &str) -> io::Result<NamedTempFile> {
-    let mut file = temporary(dir)?;
-    file.write_all(contents.as_bytes())?;
+    let file = temporary(dir)?;
+    // The file itself: errors of `NamedTempFile` would name the temporary path.
+    file.as_file().write_all(contents.as_bytes())?;
     file.as_file().sync_all()?;
     Ok(file)
 }
