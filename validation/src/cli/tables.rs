@@ -40,10 +40,10 @@ pub(super) fn summary(results: &Results) -> String {
     let mut text = String::new();
     for series in &results.series {
         let channels = shown(series);
-        text.push_str(&format!("{name:>8}"));
-        for channel in channels {
-            text.push_str(&format!("  {:>7}         ", channel.name));
-        }
+        let names = channels
+            .iter()
+            .map(|channel| format!("  {:>7}{:9}", channel.name, ""));
+        text.push_str(format!("{name:>8}{}", names.collect::<String>()).trim_end());
         for (k, time) in results
             .times
             .iter()
