@@ -77,10 +77,12 @@ pub struct About {
     pub kind: Kind,
     /// The claim, in one sentence.
     pub claim: &'static str,
-    /// Equations, figures or sections of the paper.
+    /// Equations, figures or sections of the paper, in words.
     pub source: &'static str,
+    /// The equations it tests, by their numbers: the traceability table is made from these.
+    pub equations: &'static [&'static str],
     /// How many statistical checks it makes: the family-wise false-alarm rate is shared among all.
-    pub statistical_checks: usize,
+    statistical_checks: usize,
 }
 
 /// One claim with its check and its controls.
@@ -201,6 +203,7 @@ mod tests {
             kind: Kind::Verification,
             claim: "c",
             source: "s",
+            equations: &[],
             statistical_checks: 0,
         }
     }

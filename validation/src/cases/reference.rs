@@ -17,6 +17,10 @@ pub fn cases() -> Vec<Case> {
             kind: Kind::Verification,
             claim: "The core and a naive O(N²) reference with the same draws have the same collisions and, to round-off, the same rods.",
             source: "method of solution, eqs 5–9, 11, 12, 14, A.7–A.14",
+            equations: &[
+                "5", "6", "7", "8", "9", "11", "12", "14", "A.7", "A.8", "A.9", "A.10", "A.11", "A.12",
+                "A.13", "A.14",
+            ],
             statistical_checks: 0,
         },
         None,

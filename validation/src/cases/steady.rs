@@ -16,6 +16,7 @@ pub fn cases() -> Vec<Case> {
             kind: Kind::Validation,
             claim: "The steady mean angle of interacting rods agrees closely with ⟨φ⟩ of a single rod.",
             source: "eqs 18, 19, Fig. 11",
+            equations: &["18", "19"],
             statistical_checks: 3,
         },
         (|_| {}) as Mend,
