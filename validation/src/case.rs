@@ -82,7 +82,7 @@ pub struct About {
     /// The equations it tests, by their numbers: the traceability table is made from these.
     pub equations: &'static [&'static str],
     /// How many statistical checks it makes: the family-wise false-alarm rate is shared among all.
-    statistical_checks: usize,
+    pub statistical_checks: usize,
 }
 
 /// One claim with its check and its controls.
