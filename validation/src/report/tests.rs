@@ -31,6 +31,7 @@ fn outcome(
             },
             claim: "Synthetic claim: <b>|p₁|</b> & more.",
             source: "eqs A.4, A.5",
+            equations: &[],
             statistical_checks: 0,
         },
         verdict,
