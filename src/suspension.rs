@@ -116,7 +116,7 @@ impl Suspension {
         Ok(&self.collisions)
     }
 
-    /// Every rod draws R; its nearest neighbour within the reach of R makes a candidate (eqs 7 to 9).
+    /// Every rod draws R; its nearest neighbour within the reach of R makes a candidate (eqs 8 and 9).
     fn find_candidates(&mut self) {
         self.candidates.clear();
         if let Some(grid) = &mut self.grid {
