@@ -2,7 +2,7 @@
 
 use crate::accept::Rule;
 use rayon::prelude::*;
-use shearbed::plan::Plan;
+use shearbed::plan::{Plan, Stage};
 use shearbed::run::run_replica;
 use shearbed::scene::{
     Ensemble, Flow, Interaction, Isotropic, Orientation, Output, Particles, Scene, Time, Update,
@@ -97,6 +97,18 @@ impl Sample {
             because,
         }
     }
+
+    /// The rule that this mean exceeds `bound`, with a standard error of `enough` at most.
+    pub fn exceeds(self, bound: f64, enough: f64, because: &'static str) -> Rule {
+        Rule::Above {
+            mean: self.mean,
+            se: self.se,
+            samples: self.samples,
+            bound,
+            enough,
+            because,
+        }
+    }
 }
 
 /// One value per replica of a scene with a single channel per output in mind: `value` reads the means over
@@ -145,6 +157,14 @@ pub fn plan(scene: &Scene) -> Plan {
 /// The suspension of a scene that a case has written, with every rod free to meet.
 pub fn suspension(scene: &Scene, replica: u64) -> Suspension {
     Suspension::new(&plan(scene), replica).expect("a case's scene has rods that interact")
+}
+
+/// The suspension of a scene whose rods cannot meet, carried and stepped all the same.
+pub fn stepped(scene: &Scene, replica: u64) -> Suspension {
+    let plan = plan(scene)
+        .keeping(Stage::Contacts)
+        .expect("a case's scene has an interaction");
+    Suspension::new(&plan, replica).expect("the plan keeps its steps")
 }
 
 /// The Kolmogorov–Smirnov test that `values` in [0, 1] are uniform there.

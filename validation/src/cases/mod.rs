@@ -1,13 +1,16 @@
 //! The registry: every case, declared once. `cargo test`, the report and the catalogue are made from it.
 
+mod closed_forms;
 mod contact_rule;
 mod encounters;
 mod free_suspension;
 pub mod lab;
 mod misprints;
 mod motion;
+mod reductions;
 mod reference;
 mod steady;
+mod words;
 
 use crate::accept::FAMILY_FALSE_ALARM_RATE;
 use crate::case::{Case, Effort};
@@ -21,8 +24,11 @@ pub fn all() -> Vec<Case> {
         misprints::cases(),
         encounters::cases(),
         free_suspension::cases(),
+        closed_forms::cases(),
+        reductions::cases(),
         reference::cases(),
         steady::cases(),
+        words::cases(),
     ]
     .into_iter()
     .flatten()
