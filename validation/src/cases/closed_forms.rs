@@ -212,8 +212,8 @@ fn plateau(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
     let mut scene = lab::free_scene();
     scene.particles.count = effort.pick(40_000, 1_000_000);
     scene.particles.aspect_ratio_sd_percent = 3.6;
-    // A quarter period past t/T = 300, where rods in phase would be far from their mean.
-    scene.time.periods = Some(300.25);
+    // A quarter period past t/T = 100, where rods in phase would be far from their mean.
+    scene.time.periods = Some(100.25);
     scene.time.outputs_per_period = Some(4);
     let (r, sd) = (
         scene.particles.aspect_ratio,
@@ -221,19 +221,19 @@ fn plateau(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
     );
     mend(&mut scene);
     let results = ensemble::run(&lab::plan(&scene), || ());
-    let spread = isotropic::mean_projections_polydisperse(r, sd, 300.25);
+    let spread = isotropic::mean_projections_polydisperse(r, sd, 100.25);
     let single = isotropic::plateau_projections(r);
     let mut evidence = Vec::new();
     for (axis, name) in ["x1", "x2", "x3"].into_iter().enumerate() {
         let channel = results.as_ref().ok().and_then(|results| results.channel(name));
-        let (mean, se) = channel.map_or((f64::NAN, f64::NAN), |c| (c.mean[1201], c.se[1201]));
+        let (mean, se) = channel.map_or((f64::NAN, f64::NAN), |c| (c.mean[401], c.se[401]));
         let sample = Sample {
             mean,
             se,
             samples: scene.particles.count as u64,
         };
         evidence.push(Evidence::new(
-            format!("X̄_{} at t/T = 300¼, against the quadrature over r_e", axis + 1),
+            format!("X̄_{} at t/T = 100¼, against the quadrature over r_e", axis + 1),
             sample.is(
                 spread[axis],
                 0.0,
@@ -243,7 +243,7 @@ fn plateau(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
         ));
         evidence.push(Evidence::new(
             format!(
-                "X̄_{} at t/T = 300¼, against the phase means at the mean r_e",
+                "X̄_{} at t/T = 100¼, against the phase means at the mean r_e",
                 axis + 1
             ),
             sample.is(
@@ -281,7 +281,7 @@ fn spread_damping(factor: &Factor, effort: &Effort) -> Vec<Evidence> {
                 / 10.0
         };
         let reference = harmonic(0, &|k| isotropic::mean_projections(r, k as f64 / 40.0)[0]);
-        let found = per_replica(&scene, effort.pick(200, 4000), |means| {
+        let found = per_replica(&scene, effort.pick(100, 4000), |means| {
             harmonic(middle - 10, &|k| means.at(k, 0)) / reference
         });
         let at = (middle as f64 - 0.5) / 40.0;

@@ -111,20 +111,25 @@ impl Sample {
     }
 }
 
-/// One value per replica of a scene with a single channel per output in mind: `value` reads the means over
-/// rods, output by output, channel by channel.
-pub fn per_replica(scene: &Scene, replicas: u64, value: impl Fn(&Means) -> f64 + Sync) -> Vec<f64> {
+/// One value per replica of a scene: `value` reads the means over rods, output by output, channel by channel.
+pub fn per_replica<T: Send>(scene: &Scene, replicas: u64, value: impl Fn(&Means) -> T + Sync) -> Vec<T> {
     let plan = plan(scene);
     (0..replicas)
         .into_par_iter()
-        .map(|replica| match run_replica(&plan, replica) {
-            Ok(result) => value(&Means {
-                width: result.sums.len() / plan.outputs(),
+        .map(|replica| {
+            let result = run_replica(&plan, replica);
+            value(&Means {
+                width: plan
+                    .observables()
+                    .iter()
+                    .map(|observable| observable.width())
+                    .sum(),
                 count: scene.particles.count as f64,
-                sums: result.sums.iter().map(|sum| sum.value).collect(),
-            }),
-            // A run that stopped fails whatever is asked of it.
-            Err(_) => f64::NAN,
+                // A run that stopped fails whatever is asked of it: every mean is NaN.
+                sums: result.map_or(Vec::new(), |result| {
+                    result.sums.iter().map(|sum| sum.value).collect()
+                }),
+            })
         })
         .collect()
 }
@@ -139,7 +144,8 @@ pub struct Means {
 impl Means {
     /// The mean of a channel at an output.
     pub fn at(&self, output: usize, channel: usize) -> f64 {
-        self.sums[output * self.width + channel] / self.count
+        let sum = self.sums.get(output * self.width + channel);
+        sum.map_or(f64::NAN, |sum| sum / self.count)
     }
 
     /// The mean of a channel over a range of outputs.

@@ -240,7 +240,7 @@ fn mirrored(shear_rate_per_s: &ShearRate, effort: &Effort) -> Vec<Evidence> {
     if *shear_rate_per_s > 0.0 {
         lab::interaction(&mut mirror).concentration_per_cm3 *= 0.5;
     }
-    let replicas = effort.pick(400, 4000);
+    let replicas = effort.pick(300, 4000);
     (0..3)
         .map(|axis| {
             let of = |scene: &Scene| Sample::of(&per_replica(scene, replicas, |means| means.at(4, axis)));

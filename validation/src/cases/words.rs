@@ -182,13 +182,15 @@ fn amplitudes(scene: &Scene, replicas: u64, half_periods: &[usize]) -> Vec<Vec<f
     let last = half_periods.iter().max().map_or(0, |k| 2 * k + 1);
     scene.time.periods = Some(last as f64 / 4.0);
     scene.time.outputs_per_period = Some(4);
-    half_periods
-        .iter()
-        .map(|&k| {
-            per_replica(&scene, replicas, |means| {
-                means.at(2 * k, 0) - means.at(2 * k + 1, 0)
-            })
-        })
+    let amplitude = |means: &lab::Means, k: usize| means.at(2 * k, 0) - means.at(2 * k + 1, 0);
+    let found = per_replica(&scene, replicas, |means| {
+        half_periods
+            .iter()
+            .map(|&k| amplitude(means, k))
+            .collect::<Vec<_>>()
+    });
+    (0..half_periods.len())
+        .map(|k| found.iter().map(|amplitudes| amplitudes[k]).collect())
         .collect()
 }
 
@@ -345,8 +347,8 @@ fn enough_rods(count: &Count, effort: &Effort) -> Vec<Evidence> {
         scene.time.outputs_per_period = Some(1);
         [1, 2].map(|output| Sample::of(&per_replica(&scene, replicas, |means| means.at(output, 0))))
     };
-    let few = at_peaks(*count, effort.pick(50_000, 1_000_000) / *count as u64);
-    let many = at_peaks(1000, effort.pick(80, 1000));
+    let few = at_peaks(*count, effort.pick(30_000, 1_000_000) / *count as u64);
+    let many = at_peaks(1000, effort.pick(40, 1000));
     few.into_iter()
         .zip(many)
         .zip([1, 2])
@@ -376,7 +378,7 @@ fn stays_put(from: &Periods, effort: &Effort) -> Vec<Evidence> {
     let start = (*from as usize) * 20;
     (0..3)
         .map(|axis| {
-            let drift = per_replica(&scene, effort.pick(60, 600), |means| {
+            let drift = per_replica(&scene, effort.pick(40, 600), |means| {
                 means.over(start + 40..start + 80, axis) - means.over(start..start + 40, axis)
             });
             Evidence::new(
