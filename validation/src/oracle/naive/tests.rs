@@ -1,6 +1,11 @@
 //! Tests of the naive reference itself.
 
+use super::contact::Rod;
+use super::motion::{angle_rates_per_s, angles_rad};
+use super::random::{GOLDEN, mix};
 use super::*;
+use nalgebra::Vector3;
+use rand::RngExt;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn fibres(count: usize, alpha: f64, change: impl FnOnce(&mut Problem)) -> Problem {
