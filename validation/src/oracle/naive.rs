@@ -10,6 +10,7 @@ mod motion;
 mod neighbour;
 mod problem;
 mod random;
+mod reading;
 #[cfg(test)]
 mod tests;
 
@@ -18,11 +19,14 @@ pub use motion::{jeffery, mean_projections};
 pub use neighbour::{collision_probability, nearest};
 pub use problem::{Mistake, Problem, Start, Update};
 pub use random::stream;
+pub use reading::{Images, Lines, Reading, Replacement, Who};
 
 use contact::contact;
-use motion::{axis, jeffery_matrix, matrix, moved_by_angles, rotated, shape_factor, sin_theta, vector};
+use motion::{
+    axis, jeffery_matrix, matrix, moved_by_angles, rotated, shape_factor, sin_theta, turned, vector,
+};
 use nalgebra::Matrix3;
-use neighbour::distance_mm;
+use neighbour::separation_mm;
 use problem::either;
 use rand_distr::{Distribution, Normal};
 use rand_pcg::Pcg64Dxsm;
@@ -126,7 +130,12 @@ impl Naive {
                 self.orientations[rod] = match self.problem.update {
                     // phi has no meaning at the pole
                     Update::Angles if sin_theta(p) != 0.0 => moved_by_angles(p, pdot, dt_s, made),
-                    _ => rotated(p, pdot, dt_s),
+                    Update::Angles | Update::Rotation => rotated(p, pdot, dt_s),
+                    Update::ExactStepAndKick => {
+                        let free = vector(jeffery(p, self.aspect_ratios[rod], self.problem.gradient_per_s()));
+                        let change = vector(pdot) - free;
+                        turned(self.orientations[rod], p, change.into(), dt_s)
+                    }
                 };
             }
             self.collisions += 1;
@@ -140,49 +149,81 @@ impl Naive {
 
     /// The collisions of this step: nearest neighbours, eqs. 7 to 9, closest first, one collision per rod at most.
     fn contacts(&mut self) -> Vec<(usize, usize, Contact)> {
-        let problem = &self.problem;
-        let (n, m, made) = (problem.count, problem.m, problem.mistake);
-        let m = either(made, Mistake::ProbabilityExponent, m + 1.0, m);
-        let mut candidates = Vec::new();
-        for i in 0..n {
-            let Some((j, _)) = nearest(&self.positions_mm, i) else {
-                continue;
-            };
-            let j = either(made, Mistake::AnyNeighbour, (i + 1) % n, j);
-            let s_mm = distance_mm(&self.positions_mm, i, j);
-            // drawn whatever the distance, so that one rod's fate never shifts another's draw
-            let draw = uniform(&mut self.collision_stream);
-            let p_c = collision_probability(s_mm, problem.length_mm, problem.alpha, m);
-            if either(made, Mistake::ProbabilityComplement, p_c < draw, p_c > draw) {
-                // the distance to sort by, which index order does without
-                candidates.push((i, j, either(made, Mistake::IndexOrder, 0.0, s_mm)));
-            }
-        }
-        // stable: equal distances stay in the order of i
-        candidates.sort_by(|one, other| one.2.total_cmp(&other.2));
-        let mut taken = vec![false; n];
+        let mut taken = vec![false; self.problem.count];
         let mut contacts = Vec::new();
-        for (i, j, _) in candidates {
+        for (i, j) in self.candidates() {
             if taken[i] || taken[j] {
                 continue;
             }
-            let gradient = problem.gradient_per_s();
-            let rod = |k: usize| {
-                let (x, p) = (self.positions_mm[k], self.orientations[k]);
-                [x, p, jeffery(p, self.aspect_ratios[k], gradient)].map(vector)
-            };
-            let Some(contact) = contact(rod(i), rod(j), matrix(gradient), made) else {
-                continue;
-            };
-            // too short an arm is no collision: both rods stay free for a later candidate
-            let shorter_mm = contact.arm_a_mm.abs().min(contact.arm_b_mm.abs());
-            if shorter_mm / problem.length_mm < problem.min_contact_arm {
-                continue;
+            // no contact is no collision: both rods stay free for a later candidate
+            if let Some(contact) = self.contact(i, j) {
+                (taken[i], taken[j]) = (true, true);
+                contacts.push((i, j, contact));
             }
-            (taken[i], taken[j]) = (true, true);
-            contacts.push((i, j, contact));
         }
         contacts
+    }
+
+    /// Every rod i whose draw is below P_c, with its nearest neighbour, in the order in which they are taken.
+    fn candidates(&mut self) -> Vec<(usize, usize)> {
+        let problem = &self.problem;
+        let (n, m, made, who) = (problem.count, problem.m, problem.mistake, problem.reading.who);
+        let m = either(made, Mistake::ProbabilityExponent, m + 1.0, m);
+        let (images, edge_mm) = (problem.reading.images, problem.box_edge_mm());
+        let neighbour = |i| nearest(&self.positions_mm, i, images, edge_mm);
+        let neighbours: Vec<_> = (0..n).map(neighbour).collect();
+        // drawn whatever the distance, so that one rod's fate never shifts another's draw
+        let draws: Vec<_> = (0..n).map(|_| uniform(&mut self.collision_stream)).collect();
+        let mut candidates = Vec::new();
+        for i in 0..n {
+            let Some(j) = neighbours[i] else { continue };
+            let mutual = neighbours[j] == Some(i);
+            let draw = draws[if who == Who::PairDraws && mutual {
+                i.min(j)
+            } else {
+                i
+            }];
+            let j = either(made, Mistake::AnyNeighbour, (i + 1) % n, j);
+            let s_mm = separation_mm(self.positions_mm[i], self.seen_from(i, j)).norm();
+            let p_c = collision_probability(s_mm, problem.length_mm, problem.alpha, m);
+            if either(made, Mistake::ProbabilityComplement, p_c < draw, p_c > draw) {
+                candidates.push((i, j, s_mm));
+            }
+        }
+        if made != Some(Mistake::IndexOrder) && who != Who::IndexOrder {
+            // stable: equal distances stay in the order of i
+            candidates.sort_by(|one, other| one.2.total_cmp(&other.2));
+        }
+        candidates.into_iter().map(|(i, j, _)| (i, j)).collect()
+    }
+
+    /// Where rod i sees rod j.
+    fn seen_from(&self, i: usize, j: usize) -> [f64; 3] {
+        let images = self.problem.reading.images;
+        images.nearest_mm(
+            self.positions_mm[j],
+            self.positions_mm[i],
+            self.problem.box_edge_mm(),
+        )
+    }
+
+    /// What a collision of i and j does; `None` where they make no contact.
+    fn contact(&self, i: usize, j: usize) -> Option<Contact> {
+        let problem = &self.problem;
+        let gradient = problem.gradient_per_s();
+        let rod = |k: usize, x: [f64; 3]| {
+            let p = self.orientations[k];
+            [x, p, jeffery(p, self.aspect_ratios[k], gradient)].map(vector)
+        };
+        let (a, b) = (rod(i, self.positions_mm[i]), rod(j, self.seen_from(i, j)));
+        let contact = contact(a, b, matrix(gradient), problem.mistake)?;
+        let arms = [contact.arm_a_mm, contact.arm_b_mm].map(|arm_mm| arm_mm.abs() / problem.length_mm);
+        let longest = match problem.reading.lines {
+            Lines::Infinite => f64::INFINITY,
+            Lines::CutAtEnds => 0.5,
+        };
+        let reached = |&arm: &f64| arm >= problem.min_contact_arm && arm <= longest;
+        arms.iter().all(reached).then_some(contact)
     }
 
     /// x_2 grows by G x_1 dt; whoever leaves the volume comes back by eq. 14, orientation and r_e kept.
@@ -194,6 +235,7 @@ impl Naive {
                 continue;
             }
             self.replacements += 1;
+            let (old_x1, beyond) = (x[0], if x[1] < 0.0 { x[1] } else { x[1] - edge_mm });
             x[1] = x[1].rem_euclid(edge_mm);
             if made == Some(Mistake::ReplacementNone) {
                 continue;
@@ -202,6 +244,9 @@ impl Naive {
             let draw = uniform(&mut self.replacement_stream);
             x[0] = edge_mm * either(made, Mistake::ReplacementUniform, draw, draw.sqrt());
             x[2] = edge_mm * uniform(&mut self.replacement_stream);
+            if self.problem.reading.replacement == Replacement::ScaledOvershoot {
+                x[1] = (beyond * x[0] / old_x1).rem_euclid(edge_mm);
+            }
         }
     }
 }

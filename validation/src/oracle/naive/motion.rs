@@ -64,11 +64,16 @@ pub(super) fn moved_by_angles(p: [f64; 3], pdot: [f64; 3], dt_s: f64, made: Opti
 
 /// The axis turned about p x pdot by |pdot| dt.
 pub(super) fn rotated(p: [f64; 3], pdot: [f64; 3], dt_s: f64) -> [f64; 3] {
-    let Some(about) = Unit::try_new(vector(p).cross(&vector(pdot)), 0.0) else {
-        return p;
+    turned(p, p, pdot, dt_s)
+}
+
+/// `axis` turned about p x rate by |rate| dt, where `rate` is normal to p.
+pub(super) fn turned(axis: [f64; 3], p: [f64; 3], rate: [f64; 3], dt_s: f64) -> [f64; 3] {
+    let Some(about) = Unit::try_new(vector(p).cross(&vector(rate)), 0.0) else {
+        return axis;
     };
-    let turn = Rotation3::from_axis_angle(&about, vector(pdot).norm() * dt_s);
-    (turn * vector(p)).normalize().into()
+    let turn = Rotation3::from_axis_angle(&about, vector(rate).norm() * dt_s);
+    (turn * vector(axis)).normalize().into()
 }
 
 /// Means of |p_i| (eq. 4; the modulus because p and -p are the same rod).

@@ -1,5 +1,6 @@
 //! What is run: the suspension, and the mistakes that can be made in it.
 
+use super::reading::Reading;
 use std::f64::consts::TAU;
 
 /// Orientations at t = 0.
@@ -23,6 +24,9 @@ pub enum Update {
     Rotation,
     /// A.14 to the letter, with the corrected A.13.
     Angles,
+    /// Jeffery's exact step, then turned about p x (pdot' - pdot) by |pdot' - pdot| dt: a contact that changes
+    /// nothing moves the rod as if it were free.
+    ExactStepAndKick,
 }
 
 /// Deliberate errors: a check that a sabotaged model passes too shows nothing.
@@ -98,6 +102,8 @@ pub struct Problem {
     pub min_contact_arm: f64,
     /// How a colliding rod is moved.
     pub update: Update,
+    /// How the paper is read where it leaves something open.
+    pub reading: Reading,
     /// dt = T / steps_per_period, T that of the mean r_e.
     pub steps_per_period: usize,
     /// Seed of all streams.

@@ -21,6 +21,7 @@ fn fibres(count: usize, alpha: f64, change: impl FnOnce(&mut Problem)) -> Proble
         m: 3.0,
         min_contact_arm: 0.0,
         update: Update::Rotation,
+        reading: Reading::default(),
         steps_per_period: 200,
         seed: 1,
         replica: 0,
@@ -307,7 +308,7 @@ fn who_collides_by_chance() {
 #[test]
 fn who_collides_by_order() {
     let line = [[0.0; 3], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]];
-    assert_eq!(nearest(&line, 0), Some((1, 1.0)));
+    assert_eq!(nearest(&line, 0, Images::None, 10.0), Some(1));
     assert_eq!(taken(&[0.0, 1.0, 3.0, 4.0], [0, 0], |_| ()), [(0, 1), (2, 3)]);
     let x1_mm = [0.0, 10.0, 11.0, 30.0];
     assert_eq!(taken(&x1_mm, [0, 0], |_| ()), [(1, 2)]);
