@@ -26,7 +26,7 @@ use motion::{
     axis, jeffery_matrix, matrix, moved_by_angles, rotated, shape_factor, sin_theta, turned, vector,
 };
 use nalgebra::Matrix3;
-use neighbour::separation_mm;
+use neighbour::distance_mm;
 use problem::either;
 use rand_distr::{Distribution, Normal};
 use rand_pcg::Pcg64Dxsm;
@@ -184,7 +184,7 @@ impl Naive {
                 i
             }];
             let j = either(made, Mistake::AnyNeighbour, (i + 1) % n, j);
-            let s_mm = separation_mm(self.positions_mm[i], self.seen_from(i, j)).norm();
+            let s_mm = distance_mm(self.positions_mm[i], self.seen_from(i, j));
             let p_c = collision_probability(s_mm, problem.length_mm, problem.alpha, m);
             if either(made, Mistake::ProbabilityComplement, p_c < draw, p_c > draw) {
                 candidates.push((i, j, s_mm));

@@ -1,8 +1,6 @@
 //! Who is near, and how likely a collision is (eq. 7).
 
-use super::motion::vector;
 use super::reading::Images;
-use nalgebra::Vector3;
 
 /// P_c (eq. 7) at centre distance s.
 pub fn collision_probability(s_mm: f64, a_mm: f64, alpha: f64, m: f64) -> f64 {
@@ -16,17 +14,22 @@ pub fn collision_probability(s_mm: f64, a_mm: f64, alpha: f64, m: f64) -> f64 {
 /// Nearest other rod; the lower index where two are equally near.
 pub fn nearest(positions_mm: &[[f64; 3]], i: usize, images: Images, edge_mm: f64) -> Option<usize> {
     let x = positions_mm[i];
-    let mut best: Option<(usize, f64)> = None;
-    for j in (0..positions_mm.len()).filter(|&j| j != i) {
-        let square = separation_mm(x, images.nearest_mm(positions_mm[j], x, edge_mm)).norm_squared();
-        if best.is_none_or(|(_, least)| square < least) {
-            best = Some((j, square));
+    let (mut best, mut least_mm2) = (None, f64::INFINITY);
+    for (j, &y) in positions_mm.iter().enumerate() {
+        let square_mm2 = square_mm2(x, images.nearest_mm(y, x, edge_mm));
+        if j != i && square_mm2 < least_mm2 {
+            (best, least_mm2) = (Some(j), square_mm2);
         }
     }
-    best.map(|(j, _)| j)
+    best
 }
 
-/// From `x` to `y`.
-pub(super) fn separation_mm(x: [f64; 3], y: [f64; 3]) -> Vector3<f64> {
-    vector(y) - vector(x)
+fn square_mm2(x: [f64; 3], y: [f64; 3]) -> f64 {
+    let [a, b, c] = [y[0] - x[0], y[1] - x[1], y[2] - x[2]];
+    a * a + b * b + c * c
+}
+
+/// Distance of two places.
+pub(super) fn distance_mm(x: [f64; 3], y: [f64; 3]) -> f64 {
+    square_mm2(x, y).sqrt()
 }

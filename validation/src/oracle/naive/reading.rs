@@ -54,15 +54,19 @@ pub enum Images {
 }
 
 impl Images {
-    /// The image of `x` that is nearest to `to`.
+    /// The image of `x` that is nearest to `to`, both in the volume.
     pub fn nearest_mm(self, mut x: [f64; 3], to: [f64; 3], edge_mm: f64) -> [f64; 3] {
         let repeated = match self {
-            Self::None => 3..3,
+            Self::None => return x,
             Self::FlowAndVorticity => 1..3,
             Self::All => 0..3,
         };
         for k in repeated {
-            x[k] -= edge_mm * ((x[k] - to[k]) / edge_mm).round();
+            // places lie in one volume, so no image is nearer than those next to it
+            let away = x[k] - to[k];
+            if away.abs() > edge_mm / 2.0 {
+                x[k] -= edge_mm * away.signum();
+            }
         }
         x
     }

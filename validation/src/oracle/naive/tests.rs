@@ -1,5 +1,7 @@
 //! Tests of the naive reference itself.
 
+mod readings;
+
 use super::contact::Rod;
 use super::motion::{angle_rates_per_s, angles_rad};
 use super::random::{GOLDEN, mix};
@@ -281,7 +283,7 @@ fn only_an_arm_below_the_least_is_no_contact() {
 }
 
 /// Collisions of one step of rods on axis 1, all of them candidates unless changed.
-fn taken(x1_mm: &[f64], parallel: [usize; 2], change: fn(&mut Problem)) -> Vec<(usize, usize)> {
+fn taken(x1_mm: &[f64], parallel: [usize; 2], change: impl FnOnce(&mut Problem)) -> Vec<(usize, usize)> {
     let mut naive = Naive::new(fibres(x1_mm.len(), 1e30, change));
     naive.positions_mm = x1_mm.iter().map(|&x| [x, 0.0, 0.0]).collect();
     naive.orientations[parallel[0]] = naive.orientations[parallel[1]];
