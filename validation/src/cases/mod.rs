@@ -6,6 +6,7 @@ mod free_suspension;
 pub mod lab;
 mod misprints;
 mod motion;
+mod readings;
 mod reference;
 mod steady;
 
@@ -22,6 +23,7 @@ pub fn all() -> Vec<Case> {
         encounters::cases(),
         free_suspension::cases(),
         reference::cases(),
+        readings::cases(),
         steady::cases(),
     ]
     .into_iter()
