@@ -9,6 +9,7 @@ pub mod equations;
 pub mod oracle;
 pub mod output;
 pub mod plot;
+pub mod readings;
 pub mod report;
 pub mod scenes;
 #[cfg(test)]

@@ -7,6 +7,7 @@ mod free_suspension;
 pub mod lab;
 mod misprints;
 mod motion;
+mod readings;
 mod reductions;
 mod reference;
 mod steady;
@@ -27,6 +28,7 @@ pub fn all() -> Vec<Case> {
         closed_forms::cases(),
         reductions::cases(),
         reference::cases(),
+        readings::cases(),
         steady::cases(),
         words::cases(),
     ]
