@@ -5,6 +5,7 @@ pub mod accept;
 pub mod case;
 pub mod cases;
 pub mod cli;
+pub mod experiment;
 pub mod oracle;
 pub mod output;
 pub mod plot;

@@ -2,6 +2,7 @@
 
 mod contact_rule;
 mod encounters;
+mod experiments;
 mod free_suspension;
 pub mod lab;
 mod misprints;
@@ -23,6 +24,7 @@ pub fn all() -> Vec<Case> {
         free_suspension::cases(),
         reference::cases(),
         steady::cases(),
+        experiments::cases(),
     ]
     .into_iter()
     .flatten()
