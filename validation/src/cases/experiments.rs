@@ -94,7 +94,7 @@ fn judged(source: &Source, effort: &Effort) -> Result<(Vec<Curve>, usize), DataE
 }
 
 fn replicas(effort: &Effort) -> u64 {
-    effort.pick(200, 2000)
+    effort.pick(100, 2000)
 }
 
 /// One goodness of fit for each scene with points.

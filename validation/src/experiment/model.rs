@@ -41,7 +41,8 @@ pub(super) fn run(scene: &Scene, places: &[Place], replicas: u64, finer: u64) ->
     // Gauss–Hermite's outer nodes, ±√3 standard deviations.
     let nodes = |place: &Place| [-1.0, 1.0].map(|side| place.turns + side * 3.0_f64.sqrt() * place.u_turns);
     let last = places.iter().map(|place| nodes(place)[1]).fold(0.0, f64::max);
-    scene.time.periods = Some(last.ceil().max(1.0));
+    // One output more than the last place needs, for the cubic.
+    scene.time.periods = Some(((last * per_period as f64).ceil() + 1.0) / per_period as f64);
     scene.time.outputs_per_period = Some(per_period);
     scene.time.steps_per_period = Some(per_period * finer);
     scene.output.observables = vec![Observable::Projections];

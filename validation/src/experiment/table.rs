@@ -23,28 +23,32 @@ pub(super) struct Row {
     pub(super) u_y: Option<f64>,
 }
 
-/// A record with the line it starts in.
+/// A line of the file that is not blank, in cells.
 struct Record {
     line: usize,
     cells: StringRecord,
 }
 
+/// Line by line, so that every error has the line that an editor shows.
 fn records(file: &str, text: &str) -> Result<Vec<Record>, DataError> {
-    let mut reader = ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .trim(Trim::All)
-        .from_reader(text.as_bytes());
-    let mut records = Vec::new();
-    for record in reader.records() {
-        let cells = record.map_err(|error| {
-            let line = error.position().map_or(1, |position| position.line() as usize);
-            DataError::at(file, line, error.to_string())
-        })?;
-        let line = cells.position().map_or(1, |position| position.line() as usize);
-        records.push(Record { line, cells });
-    }
-    Ok(records)
+    let lines = text
+        .lines()
+        .enumerate()
+        .filter(|(_, line)| !line.trim().is_empty());
+    lines
+        .map(|(index, text)| {
+            let mut cells = StringRecord::new();
+            let mut reader = ReaderBuilder::new()
+                .has_headers(false)
+                .trim(Trim::All)
+                .from_reader(text.as_bytes());
+            let line = index + 1;
+            reader
+                .read_record(&mut cells)
+                .map_err(|error| DataError::at(file, line, error.to_string()))?;
+            Ok(Record { line, cells })
+        })
+        .collect()
 }
 
 fn number(file: &str, line: usize, column: &str, cell: &str) -> Result<f64, DataError> {
