@@ -19,11 +19,11 @@ const U_Y: f64 = 0.005;
 /// Rods of the synthetic experiment.
 const RODS: u64 = 2000;
 
-/// A synthetic experiment: the scene at this α, read off at 19 times up to t/T = 1.
+/// A synthetic experiment: the scene at this α, read off at 29 times up to t/T = 1.5.
 fn synthesise(data: &Path, folder: &str, scene_name: &str, observables: &[&str], alpha: f64) {
     let mut scene = scenes::find(scene_name).unwrap().scene().unwrap();
     scene.interaction.as_mut().unwrap().alpha = alpha;
-    scene.time.periods = Some(1.0);
+    scene.time.periods = Some(1.5);
     scene.time.outputs_per_period = Some(200);
     scene.ensemble.replicas = RODS / scene.particles.count as u64;
     scene.ensemble.seed = 1982;
@@ -41,7 +41,7 @@ fn synthesise(data: &Path, folder: &str, scene_name: &str, observables: &[&str],
             .join(","),
     ];
     lines.push(vec!["X,Y"; observables.len()].join(","));
-    for k in 1..20 {
+    for k in 1..30 {
         let output = 10 * k;
         let cells = observables.iter().map(|name| {
             let y = results.channel(name).unwrap().mean[output];
@@ -62,7 +62,7 @@ csv = "webplotdigitizer"
 rods = {RODS}
 [x]
 quantity = "t_over_T"
-calibration = [0, 1]
+calibration = [0, 1.5]
 standard_uncertainty = {U_X}
 [y]
 quantity = "fraction"
@@ -119,7 +119,7 @@ fn a_synthetic_experiment_of_half_is_accepted() {
     let outcome = run("okagawa-mason-1973", Some(data.path()));
     assert_eq!(outcome.verdict, Verdict::Pass, "{outcome:#?}");
     assert_eq!(outcome.evidence.len(), 2, "a scene without points is left out");
-    let data = okagawa(&["fig4-n50"], 0.5);
+    let data = okagawa(&["fig4-n100"], 0.5);
     let (code, text, report) = validate("okagawa-mason-1973", Some(data.path()));
     assert_eq!(code, Some(0), "{text}");
     assert_eq!(report["summary"]["pass"], 1);
@@ -136,7 +136,7 @@ fn a_synthetic_experiment_of_one_is_rejected() {
             .iter()
             .all(|judged| judged.verdict == Verdict::Fail)
     );
-    let data = okagawa(&["fig4-n50"], 1.0);
+    let data = okagawa(&["fig4-n100"], 1.0);
     let (code, text, report) = validate("okagawa-mason-1973", Some(data.path()));
     assert_eq!(code, Some(1), "{text}");
     assert_eq!(report["summary"]["fail"], 1);
@@ -183,9 +183,9 @@ fn points_for_a_picture_are_in_the_models_units() {
         0.5,
     );
     let points = experiment::points_for(Some(dir.path()), "fig5").unwrap();
-    assert_eq!(points.len(), 2 * 19);
-    assert_eq!((points[0].observable, points[19].observable), ("x1", "x3"));
-    assert!(points[..19].windows(2).all(|pair| pair[0].x <= pair[1].x));
+    assert_eq!(points.len(), 2 * 29);
+    assert_eq!((points[0].observable, points[29].observable), ("x1", "x3"));
+    assert!(points[..29].windows(2).all(|pair| pair[0].x <= pair[1].x));
     assert_eq!((points[0].u_x, points[0].u_y), (U_X, U_Y));
     assert_eq!(experiment::points_for(Some(dir.path()), "fig4-n50").unwrap(), []);
 }
@@ -199,7 +199,7 @@ fn a_bad_file_stops_the_program_before_any_case_runs() {
     let (code, text, report) = validate("jeffery-period", Some(data.path()));
     assert_eq!((code, report), (Some(2), serde_json::Value::Null));
     assert!(
-        text.contains("fig4-n50.csv:22: column x1 Y: `0.3x` is not allowed"),
+        text.contains("fig4-n50.csv:32: column x1 Y: `0.3x` is not allowed"),
         "{text}"
     );
     assert!(!text.contains("pass"), "{text}");

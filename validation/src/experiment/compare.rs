@@ -1,5 +1,8 @@
 //! The comparison of model and experiment in the terms of ASME V&V 20, with a goodness of fit.
 
+#[cfg(test)]
+mod tests;
+
 use super::bias::{Bias, bias};
 use super::model::{self, Model, Place};
 use super::provenance::INPUTS;
@@ -73,10 +76,8 @@ pub type Mend = fn(&mut Scene);
 /// Compares the points of curves of one scene with replicas of that scene, changed by `mend`.
 pub fn compare(scene: &str, curves: &[Curve], mend: Mend, replicas: u64) -> Result<Comparison, String> {
     let assessed = Assessed::new(scene, curves, mend, replicas)?;
+    let (chi_square, p) = goodness_of_fit(&assessed.error, assessed.inverse.as_ref());
     let points = assessed.points;
-    let chi_square = assessed
-        .inverse
-        .map_or(f64::NAN, |v| assessed.error.dot(&v.solve(&assessed.error)));
     let n = points.len() as f64;
     let mean = |value: &dyn Fn(&Point) -> f64| points.iter().map(value).sum::<f64>() / n;
     // The experiments' part of FDS's scatter: reading off and conditions, relative to what was measured.
@@ -90,9 +91,17 @@ pub fn compare(scene: &str, curves: &[Curve], mend: Mend, replicas: u64) -> Resu
         bias: bias(&pairs, sigma_e),
         inputs_stated: curves.iter().any(|curve| !curve.provenance.inputs.is_empty()),
         chi_square,
-        p: ChiSquared::new(n).map_or(f64::NAN, |law| law.sf(chi_square)),
+        p,
         points,
     })
+}
+
+/// χ² = Eᵀ V⁻¹ E, and the probability of a larger one. The full covariance: points share the model's replicas and, where
+/// the same rods were measured, those too. NaN where there is no V⁻¹.
+fn goodness_of_fit(error: &DVector<f64>, inverse: Option<&Cholesky<f64, Dyn>>) -> (f64, f64) {
+    let chi_square = inverse.map_or(f64::NAN, |v| error.dot(&v.solve(error)));
+    let law = ChiSquared::new(error.len() as f64);
+    (chi_square, law.map_or(f64::NAN, |law| law.sf(chi_square)))
 }
 
 /// The α that fits curves of several scenes best, by one step of weighted least squares from the scenes' own α. `mend`
