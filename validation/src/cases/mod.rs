@@ -3,6 +3,7 @@
 mod closed_forms;
 mod contact_rule;
 mod encounters;
+mod experiments;
 mod free_suspension;
 pub mod lab;
 mod misprints;
@@ -31,6 +32,7 @@ pub fn all() -> Vec<Case> {
         readings::cases(),
         steady::cases(),
         words::cases(),
+        experiments::cases(),
     ]
     .into_iter()
     .flatten()

@@ -2,7 +2,7 @@
 
 use super::{Failure, MAX_THREADS, on_threads, print, whole};
 use crate::case::{Case, Outcome, Verdict};
-use crate::{cases, output, report};
+use crate::{cases, experiment, output, report};
 use std::path::PathBuf;
 
 /// Arguments of `validate`.
@@ -40,6 +40,10 @@ fn folder(text: &str) -> Result<PathBuf, String> {
 /// Runs the cases and writes the report.
 pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let chosen = chosen(&args.cases)?;
+    if let Some(data) = &args.data {
+        // Bad points are bad input, not a case that failed.
+        experiment::check(data).map_err(|error| Failure::Input(error.to_string()))?;
+    }
     output::probe(&args.out)?;
     let effort = cases::effort(args.full, args.data);
     let outcomes = on_threads(args.threads, || {
