@@ -2,7 +2,8 @@
 
 use super::{Failure, MAX_THREADS, on_threads, print, whole};
 use crate::case::{Case, Outcome, Verdict};
-use crate::{cases, output, report};
+use crate::report::{self, Sections};
+use crate::{cases, output};
 use std::path::PathBuf;
 
 /// Arguments of `validate`.
@@ -52,7 +53,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
         };
         chosen.iter().map(run).collect::<Result<Vec<_>, Failure>>()
     })??;
-    let report = report::build(outcomes, Vec::new(), &effort, command());
+    let report = report::build(outcomes, Sections::default(), &effort, command());
     let files = [
         ("report.html", report.html().map_err(Failure::Failed)?),
         ("report.json", report.json()),

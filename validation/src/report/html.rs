@@ -105,7 +105,11 @@ pub(super) fn write(report: &Report) -> Result<String, String> {
 
 fn case<'a>(report: &'a Report, row: &'a Row) -> CaseView<'a> {
     let (symbol, word) = verdict(row.verdict);
-    let figures = report.figures.iter().filter(|f| f.cases.contains(&row.name));
+    let figures = report
+        .sections
+        .figures
+        .iter()
+        .filter(|f| f.cases.contains(&row.name));
     CaseView {
         name: &row.name,
         claim: &row.claim,
@@ -145,7 +149,7 @@ fn line(line: &Line) -> LineView<'_> {
 }
 
 fn figures(report: &Report) -> Result<Vec<FigureView<'_>>, String> {
-    (report.figures.iter())
+    (report.sections.figures.iter())
         .map(|figure| {
             let judges = report.cases.iter().filter(|row| figure.cases.contains(&row.name));
             Ok(FigureView {

@@ -30,6 +30,58 @@ pub struct ReportFigure {
     pub cases: Vec<String>,
 }
 
+/// A table: a study that is no case, in plain text. A text in backticks is code, and a link where it is a case's name.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ReportTable {
+    /// Its name, in words joined by `-`; its anchor is `table-NAME`.
+    pub name: String,
+    /// What it holds, in a few words.
+    pub title: String,
+    /// What to see.
+    pub caption: String,
+    /// The heads of the columns, with units.
+    pub columns: Vec<String>,
+    /// The cells, row by row.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// An equation of the paper, the code that is made from it and the cases that test it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ReportEquation {
+    /// Its number in the paper, as `15` or `A.7`; its anchor is `equation-NUMBER`.
+    pub number: String,
+    /// What it says, in a few words.
+    pub says: String,
+    /// The items of the code.
+    pub code: Vec<String>,
+    /// The names of the cases.
+    pub cases: Vec<String>,
+}
+
+/// How a scene behind a figure was run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ScenePlan {
+    /// The built-in scene's name.
+    pub scene: String,
+    /// The seed of its random numbers.
+    pub seed: u64,
+    /// What ran and what was left out, as `shearbed plan` prints it.
+    pub text: String,
+}
+
+/// What a report shows beside its cases.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Sections {
+    /// The pictures.
+    pub figures: Vec<ReportFigure>,
+    /// The studies.
+    pub tables: Vec<ReportTable>,
+    /// Every equation of the paper.
+    pub equations: Vec<ReportEquation>,
+    /// Every scene behind a figure.
+    pub plans: Vec<ScenePlan>,
+}
+
 /// How many cases ended how.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Summary {
@@ -58,14 +110,15 @@ pub struct Report {
     pub summary: Summary,
     /// The cases, in the order of the registry.
     pub cases: Vec<Row>,
-    /// The pictures.
-    pub figures: Vec<ReportFigure>,
+    /// What is shown beside them.
+    #[serde(flatten)]
+    pub sections: Sections,
     /// Where, when and from what.
     pub origin: Origin,
 }
 
 /// Gathers a report from what cases, run with `effort` by the command line `command`, said.
-pub fn build(outcomes: Vec<Outcome>, figures: Vec<ReportFigure>, effort: &Effort, command: String) -> Report {
+pub fn build(outcomes: Vec<Outcome>, sections: Sections, effort: &Effort, command: String) -> Report {
     let count = |verdict| outcomes.iter().filter(|o| o.verdict == verdict).count();
     Report {
         summary: Summary {
@@ -81,8 +134,8 @@ pub fn build(outcomes: Vec<Outcome>, figures: Vec<ReportFigure>, effort: &Effort
         cases: (outcomes.into_iter())
             .map(|outcome| Row::new(outcome, effort))
             .collect(),
-        figures,
-        origin: Origin::here(command),
+        origin: Origin::here(command, &sections.plans),
+        sections,
     }
 }
 
