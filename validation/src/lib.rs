@@ -6,6 +6,7 @@ pub mod case;
 pub mod cases;
 pub mod cli;
 pub mod equations;
+pub mod figures;
 pub mod oracle;
 pub mod output;
 pub mod plot;

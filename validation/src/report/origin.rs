@@ -113,7 +113,7 @@ mod tests {
         let plan = |scene: &str, seed| ScenePlan {
             scene: scene.into(),
             seed,
-            text: String::new(),
+            ..Default::default()
         };
         let text = seeds(&[plan("a", 2), plan("b", 1), plan("c", 2)]);
         assert!(text.contains("; 1 for b; 2 for a, c."), "{text}");
