@@ -7,6 +7,7 @@ pub mod cases;
 pub mod cli;
 pub mod equations;
 pub mod figures;
+mod markup;
 pub mod oracle;
 pub mod output;
 pub mod plot;

@@ -4,9 +4,10 @@ use super::amplitude::amplitude;
 use super::run::{Run, Runs, half_width};
 use crate::case::Effort;
 use crate::cases;
+use crate::markup::cites_figure;
 use crate::oracle::closed_form;
 use crate::plot::{Curve, Figure, Points};
-use crate::report::{ReportFigure, cites_figure};
+use crate::report::ReportFigure;
 
 const TIME: &str = "t/T";
 const PROJECTION: &str = "mean projection (rod lengths)";

@@ -9,8 +9,12 @@ pub(super) fn csv(figure: &ReportFigure) -> Result<String, String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let header = ["series", &picture.x_name, &picture.y_name, "± x", "± y"];
     writer.write_record(header).map_err(|error| error.to_string())?;
-    let curves = picture.curves.iter().map(|c| (&c.label, &c.x, &c.y, None, c.half_band.as_ref()));
-    let points = (picture.points.iter()).map(|p| (&p.label, &p.x, &p.y, p.x_error.as_ref(), p.y_error.as_ref()));
+    let curves = picture
+        .curves
+        .iter()
+        .map(|c| (&c.label, &c.x, &c.y, None, c.half_band.as_ref()));
+    let points =
+        (picture.points.iter()).map(|p| (&p.label, &p.x, &p.y, p.x_error.as_ref(), p.y_error.as_ref()));
     for (label, x, y, x_half, y_half) in curves.chain(points) {
         for (k, (x, y)) in x.iter().zip(y).enumerate() {
             let half = |widths: Option<&Vec<f64>>| widths.and_then(|w| w.get(k)).copied();

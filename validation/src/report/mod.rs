@@ -3,7 +3,6 @@
 mod curves;
 mod html;
 mod markdown;
-mod markup;
 mod origin;
 mod prose;
 mod row;
@@ -14,11 +13,10 @@ mod words;
 
 use crate::accept::FAMILY_FALSE_ALARM_RATE;
 use crate::case::{Effort, Outcome, Verdict};
-pub(crate) use markup::cites_figure;
+use crate::output::Output;
 pub use origin::Origin;
 pub use row::{Line, Row};
 pub use sections::{ReportEquation, ReportFigure, ReportTable, ScenePlan, Sections};
-use crate::output::Output;
 use serde::Serialize;
 
 /// How many cases ended how.

@@ -1,7 +1,7 @@
 //! Plain text as HTML: escaped, typeset, and with links to what the report has.
 
 use super::Report;
-use super::markup::{Piece, pieces, subscripts};
+use crate::markup::{Piece, pieces, subscripts};
 use std::collections::BTreeSet;
 
 /// The anchors of a report.
@@ -14,7 +14,11 @@ pub(super) struct Anchors {
 impl Anchors {
     pub(super) fn of(report: &Report) -> Self {
         let sections = &report.sections;
-        let figures: Vec<_> = sections.figures.iter().map(|figure| figure.name.clone()).collect();
+        let figures: Vec<_> = sections
+            .figures
+            .iter()
+            .map(|figure| figure.name.clone())
+            .collect();
         let cases = report.cases.iter().map(|row| format!("case-{}", row.name));
         let equations = (sections.equations.iter()).map(|e| format!("equation-{}", e.number));
         Self {
@@ -40,7 +44,9 @@ impl Anchors {
     /// The first figure of this number: `fig4-n20` or `fig5`.
     fn figure(&self, number: &str) -> Option<&String> {
         let is = |name: &&String| {
-            let rest = name.strip_prefix("fig").and_then(|name| name.strip_prefix(number));
+            let rest = name
+                .strip_prefix("fig")
+                .and_then(|name| name.strip_prefix(number));
             rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
         };
         self.figures.iter().find(is)
@@ -85,7 +91,10 @@ mod tests {
             figures: ["fig4-n20", "fig4-n50", "fig10"].map(String::from).into(),
         };
         for (text, html) in [
-            ("`a` & `b`", "<a href=\"#case-a\"><code>a</code></a> &amp; <code>b</code>"),
+            (
+                "`a` & `b`",
+                "<a href=\"#case-a\"><code>a</code></a> &amp; <code>b</code>",
+            ),
             ("eqs 5, A.7", "eqs 5, <a href=\"#equation-A.7\">A.7</a>"),
             ("Fig. 4", "Fig. <a href=\"#figure-fig4-n20\">4</a>"),
             ("Fig. 1", "Fig. 1"),

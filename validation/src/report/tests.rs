@@ -3,7 +3,7 @@
 use super::*;
 use crate::accept::{Rule, judge};
 use crate::case::{About, Control, Evidence, Judged, Kind};
-use crate::plot::Curve;
+use crate::plot::{Curve, Figure};
 use crate::xml::is_well_formed;
 
 const EFFORT: Effort = Effort {
@@ -223,7 +223,7 @@ fn html_stands_alone() {
         "✗ fail",
         "△ under-powered",
         "○ no data",
-        "&lt;b&gt;|p₁|&lt;&#x2f;b&gt; &amp; more.",
+        "&lt;b&gt;|p₁|&lt;/b&gt; &amp; more.",
         "not caught: factor &lt; 2",
         "a&lt;b",
         "p = 0.31",

@@ -60,25 +60,26 @@ fn prose<'a>(text: &'a str, pieces: &mut Vec<Piece<'a>>) {
 fn numbers<'a>(word: &'a str, citing: Citing, pieces: &mut Vec<Piece<'a>>) {
     let in_number = |c: char| c.is_ascii_alphanumeric() || c == '.';
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-    let mut rest = word;
-    while !rest.is_empty() {
+    // Where the text before the next number starts, and where to look for it.
+    let (mut text, mut at) = (0, 0);
+    while let Some(start) = word[at..].find(in_number).map(|start| at + start) {
+        let rest = &word[start..];
         let end = rest.find(|c| !in_number(c)).unwrap_or(rest.len());
         let run = rest[..end].trim_end_matches('.');
         let appendix = run.strip_prefix("A.").is_some_and(is_number);
-        let piece = match citing {
+        let number = match citing {
             _ if appendix => Some(Piece::Equation(run)),
             Citing::Equations if is_number(run) => Some(Piece::Equation(run)),
             Citing::Figures if is_number(run) => Some(Piece::Figure(run)),
             _ => None,
         };
-        pieces.extend(piece);
-        let taken = if piece.is_some() { run.len() } else { 0 };
-        let next = rest[end..]
-            .find(in_number)
-            .map_or(rest.len(), |start| end + start);
-        pieces.push(Piece::Text(&rest[taken..next]));
-        rest = &rest[next..];
+        at = start + end;
+        if let Some(number) = number {
+            pieces.extend([Piece::Text(&word[text..start]), number]);
+            text = start + run.len();
+        }
     }
+    pieces.push(Piece::Text(&word[text..]));
 }
 
 /// Whether a text cites this figure of the paper, alone or within a range.
@@ -105,7 +106,7 @@ pub(crate) fn cites_figure(text: &str, figure: u32) -> bool {
 
 /// A text cut into what stands on the line and what stands below it, as the 1 of x_1: an underscore after a single
 /// letter, with a number or a short word behind it. Names in code have longer words before theirs.
-pub(super) fn subscripts(text: &str) -> Vec<(bool, &str)> {
+pub(crate) fn subscripts(text: &str) -> Vec<(bool, &str)> {
     let mut parts = Vec::new();
     let mut start = 0;
     for (at, _) in text.match_indices('_') {
