@@ -1,30 +1,31 @@
 //! A₁, the amplitude of the oscillation of X̄₁ (Figs 7 to 10).
 //!
-//! The paper defines A₁ in the drawing of Fig. 7, which is not at hand. Here A₁ is the whole difference between a
-//! maximum of X̄₁ and the minimum next to it, at their mid time. Of the usual readings this is the one that the
-//! text allows: it gives free rods of one size an amplitude of "approximately 1/2", and half of it would not.
+//! The paper defines A₁ in the drawing of Fig. 7, which is not at hand. Here A₁ is the height of a maximum of X̄₁
+//! above the mean of the minima on its two sides, at the time of the maximum. Of the usual readings this is one that
+//! the text allows: it gives free rods of one size an amplitude of "approximately 1/2", and half of it would not.
 
 use super::run::{Run, with_band};
 use crate::plot::Curve;
 
-/// A₁ against t/T, with a 95 % band from the same difference in every replica.
+/// A₁ against t/T, with a 95 % band from the same heights in every replica.
 ///
 /// The maxima of X̄₁ lie near t = kT/2, because p ≡ −p, and the minima half-way between them. Each is searched
 /// for in the mean over all replicas, up to T/8 off, so that a replica's noise does not choose its own extremes.
 pub(super) fn amplitude(run: &Run, label: impl Into<String>) -> Curve {
     let times = run.times();
-    let mean: Vec<f64> = (run.curve("x1", "")).y;
-    let extremes = extremes(&times, &mean);
-    let pairs = extremes.windows(2).map(|pair| {
-        // They take turns: one of the two is the maximum.
-        let (high, low) = match mean[pair[0]] > mean[pair[1]] {
-            true => (pair[0], pair[1]),
-            false => (pair[1], pair[0]),
-        };
-        let middle = 0.5 * (times[high] + times[low]);
-        (middle, run.sample("x1", |x1| x1(high) - x1(low)))
+    let extremes = extremes(&times, &run.curve("x1", "").y);
+    let heights = (0..extremes.len()).step_by(2).map(|at| {
+        let beside = [at.checked_sub(1), Some(at + 1)];
+        let minima: Vec<usize> = (beside.into_iter().flatten())
+            .filter_map(|k| extremes.get(k).copied())
+            .collect();
+        let height = run.sample("x1", |x1| {
+            let below: f64 = minima.iter().map(|k| x1(*k)).sum();
+            x1(extremes[at]) - below / minima.len() as f64
+        });
+        (times[extremes[at]], height)
     });
-    with_band(label, pairs)
+    with_band(label, heights)
 }
 
 /// The outputs at which maxima and minima lie, in turns, the first a maximum.

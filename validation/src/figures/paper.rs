@@ -9,7 +9,7 @@ use crate::oracle::closed_form;
 use crate::plot::{Curve, Figure, Points};
 use crate::report::ReportFigure;
 
-const TIME: &str = "t/T";
+const TIME: &str = "time t/T (periods)";
 const PROJECTION: &str = "mean projection (rod lengths)";
 const AMPLITUDE: &str = "amplitude A₁ of X̄₁ (rod lengths)";
 
@@ -43,6 +43,7 @@ fn against_time(title: String, y_name: &str, curves: Vec<Curve>) -> Figure {
         x_name: TIME.into(),
         y_name: y_name.into(),
         curves,
+        x_span: Some((0.0, 6.0)),
         y_span: Some((0.0, 0.5)),
         ..Default::default()
     }
@@ -81,8 +82,8 @@ fn fig5(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
     drawn.y_span = Some((0.0, 1.0));
     let supplied = measured("fig5", effort, &mut drawn)?;
     let caption = format!(
-        "All three projections reach steady values within about two periods and stay there; the paper notes that \
-         the measured ones went on changing. {supplied}"
+        "The oscillations are damped out by t/T = 3, and X̄₁ stays where it is. X̄₃ goes on falling slowly and X̄₂ rises: \
+         collisions still turn rods towards the flow. The paper takes its own values to be steady. {supplied}"
     );
     Ok(figure("fig5", 5, "Fig. 5, eqs 4, 11", drawn, caption))
 }
@@ -116,7 +117,7 @@ fn fig6(runs: &Runs) -> Result<Vec<ReportFigure>, String> {
 /// The scenes of a figure with their labels.
 type Compared = &'static [(&'static str, &'static str)];
 
-/// Figs 7 to 10: number, scenes, what is compared, what to see.
+/// Figs 7 to 10: number, scenes, title, what to see.
 const AMPLITUDES: [(u32, Compared, &str, &str); 4] = [
     (
         7,
@@ -125,10 +126,10 @@ const AMPLITUDES: [(u32, Compared, &str, &str); 4] = [
             ("fig7-n50", "n = 50 cm⁻³"),
             ("fig7-n100", "n = 100 cm⁻³"),
         ],
-        "concentration",
-        "The amplitude decays faster where n is larger. A₁ is the difference between a maximum of X̄₁ and the \
-         minimum next to it, at their mid time: the paper defines it in a drawing that is not at hand, and this \
-         reading gives free rods of one size the 1/2 that its text states.",
+        "A₁ and the concentration",
+        "The amplitude decays faster where n is larger. A₁ is the height of a maximum of X̄₁ above the mean of the minima \
+         on its two sides: the paper defines it in a drawing that is not at hand, and this reading gives free rods of \
+         one size the 1/2 that its text states.",
     ),
     (
         8,
@@ -137,7 +138,7 @@ const AMPLITUDES: [(u32, Compared, &str, &str); 4] = [
             ("fig8-a0.72", "a = 0.72 mm"),
             ("fig8-a1.44", "a = 1.44 mm"),
         ],
-        "rod length, n = 50 cm⁻³",
+        "A₁ and the rod length, n = 50 cm⁻³",
         "Longer rods of the same shape meet more often, and the amplitude decays faster.",
     ),
     (
@@ -148,7 +149,7 @@ const AMPLITUDES: [(u32, Compared, &str, &str); 4] = [
             ("fig9-sd3.6", "σ = 3.6 %"),
             ("fig9-sd7.2", "σ = 7.2 %"),
         ],
-        "spread of r_e, free rods",
+        "A₁ and the spread of r_e, free rods",
         "Without collisions the amplitude decays by the spread of r_e alone: not at all at σ = 0, faster the larger σ \
          is. Where an oscillation is lost in noise, the difference of two extremes of the noise is left.",
     ),
@@ -160,16 +161,16 @@ const AMPLITUDES: [(u32, Compared, &str, &str); 4] = [
             ("fig10-interacting-sd3.6", "n = 50 cm⁻³, σ = 3.6 %"),
             ("fig10-free-sd3.6", "free, σ = 3.6 %"),
         ],
-        "with and without collisions",
+        "A₁ with and without collisions",
         "Collisions add to what the spread of r_e damps: for either σ the interacting rods lie below the free ones.",
     ),
 ];
 
 fn amplitudes(runs: &Runs) -> Result<Vec<ReportFigure>, String> {
-    let draw = |(number, scenes, compared, caption): (u32, Compared, &str, &str)| {
+    let draw = |(number, scenes, title, caption): (u32, Compared, &str, &str)| {
         let curve = |(scene, label): &(&str, &str)| Ok(amplitude(runs.get(scene)?, *label));
         let curves = scenes.iter().map(curve).collect::<Result<_, String>>()?;
-        let drawn = against_time(format!("Fig. {number}: A₁ and {compared}"), AMPLITUDE, curves);
+        let drawn = against_time(format!("Fig. {number}: {title}"), AMPLITUDE, curves);
         let (name, source) = (format!("fig{number}"), format!("Fig. {number}"));
         Ok(figure(&name, number, &source, drawn, caption.into()))
     };
@@ -200,7 +201,7 @@ fn fig11(runs: &Runs) -> Result<ReportFigure, String> {
     steady.y_error = Some(errors);
     let x: Vec<f64> = (4..=220).map(|k| 0.25 * f64::from(k)).collect();
     let drawn = Figure {
-        title: "Fig. 11: mean angle and aspect ratio".into(),
+        title: "Fig. 11: the steady mean angle and the aspect ratio".into(),
         x_name: "aspect ratio r_e (–)".into(),
         y_name: "mean angle φ (rad)".into(),
         curves: vec![Curve {
@@ -230,10 +231,10 @@ fn fig12(runs: &Runs) -> Result<ReportFigure, String> {
     let curves = channels.map(|(channel, label)| run.curve(channel, label));
     let mut drawn = against_time(
         "Fig. 12: planar projections, n = 50 cm⁻³, σ = 3.6 %".into(),
-        "mean projection on a plane (rod lengths)",
+        "planar projection (rod lengths)",
         curves.into(),
     );
-    drawn.y_span = Some((0.5, 1.0));
+    drawn.y_span = Some((0.0, 1.0));
     let caption = "Rods lie along the flow most of the time: their shadows on the two planes that hold axis 2 are long, \
                    and the third oscillates most. The paper's figure shows typical results only.";
     Ok(figure("fig12", 12, "Fig. 12, eq. 21", drawn, caption.into()))
