@@ -4,6 +4,7 @@
 pub mod accept;
 pub mod case;
 pub mod cases;
+pub mod catalogue;
 pub mod cli;
 pub mod equations;
 pub mod figures;

@@ -2,9 +2,9 @@
 
 use super::{Failure, print, progress};
 use crate::case::Effort;
+use crate::catalogue;
 use crate::figures::{self, Replicas};
-use crate::report::{ReportEquation, Sections};
-use crate::{cases, equations};
+use crate::report::Sections;
 
 /// Runs the scenes of the figures, and gathers everything.
 pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Sections, Failure> {
@@ -19,22 +19,7 @@ pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Sections, Failure> 
     Ok(Sections {
         figures: drawn.figures,
         tables: Vec::new(),
-        equations: equations(),
+        equations: catalogue::equations(),
         plans: drawn.plans,
     })
-}
-
-/// Every equation with the cases of the registry that test it.
-fn equations() -> Vec<ReportEquation> {
-    let about: Vec<_> = cases::all().into_iter().map(|case| case.about).collect();
-    let equation = |equation: &equations::Equation| ReportEquation {
-        number: equation.number.into(),
-        says: equation.says.into(),
-        code: equation.code.iter().map(|item| (*item).into()).collect(),
-        cases: (about.iter())
-            .filter(|about| about.equations.contains(&equation.number))
-            .map(|about| about.name.into())
-            .collect(),
-    };
-    equations::ALL.iter().map(equation).collect()
 }

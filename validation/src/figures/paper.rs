@@ -129,7 +129,7 @@ const AMPLITUDES: [(u32, Compared, &str, &str); 4] = [
         "A₁ and the concentration",
         "The amplitude decays faster where n is larger. A₁ is the height of a maximum of X̄₁ above the mean of the minima \
          on its two sides: the paper defines it in a drawing that is not at hand, and this reading gives free rods of \
-         one size the 1/2 that its text states.",
+         one size the \"approximately 1/2\" of its text.",
     ),
     (
         8,

@@ -17,9 +17,9 @@ pub(super) fn write(report: &Report) -> String {
              its p-value and the smallest allowed. To repeat one case: \
              `cargo run --release -- validate --case NAME`.\n\n";
     text += &figures(&report.sections.figures);
-    text += &(report.sections.tables.iter()).map(table).collect::<String>();
+    text += &(report.sections.tables.iter()).map(section).collect::<String>();
     if !report.sections.equations.is_empty() {
-        text += &table(&traceability(&report.sections.equations));
+        text += &section(&equation_table(&report.sections.equations));
     }
     text += &format!(
         "Made {} by `{}` (shearbed {}, commit {}, {}, {} build) on {}, {} threads, {}. Seeds: {}.\n",
@@ -66,22 +66,31 @@ fn figures(figures: &[ReportFigure]) -> String {
     format!("## Figures\n\n{}\n", figures.iter().map(line).collect::<String>())
 }
 
-fn table(table: &ReportTable) -> String {
+fn section(table: &ReportTable) -> String {
+    format!(
+        "## {}\n\n{}\n\n{}\n",
+        escape(&table.title),
+        escape(&table.caption),
+        markdown_table(table)
+    )
+}
+
+/// The columns and rows of a table as Markdown.
+pub(crate) fn markdown_table(table: &ReportTable) -> String {
     let line = |cells: &[String]| {
         let cells: Vec<_> = cells.iter().map(|cell| escape(cell)).collect();
         format!("| {} |\n", cells.join(" | "))
     };
+    let rows: String = table.rows.iter().map(|row| line(row)).collect();
     format!(
-        "## {}\n\n{}\n\n{}|{}\n{}\n",
-        escape(&table.title),
-        escape(&table.caption),
+        "{}|{}\n{rows}",
         line(&table.columns),
-        " --- |".repeat(table.columns.len()),
-        table.rows.iter().map(|row| line(row)).collect::<String>()
+        " --- |".repeat(table.columns.len())
     )
 }
 
-fn traceability(equations: &[ReportEquation]) -> ReportTable {
+/// The equations as a table.
+pub(crate) fn equation_table(equations: &[ReportEquation]) -> ReportTable {
     let code = |items: &[String]| items.iter().map(|item| format!("`{item}`")).collect::<Vec<_>>();
     ReportTable {
         name: "equations".into(),

@@ -11,6 +11,8 @@ mod sections;
 mod tests;
 mod words;
 
+pub(crate) use markdown::{equation_table, markdown_table};
+
 use crate::accept::FAMILY_FALSE_ALARM_RATE;
 use crate::case::{Effort, Outcome, Verdict};
 use crate::output::Output;
