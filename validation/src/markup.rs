@@ -35,9 +35,12 @@ pub(crate) fn pieces(text: &str) -> Vec<Piece<'_>> {
 
 fn prose<'a>(text: &'a str, pieces: &mut Vec<Piece<'a>>) {
     let mut citing = Citing::Nothing;
+    let mut last = "";
     for word in text.split_inclusive(char::is_whitespace) {
         match word.trim().trim_start_matches('(') {
             "eq." | "eqs" | "Eq." | "Eqs" => citing = Citing::Equations,
+            // "before Fig. 7" is a place in the text, and says nothing of the figure.
+            "Fig." | "Figs" if matches!(last, "before" | "after") => citing = Citing::Nothing,
             "Fig." | "Figs" => citing = Citing::Figures,
             // "eqs 5 and 6"
             "and" | "or" | "to" => {}
@@ -49,6 +52,7 @@ fn prose<'a>(text: &'a str, pieces: &mut Vec<Piece<'a>>) {
                 if !cited || word.trim_end().ends_with(['.', ';', ':', ')']) {
                     citing = Citing::Nothing;
                 }
+                last = word.trim();
                 continue;
             }
         }
@@ -187,6 +191,7 @@ mod tests {
             ("text after eqs 12 and 13. 5 rods", "12 13"),
             ("(eq. 15): 3 checks of `fig4 eq. 2` at t/T = 2", "15 `fig4 eq. 2"),
             ("Figs 7 to 10, r_e = 11.6; A.4.", "F7 F10 A.4"),
+            ("Results, before Fig. 7; Fig. 6 (top)", "F6"),
             ("see A and 7; an odd ` is no harm", "` is no harm"),
             ("", ""),
         ] {

@@ -82,8 +82,8 @@ fn fig5(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
     drawn.y_span = Some((0.0, 1.0));
     let supplied = measured("fig5", effort, &mut drawn)?;
     let caption = format!(
-        "The oscillations are damped out by t/T = 3, and X̄₁ stays where it is. X̄₃ goes on falling slowly and X̄₂ rises: \
-         collisions still turn rods towards the flow. The paper takes its own values to be steady. {supplied}"
+        "The oscillations are damped out by t/T = 3, and X̄₁ stays where it is. X̄₃ still falls slowly and X̄₂ rises: the \
+         orbits become steady later than the phases, and `steady-stays-put` judges what comes then. {supplied}"
     );
     Ok(figure("fig5", 5, "Fig. 5, eqs 4, 11", drawn, caption))
 }
