@@ -159,7 +159,7 @@ pub fn judge(rule: &Rule, level: f64) -> Verdict {
 }
 
 /// The two-sided critical value of Student's t for a mean of `samples` independent values.
-fn critical(level: f64, samples: u64) -> f64 {
+pub(crate) fn critical(level: f64, samples: u64) -> f64 {
     let freedom = samples.saturating_sub(1).max(1) as f64;
     StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |t| t.inverse_cdf(1.0 - 0.5 * level))
 }

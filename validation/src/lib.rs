@@ -4,9 +4,12 @@
 pub mod accept;
 pub mod case;
 pub mod cases;
+pub mod catalogue;
 pub mod cli;
 pub mod equations;
 pub mod experiment;
+pub mod figures;
+mod markup;
 pub mod oracle;
 pub mod output;
 pub mod plot;
