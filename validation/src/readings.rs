@@ -7,7 +7,7 @@
 
 mod table;
 
-pub use table::{Table, table};
+pub use table::table;
 
 use crate::case::Effort;
 use crate::oracle::naive::{

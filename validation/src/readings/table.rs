@@ -1,22 +1,10 @@
 //! The measured readings in words.
 
 use super::{QUANTITIES, Row, SEED};
-
-/// A table in words.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Table {
-    /// What it is of.
-    pub title: String,
-    /// How it was made and how to read it.
-    pub caption: String,
-    /// The head of each column.
-    pub columns: Vec<String>,
-    /// The cells, row by row.
-    pub rows: Vec<Vec<String>>,
-}
+use crate::report::ReportTable;
 
 /// The rows in words.
-pub fn table(rows: &[Row]) -> Table {
+pub fn table(rows: &[Row]) -> ReportTable {
     let replicas = rows.iter().map(|row| row.replicas).min().unwrap_or(0);
     let quantities = QUANTITIES
         .iter()
@@ -36,7 +24,8 @@ pub fn table(rows: &[Row]) -> Table {
             .chain(measured)
             .collect()
     };
-    Table {
+    ReportTable {
+        name: "open-readings".to_owned(),
         title: "What the open readings change".to_owned(),
         caption: format!(
             "The rods of Fig. 7 at 50 per cm³ (N = 100, σ = 0, r_e = 11.6, α = 0.5, 200 steps a period): each \
