@@ -5,7 +5,7 @@ use shearbed::ensemble;
 use shearbed::propagator::{Phase, couette};
 use std::hint::black_box;
 use validation::cases::lab;
-use validation::oracle::naive::{Naive, Problem, Start, Update};
+use validation::oracle::naive::{Naive, Problem, Reading, Start, Update};
 
 /// One exact step of a rod, and the phase it takes where aspect ratios differ.
 fn motion(c: &mut Criterion) {
@@ -70,6 +70,7 @@ fn problem() -> Problem {
         m: 3.0,
         min_contact_arm: 0.0,
         update: Update::Rotation,
+        reading: Reading::default(),
         steps_per_period: 200,
         seed: 1,
         replica: 0,

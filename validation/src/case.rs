@@ -112,7 +112,7 @@ impl Case {
         }
     }
 
-    /// Runs the check, then every control.
+    /// Runs the check, then every control. Without data there is nothing that a control could fail on.
     pub fn run(&self, effort: &Effort) -> Outcome {
         let start = Instant::now();
         let evidence: Vec<_> = (self.check)(effort)
@@ -122,9 +122,11 @@ impl Case {
                 Judged { evidence, verdict }
             })
             .collect();
+        let no_data = evidence.iter().any(|judged| judged.verdict == Verdict::NoData);
         let controls: Vec<_> = self
             .controls
             .iter()
+            .filter(|_| !no_data)
             .map(|(mistake, check)| Control {
                 mistake,
                 caught: check(effort)

@@ -3,10 +3,12 @@
 mod closed_forms;
 mod contact_rule;
 mod encounters;
+mod experiments;
 mod free_suspension;
 pub mod lab;
 mod misprints;
 mod motion;
+mod readings;
 mod reductions;
 mod reference;
 mod steady;
@@ -27,8 +29,10 @@ pub fn all() -> Vec<Case> {
         closed_forms::cases(),
         reductions::cases(),
         reference::cases(),
+        readings::cases(),
         steady::cases(),
         words::cases(),
+        experiments::cases(),
     ]
     .into_iter()
     .flatten()

@@ -4,6 +4,7 @@ use super::{Failure, print, progress};
 use crate::case::Effort;
 use crate::catalogue;
 use crate::figures::{self, Replicas};
+use crate::readings;
 use crate::report::Sections;
 
 /// Runs the scenes of the figures, and gathers everything.
@@ -16,9 +17,13 @@ pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Sections, Failure> 
     let bar = progress(work, "replicas", quiet);
     let drawn = figures::draw(effort, replicas, &|| bar.inc(1)).map_err(Failure::Failed)?;
     bar.finish_and_clear();
+    if !quiet {
+        print("open readings: the default and every alternative\n")?;
+    }
+    let readings = readings::measure(effort);
     Ok(Sections {
         figures: drawn.figures,
-        tables: Vec::new(),
+        tables: vec![readings::table(&readings)],
         equations: catalogue::equations(),
         plans: drawn.plans,
     })

@@ -3,7 +3,7 @@
 use super::{Failure, MAX_THREADS, on_threads, print, progress, sections, whole};
 use crate::case::{Case, Effort, Outcome, Verdict};
 use crate::report::{self, Sections};
-use crate::{cases, output};
+use crate::{cases, experiment, output};
 use std::path::PathBuf;
 
 /// Arguments of `validate`.
@@ -41,6 +41,10 @@ fn folder(text: &str) -> Result<PathBuf, String> {
 /// Runs the cases and writes the report. Where cases are chosen, the report holds them alone.
 pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let chosen = chosen(&args.cases)?;
+    if let Some(data) = &args.data {
+        // Bad points are bad input, not a case that failed.
+        experiment::check(data).map_err(|error| Failure::Input(error.to_string()))?;
+    }
     output::probe(&args.out)?;
     let effort = cases::effort(args.full, args.data);
     let (outcomes, sections) = on_threads(args.threads, || {

@@ -1,0 +1,191 @@
+//! Experiments (Figs 4 and 5): judged where the measured points are at hand, `NoData` where they are not.
+
+use crate::accept::Rule;
+use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::experiment::{self, ANCZUROWSKI, Comparison, Curve, DataError, OKAGAWA_MASON, Source};
+use shearbed::scene::Scene;
+
+/// A change to the scene that the model runs.
+type Mend = fn(&mut Scene);
+
+pub fn cases() -> Vec<Case> {
+    vec![
+        Case::new(
+            About {
+                name: "okagawa-mason-1973",
+                kind: Kind::Validation,
+                claim: "With α = 0.5 the mean projections are those that Okagawa & Mason measured, at n = 20, 50 and 100 per cm³.",
+                source: "Fig. 4",
+                equations: &["4"],
+                statistical_checks: OKAGAWA_MASON.scenes.len(),
+            },
+            (|_| {}) as Mend,
+            controls(),
+            |mend, effort| agreement(&OKAGAWA_MASON, *mend, effort),
+        ),
+        Case::new(
+            About {
+                name: "anczurowski-1967",
+                kind: Kind::Validation,
+                claim: "With α = 0.5 the mean projections up to t/T = 3 are those that Anczurowski, Cox & Mason measured.",
+                source: "Fig. 5",
+                equations: &["4"],
+                statistical_checks: ANCZUROWSKI.scenes.len(),
+            },
+            (|_| {}) as Mend,
+            controls(),
+            |mend, effort| agreement(&ANCZUROWSKI, *mend, effort),
+        ),
+        Case::new(
+            About {
+                name: "alpha-same-for-both",
+                kind: Kind::Validation,
+                claim: "The α that fits the experiments best is the same at r_e = 11.6 and at 14.2.",
+                source: "Figs 4, 5",
+                equations: &["7"],
+                statistical_checks: 1,
+            },
+            (|_| {}) as Mend,
+            vec![("α doubled unseen, at r_e = 14.2 only", double_alpha as Mend)],
+            same_alpha,
+        ),
+    ]
+}
+
+fn controls() -> Vec<(&'static str, Mend)> {
+    vec![
+        ("α = 1", double_alpha),
+        ("rods that do not interact", |scene| scene.interaction = None),
+    ]
+}
+
+fn double_alpha(scene: &mut Scene) {
+    if let Some(interaction) = &mut scene.interaction {
+        interaction.alpha *= 2.0;
+    }
+}
+
+const SUPPLY: &str = "put the digitised points (CSV) and their provenance (TOML) into the source's folder under DIR and \
+                      run `shearbed validate --data DIR`; docs/experiments.md has the format";
+
+fn no_data(what: impl Into<String>) -> Vec<Evidence> {
+    vec![Evidence::new(what, Rule::NoData { supply: SUPPLY })]
+}
+
+/// What cannot be judged fails, and says why.
+fn failed(what: impl Into<String>) -> Evidence {
+    Evidence::new(what, Rule::exact(f64::NAN))
+}
+
+/// The points of a source that are judged, and how many are not.
+fn judged(source: &Source, effort: &Effort) -> Result<(Vec<Curve>, usize), DataError> {
+    let Some(data) = &effort.data else {
+        return Ok((Vec::new(), 0));
+    };
+    let mut curves = experiment::read(data, source)?;
+    let mut late = 0;
+    for curve in &mut curves {
+        let all = curve.points.len();
+        curve.points.retain(|point| point.x <= source.judged_up_to);
+        late += all - curve.points.len();
+    }
+    curves.retain(|curve| !curve.points.is_empty());
+    Ok((curves, late))
+}
+
+fn replicas(effort: &Effort) -> u64 {
+    effort.pick(100, 2000)
+}
+
+/// One goodness of fit for each scene with points.
+fn agreement(source: &Source, mend: Mend, effort: &Effort) -> Vec<Evidence> {
+    let (curves, late) = match judged(source, effort) {
+        Ok(found) => found,
+        Err(error) => return vec![failed(error.to_string())],
+    };
+    if curves.is_empty() {
+        return no_data(format!("points of {}", source.label));
+    }
+    let scenes = source.scenes.iter();
+    let mut evidence = Vec::new();
+    for scene in scenes {
+        let here: Vec<_> = curves
+            .iter()
+            .filter(|curve| curve.scene == *scene)
+            .cloned()
+            .collect();
+        if here.is_empty() {
+            continue;
+        }
+        evidence.push(match experiment::compare(scene, &here, mend, replicas(effort)) {
+            Ok(comparison) => fit(&comparison, late, source),
+            Err(error) => failed(format!("{scene}: {error}")),
+        });
+    }
+    evidence
+}
+
+fn fit(comparison: &Comparison, late: usize, source: &Source) -> Evidence {
+    let n = comparison.points.len();
+    let mut what = format!(
+        "{}: χ² = {:.1} of {n} points; E = S − D: mean {:.4}, RMS {:.4}, |E| ≤ 2 u_val for {:.0} %",
+        comparison.scene,
+        comparison.chi_square,
+        comparison.mean_error,
+        comparison.rms_error,
+        100.0 * comparison.within_two_u_val,
+    );
+    if let Some(bias) = comparison.bias {
+        what += &format!("; bias δ = {:.3}, σ_M = {:.3}", bias.delta, bias.sigma_m);
+    }
+    if !comparison.inputs_stated {
+        what += "; u_input = 0: none stated";
+    }
+    if late > 0 {
+        what += &format!(
+            "; {late} points of the source after t/T = {} not judged",
+            source.judged_up_to
+        );
+    }
+    let rule = Rule::PValue {
+        p: comparison.p,
+        samples: n as u64,
+        enough: 3,
+        because: "χ² over all points with their full covariance; three points can tell a shape from a shift, and the \
+                  controls show the power",
+    };
+    Evidence::new(what, rule)
+}
+
+/// The difference of the two best α. The control doubles α in the model at r_e = 14.2 behind the estimate's back.
+fn same_alpha(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
+    let both =
+        judged(&OKAGAWA_MASON, effort).and_then(|short| Ok((short.0, judged(&ANCZUROWSKI, effort)?.0)));
+    let (short, long) = match both {
+        Ok(both) => both,
+        Err(error) => return vec![failed(error.to_string())],
+    };
+    if short.is_empty() || long.is_empty() {
+        return no_data("points at both aspect ratios");
+    }
+    let fits = experiment::alpha(&short, |_| {}, replicas(effort))
+        .and_then(|a| Ok((a, experiment::alpha(&long, *mend, replicas(effort))?)));
+    let (short, long) = match fits {
+        Ok(fits) => fits,
+        Err(error) => return vec![failed(error)],
+    };
+    let what = format!(
+        "best α: {:.3} ± {:.3} at r_e = 11.6, {:.3} ± {:.3} at 14.2; their difference",
+        short.alpha, short.se, long.alpha, long.se
+    );
+    let rule = Rule::Mean {
+        mean: long.alpha - short.alpha,
+        se: short.se.hypot(long.se),
+        samples: (short.points + long.points) as u64,
+        reference: 0.0,
+        allowance: 0.0,
+        enough: 0.1,
+        because: "a standard error of 0.1, a fifth of α = 0.5, or the points are too blunt to show a change",
+    };
+    vec![Evidence::new(what, rule)]
+}

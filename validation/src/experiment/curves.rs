@@ -1,0 +1,142 @@
+//! From a pair of files to curves in the model's units, sorted by time.
+
+use super::error::{DataError, read_text};
+use super::provenance::{self, Axis, Key, Layout, OBSERVABLES, Projection, Provenance};
+use super::table::{self, Dataset, Row};
+use super::{Curve, Measured, Source};
+use crate::scenes;
+use std::path::Path;
+
+/// Reads the provenance file `path` and the CSV file of the same name beside it.
+pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<Curve>, DataError> {
+    let csv_path = path.with_extension("csv");
+    if !csv_path.is_file() {
+        let message = format!("it has no {} beside it", csv_path.display());
+        return Err(DataError::whole(path, message));
+    }
+    let file = csv_path.display().to_string();
+    let provenance = provenance::parse(&path.display().to_string(), &read_text(path)?, source)?;
+    let text = read_text(&csv_path)?;
+    let datasets = match provenance.csv {
+        Layout::WebPlotDigitizer => table::webplotdigitizer(&file, &text)?,
+        Layout::Columns => {
+            let ys: Vec<_> = provenance
+                .curves
+                .iter()
+                .map(|key| column(&provenance, key))
+                .collect();
+            table::columns(&file, &text, provenance.x.quantity.column(), &ys)?
+        }
+    };
+    let named = |dataset: &Dataset| format!("`{}`", dataset.name);
+    let names = datasets.iter().map(named).collect::<Vec<_>>().join(", ");
+    if datasets.len() != provenance.curves.len() {
+        let message = format!(
+            "{} datasets ({names}); the provenance file has {} [[curve]]: one for each is allowed",
+            datasets.len(),
+            provenance.curves.len()
+        );
+        return Err(DataError::at(&file, 1, message));
+    }
+    let curve = |key: &Key| {
+        let wanted = match provenance.csv {
+            Layout::Columns => Some(column(&provenance, key)),
+            Layout::WebPlotDigitizer => key.dataset.clone(),
+        };
+        // A name is needed only where there are several.
+        let only = wanted.is_none() && datasets.len() == 1;
+        let dataset = datasets
+            .iter()
+            .find(|dataset| only || Some(&dataset.name) == wanted.as_ref());
+        let dataset = dataset.ok_or_else(|| {
+            let wanted = wanted.unwrap_or_else(|| "missing".to_owned());
+            let message = format!(
+                "curve.dataset = {wanted} is not allowed: {} has {names}",
+                csv_path.display()
+            );
+            DataError::at(&path.display().to_string(), key.line, message)
+        })?;
+        convert(&file, key, dataset, &provenance, source)
+    };
+    provenance.curves.iter().map(curve).collect()
+}
+
+/// The name of a curve's column in the project's layout.
+fn column(provenance: &Provenance, key: &Key) -> String {
+    let name = OBSERVABLES[key.channel];
+    match provenance.y.quantity {
+        Projection::Fraction => name.to_owned(),
+        Projection::Millimetres => format!("{name}_mm"),
+    }
+}
+
+fn convert(
+    file: &str,
+    key: &Key,
+    dataset: &Dataset,
+    provenance: &Provenance,
+    source: &Source,
+) -> Result<Curve, DataError> {
+    if dataset.rows.is_empty() {
+        let message = format!("`{}` has no points", dataset.name);
+        return Err(DataError::at(file, 1, message));
+    }
+    for (k, row) in dataset.rows.iter().enumerate() {
+        on_axis(file, row.line, "x", row.x, &provenance.x, row.u_x)?;
+        on_axis(file, row.line, "y", row.y, &provenance.y, row.u_y)?;
+        let same = |other: &&Row| (other.x, other.y) == (row.x, row.y);
+        if let Some(first) = dataset.rows[..k].iter().find(same) {
+            let message = format!(
+                "the point ({}, {}) is in line {} already: each point once is allowed",
+                row.x, row.y, first.line
+            );
+            return Err(DataError::at(file, row.line, message));
+        }
+    }
+    let scene = scenes::find(key.scene).and_then(|built_in| built_in.scene().ok());
+    let particles = scene.map(|scene| scene.particles);
+    // Every source's scenes exist and are valid: a test says so.
+    let (aspect_ratio, length_mm) = particles.map_or((f64::NAN, f64::NAN), |p| (p.aspect_ratio, p.length_mm));
+    let period = provenance.x.quantity.per_period(aspect_ratio);
+    let length = match provenance.y.quantity {
+        Projection::Fraction => 1.0,
+        Projection::Millimetres => length_mm,
+    };
+    let point = |row: &Row| Measured {
+        label: format!("{}, {}", source.label, provenance.figure),
+        observable: OBSERVABLES[key.channel],
+        x: row.x / period,
+        y: row.y / length,
+        u_x: row.u_x.unwrap_or(provenance.x.standard_uncertainty) / period,
+        u_y: row.u_y.unwrap_or(provenance.y.standard_uncertainty) / length,
+    };
+    let mut points: Vec<_> = dataset.rows.iter().map(point).collect();
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    Ok(Curve {
+        scene: key.scene,
+        channel: key.channel,
+        points,
+        provenance: provenance.clone(),
+    })
+}
+
+/// Refuses a value beyond the reference points by more than reading off at an end explains.
+fn on_axis<Q>(
+    file: &str,
+    line: usize,
+    name: &str,
+    value: f64,
+    axis: &Axis<Q>,
+    own: Option<f64>,
+) -> Result<(), DataError> {
+    let (least, most) = axis.range();
+    let slack = 3.0 * own.unwrap_or(axis.standard_uncertainty);
+    if (least - slack..=most + slack).contains(&value) {
+        return Ok(());
+    }
+    let message = format!(
+        "{name} = {value} is not allowed: the axis is calibrated from {least} to {most} (three standard \
+         uncertainties beyond its ends are allowed)"
+    );
+    Err(DataError::at(file, line, message))
+}
