@@ -18,12 +18,12 @@ pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Sections, Failure> 
     let drawn = figures::draw(effort, replicas, &|| bar.inc(1)).map_err(Failure::Failed)?;
     bar.finish_and_clear();
     if !quiet {
-        print("what the open readings change\n")?;
+        print("open readings: the default and every alternative\n")?;
     }
-    let readings = readings::table(&readings::measure(effort));
+    let readings = readings::measure(effort);
     Ok(Sections {
         figures: drawn.figures,
-        tables: vec![readings],
+        tables: vec![readings::table(&readings)],
         equations: catalogue::equations(),
         plans: drawn.plans,
     })

@@ -1,6 +1,7 @@
 //! Figures 4 to 12 of the paper, drawn from the built-in scenes in the paper's own axes.
 
 mod amplitude;
+mod measured;
 mod paper;
 mod run;
 

@@ -1,6 +1,7 @@
 //! What each figure shows, with its caption.
 
 use super::amplitude::amplitude;
+use super::measured::measured;
 use super::run::{Run, Runs, half_width};
 use crate::case::Effort;
 use crate::cases;
@@ -238,9 +239,4 @@ fn fig12(runs: &Runs) -> Result<ReportFigure, String> {
     let caption = "Rods lie along the flow most of the time: their shadows on the two planes that hold axis 2 are long, \
                    and the third oscillates most. The paper's figure shows typical results only.";
     Ok(figure("fig12", 12, "Fig. 12, eq. 21", drawn, caption.into()))
-}
-
-/// Adds the measured points of a scene, and says in the caption whose they are.
-fn measured(_scene: &str, _effort: &Effort, _figure: &mut Figure) -> Result<String, String> {
-    Ok("Measured points: none supplied.".into())
 }

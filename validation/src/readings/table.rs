@@ -25,7 +25,7 @@ pub fn table(rows: &[Row]) -> ReportTable {
             .collect()
     };
     ReportTable {
-        name: "open-readings".to_owned(),
+        name: "readings".to_owned(),
         title: "What the open readings change".to_owned(),
         caption: format!(
             "The rods of Fig. 7 at 50 per cm³ (N = 100, σ = 0, r_e = 11.6, α = 0.5, 200 steps a period): each \

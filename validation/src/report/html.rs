@@ -207,7 +207,7 @@ fn equations(report: &Report) -> Vec<EquationView<'_>> {
 }
 
 fn table(table: &ReportTable) -> TableView<'_> {
-    let starts_a_number = |c: char| c.is_ascii_digit() || "−-–±<≤>≥".contains(c);
+    let starts_a_number = |c: char| c.is_ascii_digit() || "+−-–±<≤>≥".contains(c);
     let is_number = |row: &Vec<String>, column| {
         let cell: Option<&String> = row.get(column);
         cell.is_some_and(|cell| cell.starts_with(starts_a_number))
