@@ -17,6 +17,44 @@ pub fn reach(r: f64, alpha: f64, m: f64) -> f64 {
     alpha * (-r.ln() / m).exp_m1()
 }
 
+/// The reach of eqs 8 and 9 for given α and m, with a bound on it that costs no logarithm.
+#[derive(Clone, Debug)]
+pub struct Reach {
+    alpha: f64,
+    m: f64,
+    /// s*(k/BINS), not below s* of any R in the bin.
+    bounds: Vec<f64>,
+}
+
+const BINS: usize = 256;
+
+impl Reach {
+    /// The reach for α > 0 and m > 0.
+    pub fn new(alpha: f64, m: f64) -> Self {
+        // s* falls with R. The slack covers a logarithm that is not monotonic in its last digits.
+        let bound = |bin: usize| reach(bin as f64 / BINS as f64, alpha, m) * (1.0 + 1e-12);
+        Self {
+            alpha,
+            m,
+            bounds: (0..BINS).map(bound).collect(),
+        }
+    }
+
+    /// s*(R) in rod lengths, for R in [0, 1).
+    pub fn of(&self, r: f64) -> f64 {
+        reach(r, self.alpha, self.m)
+    }
+
+    /// A number not below s*(R), for R in [0, 1): s* itself where a bound would be loose.
+    #[inline]
+    pub fn bound(&self, r: f64) -> f64 {
+        match (r * BINS as f64) as usize {
+            0 => self.of(r),
+            bin => self.bounds[bin],
+        }
+    }
+}
+
 /// The direction rates ṗ′ of both rods after a collision, from those before it (eqs 5 and 6, A.7 to A.12).
 ///
 /// `relative_velocity` is u(x_B) − u(x_A), `rates` are ṗ_A and ṗ_B; all in one unit of length and time. The
@@ -104,6 +142,23 @@ mod tests {
             }
         }
         assert_eq!(reach(0.0, 0.5, 3.0), f64::INFINITY);
+    }
+
+    #[test]
+    fn the_bound_is_above_the_reach_and_not_far() {
+        for (alpha, m) in [(0.5, 3.0), (1e-6, 0.1), (7.0, 50.0)] {
+            let table = Reach::new(alpha, m);
+            for r in (0..10_000).map(|k| f64::from(k) / 10_000.0) {
+                let (reach, bound) = (table.of(r), table.bound(r));
+                assert!(bound >= reach, "{r}: {bound} < {reach}");
+                let next = reach_of_previous_bin(r, alpha, m);
+                assert!(bound <= next * (1.0 + 1e-11), "{r}: {bound} > {next}");
+            }
+        }
+    }
+
+    fn reach_of_previous_bin(r: f64, alpha: f64, m: f64) -> f64 {
+        reach((r - 1.0 / BINS as f64).max(0.0), alpha, m)
     }
 
     #[test]

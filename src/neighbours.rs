@@ -7,6 +7,8 @@
 pub struct Grid {
     side: f64,
     cells_per_side: usize,
+    /// Cells per length.
+    per_length: f64,
     /// Where each cell's rods start in `sorted`; one more entry ends the last cell.
     starts: Vec<u32>,
     /// (position, rod) in the order of cells.
@@ -16,9 +18,11 @@ pub struct Grid {
 impl Grid {
     /// An empty grid for about `count` rods in a volume of the given side: about one rod a cell.
     pub fn new(side: f64, count: usize) -> Self {
+        let cells_per_side = ((count as f64).cbrt().floor() as usize).clamp(1, 256);
         Self {
             side,
-            cells_per_side: ((count as f64).cbrt().floor() as usize).clamp(1, 256),
+            cells_per_side,
+            per_length: cells_per_side as f64 / side,
             ..Self::default()
         }
     }
@@ -56,7 +60,7 @@ impl Grid {
         tested: &mut u64,
     ) -> Option<(usize, f64)> {
         let reach = reach.min(2.0 * self.side);
-        let mut radius = reach.min(self.side / self.cells_per_side as f64);
+        let mut radius = reach.min(1.0 / self.per_length);
         loop {
             let found = self.nearest_in_ball(rod, position, radius, tested);
             if found.is_some() || radius >= reach {
@@ -73,7 +77,8 @@ impl Grid {
         radius: f64,
         tested: &mut u64,
     ) -> Option<(usize, f64)> {
-        let [low, high] = [-radius, radius].map(|r| position.map(|x| self.index(x + r)));
+        let low = position.map(|x| self.index(x - radius));
+        let high = position.map(|x| self.index(x + radius));
         let mut best = None;
         let mut best_square = radius * radius;
         for i in low[0]..=high[0] {
@@ -102,7 +107,7 @@ impl Grid {
 
     /// The cell index along one axis; a negative coordinate counts to the first cell, as the cast saturates.
     fn index(&self, x: f64) -> usize {
-        ((x / self.side * self.cells_per_side as f64) as usize).min(self.cells_per_side - 1)
+        ((x * self.per_length) as usize).min(self.cells_per_side - 1)
     }
 
     fn cell(&self, position: [f64; 3]) -> usize {

@@ -95,8 +95,8 @@ impl Propagator {
         self.period().map(|period| period / self.rate_per_s)
     }
 
-    /// The period in units of 1/rate.
-    fn period(&self) -> Option<f64> {
+    /// The period in units of 1/rate, the same bits for any rate.
+    pub(crate) fn period(&self) -> Option<f64> {
         match self.motion {
             Motion::Couette { aspect_ratio, .. } => Some(jeffery::strain_per_period(aspect_ratio)),
             Motion::Planar { c, .. } if c > 0.0 => Some(TAU / c.sqrt()),

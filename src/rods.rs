@@ -218,11 +218,11 @@ fn draw_shapes(plan: &Plan, replica: u64) -> (Shapes, u64) {
             }
         })
         .collect();
-    let period = |r: f64| Propagator::new(plan.flow(), r).period_s();
+    let period = |r: f64| Propagator::new(plan.flow(), r).period();
     let periods = match period(mean) {
-        Some(mean_s) => aspect_ratio
+        Some(mean_period) => aspect_ratio
             .iter()
-            .map(|&r| mean_s / period(r).unwrap_or(mean_s))
+            .map(|&r| mean_period / period(r).unwrap_or(mean_period))
             .collect(),
         None => Vec::new(),
     };

@@ -1,6 +1,6 @@
 //! Interacting rods in the control volume, step by step (the paper's method of solution).
 
-use crate::collision::{reach, share_velocity, step_angles, turn};
+use crate::collision::{Reach, share_velocity, step_angles, turn};
 use crate::contact::contact;
 use crate::jeffery::{couette_rate, shape_factor, strain_per_period};
 use crate::neighbours::Grid;
@@ -38,6 +38,7 @@ pub struct Suspension {
     draws: Option<Pcg64Dxsm>,
     replacements: Pcg64Dxsm,
     contacts: bool,
+    reach: Reach,
     rule: Rule,
     tick: u64,
     candidates: Vec<(f64, u32, u32)>,
@@ -48,8 +49,6 @@ pub struct Suspension {
 
 #[derive(Clone, Copy, Debug)]
 struct Rule {
-    alpha: f64,
-    m: f64,
     update: Update,
     min_arm: f64,
     /// |G|Δt.
@@ -86,9 +85,8 @@ impl Suspension {
                 .then(|| rng(Purpose::Collisions)),
             replacements: rng(Purpose::Replacements),
             contacts: plan.keeps(Stage::Contacts),
+            reach: Reach::new(interaction.alpha, interaction.m),
             rule: Rule {
-                alpha: interaction.alpha,
-                m: interaction.m,
                 update: interaction.update,
                 min_arm: interaction.min_contact_arm,
                 strain: strain_per_period(scene.particles.aspect_ratio) / scene.steps_per_period() as f64,
@@ -116,7 +114,7 @@ impl Suspension {
         Ok(&self.collisions)
     }
 
-    /// Every rod draws R; its nearest neighbour within the reach of R makes a candidate (eqs 7 to 9).
+    /// Every rod draws R; its nearest neighbour within the reach of R makes a candidate (eqs 8 and 9).
     fn find_candidates(&mut self) {
         self.candidates.clear();
         if let Some(grid) = &mut self.grid {
@@ -127,10 +125,13 @@ impl Suspension {
         for rod in 0..x1.len() {
             let r: f64 = draws.random();
             let Some(grid) = &self.grid else { continue };
-            let reach = reach(r, self.rule.alpha, self.rule.m);
+            // The bound first: most rods have no neighbour that near, and need no logarithm.
+            let bound = self.reach.bound(r);
             let position = [x1[rod], x2[rod], x3[rod]];
             let tested = &mut self.counters.distances;
-            if let Some((other, square)) = grid.nearest_within(rod, position, reach, tested) {
+            if let Some((other, square)) = grid.nearest_within(rod, position, bound, tested)
+                && square < self.reach.of(r).powi(2)
+            {
                 self.candidates.push((square, rod as u32, other as u32));
             }
         }

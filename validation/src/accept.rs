@@ -37,6 +37,21 @@ pub enum Rule {
         /// Why this allowance and this `enough`.
         because: &'static str,
     },
+    /// mean − t·se > bound at the gate's level; with se ≤ enough, anything else is a failure.
+    Above {
+        /// The mean over independent replicas or samples.
+        mean: f64,
+        /// Its standard error.
+        se: f64,
+        /// Independent samples behind it.
+        samples: u64,
+        /// What it must exceed.
+        bound: f64,
+        /// The standard error above which the data is too little to say anything.
+        enough: f64,
+        /// Why this bound and this `enough`.
+        because: &'static str,
+    },
     /// p ≥ the gate's level, for a test on at least `enough` samples.
     PValue {
         /// The p-value of a goodness-of-fit test.
@@ -76,20 +91,22 @@ impl Rule {
 
     /// Whether the rule shares in the family-wise false-alarm rate.
     pub fn is_statistical(&self) -> bool {
-        matches!(self, Self::Mean { .. } | Self::PValue { .. })
+        matches!(self, Self::Mean { .. } | Self::Above { .. } | Self::PValue { .. })
     }
 
-    /// The error that the rule bounds.
+    /// The error that the rule bounds; for [`Rule::Above`] the mean itself.
     pub fn error(&self) -> f64 {
         match self {
             Self::Within { error, .. } => error.abs(),
             Self::Mean { mean, reference, .. } => (mean - reference).abs(),
+            Self::Above { mean, .. } => *mean,
             Self::PValue { p, .. } => *p,
             Self::NoData { .. } => f64::NAN,
         }
     }
 
-    /// The bound on the error at a level; for a p-value, the level itself.
+    /// The bound on the error at a level; for a p-value, the level itself; for [`Rule::Above`] what the
+    /// mean must exceed.
     pub fn tolerance(&self, level: f64) -> f64 {
         match self {
             Self::Within { tolerance, .. } => *tolerance,
@@ -99,6 +116,9 @@ impl Rule {
                 allowance,
                 ..
             } => critical(level, *samples) * se + allowance,
+            Self::Above {
+                se, samples, bound, ..
+            } => bound + critical(level, *samples) * se,
             Self::PValue { .. } => level,
             Self::NoData { .. } => f64::NAN,
         }
@@ -107,9 +127,10 @@ impl Rule {
     /// Why the bound is what it is.
     pub fn because(&self) -> &'static str {
         match self {
-            Self::Within { because, .. } | Self::Mean { because, .. } | Self::PValue { because, .. } => {
-                because
-            }
+            Self::Within { because, .. }
+            | Self::Mean { because, .. }
+            | Self::Above { because, .. }
+            | Self::PValue { because, .. } => because,
             Self::NoData { supply } => supply,
         }
     }
@@ -119,15 +140,18 @@ impl Rule {
 pub fn judge(rule: &Rule, level: f64) -> Verdict {
     let holds = match rule {
         Rule::Within { .. } | Rule::Mean { .. } => rule.error() <= rule.tolerance(level),
+        Rule::Above { .. } => rule.error() > rule.tolerance(level),
         Rule::PValue { p, .. } => *p >= level,
         Rule::NoData { .. } => return Verdict::NoData,
     };
     let enough_data = match rule {
-        Rule::Mean { se, enough, .. } => se <= enough,
+        Rule::Mean { se, enough, .. } | Rule::Above { se, enough, .. } => se <= enough,
         Rule::PValue { samples, enough, .. } => samples >= enough,
         _ => true,
     };
     match (holds, enough_data) {
+        // Noise can hide a difference, but it cannot make a mean come out close.
+        (false, false) if matches!(rule, Rule::Above { .. }) => Verdict::Underpowered,
         (false, _) => Verdict::Fail,
         (true, false) => Verdict::Underpowered,
         (true, true) => Verdict::Pass,
@@ -135,7 +159,7 @@ pub fn judge(rule: &Rule, level: f64) -> Verdict {
 }
 
 /// The two-sided critical value of Student's t for a mean of `samples` independent values.
-fn critical(level: f64, samples: u64) -> f64 {
+pub(crate) fn critical(level: f64, samples: u64) -> f64 {
     let freedom = samples.saturating_sub(1).max(1) as f64;
     StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |t| t.inverse_cdf(1.0 - 0.5 * level))
 }
@@ -169,6 +193,25 @@ mod tests {
             "little data is no excuse for a large error"
         );
         assert_eq!(mean(f64::NAN, 0.01, 0.0), Verdict::Fail);
+    }
+
+    #[test]
+    fn a_difference_needs_to_be_seen() {
+        let above = |mean, se| {
+            let rule = Rule::Above {
+                mean,
+                se,
+                samples: 400,
+                bound: 0.0,
+                enough: 0.02,
+                because: "",
+            };
+            judge(&rule, 1e-3)
+        };
+        assert_eq!(above(0.05, 0.01), Verdict::Pass);
+        assert_eq!(above(0.02, 0.01), Verdict::Fail);
+        assert_eq!(above(0.02, 0.1), Verdict::Underpowered);
+        assert_eq!(above(f64::NAN, 0.01), Verdict::Fail);
     }
 
     #[test]

@@ -4,11 +4,16 @@
 pub mod accept;
 pub mod case;
 pub mod cases;
+pub mod catalogue;
 pub mod cli;
+pub mod equations;
 pub mod experiment;
+pub mod figures;
+mod markup;
 pub mod oracle;
 pub mod output;
 pub mod plot;
+pub mod readings;
 pub mod report;
 pub mod scenes;
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use crate::accept::Rule;
 use rayon::prelude::*;
-use shearbed::plan::Plan;
+use shearbed::plan::{Plan, Stage};
 use shearbed::run::run_replica;
 use shearbed::scene::{
     Ensemble, Flow, Interaction, Isotropic, Orientation, Output, Particles, Scene, Time, Update,
@@ -97,22 +97,39 @@ impl Sample {
             because,
         }
     }
+
+    /// The rule that this mean exceeds `bound`, with a standard error of `enough` at most.
+    pub fn exceeds(self, bound: f64, enough: f64, because: &'static str) -> Rule {
+        Rule::Above {
+            mean: self.mean,
+            se: self.se,
+            samples: self.samples,
+            bound,
+            enough,
+            because,
+        }
+    }
 }
 
-/// One value per replica of a scene with a single channel per output in mind: `value` reads the means over
-/// rods, output by output, channel by channel.
-pub fn per_replica(scene: &Scene, replicas: u64, value: impl Fn(&Means) -> f64 + Sync) -> Vec<f64> {
+/// One value per replica of a scene: `value` reads the means over rods, output by output, channel by channel.
+pub fn per_replica<T: Send>(scene: &Scene, replicas: u64, value: impl Fn(&Means) -> T + Sync) -> Vec<T> {
     let plan = plan(scene);
     (0..replicas)
         .into_par_iter()
-        .map(|replica| match run_replica(&plan, replica) {
-            Ok(result) => value(&Means {
-                width: result.sums.len() / plan.outputs(),
+        .map(|replica| {
+            let result = run_replica(&plan, replica);
+            value(&Means {
+                width: plan
+                    .observables()
+                    .iter()
+                    .map(|observable| observable.width())
+                    .sum(),
                 count: scene.particles.count as f64,
-                sums: result.sums.iter().map(|sum| sum.value).collect(),
-            }),
-            // A run that stopped fails whatever is asked of it.
-            Err(_) => f64::NAN,
+                // A run that stopped fails whatever is asked of it: every mean is NaN.
+                sums: result.map_or(Vec::new(), |result| {
+                    result.sums.iter().map(|sum| sum.value).collect()
+                }),
+            })
         })
         .collect()
 }
@@ -127,7 +144,8 @@ pub struct Means {
 impl Means {
     /// The mean of a channel at an output.
     pub fn at(&self, output: usize, channel: usize) -> f64 {
-        self.sums[output * self.width + channel] / self.count
+        let sum = self.sums.get(output * self.width + channel);
+        sum.map_or(f64::NAN, |sum| sum / self.count)
     }
 
     /// The mean of a channel over a range of outputs.
@@ -145,6 +163,14 @@ pub fn plan(scene: &Scene) -> Plan {
 /// The suspension of a scene that a case has written, with every rod free to meet.
 pub fn suspension(scene: &Scene, replica: u64) -> Suspension {
     Suspension::new(&plan(scene), replica).expect("a case's scene has rods that interact")
+}
+
+/// The suspension of a scene whose rods cannot meet, carried and stepped all the same.
+pub fn stepped(scene: &Scene, replica: u64) -> Suspension {
+    let plan = plan(scene)
+        .keeping(Stage::Contacts)
+        .expect("a case's scene has an interaction");
+    Suspension::new(&plan, replica).expect("the plan keeps its steps")
 }
 
 /// The Kolmogorov–Smirnov test that `values` in [0, 1] are uniform there.

@@ -1,5 +1,6 @@
 //! The registry: every case, declared once. `cargo test`, the report and the catalogue are made from it.
 
+mod closed_forms;
 mod contact_rule;
 mod encounters;
 mod experiments;
@@ -7,8 +8,11 @@ mod free_suspension;
 pub mod lab;
 mod misprints;
 mod motion;
+mod readings;
+mod reductions;
 mod reference;
 mod steady;
+mod words;
 
 use crate::accept::FAMILY_FALSE_ALARM_RATE;
 use crate::case::{Case, Effort};
@@ -22,8 +26,12 @@ pub fn all() -> Vec<Case> {
         misprints::cases(),
         encounters::cases(),
         free_suspension::cases(),
+        closed_forms::cases(),
+        reductions::cases(),
         reference::cases(),
+        readings::cases(),
         steady::cases(),
+        words::cases(),
         experiments::cases(),
     ]
     .into_iter()

@@ -3,7 +3,7 @@
 use super::lab;
 use crate::accept::Rule;
 use crate::case::{About, Case, Effort, Evidence, Kind};
-use crate::oracle::naive::{Mistake, Naive, Problem, Start, Update};
+use crate::oracle::naive::{Mistake, Naive, Problem, Reading, Start, Update};
 use shearbed::Suspension;
 use shearbed::scene::{self, Orientation, Scene};
 
@@ -271,6 +271,7 @@ fn problem(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> Problem {
             scene::Update::Rotation => Update::Rotation,
             scene::Update::Angles => Update::Angles,
         },
+        reading: Reading::default(),
         steps_per_period: scene.steps_per_period() as usize,
         seed: scene.ensemble.seed,
         replica,

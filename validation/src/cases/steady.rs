@@ -43,7 +43,7 @@ fn steady_angle(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
         scene.output.observables = vec![Observable::MeanAngle];
         mend(&mut scene);
         let outputs = 12 * 50;
-        let means = lab::per_replica(&scene, effort.pick(30, 400), |means| {
+        let means = lab::per_replica(&scene, effort.pick(20, 400), |means| {
             means.over(outputs - 150..outputs, 0)
         });
         evidence.push(Evidence::new(

@@ -4,12 +4,14 @@ mod pictures;
 mod record;
 mod run;
 mod scene;
+mod sections;
 mod show;
 mod tables;
 mod validate;
 
 use clap::{Parser, Subcommand};
-use std::io::{self, Write};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
 /// Rigid slender rods in a sheared viscous liquid, after Lee & Springer (1982).
@@ -68,6 +70,18 @@ fn print(text: &str) -> Result<(), Failure> {
         ))),
         _ => Ok(()),
     }
+}
+
+/// A bar over the steps of a slow part on a terminal, and nothing elsewhere.
+fn progress(steps: u64, what: &str, quiet: bool) -> ProgressBar {
+    if quiet || !io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let style = ProgressStyle::with_template(&format!(
+        "{{wide_bar}} {{pos}}/{{len}} {what}, {{eta}} left {{msg}}"
+    ));
+    ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::stderr())
+        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
 /// Calls `work` on `threads` threads, or on one for each core.

@@ -1,14 +1,12 @@
 //! `shearbed run`.
 
 use super::record::Seconds;
-use super::{Failure, MAX_THREADS, on_threads, pictures, print, record, scene, tables, whole};
+use super::{Failure, MAX_THREADS, on_threads, pictures, print, progress, record, scene, tables, whole};
 use crate::output::{self, Output};
 use crate::plot;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shearbed::{Plan, Results, ensemble};
 use std::ffi::OsString;
-use std::io::{IsTerminal, stderr};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -53,7 +51,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         ..Seconds::default()
     };
 
-    let bar = progress(scene.ensemble.replicas, args.quiet);
+    let bar = progress(scene.ensemble.replicas, "replicas", args.quiet);
     let start = Instant::now();
     let (results, threads) = on_threads(args.threads, || {
         (ensemble::run(&plan, || bar.inc(1)), rayon::current_num_threads())
@@ -97,14 +95,4 @@ fn files(plan: &Plan, results: &Results) -> Result<Vec<Output>, String> {
         }
     }
     Ok(files)
-}
-
-/// A bar over the replicas on a terminal, and nothing elsewhere.
-fn progress(replicas: u64, quiet: bool) -> ProgressBar {
-    if quiet || !stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let style = ProgressStyle::with_template("{wide_bar} {pos}/{len} replicas, {eta} left");
-    ProgressBar::with_draw_target(Some(replicas), ProgressDrawTarget::stderr())
-        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }

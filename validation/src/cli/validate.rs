@@ -1,8 +1,9 @@
 //! `shearbed validate`.
 
-use super::{Failure, MAX_THREADS, on_threads, print, whole};
-use crate::case::{Case, Outcome, Verdict};
-use crate::{cases, experiment, output, report};
+use super::{Failure, MAX_THREADS, on_threads, print, progress, sections, whole};
+use crate::case::{Case, Effort, Outcome, Verdict};
+use crate::report::{self, Sections};
+use crate::{cases, experiment, output};
 use std::path::PathBuf;
 
 /// Arguments of `validate`.
@@ -17,7 +18,7 @@ pub(super) struct Args {
     /// A folder with measured points, for the cases that compare with experiments
     #[arg(long, value_name = "DIR", value_parser = folder)]
     data: Option<PathBuf>,
-    /// The folder for report.html, report.json and report.md
+    /// The folder for report.html, report.json, report.md and curves/
     #[arg(long, value_name = "DIR", default_value = "out/report")]
     out: PathBuf,
     /// Threads to run on [default: one for each core]
@@ -37,7 +38,7 @@ fn folder(text: &str) -> Result<PathBuf, String> {
     }
 }
 
-/// Runs the cases and writes the report.
+/// Runs the cases and writes the report. Where cases are chosen, the report holds them alone.
 pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let chosen = chosen(&args.cases)?;
     if let Some(data) = &args.data {
@@ -46,17 +47,19 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     }
     output::probe(&args.out)?;
     let effort = cases::effort(args.full, args.data);
-    let outcomes = on_threads(args.threads, || {
-        let run = |case: &Case| {
-            let outcome = case.run(&effort);
-            if !args.quiet {
-                print(&line(&outcome))?;
-            }
-            Ok(outcome)
+    let (outcomes, sections) = on_threads(args.threads, || {
+        let outcomes = outcomes(&chosen, &effort, args.quiet)?;
+        let sections = match args.cases.is_empty() {
+            true => sections::gather(&effort, args.quiet)?,
+            false => Sections::default(),
         };
-        chosen.iter().map(run).collect::<Result<Vec<_>, Failure>>()
+        Ok::<_, Failure>((outcomes, sections))
     })??;
-    let report = report::build(outcomes, Vec::new(), &effort, command());
+    let report = report::build(outcomes, sections, &effort, command());
+    let curves = report.curves().map_err(Failure::Failed)?;
+    if !curves.is_empty() {
+        output::write_all(&args.out.join("curves"), &curves)?;
+    }
     let files = [
         ("report.html", report.html().map_err(Failure::Failed)?),
         ("report.json", report.json()),
@@ -74,6 +77,23 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
             report.headline()
         ))),
     }
+}
+
+/// Runs the cases one after the other, and prints how each ended.
+fn outcomes(chosen: &[Case], effort: &Effort, quiet: bool) -> Result<Vec<Outcome>, Failure> {
+    let bar = progress(chosen.len() as u64, "cases", quiet);
+    let run = |case: &Case| {
+        bar.set_message(case.about.name);
+        let outcome = case.run(effort);
+        if !quiet {
+            bar.suspend(|| print(&line(&outcome)))?;
+        }
+        bar.inc(1);
+        Ok(outcome)
+    };
+    let outcomes = chosen.iter().map(run).collect();
+    bar.finish_and_clear();
+    outcomes
 }
 
 /// The cases of these names in the order of the registry, or all.

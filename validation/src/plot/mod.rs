@@ -8,6 +8,7 @@ mod axis;
 mod legend;
 mod style;
 
+use crate::markup::unicode;
 pub(crate) use axis::power_of_ten;
 use plotters::prelude::*;
 use serde::Serialize;
@@ -67,8 +68,9 @@ pub struct Figure {
 
 type Drawn = Result<(), Box<dyn Error>>;
 
-/// The figure as an SVG document, which may also stand inside HTML.
+/// The figure as an SVG document, which may also stand inside HTML. Texts are typeset: x_1 is x₁.
 pub fn svg(figure: &Figure) -> Result<String, String> {
+    let figure = &typeset(figure);
     let title = style::wrap(&figure.title, WIDTH - 2 * MARGIN, TITLE);
     let legend = legend::rows(figure);
     let head = MARGIN + (title.len() + legend.len()) as i32 * ROW;
@@ -92,6 +94,17 @@ pub fn svg(figure: &Figure) -> Result<String, String> {
     })();
     drawn.map_err(|error| format!("cannot draw the figure '{}': {error}", figure.title))?;
     Ok(finish(figure, &drawing, height))
+}
+
+fn typeset(figure: &Figure) -> Figure {
+    let mut figure = figure.clone();
+    let curves = figure.curves.iter_mut().map(|curve| &mut curve.label);
+    let points = figure.points.iter_mut().map(|points| &mut points.label);
+    let texts = [&mut figure.title, &mut figure.x_name, &mut figure.y_name];
+    for text in texts.into_iter().chain(curves).chain(points) {
+        *text = unicode(text);
+    }
+    figure
 }
 
 /// Sizes the document, names it for those who cannot see it, and adds what plotters lacks: dashes.

@@ -88,7 +88,9 @@ fn styled(size: f64, style: FontStyle) -> TextStyle<'static> {
 
 /// The room a text needs, on the safe side: no font is at hand to measure it.
 pub(super) fn text_width(text: &str, size: f64) -> i32 {
-    (0.56 * size * f64::from(FINE) * text.chars().count() as f64).ceil() as i32
+    let combining = |c: &char| ('\u{300}'..'\u{370}').contains(c);
+    let letters = text.chars().filter(|c| !combining(c)).count();
+    (0.56 * size * f64::from(FINE) * letters as f64).ceil() as i32
 }
 
 /// The lines of a text that has so much room.

@@ -1,10 +1,11 @@
 //! The report as one HTML file.
 
+use super::prose::Anchors;
 use super::words::{bounds, detail, kind, number, seconds, verdict};
-use super::{Line, Origin, Report, Row};
+use super::{Line, Origin, Report, ReportTable, Row, ScenePlan};
 use crate::case::{Control, Verdict};
 use crate::plot;
-use minijinja::value::Serde;
+use minijinja::value::{Serde, Value};
 use minijinja::{Environment, UndefinedBehavior};
 use serde::Serialize;
 
@@ -18,6 +19,9 @@ struct Page<'a> {
     attention: Vec<Link<'a>>,
     cases: Vec<CaseView<'a>>,
     figures: Vec<FigureView<'a>>,
+    tables: Vec<TableView<'a>>,
+    equations: Vec<EquationView<'a>>,
+    plans: &'a [ScenePlan],
     level: String,
     family: String,
     full: bool,
@@ -67,16 +71,39 @@ struct FigureView<'a> {
     cases: Vec<Link<'a>>,
 }
 
-/// A link inside the report.
+/// A table, and which of its columns hold numbers.
+#[derive(Serialize)]
+struct TableView<'a> {
+    #[serde(flatten)]
+    table: &'a ReportTable,
+    numeric: Vec<bool>,
+}
+
+/// An equation with the cases that test it.
+#[derive(Serialize)]
+struct EquationView<'a> {
+    number: &'a str,
+    says: &'a str,
+    code: &'a [String],
+    cases: Vec<Link<'a>>,
+}
+
+/// A link inside the report, to a case with its verdict or to a figure.
 #[derive(Serialize)]
 struct Link<'a> {
     anchor: String,
     text: &'a str,
+    class: Option<Verdict>,
+    symbol: &'static str,
 }
 
 pub(super) fn write(report: &Report) -> Result<String, String> {
     let mut environment = Environment::new();
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
+    let anchors = Anchors::of(report);
+    environment.add_filter("prose", move |text: &str| {
+        Value::from_safe_string(anchors.html(text))
+    });
     let cases: Vec<_> = report.cases.iter().map(|row| case(report, row)).collect();
     let figures = figures(report)?;
     let attention: Vec<_> = (report.cases.iter())
@@ -90,6 +117,9 @@ pub(super) fn write(report: &Report) -> Result<String, String> {
         attention,
         cases,
         figures,
+        tables: report.sections.tables.iter().map(table).collect(),
+        equations: equations(report),
+        plans: &report.sections.plans,
         level: number(report.summary.level),
         family: number(report.summary.family_false_alarm_rate),
         full: report.summary.full,
@@ -105,7 +135,11 @@ pub(super) fn write(report: &Report) -> Result<String, String> {
 
 fn case<'a>(report: &'a Report, row: &'a Row) -> CaseView<'a> {
     let (symbol, word) = verdict(row.verdict);
-    let figures = report.figures.iter().filter(|f| f.cases.contains(&row.name));
+    let figures = report
+        .sections
+        .figures
+        .iter()
+        .filter(|f| f.cases.contains(&row.name));
     CaseView {
         name: &row.name,
         claim: &row.claim,
@@ -124,6 +158,8 @@ fn case<'a>(report: &'a Report, row: &'a Row) -> CaseView<'a> {
             .map(|f| Link {
                 anchor: format!("figure-{}", f.name),
                 text: &f.figure.title,
+                class: None,
+                symbol: "",
             })
             .collect(),
     }
@@ -145,23 +181,56 @@ fn line(line: &Line) -> LineView<'_> {
 }
 
 fn figures(report: &Report) -> Result<Vec<FigureView<'_>>, String> {
-    (report.figures.iter())
+    (report.sections.figures.iter())
         .map(|figure| {
-            let judges = report.cases.iter().filter(|row| figure.cases.contains(&row.name));
             Ok(FigureView {
                 name: &figure.name,
                 svg: plot::svg(&figure.figure)?,
                 caption: &figure.caption,
                 source: &figure.source,
-                cases: judges.map(case_link).collect(),
+                cases: case_links(report, &figure.cases),
             })
         })
         .collect()
+}
+
+fn equations(report: &Report) -> Vec<EquationView<'_>> {
+    let equations = report.sections.equations.iter();
+    equations
+        .map(|equation| EquationView {
+            number: &equation.number,
+            says: &equation.says,
+            code: &equation.code,
+            cases: case_links(report, &equation.cases),
+        })
+        .collect()
+}
+
+fn table(table: &ReportTable) -> TableView<'_> {
+    let starts_a_number = |c: char| c.is_ascii_digit() || "+−-–±<≤>≥".contains(c);
+    let is_number = |row: &Vec<String>, column| {
+        let cell: Option<&String> = row.get(column);
+        cell.is_some_and(|cell| cell.starts_with(starts_a_number))
+    };
+    TableView {
+        numeric: (0..table.columns.len())
+            .map(|column| table.rows.iter().all(|row| is_number(row, column)))
+            .collect(),
+        table,
+    }
+}
+
+/// Links to the cases of these names that are in the report.
+fn case_links<'a>(report: &'a Report, names: &[String]) -> Vec<Link<'a>> {
+    let cases = report.cases.iter().filter(|row| names.contains(&row.name));
+    cases.map(case_link).collect()
 }
 
 fn case_link(row: &Row) -> Link<'_> {
     Link {
         anchor: format!("case-{}", row.name),
         text: &row.name,
+        class: Some(row.verdict),
+        symbol: verdict(row.verdict).0,
     }
 }

@@ -1,7 +1,8 @@
 //! The report as Markdown.
 
 use super::words::{bounds, kind, seconds, verdict};
-use super::{Report, Row};
+use super::{Report, ReportEquation, ReportFigure, ReportTable, Row};
+use crate::markup::{Piece, pieces, unicode};
 
 pub(super) fn write(report: &Report) -> String {
     let origin = &report.origin;
@@ -15,6 +16,11 @@ pub(super) fn write(report: &Report) -> String {
     text += "\nError and tolerance are those of the worst line of evidence; for a goodness-of-fit test they are \
              its p-value and the smallest allowed. To repeat one case: \
              `cargo run --release -- validate --case NAME`.\n\n";
+    text += &figures(&report.sections.figures);
+    text += &(report.sections.tables.iter()).map(section).collect::<String>();
+    if !report.sections.equations.is_empty() {
+        text += &section(&equation_table(&report.sections.equations));
+    }
     text += &format!(
         "Made {} by `{}` (shearbed {}, commit {}, {}, {} build) on {}, {} threads, {}. Seeds: {}.\n",
         origin.date,
@@ -48,16 +54,81 @@ fn row(case: &Row) -> String {
     )
 }
 
-/// A text that stays in its cell and is no markup.
+fn figures(figures: &[ReportFigure]) -> String {
+    if figures.is_empty() {
+        return String::new();
+    }
+    let line = |figure: &ReportFigure| {
+        let title = escape(&figure.figure.title);
+        let caption = escape(&figure.caption);
+        format!("- **{title}** (`curves/{}.csv`): {caption}\n", figure.name)
+    };
+    format!("## Figures\n\n{}\n", figures.iter().map(line).collect::<String>())
+}
+
+fn section(table: &ReportTable) -> String {
+    format!(
+        "## {}\n\n{}\n\n{}\n",
+        escape(&table.title),
+        escape(&table.caption),
+        markdown_table(table)
+    )
+}
+
+/// The columns and rows of a table as Markdown.
+pub(crate) fn markdown_table(table: &ReportTable) -> String {
+    let line = |cells: &[String]| {
+        let cells: Vec<_> = cells.iter().map(|cell| escape(cell)).collect();
+        format!("| {} |\n", cells.join(" | "))
+    };
+    let rows: String = table.rows.iter().map(|row| line(row)).collect();
+    format!(
+        "{}|{}\n{rows}",
+        line(&table.columns),
+        " --- |".repeat(table.columns.len())
+    )
+}
+
+/// The equations as a table.
+pub(crate) fn equation_table(equations: &[ReportEquation]) -> ReportTable {
+    let code = |items: &[String]| items.iter().map(|item| format!("`{item}`")).collect::<Vec<_>>();
+    ReportTable {
+        name: "equations".into(),
+        title: "Equations".into(),
+        caption:
+            "From each equation of the paper to the code that is made from it and the cases that test it."
+                .into(),
+        columns: ["equation", "says", "code, in `src/`", "cases"]
+            .map(String::from)
+            .into(),
+        rows: (equations.iter())
+            .map(|e| {
+                vec![
+                    e.number.clone(),
+                    e.says.clone(),
+                    code(&e.code).join(", "),
+                    code(&e.cases).join(", "),
+                ]
+            })
+            .collect(),
+    }
+}
+
+/// A text that stays in its cell and is no markup, but for what stands in backticks.
 fn escape(text: &str) -> String {
     let mut escaped = String::new();
-    for c in text.chars() {
-        match c {
-            '\n' => escaped.push(' '),
-            '<' => escaped.push_str("&lt;"),
-            '&' => escaped.push_str("&amp;"),
-            '|' | '*' | '_' | '`' | '\\' | '[' => escaped.extend(['\\', c]),
-            _ => escaped.push(c),
+    for piece in pieces(text) {
+        match piece {
+            Piece::Code(code) => escaped += &format!("`{}`", code.replace('\n', " ").replace('|', "\\|")),
+            Piece::Text(text) | Piece::Equation(text) | Piece::Figure(text) => {
+                unicode(text).chars().for_each(|c| match c {
+                    '\n' => escaped.push(' '),
+                    '<' => escaped.push_str("&lt;"),
+                    '&' => escaped.push_str("&amp;"),
+                    '|' | '*' | '_' | '\\' | '[' => escaped.extend(['\\', c]),
+                    _ => escaped.push(c),
+                });
+            }
         }
     }
     escaped

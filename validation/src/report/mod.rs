@@ -1,34 +1,25 @@
 //! The report: what every case said, as plain data, and its writers.
 
+mod curves;
 mod html;
 mod markdown;
 mod origin;
+mod prose;
 mod row;
+mod sections;
 #[cfg(test)]
 mod tests;
 mod words;
 
+pub(crate) use markdown::{equation_table, markdown_table};
+
 use crate::accept::FAMILY_FALSE_ALARM_RATE;
 use crate::case::{Effort, Outcome, Verdict};
-use crate::plot::Figure;
+use crate::output::Output;
 pub use origin::Origin;
 pub use row::{Line, Row};
+pub use sections::{ReportEquation, ReportFigure, ReportTable, ScenePlan, Sections};
 use serde::Serialize;
-
-/// A picture with what to see in it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct ReportFigure {
-    /// Its name, in words joined by `-`; its anchor is `figure-NAME`.
-    pub name: String,
-    /// The picture.
-    pub figure: Figure,
-    /// What to see.
-    pub caption: String,
-    /// Equations and figures of the paper.
-    pub source: String,
-    /// The cases that judge what is shown, which link here.
-    pub cases: Vec<String>,
-}
 
 /// How many cases ended how.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -58,14 +49,15 @@ pub struct Report {
     pub summary: Summary,
     /// The cases, in the order of the registry.
     pub cases: Vec<Row>,
-    /// The pictures.
-    pub figures: Vec<ReportFigure>,
+    /// What is shown beside them.
+    #[serde(flatten)]
+    pub sections: Sections,
     /// Where, when and from what.
     pub origin: Origin,
 }
 
 /// Gathers a report from what cases, run with `effort` by the command line `command`, said.
-pub fn build(outcomes: Vec<Outcome>, figures: Vec<ReportFigure>, effort: &Effort, command: String) -> Report {
+pub fn build(outcomes: Vec<Outcome>, sections: Sections, effort: &Effort, command: String) -> Report {
     let count = |verdict| outcomes.iter().filter(|o| o.verdict == verdict).count();
     Report {
         summary: Summary {
@@ -81,8 +73,8 @@ pub fn build(outcomes: Vec<Outcome>, figures: Vec<ReportFigure>, effort: &Effort
         cases: (outcomes.into_iter())
             .map(|outcome| Row::new(outcome, effort))
             .collect(),
-        figures,
-        origin: Origin::here(command),
+        origin: Origin::here(command, &sections.plans),
+        sections,
     }
 }
 
@@ -95,6 +87,14 @@ impl Report {
     /// The table, for where HTML cannot go.
     pub fn markdown(&self) -> String {
         markdown::write(self)
+    }
+
+    /// The tables behind the figures: names of files, and CSV.
+    pub fn curves(&self) -> Result<Vec<Output>, String> {
+        let figures = self.sections.figures.iter();
+        figures
+            .map(|figure| Ok((format!("{}.csv", figure.name), curves::csv(figure)?)))
+            .collect()
     }
 
     /// Everything as data; numbers that are not finite are null.

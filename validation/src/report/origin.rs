@@ -1,7 +1,9 @@
 //! Where, when and from what a report was made.
 
+use super::ScenePlan;
 use super::words::utc;
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -32,8 +34,8 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// This run's.
-    pub fn here(command: String) -> Self {
+    /// This run's, with figures drawn from the scenes of `plans`.
+    pub fn here(command: String, plans: &[ScenePlan]) -> Self {
         let since_1970 = SystemTime::now().duration_since(UNIX_EPOCH);
         let build = if cfg!(debug_assertions) {
             "development"
@@ -50,9 +52,22 @@ impl Origin {
             threads: std::thread::available_parallelism().map_or(1, Into::into),
             system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
             date: since_1970.map_or_else(|_| unknown(), |time| utc(time.as_secs())),
-            seeds: "fixed in the source of each case; no result depends on the number of threads".into(),
+            seeds: seeds(plans),
         }
     }
+}
+
+/// Where the random numbers of cases come from, and the scenes of each seed.
+fn seeds(plans: &[ScenePlan]) -> String {
+    let mut scenes = BTreeMap::<u64, Vec<&str>>::new();
+    for plan in plans {
+        scenes.entry(plan.seed).or_default().push(&plan.scene);
+    }
+    let of_scenes = scenes
+        .iter()
+        .map(|(seed, names)| format!("; {seed} for {}", names.join(", ")));
+    let of_scenes: String = of_scenes.collect();
+    format!("of a case fixed in the case's source{of_scenes}. No result depends on the number of threads")
 }
 
 fn unknown() -> String {
@@ -94,8 +109,19 @@ mod tests {
     }
 
     #[test]
+    fn scenes_are_listed_by_their_seeds() {
+        let plan = |scene: &str, seed| ScenePlan {
+            scene: scene.into(),
+            seed,
+            ..Default::default()
+        };
+        let text = seeds(&[plan("a", 2), plan("b", 1), plan("c", 2)]);
+        assert!(text.contains("; 1 for b; 2 for a, c."), "{text}");
+    }
+
+    #[test]
     fn nothing_is_empty() {
-        let origin = Origin::here("shearbed validate".into());
+        let origin = Origin::here("shearbed validate".into(), &[]);
         assert!(origin.threads > 0);
         assert!(!origin.commit.is_empty() && !origin.processor.is_empty());
         assert!(origin.rustc.starts_with("rustc ") && origin.date.ends_with('Z'));

@@ -3,7 +3,7 @@
 use super::*;
 use crate::accept::{Rule, judge};
 use crate::case::{About, Control, Evidence, Judged, Kind};
-use crate::plot::Curve;
+use crate::plot::{Curve, Figure};
 use crate::xml::is_well_formed;
 
 const EFFORT: Effort = Effort {
@@ -123,7 +123,10 @@ fn synthetic() -> Report {
     };
     let mut report = build(
         outcomes,
-        vec![figure],
+        Sections {
+            figures: vec![figure],
+            ..Default::default()
+        },
         &EFFORT,
         "shearbed validate --out 'a<b'".into(),
     );
@@ -156,7 +159,7 @@ fn counts_and_exit_code() {
     assert_eq!(report.exit_code(), 1);
     let only = |verdict| {
         let outcomes = vec![outcome("synthetic", verdict, vec![], &[])];
-        build(outcomes, vec![], &EFFORT, String::new()).exit_code()
+        build(outcomes, Sections::default(), &EFFORT, String::new()).exit_code()
     };
     let verdicts = [
         Verdict::Pass,
@@ -165,7 +168,10 @@ fn counts_and_exit_code() {
         Verdict::NoData,
     ];
     assert_eq!(verdicts.map(only), [0, 1, 1, 0]);
-    assert_eq!(build(vec![], vec![], &EFFORT, String::new()).exit_code(), 0);
+    assert_eq!(
+        build(vec![], Sections::default(), &EFFORT, String::new()).exit_code(),
+        0
+    );
 }
 
 #[test]
@@ -217,7 +223,7 @@ fn html_stands_alone() {
         "✗ fail",
         "△ under-powered",
         "○ no data",
-        "&lt;b&gt;|p₁|&lt;&#x2f;b&gt; &amp; more.",
+        "&lt;b&gt;|p₁|&lt;/b&gt; &amp; more.",
         "not caught: factor &lt; 2",
         "a&lt;b",
         "p = 0.31",

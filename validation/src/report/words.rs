@@ -53,6 +53,10 @@ pub(super) fn bounds(line: &Line) -> (String, String) {
             format!("p = {}", number(line.error)),
             format!("p ≥ {}", number(line.tolerance)),
         ),
+        Rule::Above { .. } => (
+            format!("mean {}", number(line.error)),
+            format!("> {}", number(line.tolerance)),
+        ),
         _ => (number(line.error), number(line.tolerance)),
     }
 }
@@ -82,6 +86,20 @@ pub(super) fn detail(rule: &Rule) -> String {
                 number(*enough)
             )
         }
+        Rule::Above {
+            mean,
+            se,
+            samples,
+            bound,
+            enough,
+            ..
+        } => format!(
+            "mean {} ± {} (standard error of {samples}), must exceed {}; the standard error may be {} at most",
+            digits(*mean, 6),
+            number(*se),
+            digits(*bound, 6),
+            number(*enough)
+        ),
         Rule::PValue { samples, enough, .. } => format!("{samples} samples, at least {enough} needed"),
         Rule::Within { .. } | Rule::NoData { .. } => String::new(),
     }

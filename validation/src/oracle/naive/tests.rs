@@ -1,6 +1,13 @@
 //! Tests of the naive reference itself.
 
+mod readings;
+
+use super::contact::Rod;
+use super::motion::{angle_rates_per_s, angles_rad};
+use super::random::{GOLDEN, mix};
 use super::*;
+use nalgebra::Vector3;
+use rand::RngExt;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn fibres(count: usize, alpha: f64, change: impl FnOnce(&mut Problem)) -> Problem {
@@ -16,6 +23,7 @@ fn fibres(count: usize, alpha: f64, change: impl FnOnce(&mut Problem)) -> Proble
         m: 3.0,
         min_contact_arm: 0.0,
         update: Update::Rotation,
+        reading: Reading::default(),
         steps_per_period: 200,
         seed: 1,
         replica: 0,
@@ -275,7 +283,7 @@ fn only_an_arm_below_the_least_is_no_contact() {
 }
 
 /// Collisions of one step of rods on axis 1, all of them candidates unless changed.
-fn taken(x1_mm: &[f64], parallel: [usize; 2], change: fn(&mut Problem)) -> Vec<(usize, usize)> {
+fn taken(x1_mm: &[f64], parallel: [usize; 2], change: impl FnOnce(&mut Problem)) -> Vec<(usize, usize)> {
     let mut naive = Naive::new(fibres(x1_mm.len(), 1e30, change));
     naive.positions_mm = x1_mm.iter().map(|&x| [x, 0.0, 0.0]).collect();
     naive.orientations[parallel[0]] = naive.orientations[parallel[1]];
@@ -302,7 +310,7 @@ fn who_collides_by_chance() {
 #[test]
 fn who_collides_by_order() {
     let line = [[0.0; 3], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]];
-    assert_eq!(nearest(&line, 0), Some((1, 1.0)));
+    assert_eq!(nearest(&line, 0, Images::None, 10.0), Some(1));
     assert_eq!(taken(&[0.0, 1.0, 3.0, 4.0], [0, 0], |_| ()), [(0, 1), (2, 3)]);
     let x1_mm = [0.0, 10.0, 11.0, 30.0];
     assert_eq!(taken(&x1_mm, [0, 0], |_| ()), [(1, 2)]);

@@ -1,0 +1,19 @@
+//! Prints what the open readings change as a Markdown table; with `-- full`, from as many replicas as `--full`.
+
+use validation::case::Effort;
+use validation::readings::{measure, table};
+
+fn main() {
+    let effort = Effort {
+        full: std::env::args().any(|argument| argument == "full"),
+        level: f64::NAN,
+        data: None,
+    };
+    let table = table(&measure(&effort));
+    println!("{}\n", table.caption);
+    println!("| {} |", table.columns.join(" | "));
+    println!("|{}", " --- |".repeat(table.columns.len()));
+    for row in table.rows {
+        println!("| {} |", row.join(" | "));
+    }
+}

@@ -1,0 +1,55 @@
+//! The catalogue of cases and equations, made from the registry: for the report and for `docs/catalogue.md`.
+
+use crate::accept::FAMILY_FALSE_ALARM_RATE;
+use crate::case::Kind;
+use crate::report::{ReportEquation, ReportTable, equation_table, markdown_table};
+use crate::{cases, equations};
+
+/// The catalogue as Markdown.
+pub fn markdown() -> String {
+    let about: Vec<_> = cases::all().into_iter().map(|case| case.about).collect();
+    let checks: usize = about.iter().map(|about| about.statistical_checks).sum();
+    let columns = ["case", "kind", "claim", "source", "statistical checks"];
+    let rows = about.iter().map(|about| {
+        let kind = match about.kind {
+            Kind::Verification => "verification",
+            Kind::Validation => "validation",
+        };
+        vec![
+            format!("`{}`", about.name),
+            kind.into(),
+            about.claim.into(),
+            about.source.into(),
+            about.statistical_checks.to_string(),
+        ]
+    });
+    let table = ReportTable {
+        columns: columns.map(String::from).into(),
+        rows: rows.collect(),
+        ..Default::default()
+    };
+    format!(
+        "# The catalogue\n\nMade from the registry; `UPDATE_DOCS=1 cargo test -p validation --test docs` makes \
+         it anew.\n\n## Cases\n\n{}\n{} cases with {checks} statistical checks, which share a family-wise false-alarm rate of {}.\n\n\
+         ## Equations\n\n{}",
+        markdown_table(&table),
+        about.len(),
+        FAMILY_FALSE_ALARM_RATE,
+        markdown_table(&equation_table(&equations())),
+    )
+}
+
+/// Every equation with the cases of the registry that test it.
+pub fn equations() -> Vec<ReportEquation> {
+    let about: Vec<_> = cases::all().into_iter().map(|case| case.about).collect();
+    let equation = |equation: &equations::Equation| ReportEquation {
+        number: equation.number.into(),
+        says: equation.says.into(),
+        code: equation.code.iter().map(|item| (*item).into()).collect(),
+        cases: (about.iter())
+            .filter(|about| about.equations.contains(&equation.number))
+            .map(|about| about.name.into())
+            .collect(),
+    };
+    equations::ALL.iter().map(equation).collect()
+}

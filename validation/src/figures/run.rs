@@ -1,0 +1,160 @@
+//! The built-in scenes behind the figures, run replica by replica, and the curves read from them.
+
+use crate::accept::critical;
+use crate::cases::lab::Sample;
+use crate::plot::Curve;
+use crate::report::ScenePlan;
+use crate::scenes::{self, BuiltIn};
+use rayon::prelude::*;
+use shearbed::run::run_replica;
+use shearbed::{Plan, Scene};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// A scene's means over rods in every replica.
+pub(super) struct Run {
+    plan: Plan,
+    /// The names of the channels, as the columns of tables.
+    channels: Vec<String>,
+    /// Per replica: output by output, channel by channel.
+    means: Vec<Vec<f64>>,
+}
+
+impl Run {
+    fn new(plan: Plan, finished: &(dyn Fn() + Sync)) -> Result<Self, String> {
+        let count = plan.scene().particles.count as f64;
+        let means = (0..plan.scene().ensemble.replicas)
+            .into_par_iter()
+            .map(|replica| {
+                let result = run_replica(&plan, replica).map_err(|error| error.to_string());
+                finished();
+                Ok(result?.sums.iter().map(|sum| sum.value / count).collect())
+            })
+            .collect::<Result<_, String>>()?;
+        let observables = plan.observables();
+        Ok(Self {
+            channels: observables.iter().flat_map(|o| o.channels()).collect(),
+            plan,
+            means,
+        })
+    }
+
+    /// The times of the outputs, t/T.
+    pub(super) fn times(&self) -> Vec<f64> {
+        self.plan.times()
+    }
+
+    /// The scene.
+    pub(super) fn scene(&self) -> &Scene {
+        self.plan.scene()
+    }
+
+    /// The sample over replicas of what `value` makes of a channel's means against time. Empty where the scene
+    /// does not observe the channel.
+    pub(super) fn sample(&self, channel: &str, value: impl Fn(&dyn Fn(usize) -> f64) -> f64) -> Sample {
+        let column = self.channels.iter().position(|name| name == channel);
+        let of_replica = |means: &Vec<f64>| {
+            column.map(|column| value(&|output| means[output * self.channels.len() + column]))
+        };
+        Sample::of(&self.means.iter().filter_map(of_replica).collect::<Vec<_>>())
+    }
+
+    /// A channel's mean against t/T with its 95 % band.
+    pub(super) fn curve(&self, channel: &str, label: impl Into<String>) -> Curve {
+        let times = self.times();
+        let samples = (0..times.len()).map(|output| self.sample(channel, |mean| mean(output)));
+        with_band(label, times.iter().copied().zip(samples))
+    }
+}
+
+/// A curve through samples, with a band of 95 % by Student's t.
+pub(super) fn with_band(label: impl Into<String>, samples: impl Iterator<Item = (f64, Sample)>) -> Curve {
+    let mut curve = Curve {
+        label: label.into(),
+        ..Default::default()
+    };
+    let mut band = Vec::new();
+    for (x, sample) in samples {
+        curve.x.push(x);
+        curve.y.push(sample.mean);
+        band.push(half_width(sample));
+    }
+    curve.half_band = Some(band);
+    curve
+}
+
+/// Half the width of the 95 % confidence interval of a mean.
+pub(super) fn half_width(sample: Sample) -> f64 {
+    critical(0.05, sample.samples) * sample.se
+}
+
+/// The runs of all scenes, by the scenes' names. Scenes that differ in their titles only share a run.
+pub(super) struct Runs(BTreeMap<&'static str, Arc<Run>>);
+
+impl Runs {
+    /// Runs the scenes; `finished` is called after each replica.
+    pub(super) fn new(
+        plans: Vec<(&'static str, Plan)>,
+        finished: &(dyn Fn() + Sync),
+    ) -> Result<Self, String> {
+        let mut runs = BTreeMap::<&'static str, Arc<Run>>::new();
+        for (name, plan) in plans {
+            let same = runs.values().find(|run| same(run.scene(), plan.scene())).cloned();
+            let run = match same {
+                Some(run) => {
+                    (0..plan.scene().ensemble.replicas).for_each(|_| finished());
+                    run
+                }
+                None => Arc::new(Run::new(plan, finished).map_err(|error| format!("{name}: {error}"))?),
+            };
+            runs.insert(name, run);
+        }
+        Ok(Self(runs))
+    }
+
+    /// The run of a scene.
+    pub(super) fn get(&self, name: &str) -> Result<&Run, String> {
+        let run = self.0.get(name);
+        run.map(Arc::as_ref)
+            .ok_or_else(|| format!("{name}: no figure's scene has this name"))
+    }
+}
+
+/// Whether two scenes differ in nothing but their titles.
+fn same(a: &Scene, b: &Scene) -> bool {
+    let untitled = |scene: &Scene| Scene {
+        title: String::new(),
+        ..scene.clone()
+    };
+    untitled(a) == untitled(b)
+}
+
+/// The plans of the scenes that figures are drawn from, with as many replicas as asked for.
+pub(super) fn plans(replicas: super::Replicas) -> Result<Vec<(&'static str, Plan)>, String> {
+    let scenes = scenes::ALL.iter().filter(|scene| scene.name.starts_with("fig"));
+    let plan = |built_in: &BuiltIn| {
+        let mut scene = built_in.scene().map_err(|error| error.to_string())?;
+        scene.ensemble.replicas = match scene.interaction {
+            Some(_) => replicas.interacting,
+            None => replicas.free,
+        };
+        let plan = Plan::new(&scene).map_err(|error| format!("{}: {error}", built_in.name))?;
+        Ok((built_in.name, plan))
+    };
+    scenes.map(plan).collect()
+}
+
+/// A plan as the report shows it.
+pub(super) fn shown((name, plan): &(&'static str, Plan)) -> ScenePlan {
+    let ensemble = &plan.scene().ensemble;
+    ScenePlan {
+        scene: (*name).into(),
+        title: plan.scene().title.clone(),
+        seed: ensemble.seed,
+        command: format!(
+            "cargo run --release -- run {name} --replicas {}",
+            ensemble.replicas
+        ),
+        text: plan.to_string(),
+    }
+}

@@ -1,0 +1,238 @@
+//! Plain text as the writers show it: `code`, equations and figures that are cited, subscripts.
+
+/// A part of a text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Piece<'a> {
+    /// As it stands, but for subscripts.
+    Text(&'a str),
+    /// What stood in backticks.
+    Code(&'a str),
+    /// The number of a cited equation, as `15` or `A.7`.
+    Equation(&'a str),
+    /// The number of a cited figure.
+    Figure(&'a str),
+}
+
+/// What the numbers that follow a word like "eqs" count.
+#[derive(Clone, Copy, PartialEq)]
+enum Citing {
+    Nothing,
+    Equations,
+    Figures,
+}
+
+/// The pieces of a text, in order; together they are the text without its backticks.
+pub(crate) fn pieces(text: &str) -> Vec<Piece<'_>> {
+    let mut pieces = Vec::new();
+    for (k, part) in text.split('`').enumerate() {
+        match k % 2 {
+            0 => prose(part, &mut pieces),
+            _ => pieces.push(Piece::Code(part)),
+        }
+    }
+    pieces
+}
+
+fn prose<'a>(text: &'a str, pieces: &mut Vec<Piece<'a>>) {
+    let mut citing = Citing::Nothing;
+    let mut last = "";
+    for word in text.split_inclusive(char::is_whitespace) {
+        match word.trim().trim_start_matches('(') {
+            "eq." | "eqs" | "Eq." | "Eqs" => citing = Citing::Equations,
+            // "before Fig. 7" is a place in the text, and says nothing of the figure.
+            "Fig." | "Figs" if matches!(last, "before" | "after") => citing = Citing::Nothing,
+            "Fig." | "Figs" => citing = Citing::Figures,
+            // "eqs 5 and 6"
+            "and" | "or" | "to" => {}
+            _ => {
+                let before = pieces.len();
+                numbers(word, citing, pieces);
+                // "eqs 5, 6: 3 checks" cites two equations.
+                let cited = pieces[before..].iter().any(|p| !matches!(p, Piece::Text(_)));
+                if !cited || word.trim_end().ends_with(['.', ';', ':', ')']) {
+                    citing = Citing::Nothing;
+                }
+                last = word.trim();
+                continue;
+            }
+        }
+        pieces.push(Piece::Text(word));
+    }
+}
+
+/// The numbers in a word, as "A.7–A.14,", and what is between them.
+fn numbers<'a>(word: &'a str, citing: Citing, pieces: &mut Vec<Piece<'a>>) {
+    let in_number = |c: char| c.is_ascii_alphanumeric() || c == '.';
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    // Where the text before the next number starts, and where to look for it.
+    let (mut text, mut at) = (0, 0);
+    while let Some(start) = word[at..].find(in_number).map(|start| at + start) {
+        let rest = &word[start..];
+        let end = rest.find(|c| !in_number(c)).unwrap_or(rest.len());
+        let run = rest[..end].trim_end_matches('.');
+        let appendix = run.strip_prefix("A.").is_some_and(is_number);
+        let number = match citing {
+            _ if appendix => Some(Piece::Equation(run)),
+            Citing::Equations if is_number(run) => Some(Piece::Equation(run)),
+            Citing::Figures if is_number(run) => Some(Piece::Figure(run)),
+            _ => None,
+        };
+        at = start + end;
+        if let Some(number) = number {
+            pieces.extend([Piece::Text(&word[text..start]), number]);
+            text = start + run.len();
+        }
+    }
+    pieces.push(Piece::Text(&word[text..]));
+}
+
+/// Whether a text cites this figure of the paper, alone or within a range.
+pub(crate) fn cites_figure(text: &str, figure: u32) -> bool {
+    let (mut last, mut through) = (None, false);
+    for piece in pieces(text) {
+        match piece {
+            Piece::Figure(number) => {
+                let number = number.parse::<u32>().ok();
+                let from = if through { last } else { number };
+                if from.zip(number).is_some_and(|(a, b)| (a..=b).contains(&figure)) {
+                    return true;
+                }
+                (last, through) = (number, false);
+            }
+            Piece::Text(text) => {
+                through = matches!(text.trim(), "–" | "to") || (through && text.trim().is_empty())
+            }
+            _ => {}
+        }
+    }
+    false
+}
+
+/// A text cut into what stands on the line and what stands below it, as the 1 of x_1: an underscore after a single
+/// letter, with a number or a short word behind it. Names in code have longer words before theirs.
+pub(crate) fn subscripts(text: &str) -> Vec<(bool, &str)> {
+    let mut parts = Vec::new();
+    let mut start = 0;
+    for (at, _) in text.match_indices('_') {
+        if at < start {
+            continue;
+        }
+        let base = text[start..at].trim_end_matches(|c| ('\u{300}'..'\u{370}').contains(&c));
+        let mut before = base.chars().rev();
+        let letter = before.next().is_some_and(char::is_alphabetic);
+        let alone = before.next().is_none_or(|c| !c.is_alphanumeric() && c != '_');
+        let below = below(&text[at + 1..]);
+        if letter && alone && !below.is_empty() {
+            parts.push((false, &text[start..at]));
+            parts.push((true, below));
+            start = at + 1 + below.len();
+        }
+    }
+    parts.push((false, &text[start..]));
+    parts
+}
+
+/// The subscript that a text starts with, or nothing.
+fn below(text: &str) -> &str {
+    let end = |inside: fn(&char) -> bool| text.chars().take_while(inside).map(char::len_utf8).sum::<usize>();
+    let digits = end(|c| c.is_ascii_digit());
+    let word = end(|c| c.is_alphanumeric() || *c == '_');
+    match () {
+        () if digits > 0 => &text[..digits],
+        () if word <= 5 && !text[..word].contains('_') => &text[..word],
+        () => "",
+    }
+}
+
+/// A text with its subscripts as characters, where all of a subscript's are there.
+pub(crate) fn unicode(text: &str) -> String {
+    let mut typeset = String::new();
+    for (below, part) in subscripts(text) {
+        let lowered: Option<String> = part.chars().map(subscript).collect();
+        match lowered.filter(|_| below) {
+            Some(lowered) => typeset += &lowered,
+            None if below => {
+                typeset.push('_');
+                typeset += part;
+            }
+            None => typeset += part,
+        }
+    }
+    typeset
+}
+
+fn subscript(c: char) -> Option<char> {
+    const FROM: &str = "0123456789aehijklmnoprstuvx";
+    const TO: &str = "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ";
+    FROM.find(c).and_then(|at| TO.chars().nth(at))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn citations_are_found() {
+        let cited = |text| {
+            let marks = pieces(text).into_iter().filter_map(|piece| match piece {
+                Piece::Text(_) => None,
+                Piece::Code(code) => Some(format!("`{code}")),
+                Piece::Equation(number) => Some(number.to_owned()),
+                Piece::Figure(number) => Some(format!("F{number}")),
+            });
+            marks.collect::<Vec<_>>().join(" ")
+        };
+        for (text, marks) in [
+            ("eqs 4, 12, Fig. 6 (top)", "4 12 F6"),
+            (
+                "method of solution, eqs 5–9, 11, 14, A.7–A.14",
+                "5 9 11 14 A.7 A.14",
+            ),
+            ("text after eqs 12 and 13. 5 rods", "12 13"),
+            ("(eq. 15): 3 checks of `fig4 eq. 2` at t/T = 2", "15 `fig4 eq. 2"),
+            ("Figs 7 to 10, r_e = 11.6; A.4.", "F7 F10 A.4"),
+            ("Results, before Fig. 7; Fig. 6 (top)", "F6"),
+            ("see A and 7; an odd ` is no harm", "` is no harm"),
+            ("", ""),
+        ] {
+            assert_eq!(cited(text), marks, "{text}");
+            let all: String = pieces(text)
+                .into_iter()
+                .map(|piece| match piece {
+                    Piece::Text(t) | Piece::Code(t) | Piece::Equation(t) | Piece::Figure(t) => t,
+                })
+                .collect();
+            assert_eq!(all, text.replace('`', ""));
+        }
+    }
+
+    #[test]
+    fn a_range_cites_what_is_in_it() {
+        for (text, figures) in [
+            ("eq. 4, Figs 7–9, Fig. 12", vec![7, 8, 9, 12]),
+            ("Figs 6, 9 and 10", vec![6, 9, 10]),
+            ("Figs 7 to 10", vec![7, 8, 9, 10]),
+            ("eqs 4–12", vec![]),
+        ] {
+            let cited: Vec<u32> = (0..20).filter(|figure| cites_figure(text, *figure)).collect();
+            assert_eq!(cited, figures, "{text}");
+        }
+    }
+
+    #[test]
+    fn subscripts_follow_single_letters() {
+        for (text, typeset) in [
+            ("r_e = 5, X̄_1(t), u_2 = G x_1", "rₑ = 5, X̄₁(t), u₂ = G x₁"),
+            ("x_1x_2 and ∂u_i/∂x_j", "x₁x₂ and ∂uᵢ/∂xⱼ"),
+            ("P_c > R", "P_c > R"),
+            (
+                "min_contact_arm, t_over_T, a_, _b, _",
+                "min_contact_arm, t_over_T, a_, _b, _",
+            ),
+            ("", ""),
+        ] {
+            assert_eq!(unicode(text), typeset);
+        }
+        assert_eq!(subscripts("P_c")[1], (true, "c"));
+    }
+}

@@ -1,0 +1,35 @@
+//! Who is near, and how likely a collision is (eq. 7).
+
+use super::reading::Images;
+
+/// P_c (eq. 7) at centre distance s.
+pub fn collision_probability(s_mm: f64, a_mm: f64, alpha: f64, m: f64) -> f64 {
+    if alpha == 0.0 {
+        0.0
+    } else {
+        (alpha / (s_mm / a_mm + alpha)).powf(m)
+    }
+}
+
+/// Nearest other rod; the lower index where two are equally near.
+pub fn nearest(positions_mm: &[[f64; 3]], i: usize, images: Images, edge_mm: f64) -> Option<usize> {
+    let x = positions_mm[i];
+    let (mut best, mut least_mm2) = (None, f64::INFINITY);
+    for (j, &y) in positions_mm.iter().enumerate() {
+        let square_mm2 = square_mm2(x, images.nearest_mm(y, x, edge_mm));
+        if j != i && square_mm2 < least_mm2 {
+            (best, least_mm2) = (Some(j), square_mm2);
+        }
+    }
+    best
+}
+
+fn square_mm2(x: [f64; 3], y: [f64; 3]) -> f64 {
+    let [a, b, c] = [y[0] - x[0], y[1] - x[1], y[2] - x[2]];
+    a * a + b * b + c * c
+}
+
+/// Distance of two places.
+pub(super) fn distance_mm(x: [f64; 3], y: [f64; 3]) -> f64 {
+    square_mm2(x, y).sqrt()
+}

@@ -1,0 +1,145 @@
+//! What is run: the suspension, and the mistakes that can be made in it.
+
+use super::reading::Reading;
+use std::f64::consts::TAU;
+
+/// Orientations at t = 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Start {
+    /// phi = 2 pi R4, cos theta = 1 - 2 R5 (eq. 12).
+    Isotropic,
+    /// Every rod at the same angles.
+    Fixed {
+        /// From axis 1 towards axis 2, rad.
+        phi_rad: f64,
+        /// From axis 3, rad.
+        theta_rad: f64,
+    },
+}
+
+/// How a colliding rod is moved over the step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Update {
+    /// p turns about p x pdot' by |pdot'| dt: A.14 without its pole.
+    Rotation,
+    /// A.14 to the letter, with the corrected A.13.
+    Angles,
+    /// Jeffery's exact step, then turned about p x (pdot' - pdot) by |pdot' - pdot| dt: a contact that changes
+    /// nothing moves the rod as if it were free.
+    ExactStepAndKick,
+}
+
+/// Deliberate errors: a check that a sabotaged model passes too shows nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mistake {
+    /// The change of a collision is added with the wrong sign (A.10).
+    KickSign,
+    /// v' = v_A + v_B in place of half of it (A.10).
+    SumInsteadOfMean,
+    /// The arms of A and B are exchanged.
+    ArmsSwapped,
+    /// |r| in place of the signed arm r.
+    ArmUnsigned,
+    /// V_c = V_tr: omega x r is left out of A.7.
+    SpinIgnored,
+    /// V_tr is not subtracted again (A.12).
+    TranslationKept,
+    /// A.13 as printed; shows with `Update::Angles` only.
+    PrintedA13,
+    /// Lambda = 1 in free motion.
+    LambdaOne,
+    /// T, and so dt, is half of eq. 15.
+    PeriodHalved,
+    /// cm^-3 converted as if it were cm^-2.
+    ConcentrationUnits,
+    /// Collides where P_c < R (eqs. 8, 9).
+    ProbabilityComplement,
+    /// m + 1 in place of m (eq. 7).
+    ProbabilityExponent,
+    /// Rod i + 1 (mod N) in place of the nearest one.
+    AnyNeighbour,
+    /// Candidates taken by index, not closest first.
+    IndexOrder,
+    /// x_1 = H R in place of H sqrt(R) (eq. 14).
+    ReplacementUniform,
+    /// A leaving rod keeps its x_1 and x_3; nothing is drawn.
+    ReplacementNone,
+}
+
+impl Mistake {
+    /// All of them, for checks that try each.
+    #[rustfmt::skip]
+    pub const ALL: [Self; 16] = [
+        Self::KickSign, Self::SumInsteadOfMean, Self::ArmsSwapped, Self::ArmUnsigned, Self::SpinIgnored,
+        Self::TranslationKept, Self::PrintedA13, Self::LambdaOne, Self::PeriodHalved, Self::ConcentrationUnits,
+        Self::ProbabilityComplement, Self::ProbabilityExponent, Self::AnyNeighbour, Self::IndexOrder,
+        Self::ReplacementUniform, Self::ReplacementNone,
+    ];
+}
+
+/// One suspension in plane Couette flow, u_2 = G x_1.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// N, rods in the control volume.
+    pub count: usize,
+    /// G, 1/s, not zero.
+    pub shear_rate_per_s: f64,
+    /// a, the full length of every rod, mm.
+    pub length_mm: f64,
+    /// Mean of r_e.
+    pub aspect_ratio: f64,
+    /// Standard deviation of r_e (eq. 11), percent of the mean.
+    pub aspect_ratio_sd_percent: f64,
+    /// Orientations at t = 0.
+    pub orientation: Start,
+    /// n, rods per cm^3.
+    pub concentration_per_cm3: f64,
+    /// alpha of eq. 7; 0: no collision ever.
+    pub alpha: f64,
+    /// m of eq. 7.
+    pub m: f64,
+    /// Arms shorter than this, in units of a, are no contact.
+    pub min_contact_arm: f64,
+    /// How a colliding rod is moved.
+    pub update: Update,
+    /// How the paper is read where it leaves something open.
+    pub reading: Reading,
+    /// dt = T / steps_per_period, T that of the mean r_e.
+    pub steps_per_period: usize,
+    /// Seed of all streams.
+    pub seed: u64,
+    /// Number of the replica.
+    pub replica: u64,
+    /// A deliberate error, or none.
+    pub mistake: Option<Mistake>,
+}
+
+impl Problem {
+    /// T of the mean aspect ratio, s (eq. 15).
+    pub fn period_s(&self) -> f64 {
+        let factor = either(self.mistake, Mistake::PeriodHalved, 0.5, 1.0);
+        let strain = TAU * (self.aspect_ratio + 1.0 / self.aspect_ratio);
+        factor * strain / self.shear_rate_per_s.abs()
+    }
+
+    /// dt, s.
+    pub fn time_step_s(&self) -> f64 {
+        self.period_s() / self.steps_per_period as f64
+    }
+
+    /// H = (N/n)^(1/3), mm.
+    pub fn box_edge_mm(&self) -> f64 {
+        let cm3_per_mm3 = either(self.mistake, Mistake::ConcentrationUnits, 1e-2, 1e-3);
+        (self.count as f64 / (self.concentration_per_cm3 * cm3_per_mm3)).cbrt()
+    }
+
+    /// L_ij = du_i/dx_j, 1/s.
+    pub fn gradient_per_s(&self) -> [[f64; 3]; 3] {
+        [[0.0; 3], [self.shear_rate_per_s, 0.0, 0.0], [0.0; 3]]
+    }
+}
+
+/// How a mistake enters an expression.
+pub(super) fn either<T>(made: Option<Mistake>, mistake: Mistake, wrong: T, right: T) -> T {
+    if made == Some(mistake) { wrong } else { right }
+}

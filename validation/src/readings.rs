@@ -1,0 +1,272 @@
+//! What the paper's open readings change: each alternative alone, run by the naive reference against the reading
+//! that the project takes, with the same random numbers.
+//!
+//! The scene is that of Fig. 7 at 50 per cm³. Seeds are shared, and places do not depend on directions: so where
+//! the time step and the replacement are the same, two readings have the same rods at the same places with the
+//! same draws all along, and differ only in what collisions do. The errors of the differences use that.
+
+mod table;
+
+pub use table::table;
+
+use crate::case::Effort;
+use crate::oracle::naive::{
+    Images, Lines, Naive, Problem, Reading, Replacement, Start, Update, Who, mean_projections,
+};
+use rayon::prelude::*;
+
+/// The seed of all replicas.
+pub const SEED: u64 = 1;
+
+/// Quarters of a period in a run: free rods have their maxima of X̄₁ at the even ones, their minima between.
+const QUARTERS: usize = 8;
+
+/// The means of one replica: X̄₁ at every quarter of a period, then collisions per rod and period.
+pub type Trace = [f64; QUARTERS + 2];
+
+/// A mean and its standard error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// The mean, or what follows from means.
+    pub value: f64,
+    /// The standard error.
+    pub se: f64,
+}
+
+/// One reading, measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// What is left open.
+    pub open: &'static str,
+    /// How it is read here.
+    pub reading: &'static str,
+    /// Independent replicas.
+    pub replicas: u64,
+    /// Each of [`QUANTITIES`].
+    pub values: Vec<Estimate>,
+    /// Each less that of the default, from pairs of replicas; none for the default itself.
+    pub changes: Option<Vec<Estimate>>,
+}
+
+/// A quantity that follows from mean traces.
+pub type Quantity = fn(&Trace) -> f64;
+
+/// What is measured, by name.
+pub const QUANTITIES: [(&str, Quantity); 4] = [
+    ("X̄₁ at t/T = 1", |x| x[4]),
+    ("X̄₁ at t/T = 2", |x| x[8]),
+    ("damping rate per period", damping_rate),
+    ("collisions per rod and period", |x| x[QUARTERS + 1]),
+];
+
+/// A change of the problem.
+pub type Change = fn(&mut Problem);
+
+/// The alternatives: what is left open, how it is read, and that as a change of the default. The last two are
+/// those whose effect depends on the time step.
+#[rustfmt::skip]
+pub const ALTERNATIVES: [(&str, &str, Change); 13] = [
+    ("who collides", "one draw per mutual pair", |p| p.reading.who = Who::PairDraws),
+    ("who collides", "index order, not closest first", |p| p.reading.who = Who::IndexOrder),
+    ("update", "angles: A.14 to the letter", |p| p.update = Update::Angles),
+    ("update", "exact step plus kick", |p| p.update = Update::ExactStepAndKick),
+    ("shortest arm", "the rod's radius, 1/(2r_e)", |p| p.min_contact_arm = 0.5 / p.aspect_ratio),
+    ("contact lines", "cut at the rods' ends", |p| p.reading.lines = Lines::CutAtEnds),
+    ("images", "along x_2 and x_3", |p| p.reading.images = Images::FlowAndVorticity),
+    ("images", "along all axes", |p| p.reading.images = Images::All),
+    ("replacement", "overshoot times x_1(new)/x_1(old)", |p| p.reading.replacement = Replacement::ScaledOvershoot),
+    ("time step", "halved: 400 steps a period", |p| p.steps_per_period *= 2),
+    ("time step", "doubled: 100 steps a period", |p| p.steps_per_period /= 2),
+    ("update and step", "angles, 400 steps a period", |p| {
+        (p.update, p.steps_per_period) = (Update::Angles, 400);
+    }),
+    ("arm and step", "the rod's radius, 400 steps a period", |p| {
+        (p.min_contact_arm, p.steps_per_period) = (0.5 / p.aspect_ratio, 400);
+    }),
+];
+
+/// Fig. 7 at 50 per cm³ with rods of one size, as the project reads the paper.
+pub fn paper(replica: u64) -> Problem {
+    Problem {
+        count: 100,
+        shear_rate_per_s: 0.5,
+        length_mm: 0.72,
+        aspect_ratio: 11.6,
+        aspect_ratio_sd_percent: 0.0,
+        orientation: Start::Isotropic,
+        concentration_per_cm3: 50.0,
+        alpha: 0.5,
+        m: 3.0,
+        min_contact_arm: 0.0,
+        update: Update::Rotation,
+        reading: Reading::default(),
+        steps_per_period: 200,
+        seed: SEED,
+        replica,
+        mistake: None,
+    }
+}
+
+/// The default and every alternative.
+pub fn measure(effort: &Effort) -> Vec<Row> {
+    let replicas = effort.pick(200, 2000);
+    let default = traces(|_| (), replicas);
+    let row = |open, reading, values, changes| Row {
+        open,
+        reading,
+        replicas,
+        values,
+        changes,
+    };
+    let each = |estimate: &dyn Fn(Quantity) -> Estimate| QUANTITIES.map(|(_, q)| estimate(q)).to_vec();
+    let values = |traces: &[Trace]| each(&|quantity| value(quantity, traces));
+    let mut rows = vec![row("–", "this project", values(&default), None)];
+    for (open, reading, alternative) in ALTERNATIVES {
+        let traces = traces(alternative, replicas);
+        let changes = each(&|quantity| change(quantity, &default, &traces));
+        rows.push(row(open, reading, values(&traces), Some(changes)));
+    }
+    rows
+}
+
+/// The trace of each of the first `replicas` replicas of a changed problem.
+pub fn traces(change: Change, replicas: u64) -> Vec<Trace> {
+    let run = |replica| {
+        let mut problem = paper(replica);
+        change(&mut problem);
+        trace(problem)
+    };
+    (0..replicas).into_par_iter().map(run).collect()
+}
+
+/// Two periods of a problem with steps in multiples of four to the period.
+fn trace(problem: Problem) -> Trace {
+    let (steps, rods) = (problem.steps_per_period / 4, problem.count as f64);
+    let mut naive = Naive::new(problem);
+    let mut trace = [0.0; QUARTERS + 2];
+    trace[0] = mean_projections(&naive.orientations)[0];
+    for x1 in &mut trace[1..=QUARTERS] {
+        (0..steps).for_each(|_| naive.step());
+        *x1 = mean_projections(&naive.orientations)[0];
+    }
+    // each collision turns two rods
+    trace[QUARTERS + 1] = 2.0 * naive.collisions as f64 / rods / (QUARTERS as f64 / 4.0);
+    trace
+}
+
+/// How fast the oscillation of a mean X̄₁ dies away, 1/T: minus the slope, by least squares over four half
+/// periods, of ln A. A, at the minimum between two maxima, is the mean of these maxima less the minimum.
+/// Maxima and minima are taken where those of free rods are.
+pub fn damping_rate(x1: &Trace) -> f64 {
+    let ln_a = [1, 3, 5, 7].map(|k| (0.5 * (x1[k - 1] + x1[k + 1]) - x1[k]).ln());
+    let t: [f64; 4] = [-0.75, -0.25, 0.25, 0.75];
+    let slope =
+        |t: &[f64; 4]| (0..4).map(|k| t[k] * ln_a[k]).sum::<f64>() / t.map(|t| t * t).iter().sum::<f64>();
+    -slope(&t)
+}
+
+/// A quantity of the mean trace.
+pub fn value(quantity: Quantity, traces: &[Trace]) -> Estimate {
+    let without: Vec<_> = means_without_one(traces).iter().map(quantity).collect();
+    jackknife(quantity(&mean(traces)), &without)
+}
+
+/// A quantity of the mean of `traces` less that of `default`, replica by replica from the same random numbers.
+pub fn change(quantity: Quantity, default: &[Trace], traces: &[Trace]) -> Estimate {
+    let less = |after: &Trace, before: &Trace| quantity(after) - quantity(before);
+    let (after, before) = (means_without_one(traces), means_without_one(default));
+    let without: Vec<_> = after.iter().zip(&before).map(|(a, b)| less(a, b)).collect();
+    jackknife(less(&mean(traces), &mean(default)), &without)
+}
+
+fn mean(traces: &[Trace]) -> Trace {
+    std::array::from_fn(|i| traces.iter().map(|trace| trace[i]).sum::<f64>() / traces.len() as f64)
+}
+
+/// For each replica, the mean of all others.
+fn means_without_one(traces: &[Trace]) -> Vec<Trace> {
+    let (n, mean) = (traces.len() as f64, mean(traces));
+    let without = |trace: &Trace| std::array::from_fn(|i| (n * mean[i] - trace[i]) / (n - 1.0));
+    traces.iter().map(without).collect()
+}
+
+/// A statistic with the standard error of the delete-one jackknife, se² = (n−1)/n Σ(s_k − s̄)², s_k being the
+/// statistic without replica k. For a mean, this is the usual standard error.
+fn jackknife(value: f64, without: &[f64]) -> Estimate {
+    let n = without.len() as f64;
+    let mean = without.iter().sum::<f64>() / n;
+    let square: f64 = without.iter().map(|s| (s - mean).powi(2)).sum();
+    Estimate {
+        value,
+        se: ((n - 1.0) / n * square).sqrt(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rate_of_an_exponential_is_exact() {
+        // Maxima on 0.4, minima below by a mean of their neighbours times a factor: A ∝ exp(−0.3 t/T)
+        let mut x1 = [0.4; QUARTERS + 2];
+        for k in [1, 3, 5, 7] {
+            x1[k] -= 0.2 * (-0.3 * k as f64 / 4.0).exp();
+        }
+        assert!((damping_rate(&x1) - 0.3).abs() < 1e-14);
+        // a drift of the whole, as of a changing plateau, is no damping
+        let mut drifting = x1;
+        (0..=QUARTERS).for_each(|k| drifting[k] += 0.01 * k as f64);
+        assert!((damping_rate(&drifting) - 0.3).abs() < 1e-13);
+    }
+
+    #[test]
+    fn the_jackknife_of_a_mean_is_its_standard_error() {
+        // 1, 2, 6: mean 3, variance 7, standard error √(7/3)
+        let traces = [1.0, 2.0, 6.0].map(|x| [x; QUARTERS + 2]);
+        let default = [1.0, 1.0, 1.0].map(|x| [x; QUARTERS + 2]);
+        for (estimate, mean) in [
+            (value(|x| x[4], &traces), 3.0),
+            (change(|x| x[4], &default, &traces), 2.0),
+        ] {
+            assert!((estimate.value - mean).abs() < 1e-14);
+            assert!((estimate.se - (7.0f64 / 3.0).sqrt()).abs() < 1e-14);
+        }
+        let same = change(damping_rate, &default, &default);
+        assert!(same.value.is_nan(), "no oscillation has no rate");
+    }
+
+    #[test]
+    fn the_problem_is_that_of_fig_7() {
+        let scene = crate::scenes::find("fig7-n50")
+            .expect("built in")
+            .scene()
+            .expect("valid");
+        let (ours, rods) = (paper(0), &scene.particles);
+        let theirs = scene.interaction.as_ref().expect("interacting");
+        assert_eq!(
+            [
+                ours.length_mm,
+                ours.aspect_ratio,
+                ours.aspect_ratio_sd_percent,
+                ours.alpha,
+                ours.m,
+                ours.min_contact_arm
+            ],
+            [
+                rods.length_mm,
+                rods.aspect_ratio,
+                rods.aspect_ratio_sd_percent,
+                theirs.alpha,
+                theirs.m,
+                theirs.min_contact_arm
+            ]
+        );
+        assert_eq!(scene.flow.shear_rate_per_s, Some(ours.shear_rate_per_s));
+        assert_eq!(theirs.concentration_per_cm3, ours.concentration_per_cm3);
+        assert_eq!(
+            (rods.count, scene.steps_per_period() as usize),
+            (ours.count, ours.steps_per_period)
+        );
+    }
+}

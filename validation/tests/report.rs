@@ -1,0 +1,115 @@
+//! A real report, with the figures of a few replicas, as its reader gets it.
+
+use validation::case::Effort;
+use validation::figures::{self, Replicas};
+use validation::report::{self, Report, Sections};
+use validation::{cases, catalogue};
+
+/// Names of cases that are quick, of which some are cited by figures.
+const CHOSEN: [&str; 3] = ["jeffery-period", "planar-projections", "free-half-period"];
+
+fn small_report() -> Report {
+    let effort: Effort = cases::effort(false, None);
+    let few = Replicas {
+        interacting: 2,
+        free: 2,
+    };
+    let finished = std::sync::atomic::AtomicU64::new(0);
+    let count = || {
+        finished.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+    };
+    let drawn = figures::draw(&effort, few, &count).unwrap();
+    assert_eq!(finished.into_inner(), figures::work(few).unwrap());
+    let chosen = cases::all()
+        .into_iter()
+        .filter(|case| CHOSEN.contains(&case.about.name));
+    let sections = Sections {
+        figures: drawn.figures,
+        plans: drawn.plans,
+        equations: catalogue::equations(),
+        ..Default::default()
+    };
+    let outcomes = chosen.map(|case| case.run(&effort)).collect();
+    report::build(outcomes, sections, &effort, "shearbed validate".into())
+}
+
+#[test]
+fn a_real_report_is_whole() {
+    let report = small_report();
+    let html = report.html().unwrap();
+
+    // Anchors are unique, and every link leads to one.
+    let anchors: Vec<&str> = quoted(&html, " id=\"");
+    for anchor in &anchors {
+        assert_eq!(
+            anchors.iter().filter(|other| *other == anchor).count(),
+            1,
+            "{anchor}"
+        );
+    }
+    let links = quoted(&html, "href=\"");
+    for link in &links {
+        let target = link.strip_prefix('#').unwrap_or("a link that leaves the report");
+        assert!(anchors.contains(&target), "{link}");
+    }
+    for load in ["<script", "<link", "<img", "src=", "@import", "url("] {
+        assert!(!html.contains(load), "{load}");
+    }
+
+    // From row to figure and equation, and back.
+    for (link, least) in [
+        ("#figure-fig12", 2),
+        ("#case-planar-projections", 3),
+        ("#equation-21", 2),
+        ("#equation-15", 2),
+        ("#case-jeffery-period", 3),
+    ] {
+        let found = links.iter().filter(|other| **other == link).count();
+        assert!(found >= least, "{found} links to {link}");
+    }
+    for figure in 4..=12 {
+        let start = format!("figure-fig{figure}");
+        assert!(anchors.iter().any(|anchor| anchor.starts_with(&start)), "{start}");
+    }
+    assert!(html.contains(&report.headline()));
+    assert!(html.contains("keep") && html.contains("drop neighbours"), "plans");
+    assert!(report.markdown().contains("| A.13 |"));
+}
+
+#[test]
+fn every_figure_has_its_numbers() {
+    let report = small_report();
+    let curves = report.curves().unwrap();
+    assert_eq!(curves.len(), report.sections.figures.len());
+    for ((name, csv), figure) in curves.iter().zip(&report.sections.figures) {
+        assert_eq!(*name, format!("{}.csv", figure.name));
+        assert!(csv.lines().count() > 20 && !csv.contains("NaN"), "{name}");
+        let picture = &figure.figure;
+        assert!(!picture.title.is_empty() && !figure.caption.is_empty(), "{name}");
+        assert!(
+            picture.x_name.ends_with(')') && picture.y_name.ends_with(')'),
+            "{name}: units"
+        );
+        for case in &figure.cases {
+            assert!(
+                cases::all().iter().any(|known| known.about.name == case),
+                "{case}"
+            );
+        }
+    }
+    // Free rods of one size keep their amplitude, and it is about 1/2.
+    let fig9 = report
+        .sections
+        .figures
+        .iter()
+        .find(|figure| figure.name == "fig9")
+        .unwrap();
+    let amplitude = &fig9.figure.curves[0].y;
+    assert!(amplitude.iter().all(|a| (a - 0.48).abs() < 0.02), "{amplitude:?}");
+}
+
+/// What stands between `before` and the next quote, everywhere.
+fn quoted<'a>(html: &'a str, before: &str) -> Vec<&'a str> {
+    let parts = html.split(before).skip(1);
+    parts.filter_map(|part| part.split('"').next()).collect()
+}
