@@ -120,7 +120,7 @@ pub(crate) fn subscripts(text: &str) -> Vec<(bool, &str)> {
         let base = text[start..at].trim_end_matches(|c| ('\u{300}'..'\u{370}').contains(&c));
         let mut before = base.chars().rev();
         let letter = before.next().is_some_and(char::is_alphabetic);
-        let alone = before.next().is_none_or(|c| !c.is_alphanumeric() && c != '_');
+        let alone = before.next().is_none_or(|c| !c.is_alphabetic() && c != '_');
         let below = below(&text[at + 1..]);
         if letter && alone && !below.is_empty() {
             parts.push((false, &text[start..at]));
@@ -224,7 +224,7 @@ mod tests {
         for (text, typeset) in [
             ("r_e = 5, X̄_1(t), u_2 = G x_1", "rₑ = 5, X̄₁(t), u₂ = G x₁"),
             ("x_1x_2 and ∂u_i/∂x_j", "x₁x₂ and ∂uᵢ/∂xⱼ"),
-            ("P_c > R", "P_c > R"),
+            ("P_c > R, 1/(2r_e)", "P_c > R, 1/(2rₑ)"),
             (
                 "min_contact_arm, t_over_T, a_, _b, _",
                 "min_contact_arm, t_over_T, a_, _b, _",

@@ -14,7 +14,7 @@ pub fn table(rows: &[Row]) -> ReportTable {
         let changes: Vec<_> = match &row.changes {
             Some(changes) => changes
                 .iter()
-                .map(|e| format!("{:+.4} ± {:.4}", e.value, e.se))
+                .map(|e| format!("{:+.4} ± {:.4}", e.value, e.se).replace('-', "−"))
                 .collect(),
             None => vec!["–".to_owned(); row.values.len()],
         };

@@ -65,9 +65,9 @@ fn seeds(plans: &[ScenePlan]) -> String {
     }
     let of_scenes = scenes
         .iter()
-        .map(|(seed, names)| format!("; {seed} for {}", names.join(", ")));
+        .map(|(seed, names)| format!("; {seed} of the scenes {}", names.join(", ")));
     let of_scenes: String = of_scenes.collect();
-    format!("of a case fixed in the case's source{of_scenes}. No result depends on the number of threads")
+    format!("fixed in the source of each case{of_scenes}. No result depends on the number of threads.")
 }
 
 fn unknown() -> String {
@@ -116,7 +116,10 @@ mod tests {
             ..Default::default()
         };
         let text = seeds(&[plan("a", 2), plan("b", 1), plan("c", 2)]);
-        assert!(text.contains("; 1 for b; 2 for a, c."), "{text}");
+        assert!(
+            text.contains("; 1 of the scenes b; 2 of the scenes a, c."),
+            "{text}"
+        );
     }
 
     #[test]
