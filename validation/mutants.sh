@@ -60,7 +60,9 @@ while IFS= read -r line; do
   if [[ $text != *"$old"* ]]; then echo "$name: its text is not in $file any more"; missed=1; continue; fi
   printf '%s\n' "${text/"$old"/"$new"}" >"$file"
   log="$scratch/$name.txt"
-  cargo test --no-fail-fast >"$log" 2>&1 && code=0 || code=$?
+  code=0
+  cargo test --no-fail-fast -p shearbed >"$log" 2>&1 || code=$?
+  cargo test --no-fail-fast -p validation --test gate >>"$log" 2>&1 || code=$?
   caught=$(sed -nE 's/^test ([^ ]+) .*FAILED$/\1/p' "$log" | sort -u | paste -sd ' ')
   if [ "$code" = 0 ]; then missed=1; echo "$name: MISSED"; else echo "$name: ${caught:-$(grep -m1 '^error' "$log")}"; fi
   git checkout --quiet -- .
