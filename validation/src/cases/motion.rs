@@ -216,7 +216,7 @@ fn orbit_constant(motion: &Motion, _: &Effort) -> Vec<Evidence> {
         Rule::within(
             worst,
             1e-12,
-            "the issue's bound: round-off of one evaluation, however many periods it spans",
+            "round-off of one evaluation, however many periods it spans, with room for tan θ near the plane",
         ),
     )]
 }
