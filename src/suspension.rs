@@ -99,6 +99,20 @@ impl Suspension {
         })
     }
 
+    /// Puts the rods at places inside the volume, in rod lengths (three arrays of coordinates), and along
+    /// directions: a state of one's own. `None`, and nothing changed, where a count is not that of the rods.
+    pub fn place(&mut self, places: [Vec<f64>; 3], directions: &[UnitVector3<f64>]) -> Option<()> {
+        let count = self.rods.count();
+        if directions.len() != count || places.iter().any(|axis| axis.len() != count) {
+            return None;
+        }
+        self.positions = places;
+        for (rod, p) in directions.iter().enumerate() {
+            self.rods.set(rod, p, self.tick);
+        }
+        Some(())
+    }
+
     /// Takes one step and returns its collisions, closest pair first.
     pub fn step(&mut self) -> Result<&[Collision], RunError> {
         self.find_candidates();

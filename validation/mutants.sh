@@ -30,6 +30,24 @@ candidate-order@@src/suspension.rs@@a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))@@a.1
 deviation-not-percent@@src/rods.rs@@let deviation = mean * particles.aspect_ratio_sd_percent / 100.0;@@let deviation = particles.aspect_ratio_sd_percent / 100.0;
 signed-projection@@src/observable.rs@@sum.add_each(block.len, |i| p[i].abs())@@sum.add_each(block.len, |i| p[i])
 standard-error@@src/ensemble.rs@@(self.deviation[k] / (self.replicas - 1.0) / self.replicas).sqrt()@@(self.deviation[k] / (self.replicas - 1.0)).sqrt()
+velocity-transposed@@src/flow.rs@@self.0 * position@@self.0.transpose() * position
+spin-sign@@src/jeffery.rs@@0.5 * curl + shape_factor@@-0.5 * curl + shape_factor
+phi-rate@@src/jeffery.rs@@(r2 * cos_phi * cos_phi + sin_phi * sin_phi)@@(r2 * sin_phi * sin_phi + cos_phi * cos_phi)
+theta-rate@@src/jeffery.rs@@let theta_rate = 0.25@@let theta_rate = 0.5
+phi-of-time@@src/jeffery.rs@@(aspect_ratio * rest.sin()).atan2(rest.cos())@@(rest.sin() / aspect_ratio).atan2(rest.cos())
+theta-of-phi@@src/jeffery.rs@@cos_phi.hypot(sin_phi / aspect_ratio)@@cos_phi.hypot(sin_phi * aspect_ratio)
+flow-rate-of-a@@src/jeffery.rs@@half * (shape_factor - 1.0) * p.y@@half * (shape_factor + 1.0) * p.y
+folded-angle@@src/orientation.rs@@p2.abs().atan2(p1.abs())@@p1.abs().atan2(p2.abs())
+positions-half-full@@src/volume.rs@@axis.push(self.side * rng.random::<f64>());@@axis.push(0.5 * self.side * rng.random::<f64>());
+overshoot@@src/volume.rs@@let overshoot = x2.rem_euclid(self.side);@@let overshoot = self.side * rng.random::<f64>();
+volume-side@@src/volume.rs@@(count as f64 / per_cubed_length).cbrt()@@(count as f64 / per_cubed_length).sqrt()
+probability-power@@src/collision.rs@@(alpha / (distance + alpha)).powf(m)@@(alpha / (distance + alpha)).powf(m + 1.0)
+collide-where-not@@src/suspension.rs@@&& square < self.reach.of(r).powi(2)@@&& square > self.reach.of(r).powi(2)
+}@@    2.0
+}
+planar-projection@@src/observable.rs@@zip([(p1, p2), (p2, p3), (p1, p3)])@@zip([(p1, p2), (p1, p3), (p2, p3)])
+angle-update@@src/collision.rs@@from_angles(phi + phi_rate * time, theta + theta_rate * time)@@from_angles(phi + phi_rate * time, theta - theta_rate * time)
+turn-sign@@src/collision.rs@@let turned = p.as_ref() * cos + rate * (sin / speed);@@let turned = p.as_ref() * cos - rate * (sin / speed);
 LIST
 )
 missed=0
@@ -42,7 +60,9 @@ while IFS= read -r line; do
   if [[ $text != *"$old"* ]]; then echo "$name: its text is not in $file any more"; missed=1; continue; fi
   printf '%s\n' "${text/"$old"/"$new"}" >"$file"
   log="$scratch/$name.txt"
-  cargo test --no-fail-fast >"$log" 2>&1 && code=0 || code=$?
+  code=0
+  cargo test --no-fail-fast -p shearbed >"$log" 2>&1 || code=$?
+  cargo test --no-fail-fast -p validation --test gate >>"$log" 2>&1 || code=$?
   caught=$(sed -nE 's/^test ([^ ]+) .*FAILED$/\1/p' "$log" | sort -u | paste -sd ' ')
   if [ "$code" = 0 ]; then missed=1; echo "$name: MISSED"; else echo "$name: ${caught:-$(grep -m1 '^error' "$log")}"; fi
   git checkout --quiet -- .

@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::Command;
 use tempfile::TempDir;
 use validation::case::{Outcome, Verdict};
-use validation::experiment::ANCZUROWSKI;
+use validation::experiment::{ANCZUROWSKI, OKAGAWA_MASON};
 use validation::{cases, experiment, scenes};
 
 /// One standard deviation of reading off, in T and in the rod's length.
@@ -150,6 +150,15 @@ fn one_alpha_for_both_aspect_ratios() {
         let outcome = run(case, Some(both.path()));
         assert_eq!(outcome.verdict, Verdict::Pass, "{outcome:#?}");
     }
+}
+
+#[test]
+fn the_alpha_of_a_synthetic_experiment_is_found() {
+    let data = okagawa(&["fig4-n100"], 0.6);
+    let curves = experiment::read(data.path(), &OKAGAWA_MASON).unwrap();
+    let fit = experiment::alpha(&curves, |_| {}, 100).unwrap();
+    assert!((fit.alpha - 0.6).abs() < 3.0 * fit.se && fit.se < 0.05, "{fit:?}");
+    assert_eq!(fit.points, 29);
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod contact_rule;
 mod encounters;
 mod experiments;
 mod free_suspension;
+mod jeffery_equations;
 pub mod lab;
 mod misprints;
 mod motion;
@@ -22,6 +23,7 @@ use std::path::PathBuf;
 pub fn all() -> Vec<Case> {
     [
         motion::cases(),
+        jeffery_equations::cases(),
         contact_rule::cases(),
         misprints::cases(),
         encounters::cases(),

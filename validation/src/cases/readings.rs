@@ -34,13 +34,13 @@ pub fn cases() -> Vec<Case> {
         change: |p| p.update = Update::Angles,
         sign: -1.0,
         bound: 0.0,
-        replicas: 120,
+        replicas: 100,
     };
     let shortest_arm = Alternative {
         change: |p| p.min_contact_arm = 0.5 / p.aspect_ratio,
         sign: 1.0,
         bound: LINE,
-        replicas: 120,
+        replicas: 90,
     };
     let cut_lines = Alternative {
         change: |p| p.reading.lines = Lines::CutAtEnds,
@@ -151,7 +151,7 @@ fn matters(alternative: &Alternative, effort: &Effort) -> Vec<Evidence> {
 }
 
 fn does_not_matter(change: &Change, effort: &Effort) -> Vec<Evidence> {
-    let sample = Sample::of(&changes(*change, effort.pick(80, 800)));
+    let sample = Sample::of(&changes(*change, effort.pick(50, 500)));
     vec![Evidence::new(
         "change of X̄₁ at t/T = 1",
         sample.is(

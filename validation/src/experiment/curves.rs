@@ -1,9 +1,9 @@
 //! From a pair of files to curves in the model's units, sorted by time.
 
 use super::error::{DataError, read_text};
-use super::provenance::{self, Axis, Key, Layout, OBSERVABLES, Projection, Provenance};
+use super::provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance};
 use super::table::{self, Dataset, Row};
-use super::{Curve, Measured, Source};
+use super::{Curve, Measured, Source, provenance_file};
 use crate::scenes;
 use std::path::Path;
 
@@ -15,7 +15,7 @@ pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<Curve>, DataError
         return Err(DataError::whole(path, message));
     }
     let file = csv_path.display().to_string();
-    let provenance = provenance::parse(&path.display().to_string(), &read_text(path)?, source)?;
+    let provenance = provenance_file::parse(&path.display().to_string(), &read_text(path)?, source)?;
     let text = read_text(&csv_path)?;
     let datasets = match provenance.csv {
         Layout::WebPlotDigitizer => table::webplotdigitizer(&file, &text)?,

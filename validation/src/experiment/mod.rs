@@ -10,6 +10,7 @@ mod error;
 mod keys;
 mod model;
 mod provenance;
+mod provenance_file;
 mod table;
 #[cfg(test)]
 mod tests;

@@ -118,4 +118,19 @@ mod tests {
         }
         assert_eq!(interpolate(11, -0.2, 4, |k| k as f64 + 5.0), 5.0);
     }
+
+    #[test]
+    fn finer_steps_are_other_steps_at_the_same_times() {
+        let scene = crate::cases::lab::interacting_scene();
+        let place = |turns| Place {
+            turns,
+            u_turns: 0.0,
+            channel: 0,
+        };
+        let at = |finer| run(&scene, &[place(0.0), place(0.3)], 4, finer).unwrap().value;
+        let (coarse, fine) = (at(1), at(2));
+        assert_eq!(coarse[0], fine[0], "the same rods at the start");
+        assert_ne!(coarse[1], fine[1], "other collisions after it");
+        assert_relative_eq!(coarse[1], fine[1], epsilon = 0.05);
+    }
 }
