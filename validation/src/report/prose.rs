@@ -66,7 +66,9 @@ fn anchor(target: &str, html: &str) -> String {
 }
 
 fn typeset(text: &str) -> String {
-    let parts = subscripts(text).into_iter().map(|(below, part)| match below {
+    // An error stays with its sign where a line is broken.
+    let text = text.replace("± ", "±\u{a0}");
+    let parts = subscripts(&text).into_iter().map(|(below, part)| match below {
         true => format!("<sub>{}</sub>", escape(part)),
         false => escape(part),
     });
@@ -98,6 +100,7 @@ mod tests {
             ("eqs 5, A.7", "eqs 5, <a href=\"#equation-A.7\">A.7</a>"),
             ("Fig. 4", "Fig. <a href=\"#figure-fig4-n20\">4</a>"),
             ("Fig. 1", "Fig. 1"),
+            ("0.5 ± 0.1", "0.5 ±\u{a0}0.1"),
             ("r_e < \"5\"", "r<sub>e</sub> &lt; &quot;5&quot;"),
         ] {
             assert_eq!(anchors.html(text), html);
