@@ -2,7 +2,8 @@
 
 use crate::observable::{Observable, Sum};
 use crate::plan::Plan;
-use crate::run::{Counters, Replica, RunError, run_replica};
+use crate::run::{Replica, run_replica};
+use crate::work::{Counters, RunError};
 use rayon::prelude::*;
 
 /// A channel of an observable against time.

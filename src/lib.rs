@@ -64,6 +64,7 @@ pub mod scene;
 pub mod scene_file;
 pub mod suspension;
 pub mod volume;
+pub mod work;
 
 pub use ensemble::Results;
 pub use observable::Observable;

@@ -4,61 +4,7 @@ use crate::observable::{BLOCK, Block, Sum};
 use crate::plan::{Plan, Stage};
 use crate::rods::Rods;
 use crate::suspension::Suspension;
-use serde::Serialize;
-
-/// Why a run stopped.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum RunError {
-    /// A rod's direction would have become NaN or infinite.
-    #[error("rod {rod} would become non-finite in step {step} of replica {replica}, seed {seed}: {cause}")]
-    NonFinite {
-        /// The rod's index.
-        rod: usize,
-        /// The step, from 0.
-        step: u64,
-        /// The scene's seed.
-        seed: u64,
-        /// The replica, from 0.
-        replica: u64,
-        /// What happened.
-        cause: String,
-    },
-}
-
-/// What was done: counts of work, the same on every machine.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Counters {
-    /// Time steps.
-    pub steps: u64,
-    /// Random numbers R drawn for collisions (eq. 8).
-    pub draws: u64,
-    /// Distances between rods looked at.
-    pub distances: u64,
-    /// Pairs with P_c > R.
-    pub candidates: u64,
-    /// Pairs that collided.
-    pub collisions: u64,
-    /// Rods replaced in the control volume (eq. 14).
-    pub replacements: u64,
-    /// Directions computed for outputs.
-    pub directions: u64,
-    /// Aspect ratios drawn again because they fell on the wrong side of 1.
-    pub aspect_ratios_redrawn: u64,
-}
-
-impl Counters {
-    /// Adds another run's counts.
-    pub fn add(&mut self, other: &Self) {
-        self.steps += other.steps;
-        self.draws += other.draws;
-        self.distances += other.distances;
-        self.candidates += other.candidates;
-        self.collisions += other.collisions;
-        self.replacements += other.replacements;
-        self.directions += other.directions;
-        self.aspect_ratios_redrawn += other.aspect_ratios_redrawn;
-    }
-}
+use crate::work::{Counters, RunError};
 
 /// The sums of one replica.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,11 +1,24 @@
 //! Every rule by which a number is accepted, in one file. The default tolerance is zero; a looser one says why.
 
-use crate::case::Verdict;
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// The probability that a gate of correct code turns red by chance, over all its statistical checks.
 pub const FAMILY_FALSE_ALARM_RATE: f64 = 1e-3;
+
+/// How a check or a case ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// The rule holds, and where it is statistical there was enough data.
+    Pass,
+    /// The rule does not hold, or a control was not caught.
+    Fail,
+    /// Too little data to say.
+    Underpowered,
+    /// The case needs measured points that are not at hand.
+    NoData,
+}
 
 /// A rule with the number it judges.
 #[derive(Clone, Debug, PartialEq, Serialize)]

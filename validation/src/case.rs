@@ -1,6 +1,6 @@
 //! A case: one claim, the check that tests it, and the controls that the same check must fail.
 
-use crate::accept::{Rule, judge};
+use crate::accept::{Rule, Verdict, judge};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -13,20 +13,6 @@ pub enum Kind {
     Verification,
     /// Are they the right equations: experiments, and what the paper says of them.
     Validation,
-}
-
-/// How a check or a case ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Verdict {
-    /// The rule holds, and where it is statistical there was enough data.
-    Pass,
-    /// The rule does not hold, or a control was not caught.
-    Fail,
-    /// Too little data to say.
-    Underpowered,
-    /// The case needs measured points that are not at hand.
-    NoData,
 }
 
 /// One number and the rule it is judged by.

@@ -9,7 +9,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 use tempfile::TempDir;
-use validation::case::{Outcome, Verdict};
+use validation::accept::Verdict;
+use validation::case::Outcome;
 use validation::experiment::{ANCZUROWSKI, OKAGAWA_MASON};
 use validation::{cases, experiment, scenes};
 

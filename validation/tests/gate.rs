@@ -1,7 +1,7 @@
 //! The acceptance gate: one named test per case of the registry.
 
 use libtest_mimic::{Arguments, Trial};
-use validation::case::Verdict;
+use validation::accept::Verdict;
 use validation::cases;
 
 fn main() {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use shearbed::plan::Entry;
-use shearbed::run::Counters;
+use shearbed::work::Counters;
 use shearbed::{Plan, Results, Scene};
 
 /// Wall times in seconds.

@@ -1,7 +1,8 @@
 //! `shearbed validate`.
 
 use super::{Failure, MAX_THREADS, on_threads, print, progress, sections, whole};
-use crate::case::{Case, Effort, Outcome, Verdict};
+use crate::accept::Verdict;
+use crate::case::{Case, Effort, Outcome};
 use crate::report::{self, Sections};
 use crate::{cases, experiment, output};
 use std::path::PathBuf;

@@ -3,7 +3,8 @@
 use super::prose::Anchors;
 use super::words::{bounds, detail, kind, number, seconds, verdict};
 use super::{Line, Origin, Report, ReportTable, Row, ScenePlan};
-use crate::case::{Control, Verdict};
+use crate::accept::Verdict;
+use crate::case::Control;
 use crate::plot;
 use minijinja::value::{Serde, Value};
 use minijinja::{Environment, UndefinedBehavior};

@@ -13,8 +13,8 @@ mod words;
 
 pub(crate) use markdown::{equation_table, markdown_table};
 
-use crate::accept::FAMILY_FALSE_ALARM_RATE;
-use crate::case::{Effort, Outcome, Verdict};
+use crate::accept::{FAMILY_FALSE_ALARM_RATE, Verdict};
+use crate::case::{Effort, Outcome};
 use crate::output::Output;
 pub use origin::Origin;
 pub use row::{Line, Row};

@@ -1,7 +1,7 @@
 //! A case as a row of the report: every number with the bound it was judged by.
 
-use crate::accept::Rule;
-use crate::case::{Control, Effort, Judged, Kind, Outcome, Verdict};
+use crate::accept::{Rule, Verdict};
+use crate::case::{Control, Effort, Judged, Kind, Outcome};
 use serde::Serialize;
 
 /// What one rule said.

@@ -1,8 +1,8 @@
 //! Numbers, times and names as the report writes them.
 
 use super::Line;
-use crate::accept::Rule;
-use crate::case::{Kind, Verdict};
+use crate::accept::{Rule, Verdict};
+use crate::case::Kind;
 use crate::plot::power_of_ten;
 
 /// A number to three significant digits.
