@@ -80,9 +80,10 @@ impl Subject for Radau {
         setting: Setting,
     ) -> Result<Vector3<f64>, Failure> {
         let (tolerance, end) = (setting.tolerance()?, problem.strain());
+        // One tolerance for each component: version 0.7 rescales a single one as often as there are components.
         let method = ImplicitRungeKutta::radau5()
-            .rtol(tolerance)
-            .atol(tolerance)
+            .rtol([tolerance; 3])
+            .atol([tolerance; 3])
             .max_steps(MOST_STEPS);
         let solution = IVP::ode(problem, 0.0, end, start.into_inner().into())
             .method(method)

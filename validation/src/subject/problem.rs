@@ -99,9 +99,10 @@ impl Problem {
     ///
     /// Their error is 2·10⁻¹⁵ max(r_e, 1/r_e), and a few 10⁻¹⁶ near whole turns, where the phase is small.
     pub fn reference(&self, start: &UnitVector3<f64>) -> UnitVector3<f64> {
-        let theta = start.x.hypot(start.y).atan2(start.z);
-        let (phi, theta) =
-            closed_form::angles_at(start.y.atan2(start.x), theta, self.aspect_ratio, self.turns);
+        let (phi, theta) = (start.y.atan2(start.x), start.x.hypot(start.y).atan2(start.z));
+        // Whole turns change nothing, and would cost φ its digits.
+        let rest = self.turns - self.turns.round();
+        let (phi, theta) = closed_form::angles_at(phi, theta, self.aspect_ratio, rest);
         direction(phi, theta)
     }
 }

@@ -143,11 +143,11 @@ fn richardson(halvings: &[Halving], theory: u32, exact: f64, floor: f64) -> Opti
     halvings.windows(3).rev().find_map(|grids| {
         let [coarse, middle, fine] = [grids[0].value?, grids[1].value?, grids[2].value?];
         let (first, last) = (coarse - middle, middle - fine);
+        let gain = 2f64.powi(theory as i32) - 1.0;
         let shrinks = first / last > 1.0;
-        if !shrinks || last.abs() <= floor {
+        if !shrinks || last.abs() <= gain * floor {
             return None;
         }
-        let gain = 2f64.powi(theory as i32) - 1.0;
         let value = fine - last / gain;
         Some(Richardson {
             steps: grids[2].steps,
