@@ -34,6 +34,8 @@ fn figure(bench: &Bench) -> ReportFigure {
             points,
             x_log: true,
             y_log: true,
+            x_span: Some((1e-8, 0.1)),
+            y_span: Some((LEAST, FAILED)),
             ..Default::default()
         },
         caption: format!(

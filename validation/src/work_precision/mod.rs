@@ -239,5 +239,48 @@ mod tests {
         }
         let found = curve(&Refuses, 2.0, QUICK);
         assert_eq!((found.points.len(), found.failures()), (13, 13));
+
+        // What failed is in every writing.
+        let bench = Bench {
+            name: name(2.0),
+            aspect_ratio: 2.0,
+            turns: 1.0,
+            curves: vec![found],
+        };
+        let benches = [bench];
+        let csv = export::bench_csv(&benches).unwrap();
+        assert_eq!(csv.matches(",too stiff,").count(), 13, "{csv}");
+        assert!(
+            export::json(&benches)
+                .unwrap()
+                .contains("\"failure\": \"too stiff\"")
+        );
+        let tables: String = tables::tables(&benches).iter().map(export::text).collect();
+        assert!(
+            tables.contains("not reached") && tables.contains("13 of 13"),
+            "{tables}"
+        );
+        let figure = &figures::figures(&benches)[0].figure;
+        assert_eq!(figure.points[0].x.len(), 13);
+    }
+
+    #[test]
+    fn every_subject_is_in_every_table() {
+        let subjects = crate::subject::all();
+        let bench = run(2.0, &subjects, QUICK);
+        let tables = tables::tables(std::slice::from_ref(&bench));
+        for table in &tables {
+            assert!(
+                table.rows.iter().all(|row| row.len() == table.columns.len()),
+                "{table:?}"
+            );
+        }
+        let names: Vec<_> = tables[2].rows.iter().map(|row| row[0].as_str()).collect();
+        assert!(
+            names
+                .iter()
+                .copied()
+                .eq(subjects.iter().map(|subject| subject.name()))
+        );
     }
 }
