@@ -3,8 +3,7 @@
 use super::{Failure, MAX_THREADS, on_threads, print, progress, scene, whole};
 use crate::output::{self, Output};
 use crate::report::ReportTable;
-use crate::subject::{self, Problem};
-use crate::work_precision::order::{self, Found, Study};
+use crate::work_precision::order::{self, Found};
 use crate::work_precision::{export, law, tables};
 use shearbed::scene::MAX_REPLICAS;
 use shearbed::{Plan, Scene};
@@ -29,9 +28,6 @@ pub(super) struct Args {
     #[arg(long)]
     quiet: bool,
 }
-
-/// Times the step is halved, from GΔt of about 1.
-const DOUBLINGS: u32 = 12;
 
 /// Studies a scene: a free one by every fixed-step subject, an interacting one by its mean.
 pub(super) fn converge(args: &Args) -> Result<(), Failure> {
@@ -93,10 +89,7 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
             "flow: the subjects turn rods in plane Couette flow; shear_rate_per_s is needed".into(),
         ));
     }
-    let (problem, start) = Problem::mid_flip(scene.particles.aspect_ratio);
-    let studies: Vec<Study> = (subject::all().iter())
-        .filter_map(|subject| order::study(subject.as_ref(), &problem, &start, DOUBLINGS))
-        .collect();
+    let studies = order::of_all(scene.particles.aspect_ratio);
     let (csv, json) = (export::orders_csv(&studies), export::json(&studies));
     let wrong: Vec<_> = (studies.iter())
         .filter(|study| study.found == Found::Not)

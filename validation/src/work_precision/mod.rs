@@ -8,7 +8,7 @@ pub mod order;
 pub mod tables;
 mod time;
 
-use crate::subject::{Errors, Problem, Setting, Subject, Theory, grade};
+use crate::subject::{self, Errors, Problem, Setting, Subject, Theory, grade};
 use serde::Serialize;
 pub use time::{Budget, Seconds};
 
@@ -71,6 +71,14 @@ pub fn run(aspect_ratio: f64, subjects: &[Box<dyn Subject>], budget: Budget) -> 
             .map(|subject| curve(subject.as_ref(), aspect_ratio, budget))
             .collect(),
     }
+}
+
+/// Runs every subject of the project at every aspect ratio of the benches.
+pub fn run_all(budget: Budget) -> Vec<Bench> {
+    let subjects = subject::all();
+    (ASPECT_RATIOS.iter())
+        .map(|aspect_ratio| run(*aspect_ratio, &subjects, budget))
+        .collect()
 }
 
 /// One subject's curve: settings from coarse to fine until a run takes longer than half the budget, as the next would
@@ -266,7 +274,7 @@ mod tests {
 
     #[test]
     fn every_subject_is_in_every_table() {
-        let subjects = crate::subject::all();
+        let subjects = subject::all();
         let bench = run(2.0, &subjects, QUICK);
         let tables = tables::tables(std::slice::from_ref(&bench));
         for table in &tables {

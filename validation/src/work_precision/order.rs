@@ -1,7 +1,7 @@
 //! How the error of a fixed-step subject falls with the step: observed order with its sign, Richardson's value and
 //! Roache's grid convergence index.
 
-use crate::subject::{Errors, Problem, Setting, Subject, Theory, grade};
+use crate::subject::{self, Errors, Problem, Setting, Subject, Theory, grade};
 use nalgebra::UnitVector3;
 use serde::Serialize;
 
@@ -68,6 +68,14 @@ pub struct Study {
     pub found: Found,
     /// The extrapolation, where three grids converge.
     pub richardson: Option<Richardson>,
+}
+
+/// Every fixed-step subject of the project at this aspect ratio, from GΔt of about 1 to 1/4096.
+pub fn of_all(aspect_ratio: f64) -> Vec<Study> {
+    let (problem, start) = Problem::mid_flip(aspect_ratio);
+    (subject::all().iter())
+        .filter_map(|subject| study(subject.as_ref(), &problem, &start, 12))
+        .collect()
 }
 
 /// Halves the step `doublings` times, from GΔt of about 1. `None` for a subject that takes no equal steps.
