@@ -16,5 +16,7 @@ pub mod plot;
 pub mod readings;
 pub mod report;
 pub mod scenes;
+pub mod subject;
+pub mod work_precision;
 #[cfg(test)]
 mod xml;

@@ -13,6 +13,7 @@ mod readings;
 mod reductions;
 mod reference;
 mod steady;
+mod subjects;
 mod words;
 
 use crate::accept::FAMILY_FALSE_ALARM_RATE;
@@ -33,6 +34,7 @@ pub fn all() -> Vec<Case> {
         reference::cases(),
         readings::cases(),
         steady::cases(),
+        subjects::cases(),
         words::cases(),
         experiments::cases(),
     ]

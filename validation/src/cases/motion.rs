@@ -386,7 +386,7 @@ fn mean_angle(phi_rad: &fn(f64, f64) -> f64, _: &Effort) -> Vec<Evidence> {
 }
 
 /// The larger of two errors; NaN stays.
-fn larger(a: f64, b: f64) -> f64 {
+pub(super) fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() {
         f64::NAN
     } else {

@@ -1,5 +1,7 @@
 //! The commands of the program `shearbed`.
 
+mod bench;
+mod converge;
 mod pictures;
 mod record;
 mod run;
@@ -33,6 +35,10 @@ enum Command {
     Scenes(show::ScenesArgs),
     /// Run the verification and validation cases and write the report
     Validate(validate::Args),
+    /// Measure every integrator's error against its run time for one free rod
+    Bench(bench::Args),
+    /// Show how a scene's results depend on the step, and for interacting rods on their number and the replicas
+    Converge(converge::Args),
 }
 
 /// Why a command did not end well.
@@ -50,6 +56,8 @@ pub fn main() -> ExitCode {
         Command::Plan(args) => show::plan(&args),
         Command::Scenes(args) => show::scenes(&args),
         Command::Validate(args) => validate::validate(args),
+        Command::Bench(args) => bench::bench(&args),
+        Command::Converge(args) => converge::converge(&args),
     };
     let (message, code) = match ended {
         Ok(()) => return ExitCode::SUCCESS,

@@ -6,6 +6,7 @@ use crate::catalogue;
 use crate::figures::{self, Replicas};
 use crate::readings;
 use crate::report::Sections;
+use crate::work_precision::{self, Budget};
 
 /// Runs the scenes of the figures, and gathers everything.
 pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Sections, Failure> {
@@ -21,9 +22,20 @@ pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Sections, Failure> 
         print("open readings: the default and every alternative\n")?;
     }
     let readings = readings::measure(effort);
+    if !quiet {
+        print("integrators: error against run time\n")?;
+    }
+    let benches = work_precision::run_all(effort.pick(Budget::QUICK, Budget::FULL));
+    let mut tables = vec![readings::table(&readings)];
+    tables.extend(work_precision::tables::tables(&benches));
+    tables.push(work_precision::tables::orders(&work_precision::order::of_all(
+        11.6,
+    )));
+    let mut figures = drawn.figures;
+    figures.extend(work_precision::figures::figures(&benches));
     Ok(Sections {
-        figures: drawn.figures,
-        tables: vec![readings::table(&readings)],
+        figures,
+        tables,
         equations: catalogue::equations(),
         plans: drawn.plans,
     })

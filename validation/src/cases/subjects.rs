@@ -1,0 +1,299 @@
+//! The integrators of a free rod: what `docs/integrators.md` says of them. Nothing here is timed.
+
+mod spoiled;
+
+use super::motion::larger;
+use crate::accept::Rule;
+use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::subject::{self, *};
+use crate::work_precision::order::{self, ORDER_TOLERANCE};
+use nalgebra::{Vector2, Vector3};
+use spoiled::{Spoiled, WholeTurns, in_angles, in_p};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// What is judged: made anew for each check.
+type Subjects = fn() -> Vec<Box<dyn Subject>>;
+
+pub fn cases() -> Vec<Case> {
+    vec![
+        Case::new(
+            About {
+                name: "subject-orders",
+                kind: Kind::Verification,
+                claim: "The error of every fixed-step subject falls with the order of its theory.",
+                source: "A.2 to A.5; Jeffery's equation in p",
+                equations: &["A.2", "A.3", "A.4", "A.5"],
+                statistical_checks: 0,
+            },
+            subject::all as Subjects,
+            vec![
+                ("a stage of RK4 at the wrong place", || {
+                    in_angles(4, |problem, y, h| {
+                        let f = |y: Vector2<f64>| problem.angle_rates(&y);
+                        let k1 = f(y);
+                        let k2 = f(y + 0.5 * h * k1);
+                        let k3 = f(y + 0.5 * h * k1);
+                        let k4 = f(y + h * k3);
+                        y + h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4)
+                    })
+                }),
+                ("explicit Euler said to be of order 2", || {
+                    in_p(2, false, |problem, p, h| p + h * problem.rate(&p))
+                }),
+                ("RK4 on eq. A.2 with r_e for r_e²", || {
+                    in_angles(4, |problem, y, h| {
+                        let wrong = Problem::new(problem.aspect_ratio.sqrt(), 1.0);
+                        rk4(|y| wrong.angle_rates(&y), y, h)
+                    })
+                }),
+                ("an error that doubles whenever the step is halved", || {
+                    in_p(1, false, |problem, p, h| {
+                        rk4(|y| problem.rate(&y), p, h) + Vector3::new(0.0, 0.0, 1e-9)
+                    })
+                }),
+            ],
+            orders,
+        ),
+        Case::new(
+            About {
+                name: "subject-lengths",
+                kind: Kind::Verification,
+                claim: "Subjects that are said to keep |p| = 1 keep it to round-off at any step.",
+                source: "p·ṗ = 0 (A.1)",
+                equations: &["A.1"],
+                statistical_checks: 0,
+            },
+            subject::all as Subjects,
+            vec![
+                ("RK4 in p, not projected", || {
+                    in_p(4, true, |problem, p, h| rk4(|y| problem.rate(&y), p, h))
+                }),
+                ("the implicit midpoint rule after two sweeps", || {
+                    in_p(2, true, |problem, p, h| {
+                        let sweep = |m: Vector3<f64>| p + 0.5 * h * problem.tangent_rate(&m);
+                        2.0 * sweep(sweep(p)) - p
+                    })
+                }),
+            ],
+            lengths,
+        ),
+        Case::new(
+            About {
+                name: "exact-propagator-round-off",
+                kind: Kind::Verification,
+                claim: "The exact propagator's error is round-off for r_e from 1.01 to 10⁶ and up to 10⁶ periods, in \
+                        the middle of a flip.",
+                source: "A.4, A.5, eq. 20",
+                equations: &["20", "A.4", "A.5"],
+                statistical_checks: 0,
+            },
+            (|| vec![Box::new(ExactPropagator) as Box<dyn Subject>]) as Subjects,
+            vec![
+                ("whole turns are left in the phase", || vec![Box::new(WholeTurns)]),
+                ("A.4 and A.5 in angles", || vec![Box::new(ClosedForm)]),
+            ],
+            round_off,
+        ),
+        Case::new(
+            About {
+                name: "adaptive-subjects",
+                kind: Kind::Verification,
+                claim: "At a tolerance of 10⁻¹¹ both adaptive subjects come within 10⁻⁷ rad, r_e from 1.5 to 11.6.",
+                source: "A.2 to A.5; Jeffery's equation in p",
+                equations: &["A.4", "A.5"],
+                statistical_checks: 0,
+            },
+            (|| -> Vec<Box<dyn Subject>> { vec![Box::new(DormandPrince), Box::new(Radau)] }) as Subjects,
+            vec![
+                ("r_e 0.1 % too long", || {
+                    vec![Box::new(Spoiled(|problem| {
+                        (Problem::new(1.001 * problem.aspect_ratio, problem.turns), 1.0)
+                    }))]
+                }),
+                ("a tolerance 10⁸ times as large", || {
+                    vec![Box::new(Spoiled(|problem| (problem, 1e8)))]
+                }),
+                ("the last step is left out", || {
+                    vec![Box::new(Spoiled(|problem| {
+                        (Problem::new(problem.aspect_ratio, 0.99 * problem.turns), 1.0)
+                    }))]
+                }),
+            ],
+            adaptive,
+        ),
+        Case::new(
+            About {
+                name: "euler-step-limit",
+                kind: Kind::Verification,
+                claim: "Explicit Euler's step on A.2 lets one rod overtake another where GΔt > 1/Λ, and never below.",
+                source: "A.2, A.14",
+                equations: &["A.2"],
+                statistical_checks: 0,
+            },
+            (|| {
+                in_angles(1, |problem, y, h| {
+                    explicit_euler(|y| problem.angle_rates(&y), y, h)
+                })
+            }) as Subjects,
+            vec![
+                ("half of the rate", || {
+                    in_angles(1, |problem, y, h| {
+                        explicit_euler(|y| 0.5 * problem.angle_rates(&y), y, h)
+                    })
+                }),
+                ("RK4", || {
+                    in_angles(4, |problem, y, h| rk4(|y| problem.angle_rates(&y), y, h))
+                }),
+                ("the exact propagator", || vec![Box::new(ExactPropagator)]),
+            ],
+            overtaking,
+        ),
+    ]
+}
+
+fn orders(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+    let mut evidence = Vec::new();
+    for subject in subjects() {
+        let mut worst = 0.0f64;
+        for r in [2.0, 11.6] {
+            let (problem, start) = Problem::mid_flip(r);
+            let Some(study) = order::study(subject.as_ref(), &problem, &start, 8) else {
+                continue;
+            };
+            // Fewer than two pairs above round-off say nothing of an order.
+            let enough = if study.judged.len() == 2 { 0.0 } else { f64::NAN };
+            worst = (study.judged.iter())
+                .map(|order| (order - f64::from(study.theory)).abs())
+                .fold(larger(worst, enough), larger);
+        }
+        if matches!(subject.theory(), Theory::Order(_)) {
+            evidence.push(Evidence::new(
+                format!("observed order against theory, {}", subject.name()),
+                Rule::within(
+                    worst,
+                    ORDER_TOLERANCE,
+                    "the next power of Δt is a tenth or less of the leading one on the last two pairs above round-off",
+                ),
+            ));
+        }
+    }
+    evidence
+}
+
+fn lengths(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+    let (problem, start) = Problem::mid_flip(11.6);
+    let steps = 1024;
+    (subjects().into_iter())
+        .filter(|subject| subject.keeps_length())
+        .map(|subject| {
+            let setting = match subject.theory() {
+                Theory::Exact => Setting::Once,
+                Theory::Order(_) => Setting::Steps(steps),
+                Theory::Adaptive => Setting::Tolerance(1e-6),
+            };
+            let off = grade(subject.as_ref(), &problem, &start, setting).map_or(f64::NAN, |e| e.length);
+            Evidence::new(
+                format!("|p| − 1 at the end, {}", subject.name()),
+                Rule::within(
+                    off,
+                    4.0 * steps as f64 * f64::EPSILON,
+                    "each of 1024 steps rounds |p| by four roundings at most",
+                ),
+            )
+        })
+        .collect()
+}
+
+fn round_off(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+    let mut worst = 0.0f64;
+    for subject in subjects() {
+        for r in [1.01, 2.0, 11.6, 100.0, 1e4, 1e6] {
+            for whole in [0.0, 16.0, 1e6] {
+                let (problem, start) = Problem::mid_flip(r);
+                let later = Problem::new(r, problem.turns + whole);
+                let error = grade(subject.as_ref(), &later, &start, Setting::Once);
+                worst = larger(worst, error.map_or(f64::NAN, |errors| errors.orientation_rad));
+            }
+        }
+    }
+    vec![Evidence::new(
+        "largest angle to the closed form",
+        Rule::within(
+            worst,
+            32.0 * f64::EPSILON,
+            "near a whole turn the phase that is left is small, and its relative error ε moves φ by ε, not by r_e ε; \
+             a few dozen roundings of the propagator and the closed form",
+        ),
+    )]
+}
+
+fn adaptive(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+    let mut evidence = Vec::new();
+    for subject in subjects() {
+        let mut worst = 0.0f64;
+        for r in [1.5, 3.0, 11.6] {
+            let (problem, start) = Problem::mid_flip(r);
+            let error = grade(subject.as_ref(), &problem, &start, Setting::Tolerance(1e-11));
+            worst = larger(worst, error.map_or(f64::NAN, |errors| errors.orientation_rad));
+        }
+        evidence.push(Evidence::new(
+            format!("angle to the closed form at a tolerance of 10⁻¹¹, {}", subject.name()),
+            Rule::within(
+                worst,
+                1e-7,
+                "the tolerance bounds the error of a step; some hundred steps add up, and r_e magnifies the phase: 10⁴",
+            ),
+        ));
+    }
+    evidence
+}
+
+fn overtaking(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+    let mut worst = 0.0f64;
+    for subject in subjects() {
+        for r in [1.5, 3.0, 11.6, 100.0] {
+            let limit = (r * r + 1.0) / (r * r - 1.0);
+            let (mut low, mut high) = (0.1 * limit, 1.9 * limit);
+            for _ in 0..40 {
+                let middle = 0.5 * (low + high);
+                match overtakes(subject.as_ref(), r, middle) {
+                    true => high = middle,
+                    false => low = middle,
+                }
+            }
+            worst = larger(worst, (low / limit - 1.0).abs());
+        }
+    }
+    vec![Evidence::new(
+        "relative difference of the longest step without overtaking and 1/(ΛG)",
+        Rule::within(
+            worst,
+            1e-5,
+            "found between rods π/512 apart, where the slope of sin² is less than its largest by (π/512)²/6",
+        ),
+    )]
+}
+
+/// Rods in the plane of shear.
+const RODS: u32 = 512;
+
+/// Whether one step of GΔt = `strain` takes any of the rods in the plane of shear past the next.
+fn overtakes(subject: &dyn Subject, aspect_ratio: f64, strain: f64) -> bool {
+    let problem = Problem::new(aspect_ratio, strain / Problem::new(aspect_ratio, 1.0).strain());
+    let setting = match subject.theory() {
+        Theory::Exact => Setting::Once,
+        _ => Setting::Steps(1),
+    };
+    let after = |k: u32| {
+        // Halfway between two is the steepest place, φ = π/4.
+        let phi = PI * (f64::from(k) + 0.5) / f64::from(RODS);
+        let p = shearbed::orientation::from_angles(phi, FRAC_PI_2);
+        subject
+            .advance(&problem, &p, setting)
+            .unwrap_or(Vector3::repeat(f64::NAN))
+    };
+    (0..RODS).any(|k| {
+        let (a, b) = (after(k), after(k + 1));
+        a.x * b.y - a.y * b.x < 0.0
+    })
+}

@@ -1,0 +1,70 @@
+//! Subjects with a mistake, and subjects made from a step alone.
+
+use crate::subject::*;
+use nalgebra::{UnitVector3, Vector2, Vector3};
+use std::f64::consts::TAU;
+
+/// A method of this step in (φ, θ).
+pub(super) fn in_angles(
+    order: u32,
+    step: fn(&Problem, Vector2<f64>, f64) -> Vector2<f64>,
+) -> Vec<Box<dyn Subject>> {
+    let name = "in angles";
+    vec![Box::new(InAngles { name, order, step })]
+}
+
+/// A method of this step in p.
+pub(super) fn in_p(
+    order: u32,
+    keeps_length: bool,
+    step: fn(&Problem, Vector3<f64>, f64) -> Vector3<f64>,
+) -> Vec<Box<dyn Subject>> {
+    vec![Box::new(FixedStep {
+        name: "in p",
+        order,
+        keeps_length,
+        step,
+    })]
+}
+
+/// The exact propagator with the phase as it comes.
+pub(super) struct WholeTurns;
+
+impl Subject for WholeTurns {
+    fn name(&self) -> &str {
+        "whole turns"
+    }
+
+    fn theory(&self) -> Theory {
+        Theory::Exact
+    }
+
+    fn advance(&self, problem: &Problem, p: &UnitVector3<f64>, _: Setting) -> Result<Vector3<f64>, Failure> {
+        let (sin, cos) = (TAU * problem.turns).sin_cos();
+        let r = problem.aspect_ratio;
+        Ok(Vector3::new(p.x * cos - p.y / r * sin, r * p.x * sin + p.y * cos, p.z).normalize())
+    }
+}
+
+/// Dormand–Prince on another problem, with another factor on its tolerance.
+pub(super) struct Spoiled(pub(super) fn(Problem) -> (Problem, f64));
+
+impl Subject for Spoiled {
+    fn name(&self) -> &str {
+        "spoiled"
+    }
+
+    fn theory(&self) -> Theory {
+        Theory::Adaptive
+    }
+
+    fn advance(
+        &self,
+        problem: &Problem,
+        start: &UnitVector3<f64>,
+        setting: Setting,
+    ) -> Result<Vector3<f64>, Failure> {
+        let (problem, factor) = self.0(*problem);
+        DormandPrince.advance(&problem, start, Setting::Tolerance(factor * setting.tolerance()?))
+    }
+}

@@ -1,0 +1,81 @@
+//! How far a direction is from the closed form.
+
+use super::Problem;
+use nalgebra::{UnitVector3, Vector3};
+use serde::Serialize;
+use std::f64::consts::{PI, TAU};
+
+/// The errors of a direction at the end of a problem. All but the length are of the direction alone.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Errors {
+    /// The angle to the reference in rad, head or tail alike, in [0, π/2].
+    pub orientation_rad: f64,
+    /// How far C_b = C/(1 + C) is from its value at the start (eq. 13), in [0, 1]: C itself may be infinite.
+    pub orbit_constant: f64,
+    /// How far the phase is off, in periods, in [0, ¼]: half a period is the same rod.
+    pub phase_turns: f64,
+    /// How far |p| is from 1.
+    pub length: f64,
+}
+
+impl Errors {
+    /// The errors of the direction `end`, with its length.
+    pub fn of(end: &Vector3<f64>, problem: &Problem, start: &UnitVector3<f64>) -> Self {
+        let reference = problem.reference(start);
+        let r = problem.aspect_ratio;
+        let off = phase(end, r) - phase(&reference, r);
+        Self {
+            orientation_rad: apart_rad(end, &reference),
+            orbit_constant: (bounded_orbit_constant(end, r) - bounded_orbit_constant(start, r)).abs(),
+            phase_turns: (off - PI * (off / PI).round()).abs() / TAU,
+            length: (end.norm() - 1.0).abs(),
+        }
+    }
+}
+
+/// The angle in rad between two directions of any length, head or tail alike: accurate near 0 and near π/2.
+pub fn apart_rad(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
+    a.cross(b).norm().atan2(a.dot(b).abs())
+}
+
+/// κ with tan φ = r_e tan κ, the phase that grows evenly (A.4).
+fn phase(p: &Vector3<f64>, aspect_ratio: f64) -> f64 {
+    (p.y / aspect_ratio).atan2(p.x)
+}
+
+fn bounded_orbit_constant(p: &Vector3<f64>, aspect_ratio: f64) -> f64 {
+    let in_plane = p.x.hypot(p.y / aspect_ratio);
+    in_plane / (in_plane + p.z.abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_and_large_angles_are_exact_and_heads_are_tails() {
+        let a = Vector3::new(1.0, 0.0, 0.0);
+        for angle in [0.0, 1e-150, 1e-12, 0.3, 1.5707, 1.570796326794] {
+            let b = Vector3::new(f64::cos(angle), f64::sin(angle), 0.0);
+            for b in [b, -b, 3.0 * b] {
+                assert!((apart_rad(&a, &b) - angle).abs() <= 2e-16 * angle, "{angle}");
+            }
+        }
+    }
+
+    #[test]
+    fn each_error_sees_its_own_mistake() {
+        let (problem, start) = Problem::mid_flip(11.6);
+        let end = problem.reference(&start).into_inner();
+        let none = Errors::of(&end, &problem, &start);
+        assert!(none.orientation_rad < 1e-15 && none.phase_turns < 1e-15 && none.length < 1e-15);
+        assert!(none.orbit_constant < 1e-15);
+        let longer = Errors::of(&(-1.5 * end), &problem, &start);
+        assert!((longer.length - 0.5).abs() < 1e-15 && longer.orientation_rad < 1e-15);
+        let tilted = Errors::of(&Vector3::new(end.x, end.y, 2.0 * end.z), &problem, &start);
+        assert!(tilted.orbit_constant > 0.1 && tilted.phase_turns < 1e-15);
+        let later = Problem::new(11.6, problem.turns + 1e-3).reference(&start);
+        let late = Errors::of(&later, &problem, &start);
+        assert!((late.phase_turns - 1e-3).abs() < 1e-12 && late.orbit_constant < 1e-14);
+    }
+}

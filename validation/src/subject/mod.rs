@@ -1,0 +1,166 @@
+//! Integrators of a free rod's motion, all behind one trait: whoever brings another one has it graded by the
+//! same code (`examples/bring_your_own.rs`).
+
+mod adaptive;
+mod errors;
+mod exact;
+mod fixed;
+mod problem;
+mod sphere;
+mod step;
+
+use nalgebra::{UnitVector3, Vector3};
+use serde::Serialize;
+use std::fmt;
+
+pub use adaptive::{DormandPrince, Radau};
+pub use errors::{Errors, apart_rad};
+pub use exact::{ClosedForm, ExactPropagator};
+pub use fixed::{explicit_euler, rk4};
+pub use problem::Problem;
+pub use step::{FixedStep, InAngles};
+
+/// What is judged: something that turns a rod.
+pub trait Subject: Send + Sync {
+    /// Its name, in a few words.
+    fn name(&self) -> &str;
+
+    /// How its error is said to fall.
+    fn theory(&self) -> Theory;
+
+    /// Whether it is said to keep |p| = 1.
+    fn keeps_length(&self) -> bool {
+        false
+    }
+
+    /// The direction at the end of `problem` of a rod that starts along `start`; its length is judged too.
+    fn advance(
+        &self,
+        problem: &Problem,
+        start: &UnitVector3<f64>,
+        setting: Setting,
+    ) -> Result<Vector3<f64>, Failure>;
+}
+
+/// How a subject's error is said to fall, and so which settings it takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Theory {
+    /// It takes no steps: [`Setting::Once`].
+    Exact,
+    /// Error ∝ Δtᵖ in [`Setting::Steps`], with this p.
+    Order(u32),
+    /// It chooses its steps by [`Setting::Tolerance`].
+    Adaptive,
+}
+
+/// How hard a subject is to try.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Setting {
+    /// There is nothing to set.
+    Once,
+    /// So many equal steps over the whole problem.
+    Steps(u64),
+    /// The relative and absolute tolerance of an adaptive method.
+    Tolerance(f64),
+}
+
+impl Setting {
+    /// The number of steps, for subjects that take equal ones.
+    pub fn steps(self) -> Result<u64, Failure> {
+        match self {
+            Self::Steps(steps) if steps > 0 => Ok(steps),
+            _ => Err(Failure::Setting),
+        }
+    }
+
+    /// The tolerance, for subjects that choose their steps.
+    pub fn tolerance(self) -> Result<f64, Failure> {
+        match self {
+            Self::Tolerance(tolerance) if tolerance > 0.0 => Ok(tolerance),
+            _ => Err(Failure::Setting),
+        }
+    }
+}
+
+impl fmt::Display for Setting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Once => write!(f, "–"),
+            Self::Steps(steps) => write!(f, "{steps} steps"),
+            Self::Tolerance(tolerance) => write!(f, "tolerance {tolerance:.0e}"),
+        }
+    }
+}
+
+/// Why there is no direction at the end.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Failure {
+    /// A component is infinite or no number.
+    NotFinite,
+    /// The subject takes other settings.
+    Setting,
+    /// The subject's own reason.
+    Gave(String),
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite => write!(f, "not finite"),
+            Self::Setting => write!(f, "takes no such setting"),
+            Self::Gave(reason) => write!(f, "{reason}"),
+        }
+    }
+}
+
+/// The error of a subject on a problem; a direction that is not finite is a failure.
+pub fn grade(
+    subject: &dyn Subject,
+    problem: &Problem,
+    start: &UnitVector3<f64>,
+    setting: Setting,
+) -> Result<Errors, Failure> {
+    let end = subject.advance(problem, start, setting)?;
+    match end.iter().all(|component| component.is_finite()) {
+        true => Ok(Errors::of(&end, problem, start)),
+        false => Err(Failure::NotFinite),
+    }
+}
+
+/// Every subject of this project, in the order of the tables.
+pub fn all() -> Vec<Box<dyn Subject>> {
+    let mut all: Vec<Box<dyn Subject>> = vec![Box::new(ExactPropagator), Box::new(ClosedForm)];
+    all.extend(fixed::all());
+    all.extend(sphere::all());
+    all.push(Box::new(DormandPrince));
+    all.push(Box::new(Radau));
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_subject_comes_close_and_refuses_the_settings_of_others() {
+        let (problem, start) = Problem::mid_flip(3.0);
+        for subject in all() {
+            let (own, other) = match subject.theory() {
+                Theory::Exact => (Setting::Once, Setting::Steps(10)),
+                Theory::Order(_) => (Setting::Steps(20_000), Setting::Tolerance(1e-6)),
+                Theory::Adaptive => (Setting::Tolerance(1e-8), Setting::Once),
+            };
+            let errors = grade(subject.as_ref(), &problem, &start, own).unwrap();
+            assert!(errors.orientation_rad < 5e-3, "{}: {errors:?}", subject.name());
+            let refused = grade(subject.as_ref(), &problem, &start, other);
+            assert_eq!(
+                refused.is_err(),
+                subject.theory() != Theory::Exact,
+                "{}",
+                subject.name()
+            );
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Steps that stay on the sphere by themselves (Hairer, Lubich & Wanner, Geometric Numerical Integration, IV).
+
+use super::{FixedStep, Problem, Subject};
+use nalgebra::{Matrix3, Rotation3, Vector3};
+
+/// Newton's iteration ends when the midpoint moves by less than this, in units of |p|: its next move would be the
+/// square of it.
+pub const NEWTON_TOLERANCE: f64 = 1e-12;
+
+/// Steps of Newton's iteration before it is given up.
+const MOST_ITERATIONS: usize = 30;
+
+/// The implicit midpoint rule p′ = p + h f(m), m = ½(p + p′): as f(m) ⊥ m, |p′| = |p|.
+fn implicit_midpoint(problem: &Problem, p: Vector3<f64>, h: f64) -> Vector3<f64> {
+    let half = 0.5 * h;
+    let mut m = p;
+    for _ in 0..MOST_ITERATIONS {
+        let miss = m - p - problem.tangent_rate(&m) * half;
+        let slope = Matrix3::identity() - problem.tangent_rate_slope(&m) * half;
+        let Some(inverse) = slope.try_inverse() else {
+            break;
+        };
+        let change = inverse * miss;
+        m -= change;
+        if change.norm() <= NEWTON_TOLERANCE {
+            return m + m - p;
+        }
+    }
+    Vector3::repeat(f64::NAN)
+}
+
+/// p × ṗ, the rate at which p turns, in units of G.
+fn spin(problem: &Problem, p: &Vector3<f64>) -> Vector3<f64> {
+    p.cross(&problem.tangent_rate(p))
+}
+
+/// The midpoint rule by rotations: p turns at the rate of half a step ahead. Order 2.
+fn rotation_midpoint(problem: &Problem, p: Vector3<f64>, h: f64) -> Vector3<f64> {
+    let half = Rotation3::new(spin(problem, &p) * (0.5 * h)) * p;
+    Rotation3::new(spin(problem, &half) * h) * p
+}
+
+/// The classical Runge–Kutta step for the rotation vector u of p(t) = exp(u) p (Munthe-Kaas 1999). Order 4.
+fn munthe_kaas_4(problem: &Problem, p: Vector3<f64>, h: f64) -> Vector3<f64> {
+    let rate = |u: Vector3<f64>| dexp_inverse(&u, spin(problem, &(Rotation3::new(u) * p)));
+    let k1 = spin(problem, &p) * h;
+    let k2 = rate(0.5 * k1) * h;
+    let k3 = rate(0.5 * k2) * h;
+    let k4 = rate(k3) * h;
+    Rotation3::new((k1 + 2.0 * (k2 + k3) + k4) / 6.0) * p
+}
+
+/// u̇ for exp(u)̇ = ω exp(u), to the terms that order 4 needs: ω − ½ u×ω + u×(u×ω)/12.
+fn dexp_inverse(u: &Vector3<f64>, omega: Vector3<f64>) -> Vector3<f64> {
+    let once = u.cross(&omega);
+    omega - 0.5 * once + u.cross(&once) / 12.0
+}
+
+pub(super) fn all() -> Vec<Box<dyn Subject>> {
+    let on_sphere = |name, order, step: fn(&Problem, Vector3<f64>, f64) -> Vector3<f64>| {
+        Box::new(FixedStep {
+            name,
+            order,
+            keeps_length: true,
+            step,
+        }) as Box<dyn Subject>
+    };
+    vec![
+        on_sphere("implicit midpoint in p", 2, implicit_midpoint),
+        on_sphere("Lie-group midpoint", 2, rotation_midpoint),
+        on_sphere("Lie-group RKMK4", 4, munthe_kaas_4),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_slope_is_that_of_the_rate() {
+        let problem = Problem::new(3.0, 1.0);
+        let m = Vector3::new(0.4, -0.7, 0.5);
+        let slope = problem.tangent_rate_slope(&m);
+        for axis in 0..3 {
+            let mut e = Vector3::zeros();
+            e[axis] = 1e-6;
+            let difference = (problem.tangent_rate(&(m + e)) - problem.tangent_rate(&(m - e))) / 2e-6;
+            assert!((slope.column(axis) - difference).norm() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_step_too_long_for_newton_gives_no_number_and_no_hang() {
+        let (problem, start) = Problem::mid_flip(11.6);
+        let end = implicit_midpoint(&problem, start.into_inner(), 1e300);
+        assert!(end.iter().any(|component| component.is_nan()) || (end.norm() - 1.0).abs() < 1e-6);
+    }
+}

@@ -1,0 +1,77 @@
+//! Run times.
+
+use serde::Serialize;
+use std::hint::black_box;
+use std::time::Instant;
+
+/// How long may be measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Budget {
+    /// A setting whose run takes half of this is the last that is tried.
+    pub seconds_per_run: f64,
+    /// Measurements of each setting, after one to warm up; long runs get three at most.
+    pub runs: usize,
+}
+
+impl Budget {
+    /// For `shearbed bench`.
+    pub const FULL: Self = Self {
+        seconds_per_run: 0.1,
+        runs: 9,
+    };
+    /// For the report of every day.
+    pub const QUICK: Self = Self {
+        seconds_per_run: 0.01,
+        runs: 5,
+    };
+}
+
+/// What a run took, in seconds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Seconds {
+    /// The least of all measurements: what the work itself takes.
+    pub least: f64,
+    /// The most: with the least, the spread that the machine adds.
+    pub most: f64,
+    /// Measurements.
+    pub measurements: usize,
+}
+
+impl Seconds {
+    /// One measurement.
+    pub fn same(seconds: f64) -> Self {
+        Self {
+            least: seconds,
+            most: seconds,
+            measurements: 1,
+        }
+    }
+}
+
+/// A measurement is at least this long: a hundred times the clock's own step and cost.
+const SHORTEST: f64 = 2e-5;
+
+/// Times `run` on this thread.
+pub(super) fn measure<T>(budget: Budget, run: impl Fn() -> T) -> Seconds {
+    let once = clock(1, &run);
+    let repeats = (SHORTEST / once.max(1e-9)).ceil().clamp(1.0, 1e4) as u32;
+    let runs = match once > 0.1 * budget.seconds_per_run {
+        true => budget.runs.min(3),
+        false => budget.runs,
+    };
+    let times: Vec<_> = (0..runs.max(1)).map(|_| clock(repeats, &run)).collect();
+    Seconds {
+        least: times.iter().copied().fold(f64::INFINITY, f64::min),
+        most: times.iter().copied().fold(0.0, f64::max),
+        measurements: times.len(),
+    }
+}
+
+/// Seconds a run, over `repeats` of them.
+fn clock<T>(repeats: u32, run: &impl Fn() -> T) -> f64 {
+    let start = Instant::now();
+    for _ in 0..repeats {
+        black_box(run());
+    }
+    start.elapsed().as_secs_f64() / f64::from(repeats)
+}
