@@ -77,6 +77,8 @@ pub struct Case {
     pub about: About,
     check: Check,
     controls: Vec<(&'static str, Check)>,
+    /// What a control that was not caught makes of a case whose evidence passes.
+    uncaught: Verdict,
 }
 
 impl Case {
@@ -95,7 +97,15 @@ impl Case {
                 .into_iter()
                 .map(|(name, subject)| (name, bind(subject)))
                 .collect(),
+            uncaught: Verdict::Fail,
         }
+    }
+
+    /// The same case on points that others measured: where they are too few to catch a control, that is no
+    /// fault of the code, and the case is under-powered.
+    pub fn on_measured_points(mut self) -> Self {
+        self.uncaught = Verdict::Underpowered;
+        self
     }
 
     /// Runs the check, then every control. Without data there is nothing that a control could fail on.
@@ -122,7 +132,7 @@ impl Case {
             .collect();
         Outcome {
             about: self.about,
-            verdict: overall(&evidence, &controls),
+            verdict: overall(&evidence, &controls, self.uncaught),
             evidence,
             controls,
             seconds: start.elapsed().as_secs_f64(),
@@ -131,16 +141,14 @@ impl Case {
 }
 
 /// A case passes when all its evidence does and every control was caught.
-fn overall(evidence: &[Judged], controls: &[Control]) -> Verdict {
+fn overall(evidence: &[Judged], controls: &[Control], uncaught: Verdict) -> Verdict {
     let has = |verdict| evidence.iter().any(|judged| judged.verdict == verdict);
     if has(Verdict::NoData) {
         Verdict::NoData
-    } else if evidence.is_empty()
-        || has(Verdict::Fail)
-        || controls.is_empty()
-        || controls.iter().any(|control| !control.caught)
-    {
+    } else if evidence.is_empty() || has(Verdict::Fail) || controls.is_empty() {
         Verdict::Fail
+    } else if controls.iter().any(|control| !control.caught) {
+        uncaught
     } else if has(Verdict::Underpowered) {
         Verdict::Underpowered
     } else {

@@ -50,6 +50,9 @@ pub fn cases() -> Vec<Case> {
             same_alpha,
         ),
     ]
+    .into_iter()
+    .map(Case::on_measured_points)
+    .collect()
 }
 
 fn controls() -> Vec<(&'static str, Mend)> {
