@@ -4,6 +4,7 @@ mod closed_forms;
 mod contact_rule;
 mod encounters;
 mod experiments;
+mod extremes;
 mod free_suspension;
 mod jeffery_equations;
 pub mod lab;
@@ -31,6 +32,7 @@ pub fn all() -> Vec<Case> {
         free_suspension::cases(),
         closed_forms::cases(),
         reductions::cases(),
+        extremes::cases(),
         reference::cases(),
         readings::cases(),
         steady::cases(),
