@@ -36,7 +36,6 @@ fn figure(bench: &Bench) -> ReportFigure {
             y_log: true,
             x_span: Some((1e-8, 0.1)),
             y_span: Some((LEAST, FAILED)),
-            ..Default::default()
         },
         caption: format!(
             "One rod over {:.5} periods, into the middle of a flip; the least of repeated runs, on one core. \
