@@ -164,7 +164,7 @@ fn extreme_flows(motion: &FlowMotion, _: &Effort) -> Vec<Evidence> {
         for rate in [1e-30, 1.0, 1e30] {
             let flow = VelocityGradient::new(Matrix3::from_fn(|i, j| rows[i][j] * rate)).expect("finite");
             for r in [1.5, 11.6, 1e8] {
-                for (phi, theta) in [(0.3, 1.0), (1.5707, 0.01), (3.0, 3.1)] {
+                for (phi, theta) in [(0.3, 1.0), (1.57, 0.01), (3.0, 3.1)] {
                     let start = orientation::from_angles(phi, theta);
                     for strain in [1e-9, 1.0, 1e2, 1e6, 1e12] {
                         let p = motion(&flow, r, &start, strain / rate);
