@@ -5,7 +5,8 @@ use shearbed::ensemble;
 use shearbed::propagator::{Phase, couette};
 use std::hint::black_box;
 use validation::cases::lab;
-use validation::oracle::naive::{Naive, Problem, Reading, Start, Update};
+use validation::oracle::naive::Naive;
+use validation::readings::paper;
 
 /// One exact step of a rod, and the phase it takes where aspect ratios differ.
 fn motion(c: &mut Criterion) {
@@ -51,31 +52,10 @@ fn steps(c: &mut Criterion) {
     }
     group.throughput(Throughput::Elements(100));
     group.bench_function("naive, 100 rods", |b| {
-        let mut naive = Naive::new(problem());
+        let mut naive = Naive::new(paper(0));
         b.iter(|| naive.step());
     });
     group.finish();
-}
-
-fn problem() -> Problem {
-    Problem {
-        count: 100,
-        shear_rate_per_s: 0.5,
-        length_mm: 0.72,
-        aspect_ratio: 11.6,
-        aspect_ratio_sd_percent: 0.0,
-        orientation: Start::Isotropic,
-        concentration_per_cm3: 50.0,
-        alpha: 0.5,
-        m: 3.0,
-        min_contact_arm: 0.0,
-        update: Update::Rotation,
-        reading: Reading::default(),
-        steps_per_period: 200,
-        seed: 1,
-        replica: 0,
-        mistake: None,
-    }
 }
 
 criterion_group!(benches, motion, free, steps);
