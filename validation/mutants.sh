@@ -48,6 +48,8 @@ collide-where-not@@src/suspension.rs@@&& square < self.reach.of(r).powi(2)@@&& s
 planar-projection@@src/observable.rs@@zip([(p1, p2), (p2, p3), (p1, p3)])@@zip([(p1, p2), (p1, p3), (p2, p3)])
 angle-update@@src/collision.rs@@from_angles(phi + phi_rate * time, theta + theta_rate * time)@@from_angles(phi + phi_rate * time, theta - theta_rate * time)
 turn-sign@@src/collision.rs@@let turned = p.as_ref() * cos + rate * (sin / speed);@@let turned = p.as_ref() * cos - rate * (sin / speed);
+normal-part-changed@@src/collision.rs@@rates[0] + line * (0.5 * gap / arm_a)@@rates[0] * 0.9 + line * (0.5 * gap / arm_a)
+mean-over-one-rod-less@@src/ensemble.rs@@let value = sum.value / n;@@let value = sum.value / (n - 1.0);
 LIST
 )
 missed=0
