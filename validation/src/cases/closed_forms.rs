@@ -210,7 +210,7 @@ fn orbit_distribution(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
 
 fn plateau(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
     let mut scene = lab::free_scene();
-    scene.particles.count = effort.pick(40_000, 1_000_000);
+    scene.particles.count = effort.pick(40_000, 400_000);
     scene.particles.aspect_ratio_sd_percent = 3.6;
     // A quarter period past t/T = 100, where rods in phase would be far from their mean.
     scene.time.periods = Some(100.25);
@@ -283,7 +283,7 @@ fn spread_damping(factor: &Factor, effort: &Effort) -> Vec<Evidence> {
         let quadrature = |k: usize| isotropic::mean_projections_polydisperse(r, sd, k as f64 / 40.0)[0];
         let first = harmonic(0, &|k| isotropic::mean_projections(r, k as f64 / 40.0)[0]);
         let expected = harmonic(middle - 10, &quadrature) / first;
-        let found = per_replica(&scene, effort.pick(100, 4000), |means| {
+        let found = per_replica(&scene, effort.pick(100, 1000), |means| {
             harmonic(middle - 10, &|k| means.at(k, 0)) / first
         });
         let at = (middle as f64 - 0.5) / 40.0;
