@@ -136,7 +136,8 @@ pub(crate) fn subscripts(text: &str) -> Vec<(bool, &str)> {
 fn below(text: &str) -> &str {
     let end = |inside: fn(&char) -> bool| text.chars().take_while(inside).map(char::len_utf8).sum::<usize>();
     let digits = end(|c| c.is_ascii_digit());
-    let word = end(|c| c.is_alphanumeric() || *c == '_');
+    // A superscript two is numeric to Unicode, but no part of a subscript.
+    let word = end(|c| c.is_alphabetic() || c.is_ascii_digit() || *c == '_');
     match () {
         () if digits > 0 => &text[..digits],
         () if word <= 5 && !text[..word].contains('_') => &text[..word],
@@ -225,6 +226,7 @@ mod tests {
             ("r_e = 5, X̄_1(t), u_2 = G x_1", "rₑ = 5, X̄₁(t), u₂ = G x₁"),
             ("x_1x_2 and ∂u_i/∂x_j", "x₁x₂ and ∂uᵢ/∂xⱼ"),
             ("P_c > R, 1/(2r_e)", "P_c > R, 1/(2rₑ)"),
+            ("r_e² − 1", "rₑ² − 1"),
             (
                 "min_contact_arm, t_over_T, a_, _b, _",
                 "min_contact_arm, t_over_T, a_, _b, _",
