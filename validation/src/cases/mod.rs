@@ -2,6 +2,7 @@
 
 mod closed_forms;
 mod contact_rule;
+mod decay;
 mod encounters;
 mod experiments;
 mod extremes;
@@ -38,6 +39,7 @@ pub fn all() -> Vec<Case> {
         steady::cases(),
         subjects::cases(),
         words::cases(),
+        decay::cases(),
         experiments::cases(),
     ]
     .into_iter()
