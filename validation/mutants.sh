@@ -50,6 +50,8 @@ angle-update@@src/collision.rs@@from_angles(phi + phi_rate * time, theta + theta
 turn-sign@@src/collision.rs@@let turned = p.as_ref() * cos + rate * (sin / speed);@@let turned = p.as_ref() * cos - rate * (sin / speed);
 normal-part-changed@@src/collision.rs@@rates[0] + line * (0.5 * gap / arm_a)@@rates[0] * 0.9 + line * (0.5 * gap / arm_a)
 mean-over-one-rod-less@@src/ensemble.rs@@let value = sum.value / n;@@let value = sum.value / (n - 1.0);
+direction-not-rescaled@@src/propagator.rs@@let scale = 1.0 / (q1 * q1 + q2 * q2 + p[2] * p[2]).sqrt();@@let scale = 1.0 + 0.0 * (q1 * q1 + q2 * q2 + p[2] * p[2]).sqrt();
+no-rescaled-squaring@@src/propagator.rs@@map /= map.amax();@@map /= 1.0;
 LIST
 )
 missed=0

@@ -38,8 +38,8 @@ pub fn all() -> Vec<Case> {
         readings::cases(),
         steady::cases(),
         subjects::cases(),
-        words::cases(),
         decay::cases(),
+        words::cases(),
         experiments::cases(),
     ]
     .into_iter()

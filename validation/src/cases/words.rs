@@ -1,7 +1,5 @@
 //! The paper's words as tests: each claim with the place of its sentence, a number and a confidence.
-//!
-//! The amplitude is that of Fig. 7's ordinate as far as the text tells: peak to trough of X̄₁, taken here as
-//! X̄₁(t) − X̄₁(t + T/4) at t = 0, T/2, T, …, where free rods peak.
+//! How oscillations die is in `decay`.
 
 use super::lab::{self, Sample, per_replica};
 use crate::accept::Rule;
@@ -10,9 +8,6 @@ use shearbed::scene::{Orientation, Scene};
 
 /// A change to every scene that the model runs; the expectation stays that of the unchanged scene.
 type Mend = fn(&mut Scene);
-
-/// Changes of a scene in the order in which the paper says that oscillations die out faster.
-type Order = [Mend; 3];
 
 pub fn cases() -> Vec<Case> {
     let about = |name, claim, source, statistical_checks| About {
@@ -24,109 +19,6 @@ pub fn cases() -> Vec<Case> {
         statistical_checks,
     };
     vec![
-        Case::new(
-            about(
-                "free-amplitude",
-                "\"The amplitude of oscillations is approximately half the particle length and is constant\" for free uniform rods.",
-                "Results, before Fig. 6; Fig. 6 (top)",
-                2,
-            ),
-            (|_| {}) as Mend,
-            vec![
-                ("unequal aspect ratios", |scene| {
-                    scene.particles.aspect_ratio_sd_percent = 7.2
-                }),
-                ("rods in collision", |scene| {
-                    lab::interaction(scene).concentration_per_cm3 = 100.0
-                }),
-            ],
-            free_amplitude,
-        ),
-        Case::new(
-            about(
-                "faster-with-spread",
-                "\"The oscillations decay faster … as the differences in the aspect ratios become larger\".",
-                "Results, before Fig. 7; Fig. 9",
-                2,
-            ),
-            [
-                |scene: &mut Scene| scene.particles.aspect_ratio_sd_percent = 1.8,
-                |scene: &mut Scene| scene.particles.aspect_ratio_sd_percent = 3.6,
-                |scene: &mut Scene| scene.particles.aspect_ratio_sd_percent = 7.2,
-            ] as Order,
-            vec![(
-                "σ without effect",
-                [
-                    |scene| scene.particles.aspect_ratio_sd_percent = 3.6,
-                    |scene| scene.particles.aspect_ratio_sd_percent = 3.6,
-                    |scene| scene.particles.aspect_ratio_sd_percent = 3.6,
-                ],
-            )],
-            faster,
-        ),
-        Case::new(
-            about(
-                "faster-with-concentration",
-                "\"The oscillations decay faster as the concentration (and consequently the number of collisions) increases\".",
-                "Results, before Fig. 7; Fig. 7",
-                2,
-            ),
-            [
-                |scene: &mut Scene| lab::interaction(scene).concentration_per_cm3 = 20.0,
-                |scene: &mut Scene| lab::interaction(scene).concentration_per_cm3 = 50.0,
-                |scene: &mut Scene| lab::interaction(scene).concentration_per_cm3 = 100.0,
-            ] as Order,
-            vec![(
-                "n without effect",
-                [|scene| {
-                    lab::interaction(scene);
-                }; 3],
-            )],
-            faster,
-        ),
-        Case::new(
-            about(
-                "faster-with-length",
-                "\"The oscillations decay faster … as the particles become longer\" at fixed r_e.",
-                "Results, before Fig. 7; Fig. 8",
-                2,
-            ),
-            [
-                |scene: &mut Scene| {
-                    lab::interaction(scene);
-                    scene.particles.length_mm = 0.36;
-                },
-                |scene: &mut Scene| {
-                    lab::interaction(scene);
-                },
-                |scene: &mut Scene| {
-                    lab::interaction(scene);
-                    scene.particles.length_mm = 1.44;
-                },
-            ] as Order,
-            vec![(
-                "a without effect",
-                [|scene| {
-                    lab::interaction(scene);
-                }; 3],
-            )],
-            faster,
-        ),
-        Case::new(
-            about(
-                "faster-with-collisions",
-                "\"The amplitude decays much faster when collisions occur than in the absence of particle-particle interactions\".",
-                "Results, after Fig. 10; Figs 6 and 10",
-                4,
-            ),
-            (|scene| {
-                lab::interaction(scene);
-            }) as Mend,
-            vec![("collisions without effect", |scene| {
-                lab::interaction(scene).alpha = 0.0
-            })],
-            collisions_damp,
-        ),
         Case::new(
             about(
                 "period-unaffected",
@@ -174,98 +66,6 @@ pub fn cases() -> Vec<Case> {
             in_plane,
         ),
     ]
-}
-
-/// Peak to trough of X̄₁ at t = k T/2, from outputs at quarter periods, replica by replica.
-fn amplitudes(scene: &Scene, replicas: u64, half_periods: &[usize]) -> Vec<Vec<f64>> {
-    let mut scene = scene.clone();
-    let last = half_periods.iter().max().map_or(0, |k| 2 * k + 1);
-    scene.time.periods = Some(last as f64 / 4.0);
-    scene.time.outputs_per_period = Some(4);
-    let amplitude = |means: &lab::Means, k: usize| means.at(2 * k, 0) - means.at(2 * k + 1, 0);
-    let found = per_replica(&scene, replicas, |means| {
-        half_periods
-            .iter()
-            .map(|&k| amplitude(means, k))
-            .collect::<Vec<_>>()
-    });
-    (0..half_periods.len())
-        .map(|k| found.iter().map(|amplitudes| amplitudes[k]).collect())
-        .collect()
-}
-
-fn free_amplitude(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
-    let mut scene = lab::free_scene();
-    scene.particles.count = 1000;
-    mend(&mut scene);
-    let found = amplitudes(&scene, effort.pick(40, 400), &[0, 8]);
-    let change: Vec<f64> = found[0]
-        .iter()
-        .zip(&found[1])
-        .map(|(first, last)| last - first)
-        .collect();
-    vec![
-        Evidence::new(
-            "amplitude at t = 0, in rod lengths",
-            Sample::of(&found[0]).is(
-                0.5,
-                0.05,
-                0.01,
-                "\"approximately\": a tenth; \"the exact value depends on the aspect ratio\"",
-            ),
-        ),
-        Evidence::new(
-            "its change by t/T = 4",
-            Sample::of(&change).is(
-                0.0,
-                1e-12,
-                0.01,
-                "constant: the same phases come back to round-off",
-            ),
-        ),
-    ]
-}
-
-fn faster(order: &Order, effort: &Effort) -> Vec<Evidence> {
-    let amplitude = |mend: &Mend| {
-        let mut scene = lab::free_scene();
-        mend(&mut scene);
-        amplitudes(&scene, effort.pick(120, 1000), &[3]).remove(0)
-    };
-    let found: Vec<_> = order.iter().map(amplitude).collect();
-    let because = "the same seeds in both; noise of 0.01 tells the controls apart";
-    [(0, 1, "first less second"), (1, 2, "second less third")]
-        .into_iter()
-        .map(|(a, b, which)| {
-            let fall: Vec<f64> = found[a].iter().zip(&found[b]).map(|(a, b)| a - b).collect();
-            Evidence::new(
-                format!("fall of the amplitude at t/T = 1½, {which}"),
-                Sample::of(&fall).exceeds(0.0, 0.01, because),
-            )
-        })
-        .collect()
-}
-
-fn collisions_damp(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
-    let mut evidence = Vec::new();
-    for sd in [0.0, 3.6] {
-        let mut free = lab::free_scene();
-        free.particles.aspect_ratio_sd_percent = sd;
-        let mut interacting = free.clone();
-        mend(&mut interacting);
-        let replicas = effort.pick(120, 1000);
-        let without = amplitudes(&free, replicas, &[2, 4]);
-        let with = amplitudes(&interacting, replicas, &[2, 4]);
-        for (k, when) in [(0, "1"), (1, "2")] {
-            let fall: Vec<f64> = without[k].iter().zip(&with[k]).map(|(a, b)| a - b).collect();
-            let because = "\"much\" has no number in the paper: 0.02 of a rod length, what a figure shows";
-            evidence.push(Evidence::new(
-                format!("amplitude without less with collisions at t/T = {when}, σ = {sd} %"),
-                Sample::of(&fall).exceeds(0.02, 0.01, because),
-            ));
-        }
-    }
-    evidence
 }
 
 /// The frequency of X̄₁'s oscillation in 1/T, from groups of replicas.
