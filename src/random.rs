@@ -1,7 +1,9 @@
 //! Random streams: one per replica and purpose, so that leaving a draw out moves no other draw.
 
-use rand::SeedableRng;
+use crate::work::CHUNK;
+use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
+use rayon::prelude::*;
 
 /// What a stream is drawn for. Each purpose has its own stream, which exists only where it is drawn from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,6 +36,26 @@ pub fn stream(seed: u64, replica: u64, purpose: Purpose) -> Pcg64Dxsm {
         word.copy_from_slice(&mix(key.wrapping_add(step)).to_le_bytes());
     }
     Pcg64Dxsm::from_seed(bytes)
+}
+
+/// Fills `out` with the stream's next uniform numbers from [0, 1), a chunk per thread where there are many.
+pub(crate) fn fill_uniform(rng: &mut Pcg64Dxsm, out: &mut [f64]) {
+    if out.len() <= CHUNK {
+        out.fill_with(|| rng.random());
+        return;
+    }
+    out.par_chunks_mut(CHUNK).enumerate().for_each(|(k, chunk)| {
+        let mut rng = ahead(rng, k * CHUNK);
+        chunk.fill_with(|| rng.random());
+    });
+    *rng = ahead(rng, out.len());
+}
+
+/// The stream after `count` more numbers.
+pub(crate) fn ahead(rng: &Pcg64Dxsm, count: usize) -> Pcg64Dxsm {
+    let mut rng = rng.clone();
+    rng.advance(count as u128);
+    rng
 }
 
 const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
@@ -69,5 +91,16 @@ mod tests {
         assert_ne!(base, first(1, 1, Purpose::Positions));
         assert_ne!(base, first(2, 1, Purpose::Positions));
         assert_ne!(base, first(1, 2, Purpose::Collisions));
+    }
+
+    #[test]
+    fn chunks_continue_the_stream() {
+        let count = 2 * CHUNK + 17;
+        let start = stream(5, 6, Purpose::Collisions);
+        let (mut one, mut many) = (start.clone(), start);
+        let mut drawn = vec![0.0; count];
+        fill_uniform(&mut many, &mut drawn);
+        assert!(drawn.iter().all(|r| *r == one.random::<f64>()));
+        assert_eq!(one.random::<u64>(), many.random::<u64>());
     }
 }

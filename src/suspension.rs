@@ -3,16 +3,16 @@
 use crate::collision::{Reach, share_velocity, step_angles, turn};
 use crate::contact::contact;
 use crate::jeffery::{couette_rate, shape_factor, strain_per_period};
-use crate::neighbours::Grid;
+use crate::neighbours::Neighbours;
 use crate::plan::{Plan, Stage};
-use crate::random::{Purpose, stream};
+use crate::random::{Purpose, fill_uniform, stream};
 use crate::rods::Rods;
 use crate::scene::Update;
 use crate::volume::ControlVolume;
 use crate::work::{Counters, RunError};
 use nalgebra::{UnitVector3, Vector3};
-use rand::RngExt;
 use rand_pcg::Pcg64Dxsm;
+use rayon::prelude::*;
 
 /// A collision of the last step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,17 +34,32 @@ pub struct Suspension {
     /// Empty arrays where the plan drops them.
     positions: [Vec<f64>; 3],
     volume: ControlVolume,
-    grid: Option<Grid>,
+    neighbours: Option<Neighbours>,
     draws: Option<Pcg64Dxsm>,
     replacements: Pcg64Dxsm,
     contacts: bool,
     reach: Reach,
     rule: Rule,
     tick: u64,
-    candidates: Vec<(f64, u32, u32)>,
+    /// R of every rod in this step.
+    drawn: Vec<f64>,
+    candidates: Vec<Candidate>,
     collisions: Vec<Collision>,
     /// For error messages.
     place: (u64, u64),
+}
+
+/// The square of a distance, the rod that drew R, its nearest neighbour.
+type Candidate = (f64, u32, u32);
+
+/// From so many candidates on, their contacts are computed on all threads.
+const MANY: usize = 1024;
+
+/// What a collision does to its two rods.
+struct Turns {
+    ends: [UnitVector3<f64>; 2],
+    angles_rad: [f64; 2],
+    arms: [f64; 2],
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -77,9 +92,9 @@ impl Suspension {
             },
             positions: volume.draw_positions(count, &mut rng(Purpose::Positions)),
             volume,
-            grid: plan
+            neighbours: plan
                 .keeps(Stage::Neighbours)
-                .then(|| Grid::new(volume.side(), count)),
+                .then(|| Neighbours::new(volume.side(), count)),
             draws: plan
                 .keeps(Stage::CollisionDraws)
                 .then(|| rng(Purpose::Collisions)),
@@ -93,6 +108,7 @@ impl Suspension {
                 sign: plan.flow().shear_rate_per_s()?.signum(),
             },
             tick: 0,
+            drawn: Vec::new(),
             candidates: Vec::new(),
             collisions: Vec::new(),
             place: (seed, replica),
@@ -131,25 +147,23 @@ impl Suspension {
     /// Every rod draws R; its nearest neighbour within the reach of R makes a candidate (eqs 8 and 9).
     fn find_candidates(&mut self) {
         self.candidates.clear();
-        if let Some(grid) = &mut self.grid {
-            grid.build(&self.positions);
+        if let Some(draws) = &mut self.draws {
+            self.drawn.resize(self.rods.count(), 0.0);
+            fill_uniform(draws, &mut self.drawn);
+            self.counters.draws += self.drawn.len() as u64;
         }
-        let Some(draws) = &mut self.draws else { return };
-        let [x1, x2, x3] = &self.positions;
-        for rod in 0..x1.len() {
-            let r: f64 = draws.random();
-            let Some(grid) = &self.grid else { continue };
-            // The bound first: most rods have no neighbour that near, and need no logarithm.
-            let bound = self.reach.bound(r);
-            let position = [x1[rod], x2[rod], x3[rod]];
-            let tested = &mut self.counters.distances;
-            if let Some((other, square)) = grid.nearest_within(rod, position, bound, tested)
-                && square < self.reach.of(r).powi(2)
-            {
-                self.candidates.push((square, rod as u32, other as u32));
+        let (Some(neighbours), false) = (&mut self.neighbours, self.drawn.is_empty()) else {
+            return;
+        };
+        // The bound first: most rods have no neighbour that near, and need no logarithm.
+        let bound = |rod: usize| self.reach.bound(self.drawn[rod]);
+        let mut work = self.counters;
+        neighbours.each_nearest(&self.positions, bound, &mut work, |nearest| {
+            if nearest.square < self.reach.of(self.drawn[nearest.rod as usize]).powi(2) {
+                self.candidates.push((nearest.square, nearest.rod, nearest.other));
             }
-        }
-        self.counters.draws += x1.len() as u64;
+        });
+        self.counters = work;
         self.counters.candidates += self.candidates.len() as u64;
     }
 
@@ -160,47 +174,75 @@ impl Suspension {
             return Ok(());
         }
         let mut candidates = std::mem::take(&mut self.candidates);
-        candidates.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        for &(_, a, b) in &candidates {
-            self.collide_pair(a as usize, b as usize)?;
+        let closest_first = |a: &Candidate, b: &Candidate| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        if candidates.len() <= MANY {
+            candidates.sort_unstable_by(closest_first);
+            for &(_, a, b) in &candidates {
+                if self.both_free(a, b)
+                    && let Some(turns) = self.turns(a, b)
+                {
+                    self.take(a, b, turns)?;
+                }
+            }
+        } else {
+            candidates.par_sort_unstable_by(closest_first);
+            // From the state at the start of the step, so in any order.
+            let turns: Vec<_> = candidates.par_iter().map(|&(_, a, b)| self.turns(a, b)).collect();
+            for (&(_, a, b), turns) in candidates.iter().zip(turns) {
+                if let (true, Some(turns)) = (self.both_free(a, b), turns) {
+                    self.take(a, b, turns)?;
+                }
+            }
         }
         self.candidates = candidates;
         self.counters.collisions += self.collisions.len() as u64;
         Ok(())
     }
 
-    fn collide_pair(&mut self, a: usize, b: usize) -> Result<(), RunError> {
-        let pair = [a, b];
-        if pair.iter().any(|&rod| self.rods.turned_after(rod, self.tick)) {
-            return Ok(());
-        }
+    /// Whether neither rod has collided in this step.
+    fn both_free(&self, a: u32, b: u32) -> bool {
+        ![a, b]
+            .iter()
+            .any(|&rod| self.rods.turned_after(rod as usize, self.tick))
+    }
+
+    /// Where a collision would leave both rods, and the contact's arms; `None` without a contact.
+    fn turns(&self, a: u32, b: u32) -> Option<Turns> {
+        let pair = [a as usize, b as usize];
         let p = pair.map(|rod| self.rods.direction(rod, self.tick));
-        let separation = self.position(b) - self.position(a);
-        let Some(contact) = contact(&separation, &p[0], &p[1], self.rule.min_arm) else {
-            return Ok(());
-        };
+        let separation = self.position(pair[1]) - self.position(pair[0]);
+        let contact = contact(&separation, &p[0], &p[1], self.rule.min_arm)?;
         let rate = |k: usize| {
             let factor = shape_factor(self.rods.aspect_ratio(pair[k]));
             couette_rate(&p[k], factor, self.rule.sign)
         };
         let relative_velocity = Vector3::new(0.0, self.rule.sign * separation.x, 0.0);
         let rates = share_velocity(&contact, &relative_velocity, [rate(0), rate(1)]);
-        let mut angles_rad = [0.0; 2];
-        for k in 0..2 {
+        let turned = [0, 1].map(|k| {
             let start = UnitVector3::new_unchecked(p[k]);
-            let (end, angle) = match self.rule.update {
+            match self.rule.update {
                 Update::Rotation => turn(&start, &rates[k], self.rule.strain),
                 Update::Angles => step_angles(&start, &rates[k], self.rule.strain),
-            };
-            if !end.iter().all(|component| component.is_finite()) {
-                return Err(self.non_finite(pair[k], contact.arms[k], angle));
             }
-            self.rods.set(pair[k], &end, self.tick + 1);
-            angles_rad[k] = angle;
+        });
+        Some(Turns {
+            ends: turned.map(|(end, _)| end),
+            angles_rad: turned.map(|(_, angle)| angle),
+            arms: contact.arms,
+        })
+    }
+
+    fn take(&mut self, a: u32, b: u32, turns: Turns) -> Result<(), RunError> {
+        let rods = [a as usize, b as usize];
+        for (k, end) in turns.ends.iter().enumerate() {
+            if !end.iter().all(|component| component.is_finite()) {
+                return Err(self.non_finite(rods[k], turns.arms[k], turns.angles_rad[k]));
+            }
+            self.rods.set(rods[k], end, self.tick + 1);
         }
         self.collisions.push(Collision {
-            rods: pair,
-            angles_rad,
+            rods,
+            angles_rad: turns.angles_rad,
         });
         Ok(())
     }

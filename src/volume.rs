@@ -1,6 +1,10 @@
 //! The cubic control volume, its rods' positions, and the replacement of rods that leave it (Fig. 3, eq. 14).
 
+use crate::random::ahead;
+use crate::work::CHUNK;
 use rand::{Rng, RngExt};
+use rand_pcg::Pcg64Dxsm;
+use rayon::prelude::*;
 
 /// The volume [0, side)³ in plane Couette flow u_2 = ±x_1, with lengths in rod lengths and time in 1/|G|.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,11 +41,46 @@ impl ControlVolume {
     /// Moves every rod with the liquid over `strain` ≥ 0 (`sign` of G), and replaces the rods that left
     /// through the faces normal to axis 2: x_1 = H√R, x_3 = HR, x_2 by the overshoot modulo H (eq. 14 with
     /// the text's second coordinate read as x_3). Returns how many were replaced.
-    pub fn advance(&self, positions: &mut [Vec<f64>; 3], strain: f64, sign: f64, rng: &mut impl Rng) -> u64 {
+    pub fn advance(&self, positions: &mut [Vec<f64>; 3], strain: f64, sign: f64, rng: &mut Pcg64Dxsm) -> u64 {
         let [x1, x2, x3] = positions;
-        let mut replaced = 0;
+        if x1.len() <= CHUNK {
+            let left = self.carry(x1, x2, sign * strain);
+            self.replace(x1, x2, x3, rng);
+            return left as u64;
+        }
+        let left: Vec<usize> = (x1.par_chunks(CHUNK).zip(x2.par_chunks_mut(CHUNK)))
+            .map(|(x1, x2)| self.carry(x1, x2, sign * strain))
+            .collect();
+        let mut before = 0;
+        let streams: Vec<_> = (left.iter())
+            .map(|left| {
+                let rng = ahead(rng, 2 * before);
+                before += left;
+                rng
+            })
+            .collect();
+        *rng = ahead(rng, 2 * before);
+        (x1.par_chunks_mut(CHUNK)
+            .zip(x2.par_chunks_mut(CHUNK))
+            .zip(x3.par_chunks_mut(CHUNK)))
+        .zip(streams)
+        .for_each(|(((x1, x2), x3), mut rng)| self.replace(x1, x2, x3, &mut rng));
+        before as u64
+    }
+
+    /// Moves rods along axis 2, and counts those that are outside then.
+    fn carry(&self, x1: &[f64], x2: &mut [f64], strain: f64) -> usize {
+        let mut left = 0;
+        for (x1, x2) in x1.iter().zip(x2) {
+            *x2 += x1 * strain;
+            left += usize::from(!(0.0..self.side).contains(x2));
+        }
+        left
+    }
+
+    /// Replaces the rods that are outside, each with the next two numbers of the stream.
+    fn replace(&self, x1: &mut [f64], x2: &mut [f64], x3: &mut [f64], rng: &mut Pcg64Dxsm) {
         for ((x1, x2), x3) in x1.iter_mut().zip(x2).zip(x3) {
-            *x2 += sign * *x1 * strain;
             if (0.0..self.side).contains(x2) {
                 continue;
             }
@@ -51,9 +90,7 @@ impl ControlVolume {
             // Just below 0, the remainder rounds up to the side itself.
             *x2 = if overshoot < self.side { overshoot } else { 0.0 };
             *x3 = self.side * rng.random::<f64>();
-            replaced += 1;
         }
-        replaced
     }
 }
 

@@ -21,6 +21,10 @@ pub enum RunError {
     },
 }
 
+/// Rods that one thread takes on at a time, where there are more of them. What a run gives does not depend on how many
+/// threads share the chunks.
+pub(crate) const CHUNK: usize = 1 << 16;
+
 /// What was done: counts of work, the same on every machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counters {
@@ -28,7 +32,11 @@ pub struct Counters {
     pub steps: u64,
     /// Random numbers R drawn for collisions (eq. 8).
     pub draws: u64,
-    /// Distances between rods looked at.
+    /// Pairs of rods of which one was told to be too far away in low precision.
+    pub pairs_screened: u64,
+    /// Cells looked into.
+    pub cells: u64,
+    /// Distances between rods computed.
     pub distances: u64,
     /// Pairs with P_c > R.
     pub candidates: u64,
@@ -47,6 +55,8 @@ impl Counters {
     pub fn add(&mut self, other: &Self) {
         self.steps += other.steps;
         self.draws += other.draws;
+        self.pairs_screened += other.pairs_screened;
+        self.cells += other.cells;
         self.distances += other.distances;
         self.candidates += other.candidates;
         self.collisions += other.collisions;
