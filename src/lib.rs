@@ -47,6 +47,7 @@
 
 #![forbid(unsafe_code)]
 
+mod chunks;
 pub mod collision;
 pub mod contact;
 pub mod ensemble;

@@ -128,6 +128,34 @@ mod tests {
     }
 
     #[test]
+    fn many_rods_on_many_threads_find_what_a_full_search_finds() {
+        let count = 2 * crate::chunks::CHUNK + 100;
+        let volume = crate::volume::ControlVolume::holding(count, 0.02);
+        let stream = |purpose| crate::random::stream(8, 0, purpose);
+        let positions = volume.draw_positions(count, &stream(crate::random::Purpose::Positions));
+        let mut reach = vec![0.0; count];
+        crate::random::fill_uniform(&mut stream(crate::random::Purpose::Collisions), &mut reach);
+        reach
+            .iter_mut()
+            .for_each(|reach| *reach = reach.powi(-2) / 4.0 - 0.25);
+        let on = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .unwrap();
+            pool.install(|| found(Search::Grid(Grid::new(volume.side(), count)), &positions, &reach))
+        };
+        let all = on(3);
+        assert_eq!(all, on(1));
+        for rod in (0..count).step_by(997) {
+            let own = all
+                .binary_search_by_key(&(rod as u32), |nearest| nearest.rod)
+                .ok();
+            assert_eq!(own.map(|k| all[k]), brute(&positions, rod, reach[rod]));
+        }
+    }
+
+    #[test]
     fn rods_at_the_walls_are_found() {
         let side = 10.0;
         let last = side - 1e-9;

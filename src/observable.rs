@@ -27,6 +27,20 @@ impl Default for Block {
     }
 }
 
+impl Block {
+    /// Puts every rod along `to(place in the block, direction in from, aspect ratio)`.
+    #[inline(always)]
+    pub(crate) fn turn(&mut self, from: [&[f64]; 3], to: impl Fn(usize, [f64; 3], f64) -> [f64; 3]) {
+        let [p1, p2, p3] = &mut self.p;
+        let ends = p1.iter_mut().zip(p2).zip(p3);
+        let starts = from[0].iter().zip(from[1]).zip(from[2]);
+        for (k, ((((p1, p2), p3), ((q1, q2), q3)), r)) in ends.zip(starts).zip(&self.aspect_ratio).enumerate()
+        {
+            [*p1, *p2, *p3] = to(k, [*q1, *q2, *q3], *r);
+        }
+    }
+}
+
 /// What can be observed. Each has a file of its own, named as its key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -143,6 +157,12 @@ pub struct Sum {
 const LANES: usize = 8;
 
 impl Sum {
+    /// Adds what was summed over other rods.
+    pub(crate) fn merge(&mut self, other: &Self) {
+        self.value += other.value;
+        self.square = self.square.zip(other.square).map(|(a, b)| a + b);
+    }
+
     #[inline]
     fn add_each(&mut self, len: usize, f: impl Fn(usize) -> f64) {
         self.value += lane_sum(len, &f);

@@ -1,6 +1,6 @@
 //! Random streams: one per replica and purpose, so that leaving a draw out moves no other draw.
 
-use crate::work::CHUNK;
+use crate::chunks::CHUNK;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;

@@ -1,11 +1,13 @@
 //! The rods' directions: each rod keeps the direction it had after its last collision, and the exact
 //! motion takes it from there to whatever time is asked for. A free rod is never stepped.
 
+use crate::chunks::over_chunks;
+use crate::jeffery::strain_per_period;
 use crate::observable::{BLOCK, Block};
 use crate::orientation::{from_angles, isotropic};
 use crate::plan::{Clock, Plan, Stage};
-use crate::propagator::{Phase, Propagator, couette};
-use crate::random::{Purpose, stream};
+use crate::propagator::{Phase, Propagator, couette, nearest_whole};
+use crate::random::{Purpose, ahead, stream};
 use crate::scene::Orientation;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use rand::RngExt;
@@ -25,17 +27,13 @@ pub(crate) struct Rods {
 #[derive(Clone, Debug)]
 enum Shapes {
     Shared(f64),
-    Each {
-        aspect_ratio: Vec<f64>,
-        /// T of the mean aspect ratio over the rod's own T.
-        periods: Vec<f64>,
-    },
+    Each(Vec<f64>),
 }
 
 #[derive(Clone, Debug)]
 enum Motion {
-    /// Plane Couette flow: phases from ticks per period; `sign` of G.
-    Couette { ticks: u64, sign: f64 },
+    /// Plane Couette flow: phases from ticks.
+    Couette(Ticks),
     /// Any other flow, one aspect ratio: the map to each output.
     Shared(Vec<Matrix3<f64>>),
     /// Any other flow, unequal aspect ratios: a propagator per rod, and the outputs' times in s.
@@ -71,7 +69,7 @@ impl Rods {
     pub fn aspect_ratio(&self, rod: usize) -> f64 {
         match &self.shapes {
             Shapes::Shared(r) => *r,
-            Shapes::Each { aspect_ratio, .. } => aspect_ratio[rod],
+            Shapes::Each(r) => r[rod],
         }
     }
 
@@ -90,95 +88,91 @@ impl Rods {
 
     /// The direction of one rod in plane Couette flow at `tick`.
     pub fn direction(&self, rod: usize, tick: u64) -> Vector3<f64> {
-        let Motion::Couette { ticks, sign } = self.motion else {
+        let Motion::Couette(clock) = &self.motion else {
             unreachable!("only rods in plane Couette flow are asked for one by one");
         };
-        let (r, periods) = match &self.shapes {
-            Shapes::Shared(r) => (*r, 1.0),
-            Shapes::Each {
-                aspect_ratio,
-                periods,
-            } => (aspect_ratio[rod], periods[rod]),
-        };
-        let phase = phase(tick - self.since(rod), ticks, sign * periods);
-        couette(self.reference(rod), r, phase).into()
+        let r = self.aspect_ratio(rod);
+        let phase = clock.phase(self.elapsed(rod, tick), clock.periods(&self.shapes, r));
+        couette(self.p.each_ref().map(|axis| axis[rod]), r, phase).into()
     }
 
     /// Fills `block` with the directions at `tick` (for flows other than plane Couette flow: at that
     /// output) of up to [`BLOCK`] rods from `first` on.
     pub fn orient(&self, first: usize, tick: u64, block: &mut Block) {
         block.len = BLOCK.min(self.count() - first);
+        let rods = first..first + block.len;
         match &self.shapes {
             Shapes::Shared(r) => block.aspect_ratio[..block.len].fill(*r),
-            Shapes::Each { aspect_ratio, .. } => {
-                block.aspect_ratio[..block.len].copy_from_slice(&aspect_ratio[first..first + block.len]);
-            }
+            Shapes::Each(r) => block.aspect_ratio[..block.len].copy_from_slice(&r[rods.clone()]),
         }
+        let from = self.p.each_ref().map(|axis| &axis[rods.clone()]);
         match (&self.motion, &self.shapes) {
-            (Motion::Couette { ticks, sign }, Shapes::Shared(r)) if self.since.is_empty() => {
-                let phase = phase(tick, *ticks, *sign);
-                self.fill(first, block, |_, p| couette(p, *r, phase));
+            (Motion::Couette(clock), Shapes::Shared(r)) if self.since.is_empty() => {
+                let phase = clock.phase(tick as f64, clock.sign);
+                block.turn(from, |_, p, _| couette(p, *r, phase));
             }
-            (Motion::Couette { ticks, sign }, Shapes::Shared(r)) => {
-                self.fill(first, block, |rod, p| {
-                    couette(p, *r, phase(tick - self.since(rod), *ticks, *sign))
+            (Motion::Couette(clock), shapes) if self.since.is_empty() => {
+                block.turn(from, |_, p, r| {
+                    couette(p, r, clock.phase(tick as f64, clock.periods(shapes, r)))
                 });
             }
-            (
-                Motion::Couette { ticks, sign },
-                Shapes::Each {
-                    aspect_ratio,
-                    periods,
-                },
-            ) => {
-                self.fill(first, block, |rod, p| {
-                    let phase = phase(tick - self.since(rod), *ticks, sign * periods[rod]);
-                    couette(p, aspect_ratio[rod], phase)
+            (Motion::Couette(clock), shapes) => {
+                let mut elapsed = [0.0; BLOCK];
+                for (elapsed, since) in elapsed.iter_mut().zip(&self.since[rods]) {
+                    // At most 10⁹ steps, and none ahead of the present.
+                    *elapsed = f64::from((tick as u32).wrapping_sub(*since) as i32);
+                }
+                block.turn(from, |k, p, r| {
+                    couette(p, r, clock.phase(elapsed[k], clock.periods(shapes, r)))
                 });
             }
             (Motion::Shared(maps), _) => {
                 let map = &maps[tick as usize];
-                self.fill(first, block, |_, p| mapped(map, p));
+                block.turn(from, |_, p, _| mapped(map, p));
             }
             (Motion::Each { propagators, times_s }, _) => {
-                self.fill(first, block, |rod, p| {
-                    mapped(&propagators[rod].map_over(times_s[tick as usize]), p)
+                block.turn(from, |k, p, _| {
+                    mapped(&propagators[first + k].map_over(times_s[tick as usize]), p)
                 });
             }
         }
     }
 
-    fn fill(&self, first: usize, block: &mut Block, move_to: impl Fn(usize, [f64; 3]) -> [f64; 3]) {
-        let [p1, p2, p3] = &mut block.p;
-        let range = first..first + block.len;
-        let [r1, r2, r3] = self.p.each_ref().map(|axis| &axis[range.clone()]);
-        for (i, (((p1, p2), p3), ((r1, r2), r3))) in p1
-            .iter_mut()
-            .zip(p2)
-            .zip(p3)
-            .zip(r1.iter().zip(r2).zip(r3))
-            .enumerate()
-        {
-            [*p1, *p2, *p3] = move_to(first + i, [*r1, *r2, *r3]);
-        }
-    }
-
-    fn reference(&self, rod: usize) -> [f64; 3] {
-        [self.p[0][rod], self.p[1][rod], self.p[2][rod]]
-    }
-
-    fn since(&self, rod: usize) -> u64 {
-        self.since.get(rod).copied().map_or(0, u64::from)
+    /// Ticks since the rod's last collision.
+    fn elapsed(&self, rod: usize, tick: u64) -> f64 {
+        let since = self.since.get(rod).copied().map_or(0, u64::from);
+        (tick - since) as f64
     }
 }
 
-/// The phase after `ticks` of a rod that turns `periods` times while the mean rod turns once. Whole mean
-/// periods and the rest are taken apart, so that no digits of the phase are lost to the number of turns.
-#[inline]
-fn phase(ticks: u64, per_period: u64, periods: f64) -> Phase {
-    let whole = (ticks / per_period) as f64;
-    let rest = (ticks % per_period) as f64 / per_period as f64;
-    Phase::of_turns((whole * periods).fract() + rest * periods)
+/// What turns ticks into phases in plane Couette flow.
+#[derive(Clone, Copy, Debug)]
+struct Ticks {
+    per_period: f64,
+    /// GT of the mean aspect ratio, with the sign of G.
+    strain_per_period: f64,
+    sign: f64,
+}
+
+impl Ticks {
+    /// How often a rod of aspect ratio `r` turns, with the sign of G, while the mean rod turns once.
+    #[inline(always)]
+    fn periods(&self, shapes: &Shapes, r: f64) -> f64 {
+        match shapes {
+            Shapes::Shared(_) => self.sign,
+            Shapes::Each(_) => self.strain_per_period / strain_per_period(r),
+        }
+    }
+
+    /// The phase after `ticks` (a whole number) of a rod that turns `periods` times while the mean rod turns once. Whole
+    /// mean periods and the rest are taken apart, so that no digits of the phase are lost to the number of turns.
+    #[inline(always)]
+    fn phase(&self, ticks: f64, periods: f64) -> Phase {
+        let whole = nearest_whole(ticks / self.per_period);
+        let rest = (ticks - whole * self.per_period) / self.per_period;
+        let turns = whole * periods;
+        Phase::of_part(turns - nearest_whole(turns) + rest * periods)
+    }
 }
 
 #[inline]
@@ -218,58 +212,42 @@ fn draw_shapes(plan: &Plan, replica: u64) -> (Shapes, u64) {
             }
         })
         .collect();
-    let period = |r: f64| Propagator::new(plan.flow(), r).period();
-    let periods = match period(mean) {
-        Some(mean_period) => aspect_ratio
-            .iter()
-            .map(|&r| mean_period / period(r).unwrap_or(mean_period))
-            .collect(),
-        None => Vec::new(),
-    };
-    (
-        Shapes::Each {
-            aspect_ratio,
-            periods,
-        },
-        redrawn,
-    )
+    (Shapes::Each(aspect_ratio), redrawn)
 }
 
 fn draw_directions(plan: &Plan, replica: u64) -> [Vec<f64>; 3] {
     let particles = &plan.scene().particles;
     let count = particles.count;
-    let mut p = [(); 3].map(|()| Vec::with_capacity(count));
-    let mut push = |direction: UnitVector3<f64>| {
-        for (axis, value) in p.iter_mut().zip([direction.x, direction.y, direction.z]) {
-            axis.push(value);
-        }
-    };
-    let mut rng = plan
+    let mut p = [(); 3].map(|()| vec![0.0; count]);
+    let rng = plan
         .keeps(Stage::Orientations)
         .then(|| stream(plan.scene().ensemble.seed, replica, Purpose::Orientations));
-    for _ in 0..count {
-        let drawn = rng.as_mut().map(|rng| {
-            let r4 = rng.random();
-            isotropic(r4, rng.random())
-        });
-        push(match (particles.orientation, drawn) {
-            (Orientation::Random(_), Some(drawn)) => drawn,
-            (Orientation::Given { phi_deg, theta_deg }, _) => {
-                from_angles(phi_deg.to_radians(), theta_deg.to_radians())
-            }
-            (Orientation::Random(_), None) => unreachable!("a plan keeps the draws of random directions"),
-        });
-    }
+    over_chunks(&mut p, |first, [p1, p2, p3]| {
+        let mut rng = rng.as_ref().map(|rng| ahead(rng, 2 * first));
+        for ((p1, p2), p3) in p1.iter_mut().zip(p2).zip(p3) {
+            let drawn = rng.as_mut().map(|rng| isotropic(rng.random(), rng.random()));
+            let direction = match (particles.orientation, drawn) {
+                (Orientation::Random(_), Some(drawn)) => drawn,
+                (Orientation::Given { phi_deg, theta_deg }, _) => {
+                    from_angles(phi_deg.to_radians(), theta_deg.to_radians())
+                }
+                (Orientation::Random(_), None) => unreachable!("a plan keeps the draws of random directions"),
+            };
+            [*p1, *p2, *p3] = direction.into_inner().into();
+        }
+    });
     p
 }
 
 fn choose_motion(plan: &Plan, shapes: &Shapes) -> Motion {
     let flow = plan.flow();
     if let (Some(g), Clock::Periods { ticks }) = (flow.shear_rate_per_s(), plan.clock()) {
-        return Motion::Couette {
-            ticks,
+        let strain = strain_per_period(plan.scene().particles.aspect_ratio);
+        return Motion::Couette(Ticks {
+            per_period: ticks as f64,
+            strain_per_period: strain * g.signum(),
             sign: g.signum(),
-        };
+        });
     }
     let times_s = output_times_s(plan);
     match shapes {
@@ -283,7 +261,7 @@ fn choose_motion(plan: &Plan, shapes: &Shapes) -> Motion {
                 Clock::Strain { .. } => times_s.iter().map(|&time| propagator.map_over(time)).collect(),
             })
         }
-        Shapes::Each { aspect_ratio, .. } => Motion::Each {
+        Shapes::Each(aspect_ratio) => Motion::Each {
             propagators: aspect_ratio.iter().map(|&r| Propagator::new(flow, r)).collect(),
             times_s,
         },

@@ -1,10 +1,12 @@
 //! One replica of a scene, from its plan to the sums of its observables.
 
-use crate::observable::{BLOCK, Block, Sum};
+use crate::chunks::{CHUNK, of_chunks};
+use crate::observable::{BLOCK, Block, Observable, Sum};
 use crate::plan::{Plan, Stage};
 use crate::rods::Rods;
 use crate::suspension::Suspension;
 use crate::work::{Counters, RunError};
+use std::ops::Range;
 
 /// The sums of one replica.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,19 +31,22 @@ pub fn run_replica(plan: &Plan, replica: u64) -> Result<Replica, RunError> {
     })
 }
 
-/// Free rods: the exact motion straight to each output, a block of rods at a time.
+/// Free rods: the exact motion straight to each output. A block of rods is read once for many outputs.
 fn straight(plan: &Plan, replica: u64, recorder: &mut Recorder) -> Counters {
     let (rods, aspect_ratios_redrawn) = Rods::draw(plan, replica);
-    for first in (0..rods.count()).step_by(BLOCK) {
-        for output in 0..plan.outputs() {
-            recorder.add(&rods, first, output as u64, output);
-        }
+    for first in (0..plan.outputs()).step_by(OUTPUTS) {
+        recorder.record(&rods, first..plan.outputs().min(first + OUTPUTS), |output| {
+            output as u64
+        });
     }
     Counters {
         aspect_ratios_redrawn,
         ..Counters::default()
     }
 }
+
+/// Outputs for which a block of rods is read once.
+const OUTPUTS: usize = 64;
 
 /// Interacting rods: steps from output to output.
 fn stepped(plan: &Plan, mut suspension: Suspension, recorder: &mut Recorder) -> Result<Counters, RunError> {
@@ -51,18 +56,17 @@ fn stepped(plan: &Plan, mut suspension: Suspension, recorder: &mut Recorder) -> 
                 suspension.step()?;
             }
         }
-        for first in (0..suspension.rods.count()).step_by(BLOCK) {
-            recorder.add(&suspension.rods, first, suspension.tick(), output);
-        }
+        let tick = suspension.tick();
+        recorder.record(&suspension.rods, output..output + 1, |_| tick);
     }
     Ok(suspension.counters)
 }
 
 struct Recorder {
-    observables: Vec<(crate::Observable, usize)>,
+    observables: Vec<(Observable, usize)>,
     width: usize,
+    empty: Sum,
     sums: Vec<Sum>,
-    block: Block,
 }
 
 impl Recorder {
@@ -84,16 +88,46 @@ impl Recorder {
         Self {
             observables,
             width,
+            empty,
             sums: vec![empty; width * plan.outputs()],
-            block: Block::default(),
         }
     }
 
-    fn add(&mut self, rods: &Rods, first: usize, tick: u64, output: usize) {
-        rods.orient(first, tick, &mut self.block);
-        let sums = &mut self.sums[output * self.width..][..self.width];
-        for (observable, start) in &self.observables {
-            observable.add(&self.block, &mut sums[*start..][..observable.width()]);
+    /// Sums the observables of all rods at these outputs. Large runs: sums over chunks, and then their sum in order.
+    fn record(&mut self, rods: &Rods, outputs: Range<usize>, tick: impl Fn(usize) -> u64 + Sync) {
+        let mut sums = std::mem::take(&mut self.sums);
+        let own = &mut sums[self.width * outputs.start..self.width * outputs.end];
+        if rods.count() <= CHUNK {
+            self.add(rods, 0..rods.count(), outputs, &tick, own);
+        } else {
+            let parts = of_chunks(rods.count(), |part| {
+                let mut sums = vec![self.empty; own.len()];
+                self.add(rods, part, outputs.clone(), &tick, &mut sums);
+                sums
+            });
+            for part in parts {
+                own.iter_mut().zip(&part).for_each(|(sum, part)| sum.merge(part));
+            }
+        }
+        self.sums = sums;
+    }
+
+    fn add(
+        &self,
+        rods: &Rods,
+        part: Range<usize>,
+        outputs: Range<usize>,
+        tick: impl Fn(usize) -> u64,
+        sums: &mut [Sum],
+    ) {
+        let mut block = Block::default();
+        for first in part.step_by(BLOCK) {
+            for (output, sums) in outputs.clone().zip(sums.chunks_mut(self.width)) {
+                rods.orient(first, tick(output), &mut block);
+                for (observable, start) in &self.observables {
+                    observable.add(&block, &mut sums[*start..][..observable.width()]);
+                }
+            }
         }
     }
 }

@@ -90,7 +90,7 @@ impl Suspension {
                 aspect_ratios_redrawn,
                 ..Counters::default()
             },
-            positions: volume.draw_positions(count, &mut rng(Purpose::Positions)),
+            positions: volume.draw_positions(count, &rng(Purpose::Positions)),
             volume,
             neighbours: plan
                 .keeps(Stage::Neighbours)

@@ -1,8 +1,8 @@
 //! The cubic control volume, its rods' positions, and the replacement of rods that leave it (Fig. 3, eq. 14).
 
+use crate::chunks::{CHUNK, over_chunks};
 use crate::random::ahead;
-use crate::work::CHUNK;
-use rand::{Rng, RngExt};
+use rand::RngExt;
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 
@@ -28,13 +28,16 @@ impl ControlVolume {
     }
 
     /// `count` uniform positions as three arrays: x_i = H R_i, drawn rod by rod (eq. 12).
-    pub fn draw_positions(&self, count: usize, rng: &mut impl Rng) -> [Vec<f64>; 3] {
-        let mut positions = [(); 3].map(|()| Vec::with_capacity(count));
-        for _ in 0..count {
-            for axis in &mut positions {
-                axis.push(self.side * rng.random::<f64>());
+    pub fn draw_positions(&self, count: usize, rng: &Pcg64Dxsm) -> [Vec<f64>; 3] {
+        let mut positions = [(); 3].map(|()| vec![0.0; count]);
+        over_chunks(&mut positions, |first, [x1, x2, x3]| {
+            let mut rng = ahead(rng, 3 * first);
+            for ((x1, x2), x3) in x1.iter_mut().zip(x2).zip(x3) {
+                for x in [x1, x2, x3] {
+                    *x = self.side * rng.random::<f64>();
+                }
             }
-        }
+        });
         positions
     }
 
@@ -42,30 +45,22 @@ impl ControlVolume {
     /// through the faces normal to axis 2: x_1 = H√R, x_3 = HR, x_2 by the overshoot modulo H (eq. 14 with
     /// the text's second coordinate read as x_3). Returns how many were replaced.
     pub fn advance(&self, positions: &mut [Vec<f64>; 3], strain: f64, sign: f64, rng: &mut Pcg64Dxsm) -> u64 {
-        let [x1, x2, x3] = positions;
+        let [x1, x2, _] = positions;
         if x1.len() <= CHUNK {
             let left = self.carry(x1, x2, sign * strain);
-            self.replace(x1, x2, x3, rng);
+            self.replace(positions.each_mut().map(Vec::as_mut_slice), rng);
             return left as u64;
         }
         let left: Vec<usize> = (x1.par_chunks(CHUNK).zip(x2.par_chunks_mut(CHUNK)))
             .map(|(x1, x2)| self.carry(x1, x2, sign * strain))
             .collect();
-        let mut before = 0;
-        let streams: Vec<_> = (left.iter())
-            .map(|left| {
-                let rng = ahead(rng, 2 * before);
-                before += left;
-                rng
-            })
-            .collect();
-        *rng = ahead(rng, 2 * before);
-        (x1.par_chunks_mut(CHUNK)
-            .zip(x2.par_chunks_mut(CHUNK))
-            .zip(x3.par_chunks_mut(CHUNK)))
-        .zip(streams)
-        .for_each(|(((x1, x2), x3), mut rng)| self.replace(x1, x2, x3, &mut rng));
-        before as u64
+        over_chunks(positions, |first, axes| {
+            let before: usize = left[..first / CHUNK].iter().sum();
+            self.replace(axes, &mut ahead(rng, 2 * before));
+        });
+        let left: usize = left.iter().sum();
+        *rng = ahead(rng, 2 * left);
+        left as u64
     }
 
     /// Moves rods along axis 2, and counts those that are outside then.
@@ -79,7 +74,7 @@ impl ControlVolume {
     }
 
     /// Replaces the rods that are outside, each with the next two numbers of the stream.
-    fn replace(&self, x1: &mut [f64], x2: &mut [f64], x3: &mut [f64], rng: &mut Pcg64Dxsm) {
+    fn replace(&self, [x1, x2, x3]: [&mut [f64]; 3], rng: &mut Pcg64Dxsm) {
         for ((x1, x2), x3) in x1.iter_mut().zip(x2).zip(x3) {
             if (0.0..self.side).contains(x2) {
                 continue;
@@ -110,7 +105,7 @@ mod tests {
     fn rods_that_leave_come_back_inside_and_the_others_only_move() {
         for sign in [1.0, -1.0] {
             let volume = ControlVolume::holding(1000, 1.0);
-            let mut positions = volume.draw_positions(1000, &mut stream(3, 0, Purpose::Positions));
+            let mut positions = volume.draw_positions(1000, &stream(3, 0, Purpose::Positions));
             let before = positions.clone();
             let replaced = volume.advance(
                 &mut positions,

@@ -21,10 +21,6 @@ pub enum RunError {
     },
 }
 
-/// Rods that one thread takes on at a time, where there are more of them. What a run gives does not depend on how many
-/// threads share the chunks.
-pub(crate) const CHUNK: usize = 1 << 16;
-
 /// What was done: counts of work, the same on every machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counters {

@@ -67,6 +67,35 @@ fn any_number_of_threads_gives_the_same_bits() {
 }
 
 #[test]
+fn a_large_run_gives_the_same_bits_on_any_number_of_threads() {
+    // More rods than one thread takes on alone, and enough candidates that their contacts are shared too.
+    let large = |periods, interacting: bool, sd| {
+        let mut scene = scene(1, 1);
+        scene.particles.count = 150_000;
+        scene.particles.aspect_ratio_sd_percent = sd;
+        scene.time.periods = Some(periods);
+        scene.time.outputs_per_period = Some(100);
+        if !interacting {
+            scene.interaction = None;
+        }
+        Plan::new(&scene).unwrap()
+    };
+    for plan in [
+        large(0.03, true, 3.6),
+        large(0.8, false, 0.0),
+        large(0.03, false, 3.6),
+    ] {
+        let one = run_on(1, &plan);
+        for threads in [2, 3] {
+            let more = run_on(threads, &plan);
+            assert_eq!(bits(&one), bits(&more), "{threads} threads");
+            assert_eq!(one.counters, more.counters);
+        }
+        assert_eq!(one.counters.collisions > 1024, plan.scene().interaction.is_some());
+    }
+}
+
+#[test]
 fn a_replica_run_alone_is_its_part_of_the_ensemble() {
     let plan = plan(4, 1);
     let whole = ensemble::run(&plan, || ()).unwrap();

@@ -14,7 +14,7 @@ mistakes=$(cat <<'LIST'
 shape-factor-one@@src/jeffery.rs@@(aspect_ratio - inverse) / (aspect_ratio + inverse)@@1.0 + 0.0 * inverse
 period-without-inverse@@src/jeffery.rs@@TAU * (aspect_ratio + 1.0 / aspect_ratio)@@TAU * aspect_ratio
 couette-sign@@src/propagator.rs@@let q1 = p[0] * phase.cos - p[1]@@let q1 = p[0] * phase.cos + p[1]
-phase-of-collided-rod@@src/rods.rs@@let phase = phase(tick - self.since(rod), ticks, sign * periods);@@let phase = phase(tick, ticks, sign * periods);
+phase-of-collided-rod@@src/rods.rs@@let phase = clock.phase(self.elapsed(rod, tick), clock.periods(&self.shapes, r));@@let phase = clock.phase(tick as f64, clock.periods(&self.shapes, r));
 orbit-constant@@src/orientation.rs@@let in_plane = p[0].hypot(p[1] / aspect_ratio);@@let in_plane = p[0].hypot(p[1] * aspect_ratio);
 isotropic-angle@@src/orientation.rs@@1.0 - 2.0 * r5,@@1.0 - r5,
 arm-sign@@src/contact.rs@@separation.dot(&p_a.cross(&normal)) / square@@-separation.dot(&p_a.cross(&normal)) / square
@@ -22,7 +22,8 @@ kick-sign@@src/collision.rs@@rates[0] + line * (0.5 * gap / arm_a)@@rates[0] - l
 sum-for-mean@@src/collision.rs@@rates[1] - line * (0.5 * gap / arm_b)@@rates[1] - line * (gap / arm_b)
 printed-a13@@src/collision.rs@@(-rate.x * sin_phi + rate.y * cos_phi) / sin_theta@@(-rate.x * sin_phi + rate.y * cos_phi)
 reach-without-m@@src/collision.rs@@alpha * (-r.ln() / m).exp_m1()@@alpha * (-r.ln() / 3.0).exp_m1()
-next-nearest@@src/neighbours.rs@@let closer = square < best_square;@@let closer = square < best_square && (best.is_none() || index > 3);
+next-nearest@@src/neighbours/pairs.rs@@if square < best_square && other != rod {@@if square < best_square && other != rod && (best.is_none() || other > 3) {
+next-nearest-of-many@@src/neighbours/grid.rs@@let closer = square < best_square;@@let closer = square < best_square && (best.is_none() || other.rod > 3);
 uniform-replacement@@src/volume.rs@@*x1 = self.side * rng.random::<f64>().sqrt();@@*x1 = self.side * rng.random::<f64>();
 step-length@@src/suspension.rs@@strain_per_period(scene.particles.aspect_ratio) / scene@@1.01 * strain_per_period(scene.particles.aspect_ratio) / scene
 liquid-at-rest@@src/suspension.rs@@Vector3::new(0.0, self.rule.sign * separation.x, 0.0)@@Vector3::new(0.0, 0.0 * self.rule.sign * separation.x, 0.0)
@@ -38,13 +39,11 @@ phi-of-time@@src/jeffery.rs@@(aspect_ratio * rest.sin()).atan2(rest.cos())@@(res
 theta-of-phi@@src/jeffery.rs@@cos_phi.hypot(sin_phi / aspect_ratio)@@cos_phi.hypot(sin_phi * aspect_ratio)
 flow-rate-of-a@@src/jeffery.rs@@half * (shape_factor - 1.0) * p.y@@half * (shape_factor + 1.0) * p.y
 folded-angle@@src/orientation.rs@@p2.abs().atan2(p1.abs())@@p1.abs().atan2(p2.abs())
-positions-half-full@@src/volume.rs@@axis.push(self.side * rng.random::<f64>());@@axis.push(0.5 * self.side * rng.random::<f64>());
+positions-half-full@@src/volume.rs@@*x = self.side * rng.random::<f64>();@@*x = 0.5 * self.side * rng.random::<f64>();
 overshoot@@src/volume.rs@@let overshoot = x2.rem_euclid(self.side);@@let overshoot = self.side * rng.random::<f64>();
 volume-side@@src/volume.rs@@(count as f64 / per_cubed_length).cbrt()@@(count as f64 / per_cubed_length).sqrt()
 probability-power@@src/collision.rs@@(alpha / (distance + alpha)).powf(m)@@(alpha / (distance + alpha)).powf(m + 1.0)
-collide-where-not@@src/suspension.rs@@&& square < self.reach.of(r).powi(2)@@&& square > self.reach.of(r).powi(2)
-}@@    2.0
-}
+collide-where-not@@src/suspension.rs@@if nearest.square < self.reach.of@@if nearest.square > self.reach.of
 planar-projection@@src/observable.rs@@zip([(p1, p2), (p2, p3), (p1, p3)])@@zip([(p1, p2), (p1, p3), (p2, p3)])
 angle-update@@src/collision.rs@@from_angles(phi + phi_rate * time, theta + theta_rate * time)@@from_angles(phi + phi_rate * time, theta - theta_rate * time)
 turn-sign@@src/collision.rs@@let turned = p.as_ref() * cos + rate * (sin / speed);@@let turned = p.as_ref() * cos - rate * (sin / speed);
@@ -52,6 +51,14 @@ normal-part-changed@@src/collision.rs@@rates[0] + line * (0.5 * gap / arm_a)@@ra
 mean-over-one-rod-less@@src/ensemble.rs@@let value = sum.value / n;@@let value = sum.value / (n - 1.0);
 direction-not-rescaled@@src/propagator.rs@@let scale = 1.0 / (q1 * q1 + q2 * q2 + p[2] * p[2]).sqrt();@@let scale = 1.0 + 0.0 * (q1 * q1 + q2 * q2 + p[2] * p[2]).sqrt();
 no-rescaled-squaring@@src/propagator.rs@@map /= map.amax();@@map /= 1.0;
+pairs-behind-unseen@@src/neighbours/pairs.rs@@                .min(self.behind[rod])@@
+rows-beside-unseen@@src/neighbours/grid.rs@@(low >= cell[axis][k] * width) &@@(low >= 0.0 * width) &
+window-too-short@@src/neighbours/grid.rs@@(cell[2][high] * width > x[2][k] + reach[k]);@@(cell[2][high] * width > x[2][k]);
+reach-rounded-down@@src/neighbours/grid.rs@@(reach(rod) as f32).next_up()@@0.9 * (reach(rod) as f32)
+chunks-share-numbers@@src/random.rs@@let mut rng = ahead(rng, k * CHUNK);@@let mut rng = ahead(rng, 0 * k * CHUNK);
+replaced-share-numbers@@src/volume.rs@@self.replace(axes, &mut ahead(rng, 2 * before));@@self.replace(axes, &mut ahead(rng, before));
+mirrored-free-phase@@src/rods.rs@@clock.phase(tick as f64, clock.sign)@@clock.phase(tick as f64, 1.0)
+chunks-not-added@@src/observable.rs@@self.value += other.value;@@self.value = other.value;
 LIST
 )
 missed=0

@@ -1,7 +1,8 @@
 //! Nearest neighbours of many rods, by a grid of cells.
 
 use super::Nearest;
-use crate::work::{CHUNK, Counters};
+use crate::chunks::{CHUNK, of_chunks};
+use crate::work::Counters;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -64,15 +65,11 @@ impl Grid {
             self.crowded = crowded;
             return;
         }
-        let chunks: Vec<_> = (0..count.div_ceil(CHUNK))
-            .into_par_iter()
-            .map(|chunk| {
-                let places = chunk * CHUNK..count.min((chunk + 1) * CHUNK);
-                let (mut all, mut work) = (Vec::new(), Counters::default());
-                self.search(places, &mut Vec::new(), &mut work, |nearest| all.push(nearest));
-                (all, work)
-            })
-            .collect();
+        let chunks = of_chunks(count, |places| {
+            let (mut all, mut work) = (Vec::new(), Counters::default());
+            self.search(places, &mut Vec::new(), &mut work, |nearest| all.push(nearest));
+            (all, work)
+        });
         for (all, part) in chunks {
             work.add(&part);
             all.into_iter().for_each(&mut found);

@@ -106,7 +106,7 @@ pub const ALL: [Equation; 35] = [
     eq(
         "A.7",
         "velocity of a contact point",
-        &["collision.rs: share_velocity", "suspension.rs: collide_pair"],
+        &["collision.rs: share_velocity", "suspension.rs: turns"],
     ),
     eq(
         "A.8",

@@ -1,0 +1,30 @@
+//! Sharing the rods of one large run over threads. What comes out does not depend on how many threads share the
+//! chunks.
+
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Rods that one thread takes on at a time. A run of so many or fewer stays on one thread: its replicas are shared.
+pub(crate) const CHUNK: usize = 1 << 16;
+
+/// Calls `each` with every chunk of three arrays of coordinates and the index of its first rod.
+pub(crate) fn over_chunks(axes: &mut [Vec<f64>; 3], each: impl Fn(usize, [&mut [f64]; 3]) + Sync) {
+    let [x1, x2, x3] = axes;
+    if x1.len() <= CHUNK {
+        each(0, [x1, x2, x3]);
+        return;
+    }
+    (x1.par_chunks_mut(CHUNK)
+        .zip(x2.par_chunks_mut(CHUNK))
+        .zip(x3.par_chunks_mut(CHUNK)))
+    .enumerate()
+    .for_each(|(k, ((x1, x2), x3))| each(k * CHUNK, [x1, x2, x3]));
+}
+
+/// What `each` makes of every chunk of `count` rods, in the order of chunks.
+pub(crate) fn of_chunks<T: Send>(count: usize, each: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
+    (0..count.div_ceil(CHUNK))
+        .into_par_iter()
+        .map(|k| each(k * CHUNK..count.min((k + 1) * CHUNK)))
+        .collect()
+}
