@@ -113,7 +113,7 @@ pub fn step_angles(p: &UnitVector3<f64>, rate: &Vector3<f64>, time: f64) -> (Uni
 }
 
 /// |v| without overflow in the squares: a kick ∝ 1/r has no bound.
-fn norm(v: &Vector3<f64>) -> f64 {
+pub(crate) fn norm(v: &Vector3<f64>) -> f64 {
     let largest = v.amax();
     if largest > 0.0 && largest.is_finite() {
         largest * (v / largest).norm()

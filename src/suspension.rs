@@ -1,6 +1,6 @@
 //! Interacting rods in the control volume, step by step (the paper's method of solution).
 
-use crate::collision::{Reach, share_velocity, step_angles, turn};
+use crate::collision::{Reach, norm, share_velocity, step_angles, turn};
 use crate::contact::contact;
 use crate::jeffery::{couette_rate, shape_factor, strain_per_period};
 use crate::neighbours::Neighbours;
@@ -21,6 +21,8 @@ pub struct Collision {
     pub rods: [usize; 2],
     /// |ṗ′|Δt: the angles in rad by which the two turned.
     pub angles_rad: [f64; 2],
+    /// |ṗ′ − ṗ|Δt: what of it the collision did, in rad.
+    pub kicks_rad: [f64; 2],
 }
 
 /// One replica of an interacting scene: lengths in rod lengths, time in 1/|G|.
@@ -59,6 +61,7 @@ const MANY: usize = 1024;
 struct Turns {
     ends: [UnitVector3<f64>; 2],
     angles_rad: [f64; 2],
+    kicks_rad: [f64; 2],
     arms: [f64; 2],
 }
 
@@ -217,7 +220,8 @@ impl Suspension {
             couette_rate(&p[k], factor, self.rule.sign)
         };
         let relative_velocity = Vector3::new(0.0, self.rule.sign * separation.x, 0.0);
-        let rates = share_velocity(&contact, &relative_velocity, [rate(0), rate(1)]);
+        let free = [rate(0), rate(1)];
+        let rates = share_velocity(&contact, &relative_velocity, free);
         let turned = [0, 1].map(|k| {
             let start = UnitVector3::new_unchecked(p[k]);
             match self.rule.update {
@@ -228,6 +232,7 @@ impl Suspension {
         Some(Turns {
             ends: turned.map(|(end, _)| end),
             angles_rad: turned.map(|(_, angle)| angle),
+            kicks_rad: [0, 1].map(|k| norm(&(rates[k] - free[k])) * self.rule.strain),
             arms: contact.arms,
         })
     }
@@ -243,6 +248,7 @@ impl Suspension {
         self.collisions.push(Collision {
             rods,
             angles_rad: turns.angles_rad,
+            kicks_rad: turns.kicks_rad,
         });
         Ok(())
     }

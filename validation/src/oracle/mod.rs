@@ -2,5 +2,7 @@
 
 pub mod closed_form;
 pub mod isotropic;
+pub mod kicks;
 pub mod naive;
+pub mod pairing;
 pub mod quadrature;

@@ -5,6 +5,7 @@
 //! no code with the simulator it judges, only the written protocol of random numbers and of the order in a step.
 //! Axes: 1 gradient, 2 flow, 3 vorticity; u = L x with L_ij = du_i/dx_j; p = (sin th cos ph, sin th sin ph, cos th).
 
+mod averaged;
 mod contact;
 mod motion;
 mod neighbour;
