@@ -9,6 +9,7 @@ pub mod cli;
 pub mod equations;
 pub mod experiment;
 pub mod figures;
+pub mod kicks;
 mod markup;
 pub mod oracle;
 pub mod output;

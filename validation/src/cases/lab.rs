@@ -1,6 +1,7 @@
 //! What cases share: the paper's problem as a scene, independent samples of replicas, small statistics.
 
 use crate::accept::Rule;
+use crate::oracle::naive::{self, Mistake, Problem, Reading, Start};
 use rayon::prelude::*;
 use shearbed::plan::{Plan, Stage};
 use shearbed::run::run_replica;
@@ -65,7 +66,7 @@ pub fn interaction(scene: &mut Scene) -> &mut Interaction {
 }
 
 /// Mean and standard error of independent values.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// The mean.
     pub mean: f64,
@@ -186,5 +187,39 @@ pub fn uniform(values: Vec<f64>, enough: u64, because: &'static str) -> Rule {
         samples,
         enough,
         because,
+    }
+}
+
+/// The scene as the naive reference takes it.
+pub fn problem(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> Problem {
+    let mut scene = scene.clone();
+    let interaction = interaction(&mut scene).clone();
+    let particles = scene.particles.clone();
+    Problem {
+        count: particles.count,
+        shear_rate_per_s: scene.flow.shear_rate_per_s.unwrap_or(f64::NAN),
+        length_mm: particles.length_mm,
+        aspect_ratio: particles.aspect_ratio,
+        aspect_ratio_sd_percent: particles.aspect_ratio_sd_percent,
+        orientation: match particles.orientation {
+            Orientation::Random(_) => Start::Isotropic,
+            Orientation::Given { phi_deg, theta_deg } => Start::Fixed {
+                phi_rad: phi_deg.to_radians(),
+                theta_rad: theta_deg.to_radians(),
+            },
+        },
+        concentration_per_cm3: interaction.concentration_per_cm3,
+        alpha: interaction.alpha,
+        m: interaction.m,
+        min_contact_arm: interaction.min_contact_arm,
+        update: match interaction.update {
+            Update::Rotation => naive::Update::Rotation,
+            Update::Angles => naive::Update::Angles,
+        },
+        reading: Reading::default(),
+        steps_per_period: scene.steps_per_period() as usize,
+        seed: scene.ensemble.seed,
+        replica,
+        mistake,
     }
 }

@@ -1,9 +1,9 @@
 //! The core against the naive reference: the same draws, collision by collision.
 
-use super::lab;
+use super::lab::{self, problem};
 use crate::accept::Rule;
 use crate::case::{About, Case, Effort, Evidence, Kind};
-use crate::oracle::naive::{Mistake, Naive, Problem, Reading, Start, Update};
+use crate::oracle::naive::{Mistake, Naive};
 use shearbed::Suspension;
 use shearbed::scene::{self, Orientation, Scene};
 
@@ -244,37 +244,4 @@ fn scenes() -> Vec<Scene> {
         }),
         scene(200, 50.0, |_| {}),
     ]
-}
-
-fn problem(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> Problem {
-    let mut scene = scene.clone();
-    let interaction = lab::interaction(&mut scene).clone();
-    let particles = scene.particles.clone();
-    Problem {
-        count: particles.count,
-        shear_rate_per_s: scene.flow.shear_rate_per_s.unwrap_or(f64::NAN),
-        length_mm: particles.length_mm,
-        aspect_ratio: particles.aspect_ratio,
-        aspect_ratio_sd_percent: particles.aspect_ratio_sd_percent,
-        orientation: match particles.orientation {
-            Orientation::Random(_) => Start::Isotropic,
-            Orientation::Given { phi_deg, theta_deg } => Start::Fixed {
-                phi_rad: phi_deg.to_radians(),
-                theta_rad: theta_deg.to_radians(),
-            },
-        },
-        concentration_per_cm3: interaction.concentration_per_cm3,
-        alpha: interaction.alpha,
-        m: interaction.m,
-        min_contact_arm: interaction.min_contact_arm,
-        update: match interaction.update {
-            scene::Update::Rotation => Update::Rotation,
-            scene::Update::Angles => Update::Angles,
-        },
-        reading: Reading::default(),
-        steps_per_period: scene.steps_per_period() as usize,
-        seed: scene.ensemble.seed,
-        replica,
-        mistake,
-    }
 }

@@ -35,7 +35,11 @@ pub fn nearest_pairs(
         }
         let single = if contact(i, j) { probability(distance) } else { 0.0 };
         // Two draws for a pair of mutual neighbours.
-        let chance = if both { 1.0 - (1.0 - single) * (1.0 - single) } else { single };
+        let chance = if both {
+            1.0 - (1.0 - single) * (1.0 - single)
+        } else {
+            single
+        };
         mutual.push(both);
         pairs.push(Pair {
             rods: [i, j],
@@ -70,4 +74,77 @@ fn nearest(places: &[[f64; 3]], i: usize) -> Option<(usize, f64)> {
         }
     }
     best.map(|j| (j, least.sqrt()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::oracle::naive::stream;
+    use rand::RngExt;
+
+    /// How likely each two rods collide, by trying every outcome of the draws and the rule in its own words.
+    fn by_enumeration(
+        places: &[[f64; 3]],
+        chance: &[f64],
+        contact: impl Fn(usize, usize) -> bool,
+    ) -> Vec<Vec<f64>> {
+        let count = places.len();
+        let mut found = vec![vec![0.0; count]; count];
+        for outcome in 0..1usize << count {
+            let drawn = |i: usize| outcome >> i & 1 == 1;
+            let weight: f64 = (0..count)
+                .map(|i| if drawn(i) { chance[i] } else { 1.0 - chance[i] })
+                .product();
+            let mut candidates: Vec<_> = (0..count)
+                .filter(|i| drawn(*i))
+                .map(|i| (nearest(places, i).unwrap(), i))
+                .map(|((j, distance), i)| (distance, i, j))
+                .collect();
+            candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let mut taken = vec![false; count];
+            for (_, i, j) in candidates {
+                if !taken[i] && !taken[j] && contact(i, j) {
+                    (taken[i], taken[j]) = (true, true);
+                    found[i.min(j)][i.max(j)] += weight;
+                }
+            }
+        }
+        found
+    }
+
+    #[test]
+    fn chances_are_those_of_every_outcome() {
+        let mut draws = stream(5, 0, 0);
+        for trial in 0..40 {
+            let places: Vec<_> = (0..8).map(|_| [(); 3].map(|()| draws.random::<f64>())).collect();
+            let probability = |s: f64| (0.4 / (s + 0.4)).powi(2);
+            let contact = |i: usize, j: usize| trial % 2 == 0 || (i + j) % 3 != 0;
+            let single: Vec<_> = (0..8)
+                .map(|i| probability(nearest(&places, i).unwrap().1))
+                .collect();
+            let mut expected = by_enumeration(&places, &single, contact);
+            for pair in nearest_pairs(&places, probability, contact) {
+                let [i, j] = pair.rods;
+                let left = &mut expected[i.min(j)][i.max(j)];
+                *left -= pair.chance;
+            }
+            let off = expected
+                .iter()
+                .flatten()
+                .fold(0.0f64, |worst, x| worst.max(x.abs()));
+            assert!(off < 1e-13, "{trial}: {off}");
+        }
+    }
+
+    #[test]
+    fn pairs_by_hand() {
+        // 0 and 1 are each other's nearest; 2 looks at 1, 3 at 2.
+        let places = [0.0, 1.0, 2.5, 4.5].map(|x| [x, 0.0, 0.0]);
+        let pairs = nearest_pairs(&places, |_| 0.5, |_, _| true);
+        let chances: Vec<_> = pairs.iter().map(|pair| (pair.rods, pair.chance)).collect();
+        // ¾; ½ of ¼; ½ of what 2 has left, 1 − ⅛.
+        assert_eq!(chances, [([0, 1], 0.75), ([2, 1], 0.125), ([3, 2], 0.4375)]);
+        assert_eq!(pairs[1].distance, 1.5);
+        assert!(nearest_pairs(&places[..1], |_| 0.5, |_, _| true).is_empty());
+    }
 }

@@ -1,0 +1,22 @@
+//! Prints the tables of docs/time-step.md as Markdown; with `-- full`, from as many replicas as `--full`.
+
+use validation::case::Effort;
+use validation::kicks::tables::{measure, tables};
+
+fn main() -> Result<(), String> {
+    let effort = Effort {
+        full: std::env::args().any(|argument| argument == "full"),
+        level: f64::NAN,
+        data: None,
+    };
+    for table in tables(&measure(&effort)?) {
+        println!("{}\n", table.caption);
+        println!("| {} |", table.columns.join(" | "));
+        println!("|{}", " --- |".repeat(table.columns.len()));
+        for row in table.rows {
+            println!("| {} |", row.join(" | "));
+        }
+        println!();
+    }
+    Ok(())
+}

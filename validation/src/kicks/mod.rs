@@ -1,0 +1,216 @@
+//! The limit Δt → 0: how often collisions kick rods by large angles, how heavy the tail is, and what is left where
+//! the arms are bounded (docs/time-step.md).
+//!
+//! A kick is |ṗ′ − ṗ|Δt, what the collision does. The whole turn |ṗ′|Δt holds Jeffery's own |ṗ|Δt too, which at
+//! 200 steps a period passes 0.1 rad in every flip with no collision at all.
+
+pub mod averaged;
+pub mod tables;
+pub mod tail;
+
+use crate::cases::lab::{self, Sample};
+use crate::oracle::kicks::chance_of_pair;
+use nalgebra::Vector3;
+use rayon::prelude::*;
+use shearbed::Suspension;
+use shearbed::jeffery::strain_per_period;
+use shearbed::scene::Scene;
+use shearbed::suspension::Collision;
+use std::ops::Range;
+
+/// The angles above which kicks are counted.
+pub const THRESHOLDS_RAD: [f64; 4] = [0.01, 0.1, 1.0, 10.0];
+
+/// The angles that are counted as kicks; a check may put something else in their place.
+pub type Angles = fn(&Collision) -> [f64; 2];
+
+/// |ṗ′ − ṗ|Δt of both rods.
+pub fn kicks_rad(collision: &Collision) -> [f64; 2] {
+    collision.kicks_rad
+}
+
+/// GΔt of a scene in plane Couette flow.
+pub fn step_strain(scene: &Scene) -> f64 {
+    strain_per_period(scene.particles.aspect_ratio) / scene.steps_per_period() as f64
+}
+
+/// The counts of one replica over a window, per rod and period.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Counts {
+    /// Kicks above each of [`THRESHOLDS_RAD`] where the gap was closing: ℓ·D·ℓ < 0.
+    pub closing: [f64; 4],
+    /// The same where it was opening.
+    pub opening: [f64; 4],
+    /// What the formula for fresh arms gives for all of them, from the directions and the collisions of the run.
+    pub fresh: [f64; 4],
+    /// Turns by a collision, two for each.
+    pub turns: f64,
+}
+
+/// How often [`Counts::fresh`] looks at the directions.
+const LOOKS_PER_PERIOD: u64 = 400;
+
+/// Counts the kicks of one replica over whole periods. NaN where the run stopped.
+pub fn count(scene: &Scene, replica: u64, periods: Range<u64>, angles: Angles) -> Counts {
+    let mut suspension = lab::suspension(scene, replica);
+    let (steps, strain) = (scene.steps_per_period(), step_strain(scene));
+    let aspect_ratios = suspension.aspect_ratios();
+    let mut counts = Counts::default();
+    let mut chances = [0.0; 4];
+    for step in 0..periods.end * steps {
+        let counted = step >= periods.start * steps;
+        let directions = if counted {
+            suspension.directions()
+        } else {
+            Vec::new()
+        };
+        if counted && step % (steps / LOOKS_PER_PERIOD).max(1) == 0 {
+            chances = mean_chances(&directions, &aspect_ratios, strain);
+        }
+        let Ok(collisions) = suspension.step() else {
+            return Counts {
+                closing: [f64::NAN; 4],
+                ..counts
+            };
+        };
+        for collision in collisions.iter().filter(|_| counted) {
+            let [a, b] = collision.rods.map(|rod| directions[rod]);
+            counts.add(is_opening(&a, &b), angles(collision));
+            for (fresh, chance) in counts.fresh.iter_mut().zip(chances) {
+                *fresh += 2.0 * chance;
+            }
+        }
+    }
+    counts.over((aspect_ratios.len() as u64 * (periods.end - periods.start)) as f64)
+}
+
+/// Whether the liquid pulls the contact points of two rods apart: ℓ·D·ℓ > 0 with ℓ ∝ p_A × p_B.
+fn is_opening(a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
+    let normal = a.cross(b);
+    normal.x * normal.y > 0.0
+}
+
+/// The formula's chances of a kick above each threshold, over pairs of rods that know nothing of each other.
+fn mean_chances(directions: &[Vector3<f64>], aspect_ratios: &[f64], strain: f64) -> [f64; 4] {
+    let count = directions.len();
+    let mut sums = [0.0; 4];
+    let mut pairs = 0.0;
+    for shift in 1..count.min(3) {
+        for i in 0..count {
+            let j = (i + shift) % count;
+            let [a, b] = [i, j].map(|rod| directions[rod].into());
+            for (sum, threshold) in sums.iter_mut().zip(THRESHOLDS_RAD) {
+                *sum += chance_of_pair(a, b, aspect_ratios[j], threshold / strain);
+            }
+            pairs += 1.0;
+        }
+    }
+    sums.map(|sum| sum / pairs)
+}
+
+impl Counts {
+    fn add(&mut self, opening: bool, angles: [f64; 2]) {
+        let side = if opening {
+            &mut self.opening
+        } else {
+            &mut self.closing
+        };
+        for (count, threshold) in side.iter_mut().zip(THRESHOLDS_RAD) {
+            *count += angles.iter().filter(|angle| **angle > threshold).count() as f64;
+        }
+        self.turns += 2.0;
+    }
+
+    fn over(self, rod_periods: f64) -> Self {
+        Self {
+            closing: self.closing.map(|count| count / rod_periods),
+            opening: self.opening.map(|count| count / rod_periods),
+            fresh: self.fresh.map(|count| count / rod_periods),
+            turns: self.turns / rod_periods,
+        }
+    }
+
+    /// Kicks above the `index`-th threshold, closing or opening.
+    pub fn all(&self, index: usize) -> f64 {
+        self.closing[index] + self.opening[index]
+    }
+}
+
+/// The counts of many replicas of a scene with a step of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Steps per period.
+    pub steps_per_period: u64,
+    /// The window.
+    pub periods: Range<u64>,
+    /// One per replica.
+    pub counts: Vec<Counts>,
+}
+
+impl Row {
+    /// The mean over replicas of a number per replica.
+    pub fn mean(&self, value: impl Fn(&Counts) -> f64) -> Sample {
+        Sample::of(&self.counts.iter().map(value).collect::<Vec<_>>())
+    }
+}
+
+/// Counts the kicks of a scene at `steps_per_period` over a window of periods.
+pub fn rates(
+    scene: &Scene,
+    steps_per_period: u64,
+    periods: Range<u64>,
+    replicas: u64,
+    angles: Angles,
+) -> Row {
+    let mut scene = scene.clone();
+    scene.time.steps_per_period = Some(steps_per_period);
+    scene.time.outputs_per_period = Some(1);
+    scene.time.periods = Some(periods.end as f64);
+    Row {
+        steps_per_period,
+        counts: (0..replicas)
+            .into_par_iter()
+            .map(|replica| count(&scene, replica, periods.clone(), angles))
+            .collect(),
+        periods,
+    }
+}
+
+/// The kicks of one step from a fresh start: isotropic rods at random places.
+pub fn of_one_step(suspension: &mut Suspension, angles: Angles) -> Vec<f64> {
+    (suspension.step()).map_or(vec![f64::NAN], |collisions| {
+        collisions.iter().flat_map(angles).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kicks_are_sorted_by_size_and_by_what_the_gap_does() {
+        let mut counts = Counts::default();
+        counts.add(true, [0.05, 20.0]);
+        counts.add(false, [0.001, 0.5]);
+        let counts = counts.over(2.0);
+        assert_eq!(counts.opening, [1.0, 0.5, 0.5, 0.5]);
+        assert_eq!(counts.closing, [0.5, 0.5, 0.0, 0.0]);
+        assert_eq!((counts.all(0), counts.turns), (1.5, 2.0));
+        // ℓ along (1, 1, 0): stretched by u_2 = x_1; along (1, −1, 0): squeezed.
+        let line = |b: Vector3<f64>| is_opening(&Vector3::z(), &b);
+        assert!(line(Vector3::new(1.0, -1.0, 0.0)) && !line(Vector3::new(1.0, 1.0, 0.0)));
+    }
+
+    #[test]
+    fn a_window_is_part_of_the_run() {
+        let mut scene = lab::interacting_scene();
+        lab::interaction(&mut scene).concentration_per_cm3 = 400.0;
+        let turns = |periods| {
+            rates(&scene, 50, periods, 2, kicks_rad)
+                .mean(|counts| counts.turns)
+                .mean
+        };
+        let (both, parts) = (turns(0..2), [turns(0..1), turns(1..2)]);
+        assert!((2.0 * both - parts[0] - parts[1]).abs() < 1e-12 && parts[0] != parts[1]);
+    }
+}
