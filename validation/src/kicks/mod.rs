@@ -7,6 +7,7 @@
 pub mod averaged;
 pub mod tables;
 pub mod tail;
+pub mod updates;
 
 use crate::cases::lab::{self, Sample};
 use crate::oracle::kicks::chance_of_pair;
@@ -41,13 +42,15 @@ pub struct Counts {
     pub closing: [f64; 4],
     /// The same where it was opening.
     pub opening: [f64; 4],
-    /// What the formula for fresh arms gives for all of them, from the directions and the collisions of the run.
-    pub fresh: [f64; 4],
+    /// What the formula for fresh arms gives for the closing ones, from the directions and collisions of the run.
+    pub fresh_closing: [f64; 4],
+    /// The same for the opening ones.
+    pub fresh_opening: [f64; 4],
     /// Turns by a collision, two for each.
     pub turns: f64,
 }
 
-/// How often [`Counts::fresh`] looks at the directions.
+/// How often the formula looks at the directions.
 const LOOKS_PER_PERIOD: u64 = 400;
 
 /// Counts the kicks of one replica over whole periods. NaN where the run stopped.
@@ -56,7 +59,7 @@ pub fn count(scene: &Scene, replica: u64, periods: Range<u64>, angles: Angles) -
     let (steps, strain) = (scene.steps_per_period(), step_strain(scene));
     let aspect_ratios = suspension.aspect_ratios();
     let mut counts = Counts::default();
-    let mut chances = [0.0; 4];
+    let mut chances = [[0.0; 4]; 2];
     for step in 0..periods.end * steps {
         let counted = step >= periods.start * steps;
         let directions = if counted {
@@ -76,8 +79,9 @@ pub fn count(scene: &Scene, replica: u64, periods: Range<u64>, angles: Angles) -
         for collision in collisions.iter().filter(|_| counted) {
             let [a, b] = collision.rods.map(|rod| directions[rod]);
             counts.add(is_opening(&a, &b), angles(collision));
-            for (fresh, chance) in counts.fresh.iter_mut().zip(chances) {
-                *fresh += 2.0 * chance;
+            for k in 0..4 {
+                counts.fresh_closing[k] += 2.0 * chances[0][k];
+                counts.fresh_opening[k] += 2.0 * chances[1][k];
             }
         }
     }
@@ -90,22 +94,24 @@ fn is_opening(a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
     normal.x * normal.y > 0.0
 }
 
-/// The formula's chances of a kick above each threshold, over pairs of rods that know nothing of each other.
-fn mean_chances(directions: &[Vector3<f64>], aspect_ratios: &[f64], strain: f64) -> [f64; 4] {
+/// The formula's chances of a kick above each threshold, closing and opening, over pairs of rods that know nothing
+/// of each other.
+fn mean_chances(directions: &[Vector3<f64>], aspect_ratios: &[f64], strain: f64) -> [[f64; 4]; 2] {
     let count = directions.len();
-    let mut sums = [0.0; 4];
+    let mut sums = [[0.0; 4]; 2];
     let mut pairs = 0.0;
     for shift in 1..count.min(3) {
         for i in 0..count {
             let j = (i + shift) % count;
-            let [a, b] = [i, j].map(|rod| directions[rod].into());
-            for (sum, threshold) in sums.iter_mut().zip(THRESHOLDS_RAD) {
-                *sum += chance_of_pair(a, b, aspect_ratios[j], threshold / strain);
+            let [a, b] = [directions[i], directions[j]];
+            let side = &mut sums[usize::from(is_opening(&a, &b))];
+            for (sum, threshold) in side.iter_mut().zip(THRESHOLDS_RAD) {
+                *sum += chance_of_pair(a.into(), b.into(), aspect_ratios[j], threshold / strain);
             }
             pairs += 1.0;
         }
     }
-    sums.map(|sum| sum / pairs)
+    sums.map(|side| side.map(|sum| sum / pairs))
 }
 
 impl Counts {
@@ -122,10 +128,12 @@ impl Counts {
     }
 
     fn over(self, rod_periods: f64) -> Self {
+        let each = |counts: [f64; 4]| counts.map(|count| count / rod_periods);
         Self {
-            closing: self.closing.map(|count| count / rod_periods),
-            opening: self.opening.map(|count| count / rod_periods),
-            fresh: self.fresh.map(|count| count / rod_periods),
+            closing: each(self.closing),
+            opening: each(self.opening),
+            fresh_closing: each(self.fresh_closing),
+            fresh_opening: each(self.fresh_opening),
             turns: self.turns / rod_periods,
         }
     }
@@ -133,6 +141,11 @@ impl Counts {
     /// Kicks above the `index`-th threshold, closing or opening.
     pub fn all(&self, index: usize) -> f64 {
         self.closing[index] + self.opening[index]
+    }
+
+    /// The formula's number of them.
+    pub fn fresh(&self, index: usize) -> f64 {
+        self.fresh_closing[index] + self.fresh_opening[index]
     }
 }
 
