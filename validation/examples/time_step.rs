@@ -1,7 +1,8 @@
 //! Prints the tables of docs/time-step.md as Markdown; with `-- full`, from as many replicas as `--full`.
 
 use validation::case::Effort;
-use validation::kicks::tables::{measure, tables};
+use validation::kicks::study::measure;
+use validation::kicks::tables::tables;
 
 fn main() -> Result<(), String> {
     let effort = Effort {

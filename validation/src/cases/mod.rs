@@ -1,5 +1,6 @@
 //! The registry: every case, declared once. `cargo test`, the report and the catalogue are made from it.
 
+mod averaged;
 mod closed_forms;
 mod contact_rule;
 mod decay;
@@ -8,6 +9,7 @@ mod experiments;
 mod extremes;
 mod free_suspension;
 mod jeffery_equations;
+mod kicks;
 pub mod lab;
 mod misprints;
 mod motion;
@@ -30,6 +32,8 @@ pub fn all() -> Vec<Case> {
         contact_rule::cases(),
         misprints::cases(),
         encounters::cases(),
+        kicks::cases(),
+        averaged::cases(),
         free_suspension::cases(),
         closed_forms::cases(),
         reductions::cases(),

@@ -4,6 +4,7 @@ use super::{Failure, print, progress};
 use crate::case::Effort;
 use crate::catalogue;
 use crate::figures::{self, Replicas};
+use crate::kicks;
 use crate::readings;
 use crate::report::Sections;
 use crate::work_precision::{self, Budget};
@@ -23,15 +24,21 @@ pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Sections, Failure> 
     }
     let readings = readings::measure(effort);
     if !quiet {
+        print("the limit Δt → 0: kicks, and the averaged motion\n")?;
+    }
+    let limit = kicks::study::measure(effort).map_err(Failure::Failed)?;
+    if !quiet {
         print("integrators: error against run time\n")?;
     }
     let benches = work_precision::run_all(effort.pick(Budget::QUICK, Budget::FULL));
     let mut tables = vec![readings::table(&readings)];
+    tables.extend(kicks::tables::tables(&limit));
     tables.extend(work_precision::tables::tables(&benches));
     tables.push(work_precision::tables::orders(&work_precision::order::of_all(
         11.6,
     )));
     let mut figures = drawn.figures;
+    figures.push(kicks::tables::figure(&limit));
     figures.extend(work_precision::figures::figures(&benches));
     Ok(Sections {
         figures,

@@ -1,7 +1,7 @@
 //! The core beside the averaged motion: the same rods at the same places, with and without draws.
 
 use crate::cases::lab::{self, Sample};
-use crate::oracle::naive::Naive;
+use crate::oracle::naive::{Naive, Problem};
 use rayon::prelude::*;
 use shearbed::scene::Scene;
 
@@ -17,10 +17,13 @@ pub struct Apart {
     pub averaged_x1: f64,
 }
 
-/// Runs both for a period. Places and replacements depend on no direction, so they are the same.
-pub fn apart(scene: &Scene, replica: u64) -> Apart {
+/// Runs both for a period. Places and replacements depend on no direction, so they are the same. `change` is what
+/// is done to the averaged motion alone.
+pub fn apart(scene: &Scene, change: fn(&mut Problem), replica: u64) -> Apart {
     let mut core = lab::suspension(scene, replica);
-    let mut averaged = Naive::new(lab::problem(scene, replica, None));
+    let mut problem = lab::problem(scene, replica, None);
+    change(&mut problem);
+    let mut averaged = Naive::new(problem);
     for _ in 0..scene.steps_per_period() {
         averaged.step_averaged();
         if core.step().is_err() {
@@ -57,15 +60,12 @@ pub struct Row {
     pub averaged_x1: Sample,
 }
 
-/// Runs `replicas` of a scene with this step and shortest arm.
-pub fn row(scene: &Scene, steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> Row {
-    let mut scene = scene.clone();
-    scene.time.steps_per_period = Some(steps_per_period);
-    scene.time.outputs_per_period = Some(1);
-    lab::interaction(&mut scene).min_contact_arm = min_contact_arm;
+/// Runs `replicas` with this step and shortest arm.
+pub fn row(steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> Row {
+    let scene = scene(steps_per_period, min_contact_arm);
     let found: Vec<_> = (0..replicas)
         .into_par_iter()
-        .map(|replica| apart(&scene, replica))
+        .map(|replica| apart(&scene, |_| {}, replica))
         .collect();
     let sample = |value: fn(&Apart) -> f64| Sample::of(&found.iter().map(value).collect::<Vec<_>>());
     Row {
@@ -77,10 +77,13 @@ pub fn row(scene: &Scene, steps_per_period: u64, min_contact_arm: f64, replicas:
     }
 }
 
-/// 50 rods at 400 per cm³: eight times as dense as in Fig. 7, so that a few replicas show the limit.
-pub fn scene() -> Scene {
+/// 50 rods at 400 per cm³: eight times as dense as in Fig. 7, so that a few replicas show the limit. One period.
+pub fn scene(steps_per_period: u64, min_contact_arm: f64) -> Scene {
     let mut scene = lab::interacting_scene();
     scene.particles.count = 50;
-    lab::interaction(&mut scene).concentration_per_cm3 = 400.0;
+    let interaction = lab::interaction(&mut scene);
+    (interaction.concentration_per_cm3, interaction.min_contact_arm) = (400.0, min_contact_arm);
+    scene.time.steps_per_period = Some(steps_per_period);
+    scene.time.outputs_per_period = Some(1);
     scene
 }

@@ -5,6 +5,7 @@
 //! 200 steps a period passes 0.1 rad in every flip with no collision at all.
 
 pub mod averaged;
+pub mod study;
 pub mod tables;
 pub mod tail;
 pub mod updates;
@@ -51,7 +52,7 @@ pub struct Counts {
 }
 
 /// How often the formula looks at the directions.
-const LOOKS_PER_PERIOD: u64 = 400;
+const LOOKS_PER_PERIOD: u64 = 200;
 
 /// Counts the kicks of one replica over whole periods. NaN where the run stopped.
 pub fn count(scene: &Scene, replica: u64, periods: Range<u64>, angles: Angles) -> Counts {

@@ -1,7 +1,8 @@
 //! The update `angles` beside `rotation`, with the same draws.
 
+use super::averaged;
 use crate::cases::lab::{self, Sample};
-use shearbed::scene::{Scene, Update};
+use shearbed::scene::Update;
 
 /// Both updates at one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,15 +17,11 @@ pub struct Row {
     pub change: Sample,
 }
 
-/// Runs `replicas` of a scene by both updates for a period.
-pub fn row(scene: &Scene, steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> Row {
+/// Runs `replicas` of the scene of the averaged motion by both updates for a period.
+pub fn row(steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> Row {
     let x1 = |update| {
-        let mut scene = scene.clone();
-        scene.time.steps_per_period = Some(steps_per_period);
-        scene.time.outputs_per_period = Some(1);
-        scene.time.periods = Some(1.0);
-        let interaction = lab::interaction(&mut scene);
-        (interaction.min_contact_arm, interaction.update) = (min_contact_arm, update);
+        let mut scene = averaged::scene(steps_per_period, min_contact_arm);
+        lab::interaction(&mut scene).update = update;
         lab::per_replica(&scene, replicas, |means| means.at(1, 0))
     };
     let (rotation, angles) = (x1(Update::Rotation), x1(Update::Angles));

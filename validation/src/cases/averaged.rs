@@ -1,0 +1,252 @@
+//! What the model tends to as Δt → 0 where the arms are bounded, and how the two updates differ where they are not
+//! (docs/time-step.md).
+
+use super::lab::Sample;
+use crate::accept::Rule;
+use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::kicks::averaged::{Apart, apart, scene};
+use crate::oracle::naive::Problem;
+use nalgebra::{UnitVector3, Vector3};
+use rayon::prelude::*;
+use shearbed::collision::{share_velocity, step_angles, turn};
+use shearbed::contact::contact;
+use shearbed::jeffery::direction_rate_per_s;
+use shearbed::orientation::from_angles;
+use shearbed::propagator::Propagator;
+
+pub fn cases() -> Vec<Case> {
+    vec![
+        Case::new(
+            About {
+                name: "averaged-motion",
+                kind: Kind::Verification,
+                claim: "With a shortest arm, the model tends to the averaged (P_c-weighted) motion as Δt → 0, path by path; with arms of every size it does not.",
+                source: "eqs 7–10, A.7–A.14; docs/time-step.md",
+                equations: &["7", "8", "A.13", "A.14"],
+                statistical_checks: 2,
+            },
+            Limit {
+                min_arm: 0.25,
+                change: |_| {},
+            },
+            vec![
+                (
+                    "arms of every size",
+                    Limit {
+                        min_arm: 0.0,
+                        change: |_| {},
+                    },
+                ),
+                (
+                    "an average with α twice as large",
+                    Limit {
+                        min_arm: 0.25,
+                        change: |average| average.alpha *= 2.0,
+                    },
+                ),
+            ],
+            averaged,
+        ),
+        Case::new(
+            About {
+                name: "arm-pushed",
+                kind: Kind::Verification,
+                claim: "A collision pushes a short arm away from 0 where the gap opens, and towards 0 where it closes: dr/dt = h² ℓ·D·ℓ/(2 r sin²).",
+                source: "A.7–A.14; docs/time-step.md",
+                equations: &["A.13", "A.14"],
+                statistical_checks: 0,
+            },
+            core_arm_rate as ArmRate,
+            vec![
+                ("a turn the other way", |p, d, time| {
+                    core_arm_rate(p, d, time).map(|rate| -rate)
+                }),
+                ("twice the kick", |p, d, time| {
+                    core_arm_rate(p, d, 2.0 * time).map(|rate| 2.0 * rate)
+                }),
+            ],
+            pushed,
+        ),
+        Case::new(
+            About {
+                name: "updates-in-the-limit",
+                kind: Kind::Verification,
+                claim: "A kick of a given angle ends elsewhere by `angles` than by `rotation` however short the step; at a given rate both are Jeffery's step up to (GΔt)².",
+                source: "A.14; docs/time-step.md",
+                equations: &["A.14"],
+                statistical_checks: 0,
+            },
+            [turn as Update, step_angles],
+            vec![
+                ("twice the same update", [turn as Update, turn]),
+                (
+                    "a turn by half the angle",
+                    [|p, rate, time| turn(p, rate, 0.5 * time), step_angles],
+                ),
+            ],
+            updates,
+        ),
+    ]
+}
+
+/// The shortest arm, and what is changed in the averaged motion.
+struct Limit {
+    min_arm: f64,
+    change: fn(&mut Problem),
+}
+
+fn averaged(limit: &Limit, effort: &Effort) -> Vec<Evidence> {
+    let replicas = effort.pick(48, 300);
+    let steps = effort.pick([200, 1600], [400, 6400]);
+    let [coarse, fine] = steps.map(|steps| -> Vec<Apart> {
+        (0..replicas)
+            .into_par_iter()
+            .map(|replica| {
+                let mut scene = scene(steps, limit.min_arm);
+                // Few rods and many replicas, as the naive average looks at every pair.
+                scene.particles.count = 20;
+                apart(&scene, limit.change, replica)
+            })
+            .collect()
+    });
+    let squares = |apart: &[Apart]| apart.iter().map(|apart| apart.square).collect::<Vec<_>>();
+    let falls: Vec<_> = (squares(&coarse).iter().zip(squares(&fine)))
+        .map(|(coarse, fine)| 0.6 * coarse - fine)
+        .collect();
+    let x1 = Sample::of(&fine.iter().map(|apart| apart.x1).collect::<Vec<_>>());
+    let [coarse, fine] = steps;
+    let little = "a tenth (full: a fiftieth) of the 0.16 that short arms change in X̄₁; what is left is ∝ Δt";
+    vec![
+        Evidence::new(
+            format!(
+                "0.6 × the mean sin² between the two paths at {coarse} steps a period, less that at {fine}"
+            ),
+            Sample::of(&falls).exceeds(
+                0.0,
+                0.02,
+                "∝ Δt in the limit; paths that do not converge stay as far apart",
+            ),
+        ),
+        Evidence::new(
+            format!("X̄₁ less that of the averaged motion, {fine} steps a period"),
+            x1.is(0.0, effort.pick(0.016, 0.0032), 0.005, little),
+        ),
+    ]
+}
+
+type Update = fn(&UnitVector3<f64>, &Vector3<f64>, f64) -> (UnitVector3<f64>, f64);
+
+fn updates([rotation, angles]: &[Update; 2], _: &Effort) -> Vec<Evidence> {
+    let ends_apart = |p: &UnitVector3<f64>, rate: &Vector3<f64>, time: f64| {
+        rotation(p, rate, time).0.cross(&angles(p, rate, time).0).norm()
+    };
+    let flow = shearbed::flow::VelocityGradient::plane_couette(1.0).expect("finite");
+    let propagator = Propagator::new(&flow, 11.6);
+    let mut same = 0.0f64;
+    let mut distance = 0.0;
+    let (mut rated, mut orders) = (Vec::new(), Vec::new());
+    for k in 0..20 {
+        let p = from_angles(0.3 + 0.3 * f64::from(k), 0.4 + 0.05 * f64::from(k));
+        let across = p.cross(&Vector3::new(0.2, -0.7, 0.5)).normalize();
+        let along = p.cross(&across);
+        let way = (across + along).normalize();
+        // A kick of 1 rad in a shorter and shorter step.
+        let kicked = [1e-2, 1e-8].map(|time| ends_apart(&p, &(way / time), time));
+        same = same.max((kicked[0] - kicked[1]).abs());
+        distance += kicked[0] / 20.0;
+        // Rates that have a bound: the two differ in the second order.
+        rated.push((ends_apart(&p, &way, 2e-3) / ends_apart(&p, &way, 1e-3)).log2());
+        // A collision that changes nothing turns the rod straight, where Jeffery's path is curved.
+        let rate = direction_rate_per_s(&flow, 11.6, &p);
+        for update in [rotation, angles] {
+            let off = |time: f64| {
+                let turned = update(&p, &rate, time).0;
+                turned.cross(&propagator.after(&p, time)).norm()
+            };
+            orders.push((off(2e-3) / off(1e-3)).log2());
+        }
+    }
+    let farthest = |orders: &[f64]| orders.iter().map(|order| (order - 2.0).abs()).fold(0.0, f64::max);
+    let because = "the next term of the series, of the order of GΔt = 10⁻³ times its ratio to the first";
+    vec![
+        Evidence::new(
+            "how much the two ends of a kick of 1 rad come nearer as Δt goes from 10⁻² to 10⁻⁸",
+            Rule::within(same, 1e-14, "round-off: only rate × Δt counts"),
+        ),
+        Evidence::new(
+            "by how much less than 0.1 the sine of the angle between the two ends is on average",
+            Rule::exact((0.1 - distance).max(0.0)),
+        ),
+        Evidence::new(
+            "order in Δt of the distance of both ends at a given rate, less 2",
+            Rule::within(farthest(&rated), 0.1, because),
+        ),
+        Evidence::new(
+            "order in Δt of what a colliding rod is off Jeffery's path where the kick is 0, less 2",
+            Rule::within(farthest(&orders), 0.1, because),
+        ),
+    ]
+}
+
+/// How a rod's arm changes per time when a collision turns that rod alone: the pair's directions, separation and
+/// time step.
+type ArmRate = fn([Vector3<f64>; 2], &Vector3<f64>, f64) -> Option<f64>;
+
+/// By the core: contact, kick, turn, and contact again.
+fn core_arm_rate(p: [Vector3<f64>; 2], separation: &Vector3<f64>, time: f64) -> Option<f64> {
+    let flow = shearbed::flow::VelocityGradient::plane_couette(1.0)?;
+    let units = p.map(UnitVector3::new_unchecked);
+    let before = contact(separation, &p[0], &p[1], 0.0)?;
+    let free = units.map(|p| direction_rate_per_s(&flow, LONG, &p));
+    let after = share_velocity(&before, &(flow.per_s() * separation), free);
+    let turned = turn(&units[0], &(after[0] - free[0]), time).0;
+    let arm = contact(separation, &turned, &p[1], 0.0)?.arms[0];
+    Some((arm - before.arms[0]) / time)
+}
+
+/// An aspect ratio at which 1 − Λ = 2·10⁻⁸.
+const LONG: f64 = 1e4;
+
+fn pushed(arm_rate: &ArmRate, _: &Effort) -> Vec<Evidence> {
+    const ARM: f64 = 1e-4;
+    let (mut worst, mut wrong, mut opening) = (0.0f64, 0, 0);
+    for k in 0..400 {
+        let k = f64::from(k);
+        // Spread over both directions, the gap and the other arm; the arm of A is ARM.
+        let p = [
+            from_angles(2.4 * k, 0.2 + (0.61 * k) % 2.7),
+            from_angles(1.1 + 1.7 * k, 0.3 + (0.37 * k) % 2.5),
+        ];
+        let normal = p[0].cross(&p[1]);
+        let line = normal.normalize();
+        let (gap, other) = (0.5 + (0.29 * k) % 0.5, (0.83 * k) % 2.0 - 1.0);
+        if normal.norm() < 0.3 || (line.x * line.y).abs() < 0.05 {
+            continue;
+        }
+        let separation = ARM * p[0].into_inner() - other * p[1].into_inner() + gap * line;
+        let expected = gap * gap * line.x * line.y / (2.0 * ARM * normal.norm_squared());
+        let found =
+            arm_rate(p.map(UnitVector3::into_inner), &separation, 1e-4 * ARM * ARM).unwrap_or(f64::NAN);
+        worst = if found.is_nan() {
+            f64::NAN
+        } else {
+            worst.max((found / expected - 1.0).abs())
+        };
+        wrong += u32::from((found > 0.0) != (line.x * line.y > 0.0));
+        opening += u32::from(line.x * line.y > 0.0);
+    }
+    vec![
+        Evidence::new(
+            "dr/dt while colliding over h² ℓ·D·ℓ/(2 r sin²), less 1",
+            Rule::within(
+                worst,
+                5e-3,
+                "a step of 10⁻⁴ r² changes the arm by up to a thousandth: |h²ℓ·D·ℓ|/sin² ≤ 5",
+            ),
+        ),
+        Evidence::new(
+            format!("pairs, of which {opening} open, with an arm that moves the other way"),
+            Rule::exact(f64::from(wrong)),
+        ),
+    ]
+}
