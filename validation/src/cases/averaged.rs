@@ -240,8 +240,8 @@ fn pushed(arm_rate: &ArmRate, _: &Effort) -> Vec<Evidence> {
             "dr/dt while colliding over h² ℓ·D·ℓ/(2 r sin²), less 1",
             Rule::within(
                 worst,
-                5e-3,
-                "a step of 10⁻⁴ r² changes the arm by up to a thousandth: |h²ℓ·D·ℓ|/sin² ≤ 5",
+                1e-5,
+                "left out: terms in 1 − Λ = 2·10⁻⁸ over h ℓ·D·ℓ ≥ 0.02, and the square of the turn, 10⁻⁸",
             ),
         ),
         Evidence::new(

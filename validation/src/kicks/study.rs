@@ -12,6 +12,8 @@ use shearbed::scene::Scene;
 pub struct Study {
     /// Kicks in the first two periods of Fig. 4's suspension against the step.
     pub steps: Vec<Row>,
+    /// Kicks in the first period of a suspension where rods collide often, against the step.
+    pub dense: Vec<Row>,
     /// Kicks in each period at one step.
     pub periods: Vec<Row>,
     /// Exponents of the tail, and of what.
@@ -43,11 +45,19 @@ pub fn measure(effort: &Effort) -> Result<Study, String> {
     let averaged_steps = averaged_steps
         .into_iter()
         .filter(|steps| *steps <= averaged_finest);
+    let mut dense = lab::interacting_scene();
+    let interaction = lab::interaction(&mut dense);
+    (interaction.concentration_per_cm3, interaction.alpha) = (400.0, 2.0);
+    let dense_steps = [100, 400, 1600, 6400, 25_600];
+    let dense_steps = (dense_steps.into_iter()).filter(|steps| *steps <= 2 * finest);
     // The second is the rods' radius.
     let arms = [0.25, 0.5 / 11.6, 0.0];
     Ok(Study {
         steps: steps
             .map(|steps| rates(&scene, steps, 0..2, replicas[0], kicks_rad))
+            .collect(),
+        dense: dense_steps
+            .map(|steps| rates(&dense, steps, 0..1, replicas[1], kicks_rad))
             .collect(),
         periods: (0..6)
             .map(|period| rates(&scene, PERIODS_AT, period..period + 1, replicas[0], kicks_rad))

@@ -31,6 +31,7 @@ fn table(name: &str, title: &str, caption: String, columns: &[&str], rows: Vec<V
 pub fn tables(study: &Study) -> Vec<ReportTable> {
     vec![
         steps(study),
+        dense(study),
         periods(study),
         exponents(study),
         averages(study),
@@ -68,6 +69,25 @@ fn steps(study: &Study) -> ReportTable {
         ]
         .concat(),
         study.steps.iter().map(row).collect(),
+    )
+}
+
+fn dense(study: &Study) -> ReportTable {
+    let row = |row: &Row| {
+        let mut cells = vec![row.steps_per_period.to_string()];
+        cells.extend(sides(row));
+        cells
+    };
+    table(
+        "kick-rates-dense",
+        "Kicks where rods collide often",
+        format!(
+            "100 rods at 400 per cm³ with α = 2, r_e = 11.6, t/T from 0 to 1, {} replicas: what frequent collisions do \
+             to the arm shows at coarser steps. `kick-memory`, `arm-pushed`",
+            study.replicas[1]
+        ),
+        &[&["steps per period"], &SIDES[..]].concat(),
+        study.dense.iter().map(row).collect(),
     )
 }
 
