@@ -101,7 +101,7 @@ fn formula(expected: &Expected, effort: &Effort) -> Vec<Evidence> {
         let scaled = threshold_rad / step_strain(&scene);
         let constant = 6.0 * PI * tail_of_isotropic(scene.particles.aspect_ratio);
         let chance = |factor: f64| constant * chance_of_threads(factor * scaled);
-        let ratios: Vec<_> = (0..effort.pick(240, 20_000))
+        let ratios: Vec<_> = (0..effort.pick(240, 10_000))
             .into_par_iter()
             .map(|replica| {
                 let mut suspension = lab::suspension(&scene, replica);
@@ -167,7 +167,7 @@ fn memory((angles, change): &(Angles, Change), effort: &Effort) -> Vec<Evidence>
         rates(&scene, steps, 0..1, replicas, *angles)
     };
     // α = 2 for the opening ones: the more collisions a pair has, the sooner its memory shows.
-    let replicas = effort.pick(40, 1600);
+    let replicas = effort.pick(40, 800);
     let [coarse, fine] =
         [200, 1600].map(|steps| run(2.0, steps, replicas).mean(|c| change(*c).opening[OVER]));
     let mut evidence = vec![Evidence::new(
@@ -179,7 +179,7 @@ fn memory((angles, change): &(Angles, Change), effort: &Effort) -> Vec<Evidence>
         }
         .exceeds(0.0, 0.1, "they would be equal if the rate did not depend on Δt"),
     )];
-    for (steps, replicas) in [(200, effort.pick(160, 8000)), (800, effort.pick(48, 4000))] {
+    for (steps, replicas) in [(200, effort.pick(160, 4000)), (800, effort.pick(48, 2000))] {
         let row = run(0.5, steps, replicas);
         let fresh = row.mean(|c| c.fresh_closing[OVER]).mean;
         let off = row.mean(|c| (change(*c).closing[OVER] - c.fresh_closing[OVER]) / fresh);
