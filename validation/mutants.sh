@@ -50,6 +50,9 @@ turn-sign@@src/collision.rs@@let turned = p.as_ref() * cos + rate * (sin / speed
 normal-part-changed@@src/collision.rs@@rates[0] + line * (0.5 * gap / arm_a)@@rates[0] * 0.9 + line * (0.5 * gap / arm_a)
 mean-over-one-rod-less@@src/ensemble.rs@@let value = sum.value / n;@@let value = sum.value / (n - 1.0);
 direction-not-rescaled@@src/propagator.rs@@let scale = 1.0 / (q1 * q1 + q2 * q2 + p[2] * p[2]).sqrt();@@let scale = 1.0 + 0.0 * (q1 * q1 + q2 * q2 + p[2] * p[2]).sqrt();
+kick-whole-turn@@src/suspension.rs@@norm(&(rates[k] - free[k]))@@norm(&rates[k])
+short-arms-kept@@src/contact.rs@@r.abs() >= min_arm@@r.abs() >= 0.5 * min_arm
+gap-without-turn@@src/collision.rs@@+ arm_b * line.dot(&rates[1]) - arm_a * line.dot(&rates[0]);@@;
 no-rescaled-squaring@@src/propagator.rs@@map /= map.amax();@@map /= 1.0;
 pairs-behind-unseen@@src/neighbours/pairs.rs@@                .min(self.behind[rod])@@
 rows-beside-unseen@@src/neighbours/grid.rs@@(low >= cell[axis][k] * width) &@@(low >= 0.0 * width) &
