@@ -81,7 +81,7 @@ pub fn run(plan: &Plan, finished: impl Fn() + Sync) -> Result<Results, RunError>
 }
 
 /// Replicas held in memory at a time: about 256 MB of sums.
-fn batch(plan: &Plan) -> u64 {
+pub(crate) fn batch(plan: &Plan) -> u64 {
     let width: usize = plan.observables().iter().map(|o| o.width()).sum();
     let bytes = plan.outputs() * width * size_of::<Sum>();
     ((256 << 20) / bytes.max(1)).clamp(1, 4096) as u64
