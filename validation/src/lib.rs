@@ -16,6 +16,7 @@ pub mod plot;
 pub mod readings;
 pub mod report;
 pub mod scenes;
+pub mod speed;
 pub mod subject;
 pub mod work_precision;
 #[cfg(test)]

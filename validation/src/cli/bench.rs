@@ -2,7 +2,7 @@
 
 use super::{Failure, print};
 use crate::work_precision::{self, ASPECT_RATIOS, Budget, export, figures, tables};
-use crate::{output, plot, subject};
+use crate::{output, plot, speed, subject};
 use std::path::PathBuf;
 
 /// Arguments of `bench`.
@@ -19,7 +19,7 @@ pub(super) struct Args {
     quiet: bool,
 }
 
-/// Measures every subject's error against its run time, one after the other on one core.
+/// Measures every subject's error against its run time, one after the other on one core, and the core's speed.
 pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     let chosen = chosen(&args.cases)?;
     output::probe(&args.out)?;
@@ -37,7 +37,18 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
             export::json(&benches).map_err(Failure::Failed)?,
         ),
     ];
-    for figure in figures::figures(&benches) {
+    // A single bench is asked for to see that one alone.
+    let speed = match args.cases.is_empty() {
+        true => Some(speed::measure(speed::Amount::FULL).map_err(Failure::Failed)?),
+        false => None,
+    };
+    if let Some(speed) = &speed {
+        let text = export::json(speed).map_err(Failure::Failed)?;
+        files.push(("speed.json".to_owned(), text));
+    }
+    let drawn = figures::figures(&benches);
+    let scaling = speed.as_ref().map(speed::figures::figures).unwrap_or_default();
+    for figure in drawn.into_iter().chain(scaling) {
         let svg = plot::svg(&figure.figure).map_err(Failure::Failed)?;
         files.push((format!("{}.svg", figure.name), svg));
     }
@@ -46,7 +57,9 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
         return Ok(());
     }
     let names: Vec<_> = files.iter().map(|(name, _)| name.as_str()).collect();
-    let tables: String = tables::tables(&benches).iter().map(export::text).collect();
+    let mut tables = tables::tables(&benches);
+    tables.extend(speed.as_ref().map(speed::tables::table));
+    let tables: String = tables.iter().map(export::text).collect();
     print(&format!(
         "{tables}in {}: {}\n",
         args.out.display(),

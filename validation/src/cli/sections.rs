@@ -6,6 +6,7 @@ use crate::catalogue;
 use crate::figures::{self, Replicas};
 use crate::readings;
 use crate::report::Sections;
+use crate::speed;
 use crate::work_precision::{self, Budget};
 
 /// Runs the scenes of the figures, and gathers everything.
@@ -26,13 +27,20 @@ pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Sections, Failure> 
         print("integrators: error against run time\n")?;
     }
     let benches = work_precision::run_all(effort.pick(Budget::QUICK, Budget::FULL));
+    if !quiet {
+        print("speed: the core beside the naive reference\n")?;
+    }
+    let amount = effort.pick(speed::Amount::QUICK, speed::Amount::FULL);
+    let speed = speed::measure(amount).map_err(Failure::Failed)?;
     let mut tables = vec![readings::table(&readings)];
     tables.extend(work_precision::tables::tables(&benches));
     tables.push(work_precision::tables::orders(&work_precision::order::of_all(
         11.6,
     )));
+    tables.push(speed::tables::table(&speed));
     let mut figures = drawn.figures;
     figures.extend(work_precision::figures::figures(&benches));
+    figures.extend(speed::figures::figures(&speed));
     Ok(Sections {
         figures,
         tables,
