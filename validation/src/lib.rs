@@ -17,6 +17,7 @@ pub mod readings;
 pub mod report;
 pub mod scenes;
 pub mod speed;
+pub mod stability;
 pub mod subject;
 pub mod work_precision;
 #[cfg(test)]
