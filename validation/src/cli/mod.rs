@@ -49,6 +49,15 @@ enum Failure {
     Failed(String),
 }
 
+impl Failure {
+    fn message_and_code(self) -> (String, u8) {
+        match self {
+            Self::Failed(message) => (message, 1),
+            Self::Input(message) => (message, 2),
+        }
+    }
+}
+
 /// Runs the command of the program's arguments.
 pub fn main() -> ExitCode {
     let ended = match Cli::parse().command {
@@ -61,8 +70,7 @@ pub fn main() -> ExitCode {
     };
     let (message, code) = match ended {
         Ok(()) => return ExitCode::SUCCESS,
-        Err(Failure::Failed(message)) => (message, 1),
-        Err(Failure::Input(message)) => (message, 2),
+        Err(failure) => failure.message_and_code(),
     };
     // Where even this cannot be written, the exit code has to say it.
     let _ = writeln!(io::stderr(), "error: {message}");
