@@ -97,7 +97,7 @@ pub fn cases() -> Vec<Case> {
             About {
                 name: "adaptive-subjects",
                 kind: Kind::Verification,
-                claim: "At a tolerance of 10⁻¹¹ both adaptive subjects come within 10⁻⁷ rad, r_e from 1.5 to 11.6.",
+                claim: "At a tolerance of 10⁻¹¹ both adaptive subjects come within 1.5·10⁻⁸ rad, r_e from 1.5 to 11.6.",
                 source: "A.2 to A.5; Jeffery's equation in p",
                 equations: &["A.4", "A.5"],
                 statistical_checks: 0,
@@ -212,8 +212,8 @@ fn adaptive(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
             format!("angle to the closed form at a tolerance of 10⁻¹¹, {}", subject.name()),
             Rule::within(
                 worst,
-                1e-7,
-                "the tolerance bounds the error of a step; some hundred steps add up, and r_e magnifies the phase: 10⁴",
+                1.5e-8,
+                "the tolerance bounds the error of a step; some hundred steps add up, and r_e ≤ 11.6 magnifies the phase",
             ),
         ));
     }

@@ -86,7 +86,9 @@ mod tests {
         let at = |c, z, xy| Place::new(c, z, xy, 1e8).direction(1e8).into_inner();
         assert_eq!(at(0.0, -1.0, [1.0, 0.0]), -Vector3::z());
         assert_eq!(at(1.0, 0.0, [1.0, 0.0]), Vector3::x());
-        assert_eq!(at(1.0, 1e-300, [0.0, 1.0]), Vector3::new(0.0, 1.0, 1e-300));
+        // p_3/p_2 = |z|/(r_e c).
+        let along = at(1.0, 1e-290, [0.0, 1.0]);
+        assert!(along.y == 1.0 && (along.z / 1e-298 - 1.0).abs() < 1e-15);
         let thin = at(1e-300, 1.0, [1.0, 0.0]);
         assert_eq!((thin.x, thin.z), (1e-300, 1.0));
         assert_eq!(

@@ -108,6 +108,20 @@ mod tests {
     }
 
     #[test]
+    fn the_rotation_vector_turns_at_the_rate_asked_for() {
+        let (u, omega, dt) = (
+            Vector3::new(0.02, -0.03, 0.01),
+            Vector3::new(-0.5, 0.2, 0.7),
+            1e-5,
+        );
+        let rate = dexp_inverse(&u, omega) * dt;
+        let turned = |u| Rotation3::new(u).into_inner();
+        let found = (turned(u + rate) - turned(u - rate)) * turned(-u) / (2.0 * dt);
+        // The next term of the series is |u|⁴/720.
+        assert!((found - omega.cross_matrix()).norm() < 1e-8);
+    }
+
+    #[test]
     fn a_step_too_long_for_newton_gives_no_number_and_no_hang() {
         let (problem, start) = Problem::mid_flip(11.6);
         let end = implicit_midpoint(&problem, start.into_inner(), 1e300);
