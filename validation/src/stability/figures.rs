@@ -1,7 +1,7 @@
 //! The limits of a step against theory, as pictures.
 
+use super::limit_tables::{ONE_STEP, THEORIES};
 use super::limits::{Limit, Property, bisect, holds};
-use super::tables::{ONE_STEP, THEORIES};
 use crate::plot;
 use crate::report::ReportFigure;
 use crate::subject::{Subject, Theory};

@@ -3,6 +3,7 @@
 
 pub mod core;
 pub mod figures;
+pub mod limit_tables;
 pub mod limits;
 pub mod map;
 pub mod orbit;
