@@ -19,6 +19,7 @@ pub mod scenes;
 pub mod speed;
 pub mod stability;
 pub mod subject;
+pub mod suspensions;
 pub mod work_precision;
 #[cfg(test)]
 mod xml;

@@ -21,6 +21,8 @@ mod steady;
 mod step_limits;
 mod subjects;
 mod words;
+mod work_precision;
+mod work_precision_coupled;
 
 use crate::accept::FAMILY_FALSE_ALARM_RATE;
 use crate::case::{Case, Effort};
@@ -46,6 +48,8 @@ pub fn all() -> Vec<Case> {
         integrator_claims::cases(),
         stability::cases(),
         step_limits::cases(),
+        work_precision::cases(),
+        work_precision_coupled::cases(),
         decay::cases(),
         words::cases(),
         experiments::cases(),

@@ -9,6 +9,7 @@ use crate::report::Sections;
 use crate::speed;
 use crate::stability;
 use crate::subject;
+use crate::suspensions::{self, free, law_tables, starts, study};
 use crate::work_precision::{self, Budget};
 
 /// Runs the scenes of the figures, and gathers everything.
@@ -28,7 +29,8 @@ pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Sections, Failure> 
     if !quiet {
         print("integrators: error against run time\n")?;
     }
-    let benches = work_precision::run_all(effort.pick(Budget::QUICK, Budget::FULL));
+    let budget = effort.pick(Budget::QUICK, Budget::FULL);
+    let benches = work_precision::run_all(budget);
     if !quiet {
         print("speed: the core beside the naive reference\n")?;
     }
@@ -36,7 +38,7 @@ pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Sections, Failure> 
     let speed = speed::measure(amount).map_err(Failure::Failed)?;
     let mut tables = vec![readings::table(&readings)];
     tables.extend(work_precision::tables::tables(&benches));
-    tables.push(work_precision::tables::orders(&work_precision::order::of_all(
+    tables.push(work_precision::tables::orders(&work_precision::order::of_rod(
         11.6,
     )));
     tables.push(speed::tables::table(&speed));
@@ -48,6 +50,19 @@ pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Sections, Failure> 
     let mut figures = drawn.figures;
     figures.extend(stability::figures::figures(&subjects));
     figures.extend(work_precision::figures::figures(&benches));
+    if !quiet {
+        print("suspensions: error against run time, steps, rods and replicas\n")?;
+    }
+    let free_extent = effort.pick(free::Extent::QUICK, free::Extent::FULL);
+    let free = free::SCENES.map(|scene| scene.bench(&starts::ALL, free_extent, budget));
+    let study = study::run(effort.pick(study::Extent::QUICK, study::Extent::FULL), budget);
+    let study = study.map_err(Failure::Failed)?;
+    tables.push(suspensions::tables::free(&free));
+    tables.push(suspensions::tables::answers(&study));
+    tables.extend(law_tables::law(&study.law, study.strain_per_period));
+    tables.push(suspensions::tables::coupled(&study.coupled));
+    figures.extend(free.iter().map(suspensions::figures::free));
+    figures.push(suspensions::figures::interacting(&study));
     figures.extend(speed::figures::figures(&speed));
     Ok(Sections {
         figures,

@@ -3,13 +3,13 @@
 
 pub mod export;
 pub mod figures;
-pub mod law;
 pub mod order;
 pub mod tables;
 mod time;
 
 use crate::subject::{self, Errors, Problem, Setting, Subject, Theory, grade};
 use serde::Serialize;
+pub(crate) use time::measure;
 pub use time::{Budget, Seconds};
 
 /// The aspect ratios of the benches.
