@@ -88,19 +88,32 @@ impl Means {
             let x: Vec<_> = h.iter().map(|h| h.powf(order)).collect();
             self.line(&x)
         };
-        let orders: Vec<_> = (25..=400).map(|percent| 0.01 * f64::from(percent)).collect();
-        let lines = orders
-            .iter()
-            .map(|order| line(*order))
-            .collect::<Option<Vec<_>>>()?;
-        let least = (0..lines.len()).min_by(|a, b| lines[*a].chi_square.total_cmp(&lines[*b].chi_square))?;
-        let near = |line: &Line| line.chi_square <= lines[least].chi_square + 1.0;
-        let (first, last) = (lines.iter().position(near)?, lines.iter().rposition(near)?);
-        let open = first == 0 || last + 1 == lines.len();
-        let flat = lines[least].slope.abs() < 2.0 * lines[least].slope_se;
-        (!open && !flat).then(|| Order {
-            order: orders[least],
-            se: 0.5 * (orders[last] - orders[first]),
+        let chi_square = |order: f64| line(order).map_or(f64::INFINITY, |line| line.chi_square);
+        let (low, high) = (0.25, 4.0);
+        // By trial, and then between the neighbours of the best.
+        let tried = (0..=375).map(|k| low + 0.01 * f64::from(k));
+        let near = tried.min_by(|a, b| chi_square(*a).total_cmp(&chi_square(*b)))?;
+        let tried = (-100..=100).map(|k| near + 1e-4 * f64::from(k));
+        let best = tried.min_by(|a, b| chi_square(*a).total_cmp(&chi_square(*b)))?;
+        let limit = chi_square(best) + 1.0;
+        let flat = line(best).is_none_or(|line| line.slope.abs() < 2.0 * line.slope_se);
+        if flat || chi_square(low) < limit || chi_square(high) < limit {
+            return None;
+        }
+        let end = |outer: f64| {
+            let (mut inside, mut outside) = (best, outer);
+            for _ in 0..50 {
+                let middle = 0.5 * (inside + outside);
+                match chi_square(middle) < limit {
+                    true => inside = middle,
+                    false => outside = middle,
+                }
+            }
+            inside
+        };
+        Some(Order {
+            order: best,
+            se: 0.5 * (end(high) - end(low)),
         })
     }
 

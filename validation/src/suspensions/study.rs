@@ -46,7 +46,7 @@ impl Extent {
             most: 20_000,
         },
         reference: (3200, 5000),
-        unbounded: Some((400, 100_000, 8)),
+        unbounded: Some((800, 100_000, 8)),
         repeats: [64, 16, 8],
         coupled: 2000,
     };
