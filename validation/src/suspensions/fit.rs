@@ -11,6 +11,8 @@ pub struct Means {
     pub values: Vec<f64>,
     /// The covariance of every two.
     pub covariance: DMatrix<f64>,
+    /// The fewest replicas of a mean.
+    fewest: usize,
 }
 
 /// y = intercept + slope·x.
@@ -40,26 +42,46 @@ pub struct Order {
 }
 
 impl Means {
-    /// The means over replicas of samples whose members with one index share their random numbers.
+    /// The means over replicas of samples whose members with one index share their random numbers. The correlation
+    /// is taken as the same for every two samples: that of what they share.
     pub fn of(samples: &[Vec<f64>]) -> Self {
-        let count = samples.len();
-        let over = |i: usize, j: usize| {
-            let (a, b) = (&samples[i], &samples[j]);
+        let variances: Vec<_> = (samples.iter())
+            .map(|sample| super::covariance(sample, sample))
+            .collect();
+        let scale = |i: usize, j: usize| (variances[i] * variances[j]).sqrt();
+        let (mut shared, mut pairs) = (0.0, 0.0);
+        for i in 0..samples.len() {
+            for j in (0..i).filter(|j| scale(i, *j) > 0.0) {
+                let (a, b) = (&samples[i], &samples[j]);
+                let count = a.len().min(b.len());
+                shared += count as f64 * super::coupled::correlation(&a[..count], &b[..count]);
+                pairs += count as f64;
+            }
+        }
+        let correlation = if pairs > 0.0 { shared / pairs } else { 0.0 };
+        let of_means = |i: usize, j: usize| {
             // Replicas that only the longer one has are independent of the shorter.
-            super::covariance(a, b) / a.len().max(b.len()) as f64
+            let most = samples[i].len().max(samples[j].len()) as f64;
+            let correlation = if i == j { 1.0 } else { correlation };
+            correlation * scale(i, j) / most
         };
         Self {
             values: (samples.iter())
                 .map(|sample| sample.iter().sum::<f64>() / sample.len() as f64)
                 .collect(),
-            covariance: DMatrix::from_fn(count, count, over),
+            covariance: DMatrix::from_fn(samples.len(), samples.len(), of_means),
+            fewest: samples.iter().map(Vec::len).min().unwrap_or(0),
         }
     }
 
     /// The line through the means at `x`: least squares weighted by the inverse of the covariances, the same as of
-    /// the differences of neighbours. `None` for fewer than two levels or samples without a spread.
+    /// the differences of neighbours. `None` for fewer than two levels, fewer than eight replicas of one, or
+    /// samples without a spread.
     pub fn line(&self, x: &[f64]) -> Option<Line> {
         let count = self.values.len();
+        if self.fewest < 8 {
+            return None;
+        }
         let cholesky = self.covariance.clone().cholesky()?;
         let design = DMatrix::from_fn(count, 2, |row, column| if column == 0 { 1.0 } else { x[row] });
         let y = DVector::from_column_slice(&self.values);
@@ -123,6 +145,7 @@ impl Means {
         Self {
             values: self.values[first..].to_vec(),
             covariance: self.covariance.view((first, first), (count, count)).into_owned(),
+            fewest: self.fewest,
         }
     }
 
