@@ -51,6 +51,8 @@ normal-part-changed@@src/collision.rs@@rates[0] + line * (0.5 * gap / arm_a)@@ra
 mean-over-one-rod-less@@src/ensemble.rs@@let value = sum.value / n;@@let value = sum.value / (n - 1.0);
 direction-not-rescaled@@src/propagator.rs@@let scale = 1.0 / (q1 * q1 + q2 * q2 + p[2] * p[2]).sqrt();@@let scale = 1.0 + 0.0 * (q1 * q1 + q2 * q2 + p[2] * p[2]).sqrt();
 no-rescaled-squaring@@src/propagator.rs@@map /= map.amax();@@map /= 1.0;
+replicas-share-streams@@src/random.rs@@let key = [replica, purpose as u64]@@let key = [replica / 64, purpose as u64]
+kicks-bounded@@src/suspension.rs@@min_arm: interaction.min_contact_arm,@@min_arm: interaction.min_contact_arm.max(1.0),
 pairs-behind-unseen@@src/neighbours/pairs.rs@@                .min(self.behind[rod])@@
 rows-beside-unseen@@src/neighbours/grid.rs@@(low >= cell[axis][k] * width) &@@(low >= 0.0 * width) &
 window-too-short@@src/neighbours/grid.rs@@(cell[2][high] * width > x[2][k] + reach[k]);@@(cell[2][high] * width > x[2][k]);
