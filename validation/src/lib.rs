@@ -6,6 +6,7 @@ pub mod case;
 pub mod cases;
 pub mod catalogue;
 pub mod cli;
+pub mod cluster;
 pub mod equations;
 pub mod experiment;
 pub mod figures;
@@ -18,6 +19,7 @@ pub mod report;
 pub mod scenes;
 pub mod speed;
 pub mod subject;
+pub mod sweep;
 pub mod work_precision;
 #[cfg(test)]
 mod xml;

@@ -1,6 +1,7 @@
 //! `shearbed converge`.
 
-use super::{Failure, MAX_THREADS, on_threads, print, progress, scene, whole};
+use super::{Failure, MAX_THREADS, on_threads, print, probe, progress, scene, whole};
+use crate::cluster;
 use crate::output::{self, Output};
 use crate::report::ReportTable;
 use crate::work_precision::order::{self, Found};
@@ -37,15 +38,20 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     Plan::new(&named.scene).map_err(|error| Failure::Input(at(error.to_string())))?;
     let stem = format!("converge-{}", named.stem);
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(stem));
-    output::probe(&out)?;
+    probe(&out)?;
     let done = match named.scene.interaction {
         Some(_) => on_threads(args.threads, || interacting(&named.scene, args.quiet))?,
-        None => free(&named.scene),
+        // Milliseconds: no work for many.
+        None if cluster::is_root() => free(&named.scene).map(Some),
+        None => Ok(None),
     }
     .map_err(|failure| match failure {
         Failure::Input(message) => Failure::Input(at(message)),
         Failure::Failed(message) => Failure::Failed(at(message)),
     })?;
+    let Some(done) = done else {
+        return Ok(());
+    };
     output::write_all(&out, &done.files)?;
     if !args.quiet {
         let names: Vec<_> = done.files.iter().map(|(name, _)| name.as_str()).collect();
@@ -101,10 +107,11 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
     })
 }
 
-/// The mean of an interacting scene against steps, rods and replicas.
-fn interacting(scene: &Scene, quiet: bool) -> Result<Done, Failure> {
+/// The mean of an interacting scene against steps, rods and replicas; none but on the root.
+fn interacting(scene: &Scene, quiet: bool) -> Result<Option<Done>, Failure> {
     let bar = progress(law::work(scene) as u64, "runs", quiet);
     let law = law::law(scene, &|| bar.inc(1)).map_err(Failure::Failed)?;
     bar.finish_and_clear();
-    done(tables::law(&law), export::law_csv(&law), export::json(&law))
+    law.map(|law| done(tables::law(&law), export::law_csv(&law), export::json(&law)))
+        .transpose()
 }

@@ -1,11 +1,13 @@
 //! `shearbed run`.
 
 use super::record::Seconds;
-use super::{Failure, MAX_THREADS, on_threads, pictures, print, progress, record, scene, tables, whole};
+use super::{
+    Failure, MAX_THREADS, on_threads, pictures, print, probe, progress, record, scene, tables, whole,
+};
 use crate::output::{self, Output};
-use crate::plot;
+use crate::{cluster, plot};
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
-use shearbed::{Plan, Results, ensemble};
+use shearbed::{Plan, Results};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -44,8 +46,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         .out
         .clone()
         .unwrap_or_else(|| Path::new("out").join(&named.stem));
-    // A run may be long: what cannot be written is better known now.
-    output::probe(&out)?;
+    probe(&out)?;
     let mut seconds = Seconds {
         plan: start.elapsed().as_secs_f64(),
         ..Seconds::default()
@@ -54,10 +55,16 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let bar = progress(scene.ensemble.replicas, "replicas", args.quiet);
     let start = Instant::now();
     let (results, threads) = on_threads(args.threads, || {
-        (ensemble::run(&plan, || bar.inc(1)), rayon::current_num_threads())
+        (
+            cluster::ensemble(&plan, || bar.inc(1)),
+            rayon::current_num_threads(),
+        )
     })?;
     bar.finish_and_clear();
     let results = results.map_err(|error| Failure::Failed(format!("{}: {error}", named.source)))?;
+    let Some(results) = results else {
+        return Ok(());
+    };
     seconds.run = start.elapsed().as_secs_f64();
 
     let start = Instant::now();

@@ -9,8 +9,9 @@ use crate::report::Sections;
 use crate::speed;
 use crate::work_precision::{self, Budget};
 
-/// Runs the scenes of the figures, and gathers everything.
-pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Sections, Failure> {
+/// Runs the scenes of the figures and the open readings over all ranks, the rest on the root, and gathers everything
+/// there; nothing elsewhere.
+pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Option<Sections>, Failure> {
     let replicas = Replicas::of(effort);
     let work = figures::work(replicas).map_err(Failure::Failed)?;
     if !quiet {
@@ -23,6 +24,9 @@ pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Sections, Failure> 
         print("open readings: the default and every alternative\n")?;
     }
     let readings = readings::measure(effort);
+    let (Some(drawn), Some(readings)) = (drawn, readings) else {
+        return Ok(None);
+    };
     if !quiet {
         print("integrators: error against run time\n")?;
     }
@@ -41,10 +45,10 @@ pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Sections, Failure> 
     let mut figures = drawn.figures;
     figures.extend(work_precision::figures::figures(&benches));
     figures.extend(speed::figures::figures(&speed));
-    Ok(Sections {
+    Ok(Some(Sections {
         figures,
         tables,
         equations: catalogue::equations(),
         plans: drawn.plans,
-    })
+    }))
 }

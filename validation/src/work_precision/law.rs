@@ -1,7 +1,8 @@
 //! How the mean of an interacting scene depends on steps, rods and replicas. It says what was found with its standard
 //! errors; it reads no weak order from it.
 
-use serde::Serialize;
+use crate::cluster;
+use serde::{Deserialize, Serialize};
 use shearbed::{Observable, Plan, Scene, ensemble};
 
 /// Steps per period that are tried, each twice the last.
@@ -11,7 +12,7 @@ pub const STEPS_PER_PERIOD: [u64; 7] = [25, 50, 100, 200, 400, 800, 1600];
 pub const RODS: [usize; 5] = [25, 50, 100, 200, 400];
 
 /// X̄₁ at t/T = 1.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
     /// Steps per period.
     pub steps_per_period: u64,
@@ -36,26 +37,37 @@ pub struct Law {
     pub replicas: Vec<Sample>,
 }
 
-/// Runs the scene for one period again and again, at its own seed. `finished` is called after each run.
-pub fn law(scene: &Scene, finished: &dyn Fn()) -> Result<Law, String> {
+/// Runs the scene for one period again and again over all ranks, at its own seed; none but on the root. `finished` is
+/// called on the root after each run.
+pub fn law(scene: &Scene, finished: &dyn Fn()) -> Result<Option<Law>, String> {
     let (steps, rods) = (scene.steps_per_period(), scene.particles.count);
     let replicas = scene.ensemble.replicas.max(8);
-    let run = |steps, rods, replicas| {
-        let found = sample(scene, steps, rods, replicas);
-        finished();
-        found
+    let against_steps = STEPS_PER_PERIOD.map(|steps| (steps, rods, replicas));
+    let against_rods = RODS.map(|rods| (steps, rods, replicas));
+    let against_replicas = halves(replicas)
+        .into_iter()
+        .map(|replicas| (steps, rods, replicas));
+    let jobs: Vec<_> = (against_steps.into_iter().chain(against_rods))
+        .chain(against_replicas)
+        .collect();
+    let run = |job: usize| {
+        let (steps, rods, replicas) = jobs[job];
+        sample(scene, steps, rods, replicas)
     };
-    Ok(Law {
-        steps: (STEPS_PER_PERIOD.iter())
-            .map(|steps| run(*steps, rods, replicas))
-            .collect::<Result<_, _>>()?,
-        rods: (RODS.iter())
-            .map(|rods| run(steps, *rods, replicas))
-            .collect::<Result<_, _>>()?,
-        replicas: (halves(replicas).into_iter())
-            .map(|replicas| run(steps, rods, replicas))
-            .collect::<Result<_, _>>()?,
-    })
+    let arrived = |_, _: &_| {
+        finished();
+        Ok(())
+    };
+    let Some(mut steps) = cluster::share(jobs.len(), run, arrived)? else {
+        return Ok(None);
+    };
+    let mut rods = steps.split_off(STEPS_PER_PERIOD.len());
+    let replicas = rods.split_off(RODS.len());
+    Ok(Some(Law {
+        steps,
+        rods,
+        replicas,
+    }))
 }
 
 /// How often [`law`] calls `finished`.
@@ -104,7 +116,7 @@ mod tests {
         scene.ensemble.replicas = 8;
         scene.particles.count = 10;
         let runs = std::cell::Cell::new(0);
-        let law = law(&scene, &|| runs.set(runs.get() + 1)).unwrap();
+        let law = law(&scene, &|| runs.set(runs.get() + 1)).unwrap().unwrap();
         assert_eq!(runs.get(), work(&scene));
         assert!(
             law.steps
