@@ -7,6 +7,7 @@ pub mod cases;
 pub mod catalogue;
 pub mod cli;
 pub mod cluster;
+pub mod dependencies;
 pub mod equations;
 pub mod experiment;
 pub mod figures;

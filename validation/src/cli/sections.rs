@@ -3,6 +3,7 @@
 use super::{Failure, print, progress};
 use crate::case::Effort;
 use crate::catalogue;
+use crate::dependencies;
 use crate::figures::{self, Replicas};
 use crate::readings;
 use crate::report::Sections;
@@ -42,6 +43,7 @@ pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Option<Sections>, F
         11.6,
     )));
     tables.push(speed::tables::table(&speed));
+    tables.push(dependencies::table());
     let mut figures = drawn.figures;
     figures.extend(work_precision::figures::figures(&benches));
     figures.extend(speed::figures::figures(&speed));
