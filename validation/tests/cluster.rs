@@ -245,7 +245,7 @@ fn converge_has_the_bytes_of_one_process() {
 }
 
 /// Tables and figures of the report that hold times.
-const TIMED: [&str; 2] = ["work-precision", "exact-against-adaptive"];
+const TIMED: [&str; 3] = ["work-precision", "exact-against-adaptive", "speed"];
 
 /// All of the report but times, and what is measured in times.
 #[test]
