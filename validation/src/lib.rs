@@ -19,6 +19,7 @@ pub mod readings;
 pub mod report;
 pub mod scenes;
 pub mod speed;
+pub mod stability;
 pub mod subject;
 pub mod sweep;
 pub mod work_precision;

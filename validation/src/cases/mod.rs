@@ -5,8 +5,10 @@ mod contact_rule;
 mod decay;
 mod encounters;
 mod experiments;
+mod extreme_scenes;
 mod extremes;
 mod free_suspension;
+mod integrator_claims;
 mod jeffery_equations;
 pub mod lab;
 mod misprints;
@@ -14,7 +16,9 @@ mod motion;
 mod readings;
 mod reductions;
 mod reference;
+mod stability;
 mod steady;
+mod step_limits;
 mod subjects;
 mod words;
 
@@ -34,10 +38,14 @@ pub fn all() -> Vec<Case> {
         closed_forms::cases(),
         reductions::cases(),
         extremes::cases(),
+        extreme_scenes::cases(),
         reference::cases(),
         readings::cases(),
         steady::cases(),
         subjects::cases(),
+        integrator_claims::cases(),
+        stability::cases(),
+        step_limits::cases(),
         decay::cases(),
         words::cases(),
         experiments::cases(),

@@ -54,6 +54,15 @@ enum Failure {
     Failed(String),
 }
 
+impl Failure {
+    fn message_and_code(self) -> (String, u8) {
+        match self {
+            Self::Failed(message) => (message, 1),
+            Self::Input(message) => (message, 2),
+        }
+    }
+}
+
 /// Runs the command of the program's arguments.
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
@@ -63,8 +72,10 @@ pub fn main() -> ExitCode {
     };
     match joined.caught(|| command(cli.command)) {
         Ok(Ok(())) => joined.end(),
-        Ok(Err(Failure::Failed(message))) => joined.fail(&message, 1),
-        Ok(Err(Failure::Input(message))) => joined.fail(&message, 2),
+        Ok(Err(failure)) => {
+            let (message, code) = failure.message_and_code();
+            joined.fail(&message, code)
+        }
         Err(panic) => joined.fail(&panic, 101),
     }
 }

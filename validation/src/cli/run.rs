@@ -7,6 +7,7 @@ use super::{
 use crate::output::{self, Output};
 use crate::{cluster, plot};
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
+use shearbed::work::RunError;
 use shearbed::{Plan, Results};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -61,8 +62,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         )
     })?;
     bar.finish_and_clear();
-    let results = results.map_err(|error| Failure::Failed(format!("{}: {error}", named.source)))?;
-    let Some(results) = results else {
+    let Some(results) = ended(&named.source, results)? else {
         return Ok(());
     };
     seconds.run = start.elapsed().as_secs_f64();
@@ -89,6 +89,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     ))
 }
 
+/// The results of a run that did not stop. Where it did, nothing is written, and what an earlier run left stays.
+fn ended<T>(source: &str, results: Result<T, RunError>) -> Result<T, Failure> {
+    results.map_err(|error| Failure::Failed(format!("{source}: {error}")))
+}
+
 /// A table and the pictures of each observable.
 fn files(plan: &Plan, results: &Results) -> Result<Vec<Output>, String> {
     let mut files = Vec::new();
@@ -102,4 +107,28 @@ fn files(plan: &Plan, results: &Results) -> Result<Vec<Output>, String> {
         }
     }
     Ok(files)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_that_stops_is_a_failure_that_names_the_rod() {
+        let stopped = RunError::NonFinite {
+            rod: 7,
+            step: 41,
+            seed: 3,
+            replica: 2,
+            cause: "a contact arm of 1e-320 rod lengths turned it by inf rad".into(),
+        };
+        let failure = ended::<()>("my.toml", Err(stopped)).expect_err("it stopped");
+        let (message, code) = failure.message_and_code();
+        assert_eq!(code, 1);
+        assert_eq!(
+            message,
+            "my.toml: rod 7 would become non-finite in step 41 of replica 2, seed 3: a contact arm of 1e-320 rod lengths \
+             turned it by inf rad"
+        );
+    }
 }

@@ -8,6 +8,8 @@ use crate::figures::{self, Replicas};
 use crate::readings;
 use crate::report::Sections;
 use crate::speed;
+use crate::stability;
+use crate::subject;
 use crate::work_precision::{self, Budget};
 
 /// Runs the scenes of the figures and the open readings over all ranks, the rest on the root, and gathers everything
@@ -44,7 +46,13 @@ pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Option<Sections>, F
     )));
     tables.push(speed::tables::table(&speed));
     tables.push(dependencies::table());
+    if !quiet {
+        print("integrators: stability\n")?;
+    }
+    let subjects = subject::all();
+    tables.extend(stability::tables::tables(&subjects));
     let mut figures = drawn.figures;
+    figures.extend(stability::figures::figures(&subjects));
     figures.extend(work_precision::figures::figures(&benches));
     figures.extend(speed::figures::figures(&speed));
     Ok(Some(Sections {
