@@ -6,6 +6,8 @@ pub mod case;
 pub mod cases;
 pub mod catalogue;
 pub mod cli;
+pub mod cluster;
+pub mod dependencies;
 pub mod equations;
 pub mod experiment;
 pub mod figures;
@@ -20,6 +22,7 @@ pub mod speed;
 pub mod stability;
 pub mod subject;
 pub mod suspensions;
+pub mod sweep;
 pub mod work_precision;
 #[cfg(test)]
 mod xml;

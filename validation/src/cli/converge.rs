@@ -1,6 +1,7 @@
 //! `shearbed converge`.
 
-use super::{Failure, MAX_THREADS, on_threads, print, progress, scene, whole};
+use super::{Failure, MAX_THREADS, on_threads, print, probe, progress, scene, whole};
+use crate::cluster;
 use crate::output::{self, Output};
 use crate::report::ReportTable;
 use crate::suspensions::law::{self, Law, Replicas};
@@ -43,16 +44,21 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let plan = Plan::new(&named.scene).map_err(|error| Failure::Input(at(error.to_string())))?;
     let stem = format!("converge-{}", named.stem);
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(stem));
-    output::probe(&out)?;
+    probe(&out)?;
     let replicas = args.replicas.map_or(Replicas::CONVERGE, Replicas::Each);
     let done = match plan.keeps(Stage::Contacts) {
         true => on_threads(args.threads, || interacting(&named.scene, replicas, args.quiet))?,
-        false => free(&named.scene),
+        // Milliseconds: no work for many.
+        false if cluster::is_root() => free(&named.scene).map(Some),
+        false => Ok(None),
     }
     .map_err(|failure| match failure {
         Failure::Input(message) => Failure::Input(at(message)),
         Failure::Failed(message) => Failure::Failed(at(message)),
     })?;
+    let Some(done) = done else {
+        return Ok(());
+    };
     output::write_all(&out, &done.files)?;
     if !args.quiet {
         let names: Vec<_> = done.files.iter().map(|(name, _)| name.as_str()).collect();
@@ -113,12 +119,16 @@ struct Written {
     splits: Vec<Split>,
 }
 
-/// X̄₁ and the directions of an interacting scene against steps, rods and replicas, and what follows for its cost.
-fn interacting(scene: &Scene, replicas: Replicas, quiet: bool) -> Result<Done, Failure> {
+/// X̄₁ and the directions of an interacting scene against steps, rods and replicas, and what follows for its cost; none
+/// but on the root.
+fn interacting(scene: &Scene, replicas: Replicas, quiet: bool) -> Result<Option<Done>, Failure> {
     let jobs = law::jobs(scene, replicas);
     let bar = progress(jobs.iter().map(|job| job.replicas).sum(), "replicas", quiet);
-    let found = law::run(&jobs, &|| bar.inc(1)).map_err(Failure::Failed)?;
+    let found = cluster::share(jobs.len(), |k| jobs[k].run(&|| bar.inc(1)), |_, _| Ok(()));
     bar.finish_and_clear();
+    let Some(found) = found.map_err(Failure::Failed)? else {
+        return Ok(None);
+    };
     let law = law::read(scene, &jobs, &found);
     let mut tables = law_tables::law(&law, strain_per_period(scene.particles.aspect_ratio));
     let constants = Constants::of(&law);
@@ -140,5 +150,5 @@ fn interacting(scene: &Scene, replicas: Replicas, quiet: bool) -> Result<Done, F
         ("replicas.csv", blocks),
         ("converge.json", json),
     ];
-    done(tables, files)
+    done(tables, files).map(Some)
 }

@@ -1,12 +1,14 @@
 //! `shearbed run`.
 
 use super::record::Seconds;
-use super::{Failure, MAX_THREADS, on_threads, pictures, print, progress, record, scene, tables, whole};
+use super::{
+    Failure, MAX_THREADS, on_threads, pictures, print, probe, progress, record, scene, tables, whole,
+};
 use crate::output::{self, Output};
-use crate::plot;
+use crate::{cluster, plot};
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shearbed::work::RunError;
-use shearbed::{Plan, Results, ensemble};
+use shearbed::{Plan, Results};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -45,8 +47,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         .out
         .clone()
         .unwrap_or_else(|| Path::new("out").join(&named.stem));
-    // A run may be long: what cannot be written is better known now.
-    output::probe(&out)?;
+    probe(&out)?;
     let mut seconds = Seconds {
         plan: start.elapsed().as_secs_f64(),
         ..Seconds::default()
@@ -55,10 +56,15 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let bar = progress(scene.ensemble.replicas, "replicas", args.quiet);
     let start = Instant::now();
     let (results, threads) = on_threads(args.threads, || {
-        (ensemble::run(&plan, || bar.inc(1)), rayon::current_num_threads())
+        (
+            cluster::ensemble(&plan, || bar.inc(1)),
+            rayon::current_num_threads(),
+        )
     })?;
     bar.finish_and_clear();
-    let results = ended(&named.source, results)?;
+    let Some(results) = ended(&named.source, results)? else {
+        return Ok(());
+    };
     seconds.run = start.elapsed().as_secs_f64();
 
     let start = Instant::now();
@@ -84,7 +90,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// The results of a run that did not stop. Where it did, nothing is written, and what an earlier run left stays.
-fn ended(source: &str, results: Result<Results, RunError>) -> Result<Results, Failure> {
+fn ended<T>(source: &str, results: Result<T, RunError>) -> Result<T, Failure> {
     results.map_err(|error| Failure::Failed(format!("{source}: {error}")))
 }
 
@@ -116,7 +122,7 @@ mod tests {
             replica: 2,
             cause: "a contact arm of 1e-320 rod lengths turned it by inf rad".into(),
         };
-        let failure = ended("my.toml", Err(stopped)).expect_err("it stopped");
+        let failure = ended::<()>("my.toml", Err(stopped)).expect_err("it stopped");
         let (message, code) = failure.message_and_code();
         assert_eq!(code, 1);
         assert_eq!(

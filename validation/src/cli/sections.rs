@@ -3,6 +3,7 @@
 use super::{Failure, print, progress};
 use crate::case::Effort;
 use crate::catalogue;
+use crate::dependencies;
 use crate::figures::{self, Replicas};
 use crate::readings;
 use crate::report::Sections;
@@ -12,8 +13,9 @@ use crate::subject;
 use crate::suspensions::{self, free, law_tables, starts, study};
 use crate::work_precision::{self, Budget};
 
-/// Runs the scenes of the figures, and gathers everything.
-pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Sections, Failure> {
+/// Runs the scenes of the figures and the open readings over all ranks, the rest on the root, and gathers everything
+/// there; nothing elsewhere.
+pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Option<Sections>, Failure> {
     let replicas = Replicas::of(effort);
     let work = figures::work(replicas).map_err(Failure::Failed)?;
     if !quiet {
@@ -26,6 +28,9 @@ pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Sections, Failure> 
         print("open readings: the default and every alternative\n")?;
     }
     let readings = readings::measure(effort);
+    let (Some(drawn), Some(readings)) = (drawn, readings) else {
+        return Ok(None);
+    };
     if !quiet {
         print("integrators: error against run time\n")?;
     }
@@ -42,6 +47,7 @@ pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Sections, Failure> 
         11.6,
     )));
     tables.push(speed::tables::table(&speed));
+    tables.push(dependencies::table());
     if !quiet {
         print("integrators: stability\n")?;
     }
@@ -64,10 +70,10 @@ pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Sections, Failure> 
     figures.extend(free.iter().map(suspensions::figures::free));
     figures.push(suspensions::figures::interacting(&study));
     figures.extend(speed::figures::figures(&speed));
-    Ok(Sections {
+    Ok(Some(Sections {
         figures,
         tables,
         equations: catalogue::equations(),
         plans: drawn.plans,
-    })
+    }))
 }
