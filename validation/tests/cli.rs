@@ -407,3 +407,26 @@ fn a_full_disk_under_standard_output_ends_with_2() {
         "{stderr}"
     );
 }
+
+/// Linux says what memory there is.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_scene_that_does_not_fit_in_memory_is_refused_before_it_starts() {
+    let dir = folder();
+    let text = shearbed(dir.path(), "scenes --show fig4-n50").stdout;
+    let huge = text.replace("count = 100\n", "count = 100_000_000\n");
+    assert_ne!(huge, text);
+    fs::write(dir.path().join("huge.toml"), huge).unwrap();
+    // 11 GB for every thread.
+    for command in [
+        "run huge.toml --replicas 1000 --threads 200",
+        "sweep huge.toml --over ensemble.replicas=1000,2000 --threads 200",
+    ] {
+        let ended = shearbed(dir.path(), command);
+        assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+        for part in ["huge.toml", "particles.count = 100000000", "200 at a time", "GB"] {
+            assert!(ended.stderr.contains(part), "{}", ended.stderr);
+        }
+    }
+    assert_eq!(names(dir.path()), ["huge.toml", "small.toml"]);
+}

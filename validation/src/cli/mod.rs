@@ -2,6 +2,7 @@
 
 mod bench;
 mod converge;
+mod memory;
 mod pictures;
 mod record;
 mod run;

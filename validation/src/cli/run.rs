@@ -2,7 +2,7 @@
 
 use super::record::Seconds;
 use super::{
-    Failure, MAX_THREADS, on_threads, pictures, print, probe, progress, record, scene, tables, whole,
+    Failure, MAX_THREADS, memory, on_threads, pictures, print, probe, progress, record, scene, tables, whole,
 };
 use crate::output::{self, Output};
 use crate::{cluster, plot};
@@ -43,6 +43,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     scene.ensemble.replicas = args.replicas.unwrap_or(scene.ensemble.replicas);
     scene.ensemble.seed = args.seed.unwrap_or(scene.ensemble.seed);
     let plan = Plan::new(&scene).map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
+    memory::check(&plan, args.threads, &named.source)?;
     let out = args
         .out
         .clone()

@@ -1,6 +1,6 @@
 //! `shearbed sweep`.
 
-use super::{Failure, MAX_THREADS, on_threads, print, probe, progress, scene, tables, whole};
+use super::{Failure, MAX_THREADS, memory, on_threads, print, probe, progress, scene, tables, whole};
 use crate::cluster;
 use crate::output::Output;
 use crate::sweep::{self, Axis, Folder, Identity, Point, Refused};
@@ -68,6 +68,14 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     check(&args.over)?;
     let points = sweep::points(&named.text, &settings, &args.over)
         .map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
+    for point in &points {
+        let at = format!(
+            "{}: --over {}",
+            named.source,
+            sweep::described(&args.over, &point.values)
+        );
+        memory::check(&point.plan, args.threads, &at)?;
+    }
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("sweep-{}", named.stem)));
     let identity = Identity::new(&named.scene, &args.over);
 
