@@ -11,7 +11,7 @@ use std::path::PathBuf;
 /// Arguments of `bench`.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Run this bench only, as re11.6 or fig7-n50; can be given more than once
+    /// Run this bench only, as re11.6, fig7-n50 or speed; can be given more than once
     #[arg(long = "case", value_name = "NAME")]
     cases: Vec<String>,
     /// The folder for the tables, their data and the pictures
@@ -49,8 +49,7 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     if wanted(study::SCENE) {
         on_threads(None, || interacting(&mut found))??;
     }
-    // A single bench is asked for to see that one alone.
-    if args.cases.is_empty() {
+    if wanted(SPEED) {
         core_speed(&mut found)?;
     }
     let mut files = std::mem::take(&mut found.files);
@@ -131,10 +130,13 @@ fn interacting(found: &mut Found) -> Result<(), Failure> {
 }
 
 /// Refuses names that no bench has.
+/// The bench of the core itself.
+const SPEED: &str = "speed";
+
 fn check(names: &[String]) -> Result<(), Failure> {
     let mut known: Vec<_> = ASPECT_RATIOS.map(work_precision::name).into();
     known.extend(free::SCENES.map(|free| free.scene.to_owned()));
-    known.push(study::SCENE.to_owned());
+    known.extend([study::SCENE, SPEED].map(String::from));
     match names.iter().find(|name| !known.contains(name)) {
         Some(unknown) => Err(Failure::Input(format!(
             "--case {unknown}: no bench has this name; there are {}",
