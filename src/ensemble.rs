@@ -5,6 +5,7 @@ use crate::plan::Plan;
 use crate::run::{Replica, run_replica};
 use crate::work::{Counters, RunError};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// A channel of an observable against time.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,37 +54,53 @@ impl Results {
 /// Runs every replica of the plan on the threads of the current rayon pool; `finished` is called after each
 /// replica. The results are the same bits for any number of threads.
 pub fn run(plan: &Plan, finished: impl Fn() + Sync) -> Result<Results, RunError> {
+    fold(plan, |replicas| replicas_of(plan, replicas, &finished))
+}
+
+/// Runs some replicas of the plan on the threads of the current rayon pool, and returns them in order; `finished`
+/// is called after each.
+pub fn replicas_of(
+    plan: &Plan,
+    replicas: Range<u64>,
+    finished: &(impl Fn() + Sync),
+) -> Result<Vec<Replica>, RunError> {
+    let one = |replica| {
+        let result = run_replica(plan, replica);
+        finished();
+        result
+    };
+    replicas.into_par_iter().map(one).collect()
+}
+
+/// The results of a plan whose replicas `run` runs, a range of them at a time and wherever it likes, as long as it
+/// returns them in order. The results' bits do not depend on where.
+pub fn fold<E>(
+    plan: &Plan,
+    mut run: impl FnMut(Range<u64>) -> Result<Vec<Replica>, E>,
+) -> Result<Results, E> {
     let replicas = plan.scene().ensemble.replicas;
-    let mut moments: Option<Moments> = None;
+    let mut moments = Moments::new(plan.outputs() * width(plan));
     let mut counters = Counters::default();
     let mut first = 0;
     while first < replicas {
         let last = replicas.min(first + batch(plan));
-        let done: Result<Vec<Replica>, RunError> = (first..last)
-            .into_par_iter()
-            .map(|replica| {
-                let result = run_replica(plan, replica);
-                finished();
-                result
-            })
-            .collect();
-        // In the order of replicas, whichever thread was first.
-        for replica in done? {
+        for replica in run(first..last)? {
             counters.add(&replica.counters);
-            moments
-                .get_or_insert_with(|| Moments::new(replica.sums.len()))
-                .add(&replica.sums, plan.scene().particles.count);
+            moments.add(&replica.sums, plan.scene().particles.count);
         }
         first = last;
     }
-    let moments = moments.unwrap_or_else(|| Moments::new(0));
     Ok(collect(plan, &moments, counters))
 }
 
+/// Sums per output.
+fn width(plan: &Plan) -> usize {
+    plan.observables().iter().map(|o| o.width()).sum()
+}
+
 /// Replicas held in memory at a time: about 256 MB of sums.
-fn batch(plan: &Plan) -> u64 {
-    let width: usize = plan.observables().iter().map(|o| o.width()).sum();
-    let bytes = plan.outputs() * width * size_of::<Sum>();
+pub(crate) fn batch(plan: &Plan) -> u64 {
+    let bytes = plan.outputs() * width(plan) * size_of::<Sum>();
     ((256 << 20) / bytes.max(1)).clamp(1, 4096) as u64
 }
 
@@ -131,11 +148,9 @@ impl Moments {
 }
 
 fn collect(plan: &Plan, moments: &Moments, counters: Counters) -> Results {
-    let observables = plan.observables();
-    let width: usize = observables.iter().map(|o| o.width()).sum();
+    let width = width(plan);
     let mut start = 0;
-    let series = observables
-        .into_iter()
+    let series = (plan.observables().into_iter())
         .map(|observable| {
             let channels = observable
                 .channels()

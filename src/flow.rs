@@ -51,8 +51,8 @@ impl VelocityGradient {
         if largest == 0.0 {
             return 0.0;
         }
-        // Scaled, so that neither 10⁻³⁰⁰ nor 10³⁰⁰ is lost in the squares.
-        largest * (self.strain_rate() / largest).norm() * std::f64::consts::SQRT_2
+        // Scaled first, so that neither 10⁻³⁰⁰ nor 10³⁰⁸ is lost in the squares or the sums.
+        largest * Self(self.0 / largest).strain_rate().norm() * std::f64::consts::SQRT_2
     }
 
     /// The liquid's velocity at `position` (eq. 3), in the position's length unit per second.
@@ -85,5 +85,8 @@ mod tests {
             let flow = VelocityGradient::plane_couette(g).unwrap();
             assert!((flow.magnitude_per_s() / g - 1.0).abs() < 4.0 * f64::EPSILON);
         }
+        let extension = |e: f64| VelocityGradient::new(Matrix3::from_diagonal(&Vector3::new(e, -e, 0.0)));
+        assert!((extension(8e307).unwrap().magnitude_per_s() / 1.6e308 - 1.0).abs() < 4.0 * f64::EPSILON);
+        assert_eq!(extension(1e308).unwrap().magnitude_per_s(), f64::INFINITY);
     }
 }

@@ -53,6 +53,7 @@ pub mod contact;
 pub mod ensemble;
 pub mod flow;
 pub mod jeffery;
+pub mod memory;
 pub mod neighbours;
 pub mod observable;
 pub mod orientation;

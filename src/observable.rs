@@ -145,7 +145,7 @@ impl Observable {
 }
 
 /// The sum of a value over rods, and of its square where standard errors over rods are wanted.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sum {
     /// Σ f.
     pub value: f64,

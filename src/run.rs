@@ -6,10 +6,11 @@ use crate::plan::{Plan, Stage};
 use crate::rods::Rods;
 use crate::suspension::Suspension;
 use crate::work::{Counters, RunError};
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// The sums of one replica.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Replica {
     /// Per output, the channels of every observable of the plan, one after the other: sums over rods.
     pub sums: Vec<Sum>,

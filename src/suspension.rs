@@ -3,7 +3,7 @@
 use crate::collision::{Reach, norm, share_velocity, step_angles, turn};
 use crate::contact::contact;
 use crate::jeffery::{couette_rate, shape_factor, strain_per_period};
-use crate::neighbours::Neighbours;
+use crate::neighbours::{Nearest, Neighbours};
 use crate::plan::{Plan, Stage};
 use crate::random::{Purpose, fill_uniform, stream};
 use crate::rods::Rods;
@@ -64,6 +64,13 @@ struct Turns {
     kicks_rad: [f64; 2],
     arms: [f64; 2],
 }
+
+/// Bytes for a rod with a neighbour near enough to collide with: as found and as a candidate, what the collision would do
+/// to both rods, and half a collision; each list has as much room again.
+pub(crate) const BYTES_OF_A_CANDIDATE: usize = 2 * size_of::<Nearest>()
+    + 2 * size_of::<Candidate>()
+    + size_of::<Option<Turns>>()
+    + size_of::<Collision>();
 
 #[derive(Clone, Copy, Debug)]
 struct Rule {

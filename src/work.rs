@@ -1,6 +1,6 @@
 //! What a run did, counted, and why one stopped.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Why a run stopped.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -22,7 +22,7 @@ pub enum RunError {
 }
 
 /// What was done: counts of work, the same on every machine.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counters {
     /// Time steps.
     pub steps: u64,

@@ -201,6 +201,12 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
     // What does not go together.
     (INTERACTING, "shear_rate", "gradient_per_s = [[0,0,0],[1,0,0],[0,0,0]]\nshear_rate",
      "4: flow.shear_rate_per_s = 0.5 is not allowed: either shear_rate_per_s or gradient_per_s, not both"),
+    (EXTENSION, "gradient_per_s = [[-0.5, 0, 0], [0, 1, 0], [0, 0, -0.5]]", "shear_rate_per_s = 1e-308",
+     "3: flow.shear_rate_per_s = 1e-308 is not allowed: such that the run lasts a finite number of seconds"),
+    (EXTENSION, "[[-0.5, 0, 0], [0, 1, 0], [0, 0, -0.5]]", "[[0, -5e-324, 0], [5e-324, 0, 0], [0, 0, 5e-324]]",
+     "3: flow.gradient_per_s = [[0, -5e-324, 0], [5e-324, 0, 0], [0, 0, 5e-324]] is not allowed: such that the run"),
+    (EXTENSION, "[[-0.5, 0, 0], [0, 1, 0], [0, 0, -0.5]]", "[[1e308, 0, 0], [0, -1e308, 0], [0, 0, 0]]",
+     "3: flow.gradient_per_s = [[1e308, 0, 0], [0, -1e308, 0], [0, 0, 0]] is not allowed: such that the run"),
     (INTERACTING, "shear_rate_per_s = 0.5", "gradient_per_s = [\n  [1, 0, 0],\n  [0, -1, 0], [0, 0, 0]]",
      "3: flow.gradient_per_s = [ [1, 0, 0], [0, -1, 0], [0, 0, 0]] is not allowed: interacting rods need plane"),
     (INTERACTING, "periods = 1", "periods = 1\nstrain = 1",

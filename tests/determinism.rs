@@ -152,3 +152,17 @@ fn replicas_and_seeds_differ() {
 fn the_work_of_a_fixed_scene_is_known() {
     insta::assert_debug_snapshot!(run_on(2, &plan(4, 1)).counters);
 }
+
+/// The same of rods sorted into cells, from dilute to dense.
+#[test]
+fn the_work_of_many_rods_is_known() {
+    for concentration_per_cm3 in [0.5, 50.0, 5000.0] {
+        let mut scene = scene(1, 1);
+        scene.particles.count = 2000;
+        scene.time.periods = Some(0.1);
+        let interaction = scene.interaction.as_mut().unwrap();
+        interaction.concentration_per_cm3 = concentration_per_cm3;
+        let counters = run_on(2, &Plan::new(&scene).unwrap()).counters;
+        insta::assert_debug_snapshot!(format!("work_at_{concentration_per_cm3}_per_cm3"), counters);
+    }
+}

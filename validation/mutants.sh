@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Puts deliberate mistakes into the core, one at a time in a scratch clone, and prints which tests catch each.
+# Puts deliberate mistakes into the core and the integrators, one at a time in a scratch clone, and prints which tests catch each.
 # Usage: bash validation/mutants.sh [NAME ...]      (each mistake costs a build and a run of the gate)
 set -euo pipefail
 root=$(git -C "$(dirname "$0")" rev-parse --show-toplevel)
@@ -54,6 +54,8 @@ kick-whole-turn@@src/suspension.rs@@norm(&(rates[k] - free[k]))@@norm(&rates[k])
 short-arms-kept@@src/contact.rs@@r.abs() >= min_arm@@r.abs() >= 0.5 * min_arm
 gap-without-turn@@src/collision.rs@@+ arm_b * line.dot(&rates[1]) - arm_a * line.dot(&rates[0]);@@;
 no-rescaled-squaring@@src/propagator.rs@@map /= map.amax();@@map /= 1.0;
+replicas-share-streams@@src/random.rs@@let key = [replica, purpose as u64]@@let key = [replica / 64, purpose as u64]
+kicks-bounded@@src/suspension.rs@@min_arm: interaction.min_contact_arm,@@min_arm: interaction.min_contact_arm.max(1.0),
 pairs-behind-unseen@@src/neighbours/pairs.rs@@                .min(self.behind[rod])@@
 rows-beside-unseen@@src/neighbours/grid.rs@@(low >= cell[axis][k] * width) &@@(low >= 0.0 * width) &
 window-too-short@@src/neighbours/grid.rs@@(cell[2][high] * width > x[2][k] + reach[k]);@@(cell[2][high] * width > x[2][k]);
@@ -62,6 +64,22 @@ chunks-share-numbers@@src/random.rs@@let mut rng = ahead(rng, k * CHUNK);@@let m
 replaced-share-numbers@@src/volume.rs@@self.replace(axes, &mut ahead(rng, 2 * before));@@self.replace(axes, &mut ahead(rng, before));
 mirrored-free-phase@@src/rods.rs@@clock.phase(tick as f64, clock.sign)@@clock.phase(tick as f64, 1.0)
 chunks-not-added@@src/observable.rs@@self.value += other.value;@@self.value = other.value;
+whole-turns-late@@src/propagator.rs@@Self::of_part(turns.fract())@@Self::of_part((TAU * turns).sin().atan2((TAU * turns).cos()) / TAU)
+hyperbolic-shift-dropped@@src/propagator.rs@@Matrix3::identity() * (-kappa * time).exp() + unit * sinh + unit * unit * (0.5 * decay * decay)@@Matrix3::identity() * (1.0 + 0.0 * decay * sinh) + unit * (kappa * time).sinh() + unit * unit * ((kappa * time).cosh() - 1.0)
+spiral-growth-lost@@src/propagator.rs@@let growth = lead * whole * period;@@let growth = lead * period;
+halves-from-shape@@src/propagator.rs@@(1.0 / (1.0 + 1.0 / square), 1.0 / (1.0 + square))@@(0.5 + 0.5 * (square - 1.0) / (square + 1.0), 0.5 - 0.5 * (square - 1.0) / (square + 1.0))
+kick-overflows@@src/collision.rs@@largest * (v / largest).norm()@@v.norm()
+non-finite-goes-on@@src/suspension.rs@@if !end.iter().all(|component| component.is_finite()) {@@if end.iter().all(|component| component.is_infinite()) {
+seconds-overflow@@src/scene/check.rs@@if duration_s.is_finite() {@@if !duration_s.is_nan() {
+rate-overflows@@src/flow.rs@@largest * Self(self.0 / largest).strain_rate().norm()@@self.strain_rate().norm()
+rk4-weights@@validation/src/subject/fixed.rs@@y + (k1 + (k2 + k3) * 2.0 + k4) * (h / 6.0)@@y + (k1 + k2 * 3.0 + k3 + k4) * (h / 6.0)
+projection-left-out@@validation/src/subject/fixed.rs@@rk4(|y| problem.rate(&y), p, h).normalize()@@rk4(|y| problem.rate(&y), p, h)
+dexp-sign@@validation/src/subject/sphere.rs@@omega - 0.5 * once@@omega + 0.5 * once
+newton-ends-early@@validation/src/subject/sphere.rs@@if change.norm() <= NEWTON_TOLERANCE {@@if change.norm() <= 1e-3 {
+newton-not-damped@@validation/src/subject/sphere.rs@@if next.norm() < miss.norm() {@@if next.norm().is_finite() {
+short-from-shape@@validation/src/subject/problem.rs@@short: 1.0 / (1.0 + square),@@short: 0.5 - 0.5 * (square - 1.0) / (square + 1.0),
+southern-half@@validation/src/subject/exact.rs@@let p = if start.z < 0.0 { -*start } else { *start };@@let p = *start;
+loose-tolerance@@validation/src/subject/adaptive.rs@@start.into_inner(), tolerance, tolerance);@@start.into_inner(), 1e3 * tolerance, 1e3 * tolerance);
 LIST
 )
 missed=0
@@ -76,7 +94,7 @@ while IFS= read -r line; do
   log="$scratch/$name.txt"
   code=0
   cargo test --no-fail-fast -p shearbed >"$log" 2>&1 || code=$?
-  cargo test --no-fail-fast -p validation --test gate >>"$log" 2>&1 || code=$?
+  cargo test --no-fail-fast -p validation --lib --test gate >>"$log" 2>&1 || code=$?
   caught=$(sed -nE 's/^test ([^ ]+) .*FAILED$/\1/p' "$log" | sort -u | paste -sd ' ')
   if [ "$code" = 0 ]; then missed=1; echo "$name: MISSED"; else echo "$name: ${caught:-$(grep -m1 '^error' "$log")}"; fi
   git checkout --quiet -- .

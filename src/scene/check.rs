@@ -145,16 +145,13 @@ impl Scene {
     fn check_periods(&self, periods: f64, flow: &VelocityGradient) -> Result<(), Invalid> {
         let key = "time.periods";
         number(key, periods, periods >= 0.0)?;
-        if Propagator::new(flow, self.particles.aspect_ratio)
-            .period_s()
-            .is_none()
-        {
+        let Some(period_s) = Propagator::new(flow, self.particles.aspect_ratio).period_s() else {
             return Err(Invalid::new(
                 key,
                 periods,
                 "rods of this aspect ratio have no period in this flow: give strain",
             ));
-        }
+        };
         if let Some(outputs) = self.time.outputs_per_strain {
             return Err(Invalid::new(
                 "time.outputs_per_strain",
@@ -164,6 +161,9 @@ impl Scene {
         }
         let outputs = self.outputs_per_period();
         bounded(key, periods, outputs, "outputs", MAX_OUTPUTS)?;
+        if flow.shear_rate_per_s().is_none() {
+            self.check_seconds(periods * period_s)?;
+        }
         if self.interaction.is_some() {
             let steps = self.steps_per_period();
             bounded(key, periods, steps, "steps", MAX_STEPS)?;
@@ -207,7 +207,29 @@ impl Scene {
                 ));
             }
         }
-        bounded(key, strain, self.outputs_per_strain(), "outputs", MAX_OUTPUTS)
+        bounded(key, strain, self.outputs_per_strain(), "outputs", MAX_OUTPUTS)?;
+        // A rate that overflows would take no time at all.
+        let unit_s = 1.0 / flow.magnitude_per_s();
+        self.check_seconds(if unit_s > 0.0 {
+            strain * unit_s
+        } else {
+            f64::INFINITY
+        })
+    }
+
+    /// Where phases are not counted in periods they come from the time in seconds, which must not overflow.
+    fn check_seconds(&self, duration_s: f64) -> Result<(), Invalid> {
+        if duration_s.is_finite() {
+            return Ok(());
+        }
+        let allowed = "such that the run lasts a finite number of seconds > 0";
+        Err(match self.flow.shear_rate_per_s {
+            Some(g) => Invalid::new("flow.shear_rate_per_s", g, allowed),
+            None => {
+                let rows = format!("{:?}", self.flow.gradient_per_s.unwrap_or_default());
+                Invalid::new("flow.gradient_per_s", rows, allowed)
+            }
+        })
     }
 }
 

@@ -1,12 +1,23 @@
-//! Throughput of the core's kernels and of whole steps, beside the naive reference: `cargo bench`.
+//! Throughput of the core's kernels, of whole steps beside the naive reference, and of whole scenes: `cargo bench`.
 
-use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use nalgebra::{UnitVector3, Vector3};
+use rand::RngExt;
+use shearbed::collision::{Reach, share_velocity, step_angles, turn};
+use shearbed::contact::contact;
 use shearbed::ensemble;
+use shearbed::neighbours::Neighbours;
+use shearbed::orientation::from_angles;
 use shearbed::propagator::{Phase, couette};
+use shearbed::random::{Purpose, stream};
+use shearbed::run::run_replica;
+use shearbed::volume::ControlVolume;
+use shearbed::work::Counters;
 use std::hint::black_box;
 use validation::cases::lab;
 use validation::oracle::naive::Naive;
 use validation::readings::paper;
+use validation::scenes;
 
 /// One exact step of a rod, and the phase it takes where aspect ratios differ.
 fn motion(c: &mut Criterion) {
@@ -34,20 +45,77 @@ fn free(c: &mut Criterion) {
     group.finish();
 }
 
+/// Rods of Fig. 4's density, scattered at random.
+fn scattered(count: usize) -> (ControlVolume, [Vec<f64>; 3]) {
+    // 50 per cm³ of rods 0.72 mm long.
+    let volume = ControlVolume::holding(count, 0.05 * 0.72f64.powi(3));
+    let positions = volume.draw_positions(count, &stream(1, 0, Purpose::Positions));
+    (volume, positions)
+}
+
+/// The search for nearest neighbours within the reach of one R each: per rod.
+fn search(c: &mut Criterion) {
+    let mut group = c.benchmark_group("nearest neighbours, per rod");
+    let reach = Reach::new(0.5, 3.0);
+    for count in [100, 256, 10_000, 1_000_000] {
+        let (volume, positions) = scattered(count);
+        let mut draws = stream(1, 0, Purpose::Collisions);
+        let drawn: Vec<f64> = (0..count).map(|_| draws.random()).collect();
+        let mut neighbours = Neighbours::new(volume.side(), count);
+        group.throughput(Throughput::Elements(count as u64));
+        group.bench_function(format!("{count} rods"), |b| {
+            b.iter(|| {
+                let (mut work, mut found) = (Counters::default(), 0);
+                let bound = |rod: usize| reach.bound(drawn[rod]);
+                neighbours.each_nearest(&positions, bound, &mut work, |_| found += 1);
+                found
+            });
+        });
+    }
+    group.finish();
+}
+
+/// Translation with replacements, per rod, and what one collision takes.
+fn parts_of_a_step(c: &mut Criterion) {
+    let mut group = c.benchmark_group("parts of a step");
+    let (volume, mut positions) = scattered(10_000);
+    let mut rng = stream(1, 0, Purpose::Replacements);
+    group.throughput(Throughput::Elements(10_000));
+    group.bench_function("translation, per rod", |b| {
+        b.iter(|| volume.advance(&mut positions, 0.37, 1.0, &mut rng))
+    });
+    group.throughput(Throughput::Elements(1));
+    let p = [(0.3, 1.1), (2.0, 0.7)].map(|(phi, theta)| from_angles(phi, theta));
+    let separation = Vector3::new(0.4, -0.3, 0.2);
+    for (name, update) in [("rotation", turn as Turn), ("angles", step_angles)] {
+        group.bench_function(format!("a collision, {name}"), |b| {
+            b.iter(|| {
+                let [a, b] = black_box(p);
+                let contact = contact(&separation, &a, &b, 0.0)?;
+                let rates = share_velocity(
+                    &contact,
+                    &Vector3::new(0.0, separation.x, 0.0),
+                    [Vector3::new(-0.1, 0.4, 0.2), Vector3::new(0.3, 0.1, -0.2)],
+                );
+                Some([update(&a, &rates[0], 0.37), update(&b, &rates[1], 0.37)])
+            })
+        });
+    }
+    group.finish();
+}
+
+type Turn = fn(&UnitVector3<f64>, &Vector3<f64>, f64) -> (UnitVector3<f64>, f64);
+
 /// One step of interacting rods at Fig. 4's density, core and naive: per rod.
 fn steps(c: &mut Criterion) {
     let mut group = c.benchmark_group("step, per rod");
-    for count in [100, 10_000] {
+    for count in [100, 10_000, 1_000_000] {
         let mut scene = lab::interacting_scene();
         scene.particles.count = count;
+        let mut suspension = lab::suspension(&scene, 0);
         group.throughput(Throughput::Elements(count as u64));
         group.bench_function(format!("core, {count} rods"), |b| {
-            let start = lab::suspension(&scene, 0);
-            b.iter_batched_ref(
-                || start.clone(),
-                |s| s.step().map(<[_]>::len),
-                BatchSize::LargeInput,
-            );
+            b.iter(|| suspension.step().map(<[_]>::len))
         });
     }
     group.throughput(Throughput::Elements(100));
@@ -58,5 +126,26 @@ fn steps(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, motion, free, steps);
+/// One replica of built-in scenes: per rod and step, or rod and output where no steps are taken.
+fn whole_scenes(c: &mut Criterion) {
+    let mut group = c.benchmark_group("one replica");
+    for name in ["fig4-n50", "fig7-n50", "fig6-uniform", "fig6-polydisperse"] {
+        let scene = scenes::find(name).and_then(|scene| scene.scene().ok());
+        let plan = lab::plan(&scene.expect("a built-in scene"));
+        let times = plan.steps().max(plan.outputs() as u64);
+        group.throughput(Throughput::Elements(times * plan.scene().particles.count as u64));
+        group.bench_function(name, |b| b.iter(|| run_replica(&plan, 0)));
+    }
+    group.finish();
+}
+
+criterion_group!(
+    benches,
+    motion,
+    free,
+    search,
+    parts_of_a_step,
+    steps,
+    whole_scenes
+);
 criterion_main!(benches);

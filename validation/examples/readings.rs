@@ -9,7 +9,7 @@ fn main() {
         level: f64::NAN,
         data: None,
     };
-    let table = table(&measure(&effort));
+    let table = table(&measure(&effort).unwrap_or_default());
     println!("{}\n", table.caption);
     println!("| {} |", table.columns.join(" | "));
     println!("|{}", " --- |".repeat(table.columns.len()));

@@ -1,13 +1,14 @@
 //! Every rule by which a number is accepted, in one file. The default tolerance is zero; a looser one says why.
 
-use serde::Serialize;
+use crate::cluster::text_of_the_source;
+use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// The probability that a gate of correct code turns red by chance, over all its statistical checks.
 pub const FAMILY_FALSE_ALARM_RATE: f64 = 1e-3;
 
 /// How a check or a case ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// The rule holds, and where it is statistical there was enough data.
@@ -20,8 +21,11 @@ pub enum Verdict {
     NoData,
 }
 
+/// Words that are written in the source. (Under its own name the type would be read by borrowing.)
+pub type Words = &'static str;
+
 /// A rule with the number it judges.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "rule", rename_all = "snake_case")]
 pub enum Rule {
     /// |error| ≤ tolerance.
@@ -31,7 +35,8 @@ pub enum Rule {
         /// What is allowed.
         tolerance: f64,
         /// Why that much.
-        because: &'static str,
+        #[serde(deserialize_with = "text_of_the_source")]
+        because: Words,
     },
     /// |mean − reference| ≤ t·se + allowance at the gate's level, and se ≤ enough.
     Mean {
@@ -48,7 +53,8 @@ pub enum Rule {
         /// The standard error above which the data is too little to say anything.
         enough: f64,
         /// Why this allowance and this `enough`.
-        because: &'static str,
+        #[serde(deserialize_with = "text_of_the_source")]
+        because: Words,
     },
     /// mean − t·se > bound at the gate's level; with se ≤ enough, anything else is a failure.
     Above {
@@ -63,7 +69,8 @@ pub enum Rule {
         /// The standard error above which the data is too little to say anything.
         enough: f64,
         /// Why this bound and this `enough`.
-        because: &'static str,
+        #[serde(deserialize_with = "text_of_the_source")]
+        because: Words,
     },
     /// p ≥ the gate's level, for a test on at least `enough` samples.
     PValue {
@@ -74,12 +81,14 @@ pub enum Rule {
         /// The samples below which the test has no power.
         enough: u64,
         /// Which test, and why that many samples.
-        because: &'static str,
+        #[serde(deserialize_with = "text_of_the_source")]
+        because: Words,
     },
     /// Needs measured points that are not at hand.
     NoData {
         /// How to supply them.
-        supply: &'static str,
+        #[serde(deserialize_with = "text_of_the_source")]
+        supply: Words,
     },
 }
 

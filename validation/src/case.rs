@@ -1,7 +1,8 @@
 //! A case: one claim, the check that tests it, and the controls that the same check must fail.
 
-use crate::accept::{Rule, Verdict, judge};
-use serde::Serialize;
+use crate::accept::{Rule, Verdict, Words, judge};
+use crate::cluster::text_of_the_source;
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -16,7 +17,7 @@ pub enum Kind {
 }
 
 /// One number and the rule it is judged by.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Evidence {
     /// What was measured, in a few words.
     pub what: String,
@@ -157,7 +158,7 @@ fn overall(evidence: &[Judged], controls: &[Control], uncaught: Verdict) -> Verd
 }
 
 /// Evidence with its verdict.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Judged {
     /// The evidence.
     pub evidence: Evidence,
@@ -166,10 +167,11 @@ pub struct Judged {
 }
 
 /// A deliberate mistake and whether the check failed on it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Control {
     /// The mistake in the model.
-    pub mistake: &'static str,
+    #[serde(deserialize_with = "text_of_the_source")]
+    pub mistake: Words,
     /// Whether the check failed, as it must.
     pub caught: bool,
 }

@@ -54,6 +54,26 @@ pub fn write_all(dir: &Path, files: &[Output]) -> Result<(), OutputError> {
     written
 }
 
+/// Writes a new folder of files, which appears whole or not at all. An interrupted call leaves a folder with `.part` in
+/// its hidden name, which the next call for the same folder replaces.
+pub fn write_folder(dir: &Path, files: &[Output]) -> Result<(), OutputError> {
+    let name = dir.file_name().unwrap_or_default().to_string_lossy();
+    let part = dir.with_file_name(format!(".{name}.part"));
+    let write = || {
+        if part.exists() {
+            fs::remove_dir_all(&part)?;
+        }
+        fs::create_dir_all(&part)?;
+        for (name, contents) in files {
+            let mut file = File::create_new(part.join(name))?;
+            file.write_all(contents.as_bytes())?;
+            file.sync_all()?;
+        }
+        fs::rename(&part, dir)
+    };
+    write().map_err(at(dir))
+}
+
 fn write_and_rename(dir: &Path, files: &[Output]) -> Result<(), OutputError> {
     let mut ready = Vec::new();
     for (name, contents) in files {

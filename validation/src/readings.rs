@@ -10,10 +10,13 @@ mod table;
 pub use table::table;
 
 use crate::case::Effort;
+use crate::cluster;
 use crate::oracle::naive::{
     Images, Lines, Naive, Problem, Reading, Replacement, Start, Update, Who, mean_projections,
 };
 use rayon::prelude::*;
+use std::convert::Infallible;
+use std::iter::once;
 
 /// The seed of all replicas.
 pub const SEED: u64 = 1;
@@ -107,10 +110,17 @@ pub fn paper(replica: u64) -> Problem {
     }
 }
 
-/// The default and every alternative.
-pub fn measure(effort: &Effort) -> Vec<Row> {
+/// The default and every alternative, run over all ranks; none but on the root.
+pub fn measure(effort: &Effort) -> Option<Vec<Row>> {
     let replicas = effort.pick(200, 2000);
-    let default = traces(|_| (), replicas);
+    let default: Change = |_| ();
+    let changes: Vec<_> = once(default)
+        .chain(ALTERNATIVES.map(|(.., change)| change))
+        .collect();
+    let job = |k: usize| Ok::<_, Infallible>(traces(changes[k], replicas));
+    let Ok(shared) = cluster::share(changes.len(), job, |_, _| Ok(()));
+    let all = shared?;
+    let (default, others) = all.split_first()?;
     let row = |open, reading, values, changes| Row {
         open,
         reading,
@@ -120,13 +130,12 @@ pub fn measure(effort: &Effort) -> Vec<Row> {
     };
     let each = |estimate: &dyn Fn(Quantity) -> Estimate| QUANTITIES.map(|(_, q)| estimate(q)).to_vec();
     let values = |traces: &[Trace]| each(&|quantity| value(quantity, traces));
-    let mut rows = vec![row("–", "this project", values(&default), None)];
-    for (open, reading, alternative) in ALTERNATIVES {
-        let traces = traces(alternative, replicas);
-        let changes = each(&|quantity| change(quantity, &default, &traces));
-        rows.push(row(open, reading, values(&traces), Some(changes)));
+    let mut rows = vec![row("–", "this project", values(default), None)];
+    for ((open, reading, _), traces) in ALTERNATIVES.into_iter().zip(others) {
+        let changes = each(&|quantity| change(quantity, default, traces));
+        rows.push(row(open, reading, values(traces), Some(changes)));
     }
-    rows
+    Some(rows)
 }
 
 /// The trace of each of the first `replicas` replicas of a changed problem.

@@ -136,6 +136,92 @@ fn the_scene_in_run_json_gives_the_same_bits() {
     }
 }
 
+/// What is put in place of what in [`SMALL`], one extreme a scene.
+#[rustfmt::skip]
+const EXTREMES: &[&[(&str, &str)]] = &[
+    &[("= 0.5\n[particles]", "= 1e-30\n[particles]")],
+    &[("= 0.5\n[particles]", "= 1e30\n[particles]")],
+    &[("= 11.6", "= 1e8"), ("= 3.6", "= 33.3")],
+    &[("= 11.6", "= 1.000000000001"), ("= 3.6", "= 0")],
+    &[("= 11.6", "= 1.2"), ("= 3.6", "= 5.555")],
+    &[("count = 20", "count = 1")],
+    &[("count = 20", "count = 2"), ("alpha = 0.5", "alpha = 1e300")],
+    &[("= 50", "= 1e30"), ("alpha = 0.5", "alpha = 1e3")],
+    &[("= 50", "= 1e-30"), ("alpha = 0.5", "alpha = 1e3")],
+    &[("alpha = 0.5", "alpha = 0")],
+    &[("alpha = 0.5", "alpha = 1e300\nupdate = \"angles\"")],
+    &[("alpha = 0.5", "alpha = 0.5\nm = 0.1")],
+    &[("alpha = 0.5", "alpha = 1e3\nm = 50")],
+    &[("alpha = 0.5", "alpha = 1e3\nmin_contact_arm = 2.2250738585072014e-308")],
+    &[("\"isotropic\"", "{ phi_deg = 0, theta_deg = 180 }"), ("alpha = 0.5", "alpha = 1e3")],
+    &[("\"isotropic\"", "{ phi_deg = 0, theta_deg = 1e-300 }"), ("alpha = 0.5", "alpha = 1e3\nupdate = \"angles\"")],
+    &[("steps_per_period = 20", "steps_per_period = 1"), ("outputs_per_period = 4", "outputs_per_period = 1")],
+    &[("periods = 1", "periods = 1e-5"), ("steps_per_period = 20", "steps_per_period = 10000000"),
+      ("outputs_per_period = 4", "outputs_per_period = 100000")],
+    &[("shear_rate_per_s = 0.5", "gradient_per_s = [[1e30, 0, 0], [0, -1e30, 0], [0, 0, 0]]"), ("= 11.6", "= 1e8"),
+      ("[interaction]\nconcentration_per_cm3 = 50\nalpha = 0.5\n", ""),
+      ("periods = 1\nsteps_per_period = 20\noutputs_per_period = 4", "strain = 1e4\noutputs_per_strain = 1")],
+];
+
+#[test]
+fn extreme_scenes_end_well_with_finite_tables() {
+    let dir = folder();
+    for (k, changes) in EXTREMES.iter().enumerate() {
+        let text = (changes.iter()).fold(SMALL.to_owned(), |text, (old, new)| {
+            assert!(text.contains(old), "{old}");
+            text.replace(old, new)
+        });
+        fs::write(dir.path().join("extreme.toml"), text).unwrap();
+        let ended = shearbed(
+            dir.path(),
+            &format!("run extreme.toml --threads 1 --quiet --out {k}"),
+        );
+        assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""), "{changes:?}");
+        for name in names(&dir.path().join(k.to_string())) {
+            if name.ends_with(".csv") {
+                let mut reader = csv::Reader::from_path(dir.path().join(format!("{k}/{name}"))).unwrap();
+                let rows: Vec<Vec<f64>> = reader.deserialize().map(Result::unwrap).collect();
+                assert!(
+                    rows.iter().flatten().all(|value| value.is_finite()),
+                    "{name}: {changes:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_run_that_ends_badly_leaves_what_was_complete() {
+    let dir = folder();
+    assert_eq!(
+        shearbed(dir.path(), "run small.toml --quiet --out a").code,
+        Some(0)
+    );
+    let before: Vec<_> = names(&dir.path().join("a"))
+        .iter()
+        .map(|name| read(&dir.path().join("a").join(name)))
+        .collect();
+    fs::write(
+        dir.path().join("small.toml"),
+        SMALL.replace("aspect_ratio = 11.6", "aspect_ratio = 1e200"),
+    )
+    .unwrap();
+    let ended = shearbed(dir.path(), "run small.toml --quiet --out a");
+    assert_eq!(ended.code, Some(2));
+    assert!(
+        ended
+            .stderr
+            .contains("particles.aspect_ratio = 1e200 is not allowed"),
+        "{}",
+        ended.stderr
+    );
+    let after: Vec<_> = names(&dir.path().join("a"))
+        .iter()
+        .map(|name| read(&dir.path().join("a").join(name)))
+        .collect();
+    assert_eq!(before, after);
+}
+
 #[test]
 fn quiet_prints_nothing() {
     let dir = folder();
@@ -320,4 +406,27 @@ fn a_full_disk_under_standard_output_ends_with_2() {
         stderr.starts_with("error: standard output: cannot be written: No space left"),
         "{stderr}"
     );
+}
+
+/// Linux says what memory there is.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_scene_that_does_not_fit_in_memory_is_refused_before_it_starts() {
+    let dir = folder();
+    let text = shearbed(dir.path(), "scenes --show fig4-n50").stdout;
+    let huge = text.replace("count = 100\n", "count = 100_000_000\n");
+    assert_ne!(huge, text);
+    fs::write(dir.path().join("huge.toml"), huge).unwrap();
+    // 11 GB for every thread.
+    for command in [
+        "run huge.toml --replicas 1000 --threads 200",
+        "sweep huge.toml --over ensemble.replicas=1000,2000 --threads 200",
+    ] {
+        let ended = shearbed(dir.path(), command);
+        assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+        for part in ["huge.toml", "particles.count = 100000000", "200 at a time", "GB"] {
+            assert!(ended.stderr.contains(part), "{}", ended.stderr);
+        }
+    }
+    assert_eq!(names(dir.path()), ["huge.toml", "small.toml"]);
 }

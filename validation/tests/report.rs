@@ -18,7 +18,7 @@ fn small_report() -> Report {
     let count = || {
         finished.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
     };
-    let drawn = figures::draw(&effort, few, &count).unwrap();
+    let drawn = figures::draw(&effort, few, &count).unwrap().unwrap();
     assert_eq!(finished.into_inner(), figures::work(few).unwrap());
     let chosen = cases::all()
         .into_iter()

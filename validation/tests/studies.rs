@@ -22,7 +22,10 @@ fn an_unknown_bench_is_refused_with_those_there_are() {
     let dir = tempfile::tempdir().unwrap();
     let (code, _, error) = shearbed(dir.path(), "bench --case re3");
     assert_eq!(code, Some(2));
-    for text in ["--case re3", "re2, re11.6, re100, re10000"] {
+    for text in [
+        "--case re3",
+        "re2, re11.6, re100, re10000, fig6-uniform, fig6-polydisperse, fig7-n50",
+    ] {
         assert!(error.contains(text), "{error}");
     }
     assert!(!dir.path().join("out").exists());
@@ -38,6 +41,34 @@ fn a_free_scene_shows_every_order_as_theory() {
     let csv = std::fs::read_to_string(out.join("converge.csv")).unwrap();
     assert_eq!(csv.lines().count(), 1 + 7 * 13, "{csv}");
     assert!(out.join("converge.json").exists());
+    assert!(text.contains("as the scene draws its starts at random"), "{text}");
+}
+
+#[test]
+fn a_free_scene_starts_where_it_says() {
+    let dir = tempfile::tempdir().unwrap();
+    let scene = |time: &str| {
+        format!(
+            "title = \"one rod\"\n[flow]\nshear_rate_per_s = 0.5\n[particles]\ncount = 1\nlength_mm = 1\n\
+             aspect_ratio = 3\norientation = {{ phi_deg = 10, theta_deg = 60 }}\n[time]\n{time}\n"
+        )
+    };
+    std::fs::write(dir.path().join("one.toml"), scene("periods = 2")).unwrap();
+    let (code, text, error) = shearbed(dir.path(), "converge one.toml");
+    assert_eq!(code, Some(0), "{error}");
+    for words in [
+        "r_e = 3 from φ = 0.1745 and θ = 1.0472 rad (the scene's own start) over 2.",
+        "as theory",
+    ] {
+        assert!(text.contains(words), "{text}");
+    }
+    std::fs::write(dir.path().join("strain.toml"), scene("strain = 2")).unwrap();
+    let (code, _, error) = shearbed(dir.path(), "converge strain.toml");
+    assert_eq!(code, Some(2));
+    assert!(
+        error.contains("time: the subjects turn rods through periods; periods is needed"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -56,12 +87,32 @@ fn an_interacting_scene_shows_steps_rods_and_replicas() {
     let dir = tempfile::tempdir().unwrap();
     let (code, text, error) = shearbed(dir.path(), "converge fig4-n50 --replicas 4 --out here");
     assert_eq!(code, Some(0), "{error}");
-    for head in ["steps per period", "rods", "se √M"] {
+    for head in [
+        "steps per period",
+        "rods",
+        "Paths do not converge",
+        "deviation √M",
+        "not readable",
+    ] {
         assert!(text.contains(head), "{text}");
     }
-    let csv = std::fs::read_to_string(dir.path().join("here/converge.csv")).unwrap();
     assert!(
-        csv.starts_with("against,steps_per_period,rods,replicas,x1,x1_se\n"),
+        !text.contains("cheapest"),
+        "four replicas are too few to judge a bias by: {text}"
+    );
+    let here = dir.path().join("here");
+    let csv = std::fs::read_to_string(here.join("converge.csv")).unwrap();
+    assert!(
+        csv.starts_with(
+            "against,steps_per_period,rods,replicas,x1,x1_se,x1_less_next,x1_less_next_se,correlation,"
+        ),
         "{csv}"
     );
+    // Ten numbers of steps, and six of rods of which the scene's own is run once and listed in both.
+    assert_eq!(csv.lines().count(), 1 + 10 + 6, "{csv}");
+    assert!(here.join("replicas.csv").exists());
+    let json: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(here.join("converge.json")).unwrap()).unwrap();
+    assert_eq!(json["law"]["steps"][9]["steps_per_period"], 12_800);
+    assert!(json["constants"].is_null() && json["splits"].as_array().unwrap().is_empty());
 }

@@ -3,7 +3,7 @@
 use super::lab::{self, Sample};
 use crate::accept::Rule;
 use crate::case::{About, Case, Effort, Evidence, Kind};
-use crate::kicks::{Angles, Counts, kicks_rad, of_one_step, rates, step_strain, tail};
+use crate::kicks::{Angles, Counts, is_above, kicks_rad, of_one_step, rates, step_strain, tail};
 use crate::oracle::kicks::{chance_of_threads, kicks, largest_kick, tail_of_isotropic};
 use crate::oracle::pairing::{Pair, nearest_pairs};
 use rayon::prelude::*;
@@ -108,7 +108,7 @@ fn formula(expected: &Expected, effort: &Effort) -> Vec<Evidence> {
                 let pairs = pairs(&mut scene.clone(), &suspension);
                 let expected: f64 = pairs.iter().map(|pair| expected(pair, &chance)).sum();
                 let kicks = of_one_step(&mut suspension, kicks_rad);
-                let larger = kicks.iter().filter(|kick| !(**kick <= threshold_rad)).count();
+                let larger = kicks.iter().filter(|kick| is_above(**kick, threshold_rad)).count();
                 larger as f64 / expected
             })
             .collect();

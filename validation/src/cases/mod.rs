@@ -6,8 +6,10 @@ mod contact_rule;
 mod decay;
 mod encounters;
 mod experiments;
+mod extreme_scenes;
 mod extremes;
 mod free_suspension;
+mod integrator_claims;
 mod jeffery_equations;
 mod kicks;
 pub mod lab;
@@ -16,9 +18,13 @@ mod motion;
 mod readings;
 mod reductions;
 mod reference;
+mod stability;
 mod steady;
+mod step_limits;
 mod subjects;
 mod words;
+mod work_precision;
+mod work_precision_coupled;
 
 use crate::accept::FAMILY_FALSE_ALARM_RATE;
 use crate::case::{Case, Effort};
@@ -38,10 +44,16 @@ pub fn all() -> Vec<Case> {
         closed_forms::cases(),
         reductions::cases(),
         extremes::cases(),
+        extreme_scenes::cases(),
         reference::cases(),
         readings::cases(),
         steady::cases(),
         subjects::cases(),
+        integrator_claims::cases(),
+        stability::cases(),
+        step_limits::cases(),
+        work_precision::cases(),
+        work_precision_coupled::cases(),
         decay::cases(),
         words::cases(),
         experiments::cases(),

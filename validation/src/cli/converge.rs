@@ -1,10 +1,17 @@
 //! `shearbed converge`.
 
-use super::{Failure, MAX_THREADS, on_threads, print, progress, scene, whole};
+use super::{Failure, MAX_THREADS, on_threads, print, probe, progress, scene, whole};
+use crate::cluster;
 use crate::output::{self, Output};
 use crate::report::ReportTable;
+use crate::suspensions::law::{self, Law, Replicas};
+use crate::suspensions::split::{Constants, Scope, Split, TARGETS};
+use crate::suspensions::{self, law_tables};
 use crate::work_precision::order::{self, Found};
-use crate::work_precision::{export, law, tables};
+use crate::work_precision::{export, tables};
+use serde::Serialize;
+use shearbed::jeffery::strain_per_period;
+use shearbed::plan::Stage;
 use shearbed::scene::MAX_REPLICAS;
 use shearbed::{Plan, Scene};
 use std::ffi::OsString;
@@ -15,10 +22,11 @@ use std::path::{Path, PathBuf};
 pub(super) struct Args {
     /// A scene file, or the name of a built-in scene
     scene: OsString,
-    /// The folder for converge.csv and converge.json [default: out/converge-<scene>]
+    /// The folder for the tables and converge.json [default: out/converge-<scene>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Independent runs of an interacting scene, in place of the scene's own number
+    /// Replicas at every step and number of rods of an interacting scene [default: as many as two minutes on four
+    /// cores allow, fewer at fine steps]
     #[arg(long, value_name = "N", value_parser = whole(2, MAX_REPLICAS), allow_negative_numbers = true)]
     replicas: Option<u64>,
     /// Threads to run on; the results do not depend on it [default: one for each core]
@@ -29,23 +37,28 @@ pub(super) struct Args {
     quiet: bool,
 }
 
-/// Studies a scene: a free one by every fixed-step subject, an interacting one by its mean.
+/// Studies a scene: where rods meet by the law of its mean and directions, else by every fixed-step subject.
 pub(super) fn converge(args: &Args) -> Result<(), Failure> {
-    let mut named = scene::load(&args.scene)?;
-    named.scene.ensemble.replicas = args.replicas.unwrap_or(named.scene.ensemble.replicas);
+    let named = scene::load(&args.scene)?;
     let at = |message: String| format!("{}: {message}", named.source);
-    Plan::new(&named.scene).map_err(|error| Failure::Input(at(error.to_string())))?;
+    let plan = Plan::new(&named.scene).map_err(|error| Failure::Input(at(error.to_string())))?;
     let stem = format!("converge-{}", named.stem);
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(stem));
-    output::probe(&out)?;
-    let done = match named.scene.interaction {
-        Some(_) => on_threads(args.threads, || interacting(&named.scene, args.quiet))?,
-        None => free(&named.scene),
+    probe(&out)?;
+    let replicas = args.replicas.map_or(Replicas::CONVERGE, Replicas::Each);
+    let done = match plan.keeps(Stage::Contacts) {
+        true => on_threads(args.threads, || interacting(&named.scene, replicas, args.quiet))?,
+        // Milliseconds: no work for many.
+        false if cluster::is_root() => free(&named.scene).map(Some),
+        false => Ok(None),
     }
     .map_err(|failure| match failure {
         Failure::Input(message) => Failure::Input(at(message)),
         Failure::Failed(message) => Failure::Failed(at(message)),
     })?;
+    let Some(done) = done else {
+        return Ok(());
+    };
     output::write_all(&out, &done.files)?;
     if !args.quiet {
         let names: Vec<_> = done.files.iter().map(|(name, _)| name.as_str()).collect();
@@ -66,45 +79,76 @@ struct Done {
     wrong: Option<String>,
 }
 
-fn done(
-    tables: Vec<ReportTable>,
-    csv: Result<String, String>,
-    json: Result<String, String>,
-) -> Result<Done, Failure> {
-    let files = vec![
-        ("converge.csv".to_owned(), csv.map_err(Failure::Failed)?),
-        ("converge.json".to_owned(), json.map_err(Failure::Failed)?),
-    ];
+fn done(tables: Vec<ReportTable>, files: Vec<(&str, Result<String, String>)>) -> Result<Done, Failure> {
+    let written = |(name, text): (&str, Result<String, String>)| Ok((name.to_owned(), text?));
+    let files: Result<_, _> = files.into_iter().map(written).collect();
     Ok(Done {
         tables,
-        files,
+        files: files.map_err(Failure::Failed)?,
         wrong: None,
     })
 }
 
-/// Every fixed-step subject on one rod of the scene's mean aspect ratio.
+/// Every fixed-step subject on one rod of the scene's mean aspect ratio, from its start, through its periods.
 fn free(scene: &Scene) -> Result<Done, Failure> {
     if scene.flow.shear_rate_per_s.is_none() {
         return Err(Failure::Input(
             "flow: the subjects turn rods in plane Couette flow; shear_rate_per_s is needed".into(),
         ));
     }
-    let studies = order::of_all(scene.particles.aspect_ratio);
-    let (csv, json) = (export::orders_csv(&studies), export::json(&studies));
-    let wrong: Vec<_> = (studies.iter())
+    let orders = order::of_scene(scene).ok_or_else(|| {
+        Failure::Input("time: the subjects turn rods through periods; periods is needed".into())
+    })?;
+    let (csv, json) = (export::orders_csv(&orders.studies), export::json(&orders));
+    let wrong: Vec<_> = (orders.studies.iter())
         .filter(|study| study.found == Found::Not)
         .map(|study| study.subject.as_str())
         .collect();
+    let files = vec![("converge.csv", csv), ("converge.json", json)];
     Ok(Done {
         wrong: (!wrong.is_empty()).then(|| wrong.join(", ")),
-        ..done(vec![tables::orders(&studies)], csv, json)?
+        ..done(vec![tables::orders(&orders)], files)?
     })
 }
 
-/// The mean of an interacting scene against steps, rods and replicas.
-fn interacting(scene: &Scene, quiet: bool) -> Result<Done, Failure> {
-    let bar = progress(law::work(scene) as u64, "runs", quiet);
-    let law = law::law(scene, &|| bar.inc(1)).map_err(Failure::Failed)?;
+/// converge.json of an interacting scene.
+#[derive(Serialize)]
+struct Written {
+    law: Law,
+    constants: Option<Constants>,
+    splits: Vec<Split>,
+}
+
+/// X̄₁ and the directions of an interacting scene against steps, rods and replicas, and what follows for its cost; none
+/// but on the root.
+fn interacting(scene: &Scene, replicas: Replicas, quiet: bool) -> Result<Option<Done>, Failure> {
+    let jobs = law::jobs(scene, replicas);
+    let bar = progress(jobs.iter().map(|job| job.replicas).sum(), "replicas", quiet);
+    let found = cluster::share(jobs.len(), |k| jobs[k].run(&|| bar.inc(1)), |_, _| Ok(()));
     bar.finish_and_clear();
-    done(tables::law(&law), export::law_csv(&law), export::json(&law))
+    let Some(found) = found.map_err(Failure::Failed)? else {
+        return Ok(None);
+    };
+    let law = law::read(scene, &jobs, &found);
+    let mut tables = law_tables::law(&law, strain_per_period(scene.particles.aspect_ratio));
+    let constants = Constants::of(&law);
+    let scopes = [Scope::OwnRods(scene.particles.count), Scope::Unbounded];
+    let splits: Vec<_> = (constants.iter())
+        .flat_map(|constants| scopes.map(|scope| TARGETS.map(|target| constants.cheapest(scope, target))))
+        .flatten()
+        .collect();
+    tables.extend((constants.iter()).map(|constants| suspensions::tables::splits(constants, &splits)));
+    let csv = suspensions::export::law_csv(&law);
+    let blocks = suspensions::export::replicas_csv(&law);
+    let json = export::json(&Written {
+        law,
+        constants,
+        splits,
+    });
+    let files = vec![
+        ("converge.csv", csv),
+        ("replicas.csv", blocks),
+        ("converge.json", json),
+    ];
+    done(tables, files).map(Some)
 }

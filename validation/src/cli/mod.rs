@@ -2,18 +2,22 @@
 
 mod bench;
 mod converge;
+mod memory;
 mod pictures;
 mod record;
 mod run;
 mod scene;
 mod sections;
 mod show;
+mod sweep;
 mod tables;
 mod validate;
 
+use crate::{cluster, output};
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 /// Rigid slender rods in a sheared viscous liquid, after Lee & Springer (1982).
@@ -37,6 +41,8 @@ enum Command {
     Validate(validate::Args),
     /// Measure every integrator's error against its run time for one free rod
     Bench(bench::Args),
+    /// Run a scene at every point of a grid of its keys' values: one row a point
+    Sweep(sweep::Args),
     /// Show how a scene's results depend on the step, and for interacting rods on their number and the replicas
     Converge(converge::Args),
 }
@@ -49,28 +55,51 @@ enum Failure {
     Failed(String),
 }
 
+impl Failure {
+    fn message_and_code(self) -> (String, u8) {
+        match self {
+            Self::Failed(message) => (message, 1),
+            Self::Input(message) => (message, 2),
+        }
+    }
+}
+
 /// Runs the command of the program's arguments.
 pub fn main() -> ExitCode {
-    let ended = match Cli::parse().command {
+    let cli = Cli::parse();
+    let joined = match cluster::Joined::new() {
+        Ok(joined) => joined,
+        Err(message) => return cluster::failed(&message, 2),
+    };
+    match joined.caught(|| command(cli.command)) {
+        Ok(Ok(())) => joined.end(),
+        Ok(Err(failure)) => {
+            let (message, code) = failure.message_and_code();
+            joined.fail(&message, code)
+        }
+        Err(panic) => joined.fail(&panic, 101),
+    }
+}
+
+fn command(command: Command) -> Result<(), Failure> {
+    match command {
         Command::Run(args) => run::run(&args),
+        Command::Validate(args) => validate::validate(args),
+        Command::Sweep(args) => sweep::sweep(&args),
+        Command::Converge(args) => converge::converge(&args),
+        // The others are no work for many.
+        _ if !cluster::is_root() => Ok(()),
         Command::Plan(args) => show::plan(&args),
         Command::Scenes(args) => show::scenes(&args),
-        Command::Validate(args) => validate::validate(args),
         Command::Bench(args) => bench::bench(&args),
-        Command::Converge(args) => converge::converge(&args),
-    };
-    let (message, code) = match ended {
-        Ok(()) => return ExitCode::SUCCESS,
-        Err(Failure::Failed(message)) => (message, 1),
-        Err(Failure::Input(message)) => (message, 2),
-    };
-    // Where even this cannot be written, the exit code has to say it.
-    let _ = writeln!(io::stderr(), "error: {message}");
-    ExitCode::from(code)
+    }
 }
 
 /// Prints to standard output. A reader that has gone away, as `head` does, is no error.
 fn print(text: &str) -> Result<(), Failure> {
+    if !cluster::is_root() {
+        return Ok(());
+    }
     let mut stdout = io::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Input(format!(
@@ -82,7 +111,7 @@ fn print(text: &str) -> Result<(), Failure> {
 
 /// A bar over the steps of a slow part on a terminal, and nothing elsewhere.
 fn progress(steps: u64, what: &str, quiet: bool) -> ProgressBar {
-    if quiet || !io::stderr().is_terminal() {
+    if quiet || !cluster::is_root() || !io::stderr().is_terminal() {
         return ProgressBar::hidden();
     }
     let style = ProgressStyle::with_template(&format!(
@@ -90,6 +119,14 @@ fn progress(steps: u64, what: &str, quiet: bool) -> ProgressBar {
     ));
     ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::stderr())
         .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+/// Whether the root can write files into `dir`: known before a long run.
+fn probe(dir: &Path) -> Result<(), Failure> {
+    match cluster::is_root() {
+        true => Ok(output::probe(dir)?),
+        false => Ok(()),
+    }
 }
 
 /// Calls `work` on `threads` threads, or on one for each core.

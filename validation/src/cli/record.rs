@@ -26,6 +26,9 @@ struct Record<'a> {
     plan: &'a [Entry],
     plan_text: String,
     counters: Counters,
+    /// Processes of an MPI job.
+    ranks: usize,
+    /// Of each rank.
     threads: usize,
     seconds: Seconds,
     files: Vec<&'a str>,
@@ -47,6 +50,7 @@ pub(super) fn json(
         plan: plan.entries(),
         plan_text: plan.to_string(),
         counters: results.counters,
+        ranks: crate::cluster::size(),
         threads,
         seconds,
         files,

@@ -1,11 +1,14 @@
 //! `shearbed run`.
 
 use super::record::Seconds;
-use super::{Failure, MAX_THREADS, on_threads, pictures, print, progress, record, scene, tables, whole};
+use super::{
+    Failure, MAX_THREADS, memory, on_threads, pictures, print, probe, progress, record, scene, tables, whole,
+};
 use crate::output::{self, Output};
-use crate::plot;
+use crate::{cluster, plot};
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
-use shearbed::{Plan, Results, ensemble};
+use shearbed::work::RunError;
+use shearbed::{Plan, Results};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -40,12 +43,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     scene.ensemble.replicas = args.replicas.unwrap_or(scene.ensemble.replicas);
     scene.ensemble.seed = args.seed.unwrap_or(scene.ensemble.seed);
     let plan = Plan::new(&scene).map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
+    memory::check(&plan, args.threads, &named.source)?;
     let out = args
         .out
         .clone()
         .unwrap_or_else(|| Path::new("out").join(&named.stem));
-    // A run may be long: what cannot be written is better known now.
-    output::probe(&out)?;
+    probe(&out)?;
     let mut seconds = Seconds {
         plan: start.elapsed().as_secs_f64(),
         ..Seconds::default()
@@ -54,10 +57,15 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let bar = progress(scene.ensemble.replicas, "replicas", args.quiet);
     let start = Instant::now();
     let (results, threads) = on_threads(args.threads, || {
-        (ensemble::run(&plan, || bar.inc(1)), rayon::current_num_threads())
+        (
+            cluster::ensemble(&plan, || bar.inc(1)),
+            rayon::current_num_threads(),
+        )
     })?;
     bar.finish_and_clear();
-    let results = results.map_err(|error| Failure::Failed(format!("{}: {error}", named.source)))?;
+    let Some(results) = ended(&named.source, results)? else {
+        return Ok(());
+    };
     seconds.run = start.elapsed().as_secs_f64();
 
     let start = Instant::now();
@@ -82,6 +90,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     ))
 }
 
+/// The results of a run that did not stop. Where it did, nothing is written, and what an earlier run left stays.
+fn ended<T>(source: &str, results: Result<T, RunError>) -> Result<T, Failure> {
+    results.map_err(|error| Failure::Failed(format!("{source}: {error}")))
+}
+
 /// A table and the pictures of each observable.
 fn files(plan: &Plan, results: &Results) -> Result<Vec<Output>, String> {
     let mut files = Vec::new();
@@ -95,4 +108,28 @@ fn files(plan: &Plan, results: &Results) -> Result<Vec<Output>, String> {
         }
     }
     Ok(files)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_that_stops_is_a_failure_that_names_the_rod() {
+        let stopped = RunError::NonFinite {
+            rod: 7,
+            step: 41,
+            seed: 3,
+            replica: 2,
+            cause: "a contact arm of 1e-320 rod lengths turned it by inf rad".into(),
+        };
+        let failure = ended::<()>("my.toml", Err(stopped)).expect_err("it stopped");
+        let (message, code) = failure.message_and_code();
+        assert_eq!(code, 1);
+        assert_eq!(
+            message,
+            "my.toml: rod 7 would become non-finite in step 41 of replica 2, seed 3: a contact arm of 1e-320 rod lengths \
+             turned it by inf rad"
+        );
+    }
 }

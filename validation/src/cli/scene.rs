@@ -9,6 +9,8 @@ use std::path::Path;
 /// A scene with the name of what is made from it.
 pub(super) struct Named {
     pub(super) scene: Scene,
+    /// The text it was read from.
+    pub(super) text: String,
     /// The file as given, or the built-in scene's name: for messages.
     pub(super) source: String,
     /// The stem of the file's name, or the built-in scene's name.
@@ -25,12 +27,23 @@ pub(super) fn load(given: &OsStr) -> Result<Named, Failure> {
             .scene()
             .map_err(|error| Failure::Input(error.to_string()))?;
         let stem = source.clone();
-        return Ok(Named { scene, source, stem });
+        let text = built_in.text.to_owned();
+        return Ok(Named {
+            scene,
+            text,
+            source,
+            stem,
+        });
     }
     let text = read(path)?;
     let scene = scene_file::parse(&source, &text).map_err(|error| Failure::Input(error.to_string()))?;
     let stem = path.file_stem().unwrap_or(given).to_string_lossy().into_owned();
-    Ok(Named { scene, source, stem })
+    Ok(Named {
+        scene,
+        text,
+        source,
+        stem,
+    })
 }
 
 fn read(path: &Path) -> Result<String, Failure> {

@@ -1,10 +1,10 @@
 //! `shearbed validate`.
 
-use super::{Failure, MAX_THREADS, on_threads, print, progress, sections, whole};
+use super::{Failure, MAX_THREADS, on_threads, print, probe, progress, sections, whole};
 use crate::accept::Verdict;
-use crate::case::{Case, Effort, Outcome};
+use crate::case::{Case, Control, Effort, Judged, Outcome};
 use crate::report::{self, Sections};
-use crate::{cases, experiment, output};
+use crate::{cases, cluster, experiment, output};
 use std::path::PathBuf;
 
 /// Arguments of `validate`.
@@ -46,16 +46,19 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
         // Bad points are bad input, not a case that failed.
         experiment::check(data).map_err(|error| Failure::Input(error.to_string()))?;
     }
-    output::probe(&args.out)?;
+    probe(&args.out)?;
     let effort = cases::effort(args.full, args.data);
     let (outcomes, sections) = on_threads(args.threads, || {
         let outcomes = outcomes(&chosen, &effort, args.quiet)?;
         let sections = match args.cases.is_empty() {
             true => sections::gather(&effort, args.quiet)?,
-            false => Sections::default(),
+            false => Some(Sections::default()),
         };
         Ok::<_, Failure>((outcomes, sections))
     })??;
+    let (Some(outcomes), Some(sections)) = (outcomes, sections) else {
+        return Ok(());
+    };
     let report = report::build(outcomes, sections, &effort, command());
     let curves = report.curves().map_err(Failure::Failed)?;
     if !curves.is_empty() {
@@ -80,22 +83,43 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     }
 }
 
-/// Runs the cases one after the other, and prints how each ended.
-fn outcomes(chosen: &[Case], effort: &Effort, quiet: bool) -> Result<Vec<Outcome>, Failure> {
+/// Runs the cases, each rank its part one after the other, and prints how each ended. All outcomes on the root, and
+/// none elsewhere.
+fn outcomes(chosen: &[Case], effort: &Effort, quiet: bool) -> Result<Option<Vec<Outcome>>, Failure> {
     let bar = progress(chosen.len() as u64, "cases", quiet);
-    let run = |case: &Case| {
+    // What a case says of itself every rank knows.
+    let run = |k: usize| {
+        let case: &Case = &chosen[k];
         bar.set_message(case.about.name);
         let outcome = case.run(effort);
+        Ok((
+            outcome.verdict,
+            outcome.evidence,
+            outcome.controls,
+            outcome.seconds,
+        ))
+    };
+    let arrived = |k: usize, found: &Found| {
         if !quiet {
-            bar.suspend(|| print(&line(&outcome)))?;
+            bar.suspend(|| print(&line(chosen[k].about.name, found.0, found.3)))?;
         }
         bar.inc(1);
-        Ok(outcome)
+        Ok::<_, Failure>(())
     };
-    let outcomes = chosen.iter().map(run).collect();
+    let found = cluster::share(chosen.len(), run, arrived)?;
     bar.finish_and_clear();
-    outcomes
+    let outcome = |(case, (verdict, evidence, controls, seconds)): (&Case, Found)| Outcome {
+        about: case.about,
+        verdict,
+        evidence,
+        controls,
+        seconds,
+    };
+    Ok(found.map(|found| chosen.iter().zip(found).map(outcome).collect()))
 }
+
+/// An outcome without what the case says of itself.
+type Found = (Verdict, Vec<Judged>, Vec<Control>, f64);
 
 /// The cases of these names in the order of the registry, or all.
 fn chosen(names: &[String]) -> Result<Vec<Case>, Failure> {
@@ -124,15 +148,12 @@ fn command() -> String {
         .join(" ")
 }
 
-fn line(outcome: &Outcome) -> String {
-    let verdict = match outcome.verdict {
+fn line(name: &str, verdict: Verdict, seconds: f64) -> String {
+    let verdict = match verdict {
         Verdict::Pass => "pass",
         Verdict::Fail => "FAIL",
         Verdict::Underpowered => "UNDERPOWERED",
         Verdict::NoData => "no data",
     };
-    format!(
-        "{verdict:<12}  {:<40}  {:>7.2} s\n",
-        outcome.about.name, outcome.seconds
-    )
+    format!("{verdict:<12}  {name:<40}  {seconds:>7.2} s\n")
 }

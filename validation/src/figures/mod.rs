@@ -43,13 +43,16 @@ pub fn work(replicas: Replicas) -> Result<u64, String> {
     Ok(plans.iter().map(|(_, plan)| plan.scene().ensemble.replicas).sum())
 }
 
-/// Runs the scenes and draws the figures; `finished` is called after each replica of each scene.
-pub fn draw(effort: &Effort, replicas: Replicas, finished: &(dyn Fn() + Sync)) -> Result<Drawn, String> {
+/// Runs the scenes over all ranks and draws the figures on the root, none elsewhere; `finished` is called on
+/// the root for each replica, after its scene.
+pub fn draw(effort: &Effort, replicas: Replicas, finished: &dyn Fn()) -> Result<Option<Drawn>, String> {
     let plans = run::plans(replicas)?;
     let shown = plans.iter().map(run::shown).collect();
-    let runs = Runs::new(plans, finished)?;
-    Ok(Drawn {
+    let Some(runs) = Runs::new(plans, finished)? else {
+        return Ok(None);
+    };
+    Ok(Some(Drawn {
         figures: paper::figures(&runs, effort)?,
         plans: shown,
-    })
+    }))
 }

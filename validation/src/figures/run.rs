@@ -2,6 +2,7 @@
 
 use crate::accept::critical;
 use crate::cases::lab::Sample;
+use crate::cluster;
 use crate::plot::Curve;
 use crate::report::ScenePlan;
 use crate::scenes::{self, BuiltIn};
@@ -21,22 +22,13 @@ pub(super) struct Run {
 }
 
 impl Run {
-    fn new(plan: Plan, finished: &(dyn Fn() + Sync)) -> Result<Self, String> {
-        let count = plan.scene().particles.count as f64;
-        let means = (0..plan.scene().ensemble.replicas)
-            .into_par_iter()
-            .map(|replica| {
-                let result = run_replica(&plan, replica).map_err(|error| error.to_string());
-                finished();
-                Ok(result?.sums.iter().map(|sum| sum.value / count).collect())
-            })
-            .collect::<Result<_, String>>()?;
+    fn new(plan: Plan, means: Vec<Vec<f64>>) -> Self {
         let observables = plan.observables();
-        Ok(Self {
+        Self {
             channels: observables.iter().flat_map(|o| o.channels()).collect(),
             plan,
             means,
-        })
+        }
     }
 
     /// The times of the outputs, t/T.
@@ -92,24 +84,29 @@ pub(super) fn half_width(sample: Sample) -> f64 {
 pub(super) struct Runs(BTreeMap<&'static str, Arc<Run>>);
 
 impl Runs {
-    /// Runs the scenes; `finished` is called after each replica.
-    pub(super) fn new(
-        plans: Vec<(&'static str, Plan)>,
-        finished: &(dyn Fn() + Sync),
-    ) -> Result<Self, String> {
-        let mut runs = BTreeMap::<&'static str, Arc<Run>>::new();
-        for (name, plan) in plans {
-            let same = runs.values().find(|run| same(run.scene(), plan.scene())).cloned();
-            let run = match same {
-                Some(run) => {
-                    (0..plan.scene().ensemble.replicas).for_each(|_| finished());
-                    run
-                }
-                None => Arc::new(Run::new(plan, finished).map_err(|error| format!("{name}: {error}"))?),
-            };
-            runs.insert(name, run);
-        }
-        Ok(Self(runs))
+    /// Runs the scenes over all ranks; `finished` is called on the root for each replica, after its scene. None but on
+    /// the root.
+    pub(super) fn new(plans: Vec<(&'static str, Plan)>, finished: &dyn Fn()) -> Result<Option<Self>, String> {
+        let alike = |a: &(_, Plan), b: &(_, Plan)| same(a.1.scene(), b.1.scene());
+        let first = |k: usize| plans.iter().position(|other| alike(other, &plans[k]));
+        let own: Vec<_> = (0..plans.len()).filter(|k| first(*k) == Some(*k)).collect();
+        let job = |job: usize| {
+            let (name, plan) = &plans[own[job]];
+            means(plan).map_err(|error| format!("{name}: {error}"))
+        };
+        let arrived = |job: usize, _: &_| {
+            let shared = (0..plans.len()).filter(|k| first(*k) == Some(own[job]));
+            let replicas: u64 = shared.map(|k| plans[k].1.scene().ensemble.replicas).sum();
+            (0..replicas).for_each(|_| finished());
+            Ok(())
+        };
+        let Some(found) = cluster::share(own.len(), job, arrived)? else {
+            return Ok(None);
+        };
+        let run = |(k, means): (&usize, _)| (*k, Arc::new(Run::new(plans[*k].1.clone(), means)));
+        let runs: BTreeMap<usize, Arc<Run>> = own.iter().zip(found).map(run).collect();
+        let named = (0..plans.len()).filter_map(|k| Some((plans[k].0, runs.get(&first(k)?)?.clone())));
+        Ok(Some(Self(named.collect())))
     }
 
     /// The run of a scene.
@@ -118,6 +115,17 @@ impl Runs {
         run.map(Arc::as_ref)
             .ok_or_else(|| format!("{name}: no figure's scene has this name"))
     }
+}
+
+/// A scene's means over rods in every replica: output by output, channel by channel.
+fn means(plan: &Plan) -> Result<Vec<Vec<f64>>, String> {
+    let count = plan.scene().particles.count as f64;
+    let of_replica = |replica| {
+        let result = run_replica(plan, replica).map_err(|error| error.to_string())?;
+        Ok(result.sums.iter().map(|sum| sum.value / count).collect())
+    };
+    let replicas = 0..plan.scene().ensemble.replicas;
+    replicas.into_par_iter().map(of_replica).collect()
 }
 
 /// Whether two scenes differ in nothing but their titles.

@@ -80,13 +80,22 @@ pub fn count(scene: &Scene, replica: u64, periods: Range<u64>, angles: Angles) -
         for collision in collisions.iter().filter(|_| counted) {
             let [a, b] = collision.rods.map(|rod| directions[rod]);
             counts.add(is_opening(&a, &b), angles(collision));
-            for k in 0..4 {
-                counts.fresh_closing[k] += 2.0 * chances[0][k];
-                counts.fresh_opening[k] += 2.0 * chances[1][k];
+            for (fresh, chances) in [&mut counts.fresh_closing, &mut counts.fresh_opening]
+                .into_iter()
+                .zip(chances)
+            {
+                for (fresh, chance) in fresh.iter_mut().zip(chances) {
+                    *fresh += 2.0 * chance;
+                }
             }
         }
     }
     counts.over((aspect_ratios.len() as u64 * (periods.end - periods.start)) as f64)
+}
+
+/// Whether a kick is above a threshold. One that is no number is: it must not go unseen.
+pub fn is_above(kick_rad: f64, threshold_rad: f64) -> bool {
+    kick_rad > threshold_rad || kick_rad.is_nan()
 }
 
 /// Whether the liquid pulls the contact points of two rods apart: ℓ·D·ℓ > 0 with ℓ ∝ p_A × p_B.

@@ -1,6 +1,6 @@
 //! How heavy the tail of the kicks is.
 
-use super::{Angles, of_one_step};
+use super::{Angles, is_above, of_one_step};
 use crate::cases::lab;
 use rayon::prelude::*;
 use shearbed::scene::Scene;
@@ -21,7 +21,7 @@ pub struct Exponent {
 /// Hill's estimate from the values above a threshold u that is given beforehand: 1/α is the mean of ln(x/u).
 pub fn hill(values: impl IntoIterator<Item = f64>, threshold: f64) -> Exponent {
     let logarithms: Vec<_> = (values.into_iter())
-        .filter(|value| !(*value <= threshold))
+        .filter(|value| is_above(*value, threshold))
         .map(|value| (value / threshold).ln())
         .collect();
     let count = logarithms.len() as u64;
@@ -51,7 +51,7 @@ pub fn in_runs(scene: &Scene, replicas: u64, angles: Angles) -> Vec<f64> {
         let mut suspension = lab::suspension(scene, replica);
         (0..steps)
             .flat_map(|_| of_one_step(&mut suspension, angles))
-            .filter(|kick| !(*kick <= 1e-3))
+            .filter(|kick| is_above(*kick, 1e-3))
             .collect::<Vec<_>>()
     };
     (0..replicas).into_par_iter().flat_map_iter(run).collect()

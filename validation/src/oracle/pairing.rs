@@ -118,7 +118,7 @@ mod tests {
         for trial in 0..40 {
             let places: Vec<_> = (0..8).map(|_| [(); 3].map(|()| draws.random::<f64>())).collect();
             let probability = |s: f64| (0.4 / (s + 0.4)).powi(2);
-            let contact = |i: usize, j: usize| trial % 2 == 0 || (i + j) % 3 != 0;
+            let contact = |i: usize, j: usize| trial % 2 == 0 || !(i + j).is_multiple_of(3);
             let single: Vec<_> = (0..8)
                 .map(|i| probability(nearest(&places, i).unwrap().1))
                 .collect();

@@ -34,10 +34,16 @@ impl Problem {
     /// From φ = 0.2, θ = 1 through a whole period, two flips, into the third to φ = 2π + 1: whoever has the phase or
     /// the orbit wrong is seen here, and not where long rods lie along the flow, whatever they did before.
     pub fn mid_flip(aspect_ratio: f64) -> (Self, UnitVector3<f64>) {
-        let (first, last, theta) = (0.2f64, 1.0f64, 1.0f64);
-        let phase = |phi: f64| (phi.sin() / aspect_ratio).atan2(phi.cos());
-        let problem = Self::new(aspect_ratio, 1.0 + (phase(last) - phase(first)) / TAU);
-        (problem, direction(first, theta))
+        Self::into_flip(aspect_ratio, 0.2, 1.0, 1.0)
+    }
+
+    /// From φ and θ (rad) through `turns` periods, and on to where φ = 1, head or tail alike: into the middle of the
+    /// next flip.
+    pub fn into_flip(aspect_ratio: f64, phi: f64, theta: f64, turns: f64) -> (Self, UnitVector3<f64>) {
+        let phase = |phi: f64| (phi.sin() / aspect_ratio).atan2(phi.cos()) / TAU;
+        let rest = phase(1.0) - phase(phi) - turns;
+        let problem = Self::new(aspect_ratio, turns + rest.rem_euclid(0.5));
+        (problem, direction(phi, theta))
     }
 
     /// GT t/T: how long it lasts, in 1/G (eq. 15).
@@ -148,6 +154,10 @@ mod tests {
             let end = problem.reference(&start);
             // The fraction of a turn is rounded to 10⁻¹⁶, and φ moves by r_e times that.
             assert!((end.y.atan2(end.x) - 1.0).abs() < 2e-15 * (1.0 + r), "{r}");
+            let (later, _) = Problem::into_flip(r, 2.5, 0.3, 1.75);
+            let end = later.reference(&direction(2.5, 0.3));
+            assert!(((end.y / end.x).atan() - 1.0).abs() < 4e-15 * (1.0 + r));
+            assert!((1.75..2.25).contains(&later.turns));
             assert!((problem.strain() / (TAU * (r + 1.0 / r)) - problem.turns).abs() < 1e-15);
         }
     }

@@ -7,24 +7,42 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 /// square of it.
 pub const NEWTON_TOLERANCE: f64 = 1e-12;
 
-/// Steps of Newton's iteration before it is given up.
-const MOST_ITERATIONS: usize = 30;
+/// Steps of Newton's iteration before it is given up: near the longest step with one solution it converges slowly.
+const MOST_ITERATIONS: usize = 500;
 
-/// The implicit midpoint rule p′ = p + h f(m), m = ½(p + p′): as f(m) ⊥ m, |p′| = |p|.
+/// Halvings of one of its changes.
+const MOST_HALVINGS: usize = 20;
+
+/// The implicit midpoint rule p′ = p + h f(m), m = ½(p + p′): as f(m) ⊥ m, |p′| = |p|. Newton's method, its change
+/// halved until the equation is missed by less: plain Newton goes round in circles at long steps that have a solution.
 fn implicit_midpoint(problem: &Problem, p: Vector3<f64>, h: f64) -> Vector3<f64> {
     let half = 0.5 * h;
+    let miss_at = |m: &Vector3<f64>| m - p - problem.tangent_rate(m) * half;
     let mut m = p;
+    let mut miss = miss_at(&m);
     for _ in 0..MOST_ITERATIONS {
-        let miss = m - p - problem.tangent_rate(&m) * half;
         let slope = Matrix3::identity() - problem.tangent_rate_slope(&m) * half;
         let Some(inverse) = slope.try_inverse() else {
             break;
         };
-        let change = inverse * miss;
-        m -= change;
+        let mut change = inverse * miss;
         if change.norm() <= NEWTON_TOLERANCE {
+            m -= change;
             return m + m - p;
         }
+        let mut next = miss_at(&(m - change));
+        if !next.norm().is_finite() {
+            break;
+        }
+        for _ in 0..MOST_HALVINGS {
+            if next.norm() < miss.norm() {
+                break;
+            }
+            change *= 0.5;
+            next = miss_at(&(m - change));
+        }
+        m -= change;
+        miss = next;
     }
     Vector3::repeat(f64::NAN)
 }
@@ -87,6 +105,20 @@ mod tests {
             let difference = (problem.tangent_rate(&(m + e)) - problem.tangent_rate(&(m - e))) / 2e-6;
             assert!((slope.column(axis) - difference).norm() < 1e-9);
         }
+    }
+
+    #[test]
+    fn the_rotation_vector_turns_at_the_rate_asked_for() {
+        let (u, omega, dt) = (
+            Vector3::new(0.02, -0.03, 0.01),
+            Vector3::new(-0.5, 0.2, 0.7),
+            1e-5,
+        );
+        let rate = dexp_inverse(&u, omega) * dt;
+        let turned = |u| Rotation3::new(u).into_inner();
+        let found = (turned(u + rate) - turned(u - rate)) * turned(-u) / (2.0 * dt);
+        // The next term of the series is |u|⁴/720.
+        assert!((found - omega.cross_matrix()).norm() < 1e-8);
     }
 
     #[test]

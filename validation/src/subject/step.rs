@@ -39,7 +39,12 @@ where
     ) -> Result<Vector3<f64>, Failure> {
         let steps = setting.steps()?;
         let h = problem.strain() / steps as f64;
-        Ok((0..steps).fold(start.into_inner(), |p, _| (self.step)(problem, p, h)))
+        // A rod that is lost stays lost: no more steps are spent on it.
+        (0..steps)
+            .try_fold(start.into_inner(), |p, _| {
+                Some((self.step)(problem, p, h)).filter(|p| p.sum().is_finite())
+            })
+            .ok_or(Failure::NotFinite)
     }
 }
 
@@ -79,7 +84,11 @@ where
         let steps = setting.steps()?;
         let h = problem.strain() / steps as f64;
         let first = Vector2::new(start.y.atan2(start.x), start.x.hypot(start.y).atan2(start.z));
-        let last = (0..steps).fold(first, |angles, _| (self.step)(problem, angles, h));
+        let last = (0..steps)
+            .try_fold(first, |angles, _| {
+                Some((self.step)(problem, angles, h)).filter(|angles| angles.sum().is_finite())
+            })
+            .ok_or(Failure::NotFinite)?;
         let (sin_phi, cos_phi) = last.x.sin_cos();
         let (sin_theta, cos_theta) = last.y.sin_cos();
         Ok(Vector3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta))

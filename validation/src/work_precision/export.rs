@@ -1,6 +1,5 @@
 //! The studies as files, and tables as text.
 
-use super::law::Law;
 use super::order::Study;
 use super::{Bench, Point};
 use crate::report::ReportTable;
@@ -35,17 +34,6 @@ struct HalvingRow<'a> {
     phase_error_turns: Option<f64>,
     length_error: Option<f64>,
     observed_order: Option<f64>,
-}
-
-/// A row of converge.csv for an interacting scene.
-#[derive(Serialize)]
-struct SampleRow {
-    against: &'static str,
-    steps_per_period: u64,
-    rods: usize,
-    replicas: u64,
-    x1: f64,
-    x1_se: f64,
 }
 
 /// bench.csv.
@@ -94,27 +82,8 @@ pub fn orders_csv(studies: &[Study]) -> Result<String, String> {
     csv(rows)
 }
 
-/// converge.csv of an interacting scene.
-pub fn law_csv(law: &Law) -> Result<String, String> {
-    let parts = [
-        ("steps_per_period", &law.steps),
-        ("rods", &law.rods),
-        ("replicas", &law.replicas),
-    ];
-    let rows = parts.into_iter().flat_map(|(against, samples)| {
-        samples.iter().map(move |sample| SampleRow {
-            against,
-            steps_per_period: sample.steps_per_period,
-            rods: sample.rods,
-            replicas: sample.replicas,
-            x1: sample.x1,
-            x1_se: sample.se,
-        })
-    });
-    csv(rows)
-}
-
-fn csv(rows: impl IntoIterator<Item = impl Serialize>) -> Result<String, String> {
+/// Rows as CSV, with a head.
+pub(crate) fn csv(rows: impl IntoIterator<Item = impl Serialize>) -> Result<String, String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in rows {
         writer.serialize(row).map_err(|error| error.to_string())?;

@@ -4,6 +4,8 @@
 use crate::subject::{self, Errors, Problem, Setting, Subject, Theory, grade};
 use nalgebra::UnitVector3;
 use serde::Serialize;
+use shearbed::Scene;
+use shearbed::scene::Orientation;
 
 /// How far an observed order may be from theory (DiffEqDevTools.jl's convergence tests). Its sign is kept.
 pub const ORDER_TOLERANCE: f64 = 0.2;
@@ -70,12 +72,56 @@ pub struct Study {
     pub richardson: Option<Richardson>,
 }
 
-/// Every fixed-step subject of the project at this aspect ratio, from GΔt of about 1 to 1/4096.
-pub fn of_all(aspect_ratio: f64) -> Vec<Study> {
-    let (problem, start) = Problem::mid_flip(aspect_ratio);
-    (subject::all().iter())
-        .filter_map(|subject| study(subject.as_ref(), &problem, &start, 12))
-        .collect()
+/// What the orders are of, in words, and those of every fixed-step subject of the project.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Orders {
+    /// The rod, its start and its end.
+    pub problem: String,
+    /// One for each subject.
+    pub studies: Vec<Study>,
+}
+
+/// A rod of this aspect ratio ([`Problem::mid_flip`]).
+pub fn of_rod(aspect_ratio: f64) -> Orders {
+    of_all(aspect_ratio, 0.2, 1.0, 1.0, "as in the benches")
+}
+
+/// A scene of free rods in plane Couette flow: one rod of its mean aspect ratio from its own start, through its own
+/// periods. `None` for other flows, and where the time is given as a strain.
+pub fn of_scene(scene: &Scene) -> Option<Orders> {
+    let shear_rate = scene.flow.shear_rate_per_s?;
+    let periods = scene.time.periods?;
+    let (phi, theta, whose) = match scene.particles.orientation {
+        // The flow turned round is its own mirror image, φ ↔ −φ.
+        Orientation::Given { phi_deg, theta_deg } => (
+            shear_rate.signum() * phi_deg.to_radians(),
+            theta_deg.to_radians(),
+            "the scene's own start",
+        ),
+        Orientation::Random(_) => (0.2, 1.0, "as the scene draws its starts at random"),
+    };
+    Some(of_all(scene.particles.aspect_ratio, phi, theta, periods, whose))
+}
+
+/// From GΔt of about 1 to 1/4096, or to 2²² steps where that is coarser.
+fn of_all(aspect_ratio: f64, phi: f64, theta: f64, turns: f64, whose: &str) -> Orders {
+    let (problem, start) = Problem::into_flip(aspect_ratio, phi, theta, turns);
+    let doublings = 22u32.saturating_sub(coarsest(&problem).ilog2()).clamp(4, 12);
+    Orders {
+        problem: format!(
+            "One rod of r_e = {aspect_ratio} from φ = {phi:.4} and θ = {theta:.4} rad ({whose}) over {:.5} periods, into the \
+             middle of a flip",
+            problem.turns
+        ),
+        studies: (subject::all().iter())
+            .filter_map(|subject| study(subject.as_ref(), &problem, &start, doublings))
+            .collect(),
+    }
+}
+
+/// So many steps that GΔt is about 1.
+fn coarsest(problem: &Problem) -> u64 {
+    (problem.strain().ceil() as u64).next_power_of_two().max(8)
 }
 
 /// Halves the step `doublings` times, from GΔt of about 1. `None` for a subject that takes no equal steps.
@@ -88,7 +134,7 @@ pub fn study(
     let Theory::Order(theory) = subject.theory() else {
         return None;
     };
-    let coarsest = (problem.strain().ceil() as u64).next_power_of_two().max(8);
+    let coarsest = coarsest(problem);
     let mut halvings: Vec<Halving> = Vec::new();
     for k in 0..=doublings {
         let steps = coarsest << k;

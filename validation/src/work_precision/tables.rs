@@ -1,7 +1,6 @@
 //! The studies as tables.
 
-use super::law::{Law, Sample};
-use super::order::{Found, Study};
+use super::order::{Found, Orders, Study};
 use super::{Bench, Curve, Point, TARGETS_RAD};
 use crate::report::ReportTable;
 use crate::subject::Theory;
@@ -15,7 +14,14 @@ pub fn tables(benches: &[Bench]) -> Vec<ReportTable> {
         .collect()
 }
 
-fn table(name: &str, title: &str, caption: &str, columns: &[&str], rows: Vec<Vec<String>>) -> ReportTable {
+/// A table.
+pub(crate) fn table(
+    name: &str,
+    title: &str,
+    caption: &str,
+    columns: &[&str],
+    rows: Vec<Vec<String>>,
+) -> ReportTable {
     ReportTable {
         name: name.into(),
         title: title.into(),
@@ -129,7 +135,7 @@ fn every_subject(bench: &Bench) -> ReportTable {
 }
 
 /// Observed orders.
-pub fn orders(studies: &[Study]) -> ReportTable {
+pub fn orders(orders: &Orders) -> ReportTable {
     let row = |study: &Study| {
         let judged: Vec<_> = study.judged.iter().map(|order| format!("{order:+.3}")).collect();
         let found = match study.found {
@@ -159,8 +165,12 @@ pub fn orders(studies: &[Study]) -> ReportTable {
     table(
         "orders",
         "Observed order, Richardson's value and grid convergence index",
-        "Orders of the angle's error on the last two pairs above round-off, negative where it grows; the rest is of \
-         |p_1|, from three grids: its index is to bound its error.",
+        &format!(
+            "{}. The core itself takes no step for a free rod: these are the orders of integrators that do. Orders of the \
+             angle's error on the last two pairs above round-off, negative where it grows; the rest is of |p_1|, from \
+             three grids: its index is to bound its error.",
+            orders.problem
+        ),
         &[
             "subject",
             "theory",
@@ -173,55 +183,15 @@ pub fn orders(studies: &[Study]) -> ReportTable {
             "index",
             "error",
         ],
-        studies.iter().map(row).collect(),
+        orders.studies.iter().map(row).collect(),
     )
 }
 
-/// X̄₁ of an interacting scene against steps, rods and replicas.
-pub fn law(law: &Law) -> Vec<ReportTable> {
-    let rows = |samples: &[Sample], what: fn(&Sample) -> String, last: &dyn Fn(&Sample) -> String| {
-        let row = |s: &Sample| vec![what(s), format!("{:.5}", s.x1), format!("{:.5}", s.se), last(s)];
-        samples.iter().map(row).collect::<Vec<_>>()
-    };
-    let apart = |samples: &[Sample]| {
-        let finest = samples.last().copied();
-        move |s: &Sample| match finest {
-            Some(finest) if finest != *s => {
-                format!("{:+.1}", (s.x1 - finest.x1) / s.se.hypot(finest.se))
-            }
-            _ => "–".into(),
-        }
-    };
-    let per_root = |s: &Sample| format!("{:.4}", s.se * (s.replicas as f64).sqrt());
-    vec![
-        table(
-            "steps",
-            "X̄₁ at t/T = 1 against the steps per period",
-            "The last column is the difference to the finest in its standard errors. No order is read from it.",
-            &["steps per period", "X̄₁", "± se", "to the finest / se"],
-            rows(&law.steps, |s| s.steps_per_period.to_string(), &apart(&law.steps)),
-        ),
-        table(
-            "rods",
-            "X̄₁ at t/T = 1 against the rods",
-            "The last column is the difference to the most rods in its standard errors.",
-            &["rods", "X̄₁", "± se", "to the most / se"],
-            rows(&law.rods, |s| s.rods.to_string(), &apart(&law.rods)),
-        ),
-        table(
-            "replicas",
-            "X̄₁ at t/T = 1 against the replicas M",
-            "The last column is constant where the standard error falls as 1/√M.",
-            &["replicas", "X̄₁", "± se", "se √M"],
-            rows(&law.replicas, |s| s.replicas.to_string(), &per_root),
-        ),
-    ]
-}
-
-const NOT_REACHED: &str = "not reached";
+/// Where no setting reaches an error.
+pub(crate) const NOT_REACHED: &str = "not reached";
 
 /// Seconds in a unit that leaves three digits.
-fn time(seconds: f64) -> String {
+pub(crate) fn time(seconds: f64) -> String {
     let (scale, unit) = match seconds {
         s if s < 1e-6 => (1e9, "ns"),
         s if s < 1e-3 => (1e6, "µs"),

@@ -52,7 +52,7 @@ impl Seconds {
 const SHORTEST: f64 = 2e-5;
 
 /// Times `run` on this thread.
-pub(super) fn measure<T>(budget: Budget, run: impl Fn() -> T) -> Seconds {
+pub(crate) fn measure<T>(budget: Budget, run: impl Fn() -> T) -> Seconds {
     let once = clock(1, &run);
     let repeats = (SHORTEST / once.max(1e-9)).ceil().clamp(1.0, 1e4) as u32;
     let runs = match once > 0.1 * budget.seconds_per_run {

@@ -5,7 +5,7 @@ use nalgebra::{UnitVector3, Vector2, Vector3};
 use std::f64::consts::TAU;
 
 /// A method of this step in (φ, θ).
-pub(super) fn in_angles(
+pub(in crate::cases) fn in_angles(
     order: u32,
     step: fn(&Problem, Vector2<f64>, f64) -> Vector2<f64>,
 ) -> Vec<Box<dyn Subject>> {
@@ -14,7 +14,7 @@ pub(super) fn in_angles(
 }
 
 /// A method of this step in p.
-pub(super) fn in_p(
+pub(in crate::cases) fn in_p(
     order: u32,
     keeps_length: bool,
     step: fn(&Problem, Vector3<f64>, f64) -> Vector3<f64>,
@@ -28,7 +28,7 @@ pub(super) fn in_p(
 }
 
 /// The exact propagator with the phase as it comes.
-pub(super) struct WholeTurns;
+pub(in crate::cases) struct WholeTurns;
 
 impl Subject for WholeTurns {
     fn name(&self) -> &str {
@@ -47,7 +47,7 @@ impl Subject for WholeTurns {
 }
 
 /// Dormand–Prince on another problem, with another factor on its tolerance.
-pub(super) struct Spoiled(pub(super) fn(Problem) -> (Problem, f64));
+pub(in crate::cases) struct Spoiled(pub(super) fn(Problem) -> (Problem, f64));
 
 impl Subject for Spoiled {
     fn name(&self) -> &str {
@@ -66,5 +66,22 @@ impl Subject for Spoiled {
     ) -> Result<Vector3<f64>, Failure> {
         let (problem, factor) = self.0(*problem);
         DormandPrince.advance(&problem, start, Setting::Tolerance(factor * setting.tolerance()?))
+    }
+}
+
+/// Gives an error, whatever it is asked.
+pub(in crate::cases) struct Refuses;
+
+impl Subject for Refuses {
+    fn name(&self) -> &str {
+        "refuses"
+    }
+
+    fn theory(&self) -> Theory {
+        Theory::Exact
+    }
+
+    fn advance(&self, _: &Problem, _: &UnitVector3<f64>, _: Setting) -> Result<Vector3<f64>, Failure> {
+        Err(Failure::Gave("no".into()))
     }
 }

@@ -1,0 +1,65 @@
+//! What a run holds in memory, so that one that would not fit can say so before it starts.
+
+use crate::collision::reach;
+use crate::ensemble::batch;
+use crate::observable::Sum;
+use crate::plan::{Plan, Stage};
+use crate::propagator::Propagator;
+use crate::suspension::BYTES_OF_A_CANDIDATE;
+use nalgebra::Matrix3;
+use std::f64::consts::PI;
+
+/// About the most bytes that a run of the plan holds, with `at_once` replicas at a time.
+///
+/// Per rod of an interacting scene: its direction (24) and the step it dates from (4), position (24), R (8), aspect
+/// ratio (8), and in the search its copy in the order of space (32), cell (4), the cell's start (4) and a place on the
+/// list of those that need a search (4). Beside it, lists of who collides.
+pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
+    let scene = plan.scene();
+    let replicas = scene.ensemble.replicas.min(at_once.max(1));
+    let kept = |stage, bytes| if plan.keeps(stage) { bytes } else { 0 };
+    let maps = if scene.flow.shear_rate_per_s.is_some() {
+        [0, 0]
+    } else if plan.keeps(Stage::AspectRatios) {
+        [size_of::<Propagator>(), 8]
+    } else {
+        [0, size_of::<Matrix3<f64>>()]
+    };
+    let per_rod = 24
+        + maps[0]
+        + kept(Stage::AspectRatios, 8)
+        + kept(Stage::Positions, 24)
+        + kept(Stage::CollisionDraws, 8)
+        + kept(Stage::Neighbours, 44)
+        + kept(Stage::Contacts, 4);
+    let width: usize = plan
+        .observables()
+        .iter()
+        .map(|observable| observable.width())
+        .sum();
+    let per_output = width * size_of::<Sum>();
+    let waiting = scene.ensemble.replicas.min(batch(plan));
+    let lists = BYTES_OF_A_CANDIDATE as f64 * candidates(plan) * scene.particles.count as f64;
+    let rods =
+        replicas * (lists as u64 + (scene.particles.count * per_rod + plan.outputs() * maps[1]) as u64);
+    // Sums of replicas that wait to be added in order, and three running moments of 8 bytes.
+    let sums = plan.outputs() as u64 * (waiting * per_output as u64 + 3 * 8 * width as u64);
+    rods + sums
+}
+
+/// The share of rods that make a candidate in a step: s* is farther than the nearest of rods scattered at random,
+/// ∫ 1 − exp(−4π n s*(R)³/3) dR.
+fn candidates(plan: &Plan) -> f64 {
+    const POINTS: usize = 64;
+    let scene = plan.scene();
+    let Some(interaction) = (scene.interaction.as_ref()).filter(|_| plan.keeps(Stage::Contacts)) else {
+        return 0.0;
+    };
+    let n = scene.concentration(interaction);
+    let hit = |r: f64| {
+        let reach = reach(r, interaction.alpha, interaction.m);
+        -(-4.0 / 3.0 * PI * n * reach.powi(3)).exp_m1()
+    };
+    let points = (0..POINTS).map(|k| hit((k as f64 + 0.5) / POINTS as f64));
+    points.sum::<f64>() / POINTS as f64
+}

@@ -1,0 +1,252 @@
+//! What `docs/integrators.md` says of the problem and of the subjects, beyond orders and limits.
+
+use super::motion::larger;
+use super::subjects::Subjects;
+use super::subjects::spoiled::in_p;
+use crate::accept::Rule;
+use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::stability::orbit::Place;
+use crate::subject::{self, *};
+use crate::work_precision::order;
+use nalgebra::Vector3;
+use std::f64::consts::PI;
+
+/// The right-hand side in p at an aspect ratio, in units of G.
+type Rate = fn(&Problem, &Vector3<f64>) -> Vector3<f64>;
+
+pub fn cases() -> Vec<Case> {
+    let about = |name, claim, source, equations| About {
+        name,
+        kind: Kind::Verification,
+        claim,
+        source,
+        equations,
+        statistical_checks: 0,
+    };
+    let through_shape: Rate = |problem, p| {
+        let shape = shearbed::jeffery::shape_factor(problem.aspect_ratio);
+        let pull = Vector3::new(-0.5 * (1.0 - shape) * p.y, 0.5 * (1.0 + shape) * p.x, 0.0);
+        pull - p * (shape * p.x * p.y)
+    };
+    vec![
+        Case::new(
+            about(
+                "where-errors-show",
+                "A phase that is off by a tenth of a period shows as an angle of less than 1/r_e where a long rod lies along \
+                 the flow, and as more than ½ in its flip.",
+                "A.4",
+                &["A.4"],
+            ),
+            1.0,
+            vec![("rods a thousandth as long", 1e-3)],
+            where_errors_show,
+        ),
+        Case::new(
+            about(
+                "right-hand-side-digits",
+                "The right-hand sides of the subjects keep every digit of 1 − Λ, and with it the period, up to r_e = 10⁸.",
+                "A.1, eq. 15",
+                &["15", "A.1"],
+            ),
+            (|problem: &Problem, p: &Vector3<f64>| problem.rate(p)) as Rate,
+            vec![
+                ("from Λ itself", through_shape),
+                ("1/r_e² for 1/(r_e² + 1)", |problem, p| {
+                    let r2 = problem.aspect_ratio.powi(2);
+                    Vector3::new(-p.y / r2, p.x, 0.0) - p * (p.x * p.y)
+                }),
+            ],
+            digits,
+        ),
+        Case::new(
+            about(
+                "flip-not-stiff",
+                "No eigenvalue of Jeffery's equation in p is larger than 2.5 G, at any direction and r_e: the flip is short, but the \
+                 equation is not stiff.",
+                "A.1",
+                &["A.1"],
+            ),
+            1.0,
+            vec![("pulled to |p| = 1 ten times as fast", 10.0)],
+            eigenvalues,
+        ),
+        Case::new(
+            about(
+                "who-loses-length",
+                "The subjects that are not said to keep |p| lose it: each by more than round-off.",
+                "p·ṗ = 0 (A.1)",
+                &["A.1"],
+            ),
+            subject::all as Subjects,
+            vec![("projected RK4 not said to keep it", || {
+                in_p(4, false, |problem, p, h| {
+                    rk4(|y| problem.rate(&y), p, h).normalize()
+                })
+            })],
+            lose_length,
+        ),
+        Case::new(
+            about(
+                "coarse-steps",
+                "At GΔt = 10 and r_e = 11.6 RK4 in p gives no finite direction, and projected RK4 a wrong one of length 1.",
+                "A.1",
+                &["A.1"],
+            ),
+            10.0,
+            vec![("GΔt = 0.1", 0.1)],
+            coarse,
+        ),
+        Case::new(
+            about(
+                "grid-convergence-index",
+                "At r_e = 11.6 the grid convergence index bounds the error of every fixed-step subject on its finest three grids.",
+                "A.4, A.5",
+                &["A.4", "A.5"],
+            ),
+            subject::all as Subjects,
+            vec![("explicit Euler said to be of order 3", || {
+                in_p(3, false, |problem, p, h| p + h * problem.tangent_rate(&p))
+            })],
+            index_bounds,
+        ),
+    ]
+}
+
+fn where_errors_show(scale: &f64, _: &Effort) -> Vec<Evidence> {
+    let mut along = 0.0f64;
+    let mut flip = 0.0f64;
+    for r in [11.6, 100.0, 1e4, 1e8] {
+        let rods = scale * r;
+        let at = |turns: f64| Place::mid_flip(rods).before(turns).direction(rods).into_inner();
+        along = larger(along, apart_rad(&at(0.2), &at(0.3)) * r);
+        flip = larger(flip, 0.5 / apart_rad(&at(0.0), &at(0.1)));
+    }
+    vec![
+        Evidence::new(
+            "largest angle between two directions along the flow, a tenth of a period apart, times r_e",
+            Rule::within(
+                along,
+                1.0,
+                "A.4: π/2 − φ = cot(κ)/r_e, and cot κ changes by 0.65 between the two",
+            ),
+        ),
+        Evidence::new(
+            "½ over the smallest angle between the flip and a tenth of a period before",
+            Rule::within(flip, 1.0, "from φ = 1 to a rod along the flow, π/2"),
+        ),
+    ]
+}
+
+fn digits(rate: &Rate, _: &Effort) -> Vec<Evidence> {
+    let mut worst = 0.0f64;
+    let mut period = 0.0f64;
+    for r in [1.01, 2.0, 11.6, 1e4, 1e8, 0.1, 1e-4, 1e-8] {
+        let problem = Problem::new(r, 1.0);
+        let long = rate(&problem, &Vector3::x()).y;
+        let short = -rate(&problem, &Vector3::y()).x;
+        // r_e² = long/short, without a difference.
+        worst = larger(worst, ((long / short).sqrt() / r - 1.0).abs());
+        let turns = 2.0 * PI / (long * short).sqrt();
+        period = larger(period, (turns / (2.0 * PI * (r + 1.0 / r)) - 1.0).abs());
+    }
+    let because = "a square, a sum, a quotient, a root: a dozen roundings";
+    vec![
+        Evidence::new(
+            "relative error of r_e read off the right-hand side",
+            Rule::within(worst, 12.0 * f64::EPSILON, because),
+        ),
+        Evidence::new(
+            "relative error of the period read off it",
+            Rule::within(period, 12.0 * f64::EPSILON, because),
+        ),
+    ]
+}
+
+fn eigenvalues(pull: &f64, _: &Effort) -> Vec<Evidence> {
+    let mut worst = 0.0f64;
+    for r in [1e-4, 0.1, 1.01, 2.0, 11.6, 1e4] {
+        let problem = Problem::new(r, 1.0);
+        for i in 0..48 {
+            for j in 0..=24 {
+                let (phi, theta) = (PI * f64::from(i) / 24.0, PI * f64::from(j) / 24.0);
+                let p = shearbed::orientation::from_angles(phi, theta).into_inner();
+                let along = p.dot(&problem.tangent_rate(&p));
+                // The control adds a pull along p, which a rod of |p| = 1 does not feel.
+                let extra = (pull - 1.0) * (1.0 + along) * p * p.transpose();
+                let slope = problem.rate_slope(&p) - extra;
+                worst = (slope.complex_eigenvalues().iter())
+                    .map(|value| value.norm())
+                    .fold(worst, larger);
+            }
+        }
+    }
+    vec![Evidence::new(
+        "largest eigenvalue of ∂ṗ/∂p over G",
+        Rule::within(
+            worst,
+            2.5,
+            "a sum of norms: 1 of W + ΛD, ½ of p·Dp, 1 of p times the gradient of p·Dp",
+        ),
+    )]
+}
+
+fn lose_length(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+    let (problem, start) = Problem::mid_flip(11.6);
+    let steps = 1024;
+    let kept = |subject: &dyn Subject| {
+        let setting = match subject.theory() {
+            Theory::Adaptive => Setting::Tolerance(1e-6),
+            _ => Setting::Steps(steps),
+        };
+        let off = grade(subject, &problem, &start, setting).map_or(0.0, |errors| errors.length);
+        off <= 4.0 * steps as f64 * f64::EPSILON
+    };
+    let all = subjects();
+    let losing = all
+        .iter()
+        .filter(|subject| !subject.keeps_length() && subject.theory() != Theory::Exact);
+    vec![Evidence::new(
+        "subjects that keep |p| to round-off without being said to",
+        Rule::exact(losing.filter(|subject| kept(subject.as_ref())).count() as f64),
+    )]
+}
+
+fn coarse(strain: &f64, _: &Effort) -> Vec<Evidence> {
+    let (problem, start) = Problem::mid_flip(11.6);
+    let steps = Setting::Steps((problem.strain() / strain).round() as u64);
+    let mut unlike = 0.0;
+    for subject in subject::all() {
+        let found = grade(subject.as_ref(), &problem, &start, steps);
+        let as_said = match (subject.name(), found) {
+            ("RK4 in p", found) => found == Err(Failure::NotFinite),
+            ("projected RK4 in p", Ok(errors)) => errors.length < 1e-12 && errors.orientation_rad > 0.01,
+            ("projected RK4 in p", Err(_)) => false,
+            _ => true,
+        };
+        unlike += f64::from(!as_said);
+    }
+    vec![Evidence::new("of the two, not as said", Rule::exact(unlike))]
+}
+
+fn index_bounds(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+    let (problem, start) = Problem::mid_flip(11.6);
+    let mut worst = 0.0f64;
+    for subject in subjects() {
+        if let Some(study) = order::study(subject.as_ref(), &problem, &start, 8) {
+            worst = larger(
+                worst,
+                study
+                    .richardson
+                    .map_or(f64::NAN, |found| found.true_error / found.index),
+            );
+        }
+    }
+    vec![Evidence::new(
+        "largest error over its index",
+        Rule::within(
+            worst,
+            1.0,
+            "the index is 1.25 times the error where the error falls with the order of theory",
+        ),
+    )]
+}

@@ -1,0 +1,149 @@
+//! Where integrators of a free rod leave their region of stability: what `docs/stability.md` says.
+
+use super::motion::larger;
+use super::subjects::Subjects;
+use super::subjects::spoiled::{Refuses, WholeTurns, in_angles, in_p};
+use crate::accept::Rule;
+use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::stability::map::{self, ASPECT_RATIOS, Cell, Found, STEPS, TOLERANCES};
+use crate::stability::orbit::Place;
+use crate::subject::{self, *};
+
+pub fn cases() -> Vec<Case> {
+    vec![Case::new(
+        About {
+            name: "stability-map",
+            kind: Kind::Verification,
+            claim: "In every corner of the map every subject ends, with a direction or with an error: the exact propagator at \
+                    round-off, A.4 and A.5 in angles within 4·10⁻⁵ rad, who keeps |p| with |p| = 1, and orders 2 and 4 within \
+                    4 (GΔt)² rad over one period where GΔt ≤ ½.",
+            source: "A.2 to A.5, eq. 13",
+            equations: &["13", "A.2", "A.3", "A.4", "A.5"],
+            statistical_checks: 0,
+        },
+        subject::all as Subjects,
+        vec![
+            ("whole turns are left in the phase", || vec![Box::new(WholeTurns)]),
+            ("RK4 in p said to keep |p|", || {
+                in_p(4, true, |problem, p, h| rk4(|y| problem.rate(&y), p, h))
+            }),
+            ("RK4 in angles with an order 4 that is 1", || {
+                in_angles(4, |problem, y, h| {
+                    explicit_euler(|y| problem.angle_rates(&y), y, h)
+                })
+            }),
+            ("an error in place of every direction", || vec![Box::new(Refuses)]),
+        ],
+        corners,
+    )]
+}
+
+/// A cell with what it is a cell of.
+struct Tried {
+    cell: Cell,
+    strain_per_step: f64,
+}
+
+fn corners(subjects: &Subjects, effort: &Effort) -> Vec<Evidence> {
+    let most_steps = effort.pick(2_000, 20_000);
+    let mut exact = 0.0f64;
+    let mut angles = 0.0f64;
+    let mut length = 0.0f64;
+    let mut accurate = 0.0f64;
+    let mut silent = 0.0;
+    for subject in subjects() {
+        for tried in tried(subject.as_ref(), most_steps) {
+            let cell = &tried.cell;
+            let error = cell.error_rad.unwrap_or(f64::NAN);
+            match subject.theory() {
+                Theory::Exact if subject.name() == ClosedForm.name() => angles = larger(angles, error),
+                Theory::Exact => exact += f64::from(cell.found != Found::RoundOff),
+                Theory::Order(order) if order > 1 && (1e-3..=0.5).contains(&tried.strain_per_step) => {
+                    accurate = larger(accurate, error / tried.strain_per_step.powi(2));
+                }
+                _ => {}
+            }
+            if let (true, Some(off)) = (subject.keeps_length(), cell.length) {
+                length = larger(length, off);
+            }
+            // Whoever gives no direction says why: a reason, or that it is not finite.
+            let told = cell.error_rad.is_some() || cell.found == Found::NotFinite || cell.reason.is_some();
+            silent += f64::from(!told);
+        }
+    }
+    vec![
+        Evidence::new(
+            "cells in which a subject without steps, other than in angles, is not at round-off",
+            Rule::exact(exact),
+        ),
+        Evidence::new(
+            "largest angle to the closed form, A.4 and A.5 in angles",
+            Rule::within(
+                angles,
+                4e-5,
+                "the starting phase is added to t/T before whole turns are taken out: rounded to half an ulp of 10³, \
+                 6·10⁻¹⁴, times 2π r_e = 6·10⁸",
+            ),
+        ),
+        Evidence::new(
+            "largest ||p| − 1| of who keeps it",
+            Rule::within(
+                length,
+                4.0 * most_steps as f64 * f64::EPSILON,
+                "each step rounds |p| by four roundings at most",
+            ),
+        ),
+        Evidence::new(
+            "largest angle over (GΔt)² where 10⁻³ ≤ GΔt ≤ ½ and the order is 2 or 4, over one period",
+            Rule::within(
+                accurate,
+                4.0,
+                "φ̇/G = cos²φ and its derivatives are 2 at most, and a flip lasts a few 1/G; below 10⁻³ round-off is more",
+            ),
+        ),
+        Evidence::new(
+            "cells without a direction and without an error",
+            Rule::exact(silent),
+        ),
+    ]
+}
+
+/// Every map's cells that a subject has within so many steps.
+fn tried(subject: &dyn Subject, most_steps: u64) -> Vec<Tried> {
+    let theory = subject.theory();
+    let mut all = Vec::new();
+    let mut push = |run: map::Run| {
+        let strain = Problem::new(run.aspect_ratio, run.turns).strain();
+        all.push(Tried {
+            cell: run.of(subject),
+            strain_per_step: match run.setting {
+                // Long runs are another matter: the phase error grows with the time.
+                Setting::Steps(steps) if run.turns < 2.0 => strain / steps as f64,
+                _ => f64::INFINITY,
+            },
+        });
+    };
+    for r in ASPECT_RATIOS {
+        match theory {
+            Theory::Adaptive => {
+                for tolerance in TOLERANCES {
+                    let setting = Setting::Tolerance(tolerance);
+                    let run = map::by_duration(theory, r, 1.0, Place::mid_flip(r), most_steps);
+                    run.into_iter().for_each(|run| push(map::Run { setting, ..run }));
+                }
+            }
+            _ => STEPS
+                .into_iter()
+                .for_each(|step| push(map::by_step(theory, r, step, most_steps))),
+        }
+        for (_, place) in map::places(r) {
+            let run = map::by_duration(theory, r, 1.0, place, most_steps);
+            run.into_iter().for_each(&mut push);
+        }
+    }
+    for periods in map::PERIODS {
+        let run = map::by_duration(theory, 11.6, periods, Place::mid_flip(11.6), most_steps);
+        run.into_iter().for_each(&mut push);
+    }
+    all
+}

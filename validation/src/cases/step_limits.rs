@@ -1,0 +1,443 @@
+//! The longest steps of fixed-step subjects against theory, by bisection (`docs/stability.md`).
+
+use super::motion::larger;
+use super::subjects::Subjects;
+use super::subjects::spoiled::{in_angles, in_p};
+use crate::accept::Rule;
+use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::stability::limit_tables::{ONE_STEP, TEN_PERIODS};
+use crate::stability::limits::{Limit, Property, bisect, holds};
+use crate::stability::theory;
+use crate::subject::{self, *};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Subjects that are to lose a property at a step given by theory.
+struct Claimed {
+    subjects: Subjects,
+    property: Property,
+    theory: fn(f64) -> f64,
+}
+
+/// The project's subject of this name.
+fn own(name: &str) -> Vec<Box<dyn Subject>> {
+    let mut all = subject::all();
+    all.retain(|subject| subject.name() == name);
+    all
+}
+
+fn euler() -> Vec<Box<dyn Subject>> {
+    own("explicit Euler in angles")
+}
+
+fn half_euler() -> Vec<Box<dyn Subject>> {
+    in_angles(1, |problem, y, h| {
+        explicit_euler(|y| 0.5 * problem.angle_rates(&y), y, h)
+    })
+}
+
+fn rk4_in_angles() -> Vec<Box<dyn Subject>> {
+    own("RK4 in angles")
+}
+
+fn implicit_midpoint() -> Vec<Box<dyn Subject>> {
+    own("implicit midpoint in p")
+}
+
+pub fn cases() -> Vec<Case> {
+    let about = |name, claim, equations| About {
+        name,
+        kind: Kind::Verification,
+        claim,
+        source: "A.2, A.3; A.14 is such a step",
+        equations,
+        statistical_checks: 0,
+    };
+    let order = |subjects: Subjects| Claimed {
+        subjects,
+        property: Property::Order,
+        theory: theory::euler_order,
+    };
+    let turning = |subjects: Subjects| Claimed {
+        subjects,
+        property: Property::Turning,
+        theory: theory::euler_turning,
+    };
+    let side = |subjects: Subjects, theory| Claimed {
+        subjects,
+        property: Property::Side,
+        theory,
+    };
+    let folded = |subjects: Subjects, theory| Claimed {
+        subjects,
+        property: Property::Order,
+        theory,
+    };
+    vec![
+        Case::new(
+            about(
+                "euler-step-limit",
+                "Explicit Euler's step on A.2 lets one rod overtake another where GΔt > 1/Λ, and never below.",
+                &["A.2"],
+            ),
+            order(euler),
+            vec![
+                ("half of the rate", order(half_euler)),
+                ("RK4", order(rk4_in_angles)),
+                ("the exact propagator", order(|| vec![Box::new(ExactPropagator)])),
+            ],
+            agrees,
+        ),
+        Case::new(
+            about(
+                "step-limit-turning",
+                "Explicit Euler and the Lie-group midpoint rule turn every rod in the plane of shear by less than half a turn \
+                 a step up to GΔt = π(1 + 1/r_e²), and not beyond.",
+                &["A.2"],
+            ),
+            turning(|| {
+                [euler(), own("Lie-group midpoint")]
+                    .into_iter()
+                    .flatten()
+                    .collect()
+            }),
+            vec![
+                ("half of the rate", turning(half_euler)),
+                ("RK4", turning(rk4_in_angles)),
+                (
+                    "the exact propagator",
+                    turning(|| vec![Box::new(ExactPropagator)]),
+                ),
+            ],
+            agrees,
+        ),
+        Case::new(
+            about(
+                "rods-come-to-rest",
+                "Just above GΔt = π(1 + 1/r_e²) explicit Euler brings every rod in the plane of shear to rest where there is \
+                 no rest; just below it none stops.",
+                &["A.2"],
+            ),
+            euler as Subjects,
+            vec![
+                ("half of the rate", half_euler as Subjects),
+                ("RK4", rk4_in_angles as Subjects),
+            ],
+            rest,
+        ),
+        Case::new(
+            about(
+                "step-limit-side",
+                "Explicit Euler lets no rod cross the plane of shear up to GΔt = 2/Λ, and not beyond.",
+                &["A.3"],
+            ),
+            side(euler, theory::euler_side),
+            vec![
+                ("half of the rate", side(half_euler, theory::euler_side)),
+                ("RK4", side(rk4_in_angles, theory::euler_side)),
+            ],
+            agrees,
+        ),
+        Case::new(
+            about(
+                "implicit-midpoint-order",
+                "The implicit midpoint rule keeps the order of rods in the plane of shear at every step for r_e < 1 + √2, and \
+                 for longer rods up to GΔt = 2/(Λ(1 − u²)^{3/2}), 2u³ − 3u + 1/Λ = 0.",
+                &["A.2"],
+            ),
+            folded(implicit_midpoint, theory::implicit_midpoint_order),
+            vec![
+                (
+                    "no limit, as an A-stable method on a linear equation",
+                    folded(implicit_midpoint, |_| f64::INFINITY),
+                ),
+                (
+                    "the explicit midpoint rule",
+                    folded(|| own("Lie-group midpoint"), theory::implicit_midpoint_order),
+                ),
+                (
+                    "Newton's method after two changes",
+                    folded(two_changes, theory::implicit_midpoint_order),
+                ),
+            ],
+            agrees,
+        ),
+        Case::new(
+            about(
+                "implicit-midpoint-side",
+                "The implicit midpoint rule lets no rod cross the plane of shear up to GΔt = 4/Λ or up to where its order is \
+                 lost, whichever is less, and not beyond.",
+                &["A.3"],
+            ),
+            side(implicit_midpoint, theory::implicit_midpoint_one_solution),
+            vec![
+                (
+                    "4/Λ at every r_e",
+                    side(implicit_midpoint, theory::implicit_midpoint_side),
+                ),
+                (
+                    "where its order is lost, at every r_e",
+                    side(implicit_midpoint, theory::implicit_midpoint_order),
+                ),
+                (
+                    "explicit Euler",
+                    side(euler, theory::implicit_midpoint_one_solution),
+                ),
+            ],
+            agrees,
+        ),
+        Case::new(
+            about(
+                "step-limit-at-least",
+                "Explicit methods of order p in angles keep the order of rods at least up to GΔtΛ = x, x + … + xᵖ/p! = 1; in \
+                 the plane of shear the Lie-group RKMK4 is RK4 in angles.",
+                &["A.2"],
+            ),
+            (|| {
+                [
+                    "explicit Euler in angles",
+                    "RK4 in angles",
+                    "Lie-group midpoint",
+                    "Lie-group RKMK4",
+                ]
+                .into_iter()
+                .flat_map(own)
+                .collect()
+            }) as Subjects,
+            vec![
+                ("RK4 in steps of three times the length", || {
+                    in_angles(4, |problem, y, h| rk4(|y| problem.angle_rates(&y), y, 3.0 * h))
+                }),
+                ("RK4 in p in place of RKMK4", || {
+                    vec![rk4_in_angles(), own("RK4 in p")]
+                        .into_iter()
+                        .flatten()
+                        .collect()
+                }),
+            ],
+            at_least,
+        ),
+        Case::new(
+            about(
+                "rk4-near-a-sphere",
+                "As r_e → 1, RK4 in p turns every rod up to GΔt = 2√6 and its length is bounded up to 4√2, its limit on the \
+                 imaginary axis.",
+                &["A.1"],
+            ),
+            (|| own("RK4 in p")) as Subjects,
+            vec![
+                ("RK4 in angles", rk4_in_angles as Subjects),
+                ("explicit Euler in p", || {
+                    in_p(1, false, |problem, p, h| p + h * problem.rate(&p))
+                }),
+                ("the linear equation with half its rate", || {
+                    in_p(4, false, |problem, p, h| rk4(|y| problem.rate(&y), p, 0.5 * h))
+                }),
+            ],
+            near_a_sphere,
+        ),
+        Case::new(
+            about(
+                "frozen-limit",
+                "RK4 in p loses its length before the limit that frozen coefficients give on the real axis, GΔt = 2.785/Λ, for \
+                 r_e from 1.5 to 100.",
+                &["A.1"],
+            ),
+            (|| own("RK4 in p")) as Subjects,
+            vec![
+                ("projected", || own("projected RK4 in p")),
+                ("in angles", rk4_in_angles as Subjects),
+                ("steps of half the length", || {
+                    in_p(4, false, |problem, p, h| {
+                        let f = |y| problem.rate(&y);
+                        rk4(f, rk4(f, p, 0.5 * h), 0.5 * h)
+                    })
+                }),
+            ],
+            frozen,
+        ),
+    ]
+}
+
+/// The implicit midpoint rule given up too early.
+fn two_changes() -> Vec<Box<dyn Subject>> {
+    in_p(2, true, |problem, p, h| {
+        let mut m = p;
+        for _ in 0..2 {
+            let miss = m - p - problem.tangent_rate(&m) * (0.5 * h);
+            let slope = nalgebra::Matrix3::identity() - problem.tangent_rate_slope(&m) * (0.5 * h);
+            m -= slope.try_inverse().unwrap_or_default() * miss;
+        }
+        m + m - p
+    })
+}
+
+/// Rods, and discs, which are rods turned by a right angle.
+const RATIOS: [f64; 9] = [0.1, 1.1, 1.5, 2.0, 2.5, 3.0, 11.6, 100.0, 1e4];
+
+fn agrees(claimed: &Claimed, _: &Effort) -> Vec<Evidence> {
+    let judged = |subject: Box<dyn Subject>| {
+        let worst = RATIOS.map(|r| {
+            let expected = (claimed.theory)(r);
+            let found = bisect(ONE_STEP, |h| holds(subject.as_ref(), claimed.property, r, h));
+            match found {
+                Limit::At(strain) => (strain / expected - 1.0).abs(),
+                Limit::Beyond(strain) if expected > strain => 0.0,
+                Limit::Beyond(_) | Limit::Below(_) => f64::INFINITY,
+            }
+        });
+        Evidence::new(
+            format!(
+                "relative difference of the longest step and theory, {}",
+                subject.name()
+            ),
+            Rule::within(
+                worst.into_iter().fold(0.0, larger),
+                5e-4,
+                "of 512 rods one is within 3·10⁻³ rad of the extreme, where what is judged is flat: 10⁻⁵ times its \
+                 curvature, some tens at most",
+            ),
+        )
+    };
+    (claimed.subjects)().into_iter().map(judged).collect()
+}
+
+fn rest(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+    let mut moving = 0.0;
+    let mut resting = 0.0;
+    for subject in subjects() {
+        for r in [2.0, 11.6, 100.0] {
+            let limit = theory::euler_turning(r);
+            for k in 0..32 {
+                let start = shearbed::orientation::from_angles(PI * f64::from(k) / 32.0, FRAC_PI_2);
+                // The angle of the last of many steps, head or tail alike.
+                let last = |strain: f64| {
+                    let steps = |steps: u64| {
+                        let turns = steps as f64 * strain / Problem::new(r, 1.0).strain();
+                        subject.advance(&Problem::new(r, turns), &start, Setting::Steps(steps))
+                    };
+                    match (steps(1000), steps(1001)) {
+                        (Ok(a), Ok(b)) => apart_rad(&a, &b),
+                        _ => f64::NAN,
+                    }
+                };
+                let (above, below) = (last(1.02 * limit), last(0.98 * limit));
+                moving += f64::from(above.is_nan() || above > 1e-6);
+                resting += f64::from(below.is_nan() || below < 1e-6);
+            }
+        }
+    }
+    vec![
+        Evidence::new(
+            "rods still moving after 1000 steps of 1.02 times the limit",
+            Rule::exact(moving),
+        ),
+        Evidence::new(
+            "rods at rest after 1000 steps of 0.98 times the limit",
+            Rule::exact(resting),
+        ),
+    ]
+}
+
+fn at_least(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+    let mut evidence = Vec::new();
+    let mut classical: Vec<f64> = Vec::new();
+    for subject in subjects() {
+        let Theory::Order(order) = subject.theory() else {
+            continue;
+        };
+        let found =
+            RATIOS.map(
+                |r| match bisect(ONE_STEP, |h| holds(subject.as_ref(), Property::Order, r, h)) {
+                    Limit::At(strain) => strain,
+                    _ => f64::NAN,
+                },
+            );
+        let least = RATIOS
+            .iter()
+            .zip(found)
+            .map(|(r, found)| theory::runge_kutta_order_at_least(order, *r) / found);
+        evidence.push(Evidence::new(
+            format!("bound over the longest step without overtaking, {}", subject.name()),
+            Rule::within(
+                least.fold(0.0, larger),
+                1.0 + 5e-4,
+                "a bound from below; between 512 rods a step is found too long by 10⁻⁵ times a curvature of some tens",
+            ),
+        ));
+        if order == 4 {
+            let apart = |first: &f64, found: f64| (found / first - 1.0).abs();
+            let off = classical
+                .iter()
+                .zip(found)
+                .map(|(first, found)| apart(first, found));
+            evidence.push(Evidence::new(
+                format!("relative difference to the first of order 4, {}", subject.name()),
+                Rule::within(off.fold(0.0, larger), 1e-6, "the bisection ends at 10⁻⁷"),
+            ));
+            if classical.is_empty() {
+                classical = found.into();
+            }
+        }
+    }
+    evidence
+}
+
+fn near_a_sphere(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+    let r = 1.0 + 1e-5;
+    let off = |limit: Limit, expected: f64| match limit {
+        Limit::At(strain) => strain / expected - 1.0,
+        _ => f64::NAN,
+    };
+    let mut evidence = Vec::new();
+    for subject in subjects() {
+        let found = |property, ladder| bisect(ladder, |h| holds(subject.as_ref(), property, r, h));
+        evidence.push(Evidence::new(
+            "relative difference of the longest step that turns and 2√6",
+            Rule::within(
+                off(
+                    found(Property::Turning, ONE_STEP),
+                    theory::rk4_turning_of_a_sphere(),
+                ),
+                1e-4,
+                "ten times Λ = 10⁻⁵",
+            ),
+        ));
+        evidence.push(Evidence::new(
+            "relative difference of the longest step with a bounded length and 4√2",
+            Rule::within(
+                off(found(Property::Length, TEN_PERIODS), theory::rk4_length_of_a_sphere()),
+                5e-3,
+                "|R|² = 1 + 0.89(y² − 8): in the 22 steps of ten periods |p| grows to 1.5 at y² = 8.04, which is 0.26 % more",
+            ),
+        ));
+    }
+    evidence
+}
+
+fn frozen(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+    let mut worst = 0.0f64;
+    for subject in subjects() {
+        for r in [1.5, 2.0, 3.0, 11.6, 100.0] {
+            let ladder = crate::stability::limits::Ladder {
+                least: 1.0,
+                ..TEN_PERIODS
+            };
+            let frozen = 2.785 * theory::euler_order(r);
+            worst = larger(
+                worst,
+                match bisect(ladder, |h| holds(subject.as_ref(), Property::Length, r, h)) {
+                    Limit::At(strain) => strain / frozen,
+                    _ => f64::INFINITY,
+                },
+            );
+        }
+    }
+    vec![Evidence::new(
+        "largest step with a bounded length over 2.785/(ΛG)",
+        Rule::within(
+            worst,
+            0.99,
+            "a hundredth below is told from equal: ten periods find a growth of 10⁻³ a step",
+        ),
+    )]
+}

@@ -1,0 +1,213 @@
+//! `shearbed sweep`.
+
+use super::{Failure, MAX_THREADS, memory, on_threads, print, probe, progress, scene, tables, whole};
+use crate::cluster;
+use crate::output::Output;
+use crate::sweep::{self, Axis, Folder, Identity, Point, Refused};
+use shearbed::ensemble;
+use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use toml::Value;
+
+/// Arguments of `sweep`.
+#[derive(clap::Args)]
+#[command(after_help = "\
+An interrupted sweep goes on when the same command is given again. Every point has the same seed.
+Examples:
+  shearbed sweep fig4-n50 --over interaction.alpha=0.1:1:10 --replicas 100
+  shearbed sweep mine.toml --over interaction.update=rotation,angles --over time.steps_per_period=100,200,400")]
+pub(super) struct Args {
+    /// A scene file, or the name of a built-in scene
+    scene: OsString,
+    /// A key of the scene and its values: FROM:TO:COUNT evenly with both ends, or a list; given more than once, every
+    /// combination is a point
+    #[arg(long, value_name = "KEY=VALUES", required = true, value_parser = Axis::parse)]
+    over: Vec<Axis>,
+    /// The folder for sweep.csv, sweep.json and points/ [default: out/sweep-<scene>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Independent runs of each point, in place of the scene's own number
+    #[arg(long, value_name = "N", value_parser = whole(1, MAX_REPLICAS), allow_negative_numbers = true)]
+    replicas: Option<u64>,
+    /// The seed of all random numbers, in place of the scene's own
+    #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), allow_negative_numbers = true)]
+    seed: Option<u64>,
+    /// Threads to run on; the results do not depend on it [default: one for each core]
+    #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
+    threads: Option<u64>,
+    /// Print nothing but errors
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Runs the points of a sweep that are not finished, and writes one row a point.
+pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
+    let mut named = scene::load(&args.scene)?;
+    let ensemble = &mut named.scene.ensemble;
+    let fixed = [
+        (
+            "replicas",
+            "ensemble.replicas",
+            args.replicas,
+            &mut ensemble.replicas,
+        ),
+        ("seed", "ensemble.seed", args.seed, &mut ensemble.seed),
+    ];
+    let mut settings = Vec::new();
+    for (flag, key, given, own) in fixed {
+        if let Some(value) = given {
+            if args.over.iter().any(|axis| axis.key == key) {
+                let both = format!("--{flag} {value}: --over {key} says it too; one of the two is allowed");
+                return Err(Failure::Input(both));
+            }
+            settings.push((key, Value::Integer(value as i64)));
+            *own = value;
+        }
+    }
+    check(&args.over)?;
+    let points = sweep::points(&named.text, &settings, &args.over)
+        .map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
+    for point in &points {
+        let at = format!(
+            "{}: --over {}",
+            named.source,
+            sweep::described(&args.over, &point.values)
+        );
+        memory::check(&point.plan, args.threads, &at)?;
+    }
+    let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("sweep-{}", named.stem)));
+    let identity = Identity::new(&named.scene, &args.over);
+
+    // Only the root may see the folder.
+    let open = || {
+        probe(&out)?;
+        let folder = Folder::open(&out, &identity, points.len())?;
+        Ok::<_, Failure>(jobs(&folder.finished(), points.len()))
+    };
+    let (checked, jobs): (Option<usize>, Vec<usize>) = cluster::from_root(open)?;
+    let folder = Folder::at(&out, points.len());
+    let bar = progress(jobs.len() as u64, "points", args.quiet);
+    let job = |job: usize| {
+        let k = jobs[job];
+        tables_of(&points[k]).map_err(|error| {
+            let point = sweep::described(&args.over, &points[k].values);
+            Failure::Failed(format!("{}: --over {point}: {error}", named.source))
+        })
+    };
+    let arrived = |job: usize, tables: &Vec<Output>| {
+        bar.inc(1);
+        let k = jobs[job];
+        match checked {
+            Some(finished) if finished == k => match folder.holds(k, tables) {
+                true => Ok(()),
+                false => Err(other_numbers(&folder.point(k))),
+            },
+            _ => Ok(folder.keep(k, tables)?),
+        }
+    };
+    let shared = on_threads(args.threads, || cluster::share(jobs.len(), job, arrived))??;
+    bar.finish_and_clear();
+    if shared.is_none() {
+        return Ok(());
+    }
+    let names: Vec<_> = (points[0].plan.observables().iter())
+        .map(|observable| format!("{}.csv", observable.name()))
+        .collect();
+    let values: Vec<_> = points.iter().map(|point| point.values.clone()).collect();
+    let rows = folder.gather(&args.over, &values, &names)?;
+    if args.quiet {
+        return Ok(());
+    }
+    let new = jobs.len() - usize::from(checked.is_some());
+    print(&format!(
+        "{}\npoints: {}, of which {} were finished before\n\n{}\nin {}: sweep.csv, sweep.json, points\n",
+        named.scene.title,
+        points.len(),
+        points.len() - new,
+        table(&rows, args.over.len()),
+        out.display(),
+    ))
+}
+
+/// Refuses a key given twice, and one that changes what is observed.
+fn check(axes: &[Axis]) -> Result<(), Failure> {
+    for (k, axis) in axes.iter().enumerate() {
+        let key = &axis.key;
+        if axes[..k].iter().any(|other| other.key == *key) {
+            return Err(Failure::Input(format!(
+                "--over {key}: given twice; each key once is allowed"
+            )));
+        }
+        if key.starts_with("output") {
+            return Err(Failure::Input(format!(
+                "--over {key}: all points have the same columns; keys of other tables are allowed"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// The points to run: those that are missing; where others are finished, the first of these comes before them, to be
+/// compared with what is kept: a program whose numbers have changed is to be noticed.
+fn jobs(finished: &[usize], points: usize) -> (Option<usize>, Vec<usize>) {
+    let missing: Vec<_> = (0..points)
+        .filter(|k| finished.binary_search(k).is_err())
+        .collect();
+    let checked = finished.first().copied().filter(|_| !missing.is_empty());
+    (checked, checked.into_iter().chain(missing).collect())
+}
+
+/// A table of each observable of a point.
+fn tables_of(point: &Point) -> Result<Vec<Output>, String> {
+    let results = ensemble::run(&point.plan, || ()).map_err(|error| error.to_string())?;
+    let table = |series: &ensemble::Series| {
+        let name = format!("{}.csv", series.observable.name());
+        Ok((name, tables::csv(&results, series)?))
+    };
+    results.series.iter().map(table).collect()
+}
+
+fn other_numbers(point: &Path) -> Failure {
+    Failure::Input(format!(
+        "{}: run again, this point has other numbers: another build of the program made it; give another --out, or \
+         remove the folder; nothing of it was changed",
+        point.display()
+    ))
+}
+
+/// The most rows and columns of a table for the terminal.
+const MOST: (usize, usize) = (32, 8);
+
+/// The rows with numbers shortened, where they are few enough to read.
+fn table(rows: &[Vec<String>], swept: usize) -> String {
+    if rows.len() > MOST.0 + 1 {
+        return String::new();
+    }
+    let columns = rows[0].len().min(swept + MOST.1);
+    let short = |column: usize, text: &String| match text.parse::<f64>() {
+        Ok(number) if column >= swept => format!("{number:.4}"),
+        _ => text.clone(),
+    };
+    let cells: Vec<Vec<_>> = (rows.iter())
+        .map(|row| (0..columns).map(|c| short(c, &row[c])).collect())
+        .collect();
+    let width = |c: usize| cells.iter().map(|row| row[c].chars().count()).max().unwrap_or(0);
+    let widths: Vec<_> = (0..columns).map(width).collect();
+    let line = |row: &Vec<String>| {
+        let cells: Vec<_> = (row.iter().zip(&widths))
+            .map(|(cell, width)| format!("{cell:>width$}"))
+            .collect();
+        cells.join("  ") + "\n"
+    };
+    cells.iter().map(line).collect()
+}
+
+impl From<Refused> for Failure {
+    fn from(refused: Refused) -> Self {
+        match refused {
+            Refused::Other(message) => Self::Input(message),
+            Refused::Output(error) => error.into(),
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! The ranks of an MPI job. One thread at a time talks to MPI; jobs use threads of their own.
+
+use super::{failed, in_order};
+use mpi::environment::{Universe, is_initialized};
+use mpi::topology::SimpleCommunicator;
+use mpi::traits::{Communicator, CommunicatorCollectives, Destination, MatchedReceiveVec, Root, Source};
+use mpi::{Tag, Threading};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicI32, Ordering};
+use std::thread::sleep;
+use std::time::Duration;
+
+/// The job this process has joined.
+pub struct Joined(Universe);
+
+/// How long a rank that has nothing to do sleeps before it looks again. Waiting inside MPI would keep a core busy.
+const IDLE: Duration = Duration::from_millis(1);
+
+/// How long a failing rank lets the root fail first: bad input fails everywhere, and is to be told once.
+const COURTESY: Duration = Duration::from_secs(2);
+
+/// Tags from 1 to this: MPI grants all up to 32 767.
+const LAST_TAG: i32 = 32_000;
+
+impl Joined {
+    /// Joins the job that `mpirun` has started, or one of this process alone.
+    pub fn new() -> Result<Self, String> {
+        match mpi::initialize_with_threading(Threading::Serialized) {
+            Some((universe, granted)) if granted >= Threading::Serialized => Ok(Self(universe)),
+            Some((_, granted)) => Err(format!(
+                "MPI: threads that talk to it in turns are needed, this library grants {granted:?}"
+            )),
+            None => Err("MPI: cannot be started".to_owned()),
+        }
+    }
+
+    /// Runs a command; a panic, which has said why, is its failure: ending without the others would leave them waiting.
+    pub fn caught<T>(&self, command: impl FnOnce() -> T) -> Result<T, String> {
+        catch_unwind(AssertUnwindSafe(command)).map_err(|_| "the program broke off".to_owned())
+    }
+
+    /// Says why the command failed, and ends all ranks with this exit code.
+    pub fn fail(self, message: &str, code: u8) -> ExitCode {
+        let Some(world) = world() else {
+            return failed(message, code);
+        };
+        if world.rank() != 0 {
+            sleep(COURTESY);
+        }
+        let (rank, size) = (world.rank(), world.size());
+        failed(&format!("rank {rank} of {size}: {message}"), code);
+        world.abort(code.into())
+    }
+
+    /// The end of a command that did not fail: waits for all ranks.
+    pub fn end(self) -> ExitCode {
+        let mut barrier = self.0.world().immediate_barrier();
+        while let Err(waiting) = barrier.test() {
+            barrier = waiting;
+            sleep(IDLE);
+        }
+        ExitCode::SUCCESS
+    }
+}
+
+/// All ranks, where there are others.
+fn world() -> Option<SimpleCommunicator> {
+    // A test that calls the library has joined nothing.
+    let joined = is_initialized().then(SimpleCommunicator::world);
+    joined.filter(|world| world.size() > 1)
+}
+
+/// Whether this rank writes and prints.
+pub fn is_root() -> bool {
+    world().is_none_or(|world| world.rank() == 0)
+}
+
+/// How many ranks there are.
+pub fn size() -> usize {
+    world().map_or(1, |world| world.size() as usize)
+}
+
+/// Does every job once: rank k the jobs k, k + size and so on. `arrived` is called on the root with each result, in
+/// any order. On the root, all results in order; elsewhere none.
+pub fn share<T, E>(
+    jobs: usize,
+    job: impl Fn(usize) -> Result<T, E>,
+    mut arrived: impl FnMut(usize, &T) -> Result<(), E>,
+) -> Result<Option<Vec<T>>, E>
+where
+    T: Serialize + DeserializeOwned,
+{
+    let Some(world) = world() else {
+        return in_order(jobs, job, arrived);
+    };
+    let (rank, size) = (world.rank() as usize, world.size() as usize);
+    let tag = next_tag();
+    let mine = (rank..jobs).step_by(size);
+    if rank != 0 {
+        for k in mine {
+            let message = encoded(&(k, job(k)?));
+            world.process_at_rank(0).send_with_tag(&message[..], tag);
+        }
+        return Ok(None);
+    }
+    let mut all: Vec<Option<T>> = (0..jobs).map(|_| None).collect();
+    let mut missing = jobs;
+    let mut take = |k: usize, result: T| {
+        arrived(k, &result)?;
+        all[k] = Some(result);
+        missing -= 1;
+        Ok(missing)
+    };
+    let mut left = jobs;
+    for k in mine {
+        left = take(k, job(k)?)?;
+        while let Some((k, result)) = received(&world, tag) {
+            left = take(k, result)?;
+        }
+    }
+    while left > 0 {
+        match received(&world, tag) {
+            Some((k, result)) => left = take(k, result)?,
+            None => sleep(IDLE),
+        }
+    }
+    Ok(Some(all.into_iter().flatten().collect()))
+}
+
+/// What the root makes, on every rank.
+pub fn from_root<T, E>(make: impl FnOnce() -> Result<T, E>) -> Result<T, E>
+where
+    T: Serialize + DeserializeOwned,
+{
+    let Some(world) = world() else {
+        return make();
+    };
+    let root = world.process_at_rank(0);
+    let made = if world.rank() == 0 { Some(make()?) } else { None };
+    let mut bytes = made.as_ref().map_or_else(Vec::new, encoded);
+    let mut length = bytes.len() as u64;
+    root.broadcast_into(&mut length);
+    bytes.resize(length as usize, 0);
+    root.broadcast_into(&mut bytes[..]);
+    Ok(made.unwrap_or_else(|| decoded(&bytes)))
+}
+
+/// A tag for each call: a rank may be ahead of the root by some.
+fn next_tag() -> Tag {
+    static CALLS: AtomicI32 = AtomicI32::new(0);
+    1 + CALLS.fetch_add(1, Ordering::Relaxed).rem_euclid(LAST_TAG)
+}
+
+/// A job and its result, if one has come.
+fn received<T: DeserializeOwned>(world: &SimpleCommunicator, tag: Tag) -> Option<(usize, T)> {
+    let found = world.any_process().immediate_matched_probe_with_tag(tag);
+    let (bytes, _) = found?.matched_receive_vec::<u8>();
+    Some(decoded(&bytes))
+}
+
+/// MessagePack: every bit of a number arrives, NaN too, and fields have their names.
+fn encoded<T: Serialize>(value: &T) -> Vec<u8> {
+    rmp_serde::to_vec_named(value).unwrap_or_else(|error| panic!("plain data can be sent: {error}"))
+}
+
+fn decoded<T: DeserializeOwned>(bytes: &[u8]) -> T {
+    rmp_serde::from_slice(bytes).unwrap_or_else(|error| panic!("the same program sent it: {error}"))
+}

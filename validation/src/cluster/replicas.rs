@@ -1,0 +1,25 @@
+//! The replicas of one scene over ranks.
+
+use super::{share, size};
+use shearbed::work::RunError;
+use shearbed::{Plan, Results, ensemble};
+
+/// Runs every replica of a plan, each rank its part of them on the threads of the current rayon pool; `finished` is
+/// called after each replica of this rank. On the root the results, bit for bit those of [`shearbed::ensemble::run`];
+/// elsewhere none.
+pub fn ensemble(plan: &Plan, finished: impl Fn() + Sync) -> Result<Option<Results>, RunError> {
+    let mut root = true;
+    let results = ensemble::fold(plan, |replicas| {
+        let count = replicas.end - replicas.start;
+        let parts = (size() as u64).min(count);
+        let cut = |part: u64| replicas.start + part * count / parts;
+        let run = |part| {
+            let part = part as u64;
+            ensemble::replicas_of(plan, cut(part)..cut(part + 1), &finished)
+        };
+        let all = share(parts as usize, run, |_, _| Ok(()))?;
+        root = all.is_some();
+        Ok(all.into_iter().flatten().flatten().collect())
+    })?;
+    Ok(root.then_some(results))
+}

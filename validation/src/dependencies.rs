@@ -1,0 +1,36 @@
+//! What the program is built from, as the report shows it: read from `docs/dependencies.md`, which a test keeps in
+//! step with the manifests.
+
+use crate::report::ReportTable;
+
+/// The document.
+pub const DOCUMENT: &str = include_str!("../../docs/dependencies.md");
+
+/// The table of the document, under the sentence that counts the crates.
+pub fn table() -> ReportTable {
+    let mut lines = (DOCUMENT.lines())
+        .filter(|line| line.starts_with('|') && !line.starts_with("| ---"))
+        .map(cells);
+    ReportTable {
+        name: "dependencies".into(),
+        title: "Dependencies, and what each is for".into(),
+        caption: format!(
+            "The program is built from {} crates of others. Those that it asks for itself, and those of its tests:",
+            crates().unwrap_or_default()
+        ),
+        columns: lines.next().unwrap_or_default(),
+        rows: lines.collect(),
+    }
+}
+
+/// How many crates of others the document says the program is built from.
+pub fn crates() -> Option<usize> {
+    let (before, _) = DOCUMENT.split_once(" crates of others")?;
+    before.split_whitespace().last()?.parse().ok()
+}
+
+/// The cells of a line; a link as its text.
+fn cells(line: &str) -> Vec<String> {
+    let cell = |text: &str| text.trim().replace("[cluster.md](cluster.md)", "docs/cluster.md");
+    line.trim_matches('|').split(" | ").map(cell).collect()
+}

@@ -1,0 +1,99 @@
+//! A rod at a place of its orbit, from its poles to the plane of shear, without angles: at any aspect ratio every
+//! component keeps all its digits.
+
+use nalgebra::{UnitVector3, Vector3};
+use std::f64::consts::TAU;
+
+/// A place on an orbit: p ∝ (c cos κ, r_e c sin κ, z), with κ growing by 2π in a period (A.4, A.5; C = c/|z|, eq. 13).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    c: f64,
+    z: f64,
+    cos: f64,
+    sin: f64,
+}
+
+impl Place {
+    /// On the orbit C = `c`/|`z`| at the azimuth of (`x`, `y`), which need not be a unit vector.
+    pub fn new(c: f64, z: f64, [x, y]: [f64; 2], aspect_ratio: f64) -> Self {
+        let (cos, sin) = (x, y / aspect_ratio);
+        let length = cos.hypot(sin);
+        Self {
+            c,
+            z,
+            cos: cos / length,
+            sin: sin / length,
+        }
+    }
+
+    /// φ = 1 and θ = 1: in the flip of a rod, and of a disc.
+    pub fn mid_flip(aspect_ratio: f64) -> Self {
+        let (sin, cos) = 1f64.sin_cos();
+        Self::new(
+            1f64.tan() * cos.hypot(sin / aspect_ratio),
+            1.0,
+            [cos, sin],
+            aspect_ratio,
+        )
+    }
+
+    /// `turns` periods earlier. Whole turns change nothing, and are taken out exactly.
+    pub fn before(&self, turns: f64) -> Self {
+        let (sin, cos) = (TAU * (turns - turns.round())).sin_cos();
+        Self {
+            cos: self.cos * cos + self.sin * sin,
+            sin: self.sin * cos - self.cos * sin,
+            ..*self
+        }
+    }
+
+    /// The direction there.
+    pub fn direction(&self, aspect_ratio: f64) -> UnitVector3<f64> {
+        let p = Vector3::new(self.c * self.cos, aspect_ratio * self.c * self.sin, self.z);
+        // Scaled first: no square overflows or vanishes.
+        UnitVector3::new_normalize(p / p.amax())
+    }
+
+    /// C_b = C/(1 + C).
+    pub fn bounded_orbit_constant(&self) -> f64 {
+        self.c / (self.c + self.z.abs())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::oracle::closed_form::angles_at;
+
+    #[test]
+    fn it_moves_as_the_closed_form() {
+        for r in [0.1, 1.0, 2.0, 11.6, 1e3] {
+            let end = Place::mid_flip(r);
+            for turns in [0.0, 0.1, 0.7, 3.3] {
+                let p = end.before(turns).direction(r);
+                let theta = p.x.hypot(p.y).atan2(p.z);
+                let (phi, theta) = angles_at(p.y.atan2(p.x), theta, r, turns);
+                let moved = Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos());
+                // A start along the flow is told in angles to ε, which is r_e² ε in the flip.
+                let enough = 1e-14 * (r + 1.0 / r).powi(2);
+                assert!(moved.cross(&end.direction(r)).norm() < enough, "{r} {turns}");
+            }
+        }
+    }
+
+    #[test]
+    fn poles_and_the_plane_of_shear() {
+        let at = |c, z, xy| Place::new(c, z, xy, 1e8).direction(1e8).into_inner();
+        assert_eq!(at(0.0, -1.0, [1.0, 0.0]), -Vector3::z());
+        assert_eq!(at(1.0, 0.0, [1.0, 0.0]), Vector3::x());
+        // p_3/p_2 = |z|/(r_e c).
+        let along = at(1.0, 1e-290, [0.0, 1.0]);
+        assert!(along.y == 1.0 && (along.z / 1e-298 - 1.0).abs() < 1e-15);
+        let thin = at(1e-300, 1.0, [1.0, 0.0]);
+        assert_eq!((thin.x, thin.z), (1e-300, 1.0));
+        assert_eq!(
+            Place::new(1.0, 0.0, [1.0, 1.0], 3.0).bounded_orbit_constant(),
+            1.0
+        );
+    }
+}

@@ -1,0 +1,163 @@
+//! Runs that share their random numbers: what the sharing saves. Three ways, each by its correlations.
+//!
+//! - *Multilevel*: the same scene at S and 2S steps per period, to correct cheap coarse runs by few fine ones.
+//! - *Common random numbers*: the same scene at two values of α, to know their difference.
+//! - *Control variate*: the same rods without collisions, whose mean has a closed form, to correct the mean.
+
+use super::job::Job;
+use super::law::Estimate;
+use super::{covariance, mean_and_se};
+use crate::oracle::isotropic;
+use rayon::prelude::*;
+use serde::Serialize;
+use shearbed::run::run_replica;
+use shearbed::{Observable, Plan, Scene};
+
+/// X̄₁ at each mark, replica by replica.
+pub type Values = Vec<Vec<f64>>;
+
+/// Quarters of a period that are looked at.
+pub const QUARTERS: u64 = 8;
+
+/// The factor on α of the second scene: 0.4 for 0.5.
+pub const OTHER_ALPHA: f64 = 0.8;
+
+/// What sharing saves at one time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// t/T.
+    pub turns: f64,
+    /// The correlation with the same run at half the time step.
+    pub finer: f64,
+    /// With the other α.
+    pub other_alpha: f64,
+    /// With the free rods.
+    pub free: f64,
+}
+
+/// Everything.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Coupled {
+    /// Steps per period, and twice as many.
+    pub steps_per_period: u64,
+    /// Replicas of each.
+    pub replicas: u64,
+    /// One for each quarter of a period.
+    pub rows: Vec<Row>,
+}
+
+impl Row {
+    /// The most that levels in Δt save in the cost of a mean, where coarse runs cost nothing: one over the share of
+    /// the variance that is left to the fine ones, 1 − ρ².
+    pub fn multilevel_at_best(&self) -> f64 {
+        1.0 / (1.0 - self.finer * self.finer)
+    }
+
+    /// The same for coarse runs at an eighth of the cost: fine runs with coarse ones beside them, and more coarse
+    /// ones, in the best proportion (Peherstorfer, Willcox & Gunzburger 2016). Below 1 it costs more than it saves.
+    pub fn multilevel(&self) -> f64 {
+        let square = self.finer * self.finer;
+        ((1.0 - square).sqrt() + (square / 8.0).sqrt()).powi(-2)
+    }
+
+    /// Independent runs for the difference between two α, over those that share.
+    pub fn common_numbers(&self) -> f64 {
+        1.0 / (1.0 - self.other_alpha)
+    }
+
+    /// Runs for the mean, over those with the free rods beside them.
+    pub fn control_variate(&self) -> f64 {
+        1.0 / (1.0 - self.free * self.free)
+    }
+}
+
+/// Measures all three on a scene.
+pub fn measure(scene: &Scene, replicas: u64) -> Result<Coupled, String> {
+    let steps = scene.steps_per_period().div_ceil(4) * 4;
+    let own = interacting(scene, steps, 1.0, QUARTERS, replicas)?;
+    let finer = interacting(scene, 2 * steps, 1.0, QUARTERS, replicas)?;
+    let other = interacting(scene, steps, OTHER_ALPHA, QUARTERS, replicas)?;
+    let free = free(scene, QUARTERS, replicas)?;
+    let row = |k: usize| Row {
+        turns: (k + 1) as f64 / 4.0,
+        finer: correlation(&at(&own, k), &at(&finer, k)),
+        other_alpha: correlation(&at(&own, k), &at(&other, k)),
+        free: correlation(&at(&own, k), &at(&free, k)),
+    };
+    Ok(Coupled {
+        steps_per_period: steps,
+        replicas,
+        rows: (0..QUARTERS as usize).map(row).collect(),
+    })
+}
+
+/// X̄₁ at every quarter of a period of a scene, α times a factor.
+pub fn interacting(
+    scene: &Scene,
+    steps: u64,
+    alpha: f64,
+    quarters: u64,
+    replicas: u64,
+) -> Result<Values, String> {
+    let mut job = Job::new(
+        scene,
+        steps,
+        scene.particles.count,
+        replicas,
+        quarters.div_ceil(4),
+    );
+    job.marks = (1..=quarters).map(|quarter| quarter * steps / 4).collect();
+    if let Some(interaction) = &mut job.scene.interaction {
+        interaction.alpha *= alpha;
+    }
+    let looks = |trace: super::job::Trace| trace.looks.iter().map(|look| look.x1).collect();
+    Ok(job.run(&|| ())?.into_iter().map(looks).collect())
+}
+
+/// The same of its rods without collisions: the same starts and aspect ratios, as their streams are their own.
+pub fn free(scene: &Scene, quarters: u64, replicas: u64) -> Result<Values, String> {
+    let mut scene = scene.clone();
+    scene.interaction = None;
+    scene.time.steps_per_period = None;
+    scene.time.periods = Some(quarters as f64 / 4.0);
+    scene.time.outputs_per_period = Some(4);
+    scene.output.observables = vec![Observable::Projections];
+    let plan = Plan::new(&scene).map_err(|error| error.to_string())?;
+    let count = scene.particles.count as f64;
+    (0..replicas)
+        .into_par_iter()
+        .map(|replica| {
+            let found = run_replica(&plan, replica).map_err(|error| error.to_string())?;
+            // Three channels an output; the first output is the start.
+            let x1 = found.sums.iter().step_by(3).skip(1);
+            Ok(x1.map(|sum| sum.value / count).collect())
+        })
+        .collect()
+}
+
+/// The mean of the free rods at t/T, over all starts.
+pub fn free_mean(scene: &Scene, turns: f64) -> f64 {
+    let particles = &scene.particles;
+    let sd = particles.aspect_ratio_sd_percent;
+    isotropic::mean_projections_polydisperse(particles.aspect_ratio, sd, turns)[0]
+}
+
+/// The mean of `x1` less what the free rods beside were off their own known mean, in the best proportion.
+pub fn controlled(x1: &[f64], free: &[f64], free_mean: f64) -> Estimate {
+    let share = covariance(x1, free) / covariance(free, free);
+    let corrected: Vec<_> = (x1.iter().zip(free))
+        .map(|(x1, free)| x1 - share * (free - free_mean))
+        .collect();
+    let (value, se) = mean_and_se(&corrected);
+    Estimate { value, se }
+}
+
+/// One mark of all replicas.
+pub fn at(values: &Values, mark: usize) -> Vec<f64> {
+    values.iter().map(|replica| replica[mark]).collect()
+}
+
+/// The correlation of pairs.
+pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
+    covariance(a, b) / (covariance(a, a) * covariance(b, b)).sqrt()
+}

@@ -1,0 +1,217 @@
+//! Straight lines through means that share random numbers, and the order that they show.
+
+use nalgebra::{DMatrix, DVector};
+use serde::Serialize;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+/// A mean for each level, and their covariances.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Means {
+    /// The means.
+    pub values: Vec<f64>,
+    /// The covariance of every two.
+    pub covariance: DMatrix<f64>,
+    /// The fewest replicas of a mean.
+    fewest: usize,
+}
+
+/// y = intercept + slope·x.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Line {
+    /// y at x = 0.
+    pub intercept: f64,
+    /// Its standard error.
+    pub intercept_se: f64,
+    /// The slope.
+    pub slope: f64,
+    /// Its standard error.
+    pub slope_se: f64,
+    /// The sum of squares that is left, in units of the covariances.
+    pub chi_square: f64,
+    /// The probability of more than that, if the line is right. No number where two points make the line.
+    pub p: Option<f64>,
+}
+
+/// An order w of y = a + b hʷ.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Order {
+    /// w.
+    pub order: f64,
+    /// Half of where χ² is within 1 of its least.
+    pub se: f64,
+}
+
+impl Means {
+    /// The means over replicas of samples whose members with one index share their random numbers. The correlation
+    /// is taken as the same for every two samples: that of what they share.
+    pub fn of(samples: &[Vec<f64>]) -> Self {
+        let variances: Vec<_> = (samples.iter())
+            .map(|sample| super::covariance(sample, sample))
+            .collect();
+        let scale = |i: usize, j: usize| (variances[i] * variances[j]).sqrt();
+        let (mut shared, mut pairs) = (0.0, 0.0);
+        for i in 0..samples.len() {
+            for j in (0..i).filter(|j| scale(i, *j) > 0.0) {
+                let (a, b) = (&samples[i], &samples[j]);
+                let count = a.len().min(b.len());
+                shared += count as f64 * super::coupled::correlation(&a[..count], &b[..count]);
+                pairs += count as f64;
+            }
+        }
+        let correlation = if pairs > 0.0 { shared / pairs } else { 0.0 };
+        let of_means = |i: usize, j: usize| {
+            // Replicas that only the longer one has are independent of the shorter.
+            let most = samples[i].len().max(samples[j].len()) as f64;
+            let correlation = if i == j { 1.0 } else { correlation };
+            correlation * scale(i, j) / most
+        };
+        Self {
+            values: (samples.iter())
+                .map(|sample| sample.iter().sum::<f64>() / sample.len() as f64)
+                .collect(),
+            covariance: DMatrix::from_fn(samples.len(), samples.len(), of_means),
+            fewest: samples.iter().map(Vec::len).min().unwrap_or(0),
+        }
+    }
+
+    /// The line through the means at `x`: least squares weighted by the inverse of the covariances, the same as of
+    /// the differences of neighbours. `None` for fewer than two levels, fewer than eight replicas of one, or
+    /// samples without a spread.
+    pub fn line(&self, x: &[f64]) -> Option<Line> {
+        let count = self.values.len();
+        if self.fewest < 8 {
+            return None;
+        }
+        let cholesky = self.covariance.clone().cholesky()?;
+        let design = DMatrix::from_fn(count, 2, |row, column| if column == 0 { 1.0 } else { x[row] });
+        let y = DVector::from_column_slice(&self.values);
+        let inverse = (design.transpose() * cholesky.solve(&design)).try_inverse()?;
+        let found = &inverse * design.transpose() * cholesky.solve(&y);
+        let rest = y - design * &found;
+        let chi_square = rest.dot(&cholesky.solve(&rest));
+        let freedom = ChiSquared::new(count as f64 - 2.0).ok();
+        Some(Line {
+            intercept: found[0],
+            intercept_se: inverse[(0, 0)].sqrt(),
+            slope: found[1],
+            slope_se: inverse[(1, 1)].sqrt(),
+            chi_square,
+            p: freedom.map(|freedom| 1.0 - freedom.cdf(chi_square)),
+        })
+    }
+
+    /// The w of a + b hʷ with the least χ², for h of at least three levels. `None` where noise leaves it open: no end
+    /// of the interval between ¼ and 4, or a slope within two standard errors of 0.
+    pub fn order(&self, h: &[f64]) -> Option<Order> {
+        if h.len() < 3 {
+            return None;
+        }
+        let line = |order: f64| {
+            let x: Vec<_> = h.iter().map(|h| h.powf(order)).collect();
+            self.line(&x)
+        };
+        let chi_square = |order: f64| line(order).map_or(f64::INFINITY, |line| line.chi_square);
+        let (low, high) = (0.25, 4.0);
+        // By trial, and then between the neighbours of the best.
+        let tried = (0..=375).map(|k| low + 0.01 * f64::from(k));
+        let near = tried.min_by(|a, b| chi_square(*a).total_cmp(&chi_square(*b)))?;
+        let tried = (-100..=100).map(|k| near + 1e-4 * f64::from(k));
+        let best = tried.min_by(|a, b| chi_square(*a).total_cmp(&chi_square(*b)))?;
+        let limit = chi_square(best) + 1.0;
+        let flat = line(best).is_none_or(|line| line.slope.abs() < 2.0 * line.slope_se);
+        if flat || chi_square(low) < limit || chi_square(high) < limit {
+            return None;
+        }
+        let end = |outer: f64| {
+            let (mut inside, mut outside) = (best, outer);
+            for _ in 0..50 {
+                let middle = 0.5 * (inside + outside);
+                match chi_square(middle) < limit {
+                    true => inside = middle,
+                    false => outside = middle,
+                }
+            }
+            inside
+        };
+        Some(Order {
+            order: best,
+            se: 0.5 * (end(high) - end(low)),
+        })
+    }
+
+    /// The levels from `first` on.
+    pub fn from(&self, first: usize) -> Self {
+        let count = self.values.len() - first;
+        Self {
+            values: self.values[first..].to_vec(),
+            covariance: self.covariance.view((first, first), (count, count)).into_owned(),
+            fewest: self.fewest,
+        }
+    }
+
+    /// A level's mean less another's, and its standard error.
+    pub fn difference(&self, one: usize, other: usize) -> (f64, f64) {
+        let c = &self.covariance;
+        let variance = c[(one, one)] + c[(other, other)] - 2.0 * c[(one, other)];
+        (self.values[one] - self.values[other], variance.max(0.0).sqrt())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::SeedableRng;
+    use rand_distr::{Distribution, StandardNormal};
+    use rand_pcg::Pcg64Dxsm;
+
+    const H: [f64; 4] = [0.08, 0.04, 0.02, 0.01];
+
+    /// 1 + hʷ with noise of which a part is shared between levels.
+    fn samples(order: f64, noise: f64, seed: u64) -> Vec<Vec<f64>> {
+        let mut rng = Pcg64Dxsm::seed_from_u64(seed);
+        let mut normal = || -> f64 { StandardNormal.sample(&mut rng) };
+        let shared: Vec<_> = (0..400).map(|_| normal()).collect();
+        (H.iter().zip([400, 400, 200, 100]))
+            .map(|(h, count)| {
+                let value = |shared: &f64| 1.0 + h.powf(order) + noise * (shared + normal());
+                shared[..count].iter().map(value).collect()
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_clear_order_is_found_and_a_hidden_one_is_not() {
+        for order in [1.0, 2.0] {
+            let found = Means::of(&samples(order, 1e-4 * H[1].powf(order) / H[1], 1))
+                .order(&H)
+                .unwrap();
+            assert!(
+                (found.order - order).abs() < 4.0 * found.se && found.se < 0.1,
+                "{found:?}"
+            );
+        }
+        assert_eq!(Means::of(&samples(1.0, 0.3, 1)).order(&H), None);
+    }
+
+    #[test]
+    fn the_line_s_errors_are_those_of_repeats() {
+        let lines: Vec<_> = (0..300)
+            .map(|seed| Means::of(&samples(1.0, 0.05, seed)).line(&H).unwrap())
+            .collect();
+        let slopes: Vec<_> = lines.iter().map(|line| line.slope).collect();
+        let (mean, se) = super::super::mean_and_se(&slopes);
+        assert!((mean - 1.0).abs() < 4.0 * se, "{mean} {se}");
+        let (spread, said) = (se * 300f64.sqrt(), lines[0].slope_se);
+        // 300 repeats know their spread to 4 %, and a single run its own error to some 5 %.
+        assert!((spread / said - 1.0).abs() < 0.25, "{spread} {said}");
+        let p: f64 = lines.iter().map(|line| line.p.unwrap()).sum::<f64>() / 300.0;
+        assert!((p - 0.5).abs() < 0.07, "{p}");
+    }
+
+    #[test]
+    fn a_difference_knows_what_is_shared() {
+        let samples = vec![vec![1.0, 2.0, 3.0, 4.0], vec![1.5, 2.5, 3.5, 4.5]];
+        let (difference, se) = Means::of(&samples).difference(1, 0);
+        assert!((difference - 0.5).abs() < 1e-15 && se < 1e-8);
+    }
+}

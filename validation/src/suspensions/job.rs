@@ -1,0 +1,119 @@
+//! One run of an interacting scene: replicas at one time step and one number of rods. Jobs do not depend on each
+//! other, and what they find is plain data, so that they may run anywhere.
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use shearbed::orientation::bounded_orbit_constant;
+use shearbed::{Plan, Scene, Suspension};
+
+/// Where distribution functions are looked at: 0.1, 0.2, … 0.9.
+pub const PLACES: usize = 9;
+
+/// What is to be run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Job {
+    /// The scene as it is run; its own replicas, periods and outputs are not looked at.
+    pub scene: Scene,
+    /// Replicas 0 to this.
+    pub replicas: u64,
+    /// Steps after which the rods are looked at, rising.
+    pub marks: Vec<u64>,
+    /// So many replicas, the first ones, leave the directions of their rods at the last mark.
+    pub followed: u64,
+}
+
+/// The rods of one replica at one mark.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Look {
+    /// X̄₁, the mean of |p_1|.
+    pub x1: f64,
+    /// The share of rods with |p_1| below 0.1, 0.2, … 0.9.
+    pub p1_below: [f64; PLACES],
+    /// The share of rods with C_b = C/(1 + C) below 0.1, 0.2, … 0.9.
+    pub orbit_below: [f64; PLACES],
+}
+
+/// One replica.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Trace {
+    /// One for each mark.
+    pub looks: Vec<Look>,
+    /// The directions at the last mark, of a replica that is followed.
+    pub directions: Vec<[f64; 3]>,
+}
+
+impl Job {
+    /// The scene's replicas 0 to `replicas` at so many steps per period and rods, looked at after whole periods.
+    pub fn new(scene: &Scene, steps_per_period: u64, rods: usize, replicas: u64, periods: u64) -> Self {
+        let mut scene = scene.clone();
+        scene.time.periods = Some(periods as f64);
+        scene.time.strain = None;
+        scene.time.outputs_per_strain = None;
+        scene.time.steps_per_period = Some(steps_per_period);
+        scene.time.outputs_per_period = Some(1);
+        scene.particles.count = rods;
+        Self {
+            scene,
+            replicas,
+            marks: (1..=periods).map(|period| period * steps_per_period).collect(),
+            followed: 0,
+        }
+    }
+
+    /// Rods times steps over all replicas: what it costs.
+    pub fn rod_steps(&self) -> u64 {
+        let steps = self.marks.last().copied().unwrap_or(0);
+        self.replicas * self.scene.particles.count as u64 * steps
+    }
+
+    /// Runs it on the threads of the current pool. `finished` is called after each replica.
+    pub fn run(&self, finished: &(dyn Fn() + Sync)) -> Result<Vec<Trace>, String> {
+        let plan = Plan::new(&self.scene).map_err(|error| error.to_string())?;
+        (0..self.replicas)
+            .into_par_iter()
+            .map(|replica| {
+                let trace = self.trace(&plan, replica);
+                finished();
+                trace
+            })
+            .collect()
+    }
+
+    fn trace(&self, plan: &Plan, replica: u64) -> Result<Trace, String> {
+        let mut suspension =
+            Suspension::new(plan, replica).ok_or("no rod can meet another: no steps to take")?;
+        let mut looks = Vec::with_capacity(self.marks.len());
+        for mark in &self.marks {
+            while suspension.tick() < *mark {
+                suspension.step().map_err(|error| error.to_string())?;
+            }
+            looks.push(Look::at(&suspension));
+        }
+        let directions = match replica < self.followed {
+            true => suspension.directions().into_iter().map(Into::into).collect(),
+            false => Vec::new(),
+        };
+        Ok(Trace { looks, directions })
+    }
+}
+
+impl Look {
+    fn at(suspension: &Suspension) -> Self {
+        let directions = suspension.directions();
+        let share = 1.0 / directions.len() as f64;
+        let mut look = Self {
+            x1: directions.iter().map(|p| p.x.abs()).sum::<f64>() * share,
+            p1_below: [0.0; PLACES],
+            orbit_below: [0.0; PLACES],
+        };
+        for (p, aspect_ratio) in directions.iter().zip(suspension.aspect_ratios()) {
+            let orbit = bounded_orbit_constant((*p).into(), aspect_ratio);
+            for k in 0..PLACES {
+                let place = (k + 1) as f64 / (PLACES + 1) as f64;
+                look.p1_below[k] += f64::from(u8::from(p.x.abs() < place)) * share;
+                look.orbit_below[k] += f64::from(u8::from(orbit < place)) * share;
+            }
+        }
+        look
+    }
+}

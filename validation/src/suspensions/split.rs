@@ -1,0 +1,277 @@
+//! What a given error of X̄₁ at t/T = 1 costs: the cheapest steps per period, rods and replicas, from measured
+//! constants alone.
+//!
+//! Mean-square error = (b/S + c N^(−1/3))² + v/(N M) for S steps per period, N rods and M replicas; cost = N M S rods
+//! times steps.
+
+use super::coupled;
+use super::job::Job;
+use super::law::{Estimate, FACES, Law, Sample};
+use super::mean_and_se;
+use serde::Serialize;
+use shearbed::Scene;
+
+/// The errors of X̄₁ that are asked for.
+pub const TARGETS: [f64; 3] = [1e-2, 3e-3, 1e-3];
+
+/// The fewest replicas, so that the scatter can be told from what was run.
+pub const FEWEST_REPLICAS: u64 = 8;
+
+/// What a scene's error is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Constants {
+    /// b: the bias of the steps is b/S at most. The largest that the measurement allows: |slope| + 2 standard errors.
+    pub steps_bias: f64,
+    /// The fewest steps per period for which that holds.
+    pub fewest_steps: u64,
+    /// c: the bias of the rods is c N^(−1/3) at most, taken alike.
+    pub rods_bias: f64,
+    /// v: the variance of X̄₁ over replicas, times N.
+    pub variance_per_rod: f64,
+}
+
+/// What the error is counted from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Scope {
+    /// The scene with the rods it has, as Δt → 0: their number is part of the model.
+    OwnRods(usize),
+    /// A suspension without faces: N → ∞ too.
+    Unbounded,
+}
+
+/// Steps, rods and replicas, and what they are said to give.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Split {
+    /// The error asked for.
+    pub target: f64,
+    /// What it is counted from.
+    pub scope: Scope,
+    /// Steps per period.
+    pub steps_per_period: u64,
+    /// N.
+    pub rods: usize,
+    /// M.
+    pub replicas: u64,
+    /// The bias, at most.
+    pub bias: f64,
+    /// The scatter: one standard deviation.
+    pub scatter: f64,
+}
+
+/// What a split gave, run again and again with new seeds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Realised {
+    /// What was run.
+    pub split: Split,
+    /// Runs.
+    pub repeats: u64,
+    /// Their mean less the reference, with the reference's error in its own.
+    pub bias: Estimate,
+    /// The standard deviation of one run.
+    pub scatter: Estimate,
+    /// The root mean square of what a run is off the reference, without the reference's own error.
+    pub error: f64,
+}
+
+impl Constants {
+    /// From a study of the scene. `None` where it has no line to read.
+    pub fn of(law: &Law) -> Option<Self> {
+        let steps = law.steps_line?;
+        let rods = law.rods_lines[0]?;
+        Some(Self {
+            steps_bias: steps.slope.abs() + 2.0 * steps.slope_se,
+            fewest_steps: law.steps.get(law.line_from)?.steps_per_period,
+            rods_bias: rods.slope.abs() + 2.0 * rods.slope_se,
+            variance_per_rod: law.variance_per_rod,
+        })
+    }
+
+    /// The bias at these steps per period and rods, at most.
+    pub fn bias(&self, scope: Scope, steps: f64, rods: f64) -> f64 {
+        self.steps_bias / steps
+            + match scope {
+                Scope::OwnRods(_) => 0.0,
+                Scope::Unbounded => self.rods_bias * rods.powf(FACES),
+            }
+    }
+
+    /// The split with the least cost for an error > 0.
+    ///
+    /// With the scene's own rods: S = √3 b/ε, where the bias is 1/√3 of the error and the scatter √(2/3) (Duffie &
+    /// Glynn 1995), but not below the fewest steps; then N M = v/(ε² − (b/S)²). Without faces as few replicas as
+    /// there may be, because scatter knows N M alone and the bias falls with N; then S by trial.
+    pub fn cheapest(&self, scope: Scope, target: f64) -> Split {
+        let fewest = self.fewest_steps as f64;
+        let best = 3f64.sqrt() * self.steps_bias / target;
+        let tried: Vec<f64> = match scope {
+            Scope::OwnRods(_) => vec![best.max(fewest)],
+            Scope::Unbounded => (0..400)
+                .map(|k| best.max(fewest) * 1.01f64.powi(k - 50))
+                .collect(),
+        };
+        let splits = tried.into_iter().map(|steps| steps.max(fewest).ceil());
+        let splits = splits.filter_map(|steps| self.filled(scope, target, steps));
+        let cheapest = splits.min_by_key(Split::rod_steps);
+        cheapest.expect("√3 b/ε steps leave room for the scatter")
+    }
+
+    /// The fewest rods and replicas at these steps; `None` where the steps' bias alone is too large.
+    fn filled(&self, scope: Scope, target: f64, steps: f64) -> Option<Split> {
+        let split = |rods: f64, replicas: f64| Split {
+            target,
+            scope,
+            steps_per_period: steps as u64,
+            rods: rods as usize,
+            replicas: replicas as u64,
+            bias: self.bias(scope, steps, rods),
+            scatter: (self.variance_per_rod / (rods * replicas)).sqrt(),
+        };
+        let room = target.powi(2) - (self.steps_bias / steps).powi(2);
+        if room <= 0.0 {
+            return None;
+        }
+        let fewest = FEWEST_REPLICAS as f64;
+        Some(match scope {
+            Scope::OwnRods(rods) => {
+                let rods = rods as f64;
+                split(rods, (self.variance_per_rod / (room * rods)).ceil().max(fewest))
+            }
+            Scope::Unbounded => {
+                // The error falls with N: halve the interval of ln N.
+                let (mut low, mut high) = (0.0f64, 100.0f64);
+                for _ in 0..60 {
+                    let middle = 0.5 * (low + high);
+                    match split(middle.exp(), fewest).error() > target {
+                        true => low = middle,
+                        false => high = middle,
+                    }
+                }
+                split(high.exp().ceil(), fewest)
+            }
+        })
+    }
+}
+
+impl Split {
+    /// The root-mean-square error that it is said to have, at most.
+    pub fn error(&self) -> f64 {
+        self.bias.hypot(self.scatter)
+    }
+
+    /// Rods times steps over a period: what it costs.
+    pub fn rod_steps(&self) -> u64 {
+        (self.rods as u64)
+            .saturating_mul(self.replicas)
+            .saturating_mul(self.steps_per_period)
+    }
+
+    /// The split of a scene as a job.
+    pub fn job(&self, scene: &Scene) -> Job {
+        Job::new(scene, self.steps_per_period, self.rods, self.replicas, 1)
+    }
+
+    /// Runs it `repeats` times with seeds of its own, and compares with a reference.
+    pub fn realise(&self, scene: &Scene, repeats: u64, reference: Estimate) -> Result<Realised, String> {
+        let run = |repeat: u64| {
+            let mut job = self.job(scene);
+            job.scene.ensemble.seed = scene.ensemble.seed + 1 + repeat;
+            let traces = job.run(&|| ())?;
+            let sum: f64 = traces.iter().map(|trace| trace.looks[0].x1).sum();
+            Ok::<_, String>(sum / traces.len() as f64)
+        };
+        let values = (0..repeats).map(run).collect::<Result<Vec<_>, _>>()?;
+        let (mean, se) = mean_and_se(&values);
+        let off = mean - reference.value;
+        let deviation = se * (repeats as f64).sqrt();
+        let mean_square = values.iter().map(|x| (x - reference.value).powi(2)).sum::<f64>() / repeats as f64;
+        Ok(Realised {
+            split: *self,
+            repeats,
+            bias: Estimate {
+                value: off,
+                se: se.hypot(reference.se),
+            },
+            scatter: Estimate {
+                value: deviation,
+                se: deviation / (2.0 * (repeats as f64 - 1.0)).sqrt(),
+            },
+            error: (mean_square - reference.se.powi(2)).max(0.0).sqrt(),
+        })
+    }
+}
+
+/// X̄₁ of a scene at steps and rods much finer than a split's, with seeds of its own; of many replicas with the free
+/// rods as control variate.
+pub fn reference(scene: &Scene, steps: u64, rods: usize, replicas: u64) -> Result<Sample, String> {
+    let mut job = Job::new(scene, steps, rods, replicas, 1);
+    job.scene.ensemble.seed = scene.ensemble.seed + 1_000_000;
+    let x1: Vec<_> = (job.run(&|| ())?.iter()).map(|trace| trace.looks[0].x1).collect();
+    let (mean, se) = mean_and_se(&x1);
+    let plain = Estimate { value: mean, se };
+    let found = match replicas < 100 {
+        true => plain,
+        false => {
+            let free = coupled::at(&coupled::free(&job.scene, 4, replicas)?, 3);
+            coupled::controlled(&x1, &free, coupled::free_mean(scene, 1.0))
+        }
+    };
+    Ok(Sample {
+        steps_per_period: steps,
+        rods,
+        replicas,
+        x1: found.value,
+        se: found.se,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SYNTHETIC: Constants = Constants {
+        steps_bias: 0.6,
+        fewest_steps: 100,
+        rods_bias: 0.04,
+        variance_per_rod: 0.1,
+    };
+
+    /// Every split on a fine grid, to be cheaper than none.
+    fn by_trial(scope: Scope, target: f64) -> f64 {
+        let mut least = f64::INFINITY;
+        for s in 0..600 {
+            let steps = 100.0 * 1.01f64.powi(s);
+            let room = |rods: f64| target.powi(2) - SYNTHETIC.bias(scope, steps, rods).powi(2);
+            for n in 0..3000 {
+                let total = 8.0 * 1.01f64.powi(n);
+                // All that a larger N could bring: as few replicas as there may be.
+                if room(total / 8.0) > 0.0 && SYNTHETIC.variance_per_rod / total <= room(total / 8.0) {
+                    least = least.min(steps * total);
+                    break;
+                }
+            }
+        }
+        least
+    }
+
+    #[test]
+    fn no_split_on_a_grid_is_cheaper() {
+        for target in [3e-3, 1e-3] {
+            for scope in [Scope::OwnRods(100), Scope::Unbounded] {
+                let split = SYNTHETIC.cheapest(scope, target);
+                assert!(split.error() <= target * (1.0 + 1e-12), "{split:?}");
+                let ratio = split.rod_steps() as f64 / by_trial(scope, target);
+                // Whole rods, replicas and steps, and the grid's 1 %.
+                assert!((0.97..1.02).contains(&ratio), "{scope:?} {target} {ratio}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_third_of_the_mean_square_is_bias_unless_the_steps_are_few() {
+        let split = SYNTHETIC.cheapest(Scope::OwnRods(100), 1e-3);
+        assert!((split.bias / 1e-3 - 1.0 / 3f64.sqrt()).abs() < 1e-3, "{split:?}");
+        let coarse = SYNTHETIC.cheapest(Scope::OwnRods(100), 0.1);
+        assert_eq!((coarse.steps_per_period, coarse.replicas), (100, 8));
+    }
+}

@@ -1,0 +1,220 @@
+//! `KEY=FROM:TO:COUNT` and `KEY=A,B,C`: a key of a scene and the values it takes.
+
+use toml::{Table, Value};
+
+/// The most points of a sweep.
+pub const MAX_POINTS: usize = 100_000;
+
+/// A key of the scene with its values, at least one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// As `interaction.alpha`.
+    pub key: String,
+    /// In the order given.
+    pub values: Vec<Value>,
+}
+
+impl Axis {
+    /// Reads what stands after `--over`.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let shape = "KEY=FROM:TO:COUNT or KEY=A,B,C is allowed, as interaction.alpha=0.1:1:10";
+        let (key, values) = text.split_once('=').ok_or(shape)?;
+        let (key, values) = (key.trim(), values.trim());
+        let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+        if key
+            .split('.')
+            .any(|part| part.is_empty() || !part.chars().all(bare))
+        {
+            return Err(format!("{key:?} is no key of a scene; {shape}"));
+        }
+        let range = split(values, ':');
+        let values = match range.as_slice() {
+            [_] => split(values, ',')
+                .into_iter()
+                .map(value)
+                .collect::<Result<_, _>>()?,
+            [from, to, count] => evenly(from, to, count)?,
+            _ => return Err(format!("{values:?} is neither FROM:TO:COUNT nor a list; {shape}")),
+        };
+        let key = key.to_owned();
+        Ok(Self { key, values })
+    }
+}
+
+/// A value as it stands in tables: numbers shortest, texts without quotes.
+pub fn shown(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Float(number) => number.to_string(),
+        other => other.to_string(),
+    }
+}
+
+/// The parts between separators that stand in no quotes and no brackets.
+fn split(text: &str, separator: char) -> Vec<&str> {
+    let (mut parts, mut start, mut depth, mut quote) = (Vec::new(), 0, 0_i32, None);
+    for (at, c) in text.char_indices() {
+        match (quote, c) {
+            (Some(open), _) => quote = Some(open).filter(|open| *open != c),
+            (None, '"' | '\'') => quote = Some(c),
+            (None, '[' | '{') => depth += 1,
+            (None, ']' | '}') => depth -= 1,
+            (None, _) if c == separator && depth == 0 => {
+                parts.push(text[start..at].trim());
+                start = at + c.len_utf8();
+            }
+            _ => (),
+        }
+    }
+    parts.push(text[start..].trim());
+    parts
+}
+
+/// A value as in a scene file; a word needs no quotes.
+fn value(text: &str) -> Result<Value, String> {
+    let mut table: Table = format!("value = {text}").parse().unwrap_or_default();
+    let word = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    match (table.remove("value"), table.is_empty()) {
+        (Some(value), true) => Ok(value),
+        _ if text.starts_with(char::is_alphabetic) && text.chars().all(word) => {
+            Ok(Value::String(text.to_owned()))
+        }
+        _ => Err(format!(
+            "{text:?} is no value; numbers, words and what a scene file allows are"
+        )),
+    }
+}
+
+/// `count` values from `from` to `to`, both included. Between whole numbers a whole number is one.
+fn evenly(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
+    let number = |text: &str| match text.parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        _ => Err(format!(
+            "{text:?} is no end of a range; a finite number is allowed"
+        )),
+    };
+    let (a, b) = (number(from)?, number(to)?);
+    let steps = match count.parse::<usize>() {
+        Ok(count) if (2..=MAX_POINTS).contains(&count) => count as i128 - 1,
+        _ => {
+            return Err(format!(
+                "{count:?} is no count of values; a whole number from 2 to {MAX_POINTS} is allowed"
+            ));
+        }
+    };
+    let places = decimals(from).max(decimals(to));
+    let scaled = |text| mantissa(text, places?);
+    let exact = scaled(from).zip(scaled(to)).zip(places.map(|p| 10_i128.pow(p)));
+    let whole = places == Some(0);
+    Ok((0..=steps)
+        .map(|k| {
+            let inexact = a + (b - a) * (k as f64 / steps as f64);
+            let Some(((a, b), unit)) = exact else {
+                return Value::Float(if k == steps { b } else { inexact });
+            };
+            let (above, below) = (a * (steps - k) + b * k, unit * steps);
+            match i64::try_from(above / below) {
+                Ok(number) if whole && above % below == 0 => Value::Integer(number),
+                // Both are exact, so the quotient is the number nearest to the decimal one: 0.3, not
+                // 0.30000000000000004.
+                _ if above.abs().max(below) < 1 << 53 => Value::Float(above as f64 / below as f64),
+                _ => Value::Float(inexact),
+            }
+        })
+        .collect())
+}
+
+/// Digits after the point; `None` where there is an exponent or too many.
+fn decimals(text: &str) -> Option<u32> {
+    let digits = text.split_once('.').map_or("", |(_, digits)| digits);
+    let plain = text
+        .chars()
+        .all(|c| c.is_ascii_digit() || matches!(c, '.' | '-' | '+'));
+    (plain && digits.len() <= 12).then_some(digits.len() as u32)
+}
+
+/// The number times 10^`places`.
+fn mantissa(text: &str, places: u32) -> Option<i128> {
+    let missing = places - decimals(text)?;
+    let digits: i64 = text.replace('.', "").parse().ok()?;
+    Some(i128::from(digits) * 10_i128.pow(missing))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shown_values(text: &str) -> Vec<String> {
+        Axis::parse(text).unwrap().values.iter().map(shown).collect()
+    }
+
+    #[test]
+    fn a_range_has_both_ends_and_the_decimals_one_expects() {
+        let tenths: Vec<_> = (1..=10).map(|k| (f64::from(k) / 10.0).to_string()).collect();
+        assert_eq!(shown_values("interaction.alpha=0.1:1.0:10"), tenths);
+        assert_eq!(shown_values("a=-1:1:5"), ["-1", "-0.5", "0", "0.5", "1"]);
+        assert_eq!(shown_values("a=1e-3:2e-3:2"), ["0.001", "0.002"]);
+        assert_eq!(shown_values("a=1:0:3"), ["1", "0.5", "0"]);
+        // Steps added in floating point miss some of these.
+        let added: Vec<_> = (0..10).map(|k| (0.1 + 0.1 * f64::from(k)).to_string()).collect();
+        assert_ne!(added, tenths);
+    }
+
+    #[test]
+    fn ends_of_a_range_without_a_short_decimal_are_the_numbers_given() {
+        for (from, to) in [
+            ("1e-300", "1e300"),
+            ("0.1234567890123456", "7.7"),
+            ("99999999999999999", "1e17"),
+        ] {
+            let values = shown_values(&format!("a={from}:{to}:4"));
+            let read = |text: &str| text.parse::<f64>().unwrap();
+            assert_eq!((read(&values[0]), read(&values[3])), (read(from), read(to)));
+        }
+    }
+
+    #[test]
+    fn whole_numbers_stay_whole() {
+        let values = Axis::parse("particles.count=10:25:4").unwrap().values;
+        assert_eq!(values, [10, 15, 20, 25].map(Value::Integer));
+        let values = Axis::parse("particles.count=10:20:4").unwrap().values;
+        assert_eq!(
+            (&values[0], &values[1]),
+            (&Value::Integer(10), &Value::Float(40.0 / 3.0))
+        );
+    }
+
+    #[test]
+    fn lists_hold_numbers_words_and_tables() {
+        assert_eq!(
+            shown_values("interaction.update=rotation, angles"),
+            ["rotation", "angles"]
+        );
+        assert_eq!(shown_values("a=1,2.50,\"x,y:z\""), ["1", "2.5", "x,y:z"]);
+        let values = Axis::parse("particles.orientation=isotropic,{ phi_deg = 0, theta_deg = 90 }").unwrap();
+        assert_eq!(values.values.len(), 2);
+        assert!(values.values[1].is_table());
+    }
+
+    #[test]
+    fn what_is_neither_is_refused_with_what_is_allowed() {
+        for (text, named) in [
+            ("alpha", "KEY=FROM:TO:COUNT"),
+            ("=1,2", "no key"),
+            ("a..b=1", "no key"),
+            ("a=", "no value"),
+            ("a=1,,2", "no value"),
+            ("a=1,b c", "\"b c\""),
+            ("a=1\nb = 2", "no value"),
+            ("a=1:2", "neither"),
+            ("a=1:2:3:4", "neither"),
+            ("a=1:x:3", "\"x\""),
+            ("a=1:inf:3", "\"inf\""),
+            ("a=1:2:1", "\"1\" is no count"),
+            ("a=1:2:2.5", "from 2 to 100000"),
+        ] {
+            let error = Axis::parse(text).unwrap_err();
+            assert!(error.contains(named), "{text}: {error}");
+        }
+    }
+}

@@ -1,0 +1,413 @@
+//! The program under `mpirun`: the bytes of one process, and an end for every failure. Built with the feature `mpi`
+//! only; needs Open MPI's `mpirun`.
+
+#![cfg(feature = "mpi")]
+
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_shearbed");
+
+/// How long a job that fails may take to end. It takes a few seconds; a job that hangs takes for ever.
+const BOUND: Duration = Duration::from_secs(60);
+
+const SMALL: &str = r#"title = "A small scene"
+[flow]
+shear_rate_per_s = 0.5
+[particles]
+count = 20
+length_mm = 0.72
+aspect_ratio = 11.6
+aspect_ratio_sd_percent = 3.6
+orientation = "isotropic"
+[interaction]
+concentration_per_cm3 = 50
+alpha = 0.5
+[time]
+periods = 1
+steps_per_period = 20
+outputs_per_period = 4
+[ensemble]
+replicas = 7
+[output]
+observables = ["projections", "planar_projections", "mean_angle", "orbit_constant", "orientation_tensor"]
+"#;
+
+/// One rod in one replica: its standard errors are NaN.
+const ONE: &str = r#"title = "One rod"
+[flow]
+shear_rate_per_s = 0.5
+[particles]
+count = 1
+length_mm = 0.72
+aspect_ratio = 11.6
+orientation = { phi_deg = 10, theta_deg = 80 }
+[time]
+periods = 1
+"#;
+
+fn folder() -> TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("small.toml"), SMALL).unwrap();
+    fs::write(dir.path().join("one.toml"), ONE).unwrap();
+    // Hours on one core: for jobs that are to fail on the way.
+    let long = SMALL.replace("replicas = 7", "replicas = 1000000");
+    fs::write(
+        dir.path().join("long.toml"),
+        long.replace("steps_per_period = 20", "steps_per_period = 2000"),
+    )
+    .unwrap();
+    dir
+}
+
+/// A job, on any number of cores, by root too.
+fn mpirun(dir: &Path, arguments: &str) -> Command {
+    let mut command = Command::new("mpirun");
+    (command.args(
+        arguments
+            .split_whitespace()
+            .map(|word| if word == "shearbed" { PROGRAM } else { word }),
+    ))
+    .envs(["OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"].map(|name| (name, "1")))
+    .env("OMPI_MCA_rmaps_base_oversubscribe", "1")
+    .current_dir(dir);
+    command
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// Runs a command in one process, and on several ranks, each with `--out`; the folders' files.
+fn both(dir: &Path, ranks: usize, arguments: &str) -> [BTreeMap<String, Vec<u8>>; 2] {
+    let alone = Command::new(PROGRAM)
+        .args(arguments.split_whitespace())
+        .args(["--out", "alone", "--threads", "2"])
+        .current_dir(dir)
+        .output()
+        .unwrap();
+    assert!(alone.status.success(), "{}", text(&alone.stderr));
+    let shared = mpirun(
+        dir,
+        &format!("-n {ranks} shearbed {arguments} --out shared --threads 1"),
+    )
+    .output()
+    .unwrap();
+    assert!(shared.status.success(), "{}", text(&shared.stderr));
+    // Only the root prints. Cases are printed as they end.
+    let lines = |output: &Output| {
+        let printed = text(&output.stdout).replace("shared", "alone");
+        let mut lines: Vec<_> = printed
+            .lines()
+            .filter(|line| !line.ends_with(" s"))
+            .map(str::to_owned)
+            .collect();
+        lines.sort();
+        lines
+    };
+    assert_eq!(lines(&shared), lines(&alone));
+    ["alone", "shared"].map(|name| files(&dir.join(name)))
+}
+
+/// Every file below a folder with its bytes.
+fn files(dir: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    for entry in fs::read_dir(dir).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        if path.is_dir() {
+            let inner = files(&path).into_iter();
+            found.extend(inner.map(|(below, bytes)| (format!("{name}/{below}"), bytes)));
+        } else {
+            found.insert(name, fs::read(&path).unwrap());
+        }
+    }
+    found
+}
+
+/// A record without what tells one run from another: times, threads and ranks.
+fn record(files: &mut BTreeMap<String, Vec<u8>>, name: &str, without: &[&str]) -> Value {
+    let mut record = serde_json::from_slice(&files.remove(name).unwrap()).unwrap();
+    strip(&mut record, without);
+    record
+}
+
+fn strip(value: &mut Value, without: &[&str]) {
+    match value {
+        Value::Object(fields) => {
+            fields.retain(|key, _| !without.contains(&key.as_str()));
+            fields.values_mut().for_each(|value| strip(value, without));
+        }
+        Value::Array(values) => values.iter_mut().for_each(|value| strip(value, without)),
+        _ => (),
+    }
+}
+
+#[test]
+fn a_run_has_the_bytes_of_one_process() {
+    for (scene, ranks) in [
+        ("small.toml", 4),
+        ("small.toml", 3),
+        ("small.toml --replicas 2", 4),
+        ("one.toml", 2),
+    ] {
+        let dir = folder();
+        let [mut alone, mut shared] = both(dir.path(), ranks, &format!("run {scene}"));
+        let without = ["seconds", "threads", "ranks"];
+        assert_eq!(
+            record(&mut shared, "run.json", &without),
+            record(&mut alone, "run.json", &without)
+        );
+        assert!(alone.len() >= 2, "{:?}", alone.keys());
+        assert_eq!(shared, alone, "{scene} on {ranks} ranks");
+    }
+}
+
+#[test]
+fn a_sweep_has_the_bytes_of_one_process() {
+    let dir = folder();
+    let over =
+        "sweep small.toml --over interaction.alpha=0.1:0.3:3 --over interaction.update=rotation,angles";
+    let [alone, shared] = both(dir.path(), 4, over);
+    assert!(alone.contains_key("points/6/orbit_constant.csv"));
+    assert_eq!(shared, alone);
+}
+
+#[test]
+fn a_killed_job_is_gone_on_with_by_one_process() {
+    let dir = folder();
+    let scene = SMALL
+        .replace("count = 20", "count = 100")
+        .replace("steps_per_period = 20", "steps_per_period = 200");
+    fs::write(dir.path().join("small.toml"), scene).unwrap();
+    let over = "sweep small.toml --over interaction.alpha=0.1:2:20 --replicas 100 --quiet";
+    let points = dir.path().join("shared/points");
+    let mut job = mpirun(
+        dir.path(),
+        &format!("-n 4 shearbed {over} --out shared --threads 1"),
+    )
+    .stderr(Stdio::null())
+    .spawn()
+    .unwrap();
+    wait_for(|| fs::read_dir(&points).is_ok_and(|points| points.count() > 1));
+    kill(children(job.id())[2]);
+    assert_ne!(end_of(&mut job).code(), Some(0));
+    assert!(!dir.path().join("shared/sweep.csv").exists());
+    for out in ["shared", "alone"] {
+        let ended = Command::new(PROGRAM)
+            .args(format!("{over} --out {out}").split_whitespace())
+            .current_dir(dir.path())
+            .status();
+        assert!(ended.unwrap().success());
+    }
+    assert_eq!(
+        files(&dir.path().join("shared")),
+        files(&dir.path().join("alone"))
+    );
+}
+
+#[test]
+fn other_ranks_need_the_scene_and_write_nothing() {
+    let [root, others] = [folder(), folder()];
+    let folder = others.path().display().to_string();
+    for command in [
+        "run small.toml",
+        "sweep small.toml --over interaction.alpha=1,2,3",
+        "converge small.toml",
+    ] {
+        let rank = format!("shearbed {command} --out x --threads 1");
+        let job = mpirun(root.path(), &format!("-n 1 {rank} : -n 2 -wdir {folder} {rank}"))
+            .output()
+            .unwrap();
+        assert!(job.status.success(), "{}", text(&job.stderr));
+    }
+    let names: Vec<_> = files(others.path()).into_keys().collect();
+    assert_eq!(names, ["long.toml", "one.toml", "small.toml"]);
+    for name in ["run.json", "sweep.csv", "converge.csv"] {
+        assert!(root.path().join("x").join(name).exists(), "{name}");
+    }
+}
+
+#[test]
+fn converge_has_the_bytes_of_one_process() {
+    for scene in ["small.toml", "one.toml"] {
+        let dir = folder();
+        let [alone, shared] = both(dir.path(), 4, &format!("converge {scene}"));
+        assert_eq!(alone.len(), 2);
+        assert_eq!(shared, alone);
+    }
+}
+
+/// Tables and figures of the report that hold times.
+const TIMED: [&str; 5] = [
+    "work-precision",
+    "exact-against-adaptive",
+    "speed",
+    "suspension-starts",
+    "suspension-splits",
+];
+
+/// All of the report but times, and what is measured in times.
+#[test]
+fn validate_has_the_numbers_of_one_process() {
+    let without = ["seconds", "origin", "command"];
+    let dir = folder();
+    let cases = "validate --case jeffery-period --case contact-rule --case collision-frequency --case okagawa-mason-1973 \
+                 --case free-amplitude";
+    let [mut alone, mut shared] = both(dir.path(), 4, cases);
+    assert_eq!(
+        record(&mut shared, "report.json", &without),
+        record(&mut alone, "report.json", &without)
+    );
+
+    // Everything: cases, figures, readings. What error against run time shows is a matter of times.
+    let dir = folder();
+    let [mut alone, mut shared] = both(dir.path(), 4, "validate");
+    let timed = |record: &mut Value| {
+        for list in ["tables", "figures"] {
+            let kept = record[list].as_array_mut().unwrap();
+            kept.retain(|item| {
+                !TIMED
+                    .iter()
+                    .any(|name| item["name"].as_str().unwrap().contains(name))
+            });
+            assert!(!kept.is_empty());
+        }
+    };
+    let [mut a, mut b] = [&mut alone, &mut shared].map(|files| record(files, "report.json", &without));
+    timed(&mut a);
+    timed(&mut b);
+    assert!(a == b, "the reports differ");
+    let curves = |files: BTreeMap<String, Vec<u8>>| -> BTreeMap<_, _> {
+        files
+            .into_iter()
+            .filter(|(name, _)| name.starts_with("curves/figure"))
+            .collect()
+    };
+    assert_eq!(curves(shared), curves(alone));
+}
+
+#[test]
+fn bad_input_on_one_rank_ends_the_job() {
+    let dir = folder();
+    for command in [
+        "run long.toml",
+        "converge long.toml",
+        "sweep long.toml --over interaction.alpha=1,2,3,4",
+    ] {
+        let other = command.replace("long.toml", "missing.toml");
+        let job = format!(
+            "-n 3 shearbed {command} --out x --threads 1 : -n 1 shearbed {other} --out x --threads 1"
+        );
+        let (code, message) = ended(dir.path(), &job);
+        assert_eq!(code, Some(2), "{message}");
+        assert!(
+            message.contains("error: rank 3 of 4: missing.toml: cannot be read"),
+            "{message}"
+        );
+    }
+    assert!(!dir.path().join("x/sweep.csv").exists() && !dir.path().join("x/run.json").exists());
+}
+
+#[test]
+fn bad_input_on_all_ranks_is_told_once() {
+    let dir = folder();
+    let (code, message) = ended(dir.path(), "-n 4 shearbed run missing.toml");
+    assert_eq!(code, Some(2), "{message}");
+    assert_eq!(
+        message.matches("missing.toml: cannot be read").count(),
+        1,
+        "{message}"
+    );
+    assert!(message.contains("error: rank 0 of 4: missing.toml"), "{message}");
+}
+
+#[test]
+fn a_root_that_cannot_write_ends_the_job() {
+    let dir = folder();
+    let over = "sweep long.toml --over interaction.alpha=1,2 --replicas 1 --over ensemble.seed=1,2 --out x";
+    let first = mpirun(dir.path(), &format!("-n 2 shearbed {over} --threads 1 --quiet")).status();
+    assert!(first.unwrap().success());
+    fs::remove_dir_all(dir.path().join("x/points")).unwrap();
+    fs::write(dir.path().join("x/points"), "in the way").unwrap();
+    let (code, message) = ended(dir.path(), &format!("-n 4 shearbed {over} --threads 1"));
+    assert_eq!(code, Some(2), "{message}");
+    assert!(
+        message.contains("error: rank 0 of 4: x/points/1: cannot be written"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_rank_that_dies_ends_the_job() {
+    for dies in [0, 3] {
+        let dir = folder();
+        let mut job = mpirun(dir.path(), "-n 4 shearbed run long.toml --out x --threads 1")
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        wait_for(|| children(job.id()).len() == 4);
+        // Long enough to be under way, far from the end.
+        sleep(Duration::from_secs(2));
+        kill(children(job.id())[dies]);
+        let status = end_of(&mut job);
+        assert!(!status.success(), "{status}");
+        assert!(!dir.path().join("x").exists());
+    }
+}
+
+/// A failing job's exit code and message.
+fn ended(dir: &Path, arguments: &str) -> (Option<i32>, String) {
+    let mut job = mpirun(dir, arguments)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let status = end_of(&mut job);
+    (status.code(), text(&job.wait_with_output().unwrap().stderr))
+}
+
+/// Waits for a job's end, up to the bound.
+fn end_of(job: &mut Child) -> std::process::ExitStatus {
+    let start = Instant::now();
+    loop {
+        if let Some(status) = job.try_wait().unwrap() {
+            return status;
+        }
+        if start.elapsed() > BOUND {
+            job.kill().unwrap();
+            panic!("the job has not ended within {BOUND:?}");
+        }
+        sleep(Duration::from_millis(10));
+    }
+}
+
+fn wait_for(holds: impl Fn() -> bool) {
+    let start = Instant::now();
+    while !holds() {
+        assert!(start.elapsed() < BOUND, "nothing has come within {BOUND:?}");
+        sleep(Duration::from_millis(5));
+    }
+}
+
+/// The processes that a process has started, in order.
+fn children(id: u32) -> Vec<u32> {
+    let list = fs::read_to_string(format!("/proc/{id}/task/{id}/children")).unwrap_or_default();
+    list.split_whitespace().map(|id| id.parse().unwrap()).collect()
+}
+
+fn kill(id: u32) {
+    assert!(
+        Command::new("kill")
+            .args(["-9", &id.to_string()])
+            .status()
+            .unwrap()
+            .success()
+    );
+}

@@ -1,0 +1,299 @@
+//! `shearbed sweep` as a user meets it: rows, going on after a kill, refusals.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+const SMALL: &str = r#"title = "A small scene"
+[flow]
+shear_rate_per_s = 0.5
+[particles]
+count = 20
+length_mm = 0.72
+aspect_ratio = 11.6
+orientation = "isotropic"
+[interaction]
+concentration_per_cm3 = 50
+alpha = 0.5
+[time]
+periods = 1
+steps_per_period = 20
+outputs_per_period = 4
+[ensemble]
+replicas = 3
+[output]
+observables = ["projections", "mean_angle"]
+"#;
+
+fn folder() -> TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("small.toml"), SMALL).unwrap();
+    dir
+}
+
+fn command(dir: &Path, arguments: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_shearbed"));
+    command.args(arguments.split_whitespace()).current_dir(dir);
+    command
+}
+
+fn shearbed(dir: &Path, arguments: &str) -> Output {
+    command(dir, arguments).output().unwrap()
+}
+
+/// Exit code 2, and the message.
+fn refused(dir: &Path, arguments: &str) -> String {
+    let output = shearbed(dir, arguments);
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{arguments}: {message}");
+    message
+}
+
+fn succeeds(dir: &Path, arguments: &str) -> String {
+    let output = shearbed(dir, arguments);
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{arguments}: {stderr}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Every file below a folder with its bytes.
+fn files(dir: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    for entry in fs::read_dir(dir).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        if path.is_dir() {
+            let inner = files(&path).into_iter();
+            found.extend(inner.map(|(below, bytes)| (format!("{name}/{below}"), bytes)));
+        } else {
+            found.insert(name, fs::read(&path).unwrap());
+        }
+    }
+    found
+}
+
+const GRID: &str = "--over interaction.alpha=0.1:0.3:3 --over interaction.update=rotation,angles";
+
+#[test]
+fn a_row_is_the_last_output_of_a_run_with_these_keys() {
+    let dir = folder();
+    let text = succeeds(
+        dir.path(),
+        &format!("sweep small.toml {GRID} --seed 7 --threads 2"),
+    );
+    assert!(
+        text.contains("points: 6, of which 0 were finished before"),
+        "{text}"
+    );
+    let out = dir.path().join("out/sweep-small");
+    let csv = fs::read_to_string(out.join("sweep.csv")).unwrap();
+    let rows: Vec<_> = csv.lines().collect();
+    assert_eq!(
+        rows[0],
+        "interaction.alpha,interaction.update,t_over_T,x1,x1_se,x2,x2_se,x3,x3_se,phi,phi_se"
+    );
+    let points = [
+        "0.1,rotation",
+        "0.1,angles",
+        "0.2,rotation",
+        "0.2,angles",
+        "0.3,rotation",
+        "0.3,angles",
+    ];
+    assert_eq!(rows.len(), 1 + points.len());
+    for (k, (row, point)) in rows[1..].iter().zip(points).enumerate() {
+        // The same point by hand, as a scene of its own.
+        let (alpha, update) = point.split_once(',').unwrap();
+        let scene = SMALL.replace("alpha = 0.5", &format!("alpha = {alpha}\nupdate = \"{update}\""));
+        fs::write(dir.path().join("point.toml"), scene).unwrap();
+        succeeds(dir.path(), "run point.toml --seed 7 --quiet");
+        let table = |name: &str| fs::read_to_string(dir.path().join("out/point").join(name)).unwrap();
+        let last = |name: &str| table(name).lines().last().unwrap().to_owned();
+        let angle = last("mean_angle.csv");
+        let (_, angle) = angle.split_once(',').unwrap();
+        assert_eq!(*row, format!("{point},{},{angle}", last("projections.csv")));
+        let kept = out.join(format!("points/{}/projections.csv", k + 1));
+        assert_eq!(fs::read_to_string(kept).unwrap(), table("projections.csv"));
+    }
+}
+
+/// Heavy enough to be killed on the way: some seconds in all.
+const LONG: &str =
+    "sweep small.toml --over interaction.alpha=0.1:1.2:12 --replicas 250 --out killed --quiet --threads 1";
+
+#[test]
+fn a_killed_sweep_goes_on_to_the_same_bytes() {
+    let dir = folder();
+    let scene = SMALL
+        .replace("count = 20", "count = 60")
+        .replace("steps_per_period = 20", "steps_per_period = 100");
+    fs::write(dir.path().join("small.toml"), scene).unwrap();
+    let killed = dir.path().join("killed");
+    let finished =
+        || fs::read_dir(killed.join("points")).map_or(0, |all| all.flatten().filter(visible).count());
+    let visible_points = finished;
+    let mut child = command(dir.path(), LONG).spawn().unwrap();
+    let start = Instant::now();
+    while visible_points() < 2 && start.elapsed() < Duration::from_secs(60) {
+        sleep(Duration::from_millis(1));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let before = finished();
+    assert!(
+        (2..12).contains(&before),
+        "{before} points were finished when it was killed"
+    );
+    assert!(!killed.join("sweep.csv").exists());
+    // What a kill in the middle of a point leaves.
+    fs::create_dir_all(killed.join("points/.12.part")).unwrap();
+    fs::write(killed.join("points/.12.part/projections.csv"), "half a ta").unwrap();
+
+    let text = succeeds(dir.path(), &LONG.replace("--quiet --threads 1", "--threads 2"));
+    assert!(
+        text.contains(&format!("points: 12, of which {before} were finished before")),
+        "{text}"
+    );
+    succeeds(dir.path(), &LONG.replace("killed", "whole"));
+    assert_eq!(files(&killed), files(&dir.path().join("whole")));
+    // Once more: nothing is left to do, and nothing changes.
+    let whole = files(&killed);
+    succeeds(dir.path(), LONG);
+    assert_eq!(files(&killed), whole);
+}
+
+fn visible(entry: &fs::DirEntry) -> bool {
+    !entry.file_name().to_string_lossy().starts_with('.')
+}
+
+#[test]
+fn another_sweep_in_the_folder_is_refused_and_left_as_it_is() {
+    let dir = folder();
+    let sweep = |rest: &str| format!("sweep small.toml --out here {rest}");
+    let first = sweep(&format!("{GRID} --quiet"));
+    succeeds(dir.path(), &first);
+    let here = dir.path().join("here");
+    let kept = files(&here);
+    for (arguments, named) in [
+        (sweep("--over interaction.alpha=0.1:0.3:3"), "over was"),
+        (
+            sweep(&format!("{GRID} --seed 2")),
+            "scene.ensemble.seed was 1 and is 2 now",
+        ),
+        (
+            sweep(&format!("{GRID} --replicas 4")),
+            "scene.ensemble.replicas was 3 and is 4 now",
+        ),
+    ] {
+        let message = refused(dir.path(), &arguments);
+        assert!(
+            message.contains(&format!("here/sweep.json: another sweep is kept here: {named}")),
+            "{message}"
+        );
+        assert!(message.contains("nothing was changed"), "{message}");
+    }
+    fs::write(
+        dir.path().join("small.toml"),
+        SMALL.replace("count = 20", "count = 21"),
+    )
+    .unwrap();
+    let message = refused(dir.path(), &first);
+    assert!(
+        message.contains("scene.particles.count was 20 and is 21 now"),
+        "{message}"
+    );
+    fs::write(dir.path().join("small.toml"), SMALL).unwrap();
+    assert_eq!(files(&here), kept);
+
+    // A version whose number has changed, and one whose results have without it.
+    let record = fs::read_to_string(here.join("sweep.json")).unwrap();
+    let version = format!("\"version\": \"{}\"", env!("CARGO_PKG_VERSION"));
+    assert!(record.contains(&version));
+    fs::write(
+        here.join("sweep.json"),
+        record.replace(&version, "\"version\": \"0.0.1\""),
+    )
+    .unwrap();
+    assert!(refused(dir.path(), &first).contains("version was \"0.0.1\" and is"));
+    fs::write(here.join("sweep.json"), record).unwrap();
+    fs::remove_dir_all(here.join("points/6")).unwrap();
+    let point = here.join("points/1/projections.csv");
+    let table = fs::read_to_string(&point).unwrap();
+    fs::write(&point, table.replacen("0.", "0.9", 1)).unwrap();
+    let message = refused(dir.path(), &first);
+    assert!(
+        message.contains("here/points/1: run again, this point has other numbers"),
+        "{message}"
+    );
+    assert!(!here.join("points/6").exists());
+
+    // Files of unknown origin.
+    fs::remove_file(here.join("sweep.json")).unwrap();
+    let message = refused(dir.path(), &first);
+    assert!(message.contains("is missing beside points"), "{message}");
+}
+
+#[test]
+fn bad_input_is_refused_before_anything_runs() {
+    let dir = folder();
+    for (over, named) in [
+        (
+            "particles.count=10:20:4",
+            "small.toml: --over particles.count=13.333333333333334 (point 2 of 4): particles.count = 13.333333333333334 is not allowed: a whole number from 1 to 100000000",
+        ),
+        (
+            "interaction.alpha=0.5:-0.5:3",
+            "(point 3 of 3): interaction.alpha = -0.5 is not allowed: a finite number ≥ 0",
+        ),
+        (
+            "interaction.update=rotation,angels",
+            "(point 2 of 2): interaction.update = \"angels\" is not allowed: \"rotation\" or \"angles\"",
+        ),
+        ("interaction.alpa=1,2", "unknown key `alpa`, expected one of"),
+        ("alpha=1,2", "unknown key `alpha`, expected one of"),
+        ("title.x=1,2", "is no table"),
+        ("interaction.alpha=1:2", "neither FROM:TO:COUNT nor a list"),
+        (
+            "interaction.alpha=1:2:0",
+            "a whole number from 2 to 100000 is allowed",
+        ),
+        ("interaction.alpha", "KEY=FROM:TO:COUNT or KEY=A,B,C is allowed"),
+        (
+            "output.observables=[\"projections\"],[\"mean_angle\"]",
+            "all points have the same columns",
+        ),
+        ("interaction.alpha=1,2 --over interaction.alpha=3", "given twice"),
+        (
+            "ensemble.seed=1,2 --seed 3",
+            "--seed 3: --over ensemble.seed says it too",
+        ),
+        (
+            "ensemble.replicas=1,2 --replicas 3",
+            "--replicas 3: --over ensemble.replicas says it too",
+        ),
+        (
+            "interaction.alpha=0:1:1000 --over interaction.m=1:2:1000",
+            "more than 100000 points",
+        ),
+    ] {
+        let message = refused(dir.path(), &format!("sweep small.toml --over {over}"));
+        assert!(message.contains(named), "{over}: {message}");
+    }
+    assert!(refused(dir.path(), "sweep small.toml").contains("--over <KEY=VALUES>"));
+    // A scene file that is wrong has a line.
+    fs::write(
+        dir.path().join("small.toml"),
+        SMALL.replace("count = 20", "count = 0"),
+    )
+    .unwrap();
+    let message = refused(dir.path(), "sweep small.toml --over interaction.alpha=1,2");
+    assert!(
+        message.contains("small.toml:5: particles.count = 0 is not allowed"),
+        "{message}"
+    );
+    assert!(!dir.path().join("out").exists());
+}
