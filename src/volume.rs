@@ -102,6 +102,28 @@ mod tests {
     }
 
     #[test]
+    fn many_rods_are_replaced_as_one_after_the_other() {
+        let count = 2 * CHUNK + 1000;
+        let volume = ControlVolume::holding(count, 1.0);
+        let mut all = volume.draw_positions(count, &stream(3, 0, Purpose::Positions));
+        let start = stream(3, 0, Purpose::Replacements);
+        let mut parts: Vec<[Vec<f64>; 3]> = [0..CHUNK, CHUNK..2 * CHUNK, 2 * CHUNK..count]
+            .map(|part| all.each_ref().map(|axis| axis[part.clone()].to_vec()))
+            .into();
+        let (mut one, mut many) = (start.clone(), start);
+        for _ in 0..2 {
+            let replaced = volume.advance(&mut all, 0.3, 1.0, &mut many);
+            let each = parts
+                .iter_mut()
+                .map(|part| volume.advance(part, 0.3, 1.0, &mut one));
+            assert_eq!(replaced, each.sum::<u64>());
+        }
+        for (axis, all) in all.iter().enumerate() {
+            assert!(all.iter().eq(parts.iter().flat_map(|part| &part[axis])));
+        }
+    }
+
+    #[test]
     fn rods_that_leave_come_back_inside_and_the_others_only_move() {
         for sign in [1.0, -1.0] {
             let volume = ControlVolume::holding(1000, 1.0);

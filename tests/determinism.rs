@@ -1,7 +1,7 @@
 //! The same scene and seed give the same bits: on any number of threads, and for a replica run alone.
 
 use shearbed::run::run_replica;
-use shearbed::{Plan, Results, Scene, ensemble, scene_file};
+use shearbed::{Observable, Plan, Results, Scene, ensemble, scene_file};
 
 fn scene(replicas: u64, seed: u64) -> Scene {
     let text = format!(
@@ -92,6 +92,22 @@ fn a_large_run_gives_the_same_bits_on_any_number_of_threads() {
             assert_eq!(one.counters, more.counters);
         }
         assert_eq!(one.counters.collisions > 1024, plan.scene().interaction.is_some());
+    }
+}
+
+#[test]
+fn a_large_run_sums_over_all_rods() {
+    let mut scene = scene(1, 1);
+    scene.interaction = None;
+    scene.particles.count = 150_000;
+    scene.output.observables = vec![Observable::OrientationTensor];
+    let replica = run_replica(&Plan::new(&scene).unwrap(), 0).unwrap();
+    for sums in replica.sums.chunks_exact(6) {
+        let squares: f64 = sums[..3].iter().map(|sum| sum.value).sum();
+        assert!((squares / 150_000.0 - 1.0).abs() < 1e-12, "Σ|p|² = {squares}");
+        // ⟨p₁²⟩ has its standard error from the squares: of one replica.
+        let square = sums[2].square.unwrap();
+        assert!(square < sums[2].value && square > 0.5 * sums[2].value.powi(2) / 150_000.0);
     }
 }
 
