@@ -216,7 +216,7 @@ fn apart<const K: usize>(a: &[[f64; 3]], b: &[[f64; 3]], signs: [f64; K]) -> f64
     })
 }
 
-/// Scenes of 2 to 200 rods; the small ones are dense enough to collide.
+/// Scenes of 2 to 400 rods; the small ones are dense enough to collide.
 fn scenes() -> Vec<Scene> {
     let scene = |count: usize, per_cm3: f64, change: fn(&mut Scene)| {
         let mut scene = lab::interacting_scene();
@@ -243,5 +243,11 @@ fn scenes() -> Vec<Scene> {
             scene.time.steps_per_period = Some(100);
         }),
         scene(200, 50.0, |_| {}),
+        // Enough to be sorted into cells, thin and dense.
+        scene(400, 50.0, |scene| scene.time.steps_per_period = Some(50)),
+        scene(300, 1000.0, |scene| {
+            lab::interaction(scene).min_contact_arm = 0.1;
+            scene.time.steps_per_period = Some(50);
+        }),
     ]
 }
