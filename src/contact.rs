@@ -42,6 +42,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #![proptest_config(crate::fixed_seed(256))]
+
         #[test]
         fn the_line_between_the_contact_points_is_perpendicular_to_both_rods(
             d in prop::array::uniform3(-3.0f64..3.0), a in prop::array::uniform2(0.1f64..3.0), b in prop::array::uniform2(0.1f64..3.0)

@@ -99,7 +99,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(512))]
+        #![proptest_config(crate::fixed_seed(512))]
 
         #[test]
         fn both_searches_find_what_a_full_search_finds(
@@ -152,6 +152,37 @@ mod tests {
                 .binary_search_by_key(&(rod as u32), |nearest| nearest.rod)
                 .ok();
             assert_eq!(own.map(|k| all[k]), brute(&positions, rod, reach[rod]));
+        }
+    }
+
+    #[test]
+    fn who_is_near_in_the_next_cell_but_beyond_the_window_is_found() {
+        // Cells are 1 wide. Rod 0 is close to the border; four others of its cell and one of the next stand between it
+        // and its partner, all of them farther than the reach.
+        let far = [0.05, 0.05];
+        let row = [
+            (0.5, 0.95),
+            (far[0], 0.5),
+            (far[0], 0.5),
+            (far[0], 0.5),
+            (far[0], 0.5),
+            (far[1], 1.95),
+            (0.5, 1.05),
+        ];
+        for mirrored in [false, true] {
+            let mut points: Vec<[f64; 3]> = row.map(|(x, z)| [x, x, z]).into();
+            if mirrored {
+                points.iter_mut().for_each(|p| p[2] = 10.0 - p[2]);
+                points.reverse();
+            }
+            let positions: [Vec<f64>; 3] = std::array::from_fn(|k| points.iter().map(|p| p[k]).collect());
+            let reach = points
+                .iter()
+                .map(|p| if p[0] == 0.5 { 0.2 } else { 0.0 })
+                .collect::<Vec<_>>();
+            let all = found(Search::Grid(Grid::new(10.0, 1000)), &positions, &reach);
+            let pairs: Vec<_> = all.iter().map(|nearest| (nearest.rod, nearest.other)).collect();
+            assert_eq!(pairs, [(0, 6), (6, 0)]);
         }
     }
 

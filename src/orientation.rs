@@ -54,6 +54,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #![proptest_config(crate::fixed_seed(256))]
+
         #[test]
         fn angles_come_back(phi in -3.1f64..3.1, theta in 0.01f64..3.13) {
             let (phi_back, theta_back) = angles(&from_angles(phi, theta));
