@@ -2,7 +2,7 @@
 
 use peak_alloc::PeakAlloc;
 use shearbed::run::run_replica;
-use shearbed::{Plan, memory, scene_file};
+use shearbed::{Plan, Suspension, memory, scene_file};
 
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;
@@ -36,12 +36,28 @@ fn peak(plan: &Plan) -> f64 {
     (ALLOCATOR.peak_usage() - before) as f64
 }
 
+/// What is allocated in 100 steps, once the first 400 have set up the buffers.
+fn allocated_in_steps(count: usize) -> usize {
+    let plan = plan(count, &interaction(50.0));
+    let mut suspension = Suspension::new(&plan, 0).unwrap();
+    let mut steps = |count| (0..count).for_each(|_| assert!(suspension.step().is_ok()));
+    steps(400);
+    ALLOCATOR.reset_peak_usage();
+    let before = ALLOCATOR.current_usage();
+    steps(100);
+    ALLOCATOR.peak_usage() - before
+}
+
+fn interaction(concentration_per_cm3: f64) -> String {
+    format!("[interaction]\nconcentration_per_cm3 = {concentration_per_cm3}\nalpha = 0.5")
+}
+
 /// One test, so that no other allocates beside it.
 #[test]
-fn a_run_holds_what_it_says() {
+fn a_run_holds_what_it_says_and_its_steps_allocate_nothing() {
+    assert_eq!(allocated_in_steps(100), 0);
+    assert_eq!(allocated_in_steps(2000), 0);
     let count = 200_000;
-    let interaction =
-        |concentration| format!("[interaction]\nconcentration_per_cm3 = {concentration}\nalpha = 0.5");
     for (tables, most_per_rod) in [
         (interaction(50.0), 120.0),
         (interaction(1e-3), 120.0),

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use shearbed::run::run_replica;
 use shearbed::scene::Scene;
-use shearbed::{Plan, Suspension, ensemble};
+use shearbed::{Plan, Suspension, ensemble, memory};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -82,6 +82,14 @@ pub enum Target {
 }
 
 impl Check {
+    /// What was measured over what it ought to be.
+    pub fn over_target(&self) -> Option<f64> {
+        match self.target {
+            Target::AtMost(target) | Target::AtLeast(target) => Some(self.measured / target),
+            Target::None => None,
+        }
+    }
+
     /// Whether the target is met.
     pub fn met(&self) -> bool {
         match self.target {
@@ -141,6 +149,7 @@ pub fn measure(amount: Amount) -> Result<Speed, String> {
     checks.extend(against_naive(&by_rods));
     checks.push(replicas(&one, &all, threads, amount)?);
     checks.push(one_large_run(&one, &all, amount)?);
+    checks.push(held());
     Ok(Speed {
         threads,
         checks,
@@ -370,6 +379,21 @@ fn one_large_run(one: &rayon::ThreadPool, all: &rayon::ThreadPool, amount: Amoun
         unit: "×",
         behind: format!("{alone:.3} s and {shared:.3} s, 8 steps and the draws"),
     })
+}
+
+/// What a run of 10⁶ rods holds, as `tests/memory.rs` counts it to within a quarter.
+fn held() -> Check {
+    let mut scene = lab::interacting_scene();
+    scene.particles.count = 1_000_000;
+    scene.particles.aspect_ratio_sd_percent = 3.6;
+    scene.ensemble.replicas = 1;
+    Check {
+        what: "memory of an interacting rod with an r_e of its own",
+        measured: memory::bytes(&lab::plan(&scene), 1) as f64 / 1e6,
+        target: Target::AtMost(120.0),
+        unit: "bytes",
+        behind: "10⁶ rods; what `shearbed run` checks before it starts".into(),
+    }
 }
 
 fn whole_runs(scene: &Scene, pools: [&rayon::ThreadPool; 2], amount: Amount) -> Result<[f64; 2], String> {

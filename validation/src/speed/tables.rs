@@ -20,6 +20,9 @@ pub fn table(speed: &Speed) -> ReportTable {
             check.what.into(),
             target,
             format!("{:.3} {}", check.measured, check.unit),
+            check
+                .over_target()
+                .map_or("–".into(), |ratio| format!("{ratio:.2}")),
             verdict.into(),
             check.behind.clone(),
         ]
@@ -29,12 +32,19 @@ pub fn table(speed: &Speed) -> ReportTable {
         title: "Speed: targets and what was measured".into(),
         caption: format!(
             "The least of repeated measurements, side by side in one run on a machine with {} cores, which others may \
-             have used too. No case of the gate is timed: its counters of work are. `shearbed bench` measures longer.",
+             have used too. No case of the gate is timed: its counters of work are. `shearbed bench --case speed` measures longer.",
             speed.threads
         ),
-        columns: ["what", "target", "measured", "met", "behind it"]
-            .map(String::from)
-            .into(),
+        columns: [
+            "what",
+            "target",
+            "measured",
+            "measured / target",
+            "met",
+            "behind it",
+        ]
+        .map(String::from)
+        .into(),
         rows: speed.checks.iter().map(row).collect(),
     }
 }
