@@ -57,6 +57,7 @@ pub mod memory;
 pub mod neighbours;
 pub mod observable;
 pub mod orientation;
+pub mod phase;
 pub mod plan;
 pub mod propagator;
 pub mod random;

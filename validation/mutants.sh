@@ -64,7 +64,7 @@ chunks-share-numbers@@src/random.rs@@let mut rng = ahead(rng, k * CHUNK);@@let m
 replaced-share-numbers@@src/volume.rs@@self.replace(axes, &mut ahead(rng, 2 * before));@@self.replace(axes, &mut ahead(rng, before));
 mirrored-free-phase@@src/rods.rs@@clock.phase(tick as f64, clock.sign)@@clock.phase(tick as f64, 1.0)
 chunks-not-added@@src/observable.rs@@self.value += other.value;@@self.value = other.value;
-whole-turns-late@@src/propagator.rs@@Self::of_part(turns.fract())@@Self::of_part((TAU * turns).sin().atan2((TAU * turns).cos()) / TAU)
+whole-turns-late@@src/phase.rs@@Self::of_part(turns.fract())@@Self::of_part((TAU * turns).sin().atan2((TAU * turns).cos()) / TAU)
 hyperbolic-shift-dropped@@src/propagator.rs@@Matrix3::identity() * (-kappa * time).exp() + unit * sinh + unit * unit * (0.5 * decay * decay)@@Matrix3::identity() * (1.0 + 0.0 * decay * sinh) + unit * (kappa * time).sinh() + unit * unit * ((kappa * time).cosh() - 1.0)
 spiral-growth-lost@@src/propagator.rs@@let growth = lead * whole * period;@@let growth = lead * period;
 halves-from-shape@@src/propagator.rs@@(1.0 / (1.0 + 1.0 / square), 1.0 / (1.0 + square))@@(0.5 + 0.5 * (square - 1.0) / (square + 1.0), 0.5 - 0.5 * (square - 1.0) / (square + 1.0))

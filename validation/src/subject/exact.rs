@@ -2,7 +2,8 @@
 
 use super::{Failure, Problem, Setting, Subject, Theory};
 use nalgebra::{UnitVector3, Vector3};
-use shearbed::propagator::{Phase, couette};
+use shearbed::phase::Phase;
+use shearbed::propagator::couette;
 use shearbed::{jeffery, orientation};
 use std::f64::consts::TAU;
 
