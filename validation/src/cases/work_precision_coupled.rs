@@ -3,10 +3,11 @@
 use super::lab::{self, Sample};
 use crate::accept::Rule;
 use crate::case::{About, Case, Effort, Evidence, Kind};
-use crate::suspensions::coupled::{at, correlation, free, free_mean, interacting};
+use crate::suspensions::coupled::{at, free, free_mean, interacting};
 use crate::suspensions::job::Job;
-use crate::suspensions::law::{self, Estimate};
+use crate::suspensions::law;
 use crate::suspensions::split::{Constants, Scope, Split, reference};
+use crate::suspensions::{Estimate, correlation};
 use shearbed::Scene;
 use std::sync::LazyLock;
 

@@ -59,6 +59,7 @@ pub(super) fn gather(effort: &Effort, quiet: bool) -> Result<Option<Sections>, F
     }
     let subjects = subject::all();
     tables.extend(stability::tables::tables(&subjects));
+    tables.extend(stability::limit_tables::limits(&subjects));
     let mut figures = drawn.figures;
     figures.push(kicks::tables::figure(&limit));
     figures.extend(stability::figures::figures(&subjects));

@@ -49,7 +49,7 @@ pub const THEORIES: [LimitTheory; 6] = [
 ];
 
 /// A table for each property.
-pub(super) fn limits(subjects: &[Box<dyn Subject>]) -> Vec<ReportTable> {
+pub fn limits(subjects: &[Box<dyn Subject>]) -> Vec<ReportTable> {
     let one = |name, title, caption: &str, property| {
         limit_table(name, title, caption, property, &LIMIT_RATIOS, ONE_STEP, subjects)
     };

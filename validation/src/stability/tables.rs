@@ -1,7 +1,6 @@
 //! The maps and the limits as tables.
 
 use super::core;
-use super::limit_tables::limits;
 use super::map::{self, ASPECT_RATIOS, Cell, Found, PERIODS, STEPS, TOLERANCES};
 use super::orbit::Place;
 use crate::plot::power_of_ten;
@@ -11,14 +10,13 @@ use crate::subject::{Setting, Subject, Theory};
 /// Steps that a run of the maps over steps and over starts may take; ten times as many over durations.
 pub const MOST_STEPS: u64 = 20_000;
 
-/// Every map and every limit of these subjects.
+/// Every map of these subjects.
 pub fn tables(subjects: &[Box<dyn Subject>]) -> Vec<ReportTable> {
     [
         vec![core_table()],
         steps(subjects),
         tolerances(subjects),
         vec![starts(subjects), durations(subjects)],
-        limits(subjects),
     ]
     .concat()
 }

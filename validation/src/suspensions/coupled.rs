@@ -5,7 +5,7 @@
 //! - *Control variate*: the same rods without collisions, whose mean has a closed form, to correct the mean.
 
 use super::job::Job;
-use super::law::Estimate;
+use super::{Estimate, correlation};
 use super::{covariance, mean_and_se};
 use crate::oracle::isotropic;
 use rayon::prelude::*;
@@ -155,9 +155,4 @@ pub fn controlled(x1: &[f64], free: &[f64], free_mean: f64) -> Estimate {
 /// One mark of all replicas.
 pub fn at(values: &Values, mark: usize) -> Vec<f64> {
     values.iter().map(|replica| replica[mark]).collect()
-}
-
-/// The correlation of pairs.
-pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
-    covariance(a, b) / (covariance(a, a) * covariance(b, b)).sqrt()
 }

@@ -54,7 +54,7 @@ impl Means {
             for j in (0..i).filter(|j| scale(i, *j) > 0.0) {
                 let (a, b) = (&samples[i], &samples[j]);
                 let count = a.len().min(b.len());
-                shared += count as f64 * super::coupled::correlation(&a[..count], &b[..count]);
+                shared += count as f64 * super::correlation(&a[..count], &b[..count]);
                 pairs += count as f64;
             }
         }

@@ -4,6 +4,7 @@
 
 use super::fit::{Line, Means, Order};
 use super::job::{Job, PLACES, Trace};
+use super::{Estimate, correlation};
 use super::{mean_and_se, slope};
 use crate::subject::apart_rad;
 use nalgebra::Vector3;
@@ -67,22 +68,6 @@ pub struct Sample {
     pub x1: f64,
     /// Its standard error over replicas.
     pub se: f64,
-}
-
-/// A number with its standard error.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Estimate {
-    /// The number.
-    pub value: f64,
-    /// Its standard error.
-    pub se: f64,
-}
-
-impl Estimate {
-    /// Whether it is known from 0: two standard errors or more.
-    pub fn readable(&self) -> bool {
-        self.value.abs() >= 2.0 * self.se
-    }
 }
 
 /// One number of steps per period less the next finer one, at the same seeds.
@@ -260,7 +245,7 @@ fn change(means: &Means, level: usize, coarse: &[Trace], fine: &[Trace]) -> Chan
     let (value, se) = means.difference(level, level + 1);
     let x1 = |traces: &[Trace]| -> Vec<f64> { traces.iter().map(|trace| trace.looks[0].x1).collect() };
     let count = coarse.len().min(fine.len());
-    let correlation = super::coupled::correlation(&x1(&coarse[..count]), &x1(&fine[..count]));
+    let correlation = correlation(&x1(&coarse[..count]), &x1(&fine[..count]));
     let [apart_rad, unrelated_rad] = [0, 1].map(|shift| apart(coarse, fine, shift));
     Change {
         x1: Estimate { value, se },

@@ -1,6 +1,7 @@
 //! Convergence in law as tables.
 
-use super::law::{Block, Change, Estimate, Law, Sample};
+use super::Estimate;
+use super::law::{Block, Change, Law, Sample};
 use crate::report::ReportTable;
 use crate::work_precision::tables::table;
 

@@ -4,9 +4,10 @@
 //! Mean-square error = (b/S + c N^(−1/3))² + v/(N M) for S steps per period, N rods and M replicas; cost = N M S rods
 //! times steps.
 
+use super::Estimate;
 use super::coupled;
 use super::job::Job;
-use super::law::{Estimate, FACES, Law, Sample};
+use super::law::{FACES, Law, Sample};
 use super::mean_and_se;
 use serde::Serialize;
 use shearbed::Scene;

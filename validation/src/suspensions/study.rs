@@ -1,8 +1,9 @@
 //! An interacting scene's whole study: law, constants, cheapest splits and what they gave, coupled estimates.
 
+use super::Estimate;
 use super::coupled::{self, Coupled};
 use super::job::Job;
-use super::law::{self, Estimate, Law, Replicas, Sample};
+use super::law::{self, Law, Replicas, Sample};
 use super::split::{self, Constants, Realised, Scope, Split, TARGETS};
 use crate::scenes;
 use crate::work_precision::{Budget, measure};
