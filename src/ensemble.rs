@@ -94,7 +94,7 @@ pub fn fold<E>(
 }
 
 /// Sums per output.
-fn width(plan: &Plan) -> usize {
+pub(crate) fn width(plan: &Plan) -> usize {
     plan.observables().iter().map(|o| o.width()).sum()
 }
 

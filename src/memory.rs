@@ -1,7 +1,7 @@
 //! What a run holds in memory, so that one that would not fit can say so before it starts.
 
 use crate::collision::reach;
-use crate::ensemble::batch;
+use crate::ensemble::{batch, width};
 use crate::observable::Sum;
 use crate::plan::{Plan, Stage};
 use crate::propagator::Propagator;
@@ -32,11 +32,7 @@ pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
         + kept(Stage::CollisionDraws, 8)
         + kept(Stage::Neighbours, 44)
         + kept(Stage::Contacts, 4);
-    let width: usize = plan
-        .observables()
-        .iter()
-        .map(|observable| observable.width())
-        .sum();
+    let width = width(plan);
     let per_output = width * size_of::<Sum>();
     let waiting = scene.ensemble.replicas.min(batch(plan));
     let lists = BYTES_OF_A_CANDIDATE as f64 * candidates(plan) * scene.particles.count as f64;

@@ -3,6 +3,9 @@
 
 #![cfg(feature = "mpi")]
 
+mod common;
+
+use common::files;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -113,22 +116,6 @@ fn both(dir: &Path, ranks: usize, arguments: &str) -> [BTreeMap<String, Vec<u8>>
     };
     assert_eq!(lines(&shared), lines(&alone));
     ["alone", "shared"].map(|name| files(&dir.join(name)))
-}
-
-/// Every file below a folder with its bytes.
-fn files(dir: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    for entry in fs::read_dir(dir).unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
-        if path.is_dir() {
-            let inner = files(&path).into_iter();
-            found.extend(inner.map(|(below, bytes)| (format!("{name}/{below}"), bytes)));
-        } else {
-            found.insert(name, fs::read(&path).unwrap());
-        }
-    }
-    found
 }
 
 /// A record without what tells one run from another: times, threads and ranks.

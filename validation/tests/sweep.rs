@@ -1,6 +1,8 @@
 //! `shearbed sweep` as a user meets it: rows, going on after a kill, refusals.
 
-use std::collections::BTreeMap;
+mod common;
+
+use common::files;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -58,22 +60,6 @@ fn succeeds(dir: &Path, arguments: &str) -> String {
     let stderr = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(0), "{arguments}: {stderr}");
     String::from_utf8(output.stdout).unwrap()
-}
-
-/// Every file below a folder with its bytes.
-fn files(dir: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    for entry in fs::read_dir(dir).unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
-        if path.is_dir() {
-            let inner = files(&path).into_iter();
-            found.extend(inner.map(|(below, bytes)| (format!("{name}/{below}"), bytes)));
-        } else {
-            found.insert(name, fs::read(&path).unwrap());
-        }
-    }
-    found
 }
 
 const GRID: &str = "--over interaction.alpha=0.1:0.3:3 --over interaction.update=rotation,angles";

@@ -1,7 +1,7 @@
 //! Fixed-step methods from one function each: the step.
 
 use super::{Failure, Problem, Setting, Subject, Theory};
-use nalgebra::{UnitVector3, Vector2, Vector3};
+use nalgebra::{SVector, UnitVector3, Vector2, Vector3};
 
 /// A method that steps p with equal steps. A step that cannot be taken gives NaN.
 pub struct FixedStep<F> {
@@ -37,14 +37,7 @@ where
         start: &UnitVector3<f64>,
         setting: Setting,
     ) -> Result<Vector3<f64>, Failure> {
-        let steps = setting.steps()?;
-        let h = problem.strain() / steps as f64;
-        // A rod that is lost stays lost: no more steps are spent on it.
-        (0..steps)
-            .try_fold(start.into_inner(), |p, _| {
-                Some((self.step)(problem, p, h)).filter(|p| p.sum().is_finite())
-            })
-            .ok_or(Failure::NotFinite)
+        last(problem, setting, start.into_inner(), &self.step)
     }
 }
 
@@ -81,16 +74,27 @@ where
         start: &UnitVector3<f64>,
         setting: Setting,
     ) -> Result<Vector3<f64>, Failure> {
-        let steps = setting.steps()?;
-        let h = problem.strain() / steps as f64;
         let first = Vector2::new(start.y.atan2(start.x), start.x.hypot(start.y).atan2(start.z));
-        let last = (0..steps)
-            .try_fold(first, |angles, _| {
-                Some((self.step)(problem, angles, h)).filter(|angles| angles.sum().is_finite())
-            })
-            .ok_or(Failure::NotFinite)?;
-        let (sin_phi, cos_phi) = last.x.sin_cos();
-        let (sin_theta, cos_theta) = last.y.sin_cos();
+        let angles = last(problem, setting, first, &self.step)?;
+        let (sin_phi, cos_phi) = angles.x.sin_cos();
+        let (sin_theta, cos_theta) = angles.y.sin_cos();
         Ok(Vector3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta))
     }
+}
+
+/// The state at the end of `problem`, by equal steps from `first`.
+fn last<const N: usize>(
+    problem: &Problem,
+    setting: Setting,
+    first: SVector<f64, N>,
+    step: impl Fn(&Problem, SVector<f64, N>, f64) -> SVector<f64, N>,
+) -> Result<SVector<f64, N>, Failure> {
+    let steps = setting.steps()?;
+    let h = problem.strain() / steps as f64;
+    // A rod that is lost stays lost: no more steps are spent on it.
+    (0..steps)
+        .try_fold(first, |state, _| {
+            Some(step(problem, state, h)).filter(|state| state.sum().is_finite())
+        })
+        .ok_or(Failure::NotFinite)
 }
