@@ -1,11 +1,18 @@
 //! Every rule by which a number is accepted, in one file. The default tolerance is zero; a looser one says why.
+//!
+//! A statistical rule has two errors: correct code that turns red, and a mistake that stays unseen. Both have a bound
+//! for each check, and samples are sized by calculation so that both hold ([`Design`]).
 
 use crate::cluster::text_of_the_source;
 use serde::{Deserialize, Serialize};
-use statrs::distribution::{ContinuousCDF, StudentsT};
+use statrs::distribution::{ChiSquared, ContinuousCDF, Normal, StudentsT};
 
-/// The probability that a gate of correct code turns red by chance, over all its statistical checks.
-pub const FAMILY_FALSE_ALARM_RATE: f64 = 1e-3;
+/// The probability that a run of the registry on correct code turns red for any reason, at most.
+pub const FALSE_ALARM_BUDGET: f64 = 1e-3;
+/// The probability that one statistical check of correct code fails, and that its data turn out to be too little.
+pub const LEVEL: f64 = 2e-6;
+/// The probability that one statistical check does not see the effect it is sized for.
+pub const MISS: f64 = 4e-6;
 
 /// How a check or a case ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -38,7 +45,7 @@ pub enum Rule {
         #[serde(deserialize_with = "text_of_the_source")]
         because: Words,
     },
-    /// |mean − reference| ≤ t·se + allowance at the gate's level, and se ≤ enough.
+    /// |mean − reference| ≤ t·se + allowance at [`LEVEL`], on a sample that would have shown `effect`.
     Mean {
         /// The mean over independent replicas or samples.
         mean: f64,
@@ -50,13 +57,13 @@ pub enum Rule {
         reference: f64,
         /// A systematic difference that is allowed, 0 unless the reason says more.
         allowance: f64,
-        /// The standard error above which the data is too little to say anything.
-        enough: f64,
-        /// Why this allowance and this `enough`.
+        /// The smallest |μ − reference| − allowance that must be seen.
+        effect: f64,
+        /// Why this allowance and this effect.
         #[serde(deserialize_with = "text_of_the_source")]
         because: Words,
     },
-    /// mean − t·se > bound at the gate's level; with se ≤ enough, anything else is a failure.
+    /// mean − t·se > bound at [`LEVEL`]; on a sample that would have shown `effect`, anything else is a failure.
     Above {
         /// The mean over independent replicas or samples.
         mean: f64,
@@ -66,13 +73,13 @@ pub enum Rule {
         samples: u64,
         /// What it must exceed.
         bound: f64,
-        /// The standard error above which the data is too little to say anything.
-        enough: f64,
-        /// Why this bound and this `enough`.
+        /// By how much the expectation of correct code exceeds the bound, at least.
+        effect: f64,
+        /// Why this bound and this effect.
         #[serde(deserialize_with = "text_of_the_source")]
         because: Words,
     },
-    /// p ≥ the gate's level, for a test on at least `enough` samples.
+    /// p ≥ [`LEVEL`], for a test on at least `enough` samples.
     PValue {
         /// The p-value of a goodness-of-fit test.
         p: f64,
@@ -127,9 +134,8 @@ impl Rule {
         }
     }
 
-    /// The bound on the error at a level; for a p-value, the level itself; for [`Rule::Above`] what the
-    /// mean must exceed.
-    pub fn tolerance(&self, level: f64) -> f64 {
+    /// The bound on the error; for a p-value, the level; for [`Rule::Above`] what the mean must exceed.
+    pub fn tolerance(&self) -> f64 {
         match self {
             Self::Within { tolerance, .. } => *tolerance,
             Self::Mean {
@@ -137,12 +143,48 @@ impl Rule {
                 samples,
                 allowance,
                 ..
-            } => critical(level, *samples) * se + allowance,
+            } => critical(*samples) * se + allowance,
             Self::Above {
                 se, samples, bound, ..
-            } => bound + critical(level, *samples) * se,
-            Self::PValue { .. } => level,
+            } => bound + critical(*samples) * se,
+            Self::PValue { .. } => LEVEL,
             Self::NoData { .. } => f64::NAN,
+        }
+    }
+
+    /// The probability, at most, that correct code does not pass this rule.
+    pub fn false_alarm(&self) -> f64 {
+        match self {
+            // That the mean is far, and that the scatter is larger than planned.
+            Self::Mean { .. } => 2.0 * LEVEL,
+            Self::Above { .. } => MISS + LEVEL,
+            Self::PValue { .. } => LEVEL,
+            Self::Within { .. } | Self::NoData { .. } => 0.0,
+        }
+    }
+
+    /// The probability that a repetition at other seeds would not fail a rule that has failed, from the effect that was
+    /// found: by the noncentral t distribution, and 0 where nothing is drawn. `None` where it cannot be told.
+    pub fn miss(&self) -> Option<f64> {
+        match self {
+            Self::Within { .. } => Some(0.0),
+            Self::Mean {
+                se,
+                samples,
+                allowance,
+                ..
+            } => {
+                let noncentrality = (self.error() - allowance) / se;
+                Some(noncentral(critical(*samples), noncentrality, *samples))
+            }
+            Self::Above {
+                mean,
+                se,
+                samples,
+                bound,
+                ..
+            } => Some(1.0 - noncentral(critical(*samples), (mean - bound) / se, *samples)),
+            Self::PValue { .. } | Self::NoData { .. } => None,
         }
     }
 
@@ -158,16 +200,21 @@ impl Rule {
     }
 }
 
-/// Judges a rule at the false-alarm probability `level` of one statistical check. NaN fails.
-pub fn judge(rule: &Rule, level: f64) -> Verdict {
+/// Judges a rule. NaN fails.
+pub fn judge(rule: &Rule) -> Verdict {
     let holds = match rule {
-        Rule::Within { .. } | Rule::Mean { .. } => rule.error() <= rule.tolerance(level),
-        Rule::Above { .. } => rule.error() > rule.tolerance(level),
-        Rule::PValue { p, .. } => *p >= level,
+        Rule::Within { .. } | Rule::Mean { .. } => rule.error() <= rule.tolerance(),
+        Rule::Above { .. } => rule.error() > rule.tolerance(),
+        Rule::PValue { p, .. } => *p >= LEVEL,
         Rule::NoData { .. } => return Verdict::NoData,
     };
     let enough_data = match rule {
-        Rule::Mean { se, enough, .. } | Rule::Above { se, enough, .. } => se <= enough,
+        Rule::Mean {
+            se, samples, effect, ..
+        }
+        | Rule::Above {
+            se, samples, effect, ..
+        } => se * needed_noncentrality(*samples) <= *effect,
         Rule::PValue { samples, enough, .. } => samples >= enough,
         _ => true,
     };
@@ -180,34 +227,113 @@ pub fn judge(rule: &Rule, level: f64) -> Verdict {
     }
 }
 
-/// The two-sided critical value of Student's t for a mean of `samples` independent values.
-pub(crate) fn critical(level: f64, samples: u64) -> f64 {
-    let freedom = samples.saturating_sub(1).max(1) as f64;
-    StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |t| t.inverse_cdf(1.0 - 0.5 * level))
+/// What a sample is sized for: an effect that must be seen, in values that scatter by `sd`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Design {
+    /// The smallest effect that must be seen.
+    pub effect: f64,
+    /// The standard deviation of one value, at most.
+    pub sd: f64,
+}
+
+impl Design {
+    /// The fewest independent values that see the effect but for a probability [`MISS`], at a false-alarm probability
+    /// [`LEVEL`], and whose standard error is small enough to say so but for another [`LEVEL`] (χ² quantile, Gaussian
+    /// values).
+    pub fn samples(self) -> u64 {
+        let enough = |samples: u64| {
+            let worst_sd = self.sd * scatter(samples);
+            worst_sd / (samples as f64).sqrt() * needed_noncentrality(samples) <= self.effect
+        };
+        let mut high = FEWEST;
+        while !enough(high) {
+            if high > MOST {
+                return u64::MAX;
+            }
+            high *= 2;
+        }
+        let mut low = high / 2;
+        while high - low > 1 {
+            let middle = low.midpoint(high);
+            *(if enough(middle) { &mut high } else { &mut low }) = middle;
+        }
+        high.max(FEWEST)
+    }
+}
+
+/// Below this a mean is not Gaussian enough for a level of 10⁻⁶.
+const FEWEST: u64 = 16;
+/// No case can run more.
+const MOST: u64 = 1 << 40;
+
+/// The fewest values by which a Kolmogorov–Smirnov test sees a distance of `distance` between two distribution
+/// functions but for a probability [`MISS`], at a false-alarm probability [`LEVEL`] (Massart's bound for both).
+pub fn kolmogorov_samples(distance: f64) -> u64 {
+    let bound = |probability: f64| (0.5 * (2.0 / probability).ln()).sqrt();
+    ((bound(LEVEL) + bound(MISS)) / distance).powi(2).ceil() as u64
+}
+
+/// How much larger than its expectation a standard deviation of `samples` Gaussian values is, but for a probability
+/// [`LEVEL`].
+fn scatter(samples: u64) -> f64 {
+    let freedom = freedom(samples);
+    ChiSquared::new(freedom).map_or(f64::NAN, |chi| (chi.inverse_cdf(1.0 - LEVEL) / freedom).sqrt())
+}
+
+/// The effect over its standard error that a mean of `samples` values shows but for a probability [`MISS`].
+fn needed_noncentrality(samples: u64) -> f64 {
+    let (critical, nu) = (critical(samples), freedom(samples));
+    let normal = normal().inverse_cdf(1.0 - MISS);
+    critical * (1.0 - 0.25 / nu) + normal * (1.0 + 0.5 * critical * critical / nu).sqrt()
+}
+
+/// P(T ≤ t) of the noncentral t distribution of a mean of `samples` values (Abramowitz & Stegun 26.7.10).
+fn noncentral(t: f64, noncentrality: f64, samples: u64) -> f64 {
+    let nu = freedom(samples);
+    normal().cdf((t * (1.0 - 0.25 / nu) - noncentrality) / (1.0 + 0.5 * t * t / nu).sqrt())
+}
+
+fn critical(samples: u64) -> f64 {
+    critical_at(LEVEL, samples)
+}
+
+/// The two-sided critical value of Student's t at `level` for a mean of `samples` independent values.
+pub(crate) fn critical_at(level: f64, samples: u64) -> f64 {
+    StudentsT::new(0.0, 1.0, freedom(samples)).map_or(f64::NAN, |t| t.inverse_cdf(1.0 - 0.5 * level))
+}
+
+fn freedom(samples: u64) -> f64 {
+    samples.saturating_sub(1).max(1) as f64
+}
+
+fn normal() -> Normal {
+    Normal::standard()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand::SeedableRng;
+    use rand_distr::{Distribution, StandardNormal};
+    use rand_pcg::Pcg64Dxsm;
 
     fn mean(mean: f64, se: f64, allowance: f64) -> Verdict {
-        let rule = Rule::Mean {
+        judge(&Rule::Mean {
             mean,
             se,
             samples: 400,
             reference: 1.0,
             allowance,
-            enough: 0.02,
+            effect: 0.1,
             because: "",
-        };
-        judge(&rule, 1e-3)
+        })
     }
 
     #[test]
     fn a_mean_needs_closeness_and_enough_data() {
         assert_eq!(mean(1.02, 0.01, 0.0), Verdict::Pass);
-        assert_eq!(mean(1.05, 0.01, 0.0), Verdict::Fail);
-        assert_eq!(mean(1.05, 0.01, 0.03), Verdict::Pass);
+        assert_eq!(mean(1.06, 0.01, 0.0), Verdict::Fail);
+        assert_eq!(mean(1.06, 0.01, 0.03), Verdict::Pass);
         assert_eq!(mean(1.02, 0.1, 0.0), Verdict::Underpowered);
         assert_eq!(
             mean(2.0, 0.1, 0.0),
@@ -220,17 +346,16 @@ mod tests {
     #[test]
     fn a_difference_needs_to_be_seen() {
         let above = |mean, se| {
-            let rule = Rule::Above {
+            judge(&Rule::Above {
                 mean,
                 se,
                 samples: 400,
                 bound: 0.0,
-                enough: 0.02,
+                effect: 0.1,
                 because: "",
-            };
-            judge(&rule, 1e-3)
+            })
         };
-        assert_eq!(above(0.05, 0.01), Verdict::Pass);
+        assert_eq!(above(0.1, 0.01), Verdict::Pass);
         assert_eq!(above(0.02, 0.01), Verdict::Fail);
         assert_eq!(above(0.02, 0.1), Verdict::Underpowered);
         assert_eq!(above(f64::NAN, 0.01), Verdict::Fail);
@@ -239,33 +364,91 @@ mod tests {
     #[test]
     fn the_critical_value_is_students() {
         // Tables: t at 0.9995 with 10 degrees of freedom is 4.587, and 3.291 for the normal limit.
-        assert!((critical(1e-3, 11) - 4.587).abs() < 1e-3);
-        assert!((critical(1e-3, 1_000_000) - 3.2905).abs() < 1e-3);
+        assert!((critical_at(1e-3, 11) - 4.587).abs() < 1e-3);
+        assert!((critical_at(1e-3, 1_000_000) - 3.2905).abs() < 1e-3);
+    }
+
+    #[test]
+    fn the_noncentral_distribution_is_the_simulated_one() {
+        let mut rng = Pcg64Dxsm::seed_from_u64(1);
+        for (samples, noncentrality, t) in [(20u64, 3.0f64, 2.5), (20, 6.0, 8.0), (100, 5.0, 4.2)] {
+            let root = (samples as f64).sqrt();
+            let trials = 20_000;
+            let below = (0..trials)
+                .filter(|_| {
+                    let values = (0..samples).map(|_| noncentrality / root + normal_value(&mut rng));
+                    let values: Vec<f64> = values.collect();
+                    let mean = values.iter().sum::<f64>() / samples as f64;
+                    let square = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
+                    mean / (square / freedom(samples)).sqrt() * root <= t
+                })
+                .count();
+            let found = below as f64 / f64::from(trials);
+            let expected = noncentral(t, noncentrality, samples);
+            // Five standard errors of a share, and the approximation's own error in the middle of the distribution.
+            assert!(
+                (found - expected).abs() < 5.0 * 0.0036 + 0.005,
+                "{found} {expected}"
+            );
+        }
+    }
+
+    fn normal_value(rng: &mut Pcg64Dxsm) -> f64 {
+        StandardNormal.sample(rng)
+    }
+
+    #[test]
+    fn a_designed_sample_has_both_error_rates() {
+        let design = Design { effect: 0.5, sd: 1.0 };
+        let samples = design.samples();
+        let mut rng = Pcg64Dxsm::seed_from_u64(2);
+        let (trials, mut red, mut blind) = (2000, 0, 0);
+        for _ in 0..trials {
+            let values: Vec<f64> = (0..samples).map(|_| normal_value(&mut rng)).collect();
+            let n = samples as f64;
+            let mean = values.iter().sum::<f64>() / n;
+            let se = (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0) / n).sqrt();
+            let rule = |mean| Rule::Mean {
+                mean,
+                se,
+                samples,
+                reference: 0.0,
+                allowance: 0.0,
+                effect: design.effect,
+                because: "",
+            };
+            red += u32::from(judge(&rule(mean)) != Verdict::Pass);
+            blind += u32::from(judge(&rule(mean + design.effect)) != Verdict::Fail);
+        }
+        // Expected 0.008 and 0.008 events; one would be a mistake but for a chance of a hundredth.
+        assert_eq!((red, blind), (0, 0));
+        // With a quarter of the sample both errors are plain to see.
+        let few = samples / 4;
+        let se = 1.0 / (few as f64).sqrt();
+        assert!(se * needed_noncentrality(few) > design.effect);
+        assert!(few > FEWEST && samples < 500, "{samples}");
     }
 
     #[test]
     fn tolerances_are_closed_and_nan_fails() {
-        assert_eq!(judge(&Rule::exact(0.0), 0.1), Verdict::Pass);
-        assert_eq!(judge(&Rule::exact(f64::MIN_POSITIVE), 0.1), Verdict::Fail);
-        assert_eq!(judge(&Rule::within(-2.0, 2.0, ""), 0.1), Verdict::Pass);
-        assert_eq!(judge(&Rule::within(f64::NAN, 2.0, ""), 0.1), Verdict::Fail);
+        assert_eq!(judge(&Rule::exact(0.0)), Verdict::Pass);
+        assert_eq!(judge(&Rule::exact(f64::MIN_POSITIVE)), Verdict::Fail);
+        assert_eq!(judge(&Rule::within(-2.0, 2.0, "")), Verdict::Pass);
+        assert_eq!(judge(&Rule::within(f64::NAN, 2.0, "")), Verdict::Fail);
     }
 
     #[test]
     fn a_p_value_needs_samples() {
         let p = |p, samples| {
-            judge(
-                &Rule::PValue {
-                    p,
-                    samples,
-                    enough: 100,
-                    because: "",
-                },
-                1e-3,
-            )
+            judge(&Rule::PValue {
+                p,
+                samples,
+                enough: 100,
+                because: "",
+            })
         };
         assert_eq!(p(0.5, 100), Verdict::Pass);
         assert_eq!(p(0.5, 99), Verdict::Underpowered);
-        assert_eq!(p(1e-4, 1000), Verdict::Fail);
+        assert_eq!(p(1e-7, 1000), Verdict::Fail);
     }
 }

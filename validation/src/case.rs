@@ -1,19 +1,56 @@
 //! A case: one claim, the check that tests it, and the controls that the same check must fail.
 
-use crate::accept::{Rule, Verdict, Words, judge};
+use crate::accept::{Design, MISS, Rule, Verdict, Words, judge};
 use crate::cluster::text_of_the_source;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// What a case asks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Kind {
-    /// Are the equations solved right: closed forms, orders, invariants.
-    Verification,
-    /// Are they the right equations: experiments, and what the paper says of them.
-    Validation,
+/// What a case judges. Verification asks whether the equations are solved right; validation, whether they are the right
+/// equations, by measurements. What tests our own choices or the paper's sentences is neither.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Judges {
+    /// Verification of the simulator's core: closed forms, orders, invariants.
+    Core,
+    /// Verification of whole runs and of the program: files, errors, statistics, refusals.
+    Program,
+    /// Verification of an integrator, or of a claim about integrators.
+    Integrator,
+    /// Verification of an oracle, or of a misprint that it corrects.
+    Oracle,
+    /// A modelling choice where the paper is open: what the alternatives change.
+    Interpretation,
+    /// A sentence of the paper about its model's results.
+    Statement,
+    /// Validation: the model against measured points.
+    Measurement,
+}
+
+impl Judges {
+    /// All, in the order in which they are counted.
+    pub const ALL: [Self; 7] = [
+        Self::Core,
+        Self::Program,
+        Self::Integrator,
+        Self::Oracle,
+        Self::Interpretation,
+        Self::Statement,
+        Self::Measurement,
+    ];
+
+    /// In words, as the headline counts them.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Core => "core",
+            Self::Program => "program",
+            Self::Integrator => "integrators",
+            Self::Oracle => "oracles",
+            Self::Interpretation => "interpretations",
+            Self::Statement => "paper's statements",
+            Self::Measurement => "measured points",
+        }
+    }
 }
 
 /// One number and the rule it is judged by.
@@ -35,21 +72,50 @@ impl Evidence {
     }
 }
 
-/// How hard a case works, and at which level its statistical checks are judged.
+/// How hard a case works, and from which random streams.
 #[derive(Clone, Debug)]
 pub struct Effort {
     /// More replicas and samples, the same cases.
     pub full: bool,
-    /// The false-alarm probability of each statistical check.
-    pub level: f64,
+    /// The seed from which every case takes its seeds.
+    pub seed: u64,
     /// A folder with measured points, where the user has them.
     pub data: Option<PathBuf>,
 }
 
+/// The seed of the gate.
+pub const GATE_SEED: u64 = 1;
+
 impl Effort {
+    /// That of `cargo test`.
+    pub fn gate() -> Self {
+        Self {
+            full: false,
+            seed: GATE_SEED,
+            data: None,
+        }
+    }
+
     /// `quick` for the gate, `full` for `--full`.
     pub fn pick<T>(&self, quick: T, full: T) -> T {
         if self.full { full } else { quick }
+    }
+
+    /// The values that a sample needs; ten times as many in a full run.
+    pub fn samples(&self, design: Design) -> u64 {
+        self.pick(1, 10) * design.samples()
+    }
+
+    /// The seed of one of a case's streams: another for every `stream` and every seed of the run.
+    pub fn seed(&self, stream: u64) -> u64 {
+        // SplitMix64's output function on both; 63 bits, as scenes allow.
+        let mix = |z: u64| {
+            let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+            let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+            z ^ (z >> 31)
+        };
+        const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
+        mix(mix(self.seed.wrapping_add(STEP)) ^ stream.wrapping_add(STEP)) >> 1
     }
 }
 
@@ -60,16 +126,14 @@ type Check = Box<dyn Fn(&Effort) -> Vec<Evidence> + Send + Sync>;
 pub struct About {
     /// Its name, in words joined by `-`.
     pub name: &'static str,
-    /// Verification or validation.
-    pub kind: Kind,
+    /// What it judges.
+    pub judges: Judges,
     /// The claim, in one sentence.
     pub claim: &'static str,
     /// Equations, figures or sections of the paper, in words.
     pub source: &'static str,
     /// The equations it tests, by their numbers: the traceability table is made from these.
     pub equations: &'static [&'static str],
-    /// How many statistical checks it makes: the family-wise false-alarm rate is shared among all.
-    pub statistical_checks: usize,
 }
 
 /// One claim with its check and its controls.
@@ -112,24 +176,13 @@ impl Case {
     /// Runs the check, then every control. Without data there is nothing that a control could fail on.
     pub fn run(&self, effort: &Effort) -> Outcome {
         let start = Instant::now();
-        let evidence: Vec<_> = (self.check)(effort)
-            .into_iter()
-            .map(|evidence| {
-                let verdict = judge(&evidence.rule, effort.level);
-                Judged { evidence, verdict }
-            })
-            .collect();
+        let evidence: Vec<_> = (self.check)(effort).into_iter().map(Judged::new).collect();
         let no_data = evidence.iter().any(|judged| judged.verdict == Verdict::NoData);
         let controls: Vec<_> = self
             .controls
             .iter()
             .filter(|_| !no_data)
-            .map(|(mistake, check)| Control {
-                mistake,
-                caught: check(effort)
-                    .iter()
-                    .any(|evidence| judge(&evidence.rule, effort.level) == Verdict::Fail),
-            })
+            .map(|(mistake, check)| Control::new(mistake, &check(effort)))
             .collect();
         Outcome {
             about: self.about,
@@ -166,14 +219,41 @@ pub struct Judged {
     pub verdict: Verdict,
 }
 
+impl Judged {
+    fn new(evidence: Evidence) -> Self {
+        let verdict = judge(&evidence.rule);
+        Self { evidence, verdict }
+    }
+}
+
 /// A deliberate mistake and whether the check failed on it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Control {
     /// The mistake in the model.
     #[serde(deserialize_with = "text_of_the_source")]
     pub mistake: Words,
-    /// Whether the check failed, as it must.
+    /// Whether the check failed, as it must, on numbers.
     pub caught: bool,
+    /// The probability that the same check at another seed does not catch it, from the effect that was found here;
+    /// `None` where no rule tells.
+    pub miss: Option<f64>,
+}
+
+impl Control {
+    /// A check that ends in no numbers has broken, and has caught nothing.
+    fn new(mistake: Words, evidence: &[Evidence]) -> Self {
+        let broke = evidence.iter().any(|e| e.rule.error().is_nan());
+        let failed = evidence
+            .iter()
+            .filter(|_| !broke)
+            .filter(|e| judge(&e.rule) == Verdict::Fail);
+        Self {
+            mistake,
+            caught: failed.clone().next().is_some(),
+            // One rule that fails is enough: the surest.
+            miss: failed.filter_map(|e| e.rule.miss()).reduce(f64::min),
+        }
+    }
 }
 
 /// The outcome of a case.
@@ -191,6 +271,20 @@ pub struct Outcome {
     pub seconds: f64,
 }
 
+impl Outcome {
+    /// The probability, at most, that correct code turns this case red: its checks, and a control that is not caught.
+    pub fn false_alarm(&self) -> f64 {
+        if self.verdict == Verdict::NoData {
+            return 0.0;
+        }
+        let rules = || self.evidence.iter().map(|judged| &judged.evidence.rule);
+        let checks: f64 = rules().map(Rule::false_alarm).sum();
+        // What is sized for a control misses it with this probability at most; a check without draws, never.
+        let missed = |control: &&Control| control.miss != Some(0.0);
+        checks + MISS * self.controls.iter().filter(missed).count() as f64
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -198,11 +292,10 @@ mod tests {
     fn about() -> About {
         About {
             name: "a",
-            kind: Kind::Verification,
+            judges: Judges::Core,
             claim: "c",
             source: "s",
             equations: &[],
-            statistical_checks: 0,
         }
     }
 
@@ -212,7 +305,7 @@ mod tests {
 
     const EFFORT: Effort = Effort {
         full: false,
-        level: 1e-3,
+        seed: GATE_SEED,
         data: None,
     };
 
@@ -231,5 +324,10 @@ mod tests {
             "a case without a control is no case"
         );
         assert_eq!(verdict(f64::NAN, vec![("four", 4.0)]), Verdict::Fail);
+        assert_eq!(
+            verdict(3.0, vec![("no number", f64::NAN)]),
+            Verdict::Fail,
+            "a check that breaks has caught nothing"
+        );
     }
 }

@@ -1,26 +1,18 @@
 //! The catalogue of cases and equations, made from the registry: for the report and for `docs/catalogue.md`.
 
-use crate::accept::FAMILY_FALSE_ALARM_RATE;
-use crate::case::Kind;
 use crate::report::{ReportEquation, ReportTable, equation_table, markdown_table};
 use crate::{cases, equations};
 
 /// The catalogue as Markdown.
 pub fn markdown() -> String {
     let about: Vec<_> = cases::all().into_iter().map(|case| case.about).collect();
-    let checks: usize = about.iter().map(|about| about.statistical_checks).sum();
-    let columns = ["case", "kind", "claim", "source", "statistical checks"];
+    let columns = ["case", "judges", "claim", "source"];
     let rows = about.iter().map(|about| {
-        let kind = match about.kind {
-            Kind::Verification => "verification",
-            Kind::Validation => "validation",
-        };
         vec![
             format!("`{}`", about.name),
-            kind.into(),
+            about.judges.name().into(),
             about.claim.into(),
             about.source.into(),
-            about.statistical_checks.to_string(),
         ]
     });
     let table = ReportTable {
@@ -30,11 +22,10 @@ pub fn markdown() -> String {
     };
     format!(
         "# The catalogue\n\nMade from the registry; `UPDATE_DOCS=1 cargo test -p validation --test docs` makes \
-         it anew.\n\n## Cases\n\n{}\n{} cases with {checks} statistical checks, which share a family-wise false-alarm rate of {}.\n\n\
+         it anew.\n\n## Cases\n\n{}\n{} cases; `docs/strength.md` has their probabilities of a false alarm and of a miss.\n\n\
          ## Equations\n\n{}",
         markdown_table(&table),
         about.len(),
-        FAMILY_FALSE_ALARM_RATE,
         markdown_table(&equation_table(&equations())),
     )
 }

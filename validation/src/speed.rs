@@ -179,7 +179,7 @@ fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
 
 /// So many steps that they take about the wanted time.
 fn step(rods: usize, concentration_per_cm3: f64, amount: Amount) -> Result<Step, String> {
-    let mut scene = lab::interacting_scene();
+    let mut scene = lab::interacting_scene(&crate::case::Effort::gate());
     scene.particles.count = rods;
     lab::interaction(&mut scene).concentration_per_cm3 = concentration_per_cm3;
     let mut suspension = lab::suspension(&scene, 0);
@@ -230,7 +230,7 @@ fn step(rods: usize, concentration_per_cm3: f64, amount: Amount) -> Result<Step,
 }
 
 fn free_plan(rods: usize, outputs: u64, sd_percent: f64) -> Plan {
-    let mut scene = lab::free_scene();
+    let mut scene = lab::free_scene(&crate::case::Effort::gate());
     scene.particles.count = rods;
     scene.particles.aspect_ratio_sd_percent = sd_percent;
     scene.time.periods = Some(1.0);
@@ -349,7 +349,7 @@ fn replicas(
     threads: usize,
     amount: Amount,
 ) -> Result<Check, String> {
-    let mut scene = lab::interacting_scene();
+    let mut scene = lab::interacting_scene(&crate::case::Effort::gate());
     scene.time.periods = Some(1.0);
     scene.ensemble.replicas = 64 * threads as u64;
     let [alone, shared] = whole_runs(&scene, [one, all], amount)?;
@@ -366,7 +366,7 @@ fn replicas(
 }
 
 fn one_large_run(one: &rayon::ThreadPool, all: &rayon::ThreadPool, amount: Amount) -> Result<Check, String> {
-    let mut scene = lab::interacting_scene();
+    let mut scene = lab::interacting_scene(&crate::case::Effort::gate());
     scene.particles.count = 300_000;
     scene.time.periods = Some(0.04);
     scene.time.outputs_per_period = Some(25);
@@ -383,7 +383,7 @@ fn one_large_run(one: &rayon::ThreadPool, all: &rayon::ThreadPool, amount: Amoun
 
 /// What a run of 10⁶ rods holds, as `tests/memory.rs` counts it to within a quarter.
 fn held() -> Check {
-    let mut scene = lab::interacting_scene();
+    let mut scene = lab::interacting_scene(&crate::case::Effort::gate());
     scene.particles.count = 1_000_000;
     scene.particles.aspect_ratio_sd_percent = 3.6;
     scene.ensemble.replicas = 1;

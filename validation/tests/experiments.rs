@@ -79,7 +79,10 @@ standard_uncertainty = {U_Y}
 }
 
 fn run(case: &str, data: Option<&Path>) -> Outcome {
-    let effort = cases::effort(false, data.map(Path::to_owned));
+    let effort = Effort {
+        data: data.map(Path::to_owned),
+        ..Effort::gate()
+    };
     let all = cases::all();
     all.iter()
         .find(|found| found.about.name == case)

@@ -9,7 +9,7 @@ use validation::{cases, catalogue};
 const CHOSEN: [&str; 3] = ["jeffery-period", "planar-projections", "free-half-period"];
 
 fn small_report() -> Report {
-    let effort: Effort = cases::effort(false, None);
+    let effort: Effort = Effort::gate();
     let few = Replicas {
         interacting: 2,
         free: 2,

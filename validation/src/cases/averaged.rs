@@ -3,7 +3,7 @@
 
 use super::lab::Sample;
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::kicks::averaged::{Apart, apart, scene};
 use crate::oracle::naive::Problem;
 use nalgebra::{UnitVector3, Vector3};
@@ -19,11 +19,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "averaged-motion",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "With a shortest arm, the model tends to the averaged (P_c-weighted) motion as Δt → 0, path by path; with arms of every size it does not.",
                 source: "eqs 7–10, A.7–A.14; docs/time-step.md",
                 equations: &["7", "8", "A.13", "A.14"],
-                statistical_checks: 2,
             },
             Limit {
                 min_arm: 0.25,
@@ -50,11 +49,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "arm-pushed",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "A collision pushes a short arm away from 0 where the gap opens, and towards 0 where it closes: dr/dt = h² ℓ·D·ℓ/(2 r sin²).",
                 source: "A.7–A.14; docs/time-step.md",
                 equations: &["A.13", "A.14"],
-                statistical_checks: 0,
             },
             core_arm_rate as ArmRate,
             vec![
@@ -70,11 +68,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "updates-in-the-limit",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "A kick of a given angle ends elsewhere by `angles` than by `rotation` however short the step; at a given rate both are Jeffery's step up to (GΔt)².",
                 source: "A.14; docs/time-step.md",
                 equations: &["A.14"],
-                statistical_checks: 0,
             },
             [turn as Update, step_angles],
             vec![

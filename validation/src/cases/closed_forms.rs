@@ -3,7 +3,7 @@
 
 use super::lab::{self, Sample, per_replica};
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::oracle::{closed_form, isotropic, quadrature};
 use nalgebra::UnitVector3;
 use shearbed::ensemble;
@@ -23,11 +23,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "phase-means",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "The time means of |p_i| of a rod on the orbit C are an elliptic integral, an arcsinh and an arcsine.",
                 source: "eqs 13, 17",
                 equations: &["13", "17"],
-                statistical_checks: 0,
             },
             exact as Motion,
             vec![
@@ -42,11 +41,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "orbit-distribution",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "Isotropic rods have the closed distribution of C, and free motion leaves every rod's C alone.",
                 source: "eqs 12, 13",
                 equations: &["12", "13"],
-                statistical_checks: 2,
             },
             (|_| {}) as Mend,
             vec![
@@ -64,11 +62,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "free-plateau",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "Free rods of Gaussian aspect ratio settle at the phase means averaged over isotropic orbits.",
                 source: "eqs 16, 17",
                 equations: &["16", "17"],
-                statistical_checks: 6,
             },
             (|_| {}) as Mend,
             vec![
@@ -82,11 +79,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "spread-damping",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "A Gaussian spread damps the first harmonic of X̄_1 by 1/e at t/T = 1/(2√2 π s), s = σ(r_e² − 1)/(r_e² + 1), to first order in σ.",
                 source: "eqs 4, 11, 15; Fig. 9",
                 equations: &["11", "15"],
-                statistical_checks: 2,
             },
             1.0 as Factor,
             vec![("σ 15 % too wide", 1.15), ("no spread", 0.0)],
@@ -95,11 +91,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "in-plane-start",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "Free rods started together in the shear plane follow |cos φ|, |sin φ| of A.4 and never leave the plane.",
                 source: "A.4, eqs 4, 20",
                 equations: &["4", "20", "A.4"],
-                statistical_checks: 0,
             },
             (|_| {}) as Mend,
             vec![
@@ -153,7 +148,7 @@ fn phase_means(motion: &Motion, _: &Effort) -> Vec<Evidence> {
 }
 
 fn orbit_distribution(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
-    let mut scene = lab::interacting_scene();
+    let mut scene = lab::interacting_scene(effort);
     scene.particles.count = effort.pick(4000, 20_000);
     lab::interaction(&mut scene).alpha = 0.0;
     let r = scene.particles.aspect_ratio;
@@ -184,7 +179,7 @@ fn orbit_distribution(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
             .collect();
         lab::uniform(
             levels,
-            4000,
+            0.08,
             "Kolmogorov–Smirnov; r_e 10 % longer shows at 4000 rods",
         )
     };
@@ -209,7 +204,7 @@ fn orbit_distribution(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
 }
 
 fn plateau(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
-    let mut scene = lab::free_scene();
+    let mut scene = lab::free_scene(effort);
     scene.particles.count = effort.pick(40_000, 400_000);
     scene.particles.aspect_ratio_sd_percent = 3.6;
     // A quarter period past t/T = 100, where rods in phase would be far from their mean.
@@ -264,7 +259,7 @@ type Factor = f64;
 fn spread_damping(factor: &Factor, effort: &Effort) -> Vec<Evidence> {
     let mut evidence = Vec::new();
     for sd in [1.8, 3.6] {
-        let mut scene = lab::free_scene();
+        let mut scene = lab::free_scene(effort);
         let r = scene.particles.aspect_ratio;
         let s = sd / 100.0 * (r * r - 1.0) / (r * r + 1.0);
         let end = 1.0 / (2.0 * SQRT_2 * PI * s);
@@ -305,8 +300,8 @@ fn spread_damping(factor: &Factor, effort: &Effort) -> Vec<Evidence> {
     evidence
 }
 
-fn in_plane_start(mend: &Mend, _: &Effort) -> Vec<Evidence> {
-    let mut scene = lab::free_scene();
+fn in_plane_start(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
+    let mut scene = lab::free_scene(effort);
     scene.particles.orientation = Orientation::Given {
         phi_deg: 30.0,
         theta_deg: 90.0,

@@ -1,7 +1,7 @@
 //! The contact rule's invariants as properties, and the corrected A.13 against the printed one.
 
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use nalgebra::{Rotation3, UnitVector3, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
@@ -283,11 +283,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "contact-rule",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "The contact rule keeps its invariants for any two rods in contact.",
                 source: "eqs 5, 6, A.7–A.12",
                 equations: &["5", "6", "A.7", "A.8", "A.9", "A.10", "A.11", "A.12"],
-                statistical_checks: 0,
             },
             core_rule as ContactRule,
             vec![
@@ -311,11 +310,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "corrected-a13",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "The corrected A.13 is the rate of the angles of a turning rod; the printed one is not.",
                 source: "A.13, A.14",
                 equations: &["A.13", "A.14"],
-                statistical_checks: 0,
             },
             angle_rates as AngleRates,
             vec![

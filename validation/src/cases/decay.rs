@@ -4,7 +4,7 @@
 //! X̄₁(t) − X̄₁(t + T/4) at t = 0, T/2, T, …, where free rods peak.
 
 use super::lab::{self, Means, Sample, per_replica};
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use shearbed::scene::Scene;
 
 /// A change to the scene that the model runs; the expectation stays that of the unchanged scene.
@@ -14,13 +14,12 @@ type Mend = fn(&mut Scene);
 type Order = [Mend; 3];
 
 pub fn cases() -> Vec<Case> {
-    let about = |name, claim, source, statistical_checks| About {
+    let about = |name, claim, source| About {
         name,
-        kind: Kind::Validation,
+        judges: Judges::Statement,
         claim,
         source,
         equations: &["4"],
-        statistical_checks,
     };
     vec![
         Case::new(
@@ -28,7 +27,6 @@ pub fn cases() -> Vec<Case> {
                 "free-amplitude",
                 "\"The amplitude of oscillations is approximately half the particle length and is constant\" for free uniform rods.",
                 "Results, before Fig. 6; Fig. 6 (top)",
-                2,
             ),
             (|_| {}) as Mend,
             vec![
@@ -46,7 +44,6 @@ pub fn cases() -> Vec<Case> {
                 "faster-with-spread",
                 "\"The oscillations decay faster … as the differences in the aspect ratios become larger\".",
                 "Results, before Fig. 7; Fig. 9",
-                2,
             ),
             [
                 |scene: &mut Scene| scene.particles.aspect_ratio_sd_percent = 1.8,
@@ -68,7 +65,6 @@ pub fn cases() -> Vec<Case> {
                 "faster-with-concentration",
                 "\"The oscillations decay faster as the concentration (and consequently the number of collisions) increases\".",
                 "Results, before Fig. 7; Fig. 7",
-                2,
             ),
             [
                 |scene: &mut Scene| lab::interaction(scene).concentration_per_cm3 = 20.0,
@@ -88,7 +84,6 @@ pub fn cases() -> Vec<Case> {
                 "faster-with-length",
                 "\"The oscillations decay faster … as the particles become longer\" at fixed r_e.",
                 "Results, before Fig. 7; Fig. 8",
-                2,
             ),
             [
                 |scene: &mut Scene| {
@@ -116,7 +111,6 @@ pub fn cases() -> Vec<Case> {
                 "faster-with-collisions",
                 "\"The amplitude decays much faster when collisions occur than in the absence of particle-particle interactions\".",
                 "Results, after Fig. 10; Figs 6 and 10",
-                4,
             ),
             (|scene| {
                 lab::interaction(scene);
@@ -133,7 +127,6 @@ pub fn cases() -> Vec<Case> {
                     "dies-out",
                     "\"The oscillations die out … after a few rotations, in contrast to the undamped oscillations\": to a fifth in four rotations with collisions and σ = 3.6 %; collisions alone take them to less than two thirds only.",
                     "Results, after Fig. 6",
-                    2,
                 )
             },
             (|_| {}) as Mend,
@@ -150,7 +143,6 @@ pub fn cases() -> Vec<Case> {
                     "other-axes-decay",
                     "\"The amplitudes of X̄_2 and X̄_3 decay in similar manner\" as that of X̄_1.",
                     "Results, after Fig. 10",
-                    2,
                 )
             },
             (|means, k, axis| means.swing(k, axis)) as Swing,
@@ -204,7 +196,7 @@ fn quarters(mut scene: Scene, half_periods: usize) -> Scene {
 }
 
 fn free_amplitude(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
-    let mut scene = lab::free_scene();
+    let mut scene = lab::free_scene(effort);
     scene.particles.count = 1000;
     mend(&mut scene);
     let found = amplitudes(&scene, effort.pick(40, 400), &[0, 8]);
@@ -237,7 +229,7 @@ fn free_amplitude(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
 
 fn faster(order: &Order, effort: &Effort) -> Vec<Evidence> {
     let amplitude = |mend: &Mend| {
-        let mut scene = lab::free_scene();
+        let mut scene = lab::free_scene(effort);
         mend(&mut scene);
         amplitudes(&scene, effort.pick(120, 1000), &[3]).remove(0)
     };
@@ -258,7 +250,7 @@ fn faster(order: &Order, effort: &Effort) -> Vec<Evidence> {
 fn collisions_damp(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
     let mut evidence = Vec::new();
     for sd in [0.0, 3.6] {
-        let mut free = lab::free_scene();
+        let mut free = lab::free_scene(effort);
         free.particles.aspect_ratio_sd_percent = sd;
         let mut interacting = free.clone();
         mend(&mut interacting);
@@ -281,7 +273,7 @@ fn dies_out(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
     [(3.6, 0.2, "σ = 3.6 %"), (0.0, 0.65, "σ = 0")]
         .into_iter()
         .map(|(sd, left, name)| {
-            let mut scene = lab::interacting_scene();
+            let mut scene = lab::interacting_scene(effort);
             scene.particles.aspect_ratio_sd_percent = sd;
             mend(&mut scene);
             let margin = per_replica(&quarters(scene, 8), effort.pick(60, 600), |means| {
@@ -301,7 +293,7 @@ fn dies_out(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
 
 /// What is left of the amplitude after two periods, X̄_2 and X̄_3 against X̄_1.
 fn on_all_axes(swing: &Swing, effort: &Effort) -> Vec<Evidence> {
-    let mut scene = lab::interacting_scene();
+    let mut scene = lab::interacting_scene(effort);
     scene.particles.aspect_ratio_sd_percent = 3.6;
     let found = per_replica(&quarters(scene, 4), effort.pick(100, 1000), |means| {
         [0, 1, 2].map(|axis| [swing(means, 0, axis), swing(means, 4, axis)])

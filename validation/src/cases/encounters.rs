@@ -2,7 +2,7 @@
 
 use super::lab::{self, Sample};
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use rayon::prelude::*;
 use shearbed::collision::{probability, reach};
 use shearbed::jeffery::strain_per_period;
@@ -13,11 +13,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "collision-probability",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "P_c is 1 at s = 0, falls as (αa/s)^m far away, and its reach s* inverts it, for any α, m > 0.",
                 source: "eqs 7, 10",
                 equations: &["7", "10"],
-                statistical_checks: 0,
             },
             (probability as Formula, reach as Formula),
             vec![
@@ -43,11 +42,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "collision-frequency",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "In a run, nearest pairs become candidates as often as the sum of their P_c says.",
                 source: "eqs 7, 8, 9",
                 equations: &["7", "8", "9"],
-                statistical_checks: 2,
             },
             (|_| {}) as Mend,
             vec![
@@ -60,11 +58,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "replacement",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "Replacement keeps every rod inside, new rods have x_1 = H√R and x_3 = HR, and the volume stays evenly filled.",
                 source: "eqs 12, 14",
                 equations: &["12", "14"],
-                statistical_checks: 5,
             },
             (|places| places) as Spoil,
             vec![
@@ -155,7 +152,7 @@ type Mend = fn(&mut Scene);
 fn frequency(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
     let mut evidence = Vec::new();
     for (alpha, m, concentration) in [(0.5, 3.0, 50.0), (0.3, 1.7, 400.0)] {
-        let mut scene = lab::interacting_scene();
+        let mut scene = lab::interacting_scene(effort);
         let interaction = lab::interaction(&mut scene);
         (
             interaction.alpha,
@@ -222,7 +219,7 @@ struct Places {
 type Spoil = fn(Places) -> Places;
 
 fn replacement(spoil: &Spoil, effort: &Effort) -> Vec<Evidence> {
-    let mut scene = lab::interacting_scene();
+    let mut scene = lab::interacting_scene(effort);
     scene.particles.count = 20_000;
     // Eq. 14 draws x_1 apart from the overshoot, which fills the volume unevenly by O(GΔt): 0.02 in the
     // distribution function at 200 steps per period, 0.001 at this step (docs/model.md).
@@ -254,23 +251,23 @@ fn replacement(spoil: &Spoil, effort: &Effort) -> Vec<Evidence> {
         ),
         Evidence::new(
             "p of (x_1/H)² of new rods being uniform",
-            lab::uniform(squares, 10_000, "Kolmogorov–Smirnov; x_1 = HR shows at 100"),
+            lab::uniform(squares, 0.05, "Kolmogorov–Smirnov; x_1 = HR shows at 100"),
         ),
         Evidence::new(
             "p of x_3/H of new rods being uniform",
-            lab::uniform(places.new_x3, 10_000, "Kolmogorov–Smirnov"),
+            lab::uniform(places.new_x3, 0.05, "Kolmogorov–Smirnov"),
         ),
         Evidence::new(
             "p of x_1/H being uniform after a strain of 3.7",
-            lab::uniform(x1, 10_000, even),
+            lab::uniform(x1, 0.036, even),
         ),
         Evidence::new(
             "p of x_2/H being uniform after a strain of 3.7",
-            lab::uniform(x2, 10_000, even),
+            lab::uniform(x2, 0.036, even),
         ),
         Evidence::new(
             "p of x_3/H being uniform after a strain of 3.7",
-            lab::uniform(x3, 10_000, even),
+            lab::uniform(x3, 0.036, even),
         ),
     ]
 }

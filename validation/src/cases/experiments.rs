@@ -1,7 +1,7 @@
 //! Experiments (Figs 4 and 5): judged where the measured points are at hand, `NoData` where they are not.
 
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::experiment::{self, ANCZUROWSKI, Comparison, Curve, DataError, OKAGAWA_MASON, Source};
 use shearbed::scene::Scene;
 
@@ -13,11 +13,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "okagawa-mason-1973",
-                kind: Kind::Validation,
+                judges: Judges::Measurement,
                 claim: "With α = 0.5 the mean projections are those that Okagawa & Mason measured, at n = 20, 50 and 100 per cm³.",
                 source: "Fig. 4",
                 equations: &["4"],
-                statistical_checks: OKAGAWA_MASON.scenes.len(),
             },
             (|_| {}) as Mend,
             controls(),
@@ -26,11 +25,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "anczurowski-1967",
-                kind: Kind::Validation,
+                judges: Judges::Measurement,
                 claim: "With α = 0.5 the mean projections up to t/T = 3 are those that Anczurowski, Cox & Mason measured.",
                 source: "Fig. 5",
                 equations: &["4"],
-                statistical_checks: ANCZUROWSKI.scenes.len(),
             },
             (|_| {}) as Mend,
             controls(),
@@ -39,11 +37,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "alpha-same-for-both",
-                kind: Kind::Validation,
+                judges: Judges::Measurement,
                 claim: "The α that fits the experiments best is the same at r_e = 11.6 and at 14.2.",
                 source: "Figs 4, 5",
                 equations: &["7"],
-                statistical_checks: 1,
             },
             (|_| {}) as Mend,
             vec![("α doubled unseen, at r_e = 14.2 only", double_alpha as Mend)],
@@ -187,7 +184,7 @@ fn same_alpha(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
         samples: (short.points + long.points) as u64,
         reference: 0.0,
         allowance: 0.0,
-        enough: 0.1,
+        effect: 0.1,
         because: "a standard error of 0.1, a fifth of α = 0.5, or the points are too blunt to show a change",
     };
     vec![Evidence::new(what, rule)]

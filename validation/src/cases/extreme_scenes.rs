@@ -3,7 +3,7 @@
 use super::extremes::{LENGTH, LENGTH_BECAUSE, off_length, worse};
 use super::lab;
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::stability::map::ASPECT_RATIOS;
 use nalgebra::{UnitVector3, Vector3};
 use shearbed::scene::{Orientation, Scene, Update};
@@ -17,11 +17,10 @@ type Program = fn(&Scene) -> Ended;
 pub fn cases() -> Vec<Case> {
     let about = |name, claim, source, equations| About {
         name,
-        kind: Kind::Verification,
+        judges: Judges::Program,
         claim,
         source,
         equations,
-        statistical_checks: 0,
     };
     vec![
         Case::new(
@@ -77,11 +76,11 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-fn extreme_suspensions(spoil: &Spoil, _: &Effort) -> Vec<Evidence> {
+fn extreme_suspensions(spoil: &Spoil, effort: &Effort) -> Vec<Evidence> {
     let mut length = 0.0f64;
     let mut stopped = 0.0;
     let mut trace = 0.0f64;
-    for scene in scenes() {
+    for scene in scenes(effort) {
         let mut suspension = lab::stepped(&scene, 0);
         stopped += f64::from(run(&mut suspension, 300).is_none());
         for p in spoil(suspension.directions()) {
@@ -91,7 +90,7 @@ fn extreme_suspensions(spoil: &Spoil, _: &Effort) -> Vec<Evidence> {
         trace = worse(trace, ended.trace);
         stopped += f64::from(!ended.finite);
     }
-    let (placed, refused) = placed_pairs();
+    let (placed, refused) = placed_pairs(effort);
     for p in spoil(placed) {
         length = worse(length, off_length(&p));
     }
@@ -103,7 +102,7 @@ fn extreme_suspensions(spoil: &Spoil, _: &Effort) -> Vec<Evidence> {
         ),
         Evidence::new(
             "rods that met although n = 10⁻³⁰ per cm³, or did not although α = 10³⁰⁰",
-            Rule::exact(meetings()),
+            Rule::exact(meetings(effort)),
         ),
         Evidence::new(
             "runs that stopped or had a mean that is not finite",
@@ -171,7 +170,7 @@ const FEW: [Observable; 2] = [Observable::Projections, Observable::OrientationTe
 
 fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence> {
     let scene = |change: &dyn Fn(&mut Scene)| {
-        let mut scene = lab::free_scene();
+        let mut scene = lab::free_scene(effort);
         scene.particles.count = 5;
         scene.output.observables = Observable::ALL.to_vec();
         change(&mut scene);
@@ -255,9 +254,9 @@ fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence> {
 }
 
 /// Scenes in which rods meet although they are far apart, or never although everything reaches.
-fn meetings() -> f64 {
+fn meetings(effort: &Effort) -> f64 {
     let met = |change: fn(&mut Scene)| {
-        let mut scene = lab::interacting_scene();
+        let mut scene = lab::interacting_scene(effort);
         scene.particles.count = 20;
         change(&mut scene);
         ensemble::run(&lab::plan(&scene), || ())
@@ -272,9 +271,9 @@ fn run(suspension: &mut Suspension, steps: usize) -> Option<()> {
     (0..steps).try_for_each(|_| suspension.step().ok().map(|_| ()))
 }
 
-fn scenes() -> Vec<Scene> {
+fn scenes(effort: &Effort) -> Vec<Scene> {
     let scene = |change: fn(&mut Scene)| {
-        let mut scene = lab::interacting_scene();
+        let mut scene = lab::interacting_scene(effort);
         scene.particles.count = 20;
         scene.output.observables = Observable::ALL.to_vec();
         change(&mut scene);
@@ -327,8 +326,8 @@ fn scenes() -> Vec<Scene> {
 }
 
 /// Directions of pairs put down by hand after one step, and how many kicks that overflow went unnoticed.
-fn placed_pairs() -> (Vec<Vector3<f64>>, f64) {
-    let mut scene = lab::interacting_scene();
+fn placed_pairs(effort: &Effort) -> (Vec<Vector3<f64>>, f64) {
+    let mut scene = lab::interacting_scene(effort);
     scene.particles.count = 2;
     lab::interaction(&mut scene).alpha = 1e300;
     let x = UnitVector3::new_normalize(Vector3::new(1.0, 0.0, 1.0));

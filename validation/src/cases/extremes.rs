@@ -1,7 +1,7 @@
 //! The core where it is stiff or extreme: no NaN, no panic, |p| = 1 to 4 ulp, C to its bound.
 
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::stability::core;
 use crate::stability::map::{ASPECT_RATIOS, STEPS};
 use nalgebra::{Matrix3, UnitVector3, Vector3};
@@ -18,11 +18,10 @@ type FlowMotion = fn(&VelocityGradient, f64, &UnitVector3<f64>, f64) -> Vector3<
 pub fn cases() -> Vec<Case> {
     let about = |name, claim, source, equations| About {
         name,
-        kind: Kind::Verification,
+        judges: Judges::Core,
         claim,
         source,
         equations,
-        statistical_checks: 0,
     };
     vec![
         Case::new(

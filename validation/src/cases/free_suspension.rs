@@ -2,7 +2,7 @@
 
 use super::lab;
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::oracle::isotropic;
 use shearbed::ensemble;
 use shearbed::scene::Scene;
@@ -15,11 +15,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "free-isotropic",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "Free rods of one aspect ratio, isotropic at first, have the mean projections of the closed form.",
                 source: "eqs 4, 12, Fig. 6 (top)",
                 equations: &["4", "12"],
-                statistical_checks: 4 * 3 * 3,
             },
             (|_| {}) as Mend,
             vec![
@@ -38,11 +37,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "free-polydisperse",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "Free rods of Gaussian aspect ratio, isotropic at first, have the mean projections of the quadrature.",
                 source: "eqs 4, 11, 12, Fig. 6 (middle), Fig. 9",
                 equations: &["4", "11"],
-                statistical_checks: 3 * 3 * 3,
             },
             (|_| {}) as Mend,
             vec![
@@ -57,11 +55,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "free-half-period",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "Mean projections of free rods of one aspect ratio repeat after T/2, because p ≡ −p.",
                 source: "eqs 4, 15, A.4",
                 equations: &["4", "15"],
-                statistical_checks: 0,
             },
             (|_| {}) as Mend,
             vec![
@@ -80,7 +77,7 @@ pub fn cases() -> Vec<Case> {
 fn uniform_rods(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
     let mut evidence = Vec::new();
     for r in [1.5, 5.0, 11.6, 50.0] {
-        let mut scene = lab::free_scene();
+        let mut scene = lab::free_scene(effort);
         scene.particles.aspect_ratio = r;
         evidence.extend(compare(scene, *mend, effort, |turns| {
             isotropic::mean_projections(r, turns)
@@ -92,7 +89,7 @@ fn uniform_rods(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
 fn spread_rods(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
     let mut evidence = Vec::new();
     for (r, sd) in [(11.6, 3.6), (14.2, 8.5), (5.0, 7.2)] {
-        let mut scene = lab::free_scene();
+        let mut scene = lab::free_scene(effort);
         scene.particles.aspect_ratio = r;
         scene.particles.aspect_ratio_sd_percent = sd;
         let expected = |turns| isotropic::mean_projections_polydisperse(r, sd, turns);
@@ -132,7 +129,7 @@ fn compare(
                     samples: scene.particles.count as u64,
                     reference,
                     allowance: 0.0,
-                    enough: 2e-3,
+                    effect: 2e-3,
                     because: "the closed form is exact to 10⁻⁹; independent rods; 0.002 of a rod length tells the controls apart",
                 },
             ));
@@ -141,8 +138,8 @@ fn compare(
     evidence
 }
 
-fn half_period(mend: &Mend, _: &Effort) -> Vec<Evidence> {
-    let mut scene = lab::free_scene();
+fn half_period(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
+    let mut scene = lab::free_scene(effort);
     scene.particles.count = 1000;
     scene.time.periods = Some(5.0);
     scene.time.outputs_per_period = Some(20);

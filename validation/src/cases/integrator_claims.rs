@@ -4,7 +4,7 @@ use super::motion::larger;
 use super::subjects::Subjects;
 use super::subjects::spoiled::in_p;
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::stability::orbit::Place;
 use crate::subject::{self, *};
 use crate::work_precision::order;
@@ -17,11 +17,10 @@ type Rate = fn(&Problem, &Vector3<f64>) -> Vector3<f64>;
 pub fn cases() -> Vec<Case> {
     let about = |name, claim, source, equations| About {
         name,
-        kind: Kind::Verification,
+        judges: Judges::Integrator,
         claim,
         source,
         equations,
-        statistical_checks: 0,
     };
     let through_shape: Rate = |problem, p| {
         let shape = shearbed::jeffery::shape_factor(problem.aspect_ratio);

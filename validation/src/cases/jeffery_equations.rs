@@ -1,7 +1,7 @@
 //! Jeffery's equations one by one: the core's A.1 to A.5 against printed forms, closed forms and the motion.
 
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::oracle::closed_form;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use shearbed::flow::VelocityGradient;
@@ -21,11 +21,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "angular-velocity",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "The coordinate-free angular velocity is A.1 in the body frame, with r_e = a/b.",
                 source: "eq. 1, A.1",
                 equations: &["1", "A.1"],
-                statistical_checks: 0,
             },
             jeffery::angular_velocity_per_s as Spin,
             vec![
@@ -46,11 +45,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "angle-rates",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "A.2 and A.3 are the rates of the closed form in angles.",
                 source: "A.2, A.3",
                 equations: &["A.2", "A.3"],
-                statistical_checks: 0,
             },
             jeffery::angle_rates_per_s as Rates,
             vec![
@@ -75,11 +73,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "angles-in-closed-form",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "The core's φ(t) and θ(φ) are A.4 and A.5.",
                 source: "A.4, A.5, eqs 13, 20",
                 equations: &["13", "20", "A.4", "A.5"],
-                statistical_checks: 0,
             },
             (jeffery::phi_rad as Phi, jeffery::theta_rad as Theta),
             vec![

@@ -2,7 +2,7 @@
 
 use super::lab::{self, Sample};
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::kicks::{Angles, Counts, is_above, kicks_rad, of_one_step, rates, step_strain, tail};
 use crate::oracle::kicks::{chance_of_threads, kicks, largest_kick, tail_of_isotropic};
 use crate::oracle::pairing::{Pair, nearest_pairs};
@@ -16,11 +16,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "kick-formula",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "Isotropic rods at random places are kicked by more than κ as often as P_c, the arm's density at 0 and the gap's velocity say, whatever Δt is.",
                 source: "eqs 7–10, A.7–A.13; docs/time-step.md",
                 equations: &["7", "8", "9", "10", "A.7", "A.10", "A.13"],
-                statistical_checks: 3,
             },
             (|pair, chance| 2.0 * pair.chance * chance(1.0)) as Expected,
             vec![
@@ -37,11 +36,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "kick-memory",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "In runs, pairs whose gap closes are kicked as often as the formula says at any Δt; those whose gap opens ever less often as Δt → 0.",
                 source: "A.7–A.14; docs/time-step.md",
                 equations: &["A.13", "A.14"],
-                statistical_checks: 3,
             },
             (kicks_rad as Angles, (|counts| counts) as Change),
             vec![
@@ -56,11 +54,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "kick-tail",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "Kicks have a tail ∝ 1/κ: Hill's exponent is 1, in fresh pairs and in runs.",
                 source: "A.13; docs/time-step.md",
                 equations: &["A.13"],
-                statistical_checks: 2,
             },
             (kicks_rad as Angles, 0.0),
             vec![
@@ -72,11 +69,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "kick-bound",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "A kick is |g|Δt/(2|r|); with a shortest arm r_min it is at most ¼GΔt[(2 − Λ′)s/r_min + 2 − Λ − Λ′].",
                 source: "eq. 6, A.7–A.13; docs/time-step.md",
                 equations: &["6", "A.7", "A.10", "A.13"],
-                statistical_checks: 0,
             },
             (kicks_rad as Angles, 1.0),
             vec![
@@ -96,8 +92,8 @@ type Expected = fn(&Pair, &dyn Fn(f64) -> f64) -> f64;
 fn formula(expected: &Expected, effort: &Effort) -> Vec<Evidence> {
     let settings = [(0.1, 800, 1), (1.0, 100, 2), (10.0, 10, 3)];
     let evidence = settings.map(|(threshold_rad, steps, seed)| {
-        let mut scene = fresh_scene(300, steps);
-        scene.ensemble.seed = seed;
+        let mut scene = fresh_scene(effort, 300, steps);
+        scene.ensemble.seed = effort.seed(seed);
         let scaled = threshold_rad / step_strain(&scene);
         let constant = 6.0 * PI * tail_of_isotropic(scene.particles.aspect_ratio);
         let chance = |factor: f64| constant * chance_of_threads(factor * scaled);
@@ -127,8 +123,8 @@ fn formula(expected: &Expected, effort: &Effort) -> Vec<Evidence> {
 }
 
 /// Isotropic rods so near each other that a third collides in a step.
-fn fresh_scene(count: usize, steps_per_period: u64) -> Scene {
-    let mut scene = lab::interacting_scene();
+fn fresh_scene(effort: &Effort, count: usize, steps_per_period: u64) -> Scene {
+    let mut scene = lab::interacting_scene(effort);
     scene.particles.count = count;
     let interaction = lab::interaction(&mut scene);
     (interaction.concentration_per_cm3, interaction.alpha) = (400.0, 2.0);
@@ -160,7 +156,7 @@ fn exchanged(counts: Counts) -> Counts {
 fn memory((angles, change): &(Angles, Change), effort: &Effort) -> Vec<Evidence> {
     const OVER: usize = 1; // 0.1 rad
     let run = |alpha: f64, steps, replicas| {
-        let mut scene = lab::interacting_scene();
+        let mut scene = lab::interacting_scene(effort);
         scene.particles.count = 25;
         let interaction = lab::interaction(&mut scene);
         (interaction.concentration_per_cm3, interaction.alpha) = (400.0, alpha);
@@ -198,9 +194,9 @@ fn memory((angles, change): &(Angles, Change), effort: &Effort) -> Vec<Evidence>
 }
 
 fn heavy((angles, min_arm): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
-    let mut fresh = fresh_scene(1000, 200);
+    let mut fresh = fresh_scene(effort, 1000, 200);
     lab::interaction(&mut fresh).min_contact_arm = *min_arm;
-    let mut run = lab::interacting_scene();
+    let mut run = lab::interacting_scene(effort);
     let interaction = lab::interaction(&mut run);
     (interaction.concentration_per_cm3, interaction.min_contact_arm) = (400.0, *min_arm);
     run.time.steps_per_period = Some(400);
@@ -221,7 +217,7 @@ fn heavy((angles, min_arm): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
         samples: hill.count,
         reference: 1.0,
         allowance: 0.01,
-        enough: 0.06,
+        effect: 0.06,
         because: "the tail is (1 − 1/(140Y²))/Y above Y = 2: 0.0012 off; kicks of one pair in a run come in groups: \
                   a hundredth more; 0.06 tells 1 from the controls' 2",
     };
@@ -240,7 +236,7 @@ fn bounded((angles, share): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
     let mut worst = [0.0f64; 2];
     let mut collisions = 0;
     for (aspect_ratio, deviation_percent) in [(11.6, 3.6), (2.0, 10.0), (1.2, 0.0), (1000.0, 0.0)] {
-        let mut scene = fresh_scene(200, 200);
+        let mut scene = fresh_scene(effort, 200, 200);
         scene.particles.aspect_ratio = aspect_ratio;
         scene.particles.aspect_ratio_sd_percent = deviation_percent;
         lab::interaction(&mut scene).min_contact_arm = share * MIN_ARM;

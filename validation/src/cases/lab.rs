@@ -1,6 +1,7 @@
 //! What cases share: the paper's problem as a scene, independent samples of replicas, small statistics.
 
-use crate::accept::Rule;
+use crate::accept::{Rule, kolmogorov_samples};
+use crate::case::Effort;
 use crate::oracle::naive::{self, Mistake, Problem, Reading, Start};
 use rayon::prelude::*;
 use shearbed::plan::{Plan, Stage};
@@ -15,7 +16,7 @@ use statrs::stats_tests::NaNPolicy;
 use statrs::stats_tests::ks_test::{KSOneSampleAlternativeMethod, ks_onesample};
 
 /// Free rods of the paper's Fig. 6 (G = 0.5 1/s, r_e = 11.6, a = 0.72 mm): one period, projections.
-pub fn free_scene() -> Scene {
+pub fn free_scene(effort: &Effort) -> Scene {
     Scene {
         title: "a case".to_owned(),
         flow: Flow {
@@ -37,7 +38,10 @@ pub fn free_scene() -> Scene {
             outputs_per_period: None,
             outputs_per_strain: None,
         },
-        ensemble: Ensemble { replicas: 1, seed: 1 },
+        ensemble: Ensemble {
+            replicas: 1,
+            seed: effort.seed(0),
+        },
         output: Output {
             observables: vec![Observable::Projections],
         },
@@ -45,10 +49,10 @@ pub fn free_scene() -> Scene {
 }
 
 /// The same rods at 50 per cm³ with α = 0.5 and m = 3 (Fig. 6, bottom).
-pub fn interacting_scene() -> Scene {
+pub fn interacting_scene(effort: &Effort) -> Scene {
     Scene {
         interaction: Some(PAPER),
-        ..free_scene()
+        ..free_scene(effort)
     }
 }
 
@@ -86,27 +90,27 @@ impl Sample {
         }
     }
 
-    /// The rule that this mean is `reference`, up to an `allowance`, with a standard error of `enough` at most.
-    pub fn is(self, reference: f64, allowance: f64, enough: f64, because: &'static str) -> Rule {
+    /// The rule that this mean is `reference`, up to an `allowance`, by a sample that would show `effect` beyond it.
+    pub fn is(self, reference: f64, allowance: f64, effect: f64, because: &'static str) -> Rule {
         Rule::Mean {
             mean: self.mean,
             se: self.se,
             samples: self.samples,
             reference,
             allowance,
-            enough,
+            effect,
             because,
         }
     }
 
-    /// The rule that this mean exceeds `bound`, with a standard error of `enough` at most.
-    pub fn exceeds(self, bound: f64, enough: f64, because: &'static str) -> Rule {
+    /// The rule that this mean exceeds `bound`, by a sample that shows it where it does so by `effect`.
+    pub fn exceeds(self, bound: f64, effect: f64, because: &'static str) -> Rule {
         Rule::Above {
             mean: self.mean,
             se: self.se,
             samples: self.samples,
             bound,
-            enough,
+            effect,
             because,
         }
     }
@@ -174,8 +178,9 @@ pub fn stepped(scene: &Scene, replica: u64) -> Suspension {
     Suspension::new(&plan, replica).expect("the plan keeps its steps")
 }
 
-/// The Kolmogorov–Smirnov test that `values` in [0, 1] are uniform there.
-pub fn uniform(values: Vec<f64>, enough: u64, because: &'static str) -> Rule {
+/// The Kolmogorov–Smirnov test that `values` in [0, 1] are uniform there, by as many as would show a `distance` between
+/// the two distribution functions.
+pub fn uniform(values: Vec<f64>, distance: f64, because: &'static str) -> Rule {
     let samples = values.len() as u64;
     let method = KSOneSampleAlternativeMethod::TwoSidedAsymptotic;
     let p = Uniform::new(0.0, 1.0)
@@ -185,7 +190,7 @@ pub fn uniform(values: Vec<f64>, enough: u64, because: &'static str) -> Rule {
     Rule::PValue {
         p,
         samples,
-        enough,
+        enough: kolmogorov_samples(distance),
         because,
     }
 }

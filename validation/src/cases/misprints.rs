@@ -4,7 +4,7 @@
 
 use super::lab;
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use nalgebra::{Matrix3, Vector3};
 use shearbed::flow::VelocityGradient;
 use shearbed::observable::{Block, Observable, Sum};
@@ -15,11 +15,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "gradient-of-eq-2",
-                kind: Kind::Verification,
+                judges: Judges::Oracle,
                 claim: "With G_ij = ∂u_i/∂x_j, eq. 3 gives back the velocity; with the printed ∂u_i/∂x_i it does not.",
                 source: "eqs 2, 3",
                 equations: &["2", "3"],
-                statistical_checks: 0,
             },
             (|u, i, j| slope(u, i, j)) as Gradient,
             vec![
@@ -31,11 +30,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "planar-projections",
-                kind: Kind::Verification,
+                judges: Judges::Oracle,
                 claim: "The planar projections are lengths of shadows; with the printed θ for φ they are not.",
                 source: "eq. 21, Fig. 12",
                 equations: &["21"],
-                statistical_checks: 0,
             },
             observed_shadows as Shadows,
             vec![
@@ -53,11 +51,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "who-moves-how",
-                kind: Kind::Verification,
+                judges: Judges::Oracle,
                 claim: "In a run, rods that move freely keep C (A.2–A.6) and colliding rods get a new one (A.7–A.14), not the other way round.",
                 source: "text after eqs 12 and 13",
                 equations: &["13", "A.2", "A.7"],
-                statistical_checks: 0,
             },
             (|collided| collided) as Reading,
             vec![
@@ -140,8 +137,8 @@ fn shadows(model: &Shadows, _: &Effort) -> Vec<Evidence> {
 /// Whether a rod is taken to move by A.7–A.14, from whether it collided.
 type Reading = fn(bool) -> bool;
 
-fn free_rods_keep_c(reading: &Reading, _: &Effort) -> Vec<Evidence> {
-    let scene = lab::interacting_scene();
+fn free_rods_keep_c(reading: &Reading, effort: &Effort) -> Vec<Evidence> {
+    let scene = lab::interacting_scene(effort);
     let r = scene.particles.aspect_ratio;
     let mut suspension = lab::suspension(&scene, 0);
     let constants = |directions: Vec<Vector3<f64>>| -> Vec<f64> {

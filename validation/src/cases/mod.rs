@@ -26,9 +26,7 @@ mod words;
 mod work_precision;
 mod work_precision_coupled;
 
-use crate::accept::FAMILY_FALSE_ALARM_RATE;
-use crate::case::{Case, Effort};
-use std::path::PathBuf;
+use crate::case::Case;
 
 /// Every case, in the order of the report.
 pub fn all() -> Vec<Case> {
@@ -61,14 +59,4 @@ pub fn all() -> Vec<Case> {
     .into_iter()
     .flatten()
     .collect()
-}
-
-/// The effort of a quick or a full run, with the level each statistical check of the registry gets.
-pub fn effort(full: bool, data: Option<PathBuf>) -> Effort {
-    let checks: usize = all().iter().map(|case| case.about.statistical_checks).sum();
-    Effort {
-        full,
-        level: FAMILY_FALSE_ALARM_RATE / checks.max(1) as f64,
-        data,
-    }
 }

@@ -1,7 +1,7 @@
 //! Free rods one by one: period, orbit constant, the exact propagator against closed forms and an integrator.
 
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::oracle::{closed_form, quadrature};
 use nalgebra::{Matrix3, SVector, UnitVector3, Vector3};
 use ode_solvers::dop_shared::OutputType;
@@ -39,11 +39,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "jeffery-period",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "A free rod comes back after T = 2π(r_e + 1/r_e)/G, for r_e from 1.01 to 10⁶.",
                 source: "eq. 15, A.6",
                 equations: &["15", "A.6"],
-                statistical_checks: 0,
             },
             exact as Motion,
             vec![
@@ -58,11 +57,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "orbit-constant",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "The orbit constant of a free rod keeps its value over 10⁴ periods.",
                 source: "eq. 13, A.5",
                 equations: &["13", "A.5"],
-                statistical_checks: 0,
             },
             exact as Motion,
             vec![
@@ -80,11 +78,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "propagator-closed-form",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "The propagator of plane Couette flow is Jeffery's closed form in angles.",
                 source: "A.4, A.5, eq. 20",
                 equations: &["20", "A.4", "A.5"],
-                statistical_checks: 0,
             },
             exact as Motion,
             vec![
@@ -102,11 +99,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "propagator-integrator",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "The propagator solves ṗ = W·p + Λ(D·p − p p·D·p) in any flow, by Dormand–Prince 8(5,3) of ode_solvers.",
                 source: "A.1, eq. 3",
                 equations: &["3", "A.1"],
-                statistical_checks: 0,
             },
             exact as Motion,
             vec![
@@ -134,11 +130,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "mean-angle-quadrature",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "⟨φ⟩ of a single rod, integrated over the core's φ(t), is the dilogarithm.",
                 source: "eqs 19, 20, A.4",
                 equations: &["19", "20"],
-                statistical_checks: 0,
             },
             jeffery::phi_rad as fn(f64, f64) -> f64,
             vec![

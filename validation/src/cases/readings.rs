@@ -2,7 +2,7 @@
 
 use super::lab::Sample;
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::oracle::naive::{Lines, Naive, Problem, Update, Who, mean_projections};
 use crate::readings::{Change, paper};
 use rayon::prelude::*;
@@ -125,11 +125,10 @@ fn about(
 ) -> About {
     About {
         name,
-        kind: Kind::Validation,
+        judges: Judges::Interpretation,
         claim,
         source,
         equations,
-        statistical_checks: 1,
     }
 }
 
@@ -143,7 +142,7 @@ fn matters(alternative: &Alternative, effort: &Effort) -> Vec<Evidence> {
             se: sample.se,
             samples: sample.samples,
             bound: alternative.bound,
-            enough: 0.004,
+            effect: 0.004,
             because: "1 % of the amplitude ½ of free rods where that can be shown, else any change that is \
                       beyond chance; a standard error of 0.004 shows the larger ones",
         },

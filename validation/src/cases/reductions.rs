@@ -2,7 +2,7 @@
 
 use super::lab::{self, Sample, per_replica};
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use nalgebra::UnitVector3;
 use shearbed::ensemble::{self, Results};
 use shearbed::scene::{Orientation, Scene};
@@ -15,11 +15,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "reductions",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "α → 0, n → 0, m → ∞ and one rod give free rods to the bit; σ → 0 gives uniform rods and r_e → 1 gives spheres to round-off.",
                 source: "eqs 7, 11; A.1",
                 equations: &["7", "11"],
-                statistical_checks: 0,
             },
             1.0 as Limit,
             vec![("the limits not taken", 0.0)],
@@ -28,11 +27,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "symmetries",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "Whole runs keep the symmetries: rods in another order and units of length and time to the bit, p → −p to round-off, the mirrored flow exactly for free rods.",
                 source: "eqs 3, 4, 7, 15",
                 equations: &["4"],
-                statistical_checks: 0,
             },
             0.0 as Break,
             vec![(
@@ -44,11 +42,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "mirrored-flow",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "Interacting rods in the mirrored flow have the same mean projections in law.",
                 source: "eqs 3, 14",
                 equations: &["3", "14"],
-                statistical_checks: 3,
             },
             -0.5 as ShearRate,
             vec![(
@@ -60,11 +57,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "standard-errors",
-                kind: Kind::Verification,
+                judges: Judges::Core,
                 claim: "Standard errors are those of independent replicas, or of rods where there is one replica.",
                 source: "the results' own columns",
                 equations: &[],
-                statistical_checks: 0,
             },
             (|results| results) as Spoil,
             vec![
@@ -106,9 +102,9 @@ fn difference(a: &Scene, b: &Scene) -> f64 {
     )
 }
 
-fn reductions(limit: &Limit, _: &Effort) -> Vec<Evidence> {
+fn reductions(limit: &Limit, effort: &Effort) -> Vec<Evidence> {
     let taken = *limit == 1.0;
-    let mut free = lab::free_scene();
+    let mut free = lab::free_scene(effort);
     free.particles.aspect_ratio_sd_percent = 3.6;
     let mut interacting = free.clone();
     lab::interaction(&mut interacting);
@@ -125,14 +121,14 @@ fn reductions(limit: &Limit, _: &Effort) -> Vec<Evidence> {
     let mut one_free = free.clone();
     one_free.particles.count = if taken { 1 } else { 2 };
 
-    let mut uniform = lab::free_scene();
+    let mut uniform = lab::free_scene(effort);
     uniform.time.periods = Some(3.0);
     let mut narrow = uniform.clone();
     narrow.particles.aspect_ratio_sd_percent = value(1e-12, 1.0);
 
-    let mut round = lab::free_scene();
+    let mut round = lab::free_scene(effort);
     round.particles.aspect_ratio = value(1.0 + 1e-12, 1.1);
-    let mut sphere = lab::free_scene();
+    let mut sphere = lab::free_scene(effort);
     sphere.particles.aspect_ratio = 1.0;
 
     vec![
@@ -170,9 +166,9 @@ fn reductions(limit: &Limit, _: &Effort) -> Vec<Evidence> {
 /// By how much the second run is off.
 type Break = f64;
 
-fn symmetries(off: &Break, _: &Effort) -> Vec<Evidence> {
+fn symmetries(off: &Break, effort: &Effort) -> Vec<Evidence> {
     let base = {
-        let mut scene = lab::interacting_scene();
+        let mut scene = lab::interacting_scene(effort);
         scene.particles.aspect_ratio_sd_percent = 3.6;
         scene
     };
@@ -194,16 +190,16 @@ fn symmetries(off: &Break, _: &Effort) -> Vec<Evidence> {
     let head = given(&short, 25.0, 70.0);
     let tail = given(&short, 205.0 + 100.0 * off, 110.0);
 
-    let mut mirror = lab::free_scene();
+    let mut mirror = lab::free_scene(effort);
     mirror.flow.shear_rate_per_s = None;
     mirror.flow.gradient_per_s = Some([[0.0; 3], [-0.5, 0.0, 0.0], [0.0; 3]]);
     let mirror = given(&mirror, -25.0 + 100.0 * off, 70.0);
-    let straight = given(&lab::free_scene(), 25.0, 70.0);
+    let straight = given(&lab::free_scene(effort), 25.0, 70.0);
 
     vec![
         Evidence::new(
             "the same rods in another order, every one of them a candidate",
-            Rule::exact(relabelled(*off)),
+            Rule::exact(relabelled(*off, effort)),
         ),
         Evidence::new(
             "lengths 8 times larger, concentration 512 times less",
@@ -235,8 +231,8 @@ fn symmetries(off: &Break, _: &Effort) -> Vec<Evidence> {
 /// The largest difference of a rod's direction after ten steps, with the rods in reverse order. α is huge, so
 /// that every draw makes a candidate, and the steps so short that no rod leaves: only then are the random
 /// numbers, which belong to places in the list, without effect.
-fn relabelled(off: f64) -> f64 {
-    let mut scene = lab::interacting_scene();
+fn relabelled(off: f64, effort: &Effort) -> f64 {
+    let mut scene = lab::interacting_scene(effort);
     lab::interaction(&mut scene).alpha = 1e30;
     scene.time.steps_per_period = Some(10_000_000);
     scene.time.outputs_per_period = Some(1);
@@ -276,12 +272,12 @@ fn relabelled(off: f64) -> f64 {
 type ShearRate = f64;
 
 fn mirrored(shear_rate_per_s: &ShearRate, effort: &Effort) -> Vec<Evidence> {
-    let mut straight = lab::interacting_scene();
+    let mut straight = lab::interacting_scene(effort);
     straight.time.outputs_per_period = Some(4);
     let mut mirror = straight.clone();
     mirror.flow.shear_rate_per_s = None;
     mirror.flow.gradient_per_s = Some([[0.0; 3], [*shear_rate_per_s, 0.0, 0.0], [0.0; 3]]);
-    mirror.ensemble.seed = 2;
+    mirror.ensemble.seed = effort.seed(2);
     if *shear_rate_per_s > 0.0 {
         lab::interaction(&mut mirror).concentration_per_cm3 *= 0.5;
     }
@@ -313,8 +309,8 @@ fn scale_errors(results: &mut Results, factor: f64) {
         .for_each(|se| *se *= factor);
 }
 
-fn standard_errors(spoil: &Spoil, _: &Effort) -> Vec<Evidence> {
-    let mut scene = lab::interacting_scene();
+fn standard_errors(spoil: &Spoil, effort: &Effort) -> Vec<Evidence> {
+    let mut scene = lab::interacting_scene(effort);
     scene.time.periods = Some(0.5);
     scene.time.outputs_per_period = Some(10);
     scene.ensemble.replicas = 16;
@@ -323,10 +319,10 @@ fn standard_errors(spoil: &Spoil, _: &Effort) -> Vec<Evidence> {
         worst_ratio(&results, |output| Some(expected(output)))
     });
     // One replica of rods whose projections at t = 0 are known one by one.
-    let mut one = lab::free_scene();
+    let mut one = lab::free_scene(effort);
     one.particles.count = 16;
     one.time.periods = Some(0.0);
-    let mut watched = lab::interacting_scene();
+    let mut watched = lab::interacting_scene(effort);
     watched.particles.count = 16;
     let directions = lab::suspension(&watched, 0).directions();
     let projections: Vec<f64> = directions.iter().map(|p| p.x.abs()).collect();
@@ -371,7 +367,7 @@ mod tests {
 
     #[test]
     fn a_difference_is_seen_and_none_is_none() {
-        let scene = lab::free_scene();
+        let scene = lab::free_scene(&Effort::gate());
         assert_eq!(difference(&scene, &scene), 0.0);
         let mut other = scene.clone();
         other.particles.aspect_ratio *= 1.0 + 1e-6;

@@ -2,7 +2,7 @@
 
 use super::lab::{self, problem};
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::oracle::naive::{Mistake, Naive};
 use shearbed::Suspension;
 use shearbed::scene::{self, Orientation, Scene};
@@ -14,14 +14,13 @@ pub fn cases() -> Vec<Case> {
     vec![Case::new(
         About {
             name: "naive-reference",
-            kind: Kind::Verification,
+            judges: Judges::Core,
             claim: "The core and a naive O(N²) reference with the same draws have the same collisions and, to round-off, the same rods.",
             source: "method of solution, eqs 5–9, 11, 12, 14, A.7–A.14",
             equations: &[
                 "5", "6", "7", "8", "9", "11", "12", "14", "A.7", "A.8", "A.9", "A.10", "A.11", "A.12",
                 "A.13", "A.14",
             ],
-            statistical_checks: 0,
         },
         None,
         mistakes.collect(),
@@ -124,7 +123,7 @@ struct Off {
 /// One period of each problem, one step at a time.
 fn against_reference(mistake: &Option<Mistake>, effort: &Effort) -> Vec<Evidence> {
     let mut off = Off::default();
-    for scene in scenes() {
+    for scene in scenes(effort) {
         for replica in 0..effort.pick(1, 8) {
             compare(&scene, replica, *mistake, &mut off);
         }
@@ -217,12 +216,12 @@ fn apart<const K: usize>(a: &[[f64; 3]], b: &[[f64; 3]], signs: [f64; K]) -> f64
 }
 
 /// Scenes of 2 to 400 rods; the small ones are dense enough to collide.
-fn scenes() -> Vec<Scene> {
+fn scenes(effort: &Effort) -> Vec<Scene> {
     let scene = |count: usize, per_cm3: f64, change: fn(&mut Scene)| {
-        let mut scene = lab::interacting_scene();
+        let mut scene = lab::interacting_scene(effort);
         scene.particles.count = count;
         lab::interaction(&mut scene).concentration_per_cm3 = per_cm3;
-        scene.ensemble.seed = 1982 + count as u64;
+        scene.ensemble.seed = effort.seed(1982 + count as u64);
         change(&mut scene);
         scene
     };

@@ -4,7 +4,7 @@ use super::motion::larger;
 use super::subjects::Subjects;
 use super::subjects::spoiled::{Refuses, WholeTurns, in_angles, in_p};
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::stability::map::{self, ASPECT_RATIOS, Cell, Found, STEPS, TOLERANCES};
 use crate::stability::orbit::Place;
 use crate::subject::{self, *};
@@ -13,13 +13,12 @@ pub fn cases() -> Vec<Case> {
     vec![Case::new(
         About {
             name: "stability-map",
-            kind: Kind::Verification,
+            judges: Judges::Integrator,
             claim: "In every corner of the map every subject ends, with a direction or with an error: the exact propagator at \
                     round-off, A.4 and A.5 in angles within 4·10⁻⁵ rad, who keeps |p| with |p| = 1, and orders 2 and 4 within \
                     4 (GΔt)² rad over one period where GΔt ≤ ½.",
             source: "A.2 to A.5, eq. 13",
             equations: &["13", "A.2", "A.3", "A.4", "A.5"],
-            statistical_checks: 0,
         },
         subject::all as Subjects,
         vec![

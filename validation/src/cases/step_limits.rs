@@ -4,7 +4,7 @@ use super::motion::larger;
 use super::subjects::Subjects;
 use super::subjects::spoiled::{in_angles, in_p};
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::stability::limit_tables::{ONE_STEP, TEN_PERIODS};
 use crate::stability::limits::{Limit, Property, bisect, holds};
 use crate::stability::theory;
@@ -46,11 +46,10 @@ fn implicit_midpoint() -> Vec<Box<dyn Subject>> {
 pub fn cases() -> Vec<Case> {
     let about = |name, claim, equations| About {
         name,
-        kind: Kind::Verification,
+        judges: Judges::Integrator,
         claim,
         source: "A.2, A.3; A.14 is such a step",
         equations,
-        statistical_checks: 0,
     };
     let order = |subjects: Subjects| Claimed {
         subjects,

@@ -4,7 +4,7 @@ pub(super) mod spoiled;
 
 use super::motion::larger;
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::subject::{self, *};
 use crate::work_precision::order::{self, ORDER_TOLERANCE};
 use nalgebra::{Vector2, Vector3};
@@ -18,11 +18,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "subject-orders",
-                kind: Kind::Verification,
+                judges: Judges::Integrator,
                 claim: "The error of every fixed-step subject falls with the order of its theory.",
                 source: "A.2 to A.5; Jeffery's equation in p",
                 equations: &["A.2", "A.3", "A.4", "A.5"],
-                statistical_checks: 0,
             },
             subject::all as Subjects,
             vec![
@@ -56,11 +55,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "subject-lengths",
-                kind: Kind::Verification,
+                judges: Judges::Integrator,
                 claim: "Subjects that are said to keep |p| = 1 keep it to round-off at any step.",
                 source: "p·ṗ = 0 (A.1)",
                 equations: &["A.1"],
-                statistical_checks: 0,
             },
             subject::all as Subjects,
             vec![
@@ -79,12 +77,11 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "exact-propagator-round-off",
-                kind: Kind::Verification,
+                judges: Judges::Integrator,
                 claim: "The exact propagator's error is round-off for r_e from 1.01 to 10⁶ and up to 10⁶ periods, in \
                         the middle of a flip.",
                 source: "A.4, A.5, eq. 20",
                 equations: &["20", "A.4", "A.5"],
-                statistical_checks: 0,
             },
             (|| vec![Box::new(ExactPropagator) as Box<dyn Subject>]) as Subjects,
             vec![
@@ -96,11 +93,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "adaptive-subjects",
-                kind: Kind::Verification,
+                judges: Judges::Integrator,
                 claim: "At a tolerance of 10⁻¹¹ both adaptive subjects come within 1.5·10⁻⁸ rad, r_e from 1.5 to 11.6.",
                 source: "A.2 to A.5; Jeffery's equation in p",
                 equations: &["A.4", "A.5"],
-                statistical_checks: 0,
             },
             (|| -> Vec<Box<dyn Subject>> { vec![Box::new(DormandPrince), Box::new(Radau)] }) as Subjects,
             vec![

@@ -3,20 +3,19 @@
 
 use super::lab::{self, Sample, per_replica};
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use shearbed::scene::{Orientation, Scene};
 
 /// A change to every scene that the model runs; the expectation stays that of the unchanged scene.
 type Mend = fn(&mut Scene);
 
 pub fn cases() -> Vec<Case> {
-    let about = |name, claim, source, statistical_checks| About {
+    let about = |name, claim, source| About {
         name,
-        kind: Kind::Validation,
+        judges: Judges::Statement,
         claim,
         source,
         equations: &["4"],
-        statistical_checks,
     };
     vec![
         Case::new(
@@ -24,7 +23,6 @@ pub fn cases() -> Vec<Case> {
                 "period-unaffected",
                 "\"The period of oscillation is practically unaffected by collisions or by differences in particle size\".",
                 "Results, before Fig. 7; Fig. 6",
-                2,
             ),
             (|_| {}) as Mend,
             vec![("r_e 5 % longer, time still in the old periods", |scene| {
@@ -37,7 +35,6 @@ pub fn cases() -> Vec<Case> {
                 "hundred-rods-suffice",
                 "\"The results did not change significantly when 100 or more particles were used\".",
                 "Results, second paragraph",
-                2,
             ),
             100 as Count,
             vec![("5 rods", 5)],
@@ -48,7 +45,6 @@ pub fn cases() -> Vec<Case> {
                 "steady-stays-put",
                 "\"According to the model, the mean axial projections should remain constant after their steady state values are reached\".",
                 "Results, before Fig. 5; Fig. 5",
-                3,
             ),
             12.0 as Periods,
             vec![("before the steady state", 2.0)],
@@ -59,7 +55,6 @@ pub fn cases() -> Vec<Case> {
                 "in-plane-rods",
                 "Rods in the shear plane stay there, and do not disturb each other as Δt → 0: \"there should have been no collisions\".",
                 "Results, the r_e = 3.96 experiment",
-                0,
             ),
             90.0 as ThetaDeg,
             vec![("10° out of the plane", 80.0)],
@@ -80,7 +75,7 @@ fn period(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
     ]
     .into_iter()
     .map(|(name, change)| {
-        let mut scene = lab::free_scene();
+        let mut scene = lab::free_scene(effort);
         change(&mut scene);
         scene.particles.count = 400;
         scene.time.periods = Some(4.0);
@@ -141,7 +136,7 @@ type Count = usize;
 /// X̄₁ with few rods less X̄₁ with 1000, at the same concentration.
 fn enough_rods(count: &Count, effort: &Effort) -> Vec<Evidence> {
     let at_peaks = |count: usize, replicas: u64| {
-        let mut scene = lab::interacting_scene();
+        let mut scene = lab::interacting_scene(effort);
         scene.particles.count = count;
         scene.time.periods = Some(2.0);
         scene.time.outputs_per_period = Some(1);
@@ -171,7 +166,7 @@ type Periods = f64;
 
 /// X̄_i over two periods less X̄_i over the two periods before, in a dense suspension.
 fn stays_put(from: &Periods, effort: &Effort) -> Vec<Evidence> {
-    let mut scene = lab::interacting_scene();
+    let mut scene = lab::interacting_scene(effort);
     lab::interaction(&mut scene).concentration_per_cm3 = 500.0;
     scene.time.periods = Some(from + 4.0);
     scene.time.outputs_per_period = Some(20);
@@ -197,9 +192,9 @@ fn stays_put(from: &Periods, effort: &Effort) -> Vec<Evidence> {
 /// θ of every rod at first.
 type ThetaDeg = f64;
 
-fn in_plane(theta_deg: &ThetaDeg, _: &Effort) -> Vec<Evidence> {
+fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {
     let run = |steps_per_period: u64| {
-        let mut scene = lab::interacting_scene();
+        let mut scene = lab::interacting_scene(effort);
         scene.particles.orientation = Orientation::Given {
             phi_deg: 20.0,
             theta_deg: *theta_deg,

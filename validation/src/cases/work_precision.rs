@@ -2,7 +2,7 @@
 
 use super::lab::{self, Sample};
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::suspensions::free::{Free, exponents};
 use crate::suspensions::law;
 use crate::suspensions::starts::{self, Start};
@@ -27,12 +27,11 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "free-suspension-rates",
-                kind: Kind::Verification,
+                judges: Judges::Integrator,
                 claim: "The error of a free suspension's X̄₁ falls as N^(−½) for random starts, N^(−1) for stratified \
                         ones and N^(−5/4) for a Fibonacci lattice.",
                 source: "eqs 4, 12, A.4",
                 equations: &["4", "12"],
-                statistical_checks: starts::ALL.len(),
             },
             starts::ALL.to_vec() as Starts,
             vec![
@@ -71,11 +70,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "replicas-are-independent",
-                kind: Kind::Verification,
+                judges: Judges::Integrator,
                 claim: "The scatter of a mean over M replicas of interacting rods falls as M^(−½).",
                 source: "section 'Method of solution': runs with other random numbers",
                 equations: &["12"],
-                statistical_checks: 1,
             },
             u64::MAX,
             vec![("only 64 different replicas", 64)],
@@ -84,12 +82,11 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "faces-cost-collisions",
-                kind: Kind::Verification,
+                judges: Judges::Integrator,
                 claim: "What the control volume's faces take from the collisions of a rod falls as N^(−1/3), the share of \
                         the volume near a face, and not as 1/N.",
                 source: "eqs 8, 12; 'the number of particles'",
                 equations: &["8"],
-                statistical_checks: 1,
             },
             law::FACES as Exponent,
             vec![("1/N", -1.0)],
@@ -127,7 +124,7 @@ fn rates(starts: &Starts, effort: &Effort) -> Vec<Evidence> {
 }
 
 fn replicas(different: &u64, effort: &Effort) -> Vec<Evidence> {
-    let mut scene = lab::interacting_scene();
+    let mut scene = lab::interacting_scene(effort);
     scene.particles.count = 25;
     scene.time.steps_per_period = Some(20);
     scene.time.outputs_per_period = Some(4);
@@ -144,7 +141,7 @@ fn replicas(different: &u64, effort: &Effort) -> Vec<Evidence> {
             samples: 16,
             reference: -0.5,
             allowance: 0.0,
-            enough: 0.02,
+            effect: 0.02,
             because: "independent replicas; 16 groups of them",
         },
     )]
@@ -153,7 +150,7 @@ fn replicas(different: &u64, effort: &Effort) -> Vec<Evidence> {
 fn faces(exponent: &Exponent, effort: &Effort) -> Vec<Evidence> {
     // Candidates over five steps, with a reach so long that many are counted; each volume has twice the side of the last.
     let candidates = |count: usize, replicas: u64| {
-        let mut scene = lab::interacting_scene();
+        let mut scene = lab::interacting_scene(effort);
         scene.particles.count = count;
         lab::interaction(&mut scene).alpha = 2.0;
         let of_replica = |replica| {
@@ -181,7 +178,7 @@ fn faces(exponent: &Exponent, effort: &Effort) -> Vec<Evidence> {
             samples: more * 75,
             reference: 0.0,
             allowance: 0.02,
-            enough: 0.02,
+            effect: 0.02,
             because: "edges, ∝ N^(−2/3), make up for a part of the faces; 1/N would be off by three times the first gain",
         },
     )]

@@ -2,14 +2,13 @@
 
 use super::lab::{self, Sample};
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::suspensions::coupled::{at, free, free_mean, interacting};
 use crate::suspensions::job::Job;
 use crate::suspensions::law;
 use crate::suspensions::split::{Constants, Scope, Split, reference};
 use crate::suspensions::{Estimate, correlation};
 use shearbed::Scene;
-use std::sync::LazyLock;
 
 /// A change to the scene.
 type Mend = fn(&mut Scene);
@@ -35,12 +34,11 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "paths-do-not-converge",
-                kind: Kind::Verification,
+                judges: Judges::Program,
                 claim: "Halving the time step again and again does not bring a rod's paths together, because kicks have \
                         no bound.",
                 source: "A.13, A.14; eq. 8 without Δt",
                 equations: &["A.13", "A.14"],
-                statistical_checks: 1,
             },
             (|_| {}) as Mend,
             vec![
@@ -57,12 +55,11 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "shared-random-numbers",
-                kind: Kind::Verification,
+                judges: Judges::Program,
                 claim: "The same rods without collisions say more of X̄₁ than a run at half the step, and their mean is \
                         known; for a difference between two α, shared random numbers save a factor of four at T/4.",
                 source: "eqs 4, 7, 12",
                 equations: &["4", "7"],
-                statistical_checks: 3,
             },
             same,
             vec![
@@ -93,11 +90,10 @@ pub fn cases() -> Vec<Case> {
         Case::new(
             About {
                 name: "cheapest-split",
-                kind: Kind::Verification,
+                judges: Judges::Program,
                 claim: "Steps and replicas by the rule for an error of 0.02 give the bias and the scatter that it says.",
                 source: "eqs 4, 8, 12",
                 equations: &["4"],
-                statistical_checks: 2,
             },
             (|_| {}) as Respell,
             vec![
@@ -128,7 +124,7 @@ fn mean_squares(scene: &Scene, steps: u64, replicas: u64) -> Vec<f64> {
 }
 
 fn paths(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
-    let mut scene = lab::interacting_scene();
+    let mut scene = lab::interacting_scene(effort);
     mend(&mut scene);
     let replicas = effort.pick(48, 480);
     let (coarse, fine) = (
@@ -151,7 +147,7 @@ fn paths(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
 const GROUPS: usize = 20;
 
 fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
-    let mut scene = lab::interacting_scene();
+    let mut scene = lab::interacting_scene(effort);
     scene.particles.count = 25;
     let replicas = effort.pick(2000, 20_000);
     let changed = |mend: Mend| {
@@ -212,8 +208,8 @@ const CONSTANTS: Constants = Constants {
 };
 
 /// X̄₁ at t/T = 1 of 25 rods at four times the steps.
-static REFERENCE: LazyLock<Estimate> = LazyLock::new(|| {
-    let found = reference(&twenty_five(), 400, 25, 1000);
+fn reference_x1(effort: &Effort) -> Estimate {
+    let found = reference(&twenty_five(effort), 400, 25, 1000);
     found.map_or(
         Estimate {
             value: f64::NAN,
@@ -224,10 +220,10 @@ static REFERENCE: LazyLock<Estimate> = LazyLock::new(|| {
             se: found.se,
         },
     )
-});
+}
 
-fn twenty_five() -> Scene {
-    let mut scene = lab::interacting_scene();
+fn twenty_five(effort: &Effort) -> Scene {
+    let mut scene = lab::interacting_scene(effort);
     scene.particles.count = 25;
     scene
 }
@@ -237,7 +233,7 @@ fn realised(respell: &Respell, effort: &Effort) -> Vec<Evidence> {
     let mut run = said;
     respell(&mut run);
     let repeats = effort.pick(100, 400);
-    let Ok(found) = run.realise(&twenty_five(), repeats, *REFERENCE) else {
+    let Ok(found) = run.realise(&twenty_five(effort), repeats, reference_x1(effort)) else {
         return Vec::new();
     };
     let ratio = (found.scatter.value / said.scatter).powi(2);
@@ -253,7 +249,7 @@ fn realised(respell: &Respell, effort: &Effort) -> Vec<Evidence> {
                 samples: repeats,
                 reference: 0.0,
                 allowance: said.bias + CONSTANTS.bias(Scope::OwnRods(25), 400.0, 25.0),
-                enough: 0.01,
+                effect: 0.01,
                 because: "the bias that the rule allows for, and that of the reference",
             },
         ),
@@ -265,7 +261,7 @@ fn realised(respell: &Respell, effort: &Effort) -> Vec<Evidence> {
                 samples: repeats,
                 reference: 1.0,
                 allowance: 0.1,
-                enough: 0.25,
+                effect: 0.25,
                 because: "0.1: the variance of a rod more, v, depends on N by some percent",
             },
         ),

@@ -72,7 +72,7 @@ mod tests {
 
     #[test]
     fn what_does_not_fit_is_refused_with_its_number() {
-        let mut scene = lab::interacting_scene();
+        let mut scene = lab::interacting_scene(&crate::case::Effort::gate());
         scene.particles.count = 10_000_000;
         scene.ensemble.replicas = 3;
         let plan = lab::plan(&scene);

@@ -2,9 +2,10 @@
 
 use super::{Failure, MAX_THREADS, on_threads, print, probe, progress, sections, whole};
 use crate::accept::Verdict;
-use crate::case::{Case, Control, Effort, Judged, Outcome};
+use crate::case::{Case, Control, Effort, GATE_SEED, Judged, Outcome};
 use crate::report::{self, Sections};
 use crate::{cases, cluster, experiment, output};
+use shearbed::scene::MAX_SEED;
 use std::path::PathBuf;
 
 /// Arguments of `validate`.
@@ -16,6 +17,9 @@ pub(super) struct Args {
     /// More replicas and samples: the same cases, judged more sharply
     #[arg(long)]
     full: bool,
+    /// The seed from which every case takes its random numbers [default: that of the gate]
+    #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), default_value_t = GATE_SEED, allow_negative_numbers = true)]
+    seed: u64,
     /// A folder with measured points, for the cases that compare with experiments
     #[arg(long, value_name = "DIR", value_parser = folder)]
     data: Option<PathBuf>,
@@ -47,7 +51,11 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
         experiment::check(data).map_err(|error| Failure::Input(error.to_string()))?;
     }
     probe(&args.out)?;
-    let effort = cases::effort(args.full, args.data);
+    let effort = Effort {
+        full: args.full,
+        seed: args.seed,
+        data: args.data,
+    };
     let (outcomes, sections) = on_threads(args.threads, || {
         let outcomes = outcomes(&chosen, &effort, args.quiet)?;
         let sections = match args.cases.is_empty() {

@@ -121,7 +121,7 @@ mod tests {
 
     #[test]
     fn finer_steps_are_other_steps_at_the_same_times() {
-        let scene = crate::cases::lab::interacting_scene();
+        let scene = crate::cases::lab::interacting_scene(&crate::case::Effort::gate());
         let place = |turns| Place {
             turns,
             u_turns: 0.0,

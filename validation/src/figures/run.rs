@@ -1,6 +1,6 @@
 //! The built-in scenes behind the figures, run replica by replica, and the curves read from them.
 
-use crate::accept::critical;
+use crate::accept::critical_at;
 use crate::cases::lab::Sample;
 use crate::cluster;
 use crate::plot::Curve;
@@ -77,7 +77,7 @@ pub(super) fn with_band(label: impl Into<String>, samples: impl Iterator<Item = 
 
 /// Half the width of the 95 % confidence interval of a mean.
 pub(super) fn half_width(sample: Sample) -> f64 {
-    critical(0.05, sample.samples) * sample.se
+    critical_at(0.05, sample.samples) * sample.se
 }
 
 /// The runs of all scenes, by the scenes' names. Scenes that differ in their titles only share a run.

@@ -79,7 +79,7 @@ pub fn row(steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> Row {
 
 /// 50 rods at 400 per cm³: eight times as dense as in Fig. 7, so that a few replicas show the limit. One period.
 pub fn scene(steps_per_period: u64, min_contact_arm: f64) -> Scene {
-    let mut scene = lab::interacting_scene();
+    let mut scene = lab::interacting_scene(&crate::case::Effort::gate());
     scene.particles.count = 50;
     let interaction = lab::interaction(&mut scene);
     (interaction.concentration_per_cm3, interaction.min_contact_arm) = (400.0, min_contact_arm);

@@ -45,7 +45,7 @@ pub fn measure(effort: &Effort) -> Result<Study, String> {
     let averaged_steps = averaged_steps
         .into_iter()
         .filter(|steps| *steps <= averaged_finest);
-    let mut dense = lab::interacting_scene();
+    let mut dense = lab::interacting_scene(&crate::case::Effort::gate());
     let interaction = lab::interaction(&mut dense);
     (interaction.concentration_per_cm3, interaction.alpha) = (400.0, 2.0);
     let dense_steps = [100, 400, 1600, 6400, 25_600];

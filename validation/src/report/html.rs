@@ -1,7 +1,7 @@
 //! The report as one HTML file.
 
 use super::prose::Anchors;
-use super::words::{bounds, detail, kind, number, seconds, verdict};
+use super::words::{bounds, detail, number, seconds, verdict};
 use super::{Line, Origin, Report, ReportTable, Row, ScenePlan};
 use crate::accept::Verdict;
 use crate::case::Control;
@@ -23,8 +23,7 @@ struct Page<'a> {
     tables: Vec<TableView<'a>>,
     equations: Vec<EquationView<'a>>,
     plans: &'a [ScenePlan],
-    level: String,
-    family: String,
+    false_alarm: String,
     full: bool,
     time: String,
     origin: &'a Origin,
@@ -35,7 +34,7 @@ struct Page<'a> {
 struct CaseView<'a> {
     name: &'a str,
     claim: &'a str,
-    kind: &'static str,
+    judges: &'static str,
     source: &'a str,
     class: Verdict,
     symbol: &'static str,
@@ -121,8 +120,7 @@ pub(super) fn write(report: &Report) -> Result<String, String> {
         tables: report.sections.tables.iter().map(table).collect(),
         equations: equations(report),
         plans: &report.sections.plans,
-        level: number(report.summary.level),
-        family: number(report.summary.family_false_alarm_rate),
+        false_alarm: number(report.summary.false_alarm),
         full: report.summary.full,
         time: seconds(report.summary.seconds),
         origin: &report.origin,
@@ -144,7 +142,7 @@ fn case<'a>(report: &'a Report, row: &'a Row) -> CaseView<'a> {
     CaseView {
         name: &row.name,
         claim: &row.claim,
-        kind: kind(row.kind),
+        judges: row.judges.name(),
         source: &row.source,
         class: row.verdict,
         symbol,

@@ -1,14 +1,13 @@
 //! The report as Markdown.
 
-use super::words::{bounds, kind, seconds, verdict};
+use super::words::{bounds, seconds, verdict};
 use super::{Report, ReportEquation, ReportFigure, ReportTable, Row};
 use crate::markup::{Piece, pieces, unicode};
 
 pub(super) fn write(report: &Report) -> String {
     let origin = &report.origin;
     let mut text = format!("# shearbed: validation report\n\n{}\n\n", report.headline());
-    text +=
-        "| verdict | case | kind | claim | source | error | tolerance | because | controls caught | time |\n";
+    text += "| verdict | case | judges | claim | source | error | tolerance | because | controls caught | time |\n";
     text += "| --- | --- | --- | --- | --- | ---: | ---: | --- | ---: | ---: |\n";
     for case in &report.cases {
         text += &row(case);
@@ -44,7 +43,7 @@ fn row(case: &Row) -> String {
     format!(
         "| {symbol} {word} | `{}` | {} | {} | {} | {error} | {tolerance} | {} | {} of {} | {} |\n",
         case.name,
-        kind(case.kind),
+        case.judges.name(),
         escape(&case.claim),
         escape(&case.source),
         escape(because),

@@ -13,8 +13,8 @@ mod words;
 
 pub(crate) use markdown::{equation_table, markdown_table};
 
-use crate::accept::{FAMILY_FALSE_ALARM_RATE, Verdict};
-use crate::case::{Effort, Outcome};
+use crate::accept::{FALSE_ALARM_BUDGET, Verdict};
+use crate::case::{Effort, Judges, Outcome};
 use crate::output::Output;
 pub use origin::Origin;
 pub use row::{Line, Row};
@@ -32,14 +32,52 @@ pub struct Summary {
     pub underpowered: usize,
     /// Measured points are not at hand.
     pub nodata: usize,
-    /// The probability that correct code fails by chance in a run of the whole registry, at most.
-    pub family_false_alarm_rate: f64,
-    /// The share of it that each statistical check has.
-    pub level: f64,
+    /// How many cases of each kind pass, and of how many.
+    pub parts: Vec<Part>,
+    /// The probability, at most, that correct code turns one of these cases red for any reason.
+    pub false_alarm: f64,
+    /// The seed of all cases.
+    pub seed: u64,
     /// More replicas and samples than in the quick gate.
     pub full: bool,
     /// Wall time over all cases.
     pub seconds: f64,
+}
+
+/// The cases that judge one thing.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Part {
+    /// What they judge.
+    pub judges: Judges,
+    /// How many pass.
+    pub pass: usize,
+    /// How many need data that are not at hand.
+    pub nodata: usize,
+    /// How many there are.
+    pub cases: usize,
+}
+
+impl Part {
+    fn of(judges: Judges, outcomes: &[Outcome]) -> Option<Self> {
+        let cases: Vec<_> = outcomes.iter().filter(|o| o.about.judges == judges).collect();
+        let count = |verdict| cases.iter().filter(|o| o.verdict == verdict).count();
+        (!cases.is_empty()).then(|| Self {
+            judges,
+            pass: count(Verdict::Pass),
+            nodata: count(Verdict::NoData),
+            cases: cases.len(),
+        })
+    }
+}
+
+impl std::fmt::Display for Part {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} {} of {}", self.judges.name(), self.pass, self.cases)?;
+        match self.nodata {
+            0 => Ok(()),
+            _ => write!(f, " (no data for {})", self.nodata),
+        }
+    }
 }
 
 /// Everything a run of the suite found.
@@ -65,8 +103,12 @@ pub fn build(outcomes: Vec<Outcome>, sections: Sections, effort: &Effort, comman
             fail: count(Verdict::Fail),
             underpowered: count(Verdict::Underpowered),
             nodata: count(Verdict::NoData),
-            family_false_alarm_rate: FAMILY_FALSE_ALARM_RATE,
-            level: effort.level,
+            parts: Judges::ALL
+                .iter()
+                .filter_map(|judges| Part::of(*judges, &outcomes))
+                .collect(),
+            false_alarm: outcomes.iter().map(Outcome::false_alarm).sum(),
+            seed: effort.seed,
             full: effort.full,
             seconds: outcomes.iter().map(|o| o.seconds).sum(),
         },
@@ -102,22 +144,27 @@ impl Report {
         serde_json::to_string_pretty(self).unwrap_or_else(|error| format!("{{\"error\": \"{error}\"}}"))
     }
 
-    /// 1 when a case failed or had too little data to say, else 0.
+    /// 1 when a case failed or had too little data to say, or where chance alone could do so too often, else 0.
     pub fn exit_code(&self) -> u8 {
-        u8::from(self.summary.fail + self.summary.underpowered > 0)
+        let red = self.summary.fail + self.summary.underpowered > 0;
+        u8::from(red || self.summary.false_alarm > FALSE_ALARM_BUDGET)
     }
 
-    /// The one line that a report opens with.
+    /// The lines that a report opens with: what passes, by what it judges, and how often chance alone turns it red.
     pub fn headline(&self) -> String {
         let summary = &self.summary;
+        let parts: Vec<_> = summary.parts.iter().map(Part::to_string).collect();
+        let over = match summary.false_alarm > FALSE_ALARM_BUDGET {
+            true => format!(", over the budget of {}", words::number(FALSE_ALARM_BUDGET)),
+            false => String::new(),
+        };
         format!(
-            "{} pass, {} fail, {} under-powered, {} without data; family-wise false-alarm rate at most {} \
-             (the chance that correct code fails).",
-            summary.pass,
+            "Passed: {}. {} fail, {} under-powered. By chance alone correct code turns red with a probability of at most \
+             {}{over}.",
+            parts.join("; "),
             summary.fail,
             summary.underpowered,
-            summary.nodata,
-            words::number(summary.family_false_alarm_rate),
+            words::number(summary.false_alarm),
         )
     }
 }

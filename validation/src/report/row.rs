@@ -1,7 +1,7 @@
 //! A case as a row of the report: every number with the bound it was judged by.
 
 use crate::accept::{Rule, Verdict};
-use crate::case::{Control, Effort, Judged, Kind, Outcome};
+use crate::case::{Control, Effort, GATE_SEED, Judged, Judges, Outcome};
 use serde::Serialize;
 
 /// What one rule said.
@@ -24,9 +24,9 @@ pub struct Line {
 }
 
 impl Line {
-    fn new(judged: &Judged, level: f64) -> Self {
+    fn new(judged: &Judged) -> Self {
         let rule = &judged.evidence.rule;
-        let (error, tolerance) = (rule.error(), rule.tolerance(level));
+        let (error, tolerance) = (rule.error(), rule.tolerance());
         let used = match rule {
             _ if error == 0.0 && tolerance == 0.0 => 0.0,
             Rule::PValue { .. } => tolerance / error,
@@ -68,8 +68,8 @@ fn severity(verdict: Verdict) -> u8 {
 pub struct Row {
     /// Its name.
     pub name: String,
-    /// Verification or validation.
-    pub kind: Kind,
+    /// What it judges.
+    pub judges: Judges,
     /// The claim, in one sentence.
     pub claim: String,
     /// Equations, figures or sections of the paper.
@@ -86,6 +86,8 @@ pub struct Row {
     pub caught: usize,
     /// Wall time of check and controls.
     pub seconds: f64,
+    /// The probability, at most, that correct code turns it red.
+    pub false_alarm: f64,
     /// The command that repeats it.
     pub command: String,
 }
@@ -94,7 +96,7 @@ impl Row {
     /// The outcome of a case that was run with this effort.
     pub(super) fn new(outcome: Outcome, effort: &Effort) -> Self {
         let evidence: Vec<_> = (outcome.evidence.iter())
-            .map(|judged| Line::new(judged, effort.level))
+            .map(|judged| Line::new(judged))
             .collect();
         // The first of equals.
         let worst = (0..evidence.len()).rev().max_by(|a, b| {
@@ -103,7 +105,8 @@ impl Row {
         });
         Self {
             name: outcome.about.name.into(),
-            kind: outcome.about.kind,
+            judges: outcome.about.judges,
+            false_alarm: outcome.false_alarm(),
             claim: outcome.about.claim.into(),
             source: outcome.about.source.into(),
             verdict: outcome.verdict,
@@ -126,6 +129,9 @@ fn command(name: &str, effort: &Effort) -> String {
     let mut command = format!("cargo run --release -- validate --case {name}");
     if effort.full {
         command += " --full";
+    }
+    if effort.seed != GATE_SEED {
+        command += &format!(" --seed {}", effort.seed);
     }
     if let Some(data) = &effort.data {
         // Quoted for the shell.

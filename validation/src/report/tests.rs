@@ -2,13 +2,13 @@
 
 use super::*;
 use crate::accept::{Rule, judge};
-use crate::case::{About, Control, Evidence, Judged, Kind};
+use crate::case::{About, Control, Evidence, GATE_SEED, Judged, Judges};
 use crate::plot::{Curve, Figure};
 use crate::xml::is_well_formed;
 
 const EFFORT: Effort = Effort {
     full: false,
-    level: 2.5e-5,
+    seed: GATE_SEED,
     data: None,
 };
 
@@ -19,25 +19,28 @@ fn outcome(
     controls: &[(&'static str, bool)],
 ) -> Outcome {
     let judged = |(k, rule): (usize, Rule)| Judged {
-        verdict: judge(&rule, EFFORT.level),
+        verdict: judge(&rule),
         evidence: Evidence::new(format!("synthetic number {k} with a < b & c"), rule),
     };
     Outcome {
         about: About {
             name,
-            kind: match verdict {
-                Verdict::Pass | Verdict::Fail => Kind::Verification,
-                _ => Kind::Validation,
+            judges: match verdict {
+                Verdict::Pass | Verdict::Fail => Judges::Core,
+                _ => Judges::Measurement,
             },
             claim: "Synthetic claim: <b>|p₁|</b> & more.",
             source: "eqs A.4, A.5",
             equations: &[],
-            statistical_checks: 0,
         },
         verdict,
         evidence: rules.into_iter().enumerate().map(judged).collect(),
         controls: (controls.iter())
-            .map(|&(mistake, caught)| Control { mistake, caught })
+            .map(|&(mistake, caught)| Control {
+                mistake,
+                caught,
+                miss: caught.then_some(0.0),
+            })
             .collect(),
         seconds: 1.25,
     }
@@ -50,7 +53,7 @@ fn mean(se: f64) -> Rule {
         samples: 400,
         reference: 0.5,
         allowance: 0.0,
-        enough: 0.01,
+        effect: 0.1,
         because: "synthetic: 2 % of the amplitude",
     }
 }
@@ -188,7 +191,7 @@ fn the_worst_evidence_is_shown() {
 fn a_command_repeats_the_run() {
     let effort = Effort {
         full: true,
-        level: 1e-3,
+        seed: GATE_SEED,
         data: Some("my data".into()),
     };
     let row = Row::new(outcome("synthetic", Verdict::Pass, vec![], &[]), &effort);

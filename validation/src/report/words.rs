@@ -2,7 +2,6 @@
 
 use super::Line;
 use crate::accept::{Rule, Verdict};
-use crate::case::Kind;
 use crate::plot::power_of_ten;
 
 /// A number to three significant digits.
@@ -70,7 +69,7 @@ pub(super) fn detail(rule: &Rule) -> String {
             samples,
             reference,
             allowance,
-            enough,
+            effect,
             ..
         } => {
             let allowance = match *allowance {
@@ -79,11 +78,11 @@ pub(super) fn detail(rule: &Rule) -> String {
             };
             format!(
                 "mean {} ± {} (standard error of {samples}), reference {}{allowance}; \
-                 the standard error may be {} at most",
+                 sized to show {}",
                 digits(*mean, 6),
                 number(*se),
                 digits(*reference, 6),
-                number(*enough)
+                number(*effect)
             )
         }
         Rule::Above {
@@ -91,14 +90,14 @@ pub(super) fn detail(rule: &Rule) -> String {
             se,
             samples,
             bound,
-            enough,
+            effect,
             ..
         } => format!(
-            "mean {} ± {} (standard error of {samples}), must exceed {}; the standard error may be {} at most",
+            "mean {} ± {} (standard error of {samples}), must exceed {}, and does so by {} or more",
             digits(*mean, 6),
             number(*se),
             digits(*bound, 6),
-            number(*enough)
+            number(*effect)
         ),
         Rule::PValue { samples, enough, .. } => format!("{samples} samples, at least {enough} needed"),
         Rule::Within { .. } | Rule::NoData { .. } => String::new(),
@@ -122,14 +121,6 @@ pub(super) fn verdict(verdict: Verdict) -> (&'static str, &'static str) {
         Verdict::Fail => ("✗", "fail"),
         Verdict::Underpowered => ("△", "under-powered"),
         Verdict::NoData => ("○", "no data"),
-    }
-}
-
-/// The name of a kind.
-pub(super) fn kind(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Verification => "verification",
-        Kind::Validation => "validation",
     }
 }
 
