@@ -87,6 +87,8 @@ pub enum Rule {
         samples: u64,
         /// The samples below which the test has no power.
         enough: u64,
+        /// The largest distance between the two distribution functions, where that is what is tested.
+        distance: Option<f64>,
         /// Which test, and why that many samples.
         #[serde(deserialize_with = "text_of_the_source")]
         because: Words,
@@ -163,28 +165,35 @@ impl Rule {
         }
     }
 
-    /// The probability that a repetition at other seeds would not fail a rule that has failed, from the effect that was
-    /// found: by the noncentral t distribution, and 0 where nothing is drawn. `None` where it cannot be told.
-    pub fn miss(&self) -> Option<f64> {
+    /// By how many standard deviations of the test's statistic a rule that fails does so: at another seed it would not fail
+    /// with the probability [`upper_tail`] of it, by the noncentral t distribution, for Kolmogorov's by Massart's bound.
+    /// `None` where nothing is drawn, or no effect is told.
+    pub fn margin(&self) -> Option<f64> {
         match self {
-            Self::Within { .. } => Some(0.0),
             Self::Mean {
                 se,
                 samples,
                 allowance,
                 ..
-            } => {
-                let noncentrality = (self.error() - allowance) / se;
-                Some(noncentral(critical(*samples), noncentrality, *samples))
-            }
+            } => Some(-noncentral(
+                critical(*samples),
+                (self.error() - allowance) / se,
+                *samples,
+            )),
             Self::Above {
                 mean,
                 se,
                 samples,
                 bound,
                 ..
-            } => Some(1.0 - noncentral(critical(*samples), (mean - bound) / se, *samples)),
-            Self::PValue { .. } | Self::NoData { .. } => None,
+            } => Some(noncentral(critical(*samples), (mean - bound) / se, *samples)),
+            Self::PValue {
+                distance, samples, ..
+            } => {
+                let distance = distance.as_ref()?;
+                Some(2.0 * (distance * (*samples as f64).sqrt() - massart(LEVEL)))
+            }
+            Self::Within { .. } | Self::NoData { .. } => None,
         }
     }
 
@@ -269,8 +278,7 @@ const MOST: u64 = 1 << 40;
 /// The fewest values by which a Kolmogorov–Smirnov test sees a distance of `distance` between two distribution
 /// functions but for a probability [`MISS`], at a false-alarm probability [`LEVEL`] (Massart's bound for both).
 pub fn kolmogorov_samples(distance: f64) -> u64 {
-    let bound = |probability: f64| (0.5 * (2.0 / probability).ln()).sqrt();
-    ((bound(LEVEL) + bound(MISS)) / distance).powi(2).ceil() as u64
+    ((massart(LEVEL) + massart(MISS)) / distance).powi(2).ceil() as u64
 }
 
 /// How much larger than its expectation a standard deviation of `samples` Gaussian values is, but for a probability
@@ -287,10 +295,21 @@ fn needed_noncentrality(samples: u64) -> f64 {
     critical * (1.0 - 0.25 / nu) + normal * (1.0 + 0.5 * critical * critical / nu).sqrt()
 }
 
-/// P(T ≤ t) of the noncentral t distribution of a mean of `samples` values (Abramowitz & Stegun 26.7.10).
+/// The normal deviate that has the probability P(T ≤ t) of the noncentral t distribution of a mean of `samples` values
+/// (Abramowitz & Stegun 26.7.10).
 fn noncentral(t: f64, noncentrality: f64, samples: u64) -> f64 {
     let nu = freedom(samples);
-    normal().cdf((t * (1.0 - 0.25 / nu) - noncentrality) / (1.0 + 0.5 * t * t / nu).sqrt())
+    (t * (1.0 - 0.25 / nu) - noncentrality) / (1.0 + 0.5 * t * t / nu).sqrt()
+}
+
+/// The probability of a normal deviate above `deviate`.
+pub fn upper_tail(deviate: f64) -> f64 {
+    normal().sf(deviate)
+}
+
+/// The √n D that Kolmogorov's distance D exceeds with a probability of at most `probability` (Massart 1990).
+fn massart(probability: f64) -> f64 {
+    (0.5 * (2.0 / probability).ln()).sqrt()
 }
 
 fn critical(samples: u64) -> f64 {
@@ -384,7 +403,7 @@ mod tests {
                 })
                 .count();
             let found = below as f64 / f64::from(trials);
-            let expected = noncentral(t, noncentrality, samples);
+            let expected = upper_tail(-noncentral(t, noncentrality, samples));
             // Five standard errors of a share, and the approximation's own error in the middle of the distribution.
             assert!(
                 (found - expected).abs() < 5.0 * 0.0036 + 0.005,
@@ -444,6 +463,7 @@ mod tests {
                 p,
                 samples,
                 enough: 100,
+                distance: None,
                 because: "",
             })
         };

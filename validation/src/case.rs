@@ -234,24 +234,27 @@ pub struct Control {
     pub mistake: Words,
     /// Whether the check failed, as it must, on numbers.
     pub caught: bool,
-    /// The probability that the same check at another seed does not catch it, from the effect that was found here;
-    /// `None` where no rule tells.
-    pub miss: Option<f64>,
+    /// Whether it was caught by drawn numbers alone, so that it could be missed at another seed.
+    pub drawn: bool,
+    /// By how many standard deviations the surest of its rules failed ([`Rule::margin`]).
+    pub margin: Option<f64>,
 }
 
 impl Control {
     /// A check that ends in no numbers has broken, and has caught nothing.
     fn new(mistake: Words, evidence: &[Evidence]) -> Self {
         let broke = evidence.iter().any(|e| e.rule.error().is_nan());
-        let failed = evidence
-            .iter()
-            .filter(|_| !broke)
-            .filter(|e| judge(&e.rule) == Verdict::Fail);
+        let failed: Vec<_> = (evidence.iter().map(|e| &e.rule))
+            .filter(|rule| !broke && judge(rule) == Verdict::Fail)
+            .collect();
+        let drawn = failed.iter().all(|rule| rule.is_statistical());
         Self {
             mistake,
-            caught: failed.clone().next().is_some(),
-            // One rule that fails is enough: the surest.
-            miss: failed.filter_map(|e| e.rule.miss()).reduce(f64::min),
+            caught: !failed.is_empty(),
+            drawn,
+            margin: (failed.iter().filter(|_| drawn))
+                .filter_map(|rule| rule.margin())
+                .reduce(f64::max),
         }
     }
 }
@@ -279,9 +282,8 @@ impl Outcome {
         }
         let rules = || self.evidence.iter().map(|judged| &judged.evidence.rule);
         let checks: f64 = rules().map(Rule::false_alarm).sum();
-        // What is sized for a control misses it with this probability at most; a check without draws, never.
-        let missed = |control: &&Control| control.miss != Some(0.0);
-        checks + MISS * self.controls.iter().filter(missed).count() as f64
+        // What is sized for a control misses it with this probability at most.
+        checks + MISS * self.controls.iter().filter(|control| control.drawn).count() as f64
     }
 }
 

@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::Command;
 use tempfile::TempDir;
 use validation::accept::Verdict;
-use validation::case::Outcome;
+use validation::case::{Effort, Outcome};
 use validation::experiment::{ANCZUROWSKI, OKAGAWA_MASON};
 use validation::{cases, experiment, scenes};
 

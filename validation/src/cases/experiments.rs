@@ -151,6 +151,7 @@ fn fit(comparison: &Comparison, late: usize, source: &Source) -> Evidence {
         p: comparison.p,
         samples: n as u64,
         enough: 3,
+        distance: None,
         because: "χ² over all points with their full covariance; three points can tell a shape from a shift, and the \
                   controls show the power",
     };

@@ -182,15 +182,17 @@ pub fn stepped(scene: &Scene, replica: u64) -> Suspension {
 /// the two distribution functions.
 pub fn uniform(values: Vec<f64>, distance: f64, because: &'static str) -> Rule {
     let samples = values.len() as u64;
+    let enough = kolmogorov_samples(distance);
     let method = KSOneSampleAlternativeMethod::TwoSidedAsymptotic;
-    let p = Uniform::new(0.0, 1.0)
+    let (distance, p) = Uniform::new(0.0, 1.0)
         .ok()
         .and_then(|unit| ks_onesample(values, &unit, method, NaNPolicy::Propogate).ok())
-        .map_or(f64::NAN, |(_, p)| p);
+        .unwrap_or((f64::NAN, f64::NAN));
     Rule::PValue {
         p,
         samples,
-        enough: kolmogorov_samples(distance),
+        enough,
+        distance: Some(distance),
         because,
     }
 }

@@ -39,7 +39,8 @@ fn outcome(
             .map(|&(mistake, caught)| Control {
                 mistake,
                 caught,
-                miss: caught.then_some(0.0),
+                drawn: false,
+                margin: None,
             })
             .collect(),
         seconds: 1.25,
@@ -63,6 +64,7 @@ fn p_value(p: f64) -> Rule {
         p,
         samples: 1000,
         enough: 100,
+        distance: None,
         because: "synthetic: Kolmogorov–Smirnov",
     }
 }

@@ -1,0 +1,152 @@
+//! Tries the probabilities that the gate promises: the cases at many seeds, and how often each turned red, and why.
+//!
+//! `cargo run --release -p validation --example strength -- SEEDS [full] [CASE...]` prints the tables of
+//! `docs/strength.md`. A case whose evidence is the same at the first two seeds draws nothing, and is not run again.
+
+use std::collections::BTreeMap;
+use validation::accept::{Rule, Verdict};
+use validation::case::{Case, Effort, Outcome};
+use validation::cases;
+
+fn main() {
+    let mut words = std::env::args().skip(1);
+    let seeds: u64 = words.next().and_then(|word| word.parse().ok()).unwrap_or(3);
+    let (full, names): (Vec<_>, Vec<_>) = words.partition(|word| word == "full");
+    let full = !full.is_empty();
+    let mut cases: Vec<Case> = cases::all();
+    cases.retain(|case| names.is_empty() || names.iter().any(|name| name == case.about.name));
+    let still = cases.len();
+    let mut records: BTreeMap<&str, Record> = BTreeMap::new();
+    let (mut red_runs, mut scores) = (0, Vec::new());
+    for seed in 1..=seeds {
+        let effort = Effort {
+            full,
+            seed,
+            data: None,
+        };
+        let mut red = false;
+        cases.retain(|case| {
+            let outcome = case.run(&effort);
+            let record = records.entry(case.about.name).or_default();
+            red |= record.add(&outcome, seed, &mut scores);
+            record.draws
+        });
+        red_runs += u32::from(red);
+        eprintln!("seed {seed}: {}", if red { "RED" } else { "green" });
+    }
+    println!(
+        "{red_runs} of {seeds} runs red; {} of {still} cases draw random numbers",
+        cases.len()
+    );
+    scores.sort_by(f64::total_cmp);
+    let count = scores.len() as f64;
+    let square = scores.iter().map(|z| z * z).sum::<f64>() / count;
+    if let (Some(first), Some(last)) = (scores.first(), scores.last()) {
+        println!(
+            "{count} z-scores of means without allowance: root mean square {:.3}, from {first:.2} to {last:.2}",
+            square.sqrt()
+        );
+    }
+    println!(
+        "\n| case | judges | seeds | red | why | false alarm ≤ | s | controls: the least margin, its mean and deviation, miss |"
+    );
+    println!("| --- | --- | ---: | ---: | --- | ---: | ---: | --- |");
+    for (name, record) in records.iter().filter(|(_, record)| record.draws) {
+        println!("| `{name}` | {} |", record.row());
+    }
+}
+
+/// What a case said at all seeds.
+#[derive(Default)]
+struct Record {
+    judges: &'static str,
+    runs: u32,
+    red: u32,
+    why: BTreeMap<String, u32>,
+    false_alarm: f64,
+    seconds: f64,
+    first: Option<String>,
+    draws: bool,
+    controls: BTreeMap<&'static str, Vec<f64>>,
+}
+
+impl Record {
+    /// Whether the case was red.
+    fn add(&mut self, outcome: &Outcome, seed: u64, scores: &mut Vec<f64>) -> bool {
+        self.judges = outcome.about.judges.name();
+        self.runs += 1;
+        self.seconds += outcome.seconds;
+        self.false_alarm = self.false_alarm.max(outcome.false_alarm());
+        let said = format!("{:?}{:?}", outcome.evidence, outcome.controls);
+        match &self.first {
+            None => (self.first, self.draws) = (Some(said), true),
+            Some(first) if seed == 2 => self.draws = *first != said,
+            Some(_) => {}
+        }
+        for judged in &outcome.evidence {
+            let what = match judged.verdict {
+                Verdict::Fail => "failed",
+                Verdict::Underpowered => "under-powered",
+                _ => continue,
+            };
+            *self
+                .why
+                .entry(format!("{what}: {}", judged.evidence.what))
+                .or_default() += 1;
+        }
+        for control in &outcome.controls {
+            if !control.caught {
+                *self
+                    .why
+                    .entry(format!("not caught: {}", control.mistake))
+                    .or_default() += 1;
+            }
+            if let Some(margin) = control.margin {
+                self.controls.entry(control.mistake).or_default().push(margin);
+            }
+        }
+        for judged in &outcome.evidence {
+            if let Rule::Mean {
+                mean,
+                se,
+                reference,
+                allowance: 0.0,
+                ..
+            } = judged.evidence.rule
+            {
+                scores.push((mean - reference) / se);
+            }
+        }
+        let red = matches!(outcome.verdict, Verdict::Fail | Verdict::Underpowered);
+        self.red += u32::from(red);
+        red
+    }
+
+    fn row(&self) -> String {
+        let why: Vec<_> = self
+            .why
+            .iter()
+            .map(|(why, times)| format!("{why} ({times})"))
+            .collect();
+        let controls = self.controls.iter().map(|(mistake, margins)| {
+            let n = margins.len() as f64;
+            let mean = margins.iter().sum::<f64>() / n;
+            let sd = (margins.iter().map(|m| (m - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0)).sqrt();
+            let least = margins.iter().copied().fold(f64::INFINITY, f64::min);
+            format!(
+                "{mistake}: {least:.1}, {mean:.1} ± {sd:.1}, {:.0e}",
+                validation::accept::upper_tail(mean / sd)
+            )
+        });
+        format!(
+            "{} | {} | {} | {} | {:.0e} | {:.2} | {}",
+            self.judges,
+            self.runs,
+            self.red,
+            why.join("; "),
+            self.false_alarm,
+            self.seconds / f64::from(self.runs),
+            controls.collect::<Vec<_>>().join("; ")
+        )
+    }
+}
