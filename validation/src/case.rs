@@ -101,9 +101,9 @@ impl Effort {
         if self.full { full } else { quick }
     }
 
-    /// The values that a sample needs; ten times as many in a full run.
+    /// The values that a sample needs; four times as many in a full run.
     pub fn samples(&self, design: Design) -> u64 {
-        self.pick(1, 10) * design.samples()
+        self.pick(1, 4) * design.samples()
     }
 
     /// The seed of one of a case's streams: another for every `stream` and every seed of the run.
