@@ -39,6 +39,19 @@ impl Judges {
         Self::Measurement,
     ];
 
+    /// In one word, as `validate --tag` takes it.
+    pub fn tag(self) -> &'static str {
+        match self {
+            Self::Core => "core",
+            Self::Program => "program",
+            Self::Integrator => "integrator",
+            Self::Oracle => "oracle",
+            Self::Interpretation => "interpretation",
+            Self::Statement => "statement",
+            Self::Measurement => "measurement",
+        }
+    }
+
     /// In words, as the headline counts them.
     pub fn name(self) -> &'static str {
         match self {
@@ -134,6 +147,16 @@ pub struct About {
     pub source: &'static str,
     /// The equations it tests, by their numbers: the traceability table is made from these.
     pub equations: &'static [&'static str],
+}
+
+impl About {
+    /// What it can be chosen by: what it judges, and its equations as `eq-15`.
+    pub fn tags(&self) -> Vec<String> {
+        let equations = self.equations.iter().map(|number| format!("eq-{number}"));
+        std::iter::once(self.judges.tag().to_owned())
+            .chain(equations)
+            .collect()
+    }
 }
 
 /// One claim with its check and its controls.

@@ -317,7 +317,7 @@ const REJECTED: &[(&str, &str)] = &[
     ("run small.toml --out file/below", "file/below: cannot be written: "),
     ("run small.toml --fast", "unexpected argument '--fast'"),
     ("scenes --show fig13", "--show fig13: no built-in scene has this name; there are fig4-n20, fig4-n50"),
-    ("validate --case no-such-case", "--case no-such-case: no case has this name; there are "),
+    ("validate --case no-such-case", "--case no-such-case: no case has this name; did you mean "),
     ("validate --data no-such-folder", "'no-such-folder' for '--data <DIR>': No such file or directory"),
     ("validate --data file", "'file' for '--data <DIR>': it is no folder; an existing folder is allowed"),
     ("validate --out file", "file: cannot be written: "),

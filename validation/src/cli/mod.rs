@@ -1,6 +1,7 @@
 //! The commands of the program `shearbed`.
 
 mod bench;
+mod choice;
 mod converge;
 mod memory;
 mod pictures;

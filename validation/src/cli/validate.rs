@@ -1,11 +1,12 @@
 //! `shearbed validate`.
 
-use super::{Failure, MAX_THREADS, on_threads, print, probe, progress, sections, whole};
+use super::{Failure, MAX_THREADS, choice, on_threads, print, probe, progress, sections, whole};
 use crate::accept::Verdict;
 use crate::case::{Case, Control, Effort, GATE_SEED, Judged, Outcome};
-use crate::report::{self, Sections};
-use crate::{cases, cluster, experiment, output};
+use crate::report::{self, Row, Sections};
+use crate::{cluster, experiment, output};
 use shearbed::scene::MAX_SEED;
+use std::io::Write;
 use std::path::PathBuf;
 
 /// Arguments of `validate`.
@@ -14,6 +15,12 @@ pub(super) struct Args {
     /// Run this case only; can be given more than once
     #[arg(long = "case", value_name = "NAME")]
     cases: Vec<String>,
+    /// Run the cases with this tag: what they judge, or an equation as eq-15; can be given more than once
+    #[arg(long = "tag", value_name = "TAG")]
+    tags: Vec<String>,
+    /// List the cases, with their tags and claims, and run none
+    #[arg(long)]
+    list: bool,
     /// More replicas and samples: the same cases, judged more sharply
     #[arg(long)]
     full: bool,
@@ -45,7 +52,10 @@ fn folder(text: &str) -> Result<PathBuf, String> {
 
 /// Runs the cases and writes the report. Where cases are chosen, the report holds them alone.
 pub(super) fn validate(args: Args) -> Result<(), Failure> {
-    let chosen = chosen(&args.cases)?;
+    let chosen = choice::chosen(&args.cases, &args.tags)?;
+    if args.list {
+        return print(&choice::list(&chosen));
+    }
     if let Some(data) = &args.data {
         // Bad points are bad input, not a case that failed.
         experiment::check(data).map_err(|error| Failure::Input(error.to_string()))?;
@@ -58,7 +68,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     };
     let (outcomes, sections) = on_threads(args.threads, || {
         let outcomes = outcomes(&chosen, &effort, args.quiet)?;
-        let sections = match args.cases.is_empty() {
+        let sections = match args.cases.is_empty() && args.tags.is_empty() {
             true => sections::gather(&effort, args.quiet)?,
             false => Some(Sections::default()),
         };
@@ -78,6 +88,12 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
         ("report.md", report.markdown()),
     ];
     output::write_all(&args.out, &files.map(|(name, text)| (name.to_owned(), text)))?;
+    let red: String = report.cases.iter().map(reasons).collect();
+    if !red.is_empty() && cluster::is_root() {
+        // Also where nothing else is printed: what is red is an error. Where even this cannot be written, the exit code
+        // has to say it.
+        let _ = write!(std::io::stderr(), "\n{red}");
+    }
     if !args.quiet {
         let page = args.out.join("report.html");
         print(&format!("\n{}\nreport: {}\n", report.headline(), page.display()))?;
@@ -129,23 +145,6 @@ fn outcomes(chosen: &[Case], effort: &Effort, quiet: bool) -> Result<Option<Vec<
 /// An outcome without what the case says of itself.
 type Found = (Verdict, Vec<Judged>, Vec<Control>, f64);
 
-/// The cases of these names in the order of the registry, or all.
-fn chosen(names: &[String]) -> Result<Vec<Case>, Failure> {
-    let mut all = cases::all();
-    if let Some(unknown) = names
-        .iter()
-        .find(|name| !all.iter().any(|case| case.about.name == **name))
-    {
-        let known: Vec<_> = all.iter().map(|case| case.about.name).collect();
-        let known = known.join(", ");
-        return Err(Failure::Input(format!(
-            "--case {unknown}: no case has this name; there are {known}"
-        )));
-    }
-    all.retain(|case| names.is_empty() || names.iter().any(|name| name == case.about.name));
-    Ok(all)
-}
-
 /// The command as given, for the report.
 fn command() -> String {
     let arguments = std::env::args_os().skip(1);
@@ -160,8 +159,36 @@ fn line(name: &str, verdict: Verdict, seconds: f64) -> String {
     let verdict = match verdict {
         Verdict::Pass => "pass",
         Verdict::Fail => "FAIL",
-        Verdict::Underpowered => "UNDERPOWERED",
+        Verdict::Underpowered => "UNDER-POWERED",
         Verdict::NoData => "no data",
     };
-    format!("{verdict:<12}  {name:<40}  {seconds:>7.2} s\n")
+    format!("{verdict:<14}  {name:<40}  {seconds:>7.2} s\n")
+}
+
+/// Why a case is red: each rule that did not hold with its numbers, each control that was not caught, and the command.
+fn reasons(row: &Row) -> String {
+    let bad = |verdict| matches!(verdict, Verdict::Fail | Verdict::Underpowered);
+    let mut text = String::new();
+    for line in row.evidence.iter().filter(|line| bad(line.verdict)) {
+        let how = match line.verdict {
+            Verdict::Fail => "failed",
+            _ => "too little data",
+        };
+        text += &format!(
+            "  {how}: {}: {}\n    because: {}\n",
+            line.what,
+            line.numbers(),
+            line.because
+        );
+    }
+    for control in row.controls.iter().filter(|control| !control.caught) {
+        text += &format!(
+            "  not caught: the same check passes or breaks on this mistake: {}\n",
+            control.mistake
+        );
+    }
+    match text.is_empty() && !bad(row.verdict) {
+        true => text,
+        false => format!("{}: {}\n{text}  repeat: {}\n", row.name, row.claim, row.command),
+    }
 }

@@ -1,5 +1,6 @@
 //! A case as a row of the report: every number with the bound it was judged by.
 
+use super::words::{bounds, detail};
 use crate::accept::{Rule, Verdict};
 use crate::case::{Control, Effort, GATE_SEED, Judged, Judges, Outcome};
 use serde::Serialize;
@@ -40,6 +41,15 @@ impl Line {
             used,
             because: rule.because().into(),
             judged_by: rule.clone(),
+        }
+    }
+
+    /// The error against its bound, with what is behind them, in words.
+    pub fn numbers(&self) -> String {
+        let (error, tolerance) = bounds(self);
+        match detail(&self.judged_by) {
+            detail if detail.is_empty() => format!("{error}, allowed {tolerance}"),
+            detail => format!("{error}, allowed {tolerance} ({detail})"),
         }
     }
 
