@@ -1,0 +1,192 @@
+//! The border of the core: nothing leaves a run that is no result. Every rod must have a direction, every sum must be
+//! finite, and the trace of ⟨pp⟩ must be 1.
+
+use crate::observable::{Block, Observable, Sum};
+
+/// How far |p|² may be from 1: p = q/|q| is rounded some ten times on its way, each time by ε/2 of itself at most, and
+/// counts twice.
+const DIRECTION: f64 = 16.0 * f64::EPSILON;
+
+/// How far the trace of ⟨pp⟩ may be from 1: 10⁸ rods are summed in lanes of 16, blocks of 512 and 1526 chunks, each sum
+/// rounded by ε/2 of itself at most.
+const TRACE: f64 = 4096.0 * f64::EPSILON;
+
+/// What is wrong with a replica at one output.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Fault {
+    /// Counted from the first rod that was looked at; `None` where it is not one rod's.
+    pub rod: Option<usize>,
+    pub cause: String,
+}
+
+/// Refuses a block in which a rod has no direction.
+#[inline]
+pub(crate) fn directions(block: &Block) -> Result<(), Fault> {
+    let [p1, p2, p3] = block.p.each_ref().map(|axis| &axis[..block.len]);
+    let square = |((a, b), c): ((&f64, &f64), &f64)| a * a + b * b + c * c;
+    let mut squares = p1.iter().zip(p2).zip(p3).map(square);
+    // NaN is not within anything. No rod ends the loop, so that it runs side by side over rods.
+    let wrong = |square: f64| !((square - 1.0).abs() <= DIRECTION);
+    if !squares.clone().fold(false, |any, square| any | wrong(square)) {
+        return Ok(());
+    }
+    let rod = squares.position(wrong);
+    let at = rod.unwrap_or(0);
+    Err(Fault {
+        rod,
+        cause: format!(
+            "its direction came out as ({}, {}, {}), whose length is not 1: the motion of r_e = {} in this flow is out \
+             of reach of double precision",
+            p1[at], p2[at], p3[at], block.aspect_ratio[at]
+        ),
+    })
+}
+
+/// Refuses sums of an observable, to which this block was the last to be added, that are not finite.
+#[inline]
+pub(crate) fn sums(observable: Observable, block: &Block, sums: &[Sum]) -> Result<(), Fault> {
+    let finite = |sum: &Sum| sum.value.is_finite() && sum.square.is_none_or(f64::is_finite);
+    if sums.iter().all(finite) {
+        return Ok(());
+    }
+    let channels = observable.channels();
+    let name = |k: usize| channels.get(k).map_or("", |name| name.as_str());
+    let culprit = (0..block.len).find_map(|rod| {
+        let mut own = vec![Sum::default(); sums.len()];
+        observable.add(&alone(block, rod), &mut own);
+        let channel = own.iter().position(|sum| !sum.value.is_finite())?;
+        Some((rod, channel, own[channel].value))
+    });
+    Err(match culprit {
+        Some((rod, channel, value)) => Fault {
+            rod: Some(rod),
+            cause: format!(
+                "its {} came out as {value}, at r_e = {}",
+                name(channel),
+                block.aspect_ratio[rod]
+            ),
+        },
+        None => Fault {
+            rod: None,
+            cause: format!("the sum of {} is not finite", observable.name()),
+        },
+    })
+}
+
+/// Refuses sums of ⟨pp⟩ over `count` rods whose trace is not 1.
+pub(crate) fn trace(observable: Observable, sums: &[Sum], count: usize) -> Result<(), Fault> {
+    if observable != Observable::OrientationTensor {
+        return Ok(());
+    }
+    let trace = sums[..3].iter().map(|sum| sum.value).sum::<f64>() / count as f64;
+    match (trace - 1.0).abs() <= TRACE {
+        true => Ok(()),
+        false => Err(Fault {
+            rod: None,
+            cause: format!("the trace of ⟨pp⟩ came out as {trace}, not 1"),
+        }),
+    }
+}
+
+/// One rod of a block as a block.
+fn alone(block: &Block, rod: usize) -> Block {
+    let mut one = Block {
+        len: 1,
+        ..Block::default()
+    };
+    for (axis, from) in one.p.iter_mut().zip(&block.p) {
+        axis[0] = from[rod];
+    }
+    one.aspect_ratio[0] = block.aspect_ratio[rod];
+    one
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::orientation::from_angles;
+
+    /// A block of directions all over the sphere.
+    fn block(len: usize) -> Block {
+        let mut block = Block {
+            len,
+            ..Block::default()
+        };
+        for rod in 0..len {
+            let p = from_angles(2.4 * rod as f64, 0.1 + 3.0 * rod as f64 / len as f64);
+            for (axis, value) in block.p.iter_mut().zip([p.x, p.y, p.z]) {
+                axis[rod] = value;
+            }
+        }
+        block
+    }
+
+    #[test]
+    fn good_directions_pass_and_any_other_is_named() {
+        for len in [1, 7, 8, 100, 128] {
+            assert_eq!(directions(&block(len)), Ok(()));
+            for wrong in [
+                [0.0; 3],
+                [f64::NAN, 0.0, 1.0],
+                [f64::INFINITY, 0.0, 0.0],
+                [0.6, 0.8, 1e-7],
+                [1.0 - 1e-14, 0.0, 0.0],
+            ] {
+                let rod = len / 2;
+                let mut spoiled = block(len);
+                (0..3).for_each(|axis| spoiled.p[axis][rod] = wrong[axis]);
+                let fault = directions(&spoiled).unwrap_err();
+                assert_eq!(fault.rod, Some(rod), "{wrong:?}");
+                assert!(fault.cause.contains("whose length is not 1"));
+            }
+        }
+        // What lies behind the block's end is nobody's.
+        let mut short = block(10);
+        short.len = 9;
+        short.p[0][9] = f64::NAN;
+        assert_eq!(directions(&short), Ok(()));
+    }
+
+    #[test]
+    fn sums_that_are_not_finite_name_the_rod_and_its_channel() {
+        let good = block(20);
+        for observable in Observable::ALL {
+            let mut found = vec![Sum::default(); observable.width()];
+            observable.add(&good, &mut found);
+            assert_eq!(sums(observable, &good, &found), Ok(()));
+            assert_eq!(trace(observable, &found, 20), Ok(()));
+        }
+        let mut spoiled = block(20);
+        spoiled.p[2][13] = f64::NAN;
+        let mut found = vec![Sum::default(); 3];
+        Observable::Projections.add(&spoiled, &mut found);
+        let fault = sums(Observable::Projections, &spoiled, &found).unwrap_err();
+        assert_eq!(fault.rod, Some(13));
+        assert_eq!(fault.cause, "its x3 came out as NaN, at r_e = 1");
+        // No rod of this block did it.
+        let fault = sums(Observable::Projections, &good, &found).unwrap_err();
+        assert_eq!(
+            (fault.rod, fault.cause.as_str()),
+            (None, "the sum of projections is not finite")
+        );
+    }
+
+    #[test]
+    fn a_trace_that_is_not_one_is_refused() {
+        let good = block(128);
+        let mut found = vec![Sum::default(); 6];
+        Observable::OrientationTensor.add(&good, &mut found);
+        assert_eq!(trace(Observable::OrientationTensor, &found, 128), Ok(()));
+        // A rod that was lost on the way, and digits that were.
+        assert!(trace(Observable::OrientationTensor, &found, 129).is_err());
+        found[1].value += 1e-9;
+        let fault = trace(Observable::OrientationTensor, &found, 128).unwrap_err();
+        assert!(
+            fault
+                .cause
+                .starts_with("the trace of ⟨pp⟩ came out as 1.0000000000")
+        );
+        found[1].value = f64::NAN;
+        assert!(trace(Observable::OrientationTensor, &found, 128).is_err());
+    }
+}
