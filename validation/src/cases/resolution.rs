@@ -43,8 +43,13 @@ struct Size {
     /// step (the table of docs/time-step.md, and for the first the same with these steps).
     coarse: (u64, f64),
     replicas: u64,
-    /// The largest standard error at which the control is caught with a probability of 0.9999 (below).
-    enough: f64,
+}
+
+impl Size {
+    /// The largest standard error at which the control is caught with a probability of 0.9999.
+    fn enough(&self) -> f64 {
+        (self.coarse.1 - LINE) / (5.6 + 3.72)
+    }
 }
 
 /// A drawn line of the paper's figures.
@@ -52,7 +57,7 @@ const LINE: f64 = 0.01;
 
 /// X̄₁ of 100 rods, less that of the same replica at half the step, has a standard deviation σ of 0.025 at r_e = 11.6 and of
 /// 0.035 at 50 and 100 (2000 replicas). A control is caught where its mean, 3.72 standard errors to the worse, is beyond
-/// `LINE` by the gate's critical value, at most 5.6 standard errors: (effect − `LINE`)/(5.6 + 3.72) is enough. So many
+/// `LINE` by the gate's critical value, at most 5.6 standard errors (`Size::enough`). So many
 /// replicas that σ/√M, itself known to 3.72/√(2M) of its value, stays below. Half the step changes X̄₁ by 0.001 to 0.004,
 /// so that a correct default fails with less than the gate's level.
 const SIZES: [Size; 3] = [
@@ -60,19 +65,16 @@ const SIZES: [Size; 3] = [
         aspect_ratio: 11.6,
         coarse: (4, 0.0295),
         replicas: 240,
-        enough: 0.0021,
     },
     Size {
         aspect_ratio: 50.0,
         coarse: (200, 0.032),
         replicas: 320,
-        enough: 0.00236,
     },
     Size {
         aspect_ratio: 100.0,
         coarse: (200, 0.061),
         replicas: 80,
-        enough: 0.0055,
     },
 ];
 
@@ -131,7 +133,7 @@ fn half_the_step(size: &Size, coarse: bool, effort: &Effort) -> Evidence {
         change(&x1(&scene, steps, replicas), &fine).is(
             0.0,
             LINE,
-            size.enough,
+            size.enough(),
             "0.01: a drawn line of the paper's figures; enough to catch the control with 0.9999",
         ),
     )
