@@ -285,7 +285,7 @@ fn all_problems_are_told_at_once() {
         text.replacen(old, new, 1)
     };
     // All, and each half alone: a mistake that cannot be read hides none that can.
-    for chosen in [&MANY[..], &MANY[..2], &MANY[4..]] {
+    for chosen in [MANY, &MANY[..2], &MANY[4..]] {
         let refusal = refusal(&chosen.iter().fold(INTERACTING.to_owned(), spoil));
         assert_eq!(refusal.lines().count(), chosen.len(), "{refusal}");
         for (line, (_, _, message)) in refusal.lines().zip(chosen) {
