@@ -1,7 +1,7 @@
 //! Replicas over all cores, and the means and standard errors over them.
 
 use crate::observable::{Observable, Sum};
-use crate::plan::Plan;
+use crate::plan::{Plan, Unit};
 use crate::run::{Replica, run_replica};
 use crate::work::{Counters, RunError};
 use rayon::prelude::*;
@@ -35,6 +35,8 @@ pub struct Results {
     pub time_name: &'static str,
     /// The outputs' times.
     pub times: Vec<f64>,
+    /// What their unit is.
+    pub unit: Unit,
     /// One per observable, in the order of the plan.
     pub series: Vec<Series>,
     /// Work over all replicas.
@@ -172,6 +174,7 @@ fn collect(plan: &Plan, moments: &Moments, counters: Counters) -> Results {
     Results {
         time_name: plan.time_name(),
         times: plan.times(),
+        unit: plan.unit(),
         series,
         counters,
     }

@@ -47,6 +47,7 @@
 
 #![forbid(unsafe_code)]
 
+mod border;
 mod chunks;
 pub mod collision;
 pub mod contact;

@@ -173,7 +173,7 @@ impl Sum {
 }
 
 #[inline]
-fn lane_sum(len: usize, f: impl Fn(usize) -> f64) -> f64 {
+pub(crate) fn lane_sum(len: usize, f: impl Fn(usize) -> f64) -> f64 {
     let mut lanes = [0.0; LANES];
     let whole = len.min(BLOCK) / LANES * LANES;
     for first in (0..whole).step_by(LANES) {

@@ -1,8 +1,10 @@
 //! The plan of a scene: which stages run, which are left out, and why.
 
 use crate::flow::VelocityGradient;
+use crate::jeffery::{period_s, strain_per_period};
 use crate::observable::Observable;
-use crate::scene::{Interaction, Invalid, Orientation, Scene};
+use crate::propagator::Propagator;
+use crate::scene::{Interaction, Invalid, Orientation, RESOLVED_STRAIN, Scene};
 use nalgebra::Matrix3;
 use serde::Serialize;
 use std::fmt;
@@ -66,6 +68,15 @@ pub(crate) enum Clock {
     Periods { ticks: u64 },
     /// Ticks per unit of strain: outputs.
     Strain { ticks: u64 },
+}
+
+/// What a unit of time is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unit {
+    /// In s.
+    pub seconds: f64,
+    /// In shear strain.
+    pub strain: f64,
 }
 
 /// What will run for a scene: the scene, checked, and its stages.
@@ -177,6 +188,19 @@ impl Plan {
         }
     }
 
+    /// What the reader of the results should know before trusting them.
+    pub fn warnings(&self) -> Vec<String> {
+        let (steps, strain) = (self.scene.steps_per_period(), self.scene.strain_per_step());
+        if self.steps() == 0 || strain <= RESOLVED_STRAIN {
+            return Vec::new();
+        }
+        vec![format!(
+            "time.steps_per_period = {steps} does not resolve the motion: the strain per step is {strain:.3}, above \
+             {RESOLVED_STRAIN}; {} steps a period resolve it (the default)",
+            self.scene.resolving_steps_per_period()
+        )]
+    }
+
     /// The name of the time column: `t_over_T`, or `strain` where the scene's time is a strain.
     pub fn time_name(&self) -> &'static str {
         if self.scene.time.strain.is_some() {
@@ -186,7 +210,30 @@ impl Plan {
         }
     }
 
-    /// The times of the outputs.
+    /// The seconds, and the shear strain ∫(2D:D)^½ dt, of one unit of [`Plan::times`].
+    pub fn unit(&self) -> Unit {
+        let r = self.scene.particles.aspect_ratio;
+        let rate_per_s = self.flow.magnitude_per_s();
+        match (self.scene.time.strain, self.flow.shear_rate_per_s()) {
+            (Some(_), _) => Unit {
+                seconds: 1.0 / rate_per_s,
+                strain: 1.0,
+            },
+            (None, Some(shear_rate_per_s)) => Unit {
+                seconds: period_s(shear_rate_per_s, r),
+                strain: strain_per_period(r),
+            },
+            (None, None) => {
+                let seconds = Propagator::new(&self.flow, r).period_s().unwrap_or(f64::NAN);
+                Unit {
+                    seconds,
+                    strain: seconds * rate_per_s,
+                }
+            }
+        }
+    }
+
+    /// The times of the outputs, in periods or units of strain.
     pub fn times(&self) -> Vec<f64> {
         let per_unit = match self.scene.time.strain {
             Some(_) => self.scene.outputs_per_strain(),
@@ -238,6 +285,9 @@ impl fmt::Display for Plan {
         for entry in &self.entries {
             let verb = if entry.kept { "keep" } else { "drop" };
             writeln!(f, "{verb} {:<18} {}", entry.stage, entry.reason)?;
+        }
+        for warning in self.warnings() {
+            writeln!(f, "warning: {warning}")?;
         }
         Ok(())
     }

@@ -6,8 +6,11 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 mod allowed;
 mod check;
-pub(crate) use allowed::allowed;
-pub use allowed::{Invalid, MAX_COUNT, MAX_REPLICAS, MAX_SEED};
+mod ranges;
+mod steps;
+pub use allowed::{Invalid, MAX_COUNT, MAX_PER_UNIT, MAX_REPLICAS, MAX_SEED};
+pub(crate) use allowed::{KEYS, TABLES, allowed, required};
+pub use steps::RESOLVED_STRAIN;
 
 /// A whole scene. The tables and keys are those of the scene file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -142,7 +145,7 @@ pub struct Time {
     /// Duration in shear strain ∫(2D:D)^½ dt.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub strain: Option<f64>,
-    /// Steps per period of an interacting scene; 200 by default.
+    /// Steps per period of an interacting scene; by default as many as resolve the motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps_per_period: Option<u64>,
     /// Outputs per period; 50 by default.
@@ -206,11 +209,6 @@ impl Scene {
     /// n a³, rods per cubed rod length.
     pub(crate) fn concentration(&self, interaction: &Interaction) -> f64 {
         interaction.concentration_per_cm3 * (self.particles.length_mm / 10.0).powi(3)
-    }
-
-    /// Steps per period, given or by default.
-    pub fn steps_per_period(&self) -> u64 {
-        self.time.steps_per_period.unwrap_or(200)
     }
 
     /// Outputs per period, given or by default: 50, or where rods interact the largest divisor of the

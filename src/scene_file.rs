@@ -1,115 +1,244 @@
-//! Reading a scene from TOML text, with errors that name file, line, key, value and what is allowed.
+//! Reading a scene from TOML text, with errors that name file, line, key, value and what is allowed: all that can be
+//! told at once, not the first alone.
 
-use crate::scene::{Invalid, Scene, allowed};
+use crate::scene::{Invalid, KEYS, Scene, TABLES, allowed, required};
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
+use toml::{Table, Value};
 
-/// Why a scene file was refused.
+/// Why a scene file was refused. Printed, each problem has a line.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{file}:{line}: {message}")]
+#[error("{}", self.lines())]
 pub struct SceneError {
     /// The file's name as given.
     pub file: String,
+    /// What is wrong, in the order of lines; at least one.
+    pub problems: Vec<Problem>,
+}
+
+/// One thing that is wrong with a scene file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
     /// The line at fault, from 1.
     pub line: usize,
     /// The key, its value and what is allowed.
     pub message: String,
 }
 
+impl SceneError {
+    fn lines(&self) -> String {
+        let line = |problem: &Problem| format!("{}:{}: {}", self.file, problem.line, problem.message);
+        self.problems.iter().map(line).collect::<Vec<_>>().join("\n")
+    }
+}
+
+/// A place in the text, and what is wrong there.
+type Found = (usize, String);
+
 /// Reads and checks a scene; `file` names the text in errors.
 pub fn parse(file: &str, text: &str) -> Result<Scene, SceneError> {
-    let refused = |(offset, message): (usize, String)| SceneError {
-        file: file.to_owned(),
-        line: line_of(text, offset),
-        message,
-    };
-    let document = DeTable::parse(text).map_err(|error| refused(as_reported(text, &error)))?;
+    read(text).map_err(|mut found| {
+        found.sort();
+        let problem = |(offset, message)| Problem {
+            line: line_of(text, offset),
+            message,
+        };
+        SceneError {
+            file: file.to_owned(),
+            problems: found.into_iter().map(problem).collect(),
+        }
+    })
+}
+
+fn read(text: &str) -> Result<Scene, Vec<Found>> {
+    let reported = |error: toml::de::Error| vec![as_reported(text, &error)];
+    let document = DeTable::parse(text).map_err(reported)?;
     let keys = keys(text, "", document.get_ref());
-    let scene: Scene = toml::from_str(text).map_err(|error| refused(explained(text, &keys, &error)))?;
-    scene
-        .check()
-        .map_err(|invalid| refused(as_written(&keys, invalid)))?;
-    Ok(scene)
+    let mut found = missing(&keys);
+    let (mut scene, mut known) = (example(), Vec::new());
+    for key in &keys {
+        match key.put_into(&mut scene) {
+            Ok(()) => known.push(key.path.as_str()),
+            Err(message) => found.push((key.span.start, message)),
+        }
+    }
+    if found.is_empty() {
+        let scene: Scene = toml::from_str(text).map_err(reported)?;
+        let problems = scene.problems().into_iter();
+        found.extend(problems.map(|invalid| as_written(&keys, invalid)));
+        return if found.is_empty() { Ok(scene) } else { Err(found) };
+    }
+    // What can be read is checked key by key; what does not go together waits until all can be.
+    let readable = scene.try_into::<Scene>();
+    let ranges = readable.map_or(Vec::new(), |scene| scene.out_of_range());
+    let own = (ranges.into_iter()).filter(|invalid| known.contains(&invalid.key));
+    found.extend(own.map(|invalid| as_written(&keys, invalid)));
+    Err(found)
 }
 
 /// A key of the document, as `particles.count`.
 struct Key {
     path: String,
     span: Range<usize>,
-    value_span: Range<usize>,
-    /// The value as written, on one line.
-    value: String,
+    /// The line it stands in, and its value as written.
+    line: String,
+    text: String,
+    is_table: bool,
 }
 
-/// Every key of the document, a table before the keys in it.
+/// Every key of the document, a table of a scene before the keys in it.
 fn keys(text: &str, above: &str, table: &DeTable<'_>) -> Vec<Key> {
     let mut found = Vec::new();
     for (name, value) in table {
         let path = format!("{above}{}", name.get_ref());
-        let written = text.get(value.span()).unwrap_or_default();
         found.push(Key {
             path: path.clone(),
             span: name.span(),
-            value_span: value.span(),
-            value: written.split_whitespace().collect::<Vec<_>>().join(" "),
+            line: line_at(text, name.span().start),
+            text: text.get(value.span()).unwrap_or_default().to_owned(),
+            is_table: value.get_ref().is_table(),
         });
-        if let DeValue::Table(inner) = value.get_ref() {
+        if let DeValue::Table(inner) = value.get_ref()
+            && TABLES.contains(&path.as_str())
+        {
             found.extend(keys(text, &format!("{path}."), inner));
         }
     }
     found
 }
 
+impl Key {
+    /// The value as written, on one line.
+    fn value(&self) -> String {
+        self.text.split_whitespace().collect::<Vec<_>>().join(" ")
+    }
+
+    /// Gives the scene this key's value, where it can have it; or says why not.
+    fn put_into(&self, scene: &mut Table) -> Result<(), String> {
+        let path = self.path.as_str();
+        let Some(allowed) = allowed(path) else {
+            return Err(format!("{}: {}", self.line, unknown(path)));
+        };
+        let refused = || format!("{path} = {} is not allowed: {allowed}", self.value());
+        if TABLES.contains(&path) {
+            return if self.is_table { Ok(()) } else { Err(refused()) };
+        }
+        let read: Result<Table, _> = format!("value = {}", self.text).parse();
+        let value = read.ok().and_then(|mut table| table.remove("value"));
+        // No key takes a date, which would be read as a text.
+        let value = value.filter(|value| !value.is_datetime()).ok_or_else(refused)?;
+        let mut tried = scene.clone();
+        put(&mut tried, path, value);
+        match tried.clone().try_into::<Scene>() {
+            Ok(_) => {
+                *scene = tried;
+                Ok(())
+            }
+            Err(_) => Err(refused()),
+        }
+    }
+}
+
+fn put(scene: &mut Table, path: &str, value: Value) {
+    let (table, key) = path.split_once('.').unwrap_or(("", path));
+    match scene.get_mut(table) {
+        Some(Value::Table(inner)) => inner.insert(key.to_owned(), value),
+        _ => scene.insert(key.to_owned(), value),
+    };
+}
+
+/// A scene in which one value after the other can be tried.
+fn example() -> Table {
+    let text = "title = \"\"\nflow = {}\nensemble = {}\noutput = {}\ntime = {}\n\
+        [particles]\ncount = 1\nlength_mm = 1\naspect_ratio = 2\norientation = \"isotropic\"\n\
+        [interaction]\nconcentration_per_cm3 = 1\nalpha = 1\n";
+    text.parse().unwrap_or_default()
+}
+
+/// Tables and keys that must be there and are not; a misspelt one is told of as such.
+fn missing(keys: &[Key]) -> Vec<Found> {
+    let has = |path: &str| keys.iter().find(|key| key.path == path);
+    let misspelt = |path: &str| {
+        let mut unknown = keys.iter().filter(|key| allowed(&key.path).is_none());
+        unknown.any(|key| nearest(&key.path) == Some(path))
+    };
+    let lacks = |path: &&str| has(path).is_none() && !misspelt(path);
+    let of_table = |(table, names): (&str, &'static [&'static str])| {
+        let at = match table {
+            "" => Some(0),
+            _ => has(table).filter(|key| key.is_table).map(|key| key.span.start),
+        };
+        at.map(|at| (at, names))
+    };
+    let mut found = Vec::new();
+    for (at, names) in required().into_iter().filter_map(of_table) {
+        for path in names.iter().filter(|path| lacks(path)) {
+            let allowed = allowed(path).unwrap_or_default();
+            found.push((at, format!("{path} is missing: {allowed}")));
+        }
+    }
+    found
+}
+
+/// What is known in place of an unknown key.
+fn unknown(path: &str) -> String {
+    let known = KEYS.iter().chain(&TABLES).filter(|key| table(key) == table(path));
+    let known: Vec<_> = known.map(|key| format!("`{}`", last(key))).collect();
+    let expected = match known.as_slice() {
+        [one] => one.clone(),
+        [one, other] => format!("{one} or {other}"),
+        _ => format!("one of {}", known.join(", ")),
+    };
+    let meant = nearest(path).map_or(String::new(), |key| format!("; did you mean {key}?"));
+    format!("unknown key `{}`, expected {expected}{meant}", last(path))
+}
+
+/// The key or table that an unknown one may stand for, by its last word.
+fn nearest(path: &str) -> Option<&'static str> {
+    let tables = TABLES.iter().filter(|_| table(path).is_empty());
+    let likeness = |key: &&'static str| {
+        (
+            strsim::jaro_winkler(last(path), last(key)),
+            table(path) == table(key),
+        )
+    };
+    let all = KEYS.iter().chain(tables).map(|key| (likeness(key), *key));
+    // Of equals the one in the same table, or the first.
+    let (best, key) = all.reduce(|a, b| if b.0 > a.0 { b } else { a })?;
+    // A letter too many, too few or exchanged leaves more than this in words of five letters.
+    (best.0 > 0.85).then_some(key)
+}
+
+fn table(path: &str) -> &str {
+    path.rsplit_once('.').map_or("", |(table, _)| table)
+}
+
+fn last(path: &str) -> &str {
+    path.rsplit('.').next().unwrap_or(path)
+}
+
 /// Where a checked scene is wrong: the key, or where it is missing its table.
-fn as_written(keys: &[Key], mut invalid: Invalid) -> (usize, String) {
+fn as_written(keys: &[Key], mut invalid: Invalid) -> Found {
     let key = keys.iter().find(|key| key.path == invalid.key);
     if let (Some(key), Some(value)) = (key, &mut invalid.value) {
-        value.clone_from(&key.value);
+        *value = key.value();
     }
     let table = invalid.key.split('.').next().unwrap_or_default();
     let place = key.or_else(|| keys.iter().find(|key| key.path == table));
     (place.map_or(0, |key| key.span.start), invalid.to_string())
 }
 
-/// The reader's error in terms of key, value and what is allowed, where it is about a missing key or about the
-/// value of a known key.
-fn explained(text: &str, keys: &[Key], error: &toml::de::Error) -> (usize, String) {
-    // What is missing from the whole file has an empty span.
-    let offset = error
-        .span()
-        .filter(|span| !span.is_empty())
-        .map(|span| span.start);
-    let holds = |key: &&Key| offset.is_some_and(|at| key.span.contains(&at) || key.value_span.contains(&at));
-    let known = keys
-        .iter()
-        .filter(holds)
-        .rfind(|key| allowed(&key.path).is_some());
-    let message = error.message();
-    if let Some(name) = message.strip_prefix("missing field ") {
-        let table = known.map_or(String::new(), |table| format!("{}.", table.path));
-        let path = format!("{table}{}", name.trim_matches('`'));
-        let allowed = allowed(&path).unwrap_or_default();
-        return (offset.unwrap_or(0), format!("{path} is missing: {allowed}"));
-    }
-    match known {
-        Some(Key {
-            path, span, value, ..
-        }) if !message.starts_with("unknown field") => {
-            let allowed = allowed(path).unwrap_or_default();
-            (span.start, format!("{path} = {value} is not allowed: {allowed}"))
-        }
-        _ => as_reported(text, error),
-    }
+/// The reader's own words after the line as written, which holds the key and the value.
+fn as_reported(text: &str, error: &toml::de::Error) -> Found {
+    let offset = error.span().map_or(0, |span| span.start);
+    let line = line_at(text, offset);
+    let message = error.message().trim_end().replace('\n', "; ");
+    (offset, format!("{line}: {message}"))
 }
 
-/// The reader's own words after the line as written, which holds the key and the value.
-fn as_reported(text: &str, error: &toml::de::Error) -> (usize, String) {
-    let offset = error.span().map_or(0, |span| span.start);
+fn line_at(text: &str, offset: usize) -> String {
     let line = text.lines().nth(line_of(text, offset) - 1);
-    let line = line.map_or("(end of file)", str::trim);
-    let message = error.message().trim_end().replace('\n', "; ");
-    let message = message.replace("unknown field", "unknown key");
-    (offset, format!("{line}: {message}"))
+    line.map_or("(end of file)", str::trim).to_owned()
 }
 
 fn line_of(text: &str, offset: usize) -> usize {

@@ -19,6 +19,27 @@ pub enum RunError {
         /// What happened.
         cause: String,
     },
+    /// What would have left the run is no result.
+    #[error(
+        "{}output {output} ({time_name} = {time}) of replica {replica}, seed {seed}: {cause}",
+        rod.map_or(String::new(), |rod| format!("rod {rod}, "))
+    )]
+    NoResult {
+        /// The rod's index, where it is one rod's fault.
+        rod: Option<usize>,
+        /// The output, from 0.
+        output: usize,
+        /// `t_over_T` or `strain`.
+        time_name: &'static str,
+        /// The output's time.
+        time: f64,
+        /// The scene's seed.
+        seed: u64,
+        /// The replica, from 0.
+        replica: u64,
+        /// What is wrong with it.
+        cause: String,
+    },
 }
 
 /// What was done: counts of work, the same on every machine.

@@ -251,9 +251,103 @@ fn any_other_mistake_is_named_with_its_line() {
 }
 
 #[test]
-fn an_empty_file_lacks_a_title() {
+fn an_empty_file_lacks_all_that_must_be_there() {
     for text in ["", "\n\n", "# nothing\n"] {
-        assert_eq!(refusal(text), "dir/s.toml:1: title is missing: a text in quotes");
+        let lines: Vec<_> = refusal(text).lines().map(|line| line[..32].to_owned()).collect();
+        assert_eq!(
+            lines,
+            [
+                "dir/s.toml:1: flow is missing: a",
+                "dir/s.toml:1: particles is missi",
+                "dir/s.toml:1: time is missing: a",
+                "dir/s.toml:1: title is missing: ",
+            ]
+        );
+    }
+}
+
+/// One mistake of each kind, in the order of lines; the last column is the line.
+#[rustfmt::skip]
+const MANY: &[(&str, &str, &str)] = &[
+    ("shear_rate_per_s = 0.5", "shear_rate_per_s = -0.5", "3: flow.shear_rate_per_s = -0.5 is not allowed: a finite number > 0"),
+    ("length_mm = 0.72", "lenght_mm = 0.72", "6: lenght_mm = 0.72: unknown key `lenght_mm`, expected one of"),
+    ("aspect_ratio = 11.6", "aspect_ratio = \"long\"", "7: particles.aspect_ratio = \"long\" is not allowed: a number from"),
+    ("alpha = 0.5\n", "", "10: interaction.alpha is missing: a finite number ≥ 0"),
+    ("update = \"rotation\"", "update = \"turn\"", "13: interaction.update = \"turn\" is not allowed: \"rotation\" or \"angles\""),
+    ("[ensemble]\nreplicas = 2", "[ensemble]\nreplicas = 0", "20: ensemble.replicas = 0 is not allowed: a whole number from 1 to"),
+    ("[\"projections\"]", "[\"projection\"]", "23: output.observables = [\"projection\"] is not allowed: a list of"),
+];
+
+#[test]
+fn all_problems_are_told_at_once() {
+    let spoil = |text: String, (old, new, _): &(&str, &str, &str)| {
+        assert!(text.contains(old), "{old}");
+        text.replacen(old, new, 1)
+    };
+    // All, and each half alone: a mistake that cannot be read hides none that can.
+    for chosen in [MANY, &MANY[..2], &MANY[4..]] {
+        let refusal = refusal(&chosen.iter().fold(INTERACTING.to_owned(), spoil));
+        assert_eq!(refusal.lines().count(), chosen.len(), "{refusal}");
+        for (line, (_, _, message)) in refusal.lines().zip(chosen) {
+            let message = message.split_once(": ").unwrap().1;
+            assert!(
+                line.starts_with("dir/s.toml:") && line.contains(message),
+                "{message}\n{line}"
+            );
+        }
+    }
+    let all = refusal(&MANY.iter().fold(INTERACTING.to_owned(), spoil));
+    for (line, (_, _, message)) in all.lines().zip(MANY) {
+        assert!(
+            line.starts_with(&format!("dir/s.toml:{message}")),
+            "{message}\n{line}"
+        );
+    }
+    // What does not go together, in two tables.
+    let text = INTERACTING
+        .replace("= 3.6", "= 40")
+        .replace("outputs_per_period = 10", "outputs_per_period = 7");
+    let refusal = refusal(&text);
+    assert_eq!(refusal.lines().count(), 2, "{refusal}");
+    assert!(
+        refusal.contains("s.toml:8: particles.aspect_ratio_sd_percent = 40")
+            && refusal.contains("\ndir/s.toml:19: time.outputs_per_period = 7"),
+        "{refusal}"
+    );
+}
+
+#[test]
+fn an_unknown_key_is_told_what_it_may_have_meant() {
+    for (part, replacement, meant) in [
+        ("count", "cuont", Some("particles.count")),
+        ("[particles]", "[particle]", Some("particles")),
+        ("title =", "alpha = 1\ntitle =", Some("interaction.alpha")),
+        ("seed", "sead", Some("ensemble.seed")),
+        (
+            "steps_per_period",
+            "step_per_period",
+            Some("time.steps_per_period"),
+        ),
+        ("m = 3", "m = 3\nxyzzy = 3", None),
+    ] {
+        let refusal = refusal(&INTERACTING.replacen(part, replacement, 1));
+        assert_eq!(refusal.lines().count(), 1, "{refusal}");
+        match meant {
+            Some(key) => assert!(refusal.ends_with(&format!("; did you mean {key}?")), "{refusal}"),
+            None => assert!(!refusal.contains("did you mean"), "{refusal}"),
+        }
+    }
+}
+
+#[test]
+fn every_key_has_words_for_what_it_allows() {
+    // A key with a value that no key allows is refused with them, and not as unknown.
+    for (key, ..) in KEYS {
+        let spoiled = set(INTERACTING, key, "{ x = 1 }").or_else(|| set(EXTENSION, key, "{ x = 1 }"));
+        let refusal = refusal(&spoiled.expect("one of the two scenes has the key").0);
+        let start = format!("{key} = {{ x = 1 }} is not allowed: ");
+        let allowed = refusal.split_once(&start).map(|(_, allowed)| allowed);
+        assert!(allowed.is_some_and(|allowed| !allowed.is_empty()), "{refusal}");
     }
 }
 

@@ -1,6 +1,7 @@
 //! Plans, printed; and that no stage, where it is left out, would have changed a bit of the results.
 
 use shearbed::plan::Stage;
+use shearbed::scene::RESOLVED_STRAIN;
 use shearbed::{Observable, Plan, Results, Scene, ensemble, scene_file};
 
 const FREE: &str = r#"
@@ -190,4 +191,88 @@ fn writing_the_defaults_out_changes_nothing() {
         let (part, whole) = (run(&plan(&text)), run(&resolved));
         assert_same_bits(&part, &whole, &text);
     }
+}
+
+/// An interacting scene of one period with an aspect ratio and more lines in `[time]`.
+fn turning(aspect_ratio: f64, time: &str) -> String {
+    let text = FREE.replace("= 11.6", &format!("= {aspect_ratio:e}"));
+    text.replace("periods = 2", &format!("periods = 1\n{time}")) + INTERACTING
+}
+
+#[test]
+fn steps_resolve_the_motion_by_default() {
+    // 2π(r_e + 1/r_e)/0.37 is 71.5, 198.5, 289.7, 849.4 and 1698.3.
+    for (r, steps) in [(3.96, 100), (11.6, 200), (17.0, 300), (50.0, 850), (100.0, 1700)] {
+        let plan = plan(&turning(r, ""));
+        assert_eq!((plan.steps(), plan.outputs()), (steps, 51), "{r}");
+        assert_eq!(plan.scene().resolved().time.steps_per_period, Some(steps));
+        assert_eq!(plan.warnings(), Vec::<String>::new());
+    }
+    // Outputs that are given fall on steps.
+    for (r, outputs, steps) in [
+        (50.0, 4, 900),
+        (11.6, 40, 200),
+        (11.6, 7, 350),
+        (11.6, 1000, 1000),
+    ] {
+        let plan = plan(&turning(r, &format!("outputs_per_period = {outputs}")));
+        assert_eq!(
+            (plan.steps(), plan.outputs()),
+            (steps, outputs + 1),
+            "{r} {outputs}"
+        );
+    }
+}
+
+#[test]
+fn the_default_is_the_fewest_steps_that_will_do() {
+    for k in 1..4000 {
+        let r = 1.0 + (0.003 * f64::from(k)).exp_m1();
+        let scene = scene(&turning(r, ""));
+        let (steps, strain) = (scene.steps_per_period(), scene.strain_per_step());
+        assert!(strain <= RESOLVED_STRAIN && steps.is_multiple_of(50), "{r}");
+        let fewer = strain * steps as f64 / (steps - 50) as f64;
+        assert!(steps == 50 || fewer > RESOLVED_STRAIN, "{r}");
+    }
+}
+
+#[test]
+fn a_coarse_step_is_warned_of_and_a_finer_one_is_not() {
+    // 73.424/198 = 0.3708 and 73.424/199 = 0.36897.
+    for (steps, warns) in [(1, true), (198, true), (199, false), (10_000, false)] {
+        let time = format!("steps_per_period = {steps}\noutputs_per_period = 1");
+        let plan = plan(&turning(11.6, &time));
+        assert_eq!(plan.warnings().len(), usize::from(warns), "{steps}");
+        assert_eq!(
+            plan.to_string().contains("\nwarning: time.steps_per_period"),
+            warns
+        );
+    }
+    let coarse = plan(&turning(50.0, "steps_per_period = 200"));
+    insta::assert_snapshot!(coarse);
+    // Free rods take no steps.
+    let free = turning(50.0, "steps_per_period = 200").replace("alpha = 0.5", "alpha = 0");
+    assert_eq!(plan(&free).warnings(), Vec::<String>::new());
+}
+
+#[test]
+fn long_rods_need_more_steps_than_there_may_be_and_say_what_to_set() {
+    let refusal = |text: &str| scene_file::parse("s.toml", text).unwrap_err().to_string();
+    assert_eq!(
+        refusal(&turning(1e6, "")),
+        "s.toml:10: time.steps_per_period is missing: at aspect_ratio = 1000000 some 1.7e7 steps a period resolve the \
+         motion (GΔt ≤ 0.37), and at most 10000000 are allowed; set steps_per_period to take fewer, which do not \
+         resolve it, or a smaller aspect_ratio"
+    );
+    assert!(refusal(&turning(1e100, "")).contains("some 1.7e101 steps a period"));
+    let set = plan(&turning(1e6, "steps_per_period = 10000"));
+    assert_eq!(set.warnings().len(), 1);
+    // The limit of all steps counts the default too.
+    let long = turning(1e5, "").replace("periods = 1", "periods = 1000");
+    let refusal = refusal(&long);
+    assert!(
+        refusal.contains("at most 1e9 steps in all, not 1.69")
+            && refusal.contains("1698200 a period by default"),
+        "{refusal}"
+    );
 }

@@ -41,17 +41,67 @@ impl Invalid {
     }
 }
 
+/// The tables of a scene.
+pub(crate) const TABLES: [&str; 6] = ["flow", "particles", "interaction", "time", "ensemble", "output"];
+
+/// The keys of a scene.
+pub(crate) const KEYS: [&str; 21] = [
+    "title",
+    "flow.shear_rate_per_s",
+    "flow.gradient_per_s",
+    "particles.count",
+    "particles.length_mm",
+    "particles.aspect_ratio",
+    "particles.aspect_ratio_sd_percent",
+    "particles.orientation",
+    "interaction.concentration_per_cm3",
+    "interaction.alpha",
+    "interaction.m",
+    "interaction.update",
+    "interaction.min_contact_arm",
+    "time.periods",
+    "time.strain",
+    "time.steps_per_period",
+    "time.outputs_per_period",
+    "time.outputs_per_strain",
+    "ensemble.replicas",
+    "ensemble.seed",
+    "output.observables",
+];
+
+/// What must be there: in the whole file, and in a table that is.
+pub(crate) fn required() -> [(&'static str, &'static [&'static str]); 3] {
+    [
+        ("", &["title", "flow", "particles", "time"]),
+        (
+            "particles",
+            &[
+                "particles.count",
+                "particles.length_mm",
+                "particles.aspect_ratio",
+                "particles.orientation",
+            ],
+        ),
+        (
+            "interaction",
+            &["interaction.concentration_per_cm3", "interaction.alpha"],
+        ),
+    ]
+}
+
 /// The largest count of rods: indices of rods are 32 bits wide, and 10⁸ rods fill several GB.
 pub const MAX_COUNT: usize = 100_000_000;
 /// The largest number of replicas.
 pub const MAX_REPLICAS: u64 = 10_000_000;
+/// The most steps or outputs per period, and outputs per unit of strain.
+pub const MAX_PER_UNIT: u64 = 10_000_000;
 /// The largest seed: the largest integer of a TOML file.
 pub const MAX_SEED: u64 = i64::MAX as u64;
 /// The least and the most of the keys that hold whole numbers.
 fn range(key: &str) -> Option<(u64, u64)> {
     Some(match key {
         "particles.count" => (1, MAX_COUNT as u64),
-        "time.steps_per_period" | "time.outputs_per_period" | "time.outputs_per_strain" => (1, 10_000_000),
+        "time.steps_per_period" | "time.outputs_per_period" | "time.outputs_per_strain" => (1, MAX_PER_UNIT),
         "ensemble.replicas" => (1, MAX_REPLICAS),
         "ensemble.seed" => (0, MAX_SEED),
         _ => return None,
@@ -110,6 +160,10 @@ pub(super) fn number(key: &'static str, value: f64, holds: bool) -> Result<(), I
 
 pub(super) fn positive(key: &'static str, value: f64) -> Result<(), Invalid> {
     number(key, value, value > 0.0)
+}
+
+pub(super) fn not_negative(key: &'static str, value: f64) -> Result<(), Invalid> {
+    number(key, value, value >= 0.0)
 }
 
 pub(super) fn whole(key: &'static str, value: u64) -> Result<(), Invalid> {

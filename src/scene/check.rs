@@ -1,8 +1,9 @@
-//! Checking a scene: each value, and which values go together.
+//! Checking a scene: which values go together.
 
-use super::allowed::{Invalid, number, positive, refused, whole};
-use super::{Interaction, Orientation, Scene};
+use super::allowed::{Invalid, MAX_PER_UNIT, refused};
+use super::{Interaction, RESOLVED_STRAIN, Scene};
 use crate::flow::VelocityGradient;
+use crate::jeffery::strain_per_period;
 use crate::propagator::Propagator;
 use crate::volume::ControlVolume;
 use nalgebra::Matrix3;
@@ -13,32 +14,38 @@ const MAX_STEPS: f64 = 1e9;
 const MAX_OUTPUTS: f64 = 1e6;
 
 impl Scene {
-    /// Checks every value and every combination of values.
+    /// Checks every value and every combination of values; the first problem.
     pub fn check(&self) -> Result<(), Invalid> {
-        let flow = self.check_flow()?;
-        self.check_particles()?;
-        if let Some(interaction) = &self.interaction {
-            self.check_interaction(interaction, &flow)?;
+        self.problems().into_iter().next().map_or(Ok(()), Err)
+    }
+
+    /// Every value that its key does not allow; where there is none, what does not go together.
+    pub fn problems(&self) -> Vec<Invalid> {
+        match self.out_of_range() {
+            wrong if wrong.is_empty() => self.at_odds(),
+            wrong => wrong,
         }
-        self.check_time(&flow)?;
-        whole("ensemble.replicas", self.ensemble.replicas)?;
-        whole("ensemble.seed", self.ensemble.seed)?;
-        let observables = &self.output.observables;
-        let repeated = observables
-            .iter()
-            .enumerate()
-            .any(|(k, o)| observables[..k].contains(o));
-        if observables.is_empty() || repeated {
-            let names: Vec<_> = observables.iter().map(|o| o.name()).collect();
-            return Err(refused("output.observables", format!("{names:?}")));
-        }
-        Ok(())
+    }
+
+    /// What does not go together: of the particles, and of the rest the first, for what is wrong there follows from
+    /// one to the next. Every value is one that its key allows.
+    fn at_odds(&self) -> Vec<Invalid> {
+        let rest = || {
+            let flow = self.check_flow()?;
+            if let Some(interaction) = &self.interaction {
+                self.check_interaction(interaction, &flow)?;
+            }
+            self.check_time(&flow)
+        };
+        [self.check_particles(), rest()]
+            .into_iter()
+            .filter_map(Result::err)
+            .collect()
     }
 
     fn check_flow(&self) -> Result<VelocityGradient, Invalid> {
         match (self.flow.shear_rate_per_s, self.flow.gradient_per_s) {
             (Some(g), None) => {
-                positive("flow.shear_rate_per_s", g)?;
                 VelocityGradient::plane_couette(g).ok_or_else(|| refused("flow.shear_rate_per_s", g))
             }
             (None, Some(rows)) => VelocityGradient::new(Matrix3::from_fn(|i, j| rows[i][j]))
@@ -56,24 +63,21 @@ impl Scene {
     }
 
     fn check_particles(&self) -> Result<(), Invalid> {
-        let particles = &self.particles;
-        whole("particles.count", particles.count as u64)?;
-        positive("particles.length_mm", particles.length_mm)?;
-        let (r, sd) = (particles.aspect_ratio, particles.aspect_ratio_sd_percent);
-        number("particles.aspect_ratio", r, (1e-100..=1e100).contains(&r))?;
+        let (r, sd) = (
+            self.particles.aspect_ratio,
+            self.particles.aspect_ratio_sd_percent,
+        );
         if self.interaction.is_some() && r <= 1.0 {
             let allowed = "interacting rods need a number > 1";
             return Err(Invalid::new("particles.aspect_ratio", r, allowed));
         }
-        let key = "particles.aspect_ratio_sd_percent";
-        number(key, sd, sd >= 0.0)?;
         // Three standard deviations: P(r_e ≤ 1) = 0.0013 per rod.
         let deviation = 3.0 * r * sd / 100.0;
         let too_wide = sd > 0.0 && ((r - 1.0).abs() <= deviation || r <= deviation);
         if too_wide {
             let widest = 100.0 * ((r - 1.0).abs().min(r) / (3.0 * r));
             return Err(Invalid::new(
-                key,
+                "particles.aspect_ratio_sd_percent",
                 sd,
                 format!(
                     "so wide that r_e ≤ 1 (for discs: r_e ≥ 1 or ≤ 0) is likely; with mean {r} below {widest:.4}, \
@@ -81,25 +85,10 @@ impl Scene {
                 ),
             ));
         }
-        if let Orientation::Given { phi_deg, theta_deg } = particles.orientation
-            && !(phi_deg.is_finite() && (0.0..=180.0).contains(&theta_deg))
-        {
-            let value = format!("{{ phi_deg = {phi_deg}, theta_deg = {theta_deg} }}");
-            return Err(refused("particles.orientation", value));
-        }
         Ok(())
     }
 
     fn check_interaction(&self, interaction: &Interaction, flow: &VelocityGradient) -> Result<(), Invalid> {
-        positive(
-            "interaction.concentration_per_cm3",
-            interaction.concentration_per_cm3,
-        )?;
-        let alpha = interaction.alpha;
-        number("interaction.alpha", alpha, alpha >= 0.0)?;
-        positive("interaction.m", interaction.m)?;
-        let arm = interaction.min_contact_arm;
-        number("interaction.min_contact_arm", arm, arm >= 0.0)?;
         let side = ControlVolume::holding(self.particles.count, self.concentration(interaction)).side();
         if !(side.is_finite() && side > 0.0) {
             return Err(Invalid::new(
@@ -120,13 +109,6 @@ impl Scene {
 
     fn check_time(&self, flow: &VelocityGradient) -> Result<(), Invalid> {
         let time = &self.time;
-        for (key, value) in [
-            ("time.steps_per_period", time.steps_per_period),
-            ("time.outputs_per_period", time.outputs_per_period),
-            ("time.outputs_per_strain", time.outputs_per_strain),
-        ] {
-            whole(key, value.unwrap_or(1))?;
-        }
         match (time.periods, time.strain) {
             (Some(periods), None) => self.check_periods(periods, flow),
             (None, Some(strain)) => self.check_strain(strain, flow),
@@ -144,7 +126,6 @@ impl Scene {
 
     fn check_periods(&self, periods: f64, flow: &VelocityGradient) -> Result<(), Invalid> {
         let key = "time.periods";
-        number(key, periods, periods >= 0.0)?;
         let Some(period_s) = Propagator::new(flow, self.particles.aspect_ratio).period_s() else {
             return Err(Invalid::new(
                 key,
@@ -161,12 +142,16 @@ impl Scene {
         }
         let outputs = self.outputs_per_period();
         bounded(key, periods, outputs, "outputs", MAX_OUTPUTS)?;
-        if flow.shear_rate_per_s().is_none() {
-            self.check_seconds(periods * period_s)?;
-        }
+        self.check_seconds(periods * period_s)?;
         if self.interaction.is_some() {
             let steps = self.steps_per_period();
-            bounded(key, periods, steps, "steps", MAX_STEPS)?;
+            self.check_default_steps(steps)?;
+            bounded(key, periods, steps, "steps", MAX_STEPS).map_err(|mut refused| {
+                if self.time.steps_per_period.is_none() {
+                    refused.allowed += &format!(": {steps} a period by default, which steps_per_period sets");
+                }
+                refused
+            })?;
             if !steps.is_multiple_of(outputs) {
                 return Err(Invalid::new(
                     "time.outputs_per_period",
@@ -178,9 +163,23 @@ impl Scene {
         Ok(())
     }
 
+    /// A default that would take too many steps is refused: whoever wants fewer has to say so.
+    fn check_default_steps(&self, steps: u64) -> Result<(), Invalid> {
+        if self.time.steps_per_period.is_some() || steps <= MAX_PER_UNIT {
+            return Ok(());
+        }
+        let r = self.particles.aspect_ratio;
+        let needed = strain_per_period(r) / RESOLVED_STRAIN;
+        let allowed = format!(
+            "at aspect_ratio = {r} some {needed:.1e} steps a period resolve the motion (GΔt ≤ {RESOLVED_STRAIN}), and at \
+             most {MAX_PER_UNIT} are allowed; set steps_per_period to take fewer, which do not resolve it, or a smaller \
+             aspect_ratio"
+        );
+        Err(Invalid::missing("time.steps_per_period", &allowed))
+    }
+
     fn check_strain(&self, strain: f64, flow: &VelocityGradient) -> Result<(), Invalid> {
         let key = "time.strain";
-        number(key, strain, strain >= 0.0)?;
         if flow.magnitude_per_s() == 0.0 {
             return Err(Invalid::new(
                 key,

@@ -74,6 +74,19 @@ pub fn write_folder(dir: &Path, files: &[Output]) -> Result<(), OutputError> {
     write().map_err(at(dir))
 }
 
+/// Removes files of `dir` that are there.
+pub fn remove(dir: &Path, names: &[String]) -> Result<(), OutputError> {
+    for path in names.iter().map(|name| dir.join(name)) {
+        match fs::remove_file(&path) {
+            Err(reason) if reason.kind() != io::ErrorKind::NotFound => {
+                return Err(OutputError { path, reason });
+            }
+            _ => (),
+        }
+    }
+    Ok(())
+}
+
 fn write_and_rename(dir: &Path, files: &[Output]) -> Result<(), OutputError> {
     let mut ready = Vec::new();
     for (name, contents) in files {

@@ -20,7 +20,7 @@ concentration_per_cm3 = 50
 alpha = 0.5
 [time]
 periods = 1
-steps_per_period = 20
+steps_per_period = 200
 outputs_per_period = 4
 [ensemble]
 replicas = 3
@@ -130,7 +130,11 @@ fn the_scene_in_run_json_gives_the_same_bits() {
                 .channels
                 .iter()
                 .flat_map(|channel| [channel.mean[k], channel.se[k]]);
-            let expected: Vec<_> = std::iter::once(results.times[k]).chain(channels).collect();
+            let time = results.times[k];
+            // T = 2π(r_e + 1/r_e)/G.
+            let period_s = 2.0 * std::f64::consts::TAU * (11.6 + 1.0 / 11.6);
+            let times = [time, time * period_s, time * period_s * 0.5];
+            let expected: Vec<_> = times.into_iter().chain(channels).collect();
             assert_eq!(row.unwrap(), expected, "{} {k}", series.observable.name());
         }
     }
@@ -155,12 +159,12 @@ const EXTREMES: &[&[(&str, &str)]] = &[
     &[("alpha = 0.5", "alpha = 1e3\nmin_contact_arm = 2.2250738585072014e-308")],
     &[("\"isotropic\"", "{ phi_deg = 0, theta_deg = 180 }"), ("alpha = 0.5", "alpha = 1e3")],
     &[("\"isotropic\"", "{ phi_deg = 0, theta_deg = 1e-300 }"), ("alpha = 0.5", "alpha = 1e3\nupdate = \"angles\"")],
-    &[("steps_per_period = 20", "steps_per_period = 1"), ("outputs_per_period = 4", "outputs_per_period = 1")],
-    &[("periods = 1", "periods = 1e-5"), ("steps_per_period = 20", "steps_per_period = 10000000"),
+    &[("steps_per_period = 200", "steps_per_period = 1"), ("outputs_per_period = 4", "outputs_per_period = 1")],
+    &[("periods = 1", "periods = 1e-5"), ("steps_per_period = 200", "steps_per_period = 10000000"),
       ("outputs_per_period = 4", "outputs_per_period = 100000")],
     &[("shear_rate_per_s = 0.5", "gradient_per_s = [[1e30, 0, 0], [0, -1e30, 0], [0, 0, 0]]"), ("= 11.6", "= 1e8"),
       ("[interaction]\nconcentration_per_cm3 = 50\nalpha = 0.5\n", ""),
-      ("periods = 1\nsteps_per_period = 20\noutputs_per_period = 4", "strain = 1e4\noutputs_per_strain = 1")],
+      ("periods = 1\nsteps_per_period = 200\noutputs_per_period = 4", "strain = 1e4\noutputs_per_strain = 1")],
 ];
 
 #[test]
@@ -176,7 +180,13 @@ fn extreme_scenes_end_well_with_finite_tables() {
             dir.path(),
             &format!("run extreme.toml --threads 1 --quiet --out {k}"),
         );
-        assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""), "{changes:?}");
+        assert_eq!(ended.code, Some(0), "{changes:?}: {}", ended.stderr);
+        let coarse = "warning: extreme.toml: time.steps_per_period = ";
+        assert!(
+            ended.stderr.lines().all(|line| line.starts_with(coarse)),
+            "{changes:?}: {}",
+            ended.stderr
+        );
         for name in names(&dir.path().join(k.to_string())) {
             if name.ends_with(".csv") {
                 let mut reader = csv::Reader::from_path(dir.path().join(format!("{k}/{name}"))).unwrap();
@@ -232,7 +242,7 @@ fn quiet_prints_nothing() {
     );
     let table = read(&dir.path().join("out/extension/projections.csv"));
     assert!(
-        table.starts_with("strain,x1,x1_se,x2,x2_se,x3,x3_se\n0.0,"),
+        table.starts_with("strain,time_s,x1,x1_se,x2,x2_se,x3,x3_se\n0.0,0.0,"),
         "{table}"
     );
 }
@@ -429,4 +439,167 @@ fn a_scene_that_does_not_fit_in_memory_is_refused_before_it_starts() {
         }
     }
     assert_eq!(names(dir.path()), ["huge.toml", "small.toml"]);
+}
+
+#[test]
+fn a_step_that_is_too_long_is_warned_of_wherever_it_is_used() {
+    let dir = folder();
+    let coarse = SMALL.replace("steps_per_period = 200", "steps_per_period = 100");
+    fs::write(dir.path().join("coarse.toml"), coarse).unwrap();
+    let warning = "time.steps_per_period = 100 does not resolve the motion: the strain per step is 0.734, above 0.37; \
+                   200 steps a period resolve it (the default)";
+    let ended = shearbed(dir.path(), "plan coarse.toml");
+    assert_eq!(
+        ended.stdout.lines().last(),
+        Some(format!("warning: {warning}").as_str())
+    );
+    let ended = shearbed(dir.path(), "run coarse.toml --quiet --out a");
+    assert_eq!((ended.code, ended.stdout.as_str()), (Some(0), ""));
+    assert_eq!(ended.stderr, format!("warning: coarse.toml: {warning}\n"));
+    let json = |path: &str| -> Value { serde_json::from_str(&read(&dir.path().join(path))).unwrap() };
+    assert_eq!(json("a/run.json")["warnings"], serde_json::json!([warning]));
+
+    let sweep = "sweep coarse.toml --over time.steps_per_period=100,200 --quiet --out b";
+    let ended = shearbed(dir.path(), sweep);
+    let at_point = format!("--over time.steps_per_period=100: {warning}");
+    assert_eq!(ended.stderr, format!("warning: coarse.toml: {at_point}\n"));
+    assert_eq!(json("b/sweep.json")["warnings"], serde_json::json!([at_point]));
+
+    assert_eq!(shearbed(dir.path(), "run small.toml --quiet --out c").stderr, "");
+    assert_eq!(json("c/run.json")["warnings"], serde_json::json!([]));
+}
+
+#[test]
+fn keys_are_set_on_the_command_line_as_a_file_would() {
+    let dir = folder();
+    let set = "--set interaction.alpha=0.25 --set particles.count=7 --set output.observables=[\"mean_angle\"] \
+               --set ensemble.seed=9 --set interaction.update=angles";
+    let ended = shearbed(dir.path(), &format!("run small.toml {set} --quiet --out a"));
+    assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""));
+    let text = SMALL
+        .replace("alpha = 0.5", "alpha = 0.25\nupdate = \"angles\"")
+        .replace("count = 20", "count = 7")
+        .replace("replicas = 3", "replicas = 3\nseed = 9");
+    let text =
+        text.split("[output]").next().unwrap().to_owned() + "[output]\nobservables = [\"mean_angle\"]\n";
+    fs::write(dir.path().join("other.toml"), text).unwrap();
+    assert_eq!(
+        shearbed(dir.path(), "run other.toml --quiet --out b").code,
+        Some(0)
+    );
+    assert_eq!(
+        names(&dir.path().join("a")),
+        ["mean_angle.csv", "mean_angle.svg", "run.json"]
+    );
+    assert_eq!(
+        read(&dir.path().join("a/mean_angle.csv")),
+        read(&dir.path().join("b/mean_angle.csv"))
+    );
+    assert!(
+        shearbed(dir.path(), "plan small.toml --set particles.count=7")
+            .stdout
+            .contains("\n7 rods, ")
+    );
+
+    for (set, message) in [
+        (
+            "--set alpha=1",
+            "small.toml --set alpha=1: alpha = 1: unknown key `alpha`, expected one of",
+        ),
+        ("--set alpha=1", "; did you mean interaction.alpha?"),
+        (
+            "--set particles.count=0",
+            "particles.count = 0 is not allowed: a whole number from 1 to",
+        ),
+        ("--set particles.count=1,2", "\"1,2\" is no value"),
+        ("--set particles.count=1:3:3", "\"1:3:3\" is no value"),
+        ("--set particles.count", "KEY=VALUE is allowed"),
+        (
+            "--set particles.count=1 --set particles.count=2",
+            "--set particles.count: given twice",
+        ),
+        (
+            "--set ensemble.seed=1 --seed 2",
+            "--seed 2: --set ensemble.seed says it too",
+        ),
+        (
+            "--set ensemble.replicas=1 --replicas 2",
+            "--replicas 2: --set ensemble.replicas says it too",
+        ),
+        ("--set title.x=1", "is no table"),
+    ] {
+        let ended = shearbed(dir.path(), &format!("run small.toml {set} --out c"));
+        assert_eq!(ended.code, Some(2), "{set}: {}", ended.stderr);
+        assert!(ended.stderr.contains(message), "{set}: {}", ended.stderr);
+    }
+    assert!(!dir.path().join("c").exists());
+}
+
+#[test]
+fn another_run_is_overwritten_only_by_force() {
+    let dir = folder();
+    let run = |arguments: &str| shearbed(dir.path(), &format!("run small.toml --quiet --out a {arguments}"));
+    assert_eq!(run("").code, Some(0));
+    let kept = || -> Vec<_> {
+        let dir = dir.path().join("a");
+        names(&dir)
+            .into_iter()
+            .map(|name| (read(&dir.join(&name)), name))
+            .collect()
+    };
+    let tables = || -> Vec<_> {
+        kept()
+            .into_iter()
+            .filter(|(_, name)| name != "run.json")
+            .collect()
+    };
+    let (before, before_tables) = (kept(), tables());
+    for (arguments, what) in [
+        ("--seed 2", "scene.ensemble.seed was 1 and is 2 now"),
+        ("--replicas 4", "scene.ensemble.replicas was 3 and is 4 now"),
+        (
+            "--set interaction.alpha=0.4",
+            "scene.interaction.alpha was 0.5 and is 0.4 now",
+        ),
+    ] {
+        let ended = run(arguments);
+        assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""));
+        for part in [
+            "error: a/run.json: another run is kept here: \"A small scene\", 3 replicas, seed 1, version \"0.1.0\"",
+            what,
+            "--force overwrites it",
+        ] {
+            assert!(ended.stderr.contains(part), "{arguments}: {}", ended.stderr);
+        }
+        assert!(kept() == before, "{arguments}: nothing was changed");
+    }
+    // The same again is no other run.
+    assert_eq!(run("--threads 1").code, Some(0));
+    assert!(tables() == before_tables);
+    // By force, and what the other run left and this one does not write goes.
+    let fewer = "--force --seed 2 --set output.observables=[\"mean_angle\"]";
+    assert_eq!(run(fewer).code, Some(0));
+    assert_eq!(
+        names(&dir.path().join("a")),
+        ["mean_angle.csv", "mean_angle.svg", "run.json"]
+    );
+
+    let put = |text: &str| fs::write(dir.path().join("a/run.json"), text).unwrap();
+    put("{");
+    assert!(run("").stderr.contains("a/run.json: is no record of a run: "));
+    // Another version, and a record that names a file which is not this folder's.
+    let record = before.iter().find(|(_, name)| name == "run.json").unwrap();
+    put(&record
+        .0
+        .replace("\"version\": \"0.1.0\"", "\"version\": \"0.0.9\""));
+    assert!(
+        run("")
+            .stderr
+            .contains("version was \"0.0.9\" and is \"0.1.0\" now")
+    );
+    put(&record.0.replace("\"mean_angle.csv\"", "\"../small.toml\""));
+    assert_eq!(run("--force --seed 3").code, Some(0));
+    assert_eq!(read(&dir.path().join("small.toml")), SMALL);
+    fs::write(dir.path().join("a/sweep.json"), "{}").unwrap();
+    assert!(run("").stderr.contains("a/sweep.json: a sweep is kept here"));
 }

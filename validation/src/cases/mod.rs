@@ -18,6 +18,7 @@ mod motion;
 mod readings;
 mod reductions;
 mod reference;
+pub mod resolution;
 mod stability;
 mod steady;
 mod step_limits;
@@ -44,6 +45,7 @@ pub fn all() -> Vec<Case> {
         extremes::cases(),
         extreme_scenes::cases(),
         reference::cases(),
+        resolution::cases(),
         readings::cases(),
         steady::cases(),
         subjects::cases(),

@@ -12,7 +12,7 @@ use crate::work_precision::{export, tables};
 use serde::Serialize;
 use shearbed::jeffery::strain_per_period;
 use shearbed::plan::Stage;
-use shearbed::scene::MAX_REPLICAS;
+use shearbed::scene::{MAX_REPLICAS, RESOLVED_STRAIN};
 use shearbed::{Plan, Scene};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -47,7 +47,13 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     probe(&out)?;
     let replicas = args.replicas.map_or(Replicas::CONVERGE, Replicas::Each);
     let done = match plan.keeps(Stage::Contacts) {
-        true => on_threads(args.threads, || interacting(&named.scene, replicas, args.quiet))?,
+        true => {
+            let warnings = [plan.warnings(), vec![coarse(&named.scene)]].concat();
+            scene::warn(&named.source, &warnings);
+            on_threads(args.threads, || {
+                interacting(&named.scene, replicas, warnings, args.quiet)
+            })?
+        }
         // Milliseconds: no work for many.
         false if cluster::is_root() => free(&named.scene).map(Some),
         false => Ok(None),
@@ -111,9 +117,26 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
     })
 }
 
+/// Which of the steps that are tried do not resolve the motion.
+fn coarse(scene: &Scene) -> String {
+    let strain = |steps: u64| strain_per_period(scene.particles.aspect_ratio) / steps as f64;
+    let steps = law::STEPS_PER_PERIOD.map(|steps| (steps, strain(steps) > RESOLVED_STRAIN));
+    let coarse = steps.iter().filter(|(_, coarse)| *coarse).count();
+    let (first, last) = (law::STEPS_PER_PERIOD[0], law::STEPS_PER_PERIOD[coarse.max(1) - 1]);
+    format!(
+        "{coarse} of the {} numbers of steps that are tried, {first} to {last} a period (strain per step {:.3} to {:.3}), \
+         do not resolve the motion (strain per step at most {RESOLVED_STRAIN}): they are run on purpose, to show what a \
+         coarse step changes",
+        steps.len(),
+        strain(first),
+        strain(last),
+    )
+}
+
 /// converge.json of an interacting scene.
 #[derive(Serialize)]
 struct Written {
+    warnings: Vec<String>,
     law: Law,
     constants: Option<Constants>,
     splits: Vec<Split>,
@@ -121,7 +144,12 @@ struct Written {
 
 /// X̄₁ and the directions of an interacting scene against steps, rods and replicas, and what follows for its cost; none
 /// but on the root.
-fn interacting(scene: &Scene, replicas: Replicas, quiet: bool) -> Result<Option<Done>, Failure> {
+fn interacting(
+    scene: &Scene,
+    replicas: Replicas,
+    warnings: Vec<String>,
+    quiet: bool,
+) -> Result<Option<Done>, Failure> {
     let jobs = law::jobs(scene, replicas);
     let bar = progress(jobs.iter().map(|job| job.replicas).sum(), "replicas", quiet);
     let found = cluster::share(jobs.len(), |k| jobs[k].run(&|| bar.inc(1)), |_, _| Ok(()));
@@ -141,6 +169,7 @@ fn interacting(scene: &Scene, replicas: Replicas, quiet: bool) -> Result<Option<
     let csv = suspensions::export::law_csv(&law);
     let blocks = suspensions::export::replicas_csv(&law);
     let json = export::json(&Written {
+        warnings,
         law,
         constants,
         splits,

@@ -3,6 +3,7 @@
 mod bench;
 mod choice;
 mod converge;
+mod kept;
 mod memory;
 mod pictures;
 mod record;
@@ -24,7 +25,9 @@ use std::process::ExitCode;
 /// Rigid slender rods in a sheared viscous liquid, after Lee & Springer (1982).
 #[derive(Parser)]
 #[command(name = "shearbed", version, arg_required_else_help = true)]
-#[command(after_help = "Exit codes: 0 all well, 1 a case failed or a run stopped, 2 bad input or usage.")]
+#[command(
+    after_help = "Exit codes: 0 all well, 1 a case failed, 2 bad input or usage, or a run that stopped."
+)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -50,9 +53,9 @@ enum Command {
 
 /// Why a command did not end well.
 enum Failure {
-    /// Bad input or usage, or a file that cannot be read or written.
+    /// Bad input or usage, a scene that cannot be computed, or a file that cannot be read or written.
     Input(String),
-    /// A case failed, or a run stopped.
+    /// A case failed, or the program did.
     Failed(String),
 }
 

@@ -25,6 +25,8 @@ struct Record<'a> {
     seed: u64,
     plan: &'a [Entry],
     plan_text: String,
+    /// What to know before trusting the results.
+    warnings: Vec<String>,
     counters: Counters,
     /// Processes of an MPI job.
     ranks: usize,
@@ -49,6 +51,7 @@ pub(super) fn json(
         seed: plan.scene().ensemble.seed,
         plan: plan.entries(),
         plan_text: plan.to_string(),
+        warnings: plan.warnings(),
         counters: results.counters,
         ranks: crate::cluster::size(),
         threads,

@@ -2,9 +2,11 @@
 
 use super::record::Seconds;
 use super::{
-    Failure, MAX_THREADS, memory, on_threads, pictures, print, probe, progress, record, scene, tables, whole,
+    Failure, MAX_THREADS, kept, memory, on_threads, pictures, print, probe, progress, record, scene, tables,
+    whole,
 };
 use crate::output::{self, Output};
+use crate::sweep::Setting;
 use crate::{cluster, plot};
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shearbed::work::RunError;
@@ -30,7 +32,13 @@ pub(super) struct Args {
     /// Threads to run on; the results do not depend on it [default: one for each core]
     #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
     threads: Option<u64>,
-    /// Print nothing but errors
+    /// A key of the scene and the value to give it, as `sweep --over` takes them; can be given more than once
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Setting::parse)]
+    settings: Vec<Setting>,
+    /// Overwrite a folder that holds another run
+    #[arg(long)]
+    force: bool,
+    /// Print nothing but errors and warnings
     #[arg(long)]
     quiet: bool,
 }
@@ -38,7 +46,17 @@ pub(super) struct Args {
 /// Runs a scene and writes its results.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let start = Instant::now();
-    let named = scene::load(&args.scene)?;
+    for (flag, key, given) in [
+        ("replicas", "ensemble.replicas", args.replicas),
+        ("seed", "ensemble.seed", args.seed),
+    ] {
+        if let Some(value) = given.filter(|_| args.settings.iter().any(|setting| setting.key == key)) {
+            return Err(Failure::Input(format!(
+                "--{flag} {value}: --set {key} says it too; one of the two is allowed"
+            )));
+        }
+    }
+    let named = scene::load(&args.scene)?.with(&args.settings)?;
     let mut scene = named.scene;
     scene.ensemble.replicas = args.replicas.unwrap_or(scene.ensemble.replicas);
     scene.ensemble.seed = args.seed.unwrap_or(scene.ensemble.seed);
@@ -49,6 +67,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         .clone()
         .unwrap_or_else(|| Path::new("out").join(&named.stem));
     probe(&out)?;
+    if !args.force && cluster::is_root() {
+        kept::check(&out, &plan)?;
+    }
+    scene::warn(&named.source, &plan.warnings());
     let mut seconds = Seconds {
         plan: start.elapsed().as_secs_f64(),
         ..Seconds::default()
@@ -74,11 +96,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let names = files.iter().map(|(name, _)| name.as_str()).collect();
     let record = record::json(&plan, &results, threads, seconds, names).map_err(Failure::Failed)?;
     files.push(("run.json".to_owned(), record));
+    let names: Vec<_> = files.iter().map(|(name, _)| name.as_str()).collect();
+    let left_over = kept::left_over(&out, &names);
     output::write_all(&out, &files)?;
+    output::remove(&out, &left_over)?;
     if args.quiet {
         return Ok(());
     }
-    let names: Vec<_> = files.iter().map(|(name, _)| name.as_str()).collect();
     print(&format!(
         "{}\nMeans ± standard errors, rods: {}, replicas: {}\n\n{}in {}: {}\n",
         scene.title,
@@ -90,9 +114,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     ))
 }
 
-/// The results of a run that did not stop. Where it did, nothing is written, and what an earlier run left stays.
+/// The results of a run that did not stop: where it did, the scene asks for what cannot be computed. Nothing is written
+/// then, and what an earlier run left stays.
 fn ended<T>(source: &str, results: Result<T, RunError>) -> Result<T, Failure> {
-    results.map_err(|error| Failure::Failed(format!("{source}: {error}")))
+    results.map_err(|error| Failure::Input(format!("{source}: {error}")))
 }
 
 /// A table and the pictures of each observable.
@@ -125,7 +150,7 @@ mod tests {
         };
         let failure = ended::<()>("my.toml", Err(stopped)).expect_err("it stopped");
         let (message, code) = failure.message_and_code();
-        assert_eq!(code, 1);
+        assert_eq!(code, 2);
         assert_eq!(
             message,
             "my.toml: rod 7 would become non-finite in step 41 of replica 2, seed 3: a contact arm of 1e-320 rod lengths \

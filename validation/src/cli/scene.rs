@@ -1,9 +1,11 @@
 //! Finding the scene that the command line names.
 
 use super::Failure;
-use crate::scenes;
+use crate::sweep::{self, Setting};
+use crate::{cluster, scenes};
 use shearbed::{Scene, scene_file};
 use std::ffi::OsStr;
+use std::io::Write;
 use std::path::Path;
 
 /// A scene with the name of what is made from it.
@@ -15,6 +17,29 @@ pub(super) struct Named {
     pub(super) source: String,
     /// The stem of the file's name, or the built-in scene's name.
     pub(super) stem: String,
+}
+
+impl Named {
+    /// The same with some keys set.
+    pub(super) fn with(mut self, settings: &[Setting]) -> Result<Self, Failure> {
+        if settings.is_empty() {
+            return Ok(self);
+        }
+        for (k, Setting { key, .. }) in settings.iter().enumerate() {
+            if settings[..k].iter().any(|other| other.key == *key) {
+                return Err(Failure::Input(format!(
+                    "--set {key}: given twice; each key once is allowed"
+                )));
+            }
+        }
+        self.scene = sweep::scene_with(&self.text, settings).map_err(|error| {
+            let said = settings
+                .iter()
+                .map(|setting| format!(" --set {}={}", setting.key, sweep::shown(&setting.value)));
+            Failure::Input(format!("{}{}: {error}", self.source, said.collect::<String>()))
+        })?;
+        Ok(self)
+    }
 }
 
 /// Reads the file `given`, or where there is none the built-in scene of that name.
@@ -44,6 +69,18 @@ pub(super) fn load(given: &OsStr) -> Result<Named, Failure> {
         source,
         stem,
     })
+}
+
+/// Says on standard error, from the root, what the reader of the results should know before trusting them.
+pub(super) fn warn<'a>(source: &str, warnings: impl IntoIterator<Item = &'a String>) {
+    if !cluster::is_root() {
+        return;
+    }
+    let mut stderr = std::io::stderr().lock();
+    for warning in warnings {
+        // A warning that cannot be written stands in the files all the same.
+        let _ = writeln!(stderr, "warning: {source}: {warning}");
+    }
 }
 
 fn read(path: &Path) -> Result<String, Failure> {

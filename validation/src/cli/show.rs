@@ -2,6 +2,7 @@
 
 use super::{Failure, print, scene};
 use crate::scenes;
+use crate::sweep::Setting;
 use shearbed::Plan;
 use std::ffi::OsString;
 
@@ -10,6 +11,9 @@ use std::ffi::OsString;
 pub(super) struct PlanArgs {
     /// A scene file, or the name of a built-in scene
     scene: OsString,
+    /// A key of the scene and the value to give it, as `run` takes them
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Setting::parse)]
+    settings: Vec<Setting>,
 }
 
 /// Arguments of `scenes`.
@@ -23,7 +27,7 @@ pub(super) struct ScenesArgs {
 
 /// Prints a scene's plan.
 pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
-    let named = scene::load(&args.scene)?;
+    let named = scene::load(&args.scene)?.with(&args.settings)?;
     let plan =
         Plan::new(&named.scene).map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
     print(&plan.to_string())

@@ -77,7 +77,8 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
         memory::check(&point.plan, args.threads, &at)?;
     }
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("sweep-{}", named.stem)));
-    let identity = Identity::new(&named.scene, &args.over);
+    let warned = warnings(&points, &args.over);
+    let identity = Identity::new(&named.scene, &args.over, &warned);
 
     // Only the root may see the folder.
     let open = || {
@@ -87,12 +88,20 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     };
     let (checked, jobs): (Option<usize>, Vec<usize>) = cluster::from_root(open)?;
     let folder = Folder::at(&out, points.len());
+    scene::warn(&named.source, warned.iter().take(MOST_WARNINGS));
+    let more = warned.len().saturating_sub(MOST_WARNINGS);
+    scene::warn(
+        &named.source,
+        (more > 0)
+            .then(|| format!("and {more} more points with warnings: sweep.json has them all"))
+            .iter(),
+    );
     let bar = progress(jobs.len() as u64, "points", args.quiet);
     let job = |job: usize| {
         let k = jobs[job];
         tables_of(&points[k]).map_err(|error| {
             let point = sweep::described(&args.over, &points[k].values);
-            Failure::Failed(format!("{}: --over {point}: {error}", named.source))
+            Failure::Input(format!("{}: --over {point}: {error}", named.source))
         })
     };
     let arrived = |job: usize, tables: &Vec<Output>| {
@@ -128,6 +137,21 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
         table(&rows, args.over.len()),
         out.display(),
     ))
+}
+
+/// The most warnings of points on the terminal.
+const MOST_WARNINGS: usize = 10;
+
+/// What to know before trusting a point's results, point by point.
+fn warnings(points: &[Point], over: &[Axis]) -> Vec<String> {
+    let of_point = |point: &Point| {
+        let at = sweep::described(over, &point.values);
+        let warnings = point.plan.warnings().into_iter();
+        warnings
+            .map(|warning| format!("--over {at}: {warning}"))
+            .collect::<Vec<_>>()
+    };
+    points.iter().flat_map(of_point).collect()
 }
 
 /// Refuses a key given twice, and one that changes what is observed.
@@ -177,7 +201,7 @@ fn other_numbers(point: &Path) -> Failure {
 }
 
 /// The most rows and columns of a table for the terminal.
-const MOST: (usize, usize) = (32, 8);
+const MOST: (usize, usize) = (32, 9);
 
 /// The rows with numbers shortened, where they are few enough to read.
 fn table(rows: &[Vec<String>], swept: usize) -> String {

@@ -3,25 +3,38 @@
 use shearbed::ensemble::{Channel, Series};
 use shearbed::{Observable, Results};
 
-/// An observable's file: the time, then each channel with its standard error. Every number is the shortest
-/// text that reads back as the same bits.
+/// An observable's file: the time, also in s and as strain, then each channel with its standard error. Every number is
+/// the shortest text that reads back as the same bits.
 pub(super) fn csv(results: &Results, series: &Series) -> Result<String, String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut header = vec![results.time_name.to_owned()];
+    let times = times(results);
+    let mut header: Vec<_> = times.iter().map(|(name, _)| (*name).to_owned()).collect();
     for channel in &series.channels {
         header.extend([channel.name.clone(), format!("{}_se", channel.name)]);
     }
     writer.write_record(header).map_err(|error| error.to_string())?;
     for (k, time) in results.times.iter().enumerate() {
+        let times = times.iter().map(|(_, unit)| time * unit);
         let values = series
             .channels
             .iter()
             .flat_map(|channel| [channel.mean[k], channel.se[k]]);
-        let row: Vec<f64> = std::iter::once(*time).chain(values).collect();
+        let row: Vec<f64> = times.chain(values).collect();
         writer.serialize(row).map_err(|error| error.to_string())?;
     }
     let bytes = writer.into_inner().map_err(|error| error.to_string())?;
     String::from_utf8(bytes).map_err(|error| error.to_string())
+}
+
+/// The columns of the time, the scene's own first, and what a unit of that is in each.
+pub(super) fn times(results: &Results) -> Vec<(&'static str, f64)> {
+    let all = [
+        (results.time_name, 1.0),
+        ("time_s", results.unit.seconds),
+        ("strain", results.unit.strain),
+    ];
+    let columns = if results.time_name == "strain" { 2 } else { 3 };
+    all[..columns].to_vec()
 }
 
 /// The most lines of a table for the terminal.

@@ -51,7 +51,7 @@ fn steps(study: &Study) -> ReportTable {
         "kick-rates",
         "Kicks per rod and period against the step",
         format!(
-            "Scene {SCENE}, t/T from 0 to 2, {} replicas. A kick is |ṗ′ − ṗ|Δt. Kicks above 0.1 rad are also told \
+            "Scene {SCENE} (σ = 3.6 %), t/T from 0 to 2, {} replicas. A kick is |ṗ′ − ṗ|Δt. Kicks above 0.1 rad are also told \
              apart by what the liquid does to the gap between the contact points, and stand beside the formula for \
              fresh arms with the directions of the run. `kick-formula`, `kick-memory`",
             study.replicas[0]
@@ -120,7 +120,7 @@ fn periods(study: &Study) -> ReportTable {
         "kicks-by-period",
         "Kicks per rod and period as the rods align",
         format!(
-            "Scene {SCENE} at {PERIODS_AT} steps a period, {} replicas. The rate follows the directions: the formula \
+            "Scene {SCENE} (σ = 3.6 %) at {PERIODS_AT} steps a period, {} replicas. The rate follows the directions: the formula \
              is evaluated with those of the run.",
             study.replicas[0]
         ),
@@ -141,7 +141,7 @@ fn exponents(study: &Study) -> ReportTable {
     table(
         "kick-tail",
         "The exponent of the kicks' tail, by Hill's estimate",
-        "From all kicks above a threshold chosen beforehand; the standard error is α over the root of their number. \
+        "Rods of Fig. 4 (σ = 3.6 %). From all kicks above a threshold chosen beforehand; the standard error is α over the root of their number. \
          An arm of any size gives 1; a shortest arm cuts the tail off. `kick-tail`"
             .into(),
         &["kicks", "threshold", "above it", "exponent"],

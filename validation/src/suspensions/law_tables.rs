@@ -152,7 +152,8 @@ fn rods(law: &Law) -> ReportTable {
         "X̄₁ at t/T = 1 against the rods",
         &format!(
             "Rods near a face of the volume lack neighbours, and the share of the volume near faces is ∝ N^(−1/3) \
-             (`faces-cost-collisions`). Fits: {}; {}. A line with p below 0.001 is refuted.",
+             (`faces-cost-collisions`). Fits: {}; {}. A line with p below 0.001 is refuted; \
+             N^(−1/2) is not told from N^(−1/3) by this.",
             words(0, "N^(−1/3)"),
             words(1, "/N")
         ),

@@ -18,15 +18,7 @@ impl Axis {
     /// Reads what stands after `--over`.
     pub fn parse(text: &str) -> Result<Self, String> {
         let shape = "KEY=FROM:TO:COUNT or KEY=A,B,C is allowed, as interaction.alpha=0.1:1:10";
-        let (key, values) = text.split_once('=').ok_or(shape)?;
-        let (key, values) = (key.trim(), values.trim());
-        let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-        if key
-            .split('.')
-            .any(|part| part.is_empty() || !part.chars().all(bare))
-        {
-            return Err(format!("{key:?} is no key of a scene; {shape}"));
-        }
+        let (key, values) = key_and_text(text, shape)?;
         let range = split(values, ':');
         let values = match range.as_slice() {
             [_] => split(values, ',')
@@ -38,6 +30,38 @@ impl Axis {
         };
         let key = key.to_owned();
         Ok(Self { key, values })
+    }
+}
+
+/// A key of the scene with the value it is to have.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    /// As `interaction.alpha`.
+    pub key: String,
+    /// In place of the scene's own.
+    pub value: Value,
+}
+
+impl Setting {
+    /// Reads what stands after `--set`: a key, and one value as it may stand in a list after `--over`.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let (key, text) = key_and_text(text, "KEY=VALUE is allowed, as interaction.alpha=0.5")?;
+        Ok(Self {
+            key: key.to_owned(),
+            value: value(text)?,
+        })
+    }
+}
+
+/// What stands before and after the first `=`; the first is a key.
+fn key_and_text<'a>(text: &'a str, shape: &str) -> Result<(&'a str, &'a str), String> {
+    let (key, text) = text.split_once('=').ok_or(shape)?;
+    let (key, text) = (key.trim(), text.trim());
+    let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    let is_key = |part: &str| !part.is_empty() && part.chars().all(bare);
+    match key.split('.').all(is_key) {
+        true => Ok((key, text)),
+        false => Err(format!("{key:?} is no key of a scene; {shape}")),
     }
 }
 

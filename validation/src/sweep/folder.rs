@@ -12,8 +12,9 @@ use std::path::{Path, PathBuf};
 pub struct Identity(Value);
 
 impl Identity {
-    /// A sweep of `scene`, as it is without the swept keys, by this version of the program.
-    pub fn new(scene: &Scene, axes: &[Axis]) -> Self {
+    /// A sweep of `scene`, as it is without the swept keys, by this version of the program, with what its points' plans
+    /// warn of.
+    pub fn new(scene: &Scene, axes: &[Axis], warnings: &[String]) -> Self {
         let over = axes.iter().map(|axis| {
             let values: Vec<_> = axis.values.iter().map(shown).collect();
             format!("{}={}", axis.key, values.join(","))
@@ -23,6 +24,7 @@ impl Identity {
             "version": env!("CARGO_PKG_VERSION"),
             "scene": scene.resolved(),
             "over": over.collect::<Vec<_>>(),
+            "warnings": warnings,
         }))
     }
 
@@ -126,12 +128,15 @@ impl Folder {
         for (k, values) in values.iter().enumerate() {
             let mut head: Vec<_> = axes.iter().map(|axis| axis.key.clone()).collect();
             let mut row: Vec<_> = values.iter().map(shown).collect();
-            for (table, name) in names.iter().enumerate() {
-                // The time is every table's first column.
-                let skipped = usize::from(table > 0);
+            for name in names {
                 let (columns, last) = last_row(&self.point(k).join(name))?;
-                head.extend(columns.into_iter().skip(skipped));
-                row.extend(last.into_iter().skip(skipped));
+                for (column, value) in columns.into_iter().zip(last) {
+                    // Every table has the time.
+                    if !head.contains(&column) {
+                        head.push(column);
+                        row.push(value);
+                    }
+                }
             }
             match rows.first() {
                 None => rows.extend([head, row]),
@@ -176,7 +181,7 @@ fn csv(rows: &Rows) -> Result<String, String> {
 }
 
 /// The first difference of two records, in words.
-fn difference(path: &str, kept: &Value, own: &Value) -> Option<String> {
+pub fn difference(path: &str, kept: &Value, own: &Value) -> Option<String> {
     let below = |key: &str| match path {
         "" => key.to_owned(),
         path => format!("{path}.{key}"),

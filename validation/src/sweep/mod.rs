@@ -3,10 +3,10 @@
 mod axis;
 mod folder;
 
-pub use axis::{Axis, MAX_POINTS, shown};
-pub use folder::{Folder, Identity, Refused};
+pub use axis::{Axis, MAX_POINTS, Setting, shown};
+pub use folder::{Folder, Identity, Refused, difference};
 
-use shearbed::{Plan, scene_file};
+use shearbed::{Plan, Scene, scene_file};
 use toml::{Table, Value};
 
 /// A point of the grid.
@@ -60,14 +60,33 @@ fn at(axes: &[Axis], mut k: usize) -> Vec<Value> {
 
 /// The plan of the scene `base` with some keys set.
 fn plan<'a>(base: &Table, settings: impl Iterator<Item = (&'a str, Value)>) -> Result<Plan, String> {
+    let scene = with(base, settings)?;
+    Plan::new(&scene).map_err(|error| error.to_string())
+}
+
+/// The scene of a file's text with some keys set, checked as the file is.
+pub fn scene_with(text: &str, settings: &[Setting]) -> Result<Scene, String> {
+    let base: Table = text.parse().map_err(|error: toml::de::Error| error.to_string())?;
+    let settings = settings.iter();
+    with(
+        &base,
+        settings.map(|setting| (setting.key.as_str(), setting.value.clone())),
+    )
+}
+
+fn with<'a>(base: &Table, settings: impl Iterator<Item = (&'a str, Value)>) -> Result<Scene, String> {
     let mut table = base.clone();
     for (key, value) in settings {
         set(&mut table, key, value)?;
     }
     let text = toml::to_string(&table).map_err(|error| error.to_string())?;
     // The lines of this text are nobody's.
-    let scene = scene_file::parse("", &text).map_err(|error| error.message)?;
-    Plan::new(&scene).map_err(|error| error.to_string())
+    scene_file::parse("", &text).map_err(|error| {
+        let messages: Vec<_> = (error.problems.into_iter())
+            .map(|problem| problem.message)
+            .collect();
+        messages.join("; ")
+    })
 }
 
 /// Sets a key as `interaction.alpha`, making the tables above it.

@@ -1,0 +1,86 @@
+//! Checking each value of a scene by itself.
+
+use super::allowed::{Invalid, not_negative, number, positive, refused, whole};
+use super::{Interaction, Orientation, Scene};
+
+impl Scene {
+    /// Every value that its key does not allow.
+    pub(crate) fn out_of_range(&self) -> Vec<Invalid> {
+        let given = |key, value: Option<f64>, check: fn(&'static str, f64) -> Result<(), Invalid>| {
+            value.map_or(Ok(()), |value| check(key, value))
+        };
+        let (flow, particles, time) = (&self.flow, &self.particles, &self.time);
+        let interaction = self.interaction.as_ref();
+        let of_interaction = |value: fn(&Interaction) -> f64| interaction.map(value);
+        let r = particles.aspect_ratio;
+        [
+            given("flow.shear_rate_per_s", flow.shear_rate_per_s, positive),
+            self.check_gradient(),
+            whole("particles.count", particles.count as u64),
+            positive("particles.length_mm", particles.length_mm),
+            number("particles.aspect_ratio", r, (1e-100..=1e100).contains(&r)),
+            not_negative(
+                "particles.aspect_ratio_sd_percent",
+                particles.aspect_ratio_sd_percent,
+            ),
+            self.check_orientation(),
+            given(
+                "interaction.concentration_per_cm3",
+                of_interaction(|i| i.concentration_per_cm3),
+                positive,
+            ),
+            given("interaction.alpha", of_interaction(|i| i.alpha), not_negative),
+            given("interaction.m", of_interaction(|i| i.m), positive),
+            given(
+                "interaction.min_contact_arm",
+                of_interaction(|i| i.min_contact_arm),
+                not_negative,
+            ),
+            given("time.periods", time.periods, not_negative),
+            given("time.strain", time.strain, not_negative),
+            whole("time.steps_per_period", time.steps_per_period.unwrap_or(1)),
+            whole("time.outputs_per_period", time.outputs_per_period.unwrap_or(1)),
+            whole("time.outputs_per_strain", time.outputs_per_strain.unwrap_or(1)),
+            whole("ensemble.replicas", self.ensemble.replicas),
+            whole("ensemble.seed", self.ensemble.seed),
+            self.check_observables(),
+        ]
+        .into_iter()
+        .filter_map(Result::err)
+        .collect()
+    }
+
+    fn check_gradient(&self) -> Result<(), Invalid> {
+        match self.flow.gradient_per_s {
+            Some(rows) if rows.iter().flatten().any(|value| !value.is_finite()) => {
+                Err(refused("flow.gradient_per_s", format!("{rows:?}")))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn check_orientation(&self) -> Result<(), Invalid> {
+        match self.particles.orientation {
+            Orientation::Given { phi_deg, theta_deg }
+                if !(phi_deg.is_finite() && (0.0..=180.0).contains(&theta_deg)) =>
+            {
+                let value = format!("{{ phi_deg = {phi_deg}, theta_deg = {theta_deg} }}");
+                Err(refused("particles.orientation", value))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn check_observables(&self) -> Result<(), Invalid> {
+        let observables = &self.output.observables;
+        let repeated = observables
+            .iter()
+            .enumerate()
+            .any(|(k, o)| observables[..k].contains(o));
+        if observables.is_empty() || repeated {
+            let names: Vec<_> = observables.iter().map(|o| o.name()).collect();
+            return Err(refused("output.observables", format!("{names:?}")));
+        }
+        Ok(())
+    }
+}
