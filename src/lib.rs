@@ -53,6 +53,7 @@ pub mod collision;
 pub mod contact;
 pub mod ensemble;
 pub mod flow;
+pub mod free;
 pub mod jeffery;
 pub mod memory;
 pub mod neighbours;

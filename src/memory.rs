@@ -4,9 +4,9 @@ use crate::collision::reach;
 use crate::ensemble::{batch, width};
 use crate::observable::Sum;
 use crate::plan::{Plan, Stage};
+use crate::free::Way;
 use crate::propagator::Propagator;
 use crate::suspension::BYTES_OF_A_CANDIDATE;
-use nalgebra::Matrix3;
 use std::f64::consts::PI;
 
 /// About the most bytes that a run of the plan holds, with `at_once` replicas at a time.
@@ -18,12 +18,12 @@ pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
     let scene = plan.scene();
     let replicas = scene.ensemble.replicas.min(at_once.max(1));
     let kept = |stage, bytes| if plan.keeps(stage) { bytes } else { 0 };
-    let maps = if scene.flow.shear_rate_per_s.is_some() {
-        [0, 0]
-    } else if plan.keeps(Stage::AspectRatios) {
-        [size_of::<Propagator>(), 8]
-    } else {
-        [0, size_of::<Matrix3<f64>>()]
+    // A propagator for each rod, and what all replicas share for each output.
+    let maps = match plan.free().map(|free| &free.way) {
+        None => [0, 0],
+        Some(Way::Each { spans, .. }) => [size_of::<Propagator>(), size_of_val(&spans[..])],
+        Some(Way::Maps(maps)) => [0, size_of_val(&maps[..])],
+        Some(Way::Alike(ends)) => [0, size_of_val(&ends[..])],
     };
     let per_rod = 24
         + maps[0]
@@ -37,7 +37,7 @@ pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
     let waiting = scene.ensemble.replicas.min(batch(plan));
     let lists = BYTES_OF_A_CANDIDATE as f64 * candidates(plan) * scene.particles.count as f64;
     let rods =
-        replicas * (lists as u64 + (scene.particles.count * per_rod + plan.outputs() * maps[1]) as u64);
+        replicas * (lists as u64 + (scene.particles.count * per_rod) as u64) + maps[1] as u64;
     // Sums of replicas that wait to be added in order, and three running moments of 8 bytes.
     let sums = plan.outputs() as u64 * (waiting * per_output as u64 + 3 * 8 * width as u64);
     rods + sums

@@ -11,6 +11,27 @@ pub fn from_angles(phi_rad: f64, theta_rad: f64) -> UnitVector3<f64> {
     UnitVector3::new_normalize(Vector3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta))
 }
 
+/// The direction with the angles `phi_deg` and `theta_deg` in degrees: exact at multiples of 90°, and every component to a
+/// few roundings of itself.
+pub fn from_degrees(phi_deg: f64, theta_deg: f64) -> UnitVector3<f64> {
+    let ([cos_phi, sin_phi], [cos_theta, sin_theta]) = (of_degrees(phi_deg), of_degrees(theta_deg));
+    UnitVector3::new_normalize(Vector3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta))
+}
+
+/// Cosine and sine of an angle in degrees.
+fn of_degrees(degrees: f64) -> [f64; 2] {
+    // Both remainders are exact.
+    let degrees = degrees % 360.0;
+    let quarters = (degrees / 90.0).round();
+    let (sin, cos) = (degrees - 90.0 * quarters).to_radians().sin_cos();
+    match quarters.rem_euclid(4.0) as u8 {
+        0 => [cos, sin],
+        1 => [-sin, cos],
+        2 => [-cos, -sin],
+        _ => [sin, -cos],
+    }
+}
+
 /// An isotropic direction from two uniform numbers in [0, 1): φ = 2πR₄, θ = arccos(1 − 2R₅) (eq. 12).
 pub fn isotropic(r4: f64, r5: f64) -> UnitVector3<f64> {
     // sin θ without the cancellation of 1 − cos²θ near the poles.
@@ -79,6 +100,25 @@ mod tests {
             prop_assert!((p.into_inner() - expected.into_inner()).norm() < 1e-7);
             prop_assert!((p.z - (1.0 - 2.0 * r5)).abs() < 1e-15);
         }
+    }
+
+    #[test]
+    fn right_angles_are_exact_and_others_those_of_radians() {
+        for quarters in -9i32..=9 {
+            let [cos, sin] = of_degrees(90.0 * f64::from(quarters));
+            let expected = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]][quarters.rem_euclid(4) as usize];
+            assert_eq!([cos, sin], expected);
+        }
+        for k in 0..2000 {
+            let degrees = f64::from(k).mul_add(0.7371, -600.0);
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            let found = of_degrees(degrees);
+            // The radians, up to 15, are rounded to 15 ε.
+            assert!((found[0] - cos).abs() < 16.0 * f64::EPSILON && (found[1] - sin).abs() < 16.0 * f64::EPSILON);
+        }
+        // cos(90° − 10⁻⁹ °) to its own digits, where that of radians has six.
+        let [cos, _] = of_degrees(90.0 - 2f64.powi(-30));
+        assert!((cos / 2f64.powi(-30).to_radians() - 1.0).abs() < 2.0 * f64::EPSILON);
     }
 
     #[test]

@@ -1,13 +1,14 @@
 //! The plan of a scene: which stages run, which are left out, and why.
 
 use crate::flow::VelocityGradient;
+use crate::free::FreeMotion;
 use crate::jeffery::{period_s, strain_per_period};
 use crate::observable::Observable;
 use crate::propagator::Propagator;
 use crate::scene::{Interaction, Invalid, Orientation, RESOLVED_STRAIN, Scene};
-use nalgebra::Matrix3;
 use serde::Serialize;
 use std::fmt;
+use std::sync::Arc;
 
 /// A part of a run that can be left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -84,24 +85,19 @@ pub struct Unit {
 pub struct Plan {
     scene: Scene,
     flow: VelocityGradient,
+    /// Where free rods are, but in plane Couette flow by periods.
+    free: Option<Arc<FreeMotion>>,
     entries: Vec<Entry>,
 }
 
 impl Plan {
     /// Checks the scene and decides what it needs.
     pub fn new(scene: &Scene) -> Result<Self, Invalid> {
-        scene.check()?;
-        let flow = match (scene.flow.shear_rate_per_s, scene.flow.gradient_per_s) {
-            (Some(g), _) => VelocityGradient::plane_couette(g),
-            (_, rows) => {
-                let rows = rows.unwrap_or_default();
-                VelocityGradient::new(Matrix3::from_fn(|i, j| rows[i][j]))
-            }
-        };
-        let flow = flow.ok_or_else(|| Invalid::new("flow", "non-finite", "finite numbers"))?;
+        let (flow, free) = scene.checked()?;
         Ok(Self {
             scene: scene.clone(),
             flow,
+            free: free.map(Arc::new),
             entries: entries(scene),
         })
     }
@@ -146,6 +142,16 @@ impl Plan {
         &self.flow
     }
 
+    /// The bound on the error of free rods' directions in rad, where they do not move by the closed form of plane Couette
+    /// flow. Random directions: of the map that moves them, relative to its size.
+    pub fn error_rad(&self) -> Option<f64> {
+        self.free.as_ref().map(|free| free.error_rad)
+    }
+
+    pub(crate) fn free(&self) -> Option<&Arc<FreeMotion>> {
+        self.free.as_ref()
+    }
+
     /// The stages, kept and dropped, in the order in which they run.
     pub fn entries(&self) -> &[Entry] {
         &self.entries
@@ -170,13 +176,7 @@ impl Plan {
 
     /// The number of outputs, the one at t = 0 included.
     pub fn outputs(&self) -> usize {
-        let time = &self.scene.time;
-        let all = match time.strain {
-            Some(strain) => strain * self.scene.outputs_per_strain() as f64,
-            None => time.periods.unwrap_or(0.0) * self.scene.outputs_per_period() as f64,
-        };
-        // The slack takes in a product that was rounded down.
-        1 + (all * (1.0 + 4.0 * f64::EPSILON)).floor() as usize
+        self.scene.outputs()
     }
 
     /// The number of time steps; 0 where the exact motion goes straight to each output.

@@ -2,9 +2,10 @@
 //! motion takes it from there to whatever time is asked for. A free rod is never stepped.
 
 use crate::chunks::over_chunks;
+use crate::free::{FreeMotion, MAX_ERROR_RAD, Way};
 use crate::jeffery::strain_per_period;
 use crate::observable::{BLOCK, Block};
-use crate::orientation::{from_angles, isotropic};
+use crate::orientation::{from_degrees, isotropic};
 use crate::phase::{Phase, nearest_whole};
 use crate::plan::{Clock, Plan, Stage};
 use crate::propagator::{Propagator, couette};
@@ -13,6 +14,7 @@ use crate::scene::Orientation;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use rand::RngExt;
 use rand_distr::{Distribution, Normal};
+use std::sync::Arc;
 
 /// Directions and aspect ratios of one replica's rods, as structure of arrays.
 #[derive(Clone, Debug)]
@@ -35,12 +37,10 @@ enum Shapes {
 enum Motion {
     /// Plane Couette flow: phases from ticks.
     Couette(Ticks),
-    /// Any other flow, one aspect ratio: the map to each output.
-    Shared(Vec<Matrix3<f64>>),
-    /// Any other flow, unequal aspect ratios: a propagator per rod, and the outputs' times in s.
-    Each {
+    /// Anything else as the plan has it, with a propagator per rod where their aspect ratios differ.
+    Free {
+        motion: Arc<FreeMotion>,
         propagators: Vec<Propagator>,
-        times_s: Vec<f64>,
     },
 }
 
@@ -127,15 +127,26 @@ impl Rods {
                     couette(p, r, clock.phase(elapsed[k], clock.periods(shapes, r)))
                 });
             }
-            (Motion::Shared(maps), _) => {
-                let map = &maps[tick as usize];
-                block.turn(from, |_, p, _| mapped(map, p));
-            }
-            (Motion::Each { propagators, times_s }, _) => {
-                block.turn(from, |k, p, _| {
-                    mapped(&propagators[first + k].map_over(times_s[tick as usize]), p)
-                });
-            }
+            (Motion::Free { motion, propagators }, _) => match &motion.way {
+                Way::Alike(ends) => {
+                    let end = ends[tick as usize % ends.len()];
+                    block.turn(from, |_, _, _| end);
+                }
+                Way::Maps(maps) => {
+                    let map = &maps[tick as usize % maps.len()];
+                    block.turn(from, |_, p, _| mapped(map, p));
+                }
+                Way::Each { mean, spans } => {
+                    let span = spans[tick as usize];
+                    block.turn(from, |k, p, _| {
+                        // No direction rather than one that is not known: a run with one is refused.
+                        match propagators[first + k].moved_beside(mean, p, span) {
+                            Some((end, error)) if error <= MAX_ERROR_RAD => end,
+                            _ => [f64::NAN; 3],
+                        }
+                    });
+                }
+            },
         }
     }
 
@@ -230,7 +241,7 @@ fn draw_directions(plan: &Plan, replica: u64) -> [Vec<f64>; 3] {
             let direction = match (particles.orientation, drawn) {
                 (Orientation::Random(_), Some(drawn)) => drawn,
                 (Orientation::Given { phi_deg, theta_deg }, _) => {
-                    from_angles(phi_deg.to_radians(), theta_deg.to_radians())
+                    from_degrees(phi_deg, theta_deg)
                 }
                 (Orientation::Random(_), None) => unreachable!("a plan keeps the draws of random directions"),
             };
@@ -250,31 +261,14 @@ fn choose_motion(plan: &Plan, shapes: &Shapes) -> Motion {
             sign: g.signum(),
         });
     }
-    let times_s = output_times_s(plan);
-    match shapes {
-        Shapes::Shared(r) => {
-            let propagator = Propagator::new(flow, *r);
-            Motion::Shared(match plan.clock() {
-                Clock::Periods { ticks } => (0..plan.outputs() as u64)
-                    .map(|tick| (tick % ticks) as f64 / ticks as f64)
-                    .filter_map(|turns| propagator.map_over_turns(turns))
-                    .collect(),
-                Clock::Strain { .. } => times_s.iter().map(|&time| propagator.map_over(time)).collect(),
-            })
-        }
-        Shapes::Each(aspect_ratio) => Motion::Each {
-            propagators: aspect_ratio.iter().map(|&r| Propagator::new(flow, r)).collect(),
-            times_s,
-        },
-    }
-}
-
-fn output_times_s(plan: &Plan) -> Vec<f64> {
-    let unit_s = match plan.clock() {
-        Clock::Strain { .. } => 1.0 / plan.flow().magnitude_per_s(),
-        Clock::Periods { .. } => Propagator::new(plan.flow(), plan.scene().particles.aspect_ratio)
-            .period_s()
-            .unwrap_or(0.0),
+    let Some(motion) = plan.free().cloned() else {
+        unreachable!("a plan without the closed form has the motion of free rods");
     };
-    plan.times().into_iter().map(|time| time * unit_s).collect()
+    let propagators = match (&motion.way, shapes) {
+        (Way::Each { .. }, Shapes::Each(aspect_ratios)) => {
+            aspect_ratios.iter().map(|&r| Propagator::new(flow, r)).collect()
+        }
+        _ => Vec::new(),
+    };
+    Motion::Free { motion, propagators }
 }

@@ -4,6 +4,7 @@ use super::allowed::{Invalid, MAX_PER_UNIT, refused};
 use super::{Interaction, RESOLVED_STRAIN, Scene};
 use crate::flow::VelocityGradient;
 use crate::jeffery::strain_per_period;
+use crate::free::FreeMotion;
 use crate::propagator::Propagator;
 use crate::volume::ControlVolume;
 use nalgebra::Matrix3;
@@ -12,6 +13,8 @@ use nalgebra::Matrix3;
 const MAX_STEPS: f64 = 1e9;
 /// 34 channels of 10⁶ outputs are 800 MB of sums.
 const MAX_OUTPUTS: f64 = 1e6;
+/// The growth over the whole time up to which what turns is called periodic: a rod misses its start by as many rad.
+const MAX_DRIFT: f64 = 1e-6;
 
 impl Scene {
     /// Checks every value and every combination of values; the first problem.
@@ -30,17 +33,41 @@ impl Scene {
     /// What does not go together: of the particles, and of the rest the first, for what is wrong there follows from
     /// one to the next. Every value is one that its key allows.
     fn at_odds(&self) -> Vec<Invalid> {
-        let rest = || {
-            let flow = self.check_flow()?;
-            if let Some(interaction) = &self.interaction {
-                self.check_interaction(interaction, &flow)?;
-            }
-            self.check_time(&flow)
-        };
-        [self.check_particles(), rest()]
+        let rest = self.check_motion().map(|_| ());
+        [self.check_particles(), rest]
             .into_iter()
             .filter_map(Result::err)
             .collect()
+    }
+
+    /// Checks the scene; its flow, and where rods do not move by the closed form of plane Couette flow, how they do.
+    pub(crate) fn checked(&self) -> Result<(VelocityGradient, Option<FreeMotion>), Invalid> {
+        self.out_of_range().into_iter().next().map_or(Ok(()), Err)?;
+        self.check_particles()?;
+        self.check_motion()
+    }
+
+    fn check_motion(&self) -> Result<(VelocityGradient, Option<FreeMotion>), Invalid> {
+        let flow = self.check_flow()?;
+        if let Some(interaction) = &self.interaction {
+            self.check_interaction(interaction, &flow)?;
+        }
+        self.check_time(&flow)?;
+        let by_closed_form = flow.shear_rate_per_s().is_some() && self.time.strain.is_none();
+        let free = (!by_closed_form)
+            .then(|| FreeMotion::new(self, &flow))
+            .transpose()?;
+        Ok((flow, free))
+    }
+
+    /// The number of outputs, the one at t = 0 included.
+    pub(crate) fn outputs(&self) -> usize {
+        let all = match self.time.strain {
+            Some(strain) => strain * self.outputs_per_strain() as f64,
+            None => self.time.periods.unwrap_or(0.0) * self.outputs_per_period() as f64,
+        };
+        // The slack takes in a product that was rounded down.
+        1 + (all * (1.0 + 4.0 * f64::EPSILON)).floor() as usize
     }
 
     fn check_flow(&self) -> Result<VelocityGradient, Invalid> {
@@ -126,13 +153,19 @@ impl Scene {
 
     fn check_periods(&self, periods: f64, flow: &VelocityGradient) -> Result<(), Invalid> {
         let key = "time.periods";
-        let Some(period_s) = Propagator::new(flow, self.particles.aspect_ratio).period_s() else {
-            return Err(Invalid::new(
-                key,
-                periods,
-                "rods of this aspect ratio have no period in this flow: give strain",
-            ));
+        let propagator = Propagator::new(flow, self.particles.aspect_ratio);
+        let no_period = "rods of this aspect ratio have no period in this flow";
+        let (Some(period_s), Some(drift)) = (propagator.period_s(), propagator.drift_per_period()) else {
+            return Err(Invalid::new(key, periods, format!("{no_period}: give strain")));
         };
+        let drift = drift * periods;
+        if !(drift <= MAX_DRIFT) {
+            let allowed = format!(
+                "{no_period}: in what would be one, times this, what turns has grown by e^{drift:.1e} against what does \
+                 not, more than e^{MAX_DRIFT:e}: give strain"
+            );
+            return Err(Invalid::new(key, periods, allowed));
+        }
         if let Some(outputs) = self.time.outputs_per_strain {
             return Err(Invalid::new(
                 "time.outputs_per_strain",

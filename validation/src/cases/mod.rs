@@ -9,6 +9,7 @@ mod experiments;
 mod extreme_scenes;
 mod extremes;
 mod free_suspension;
+mod general_flows;
 mod integrator_claims;
 mod jeffery_equations;
 mod kicks;
@@ -43,6 +44,7 @@ pub fn all() -> Vec<Case> {
         closed_forms::cases(),
         reductions::cases(),
         extremes::cases(),
+        general_flows::cases(),
         extreme_scenes::cases(),
         reference::cases(),
         resolution::cases(),

@@ -1,6 +1,7 @@
 //! What judges the core: closed forms, quadratures and a naive reference. Nothing here uses the core.
 
 pub mod closed_form;
+pub mod exponential;
 pub mod isotropic;
 pub mod kicks;
 pub mod naive;

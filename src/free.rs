@@ -1,0 +1,150 @@
+//! Where free rods are at each output of a scene, other than in plane Couette flow by periods: worked out once for all
+//! replicas, and refused where it is not known.
+
+use crate::flow::VelocityGradient;
+use crate::orientation::from_degrees;
+use crate::propagator::{Propagator, Span};
+use crate::scene::{Invalid, Orientation, Scene};
+use nalgebra::{Matrix3, UnitVector3};
+use rayon::prelude::*;
+
+/// The largest angle in rad by which a direction may be off before a scene is refused: far below what any mean of rods
+/// resolves, far above round-off.
+pub const MAX_ERROR_RAD: f64 = 1e-6;
+/// The relative error of a component of a direction that is given in degrees, with room: sine, cosine, product, length.
+const ROUNDING_OF_START: f64 = 4.0 * f64::EPSILON;
+
+/// The motion of a scene's free rods.
+#[derive(Clone, Debug)]
+pub(crate) struct FreeMotion {
+    pub way: Way,
+    /// The bound on the error of a direction in rad. Random directions: of the map, relative to its size.
+    pub error_rad: f64,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) enum Way {
+    /// All rods start alike and are alike: their direction at each output, periodically.
+    Alike(Vec<[f64; 3]>),
+    /// All rods are alike: the map to each output, periodically.
+    Maps(Vec<Matrix3<f64>>),
+    /// A propagator for each rod; spans to each output, and the propagator that has their periods.
+    Each { mean: Propagator, spans: Vec<Span> },
+}
+
+impl FreeMotion {
+    /// The motion of the scene's rods in `flow`; the error names the scene's duration.
+    pub fn new(scene: &Scene, flow: &VelocityGradient) -> Result<Self, Invalid> {
+        let particles = &scene.particles;
+        let r = particles.aspect_ratio;
+        let mean = Propagator::general(flow, r);
+        let mut spans = spans(scene);
+        if scene.time.periods.is_some() && mean.drift_per_period() == Some(0.0) {
+            // What comes back exactly is worked out once.
+            spans.truncate(scene.outputs_per_period() as usize);
+        }
+        let start = match particles.orientation {
+            Orientation::Given { phi_deg, theta_deg } => Some(from_degrees(phi_deg, theta_deg)),
+            Orientation::Random(_) => None,
+        };
+        if particles.aspect_ratio_sd_percent > 0.0 {
+            let spread = 3.0 * particles.aspect_ratio_sd_percent / 100.0;
+            let mut error_rad = 0.0f64;
+            for r in [r * (1.0 - spread), r, r * (1.0 + spread)] {
+                let propagator = Propagator::general(flow, r);
+                let errors = at_each(scene, &self::spans(scene), |span| {
+                    let error = match start {
+                        Some(start) => propagator.moved_beside(&mean, start.into_inner().into(), span)?.1,
+                        None => propagator.map_beside(&mean, span)?.1,
+                    };
+                    Some(((), error, 0.0))
+                })?;
+                error_rad = error_rad.max(errors.1);
+            }
+            let mean = Propagator::new(flow, r);
+            let spans = self::spans(scene);
+            return Ok(Self {
+                way: Way::Each { mean, spans },
+                error_rad,
+            });
+        }
+        let (way, error_rad) = match start {
+            Some(start) => {
+                let (ends, error) = at_each(scene, &spans, |span| directed(&mean, &start, span))?;
+                (Way::Alike(ends), error)
+            }
+            None => {
+                let (maps, error) = at_each(scene, &spans, |span| {
+                    let (map, error) = mean.map(span)?;
+                    Some((map, error, 0.0))
+                })?;
+                (Way::Maps(maps), error)
+            }
+        };
+        Ok(Self { way, error_rad })
+    }
+}
+
+/// Where a rod that starts along `start` goes, with its error and what of it is the rounding of the start.
+fn directed(
+    propagator: &Propagator,
+    start: &UnitVector3<f64>,
+    span: Span,
+) -> Option<([f64; 3], f64, f64)> {
+    let moved = propagator.moved(start, span)?;
+    let rounding = ROUNDING_OF_START * moved.condition;
+    Some((moved.p.into_inner().into(), moved.error + rounding, rounding))
+}
+
+/// What `motion` gives at each span with its error and the start's part in it, and the largest error.
+fn at_each<T: Send>(
+    scene: &Scene,
+    spans: &[Span],
+    motion: impl Fn(Span) -> Option<(T, f64, f64)> + Sync,
+) -> Result<(Vec<T>, f64), Invalid> {
+    let all: Option<Vec<_>> = spans.par_iter().map(|&span| motion(span)).collect();
+    // A scene in periods has been checked to have one.
+    let all = all.unwrap_or_default();
+    let worst = all.iter().map(|(_, error, of_start)| (*error, *of_start));
+    let (error, of_start) = worst.fold((0.0, 0.0), |worst, next| if next.0 > worst.0 { next } else { worst });
+    if error > MAX_ERROR_RAD {
+        return Err(unknown(scene, error, of_start));
+    }
+    Ok((all.into_iter().map(|(value, ..)| value).collect(), error))
+}
+
+fn unknown(scene: &Scene, error: f64, of_start: f64) -> Invalid {
+    let (key, value) = match scene.time.strain {
+        Some(strain) => ("time.strain", strain),
+        None => ("time.periods", scene.time.periods.unwrap_or(0.0)),
+    };
+    let cause = if of_start > 0.5 * error {
+        "the start is a double, and this flow tells apart what a double cannot"
+    } else {
+        "the flow's rates cancel, or grow apart, beyond the 32 digits that they are worked out in"
+    };
+    Invalid::new(
+        key,
+        value,
+        format!(
+            "so long that directions of rods of r_e = {} in this flow would be known to {error:.1e} rad only, not to \
+             {MAX_ERROR_RAD:e}: {cause}; give a shorter time, another start or other rods",
+            scene.particles.aspect_ratio
+        ),
+    )
+}
+
+/// The times of the outputs.
+fn spans(scene: &Scene) -> Vec<Span> {
+    let outputs = 0..scene.outputs();
+    match scene.time.strain {
+        Some(_) => {
+            let each = scene.outputs_per_strain() as f64;
+            outputs.map(|k| Span::Strain(k as f64, each)).collect()
+        }
+        None => {
+            let each = scene.outputs_per_period() as f64;
+            outputs.map(|k| Span::Periods(k as f64, each)).collect()
+        }
+    }
+}

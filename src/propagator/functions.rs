@@ -1,0 +1,81 @@
+//! Exponential, sine and cosine of numbers that know their error.
+
+use super::ball::Ball;
+
+/// 1/n!.
+pub(super) const INVERSE_FACTORIALS: [Ball; 34] = {
+    let mut all = [Ball::ONE; 34];
+    let mut n = 1;
+    while n < all.len() {
+        all[n] = all[n - 1].over(Ball::exact(n as f64));
+        n += 1;
+    }
+    all
+};
+
+/// More than what is left of every series here: the next term, twice.
+const LEFT_OUT: f64 = 1e-33;
+
+/// Σ cₖ zᵏ over `coefficients`, the highest first.
+fn horner(coefficients: impl Iterator<Item = usize>, z: Ball) -> Ball {
+    coefficients.fold(Ball::ZERO, |sum, n| sum * z + INVERSE_FACTORIALS[n])
+}
+
+/// eˣ for x ≤ 0.
+pub(super) fn exp(x: Ball) -> Ball {
+    // Below e⁻⁶⁰⁰ it is 0 beside whatever it is added to, and known to be less than that.
+    if x.hi < -600.0 {
+        return Ball::ZERO.widened(if x.hi + x.error < -590.0 { 1e-250 } else { 1.0 });
+    }
+    let powers_of_two = (x.hi / std::f64::consts::LN_2).round();
+    let rest = x.middle() - Ball::exact(powers_of_two) * Ball::LN_2;
+    // |rest| ≤ 0.35, an eighth of it 0.044: 0.044¹⁷/17! < 10⁻³⁷.
+    let eighth = rest.scaled(0.125);
+    let mut less_one = (1..17).rev().fold(Ball::ZERO, |sum, n| sum * eighth + INVERSE_FACTORIALS[n]) * eighth;
+    for _ in 0..3 {
+        less_one = less_one.scaled(2.0) + less_one * less_one;
+    }
+    let value = (Ball::ONE + less_one).scaled(2f64.powi(powers_of_two as i32));
+    value.widened(value.hi * (LEFT_OUT + x.error.exp_m1() * (1.0 + 8.0 * f64::EPSILON)))
+}
+
+/// The sine and cosine of 2π·turns: quarter turns are exact.
+pub(super) fn sin_cos(turns: Ball) -> (Ball, Ball) {
+    let mut rest = turns.middle();
+    let mut quarters = 0.0;
+    // Twice: of large turns the low part is not less than one either.
+    for _ in 0..2 {
+        let nearest = (4.0 * rest.hi).round();
+        rest = rest - Ball::exact(0.25 * nearest);
+        quarters = (quarters + nearest % 4.0) % 4.0;
+    }
+    let angle = Ball::TAU * rest;
+    let z = -(angle * angle);
+    // |angle| ≤ π/4: (π/4)³⁰/30! < 10⁻³⁵.
+    let sin = horner_of(z, 29) * angle;
+    let cos = horner_of(z, 28);
+    let moved = (std::f64::consts::TAU * 1.001 * turns.error).min(2.0);
+    let (sin, cos) = match quarters.rem_euclid(4.0) as u8 {
+        0 => (sin, cos),
+        1 => (cos, -sin),
+        2 => (-sin, -cos),
+        _ => (-cos, sin),
+    };
+    let widened = |value: Ball| match value.is_zero() && moved == 0.0 {
+        true => value,
+        false => value.widened(moved + LEFT_OUT * value.hi.abs()),
+    };
+    (widened(sin), widened(cos))
+}
+
+/// Σ zᵏ/n! over n = `last`, `last` − 2, … with k from the end: cosine from an even `last`, sine over its argument from an
+/// odd one.
+fn horner_of(z: Ball, last: usize) -> Ball {
+    horner((0..=last).rev().step_by(2), z)
+}
+
+/// cosh √z and sinh √z / √z, which have no root in them, for |z| ≤ 1.
+pub(super) fn cosh_sinh_over(z: Ball) -> (Ball, Ball) {
+    let (cosh, sinh) = (horner_of(z, 30), horner_of(z, 31));
+    (cosh.widened(LEFT_OUT), sinh.widened(LEFT_OUT))
+}

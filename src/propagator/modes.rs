@@ -1,0 +1,217 @@
+//! exp(Nτ) = a₀ + a₁N + a₂N², up to a factor, from the roots of N's characteristic equation.
+//!
+//! With the real root λ that is farthest from 0 and the pair m ± √Δ of the others, χ = (x − λ)((x − m)² − Δ), and
+//!
+//! exp(xτ) = h(x) + ((x − m)² − Δ)(e^{λτ} − h(λ))/χ′(λ),  h(x) = e^{mτ}(cosh √Δτ + (x − m) sinh √Δτ/√Δ)  modulo χ.
+//!
+//! h has no root in it and does not mind whether the pair is real, equal or complex; λ is a root of its own: where the
+//! sum of the roots is 0 and the largest of |c|^½ and |d|^⅓ is 1, χ′(λ) is never small (it is least, 1.9, where c = −1 and
+//! the others meet). So no kind of flow is told from another, and nothing is iterated but one Newton method that cannot
+//! but end. In a short time, where e^{λτ} − h(λ) would cancel, the series takes its place.
+
+use super::ball::Ball;
+use super::functions::{INVERSE_FACTORIALS, cosh_sinh_over, exp, sin_cos};
+
+/// A time in the units of N.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Time {
+    pub span: Ball,
+    /// The same in periods, where it was given in periods: quarter turns are exact.
+    pub turns: Option<Ball>,
+}
+
+/// The roots of a characteristic equation.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Modes {
+    /// Nothing moves.
+    None,
+    Two(Pair),
+    Three(Cubic),
+}
+
+/// m ± √Δ.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair {
+    middle: Ball,
+    square: Ball,
+}
+
+/// λ³ − tλ² + cλ − d.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cubic {
+    /// A power of two, about the larger of |c|^½ and |d|^⅓.
+    size: f64,
+    /// t, c and d in units of size, size² and size³.
+    of_size: [Ball; 3],
+    root: Ball,
+    pair: Pair,
+}
+
+impl Modes {
+    pub fn of_two(middle: Ball, square: Ball) -> Self {
+        Self::Two(Pair { middle, square })
+    }
+
+    pub fn of_three(t: Ball, c: Ball, d: Ball) -> Self {
+        Self::Three(Cubic::new(t, c, d))
+    }
+
+    /// 2π/ω of a pair that is certainly complex, and |λ − m|·2π/ω.
+    pub fn period(&self) -> Option<(Ball, f64)> {
+        let Self::Three(cubic) = self else {
+            return None;
+        };
+        if !cubic.pair.turns() {
+            return None;
+        }
+        let period = Ball::TAU.over((-cubic.pair.square).sqrt());
+        let drift = (cubic.root - cubic.pair.middle) * period;
+        Some((period, drift.most()))
+    }
+
+    /// a₀, a₁ and a₂, all times one and the same factor > 0.
+    pub fn coefficients(&self, time: Time) -> [Ball; 3] {
+        match self {
+            Self::None => [Ball::ONE, Ball::ZERO, Ball::ZERO],
+            Self::Two(pair) => {
+                let (_, cosh, sinh) = pair.at(time);
+                [cosh - pair.middle * sinh, sinh, Ball::ZERO]
+            }
+            Self::Three(cubic) => cubic.coefficients(time),
+        }
+    }
+}
+
+impl Pair {
+    /// Whether it is certainly complex.
+    fn turns(&self) -> bool {
+        -self.square.hi > 2.0 * self.square.error
+    }
+
+    /// √Δτ where the pair is real and the time is long, else 0; cosh √Δτ and sinh √Δτ/√Δ over e to that.
+    fn at(&self, time: Time) -> (Ball, Ball, Ball) {
+        let tau = time.span;
+        let z = self.square * tau * tau;
+        if z.most() <= 1.0 && (time.turns.is_none() || !self.turns()) {
+            let (cosh, sinh) = cosh_sinh_over(z);
+            (Ball::ZERO, cosh, tau * sinh)
+        } else if self.turns() {
+            let omega = (-self.square).sqrt();
+            let turns = time.turns.unwrap_or_else(|| (omega * tau).over(Ball::TAU));
+            let (sin, cos) = sin_cos(turns);
+            (Ball::ZERO, cos, sin.over(omega))
+        } else {
+            // Where Δ may be 0 its root, and with it the answer, is not known.
+            let root = match self.square.hi > 2.0 * self.square.error {
+                true => self.square.sqrt(),
+                false => Ball::ONE.widened(f64::INFINITY),
+            };
+            let growth = root * tau;
+            let other = exp(growth.scaled(-2.0));
+            let sinh = (Ball::ONE - other).over(root).scaled(0.5);
+            (growth, (Ball::ONE + other).scaled(0.5), sinh)
+        }
+    }
+}
+
+impl Cubic {
+    fn new(t: Ball, c: Ball, d: Ball) -> Self {
+        let size = c.most().sqrt().max(d.most().cbrt()).max(t.most());
+        // The cube of this is still a normal number.
+        let size = 2f64.powi((size.log2().ceil() as i32).max(-330));
+        let inverse = size.recip();
+        let of_size = [
+            t.scaled(inverse),
+            c.scaled(inverse).scaled(inverse),
+            d.scaled(inverse).scaled(inverse).scaled(inverse),
+        ];
+        let root = largest_root(of_size).scaled(size);
+        let middle = (t - root).scaled(0.5);
+        // The product of the pair is c − 2λm.
+        let square = middle * middle - (c - (root * middle).scaled(2.0));
+        Self {
+            size,
+            of_size,
+            root,
+            pair: Pair { middle, square },
+        }
+    }
+
+    fn coefficients(&self, time: Time) -> [Ball; 3] {
+        let tau = time.span;
+        if self.size * tau.most() <= SHORT {
+            return self.series(tau);
+        }
+        let Pair { middle, square } = self.pair;
+        let (growth, cosh, sinh) = self.pair.at(time);
+        // The larger of both factors is taken out.
+        let lead = (self.root - middle) * tau - growth;
+        let (of_root, of_pair) = if lead.hi > 0.0 {
+            (Ball::ONE, exp(-lead))
+        } else {
+            (exp(lead), Ball::ONE)
+        };
+        let (cosh, sinh) = (of_pair * cosh, of_pair * sinh);
+        let apart = self.root - middle;
+        let rest = (of_root - (cosh + sinh * apart)).over(apart * apart - square);
+        [
+            cosh - middle * sinh + rest * (middle * middle - square),
+            sinh - rest * middle.scaled(2.0),
+            rest,
+        ]
+    }
+
+    /// Σ (yT)ⁿ/n! modulo χ, with y in units of `size` and T = size·τ ≤ ½. |yⁿ| modulo χ grows by less than 2 a power.
+    fn series(&self, tau: Ball) -> [Ball; 3] {
+        let time = tau.scaled(self.size);
+        let [t, c, d] = self.of_size;
+        let mut sum = [Ball::ZERO; 3];
+        for n in (0..TERMS).rev() {
+            // y · (s₀ + s₁y + s₂y²), y³ = ty² − cy + d.
+            let [s0, s1, s2] = sum.map(|s| s * time);
+            sum = [d * s2 + INVERSE_FACTORIALS[n], s0 - c * s2, s1 + t * s2];
+        }
+        // The first term that is left out, twice; the time's own powers are in s₁ and s₂ too.
+        let left_out = 2.0 * INVERSE_FACTORIALS[TERMS].hi * (2.0 * time.most()).powi(TERMS as i32 - 2);
+        let inverse = self.size.recip();
+        let [s0, s1, s2] = sum;
+        [
+            s0.widened(left_out),
+            s1.widened(left_out * time.most()).scaled(inverse),
+            s2.widened(left_out * time.most().powi(2)).scaled(inverse).scaled(inverse),
+        ]
+    }
+}
+
+/// Times up to this in units of `size` take the series.
+const SHORT: f64 = 0.5;
+/// 2/30! < 10⁻³².
+const TERMS: usize = 30;
+
+/// The real root farthest from 0 of x³ − tx² + cx − d, |c|, |d| ≤ 1 and t next to 0.
+fn largest_root([t, c, d]: [Ball; 3]) -> Ball {
+    if d.is_zero() && t.is_zero() && c.hi >= 0.0 && c.least() > 0.0 || (c.is_zero() && d.is_zero()) {
+        return Ball::ZERO;
+    }
+    let sign = if d.hi < 0.0 { -1.0 } else { 1.0 };
+    // From beyond the root (4/3 is), where the cubic is convex, Newton's method comes down to it and never passes it.
+    let (c0, d0) = (c.hi, d.hi.abs());
+    let mut x = 4.0 / 3.0;
+    for _ in 0..200 {
+        let next = x - (x * (x * x + c0) - d0) / (3.0 * x * x + c0);
+        if !(next < x) {
+            break;
+        }
+        x = next;
+    }
+    let value = |x: Ball| ((x - t) * x + c) * x - d;
+    let slope = |x: Ball| (x.scaled(3.0) - t.scaled(2.0)) * x + c;
+    let mut root = Ball::exact(sign * x);
+    for _ in 0..2 {
+        root = (root - value(root).over(slope(root))).middle();
+    }
+    // Within this distance the slope changes by less than half of itself, and the value is made up for twice.
+    let (least, off) = (slope(root).least(), value(root).most());
+    let error = 2.0 * off / least;
+    root.widened(if 16.0 * error <= least { error } else { f64::INFINITY })
+}

@@ -1,0 +1,111 @@
+//! The propagator by itself; the suite has it against an oracle in high precision.
+
+use super::*;
+
+use crate::orientation;
+use proptest::prelude::*;
+
+fn flow(rows: [[f64; 3]; 3]) -> VelocityGradient {
+    VelocityGradient::new(Matrix3::from_fn(|i, j| rows[i][j])).unwrap()
+}
+
+fn apart(a: &UnitVector3<f64>, b: &UnitVector3<f64>) -> f64 {
+    a.cross(b).norm()
+}
+
+#[test]
+fn quarter_turns_are_exact() {
+    for (turns, cos, sin) in [
+        (0.25, 0.0, 1.0),
+        (-0.25, 0.0, -1.0),
+        (0.5, -1.0, 0.0),
+        (1e8 + 0.75, 0.0, -1.0),
+    ] {
+        let phase = Phase::of_turns(turns);
+        assert_eq!((phase.cos, phase.sin), (cos, sin), "{turns}");
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::fixed_seed(256))]
+
+    #[test]
+    fn every_kind_of_flow_agrees_with_the_plain_exponential(
+        l in prop::array::uniform9(-1.0f64..1.0), phi in 0.0f64..6.2, theta in 0.0f64..3.1,
+        r in 0.05f64..20.0, time in 0.0f64..20.0
+    ) {
+        let flow = VelocityGradient::new(Matrix3::from_row_slice(&l)).unwrap();
+        let p = orientation::from_angles(phi, theta);
+        let a = flow.vorticity() + jeffery::shape_factor(r) * flow.strain_rate();
+        let plain = UnitVector3::new_normalize((a * time).exp() * p.as_ref());
+        prop_assert!(apart(&Propagator::new(&flow, r).after(&p, time), &plain) < 1e-8);
+    }
+
+    #[test]
+    fn a_short_time_moves_at_jefferys_rate(
+        l in prop::array::uniform9(-1.0f64..1.0), phi in 0.0f64..6.2, theta in 0.0f64..3.1, r in 0.05f64..20.0
+    ) {
+        let flow = VelocityGradient::new(Matrix3::from_row_slice(&l)).unwrap();
+        let p = orientation::from_angles(phi, theta);
+        let dt = 1e-6;
+        let moved = Propagator::new(&flow, r).after(&p, dt).into_inner();
+        let rate = jeffery::direction_rate_per_s(&flow, r, &p);
+        prop_assert!(((moved - p.into_inner()) / dt - rate).norm() < 1e-5);
+    }
+
+    #[test]
+    fn plane_couette_flow_by_either_way(phi in 0.0f64..6.2, theta in 0.0f64..3.1, r in 0.05f64..50.0, turns in 0.0f64..3.0) {
+        let p = orientation::from_angles(phi, theta);
+        let flow = VelocityGradient::plane_couette(-0.5).unwrap();
+        let span = Span::Periods(turns, 1.0);
+        let closed = Propagator::new(&flow, r).moved(&p, span).unwrap();
+        let general = Propagator::general(&flow, r).moved(&p, span).unwrap();
+        prop_assert!(apart(&closed.p, &general.p) <= closed.error + general.error);
+        prop_assert!(general.error < 1e-14);
+    }
+}
+
+#[test]
+fn no_strain_overflows() {
+    let p = orientation::from_angles(0.3, 1.0);
+    let planar = flow([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 0.0]]);
+    let axial = flow([[1.0, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, -0.5]]);
+    for flow in [planar, axial] {
+        let end = Propagator::new(&flow, 11.6).after(&p, 1e6);
+        assert!((end.x - 1.0).abs() < 1e-15 && end.y.abs() < 1e-15, "{end:?}");
+    }
+}
+
+#[test]
+fn a_spiral_keeps_its_phase_over_many_turns() {
+    // Rotation about axis 3 with compression along it: p falls into the plane and turns there at ½.
+    let spiral = flow([[0.1, -0.5, 0.0], [0.5, 0.1, 0.0], [0.0, 0.0, -0.2]]);
+    let propagator = Propagator::new(&spiral, 5.0);
+    assert!(propagator.drift_per_period().unwrap() > 1.0);
+    let p = orientation::from_angles(0.3, 1.0);
+    let turns = 1e6;
+    let end = propagator.after(&p, turns * 2.0 * TAU);
+    let expected = orientation::from_angles(0.3, std::f64::consts::FRAC_PI_2);
+    // The time itself, 1.3·10⁷ s, is rounded to 2·10⁻⁹ s.
+    assert!(apart(&end, &expected) < 1e-8, "{end:?}");
+}
+
+#[test]
+fn a_pure_rotation_has_the_period_of_its_vorticity() {
+    let rotation = flow([[0.0, -0.5, 0.0], [0.5, 0.0, 0.0], [0.0, 0.0, 0.0]]);
+    let period = Propagator::new(&rotation, 7.0).period_s().unwrap();
+    assert!((period / (2.0 * TAU) - 1.0).abs() < 1e-14);
+}
+
+#[test]
+fn a_phase_of_1e8_periods_is_not_lost() {
+    let p = orientation::from_angles(0.2, 0.9);
+    let rotated = flow([[0.0, 0.0, 0.0], [0.0, 0.0, 0.5], [0.0, 0.0, 0.0]]);
+    for flow in [VelocityGradient::plane_couette(0.5).unwrap(), rotated] {
+        let propagator = Propagator::new(&flow, 11.6);
+        let near = propagator.after_turns(&p, 0.125).unwrap();
+        let far = propagator.after_turns(&p, 1e8 + 0.125).unwrap();
+        // 10⁸ + ⅛ turns are a number of their own; only the general way's own turns are 106 bits.
+        assert!(apart(&near, &far) < 4.0 * f64::EPSILON);
+    }
+}

@@ -1,0 +1,177 @@
+//! The core in any flow, at any aspect ratio and strain: right to the bound it states, or it says that it is not.
+
+mod problems;
+
+use crate::accept::Rule;
+use crate::case::{About, Case, Effort, Evidence, Kind};
+use nalgebra::{Matrix3, UnitVector3, Vector3};
+use problems::Problem;
+use shearbed::flow::VelocityGradient;
+use shearbed::free::MAX_ERROR_RAD;
+use shearbed::jeffery::shape_factor;
+use shearbed::propagator::{Moved, Propagator, Span};
+use std::sync::OnceLock;
+
+/// What moves a rod and says how well.
+type Motion = fn(&Problem) -> Moved;
+
+pub fn cases() -> Vec<Case> {
+    vec![Case::new(
+        About {
+            name: "general-flows",
+            kind: Kind::Verification,
+            claim: "In any flow, at r_e from 10⁻¹⁰⁰ to 10¹⁰⁰ and strains from 10⁻¹³ to 10⁶, a direction is off the oracle's, of \
+                    hundreds of bits, by no more than the bound that comes with it; where that is above 10⁻⁶ rad, a scene is refused.",
+            source: "eqs 2, 3, A.1",
+            equations: &["2", "3", "A.1"],
+            statistical_checks: 0,
+        },
+        core as Motion,
+        vec![
+            ("Λ rounded to double before 1 − Λ is formed", |problem| {
+                let shape = shape_factor(problem.rod.aspect_ratio);
+                let rounded = ((1.0 + shape) / (1.0 - shape)).sqrt().clamp(1e-100, 1e100);
+                let mut other = *problem;
+                other.rod.aspect_ratio = rounded;
+                core(&other)
+            }),
+            ("double for double-double", |problem| in_double(problem, squared_exponential)),
+            ("|det A| ≤ 16 ε taken as planar", |problem| {
+                let (a, _) = rates(problem);
+                if a.determinant().abs() <= 16.0 * f64::EPSILON {
+                    in_double(problem, planar)
+                } else {
+                    core(problem)
+                }
+            }),
+            ("the error of the map left out of the bound", |problem| Moved {
+                error: 8.0 * f64::EPSILON,
+                ..core(problem)
+            }),
+        ],
+        general_flows,
+    )]
+}
+
+fn flow(problem: &Problem) -> VelocityGradient {
+    let l = problem.rod.gradient_per_s;
+    VelocityGradient::new(Matrix3::from_fn(|i, j| l[i][j])).expect("finite components")
+}
+
+fn start(problem: &Problem) -> UnitVector3<f64> {
+    UnitVector3::new_unchecked(problem.rod.p.into())
+}
+
+fn core(problem: &Problem) -> Moved {
+    Propagator::general(&flow(problem), problem.rod.aspect_ratio)
+        .moved(&start(problem), Span::Strain(problem.strain, 1.0))
+        .expect("any flow has a strain")
+}
+
+/// A in units of its flow's largest component, and the time, in double.
+fn rates(problem: &Problem) -> (Matrix3<f64>, f64) {
+    let flow = flow(problem);
+    let size = flow.per_s().amax();
+    let square = problem.rod.aspect_ratio.powi(2);
+    let l = flow.per_s() / size;
+    let l = l - Matrix3::identity() * (l.trace() / 3.0);
+    let a = l / (1.0 + 1.0 / square) - l.transpose() / (1.0 + square);
+    (a, problem.strain * (size / flow.magnitude_per_s()))
+}
+
+/// The direction by a map in double, with the core's bound.
+fn in_double(problem: &Problem, map: fn(&Matrix3<f64>, f64) -> Matrix3<f64>) -> Moved {
+    let (a, time) = rates(problem);
+    Moved {
+        p: UnitVector3::new_normalize(map(&a, time) * start(problem).as_ref()),
+        ..core(problem)
+    }
+}
+
+fn squared_exponential(a: &Matrix3<f64>, time: f64) -> Matrix3<f64> {
+    let doublings = (a.norm() * time).log2().ceil().max(0.0) as i32;
+    let mut map = (a * (time / 2f64.powi(doublings))).exp();
+    for _ in 0..doublings {
+        map *= map;
+        map /= map.amax();
+    }
+    map
+}
+
+/// exp(At) for A³ = −cA.
+fn planar(a: &Matrix3<f64>, time: f64) -> Matrix3<f64> {
+    let c = -0.5 * (a * a).trace();
+    let root = c.abs().sqrt();
+    let (once, twice) = if root == 0.0 {
+        (time, 0.5 * time * time)
+    } else if c > 0.0 {
+        ((root * time).sin() / root, (1.0 - (root * time).cos()) / c)
+    } else {
+        ((root * time).sinh() / root, ((root * time).cosh() - 1.0) / -c)
+    };
+    Matrix3::identity() + a * once + a * a * twice
+}
+
+/// Problems with answers, worked out once for the check and its controls.
+fn shared(full: bool) -> &'static [Problem] {
+    static QUICK: OnceLock<Vec<Problem>> = OnceLock::new();
+    static FULL: OnceLock<Vec<Problem>> = OnceLock::new();
+    let (cell, count) = if full { (&FULL, 100_000) } else { (&QUICK, 400) };
+    cell.get_or_init(|| problems::random(count))
+}
+
+/// Head or tail alike: 2|sin| of half the angle, which does not cancel.
+fn apart(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
+    (a - b).norm().min((a + b).norm())
+}
+
+/// What happened to problems of similar condition numbers.
+#[derive(Clone, Copy, Default)]
+struct Decades {
+    answered: u32,
+    refused: u32,
+    worst: f64,
+    bound: f64,
+}
+
+fn general_flows(motion: &Motion, effort: &Effort) -> Vec<Evidence> {
+    // Up to 10², 10⁴, … and beyond.
+    let mut decades = [Decades::default(); 9];
+    let (mut wrong, mut share) = (0.0, 0.0f64);
+    for problem in shared(effort.full) {
+        let moved = motion(problem);
+        let at = ((moved.condition.log10() / 2.0).ceil() as usize).clamp(1, 9) - 1;
+        let decades = &mut decades[at];
+        if !(moved.error <= MAX_ERROR_RAD) {
+            decades.refused += 1;
+            continue;
+        }
+        let off = apart(&moved.p, &problem.truth.into());
+        decades.answered += 1;
+        // The oracle's own direction is rounded to double.
+        let bound = moved.error + 2.0 * f64::EPSILON;
+        if off.is_finite() {
+            wrong += f64::from(off > bound);
+            share = share.max(off / bound);
+            decades.worst = decades.worst.max(off);
+        } else {
+            wrong += 1.0;
+        }
+        decades.bound = decades.bound.max(bound);
+    }
+    let mut evidence = vec![
+        Evidence::new("answers that are off by more than their bound", Rule::exact(wrong)),
+        Evidence::new(
+            "largest error over its bound",
+            Rule::within(share, 1.0, "what a bound is"),
+        ),
+    ];
+    for (k, found) in decades.iter().enumerate().filter(|(_, found)| found.answered + found.refused > 0) {
+        let Decades { answered, refused, worst, bound } = found;
+        evidence.push(Evidence::new(
+            format!("worst of {answered} answers, condition number up to 10^{}; {refused} refused", 2 * (k + 1)),
+            Rule::within(*worst, *bound, "the largest bound among them"),
+        ));
+    }
+    evidence
+}

@@ -1,0 +1,158 @@
+//! Rods in random flows that aim at the seams: eigenvalues that nearly meet, tiny, huge, equal; planar, spiral and real;
+//! turned in space; rods from 10⁻¹⁰⁰ to 10¹⁰⁰ and near 1; strains from 10⁻¹³ to 10⁶; starts on axes and in planes.
+
+use crate::oracle::exponential::{Rod, Span};
+use nalgebra::{Matrix3, Rotation3, Vector3};
+use rand::{Rng, RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use rayon::prelude::*;
+
+/// A rod, how long it moves, and where the oracle has it then.
+#[derive(Clone, Copy, Debug)]
+pub struct Problem {
+    pub rod: Rod,
+    pub strain: f64,
+    pub truth: [f64; 3],
+}
+
+impl Problem {
+    /// With the oracle's answer.
+    pub fn new(rod: Rod, strain: f64) -> Self {
+        let truth = rod.after(Span::Strain(strain));
+        Self { rod, strain, truth }
+    }
+}
+
+/// The first `count` random problems.
+pub fn random(count: u64) -> Vec<Problem> {
+    (0..count).into_par_iter().map(one).collect()
+}
+
+fn one(index: u64) -> Problem {
+    let rng = &mut Pcg64::seed_from_u64(0x5eed_0009 + index);
+    let gradient = loop {
+        let gradient = gradient(rng);
+        // Without a strain rate there is no strain.
+        if (gradient + gradient.transpose()).amax() > 1e-30 * gradient.amax() {
+            break gradient;
+        }
+    };
+    let rod = Rod {
+        gradient_per_s: std::array::from_fn(|i| std::array::from_fn(|j| gradient[(i, j)])),
+        aspect_ratio: aspect_ratio(rng),
+        p: start(rng),
+    };
+    Problem::new(rod, size(rng, -13.0, 6.0))
+}
+
+/// 10 to a power between `least` and `most`.
+fn size(rng: &mut impl Rng, least: f64, most: f64) -> f64 {
+    10f64.powf(least + (most - least) * rng.random::<f64>())
+}
+
+fn signed(rng: &mut impl Rng) -> f64 {
+    2.0 * rng.random::<f64>() - 1.0
+}
+
+fn full(rng: &mut impl Rng) -> Matrix3<f64> {
+    Matrix3::from_fn(|_, _| signed(rng))
+}
+
+fn aspect_ratio(rng: &mut impl Rng) -> f64 {
+    match rng.random_range(0..5) {
+        0 => size(rng, -100.0, 100.0),
+        1 => size(rng, -8.0, 8.0),
+        2 => 1.0 + signed(rng).signum() * size(rng, -15.9, -1.0),
+        3 => [1.0, 2.0, 0.5, 11.6, 3.0, 1e-100, 1e100][rng.random_range(0..7)],
+        _ => size(rng, 0.0, 3.0),
+    }
+}
+
+fn start(rng: &mut impl Rng) -> [f64; 3] {
+    let mut p = [(); 3].map(|()| signed(rng));
+    match rng.random_range(0..8) {
+        0 => p[rng.random_range(0..3)] = 0.0,
+        1 => {
+            let axis = rng.random_range(0..3);
+            p = std::array::from_fn(|k| f64::from(u8::from(k == axis)));
+        }
+        2 => p[rng.random_range(0..3)] *= size(rng, -20.0, 0.0),
+        _ => {}
+    }
+    Vector3::from(p).normalize().into()
+}
+
+fn gradient(rng: &mut impl Rng) -> Matrix3<f64> {
+    let mut l = match rng.random_range(0..9) {
+        0 => full(rng),
+        1 => Matrix3::from_fn(|_, _| f64::from(rng.random_range(-3i32..=3))),
+        2 => spiral(rng),
+        3 => real(rng),
+        4 => planar(rng),
+        5 => {
+            // Near-parabolic.
+            let e = size(rng, -17.0, 0.0);
+            couette() + full(rng) * e
+        }
+        6 => couette(),
+        7 => Matrix3::from_fn(|_, _| signed(rng).signum() * size(rng, -20.0, 20.0)),
+        _ => {
+            let mut l = full(rng);
+            for _ in 0..rng.random_range(1..7) {
+                l[(rng.random_range(0..3), rng.random_range(0..3))] = 0.0;
+            }
+            l
+        }
+    };
+    if rng.random_range(0..2) == 0 {
+        l = turned(rng, l);
+    }
+    if rng.random_range(0..8) == 0 {
+        l += Matrix3::identity() * signed(rng);
+    }
+    if rng.random_range(0..6) == 0 {
+        l *= size(rng, -250.0, 250.0);
+    }
+    l
+}
+
+fn couette() -> Matrix3<f64> {
+    Matrix3::new(0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+}
+
+/// Turned in space: rounded, or by axes, or by 45° where the halves of Couette flow are exact in binary.
+fn turned(rng: &mut impl Rng, l: Matrix3<f64>) -> Matrix3<f64> {
+    let any = Rotation3::new(Vector3::from_fn(|_, _| 3.0 * signed(rng))).into_inner();
+    let turn = match rng.random_range(0..4) {
+        0 => Matrix3::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0),
+        1 => {
+            // √2 times a rotation by 45°, from either side: exact.
+            let doubled = Matrix3::new(1.0, -1.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0);
+            let back = Matrix3::new(0.5, 0.5, 0.0, -0.5, 0.5, 0.0, 0.0, 0.0, 1.0);
+            return doubled * l * back;
+        }
+        _ => any,
+    };
+    turn * l * turn.transpose()
+}
+
+/// A swirl beside an extension along its axis, the one 10⁻¹⁶ to 10¹⁶ times the other.
+fn spiral(rng: &mut impl Rng) -> Matrix3<f64> {
+    let ratio = size(rng, -16.0, 16.0);
+    let (swirl, e) = if ratio > 1.0 { (1.0, 1.0 / ratio) } else { (ratio, 1.0) };
+    let e = e * signed(rng).signum();
+    Matrix3::new(-0.5 * e, -swirl, 0.0, swirl, -0.5 * e, 0.0, 0.0, 0.0, e)
+}
+
+/// Three real rates, two of which nearly meet.
+fn real(rng: &mut impl Rng) -> Matrix3<f64> {
+    let (a, gap) = (signed(rng), size(rng, -17.0, 0.0));
+    let coupled = if rng.random_range(0..2) == 0 { 0.0 } else { signed(rng) };
+    Matrix3::new(a + gap, coupled, 0.0, 0.0, a, 0.0, 0.0, 0.0, -2.0 * a)
+}
+
+/// Planar flows from rotation through shear to extension.
+fn planar(rng: &mut impl Rng) -> Matrix3<f64> {
+    let back = signed(rng).signum() * size(rng, -17.0, 0.0);
+    Matrix3::new(0.0, if rng.random_range(0..2) == 0 { back } else { back - 1.0 }, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+}
