@@ -16,6 +16,7 @@ mod markup;
 pub mod oracle;
 pub mod output;
 pub mod plot;
+pub mod problems;
 pub mod readings;
 pub mod report;
 pub mod scenes;
