@@ -11,6 +11,7 @@ pub mod dependencies;
 pub mod equations;
 pub mod experiment;
 pub mod figures;
+pub mod grade;
 pub mod kicks;
 mod markup;
 pub mod oracle;

@@ -2,6 +2,7 @@
 
 mod bench;
 mod converge;
+mod grade;
 mod memory;
 mod pictures;
 mod record;
@@ -45,6 +46,8 @@ enum Command {
     Sweep(sweep::Args),
     /// Show how a scene's results depend on the step, and for interacting rods on their number and the replicas
     Converge(converge::Args),
+    /// Grade any program's answers to the reference problems, from files or while it runs
+    Grade(grade::Args),
 }
 
 /// Why a command did not end well.
@@ -92,6 +95,7 @@ fn command(command: Command) -> Result<(), Failure> {
         Command::Plan(args) => show::plan(&args),
         Command::Scenes(args) => show::scenes(&args),
         Command::Bench(args) => bench::bench(&args),
+        Command::Grade(args) => grade::grade(&args),
     }
 }
 
