@@ -9,6 +9,7 @@ mod studies;
 
 pub use bench::{Bench, echo, theory};
 pub use ladder::{Mode, grade, mode};
+pub use pipe::end_with_this_program;
 pub use program::{Asked, Program, Question};
 pub use studies::{Studies, studies};
 

@@ -1,9 +1,10 @@
 //! A program at the other end of two pipes: lines in, lines out, each wait bounded in time and memory.
 
+use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader, Read, Write};
-use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, Stdio};
+use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, SyncSender};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -53,6 +54,36 @@ impl std::fmt::Display for Trouble {
     }
 }
 
+/// The process groups that run now, to be killed where this program is ended by a signal.
+static RUNNING: Mutex<BTreeSet<u32>> = Mutex::new(BTreeSet::new());
+
+fn running() -> MutexGuard<'static, BTreeSet<u32>> {
+    RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// From now on, kills every program that was started before an interrupt, a hang-up or a request to end ends this one.
+#[cfg(unix)]
+pub fn end_with_this_program() -> std::io::Result<()> {
+    use rustix::process::{Pid, Signal, kill_process_group};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let mut signals = signal_hook::iterator::Signals::new([SIGHUP, SIGINT, SIGTERM])?;
+    thread::spawn(move || {
+        if let Some(signal) = signals.forever().next() {
+            for group in running().iter().filter_map(|id| Pid::from_raw(*id as i32)) {
+                let _ = kill_process_group(group, Signal::KILL);
+            }
+            std::process::exit(128 + signal);
+        }
+    });
+    Ok(())
+}
+
+/// There are no such signals.
+#[cfg(not(unix))]
+pub fn end_with_this_program() -> std::io::Result<()> {
+    Ok(())
+}
+
 enum Heard {
     Line(Vec<u8>),
     TooLong,
@@ -66,6 +97,8 @@ pub struct Pipe {
     last_words: Arc<Mutex<Vec<u8>>>,
     /// Lines heard so far.
     heard: u64,
+    /// How it ended, once that has been noted: its number may then be another's.
+    status: Option<ExitStatus>,
 }
 
 impl Pipe {
@@ -83,6 +116,7 @@ impl Pipe {
         let mut child = command
             .spawn()
             .map_err(|error| format!("{program}: cannot be started: {error}"))?;
+        running().insert(child.id());
         let (stdin, stdout, stderr) = (child.stdin.take(), child.stdout.take(), child.stderr.take());
         let (requests, to_write) = mpsc::channel();
         let (heard, lines) = mpsc::sync_channel(LINES_HELD);
@@ -100,6 +134,7 @@ impl Pipe {
             lines,
             last_words,
             heard: 0,
+            status: None,
         })
     }
 
@@ -188,6 +223,9 @@ impl Pipe {
     /// Whether the program has ended, without taking note of it: its number stays taken until [`Pipe::stop`].
     #[cfg(unix)]
     fn has_ended(&mut self) -> bool {
+        if self.status.is_some() {
+            return true;
+        }
         use rustix::process::{WaitId, WaitIdOptions, waitid};
         let options = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
         let id = rustix::process::Pid::from_child(&self.child);
@@ -200,7 +238,11 @@ impl Pipe {
     }
 
     /// Kills the program's whole process group, and takes note of its end: no zombie stays.
-    fn stop(&mut self) -> Option<std::process::ExitStatus> {
+    fn stop(&mut self) -> Option<ExitStatus> {
+        if self.status.is_some() {
+            return self.status;
+        }
+        running().remove(&self.child.id());
         #[cfg(unix)]
         {
             // An error means that nobody is left in the group.
@@ -209,7 +251,8 @@ impl Pipe {
         }
         #[cfg(not(unix))]
         let _ = self.child.kill();
-        self.child.wait().ok()
+        self.status = self.child.wait().ok();
+        self.status
     }
 }
 
