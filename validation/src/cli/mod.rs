@@ -4,6 +4,7 @@ mod bench;
 mod converge;
 mod memory;
 mod pictures;
+mod problems;
 mod record;
 mod run;
 mod scene;
@@ -45,6 +46,8 @@ enum Command {
     Sweep(sweep::Args),
     /// Show how a scene's results depend on the step, and for interacting rods on their number and the replicas
     Converge(converge::Args),
+    /// List the reference problems for any program, or export them with their certified answers
+    Problems(problems::Args),
 }
 
 /// Why a command did not end well.
@@ -92,6 +95,7 @@ fn command(command: Command) -> Result<(), Failure> {
         Command::Plan(args) => show::plan(&args),
         Command::Scenes(args) => show::scenes(&args),
         Command::Bench(args) => bench::bench(&args),
+        Command::Problems(args) => problems::problems(&args),
     }
 }
 
