@@ -19,6 +19,7 @@ pub mod output;
 pub mod plot;
 pub mod problems;
 pub mod readings;
+pub mod reference;
 pub mod report;
 pub mod scenes;
 pub mod speed;

@@ -5,6 +5,7 @@ mod converge;
 mod grade;
 mod memory;
 mod pictures;
+mod problems;
 mod record;
 mod run;
 mod scene;
@@ -48,6 +49,8 @@ enum Command {
     Converge(converge::Args),
     /// Grade any program's answers to the reference problems, from files or while it runs
     Grade(grade::Args),
+    /// List the reference problems for any program, or export them with their certified answers
+    Problems(problems::Args),
 }
 
 /// Why a command did not end well.
@@ -96,6 +99,7 @@ fn command(command: Command) -> Result<(), Failure> {
         Command::Scenes(args) => show::scenes(&args),
         Command::Bench(args) => bench::bench(&args),
         Command::Grade(args) => grade::grade(&args),
+        Command::Problems(args) => problems::problems(&args),
     }
 }
 

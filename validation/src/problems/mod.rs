@@ -4,14 +4,20 @@
 //! given, `inputs.csv` where pairs in contact are given, `certified.csv`, `README.md`. `read` reads such folders back and
 //! refuses whatever is not as `export` writes it.
 
+mod export;
+mod page;
 mod read;
+mod rods;
 mod table;
+mod tolerance;
 
+pub use export::{ExportError, SCHEMA, export, files};
 pub use read::read;
 pub use table::{ReadError, Table};
 
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
 /// The version of the files' format that is written and read.
 pub const FORMAT: u32 = 1;
@@ -78,6 +84,9 @@ pub struct Problem {
     pub aspect_ratio_sd_percent: f64,
     /// When answers are wanted, s, ascending; empty where no time passes.
     pub times_s: Vec<f64>,
+    /// Δt of A.14, s, where the answer has angles after a step.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time_step_s: Option<f64>,
     /// The columns of the answer, keys first.
     pub columns: Vec<String>,
     /// How the error is measured.
@@ -159,10 +168,21 @@ pub struct ProblemDef {
     pub name: &'static str,
     /// One line.
     pub title: &'static str,
-    build: fn(&ProblemDef) -> Built,
+    build: Build,
 }
 
+type Build = Box<dyn Fn(&ProblemDef) -> Built + Send + Sync>;
+
 impl ProblemDef {
+    fn new(
+        name: &'static str,
+        title: &'static str,
+        build: impl Fn(&Self) -> Built + Send + Sync + 'static,
+    ) -> Self {
+        let build = Box::new(build);
+        Self { name, title, build }
+    }
+
     /// Computes its certified answer.
     pub fn build(&self) -> Built {
         (self.build)(self)
@@ -171,7 +191,8 @@ impl ProblemDef {
 
 /// Every problem.
 pub fn all() -> &'static [ProblemDef] {
-    &[]
+    static ALL: LazyLock<Vec<ProblemDef>> = LazyLock::new(rods::problems);
+    &ALL
 }
 
 /// The problem of this name with its certified answer, or none.
