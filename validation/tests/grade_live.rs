@@ -34,7 +34,7 @@ const CASES: &[Case] = &[
     Case { program: "is_right", verdict: "PASS", words: &[] },
     Case { program: "is_right_on_one_line_of_stderr_each", verdict: "PASS", words: &[] },
     Case { program: "floods_stderr", verdict: "PASS", words: &[] },
-    Case { program: "stays", verdict: "PASS", words: &["did not end within 2 s of the end of its input"] },
+    Case { program: "stays", verdict: "PASS", words: &["did not end within 3 s of the end of its input"] },
     Case { program: "says_more_at_the_end", verdict: "PASS", words: &["answers nothing: `bye`"] },
     Case { program: "hangs", verdict: "FAIL", words: &["no answer within 1 s"] },
     Case { program: "never_reads", verdict: "FAIL", words: &["no answer within 1 s"] },
@@ -53,12 +53,11 @@ const CASES: &[Case] = &[
     Case { program: "transposes", verdict: "FAIL", words: &["the curve of a transposed gradient"] },
 ];
 
-fn shearbed(command: &str, out: &Path, more: &[&str]) -> (Option<i32>, String, Duration) {
+fn shearbed(command: &str, out: &Path, timeout_s: &str) -> (Option<i32>, String, Duration) {
     let begun = Instant::now();
     let output = Command::new(env!("CARGO_BIN_EXE_shearbed"))
-        .args(["grade", "--brief", "--timeout", "1", "--problem", "mid-flip-2", "--command", command, "--out"])
+        .args(["grade", "--brief", "--timeout", timeout_s, "--problem", "mid-flip-2", "--command", command, "--out"])
         .arg(out)
-        .args(more)
         .output()
         .unwrap();
     let words = [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
@@ -70,7 +69,9 @@ fn judge(case: &Case) -> Result<(), Failed> {
     let pids = dir.path().join("pids");
     let own = std::env::current_exe()?;
     let command = format!("'{}' --program {} '{}'", own.display(), case.program, pids.display());
-    let (code, words, took) = shearbed(&command, dir.path(), &[]);
+    // Those that answer have time to, on a busy machine too.
+    let hangs = case.words.iter().any(|words| words.contains("within 1 s"));
+    let (code, words, took) = shearbed(&command, dir.path(), if hangs { "1" } else { "60" });
     let grade: Value = serde_json::from_str(&fs::read_to_string(dir.path().join("grade.json"))?)?;
     let found = &grade["problems"][0];
     let check = |holds: bool, what: &str| match holds {
@@ -85,8 +86,8 @@ fn judge(case: &Case) -> Result<(), Failed> {
         check(said.contains(words), words)?;
     }
     check(!words.contains("panicked"), "no panic")?;
-    // Two answers that hang, a second of grace each, and the machine's own pace.
-    check(took < Duration::from_secs(20), "the time")?;
+    // A second for an answer, seconds of grace, and a busy machine's own pace: it does not hang.
+    check(took < Duration::from_secs(120), "the time")?;
     let pids = fs::read_to_string(pids)?;
     check(!pids.is_empty(), "it ran")?;
     for pid in pids.split_whitespace() {
@@ -95,13 +96,17 @@ fn judge(case: &Case) -> Result<(), Failed> {
     Ok(())
 }
 
-/// Whether no process has this number, not even a zombie.
+/// Whether no process with this number runs. A grandchild that was killed is the system's to reap, in its own time; a
+/// zombie of ours would be a child of shearbed, which has ended.
 fn gone(pid: i32) -> bool {
-    let pid = rustix::process::Pid::from_raw(pid).unwrap();
-    // A grandchild that was killed is reaped by the system, in its own time.
-    (0..100).any(|_| {
+    let id = rustix::process::Pid::from_raw(pid).unwrap();
+    let dead = || {
+        let stat = fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
+        rustix::process::test_kill_process(id).is_err() || stat.contains(") Z ")
+    };
+    (0..300).any(|_| {
         std::thread::sleep(Duration::from_millis(10));
-        rustix::process::test_kill_process(pid).is_err()
+        dead()
     })
 }
 
@@ -113,7 +118,7 @@ fn cannot_be_started() -> Result<(), Failed> {
         ("a 'b", "a quote is not closed"),
     ] {
         let out = dir.path().join("out");
-        let (code, words, _) = shearbed(command, &out, &[]);
+        let (code, words, _) = shearbed(command, &out, "1");
         if code != Some(2) || !words.contains(expected) || out.exists() {
             return Err(format!("{command}: {code:?} {words}").into());
         }

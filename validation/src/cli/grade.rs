@@ -68,6 +68,9 @@ pub(super) struct Args {
     /// Answer requests with their own start: what the pipe itself costs
     #[arg(long, conflicts_with_all = ["reference", "command"])]
     echo: bool,
+    /// A missing answer is a failure
+    #[arg(long)]
+    all: bool,
     /// Print nothing but errors
     #[arg(long)]
     quiet: bool,
@@ -129,7 +132,7 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
             place.display()
         ))?;
     }
-    match report.passes() {
+    match report.passes(args.all) {
         true => Ok(()),
         false => Err(Failure::Failed(format!(
             "not every problem passed: {}",

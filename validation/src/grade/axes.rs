@@ -53,10 +53,8 @@ impl Axes {
     /// The program's name of one of the problem's columns, and the sign that its values get: `p1` is `p2` where the
     /// program's second axis is the gradient. Columns without an axis keep their names.
     pub fn theirs(&self, column: &str) -> (String, f64) {
-        let (stem, tail) = match column.strip_suffix("_se") {
-            Some(stem) => (stem, "_se"),
-            None => (column, ""),
-        };
+        let tail = ["_se", "_per_s"].into_iter().find(|tail| column.ends_with(tail)).unwrap_or("");
+        let stem = &column[..column.len() - tail.len()];
         let axis = |digit: u8| usize::from(digit.wrapping_sub(b'1'));
         let digits = stem
             .bytes()
@@ -88,7 +86,7 @@ impl Axes {
 
 /// A standard error has no sign.
 fn sign_of(sign: f64, tail: &str) -> f64 {
-    if tail.is_empty() { sign } else { 1.0 }
+    if tail == "_se" { 1.0 } else { sign }
 }
 
 #[cfg(test)]
@@ -107,7 +105,8 @@ mod tests {
             ("a13", "a23", -1.0),
             ("x1", "x2", 1.0),
             ("x1_se", "x2_se", 1.0),
-            ("a_rate1", "a_rate2", -1.0),
+            ("a_pdot1_per_s", "a_pdot2_per_s", -1.0),
+            ("time_step_s", "time_step_s", 1.0),
             ("time_s", "time_s", 1.0),
             ("rod", "rod", 1.0),
         ] {

@@ -1,6 +1,7 @@
 //! Which known mistake's curve an answer is.
 
 use super::answer::Answer;
+use super::contact;
 use super::mistakes::{self, Mistake, Setting};
 use crate::problems::{Kind, LoadedProblem};
 use crate::subject::apart_rad;
@@ -23,6 +24,9 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Option<S
         gradient_per_s: Matrix3::from_fn(|i, j| l[i][j]),
         aspect_ratio: loaded.problem.aspect_ratio,
     };
+    if loaded.problem.kind == Kind::Contact {
+        return contact::diagnose(loaded, answer, NEARER * error);
+    }
     let distance: Distance<'_> = match loaded.problem.kind {
         Kind::Rods => Box::new(move |mistake| rods(loaded, answer, &setting, mistake)),
         Kind::Tensor if loaded.problem.aspect_ratio_sd_percent == 0.0 => {

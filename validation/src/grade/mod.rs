@@ -4,6 +4,7 @@
 mod answer;
 mod axes;
 mod compare;
+mod contact;
 mod diagnosis;
 mod files;
 mod lammps;

@@ -34,9 +34,11 @@ impl Report {
             .count()
     }
 
-    /// Whether every problem passes, and there is one.
-    pub fn passes(&self) -> bool {
-        !self.problems.is_empty() && self.count(Verdict::Pass) == self.problems.len()
+    /// Whether a problem passes and none fails. A missing answer is neither, as a case without data is in `validate`, but
+    /// where `all` are wanted.
+    pub fn passes(&self, all: bool) -> bool {
+        let missing = self.count(Verdict::Missing);
+        self.count(Verdict::Pass) > 0 && self.count(Verdict::Fail) == 0 && !(all && missing > 0)
     }
 
     /// The counts in words.
@@ -47,7 +49,7 @@ impl Report {
             words += &format!(", {fail} FAIL");
         }
         if missing > 0 {
-            words += &format!(", {missing} MISSING (no answer; --problem NAME grades chosen ones only)");
+            words += &format!(", {missing} MISSING (no answer: neither passed nor failed)");
         }
         words
     }
@@ -123,20 +125,14 @@ fn tables(report: &Report) -> Vec<ReportTable> {
 
 /// For the terminal.
 pub fn terminal(report: &Report) -> String {
-    let mut words = words(report);
-    words.push(String::new());
+    let words: String = words(report).iter().map(|line| format!("{line}\n")).collect();
     let mut tables = tables(report).into_iter();
     let first = tables
         .next()
         .map(|table| export::text(&table))
         .unwrap_or_default();
-    format!(
-        "{first}{}{}",
-        words.join("\n"),
-        tables
-            .map(|table| "\n".to_owned() + &export::text(&table))
-            .collect::<String>()
-    )
+    let more: String = tables.map(|table| "\n".to_owned() + &export::text(&table)).collect();
+    first + &words + &more
 }
 
 /// grade.md.
@@ -160,12 +156,12 @@ pub fn markdown(report: &Report) -> String {
     text
 }
 
-/// junit.xml: a test case for each problem. A missing answer is a failure, as it is for the exit code.
+/// junit.xml: a test case for each problem. A missing answer is skipped.
 pub fn junit(report: &Report) -> String {
-    let failed = report.problems.len() - report.count(Verdict::Pass);
+    let (failed, skipped) = (report.count(Verdict::Fail), report.count(Verdict::Missing));
     let mut xml = format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"shearbed grade\" tests=\"{}\" \
-         failures=\"{failed}\" errors=\"0\" skipped=\"0\">\n",
+         failures=\"{failed}\" errors=\"0\" skipped=\"{skipped}\">\n",
         report.problems.len()
     );
     for graded in &report.problems {
@@ -179,8 +175,8 @@ pub fn junit(report: &Report) -> String {
                 number(Some(graded.tolerance)),
                 parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
             );
-            let (kind, message) = (graded.verdict.word(), escape(&message));
-            xml += &format!("<failure type=\"{kind}\" message=\"{message}\"></failure>");
+            let element = if graded.verdict == Verdict::Missing { "skipped" } else { "failure" };
+            xml += &format!("<{element} message=\"{}\"></{element}>", escape(&message));
         }
         xml += "</testcase>\n";
     }
@@ -238,7 +234,7 @@ mod tests {
         let report = report();
         let xml = junit(&report);
         assert!(is_well_formed(xml.split_once("?>\n").unwrap().1), "{xml}");
-        assert!(xml.contains("tests=\"3\" failures=\"2\"") && xml.contains("type=\"MISSING\""));
+        assert!(xml.contains("tests=\"3\" failures=\"1\"") && xml.contains("<skipped"));
         assert!(xml.contains("&quot;x&quot; &amp; &lt;y&gt;\u{fffd}"));
         let json: serde_json::Value = serde_json::from_str(&json(&report).unwrap()).unwrap();
         assert_eq!(json["problems"][1]["verdict"], "FAIL");
@@ -258,12 +254,14 @@ mod tests {
     }
 
     #[test]
-    fn a_report_passes_where_all_pass_and_there_is_one() {
+    fn a_report_passes_where_one_passes_and_none_fails() {
         let mut report = report();
-        assert!(!report.passes());
-        report.problems.truncate(1);
-        assert!(report.passes());
+        assert!(!report.passes(false));
+        report.problems.remove(1);
+        assert!(report.passes(false) && !report.passes(true), "one is missing");
+        report.problems.remove(0);
+        assert!(!report.passes(false), "none passes");
         report.problems.clear();
-        assert!(!report.passes());
+        assert!(!report.passes(false));
     }
 }

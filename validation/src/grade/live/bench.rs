@@ -133,7 +133,7 @@ impl Bench {
             row.push(format!("{} of {}", curve.failures(), curve.points.len()));
             row
         };
-        let program = row(&self.without_pipe(), format!("**{}**", self.program.subject));
+        let program = row(&self.without_pipe(), self.program.subject.clone());
         let ours = self.ours.iter().map(|curve| row(curve, curve.subject.clone()));
         let pipe = match self.pipe_s {
             Some(seconds) => format!(

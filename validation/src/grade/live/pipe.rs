@@ -18,7 +18,7 @@ const LINES_HELD: usize = 4;
 const LAST_WORDS: usize = 2048;
 
 /// How long a program may take to end once its input is closed.
-const GRACE: Duration = Duration::from_secs(2);
+const GRACE: Duration = Duration::from_secs(3);
 
 /// Why there is no next line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -203,7 +203,8 @@ impl Pipe {
     }
 
     fn ended(&mut self) -> Trouble {
-        let deadline = Instant::now() + GRACE;
+        // Its output is closed: if it is about to end, that takes moments, on a busy machine seconds.
+        let deadline = Instant::now() + 2 * GRACE;
         while !self.has_ended() && Instant::now() < deadline {
             thread::sleep(Duration::from_millis(5));
         }
