@@ -6,6 +6,7 @@ mod memory;
 mod pictures;
 mod problems;
 mod record;
+mod reference;
 mod run;
 mod scene;
 mod sections;
@@ -48,6 +49,8 @@ enum Command {
     Converge(converge::Args),
     /// List the reference problems for any program, or export them with their certified answers
     Problems(problems::Args),
+    /// Exact values without a simulation: one free rod, or means over isotropic rods, as CSV
+    Reference(reference::Args),
 }
 
 /// Why a command did not end well.
@@ -96,6 +99,7 @@ fn command(command: Command) -> Result<(), Failure> {
         Command::Scenes(args) => show::scenes(&args),
         Command::Bench(args) => bench::bench(&args),
         Command::Problems(args) => problems::problems(&args),
+        Command::Reference(args) => reference::reference(&args),
     }
 }
 
