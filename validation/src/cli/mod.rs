@@ -7,6 +7,7 @@ mod memory;
 mod pictures;
 mod problems;
 mod record;
+mod reference;
 mod run;
 mod scene;
 mod sections;
@@ -51,6 +52,8 @@ enum Command {
     Grade(grade::Args),
     /// List the reference problems for any program, or export them with their certified answers
     Problems(problems::Args),
+    /// Exact values without a simulation: one free rod, or means over isotropic rods, as CSV
+    Reference(reference::Args),
 }
 
 /// Why a command did not end well.
@@ -100,6 +103,7 @@ fn command(command: Command) -> Result<(), Failure> {
         Command::Bench(args) => bench::bench(&args),
         Command::Grade(args) => grade::grade(&args),
         Command::Problems(args) => problems::problems(&args),
+        Command::Reference(args) => reference::reference(&args),
     }
 }
 

@@ -4,11 +4,14 @@
 //! given, `inputs.csv` where pairs in contact are given, `certified.csv`, `README.md`. `read` reads such folders back and
 //! refuses whatever is not as `export` writes it.
 
+mod contact;
+mod ensemble;
 mod export;
 mod page;
 mod read;
 mod rods;
 mod table;
+mod tensor;
 mod tolerance;
 
 pub use export::{ExportError, SCHEMA, export, files};
@@ -191,7 +194,15 @@ impl ProblemDef {
 
 /// Every problem.
 pub fn all() -> &'static [ProblemDef] {
-    static ALL: LazyLock<Vec<ProblemDef>> = LazyLock::new(rods::problems);
+    static ALL: LazyLock<Vec<ProblemDef>> = LazyLock::new(|| {
+        let kinds = [
+            rods::problems(),
+            tensor::problems(),
+            contact::problems(),
+            ensemble::problems(),
+        ];
+        kinds.into_iter().flatten().collect()
+    });
     &ALL
 }
 

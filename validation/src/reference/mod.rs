@@ -3,6 +3,9 @@
 //! Computed with 100 bits and more; inputs are doubles and are taken as exact. Nothing here uses the core.
 
 pub mod big;
+pub mod constants;
 pub mod isotropic;
 pub mod motion;
 pub mod rod;
+pub mod table;
+pub mod unequal;

@@ -64,6 +64,14 @@ pub fn at(motion: &Motion, start: Direction, time: &Big, unit: Unit) -> Option<R
     })
 }
 
+/// p at t = 0, and C_b, which does not change in plane Couette flow and means nothing in another.
+pub fn orbit(motion: &Motion, start: Direction) -> ([Big; 3], Big) {
+    let bits = motion.bits(0.0, Unit::Period, KEPT);
+    let start = Start::new(start, bits);
+    let c_b = c_b(&start.p, motion.aspect_ratio, bits);
+    (start.p, c_b)
+}
+
 /// C_b of a rod along p; C_b is the same at all times in plane Couette flow.
 fn c_b(p: &[Big; 3], aspect_ratio: f64, bits: Bits) -> Big {
     let r = bits.of(aspect_ratio);
