@@ -135,6 +135,50 @@ def rods(problem, folder, mine):
                     print(f"{time!r},{rod},{p[0]:.17g},{p[1]:.17g},{p[2]:.17g}", file=file)
 
 
+def free_rate(gradient, r_e, p):
+    """Jeffery's p' of a rod (A.1)."""
+    Ap = rate_matrix(gradient, r_e) @ p
+    return Ap - p * (p @ Ap)
+
+
+def kicked(gradient, a, b):
+    """p' of both rods in contact (A.7 to A.12): both contact points get the mean of their velocities along the line."""
+    gradient = np.array(gradient, dtype=float)
+    (x_a, p_a, r_a), (x_b, p_b, r_b) = a, b
+    line = np.cross(p_a, p_b)
+    line /= np.linalg.norm(line)
+    # Where the rods' axes are nearest: x_a + s_a p_a and x_b + s_b p_b.
+    s_a, s_b, _ = np.linalg.solve(np.column_stack([p_a, -p_b, line]), x_b - x_a)
+    free = [free_rate(gradient, r_a, p_a), free_rate(gradient, r_b, p_b)]
+    along = [line @ (gradient @ x_a + free[0] * s_a), line @ (gradient @ x_b + free[1] * s_b)]
+    mean = (along[0] + along[1]) / 2
+    return [f + line * ((mean - v) / s) for f, v, s in zip(free, along, (s_a, s_b))]
+
+
+def angles(p, rate, step):
+    """The rates of phi and theta (A.13, corrected), and both angles after a step (A.14)."""
+    phi, theta = math.atan2(p[1], p[0]), math.atan2(math.hypot(p[0], p[1]), p[2])
+    phi_rate = (-rate[0] * math.sin(phi) + rate[1] * math.cos(phi)) / math.sin(theta)
+    theta_rate = (rate[0] * math.cos(phi) + rate[1] * math.sin(phi)) * math.cos(theta) - rate[2] * math.sin(theta)
+    return [phi_rate, theta_rate, phi + phi_rate * step, theta + theta_rate * step]
+
+
+def contact(problem, folder, mine):
+    with open(folder / "inputs.csv") as file, open(mine / "answer.csv", "w") as answer:
+        print(",".join(problem["columns"]), file=answer)
+        for row in csv.DictReader(file):
+            number = lambda rod, names: np.array([float(row[f"{rod}_{name}"]) for name in names.split()])
+            pair = [
+                (number(rod, "x1_mm x2_mm x3_mm"), number(rod, "p1 p2 p3"), float(row[f"{rod}_aspect_ratio"]))
+                for rod in "ab"
+            ]
+            values = []
+            for (_, p, _), rate in zip(pair, kicked(problem["gradient_per_s"], *pair)):
+                step = problem.get("time_step_s")
+                values += angles(p, rate, step) if step else list(rate)
+            print(row["snapshot"], *(f"{value:.17g}" for value in values), sep=",", file=answer)
+
+
 def main():
     arguments = [word for word in sys.argv[1:] if not word.startswith("--")]
     if "--live" in sys.argv:
@@ -148,6 +192,8 @@ def main():
             rods(problem, file.parent, folder)
         elif problem["kind"] == "tensor" and not EULER:
             tensor(problem, folder)
+        elif problem["kind"] == "contact":
+            contact(problem, file.parent, folder)
 
 
 def live():

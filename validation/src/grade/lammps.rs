@@ -68,7 +68,8 @@ pub(super) fn read(
         match line.strip_prefix("ITEM:").map(str::trim) {
             Some("TIMESTEP") => {
                 let step = value(&mut lines)?;
-                time_s = told.timestep_s.map(|length| step * length);
+                // ITEM: TIME, where it is there, comes before it.
+                time_s = time_s.or(told.timestep_s.map(|length| step * length));
             }
             Some("TIME") => time_s = Some(value(&mut lines)?),
             Some("NUMBER OF ATOMS") => {
