@@ -3,8 +3,8 @@
 use super::allowed::{Invalid, MAX_PER_UNIT, refused};
 use super::{Interaction, RESOLVED_STRAIN, Scene};
 use crate::flow::VelocityGradient;
-use crate::jeffery::strain_per_period;
 use crate::free::FreeMotion;
+use crate::jeffery::strain_per_period;
 use crate::propagator::Propagator;
 use crate::volume::ControlVolume;
 use nalgebra::Matrix3;

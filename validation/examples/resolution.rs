@@ -1,6 +1,7 @@
 //! Prints the table of docs/time-step.md that says which steps resolve the motion, as Markdown; with `-- full`, from
 //! 2000 replicas in place of 50.
 
+use validation::case::Effort;
 use validation::cases::lab::Sample;
 use validation::cases::resolution::{change, scene, steps, x1};
 
@@ -19,7 +20,7 @@ fn main() {
     let ratios = [3.96, 11.6, 17.0, 50.0, 100.0].map(|r| (r, 0.0));
     for (r, sd) in ratios.into_iter().chain([(11.6, 30.0)]) {
         for n in [20.0, 50.0, 100.0] {
-            let mut scene = scene(r, n);
+            let mut scene = scene(&Effort::gate(), r, n);
             scene.particles.aspect_ratio_sd_percent = sd;
             let fine = x1(&scene, steps(r, FINE), replicas);
             let changes = STRAINS.map(|strain| {

@@ -2,15 +2,16 @@
 
 mod problems;
 
+use super::lab::Shared;
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Kind};
+use crate::case::{About, Case, Effort, Evidence, Judges};
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use problems::Problem;
 use shearbed::flow::VelocityGradient;
 use shearbed::free::MAX_ERROR_RAD;
 use shearbed::jeffery::shape_factor;
 use shearbed::propagator::{Moved, Propagator, Span};
-use std::sync::OnceLock;
+use std::sync::Arc;
 
 /// What moves a rod and says how well.
 type Motion = fn(&Problem) -> Moved;
@@ -19,12 +20,11 @@ pub fn cases() -> Vec<Case> {
     vec![Case::new(
         About {
             name: "general-flows",
-            kind: Kind::Verification,
+            judges: Judges::Core,
             claim: "In any flow, at r_e from 10⁻¹⁰⁰ to 10¹⁰⁰ and strains from 10⁻¹³ to 10⁶, a direction is off the oracle's, of \
                     hundreds of bits, by no more than the bound that comes with it; where that is above 10⁻⁶ rad, a scene is refused.",
             source: "eqs 2, 3, A.1",
             equations: &["2", "3", "A.1"],
-            statistical_checks: 0,
         },
         core as Motion,
         vec![
@@ -35,7 +35,9 @@ pub fn cases() -> Vec<Case> {
                 other.rod.aspect_ratio = rounded;
                 core(&other)
             }),
-            ("double for double-double", |problem| in_double(problem, squared_exponential)),
+            ("double for double-double", |problem| {
+                in_double(problem, squared_exponential)
+            }),
             ("|det A| ≤ 16 ε taken as planar", |problem| {
                 let (a, _) = rates(problem);
                 if a.determinant().abs() <= 16.0 * f64::EPSILON {
@@ -113,11 +115,11 @@ fn planar(a: &Matrix3<f64>, time: f64) -> Matrix3<f64> {
 }
 
 /// Problems with answers, worked out once for the check and its controls.
-fn shared(full: bool) -> &'static [Problem] {
-    static QUICK: OnceLock<Vec<Problem>> = OnceLock::new();
-    static FULL: OnceLock<Vec<Problem>> = OnceLock::new();
-    let (cell, count) = if full { (&FULL, 100_000) } else { (&QUICK, 400) };
-    cell.get_or_init(|| problems::random(count))
+fn shared(effort: &Effort) -> Arc<Vec<Problem>> {
+    static PROBLEMS: Shared<Vec<Problem>> = Shared::new();
+    PROBLEMS.get(effort, 0, || {
+        problems::random(effort.seed(9), effort.pick(400, 100_000))
+    })
 }
 
 /// Head or tail alike: 2|sin| of half the angle, which does not cancel.
@@ -138,7 +140,7 @@ fn general_flows(motion: &Motion, effort: &Effort) -> Vec<Evidence> {
     // Up to 10², 10⁴, … and beyond.
     let mut decades = [Decades::default(); 9];
     let (mut wrong, mut share) = (0.0, 0.0f64);
-    for problem in shared(effort.full) {
+    for problem in shared(effort).iter() {
         let moved = motion(problem);
         let at = ((moved.condition.log10() / 2.0).ceil() as usize).clamp(1, 9) - 1;
         let decades = &mut decades[at];
@@ -160,16 +162,31 @@ fn general_flows(motion: &Motion, effort: &Effort) -> Vec<Evidence> {
         decades.bound = decades.bound.max(bound);
     }
     let mut evidence = vec![
-        Evidence::new("answers that are off by more than their bound", Rule::exact(wrong)),
+        Evidence::new(
+            "answers that are off by more than their bound",
+            Rule::exact(wrong),
+        ),
         Evidence::new(
             "largest error over its bound",
             Rule::within(share, 1.0, "what a bound is"),
         ),
     ];
-    for (k, found) in decades.iter().enumerate().filter(|(_, found)| found.answered + found.refused > 0) {
-        let Decades { answered, refused, worst, bound } = found;
+    for (k, found) in decades
+        .iter()
+        .enumerate()
+        .filter(|(_, found)| found.answered + found.refused > 0)
+    {
+        let Decades {
+            answered,
+            refused,
+            worst,
+            bound,
+        } = found;
         evidence.push(Evidence::new(
-            format!("worst of {answered} answers, condition number up to 10^{}; {refused} refused", 2 * (k + 1)),
+            format!(
+                "worst of {answered} answers, condition number up to 10^{}; {refused} refused",
+                2 * (k + 1)
+            ),
             Rule::within(*worst, *bound, "the largest bound among them"),
         ));
     }

@@ -14,6 +14,8 @@ use statrs::distribution::Uniform;
 use statrs::statistics::Statistics;
 use statrs::stats_tests::NaNPolicy;
 use statrs::stats_tests::ks_test::{KSOneSampleAlternativeMethod, ks_onesample};
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Free rods of the paper's Fig. 6 (G = 0.5 1/s, r_e = 11.6, a = 0.72 mm): one period, projections.
 pub fn free_scene(effort: &Effort) -> Scene {
@@ -157,6 +159,44 @@ impl Means {
     pub fn over(&self, outputs: std::ops::Range<usize>, channel: usize) -> f64 {
         let len = outputs.len() as f64;
         outputs.map(|output| self.at(output, channel)).sum::<f64>() / len
+    }
+}
+
+/// What a check and its controls have in common: worked out once for a run's seed and effort.
+pub struct Shared<T>(Mutex<Kept<T>>);
+
+struct Kept<T> {
+    run: (u64, bool),
+    values: BTreeMap<u64, Arc<OnceLock<Arc<T>>>>,
+}
+
+impl<T> Default for Shared<T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<T> Shared<T> {
+    /// Nothing yet.
+    pub const fn new() -> Self {
+        Self(Mutex::new(Kept {
+            run: (0, false),
+            values: BTreeMap::new(),
+        }))
+    }
+
+    /// The value with this `key`, worked out by the first that asks for it; another run forgets it.
+    pub fn get(&self, effort: &Effort, key: u64, work_out: impl FnOnce() -> T) -> Arc<T> {
+        let place = {
+            let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            let run = (effort.seed, effort.full);
+            if kept.run != run {
+                kept.run = run;
+                kept.values.clear();
+            }
+            Arc::clone(kept.values.entry(key).or_default())
+        };
+        Arc::clone(place.get_or_init(|| Arc::new(work_out())))
     }
 }
 

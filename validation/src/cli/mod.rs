@@ -3,10 +3,13 @@
 mod bench;
 mod choice;
 mod converge;
+mod grade;
 mod kept;
 mod memory;
 mod pictures;
+mod problems;
 mod record;
+mod reference;
 mod run;
 mod scene;
 mod sections;
@@ -49,6 +52,12 @@ enum Command {
     Sweep(sweep::Args),
     /// Show how a scene's results depend on the step, and for interacting rods on their number and the replicas
     Converge(converge::Args),
+    /// Grade any program's answers to the reference problems, from files or while it runs
+    Grade(grade::Args),
+    /// List the reference problems for any program, or export them with their certified answers
+    Problems(problems::Args),
+    /// Exact values without a simulation: one free rod, or means over isotropic rods, as CSV
+    Reference(reference::Args),
 }
 
 /// Why a command did not end well.
@@ -96,6 +105,9 @@ fn command(command: Command) -> Result<(), Failure> {
         Command::Plan(args) => show::plan(&args),
         Command::Scenes(args) => show::scenes(&args),
         Command::Bench(args) => bench::bench(&args),
+        Command::Grade(args) => grade::grade(&args),
+        Command::Problems(args) => problems::problems(&args),
+        Command::Reference(args) => reference::reference(&args),
     }
 }
 

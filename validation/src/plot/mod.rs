@@ -96,6 +96,17 @@ pub fn svg(figure: &Figure) -> Result<String, String> {
     Ok(finish(figure, &drawing, height))
 }
 
+/// As [`svg`], with the first curve in bold black and the others in grey.
+pub fn svg_of_one(figure: &Figure) -> Result<String, String> {
+    let drawn = svg(figure)?;
+    let (own, grey) = (style::curve_stroke(0), "stroke=\"#9A9A9A\" stroke-width=\"4\"");
+    let bold = format!("stroke=\"#000000\" stroke-width=\"{}\"", 3 * style::CURVE_WIDTH);
+    let others = (1..figure.curves.len()).map(style::curve_stroke);
+    Ok(others.fold(drawn.replace(&own, &bold), |drawn, stroke| {
+        drawn.replace(&stroke, grey)
+    }))
+}
+
 fn typeset(figure: &Figure) -> Figure {
     let mut figure = figure.clone();
     let curves = figure.curves.iter_mut().map(|curve| &mut curve.label);

@@ -14,7 +14,7 @@ pub(super) const TITLE: f64 = 17.0;
 pub(super) const MARKER: i32 = 5 * FINE;
 /// Not a curve's width, so that error bars are not dashed.
 pub(super) const BAR_WIDTH: u32 = 6;
-const CURVE_WIDTH: u32 = 8;
+pub(super) const CURVE_WIDTH: u32 = 8;
 
 /// Okabe & Ito (2008), without the yellow that is lost on white.
 const PALETTE: [RGBColor; 7] = [

@@ -23,13 +23,13 @@ impl Problem {
     }
 }
 
-/// The first `count` random problems.
-pub fn random(count: u64) -> Vec<Problem> {
-    (0..count).into_par_iter().map(one).collect()
+/// The first `count` random problems of a seed.
+pub fn random(seed: u64, count: u64) -> Vec<Problem> {
+    (0..count).into_par_iter().map(|index| one(seed, index)).collect()
 }
 
-fn one(index: u64) -> Problem {
-    let rng = &mut Pcg64::seed_from_u64(0x5eed_0009 + index);
+fn one(seed: u64, index: u64) -> Problem {
+    let rng = &mut Pcg64::seed_from_u64(seed.wrapping_add(index));
     let gradient = loop {
         let gradient = gradient(rng);
         // Without a strain rate there is no strain.
@@ -139,7 +139,11 @@ fn turned(rng: &mut impl Rng, l: Matrix3<f64>) -> Matrix3<f64> {
 /// A swirl beside an extension along its axis, the one 10⁻¹⁶ to 10¹⁶ times the other.
 fn spiral(rng: &mut impl Rng) -> Matrix3<f64> {
     let ratio = size(rng, -16.0, 16.0);
-    let (swirl, e) = if ratio > 1.0 { (1.0, 1.0 / ratio) } else { (ratio, 1.0) };
+    let (swirl, e) = if ratio > 1.0 {
+        (1.0, 1.0 / ratio)
+    } else {
+        (ratio, 1.0)
+    };
     let e = e * signed(rng).signum();
     Matrix3::new(-0.5 * e, -swirl, 0.0, swirl, -0.5 * e, 0.0, 0.0, 0.0, e)
 }
@@ -147,12 +151,30 @@ fn spiral(rng: &mut impl Rng) -> Matrix3<f64> {
 /// Three real rates, two of which nearly meet.
 fn real(rng: &mut impl Rng) -> Matrix3<f64> {
     let (a, gap) = (signed(rng), size(rng, -17.0, 0.0));
-    let coupled = if rng.random_range(0..2) == 0 { 0.0 } else { signed(rng) };
+    let coupled = if rng.random_range(0..2) == 0 {
+        0.0
+    } else {
+        signed(rng)
+    };
     Matrix3::new(a + gap, coupled, 0.0, 0.0, a, 0.0, 0.0, 0.0, -2.0 * a)
 }
 
 /// Planar flows from rotation through shear to extension.
 fn planar(rng: &mut impl Rng) -> Matrix3<f64> {
     let back = signed(rng).signum() * size(rng, -17.0, 0.0);
-    Matrix3::new(0.0, if rng.random_range(0..2) == 0 { back } else { back - 1.0 }, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    Matrix3::new(
+        0.0,
+        if rng.random_range(0..2) == 0 {
+            back
+        } else {
+            back - 1.0
+        },
+        0.0,
+        1.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+    )
 }

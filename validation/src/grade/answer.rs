@@ -1,0 +1,224 @@
+//! A program's answer to a problem, read from a file into the order of the problem's own rows.
+
+use super::lammps;
+use super::layout::{Field, Layout, Told};
+use super::lines::{Lines, number};
+use crate::problems::{Kind, LoadedProblem, ReadError};
+use std::path::{Path, PathBuf};
+
+/// How far a tensor's two halves may be apart: beyond six digits they are two answers.
+const SYMMETRIC: f64 = 1e-6;
+
+/// How far a time may be from the problem's, in parts of the gap to the next one: it is a label, printed with some digits.
+const LABEL: f64 = 1e-4;
+
+/// An answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer {
+    /// The file.
+    pub path: PathBuf,
+    /// The values asked for, without keys, a row for each of the problem's; finite or not.
+    pub rows: Vec<Vec<f64>>,
+    /// The line that each row was in.
+    pub lines: Vec<u64>,
+}
+
+/// Rows as they come, put where they belong.
+pub(super) struct Collector<'a> {
+    problem: &'a LoadedProblem,
+    rods: usize,
+    rows: Vec<Option<(u64, Vec<f64>)>>,
+}
+
+impl<'a> Collector<'a> {
+    pub(super) fn new(problem: &'a LoadedProblem) -> Self {
+        let rows = problem.certified.rows.len();
+        Self {
+            problem,
+            rods: problem.start.len().max(1),
+            rows: vec![None; rows],
+        }
+    }
+
+    /// Adds the row with these keys. `Err` has the key that is wrong, and why.
+    pub(super) fn add(&mut self, line: u64, keys: &[f64], values: Vec<f64>) -> Result<(), (usize, String)> {
+        let Some(at) = self.place(keys)? else {
+            return Ok(());
+        };
+        if let Some((before, _)) = &self.rows[at] {
+            let names = self.problem.problem.kind.keys().join(" and ");
+            return Err((keys.len() - 1, format!("the same {names} as in line {before}")));
+        }
+        self.rows[at] = Some((line, values));
+        Ok(())
+    }
+
+    /// Which row it is; `None` for the start, where it is not asked for.
+    fn place(&self, keys: &[f64]) -> Result<Option<usize>, (usize, String)> {
+        let whole = |key: usize, count: usize| {
+            let found = keys[key];
+            let name = self.problem.problem.kind.keys()[key];
+            match found >= 0.0 && found < count as f64 && found.fract() == 0.0 {
+                true => Ok(found as usize),
+                false => Err((
+                    key,
+                    format!(
+                        "{name} = {found}; whole numbers from 0 to {} are asked for",
+                        count - 1
+                    ),
+                )),
+            }
+        };
+        if self.problem.problem.kind == Kind::Contact {
+            return whole(0, self.rows.len()).map(Some);
+        }
+        let time = self.time(keys[0])?;
+        let rod = if keys.len() > 1 { whole(1, self.rods)? } else { 0 };
+        Ok(time.map(|time| time * self.rods + rod))
+    }
+
+    fn time(&self, found: f64) -> Result<Option<usize>, (usize, String)> {
+        let times = &self.problem.problem.times_s;
+        let after = times.partition_point(|time| *time < found);
+        let near = [after.checked_sub(1), (after < times.len()).then_some(after)];
+        let nearest = (near.into_iter().flatten())
+            .min_by(|a, b| (times[*a] - found).abs().total_cmp(&(times[*b] - found).abs()));
+        let gap = |at: usize| {
+            let below = at.checked_sub(1).map_or(0.0, |before| times[before]);
+            let above = times.get(at + 1).map_or(f64::INFINITY, |next| next - times[at]);
+            (times[at] - below).abs().min(above)
+        };
+        match nearest {
+            Some(at) if (times[at] - found).abs() <= LABEL * gap(at) => Ok(Some(at)),
+            _ if found == 0.0 => Ok(None),
+            Some(at) => Err((
+                0,
+                format!(
+                    "time_s = {found} is not asked for; the nearest that is asked for is {}",
+                    times[at]
+                ),
+            )),
+            None => Err((0, format!("time_s = {found} is not asked for"))),
+        }
+    }
+
+    pub(super) fn finish(self, path: &Path, last: u64) -> Result<Answer, ReadError> {
+        let missing = self.rows.iter().filter(|row| row.is_none()).count();
+        if let Some(first) = self.rows.iter().position(Option::is_none) {
+            let problem = &self.problem.problem;
+            let names = problem.kind.keys();
+            let keys = &self.problem.certified.rows[first];
+            let key: Vec<_> = names
+                .iter()
+                .zip(keys)
+                .map(|(name, key)| format!("{name} = {key}"))
+                .collect();
+            let message = format!(
+                "ends without {} ({missing} of {} rows are missing)",
+                key.join(", "),
+                self.rows.len()
+            );
+            return Err(ReadError::at(path, last, 1, message));
+        }
+        let (lines, rows) = self.rows.into_iter().flatten().unzip();
+        Ok(Answer {
+            path: path.to_owned(),
+            rows,
+            lines,
+        })
+    }
+}
+
+/// Reads an answer. Rows may be in any order.
+pub fn read(
+    path: &Path,
+    problem: &LoadedProblem,
+    told: &Told,
+    dump: &lammps::Told,
+) -> Result<Answer, ReadError> {
+    let mut lines = Lines::open(path)?;
+    let first = lines.next_line()?;
+    let first = first.ok_or_else(|| ReadError::at(path, 1, 1, "the file is empty"))?;
+    if first.starts_with("ITEM:") {
+        return lammps::read(lines, first, problem, told.axes, dump);
+    }
+    let layout =
+        Layout::find(&first, &problem.problem, told).map_err(|(at, message)| lines.error(at, message))?;
+    let mut collector = Collector::new(problem);
+    let mut row = layout.first_is_row.then_some(first);
+    let mut last = lines.number();
+    loop {
+        let line = match row.take() {
+            Some(line) => line,
+            None => match lines.next_line()? {
+                Some(line) => line,
+                None => return collector.finish(path, last),
+            },
+        };
+        last = lines.number();
+        let (keys, values) =
+            fields(&line, &layout, problem).map_err(|(at, message)| lines.error(at, message))?;
+        let place = |key: usize| {
+            layout
+                .fields
+                .iter()
+                .position(|field| *field == Field::Key(key))
+                .map_or(0, |at| at + 1)
+        };
+        collector
+            .add(last, &keys, values)
+            .map_err(|(key, message)| lines.error(place(key), message))?;
+    }
+}
+
+/// Keys and values of a row. `Err` has the field from 1, or 0, and what is wrong.
+fn fields(
+    line: &str,
+    layout: &Layout,
+    problem: &LoadedProblem,
+) -> Result<(Vec<f64>, Vec<f64>), (usize, String)> {
+    let key_count = problem.problem.kind.keys().len();
+    let mut keys = vec![0.0; key_count];
+    let mut values = vec![f64::NAN; problem.problem.columns.len() - key_count];
+    let mut again = Vec::new();
+    let mut count = 0;
+    for (k, text) in layout.split(line).enumerate() {
+        count += 1;
+        let Some(field) = layout.fields.get(k) else {
+            continue;
+        };
+        let found = || number(text.trim_matches('"')).map_err(|message| (k + 1, message));
+        match *field {
+            Field::Key(at) => {
+                keys[at] = found()?;
+                if !keys[at].is_finite() {
+                    return Err((k + 1, format!("{text} is no finite number")));
+                }
+            }
+            Field::Value(at, sign) => values[at] = sign * found()?,
+            Field::Again(at) => again.push((k + 1, at, found()?)),
+            Field::Nothing => {}
+        }
+    }
+    if count != layout.fields.len() {
+        let message = format!("{count} fields; the first line has {}", layout.fields.len());
+        return Err((
+            count.min(layout.fields.len()) + usize::from(count < layout.fields.len()),
+            message,
+        ));
+    }
+    for (column, at, other) in again {
+        let sign = layout.fields.iter().find_map(|field| match field {
+            Field::Value(found, sign) if *found == at => Some(*sign),
+            _ => None,
+        });
+        let off = (values[at] - sign.unwrap_or(1.0) * other).abs();
+        if off > SYMMETRIC {
+            return Err((
+                column,
+                format!("the tensor is not symmetric: its two halves are {off:.1e} apart"),
+            ));
+        }
+    }
+    Ok((keys, values))
+}

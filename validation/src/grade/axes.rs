@@ -1,0 +1,129 @@
+//! Axes in another order, and which column of a program is which of the problem's.
+
+/// Which of a program's axes is which of ours (1 gradient, 2 flow, 3 vorticity), and whether it is reversed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axes {
+    /// For each of our axes the program's, from 0.
+    theirs: [usize; 3],
+    sign: [f64; 3],
+}
+
+impl Default for Axes {
+    fn default() -> Self {
+        Self {
+            theirs: [0, 1, 2],
+            sign: [1.0; 3],
+        }
+    }
+}
+
+impl std::str::FromStr for Axes {
+    type Err = String;
+
+    /// As `flow,gradient,vorticity`: what the program's axes 1, 2, 3 are; `-flow` is against the flow.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let mut found = [None; 3];
+        let words: Vec<_> = text.split(',').map(str::trim).collect();
+        for (k, word) in words.iter().enumerate() {
+            let (sign, name) = word.strip_prefix('-').map_or((1.0, *word), |name| (-1.0, name));
+            let ours = ["gradient", "flow", "vorticity"]
+                .iter()
+                .position(|axis| *axis == name);
+            match ours {
+                Some(ours) if found[ours].is_none() => found[ours] = Some((k, sign)),
+                _ => return Err(allowed()),
+            }
+        }
+        match (found, words.len()) {
+            ([Some(a), Some(b), Some(c)], 3) => Ok(Self {
+                theirs: [a.0, b.0, c.0],
+                sign: [a.1, b.1, c.1],
+            }),
+            _ => Err(allowed()),
+        }
+    }
+}
+
+fn allowed() -> String {
+    "gradient, flow and vorticity are allowed, each once, each with a - before it where it is reversed"
+        .to_owned()
+}
+
+impl Axes {
+    /// The program's name of one of the problem's columns, and the sign that its values get: `p1` is `p2` where the
+    /// program's second axis is the gradient. Columns without an axis keep their names.
+    pub fn theirs(&self, column: &str) -> (String, f64) {
+        let tail = ["_se", "_per_s"]
+            .into_iter()
+            .find(|tail| column.ends_with(tail))
+            .unwrap_or("");
+        let stem = &column[..column.len() - tail.len()];
+        let axis = |digit: u8| usize::from(digit.wrapping_sub(b'1'));
+        let digits = stem
+            .bytes()
+            .rev()
+            .take_while(|byte| (b'1'..=b'3').contains(byte))
+            .count();
+        let name = &stem[..stem.len() - digits];
+        match stem.as_bytes()[name.len()..] {
+            [i, j] => {
+                let (a, b) = (self.theirs[axis(i)], self.theirs[axis(j)]);
+                let sign = self.sign[axis(i)] * self.sign[axis(j)];
+                (
+                    format!("{name}{}{}{tail}", a.min(b) + 1, a.max(b) + 1),
+                    sign_of(sign, tail),
+                )
+            }
+            // x1 is a mean of |p_1|.
+            [i] => {
+                let sign = if name == "x" { 1.0 } else { self.sign[axis(i)] };
+                (
+                    format!("{name}{}{tail}", self.theirs[axis(i)] + 1),
+                    sign_of(sign, tail),
+                )
+            }
+            _ => (column.to_owned(), 1.0),
+        }
+    }
+}
+
+/// A standard error has no sign.
+fn sign_of(sign: f64, tail: &str) -> f64 {
+    if tail == "_se" { 1.0 } else { sign }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_find_their_names() {
+        let axes: Axes = "flow,-gradient,vorticity".parse().unwrap();
+        for (ours, theirs, sign) in [
+            ("p1", "p2", -1.0),
+            ("p2", "p1", 1.0),
+            ("p3", "p3", 1.0),
+            ("a11", "a22", 1.0),
+            ("a12", "a12", -1.0),
+            ("a13", "a23", -1.0),
+            ("x1", "x2", 1.0),
+            ("x1_se", "x2_se", 1.0),
+            ("a_pdot1_per_s", "a_pdot2_per_s", -1.0),
+            ("time_step_s", "time_step_s", 1.0),
+            ("time_s", "time_s", 1.0),
+            ("rod", "rod", 1.0),
+        ] {
+            assert_eq!(axes.theirs(ours), (theirs.to_owned(), sign));
+            assert_eq!(Axes::default().theirs(ours), (ours.to_owned(), 1.0));
+        }
+        for wrong in [
+            "",
+            "flow",
+            "flow,flow,vorticity",
+            "flow,gradient,up",
+            "flow,gradient,vorticity,flow",
+        ] {
+            assert!(wrong.parse::<Axes>().is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! A problem asked with more and more steps, or with smaller and smaller tolerances.
+
+use super::last_time;
+use super::program::{Asked, Program, Question};
+use crate::grade::answer::Answer;
+use crate::grade::compare::{Compared, compare};
+use crate::grade::diagnosis::diagnose;
+use crate::grade::files::{Claim, order_off};
+use crate::grade::{Graded, Verdict, orders};
+use crate::problems::LoadedProblem;
+use crate::subject::Setting;
+use std::time::{Duration, Instant};
+
+/// Doublings of the steps at most, from GΔt of about 1.
+const DOUBLINGS: u32 = 24;
+
+/// What a program takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// Equal steps.
+    Steps,
+    /// A tolerance.
+    Tolerance,
+}
+
+/// Asks for a rod of r_e = 2 over a short time: by steps, and where the program has an error for that, by tolerance.
+pub fn mode(program: &Program) -> Mode {
+    program.during("the first request");
+    let question = Question {
+        gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]],
+        aspect_ratio: 2.0,
+        start: vec![[1.0, 0.0, 0.0]],
+        end_s: 1.0,
+    };
+    let refused = matches!(program.ask(&question, Setting::Steps(8)), Err(Asked::Says(_)));
+    match refused && program.ask(&question, Setting::Tolerance(1e-3)).is_ok() {
+        true => Mode::Tolerance,
+        false => Mode::Steps,
+    }
+}
+
+/// One setting and what came.
+struct Rung {
+    setting: Setting,
+    answer: Answer,
+    compared: Compared,
+}
+
+/// Grades a program on a problem about free rods, at its last time.
+pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim) -> Graded {
+    program.during(&problem.problem.name);
+    let problem = last_time(problem);
+    let (rungs, stopped) = climb(program, &problem, mode);
+    let of = &problem.problem;
+    let mut graded = Graded::without_answer(&of.name, of.kind, of.tolerance, &of.because);
+    graded.verdict = Verdict::Fail;
+    let errors = rungs
+        .iter()
+        .filter_map(|rung| Some((rung.setting.steps().ok()?, rung.compared.error)));
+    let errors: Vec<_> = errors.collect();
+    (graded.orders, graded.observed_order) = orders(&errors, of.tolerance);
+    let Some(finest) = rungs.last() else {
+        graded.note = stopped.breach.or(stopped.reason);
+        return graded;
+    };
+    graded.steps = finest.setting.steps().ok();
+    graded.asked_tolerance = finest.setting.tolerance().ok();
+    let compared = &finest.compared;
+    graded.error = compared.error.is_finite().then_some(compared.error);
+    graded.length_drift = compared.length_drift.filter(|drift| drift.is_finite());
+    graded.orbit_drift = compared.orbit_drift.filter(|drift| drift.is_finite());
+    graded.phase_lost_per_period = compared.phase_lost_per_period.filter(|lost| lost.is_finite());
+    graded.diagnosis = diagnose(&problem, &finest.answer, compared.error);
+    let within = compared.error <= of.tolerance;
+    let off = order_off(graded.observed_order, claim);
+    if within && off.is_none() && stopped.breach.is_none() {
+        graded.verdict = Verdict::Pass;
+    }
+    graded.note = stopped
+        .breach
+        .or(off)
+        .or_else(|| why(&graded, compared, finest.setting, within, stopped.reason));
+    graded
+}
+
+/// What is to be said of an answer that is not within the tolerance.
+fn why(
+    graded: &Graded,
+    compared: &Compared,
+    finest: Setting,
+    within: bool,
+    reason: Option<String>,
+) -> Option<String> {
+    if within {
+        return None;
+    }
+    if !compared.error.is_finite() {
+        return Some(format!("with {finest} the answer is not finite"));
+    }
+    let mut words = match finest {
+        Setting::Tolerance(asked) => format!(
+            "it claims success at the tolerance {asked:.0e} and is off by {:.1e}",
+            compared.error
+        ),
+        _ => format!("with {finest} it is off by {:.1e}", compared.error),
+    };
+    if let (Some(order @ 0.5..), Some(steps)) = (graded.observed_order, graded.steps) {
+        let needed = steps as f64 * (compared.error / graded.tolerance).powf(1.0 / order);
+        words += &format!("; at this order about {needed:.0e} steps would be within the tolerance");
+    }
+    if let Some(reason) = reason {
+        words += &format!("; {reason}");
+    }
+    Some(words)
+}
+
+/// Why a ladder ended.
+#[derive(Default)]
+struct Stopped {
+    /// A breach of the protocol: it fails the problem whatever was answered before.
+    breach: Option<String>,
+    /// Anything else.
+    reason: Option<String>,
+}
+
+/// Climbs until two settings in a row are within the tolerance, lest a chance crossing count, or time is up.
+fn climb(program: &Program, problem: &LoadedProblem, mode: Mode) -> (Vec<Rung>, Stopped) {
+    let mut rungs: Vec<Rung> = Vec::new();
+    let mut stopped = Stopped::default();
+    let begun = Instant::now();
+    let question = Question {
+        gradient_per_s: problem.problem.gradient_per_s,
+        aspect_ratio: problem.problem.aspect_ratio,
+        start: problem.start.clone(),
+        end_s: problem.problem.times_s[0],
+    };
+    for setting in settings(problem, mode) {
+        let took = match program.ask(&question, setting) {
+            Ok((p, took)) => {
+                let answer = answer(p);
+                let compared = compare(problem, &answer);
+                rungs.push(Rung {
+                    setting,
+                    answer,
+                    compared,
+                });
+                took
+            }
+            // It may do better with shorter steps.
+            Err(Asked::Says(words)) => {
+                stopped.reason = Some(format!("with {setting} the program says: {words}"));
+                Duration::ZERO
+            }
+            Err(Asked::Breach(words)) => {
+                stopped.breach = Some(format!("asked for {setting}: {words}"));
+                break;
+            }
+            Err(Asked::Not(words)) => {
+                stopped.breach = Some(format!("not asked: {words}"));
+                break;
+            }
+        };
+        let within = |rung: &Rung| rung.compared.error <= problem.problem.tolerance;
+        if rungs.len() >= 2 && rungs[rungs.len() - 2..].iter().all(within) {
+            break;
+        }
+        if 4 * took > program.timeout() || begun.elapsed() > program.timeout() {
+            let seconds = begun.elapsed().as_secs_f64();
+            stopped.reason = Some(format!(
+                "finer ones would take too long (--timeout): {seconds:.1} s so far"
+            ));
+            break;
+        }
+    }
+    (rungs, stopped)
+}
+
+fn settings(problem: &LoadedProblem, mode: Mode) -> Vec<Setting> {
+    let of = &problem.problem;
+    let largest = of
+        .gradient_per_s
+        .iter()
+        .flatten()
+        .fold(0.0, |a: f64, b| a.max(b.abs()));
+    let strain = largest * of.times_s[0];
+    let coarsest = (strain.ceil() as u64).next_power_of_two().max(8);
+    match mode {
+        Mode::Steps => (0..=DOUBLINGS).map(|k| Setting::Steps(coarsest << k)).collect(),
+        Mode::Tolerance => (2..=14).map(|k| Setting::Tolerance(10f64.powi(-k))).collect(),
+    }
+}
+
+fn answer(p: Vec<[f64; 3]>) -> Answer {
+    Answer {
+        path: "standard output".into(),
+        lines: vec![0; p.len()],
+        rows: p.into_iter().map(Vec::from).collect(),
+    }
+}

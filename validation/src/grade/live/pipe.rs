@@ -1,0 +1,312 @@
+//! A program at the other end of two pipes: lines in, lines out, each wait bounded in time and memory.
+
+use std::collections::BTreeSet;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, SyncSender};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// The longest line that is read, in bytes: ten times the longest answer that is asked for.
+pub const LONGEST_LINE: usize = 1 << 20;
+
+/// Lines that are held while nobody reads them. A program that writes more waits.
+const LINES_HELD: usize = 4;
+
+/// How much is kept of the end of what the program writes to standard error, in bytes.
+const LAST_WORDS: usize = 2048;
+
+/// How long a program may take to end once its input is closed.
+const GRACE: Duration = Duration::from_secs(3);
+
+/// Why there is no next line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Trouble {
+    /// Nothing came in time.
+    Hung(Duration),
+    /// The program ended: its exit code or signal, and the end of what it wrote to standard error.
+    Ended(String, String),
+    /// The line with this number is longer than [`LONGEST_LINE`].
+    TooLong(u64),
+}
+
+impl std::fmt::Display for Trouble {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Hung(limit) => write!(
+                f,
+                "no answer within {} s; it was stopped (is standard output flushed after each line?)",
+                limit.as_secs_f64()
+            ),
+            Self::Ended(how, words) if words.is_empty() => write!(f, "the program ended: {how}"),
+            Self::Ended(how, words) => {
+                write!(
+                    f,
+                    "the program ended: {how}; its last words on standard error: {words}"
+                )
+            }
+            Self::TooLong(line) => write!(
+                f,
+                "line {line} of standard output is longer than {LONGEST_LINE} bytes; the program was stopped"
+            ),
+        }
+    }
+}
+
+/// The process groups that run now, to be killed where this program is ended by a signal.
+static RUNNING: Mutex<BTreeSet<u32>> = Mutex::new(BTreeSet::new());
+
+fn running() -> MutexGuard<'static, BTreeSet<u32>> {
+    RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// From now on, kills every program that was started before an interrupt, a hang-up or a request to end ends this one.
+#[cfg(unix)]
+pub fn end_with_this_program() -> std::io::Result<()> {
+    use rustix::process::{Pid, Signal, kill_process_group};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let mut signals = signal_hook::iterator::Signals::new([SIGHUP, SIGINT, SIGTERM])?;
+    thread::spawn(move || {
+        if let Some(signal) = signals.forever().next() {
+            for group in running().iter().filter_map(|id| Pid::from_raw(*id as i32)) {
+                let _ = kill_process_group(group, Signal::KILL);
+            }
+            std::process::exit(128 + signal);
+        }
+    });
+    Ok(())
+}
+
+/// There are no such signals.
+#[cfg(not(unix))]
+pub fn end_with_this_program() -> std::io::Result<()> {
+    Ok(())
+}
+
+enum Heard {
+    Line(Vec<u8>),
+    TooLong,
+}
+
+/// A running program. When dropped, it and all that it started in its process group are killed and waited for.
+pub struct Pipe {
+    child: Child,
+    requests: Option<Sender<Vec<u8>>>,
+    lines: Receiver<Heard>,
+    last_words: Arc<Mutex<Vec<u8>>>,
+    /// Lines heard so far.
+    heard: u64,
+    /// How it ended, once that has been noted: its number may then be another's.
+    status: Option<ExitStatus>,
+}
+
+impl Pipe {
+    /// Starts `words[0]` with the other words as arguments, in a process group of its own.
+    pub fn start(words: &[String]) -> Result<Self, String> {
+        let (program, arguments) = words.split_first().ok_or("the command is empty")?;
+        let mut command = Command::new(program);
+        command
+            .args(arguments)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let mut child = command
+            .spawn()
+            .map_err(|error| format!("{program}: cannot be started: {error}"))?;
+        running().insert(child.id());
+        let (stdin, stdout, stderr) = (child.stdin.take(), child.stdout.take(), child.stderr.take());
+        let (requests, to_write) = mpsc::channel();
+        let (heard, lines) = mpsc::sync_channel(LINES_HELD);
+        let last_words = Arc::new(Mutex::new(Vec::new()));
+        // The threads are never joined: what escaped the process group may hold a pipe open for ever.
+        if let (Some(stdin), Some(stdout), Some(stderr)) = (stdin, stdout, stderr) {
+            let words = Arc::clone(&last_words);
+            thread::spawn(move || write_requests(stdin, to_write));
+            thread::spawn(move || read_lines(stdout, heard));
+            thread::spawn(move || keep_last_words(stderr, &words));
+        }
+        Ok(Self {
+            child,
+            requests: Some(requests),
+            lines,
+            last_words,
+            heard: 0,
+            status: None,
+        })
+    }
+
+    /// The process, which is also the number of its process group.
+    pub fn id(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// Sends a line. A program that does not read it is noticed when its answer does not come.
+    pub fn send(&mut self, line: String) {
+        if let Some(requests) = &self.requests {
+            // The writer is gone where the program has closed its input; its answer will be missing.
+            let _ = requests.send((line + "\n").into_bytes());
+        }
+    }
+
+    /// The next line within `limit`, with its number from 1 on.
+    pub fn line(&mut self, limit: Duration) -> Result<(u64, String), Trouble> {
+        match self.lines.recv_timeout(limit) {
+            Ok(heard) => self.counted(heard),
+            Err(RecvTimeoutError::Timeout) => Err(Trouble::Hung(limit)),
+            Err(RecvTimeoutError::Disconnected) => Err(self.ended()),
+        }
+    }
+
+    /// A line that is there already, though nobody asked for it.
+    pub fn unasked(&mut self) -> Option<Result<(u64, String), Trouble>> {
+        let heard = self.lines.try_recv().ok()?;
+        Some(self.counted(heard))
+    }
+
+    fn counted(&mut self, heard: Heard) -> Result<(u64, String), Trouble> {
+        self.heard += 1;
+        match heard {
+            Heard::Line(bytes) => {
+                let text = String::from_utf8_lossy(&bytes);
+                Ok((self.heard, text.trim_end_matches(['\n', '\r']).to_owned()))
+            }
+            Heard::TooLong => Err(Trouble::TooLong(self.heard)),
+        }
+    }
+
+    /// Closes the program's input and waits for its end. `Err` says what was wrong with how it ended.
+    pub fn close(mut self) -> Result<(), String> {
+        drop(self.requests.take());
+        let deadline = Instant::now() + GRACE;
+        loop {
+            match self.unasked() {
+                Some(Ok((line, text))) => {
+                    return Err(format!(
+                        "line {line} of standard output answers nothing: {}",
+                        excerpt(&text)
+                    ));
+                }
+                Some(Err(trouble)) => return Err(trouble.to_string()),
+                None if self.has_ended() => return Ok(()),
+                None if Instant::now() > deadline => {
+                    let grace = GRACE.as_secs();
+                    return Err(format!(
+                        "it did not end within {grace} s of the end of its input and was stopped"
+                    ));
+                }
+                None => thread::sleep(Duration::from_millis(5)),
+            }
+        }
+    }
+
+    fn ended(&mut self) -> Trouble {
+        // Its output is closed: if it is about to end, that takes moments, on a busy machine seconds.
+        let deadline = Instant::now() + 2 * GRACE;
+        while !self.has_ended() && Instant::now() < deadline {
+            thread::sleep(Duration::from_millis(5));
+        }
+        let how = match self.has_ended() {
+            true => match self.stop() {
+                Some(status) => status.to_string(),
+                None => "nobody knows how".to_owned(),
+            },
+            false => "it closed its standard output and went on; it was stopped".to_owned(),
+        };
+        let words = self.last_words.lock().unwrap_or_else(PoisonError::into_inner);
+        let words = String::from_utf8_lossy(&words).trim().replace('\n', " | ");
+        let start = words.char_indices().rev().nth(299).map_or(0, |(at, _)| at);
+        Trouble::Ended(how, words[start..].to_owned())
+    }
+
+    /// Whether the program has ended, without taking note of it: its number stays taken until [`Pipe::stop`].
+    #[cfg(unix)]
+    fn has_ended(&mut self) -> bool {
+        if self.status.is_some() {
+            return true;
+        }
+        use rustix::process::{WaitId, WaitIdOptions, waitid};
+        let options = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
+        let id = rustix::process::Pid::from_child(&self.child);
+        !matches!(waitid(WaitId::Pid(id), options), Ok(None))
+    }
+
+    #[cfg(not(unix))]
+    fn has_ended(&mut self) -> bool {
+        !matches!(self.child.try_wait(), Ok(None))
+    }
+
+    /// Kills the program's whole process group, and takes note of its end: no zombie stays.
+    fn stop(&mut self) -> Option<ExitStatus> {
+        if self.status.is_some() {
+            return self.status;
+        }
+        running().remove(&self.child.id());
+        #[cfg(unix)]
+        {
+            // An error means that nobody is left in the group.
+            let group = rustix::process::Pid::from_child(&self.child);
+            let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
+        }
+        #[cfg(not(unix))]
+        let _ = self.child.kill();
+        self.status = self.child.wait().ok();
+        self.status
+    }
+}
+
+impl Drop for Pipe {
+    fn drop(&mut self) {
+        self.stop();
+    }
+}
+
+fn write_requests(mut stdin: ChildStdin, requests: Receiver<Vec<u8>>) {
+    for request in requests {
+        if stdin.write_all(&request).and_then(|()| stdin.flush()).is_err() {
+            return;
+        }
+    }
+}
+
+fn read_lines(stdout: ChildStdout, heard: SyncSender<Heard>) {
+    let mut reader = BufReader::new(stdout);
+    loop {
+        let mut line = Vec::new();
+        let most = LONGEST_LINE as u64 + 1;
+        match reader.by_ref().take(most).read_until(b'\n', &mut line) {
+            Ok(0) | Err(_) => return,
+            Ok(_) => {
+                let too_long = line.len() > LONGEST_LINE;
+                let sent = heard.send(if too_long {
+                    Heard::TooLong
+                } else {
+                    Heard::Line(line)
+                });
+                if too_long || sent.is_err() {
+                    return;
+                }
+            }
+        }
+    }
+}
+
+/// Reads all there is, so that the program never waits for a reader, and keeps the end of it.
+fn keep_last_words(mut stderr: ChildStderr, kept: &Mutex<Vec<u8>>) {
+    let mut buffer = [0; 4096];
+    while let Ok(count @ 1..) = stderr.read(&mut buffer) {
+        let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.extend_from_slice(&buffer[..count]);
+        let surplus = kept.len().saturating_sub(LAST_WORDS);
+        kept.drain(..surplus);
+    }
+}
+
+/// The start of a text, for messages.
+pub fn excerpt(text: &str) -> String {
+    let start: String = text.chars().take(60).collect();
+    let more = if start.len() < text.len() { "…" } else { "" };
+    format!("`{}{more}`", start.escape_debug())
+}

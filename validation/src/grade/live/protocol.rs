@@ -1,0 +1,180 @@
+//! Requests and answers as lines of JSON (`docs/grading.md`).
+
+use super::pipe::excerpt;
+use serde::Serialize;
+use serde_json::Value;
+
+/// A request: one line to the program.
+#[derive(Clone, Debug, Serialize)]
+pub struct Request<'a> {
+    /// Counts the requests; the answer repeats it.
+    pub id: u64,
+    /// L in 1/s, row i and column j holding ∂u_i/∂x_j.
+    pub gradient_per_s: &'a [[f64; 3]; 3],
+    /// r_e.
+    pub aspect_ratio: f64,
+    /// The rods' directions at t = 0.
+    pub start: &'a [[f64; 3]],
+    /// The time in s for which directions are asked.
+    pub end_s: f64,
+    /// So many equal steps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps: Option<u64>,
+    /// In place of steps: the relative and absolute tolerance.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+}
+
+/// What a line says that is a well-formed answer.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer {
+    /// A direction for each rod; components that were NaN, infinite or null are NaN.
+    Directions(Vec<[f64; 3]>),
+    /// The program's own error.
+    Error(String),
+}
+
+/// Reads the answer to the request `id` about so many rods. `Err` says what is wrong with the line.
+pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
+    let value = parse(line)?;
+    let Value::Object(mut answer) = value else {
+        return Err(format!("no JSON object: {}", excerpt(line)));
+    };
+    match answer.get("id").map(|found| (found, found.as_u64())) {
+        Some((_, Some(found))) if found == id => {}
+        Some((found, _)) => return Err(format!("it answers id {found} where {id} was asked")),
+        None => return Err(format!("it has no \"id\": {}", excerpt(line))),
+    }
+    match answer.remove("error") {
+        Some(Value::String(reason)) => return Ok(Answer::Error(reason)),
+        Some(Value::Null) | None => {}
+        Some(other) => return Err(format!("\"error\" is {other}; a text is allowed")),
+    }
+    match answer.remove("p") {
+        Some(Value::Array(found)) if found.len() == rods => {
+            let all: Result<_, _> = found.iter().enumerate().map(|(k, p)| direction(k, p)).collect();
+            all.map(Answer::Directions)
+        }
+        Some(Value::Array(found)) => Err(format!("{} rods where {rods} were asked", found.len())),
+        Some(other) => Err(format!(
+            "\"p\" is {}; a list of directions is allowed",
+            excerpt(&other.to_string())
+        )),
+        None => Err(format!("neither \"p\" nor \"error\": {}", excerpt(line))),
+    }
+}
+
+fn direction(rod: usize, value: &Value) -> Result<[f64; 3], String> {
+    let wrong = || {
+        format!(
+            "rod {rod} is {}; three numbers are allowed",
+            excerpt(&value.to_string())
+        )
+    };
+    let components = value
+        .as_array()
+        .filter(|found| found.len() == 3)
+        .ok_or_else(wrong)?;
+    let mut p = [0.0; 3];
+    for (slot, component) in p.iter_mut().zip(components) {
+        *slot = match component {
+            Value::Null => f64::NAN,
+            other => other.as_f64().ok_or_else(wrong)?,
+        };
+    }
+    Ok(p)
+}
+
+/// JSON, and what Python and JavaScript print for numbers that are none.
+fn parse(line: &str) -> Result<Value, String> {
+    let strict = serde_json::from_str(line);
+    let error = match strict {
+        Ok(value) => return Ok(value),
+        Err(error) => error,
+    };
+    // The longer words first: what is left of them is no word of its own.
+    let words = [
+        "-Infinity",
+        "Infinity",
+        "-inf",
+        "inf",
+        "-NaN",
+        "NaN",
+        "-nan",
+        "nan",
+    ];
+    let without = words
+        .iter()
+        .fold(line.to_owned(), |text, word| text.replace(word, "null"));
+    match serde_json::from_str(&without) {
+        Ok(value) => Ok(value),
+        Err(_) => Err(format!("no JSON ({error}): {}", excerpt(line))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_request_is_one_line_in_the_documented_form() {
+        let request = Request {
+            id: 7,
+            gradient_per_s: &[[0.0; 3], [0.5, 0.0, 0.0], [0.0; 3]],
+            aspect_ratio: 11.6,
+            start: &[[1.0, 0.0, 0.0]],
+            end_s: 2.0,
+            steps: Some(64),
+            tolerance: None,
+        };
+        let expected = concat!(
+            r#"{"id":7,"gradient_per_s":[[0.0,0.0,0.0],[0.5,0.0,0.0],[0.0,0.0,0.0]],"aspect_ratio":11.6,"#,
+            r#""start":[[1.0,0.0,0.0]],"end_s":2.0,"steps":64}"#
+        );
+        assert_eq!(serde_json::to_string(&request).unwrap(), expected);
+    }
+
+    #[test]
+    fn answers_are_read() {
+        let p = Answer::Directions(vec![[1.0, 0.0, -2.5]]);
+        assert_eq!(
+            read(r#"{"id": 3, "p": [[1, 0.0, -2.5]], "more": {}}"#, 3, 1),
+            Ok(p)
+        );
+        let refused = Ok(Answer::Error("too stiff".into()));
+        assert_eq!(read(r#"{"id": 3, "error": "too stiff"}"#, 3, 1), refused);
+        for line in [
+            r#"{"id":3,"p":[[NaN,0,1]]}"#,
+            r#"{"id":3,"p":[[-Infinity,0,1]]}"#,
+            r#"{"id":3,"p":[[null,0,1]]}"#,
+        ] {
+            let Ok(Answer::Directions(p)) = read(line, 3, 1) else {
+                panic!("{line}")
+            };
+            assert!(p[0][0].is_nan() && p[0][2] == 1.0);
+        }
+    }
+
+    #[test]
+    fn whatever_else_is_refused_with_its_reason() {
+        for (line, reason) in [
+            ("step 1 of 10", "no JSON"),
+            ("", "no JSON"),
+            ("[1, 2]", "no JSON object"),
+            (r#"{"p": [[1,0,0]]}"#, "no \"id\""),
+            (r#"{"id": 4, "p": [[1,0,0]]}"#, "answers id 4 where 3 was asked"),
+            (r#"{"id": "3", "p": [[1,0,0]]}"#, "answers id \"3\" where 3"),
+            (r#"{"id": 3}"#, "neither"),
+            (r#"{"id": 3, "p": []}"#, "0 rods where 1"),
+            (r#"{"id": 3, "p": [[1,0,0],[1,0,0]]}"#, "2 rods where 1"),
+            (r#"{"id": 3, "p": 1}"#, "a list of directions is allowed"),
+            (r#"{"id": 3, "p": [[1,0]]}"#, "rod 0 is `[1,0]`; three numbers"),
+            (r#"{"id": 3, "p": [["1",0,0]]}"#, "three numbers"),
+            (r#"{"id": 3, "p": [[1e400,0,0]]}"#, "no JSON"),
+            (r#"{"id": 3, "error": 5}"#, "a text is allowed"),
+        ] {
+            let found = read(line, 3, 1).unwrap_err();
+            assert!(found.contains(reason), "{line}: {found}");
+        }
+    }
+}

@@ -1,0 +1,480 @@
+//! The curves that known mistakes give: what a program computes that has one of them and is right otherwise.
+//!
+//! The exact motion is p = q/|q|, q = M(t) p(0) with M = exp(At), A = W + ΛD. A mistake spoils the flow, the aspect
+//! ratio, the start, the map or the answer; the rest stays.
+
+use nalgebra::{Matrix3, Vector3};
+use shearbed::flow::VelocityGradient;
+use shearbed::propagator::{Propagator, Span};
+
+/// What a free rod moves in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Setting {
+    /// L in 1/s.
+    pub gradient_per_s: Matrix3<f64>,
+    /// r_e.
+    pub aspect_ratio: f64,
+}
+
+type Curve = Box<dyn Fn(&Setting, &Vector3<f64>, f64) -> Option<Vector3<f64>> + Send + Sync>;
+type Map = Box<dyn Fn(&Setting, f64) -> Option<Matrix3<f64>> + Send + Sync>;
+
+/// A known mistake.
+pub struct Mistake {
+    /// What it is, to stand after "this is the curve of".
+    pub name: String,
+    /// Whether the answer's length belongs to the mistake.
+    pub has_length: bool,
+    kind: Kind,
+}
+
+enum Kind {
+    /// q = R M S p(0), with another map M, and with R and S for the components of answer and start.
+    Linear {
+        map: Map,
+        start: Matrix3<f64>,
+        end: Matrix3<f64>,
+    },
+    /// Anything else.
+    Curve(Curve),
+}
+
+impl Mistake {
+    /// Where a rod that starts along `p` is after `time_s` by this mistake; `None` where it has no meaning. The length
+    /// is 1 but for mistakes that have one of their own.
+    pub fn direction(&self, setting: &Setting, p: &Vector3<f64>, time_s: f64) -> Option<Vector3<f64>> {
+        let q = match &self.kind {
+            Kind::Linear { map, start, end } => end * map(setting, time_s)? * start * p,
+            Kind::Curve(curve) => curve(setting, p, time_s)?,
+        };
+        let q = if self.has_length { q } else { q.normalize() };
+        q.iter().all(|component| component.is_finite()).then_some(q)
+    }
+
+    /// The linear map of directions that were isotropic at t = 0, up to a rotation before it; `None` where the mistake
+    /// is no linear map.
+    pub fn map(&self, setting: &Setting, time_s: f64) -> Option<Matrix3<f64>> {
+        match &self.kind {
+            Kind::Linear { map, end, .. } => Some(end * map(setting, time_s)?),
+            Kind::Curve(_) => None,
+        }
+    }
+}
+
+/// The right map, with determinant 1, in an incompressible flow; `None` where it is not finite.
+pub fn right_map(setting: &Setting, time_s: f64) -> Option<Matrix3<f64>> {
+    let flow = VelocityGradient::new(setting.gradient_per_s)?;
+    let (map, _) = Propagator::new(&flow, setting.aspect_ratio).map(Span::Seconds(time_s))?;
+    unimodular(map)
+}
+
+fn unimodular(map: Matrix3<f64>) -> Option<Matrix3<f64>> {
+    let scaled = map / map.determinant().cbrt();
+    scaled
+        .iter()
+        .all(|component| component.is_finite())
+        .then_some(scaled)
+}
+
+/// exp(At) for A as it stands.
+fn map_of(a: &Matrix3<f64>, time_s: f64) -> Option<Matrix3<f64>> {
+    // r_e = √3 has Λ = ½: this flow has the strain rate 2 sym A, and so W + ΛD = A.
+    let gradient_per_s = 0.5 * (a - a.transpose()) + (a + a.transpose());
+    right_map(
+        &Setting {
+            gradient_per_s,
+            aspect_ratio: 3f64.sqrt(),
+        },
+        time_s,
+    )
+}
+
+fn shape(aspect_ratio: f64) -> f64 {
+    let square = aspect_ratio * aspect_ratio;
+    (square - 1.0) / (square + 1.0)
+}
+
+/// The shear rate where the flow is u_2 = G x_1 with G > 0.
+fn couette_per_s(setting: &Setting) -> Option<f64> {
+    let flow = VelocityGradient::new(setting.gradient_per_s)?;
+    flow.shear_rate_per_s().filter(|rate| *rate > 0.0)
+}
+
+fn linear(
+    name: &str,
+    map: impl Fn(&Setting, f64) -> Option<Matrix3<f64>> + Send + Sync + 'static,
+) -> Mistake {
+    Mistake {
+        name: name.to_owned(),
+        has_length: false,
+        kind: Kind::Linear {
+            map: Box::new(map),
+            start: Matrix3::identity(),
+            end: Matrix3::identity(),
+        },
+    }
+}
+
+/// The right motion of another flow and aspect ratio.
+fn moved(name: &str, spoil: impl Fn(Setting) -> Setting + Send + Sync + 'static) -> Mistake {
+    linear(name, move |setting, time| right_map(&spoil(*setting), time))
+}
+
+/// The motion by another A, made from W, D and Λ.
+fn rate(name: &str, a: fn(Matrix3<f64>, Matrix3<f64>, f64) -> Matrix3<f64>) -> Mistake {
+    linear(name, move |setting, time| {
+        let l = setting.gradient_per_s;
+        let (w, d) = (0.5 * (l - l.transpose()), 0.5 * (l + l.transpose()));
+        map_of(&a(w, d, shape(setting.aspect_ratio)), time)
+    })
+}
+
+/// The right motion with components changed at its ends.
+fn components(name: String, start: Matrix3<f64>, end: Matrix3<f64>) -> Mistake {
+    Mistake {
+        name,
+        has_length: false,
+        kind: Kind::Linear {
+            map: Box::new(right_map),
+            start,
+            end,
+        },
+    }
+}
+
+fn curve(
+    name: &str,
+    of: impl Fn(&Setting, &Vector3<f64>, f64) -> Option<Vector3<f64>> + Send + Sync + 'static,
+) -> Mistake {
+    Mistake {
+        name: name.to_owned(),
+        has_length: false,
+        kind: Kind::Curve(Box::new(of)),
+    }
+}
+
+/// Every known mistake about free rods.
+pub fn all() -> Vec<Mistake> {
+    let mut all = vec![
+        moved("a transposed gradient", |s| Setting {
+            gradient_per_s: s.gradient_per_s.transpose(),
+            ..s
+        }),
+        moved("Λ without its sign", |s| Setting {
+            aspect_ratio: s.aspect_ratio.max(1.0 / s.aspect_ratio),
+            ..s
+        }),
+        moved("Λ with the wrong sign (1/r_e for r_e)", |s| Setting {
+            aspect_ratio: 1.0 / s.aspect_ratio,
+            ..s
+        }),
+        rate("no 1/r_e (Λ = 1, an infinitely slender rod)", |w, d, _| w + d),
+        rate("D without its ½", |w, d, shape| w + 2.0 * shape * d),
+        rate("W without its ½", |w, d, shape| 2.0 * w + shape * d),
+        moved("half the shear rate", |s| scaled(s, 0.5)),
+        moved("twice the shear rate", |s| scaled(s, 2.0)),
+        linear("T without 1/r_e", |setting, time| {
+            let phase = couette_per_s(setting)? * time / setting.aspect_ratio;
+            Some(turned(setting.aspect_ratio, 1.0 / setting.aspect_ratio, phase))
+        }),
+        linear("no 1/r_e at p_2 in the closed form", |setting, time| {
+            let phase = right_phase(setting, time)?;
+            Some(turned(setting.aspect_ratio, 1.0, phase))
+        }),
+        linear("degrees for radians in the phase", |setting, time| {
+            let phase = right_phase(setting, time)?.to_degrees();
+            Some(turned(setting.aspect_ratio, 1.0 / setting.aspect_ratio, phase))
+        }),
+        curve("no 1/r_e in the initial phase", |setting, p, time| {
+            let phase = p.y.atan2(p.x) + right_phase(setting, time)?;
+            let r = setting.aspect_ratio;
+            // A.5 keeps C: the part in the plane has the length C r_e p_3 in (r_e p_1, p_2).
+            let c = p.x.hypot(p.y / r);
+            Some(Vector3::new(c * phase.cos(), r * c * phase.sin(), p.z))
+        }),
+        curve("degrees for radians in the start", |setting, p, time| {
+            Some(right_map(setting, time)? * by_angles(p, f64::to_degrees))
+        }),
+        curve("degrees for radians in the answer", |setting, p, time| {
+            Some(by_angles(
+                &(right_map(setting, time)? * p).normalize(),
+                f64::to_degrees,
+            ))
+        }),
+        curve("radians for degrees in the start", |setting, p, time| {
+            Some(right_map(setting, time)? * by_angles(p, f64::to_radians))
+        }),
+        curve("radians for degrees in the answer", |setting, p, time| {
+            Some(by_angles(
+                &(right_map(setting, time)? * p).normalize(),
+                f64::to_radians,
+            ))
+        }),
+        Mistake {
+            has_length: true,
+            ..linear("p that is not normalised", right_map)
+        },
+    ];
+    all.extend(permuted());
+    all.extend(physical());
+    all
+}
+
+fn scaled(setting: Setting, factor: f64) -> Setting {
+    Setting {
+        gradient_per_s: factor * setting.gradient_per_s,
+        ..setting
+    }
+}
+
+/// ωt = Gt/(r_e + 1/r_e).
+fn right_phase(setting: &Setting, time_s: f64) -> Option<f64> {
+    let r = setting.aspect_ratio;
+    Some(couette_per_s(setting)? * time_s / (r + 1.0 / r))
+}
+
+/// q₁ = p₁ cos − k p₂ sin, q₂ = r_e p₁ sin + p₂ cos, q₃ = p₃.
+fn turned(aspect_ratio: f64, k: f64, phase: f64) -> Matrix3<f64> {
+    let (sin, cos) = phase.sin_cos();
+    Matrix3::new(cos, -k * sin, 0.0, aspect_ratio * sin, cos, 0.0, 0.0, 0.0, 1.0)
+}
+
+/// The direction whose angles φ and θ are those of `p`, converted.
+fn by_angles(p: &Vector3<f64>, convert: fn(f64) -> f64) -> Vector3<f64> {
+    let phi = convert(p.y.atan2(p.x));
+    let theta = convert(p.x.hypot(p.y).atan2(p.z));
+    Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos())
+}
+
+/// Components in another order or with another sign, in the answer or in the start.
+fn permuted() -> Vec<Mistake> {
+    let order = |of: [usize; 3]| Matrix3::from_fn(|i, j| f64::from(u8::from(of[i] == j)));
+    let mirror = |axis: usize| {
+        let mut signs = Vector3::repeat(1.0);
+        signs[axis] = -1.0;
+        Matrix3::from_diagonal(&signs)
+    };
+    let changes = [
+        ("p_1 and p_2 exchanged", order([1, 0, 2])),
+        ("p_1 and p_3 exchanged", order([2, 1, 0])),
+        ("p_2 and p_3 exchanged", order([0, 2, 1])),
+        ("components in the order p_2, p_3, p_1", order([1, 2, 0])),
+        ("components in the order p_3, p_1, p_2", order([2, 0, 1])),
+        ("axis 3 reversed (a left-handed frame)", mirror(2)),
+        ("axis 2 reversed (a left-handed frame)", mirror(1)),
+        ("axis 1 reversed (a left-handed frame)", mirror(0)),
+    ];
+    let none = Matrix3::identity();
+    (changes.into_iter())
+        .flat_map(|(name, change)| {
+            [
+                components(name.to_owned(), none, change),
+                components(format!("{name}, in the start"), change, none),
+            ]
+        })
+        .collect()
+}
+
+/// r_p for r_e: the physical aspect ratio of a cylinder where the equivalent one of an ellipsoid belongs, by each formula
+/// of `docs/grading.md`, both ways: r_e = f(r_p) taken twice, and not taken.
+fn physical() -> Vec<Mistake> {
+    type Formula = fn(f64) -> f64;
+    let formulas: [(&str, Formula); 4] = [
+        ("Cox 1971", |r| 1.24 * r / r.ln().sqrt()),
+        ("Goldsmith & Mason 1967", |r| 0.742 * r - 0.0017 * r * r),
+        ("Harris & Pittman 1975", |r| 1.14 * r.powf(0.844)),
+        ("Zhang et al. 2011", |r| {
+            0.404 + r * (0.764 + r * (-0.00467 + r * 0.000035))
+        }),
+    ];
+    (formulas.into_iter())
+        .flat_map(|(who, formula)| {
+            let twice = move |s: Setting| Setting {
+                aspect_ratio: formula(s.aspect_ratio),
+                ..s
+            };
+            let not = move |s: Setting| Setting {
+                aspect_ratio: inverse(formula, s.aspect_ratio),
+                ..s
+            };
+            [
+                valid(&format!("r_p for r_e (r_e taken as r_p of {who})"), twice),
+                valid(&format!("r_p for r_e (r_p whose r_e by {who} was asked)"), not),
+            ]
+        })
+        .collect()
+}
+
+/// As [`moved`], where the aspect ratio that comes out is one.
+fn valid(name: &str, spoil: impl Fn(Setting) -> Setting + Send + Sync + 'static) -> Mistake {
+    linear(name, move |setting, time| {
+        let spoilt = spoil(*setting);
+        let is_ratio = spoilt.aspect_ratio.is_finite() && spoilt.aspect_ratio > 0.0;
+        is_ratio.then(|| right_map(&spoilt, time)).flatten()
+    })
+}
+
+/// r with f(r) = value between r = 2 and 200, where the formulas rise; NaN where there is none.
+fn inverse(formula: fn(f64) -> f64, value: f64) -> f64 {
+    let (mut low, mut high) = (2.0, 200.0);
+    if !(formula(low)..=formula(high)).contains(&value) {
+        return f64::NAN;
+    }
+    while high - low > 1e-14 * high {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            break;
+        }
+        match formula(middle) < value {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// a_ij of directions M p(0)/|M p(0)| where p(0) is isotropic, with det M = 1. In the principal axes of M Mᵀ, whose
+/// eigenvalues are s², a_ii = R_D(s_j⁻², s_k⁻², s_i⁻²)/(3 s_1 s_2 s_3) (Carlson's R_D).
+pub fn isotropic_tensor(map: &Matrix3<f64>) -> Option<Matrix3<f64>> {
+    let svd = map.svd(true, false);
+    let (u, s) = (svd.u?, svd.singular_values);
+    let y = s.map(|s| 1.0 / (s * s));
+    let volume = s.product();
+    let mut principal = Vector3::zeros();
+    for i in 0..3 {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        principal[i] = ellip::elliprd(y[j], y[k], y[i]).ok()? / (3.0 * volume);
+    }
+    Some(u * Matrix3::from_diagonal(&principal) * u.transpose())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::oracle::quadrature::spread;
+    use crate::subject::apart_rad;
+    use std::f64::consts::TAU;
+
+    fn couette(aspect_ratio: f64) -> Setting {
+        let mut gradient_per_s = Matrix3::zeros();
+        gradient_per_s[(1, 0)] = 0.5;
+        Setting {
+            gradient_per_s,
+            aspect_ratio,
+        }
+    }
+
+    /// RK4 of ṗ = Ap − p (p·Ap) with many steps: shares nothing with the maps above.
+    fn integrated(a: &Matrix3<f64>, p: Vector3<f64>, time: f64) -> Vector3<f64> {
+        let steps = 20_000;
+        let rate = |p: Vector3<f64>| a * p - p * p.dot(&(a * p));
+        (0..steps).fold(p, |p, _| {
+            let h = time / f64::from(steps);
+            crate::subject::rk4(rate, p, h)
+        })
+    }
+
+    #[test]
+    fn the_maps_are_exponentials_of_any_traceless_matrix() {
+        for (k, (u, v)) in spread(20).enumerate() {
+            let x = |n: f64| (n * (u + 0.3) + 7.0 * v).sin();
+            let mut a = Matrix3::new(
+                x(1.0),
+                x(2.0),
+                x(3.0),
+                x(4.0),
+                x(5.0),
+                x(6.0),
+                x(7.0),
+                x(8.0),
+                0.0,
+            );
+            a[(2, 2)] = -a[(0, 0)] - a[(1, 1)];
+            let p = Vector3::new(x(9.0), x(10.0), 1.0).normalize();
+            let found = map_of(&a, 1.5).unwrap() * p;
+            let expected = integrated(&a, p, 1.5);
+            assert!(
+                apart_rad(&found, &expected) < 1e-12,
+                "{k} {}",
+                apart_rad(&found, &expected)
+            );
+            // The growth too: |q| obeys d ln|q|/dt = p·Ap; det M = 1 fixes it.
+            assert!((map_of(&a, 1.5).unwrap() - (a * 1.5).exp()).norm() < 1e-12 * (a * 1.5).exp().norm());
+        }
+    }
+
+    #[test]
+    fn every_mistake_differs_from_the_truth_somewhere_and_from_the_others() {
+        let settings = [couette(11.6), couette(0.3)];
+        let p = Vector3::new(0.3, 0.5, 0.8).normalize();
+        let curve_of = |mistake: &Mistake| -> Vec<Option<Vector3<f64>>> {
+            settings
+                .iter()
+                .flat_map(|s| [1.0, 7.3, 19.0].map(|t| mistake.direction(s, &p, t)))
+                .collect()
+        };
+        let truth = Mistake {
+            name: "none".into(),
+            ..components(String::new(), Matrix3::identity(), Matrix3::identity())
+        };
+        let mut all = all();
+        all.push(truth);
+        let curves: Vec<_> = all.iter().map(curve_of).collect();
+        for a in 0..all.len() {
+            for b in 0..a {
+                let far = curves[a].iter().zip(&curves[b]).any(|pair| match pair {
+                    (Some(a), Some(b)) => apart_rad(a, b) > 1e-6 || (a.norm() - b.norm()).abs() > 1e-6,
+                    (a, b) => a.is_some() != b.is_some(),
+                });
+                // Plane Couette flow is its own mirror image in axis 3.
+                let mirrored = [&all[a].name, &all[b].name]
+                    .iter()
+                    .all(|name| name.starts_with("axis 3"));
+                assert!(far || mirrored, "{} = {}", all[a].name, all[b].name);
+            }
+        }
+    }
+
+    #[test]
+    fn names_are_told_apart() {
+        let names: std::collections::BTreeSet<_> = all().into_iter().map(|mistake| mistake.name).collect();
+        assert_eq!(names.len(), all().len());
+    }
+
+    #[test]
+    fn tensors_of_isotropic_rods_are_means_over_directions() {
+        for r in [0.3, 1.0, 11.6] {
+            for time in [0.0, 3.0, 11.0] {
+                let map = right_map(&couette(r), time).unwrap();
+                let found = isotropic_tensor(&map).unwrap();
+                // Midpoint rule in cos θ and φ.
+                let (n, m) = (600, 600);
+                let mut mean = Matrix3::zeros();
+                for i in 0..n {
+                    for j in 0..m {
+                        let z = (2.0 * f64::from(i) + 1.0) / f64::from(n) - 1.0;
+                        let phi = TAU * f64::from(j) / f64::from(m);
+                        let s = (1.0 - z * z).sqrt();
+                        let q = (map * Vector3::new(s * phi.cos(), s * phi.sin(), z)).normalize();
+                        mean += q * q.transpose();
+                    }
+                }
+                mean /= f64::from(n * m);
+                // The midpoint rule is of order 2 in 1/n, the map stretches by r_e.
+                let off = (found - mean).amax();
+                assert!(
+                    off < 4.0 * (r.max(1.0 / r) / f64::from(n)).powi(2),
+                    "{r} {time} {off}"
+                );
+                assert!((found.trace() - 1.0).abs() < 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn the_inverse_of_a_formula_is_one() {
+        let formula: fn(f64) -> f64 = |r| 1.14 * r.powf(0.844);
+        assert!((formula(inverse(formula, 11.6)) / 11.6 - 1.0).abs() < 1e-12);
+        assert!(inverse(formula, 1e4).is_nan());
+    }
+}

@@ -1,0 +1,273 @@
+//! What was found, for people and for machines.
+
+use super::live::Studies;
+use super::{Graded, Verdict};
+use crate::report::{ReportTable, markdown_table};
+use crate::work_precision::export;
+use crate::work_precision::tables::table;
+use serde::Serialize;
+
+/// Everything that is said of a program.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// The version of this report's form.
+    pub format: u32,
+    /// The version of shearbed.
+    pub shearbed: String,
+    /// Where the problems are from.
+    pub reference: String,
+    /// Whose answers: a folder, or a command.
+    pub answers: String,
+    /// One for each problem.
+    pub problems: Vec<Graded>,
+    /// What was measured of a program that runs, beyond verdicts.
+    pub live: Option<Studies>,
+    /// What else is to be said.
+    pub remarks: Vec<String>,
+}
+
+impl Report {
+    fn count(&self, verdict: Verdict) -> usize {
+        self.problems
+            .iter()
+            .filter(|graded| graded.verdict == verdict)
+            .count()
+    }
+
+    /// Whether a problem passes and none fails. A missing answer is neither, as a case without data is in `validate`, but
+    /// where `all` are wanted.
+    pub fn passes(&self, all: bool) -> bool {
+        let missing = self.count(Verdict::Missing);
+        self.count(Verdict::Pass) > 0 && self.count(Verdict::Fail) == 0 && !(all && missing > 0)
+    }
+
+    /// The counts in words.
+    pub fn headline(&self) -> String {
+        let [pass, fail, missing] = [Verdict::Pass, Verdict::Fail, Verdict::Missing].map(|v| self.count(v));
+        let mut words = format!("{pass} of {} problems pass", self.problems.len());
+        if fail > 0 {
+            words += &format!(", {fail} FAIL");
+        }
+        if missing > 0 {
+            words += &format!(", {missing} MISSING (no answer: neither passed nor failed)");
+        }
+        words
+    }
+}
+
+/// grade.json.
+pub fn json(report: &Report) -> Result<String, String> {
+    export::json(report)
+}
+
+fn number(value: Option<f64>) -> String {
+    value.map_or("–".into(), |value| format!("{value:.1e}"))
+}
+
+/// The verdicts as a table.
+fn verdicts(report: &Report) -> ReportTable {
+    let row = |graded: &Graded| {
+        let setting = match (graded.steps, graded.asked_tolerance) {
+            (Some(steps), _) => format!("{steps} steps"),
+            (None, Some(tolerance)) => format!("tolerance {tolerance:.0e}"),
+            (None, None) => "–".into(),
+        };
+        vec![
+            graded.verdict.word().to_owned(),
+            graded.name.clone(),
+            number(graded.error),
+            number(Some(graded.tolerance)),
+            graded
+                .observed_order
+                .map_or("–".into(), |order| format!("{order:+.2}")),
+            setting,
+            number(graded.length_drift),
+            number(graded.orbit_drift),
+            number(graded.phase_lost_per_period),
+        ]
+    };
+    table(
+        "grade",
+        &format!("{} on {}", report.answers, report.reference),
+        &format!("{}.", report.headline()),
+        &[
+            "verdict",
+            "problem",
+            "error",
+            "tolerance",
+            "order",
+            "setting",
+            "|p| off by",
+            "C_b drift",
+            "phase lost/period",
+        ],
+        report.problems.iter().map(row).collect(),
+    )
+}
+
+/// What is said of single problems, and the remarks.
+fn words(report: &Report) -> Vec<String> {
+    let of = |graded: &Graded| {
+        let parts = [graded.diagnosis.as_deref(), graded.note.as_deref()];
+        let parts: Vec<_> = parts.into_iter().flatten().collect();
+        (!parts.is_empty())
+            .then(|| format!("{} {}: {}", graded.verdict.word(), graded.name, parts.join("; ")))
+    };
+    let remarks = report.remarks.iter().cloned();
+    report.problems.iter().filter_map(of).chain(remarks).collect()
+}
+
+fn tables(report: &Report) -> Vec<ReportTable> {
+    let mut tables = vec![verdicts(report)];
+    tables.extend(report.live.iter().flat_map(Studies::tables));
+    tables
+}
+
+/// For the terminal.
+pub fn terminal(report: &Report) -> String {
+    let words: String = words(report).iter().map(|line| format!("{line}\n")).collect();
+    let mut tables = tables(report).into_iter();
+    let first = tables
+        .next()
+        .map(|table| export::text(&table))
+        .unwrap_or_default();
+    let more: String = tables
+        .map(|table| "\n".to_owned() + &export::text(&table))
+        .collect();
+    first + &words + &more
+}
+
+/// grade.md.
+pub fn markdown(report: &Report) -> String {
+    let mut text = String::from("# Grades\n");
+    for (k, table) in tables(report).iter().enumerate() {
+        text += &format!(
+            "\n## {}\n\n{}\n\n{}",
+            table.title,
+            table.caption,
+            markdown_table(table)
+        );
+        if k == 0 {
+            text += "\n";
+            text += &words(report)
+                .iter()
+                .map(|line| format!("- {line}\n"))
+                .collect::<String>();
+        }
+    }
+    text
+}
+
+/// junit.xml: a test case for each problem. A missing answer is skipped.
+pub fn junit(report: &Report) -> String {
+    let (failed, skipped) = (report.count(Verdict::Fail), report.count(Verdict::Missing));
+    let mut xml = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"shearbed grade\" tests=\"{}\" \
+         failures=\"{failed}\" errors=\"0\" skipped=\"{skipped}\">\n",
+        report.problems.len()
+    );
+    for graded in &report.problems {
+        let name = escape(&graded.name);
+        xml += &format!("<testcase classname=\"shearbed\" name=\"{name}\">");
+        if graded.verdict != Verdict::Pass {
+            let parts = [graded.diagnosis.as_deref(), graded.note.as_deref()];
+            let message = format!(
+                "error {}, tolerance {}; {}",
+                number(graded.error),
+                number(Some(graded.tolerance)),
+                parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
+            );
+            let element = if graded.verdict == Verdict::Missing {
+                "skipped"
+            } else {
+                "failure"
+            };
+            xml += &format!("<{element} message=\"{}\"></{element}>", escape(&message));
+        }
+        xml += "</testcase>\n";
+    }
+    xml + "</testsuite>\n</testsuites>\n"
+}
+
+fn escape(text: &str) -> String {
+    let mut escaped = String::new();
+    for letter in text.chars() {
+        match letter {
+            '&' => escaped += "&amp;",
+            '<' => escaped += "&lt;",
+            '>' => escaped += "&gt;",
+            '"' => escaped += "&quot;",
+            // XML 1.0 has no other control characters, not even escaped.
+            '\n' | '\t' => escaped.push(' '),
+            letter if letter.is_control() => escaped.push('\u{fffd}'),
+            letter => escaped.push(letter),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problems::Kind;
+    use crate::xml::is_well_formed;
+
+    fn report() -> Report {
+        let graded = |name: &str, verdict, error| Graded {
+            verdict,
+            error,
+            ..Graded::without_answer(name, Kind::Rods, 1e-9, "why")
+        };
+        let mut bad = graded("b", Verdict::Fail, Some(0.5));
+        bad.diagnosis = Some("this is the curve of \"x\" & <y>\u{1}, to 1e-9".into());
+        Report {
+            format: 1,
+            shearbed: "0".into(),
+            reference: "ref".into(),
+            answers: "mine".into(),
+            problems: vec![
+                graded("a", Verdict::Pass, Some(1e-10)),
+                bad,
+                graded("c", Verdict::Missing, None),
+            ],
+            live: None,
+            remarks: vec!["a remark".into()],
+        }
+    }
+
+    #[test]
+    fn every_writer_has_every_problem_and_its_verdict() {
+        let report = report();
+        let xml = junit(&report);
+        assert!(is_well_formed(xml.split_once("?>\n").unwrap().1), "{xml}");
+        assert!(xml.contains("tests=\"3\" failures=\"1\"") && xml.contains("<skipped"));
+        assert!(xml.contains("&quot;x&quot; &amp; &lt;y&gt;\u{fffd}"));
+        let json: serde_json::Value = serde_json::from_str(&json(&report).unwrap()).unwrap();
+        assert_eq!(json["problems"][1]["verdict"], "FAIL");
+        assert_eq!(json["problems"][2]["error"], serde_json::Value::Null);
+        for text in [terminal(&report), markdown(&report)] {
+            for word in [
+                "PASS",
+                "FAIL",
+                "MISSING",
+                "curve of",
+                "a remark",
+                "1 of 3 problems pass",
+            ] {
+                assert!(text.contains(word), "{word}: {text}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_report_passes_where_one_passes_and_none_fails() {
+        let mut report = report();
+        assert!(!report.passes(false));
+        report.problems.remove(1);
+        assert!(report.passes(false) && !report.passes(true), "one is missing");
+        report.problems.remove(0);
+        assert!(!report.passes(false), "none passes");
+        report.problems.clear();
+        assert!(!report.passes(false));
+    }
+}

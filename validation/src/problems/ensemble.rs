@@ -1,0 +1,104 @@
+//! Problems of suspensions with collisions after Lee & Springer (1982).
+//!
+//! The certified means are a shipped table, not made at export: they take 20 000 replicas and minutes, and a table is the same
+//! on every machine. `shearbed run fig7-n50 --replicas 20000 --seed 1982` wrote `data/fig7-n50.csv`, and
+//! `shearbed run fig4-n50 --replicas 20000 --seed 1982` wrote `data/fig4-n50.csv`; rows of other times are left out.
+
+use super::rods::{AXES, COUETTE, period_s};
+use super::{Built, Ensemble, FORMAT, Kind, Metric, Problem, ProblemDef};
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// Columns `t_over_T,x1,x1_se,x2,x2_se,x3,x3_se`.
+const EQUAL: &str = include_str!("data/fig7-n50.csv");
+const UNEQUAL: &str = include_str!("data/fig4-n50.csv");
+
+const REPLICAS: u64 = 20_000;
+/// The fewest replicas of an answer.
+const LEAST: u64 = 100;
+const ASPECT_RATIO: f64 = 11.6;
+
+pub(super) fn problems() -> Vec<ProblemDef> {
+    vec![
+        ProblemDef::new(
+            "lee-springer",
+            "Colliding rods of one aspect ratio, 50 per cm³",
+            |def| built(def, 0.0, EQUAL),
+        ),
+        ProblemDef::new(
+            "lee-springer-unequal",
+            "Colliding rods of unequal aspect ratios, 50 per cm³",
+            |def| built(def, 3.6, UNEQUAL),
+        ),
+    ]
+}
+
+/// The probability that a right answer fails by chance, over both problems.
+const FALSE_ALARM_RATE: f64 = 1e-3;
+
+fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
+    let rows: Vec<Vec<&str>> = table
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').collect())
+        .collect();
+    let time_s = |row: &Vec<&str>| row[0].parse().map(|turns: f64| turns * period_s(ASPECT_RATIO));
+    let times_s: Vec<f64> = rows
+        .iter()
+        .map(time_s)
+        .collect::<Result<_, _>>()
+        .expect("a shipped table has numbers");
+    let certified = rows.iter().zip(&times_s).map(|(row, time)| {
+        let values = row[1..].iter().map(|text| (*text).to_owned());
+        std::iter::once(format!("{time:?}")).chain(values).collect()
+    });
+    // Two problems, three means a time, two sides.
+    let level = FALSE_ALARM_RATE / (2.0 * 3.0 * rows.len() as f64);
+    let freedom = (LEAST - 1) as f64;
+    let student = StudentsT::new(0.0, 1.0, freedom).expect("degrees of freedom above 0");
+    let critical = (100.0 * student.inverse_cdf(1.0 - 0.5 * level)).ceil() / 100.0;
+    Built {
+        certified: certified.collect(),
+        problem: Problem {
+            format: FORMAT,
+            name: def.name.into(),
+            title: def.title.into(),
+            summary: "The model of Lee & Springer (1982) with the paper's rods in plane Couette flow: free rods turn by Jeffery's \
+                      equation, neighbours collide at random, and the mean projections x_i = ⟨|p_i|⟩ oscillate and die out. Your \
+                      answer is an average over replicas with standard errors, and is compared within both errors."
+                .into(),
+            kind: Kind::Ensemble,
+            gradient_per_s: COUETTE,
+            aspect_ratio: ASPECT_RATIO,
+            aspect_ratio_sd_percent: sd_percent,
+            times_s,
+            time_step_s: None,
+            columns: ["time_s", "x1", "x1_se", "x2", "x2_se", "x3", "x3_se"].map(String::from).into(),
+            metric: Metric::StandardErrors,
+            tolerance: critical,
+            because: format!(
+                "Student's t with {freedom} degrees of freedom ({LEAST} replicas, the fewest allowed) at the level at which a right \
+                 answer fails one of the {} comparisons of both such problems with a probability of {FALSE_ALARM_RATE:e}; rounded up \
+                 to hundredths.",
+                2 * 3 * rows.len()
+            ),
+            equations: vec![format!(
+                "4, 5 to 14, A.1 to A.13: {REPLICAS} replicas of this project's simulator, seed 1982, judged by the independent naive \
+                 reference"
+            )],
+            axes: AXES.into(),
+            ensemble: Some(Ensemble {
+                count: 100,
+                length_mm: 0.72,
+                concentration_per_cm3: 50.0,
+                alpha: 0.5,
+                m: 3.0,
+                steps_per_period: 200,
+                certified_replicas: REPLICAS,
+                // A replica's means spread by 0.03: what `LEAST` replicas give.
+                largest_standard_error: 0.003,
+            }),
+        },
+        start: Vec::new(),
+        inputs: Vec::new(),
+    }
+}

@@ -1,0 +1,124 @@
+//! A problem's page in words, `README.md` of its folder.
+
+use super::{Built, Ensemble, Kind, Metric, Problem};
+
+/// The page.
+pub(super) fn page(built: &Built) -> String {
+    let problem = &built.problem;
+    let mut page = format!("# {}\n\n{}\n\n", problem.title, problem.summary);
+    page += &format!("## What is asked\n\n{}\n\n", asked(built));
+    if let Some(ensemble) = &problem.ensemble {
+        page += &format!("{}\n\n", model(problem, ensemble));
+    }
+    page += &format!(
+        "The flow is u = L x with L = {} in 1/s, row i and column j being ∂u_i/∂x_j. Axes: {}.\n\n",
+        matrix(&problem.gradient_per_s),
+        problem.axes
+    );
+    page += &format!(
+        "Write `answer.csv` with the columns `{}`, or one file a step size, `steps-100.csv`, `steps-200.csv` and so on, so \
+         that an order can be read off.\n\n",
+        problem.columns.join(",")
+    );
+    page += &format!(
+        "## How it is judged\n\n{} The largest counts; at most **{:e}** passes.\n\n{}\n\n",
+        metric(problem.metric),
+        problem.tolerance,
+        problem.because
+    );
+    page += &format!(
+        "The certified values in `certified.csv` come from: {}.\n",
+        problem.equations.join("; ")
+    );
+    page
+}
+
+fn asked(built: &Built) -> String {
+    let problem = &built.problem;
+    let times = || {
+        let times: Vec<_> = problem.times_s.iter().map(|time| format!("{time:?}")).collect();
+        times.join(", ")
+    };
+    match problem.kind {
+        Kind::Rods => format!(
+            "The directions at t = {2} s of the {0} of `start.csv` (`rod,p1,p2,p3` at t = 0, of aspect ratio r_e = {1}). Numbers are \
+             doubles and are exact.",
+            match built.start.len() {
+                1 => "rod".into(),
+                count => format!("{count} rods"),
+            },
+            problem.aspect_ratio,
+            times()
+        ),
+        Kind::Tensor => format!(
+            "Means over infinitely many free rods, isotropic at t = 0, of aspect ratio r_e = {}{}, at t = {} s.",
+            problem.aspect_ratio,
+            match problem.aspect_ratio_sd_percent {
+                0.0 => String::new(),
+                sd => format!(" (Gaussian, standard deviation {sd} % of the mean)"),
+            },
+            times()
+        ),
+        Kind::Contact => format!(
+            "What the contact rule makes of each of the {} pairs of rods in `inputs.csv`: centres in mm, axes p of length 1 and \
+             aspect ratios of rods a and b. Before the contact each rod turns by Jeffery's equation (A.1).{}",
+            built.inputs.len(),
+            match problem.time_step_s {
+                None => String::new(),
+                Some(step) => format!(" The time step of A.14 is Δt = {step} s."),
+            }
+        ),
+        Kind::Ensemble => format!("Means with standard errors at t = {} s.", times()),
+    }
+}
+
+fn model(problem: &Problem, ensemble: &Ensemble) -> String {
+    format!(
+        "A replica is {} rods of length a = {} mm and r_e = {}{} in the cube [0, H]³, H = (N/n)^(1/3), at n = {} rods per cm³, with \
+         α = {} and m = {}, stepped with {} steps a period T = 2π(r_e + 1/r_e)/G of the mean r_e. P_c has no Δt, so the step is part \
+         of the model. At t = 0 centres are uniform in the cube and axes isotropic (eq. 12).\n\n\
+         Each step, from the state at its start: every rod i finds its nearest neighbour j by centre distance s, without images, \
+         and draws R_i uniform in [0, 1); (i, j) is a candidate when (α/(s/a + α))^m > R_i (eqs 7 to 9). Candidates are taken \
+         closest first, each rod in one collision at most. A pair that is parallel, or has an arm of exactly 0, makes no contact. \
+         The two rods of a collision turn about p × ṗ′ by |ṗ′|Δt with ṗ′ of A.7 to A.13, their contact lines being infinite; all \
+         others take Jeffery's exact step. Then x_2 grows by G x_1 Δt; a rod that leaves at x_2 ≥ H comes back at x_2 − H with \
+         x_1 = H√R, x_3 = H R′ (eq. 14), its axis and r_e kept.\n\n\
+         x_1, x_2, x_3 in the columns are the means over rods and replicas of |p_1|, |p_2|, |p_3|; `x1_se` is the standard error \
+         over replicas of x1. Take at least 100 replicas, and enough for a standard error of {} or less. The certified means are \
+         from {} replicas.",
+        ensemble.count,
+        ensemble.length_mm,
+        problem.aspect_ratio,
+        match problem.aspect_ratio_sd_percent {
+            0.0 => String::new(),
+            sd => format!(" (Gaussian, standard deviation {sd} % of the mean)"),
+        },
+        ensemble.concentration_per_cm3,
+        ensemble.alpha,
+        ensemble.m,
+        ensemble.steps_per_period,
+        ensemble.largest_standard_error,
+        ensemble.certified_replicas,
+    )
+}
+
+fn metric(metric: Metric) -> &'static str {
+    match metric {
+        Metric::Angle => {
+            "The error of a row is the angle in rad between its axis and the certified one; p and -p are the same rod."
+        }
+        Metric::Absolute => "The error of a row is the largest difference from its certified values.",
+        Metric::Relative => {
+            "The error of a row is, for rod a and for rod b, the length of the difference from the certified numbers (the \
+             columns `a_…` or `b_…`) over the length of the certified ones."
+        }
+        Metric::StandardErrors => {
+            "The error of a value is its difference from the certified one in units of (se² + certified se²)^(1/2)."
+        }
+    }
+}
+
+fn matrix(rows: &[[f64; 3]; 3]) -> String {
+    let row = |row: &[f64; 3]| format!("[{}, {}, {}]", row[0], row[1], row[2]);
+    format!("[{}, {}, {}]", row(&rows[0]), row(&rows[1]), row(&rows[2]))
+}

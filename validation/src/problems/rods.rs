@@ -1,0 +1,359 @@
+//! Problems of given free rods.
+
+use super::{Built, FORMAT, Kind, Metric, Problem, ProblemDef, tolerance};
+use crate::reference::big::{Bits, digits};
+use crate::reference::motion::{Motion, Unit};
+use crate::reference::rod::{self, Direction};
+use std::f64::consts::{PI, TAU};
+
+/// Significant digits of a certified number: eight more than a double holds.
+const DIGITS: usize = 25;
+
+/// The paper's shear rate, 1/s: not 1, so that a forgotten G shows.
+pub(super) const SHEAR_RATE_PER_S: f64 = 0.5;
+
+/// Plane Couette flow, u₂ = G x₁.
+pub(super) const COUETTE: [[f64; 3]; 3] = [[0.0; 3], [SHEAR_RATE_PER_S, 0.0, 0.0], [0.0; 3]];
+
+/// Which axis is which.
+pub(super) const AXES: &str = "1 = gradient, 2 = flow, 3 = vorticity of the plane Couette flow u_2 = G x_1; gradient_per_s[i][j] = du_i/dx_j; \
+     p = (sin θ cos φ, sin θ sin φ, cos θ); p and -p are the same rod";
+
+/// What tells one problem from another.
+struct Asked {
+    gradient_per_s: [[f64; 3]; 3],
+    aspect_ratio: f64,
+    start: Vec<[f64; 3]>,
+    times_s: Vec<f64>,
+    summary: String,
+    equations: &'static [&'static str],
+}
+
+pub(super) fn problems() -> Vec<ProblemDef> {
+    let mid_flip = |name: &'static str, title: &'static str, aspect_ratio: f64| {
+        ProblemDef::new(name, title, move |def| built(def, mid_flip(aspect_ratio)))
+    };
+    vec![
+        mid_flip(
+            "mid-flip-2",
+            "A short rod, r_e = 2, seen in the middle of three flips",
+            2.0,
+        ),
+        mid_flip(
+            "mid-flip-11.6",
+            "The paper's rod, r_e = 11.6, seen in the middle of three flips",
+            11.6,
+        ),
+        mid_flip(
+            "mid-flip-100",
+            "A long rod, r_e = 100, seen in the middle of three flips",
+            100.0,
+        ),
+        mid_flip(
+            "mid-flip-10000",
+            "A fibre, r_e = 10⁴, seen in the middle of three flips",
+            1e4,
+        ),
+        mid_flip("disc-0.1", "A disc, r_e = 0.1, seen in three of its turns", 0.1),
+        mid_flip("sphere", "A sphere, r_e = 1, turns at G/2", 1.0),
+        ProblemDef::new(
+            "log-rolling",
+            "A rod along the vorticity axis stays there",
+            |def| built(def, log_rolling()),
+        ),
+        ProblemDef::new("shear-plane", "Rods in the shear plane stay in it", |def| {
+            built(def, shear_plane())
+        }),
+        ProblemDef::new("poles", "Rods at and beside both poles of (φ, θ)", |def| {
+            built(def, poles())
+        }),
+        ProblemDef::new("ten-thousand-periods", "A rod after 1 to 10⁴ periods", |def| {
+            built(def, long())
+        }),
+        ProblemDef::new(
+            "planar-extension",
+            "Rods in planar extension turn to the stretched axis",
+            |def| {
+                built(
+                    def,
+                    extension([1.0, -1.0, 0.0], "planar extension, u_1 = x_1, u_2 = -x_2"),
+                )
+            },
+        ),
+        ProblemDef::new(
+            "uniaxial-extension",
+            "Rods in uniaxial extension turn to the stretched axis",
+            |def| {
+                built(
+                    def,
+                    extension([-0.5, -0.5, 1.0], "uniaxial extension along axis 3"),
+                )
+            },
+        ),
+        ProblemDef::new("couette-turned", "Plane Couette flow turned in space", |def| {
+            built(def, turned())
+        }),
+        ProblemDef::new(
+            "couette-mirrored",
+            "Plane Couette flow with gradient and flow exchanged",
+            |def| built(def, mirrored()),
+        ),
+        ProblemDef::new("spiral", "A general gradient: rods spiral into an axis", |def| {
+            built(def, spiral())
+        }),
+    ]
+}
+
+fn built(def: &ProblemDef, asked: Asked) -> Built {
+    let motion = Motion {
+        gradient_per_s: asked.gradient_per_s,
+        aspect_ratio: asked.aspect_ratio,
+    };
+    let end_s = asked.times_s.last().copied().unwrap_or_default();
+    let (tolerance, because) = match motion.couette() {
+        Some(rate) => (
+            tolerance::couette(asked.aspect_ratio, rate * end_s),
+            tolerance::because_couette(asked.aspect_ratio),
+        ),
+        None => (
+            tolerance::general(&motion, &asked.start, end_s),
+            tolerance::BECAUSE_GENERAL.to_owned(),
+        ),
+    };
+    let rows = asked
+        .times_s
+        .iter()
+        .flat_map(|time| (0..).zip(&asked.start).map(move |rod| (*time, rod)));
+    let certified = rows
+        .map(|(time, (rod, start))| certified(&motion, time, rod, *start))
+        .collect();
+    Built {
+        problem: Problem {
+            format: FORMAT,
+            name: def.name.into(),
+            title: def.title.into(),
+            summary: asked.summary,
+            kind: Kind::Rods,
+            gradient_per_s: asked.gradient_per_s,
+            aspect_ratio: asked.aspect_ratio,
+            aspect_ratio_sd_percent: 0.0,
+            times_s: asked.times_s,
+            time_step_s: None,
+            columns: ["time_s", "rod", "p1", "p2", "p3"].map(String::from).into(),
+            metric: Metric::Angle,
+            tolerance,
+            because,
+            equations: asked.equations.iter().map(|text| (*text).to_owned()).collect(),
+            axes: AXES.into(),
+            ensemble: None,
+        },
+        start: asked.start,
+        inputs: Vec::new(),
+        certified,
+    }
+}
+
+fn certified(motion: &Motion, time_s: f64, rod: usize, start: [f64; 3]) -> Vec<String> {
+    let at = rod::at(
+        motion,
+        Direction::Vector(start),
+        &Bits(64).of(time_s),
+        Unit::Second,
+    );
+    let at = at.expect("seconds have a meaning in every flow");
+    let mut row = vec![format!("{time_s:?}"), rod.to_string()];
+    row.extend(at.p.iter().map(|x| digits(x, DIGITS)));
+    row
+}
+
+/// p of these angles (rad), as doubles.
+pub(super) fn direction(phi: f64, theta: f64) -> [f64; 3] {
+    let sine = theta.sin();
+    [sine * phi.cos(), sine * phi.sin(), theta.cos()]
+}
+
+/// T, s.
+pub(super) fn period_s(aspect_ratio: f64) -> f64 {
+    TAU * (aspect_ratio + aspect_ratio.recip()) / SHEAR_RATE_PER_S
+}
+
+const COUETTE_EQUATIONS: &[&str] = &["A.4", "A.5", "15"];
+const ANY_FLOW: &[&str] = &["A.1: p = q/|q|, q = exp((W + ΛD)t) p(0)"];
+
+fn mid_flip(aspect_ratio: f64) -> Asked {
+    // Where φ = 1 next: for a rod the middle of its flip.
+    let phase = |phi: f64| (phi.sin() / aspect_ratio).atan2(phi.cos()) / TAU;
+    let first = phase(1.0) - phase(0.2);
+    let times = [first, first + 0.5, first + 1.0];
+    Asked {
+        gradient_per_s: COUETTE,
+        aspect_ratio,
+        start: vec![direction(0.2, 1.0)],
+        times_s: times.map(|turns| turns * period_s(aspect_ratio)).into(),
+        summary: format!(
+            "One free rod of r_e = {aspect_ratio} in plane Couette flow, from φ = 0.2, θ = 1 rad. It is asked for in the flip in \
+             which it starts, half a period later in the next, and a period later in the one after: near φ = 1 each time, where a \
+             rod turns fastest. Whoever loses its phase, or steps over a flip, is seen here and not while the rod lies along the \
+             flow, which it does nearly always where r_e is large."
+        ),
+        equations: COUETTE_EQUATIONS,
+    }
+}
+
+fn log_rolling() -> Asked {
+    let aspect_ratio = 11.6;
+    let t = period_s(aspect_ratio);
+    Asked {
+        gradient_per_s: COUETTE,
+        aspect_ratio,
+        start: vec![[0.0, 0.0, 1.0]],
+        times_s: vec![0.25 * t, 0.5 * t, t],
+        summary: "One free rod of r_e = 11.6 along the vorticity axis of plane Couette flow. It turns about itself and points \
+                  where it did. In angles this is the pole θ = 0, where φ has no value and 1/sin θ is infinite."
+            .into(),
+        equations: COUETTE_EQUATIONS,
+    }
+}
+
+fn shear_plane() -> Asked {
+    let aspect_ratio = 11.6;
+    let t = period_s(aspect_ratio);
+    Asked {
+        gradient_per_s: COUETTE,
+        aspect_ratio,
+        start: vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.6, 0.8, 0.0], [0.6, -0.8, 0.0]],
+        times_s: vec![0.02 * t, 0.25 * t, 0.51 * t, 1.02 * t],
+        summary: "Four free rods of r_e = 11.6 in the shear plane of plane Couette flow: across the flow, along it, and on both \
+                  sides of it. p_3 stays exactly 0 and the orbit constant is infinite. Between flips the rods lie along the flow; \
+                  the times are chosen so that each rod is seen in a flip."
+            .into(),
+        equations: COUETTE_EQUATIONS,
+    }
+}
+
+fn poles() -> Asked {
+    let aspect_ratio = 11.6;
+    let t = period_s(aspect_ratio);
+    let near = 1e-9;
+    let mut start = vec![[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+    start.extend([0.3, 2.0, 4.4].map(|phi| direction(phi, near)));
+    start.extend([0.3, 2.0, 4.4].map(|phi| direction(phi, PI - near)));
+    Asked {
+        gradient_per_s: COUETTE,
+        aspect_ratio,
+        start,
+        times_s: vec![0.1 * t, 0.25 * t, 0.6 * t, t],
+        summary: "Eight free rods of r_e = 11.6 in plane Couette flow: one at each pole θ = 0 and θ = π of the angles, and three \
+                  10⁻⁹ rad beside each. Those at a pole stay, the others go round it on small ellipses. A code in φ and θ divides \
+                  by sin θ here; nothing is singular in p."
+            .into(),
+        equations: COUETTE_EQUATIONS,
+    }
+}
+
+fn long() -> Asked {
+    let aspect_ratio = 2.0;
+    Asked {
+        gradient_per_s: COUETTE,
+        aspect_ratio,
+        start: vec![direction(0.2, 1.0)],
+        times_s: [1.1, 10.1, 100.1, 1000.1, 10000.1].map(|turns| turns * period_s(aspect_ratio)).into(),
+        summary: "One free rod of r_e = 2 in plane Couette flow after 1.1, 10.1, 100.1, 1000.1 and 10000.1 periods: how the phase \
+                  and the orbit drift. A fourth-order method needs about 200 steps per unit of strain for the tolerance, and the \
+                  strain is 1.6·10⁵."
+            .into(),
+        equations: COUETTE_EQUATIONS,
+    }
+}
+
+fn extension(rates_per_s: [f64; 3], name: &str) -> Asked {
+    let diagonal = |i: usize| {
+        let mut row = [0.0; 3];
+        row[i] = rates_per_s[i];
+        row
+    };
+    Asked {
+        gradient_per_s: [0, 1, 2].map(diagonal),
+        aspect_ratio: 11.6,
+        start: vec![
+            direction(1.5, 1.3),
+            direction(0.1, 0.7),
+            direction(2.5, 2.0),
+            // Near what repels.
+            direction(1.57, 1.57),
+            direction(4.7, 1.5),
+        ],
+        times_s: vec![0.25, 1.0, 2.0, 4.0],
+        summary: format!(
+            "Five free rods of r_e = 11.6 in {name}, with rates in 1/s. Each turns to the stretched axis; those that start near the \
+             compressed plane or axis leave it slowly, and what is lost there grows. There is no rotation and no period."
+        ),
+        equations: ANY_FLOW,
+    }
+}
+
+fn turned() -> Asked {
+    // Couette flow in axes turned by Euler angles 0.7, 0.4, 1.1: L' = R L Rᵀ, rounded to doubles, which are exact here.
+    let (r1, r2, r3) = (rotation(0.7), rotation(1.1), tilt(0.4));
+    let turn = product(&product(&r1, &r3), &r2);
+    let gradient_per_s = product(&product(&turn, &COUETTE), &transposed(&turn));
+    let aspect_ratio = 5.0;
+    let t = period_s(aspect_ratio);
+    Asked {
+        gradient_per_s,
+        aspect_ratio,
+        start: vec![direction(0.2, 1.0), direction(2.4, 1.9), direction(5.0, 0.4)],
+        times_s: vec![0.1 * t, 0.35 * t, 0.5 * t, 1.05 * t],
+        summary: "Three free rods of r_e = 5 in plane Couette flow whose axes lie askew: all nine entries of the gradient are \
+                  different from 0. The entries are rounded to doubles and taken as they are. A transposed gradient, or axes of \
+                  the wrong hand, show here."
+            .into(),
+        equations: ANY_FLOW,
+    }
+}
+
+fn mirrored() -> Asked {
+    let aspect_ratio = 5.0;
+    let t = period_s(aspect_ratio);
+    Asked {
+        gradient_per_s: [[0.0, SHEAR_RATE_PER_S, 0.0], [0.0; 3], [0.0; 3]],
+        aspect_ratio,
+        start: vec![direction(0.2, 1.0), direction(2.4, 1.9), direction(5.0, 0.4)],
+        times_s: vec![0.1 * t, 0.35 * t, 0.5 * t, 1.05 * t],
+        summary: "Three free rods of r_e = 5 in u_1 = G x_2: plane Couette flow with the axes of gradient and flow exchanged, \
+                  which turns the other way round. A code that has its own flow built in fails here."
+            .into(),
+        equations: ANY_FLOW,
+    }
+}
+
+fn spiral() -> Asked {
+    Asked {
+        gradient_per_s: [[-0.25, -1.0, 0.5], [0.75, -0.25, 0.125], [0.25, -0.5, 0.5]],
+        aspect_ratio: 3.0,
+        start: vec![direction(0.2, 1.0), direction(2.4, 1.9), direction(4.0, 1.57)],
+        times_s: vec![0.5, 2.0, 5.0, 10.0],
+        summary: "Three free rods of r_e = 3 in a flow that turns and stretches at once: W + ΛD has one real eigenvalue and a \
+                  complex pair, and rods spiral into an axis that is none of the coordinate axes."
+            .into(),
+        equations: ANY_FLOW,
+    }
+}
+
+fn rotation(angle: f64) -> [[f64; 3]; 3] {
+    let (s, c) = angle.sin_cos();
+    [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]
+}
+
+fn tilt(angle: f64) -> [[f64; 3]; 3] {
+    let (s, c) = angle.sin_cos();
+    [[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]
+}
+
+fn transposed(m: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| m[j][i]))
+}
+
+fn product(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
+}

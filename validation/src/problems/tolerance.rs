@@ -1,0 +1,162 @@
+//! How near a right code in double precision must come.
+//!
+//! Such a code evaluates ṗ in units of the strain rate with an error of about ε (the rounding of Λ and of W·p + ΛD·p,
+//! which nearly cancel where a long rod lies along the flow), and a fourth-order method, whose truncation error per radian
+//! turned is about h⁴, reaches ε^{4/5} where truncation and the rounding of its steps, ε/h, meet. What is lost at strain
+//! s reaches the end multiplied by κ(s), the norm of ∂p(end)/∂p(s). So the error is at most about
+//!   ∫ κ (2ε + 10 ε^{4/5} |dp/ds|) ds,
+//! with 2 for two such roundings and 10 for what separates methods of one order.
+
+use crate::reference::big::{Bits, double};
+use crate::reference::motion::{Matrix, Motion, Unit};
+
+const ROUNDING: f64 = 2.0 * f64::EPSILON;
+
+/// 10 ε^{4/5}.
+fn truncation() -> f64 {
+    10.0 * f64::EPSILON.powf(0.8)
+}
+
+/// The tolerance of angles (rad) in plane Couette flow after `strain`, rounded up to one digit.
+///
+/// In the shear plane κ = φ̇(end)/φ̇(s) and φ̇/G ≤ 1. The mean of G/φ̇ over a period is ½(r_e + 1/r_e)² (A.2), and that of
+/// κ φ̇(s)/G is 1.
+pub fn couette(aspect_ratio: f64, strain: f64) -> f64 {
+    let mean = 0.5 * (aspect_ratio + aspect_ratio.recip()).powi(2);
+    rounded_up(strain.abs() * (ROUNDING * mean + truncation()))
+}
+
+/// The reason for `couette`'s.
+pub fn because_couette(aspect_ratio: f64) -> String {
+    format!(
+        "A right code in double precision evaluates ṗ/G to about ε, and a fourth-order method comes to ε^(4/5) per radian \
+         turned, where its truncation (h⁴) and its rounding (ε/h) meet. An error made at strain s grows by φ̇(end)/φ̇(s), on \
+         average by ½(r_e + 1/r_e)² at most. So (2ε·½(r_e + 1/r_e)² + 10 ε^(4/5))·strain is allowed, with r_e = \
+         {aspect_ratio}: two roundings an evaluation, and 10 for what separates methods of one order; rounded up to one digit."
+    )
+}
+
+/// The tolerance of angles (rad) in any steady flow: the integral of the module's head by the midpoint rule in 400 steps,
+/// the largest over rods, rounded up to one digit. κ is the Frobenius norm, which bounds the spectral one.
+pub fn general(motion: &Motion, start: &[[f64; 3]], end_s: f64) -> f64 {
+    const STEPS: usize = 400;
+    let bits = motion.bits(end_s, Unit::Second, 160);
+    let seconds = |k: f64| end_s * k / STEPS as f64;
+    let map = |k: f64| {
+        let map = motion
+            .map(&bits.of(seconds(k)), Unit::Second, bits)
+            .expect("seconds have a meaning");
+        doubles(&map)
+    };
+    let maps: Vec<_> = (0..=2 * STEPS).map(|half| map(0.5 * half as f64)).collect();
+    let strain = motion.strain(end_s, Unit::Second) / STEPS as f64;
+    let lost = |p0: &[f64; 3]| {
+        let p = |half: usize| unit(image(&maps[half], *p0));
+        let sum = (0..STEPS).map(|k| {
+            let (before, now, after) = (p(2 * k), p(2 * k + 1), p(2 * k + 2));
+            let turned = length(difference(after, before)) / strain;
+            growth(&maps[2 * STEPS - (2 * k + 1)], now) * (ROUNDING + truncation() * turned)
+        });
+        sum.sum::<f64>() * strain
+    };
+    rounded_up(start.iter().map(lost).fold(0.0, f64::max))
+}
+
+/// The reason for `general`'s.
+pub const BECAUSE_GENERAL: &str = "A right code in double precision evaluates ṗ, in units of |L|, to about ε, and a fourth-order \
+     method comes to ε^(4/5) per radian turned, where its truncation (h⁴) and its rounding (ε/h) meet. An error made on the way \
+     reaches the end multiplied by κ = |∂p(end)/∂p|. So the integral of κ(2ε + 10 ε^(4/5)|dp/ds|) over strain is allowed: two \
+     roundings an evaluation, and 10 for what separates methods of one order; rounded up to one digit.";
+
+/// |∂(Fp/|Fp|)/∂p| = |(1 − qq)F|/|Fp|, q = Fp/|Fp|, for changes of p across p.
+fn growth(map: &[[f64; 3]; 3], p: [f64; 3]) -> f64 {
+    let carried = image(map, p);
+    let q = unit(carried);
+    // Two directions across p.
+    let axis = (0..3)
+        .min_by(|i, j| p[*i].abs().total_cmp(&p[*j].abs()))
+        .unwrap_or(0);
+    let mut other = [0.0; 3];
+    other[axis] = 1.0;
+    let first = unit(cross(p, other));
+    let squares = [first, cross(p, first)].map(|across| {
+        let moved = image(map, across);
+        let along = dot(moved, q);
+        length(difference(moved, q.map(|x| x * along))).powi(2)
+    });
+    (squares[0] + squares[1]).sqrt() / length(carried)
+}
+
+/// `x` > 0 rounded up to one significant digit.
+pub fn rounded_up(x: f64) -> f64 {
+    let exponent = x.log10().floor() as i32;
+    let unit = 10f64.powi(exponent);
+    // Through text, so that 5e-11 is not 5.000000000000001e-11.
+    format!("{}e{exponent}", (x / unit).ceil()).parse().unwrap_or(x)
+}
+
+fn doubles(m: &Matrix) -> [[f64; 3]; 3] {
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| double(&Bits(64).round(m[i][j].clone()))))
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|i| a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3])
+}
+
+fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|i| a[i] - b[i])
+}
+
+fn length(x: [f64; 3]) -> f64 {
+    dot(x, x).sqrt()
+}
+
+fn unit(x: [f64; 3]) -> [f64; 3] {
+    x.map(|component| component / length(x))
+}
+
+fn image(m: &[[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
+    m.map(|row| dot(row, x))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_rounded_up_to_one_digit() {
+        for (x, expected) in [
+            (4.1e-11, 5e-11),
+            (9.2e-3, 1e-2),
+            (1.0, 1.0),
+            (0.55, 0.6),
+            (123.0, 200.0),
+        ] {
+            assert_eq!(rounded_up(x), expected);
+        }
+    }
+
+    #[test]
+    fn the_closed_form_in_couette_flow_is_the_integral() {
+        for aspect_ratio in [0.3, 1.0, 3.0] {
+            let motion = Motion {
+                gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]],
+                aspect_ratio,
+            };
+            let period = double(&motion.strain_per_period(Bits(64)));
+            // In the shear plane, seen where it turns fastest: the bound is met to a digit's rounding and the Frobenius
+            // norm of two directions.
+            let start = if aspect_ratio < 1.0 {
+                [0.0, 1.0, 0.0]
+            } else {
+                [1.0, 0.0, 0.0]
+            };
+            let ratio = general(&motion, &[start], period) / couette(aspect_ratio, period);
+            assert!((0.5..=3.0).contains(&ratio), "{aspect_ratio} {ratio}");
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! Binary numbers of any precision, and how they are read and written.
+//!
+//! Arithmetic and elementary functions of the crate `dashu-float` are correctly rounded; the result of an operation has
+//! the larger of its operands' precisions.
+
+use dashu_float::{DBig, FBig, round::mode::HalfEven};
+use std::str::FromStr;
+
+/// A binary number of any precision, without an exponent's limits.
+pub type Big = FBig<HalfEven, 2>;
+
+/// How many bits a calculation keeps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bits(pub usize);
+
+impl Bits {
+    /// A double, exactly, for a calculation of this precision.
+    ///
+    /// # Panics
+    /// If `x` is not finite.
+    pub fn of(self, x: f64) -> Big {
+        let exact = Big::try_from(x).expect("a finite number");
+        self.round(exact)
+    }
+
+    /// π.
+    pub fn pi(self) -> Big {
+        Big::pi(self.0)
+    }
+
+    /// `x` rounded to this precision.
+    pub fn round(self, x: Big) -> Big {
+        x.with_precision(self.0).value()
+    }
+}
+
+/// log₂|x| rounded up, and 0 for 0: how far x is from 1.
+pub fn magnitude(x: f64) -> usize {
+    match x == 0.0 {
+        true => 0,
+        false => x.abs().log2().abs().ceil() as usize,
+    }
+}
+
+/// The nearest double.
+pub fn double(x: &Big) -> f64 {
+    x.to_f64().value()
+}
+
+/// A decimal number as it is written, exact to 400 bits. `None` where it is no finite number that a double can hold.
+pub fn decimal(text: &str) -> Option<Big> {
+    let text = text.trim();
+    // The double's grammar and range: of two parsers the stricter.
+    text.parse::<f64>().ok().filter(|x| x.is_finite())?;
+    let exact = DBig::from_str(text.trim_start_matches('+')).ok()?;
+    Some(
+        exact
+            .with_rounding::<HalfEven>()
+            .with_base_and_precision::<2>(400)
+            .value(),
+    )
+}
+
+/// `x` with `digits` significant decimal digits, as `1.2345e-6`; 0 as `0`.
+pub fn digits(x: &Big, digits: usize) -> String {
+    if *x == Big::ZERO {
+        return "0".into();
+    }
+    // Some bits more than the digits hold, so that a decimal is rounded from a near enough number.
+    let near = x.clone().with_precision(4 * digits + 16).value();
+    let decimal = near.with_base_and_precision::<10>(digits).value();
+    format!("{decimal:e}")
+}
+
+/// √(x² + y² + z²).
+pub fn length([x, y, z]: &[Big; 3]) -> Big {
+    (x.sqr() + y.sqr() + z.sqr()).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_read_and_written_exactly() {
+        for (text, expected) in [
+            ("0.1", 0.1),
+            ("-1e-300", -1e-300),
+            ("+2.5", 2.5),
+            ("1e3", 1000.0),
+            ("0", 0.0),
+            (" 7 ", 7.0),
+        ] {
+            assert_eq!(double(&decimal(text).unwrap()), expected, "{text}");
+        }
+        for text in ["", "nan", "inf", "1e400", "0x10", "1,5", "1_0", "--1"] {
+            assert!(decimal(text).is_none(), "{text}");
+        }
+        // 0.1 is not the double 0.1.
+        assert!(decimal("0.1").unwrap() != Bits(400).of(0.1));
+        let third = Bits(200).of(1.0) / Bits(200).of(3.0);
+        assert_eq!(digits(&third, 22), "3.333333333333333333333e-1");
+        assert_eq!(digits(&-(third * Bits(200).of(1e-30)), 5), "-3.3333e-31");
+        assert_eq!(digits(&Bits(200).of(0.0), 22), "0");
+        assert_eq!(
+            (magnitude(1.0), magnitude(0.3), magnitude(-1000.0), magnitude(0.0)),
+            (0, 2, 10, 0)
+        );
+    }
+}

@@ -1,0 +1,286 @@
+//! What does not change with time in plane Couette flow: T, ⟨φ⟩, orbits, and what is left when phases have mixed.
+
+use super::big::{Big, Bits};
+use super::motion::Motion;
+use super::rod::{self, Direction};
+
+const BITS: Bits = Bits(192);
+
+/// A number that describes a motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Constant {
+    /// Its name.
+    pub quantity: &'static str,
+    /// Its value.
+    pub value: Big,
+    /// Its unit, `1` for pure numbers.
+    pub unit: &'static str,
+    /// Where it comes from: equation numbers are Lee & Springer's.
+    pub equation: &'static str,
+}
+
+fn constant(quantity: &'static str, value: Big, unit: &'static str, equation: &'static str) -> Constant {
+    Constant {
+        quantity,
+        value,
+        unit,
+        equation,
+    }
+}
+
+/// Those of plane Couette flow for one r_e; `start` of one rod, or none for rods that are isotropic at t = 0.
+///
+/// `None` in any other flow.
+pub fn constants(motion: &Motion, start: Option<Direction>) -> Option<Vec<Constant>> {
+    let rate = BITS.of(motion.couette()?.abs());
+    let strain = motion.strain_per_period(BITS);
+    let r = BITS.of(motion.aspect_ratio);
+    let two_pi = BITS.pi() * BITS.of(2.0);
+    let square = r.sqr();
+    let mut all = vec![
+        constant("period", &strain / &rate, "s", "15"),
+        constant("strain_per_period", strain.clone(), "1", "15"),
+        constant("angular_velocity", two_pi * &rate / strain, "1/s", "A.4, 15"),
+        constant(
+            "lambda",
+            (&square - BITS.of(1.0)) / (&square + BITS.of(1.0)),
+            "1",
+            "A.1",
+        ),
+        constant("mean_angle", mean_angle(&r), "rad", "19"),
+    ];
+    let (names, values, equation) = match start {
+        Some(start) => {
+            let (p, c_b) = rod::orbit(motion, start);
+            let [across, along] = inclination(&p, &r);
+            all.push(constant("c_b", c_b, "1", "13, 18"));
+            let equation = "A.4, A.5, 13: mean over a period";
+            (PHASE_MEANS, phase_means(&across, &along, &r), equation)
+        }
+        None => {
+            let equation = "A.4, A.5, 12, 13: mean over a period, then over isotropic orbits";
+            (PLATEAUS, plateaus(&r), equation)
+        }
+    };
+    let means = names.into_iter().zip(values);
+    all.extend(means.map(|(name, value)| constant(name, value, "1", equation)));
+    Some(all)
+}
+
+const PHASE_MEANS: [&str; 6] = [
+    "mean_x1", "mean_x2", "mean_x3", "mean_a11", "mean_a22", "mean_a33",
+];
+const PLATEAUS: [&str; 6] = [
+    "plateau_x1",
+    "plateau_x2",
+    "plateau_x3",
+    "plateau_a11",
+    "plateau_a22",
+    "plateau_a33",
+];
+
+/// ⟨φ⟩ of eq. 19, rad: (2/π)[π²/8 + ∫₁^{r_e} ln x/(x² − 1) dx] = π/4 + (2/π) χ₂((r_e − 1)/(r_e + 1)).
+///
+/// Legendre's χ₂(x) = Σ x^{2k+1}/(2k+1)², by its series for x² ≤ 0.2, and beyond by χ₂(x) + χ₂(k) = π²/8 + ln k artanh k with
+/// k = (1 − x)/(1 + x) (Lewin, Polylogarithms, 1.67).
+fn mean_angle(r: &Big) -> Big {
+    let one = BITS.of(1.0);
+    let (pi, half) = (BITS.pi(), BITS.of(0.5));
+    let factor = BITS.of(2.0) / &pi;
+    let x = (r - &one) / (r + &one);
+    let tail = |k: &Big| &factor * (chi_2(k) - k.ln() * k.atanh());
+    if x.sqr() <= BITS.of(0.2) {
+        &pi / BITS.of(4.0) + factor * chi_2(&x)
+    } else if x > Big::ZERO {
+        pi * half - tail(&(one / r))
+    } else {
+        tail(r)
+    }
+}
+
+/// χ₂(x) for |x| ≤ ½: 96 terms leave 2⁻¹⁹².
+fn chi_2(x: &Big) -> Big {
+    let square = x.sqr();
+    let mut power = x.clone();
+    let mut sum = BITS.of(0.0);
+    for k in 0..96 {
+        sum += &power / BITS.of(f64::from((2 * k + 1_i32).pow(2)));
+        power *= &square;
+    }
+    sum
+}
+
+/// sin β and cos β with tan β = C, of a rod along p.
+fn inclination(p: &[Big; 3], r: &Big) -> [Big; 2] {
+    let across = (p[0].sqr() + (&p[1] / r).sqr()).sqrt();
+    let long = (across.sqr() + p[2].sqr()).sqrt();
+    [&across / &long, p[2].sqr().sqrt() / long]
+}
+
+/// Means over a period of |p₁|, |p₂|, |p₃|, p₁², p₂², p₃² of a rod in the orbit C = tan β.
+///
+/// From φ = 0 the rod is p ∝ (sin β cos ωt, r_e sin β sin ωt, cos β). With s² = r_e² − 1 the quarter-period integrals of |p_i|
+/// are asinh(s sin β)/s, (r_e/s) atan(s sin β) and cos β K; for r_e < 1, s is imaginary. With |q| = w at ωt = π/2, those of
+/// p_i² are sin²β/(1 + w), r_e² sin²β/(w(1 + w)) and cos²β/w.
+fn phase_means(sine: &Big, cosine: &Big, r: &Big) -> [Big; 6] {
+    let one = BITS.of(1.0);
+    let far = (cosine.sqr() + (r * sine).sqr()).sqrt();
+    let difference = (r - &one) * (r + &one);
+    let s = difference.sqr().sqrt().sqrt();
+    let x = &s * sine;
+    let (first, second) = if x == Big::ZERO {
+        (sine.clone(), sine.clone())
+    } else if difference > Big::ZERO {
+        (x.asinh() / &s, x.atan() / &s)
+    } else {
+        (x.atan2(&far) / &s, (&x / &far).asinh() / &s)
+    };
+    let factor = BITS.of(2.0) / BITS.pi();
+    let third = cosine * complete(&far, &one, &one);
+    let across = sine.sqr();
+    [
+        &factor * first,
+        &factor * r * second,
+        factor * third,
+        &across / (&one + &far),
+        r.sqr() * across / (&far * (&one + &far)),
+        cosine.sqr() / far,
+    ]
+}
+
+/// Means of |p₁|, |p₂|, |p₃|, p₁², p₂², p₃² once the phases of isotropic rods are mixed: orbits do not change.
+///
+/// ∫ f(C) ⟨…⟩_C dC with f(C) = (2r_e/π) C E(m)/((1 + C²)^½(1 + r_e²C²)), m = (1 − r_e²)C²/(1 + C²), by the trapezoid rule in
+/// u = ln C. It is analytic for |Im u| < π/2, so the error falls as e^{−2π·½π/h}: with h = ln 9/8 that is e^{−80} at 0.95 of it.
+/// It rises as C or faster below min(1, 1/r_e) and falls as 1/C above max(1, 1/r_e): beyond 52 there, e^{−52}.
+fn plateaus(r: &Big) -> [Big; 6] {
+    let one = BITS.of(1.0);
+    let steps = |range: f64| (range / 1.125f64.ln()).ceil() as usize;
+    let knee = -super::big::double(&r.ln());
+    let (left, right) = (steps(52.0 - knee.min(0.0)), steps(52.0 + knee.max(0.0)));
+    let mut sums = [0; 6].map(|_| BITS.of(0.0));
+    let mut add = |c: &Big| {
+        let square = c.sqr();
+        let (whole, long) = (&one + &square, &one + (r * c).sqr());
+        let k = (&long / &whole).sqrt();
+        let cosine = &one / whole.sqrt();
+        let sine = c * &cosine;
+        // f(C) C without its factor 2r_e/π.
+        let weight = square * complete(&k, &one, &k.sqr()) * &cosine / long;
+        for (sum, mean) in sums.iter_mut().zip(phase_means(&sine, &cosine, r)) {
+            *sum += mean * &weight;
+        }
+    };
+    let (up, down) = (BITS.of(1.125), &one / BITS.of(1.125));
+    let mut c = one.clone();
+    for _ in 0..=right {
+        add(&c);
+        c *= &up;
+    }
+    c = one.clone();
+    for _ in 0..left {
+        c *= &down;
+        add(&c);
+    }
+    let factor = BITS.of(2.0) * r / BITS.pi() * up.ln();
+    sums.map(|sum| sum * &factor)
+}
+
+/// ∫₀^{π/2} (a cos²t + b sin²t)(cos²t + k² sin²t)^{-½} dt, k > 0 (Bulirsch's cel with p = 1): K for a = b = 1, E for b = k².
+fn complete(k: &Big, a: &Big, b: &Big) -> Big {
+    let (mut k, mut a, mut b) = (k.clone(), a.clone(), b.clone());
+    let (mut e, mut m, mut p) = (k.clone(), BITS.of(1.0), BITS.of(1.0));
+    let two = BITS.of(2.0);
+    loop {
+        let before = a.clone();
+        a += &b / &p;
+        let g = &e / &p;
+        b = &two * (before * &g + &b);
+        p += g;
+        let last = m.clone();
+        m += &k;
+        // The next step would square this.
+        let apart = (&last - &k) / &last;
+        if apart.sqr() <= BITS.of(2f64.powi(-200)) {
+            return BITS.pi() / &two * (a * &m + b) / (&m * (&m + p));
+        }
+        k = &two * e.sqrt();
+        e = &k * &m;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::big::double;
+    use super::*;
+    use crate::oracle::closed_form;
+    use crate::oracle::isotropic::plateau_projections;
+    use crate::oracle::quadrature::{mean_angle_by_quadrature, phase_means_by_quadrature, spread};
+
+    fn apart(found: &Big, expected: f64) -> f64 {
+        (double(found) - expected).abs()
+    }
+
+    fn doubles(values: &[Big]) -> Vec<f64> {
+        values.iter().map(double).collect()
+    }
+
+    #[test]
+    fn mean_angle_is_eq_19_on_both_sides_of_its_seams() {
+        for (u, _) in spread(60) {
+            let r = 1e6f64.powf(2.0 * u - 1.0);
+            let found = mean_angle(&BITS.of(r));
+            // What the quadrature claims.
+            assert!(apart(&found, mean_angle_by_quadrature(r)) < 2e-15, "{r}");
+            let sum = found + mean_angle(&(BITS.of(1.0) / BITS.of(r)));
+            assert!(((sum - BITS.pi() / BITS.of(2.0)) * BITS.of(1e50)).sqr() < BITS.of(1.0));
+        }
+        let half_pi = std::f64::consts::FRAC_PI_2;
+        assert_eq!(double(&mean_angle(&BITS.of(1.0))), half_pi / 2.0);
+        assert_eq!(double(&mean_angle(&BITS.of(1e100))), half_pi);
+        assert!(double(&mean_angle(&BITS.of(1e-100))) < 2e-98);
+    }
+
+    #[test]
+    fn phase_means_are_those_of_the_motion() {
+        for (u, v) in spread(40) {
+            let (r, c) = (1e4f64.powf(1.5 * u - 0.5), 1e3f64.powf(2.0 * v - 1.0));
+            let cosine = BITS.of(1.0) / (BITS.of(1.0) + BITS.of(c).sqr()).sqrt();
+            let found = phase_means(&(BITS.of(c) * &cosine), &cosine, &BITS.of(r));
+            let expected = phase_means_by_quadrature(c, r);
+            assert!((0..3).all(|i| apart(&found[i], expected[i]) < 1e-14), "{r} {c}");
+            // The motion itself, on a fine grid of phases: converges geometrically for p².
+            let n = 200_000;
+            let (mut squares, beta) = ([0.0; 3], c.atan());
+            for k in 0..n {
+                let (s, co) = (std::f64::consts::TAU * f64::from(k) / f64::from(n)).sin_cos();
+                let q = [beta.sin() * co, r * beta.sin() * s, beta.cos()];
+                let long: f64 = q.iter().map(|x| x * x).sum();
+                (0..3).for_each(|i| squares[i] += q[i] * q[i] / long / f64::from(n));
+            }
+            assert!(
+                (0..3).all(|i| apart(&found[3 + i], squares[i]) < 1e-12),
+                "{r} {c}"
+            );
+            let sum = &found[3] + &found[4] + &found[5] - BITS.of(1.0);
+            assert!(apart(&sum, 0.0) < 1e-50);
+        }
+    }
+
+    #[test]
+    fn plateaus_are_the_doubles_own_and_those_of_a_sphere() {
+        for r in [0.01, 0.3, 3.0, 11.6, 300.0] {
+            let (found, expected) = (plateaus(&BITS.of(r)), plateau_projections(r));
+            for i in 0..3 {
+                // What is claimed of the doubles' quadrature.
+                assert!((double(&found[i]) / expected[i] - 1.0).abs() < 5e-15, "{r} {i}");
+            }
+            let sum: f64 = doubles(&found[3..]).iter().sum();
+            assert!((sum - 1.0).abs() < 1e-15);
+            assert!(apart(&found[0], closed_form::phase_means(3f64.sqrt(), r)[0]) > 1e-6);
+        }
+        let sphere = doubles(&plateaus(&BITS.of(1.0)));
+        let expected = [0.5, 0.5, 0.5, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0];
+        assert_eq!(sphere, expected);
+    }
+}

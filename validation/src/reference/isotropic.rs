@@ -1,0 +1,267 @@
+//! Free rods that were isotropic at t = 0, infinitely many: means of |p_i|, p_i p_j and p_i p_j p_k p_l in any flow.
+//!
+//! An isotropic p₀ is the direction of a normal vector, so p has the direction of a normal q = F p₀ with the covariance
+//! Σ = F Fᵀ, det Σ = 1. With B = Σ⁻¹ and M(x) = B + x, the normal integrals over 1/|q|, 1/|q|² and 1/|q|⁴ written as
+//! integrals over e^{−s|q|²} are closed, and what is left is (x = 2s)
+//!   ⟨|p_i|⟩ = (1/π) ∫₀^∞ (adj M)_ii^½ x^{-½} (det M)⁻¹ dx,
+//!   ⟨p_i p_j⟩ = ½ ∫₀^∞ (adj M)_ij (det M)^{-3/2} dx,
+//!   ⟨p_i p_j p_k p_l⟩ = ¼ ∫₀^∞ x (N_ij N_kl + N_ik N_jl + N_il N_jk) (det M)^{-½} dx, N = adj M/det M,
+//! complete and incomplete elliptic integrals in plane Couette flow. adj M = x² + x(tr B − B) + Σ and
+//! det M = x³ + x² tr B + x tr Σ + 1 have no negative coefficient on their diagonals: nothing cancels.
+
+use super::big::{Big, Bits, double};
+use super::motion::{Matrix, Motion, Unit, matrix, product};
+
+/// The six different entries of a symmetric matrix, in the order of the columns `a11,a22,a33,a12,a13,a23`.
+pub const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+
+/// The fifteen different entries of a_4, by indices from 1, ascending.
+#[rustfmt::skip]
+pub const QUADRUPLES: [[usize; 4]; 15] = [
+    [1, 1, 1, 1], [1, 1, 1, 2], [1, 1, 1, 3], [1, 1, 2, 2], [1, 1, 2, 3], [1, 1, 3, 3], [1, 2, 2, 2], [1, 2, 2, 3],
+    [1, 2, 3, 3], [1, 3, 3, 3], [2, 2, 2, 2], [2, 2, 2, 3], [2, 2, 3, 3], [2, 3, 3, 3], [3, 3, 3, 3],
+];
+
+/// Bits that the integrals keep; their quadrature is good to 80.
+const KEPT: Bits = Bits(160);
+
+/// Σ and its inverse B.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Covariance {
+    sigma: Matrix,
+    inverse: Matrix,
+}
+
+impl Covariance {
+    /// Of rods that were isotropic at t = 0; `None` where the unit has no meaning in this flow.
+    pub fn at(motion: &Motion, time: &Big, unit: Unit) -> Option<Self> {
+        let bits = motion.bits(double(time), unit, KEPT.0 + 96);
+        let map = motion.map(time, unit, bits)?;
+        let transposed = |m: &Matrix| matrix(|i, j| m[j][i].clone());
+        // F⁻¹ by cofactors: det F = 1.
+        let cofactor = |i: usize, j: usize| {
+            let (a, b, c, d) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
+            &map[a][c] * &map[b][d] - &map[a][d] * &map[b][c]
+        };
+        let back = matrix(|i, j| cofactor(j, i));
+        let kept = |m: Matrix| m.map(|row| row.map(|x| KEPT.round(x)));
+        Some(Self {
+            sigma: kept(product(&map, &transposed(&map))),
+            inverse: kept(product(&transposed(&back), &back)),
+        })
+    }
+
+    /// ⟨|p₁|⟩, ⟨|p₂|⟩, ⟨|p₃|⟩.
+    pub fn projections(&self) -> [Big; 3] {
+        let sums = self.integral(|x, adjugate, determinant| {
+            // x dx = x² d(ln x); (adj M)^½ x^{-½} x = (adj M · x)^½.
+            [0, 1, 2].map(|i| (adjugate(i, i) * x).sqrt() / determinant)
+        });
+        let pi = KEPT.pi();
+        sums.map(|sum| sum / &pi)
+    }
+
+    /// a_ij = ⟨p_i p_j⟩, in the order of `PAIRS`.
+    pub fn second(&self) -> [Big; 6] {
+        let sums = self.integral(|x, adjugate, determinant| {
+            let weight = x / (determinant * determinant.sqrt());
+            PAIRS.map(|(i, j)| adjugate(i, j) * &weight)
+        });
+        sums.map(|sum| sum / KEPT.of(2.0))
+    }
+
+    /// a_ijkl = ⟨p_i p_j p_k p_l⟩, in the order of `QUADRUPLES`.
+    pub fn fourth(&self) -> [Big; 15] {
+        let sums = self.integral(|x, adjugate, determinant| {
+            let weight = x.sqr() / (determinant.sqr() * determinant.sqrt());
+            let n = matrix(adjugate);
+            QUADRUPLES.map(|indices| {
+                let [i, j, k, l] = indices.map(|index| index - 1);
+                (&n[i][j] * &n[k][l] + &n[i][k] * &n[j][l] + &n[i][l] * &n[j][k]) * &weight
+            })
+        });
+        sums.map(|sum| sum / KEPT.of(4.0))
+    }
+
+    /// ∫ f d(ln x) from 0 to ∞ for `f(x, adj M, det M)`, good to 80 bits of the largest entry of the same kind.
+    ///
+    /// The trapezoid rule in u = ln x. The integrands are analytic for |Im u| < π, because the roots of det M and of the
+    /// diagonal of adj M are negative, so the error falls as e^{−2π·π/h}: with h = ln 5/4 that is e^{−88}. Close to
+    /// Im u = π an integrand is larger by (cos ½Im u)⁻⁵ at most; at 0.95 π that leaves e^{−84}·3·10⁵ = 2^{−103}.
+    /// They rise as x^{1/2} or faster and fall as x^{−3/2} or faster beyond the roots of det M, which lie between
+    /// 1/tr Σ and tr B.
+    fn integral<const N: usize>(
+        &self,
+        f: impl Fn(&Big, &dyn Fn(usize, usize) -> Big, &Big) -> [Big; N],
+    ) -> [Big; N] {
+        let trace = |m: &Matrix| &m[0][0] + &m[1][1] + &m[2][2];
+        let (trace_sigma, trace_inverse) = (trace(&self.sigma), trace(&self.inverse));
+        let step = (KEPT.of(5.0) / KEPT.of(4.0)).ln();
+        // ln 2 · 84 bits · 2 on the left and · 2/3 on the right, in steps.
+        let steps = |range: f64| (range / 1.25f64.ln()).ceil() as usize;
+        let left = steps(double(&trace_sigma.ln()) + 117.0);
+        let right = steps(double(&trace_inverse.ln()) + 39.0);
+        let one = KEPT.of(1.0);
+        // tr B − B_ii, without the difference.
+        let others = [0, 1, 2].map(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            &self.inverse[j][j] + &self.inverse[k][k]
+        });
+        let mut sums = [0; N].map(|_| KEPT.of(0.0));
+        let mut add = |x: &Big| {
+            let determinant = ((x + &trace_inverse) * x + &trace_sigma) * x + &one;
+            let adjugate = |i: usize, j: usize| {
+                let linear = match i == j {
+                    true => x + &others[i],
+                    false => -&self.inverse[i][j],
+                };
+                linear * x + &self.sigma[i][j]
+            };
+            for (sum, value) in sums.iter_mut().zip(f(x, &adjugate, &determinant)) {
+                *sum += value;
+            }
+        };
+        let (up, down) = (KEPT.of(1.25), KEPT.of(1.0) / KEPT.of(1.25));
+        let mut x = one.clone();
+        for _ in 0..=right {
+            add(&x);
+            x *= &up;
+        }
+        x = one.clone();
+        for _ in 0..left {
+            x *= &down;
+            add(&x);
+        }
+        sums.map(|sum| sum * &step)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::oracle::isotropic::mean_projections;
+    use crate::oracle::quadrature::{integrate, spread};
+    use std::f64::consts::TAU;
+
+    const COUETTE: [[f64; 3]; 3] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]];
+
+    fn at(gradient_per_s: [[f64; 3]; 3], aspect_ratio: f64, time: f64, unit: Unit) -> Covariance {
+        let motion = Motion {
+            gradient_per_s,
+            aspect_ratio,
+        };
+        Covariance::at(&motion, &Bits(100).of(time), unit).unwrap()
+    }
+
+    fn relative(found: &Big, expected: f64) -> f64 {
+        (double(found) / expected - 1.0).abs()
+    }
+
+    #[test]
+    fn projections_are_carlsons_integrals() {
+        for (u, v) in spread(20) {
+            let (r, turns) = (1e4f64.powf(2.0 * u - 1.0), 3.0 * v);
+            let (found, expected) = (
+                at(COUETTE, r, turns, Unit::Period).projections(),
+                mean_projections(r, turns),
+            );
+            let wrong = mean_projections(r, 1.01 * turns);
+            for i in 0..3 {
+                // What is claimed of the doubles' formula.
+                assert!(relative(&found[i], expected[i]) < 4e-15, "{r} {turns} {i}");
+            }
+            assert!((0..3).any(|i| relative(&found[i], wrong[i]) > 1e-9));
+        }
+    }
+
+    /// A mean over isotropic starts of the moving rods: z = cos θ₀ by Clenshaw-Curtis, φ₀ by the trapezoid rule, which
+    /// converges geometrically.
+    fn by_rods(motion: &Motion, time_s: f64, f: impl Fn([f64; 3]) -> f64) -> f64 {
+        let map = motion
+            .map(&Bits(100).of(time_s), Unit::Second, Bits(100))
+            .unwrap();
+        let map = map.map(|row| row.map(|x| double(&x)));
+        let n = 400;
+        let over_phi = |z: f64| {
+            let sine = (1.0 - z * z).sqrt();
+            let at = |k: i32| {
+                let (s, c) = (TAU * f64::from(k) / f64::from(n)).sin_cos();
+                let p = [sine * c, sine * s, z];
+                let q = map.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2]);
+                let long = (q[0] * q[0] + q[1] * q[1] + q[2] * q[2]).sqrt();
+                f(q.map(|x| x / long))
+            };
+            (0..n).map(at).sum::<f64>() / f64::from(n)
+        };
+        0.5 * integrate(over_phi, &[-1.0, 0.0, 1.0], 1e-13).value
+    }
+
+    const SPIRAL: [[f64; 3]; 3] = [[-0.25, -1.0, 0.5], [0.75, -0.25, 0.125], [0.25, -0.5, 0.5]];
+
+    #[test]
+    fn moments_are_those_of_rods_all_round() {
+        for (gradient_per_s, aspect_ratio, time_s) in [
+            (COUETTE, 3.0, 2.0),
+            (COUETTE, 0.4, 9.0),
+            (COUETTE, 5.0, -1.0),
+            (SPIRAL, 3.0, 1.5),
+            ([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]], 1e4, 0.7),
+        ] {
+            let motion = Motion {
+                gradient_per_s,
+                aspect_ratio,
+            };
+            let covariance = at(gradient_per_s, aspect_ratio, time_s, Unit::Second);
+            let transposed = [0, 1, 2].map(|i| [0, 1, 2].map(|j| gradient_per_s[j][i]));
+            let wrong = at(transposed, aspect_ratio, time_s, Unit::Second).second();
+            let mut caught = false;
+            for ((found, wrong), (i, j)) in covariance.second().iter().zip(&wrong).zip(PAIRS) {
+                let expected = by_rods(&motion, time_s, |p| p[i] * p[j]);
+                // Some dozen panels, each to 1e-13.
+                assert!((double(found) - expected).abs() < 1e-12, "{aspect_ratio} {i} {j}");
+                caught |= (double(wrong) - expected).abs() > 1e-6;
+            }
+            assert!(caught || gradient_per_s[0][0] == 1.0, "the transposed gradient");
+            for (found, indices) in covariance.fourth().iter().zip(QUADRUPLES) {
+                let expected = by_rods(&motion, time_s, |p| indices.iter().map(|i| p[i - 1]).product());
+                assert!(
+                    (double(found) - expected).abs() < 1e-12,
+                    "{aspect_ratio} {indices:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn moments_contract_to_80_bits_everywhere() {
+        let rate = [[0.25, 1e8, 0.0], [1e-8, 0.125, 3.0], [0.0, 0.0, -0.375]];
+        for (gradient, r, time, unit) in [
+            (COUETTE, 11.6, 0.2, Unit::Period),
+            (COUETTE, 1e100, 0.249, Unit::Period),
+            (COUETTE, 1e-100, 1e6 + 0.13, Unit::Period),
+            (COUETTE, 1.0 + f64::EPSILON, 0.3, Unit::Period),
+            (SPIRAL, 7.0, 300.0, Unit::Second),
+            (rate, 50.0, 1e-6, Unit::Second),
+        ] {
+            let covariance = at(gradient, r, time, unit);
+            let (second, fourth) = (covariance.second(), covariance.fourth());
+            let entry = |mut indices: [usize; 4]| {
+                indices.sort_unstable();
+                let place = QUADRUPLES.iter().position(|q| *q == indices).unwrap();
+                &fourth[place]
+            };
+            let most = 2f64.powi(-80);
+            let trace = &second[0] + &second[1] + &second[2] - KEPT.of(1.0);
+            assert!(double(&trace).abs() < most, "{r} {time} {:e}", double(&trace));
+            for (found, (i, j)) in second.iter().zip(PAIRS) {
+                let contracted = [1, 2, 3].map(|k| entry([i + 1, j + 1, k, k]));
+                let apart = contracted[0] + contracted[1] + contracted[2] - found;
+                assert!(
+                    double(&apart).abs() < most,
+                    "{r} {time} {i} {j} {:e}",
+                    double(&apart)
+                );
+            }
+        }
+    }
+}

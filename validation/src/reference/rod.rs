@@ -1,0 +1,107 @@
+//! One free rod: where it points.
+
+use super::big::{Big, Bits, length};
+use super::motion::{Motion, Unit, image};
+
+/// Where a rod starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Direction {
+    /// In degrees: φ from axis 1 towards axis 2, θ from axis 3, 0 ≤ θ ≤ 180. Whole quarter turns are exact.
+    Angles {
+        /// φ.
+        phi_deg: f64,
+        /// θ.
+        theta_deg: f64,
+    },
+    /// Along p, whose length does not matter.
+    Vector([f64; 3]),
+}
+
+/// A rod at a time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rod {
+    /// p, of length 1.
+    pub p: [Big; 3],
+    /// φ in (−π, π], rad; on the vorticity axis the φ of A.4, where the start has one, else none.
+    pub phi: Option<Big>,
+    /// θ in [0, π], rad.
+    pub theta: Big,
+    /// C/(1 + C) with the orbit constant C of eq. 13; none but in plane Couette flow.
+    pub c_b: Option<Big>,
+}
+
+/// Bits of the answers: 128 more than what is lost on the way.
+const KEPT: usize = 256;
+
+/// The rod at `time`; `None` where the unit has no meaning in this flow.
+///
+/// p by A.4 and A.5 in the form p = F p₀/|F p₀| (`motion.rs`), φ and θ by p = (sin θ cos φ, sin θ sin φ, cos θ),
+/// C = (r_e² p₁² + p₂²)^½/(r_e|p₃|) (eq. 13). Every number holds to 100 bits and more.
+pub fn at(motion: &Motion, start: Direction, time: &Big, unit: Unit) -> Option<Rod> {
+    let bits = motion.bits(super::big::double(time), unit, KEPT);
+    let map = motion.map(time, unit, bits)?;
+    let start = Start::new(start, bits);
+    let q = image(&map, &start.p);
+    let long = length(&q);
+    let p = q.map(|x| x / &long);
+    let theta = (p[0].sqr() + p[1].sqr()).sqrt().atan2(&p[2]);
+    let phi = match (start.along, motion.couette()) {
+        (Some(along), Some(_)) => {
+            let q = image(&map, &along);
+            Some(q[1].atan2(&q[0]))
+        }
+        _ if p[0] == Big::ZERO && p[1] == Big::ZERO => None,
+        _ => Some(p[1].atan2(&p[0])),
+    };
+    let round = |x: Big| Bits(128).round(x);
+    Some(Rod {
+        c_b: motion
+            .couette()
+            .map(|_| round(c_b(&start.p, motion.aspect_ratio, bits))),
+        p: p.map(round),
+        phi: phi.map(round),
+        theta: round(theta),
+    })
+}
+
+/// p at t = 0, and C_b, which does not change in plane Couette flow and means nothing in another.
+pub fn orbit(motion: &Motion, start: Direction) -> ([Big; 3], Big) {
+    let bits = motion.bits(0.0, Unit::Period, KEPT);
+    let start = Start::new(start, bits);
+    let c_b = c_b(&start.p, motion.aspect_ratio, bits);
+    (start.p, c_b)
+}
+
+/// C_b of a rod along p; C_b is the same at all times in plane Couette flow.
+fn c_b(p: &[Big; 3], aspect_ratio: f64, bits: Bits) -> Big {
+    let r = bits.of(aspect_ratio);
+    let across = ((&r * &p[0]).sqr() + p[1].sqr()).sqrt();
+    let along = r * if p[2] < Big::ZERO { -&p[2] } else { p[2].clone() };
+    &across / (along + &across)
+}
+
+/// A start in numbers.
+struct Start {
+    p: [Big; 3],
+    /// (cos φ, sin φ, 0), where angles are given: it turns as A.4 says for every θ.
+    along: Option<[Big; 3]>,
+}
+
+impl Start {
+    fn new(direction: Direction, bits: Bits) -> Self {
+        match direction {
+            Direction::Vector(p) => Self {
+                p: p.map(|x| bits.of(x)),
+                along: None,
+            },
+            Direction::Angles { phi_deg, theta_deg } => {
+                let (sine, cosine) = bits.of(theta_deg).sin_cos_unit(360);
+                let (across, along) = bits.of(phi_deg).sin_cos_unit(360);
+                Self {
+                    p: [&sine * &along, &sine * &across, cosine],
+                    along: Some([along, across, bits.of(0.0)]),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! Reference values at many times, as a table.
+
+use super::big::{Big, Bits, double};
+use super::isotropic::{Covariance, PAIRS, QUADRUPLES};
+use super::motion::{LARGEST_STRAIN, Motion, Unit};
+use super::rod::{self, Direction};
+use super::unequal;
+use rayon::prelude::*;
+
+/// What is at t = 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Start {
+    /// Infinitely many free rods of all directions alike (eq. 12). Means over them are asked for.
+    Isotropic {
+        /// Standard deviation of a Gaussian r_e (eq. 11), percent of the mean.
+        aspect_ratio_sd_percent: f64,
+        /// Whether a_4 is asked for in place of ⟨|p_i|⟩ and a_ij.
+        fourth: bool,
+    },
+    /// One free rod.
+    Rod(Direction),
+}
+
+/// What a column is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// Its unit, `1` for pure numbers.
+    pub unit: &'static str,
+    /// Where it comes from: equation numbers are Lee & Springer's (1982).
+    pub equation: &'static str,
+}
+
+/// Times and values, a row a time. A value is none where it has no meaning: t/T and C_b in flows without them, φ on axis 3.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// The columns.
+    pub columns: Vec<Column>,
+    /// The rows.
+    pub rows: Vec<Vec<Option<f64>>>,
+}
+
+/// Why there is no value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NoValue {
+    /// The flow has no period, or no strain.
+    Unit,
+    /// |L|t is beyond [`LARGEST_STRAIN`] in a flow that is not plane Couette flow.
+    Strain,
+    /// A time in another unit is no finite double.
+    Time,
+    /// A deviation for which eight of them reach r_e = 1, a flow other than plane Couette flow, more than a thousand
+    /// periods, or a_4, with rods of unequal r_e.
+    Unequal,
+}
+
+/// The columns for a start.
+pub fn columns(start: Start) -> Vec<Column> {
+    let column = |name: &str, unit, equation| Column {
+        name: name.into(),
+        unit,
+        equation,
+    };
+    let mut columns = vec![
+        column("time_s", "s", "time"),
+        column("t_over_T", "1", "15: T = 2π(r_e + 1/r_e)/|G|, of the mean r_e"),
+        column("strain", "1", "(2D:D)^½ t; in plane Couette flow |G| t"),
+    ];
+    match start {
+        Start::Rod(_) => {
+            let motion = "A.4, A.5 (A.1): p = q/|q|, q = exp((W + ΛD)t) p(0)";
+            columns.extend(["p1", "p2", "p3"].map(|name| column(name, "1", motion)));
+            columns.push(column(
+                "phi_rad",
+                "rad",
+                "A.4: from axis 1 towards axis 2, in (−π, π]",
+            ));
+            columns.push(column("theta_rad", "rad", "A.5: from axis 3, in [0, π]"));
+            columns.push(column(
+                "c_b",
+                "1",
+                "13, 18: C/(1 + C), C = (r_e²p_1² + p_2²)^½/(r_e|p_3|)",
+            ));
+        }
+        Start::Isotropic { fourth: true, .. } => {
+            let name = |q: [usize; 4]| format!("a{}{}{}{}", q[0], q[1], q[2], q[3]);
+            let equation = "A.1, 12: mean of p_i p_j p_k p_l, by quadrature";
+            columns.extend(QUADRUPLES.map(|q| column(&name(q), "1", equation)));
+        }
+        Start::Isotropic { .. } => {
+            let projection =
+                "4, A.4, A.5, 12: mean of |p_i|; a complete elliptic integral in plane Couette flow";
+            let moment =
+                "A.4, A.5, 12: mean of p_i p_j; an incomplete elliptic integral in plane Couette flow";
+            columns.extend(["x1", "x2", "x3"].map(|name| column(name, "1", projection)));
+            let name = |(i, j)| format!("a{}{}", i + 1, j + 1);
+            columns.extend(PAIRS.map(|pair| column(&name(pair), "1", moment)));
+        }
+    }
+    columns
+}
+
+/// Values at `times`, doubles in `unit`, each correctly rounded but for means over unequal rods (`unequal.rs`).
+pub fn table(motion: &Motion, start: Start, times: &[f64], unit: Unit) -> Result<Table, NoValue> {
+    let rows = times.par_iter().map(|time| row(motion, start, *time, unit));
+    Ok(Table {
+        columns: columns(start),
+        rows: rows.collect::<Result<_, _>>()?,
+    })
+}
+
+fn row(motion: &Motion, start: Start, time: f64, unit: Unit) -> Result<Vec<Option<f64>>, NoValue> {
+    let exact = Bits(64).of(time);
+    if motion.convert(&exact, unit, Unit::Second, Bits(64)).is_none() {
+        return Err(NoValue::Unit);
+    }
+    if motion.couette().is_none() && motion.strain(time, unit) > LARGEST_STRAIN {
+        return Err(NoValue::Strain);
+    }
+    let mut row = Vec::new();
+    for other in [Unit::Second, Unit::Period, Unit::Strain] {
+        let value = motion
+            .convert(&exact, unit, other, Bits(128))
+            .map(|value| number(&value));
+        if value.is_some_and(|value| !value.is_finite()) {
+            return Err(NoValue::Time);
+        }
+        row.push(value);
+    }
+    match start {
+        Start::Rod(direction) => {
+            let rod = rod::at(motion, direction, &exact, unit).ok_or(NoValue::Unit)?;
+            row.extend(rod.p.iter().map(|x| Some(number(x))));
+            row.extend([rod.phi, Some(rod.theta), rod.c_b].map(|x| x.as_ref().map(number)));
+        }
+        Start::Isotropic {
+            aspect_ratio_sd_percent,
+            fourth,
+        } if aspect_ratio_sd_percent != 0.0 => {
+            let turns = row[1].filter(|_| !fourth).ok_or(NoValue::Unequal)?;
+            let sense = motion.couette().ok_or(NoValue::Unequal)?.signum();
+            let means = unequal::means(motion.aspect_ratio, aspect_ratio_sd_percent, sense * turns);
+            row.extend(means.ok_or(NoValue::Unequal)?.map(Some));
+        }
+        Start::Isotropic { fourth, .. } => {
+            let covariance = Covariance::at(motion, &exact, unit).ok_or(NoValue::Unit)?;
+            if fourth {
+                row.extend(covariance.fourth().iter().map(|x| Some(number(x))));
+            } else {
+                row.extend(covariance.projections().iter().map(|x| Some(number(x))));
+                row.extend(covariance.second().iter().map(|x| Some(number(x))));
+            }
+        }
+    }
+    Ok(row)
+}
+
+/// The nearest double, without a negative zero.
+fn number(x: &Big) -> f64 {
+    double(x) + 0.0
+}

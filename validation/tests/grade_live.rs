@@ -1,0 +1,319 @@
+//! `shearbed grade --command` with programs that behave, and with programs that do not: a verdict in bounded time, and
+//! nobody left behind. The programs are this test itself, started with `--program NAME`.
+
+use libtest_mimic::{Arguments, Failed, Trial};
+use nalgebra::{Matrix3, Vector3};
+use serde_json::{Value, json};
+use std::fs;
+use std::io::{BufRead, Write};
+use std::path::Path;
+use std::process::{Command, ExitCode, Stdio};
+use std::time::{Duration, Instant};
+
+fn main() -> ExitCode {
+    let words: Vec<_> = std::env::args().collect();
+    if let Some(at) = words.iter().position(|word| word == "--program") {
+        return program(&words[at + 1], words.get(at + 2).map(String::as_str));
+    }
+    let mut trials: Vec<_> = (CASES.iter())
+        .map(|case| Trial::test(format!("program_that_{}", case.program), || judge(case)))
+        .collect();
+    trials.push(Trial::test("program_that_cannot_be_started", cannot_be_started));
+    libtest_mimic::run(&Arguments::from_args(), trials).exit_code()
+}
+
+/// What a program does, and what is to be said of it.
+struct Case {
+    program: &'static str,
+    verdict: &'static str,
+    /// In the note on the first problem, or in the remarks.
+    words: &'static [&'static str],
+}
+
+const CASES: &[Case] = &[
+    Case {
+        program: "is_right",
+        verdict: "PASS",
+        words: &[],
+    },
+    Case {
+        program: "is_right_on_one_line_of_stderr_each",
+        verdict: "PASS",
+        words: &[],
+    },
+    Case {
+        program: "floods_stderr",
+        verdict: "PASS",
+        words: &[],
+    },
+    Case {
+        program: "stays",
+        verdict: "PASS",
+        words: &["did not end within 3 s of the end of its input"],
+    },
+    Case {
+        program: "says_more_at_the_end",
+        verdict: "PASS",
+        words: &["answers nothing: `bye`"],
+    },
+    Case {
+        program: "hangs",
+        verdict: "FAIL",
+        words: &["no answer within 1 s"],
+    },
+    Case {
+        program: "never_reads",
+        verdict: "FAIL",
+        words: &["no answer within 1 s"],
+    },
+    Case {
+        program: "hangs_with_a_child",
+        verdict: "FAIL",
+        words: &["no answer within 1 s"],
+    },
+    Case {
+        program: "ends",
+        verdict: "FAIL",
+        words: &["the program ended: exit status: 3", "last words", "out of ideas"],
+    },
+    Case {
+        program: "aborts",
+        verdict: "FAIL",
+        words: &["the program ended: signal"],
+    },
+    Case {
+        program: "closes_its_output",
+        verdict: "FAIL",
+        words: &["closed its standard output and went on"],
+    },
+    Case {
+        program: "prints_junk",
+        verdict: "FAIL",
+        words: &["line 3 of standard output: no JSON", "`step 1 of 10`"],
+    },
+    Case {
+        program: "answers_nan",
+        verdict: "FAIL",
+        words: &["not finite"],
+    },
+    Case {
+        program: "forgets_a_rod",
+        verdict: "FAIL",
+        words: &["rods where"],
+    },
+    Case {
+        program: "answers_out_of_order",
+        verdict: "FAIL",
+        words: &["line 3 of standard output: it answers id"],
+    },
+    Case {
+        program: "answers_twice",
+        verdict: "FAIL",
+        words: &["line 2 of standard output"],
+    },
+    Case {
+        program: "floods_stdout_with_lines",
+        verdict: "FAIL",
+        words: &["line 2 of standard output"],
+    },
+    Case {
+        program: "floods_stdout_without_lines",
+        verdict: "FAIL",
+        words: &["is longer than 1048576 bytes"],
+    },
+    Case {
+        program: "only_has_errors",
+        verdict: "FAIL",
+        words: &["the program says: not today"],
+    },
+    Case {
+        program: "transposes",
+        verdict: "FAIL",
+        words: &["the curve of a transposed gradient"],
+    },
+];
+
+fn shearbed(command: &str, out: &Path, timeout_s: &str) -> (Option<i32>, String, Duration) {
+    let begun = Instant::now();
+    let output = Command::new(env!("CARGO_BIN_EXE_shearbed"))
+        .args([
+            "grade",
+            "--brief",
+            "--timeout",
+            timeout_s,
+            "--problem",
+            "mid-flip-2",
+            "--command",
+            command,
+            "--out",
+        ])
+        .arg(out)
+        .output()
+        .unwrap();
+    let words = [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+    (output.status.code(), words.concat(), begun.elapsed())
+}
+
+fn judge(case: &Case) -> Result<(), Failed> {
+    let dir = tempfile::tempdir()?;
+    let pids = dir.path().join("pids");
+    let own = std::env::current_exe()?;
+    let command = format!(
+        "'{}' --program {} '{}'",
+        own.display(),
+        case.program,
+        pids.display()
+    );
+    // Those that answer have time to, on a busy machine too.
+    let hangs = case.words.iter().any(|words| words.contains("within 1 s"));
+    let (code, words, took) = shearbed(&command, dir.path(), if hangs { "1" } else { "60" });
+    let grade: Value = serde_json::from_str(&fs::read_to_string(dir.path().join("grade.json"))?)?;
+    let found = &grade["problems"][0];
+    let check = |holds: bool, what: &str| match holds {
+        true => Ok(()),
+        false => Err(Failed::from(format!("{what} after {took:?}: {grade:#}\n{words}"))),
+    };
+    check(found["name"] == "mid-flip-2", "the name")?;
+    check(found["verdict"] == case.verdict, "the verdict")?;
+    check(code == Some(i32::from(case.verdict != "PASS")), "the exit code")?;
+    let said = format!("{} {} {}", found["note"], found["diagnosis"], grade["remarks"]);
+    for words in case.words {
+        check(said.contains(words), words)?;
+    }
+    check(!words.contains("panicked"), "no panic")?;
+    // A second for an answer, seconds of grace, and a busy machine's own pace: it does not hang.
+    check(took < Duration::from_secs(120), "the time")?;
+    let pids = fs::read_to_string(pids)?;
+    check(!pids.is_empty(), "it ran")?;
+    for pid in pids.split_whitespace() {
+        check(gone(pid.parse()?), &format!("process {pid} is left"))?;
+    }
+    Ok(())
+}
+
+/// Whether no process with this number runs. A grandchild that was killed is the system's to reap, in its own time; a
+/// zombie of ours would be a child of shearbed, which has ended.
+fn gone(pid: i32) -> bool {
+    let id = rustix::process::Pid::from_raw(pid).unwrap();
+    let dead = || {
+        let stat = fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
+        rustix::process::test_kill_process(id).is_err() || stat.contains(") Z ")
+    };
+    (0..300).any(|_| {
+        std::thread::sleep(Duration::from_millis(10));
+        dead()
+    })
+}
+
+fn cannot_be_started() -> Result<(), Failed> {
+    let dir = tempfile::tempdir()?;
+    for (command, expected) in [
+        ("/no/such/program", "/no/such/program: cannot be started"),
+        ("", "the command is empty"),
+        ("a 'b", "a quote is not closed"),
+    ] {
+        let out = dir.path().join("out");
+        let (code, words, _) = shearbed(command, &out, "1");
+        if code != Some(2) || !words.contains(expected) || out.exists() {
+            return Err(format!("{command}: {code:?} {words}").into());
+        }
+    }
+    Ok(())
+}
+
+/// Acts as a program that is to be graded. From its third answer on it does what its name says.
+fn program(name: &str, pids: Option<&str>) -> ExitCode {
+    let note = |pid: u32| {
+        let file = fs::OpenOptions::new()
+            .create(true)
+            .append(true)
+            .open(pids.unwrap());
+        writeln!(file.unwrap(), "{pid}").unwrap();
+    };
+    note(std::process::id());
+    let forever = || -> ! {
+        loop {
+            std::thread::sleep(Duration::from_secs(1000));
+        }
+    };
+    if name == "never_reads" {
+        forever();
+    }
+    let mut out = std::io::stdout();
+    for (k, line) in std::io::stdin().lock().lines().enumerate() {
+        let request: Value = serde_json::from_str(&line.unwrap()).unwrap();
+        let answer = answer(name, &request);
+        match (name, k) {
+            ("is_right_on_one_line_of_stderr_each", _) => eprintln!("working"),
+            ("floods_stderr", 2) => (0..20_000).for_each(|_| eprintln!("{}", "x".repeat(1000))),
+            ("hangs", 2) => forever(),
+            ("hangs_with_a_child", 2) => {
+                let child = Command::new("sleep").arg("1000").stderr(Stdio::null()).spawn();
+                note(child.unwrap().id());
+                forever();
+            }
+            ("ends", 2) => {
+                eprintln!("out of ideas");
+                return ExitCode::from(3);
+            }
+            ("aborts", 2) => std::process::abort(),
+            ("prints_junk", 2) => writeln!(out, "step 1 of 10").unwrap(),
+            ("floods_stdout_with_lines", 1) => while writeln!(out, "flood").is_ok() {},
+            ("floods_stdout_without_lines", 2) => while write!(out, "flood").is_ok() {},
+            ("answers_twice", 0) => writeln!(out, "{answer}").unwrap(),
+            #[cfg(unix)]
+            ("closes_its_output", 2) => {
+                // Another program in its place, without the pipe.
+                use std::os::unix::process::CommandExt;
+                let error = Command::new("sleep").arg("1000").stdout(Stdio::null()).exec();
+                panic!("{error}");
+            }
+            _ => {}
+        }
+        if writeln!(out, "{answer}").and_then(|()| out.flush()).is_err() {
+            return ExitCode::FAILURE;
+        }
+    }
+    match name {
+        "stays" => forever(),
+        "says_more_at_the_end" => println!("bye"),
+        _ => {}
+    }
+    ExitCode::SUCCESS
+}
+
+fn answer(name: &str, request: &Value) -> Value {
+    let id = request["id"].as_u64().unwrap();
+    if name == "only_has_errors" {
+        return json!({"id": id, "error": "not today"});
+    }
+    let number = |value: &Value| value.as_f64().unwrap();
+    let mut l = Matrix3::from_fn(|i, j| number(&request["gradient_per_s"][i][j]));
+    if name == "transposes" {
+        l.transpose_mut();
+    }
+    let square = number(&request["aspect_ratio"]).powi(2);
+    let a = (square * l - l.transpose()) / (square + 1.0);
+    let steps = request["steps"].as_u64().unwrap();
+    let h = number(&request["end_s"]) / steps as f64;
+    let rate = |p: Vector3<f64>| a * p - p * p.dot(&(a * p));
+    let rk4 = |p: Vector3<f64>| {
+        let k1 = rate(p);
+        let k2 = rate(p + k1 * (0.5 * h));
+        let k3 = rate(p + k2 * (0.5 * h));
+        let k4 = rate(p + k3 * h);
+        p + (k1 + (k2 + k3) * 2.0 + k4) * (h / 6.0)
+    };
+    let rods = request["start"].as_array().unwrap();
+    let mut p: Vec<_> = (rods.iter())
+        .map(|p| (0..steps).fold(Vector3::from_fn(|i, _| number(&p[i])), |p, _| rk4(p)))
+        .map(|p| json!([p.x, p.y, p.z]))
+        .collect();
+    match name {
+        "answers_nan" if id > 2 => p[0][0] = Value::Null,
+        "forgets_a_rod" if id > 2 => drop(p.pop()),
+        "answers_out_of_order" if id == 3 => return json!({"id": 2, "p": p}),
+        _ => {}
+    }
+    json!({"id": id, "p": p})
+}
