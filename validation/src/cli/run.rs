@@ -2,10 +2,13 @@
 
 use super::record::Seconds;
 use super::{
-    Failure, MAX_THREADS, memory, on_threads, pictures, print, probe, progress, record, scene, tables, whole,
+    Failure, MAX_THREADS, agree, memory, on_threads, pictures, print, probe, progress, record, scene, tables,
+    whole,
 };
 use crate::output::{self, Output};
+use crate::text::line;
 use crate::{cluster, plot};
+use serde_json::json;
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shearbed::work::RunError;
 use shearbed::{Plan, Results};
@@ -48,7 +51,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         .out
         .clone()
         .unwrap_or_else(|| Path::new("out").join(&named.stem));
-    probe(&out)?;
+    agree("run", json!({ "scene": plan.scene().resolved() }))?;
+    probe(&out, tables::most_bytes(&plan))?;
     let mut seconds = Seconds {
         plan: start.elapsed().as_secs_f64(),
         ..Seconds::default()
@@ -81,7 +85,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let names: Vec<_> = files.iter().map(|(name, _)| name.as_str()).collect();
     print(&format!(
         "{}\nMeans ± standard errors, rods: {}, replicas: {}\n\n{}in {}: {}\n",
-        scene.title,
+        line(&scene.title),
         scene.particles.count,
         scene.ensemble.replicas,
         tables::summary(&results),

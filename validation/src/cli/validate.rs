@@ -1,10 +1,12 @@
 //! `shearbed validate`.
 
-use super::{Failure, MAX_THREADS, on_threads, print, probe, progress, sections, whole};
+use super::{Failure, MAX_THREADS, agree, on_threads, print, probe, progress, sections, whole};
 use crate::accept::Verdict;
 use crate::case::{Case, Control, Effort, Judged, Outcome};
 use crate::report::{self, Sections};
+use crate::text::command;
 use crate::{cases, cluster, experiment, output};
+use serde_json::json;
 use std::path::PathBuf;
 
 /// Arguments of `validate`.
@@ -46,7 +48,14 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
         // Bad points are bad input, not a case that failed.
         experiment::check(data).map_err(|error| Failure::Input(error.to_string()))?;
     }
-    probe(&args.out)?;
+    let names: Vec<_> = chosen.iter().map(|case| case.about.name).collect();
+    let data = (args.data.as_deref()).map(experiment::digest).transpose();
+    let data = data.map_err(|error| Failure::Input(error.to_string()))?;
+    agree(
+        "validate",
+        json!({ "cases": names, "full": args.full, "data": data }),
+    )?;
+    probe(&args.out, 0)?;
     let effort = cases::effort(args.full, args.data);
     let (outcomes, sections) = on_threads(args.threads, || {
         let outcomes = outcomes(&chosen, &effort, args.quiet)?;
@@ -59,17 +68,18 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let (Some(outcomes), Some(sections)) = (outcomes, sections) else {
         return Ok(());
     };
-    let report = report::build(outcomes, sections, &effort, command());
+    let report = report::build(outcomes, sections, &effort, command(std::env::args_os()));
     let curves = report.curves().map_err(Failure::Failed)?;
-    if !curves.is_empty() {
-        output::write_all(&args.out.join("curves"), &curves)?;
-    }
-    let files = [
+    let mut files: Vec<_> = (curves.into_iter())
+        .map(|(name, text)| (format!("curves/{name}"), text))
+        .collect();
+    let pages = [
         ("report.html", report.html().map_err(Failure::Failed)?),
         ("report.json", report.json()),
         ("report.md", report.markdown()),
     ];
-    output::write_all(&args.out, &files.map(|(name, text)| (name.to_owned(), text)))?;
+    files.extend(pages.map(|(name, text)| (name.to_owned(), text)));
+    output::write_all(&args.out, &files)?;
     if !args.quiet {
         let page = args.out.join("report.html");
         print(&format!("\n{}\nreport: {}\n", report.headline(), page.display()))?;
@@ -136,16 +146,6 @@ fn chosen(names: &[String]) -> Result<Vec<Case>, Failure> {
     }
     all.retain(|case| names.is_empty() || names.iter().any(|name| name == case.about.name));
     Ok(all)
-}
-
-/// The command as given, for the report.
-fn command() -> String {
-    let arguments = std::env::args_os().skip(1);
-    let words = arguments.map(|argument| argument.to_string_lossy().into_owned());
-    std::iter::once("shearbed".to_owned())
-        .chain(words)
-        .collect::<Vec<_>>()
-        .join(" ")
 }
 
 fn line(name: &str, verdict: Verdict, seconds: f64) -> String {

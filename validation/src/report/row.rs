@@ -2,6 +2,7 @@
 
 use crate::accept::{Rule, Verdict};
 use crate::case::{Control, Effort, Judged, Kind, Outcome};
+use crate::text;
 use serde::Serialize;
 
 /// What one rule said.
@@ -128,8 +129,7 @@ fn command(name: &str, effort: &Effort) -> String {
         command += " --full";
     }
     if let Some(data) = &effort.data {
-        // Quoted for the shell.
-        command += &format!(" --data '{}'", data.display().to_string().replace('\'', r"'\''"));
+        command += &format!(" --data {}", text::command([data]));
     }
     command
 }
