@@ -10,10 +10,8 @@ pub(super) fn available() -> Option<u64> {
     let machine = number_of(&read("/proc/meminfo"), "MemAvailable:")?;
     let (limits, status) = (read("/proc/self/limits"), read("/proc/self/status"));
     let groups = of_groups(Path::new("/sys/fs/cgroup"), &read("/proc/self/cgroup"));
-    [of_limits(&limits, &status), groups]
-        .into_iter()
-        .flatten()
-        .fold(Some(machine), |least, free| least.min(Some(free)))
+    let others = [of_limits(&limits, &status), groups].into_iter().flatten();
+    others.chain([machine]).min()
 }
 
 /// A line as `MemAvailable:  17 kB`, in bytes.
