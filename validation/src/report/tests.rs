@@ -278,7 +278,9 @@ fn hostile_texts_are_harmless_in_every_writing() {
         .filter(|line| !line.starts_with("Made "))
         .collect();
     for part in outside.split('`').step_by(2) {
-        assert!(!part.contains("<script") && !part.contains("[a]("), "{part}");
+        // An escaped bracket begins no link.
+        let links = part.replace("\\[", "").contains('[');
+        assert!(!part.contains("<script") && !links, "{part}");
     }
     for (_, csv) in report.curves().unwrap() {
         assert!(!control(&csv) && csv.contains("'=cmd|"), "{csv}");
