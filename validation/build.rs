@@ -1,12 +1,72 @@
-//! Keeps the compiler's version for the report.
+//! Keeps the compiler's version and the commit of the sources, as they are when the program is built.
 
+use std::path::Path;
 use std::process::Command;
 
+/// What the program is made of, from the workspace's root.
+const SOURCES: [&str; 8] = [
+    "Cargo.toml",
+    "Cargo.lock",
+    "src",
+    "docs/dependencies.md",
+    "validation/Cargo.toml",
+    "validation/build.rs",
+    "validation/src",
+    "validation/scenes",
+];
+
 fn main() {
-    println!("cargo::rerun-if-changed=build.rs");
-    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    if let Ok(output) = Command::new(rustc).arg("--version").output() {
-        let version = String::from_utf8_lossy(&output.stdout);
-        println!("cargo::rustc-env=RUSTC_VERSION={}", version.trim());
+    let here = std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default();
+    let root = Path::new(&here).join("..");
+    for source in SOURCES {
+        println!("cargo::rerun-if-changed={}", root.join(source).display());
     }
+    println!("cargo::rerun-if-env-changed=RUSTC");
+    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let rustc = printed(Command::new(rustc).arg("--version"));
+    println!("cargo::rustc-env=SHEARBED_RUSTC={}", known(rustc));
+    println!("cargo::rustc-env=SHEARBED_COMMIT={}", known(commit(&root)));
+}
+
+/// The commit of the sources, with `-dirty` where one of them is not as it is there; nothing outside a checkout of this
+/// project, as in a package or in somebody else's repository.
+fn commit(root: &Path) -> Option<String> {
+    let git = |arguments: &[&str]| {
+        let mut git = Command::new("git");
+        // A hook of git runs with these set.
+        for name in ["GIT_DIR", "GIT_WORK_TREE", "GIT_INDEX_FILE"] {
+            git.env_remove(name);
+        }
+        printed(git.arg("-C").arg(root).args(arguments))
+    };
+    let top = git(&["rev-parse", "--show-toplevel"])?;
+    if Path::new(&top).canonicalize().ok()? != root.canonicalize().ok()? {
+        return None;
+    }
+    git(&["ls-files", "--error-unmatch", "validation/build.rs"])?;
+    // Changes with every commit and checkout; where it is not kept, HEAD and what it points to do.
+    for name in ["logs/HEAD", "HEAD"] {
+        let path = root.join(git(&["rev-parse", "--git-path", name])?);
+        if path.exists() {
+            println!("cargo::rerun-if-changed={}", path.display());
+        }
+    }
+    let commit = git(&["rev-parse", "--short=12", "HEAD"])?;
+    let mut status = vec!["status", "--porcelain", "--untracked-files=all", "--"];
+    status.extend(SOURCES);
+    match git(&status)?.is_empty() {
+        true => Some(commit),
+        false => Some(format!("{commit}-dirty")),
+    }
+}
+
+/// What a command prints, if it is there and succeeds.
+fn printed(command: &mut Command) -> Option<String> {
+    let output = command.output().ok().filter(|output| output.status.success())?;
+    Some(String::from_utf8(output.stdout).ok()?.trim().to_owned())
+}
+
+fn known(text: Option<String>) -> String {
+    text.filter(|text| !text.is_empty())
+        .unwrap_or_else(|| "unknown".to_owned())
 }

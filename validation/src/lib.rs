@@ -2,12 +2,14 @@
 //! the report, and the program's commands.
 
 pub mod accept;
+pub mod build;
 pub mod case;
 pub mod cases;
 pub mod catalogue;
 pub mod cli;
 pub mod cluster;
 pub mod dependencies;
+mod difference;
 pub mod equations;
 pub mod experiment;
 pub mod figures;
@@ -27,6 +29,7 @@ pub mod stability;
 pub mod subject;
 pub mod suspensions;
 pub mod sweep;
+mod text;
 pub mod work_precision;
 #[cfg(test)]
 mod xml;

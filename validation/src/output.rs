@@ -1,11 +1,18 @@
-//! Writing files so that each appears whole or not at all.
+//! Writing files so that a set of them appears together or not at all, and that two processes do not mix theirs.
+
+mod claim;
+#[cfg(test)]
+mod tests;
+
+pub use claim::Claim;
+pub(crate) use claim::stop;
 
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use tempfile::{Builder, NamedTempFile};
+use std::time::Duration;
 
-/// A file's name and its contents.
+/// A file's name, which may begin with a folder's as `curves/fig5.csv`, and its contents.
 pub type Output = (String, String);
 
 /// Why nothing was written: the file or folder, and the reason.
@@ -30,48 +37,113 @@ fn at(path: &Path) -> impl FnOnce(io::Error) -> OutputError {
     |reason| OutputError { path, reason }
 }
 
-/// Whether files can be made in `dir`, or where it does not exist in the folder above it. Leaves nothing behind: for a
-/// command that works long before it writes.
-pub fn probe(dir: &Path) -> Result<(), OutputError> {
+/// How long a writer waits for another one: sets of files are written in far less.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// Whether `bytes` can be written in `dir`, or where it does not exist in the folder above it: they are written to a
+/// file without a name, of which nothing is left even by a kill. For a command that works long before it writes. A folder
+/// in which another process is at work is refused, and what a killed one left there is put right.
+pub fn probe(dir: &Path, bytes: u64) -> Result<(), OutputError> {
+    if dir.is_dir() {
+        Claim::new(dir, PATIENCE)?;
+    }
     let here = Path::new(".");
     let existing = dir.ancestors().find(|folder| folder.exists());
     let existing = existing
         .filter(|folder| !folder.as_os_str().is_empty())
         .unwrap_or(here);
-    temporary(existing).map(drop).map_err(at(dir))
+    let mut file = tempfile::tempfile_in(existing).map_err(at(dir))?;
+    // Noise, which no file system compresses.
+    let mut noise = 1_u32;
+    let block: Vec<u8> = std::iter::repeat_with(|| {
+        noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (noise >> 24) as u8
+    })
+    .take(1 << 16)
+    .collect();
+    let blocks = bytes.div_ceil(block.len() as u64);
+    (0..blocks)
+        .try_for_each(|_| file.write_all(&block))
+        .and_then(|()| file.sync_all())
+        .map_err(|error| {
+            let needed = format!("{error}; {:.1} MB are to be written there", 1e-6 * bytes as f64);
+            at(dir)(io::Error::new(error.kind(), needed))
+        })
 }
 
-/// Writes all files into `dir`, which is made where it does not exist. They are written under temporary names, flushed to
-/// disk, and renamed only when all of them are there; on any error nothing that was there has changed.
+/// Writes all files into `dir`, which is made where it does not exist. A new folder appears with all of them; in one
+/// that exists the files of two sets never stand side by side (see [`Claim::write_all`]). On any error before the last
+/// moment nothing that was there has changed.
 pub fn write_all(dir: &Path, files: &[Output]) -> Result<(), OutputError> {
-    let made = !dir.exists();
-    fs::create_dir_all(dir).map_err(at(dir))?;
-    let written = write_and_rename(dir, files);
-    if written.is_err() && made {
-        // Only where it is empty; the first error is the one to report.
-        let _ = fs::remove_dir(dir);
+    if !dir.exists() && appear(dir, files)? {
+        return Ok(());
+    }
+    Claim::new(dir, PATIENCE)?.write_all(files)
+}
+
+/// Writes a new folder beside its place, under a hidden name, and moves it there; false where somebody else made one in
+/// between. What a killed process left under the hidden name is replaced.
+fn appear(dir: &Path, files: &[Output]) -> Result<bool, OutputError> {
+    let Some(name) = dir.file_name() else {
+        return Ok(false);
+    };
+    let part = dir.with_file_name(format!(".{}.shearbed-part", name.to_string_lossy()));
+    let claim = Claim::new(&part, PATIENCE).map_err(|error| at(dir)(error.reason))?;
+    let _writing = claim::writing();
+    let moved = refill(&part, dir, files).and_then(|()| match fs::rename(&part, dir) {
+        Ok(()) => Ok(true),
+        Err(_) if dir.exists() => Ok(false),
+        Err(error) => Err(at(dir)(error)),
+    });
+    match moved {
+        Ok(true) => claim.moved_to(dir),
+        _ => drop(fs::remove_dir_all(&part)),
+    }
+    moved
+}
+
+/// Writes a new folder of files inside one that is claimed. It appears whole or not at all; what a killed process left
+/// of it is replaced.
+pub fn write_folder(dir: &Path, files: &[Output]) -> Result<(), OutputError> {
+    let name = dir.file_name().unwrap_or_default().to_string_lossy();
+    let part = dir.with_file_name(format!(".{name}.part"));
+    let _writing = claim::writing();
+    fs::create_dir_all(&part).map_err(at(dir))?;
+    let written = refill(&part, dir, files).and_then(|()| fs::rename(&part, dir).map_err(at(dir)));
+    if written.is_err() {
+        // The first error is the one to report.
+        let _ = fs::remove_dir_all(&part);
     }
     written
 }
 
-/// Writes a new folder of files, which appears whole or not at all. An interrupted call leaves a folder with `.part` in
-/// its hidden name, which the next call for the same folder replaces.
-pub fn write_folder(dir: &Path, files: &[Output]) -> Result<(), OutputError> {
-    let name = dir.file_name().unwrap_or_default().to_string_lossy();
-    let part = dir.with_file_name(format!(".{name}.part"));
-    let write = || {
-        if part.exists() {
-            fs::remove_dir_all(&part)?;
+/// Empties the folder `part` but for a lock and writes files there, to the disk. Errors name the folder `dir`, to which
+/// they belong.
+fn refill(part: &Path, dir: &Path, files: &[Output]) -> Result<(), OutputError> {
+    let empty = || {
+        for entry in fs::read_dir(part)? {
+            let path = entry?.path();
+            if path.is_dir() {
+                fs::remove_dir_all(&path)?;
+            } else if !path.ends_with(claim::LOCK) {
+                fs::remove_file(&path)?;
+            }
         }
-        fs::create_dir_all(&part)?;
-        for (name, contents) in files {
+        Ok(())
+    };
+    empty().map_err(at(dir))?;
+    for (name, contents) in files {
+        let write = || {
+            if let Some((folder, _)) = name.split_once('/') {
+                fs::create_dir_all(part.join(folder))?;
+            }
             let mut file = File::create_new(part.join(name))?;
             file.write_all(contents.as_bytes())?;
-            file.sync_all()?;
-        }
-        fs::rename(&part, dir)
-    };
-    write().map_err(at(dir))
+            file.sync_all()
+        };
+        write().map_err(at(&dir.join(name)))?;
+    }
+    Ok(())
 }
 
 /// Removes files of `dir` that are there.
@@ -85,107 +157,4 @@ pub fn remove(dir: &Path, names: &[String]) -> Result<(), OutputError> {
         }
     }
     Ok(())
-}
-
-fn write_and_rename(dir: &Path, files: &[Output]) -> Result<(), OutputError> {
-    let mut ready = Vec::new();
-    for (name, contents) in files {
-        let target = dir.join(name);
-        if target.is_dir() {
-            return Err(at(&target)(io::ErrorKind::IsADirectory.into()));
-        }
-        ready.push((written(dir, contents).map_err(at(&target))?, target));
-    }
-    for (file, target) in ready {
-        file.persist(&target).map_err(|error| at(&target)(error.error))?;
-    }
-    Ok(())
-}
-
-/// A temporary file with the contents, on the disk. It is removed when dropped.
-fn written(dir: &Path, contents: &str) -> io::Result<NamedTempFile> {
-    let file = temporary(dir)?;
-    // The file itself: errors of `NamedTempFile` would name the temporary path.
-    file.as_file().write_all(contents.as_bytes())?;
-    file.as_file().sync_all()?;
-    Ok(file)
-}
-
-fn temporary(dir: &Path) -> io::Result<NamedTempFile> {
-    // `File::create_new` gives the usual permissions, where a temporary file would be the owner's alone.
-    Builder::new()
-        .prefix(".shearbed-")
-        .make_in(dir, |path| File::create_new(path))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::collections::BTreeMap;
-
-    fn contents(dir: &Path) -> BTreeMap<String, Option<String>> {
-        fs::read_dir(dir)
-            .unwrap()
-            .map(|entry| entry.unwrap())
-            .map(|entry| {
-                (
-                    entry.file_name().into_string().unwrap(),
-                    fs::read_to_string(entry.path()).ok(),
-                )
-            })
-            .collect()
-    }
-
-    fn output(name: &str, text: &str) -> Output {
-        (name.to_owned(), text.to_owned())
-    }
-
-    #[test]
-    fn all_files_are_written_and_replaced() {
-        let dir = tempfile::tempdir().unwrap();
-        let inner = dir.path().join("a/b");
-        probe(&inner).unwrap();
-        assert!(!inner.exists());
-        for text in ["old", "new"] {
-            write_all(&inner, &[output("x", text), output("y", "")]).unwrap();
-        }
-        let expected = [("x", "new"), ("y", "")].map(|(name, text)| (name.to_owned(), Some(text.to_owned())));
-        assert_eq!(contents(&inner), BTreeMap::from(expected));
-    }
-
-    #[test]
-    fn a_target_that_is_a_folder_leaves_everything_as_it_was() {
-        let dir = tempfile::tempdir().unwrap();
-        fs::write(dir.path().join("x"), "old").unwrap();
-        fs::create_dir(dir.path().join("y")).unwrap();
-        let before = contents(dir.path());
-        let error = write_all(
-            dir.path(),
-            &[output("x", "new"), output("y", "new"), output("z", "new")],
-        )
-        .unwrap_err();
-        assert_eq!(error.path, dir.path().join("y"));
-        assert_eq!(contents(dir.path()), before);
-    }
-
-    #[test]
-    fn a_folder_made_for_files_that_fail_is_removed() {
-        let dir = tempfile::tempdir().unwrap();
-        let made = dir.path().join("made");
-        let error = write_all(&made, &[output("no/such/folder", ""), output("a\0b", "")]).unwrap_err();
-        assert_eq!(error.path, made.join("no/such/folder"));
-        assert!(!made.exists());
-    }
-
-    #[test]
-    fn a_folder_that_is_a_file_is_named() {
-        let dir = tempfile::tempdir().unwrap();
-        let file = dir.path().join("file");
-        fs::write(&file, "old").unwrap();
-        for dir in [file.clone(), file.join("below")] {
-            assert_eq!(probe(&dir).unwrap_err().path, dir);
-            assert_eq!(write_all(&dir, &[output("x", "")]).unwrap_err().path, dir);
-        }
-        assert_eq!(fs::read_to_string(&file).unwrap(), "old");
-    }
 }

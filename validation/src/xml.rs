@@ -1,7 +1,14 @@
 //! A small check that tests of pictures and reports share.
 
-/// Every tag is closed, in order, and no text has a bare `<`, `>` or `&`.
+/// Every tag is closed, in order, no text has a bare `<`, `>` or `&`, and every character is one that XML 1.0 allows.
 pub(crate) fn is_well_formed(xml: &str) -> bool {
+    let allowed = |c: char| !c.is_control() || matches!(c, '\t' | '\n' | '\r');
+    if !xml
+        .chars()
+        .all(|c| allowed(c) && !matches!(c, '\u{fffe}' | '\u{ffff}'))
+    {
+        return false;
+    }
     let mut open = Vec::new();
     for part in xml.split('<').skip(1) {
         let Some((tag, text)) = part.split_once('>') else {
@@ -34,6 +41,8 @@ fn broken_documents_are_seen() {
         "<a>x > y</a>",
         "</a>",
         "<a",
+        "<a>\u{1b}</a>",
+        "<a>\u{fffe}</a>",
     ] {
         assert!(!is_well_formed(broken), "{broken}");
     }

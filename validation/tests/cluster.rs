@@ -146,7 +146,7 @@ fn a_run_has_the_bytes_of_one_process() {
     ] {
         let dir = folder();
         let [mut alone, mut shared] = both(dir.path(), ranks, &format!("run {scene}"));
-        let without = ["seconds", "threads", "ranks"];
+        let without = ["seconds", "threads", "ranks", "command"];
         assert_eq!(
             record(&mut shared, "run.json", &without),
             record(&mut alone, "run.json", &without)

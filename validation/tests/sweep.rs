@@ -210,7 +210,20 @@ fn another_sweep_in_the_folder_is_refused_and_left_as_it_is() {
     fs::remove_dir_all(here.join("points/6")).unwrap();
     let point = here.join("points/1/projections.csv");
     let table = fs::read_to_string(&point).unwrap();
-    fs::write(&point, table.replacen("0.", "0.9", 1)).unwrap();
+    let other = table.replacen("0.", "0.9", 1);
+    fs::write(&point, &other).unwrap();
+    // As that build would have kept it.
+    let [sum, own] = [&table, &other].map(|text| {
+        let bytes = text.len();
+        format!(
+            "\"bytes\": {bytes},\n      \"crc32\": \"{:08x}\"",
+            crc32fast::hash(text.as_bytes())
+        )
+    });
+    let kept = here.join("points/1/point.json");
+    let text = fs::read_to_string(&kept).unwrap();
+    assert!(text.contains(&sum), "{text}");
+    fs::write(&kept, text.replace(&sum, &own)).unwrap();
     let message = refused(dir.path(), &first);
     assert!(
         message.contains("here/points/1: run again, this point has other numbers"),
@@ -253,14 +266,17 @@ fn bad_input_is_refused_before_anything_runs() {
             "output.observables=[\"projections\"],[\"mean_angle\"]",
             "all points have the same columns",
         ),
-        ("interaction.alpha=1,2 --over interaction.alpha=3", "given twice"),
+        (
+            "interaction.alpha=1,2 --over interaction.alpha=3",
+            "both set it; one of the two is allowed",
+        ),
         (
             "ensemble.seed=1,2 --seed 3",
-            "--seed 3: --over ensemble.seed says it too",
+            "--seed ensemble.seed and --over ensemble.seed: both set it",
         ),
         (
             "ensemble.replicas=1,2 --replicas 3",
-            "--replicas 3: --over ensemble.replicas says it too",
+            "--replicas ensemble.replicas and --over ensemble.replicas: both set it",
         ),
         (
             "interaction.alpha=0:1:1000 --over interaction.m=1:2:1000",

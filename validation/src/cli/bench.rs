@@ -1,9 +1,10 @@
 //! `shearbed bench`.
 
-use super::{Failure, on_threads, print};
+use super::{Failure, on_threads, print, probe};
 use crate::output::{self, Output};
 use crate::report::{ReportFigure, ReportTable};
 use crate::suspensions::{self, free, law_tables, starts, study};
+use crate::work_precision::export::Benches;
 use crate::work_precision::{self, ASPECT_RATIOS, Budget, export, figures, tables};
 use crate::{plot, speed, subject};
 use std::path::PathBuf;
@@ -42,7 +43,7 @@ impl Found {
 pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     check(&args.cases)?;
     let wanted = |name: &str| args.cases.is_empty() || args.cases.iter().any(|case| case == name);
-    output::probe(&args.out)?;
+    probe(&args.out, 0)?;
     let mut found = Found::default();
     rods(&wanted, &mut found)?;
     free_suspensions(&wanted, &mut found)?;
@@ -91,7 +92,7 @@ fn rods(wanted: &dyn Fn(&str) -> bool, found: &mut Found) -> Result<(), Failure>
         .map(|aspect_ratio| work_precision::run(aspect_ratio, &subjects, Budget::FULL))
         .collect();
     found.file("bench.csv", export::bench_csv(&benches))?;
-    found.file("bench.json", export::json(&benches))?;
+    found.file("bench.json", export::json(&Benches { benches: &benches }))?;
     found.tables.extend(tables::tables(&benches));
     found.figures.extend(figures::figures(&benches));
     Ok(())
@@ -107,7 +108,7 @@ fn free_suspensions(wanted: &dyn Fn(&str) -> bool, found: &mut Found) -> Result<
         return Ok(());
     }
     found.file("suspensions.csv", suspensions::export::free_csv(&benches))?;
-    found.file("suspensions.json", export::json(&benches))?;
+    found.file("suspensions.json", export::json(&Benches { benches: &benches }))?;
     found.tables.push(suspensions::tables::free(&benches));
     found
         .figures

@@ -1,6 +1,6 @@
 //! `shearbed converge`.
 
-use super::{Failure, MAX_THREADS, on_threads, print, probe, progress, scene, whole};
+use super::{Failure, MAX_THREADS, agree, memory, on_threads, print, probe, progress, scene, whole};
 use crate::cluster;
 use crate::output::{self, Output};
 use crate::report::ReportTable;
@@ -10,6 +10,7 @@ use crate::suspensions::{self, law_tables};
 use crate::work_precision::order::{self, Found};
 use crate::work_precision::{export, tables};
 use serde::Serialize;
+use serde_json::json;
 use shearbed::jeffery::strain_per_period;
 use shearbed::plan::Stage;
 use shearbed::scene::{MAX_REPLICAS, RESOLVED_STRAIN};
@@ -44,14 +45,18 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let plan = Plan::new(&named.scene).map_err(|error| Failure::Input(at(error.to_string())))?;
     let stem = format!("converge-{}", named.stem);
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(stem));
-    probe(&out)?;
+    agree(
+        "converge",
+        json!({ "scene": named.scene.resolved(), "replicas": args.replicas }),
+    )?;
+    probe(&out, 0)?;
     let replicas = args.replicas.map_or(Replicas::CONVERGE, Replicas::Each);
     let done = match plan.keeps(Stage::Contacts) {
         true => {
             let warnings = [plan.warnings(), vec![coarse(&named.scene)]].concat();
             scene::warn(&named.source, &warnings);
             on_threads(args.threads, || {
-                interacting(&named.scene, replicas, warnings, args.quiet)
+                interacting(&named.scene, replicas, warnings, args)
             })?
         }
         // Milliseconds: no work for many.
@@ -148,10 +153,11 @@ fn interacting(
     scene: &Scene,
     replicas: Replicas,
     warnings: Vec<String>,
-    quiet: bool,
+    args: &Args,
 ) -> Result<Option<Done>, Failure> {
     let jobs = law::jobs(scene, replicas);
-    let bar = progress(jobs.iter().map(|job| job.replicas).sum(), "replicas", quiet);
+    memory::check_jobs(&jobs, args.threads)?;
+    let bar = progress(jobs.iter().map(|job| job.replicas).sum(), "replicas", args.quiet);
     let found = cluster::share(jobs.len(), |k| jobs[k].run(&|| bar.inc(1)), |_, _| Ok(()));
     bar.finish_and_clear();
     let Some(found) = found.map_err(Failure::Failed)? else {

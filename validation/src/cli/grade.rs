@@ -187,7 +187,7 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Report, Failure> 
             mine.display()
         )));
     }
-    output::probe(&args.out)?;
+    output::probe(&args.out, 0)?;
     let problems = grade::grade(&wanted, mine, &options(args)).map_err(|errors| {
         let lines: Vec<_> = errors.iter().map(ToString::to_string).collect();
         Failure::Input(lines.join("\n"))
@@ -240,7 +240,7 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Repor
         .filter(|loaded| loaded.problem.kind == Kind::Rods)
         .collect();
     let wanted = chosen(args, rods)?;
-    output::probe(&args.out)?;
+    output::probe(&args.out, 0)?;
     let timeout = Duration::from_secs_f64(args.timeout);
     live::end_with_this_program().map_err(|error| Failure::Input(format!("signals: {error}")))?;
     let program = Program::start(command, timeout).map_err(Failure::Input)?;

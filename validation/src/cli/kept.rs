@@ -1,7 +1,7 @@
 //! What a folder of results holds from an earlier run, so that nothing is overwritten unasked.
 
 use super::Failure;
-use crate::sweep::difference;
+use crate::difference::difference;
 use serde_json::{Value, json};
 use shearbed::Plan;
 use std::fs;
@@ -37,12 +37,12 @@ pub(super) fn check(out: &Path, plan: &Plan) -> Result<(), Failure> {
     let same = json!({ "version": kept["version"], "scene": kept["scene"] });
     // As text: what was written and read again is compared with the same.
     let own = serde_json::from_str(&own.to_string()).unwrap_or(own);
-    match difference("", &same, &own) {
+    match difference(&same, &own) {
         None => Ok(()),
-        Some(what) => {
+        Some((key, was, is)) => {
             let ensemble = &kept["scene"]["ensemble"];
             let held = format!(
-                "another run is kept here: {}, {} replicas, seed {}, version {}; {what}",
+                "another run is kept here: {}, {} replicas, seed {}, version {}; {key} was {was} and is {is} now",
                 kept["scene"]["title"], ensemble["replicas"], ensemble["seed"], kept["version"]
             );
             Err(refused(&path, &held))

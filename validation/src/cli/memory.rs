@@ -1,14 +1,22 @@
 //! A scene that would not fit in memory says so before it starts.
 
-use super::Failure;
+mod available;
+
+use super::{Failure, tables, threads};
+use crate::suspensions::job::{Job, Look};
+use available::available;
 use shearbed::{Plan, memory};
-use std::fs::read_to_string;
+
+/// What the program takes beside its work, and what the allocator does not give back.
+const PROGRAM: u64 = 32 << 20;
+
+/// What a thread takes beside its replica: its stack.
+const THREAD: u64 = 2 << 20;
 
 /// Refuses a plan that needs more memory than there is, with `threads` replicas at a time. Where the system does not say
 /// what there is, nothing is refused.
 pub(super) fn check(plan: &Plan, threads: Option<u64>, source: &str) -> Result<(), Failure> {
-    let cores = || std::thread::available_parallelism().map_or(1, |cores| cores.get() as u64);
-    let threads = threads.unwrap_or_else(cores);
+    let threads = threads::count(threads)?;
     match available() {
         Some(free) => {
             fits(plan, threads, free).map_err(|message| Failure::Input(format!("{source}: {message}")))
@@ -17,15 +25,51 @@ pub(super) fn check(plan: &Plan, threads: Option<u64>, source: &str) -> Result<(
     }
 }
 
+/// Refuses jobs of which one needs more memory than there is, beside what all leave.
+pub(super) fn check_jobs(jobs: &[Job], threads: Option<u64>) -> Result<(), Failure> {
+    let threads = threads::count(threads)?;
+    let free = available().unwrap_or(u64::MAX);
+    let left: u64 = jobs.iter().map(left_by).sum();
+    for job in jobs {
+        let mut scene = job.scene.clone();
+        scene.ensemble.replicas = job.replicas;
+        let plan = Plan::new(&scene).map_err(|error| Failure::Input(error.to_string()))?;
+        let at_once = threads.min(job.replicas);
+        // Directions are copied to be looked at.
+        let copies = at_once * 24 * scene.particles.count as u64;
+        let needed = memory::bytes(&plan, at_once) + copies + threads * THREAD + PROGRAM + left;
+        if needed > free {
+            return Err(Failure::Input(format!(
+                "particles.count = {}: with {} rods, {at_once} replicas at a time need {} of memory, and {} are free; \
+                 allowed: fewer --threads, --replicas or particles",
+                jobs[0].scene.particles.count,
+                scene.particles.count,
+                size(needed),
+                size(free),
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// What a job leaves until all are done.
+fn left_by(job: &Job) -> u64 {
+    let looks = job.replicas * (job.marks.len() * size_of::<Look>()) as u64;
+    looks + job.followed.min(job.replicas) * 24 * job.scene.particles.count as u64
+}
+
+/// What a run of a plan holds, with its results and their tables and pictures at its end.
+fn needed(plan: &Plan, threads: u64) -> u64 {
+    memory::bytes(plan, threads) + threads * THREAD + PROGRAM + tables::most_memory(plan)
+}
+
 fn fits(plan: &Plan, threads: u64, free: u64) -> Result<(), String> {
-    let needed = memory::bytes(plan, threads);
-    if needed <= free {
+    let most = needed(plan, threads);
+    if most <= free {
         return Ok(());
     }
     let replicas = threads.min(plan.scene().ensemble.replicas);
-    let (least, size) = (memory::bytes(plan, 1), |bytes: u64| {
-        format!("{:.2} GB", 1e-9 * bytes as f64)
-    });
+    let least = needed(plan, 1);
     let allowed = match least <= free {
         true => format!("fewer --threads: {} with one", size(least)),
         false => format!("fewer: one replica needs {}", size(least)),
@@ -36,26 +80,13 @@ fn fits(plan: &Plan, threads: u64, free: u64) -> Result<(), String> {
         plan.scene().particles.count,
         plan.scene().ensemble.replicas,
         plan.outputs(),
-        size(needed),
+        size(most),
         size(free),
     ))
 }
 
-/// Bytes that can still be had: of the machine, and of the control group that the process is in.
-fn available() -> Option<u64> {
-    let machine = of_meminfo(&read_to_string("/proc/meminfo").ok()?)?;
-    let number = |file: &str| {
-        let text = read_to_string(format!("/sys/fs/cgroup/{file}")).ok()?;
-        text.trim().parse::<u64>().ok()
-    };
-    let group = number("memory.max").zip(number("memory.current"));
-    Some(group.map_or(machine, |(most, used)| machine.min(most.saturating_sub(used))))
-}
-
-fn of_meminfo(text: &str) -> Option<u64> {
-    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    Some(kilobytes * 1024)
+fn size(bytes: u64) -> String {
+    format!("{:.2} GB", 1e-9 * bytes as f64)
 }
 
 #[cfg(test)]
@@ -64,19 +95,12 @@ mod tests {
     use crate::cases::lab;
 
     #[test]
-    fn meminfo_is_read() {
-        let text = "MemTotal:       24 kB\nMemFree:        3 kB\nMemAvailable:   17 kB\n";
-        assert_eq!(of_meminfo(text), Some(17 * 1024));
-        assert_eq!(of_meminfo("MemTotal: 24 kB"), None);
-    }
-
-    #[test]
     fn what_does_not_fit_is_refused_with_its_number() {
         let mut scene = lab::interacting_scene(&crate::case::Effort::gate());
         scene.particles.count = 10_000_000;
         scene.ensemble.replicas = 3;
         let plan = lab::plan(&scene);
-        let one = memory::bytes(&plan, 1);
+        let one = needed(&plan, 1);
         assert!((1.0e9..1.2e9).contains(&(one as f64)), "{one}");
         assert_eq!(fits(&plan, 1, one), Ok(()));
         let refused = fits(&plan, 2, one).unwrap_err();

@@ -4,6 +4,7 @@ mod bench;
 mod choice;
 mod converge;
 mod grade;
+mod interrupt;
 mod kept;
 mod memory;
 mod pictures;
@@ -16,14 +17,18 @@ mod sections;
 mod show;
 mod sweep;
 mod tables;
+mod threads;
 mod validate;
 
-use crate::{cluster, output};
+use crate::text::readable;
+use crate::{cluster, output, text};
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde_json::{Value, json};
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
+use threads::{MAX_THREADS, on_threads};
 
 /// Rigid slender rods in a sheared viscous liquid, after Lee & Springer (1982).
 #[derive(Parser)]
@@ -79,11 +84,18 @@ impl Failure {
 
 /// Runs the command of the program's arguments.
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return told(&error),
+    };
     let joined = match cluster::Joined::new() {
         Ok(joined) => joined,
         Err(message) => return cluster::failed(&message, 2),
     };
+    if cluster::size() == 1 {
+        // Else the job's starter tells all ranks to end, and says why.
+        interrupt::watch();
+    }
     match joined.caught(|| command(cli.command)) {
         Ok(Ok(())) => joined.end(),
         Ok(Err(failure)) => {
@@ -94,14 +106,42 @@ pub fn main() -> ExitCode {
     }
 }
 
+/// Says what is wrong with the arguments, or how to use them.
+fn told(error: &clap::Error) -> ExitCode {
+    let (message, code) = (error.to_string(), error.exit_code());
+    let written = match error.use_stderr() {
+        true => io::stderr().write_all(readable(&text::shortened(&message)).as_bytes()),
+        false => io::stdout().write_all(message.as_bytes()),
+    };
+    // Where even this cannot be written, the exit code has to say it.
+    drop(written);
+    ExitCode::from(code as u8)
+}
+
+impl Command {
+    /// Whether ranks share its work; such a command tells them its input itself.
+    fn is_shared(&self) -> bool {
+        matches!(
+            self,
+            Self::Run(_) | Self::Validate(_) | Self::Sweep(_) | Self::Converge(_)
+        )
+    }
+}
+
 fn command(command: Command) -> Result<(), Failure> {
+    threads::check()?;
+    if !command.is_shared() {
+        let name = std::env::args().nth(1).unwrap_or_default();
+        agree(&name, json!({}))?;
+        if !cluster::is_root() {
+            return Ok(());
+        }
+    }
     match command {
         Command::Run(args) => run::run(&args),
         Command::Validate(args) => validate::validate(args),
         Command::Sweep(args) => sweep::sweep(&args),
         Command::Converge(args) => converge::converge(&args),
-        // The others are no work for many.
-        _ if !cluster::is_root() => Ok(()),
         Command::Plan(args) => show::plan(&args),
         Command::Scenes(args) => show::scenes(&args),
         Command::Bench(args) => bench::bench(&args),
@@ -117,7 +157,10 @@ fn print(text: &str) -> Result<(), Failure> {
         return Ok(());
     }
     let mut stdout = io::stdout().lock();
-    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+    match stdout
+        .write_all(readable(text).as_bytes())
+        .and_then(|()| stdout.flush())
+    {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Input(format!(
             "standard output: cannot be written: {error}"
         ))),
@@ -137,21 +180,19 @@ fn progress(steps: u64, what: &str, quiet: bool) -> ProgressBar {
         .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
-/// Whether the root can write files into `dir`: known before a long run.
-fn probe(dir: &Path) -> Result<(), Failure> {
+/// Whether the root can write files into `dir`, so many bytes of them and a little more: known before a long run.
+fn probe(dir: &Path, bytes: u64) -> Result<(), Failure> {
+    /// Pictures, records and what folders need.
+    const MORE: u64 = 1 << 20;
     match cluster::is_root() {
-        true => Ok(output::probe(dir)?),
+        true => Ok(output::probe(dir, bytes + MORE)?),
         false => Ok(()),
     }
 }
 
-/// Calls `work` on `threads` threads, or on one for each core.
-fn on_threads<T: Send>(threads: Option<u64>, work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
-    // 0 stands for one thread a core.
-    let count = threads.unwrap_or(0) as usize;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
-    let pool = pool.map_err(|error| Failure::Input(format!("--threads {count}: {error}")))?;
-    Ok(pool.install(work))
+/// Refuses ranks with other inputs than the root's, before anything runs.
+fn agree(command: &str, input: Value) -> Result<(), Failure> {
+    cluster::agree(command, input).map_err(Failure::Input)
 }
 
 /// A parser of whole numbers whose error says what is allowed.
@@ -161,9 +202,6 @@ fn whole(least: u64, most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone 
         _ => Err(format!("a whole number from {least} to {most} is allowed")),
     }
 }
-
-/// The most threads that can be asked for.
-const MAX_THREADS: u64 = 1024;
 
 impl From<crate::output::OutputError> for Failure {
     fn from(error: crate::output::OutputError) -> Self {

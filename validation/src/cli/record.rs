@@ -1,5 +1,7 @@
 //! `run.json`: what ran, so that it can be run again.
 
+use crate::build::{BUILD, Build};
+use crate::text::command;
 use serde::Serialize;
 use shearbed::plan::Entry;
 use shearbed::work::Counters;
@@ -18,8 +20,10 @@ pub(super) struct Seconds {
 
 #[derive(Serialize)]
 struct Record<'a> {
-    program: &'static str,
-    version: &'static str,
+    #[serde(flatten)]
+    build: Build,
+    /// The command line, for a shell.
+    command: String,
     /// With every default written out.
     scene: Scene,
     seed: u64,
@@ -45,8 +49,8 @@ pub(super) fn json(
     files: Vec<&str>,
 ) -> Result<String, String> {
     let record = Record {
-        program: "shearbed",
-        version: env!("CARGO_PKG_VERSION"),
+        build: BUILD,
+        command: command(std::env::args_os()),
         scene: plan.scene().resolved(),
         seed: plan.scene().ensemble.seed,
         plan: plan.entries(),

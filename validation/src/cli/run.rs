@@ -2,12 +2,14 @@
 
 use super::record::Seconds;
 use super::{
-    Failure, MAX_THREADS, kept, memory, on_threads, pictures, print, probe, progress, record, scene, tables,
-    whole,
+    Failure, MAX_THREADS, agree, kept, memory, on_threads, pictures, print, probe, progress, record, scene,
+    tables, whole,
 };
 use crate::output::{self, Output};
 use crate::sweep::Setting;
+use crate::text::line;
 use crate::{cluster, plot};
+use serde_json::json;
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shearbed::work::RunError;
 use shearbed::{Plan, Results};
@@ -66,7 +68,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         .out
         .clone()
         .unwrap_or_else(|| Path::new("out").join(&named.stem));
-    probe(&out)?;
+    agree("run", json!({ "scene": plan.scene().resolved() }))?;
+    probe(&out, tables::most_bytes(&plan))?;
     if !args.force && cluster::is_root() {
         kept::check(&out, &plan)?;
     }
@@ -105,7 +108,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     print(&format!(
         "{}\nMeans ± standard errors, rods: {}, replicas: {}\n\n{}in {}: {}\n",
-        scene.title,
+        line(&scene.title),
         scene.particles.count,
         scene.ensemble.replicas,
         tables::summary(&results),

@@ -1,9 +1,10 @@
 //! `shearbed sweep`.
 
-use super::{Failure, MAX_THREADS, memory, on_threads, print, probe, progress, scene, tables, whole};
+use super::{Failure, MAX_THREADS, agree, memory, on_threads, print, probe, progress, scene, tables, whole};
 use crate::cluster;
 use crate::output::Output;
-use crate::sweep::{self, Axis, Folder, Identity, Point, Refused};
+use crate::sweep::{self, Axis, Folder, Identity, Point, Points, Refused};
+use crate::text;
 use shearbed::ensemble;
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use std::ffi::OsString;
@@ -47,24 +48,27 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let ensemble = &mut named.scene.ensemble;
     let fixed = [
         (
-            "replicas",
+            "--replicas",
             "ensemble.replicas",
             args.replicas,
             &mut ensemble.replicas,
         ),
-        ("seed", "ensemble.seed", args.seed, &mut ensemble.seed),
+        ("--seed", "ensemble.seed", args.seed, &mut ensemble.seed),
     ];
     let mut settings = Vec::new();
+    let mut owners: Vec<_> = args
+        .over
+        .iter()
+        .map(|axis| ("--over", axis.key.as_str()))
+        .collect();
     for (flag, key, given, own) in fixed {
         if let Some(value) = given {
-            if args.over.iter().any(|axis| axis.key == key) {
-                let both = format!("--{flag} {value}: --over {key} says it too; one of the two is allowed");
-                return Err(Failure::Input(both));
-            }
+            owners.push((flag, key));
             settings.push((key, Value::Integer(value as i64)));
             *own = value;
         }
     }
+    sweep::one_owner(&owners).map_err(Failure::Input)?;
     check(&args.over)?;
     let points = sweep::points(&named.text, &settings, &args.over)
         .map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
@@ -77,17 +81,28 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
         memory::check(&point.plan, args.threads, &at)?;
     }
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("sweep-{}", named.stem)));
+    let total = points.len();
     let warned = warnings(&points, &args.over);
     let identity = Identity::new(&named.scene, &args.over, &warned);
+    agree("sweep", identity.value().clone())?;
 
     // Only the root may see the folder.
+    let mut folder = None;
     let open = || {
-        probe(&out)?;
-        let folder = Folder::open(&out, &identity, points.len())?;
-        Ok::<_, Failure>(jobs(&folder.finished(), points.len()))
+        let bytes = (points.iter()).map(|point| tables::most_bytes(&point.plan)).sum();
+        probe(&out, bytes)?;
+        let points = Points {
+            described: (points.iter())
+                .map(|point| sweep::described(&args.over, &point.values))
+                .collect(),
+            tables: (points[0].plan.observables().iter())
+                .map(|observable| format!("{}.csv", observable.name()))
+                .collect(),
+        };
+        let opened = folder.insert(Folder::open(&out, &identity, points)?);
+        Ok::<_, Failure>(self::jobs(&opened.finished(), total))
     };
     let (checked, jobs): (Option<usize>, Vec<usize>) = cluster::from_root(open)?;
-    let folder = Folder::at(&out, points.len());
     scene::warn(&named.source, warned.iter().take(MOST_WARNINGS));
     let more = warned.len().saturating_sub(MOST_WARNINGS);
     scene::warn(
@@ -107,8 +122,12 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let arrived = |job: usize, tables: &Vec<Output>| {
         bar.inc(1);
         let k = jobs[job];
+        // Results arrive on the root alone.
+        let Some(folder) = &folder else {
+            return Ok(());
+        };
         match checked {
-            Some(finished) if finished == k => match folder.holds(k, tables) {
+            Some(finished) if finished == k => match folder.kept(k)? == *tables {
                 true => Ok(()),
                 false => Err(other_numbers(&folder.point(k))),
             },
@@ -117,21 +136,18 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     };
     let shared = on_threads(args.threads, || cluster::share(jobs.len(), job, arrived))??;
     bar.finish_and_clear();
-    if shared.is_none() {
+    let (Some(folder), true) = (&folder, shared.is_some()) else {
         return Ok(());
-    }
-    let names: Vec<_> = (points[0].plan.observables().iter())
-        .map(|observable| format!("{}.csv", observable.name()))
-        .collect();
+    };
     let values: Vec<_> = points.iter().map(|point| point.values.clone()).collect();
-    let rows = folder.gather(&args.over, &values, &names)?;
+    let rows = folder.gather(&args.over, &values)?;
     if args.quiet {
         return Ok(());
     }
     let new = jobs.len() - usize::from(checked.is_some());
     print(&format!(
         "{}\npoints: {}, of which {} were finished before\n\n{}\nin {}: sweep.csv, sweep.json, points\n",
-        named.scene.title,
+        text::line(&named.scene.title),
         points.len(),
         points.len() - new,
         table(&rows, args.over.len()),
@@ -154,22 +170,15 @@ fn warnings(points: &[Point], over: &[Axis]) -> Vec<String> {
     points.iter().flat_map(of_point).collect()
 }
 
-/// Refuses a key given twice, and one that changes what is observed.
+/// Refuses a key that changes what is observed.
 fn check(axes: &[Axis]) -> Result<(), Failure> {
-    for (k, axis) in axes.iter().enumerate() {
-        let key = &axis.key;
-        if axes[..k].iter().any(|other| other.key == *key) {
-            return Err(Failure::Input(format!(
-                "--over {key}: given twice; each key once is allowed"
-            )));
-        }
-        if key.starts_with("output") {
-            return Err(Failure::Input(format!(
-                "--over {key}: all points have the same columns; keys of other tables are allowed"
-            )));
-        }
+    match axes.iter().find(|axis| axis.key.starts_with("output")) {
+        Some(axis) => Err(Failure::Input(format!(
+            "--over {}: all points have the same columns; keys of other tables are allowed",
+            axis.key
+        ))),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 /// The points to run: those that are missing; where others are finished, the first of these comes before them, to be

@@ -1,7 +1,7 @@
 //! Results as tables: CSV for files, a short one for the terminal.
 
 use shearbed::ensemble::{Channel, Series};
-use shearbed::{Observable, Results};
+use shearbed::{Observable, Plan, Results};
 
 /// An observable's file: the time, also in s and as strain, then each channel with its standard error. Every number is
 /// the shortest text that reads back as the same bits.
@@ -35,6 +35,41 @@ pub(super) fn times(results: &Results) -> Vec<(&'static str, f64)> {
     ];
     let columns = if results.time_name == "strain" { 2 } else { 3 };
     all[..columns].to_vec()
+}
+
+/// The most bytes of the tables and of the pictures of a plan's results, each observable's.
+fn most_of_each(plan: &Plan) -> impl Iterator<Item = (u64, u64)> {
+    // A number is at most 24 letters long with its comma, as -2.2250738585072014e-308; a picture has a curve and the two
+    // sides of its band, each point of two numbers of seven digits.
+    const NUMBER: u64 = 24;
+    const POINT: u64 = 3 * 16;
+    let rows = plan.outputs() as u64 + 1;
+    plan.observables().into_iter().map(move |observable| {
+        // Of a density only the ends are drawn.
+        let drawn = if observable == Observable::OrbitConstant {
+            1
+        } else {
+            observable.width()
+        };
+        let table = rows * NUMBER * (3 + 2 * observable.width() as u64);
+        (table, rows * POINT * drawn as u64)
+    })
+}
+
+/// The most bytes that the tables and pictures of a plan's results take.
+pub(super) fn most_bytes(plan: &Plan) -> u64 {
+    most_of_each(plan).map(|(table, picture)| table + picture).sum()
+}
+
+/// The most memory that the results of a plan, their tables and their pictures take.
+pub(super) fn most_memory(plan: &Plan) -> u64 {
+    // Means and standard errors.
+    let channels: usize = plan.observables().iter().map(|o| o.width()).sum();
+    let results = plan.outputs() as u64 * 16 * channels as u64;
+    // A text that grows has twice its room; a point that is drawn is held as numbers, placed and in a path, about eight
+    // times the length of its text.
+    let (table, picture) = most_of_each(plan).fold((0, 0), |(a, b), (c, d)| (a.max(c), b.max(d)));
+    results + most_bytes(plan) + table.max(8 * picture)
 }
 
 /// The most lines of a table for the terminal.

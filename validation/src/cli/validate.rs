@@ -1,10 +1,12 @@
 //! `shearbed validate`.
 
-use super::{Failure, MAX_THREADS, choice, on_threads, print, probe, progress, sections, whole};
+use super::{Failure, MAX_THREADS, agree, choice, on_threads, print, probe, progress, sections, whole};
 use crate::accept::Verdict;
 use crate::case::{Case, Control, Effort, GATE_SEED, Judged, Outcome};
 use crate::report::{self, Row, Sections};
+use crate::text::command;
 use crate::{cluster, experiment, output};
+use serde_json::json;
 use shearbed::scene::MAX_SEED;
 use std::io::Write;
 use std::path::PathBuf;
@@ -60,7 +62,14 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
         // Bad points are bad input, not a case that failed.
         experiment::check(data).map_err(|error| Failure::Input(error.to_string()))?;
     }
-    probe(&args.out)?;
+    let names: Vec<_> = chosen.iter().map(|case| case.about.name).collect();
+    let data = (args.data.as_deref()).map(experiment::digest).transpose();
+    let data = data.map_err(|error| Failure::Input(error.to_string()))?;
+    agree(
+        "validate",
+        json!({ "cases": names, "full": args.full, "seed": args.seed, "data": data }),
+    )?;
+    probe(&args.out, 0)?;
     let effort = Effort {
         full: args.full,
         seed: args.seed,
@@ -77,17 +86,18 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let (Some(outcomes), Some(sections)) = (outcomes, sections) else {
         return Ok(());
     };
-    let report = report::build(outcomes, sections, &effort, command());
+    let report = report::build(outcomes, sections, &effort, command(std::env::args_os()));
     let curves = report.curves().map_err(Failure::Failed)?;
-    if !curves.is_empty() {
-        output::write_all(&args.out.join("curves"), &curves)?;
-    }
-    let files = [
+    let mut files: Vec<_> = (curves.into_iter())
+        .map(|(name, text)| (format!("curves/{name}"), text))
+        .collect();
+    let pages = [
         ("report.html", report.html().map_err(Failure::Failed)?),
         ("report.json", report.json()),
         ("report.md", report.markdown()),
     ];
-    output::write_all(&args.out, &files.map(|(name, text)| (name.to_owned(), text)))?;
+    files.extend(pages.map(|(name, text)| (name.to_owned(), text)));
+    output::write_all(&args.out, &files)?;
     let red: String = report.cases.iter().map(reasons).collect();
     if !red.is_empty() && cluster::is_root() {
         // Also where nothing else is printed: what is red is an error. Where even this cannot be written, the exit code
@@ -144,16 +154,6 @@ fn outcomes(chosen: &[Case], effort: &Effort, quiet: bool) -> Result<Option<Vec<
 
 /// An outcome without what the case says of itself.
 type Found = (Verdict, Vec<Judged>, Vec<Control>, f64);
-
-/// The command as given, for the report.
-fn command() -> String {
-    let arguments = std::env::args_os().skip(1);
-    let words = arguments.map(|argument| argument.to_string_lossy().into_owned());
-    std::iter::once("shearbed".to_owned())
-        .chain(words)
-        .collect::<Vec<_>>()
-        .join(" ")
-}
 
 fn line(name: &str, verdict: Verdict, seconds: f64) -> String {
     let verdict = match verdict {

@@ -4,11 +4,12 @@
 mod tests;
 
 use super::bias::{Bias, bias};
+use super::covariance::{Covariance, Solver};
 use super::model::{self, Model, Place};
 use super::provenance::INPUTS;
 use super::{Curve, Measured, OBSERVABLES};
 use crate::scenes;
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use nalgebra::{DMatrix, DVector, RowDVector};
 use serde::Serialize;
 use shearbed::Scene;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -76,7 +77,7 @@ pub type Mend = fn(&mut Scene);
 /// Compares the points of curves of one scene with replicas of that scene, changed by `mend`.
 pub fn compare(scene: &str, curves: &[Curve], mend: Mend, replicas: u64) -> Result<Comparison, String> {
     let assessed = Assessed::new(scene, curves, mend, replicas)?;
-    let (chi_square, p) = goodness_of_fit(&assessed.error, assessed.inverse.as_ref());
+    let (chi_square, p) = goodness_of_fit(&assessed.error, assessed.solver.as_ref());
     let points = assessed.points;
     let n = points.len() as f64;
     let mean = |value: &dyn Fn(&Point) -> f64| points.iter().map(value).sum::<f64>() / n;
@@ -98,8 +99,8 @@ pub fn compare(scene: &str, curves: &[Curve], mend: Mend, replicas: u64) -> Resu
 
 /// χ² = Eᵀ V⁻¹ E, and the probability of a larger one. The full covariance: points share the model's replicas and, where
 /// the same rods were measured, those too. NaN where there is no V⁻¹.
-fn goodness_of_fit(error: &DVector<f64>, inverse: Option<&Cholesky<f64, Dyn>>) -> (f64, f64) {
-    let chi_square = inverse.map_or(f64::NAN, |v| error.dot(&v.solve(error)));
+fn goodness_of_fit(error: &DVector<f64>, solver: Option<&Solver>) -> (f64, f64) {
+    let chi_square = solver.map_or(f64::NAN, |v| v.chi_square(error));
     let law = ChiSquared::new(error.len() as f64);
     (chi_square, law.map_or(f64::NAN, |law| law.sf(chi_square)))
 }
@@ -127,7 +128,7 @@ pub fn alpha(curves: &[Curve], mend: Mend, replicas: u64) -> Result<AlphaFit, St
             0.2,
             replicas,
         )?;
-        let weighted = assessed.inverse.as_ref().map(|v| v.solve(&slope));
+        let weighted = assessed.solver.as_ref().map(|v| v.solve(&slope));
         let weighted = weighted.ok_or("the covariance of the points is not positive")?;
         // D = S + slope·Δα, so that E = S − D is −slope·Δα.
         score -= weighted.dot(&assessed.error);
@@ -150,7 +151,7 @@ struct Assessed {
     scene: Scene,
     points: Vec<Point>,
     error: DVector<f64>,
-    inverse: Option<Cholesky<f64, Dyn>>,
+    solver: Option<Solver>,
 }
 
 impl Assessed {
@@ -162,23 +163,32 @@ impl Assessed {
         let mut assessed = Self {
             error: DVector::zeros(places.len()),
             points: Vec::new(),
-            inverse: None,
+            solver: None,
             scene,
         };
         // What points share is a covariance: a step or a wrong input moves them together.
         let step = assessed.step_error(&model, &places, replicas)?;
         let inputs = assessed.input_errors(curves, replicas)?;
-        let sampling = sampling(&model, curves, assessed.scene.particles.count);
-        let mut covariance = &model.covariance / replicas as f64 + &sampling + &step * step.transpose();
-        for input in &inputs {
-            covariance += input * input.transpose();
+        let rods = rods(&model.spread, curves, assessed.scene.particles.count);
+        let sampling: Vec<f64> = rods.column_iter().map(|column| column.norm_squared()).collect();
+        let replicas_of_model = &model.spread / (replicas as f64).sqrt();
+        let mut causes: Vec<RowDVector<f64>> = Vec::new();
+        for rows in [&replicas_of_model, &rods] {
+            causes.extend(rows.row_iter().map(|row| row.into_owned()));
         }
+        causes.push(step.transpose());
+        causes.extend(inputs.iter().map(|input| input.transpose()));
+        let mut covariance = Covariance {
+            own: DVector::zeros(places.len()),
+            shared: DMatrix::from_rows(&causes),
+        };
         for (k, measured) in measured(curves).enumerate() {
             let reading = measured.u_y.powi(2) + model.time_variance[k];
             let interpolation = model.interpolation[k].powi(2);
-            covariance[(k, k)] += reading + interpolation;
+            covariance.own[k] = reading + interpolation;
             let (s, d) = (model.value[k], measured.y);
-            let numerical = model.covariance[(k, k)] / replicas as f64 + step[k].powi(2) + interpolation;
+            let of_replicas = replicas_of_model.column(k).norm_squared();
+            let numerical = of_replicas + step[k].powi(2) + interpolation;
             let input: f64 = inputs.iter().map(|input| input[k].powi(2)).sum();
             assessed.error[k] = s - d;
             assessed.points.push(Point {
@@ -187,13 +197,16 @@ impl Assessed {
                 measured: d,
                 simulated: s,
                 error: s - d,
-                u_d: (reading + sampling[(k, k)]).sqrt(),
+                u_d: (reading + sampling[k]).sqrt(),
                 u_num: numerical.sqrt(),
                 u_input: input.sqrt(),
-                u_val: covariance[(k, k)].sqrt(),
+                u_val: f64::NAN,
             });
         }
-        assessed.inverse = covariance.cholesky();
+        for (point, variance) in assessed.points.iter_mut().zip(covariance.variances().iter()) {
+            point.u_val = variance.sqrt();
+        }
+        assessed.solver = covariance.solver();
         Ok(assessed)
     }
 
@@ -272,16 +285,19 @@ fn places(curves: &[Curve], scene: &Scene) -> Result<Vec<Place>, String> {
     Ok(places)
 }
 
-/// The covariance of a mean over the experiment's rods, where their number is known: that of a mean over the scene's rods,
+/// The spread of a mean over the experiment's rods, where their number is known: that of a mean over the scene's rods,
 /// scaled. Curves of a scene are of the same rods.
-fn sampling(model: &Model, curves: &[Curve], count: usize) -> DMatrix<f64> {
-    let per_point = curves.iter().flat_map(|curve| {
+fn rods(spread: &DMatrix<f64>, curves: &[Curve], count: usize) -> DMatrix<f64> {
+    let factors = curves.iter().flat_map(|curve| {
         let factor = curve
             .provenance
             .rods
             .map_or(0.0, |rods| (count as f64 / rods).sqrt());
         curve.points.iter().map(move |_| factor)
     });
-    let factors = DVector::from_iterator(model.value.len(), per_point);
-    model.covariance.component_mul(&(&factors * factors.transpose()))
+    let mut scaled = spread.clone();
+    for (mut column, factor) in scaled.column_iter_mut().zip(factors) {
+        column *= factor;
+    }
+    scaled
 }

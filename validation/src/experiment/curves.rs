@@ -5,7 +5,15 @@ use super::provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance};
 use super::table::{self, Dataset, Row};
 use super::{Curve, Measured, Source, provenance_file};
 use crate::scenes;
+use std::collections::HashMap;
 use std::path::Path;
+
+/// The largest standard uncertainty of a time, in periods. Projections have the period T/2, so that ± a quarter of T is one
+/// whole oscillation: a point of a more uncertain time says nothing of the model, but makes it run for long.
+const MOST_UNCERTAIN: f64 = 0.25;
+
+const TIME_UNCERTAINTY: &str =
+    "one standard deviation of at most a quarter of a period, a whole oscillation from end to end";
 
 /// Reads the provenance file `path` and the CSV file of the same name beside it.
 pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<Curve>, DataError> {
@@ -28,6 +36,22 @@ pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<Curve>, DataError
             table::columns(&file, &text, provenance.x.quantity.column(), &ys)?
         }
     };
+    let axis = &provenance.x;
+    let period = |key: &Key| {
+        let scene = scenes::find(key.scene).and_then(|built_in| built_in.scene().ok());
+        scene.map_or(f64::NAN, |scene| {
+            axis.quantity.per_period(scene.particles.aspect_ratio)
+        })
+    };
+    let shortest = provenance.curves.iter().map(period).fold(f64::INFINITY, f64::min);
+    if axis.standard_uncertainty > MOST_UNCERTAIN * shortest {
+        let message = format!(
+            "x.standard_uncertainty = {} is not allowed: {TIME_UNCERTAINTY}, here {}",
+            axis.standard_uncertainty,
+            MOST_UNCERTAIN * shortest
+        );
+        return Err(DataError::whole(path, message));
+    }
     let named = |dataset: &Dataset| format!("`{}`", dataset.name);
     let names = datasets.iter().map(named).collect::<Vec<_>>().join(", ");
     if datasets.len() != provenance.curves.len() {
@@ -81,14 +105,16 @@ fn convert(
         let message = format!("`{}` has no points", dataset.name);
         return Err(DataError::at(file, 1, message));
     }
-    for (k, row) in dataset.rows.iter().enumerate() {
+    let mut seen = HashMap::new();
+    for row in &dataset.rows {
         on_axis(file, row.line, "x", row.x, &provenance.x, row.u_x)?;
         on_axis(file, row.line, "y", row.y, &provenance.y, row.u_y)?;
-        let same = |other: &&Row| (other.x, other.y) == (row.x, row.y);
-        if let Some(first) = dataset.rows[..k].iter().find(same) {
+        // 0 and −0 are one number.
+        let place = [row.x + 0.0, row.y + 0.0].map(f64::to_bits);
+        if let Some(first) = seen.insert(place, row.line) {
             let message = format!(
-                "the point ({}, {}) is in line {} already: each point once is allowed",
-                row.x, row.y, first.line
+                "the point ({}, {}) is in line {first} already: each point once is allowed",
+                row.x, row.y
             );
             return Err(DataError::at(file, row.line, message));
         }
@@ -98,6 +124,13 @@ fn convert(
     // Every source's scenes exist and are valid: a test says so.
     let (aspect_ratio, length_mm) = particles.map_or((f64::NAN, f64::NAN), |p| (p.aspect_ratio, p.length_mm));
     let period = provenance.x.quantity.per_period(aspect_ratio);
+    let most = MOST_UNCERTAIN * period;
+    let vague = |row: &&Row| row.u_x.is_some_and(|u| u > most);
+    if let Some(row) = dataset.rows.iter().find(vague) {
+        let (name, u) = (provenance.x.quantity.column(), row.u_x.unwrap_or_default());
+        let message = format!("column {name}_u: `{u}` is not allowed: {TIME_UNCERTAINTY}, here {most}");
+        return Err(DataError::at(file, row.line, message));
+    }
     let length = match provenance.y.quantity {
         Projection::Fraction => 1.0,
         Projection::Millimetres => length_mm,

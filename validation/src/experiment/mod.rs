@@ -5,6 +5,7 @@
 
 mod bias;
 mod compare;
+mod covariance;
 mod curves;
 mod error;
 mod keys;
@@ -20,6 +21,7 @@ pub use compare::{AlphaFit, Comparison, Point, alpha, compare};
 pub use error::DataError;
 pub use provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance, Time};
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// A paper with measured points.
@@ -145,6 +147,24 @@ pub fn check(data: &Path) -> Result<(), DataError> {
         }
         None => Ok(()),
     }
+}
+
+/// The checksum of every file that is read under `data`, by its path from there.
+pub fn digest(data: &Path) -> Result<BTreeMap<String, u32>, DataError> {
+    let mut sums = BTreeMap::new();
+    for source in &SOURCES {
+        let folder = data.join(source.folder);
+        if !folder.exists() {
+            continue;
+        }
+        for path in files(&folder)?.iter().filter(|path| path.is_file()) {
+            let bytes = std::fs::read(path)
+                .map_err(|error| DataError::whole(path, format!("cannot be read: {error}")))?;
+            let name = path.strip_prefix(data).unwrap_or(path).display().to_string();
+            sums.insert(name, crc32fast::hash(&bytes));
+        }
+    }
+    Ok(sums)
 }
 
 /// Every measured point under the conditions of a scene, for pictures; none without data.

@@ -26,8 +26,9 @@ pub(super) struct Model {
     pub(super) time_variance: Vec<f64>,
     /// How far linear interpolation is from the cubic that is used: more than the cubic's own error.
     pub(super) interpolation: Vec<f64>,
-    /// The covariance of one replica's values; that of `value` is this over the number of replicas.
-    pub(super) covariance: DMatrix<f64>,
+    /// A row for each replica and a column for each place: spreadᵀ·spread is the covariance of one replica's values, and
+    /// that over the number of replicas the one of `value`.
+    pub(super) spread: DMatrix<f64>,
 }
 
 /// What is evaluated at each place: the value, the value by linear interpolation, and at the two outer nodes.
@@ -68,8 +69,8 @@ pub(super) fn run(scene: &Scene, places: &[Place], replicas: u64, finer: u64) ->
     let means: Vec<f64> = (0..EACH * places.len())
         .map(|k| rows.iter().map(|row| row[k]).sum::<f64>() / n)
         .collect();
-    let deviations = DMatrix::from_fn(rows.len(), places.len(), |r, k| {
-        rows[r][EACH * k] - means[EACH * k]
+    let spread = DMatrix::from_fn(rows.len(), places.len(), |r, k| {
+        (rows[r][EACH * k] - means[EACH * k]) / (n - 1.0).sqrt()
     });
     let each = || means.chunks_exact(EACH);
     Ok(Model {
@@ -80,7 +81,7 @@ pub(super) fn run(scene: &Scene, places: &[Place], replicas: u64, finer: u64) ->
             .map(|mean| ((mean[2] - mean[0]).powi(2) + (mean[3] - mean[0]).powi(2)) / 6.0)
             .collect(),
         interpolation: each().map(|mean| (mean[1] - mean[0]).abs()).collect(),
-        covariance: deviations.tr_mul(&deviations) / (n - 1.0),
+        spread,
     })
 }
 

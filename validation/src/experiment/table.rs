@@ -29,6 +29,9 @@ struct Record {
     cells: StringRecord,
 }
 
+/// The most lines of a file: no figure has so many points, and comparing them takes half a minute.
+const MOST_LINES: usize = 20_000;
+
 /// Line by line, so that every error has the line that an editor shows.
 fn records(file: &str, text: &str) -> Result<Vec<Record>, DataError> {
     let lines = text
@@ -43,6 +46,10 @@ fn records(file: &str, text: &str) -> Result<Vec<Record>, DataError> {
                 .trim(Trim::All)
                 .from_reader(text.as_bytes());
             let line = index + 1;
+            if line > MOST_LINES {
+                let message = format!("more than {MOST_LINES} lines; at most so many are allowed");
+                return Err(DataError::at(file, line, message));
+            }
             reader
                 .read_record(&mut cells)
                 .map_err(|error| DataError::at(file, line, error.to_string()))?;

@@ -9,6 +9,7 @@ mod legend;
 mod style;
 
 use crate::markup::unicode;
+use crate::text::readable;
 pub(crate) use axis::power_of_ten;
 use plotters::prelude::*;
 use serde::Serialize;
@@ -113,7 +114,8 @@ fn typeset(figure: &Figure) -> Figure {
     let points = figure.points.iter_mut().map(|points| &mut points.label);
     let texts = [&mut figure.title, &mut figure.x_name, &mut figure.y_name];
     for text in texts.into_iter().chain(curves).chain(points) {
-        *text = unicode(text);
+        // XML has no place for some characters, not even escaped.
+        *text = readable(&unicode(text)).into_owned();
     }
     figure
 }

@@ -52,7 +52,7 @@ pub fn export(dir: &Path, force: bool) -> Result<Vec<&'static str>, ExportError>
     if !force && let Some(foreign) = foreign(dir).map_err(|reason| failed(dir, reason))? {
         return Err(ExportError::Foreign(foreign));
     }
-    output::probe(dir).map_err(ExportError::Output)?;
+    output::probe(dir, 0).map_err(ExportError::Output)?;
     let built: Vec<_> = all().par_iter().map(ProblemDef::build).collect();
     let dir_made = !dir.exists();
     let mut made = Vec::new();

@@ -1,13 +1,20 @@
 //! The curves and points of a figure as a table.
 
 use super::ReportFigure;
+use crate::text::cell;
 
 /// A figure as CSV: a row for each point of each curve, with the half widths of its 95 % intervals where it has them.
 /// Every number is the shortest text that reads back as the same bits.
 pub(super) fn csv(figure: &ReportFigure) -> Result<String, String> {
     let picture = &figure.figure;
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let header = ["series", &picture.x_name, &picture.y_name, "± x", "± y"];
+    let header = [
+        "series",
+        &cell(&picture.x_name),
+        &cell(&picture.y_name),
+        "± x",
+        "± y",
+    ];
     writer.write_record(header).map_err(|error| error.to_string())?;
     let curves = picture
         .curves
@@ -16,10 +23,11 @@ pub(super) fn csv(figure: &ReportFigure) -> Result<String, String> {
     let points =
         (picture.points.iter()).map(|p| (&p.label, &p.x, &p.y, p.x_error.as_ref(), p.y_error.as_ref()));
     for (label, x, y, x_half, y_half) in curves.chain(points) {
+        let label = cell(label);
         for (k, (x, y)) in x.iter().zip(y).enumerate() {
             let half = |widths: Option<&Vec<f64>>| widths.and_then(|w| w.get(k)).copied();
             writer
-                .serialize((label, x, y, half(x_half), half(y_half)))
+                .serialize((&label, x, y, half(x_half), half(y_half)))
                 .map_err(|error| error.to_string())?;
         }
     }

@@ -6,6 +6,7 @@ use super::{Line, Origin, Report, ReportTable, Row, ScenePlan};
 use crate::accept::Verdict;
 use crate::case::Control;
 use crate::plot;
+use crate::text::readable;
 use minijinja::value::{Serde, Value};
 use minijinja::{Environment, UndefinedBehavior};
 use serde::Serialize;
@@ -129,6 +130,7 @@ pub(super) fn write(report: &Report) -> Result<String, String> {
     environment
         .template_from_named_str("report.html", include_str!("report.html.j2"))
         .and_then(|template| template.render(Serde(&page)))
+        .map(|page| readable(&page).into_owned())
         .map_err(|error| format!("cannot write the report: {error}"))
 }
 

@@ -3,6 +3,7 @@
 use super::words::{bounds, seconds, verdict};
 use super::{Report, ReportEquation, ReportFigure, ReportTable, Row};
 use crate::markup::{Piece, pieces, unicode};
+use crate::text::readable;
 
 pub(super) fn write(report: &Report) -> String {
     let origin = &report.origin;
@@ -21,19 +22,19 @@ pub(super) fn write(report: &Report) -> String {
         text += &section(&equation_table(&report.sections.equations));
     }
     text += &format!(
-        "Made {} by `{}` (shearbed {}, commit {}, {}, {} build) on {}, {} threads, {}. Seeds: {}.\n",
+        "Made {} by {} (shearbed {}, commit {}, {}, {} build) on {}, {} threads, {}. Seeds: {}.\n",
         origin.date,
-        origin.command,
+        code(&origin.command),
         origin.version,
         origin.commit,
-        origin.rustc,
+        escape(&origin.rustc),
         origin.build,
-        origin.processor,
+        escape(&origin.processor),
         origin.threads,
         origin.system,
-        origin.seeds
+        escape(&origin.seeds)
     );
-    text
+    readable(&text).into_owned()
 }
 
 fn row(case: &Row) -> String {
@@ -110,6 +111,17 @@ pub(crate) fn equation_table(equations: &[ReportEquation]) -> ReportTable {
                 ]
             })
             .collect(),
+    }
+}
+
+/// A text as code, whatever backticks are in it: CommonMark ends a span at as many as it begins with.
+fn code(text: &str) -> String {
+    let text = text.replace('\n', " ");
+    let runs = text.split(|c| c != '`').map(str::len);
+    let fence = "`".repeat(runs.max().unwrap_or(0) + 1);
+    match text.contains('`') {
+        true => format!("{fence} {text} {fence}"),
+        false => format!("{fence}{text}{fence}"),
     }
 }
 

@@ -2,9 +2,9 @@
 
 use super::ScenePlan;
 use super::words::utc;
+use crate::build::BUILD;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -15,7 +15,7 @@ pub struct Origin {
     pub command: String,
     /// The version of the package.
     pub version: String,
-    /// The commit of the sources, with `-dirty` where they were changed since.
+    /// The commit of the sources it was built from, with `-dirty` where they had been changed since.
     pub commit: String,
     /// The compiler.
     pub rustc: String,
@@ -37,17 +37,12 @@ impl Origin {
     /// This run's, with figures drawn from the scenes of `plans`.
     pub fn here(command: String, plans: &[ScenePlan]) -> Self {
         let since_1970 = SystemTime::now().duration_since(UNIX_EPOCH);
-        let build = if cfg!(debug_assertions) {
-            "development"
-        } else {
-            "release"
-        };
         Self {
             command,
-            version: env!("CARGO_PKG_VERSION").into(),
-            commit: commit(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap_or_else(unknown),
-            rustc: option_env!("RUSTC_VERSION").map_or_else(unknown, Into::into),
-            build: build.into(),
+            version: BUILD.version.into(),
+            commit: BUILD.commit.into(),
+            rustc: BUILD.rustc.into(),
+            build: BUILD.build.into(),
             processor: processor().unwrap_or_else(unknown),
             threads: std::thread::available_parallelism().map_or(1, Into::into),
             system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
@@ -74,13 +69,6 @@ fn unknown() -> String {
     "unknown".into()
 }
 
-/// The commit of `folder`, if it is in a checkout, and not in the checkout of something else.
-fn commit(folder: &Path) -> Option<String> {
-    let git = |arguments: &[&str]| output(Command::new("git").arg("-C").arg(folder).args(arguments));
-    git(&["ls-files", "--error-unmatch", "Cargo.toml"])?;
-    git(&["describe", "--always", "--dirty", "--abbrev=12", "--exclude=*"])
-}
-
 fn processor() -> Option<String> {
     if let Ok(text) = std::fs::read_to_string("/proc/cpuinfo") {
         let line = text.lines().find(|line| line.starts_with("model name"))?;
@@ -100,13 +88,6 @@ fn output(command: &mut Command) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn outside_a_checkout_there_is_no_commit() {
-        let folder = tempfile::tempdir().unwrap();
-        assert_eq!(commit(folder.path()), None);
-        assert_eq!(commit(&folder.path().join("nowhere")), None);
-    }
 
     #[test]
     fn scenes_are_listed_by_their_seeds() {

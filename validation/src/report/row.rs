@@ -3,6 +3,7 @@
 use super::words::{bounds, detail};
 use crate::accept::{Rule, Verdict};
 use crate::case::{Control, Effort, GATE_SEED, Judged, Judges, Outcome};
+use crate::text;
 use serde::Serialize;
 
 /// What one rule said.
@@ -144,8 +145,7 @@ fn command(name: &str, effort: &Effort) -> String {
         command += &format!(" --seed {}", effort.seed);
     }
     if let Some(data) = &effort.data {
-        // Quoted for the shell.
-        command += &format!(" --data '{}'", data.display().to_string().replace('\'', r"'\''"));
+        command += &format!(" --data {}", text::command([data]));
     }
     command
 }

@@ -243,6 +243,56 @@ fn html_stands_alone() {
 }
 
 #[test]
+fn hostile_texts_are_harmless_in_every_writing() {
+    let hostile = "\u{1b}]0;x\u{7}\u{9b}2J\u{fffe}\u{202e}</title></svg><script>x</script> `|` ```` [a](javascript:b) *c*";
+    let mut report = synthetic();
+    let case = &mut report.cases[0];
+    let line = &mut case.evidence[0];
+    for text in [
+        &mut report.origin.command,
+        &mut report.origin.processor,
+        &mut case.claim,
+        &mut case.command,
+        &mut line.what,
+        &mut line.because,
+    ] {
+        *text = hostile.into();
+    }
+    let figure = &mut report.sections.figures[0];
+    figure.caption = hostile.into();
+    figure.figure.title = hostile.into();
+    figure.figure.x_name = hostile.into();
+    figure.figure.curves[0].label = format!("=cmd|{hostile}");
+    let control = |text: &str| {
+        let bad = |c: char| (c.is_control() && c != '\n') || matches!(c, '\u{fffe}' | '\u{202e}');
+        text.contains(bad)
+    };
+    let html = report.html().unwrap();
+    assert!(is_well_formed(&html), "{html}");
+    assert!(!html.contains("<script") && !control(&html));
+    let markdown = report.markdown();
+    assert!(!control(&markdown), "{markdown}");
+    let made = markdown.lines().last().unwrap();
+    assert!(
+        made.contains("by ````` \\u{1b}]0;x") && made.contains("*c* ````` (shearbed"),
+        "{made}"
+    );
+    // Outside of code nothing is markup.
+    let outside: String = markdown
+        .lines()
+        .filter(|line| !line.starts_with("Made "))
+        .collect();
+    for part in outside.split('`').step_by(2) {
+        // An escaped bracket begins no link.
+        let links = part.replace("\\[", "").contains('[');
+        assert!(!part.contains("<script") && !links, "{part}");
+    }
+    for (_, csv) in report.curves().unwrap() {
+        assert!(!control(&csv) && csv.contains("'=cmd|"), "{csv}");
+    }
+}
+
+#[test]
 fn every_link_leads_somewhere() {
     let html = synthetic().html().unwrap();
     for link in html.split("href=\"#").skip(1) {

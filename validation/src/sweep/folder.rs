@@ -1,31 +1,40 @@
 //! The folder of a sweep: `sweep.json` says which sweep it is, `points/` has a folder of tables for each point that
-//! is finished, `sweep.csv` one row a point. Every file and every point's folder appears whole or not at all.
+//! is finished, with a `point.json` that says which point it is and has the tables' checksums, `sweep.csv` one row a
+//! point. Every file and every point's folder appears whole or not at all.
 
 use super::axis::{Axis, shown};
-use crate::output::{self, Output, OutputError};
-use serde_json::{Value, json};
+use crate::build;
+use crate::difference::difference;
+use crate::output::{self, Claim, Output, OutputError};
+use crate::text::cell;
+use serde_json::{Map, Value, json};
 use shearbed::Scene;
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// Which sweep it is: what the results depend on.
 pub struct Identity(Value);
 
 impl Identity {
-    /// A sweep of `scene`, as it is without the swept keys, by this version of the program, with what its points' plans
+    /// A sweep of `scene`, as it is without the swept keys, by this build of the program, with what its points' plans
     /// warn of.
     pub fn new(scene: &Scene, axes: &[Axis], warnings: &[String]) -> Self {
         let over = axes.iter().map(|axis| {
             let values: Vec<_> = axis.values.iter().map(shown).collect();
             format!("{}={}", axis.key, values.join(","))
         });
-        Self(json!({
-            "program": "shearbed",
-            "version": env!("CARGO_PKG_VERSION"),
-            "scene": scene.resolved(),
-            "over": over.collect::<Vec<_>>(),
-            "warnings": warnings,
-        }))
+        let mut identity = build::record();
+        identity["scene"] = json!(scene.resolved());
+        identity["over"] = over.collect();
+        identity["warnings"] = json!(warnings);
+        Self(identity)
+    }
+
+    /// As plain data.
+    pub fn value(&self) -> &Value {
+        &self.0
     }
 
     fn text(&self) -> String {
@@ -48,16 +57,26 @@ impl From<OutputError> for Refused {
     }
 }
 
-/// The folder of one sweep.
+/// The points of a sweep, as its folder knows them.
+pub struct Points {
+    /// Each point in words, which no two share.
+    pub described: Vec<String>,
+    /// The names of the tables that each point has.
+    pub tables: Vec<String>,
+}
+
+/// The folder of one sweep, in which no other process writes while this lives.
 pub struct Folder {
     dir: PathBuf,
-    points: usize,
+    points: Points,
+    claim: Claim,
 }
 
 impl Folder {
-    /// Opens the folder, or makes it. One that holds another sweep, or files of unknown origin under the names of a
-    /// sweep's, is refused and left as it is.
-    pub fn open(dir: &Path, identity: &Identity, points: usize) -> Result<Self, Refused> {
+    /// Opens the folder, or makes it. One that holds another sweep, files of unknown origin under the names of a
+    /// sweep's, or a point that is not as it was written is refused and left as it is; so is one in which another process
+    /// is at work.
+    pub fn open(dir: &Path, identity: &Identity, points: Points) -> Result<Self, Refused> {
         let path = dir.join("sweep.json");
         let at = |what: String| {
             let path = path.display();
@@ -65,71 +84,129 @@ impl Folder {
                 "{path}: {what}; give another --out, or remove the folder; nothing was changed"
             ))
         };
+        let claim = Claim::new(dir, Duration::ZERO)?;
         match fs::read_to_string(&path) {
             Ok(text) => {
                 let found: Value = serde_json::from_str(&text)
                     .map_err(|error| at(format!("is no record of a sweep: {error}")))?;
                 // As text: what was written and read again is compared with the same.
                 let own: Value = serde_json::from_str(&identity.text()).unwrap_or_default();
-                if let Some(what) = difference("", &found, &own) {
-                    return Err(at(format!("another sweep is kept here: {what}")));
+                if let Some((key, kept, own)) = difference(&found, &own) {
+                    let what = format!("another sweep is kept here: {key} was {kept} and is {own} now");
+                    return Err(at(what));
                 }
             }
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 for name in ["points", "sweep.csv"] {
                     if dir.join(name).exists() {
                         return Err(at(format!("is missing beside {name}, whose origin nobody knows")));
                     }
                 }
-                output::write_all(dir, &[("sweep.json".to_owned(), identity.text())])?;
+                claim.write_all(&[("sweep.json".to_owned(), identity.text())])?;
             }
             Err(error) => return Err(at(format!("cannot be read: {error}"))),
         }
-        Ok(Self::at(dir, points))
-    }
-
-    /// A folder that was opened.
-    pub fn at(dir: &Path, points: usize) -> Self {
         let dir = dir.to_owned();
-        Self { dir, points }
+        let folder = Self { dir, points, claim };
+        (folder.finished().into_iter()).try_for_each(|k| folder.kept(k).map(drop))?;
+        Ok(folder)
     }
 
     /// The folder of point k, from 0; its name counts from 1.
     pub fn point(&self, k: usize) -> PathBuf {
-        let width = self.points.to_string().len();
+        let count = self.points.described.len();
+        let width = count.to_string().len();
         self.dir.join("points").join(format!("{:0width$}", k + 1))
     }
 
     /// The finished points, in order.
     pub fn finished(&self) -> Vec<usize> {
-        (0..self.points).filter(|k| self.point(*k).is_dir()).collect()
+        let all = 0..self.points.described.len();
+        all.filter(|k| self.point(*k).is_dir()).collect()
     }
 
     /// Keeps the tables of a point.
     pub fn keep(&self, k: usize, tables: &[Output]) -> Result<(), OutputError> {
-        output::write_folder(&self.point(k), tables)
+        let mut files = tables.to_vec();
+        files.push(("point.json".to_owned(), self.record(k, tables)));
+        self.is_there()?;
+        // Where it went meanwhile, that is the reason.
+        output::write_folder(&self.point(k), &files).map_err(|error| self.is_there().err().unwrap_or(error))
     }
 
-    /// Whether the kept tables of a point are these.
-    pub fn holds(&self, k: usize, tables: &[Output]) -> bool {
+    /// Whether nobody has removed or moved the folder.
+    fn is_there(&self) -> Result<(), OutputError> {
+        if self.dir.join("sweep.json").is_file() {
+            return Ok(());
+        }
+        let gone = "the folder of the sweep has gone";
+        Err(OutputError {
+            path: self.dir.clone(),
+            reason: io::Error::new(io::ErrorKind::NotFound, gone),
+        })
+    }
+
+    /// Which point it is, and the lengths and checksums of its tables.
+    fn record(&self, k: usize, tables: &[Output]) -> String {
+        let sums = tables.iter().map(|(name, text)| {
+            let crc32 = format!("{:08x}", crc32fast::hash(text.as_bytes()));
+            (name.clone(), json!({ "bytes": text.len(), "crc32": crc32 }))
+        });
+        let files: Map<_, _> = sums.collect();
+        format!(
+            "{:#}\n",
+            json!({ "point": self.points.described[k], "files": files })
+        )
+    }
+
+    /// The tables of a finished point, where they are as they were written.
+    pub fn kept(&self, k: usize) -> Result<Vec<Output>, Refused> {
         let dir = self.point(k);
-        (tables.iter()).all(|(name, text)| fs::read(dir.join(name)).is_ok_and(|kept| kept == text.as_bytes()))
+        let read = |name: &str| {
+            let path = dir.join(name);
+            let why = |error| format!("{}: cannot be read: {error}", path.display());
+            fs::read_to_string(&path).map_err(|error| self.damaged(k, &why(error)))
+        };
+        let record = read("point.json")?;
+        let table = |name: &String| Ok((name.clone(), read(name)?));
+        let tables = (self.points.tables.iter())
+            .map(table)
+            .collect::<Result<Vec<_>, Refused>>()?;
+        let own = self.record(k, &tables);
+        if own == record {
+            return Ok(tables);
+        }
+        let [found, own] =
+            [&record, &own].map(|text| serde_json::from_str::<Value>(text).unwrap_or_default());
+        let why = match difference(&found, &own) {
+            Some((key, kept, own)) => format!(
+                "{}: not as it was written: {key} was {kept} and is {own} now",
+                dir.display()
+            ),
+            None => format!("{}: not as it was written", dir.join("point.json").display()),
+        };
+        Err(self.damaged(k, &why))
+    }
+
+    fn damaged(&self, k: usize, why: &str) -> Refused {
+        let dir = self.point(k);
+        Refused::Other(format!(
+            "{why}; remove {} to have this point run again; nothing was changed",
+            dir.display()
+        ))
     }
 
     /// Writes `sweep.csv` from the tables of all points, which must all be there: the swept values, then the last
-    /// row of each of the tables `names`. Numbers are the tables' own texts. Returns the header and the rows.
-    pub fn gather(
-        &self,
-        axes: &[Axis],
-        values: &[Vec<toml::Value>],
-        names: &[String],
-    ) -> Result<Rows, Refused> {
+    /// row of each of the tables. Numbers are the tables' own texts. Returns the header and the rows.
+    pub fn gather(&self, axes: &[Axis], values: &[Vec<toml::Value>]) -> Result<Rows, Refused> {
         let mut rows = Vec::new();
         for (k, values) in values.iter().enumerate() {
             let mut head: Vec<_> = axes.iter().map(|axis| axis.key.clone()).collect();
-            let mut row: Vec<_> = values.iter().map(shown).collect();
-            for name in names {
-                let (columns, last) = last_row(&self.point(k).join(name))?;
+            let mut row: Vec<_> = values.iter().map(|value| cell(&shown(value))).collect();
+            for (name, text) in self.kept(k)? {
+                let (columns, last) = last_row(&text).map_err(|why| {
+                    Refused::Other(format!("{}: {why}", self.point(k).join(&name).display()))
+                })?;
                 for (column, value) in columns.into_iter().zip(last) {
                     // Every table has the time.
                     if !head.contains(&column) {
@@ -151,7 +228,7 @@ impl Folder {
         }
         let path = self.dir.join("sweep.csv");
         let text = csv(&rows).map_err(|error| Refused::Other(format!("{}: {error}", path.display())))?;
-        output::write_all(&self.dir, &[("sweep.csv".to_owned(), text)])?;
+        self.claim.write_all(&[("sweep.csv".to_owned(), text)])?;
         Ok(rows)
     }
 }
@@ -160,13 +237,12 @@ impl Folder {
 pub type Rows = Vec<Vec<String>>;
 
 /// A table's header and last row.
-fn last_row(path: &Path) -> Result<(Vec<String>, Vec<String>), Refused> {
-    let fail = |why: String| Refused::Other(format!("{}: cannot be read: {why}", path.display()));
-    let mut reader = csv::Reader::from_path(path).map_err(|error| fail(error.to_string()))?;
-    let header = reader.headers().map_err(|error| fail(error.to_string()))?.clone();
+fn last_row(text: &str) -> Result<(Vec<String>, Vec<String>), String> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let header = reader.headers().map_err(|error| error.to_string())?.clone();
     let last = reader.records().last();
-    let last = last.ok_or_else(|| fail("no row is there".into()))?;
-    let last = last.map_err(|error| fail(error.to_string()))?;
+    let last = last.ok_or("no row is there")?;
+    let last = last.map_err(|error| error.to_string())?;
     let texts = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
     Ok((texts(&header), texts(&last)))
 }
@@ -178,50 +254,4 @@ fn csv(rows: &Rows) -> Result<String, String> {
     }
     let bytes = writer.into_inner().map_err(|error| error.to_string())?;
     String::from_utf8(bytes).map_err(|error| error.to_string())
-}
-
-/// The first difference of two records, in words.
-pub fn difference(path: &str, kept: &Value, own: &Value) -> Option<String> {
-    let below = |key: &str| match path {
-        "" => key.to_owned(),
-        path => format!("{path}.{key}"),
-    };
-    match (kept, own) {
-        (Value::Object(a), Value::Object(b)) => (a.keys().chain(b.keys())).find_map(|key| {
-            difference(
-                &below(key),
-                a.get(key).unwrap_or(&Value::Null),
-                b.get(key).unwrap_or(&Value::Null),
-            )
-        }),
-        (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
-            (0..a.len()).find_map(|k| difference(&below(&(k + 1).to_string()), &a[k], &b[k]))
-        }
-        _ if kept == own => None,
-        _ => Some(format!("{path} was {kept} and is {own} now")),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_first_difference_is_named() {
-        let a = json!({ "version": "1", "over": ["x=1", "y=1"], "scene": { "m": 3.0 } });
-        assert_eq!(difference("", &a, &a.clone()), None);
-        let mut b = a.clone();
-        b["over"][1] = json!("y=2");
-        assert_eq!(
-            difference("", &a, &b).unwrap(),
-            r#"over.2 was "y=1" and is "y=2" now"#
-        );
-        b["over"] = json!(["x=1"]);
-        let all = difference("", &a, &b).unwrap();
-        assert_eq!(all, r#"over was ["x=1","y=1"] and is ["x=1"] now"#);
-        let mut b = a.clone();
-        b["scene"] = json!({});
-        assert_eq!(difference("", &a, &b).unwrap(), "scene.m was 3.0 and is null now");
-        assert_eq!(difference("", &b, &a).unwrap(), "scene.m was null and is 3.0 now");
-    }
 }

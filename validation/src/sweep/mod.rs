@@ -4,7 +4,7 @@ mod axis;
 mod folder;
 
 pub use axis::{Axis, MAX_POINTS, Setting, shown};
-pub use folder::{Folder, Identity, Refused, difference};
+pub use folder::{Folder, Identity, Points, Refused};
 
 use shearbed::{Plan, Scene, scene_file};
 use toml::{Table, Value};
@@ -45,6 +45,27 @@ pub fn described(axes: &[Axis], values: &[Value]) -> String {
         .map(|(axis, value)| format!("{}={}", axis.key, shown(value)))
         .collect();
     words.join(" ")
+}
+
+/// Why the keys set by several hands cannot all be: each key has one owner, and a table owns every key in it.
+pub fn one_owner(flags: &[(&str, &str)]) -> Result<(), String> {
+    for (k, (flag, key)) in flags.iter().enumerate() {
+        let within = |inner: &str, outer: &str| {
+            let rest = inner.strip_prefix(outer);
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+        };
+        let clash = |(_, other): &&(&str, &str)| within(other, key) || within(key, other);
+        if let Some((first, other)) = flags[..k].iter().find(clash) {
+            let both = match other == key {
+                true => "both set it".to_owned(),
+                false => format!("both set {}", if key.len() > other.len() { key } else { other }),
+            };
+            return Err(format!(
+                "{flag} {key} and {first} {other}: {both}; one of the two is allowed"
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// The values of point k.
@@ -135,6 +156,32 @@ mod tests {
                 (10 * (k % 2 + 1), 3)
             );
         }
+    }
+
+    #[test]
+    fn a_key_has_one_owner() {
+        let over = |keys: &[&'static str]| {
+            let flags: Vec<_> = keys.iter().map(|key| ("--over", *key)).collect();
+            one_owner(&flags)
+        };
+        assert_eq!(
+            over(&["ensemble.seed", "ensemble.replicas", "ensemble_x", "e"]),
+            Ok(())
+        );
+        for keys in [
+            ["particles", "particles.count"],
+            ["particles.count", "particles"],
+            ["particles.orientation.phi_deg", "particles.orientation"],
+            ["flow.x", "flow.x"],
+        ] {
+            let error = over(&keys).unwrap_err();
+            assert!(error.contains("one of the two is allowed"), "{error}");
+        }
+        let error = one_owner(&[("--replicas", "ensemble.replicas"), ("--over", "ensemble")]).unwrap_err();
+        assert_eq!(
+            error,
+            "--over ensemble and --replicas ensemble.replicas: both set ensemble.replicas; one of the two is allowed"
+        );
     }
 
     #[test]

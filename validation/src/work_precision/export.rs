@@ -2,6 +2,7 @@
 
 use super::order::Study;
 use super::{Bench, Point};
+use crate::build::{BUILD, Build};
 use crate::report::ReportTable;
 use serde::Serialize;
 
@@ -92,9 +93,26 @@ pub(crate) fn csv(rows: impl IntoIterator<Item = impl Serialize>) -> Result<Stri
     String::from_utf8(bytes).map_err(|error| error.to_string())
 }
 
-/// Anything as JSON.
+/// Benches as the field of a record.
+#[derive(Serialize)]
+pub struct Benches<'a, T> {
+    /// All of them.
+    pub benches: &'a [T],
+}
+
+/// A record with the build that made it.
+#[derive(Serialize)]
+struct Made<'a, T> {
+    #[serde(flatten)]
+    build: Build,
+    #[serde(flatten)]
+    data: &'a T,
+}
+
+/// Any structure as JSON, after the build that made it.
 pub fn json(data: &impl Serialize) -> Result<String, String> {
-    let text = serde_json::to_string_pretty(data).map_err(|error| error.to_string())?;
+    let made = Made { build: BUILD, data };
+    let text = serde_json::to_string_pretty(&made).map_err(|error| error.to_string())?;
     Ok(text + "\n")
 }
 

@@ -265,7 +265,7 @@ mod tests {
         let csv = export::bench_csv(&benches).unwrap();
         assert_eq!(csv.matches(",too stiff,").count(), 13, "{csv}");
         assert!(
-            export::json(&benches)
+            export::json(&export::Benches { benches: &benches })
                 .unwrap()
                 .contains("\"failure\": \"too stiff\"")
         );

@@ -1,8 +1,65 @@
 //! What several of the program's tests use.
 
+#![allow(dead_code)] // Each test uses a part.
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
+use std::process::Command;
+use tempfile::TempDir;
+
+/// A scene of milliseconds.
+pub const SMALL: &str = r#"title = "A small scene"
+[flow]
+shear_rate_per_s = 0.5
+[particles]
+count = 20
+length_mm = 0.72
+aspect_ratio = 11.6
+orientation = "isotropic"
+[interaction]
+concentration_per_cm3 = 50
+alpha = 0.5
+[time]
+periods = 1
+steps_per_period = 20
+outputs_per_period = 4
+[ensemble]
+replicas = 3
+[output]
+observables = ["projections", "mean_angle"]
+"#;
+
+/// A folder with `small.toml` in it.
+pub fn folder() -> TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("small.toml"), SMALL).unwrap();
+    dir
+}
+
+/// The program with arguments separated by blanks.
+pub fn command(dir: &Path, arguments: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_shearbed"));
+    command.args(arguments.split_whitespace()).current_dir(dir);
+    command
+}
+
+/// How a command ended.
+pub struct Ended {
+    pub code: Option<i32>,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+/// Runs a command to its end.
+pub fn ended(dir: &Path, arguments: &str) -> Ended {
+    let output = command(dir, arguments).output().unwrap();
+    Ended {
+        code: output.status.code(),
+        stdout: String::from_utf8(output.stdout).unwrap(),
+        stderr: String::from_utf8(output.stderr).unwrap(),
+    }
+}
 
 /// Every file below a folder with its bytes.
 pub fn files(dir: &Path) -> BTreeMap<String, Vec<u8>> {

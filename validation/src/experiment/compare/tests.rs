@@ -56,8 +56,11 @@ fn input(name: &str) -> usize {
 #[test]
 fn a_goodness_of_fit_by_hand() {
     // V = [2 1; 1 2], V⁻¹ = [2 −1; −1 2]/3: χ² = (2 − 4 + 8)/3 = 2, and for two points P(χ² > 2) = exp(−1).
-    let v = DMatrix::from_row_slice(2, 2, &[2.0, 1.0, 1.0, 2.0]);
-    let (chi_square, p) = goodness_of_fit(&DVector::from_vec(vec![1.0, 2.0]), v.cholesky().as_ref());
+    let v = Covariance {
+        own: DVector::from_vec(vec![1.0, 1.0]),
+        shared: DMatrix::from_row_slice(1, 2, &[1.0, 1.0]),
+    };
+    let (chi_square, p) = goodness_of_fit(&DVector::from_vec(vec![1.0, 2.0]), v.solver().as_ref());
     assert_relative_eq!(chi_square, 2.0, max_relative = 1e-12);
     assert_relative_eq!(p, (-1.0_f64).exp(), max_relative = 1e-12);
     assert!(goodness_of_fit(&DVector::zeros(2), None).1.is_nan());

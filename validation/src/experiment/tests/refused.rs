@@ -66,6 +66,27 @@ fn bad_points_are_refused_with_their_line() {
 }
 
 #[test]
+fn what_would_run_for_long_is_refused() {
+    // In t/T, a quarter of a period is 0.25 itself.
+    let own = |u: &str| format!("t_over_T,x1,t_over_T_u\n0.4,0.3,0.25\n0.5,0.4,{u}\n");
+    let found = refusal(PROVENANCE, own("0.26"));
+    let expected =
+        "a.csv:3: column t_over_T_u: `0.26` is not allowed: one standard deviation of at most a quarter";
+    assert!(found.starts_with(expected), "{found}");
+    let vague = PROVENANCE.replace("standard_uncertainty = 0.01", "standard_uncertainty = 500");
+    let found = refusal(&vague, super::POINTS);
+    assert!(
+        found.starts_with("a.toml: x.standard_uncertainty = 500 is not allowed"),
+        "{found}"
+    );
+    let many: String = (0..20_000)
+        .map(|k| format!("{},0.3\n", f64::from(k) * 1e-4))
+        .collect();
+    let found = refusal(PROVENANCE, format!("t_over_T,x1\n{many}"));
+    assert!(found.starts_with("a.csv:20001: more than 20000 lines"), "{found}");
+}
+
+#[test]
 fn bad_exports_are_refused_with_their_line() {
     let one = PROVENANCE.replace("csv = \"columns\"", EXPORT);
     for (points, expected) in [

@@ -1,0 +1,75 @@
+//! How many threads a command runs on.
+
+use super::Failure;
+
+/// The most threads that can be asked for.
+pub(super) const MAX_THREADS: u64 = 1024;
+
+/// Rayon's own setting, which counts where `--threads` is not given.
+const VARIABLE: &str = "RAYON_NUM_THREADS";
+
+/// Refuses more threads in the environment than can be asked for.
+pub(super) fn check() -> Result<(), Failure> {
+    of_environment(std::env::var(VARIABLE).ok()).map(drop)
+}
+
+/// Threads for a command: as given, or as the environment says, or one for each core.
+pub(super) fn count(given: Option<u64>) -> Result<u64, Failure> {
+    let cores = || std::thread::available_parallelism().map_or(1, |cores| cores.get() as u64);
+    let set = of_environment(std::env::var(VARIABLE).ok())?;
+    Ok(given.or(set).unwrap_or_else(|| cores().min(MAX_THREADS)))
+}
+
+/// 0 and what is no number rayon does not heed.
+fn of_environment(value: Option<String>) -> Result<Option<u64>, Failure> {
+    let Some(text) = value else {
+        return Ok(None);
+    };
+    let digits = !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    match text.parse() {
+        Ok(0) => Ok(None),
+        Ok(count) if count <= MAX_THREADS => Ok(Some(count)),
+        Err(_) if !digits => Ok(None),
+        _ => Err(Failure::Input(format!(
+            "{VARIABLE} = {text} is not allowed: a whole number from 1 to {MAX_THREADS}"
+        ))),
+    }
+}
+
+/// Calls `work` on so many threads.
+pub(super) fn on_threads<T: Send>(
+    threads: Option<u64>,
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, Failure> {
+    let count = count(threads)? as usize;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
+    let pool = pool.map_err(|error| Failure::Input(format!("--threads {count}: {error}")))?;
+    Ok(pool.install(work))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_environment_has_the_limit_of_the_option() {
+        let of = |text: &str| of_environment(Some(text.to_owned()));
+        for (text, count) in [
+            ("1024", Some(1024)),
+            ("3", Some(3)),
+            ("0", None),
+            ("", None),
+            ("many", None),
+        ] {
+            assert!(of(text).is_ok_and(|found| found == count), "{text}");
+        }
+        for text in ["1025", "100000", "99999999999999999999999"] {
+            let (message, code) = of(text).err().unwrap().message_and_code();
+            assert!(
+                message.starts_with(&format!("RAYON_NUM_THREADS = {text} is not allowed")),
+                "{message}"
+            );
+            assert_eq!(code, 2);
+        }
+    }
+}

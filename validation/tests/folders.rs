@@ -1,0 +1,295 @@
+//! Folders of results: nothing torn, nothing mixed, nothing damaged passed on.
+
+mod common;
+
+use common::{SMALL, command, ended, files, folder};
+use std::fs;
+use std::path::Path;
+use std::process::Stdio;
+
+const SWEEP: &str = "sweep small.toml --over interaction.alpha=0.1:0.4:4 --quiet --threads 1";
+
+/// Changes bytes of a file.
+fn damage(path: &Path, change: impl FnOnce(&mut Vec<u8>)) {
+    let mut bytes = fs::read(path).unwrap();
+    change(&mut bytes);
+    fs::write(path, bytes).unwrap();
+}
+
+#[test]
+fn a_damaged_point_does_not_reach_the_table() {
+    let dir = folder();
+    assert_eq!(ended(dir.path(), &format!("{SWEEP} --out good")).code, Some(0));
+    let good = files(&dir.path().join("good"));
+    type Change = fn(&mut Vec<u8>);
+    let last_digit: Change = |bytes| {
+        let at = bytes.iter().rposition(u8::is_ascii_digit).unwrap();
+        bytes[at] = if bytes[at] == b'1' { b'2' } else { b'1' };
+    };
+    let damages: [(&str, &str, Change); 6] = [
+        ("a changed digit", "projections.csv", last_digit),
+        ("a flipped bit", "mean_angle.csv", |bytes| {
+            let at = bytes.len() - 5;
+            bytes[at] ^= 1;
+        }),
+        ("nan", "projections.csv", |bytes| {
+            let at = bytes.iter().rposition(|byte| *byte == b',').unwrap();
+            bytes.splice(at + 1.., *b"nan\n");
+        }),
+        ("cut at a line's end", "projections.csv", |bytes| {
+            let end = bytes.len() - 1;
+            let at = bytes[..end].iter().rposition(|byte| *byte == b'\n').unwrap();
+            bytes.truncate(at + 1);
+        }),
+        ("another checksum", "point.json", last_digit),
+        ("empty", "point.json", Vec::clear),
+    ];
+    for (what, name, change) in damages {
+        for missing in [false, true] {
+            let out = dir.path().join("damaged");
+            for (name, bytes) in &good {
+                let path = out.join(name);
+                fs::create_dir_all(path.parent().unwrap()).unwrap();
+                fs::write(path, bytes).unwrap();
+            }
+            damage(&out.join("points/3").join(name), change);
+            if missing {
+                fs::remove_dir_all(out.join("points/4")).unwrap();
+            }
+            let before = files(&out);
+            let run = ended(dir.path(), &format!("{SWEEP} --out damaged"));
+            assert_eq!(run.code, Some(2), "{what}: {}", run.stderr);
+            assert!(run.stderr.contains("damaged/points/3"), "{what}: {}", run.stderr);
+            assert!(
+                run.stderr.contains("remove damaged/points/3 to have"),
+                "{}",
+                run.stderr
+            );
+            assert_eq!(files(&out), before, "{what}");
+            // What the message asks for helps.
+            fs::remove_dir_all(out.join("points/3")).unwrap();
+            assert_eq!(ended(dir.path(), &format!("{SWEEP} --out damaged")).code, Some(0));
+            assert_eq!(files(&out), good, "{what}");
+            fs::remove_dir_all(out).unwrap();
+        }
+    }
+    // Two points that were exchanged.
+    let points = dir.path().join("good/points");
+    for (from, to) in [("1", "x"), ("2", "1"), ("x", "2")] {
+        fs::rename(points.join(from), points.join(to)).unwrap();
+    }
+    let run = ended(dir.path(), &format!("{SWEEP} --out good"));
+    assert_eq!(run.code, Some(2), "{}", run.stderr);
+    assert!(
+        run.stderr
+            .contains("good/points/1: not as it was written: point was"),
+        "{}",
+        run.stderr
+    );
+}
+
+#[test]
+fn two_sweeps_started_together_do_not_mix() {
+    let dir = folder();
+    let of_seed = |seed: u32, out: &str| format!("{SWEEP} --seed {seed} --out {out}");
+    for seed in [1, 2] {
+        assert_eq!(ended(dir.path(), &of_seed(seed, &seed.to_string())).code, Some(0));
+    }
+    let alone = ["1", "2"].map(|name| files(&dir.path().join(name)));
+    for round in 0..20 {
+        let out = format!("round-{round}");
+        let both = [1, 2].map(|seed| {
+            let mut child = command(dir.path(), &of_seed(seed, &out));
+            child.stderr(Stdio::piped()).spawn().unwrap()
+        });
+        let both = both.map(|child| child.wait_with_output().unwrap());
+        let codes = both.each_ref().map(|output| output.status.code());
+        let found = files(&dir.path().join(&out));
+        match codes {
+            [Some(0), Some(2)] => assert_eq!(found, alone[0]),
+            [Some(2), Some(0)] => assert_eq!(found, alone[1]),
+            _ => panic!("round {round}: {codes:?}"),
+        }
+        let told = both
+            .map(|output| String::from_utf8(output.stderr).unwrap())
+            .concat();
+        let reasons = [
+            "another shearbed is at work in this folder",
+            "another sweep is kept here",
+        ];
+        assert!(reasons.iter().any(|reason| told.contains(reason)), "{told}");
+    }
+}
+
+#[test]
+fn two_runs_into_one_folder_do_not_mix_their_files() {
+    let dir = folder();
+    let of_seed =
+        |seed: u32, out: &str| format!("run small.toml --quiet --threads 1 --seed {seed} --out {out}");
+    let tables = |out: &str| {
+        let mut all = files(&dir.path().join(out));
+        all.retain(|name, _| name.ends_with(".csv"));
+        all
+    };
+    for seed in [1, 2] {
+        assert_eq!(ended(dir.path(), &of_seed(seed, &seed.to_string())).code, Some(0));
+    }
+    let alone = ["1", "2"].map(tables);
+    assert_ne!(alone[0], alone[1]);
+    for round in 0..40 {
+        // Every other round into a folder that is there.
+        let out = format!("round-{}", round / 2);
+        let both = [1, 2].map(|seed| command(dir.path(), &of_seed(seed, &out)).spawn().unwrap());
+        for mut child in both {
+            assert_eq!(child.wait().unwrap().code(), Some(0), "round {round}");
+        }
+        let found = files(&dir.path().join(&out));
+        let record: serde_json::Value = serde_json::from_slice(&found["run.json"]).unwrap();
+        let seed = record["seed"].as_u64().unwrap() as usize;
+        assert_eq!(tables(&out), alone[seed - 1], "round {round}");
+        assert!(
+            found.keys().all(|name| !name.starts_with('.')),
+            "{:?}",
+            found.keys()
+        );
+    }
+}
+
+#[test]
+fn every_key_has_one_owner() {
+    let dir = folder();
+    for (arguments, named) in [
+        (
+            "--over ensemble={replicas=5} --replicas 3",
+            "--replicas ensemble.replicas and --over ensemble: both set ensemble.replicas",
+        ),
+        (
+            "--over particles.count=1,2 --over particles={count=7,length_mm=0.72,aspect_ratio=5,orientation=\"isotropic\"}",
+            "--over particles and --over particles.count: both set particles.count",
+        ),
+        ("--over ensemble={seed=5} --seed 3", "both set ensemble.seed"),
+    ] {
+        let run = ended(dir.path(), &format!("sweep small.toml {arguments} --out x"));
+        assert_eq!(run.code, Some(2), "{arguments}: {}", run.stderr);
+        assert!(run.stderr.contains(named), "{}", run.stderr);
+    }
+    assert!(!dir.path().join("x").exists());
+}
+
+/// A limit on the size of files, which meets a writer as a full disk does.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_found_before_the_work() {
+    let dir = folder();
+    // Hours of work.
+    let long = SMALL
+        .replace("replicas = 3", "replicas = 1000000")
+        .replace("steps_per_period = 20", "steps_per_period = 2000");
+    fs::write(dir.path().join("long.toml"), long).unwrap();
+    for arguments in [
+        "run long.toml --out x",
+        "sweep long.toml --over interaction.alpha=1,2 --out x",
+        "converge long.toml --out x",
+        "validate --out x",
+        "bench --out x",
+    ] {
+        let limited = format!(
+            "trap '' XFSZ; ulimit -f 100; exec {} {arguments}",
+            env!("CARGO_BIN_EXE_shearbed")
+        );
+        let output = std::process::Command::new("timeout")
+            .args(["60", "bash", "-c", &limited])
+            .current_dir(dir.path())
+            .output()
+            .unwrap();
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {message}");
+        assert!(
+            message.contains("x: cannot be written: File too large"),
+            "{message}"
+        );
+        assert!(message.contains("MB are to be written there"), "{message}");
+        assert!(!dir.path().join("x").exists(), "{arguments}");
+    }
+}
+
+#[test]
+fn what_a_killed_run_left_is_put_right_by_the_next() {
+    let dir = folder();
+    let run = "run small.toml --quiet --out x";
+    assert_eq!(ended(dir.path(), run).code, Some(0));
+    let x = dir.path().join("x");
+    let whole = files(&x);
+    // Killed as it wrote: half a set under a hidden name, and the temporary files of an older version.
+    for name in ["x/.shearbed-part/curves", ".y.shearbed-part"] {
+        fs::create_dir_all(dir.path().join(name)).unwrap();
+        fs::write(dir.path().join(name).join("half.csv"), "half a ta").unwrap();
+    }
+    fs::write(x.join(".shearbed-Ab3dE6"), "half a ta").unwrap();
+    fs::write(x.join("notes.txt"), "the user's own").unwrap();
+    assert_eq!(ended(dir.path(), run).code, Some(0));
+    let mut found = files(&x);
+    assert_eq!(found.remove("notes.txt").unwrap(), b"the user's own");
+    assert_eq!(found.keys().collect::<Vec<_>>(), whole.keys().collect::<Vec<_>>());
+    assert_eq!(ended(dir.path(), &run.replace("out x", "out y")).code, Some(0));
+    assert!(!dir.path().join(".y.shearbed-part").exists());
+    assert_eq!(files(&dir.path().join("y")).len(), whole.len());
+
+    // Killed between two moves: the set is whole under its hidden name. It is moved before anything else happens, even
+    // by a command that then fails.
+    let ready = x.join(".shearbed-ready");
+    fs::create_dir(&ready).unwrap();
+    for name in ["projections.csv", "run.json"] {
+        fs::rename(x.join(name), ready.join(name)).unwrap();
+    }
+    let limited = ended(
+        dir.path(),
+        "sweep small.toml --over interaction.alpha=1,2 --out x/points/no",
+    );
+    assert_eq!(limited.code, Some(0), "{}", limited.stderr);
+    fs::remove_dir_all(x.join("points")).unwrap();
+    assert!(ready.exists());
+    fs::write(x.join("sweep.json"), "no record").unwrap();
+    assert_eq!(
+        ended(
+            dir.path(),
+            "sweep small.toml --over interaction.alpha=1,2 --out x"
+        )
+        .code,
+        Some(2)
+    );
+    assert!(!ready.exists());
+    assert_eq!(
+        fs::read(x.join("projections.csv")).unwrap(),
+        whole["projections.csv"]
+    );
+    assert!(x.join("run.json").exists());
+}
+
+#[test]
+fn a_run_killed_at_any_moment_leaves_a_whole_set_or_none() {
+    let dir = folder();
+    let run = |seed: u32| format!("run small.toml --quiet --threads 1 --seed {seed} --out x");
+    let start = std::time::Instant::now();
+    assert_eq!(ended(dir.path(), &run(0)).code, Some(0));
+    let took = start.elapsed();
+    let names: Vec<_> = files(&dir.path().join("x")).into_keys().collect();
+    fs::remove_dir_all(dir.path().join("x")).unwrap();
+    let rounds = 60;
+    for round in 0..rounds {
+        let mut child = command(dir.path(), &run(round)).spawn().unwrap();
+        // Moments spread evenly over a run, and a little past its end.
+        std::thread::sleep(took * (round * 12) / (rounds * 10));
+        let _ = child.kill();
+        child.wait().unwrap();
+        let x = dir.path().join("x");
+        if x.exists() {
+            let found: Vec<_> = files(&x)
+                .into_keys()
+                .filter(|name| !name.starts_with('.'))
+                .collect();
+            assert_eq!(found, names, "round {round}");
+            fs::remove_dir_all(x).unwrap();
+        }
+    }
+}

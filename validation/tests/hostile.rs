@@ -1,0 +1,164 @@
+//! Texts from files and names that mean harm: on the terminal, in pictures, in tables.
+
+mod common;
+
+use common::{SMALL, command, ended, files, folder};
+use std::fs;
+
+/// A title that sets a terminal's title, clears it, turns the writing, and would end a tag.
+const TITLE: &str = r#"\u001B]0;owned\u0007\u009B2J</text><script>alert(1)</script>\u202E`|*\uFFFE"#;
+
+/// What no terminal may get: controls but for line feeds, and turns of the direction of writing.
+fn commands_a_terminal(text: &str) -> bool {
+    text.chars()
+        .any(|c| (c.is_control() && c != '\n') || ('\u{202a}'..='\u{202e}').contains(&c))
+}
+
+#[test]
+fn titles_and_file_names_command_nothing() {
+    let dir = folder();
+    let scene = SMALL.replace("A small scene", TITLE);
+    let name = "\u{1b}]0;x\u{7}=1.toml";
+    fs::write(dir.path().join(name), &scene).unwrap();
+    fs::write(
+        dir.path().join("\u{1b}[2Jbad.toml"),
+        scene.replace("count = 20", "count = 0"),
+    )
+    .unwrap();
+    let sweep = ["sweep", name, "--over", "interaction.alpha=1,2", "--out", "s"];
+    for (arguments, code) in [
+        (&["run", name, "--out", "x"][..], 0),
+        (&["plan", name][..], 0),
+        (&sweep[..], 0),
+        (&["run", "\u{1b}[2Jbad.toml"][..], 2),
+        (&["run", "\u{1b}[2Jmissing.toml"][..], 2),
+        (&["run", "fig5", "--replicas", "\u{1b}[2J"][..], 2),
+        (&["run", "fig5", "--\u{1b}[2J"][..], 2),
+        (&["scenes", "--show", "\u{1b}[2J"][..], 2),
+        (&["validate", "--case", "\u{1b}[2J", "--out", "\u{1b}[2J"][..], 2),
+    ] {
+        let output = command(dir.path(), "").args(arguments).output().unwrap();
+        let told = String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {told:?}");
+        assert!(
+            !told.is_empty() && !commands_a_terminal(&told),
+            "{arguments:?}: {told:?}"
+        );
+    }
+    for (name, bytes) in files(&dir.path().join("x")) {
+        let text = String::from_utf8(bytes).unwrap();
+        if name.ends_with(".svg") {
+            assert!(
+                !commands_a_terminal(&text) && !text.contains('\u{fffe}'),
+                "{name}: {text}"
+            );
+            assert!(!text.contains("<script") && text.contains("&lt;script"), "{name}");
+        }
+    }
+}
+
+#[test]
+fn no_cell_of_a_table_is_a_formula() {
+    let dir = folder();
+    let titles = r#"title="=cmd|' /C calc'!A0","@SUM(A1)","+1+2","-3-4","plain\u001b""#;
+    let output = command(dir.path(), "sweep small.toml --out x --over")
+        .arg(titles)
+        .output()
+        .unwrap();
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let text = fs::read_to_string(dir.path().join("x/sweep.csv")).unwrap();
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let rows: Vec<_> = reader.records().map(Result::unwrap).collect();
+    let titles: Vec<_> = rows.iter().map(|row| &row[0]).collect();
+    let expected = [
+        "'=cmd|' /C calc'!A0",
+        "'@SUM(A1)",
+        "'+1+2",
+        "'-3-4",
+        r"plain\u{1b}",
+    ];
+    assert_eq!(titles, expected);
+    // A negative number is a number.
+    let over = "sweep extension --over particles.orientation={phi_deg=-30,theta_deg=60} --over ensemble.seed=1,2 --out y";
+    assert_eq!(ended(dir.path(), over).code, Some(0));
+}
+
+#[test]
+fn a_long_line_is_not_echoed_whole() {
+    let dir = folder();
+    let long = format!("\"{}\"", "x".repeat(20_000_000));
+    for (old, scene) in [
+        ("count = 20", format!("count = {long}")),
+        ("[flow]", format!("[flow]\n{} = 1", "y".repeat(20_000_000))),
+    ] {
+        fs::write(dir.path().join("long.toml"), SMALL.replace(old, &scene)).unwrap();
+        let run = ended(dir.path(), "run long.toml");
+        assert_eq!(run.code, Some(2));
+        assert!(run.stderr.len() < 64_000, "{}", run.stderr.len());
+        assert!(
+            run.stderr.starts_with("error: long.toml:"),
+            "{}",
+            &run.stderr[..200]
+        );
+        assert!(run.stderr.contains("characters are left out here"));
+    }
+}
+
+#[test]
+fn threads_of_the_environment_have_the_limit_of_the_option() {
+    let dir = folder();
+    for arguments in [
+        "run small.toml",
+        "bench --case re11.6",
+        "validate --case jeffery-period",
+    ] {
+        let output = command(dir.path(), arguments)
+            .env("RAYON_NUM_THREADS", "100000")
+            .output()
+            .unwrap();
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {message}");
+        assert!(
+            message.contains("RAYON_NUM_THREADS = 100000 is not allowed"),
+            "{message}"
+        );
+    }
+    let output = command(dir.path(), "run small.toml")
+        .env("RAYON_NUM_THREADS", "3")
+        .output()
+        .unwrap();
+    assert!(output.status.success());
+    let record = fs::read_to_string(dir.path().join("out/small/run.json")).unwrap();
+    assert!(record.contains("\"threads\": 3"), "{record}");
+}
+
+/// The address space that a shell grants is memory that there is not.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_limit_on_memory_is_heeded_before_the_work() {
+    let dir = folder();
+    let big = SMALL.replace("count = 20", "count = 20000000");
+    fs::write(dir.path().join("big.toml"), big).unwrap();
+    for arguments in ["run big.toml", "converge big.toml"] {
+        let limited = format!(
+            "ulimit -v 1000000; exec {} {arguments}",
+            env!("CARGO_BIN_EXE_shearbed")
+        );
+        let output = std::process::Command::new("timeout")
+            .args(["60", "bash", "-c", &limited])
+            .current_dir(dir.path())
+            .output()
+            .unwrap();
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {message}");
+        assert!(message.contains("particles.count = 20000000"), "{message}");
+        assert!(
+            message.contains("of memory, and 0.") && message.contains("allowed: fewer"),
+            "{message}"
+        );
+    }
+}
