@@ -96,7 +96,7 @@ fn a_row_is_the_last_output_of_a_run_with_these_keys() {
         let (alpha, update) = point.split_once(',').unwrap();
         let scene = SMALL.replace("alpha = 0.5", &format!("alpha = {alpha}\nupdate = \"{update}\""));
         fs::write(dir.path().join("point.toml"), scene).unwrap();
-        succeeds(dir.path(), "run point.toml --seed 7 --quiet");
+        succeeds(dir.path(), "run point.toml --seed 7 --quiet --force");
         let table = |name: &str| fs::read_to_string(dir.path().join("out/point").join(name)).unwrap();
         let last = |name: &str| table(name).lines().last().unwrap().to_owned();
         let angle = last("mean_angle.csv");

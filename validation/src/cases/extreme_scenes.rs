@@ -295,7 +295,10 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
             lab::interaction(scene).alpha = 1e3;
         }),
         scene(|scene| scene.particles.aspect_ratio = 1.0 + 1e-12),
-        scene(|scene| scene.particles.aspect_ratio = 1e8),
+        scene(|scene| {
+            scene.particles.aspect_ratio = 1e8;
+            scene.time.steps_per_period = Some(200);
+        }),
         scene(|scene| {
             // Every rod parallel to every other: no contact line.
             scene.particles.orientation = Orientation::Given {
