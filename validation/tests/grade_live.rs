@@ -19,6 +19,7 @@ fn main() -> ExitCode {
         .map(|case| Trial::test(format!("program_that_{}", case.program), || judge(case)))
         .collect();
     trials.push(Trial::test("program_that_cannot_be_started", cannot_be_started));
+    trials.push(Trial::test("program_ends_with_shearbed", ends_with_shearbed));
     libtest_mimic::run(&Arguments::from_args(), trials).exit_code()
 }
 
@@ -31,32 +32,122 @@ struct Case {
 }
 
 const CASES: &[Case] = &[
-    Case { program: "is_right", verdict: "PASS", words: &[] },
-    Case { program: "is_right_on_one_line_of_stderr_each", verdict: "PASS", words: &[] },
-    Case { program: "floods_stderr", verdict: "PASS", words: &[] },
-    Case { program: "stays", verdict: "PASS", words: &["did not end within 3 s of the end of its input"] },
-    Case { program: "says_more_at_the_end", verdict: "PASS", words: &["answers nothing: `bye`"] },
-    Case { program: "hangs", verdict: "FAIL", words: &["no answer within 1 s"] },
-    Case { program: "never_reads", verdict: "FAIL", words: &["no answer within 1 s"] },
-    Case { program: "hangs_with_a_child", verdict: "FAIL", words: &["no answer within 1 s"] },
-    Case { program: "ends", verdict: "FAIL", words: &["the program ended: exit status: 3", "last words", "out of ideas"] },
-    Case { program: "aborts", verdict: "FAIL", words: &["the program ended: signal"] },
-    Case { program: "closes_its_output", verdict: "FAIL", words: &["closed its standard output and went on"] },
-    Case { program: "prints_junk", verdict: "FAIL", words: &["line 3 of standard output: no JSON", "`step 1 of 10`"] },
-    Case { program: "answers_nan", verdict: "FAIL", words: &["not finite"] },
-    Case { program: "forgets_a_rod", verdict: "FAIL", words: &["rods where"] },
-    Case { program: "answers_out_of_order", verdict: "FAIL", words: &["line 3 of standard output: it answers id"] },
-    Case { program: "answers_twice", verdict: "FAIL", words: &["line 2 of standard output"] },
-    Case { program: "floods_stdout_with_lines", verdict: "FAIL", words: &["line 2 of standard output"] },
-    Case { program: "floods_stdout_without_lines", verdict: "FAIL", words: &["is longer than 1048576 bytes"] },
-    Case { program: "only_has_errors", verdict: "FAIL", words: &["the program says: not today"] },
-    Case { program: "transposes", verdict: "FAIL", words: &["the curve of a transposed gradient"] },
+    Case {
+        program: "is_right",
+        verdict: "PASS",
+        words: &[],
+    },
+    Case {
+        program: "is_right_on_one_line_of_stderr_each",
+        verdict: "PASS",
+        words: &[],
+    },
+    Case {
+        program: "floods_stderr",
+        verdict: "PASS",
+        words: &[],
+    },
+    Case {
+        program: "stays",
+        verdict: "PASS",
+        words: &["did not end within 3 s of the end of its input"],
+    },
+    Case {
+        program: "says_more_at_the_end",
+        verdict: "PASS",
+        words: &["answers nothing: `bye`"],
+    },
+    Case {
+        program: "hangs",
+        verdict: "FAIL",
+        words: &["no answer within 1 s"],
+    },
+    Case {
+        program: "never_reads",
+        verdict: "FAIL",
+        words: &["no answer within 1 s"],
+    },
+    Case {
+        program: "hangs_with_a_child",
+        verdict: "FAIL",
+        words: &["no answer within 1 s"],
+    },
+    Case {
+        program: "ends",
+        verdict: "FAIL",
+        words: &["the program ended: exit status: 3", "last words", "out of ideas"],
+    },
+    Case {
+        program: "aborts",
+        verdict: "FAIL",
+        words: &["the program ended: signal"],
+    },
+    Case {
+        program: "closes_its_output",
+        verdict: "FAIL",
+        words: &["closed its standard output and went on"],
+    },
+    Case {
+        program: "prints_junk",
+        verdict: "FAIL",
+        words: &["line 3 of standard output: no JSON", "`step 1 of 10`"],
+    },
+    Case {
+        program: "answers_nan",
+        verdict: "FAIL",
+        words: &["not finite"],
+    },
+    Case {
+        program: "forgets_a_rod",
+        verdict: "FAIL",
+        words: &["rods where"],
+    },
+    Case {
+        program: "answers_out_of_order",
+        verdict: "FAIL",
+        words: &["line 3 of standard output: it answers id"],
+    },
+    Case {
+        program: "answers_twice",
+        verdict: "FAIL",
+        words: &["line 2 of standard output"],
+    },
+    Case {
+        program: "floods_stdout_with_lines",
+        verdict: "FAIL",
+        words: &["line 2 of standard output"],
+    },
+    Case {
+        program: "floods_stdout_without_lines",
+        verdict: "FAIL",
+        words: &["is longer than 1048576 bytes"],
+    },
+    Case {
+        program: "only_has_errors",
+        verdict: "FAIL",
+        words: &["the program says: not today"],
+    },
+    Case {
+        program: "transposes",
+        verdict: "FAIL",
+        words: &["the curve of a transposed gradient"],
+    },
 ];
 
 fn shearbed(command: &str, out: &Path, timeout_s: &str) -> (Option<i32>, String, Duration) {
     let begun = Instant::now();
     let output = Command::new(env!("CARGO_BIN_EXE_shearbed"))
-        .args(["grade", "--brief", "--timeout", timeout_s, "--problem", "mid-flip-2", "--command", command, "--out"])
+        .args([
+            "grade",
+            "--brief",
+            "--timeout",
+            timeout_s,
+            "--problem",
+            "mid-flip-2",
+            "--command",
+            command,
+            "--out",
+        ])
         .arg(out)
         .output()
         .unwrap();
@@ -68,7 +159,12 @@ fn judge(case: &Case) -> Result<(), Failed> {
     let dir = tempfile::tempdir()?;
     let pids = dir.path().join("pids");
     let own = std::env::current_exe()?;
-    let command = format!("'{}' --program {} '{}'", own.display(), case.program, pids.display());
+    let command = format!(
+        "'{}' --program {} '{}'",
+        own.display(),
+        case.program,
+        pids.display()
+    );
     // Those that answer have time to, on a busy machine too.
     let hangs = case.words.iter().any(|words| words.contains("within 1 s"));
     let (code, words, took) = shearbed(&command, dir.path(), if hangs { "1" } else { "60" });
@@ -126,10 +222,59 @@ fn cannot_be_started() -> Result<(), Failed> {
     Ok(())
 }
 
+/// Asked to end while it waits, shearbed leaves nobody behind.
+fn ends_with_shearbed() -> Result<(), Failed> {
+    let dir = tempfile::tempdir()?;
+    let pids = dir.path().join("pids");
+    let command = format!(
+        "'{}' --program hangs_with_a_child '{}'",
+        std::env::current_exe()?.display(),
+        pids.display()
+    );
+    let mut shearbed = Command::new(env!("CARGO_BIN_EXE_shearbed"))
+        .args([
+            "grade",
+            "--timeout",
+            "1000",
+            "--quiet",
+            "--command",
+            &command,
+            "--out",
+        ])
+        .arg(dir.path().join("out"))
+        .stderr(Stdio::null())
+        .spawn()?;
+    let started = || {
+        fs::read_to_string(&pids)
+            .unwrap_or_default()
+            .split_whitespace()
+            .count()
+            == 2
+    };
+    while !started() {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let id = rustix::process::Pid::from_child(&shearbed);
+    rustix::process::kill_process(id, rustix::process::Signal::TERM)?;
+    let status = shearbed.wait()?;
+    if status.code() != Some(128 + 15) || dir.path().join("out").exists() {
+        return Err(format!("{status}").into());
+    }
+    for pid in fs::read_to_string(&pids)?.split_whitespace() {
+        if !gone(pid.parse()?) {
+            return Err(format!("process {pid} is left").into());
+        }
+    }
+    Ok(())
+}
+
 /// Acts as a program that is to be graded. From its third answer on it does what its name says.
 fn program(name: &str, pids: Option<&str>) -> ExitCode {
     let note = |pid: u32| {
-        let file = fs::OpenOptions::new().create(true).append(true).open(pids.unwrap());
+        let file = fs::OpenOptions::new()
+            .create(true)
+            .append(true)
+            .open(pids.unwrap());
         writeln!(file.unwrap(), "{pid}").unwrap();
     };
     note(std::process::id());

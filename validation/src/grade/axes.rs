@@ -53,7 +53,10 @@ impl Axes {
     /// The program's name of one of the problem's columns, and the sign that its values get: `p1` is `p2` where the
     /// program's second axis is the gradient. Columns without an axis keep their names.
     pub fn theirs(&self, column: &str) -> (String, f64) {
-        let tail = ["_se", "_per_s"].into_iter().find(|tail| column.ends_with(tail)).unwrap_or("");
+        let tail = ["_se", "_per_s"]
+            .into_iter()
+            .find(|tail| column.ends_with(tail))
+            .unwrap_or("");
         let stem = &column[..column.len() - tail.len()];
         let axis = |digit: u8| usize::from(digit.wrapping_sub(b'1'));
         let digits = stem

@@ -17,10 +17,26 @@ struct Mistake {
 }
 
 const MISTAKES: [Mistake; 4] = [
-    Mistake { name: "a kick with the wrong sign", kick: -1.0, printed: false },
-    Mistake { name: "no kick", kick: 0.0, printed: false },
-    Mistake { name: "a kick to the other rod's velocity, not to the mean", kick: 2.0, printed: false },
-    Mistake { name: "A.13 as printed", kick: 1.0, printed: true },
+    Mistake {
+        name: "a kick with the wrong sign",
+        kick: -1.0,
+        printed: false,
+    },
+    Mistake {
+        name: "no kick",
+        kick: 0.0,
+        printed: false,
+    },
+    Mistake {
+        name: "a kick to the other rod's velocity, not to the mean",
+        kick: 2.0,
+        printed: false,
+    },
+    Mistake {
+        name: "A.13 as printed",
+        kick: 1.0,
+        printed: true,
+    },
 ];
 
 /// Which mistake's answer it is.
@@ -48,14 +64,24 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64
     };
     let applies = |mistake: &&Mistake| !mistake.printed || loaded.problem.time_step_s.is_some();
     let near = MISTAKES.iter().filter(applies).filter_map(of_mistake);
-    said(near.filter(|(distance, _)| *distance <= nearer_than).collect(), loaded.problem.tolerance)
+    said(
+        near.filter(|(distance, _)| *distance <= nearer_than).collect(),
+        loaded.problem.tolerance,
+    )
 }
 
 /// p and ṗ′ in 1/s of both rods; of each centre, axis and r_e are given.
 fn rates(gradient: &Matrix3<f64>, pair: &[f64], kick: f64) -> [(Vector3<f64>, Vector3<f64>); 2] {
-    let (w, d) = (0.5 * (gradient - gradient.transpose()), 0.5 * (gradient + gradient.transpose()));
+    let (w, d) = (
+        0.5 * (gradient - gradient.transpose()),
+        0.5 * (gradient + gradient.transpose()),
+    );
     let rod = |of: &[f64]| {
-        let (x, p, r_e) = (Vector3::from_row_slice(&of[..3]), Vector3::from_row_slice(&of[3..6]), of[6]);
+        let (x, p, r_e) = (
+            Vector3::from_row_slice(&of[..3]),
+            Vector3::from_row_slice(&of[3..6]),
+            of[6],
+        );
         let shape = (r_e * r_e - 1.0) / (r_e * r_e + 1.0);
         let free = w * p + shape * (d * p - p * p.dot(&(d * p)));
         (x, p, free)
@@ -67,7 +93,9 @@ fn rates(gradient: &Matrix3<f64>, pair: &[f64], kick: f64) -> [(Vector3<f64>, Ve
     let sine_squared = 1.0 - cosine * cosine;
     let arm_a = (apart.dot(&a.1) - cosine * apart.dot(&b.1)) / sine_squared;
     let arm_b = (cosine * apart.dot(&a.1) - apart.dot(&b.1)) / sine_squared;
-    let along = |(x, _, free): &(Vector3<f64>, Vector3<f64>, Vector3<f64>), arm: f64| line.dot(&(gradient * x + free * arm));
+    let along = |(x, _, free): &(Vector3<f64>, Vector3<f64>, Vector3<f64>), arm: f64| {
+        line.dot(&(gradient * x + free * arm))
+    };
     let (v_a, v_b) = (along(&a, arm_a), along(&b, arm_b));
     let mean = 0.5 * (v_a + v_b);
     [
@@ -85,5 +113,10 @@ fn angles(p: &Vector3<f64>, rate: &Vector3<f64>, step_s: f64, printed: bool) -> 
         false => (around / theta.sin(), across * theta.cos() - rate.z * theta.sin()),
         true => (around, across * theta.sin() - rate.z * theta.cos()),
     };
-    vec![phi_rate, theta_rate, phi + phi_rate * step_s, theta + theta_rate * step_s]
+    vec![
+        phi_rate,
+        theta_rate,
+        phi + phi_rate * step_s,
+        theta + theta_rate * step_s,
+    ]
 }

@@ -131,7 +131,9 @@ pub fn terminal(report: &Report) -> String {
         .next()
         .map(|table| export::text(&table))
         .unwrap_or_default();
-    let more: String = tables.map(|table| "\n".to_owned() + &export::text(&table)).collect();
+    let more: String = tables
+        .map(|table| "\n".to_owned() + &export::text(&table))
+        .collect();
     first + &words + &more
 }
 
@@ -175,7 +177,11 @@ pub fn junit(report: &Report) -> String {
                 number(Some(graded.tolerance)),
                 parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
             );
-            let element = if graded.verdict == Verdict::Missing { "skipped" } else { "failure" };
+            let element = if graded.verdict == Verdict::Missing {
+                "skipped"
+            } else {
+                "failure"
+            };
             xml += &format!("<{element} message=\"{}\"></{element}>", escape(&message));
         }
         xml += "</testcase>\n";
