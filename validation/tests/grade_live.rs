@@ -19,6 +19,7 @@ fn main() -> ExitCode {
         .map(|case| Trial::test(format!("program_that_{}", case.program), || judge(case)))
         .collect();
     trials.push(Trial::test("program_that_cannot_be_started", cannot_be_started));
+    trials.push(Trial::test("program_ends_with_shearbed", ends_with_shearbed));
     libtest_mimic::run(&Arguments::from_args(), trials).exit_code()
 }
 
@@ -216,6 +217,52 @@ fn cannot_be_started() -> Result<(), Failed> {
         let (code, words, _) = shearbed(command, &out, "1");
         if code != Some(2) || !words.contains(expected) || out.exists() {
             return Err(format!("{command}: {code:?} {words}").into());
+        }
+    }
+    Ok(())
+}
+
+/// Asked to end while it waits, shearbed leaves nobody behind.
+fn ends_with_shearbed() -> Result<(), Failed> {
+    let dir = tempfile::tempdir()?;
+    let pids = dir.path().join("pids");
+    let command = format!(
+        "'{}' --program hangs_with_a_child '{}'",
+        std::env::current_exe()?.display(),
+        pids.display()
+    );
+    let mut shearbed = Command::new(env!("CARGO_BIN_EXE_shearbed"))
+        .args([
+            "grade",
+            "--timeout",
+            "1000",
+            "--quiet",
+            "--command",
+            &command,
+            "--out",
+        ])
+        .arg(dir.path().join("out"))
+        .stderr(Stdio::null())
+        .spawn()?;
+    let started = || {
+        fs::read_to_string(&pids)
+            .unwrap_or_default()
+            .split_whitespace()
+            .count()
+            == 2
+    };
+    while !started() {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let id = rustix::process::Pid::from_child(&shearbed);
+    rustix::process::kill_process(id, rustix::process::Signal::TERM)?;
+    let status = shearbed.wait()?;
+    if status.code() != Some(128 + 15) || dir.path().join("out").exists() {
+        return Err(format!("{status}").into());
+    }
+    for pid in fs::read_to_string(&pids)?.split_whitespace() {
+        if !gone(pid.parse()?) {
+            return Err(format!("process {pid} is left").into());
         }
     }
     Ok(())

@@ -99,6 +99,18 @@ impl Graded {
     }
 }
 
+/// Some of the exported problems in a folder of their own.
+fn some(to: &Path, names: &[&str]) -> PathBuf {
+    for name in names {
+        fs::create_dir_all(to.join(name)).unwrap();
+        for entry in fs::read_dir(REFERENCE.path().join(name)).unwrap() {
+            let from = entry.unwrap().path();
+            fs::copy(&from, to.join(name).join(from.file_name().unwrap())).unwrap();
+        }
+    }
+    to.to_owned()
+}
+
 fn skipped(name: &str, reason: &str) {
     println!("skipped: {name}, {reason}");
 }
@@ -248,21 +260,17 @@ fn each_planted_mistake_gets_its_own_name_and_the_unspoilt_code_none() {
     let dir = tempfile::tempdir().unwrap();
     let code = fs::read_to_string(peers().join("numpy_rk4.py")).unwrap();
     // Rods, tensors and contacts that show the mistakes, and no more.
-    let reference = dir.path().join("ref");
-    for name in [
-        "mid-flip-2",
-        "mid-flip-11.6",
-        "disc-0.1",
-        "isotropic-3",
-        "contact-rule",
-        "contact-angles",
-    ] {
-        fs::create_dir_all(reference.join(name)).unwrap();
-        for entry in fs::read_dir(REFERENCE.path().join(name)).unwrap() {
-            let from = entry.unwrap().path();
-            fs::copy(&from, reference.join(name).join(from.file_name().unwrap())).unwrap();
-        }
-    }
+    let reference = some(
+        &dir.path().join("ref"),
+        &[
+            "mid-flip-2",
+            "mid-flip-11.6",
+            "disc-0.1",
+            "isotropic-3",
+            "contact-rule",
+            "contact-angles",
+        ],
+    );
     let judge = |code: &str, name: &str| {
         let (script, mine) = (dir.path().join(format!("{name}.py")), dir.path().join(name));
         fs::write(&script, code).unwrap();
@@ -442,7 +450,7 @@ fn judge_fiberoripy(found: &Graded) {
 }
 
 /// By how much the IBOF closure misses a_ij of isotropic rods: recorded from fiberoripy 1.4.0, to a percent.
-const CLOSURES: [(&str, f64); 2] = [("isotropic-3", 0.0), ("isotropic-11.6", 0.0)];
+const CLOSURES: [(&str, f64); 2] = [("isotropic-3", 0.01503), ("isotropic-11.6", 0.09602)];
 
 #[test]
 fn fiberoripy_is_right_until_rods_are_fibres_and_its_closure_is_no_solution() {
@@ -455,8 +463,18 @@ fn fiberoripy_is_right_until_rods_are_fibres_and_its_closure_is_no_solution() {
     };
     let script = peers().join("fiberoripy_peer.py");
     let dir = tempfile::tempdir().unwrap();
-    run(&python, &[&script, REFERENCE.path(), dir.path()]);
-    judge_fiberoripy(&files(dir.path()));
+    // It needs minutes for the others.
+    let names = [
+        "mid-flip-2",
+        "mid-flip-11.6",
+        "mid-flip-10000",
+        "isotropic-3",
+        "isotropic-11.6",
+    ];
+    let reference = some(&dir.path().join("ref"), &names);
+    let mine = dir.path().join("mine");
+    run(&python, &[&script, &reference, &mine]);
+    judge_fiberoripy(&files(&mine));
     let command = format!("'{python}' '{}' --live", script.display());
     let of = ["--problem", "mid-flip-2", "--problem", "mid-flip-10000"];
     let live = graded(&[&["--command", &command, "--brief", "--timeout", "60"][..], &of].concat());

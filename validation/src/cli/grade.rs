@@ -51,16 +51,16 @@ pub(super) struct Args {
     #[arg(long, value_name = "PROGRAM")]
     layout: Option<Foreign>,
     /// The order that the program's error is said to have: another observed order fails
-    #[arg(long, value_name = "P", value_parser = positive)]
+    #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]
     order: Option<f64>,
     /// LAMMPS dumps: the length of a time step in s, where the dump has no ITEM: TIME
-    #[arg(long, value_name = "S", value_parser = positive)]
+    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
     timestep_s: Option<f64>,
     /// LAMMPS dumps: the rod's axis in the body's frame, where shapex, shapey, shapez do not tell
     #[arg(long, value_name = "x|y|z", value_parser = body_axis)]
     rod_axis: Option<usize>,
     /// With --command: seconds that an answer may take
-    #[arg(long, value_name = "S", value_parser = positive, default_value = "10")]
+    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true, default_value = "10")]
     timeout: f64,
     /// With --command: verdicts only, without work–precision, longest steps and the stability map
     #[arg(long)]

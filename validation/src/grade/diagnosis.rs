@@ -47,6 +47,13 @@ pub(super) fn said(mut near: Vec<(f64, String)>, tolerance: f64) -> Option<Strin
     let (nearest, _) = near.first()?;
     let nearest = nearest.max(f64::EPSILON);
     near.retain(|(distance, _)| *distance <= (10.0 * nearest).max(tolerance));
+    // Plane Couette flow is its own mirror image in axis 3: a reversal in the start is one in the answer.
+    let found: Vec<_> = near.iter().map(|(_, name)| name.clone()).collect();
+    near.retain(|(_, name)| {
+        !name
+            .strip_suffix(mistakes::IN_THE_START)
+            .is_some_and(|name| found.iter().any(|other| other == name))
+    });
     let names: Vec<_> = near.into_iter().map(|(_, name)| name).collect();
     Some(format!(
         "this is the curve of {}, to {nearest:.0e}",
@@ -76,11 +83,12 @@ fn rods(loaded: &LoadedProblem, answer: &Answer, setting: &Setting, mistake: &Mi
     largest(answer.rows.iter().enumerate().map(of_row))
 }
 
-/// The angle, or where lengths count the relative distance, head or tail alike.
+/// The angle, and what |p| is off by where that is more; or, of a mistake with a length of its own, the relative distance.
+/// Head or tail alike.
 pub(super) fn apart(found: &Vector3<f64>, expected: &Vector3<f64>, has_length: bool) -> f64 {
     match has_length {
         true => (found - expected).norm().min((found + expected).norm()) / expected.norm(),
-        false => apart_rad(found, expected),
+        false => apart_rad(found, expected).max((found.norm() - 1.0).abs()),
     }
 }
 

@@ -3,6 +3,8 @@
 //! The exact motion is p = q/|q|, q = M(t) p(0) with M = exp(At), A = W + ΛD. A mistake spoils the flow, the aspect
 //! ratio, the start, the map or the answer; the rest stays.
 
+mod physical;
+
 use nalgebra::{Matrix3, Vector3};
 use shearbed::flow::VelocityGradient;
 use shearbed::propagator::{Propagator, Span};
@@ -216,7 +218,7 @@ pub fn all() -> Vec<Mistake> {
         },
     ];
     all.extend(permuted());
-    all.extend(physical());
+    all.extend(physical::all());
     all
 }
 
@@ -246,6 +248,9 @@ fn by_angles(p: &Vector3<f64>, convert: fn(f64) -> f64) -> Vector3<f64> {
     Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos())
 }
 
+/// What a name ends with where the start is changed in place of the answer.
+pub const IN_THE_START: &str = ", in the start";
+
 /// Components in another order or with another sign, in the answer or in the start.
 fn permuted() -> Vec<Mistake> {
     let order = |of: [usize; 3]| Matrix3::from_fn(|i, j| f64::from(u8::from(of[i] == j)));
@@ -269,68 +274,10 @@ fn permuted() -> Vec<Mistake> {
         .flat_map(|(name, change)| {
             [
                 components(name.to_owned(), none, change),
-                components(format!("{name}, in the start"), change, none),
+                components(format!("{name}{IN_THE_START}"), change, none),
             ]
         })
         .collect()
-}
-
-/// r_p for r_e: the physical aspect ratio of a cylinder where the equivalent one of an ellipsoid belongs, by each formula
-/// of `docs/grading.md`, both ways: r_e = f(r_p) taken twice, and not taken.
-fn physical() -> Vec<Mistake> {
-    type Formula = fn(f64) -> f64;
-    let formulas: [(&str, Formula); 4] = [
-        ("Cox 1971", |r| 1.24 * r / r.ln().sqrt()),
-        ("Goldsmith & Mason 1967", |r| 0.742 * r - 0.0017 * r * r),
-        ("Harris & Pittman 1975", |r| 1.14 * r.powf(0.844)),
-        ("Zhang et al. 2011", |r| {
-            0.404 + r * (0.764 + r * (-0.00467 + r * 0.000035))
-        }),
-    ];
-    (formulas.into_iter())
-        .flat_map(|(who, formula)| {
-            let twice = move |s: Setting| Setting {
-                aspect_ratio: formula(s.aspect_ratio),
-                ..s
-            };
-            let not = move |s: Setting| Setting {
-                aspect_ratio: inverse(formula, s.aspect_ratio),
-                ..s
-            };
-            [
-                valid(&format!("r_p for r_e (r_e taken as r_p of {who})"), twice),
-                valid(&format!("r_p for r_e (r_p whose r_e by {who} was asked)"), not),
-            ]
-        })
-        .collect()
-}
-
-/// As [`moved`], where the aspect ratio that comes out is one.
-fn valid(name: &str, spoil: impl Fn(Setting) -> Setting + Send + Sync + 'static) -> Mistake {
-    linear(name, move |setting, time| {
-        let spoilt = spoil(*setting);
-        let is_ratio = spoilt.aspect_ratio.is_finite() && spoilt.aspect_ratio > 0.0;
-        is_ratio.then(|| right_map(&spoilt, time)).flatten()
-    })
-}
-
-/// r with f(r) = value between r = 2 and 200, where the formulas rise; NaN where there is none.
-fn inverse(formula: fn(f64) -> f64, value: f64) -> f64 {
-    let (mut low, mut high) = (2.0, 200.0);
-    if !(formula(low)..=formula(high)).contains(&value) {
-        return f64::NAN;
-    }
-    while high - low > 1e-14 * high {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            break;
-        }
-        match formula(middle) < value {
-            true => low = middle,
-            false => high = middle,
-        }
-    }
-    0.5 * (low + high)
 }
 
 /// a_ij of directions M p(0)/|M p(0)| where p(0) is isotropic, with det M = 1. In the principal axes of M Mᵀ, whose
@@ -349,132 +296,4 @@ pub fn isotropic_tensor(map: &Matrix3<f64>) -> Option<Matrix3<f64>> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::oracle::quadrature::spread;
-    use crate::subject::apart_rad;
-    use std::f64::consts::TAU;
-
-    fn couette(aspect_ratio: f64) -> Setting {
-        let mut gradient_per_s = Matrix3::zeros();
-        gradient_per_s[(1, 0)] = 0.5;
-        Setting {
-            gradient_per_s,
-            aspect_ratio,
-        }
-    }
-
-    /// RK4 of ṗ = Ap − p (p·Ap) with many steps: shares nothing with the maps above.
-    fn integrated(a: &Matrix3<f64>, p: Vector3<f64>, time: f64) -> Vector3<f64> {
-        let steps = 20_000;
-        let rate = |p: Vector3<f64>| a * p - p * p.dot(&(a * p));
-        (0..steps).fold(p, |p, _| {
-            let h = time / f64::from(steps);
-            crate::subject::rk4(rate, p, h)
-        })
-    }
-
-    #[test]
-    fn the_maps_are_exponentials_of_any_traceless_matrix() {
-        for (k, (u, v)) in spread(20).enumerate() {
-            let x = |n: f64| (n * (u + 0.3) + 7.0 * v).sin();
-            let mut a = Matrix3::new(
-                x(1.0),
-                x(2.0),
-                x(3.0),
-                x(4.0),
-                x(5.0),
-                x(6.0),
-                x(7.0),
-                x(8.0),
-                0.0,
-            );
-            a[(2, 2)] = -a[(0, 0)] - a[(1, 1)];
-            let p = Vector3::new(x(9.0), x(10.0), 1.0).normalize();
-            let found = map_of(&a, 1.5).unwrap() * p;
-            let expected = integrated(&a, p, 1.5);
-            assert!(
-                apart_rad(&found, &expected) < 1e-12,
-                "{k} {}",
-                apart_rad(&found, &expected)
-            );
-            // The growth too: |q| obeys d ln|q|/dt = p·Ap; det M = 1 fixes it.
-            assert!((map_of(&a, 1.5).unwrap() - (a * 1.5).exp()).norm() < 1e-12 * (a * 1.5).exp().norm());
-        }
-    }
-
-    #[test]
-    fn every_mistake_differs_from_the_truth_somewhere_and_from_the_others() {
-        let settings = [couette(11.6), couette(0.3)];
-        let p = Vector3::new(0.3, 0.5, 0.8).normalize();
-        let curve_of = |mistake: &Mistake| -> Vec<Option<Vector3<f64>>> {
-            settings
-                .iter()
-                .flat_map(|s| [1.0, 7.3, 19.0].map(|t| mistake.direction(s, &p, t)))
-                .collect()
-        };
-        let truth = Mistake {
-            name: "none".into(),
-            ..components(String::new(), Matrix3::identity(), Matrix3::identity())
-        };
-        let mut all = all();
-        all.push(truth);
-        let curves: Vec<_> = all.iter().map(curve_of).collect();
-        for a in 0..all.len() {
-            for b in 0..a {
-                let far = curves[a].iter().zip(&curves[b]).any(|pair| match pair {
-                    (Some(a), Some(b)) => apart_rad(a, b) > 1e-6 || (a.norm() - b.norm()).abs() > 1e-6,
-                    (a, b) => a.is_some() != b.is_some(),
-                });
-                // Plane Couette flow is its own mirror image in axis 3.
-                let mirrored = [&all[a].name, &all[b].name]
-                    .iter()
-                    .all(|name| name.starts_with("axis 3"));
-                assert!(far || mirrored, "{} = {}", all[a].name, all[b].name);
-            }
-        }
-    }
-
-    #[test]
-    fn names_are_told_apart() {
-        let names: std::collections::BTreeSet<_> = all().into_iter().map(|mistake| mistake.name).collect();
-        assert_eq!(names.len(), all().len());
-    }
-
-    #[test]
-    fn tensors_of_isotropic_rods_are_means_over_directions() {
-        for r in [0.3, 1.0, 11.6] {
-            for time in [0.0, 3.0, 11.0] {
-                let map = right_map(&couette(r), time).unwrap();
-                let found = isotropic_tensor(&map).unwrap();
-                // Midpoint rule in cos θ and φ.
-                let (n, m) = (600, 600);
-                let mut mean = Matrix3::zeros();
-                for i in 0..n {
-                    for j in 0..m {
-                        let z = (2.0 * f64::from(i) + 1.0) / f64::from(n) - 1.0;
-                        let phi = TAU * f64::from(j) / f64::from(m);
-                        let s = (1.0 - z * z).sqrt();
-                        let q = (map * Vector3::new(s * phi.cos(), s * phi.sin(), z)).normalize();
-                        mean += q * q.transpose();
-                    }
-                }
-                mean /= f64::from(n * m);
-                // The midpoint rule is of order 2 in 1/n, the map stretches by r_e.
-                let off = (found - mean).amax();
-                assert!(
-                    off < 4.0 * (r.max(1.0 / r) / f64::from(n)).powi(2),
-                    "{r} {time} {off}"
-                );
-                assert!((found.trace() - 1.0).abs() < 1e-13);
-            }
-        }
-    }
-
-    #[test]
-    fn the_inverse_of_a_formula_is_one() {
-        let formula: fn(f64) -> f64 = |r| 1.14 * r.powf(0.844);
-        assert!((formula(inverse(formula, 11.6)) / 11.6 - 1.0).abs() < 1e-12);
-        assert!(inverse(formula, 1e4).is_nan());
-    }
-}
+mod tests;

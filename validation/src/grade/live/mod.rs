@@ -5,12 +5,13 @@ mod ladder;
 pub mod pipe;
 mod program;
 mod protocol;
+mod signals;
 mod studies;
 
 pub use bench::{Bench, echo, theory};
 pub use ladder::{Mode, grade, mode};
-pub use pipe::end_with_this_program;
 pub use program::{Asked, Program, Question};
+pub use signals::end_with_this_program;
 pub use studies::{Studies, studies};
 
 use crate::problems::{self, Kind, LoadedProblem, Table};

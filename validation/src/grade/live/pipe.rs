@@ -1,10 +1,10 @@
 //! A program at the other end of two pipes: lines in, lines out, each wait bounded in time and memory.
 
-use std::collections::BTreeSet;
+use super::signals;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, SyncSender};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -54,36 +54,6 @@ impl std::fmt::Display for Trouble {
     }
 }
 
-/// The process groups that run now, to be killed where this program is ended by a signal.
-static RUNNING: Mutex<BTreeSet<u32>> = Mutex::new(BTreeSet::new());
-
-fn running() -> MutexGuard<'static, BTreeSet<u32>> {
-    RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// From now on, kills every program that was started before an interrupt, a hang-up or a request to end ends this one.
-#[cfg(unix)]
-pub fn end_with_this_program() -> std::io::Result<()> {
-    use rustix::process::{Pid, Signal, kill_process_group};
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-    let mut signals = signal_hook::iterator::Signals::new([SIGHUP, SIGINT, SIGTERM])?;
-    thread::spawn(move || {
-        if let Some(signal) = signals.forever().next() {
-            for group in running().iter().filter_map(|id| Pid::from_raw(*id as i32)) {
-                let _ = kill_process_group(group, Signal::KILL);
-            }
-            std::process::exit(128 + signal);
-        }
-    });
-    Ok(())
-}
-
-/// There are no such signals.
-#[cfg(not(unix))]
-pub fn end_with_this_program() -> std::io::Result<()> {
-    Ok(())
-}
-
 enum Heard {
     Line(Vec<u8>),
     TooLong,
@@ -116,7 +86,7 @@ impl Pipe {
         let mut child = command
             .spawn()
             .map_err(|error| format!("{program}: cannot be started: {error}"))?;
-        running().insert(child.id());
+        signals::running().insert(child.id());
         let (stdin, stdout, stderr) = (child.stdin.take(), child.stdout.take(), child.stderr.take());
         let (requests, to_write) = mpsc::channel();
         let (heard, lines) = mpsc::sync_channel(LINES_HELD);
@@ -136,11 +106,6 @@ impl Pipe {
             heard: 0,
             status: None,
         })
-    }
-
-    /// The process, which is also the number of its process group.
-    pub fn id(&self) -> u32 {
-        self.child.id()
     }
 
     /// Sends a line. A program that does not read it is noticed when its answer does not come.
@@ -243,7 +208,7 @@ impl Pipe {
         if self.status.is_some() {
             return self.status;
         }
-        running().remove(&self.child.id());
+        signals::running().remove(&self.child.id());
         #[cfg(unix)]
         {
             // An error means that nobody is left in the group.

@@ -153,11 +153,6 @@ impl Program {
         }
     }
 
-    /// The process group, while the program runs.
-    pub fn id(&self) -> Option<u32> {
-        self.state().pipe.as_ref().map(Pipe::id)
-    }
-
     fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
