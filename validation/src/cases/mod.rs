@@ -19,10 +19,10 @@ mod readings;
 mod reductions;
 mod reference;
 mod stability;
+mod statements;
 mod steady;
 mod step_limits;
 mod subjects;
-mod words;
 mod work_precision;
 mod work_precision_coupled;
 
@@ -53,7 +53,7 @@ pub fn all() -> Vec<Case> {
         work_precision::cases(),
         work_precision_coupled::cases(),
         decay::cases(),
-        words::cases(),
+        statements::cases(),
         experiments::cases(),
     ]
     .into_iter()
