@@ -23,6 +23,7 @@ mod statements;
 mod steady;
 mod step_limits;
 mod subjects;
+mod symmetries;
 mod work_precision;
 mod work_precision_coupled;
 
@@ -41,6 +42,7 @@ pub fn all() -> Vec<Case> {
         free_suspension::cases(),
         closed_forms::cases(),
         reductions::cases(),
+        symmetries::cases(),
         extremes::cases(),
         extreme_scenes::cases(),
         reference::cases(),
