@@ -2,7 +2,7 @@
 //! damping by unequal aspect ratios, rods started in the shear plane.
 
 use super::lab::{self, Sample, per_replica};
-use crate::accept::Rule;
+use crate::accept::{Design, Rule, kolmogorov_samples};
 use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::oracle::{closed_form, isotropic, quadrature};
 use nalgebra::UnitVector3;
@@ -14,7 +14,21 @@ use shearbed::scene::{Orientation, Scene};
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 /// A change to the scene that the model runs; the expectation stays that of the unchanged scene.
-type Mend = fn(&mut Scene);
+type Change = fn(&mut Scene);
+/// A change to the scene, and the orbit constant C_b of a direction of a rod of aspect ratio r.
+struct Orbit {
+    change: Change,
+    constant: fn([f64; 3], f64) -> f64,
+}
+
+/// Orbits as the core has them.
+fn orbit(change: Change) -> Orbit {
+    Orbit {
+        change,
+        constant: orientation::bounded_orbit_constant,
+    }
+}
+
 /// The direction after `turns` of a rod of aspect ratio r.
 type Motion = fn(f64, &UnitVector3<f64>, f64) -> UnitVector3<f64>;
 
@@ -46,16 +60,32 @@ pub fn cases() -> Vec<Case> {
                 source: "eqs 12, 13",
                 equations: &["12", "13"],
             },
-            (|_| {}) as Mend,
+            orbit(|_| {}),
             vec![
-                ("r_e 10 % longer", |scene| scene.particles.aspect_ratio *= 1.1),
-                ("every rod at 45°", |scene| {
-                    scene.particles.orientation = Orientation::Given {
-                        phi_deg: 45.0,
-                        theta_deg: 45.0,
-                    };
-                }),
-                ("rods in collision", |scene| lab::interaction(scene).alpha = 0.5),
+                (
+                    "r_e 10 % longer",
+                    orbit(|scene| scene.particles.aspect_ratio *= 1.1),
+                ),
+                (
+                    "every rod at 45°",
+                    orbit(|scene| {
+                        scene.particles.orientation = Orientation::Given {
+                            phi_deg: 45.0,
+                            theta_deg: 45.0,
+                        };
+                    }),
+                ),
+                (
+                    "rods in collision",
+                    orbit(|scene| lab::interaction(scene).alpha = 0.5),
+                ),
+                (
+                    "C = tan θ: eq. 13 without r_e",
+                    Orbit {
+                        change: |_| {},
+                        constant: |p, _| orientation::bounded_orbit_constant(p, 1.0),
+                    },
+                ),
             ],
             orbit_distribution,
         ),
@@ -67,12 +97,12 @@ pub fn cases() -> Vec<Case> {
                 source: "eqs 16, 17",
                 equations: &["16", "17"],
             },
-            (|_| {}) as Mend,
+            (|_| {}) as Change,
             vec![
                 ("no spread: the phases stay together", |scene| {
                     scene.particles.aspect_ratio_sd_percent = 0.0
                 }),
-                ("r_e 5 % longer", |scene| scene.particles.aspect_ratio *= 1.05),
+                ("r_e 20 % longer", |scene| scene.particles.aspect_ratio *= 1.2),
             ],
             plateau,
         ),
@@ -85,7 +115,7 @@ pub fn cases() -> Vec<Case> {
                 equations: &["11", "15"],
             },
             1.0 as Factor,
-            vec![("σ 15 % too wide", 1.15), ("no spread", 0.0)],
+            vec![("σ 25 % too wide", 1.25)],
             spread_damping,
         ),
         Case::new(
@@ -96,7 +126,7 @@ pub fn cases() -> Vec<Case> {
                 source: "A.4, eqs 4, 20",
                 equations: &["4", "20", "A.4"],
             },
-            (|_| {}) as Mend,
+            (|_| {}) as Change,
             vec![
                 ("r_e 1 % longer", |scene| scene.particles.aspect_ratio *= 1.01),
                 ("1° out of the plane", |scene| {
@@ -140,25 +170,27 @@ fn phase_means(motion: &Motion, _: &Effort) -> Vec<Evidence> {
             }
         }
     }
-    let because = "the quadrature's own tolerance, 4·10⁻¹³, with room for its panels";
+    let because = "four panels to the quadrature's tolerance of 10⁻¹³, times four for the quarter period";
     vec![Evidence::new(
         "largest difference of a time mean",
-        Rule::within(worst, 1e-11, because),
+        Rule::within(worst, 1.6e-12, because),
     )]
 }
 
-fn orbit_distribution(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
+fn orbit_distribution(orbit: &Orbit, effort: &Effort) -> Vec<Evidence> {
+    // The distribution functions of C with and without r_e are 0.20 apart, by the closed form; half of that is seen.
+    let distance = 0.1;
     let mut scene = lab::interacting_scene(effort);
-    scene.particles.count = effort.pick(4000, 20_000);
+    scene.particles.count = effort.pick(1, 4) * kolmogorov_samples(distance) as usize;
     lab::interaction(&mut scene).alpha = 0.0;
     let r = scene.particles.aspect_ratio;
-    mend(&mut scene);
+    (orbit.change)(&mut scene);
     let mut suspension = lab::stepped(&scene, 0);
     let constants = |suspension: &shearbed::Suspension| -> Vec<f64> {
         let directions = suspension.directions();
         directions
             .iter()
-            .map(|p| orientation::bounded_orbit_constant([p.x, p.y, p.z], r))
+            .map(|p| (orbit.constant)([p.x, p.y, p.z], r))
             .collect()
     };
     let before = constants(&suspension);
@@ -172,80 +204,67 @@ fn orbit_distribution(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
         .zip(&after)
         .map(|(a, b)| (a - b).abs())
         .fold(0.0, f64::max);
-    let uniform = |bounded: &[f64]| {
-        let levels = bounded
-            .iter()
-            .map(|&c| closed_form::orbit_constant_cdf(c, r))
-            .collect();
-        lab::uniform(
-            levels,
-            0.08,
-            "Kolmogorov–Smirnov; r_e 10 % longer shows at 4000 rods",
-        )
-    };
+    let levels = after
+        .iter()
+        .map(|&c| closed_form::orbit_constant_cdf(c, r))
+        .collect();
     vec![
         Evidence::new(
-            "p of C_b having the closed distribution at t = 0",
-            uniform(&before),
-        ),
-        Evidence::new(
             "p of C_b having the closed distribution after 137 steps",
-            uniform(&after),
+            lab::uniform(
+                levels,
+                distance,
+                "Kolmogorov–Smirnov; half of what eq. 13 without r_e is off by",
+            ),
         ),
         Evidence::new(
             "largest change of a rod's C_b",
             Rule::within(
                 if failed { f64::NAN } else { change },
-                1e-14,
-                "round-off of one evaluation",
+                4.0 * r * f64::EPSILON,
+                "four roundings of a direction, each grown by r_e in C",
             ),
         ),
     ]
 }
 
-fn plateau(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
+fn plateau(change: &Change, effort: &Effort) -> Vec<Evidence> {
+    // The control is off by 0.016 and more, by the closed form; |p_i| in [0, 1] scatters by 0.29 at most in a pilot.
+    let design = Design {
+        effect: 0.01,
+        sd: 0.31,
+    };
     let mut scene = lab::free_scene(effort);
-    scene.particles.count = effort.pick(40_000, 400_000);
+    scene.particles.count = effort.samples(design) as usize;
     scene.particles.aspect_ratio_sd_percent = 3.6;
-    // A quarter period past t/T = 100, where rods in phase would be far from their mean.
-    scene.time.periods = Some(100.25);
+    // A quarter period past t/T = 12, where rods in phase would be far from their mean; exp(−(t/t*)²) = 2·10⁻⁷.
+    scene.time.periods = Some(12.25);
     scene.time.outputs_per_period = Some(4);
     let (r, sd) = (
         scene.particles.aspect_ratio,
-        scene.particles.aspect_ratio_sd_percent,
+        0.01 * scene.particles.aspect_ratio_sd_percent,
     );
-    mend(&mut scene);
+    change(&mut scene);
     let results = ensemble::run(&lab::plan(&scene), || ());
-    let spread = isotropic::mean_projections_polydisperse(r, sd, 100.25);
-    let single = isotropic::plateau_projections(r);
+    // The mean over a Gaussian r_e by Hermite's three nodes, exact to σ⁴.
+    let node = |k: f64| isotropic::plateau_projections(r * (1.0 + k * sd * f64::sqrt(3.0)));
+    let (below, middle, above) = (node(-1.0), node(0.0), node(1.0));
     let mut evidence = Vec::new();
     for (axis, name) in ["x1", "x2", "x3"].into_iter().enumerate() {
         let channel = results.as_ref().ok().and_then(|results| results.channel(name));
-        let (mean, se) = channel.map_or((f64::NAN, f64::NAN), |c| (c.mean[401], c.se[401]));
+        let (mean, se) = channel.map_or((f64::NAN, f64::NAN), |c| (c.mean[49], c.se[49]));
         let sample = Sample {
             mean,
             se,
             samples: scene.particles.count as u64,
         };
         evidence.push(Evidence::new(
-            format!("X̄_{} at t/T = 100¼, against the quadrature over r_e", axis + 1),
+            format!("X̄_{} at t/T = 12¼, against the phase means", axis + 1),
             sample.is(
-                spread[axis],
+                (below[axis] + 4.0 * middle[axis] + above[axis]) / 6.0,
                 0.0,
-                2e-3,
-                "the quadrature is exact to 10⁻⁶; independent rods",
-            ),
-        ));
-        evidence.push(Evidence::new(
-            format!(
-                "X̄_{} at t/T = 100¼, against the phase means at the mean r_e",
-                axis + 1
-            ),
-            sample.is(
-                single[axis],
-                1e-3,
-                2e-3,
-                "the plateau's curvature in r_e gives a shift of order σ² = 0.0013",
+                design.effect,
+                "the phase means over isotropic orbits and r_e, to 10⁻⁶; independent rods",
             ),
         ));
     }
@@ -257,13 +276,18 @@ type Factor = f64;
 
 /// The first harmonic's amplitude around t, ∫ X̄_1 cos(4πt/T) over half a period, at t* against t = ¼.
 fn spread_damping(factor: &Factor, effort: &Effort) -> Vec<Evidence> {
+    // With σ 25 % too wide exp(−1) becomes exp(−1.56), 0.158 less. A pilot of 1,000 replicas at seed 99 scattered by 0.075.
+    let design = Design {
+        effect: 0.1,
+        sd: 0.085,
+    };
     let mut evidence = Vec::new();
-    for sd in [1.8, 3.6] {
+    for (stream, sd) in [(0, 1.8), (1, 3.6)] {
         let mut scene = lab::free_scene(effort);
+        scene.ensemble.seed = effort.seed(stream);
         let r = scene.particles.aspect_ratio;
         let s = sd / 100.0 * (r * r - 1.0) / (r * r + 1.0);
         let end = 1.0 / (2.0 * SQRT_2 * PI * s);
-        scene.particles.count = 1000;
         scene.particles.aspect_ratio_sd_percent = sd * factor;
         scene.time.outputs_per_period = Some(40);
         scene.time.periods = Some(end.round() + 1.0);
@@ -278,29 +302,34 @@ fn spread_damping(factor: &Factor, effort: &Effort) -> Vec<Evidence> {
         let quadrature = |k: usize| isotropic::mean_projections_polydisperse(r, sd, k as f64 / 40.0)[0];
         let first = harmonic(0, &|k| isotropic::mean_projections(r, k as f64 / 40.0)[0]);
         let expected = harmonic(middle - 10, &quadrature) / first;
-        let found = per_replica(&scene, effort.pick(100, 1000), |means| {
+        let found = per_replica(&scene, effort.samples(design), |means| {
             harmonic(middle - 10, &|k| means.at(k, 0)) / first
         });
         let at = (middle as f64 - 0.5) / 40.0;
         let what = format!("first harmonic at t/T = {at:.4} over that at once, σ = {sd} %");
-        let because = "the quadrature is exact to 10⁻⁶; 0.012 tells the controls apart";
         evidence.push(Evidence::new(
             format!("{what}, against the quadrature"),
-            Sample::of(&found).is(expected, 0.0, 0.012, because),
+            Sample::of(&found).is(
+                expected,
+                0.0,
+                design.effect,
+                "the quadrature is exact to 10⁻⁶; independent replicas",
+            ),
         ));
         evidence.push(Evidence::new(
-            format!("{what}, the formula less the quadrature, over σ"),
-            Rule::within(
-                ((-(at / end).powi(2)).exp() - expected) / (sd / 100.0),
-                0.5,
-                "first order in σ, with a coefficient of order ½; at σ = 10 % it is off by 0.03 of 0.37 and ends to hold",
+            format!("{what}, against the formula"),
+            Sample::of(&found).is(
+                (-(at / end).powi(2)).exp(),
+                sd / 100.0,
+                design.effect,
+                "the formula is of first order in σ: off by less than σ of the first amplitude",
             ),
         ));
     }
     evidence
 }
 
-fn in_plane_start(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
+fn in_plane_start(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let mut scene = lab::free_scene(effort);
     scene.particles.orientation = Orientation::Given {
         phi_deg: 30.0,
@@ -309,7 +338,7 @@ fn in_plane_start(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
     scene.particles.count = 3;
     scene.time.periods = Some(2.0);
     let r = scene.particles.aspect_ratio;
-    mend(&mut scene);
+    change(&mut scene);
     let results = ensemble::run(&lab::plan(&scene), || ());
     let channel = |name: &str| {
         let found = results.as_ref().ok().and_then(|results| results.channel(name));
@@ -331,8 +360,8 @@ fn in_plane_start(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
             "largest error of (X̄_1, X̄_2)",
             Rule::within(
                 worst,
-                1e-13,
-                "a rounding of the phase, 2π·2ε, grows by r_e at the flip",
+                4.0 * TAU * f64::EPSILON * r,
+                "a phase of two turns, 4π, rounded once here and once in the oracle, grows by r_e at the flip",
             ),
         ),
         Evidence::new(

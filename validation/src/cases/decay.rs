@@ -1,17 +1,29 @@
 //! How oscillations start and die, in the paper's words.
 //!
 //! The amplitude is that of Fig. 7's ordinate as far as the text tells: peak to trough of X̄₁, taken here as
-//! X̄₁(t) − X̄₁(t + T/4) at t = 0, T/2, T, …, where free rods peak.
+//! X̄₁(t) − X̄₁(t + T/4) at t = 0, T/2, T, …, where free rods peak. Effects and deviations are of pilots at seed 99, each
+//! effect three standard errors below its pilot's mean, unless a closed form is named.
 
 use super::lab::{self, Means, Sample, per_replica};
+use super::readings::LINE;
+use crate::accept::Design;
 use crate::case::{About, Case, Effort, Evidence, Judges};
 use shearbed::scene::Scene;
+use std::f64::consts::E;
 
 /// A change to the scene that the model runs; the expectation stays that of the unchanged scene.
-type Mend = fn(&mut Scene);
+type Change = fn(&mut Scene);
 
 /// Changes of a scene in the order in which the paper says that oscillations die out faster.
-type Order = [Mend; 3];
+#[derive(Clone, Copy)]
+struct Order {
+    scenes: [Change; 3],
+    /// What the amplitude at t/T = 1½ falls by from one to the next, at least, and how that scatters.
+    design: Design,
+}
+
+/// The scenes that X̄_1 and that X̄_2 and X̄_3 are of: the same, but for a mistake.
+type Axes = [Change; 2];
 
 pub fn cases() -> Vec<Case> {
     let about = |name, claim, source| About {
@@ -21,6 +33,51 @@ pub fn cases() -> Vec<Case> {
         source,
         equations: &["4"],
     };
+    // The closed form falls by 0.105 and 0.150; a pilot of 4,000 replicas scattered by 0.013 and 0.017.
+    let spread = Order {
+        scenes: [
+            |scene| scene.particles.aspect_ratio_sd_percent = 1.8,
+            |scene| scene.particles.aspect_ratio_sd_percent = 3.6,
+            |scene| scene.particles.aspect_ratio_sd_percent = 7.2,
+        ],
+        design: Design {
+            effect: 0.1,
+            sd: 0.02,
+        },
+    };
+    // A pilot of 300 replicas: 0.087 ± 0.028 and 0.109 ± 0.038 (mean and deviation).
+    let concentration = Order {
+        scenes: [
+            |scene| lab::interaction(scene).concentration_per_cm3 = 10.0,
+            |scene| lab::interaction(scene).concentration_per_cm3 = 50.0,
+            |scene| lab::interaction(scene).concentration_per_cm3 = 250.0,
+        ],
+        design: Design {
+            effect: 0.08,
+            sd: 0.043,
+        },
+    };
+    // A pilot of 300 replicas: 0.103 ± 0.029 and 0.142 ± 0.040 (mean and deviation).
+    let length = Order {
+        scenes: [
+            |scene| {
+                lab::interaction(scene);
+                scene.particles.length_mm = 0.36;
+            },
+            |scene| {
+                lab::interaction(scene);
+            },
+            |scene| {
+                lab::interaction(scene);
+                scene.particles.length_mm = 1.44;
+            },
+        ],
+        design: Design {
+            effect: 0.095,
+            sd: 0.045,
+        },
+    };
+    let instead = |order: Order, scenes| Order { scenes, ..order };
     vec![
         Case::new(
             about(
@@ -28,8 +85,11 @@ pub fn cases() -> Vec<Case> {
                 "\"The amplitude of oscillations is approximately half the particle length and is constant\" for free uniform rods.",
                 "Results, before Fig. 6; Fig. 6 (top)",
             ),
-            (|_| {}) as Mend,
+            (|_| {}) as Change,
             vec![
+                ("nearly round: r_e = 3", |scene| {
+                    scene.particles.aspect_ratio = 3.0
+                }),
                 ("unequal aspect ratios", |scene| {
                     scene.particles.aspect_ratio_sd_percent = 7.2
                 }),
@@ -45,18 +105,17 @@ pub fn cases() -> Vec<Case> {
                 "\"The oscillations decay faster … as the differences in the aspect ratios become larger\".",
                 "Results, before Fig. 7; Fig. 9",
             ),
-            [
-                |scene: &mut Scene| scene.particles.aspect_ratio_sd_percent = 1.8,
-                |scene: &mut Scene| scene.particles.aspect_ratio_sd_percent = 3.6,
-                |scene: &mut Scene| scene.particles.aspect_ratio_sd_percent = 7.2,
-            ] as Order,
+            spread,
             vec![(
-                "σ without effect",
-                [
-                    |scene| scene.particles.aspect_ratio_sd_percent = 3.6,
-                    |scene| scene.particles.aspect_ratio_sd_percent = 3.6,
-                    |scene| scene.particles.aspect_ratio_sd_percent = 3.6,
-                ],
+                "σ shifts all rods alike",
+                instead(
+                    spread,
+                    [
+                        |scene| scene.particles.aspect_ratio *= 1.018,
+                        |scene| scene.particles.aspect_ratio *= 1.036,
+                        |scene| scene.particles.aspect_ratio *= 1.072,
+                    ],
+                ),
             )],
             faster,
         ),
@@ -66,16 +125,17 @@ pub fn cases() -> Vec<Case> {
                 "\"The oscillations decay faster as the concentration (and consequently the number of collisions) increases\".",
                 "Results, before Fig. 7; Fig. 7",
             ),
-            [
-                |scene: &mut Scene| lab::interaction(scene).concentration_per_cm3 = 20.0,
-                |scene: &mut Scene| lab::interaction(scene).concentration_per_cm3 = 50.0,
-                |scene: &mut Scene| lab::interaction(scene).concentration_per_cm3 = 100.0,
-            ] as Order,
+            concentration,
             vec![(
-                "n without effect",
-                [|scene| {
-                    lab::interaction(scene);
-                }; 3],
+                "a volume with the side (N n)^⅓ in place of (N/n)^⅓, right at 50 per cm³",
+                instead(
+                    concentration,
+                    [
+                        |scene| lab::interaction(scene).concentration_per_cm3 = 250.0,
+                        |scene| lab::interaction(scene).concentration_per_cm3 = 50.0,
+                        |scene| lab::interaction(scene).concentration_per_cm3 = 10.0,
+                    ],
+                ),
             )],
             faster,
         ),
@@ -85,24 +145,19 @@ pub fn cases() -> Vec<Case> {
                 "\"The oscillations decay faster … as the particles become longer\" at fixed r_e.",
                 "Results, before Fig. 7; Fig. 8",
             ),
-            [
-                |scene: &mut Scene| {
-                    lab::interaction(scene);
-                    scene.particles.length_mm = 0.36;
-                },
-                |scene: &mut Scene| {
-                    lab::interaction(scene);
-                },
-                |scene: &mut Scene| {
-                    lab::interaction(scene);
-                    scene.particles.length_mm = 1.44;
-                },
-            ] as Order,
+            length,
             vec![(
-                "a without effect",
-                [|scene| {
-                    lab::interaction(scene);
-                }; 3],
+                "rods per a³ taken as n/a³ in place of n a³, right at 0.72 mm",
+                instead(
+                    length,
+                    [
+                        |scene| lab::interaction(scene).concentration_per_cm3 = 400.0,
+                        |scene| {
+                            lab::interaction(scene);
+                        },
+                        |scene| lab::interaction(scene).concentration_per_cm3 = 6.25,
+                    ],
+                ),
             )],
             faster,
         ),
@@ -114,10 +169,8 @@ pub fn cases() -> Vec<Case> {
             ),
             (|scene| {
                 lab::interaction(scene);
-            }) as Mend,
-            vec![("collisions without effect", |scene| {
-                lab::interaction(scene).alpha = 0.0
-            })],
+            }) as Change,
+            vec![("α a tenth", |scene| lab::interaction(scene).alpha *= 0.1)],
             collisions_damp,
         ),
         Case::new(
@@ -125,11 +178,11 @@ pub fn cases() -> Vec<Case> {
                 equations: &["4", "16"],
                 ..about(
                     "dies-out",
-                    "\"The oscillations die out … after a few rotations, in contrast to the undamped oscillations\": to a fifth in four rotations with collisions and σ = 3.6 %; collisions alone take them to less than two thirds only.",
+                    "\"The oscillations die out … after a few rotations, in contrast to the undamped oscillations\": to less than 1/e in four rotations with collisions and σ = 3.6 %; with collisions alone they are smaller after one, two and four rotations each time.",
                     "Results, after Fig. 6",
                 )
             },
-            (|_| {}) as Mend,
+            (|_| {}) as Change,
             vec![("collisions without effect and uniform rods", |scene| {
                 lab::interaction(scene).alpha = 0.0;
                 scene.particles.aspect_ratio_sd_percent = 0.0;
@@ -141,30 +194,19 @@ pub fn cases() -> Vec<Case> {
                 equations: &["4", "16"],
                 ..about(
                     "other-axes-decay",
-                    "\"The amplitudes of X̄_2 and X̄_3 decay in similar manner\" as that of X̄_1.",
+                    "\"The amplitudes of X̄_2 and X̄_3 decay in similar manner\" as that of X̄_1: at rates that differ by less than a factor of two.",
                     "Results, after Fig. 10",
                 )
             },
-            (|means, k, axis| means.swing(k, axis)) as Swing,
+            [damped as Change; 2] as Axes,
             vec![
-                ("X̄_2 and X̄_3 that keep their amplitude", |means, k, axis| {
-                    means.swing(if axis == 0 { k } else { 0 }, axis)
-                }),
-                ("X̄_2 and X̄_3 gone at once", |means, k, axis| {
-                    if axis == 0 || k == 0 {
-                        means.swing(k, axis)
-                    } else {
-                        0.0
-                    }
-                }),
+                ("X̄_2 and X̄_3 not damped", [damped, undamped]),
+                ("X̄_1 not damped", [undamped, damped]),
             ],
             on_all_axes,
         ),
     ]
 }
-
-/// The swing of X̄_i in the quarter period from t = kT/2 on, as read from a replica.
-type Swing = fn(&Means, usize, usize) -> f64;
 
 impl Means {
     /// |X̄_i(kT/2) − X̄_i(kT/2 + T/4)|, signed so that free rods give a positive one; four outputs a period.
@@ -195,11 +237,15 @@ fn quarters(mut scene: Scene, half_periods: usize) -> Scene {
     scene
 }
 
-fn free_amplitude(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
+fn free_amplitude(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let mut scene = lab::free_scene(effort);
-    scene.particles.count = 1000;
-    mend(&mut scene);
-    let found = amplitudes(&scene, effort.pick(40, 400), &[0, 8]);
+    change(&mut scene);
+    // A pilot of 2,000 replicas scattered by 0.031, and by 0.042 with r_e = 3.
+    let design = Design {
+        effect: 0.09,
+        sd: 0.045,
+    };
+    let found = amplitudes(&scene, effort.samples(design), &[0, 8]);
     let change: Vec<f64> = found[0]
         .iter()
         .zip(&found[1])
@@ -211,8 +257,8 @@ fn free_amplitude(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
             Sample::of(&found[0]).is(
                 0.5,
                 0.05,
-                0.01,
-                "\"approximately\": a tenth; \"the exact value depends on the aspect ratio\"",
+                design.effect,
+                "\"approximately half\": 0.5 to one digit; r_e = 3 has 0.35 by the closed form",
             ),
         ),
         Evidence::new(
@@ -220,7 +266,7 @@ fn free_amplitude(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
             Sample::of(&change).is(
                 0.0,
                 1e-12,
-                0.01,
+                design.effect,
                 "constant: the same phases come back to round-off",
             ),
         ),
@@ -228,92 +274,168 @@ fn free_amplitude(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
 }
 
 fn faster(order: &Order, effort: &Effort) -> Vec<Evidence> {
-    let amplitude = |mend: &Mend| {
+    let replicas = effort.samples(order.design);
+    let found = order.scenes.map(|change| {
         let mut scene = lab::free_scene(effort);
-        mend(&mut scene);
-        amplitudes(&scene, effort.pick(120, 1000), &[3]).remove(0)
-    };
-    let found: Vec<_> = order.iter().map(amplitude).collect();
-    let because = "the same seeds in both; noise of 0.01 tells the controls apart";
+        change(&mut scene);
+        amplitudes(&scene, replicas, &[3]).remove(0)
+    });
+    let because = "an order without a number; the same seeds in all three";
     [(0, 1, "first less second"), (1, 2, "second less third")]
         .into_iter()
         .map(|(a, b, which)| {
             let fall: Vec<f64> = found[a].iter().zip(&found[b]).map(|(a, b)| a - b).collect();
             Evidence::new(
                 format!("fall of the amplitude at t/T = 1½, {which}"),
-                Sample::of(&fall).exceeds(0.0, 0.01, because),
+                Sample::of(&fall).exceeds(0.0, order.design.effect, because),
             )
         })
         .collect()
 }
 
-fn collisions_damp(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
+fn collisions_damp(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let mut evidence = Vec::new();
-    for sd in [0.0, 3.6] {
+    // Pilots of 300 replicas at t/T = 1 and 2: 0.112 ± 0.025 and 0.178 ± 0.030 for σ = 0 (mean and deviation), 0.054 ±
+    // 0.022 and 0.051 ± 0.026 for σ = 3.6 %.
+    for (sd, design) in [
+        (
+            0.0,
+            Design {
+                effect: 0.09,
+                sd: 0.035,
+            },
+        ),
+        (
+            3.6,
+            Design {
+                effect: 0.036,
+                sd: 0.029,
+            },
+        ),
+    ] {
         let mut free = lab::free_scene(effort);
         free.particles.aspect_ratio_sd_percent = sd;
         let mut interacting = free.clone();
-        mend(&mut interacting);
-        let replicas = effort.pick(120, 1000);
+        change(&mut interacting);
+        let replicas = effort.samples(design);
         let without = amplitudes(&free, replicas, &[2, 4]);
         let with = amplitudes(&interacting, replicas, &[2, 4]);
         for (k, when) in [(0, "1"), (1, "2")] {
             let fall: Vec<f64> = without[k].iter().zip(&with[k]).map(|(a, b)| a - b).collect();
-            let because = "\"much\" has no number in the paper: 0.02 of a rod length, what a figure shows";
+            let because =
+                "\"much\" has no number in the paper: two curves as far apart as twice the width of a line";
             evidence.push(Evidence::new(
                 format!("amplitude without less with collisions at t/T = {when}, σ = {sd} %"),
-                Sample::of(&fall).exceeds(0.02, 0.01, because),
+                Sample::of(&fall).exceeds(2.0 * LINE, design.effect, because),
             ));
         }
     }
     evidence
 }
 
-fn dies_out(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
-    [(3.6, 0.2, "σ = 3.6 %"), (0.0, 0.65, "σ = 0")]
-        .into_iter()
-        .map(|(sd, left, name)| {
-            let mut scene = lab::interacting_scene(effort);
-            scene.particles.aspect_ratio_sd_percent = sd;
-            mend(&mut scene);
-            let margin = per_replica(&quarters(scene, 8), effort.pick(60, 600), |means| {
-                left * means.swing(0, 0) - means.swing(8, 0)
-            });
-            Evidence::new(
-                format!("{left} of the first amplitude less that at t/T = 4, n = 50 per cm³, {name}"),
-                Sample::of(&margin).exceeds(
-                    0.0,
-                    0.01,
-                    "\"a few\" is read as four; noise of 0.01 tells the control apart",
-                ),
-            )
-        })
-        .collect()
+fn dies_out(change: &Change, effort: &Effort) -> Vec<Evidence> {
+    let found = |sd, design| {
+        let mut scene = lab::interacting_scene(effort);
+        scene.particles.aspect_ratio_sd_percent = sd;
+        change(&mut scene);
+        amplitudes(&scene, effort.samples(design), &[0, 2, 4, 8])
+    };
+    // Pilots of 300 replicas: 0.136 ± 0.035 (mean and deviation); 0.107 ± 0.024, 0.066 ± 0.023 and 0.080 ± 0.028.
+    let (both, alone) = (
+        Design {
+            effect: 0.13,
+            sd: 0.042,
+        },
+        Design {
+            effect: 0.06,
+            sd: 0.032,
+        },
+    );
+    let spread = found(3.6, both);
+    let margin: Vec<f64> = spread[0]
+        .iter()
+        .zip(&spread[3])
+        .map(|(first, last)| first / E - last)
+        .collect();
+    let mut evidence = vec![Evidence::new(
+        "1/e of the first amplitude less that at t/T = 4, n = 50 per cm³, σ = 3.6 %",
+        Sample::of(&margin).exceeds(
+            0.0,
+            both.effect,
+            "\"a few\" is read as four, \"die out\" as below 1/e, where a decay has its time",
+        ),
+    )];
+    let uniform = found(0.0, alone);
+    for (k, which) in [(1, "0 and 1"), (2, "1 and 2"), (3, "2 and 4")] {
+        let fall: Vec<f64> = uniform[k - 1]
+            .iter()
+            .zip(&uniform[k])
+            .map(|(a, b)| a - b)
+            .collect();
+        evidence.push(Evidence::new(
+            format!("fall of the amplitude between t/T = {which}, n = 50 per cm³, σ = 0"),
+            Sample::of(&fall).exceeds(0.0, alone.effect, "an order without a number"),
+        ));
+    }
+    evidence
 }
 
-/// What is left of the amplitude after two periods, X̄_2 and X̄_3 against X̄_1.
-fn on_all_axes(swing: &Swing, effort: &Effort) -> Vec<Evidence> {
-    let mut scene = lab::interacting_scene(effort);
+fn damped(scene: &mut Scene) {
+    lab::interaction(scene);
     scene.particles.aspect_ratio_sd_percent = 3.6;
-    let found = per_replica(&quarters(scene, 4), effort.pick(100, 1000), |means| {
-        [0, 1, 2].map(|axis| [swing(means, 0, axis), swing(means, 4, axis)])
+}
+
+fn undamped(_: &mut Scene) {}
+
+/// What is left of the amplitudes after two periods: b, of X̄_i or X̄_1, and a, of the other. X̄_i decays less than
+/// twice as fast as X̄_j where a_i > a_j².
+fn on_all_axes(axes: &Axes, effort: &Effort) -> Vec<Evidence> {
+    // A pilot of 200 replicas: a − b² of 0.127 ± 0.039 (mean and deviation), 0.213 ± 0.055, 0.284 ± 0.046, 0.234 ± 0.051.
+    let narrow = Design {
+        effect: 0.11,
+        sd: 0.046,
+    };
+    let wide = Design {
+        effect: 0.2,
+        sd: 0.065,
+    };
+    let replicas = effort.samples(narrow).max(effort.samples(wide));
+    let swings = |change: Change| {
+        let mut scene = lab::free_scene(effort);
+        change(&mut scene);
+        per_replica(&quarters(scene, 4), replicas, |means| {
+            [0, 1, 2].map(|axis| [means.swing(0, axis), means.swing(4, axis)])
+        })
+    };
+    let [first, others] = axes.map(swings);
+    // The share of the means, with each replica's deviation to first order: a replica's own ratio is noisy and so biased.
+    let left = [0, 1, 2].map(|axis| {
+        let swings = if axis == 0 { &first } else { &others };
+        let mean = |k: usize| swings.iter().map(|s| s[axis][k]).sum::<f64>() / swings.len() as f64;
+        let (start, share) = (mean(0), mean(1) / mean(0));
+        let value = |s: &[[f64; 2]; 3]| share + (s[axis][1] - share * s[axis][0]) / start;
+        swings.iter().map(value).collect::<Vec<_>>()
     });
-    // Of the means, not of the replicas: a replica's ratio is noisy and so biased.
-    let first = [0, 1, 2].map(|axis| Sample::of(&found.iter().map(|f| f[axis][0]).collect::<Vec<_>>()).mean);
-    [1, 2]
+    [(1, 0, narrow), (2, 0, wide), (0, 1, wide), (0, 2, wide)]
         .into_iter()
-        .map(|axis| {
-            let difference: Vec<f64> = found
+        .map(|(i, j, design)| {
+            let mean = Sample::of(&left[j]).mean;
+            // a − b² to first order in each replica's deviation: its mean is that of the means.
+            let difference: Vec<f64> = left[i]
                 .iter()
-                .map(|f| f[axis][1] / first[axis] - f[0][1] / first[0])
+                .zip(&left[j])
+                .map(|(a, b)| a - 2.0 * mean * b + mean * mean)
                 .collect();
             Evidence::new(
-                format!("share of the amplitude left at t/T = 2, X̄_{} less X̄_1", axis + 1),
-                Sample::of(&difference).is(
+                format!(
+                    "share of the amplitude left at t/T = 2, X̄_{} less the square of that of X̄_{}",
+                    i + 1,
+                    j + 1
+                ),
+                Sample::of(&difference).exceeds(
                     0.0,
-                    0.15,
-                    0.02,
-                    "\"similar\" has no number in the paper: 0.15 of the first amplitude",
+                    design.effect,
+                    "\"similar\" has no number in the paper: rates within a factor of two",
                 ),
             )
         })

@@ -21,10 +21,11 @@ mod reductions;
 mod reference;
 pub mod resolution;
 mod stability;
+mod statements;
 mod steady;
 mod step_limits;
 mod subjects;
-mod words;
+mod symmetries;
 mod work_precision;
 mod work_precision_coupled;
 
@@ -43,6 +44,7 @@ pub fn all() -> Vec<Case> {
         free_suspension::cases(),
         closed_forms::cases(),
         reductions::cases(),
+        symmetries::cases(),
         extremes::cases(),
         general_flows::cases(),
         extreme_scenes::cases(),
@@ -57,7 +59,7 @@ pub fn all() -> Vec<Case> {
         work_precision::cases(),
         work_precision_coupled::cases(),
         decay::cases(),
-        words::cases(),
+        statements::cases(),
         experiments::cases(),
     ]
     .into_iter()
