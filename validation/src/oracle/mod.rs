@@ -2,6 +2,7 @@
 
 pub mod closed_form;
 pub mod isotropic;
+pub mod jeffery;
 pub mod kicks;
 pub mod naive;
 pub mod pairing;
