@@ -176,8 +176,8 @@ fn digits(rate: &Rate, _: &Effort) -> Vec<Evidence> {
     ]
 }
 
-/// The largest eigenvalue over G by theory, and φ where a rod in the plane of shear has it (docs/stability.md): in the plane
-/// of shear the eigenvalues are −2Λxy ± i(½(1 − Λ) + Λx²) with x = cos φ, y = sin φ.
+/// The largest eigenvalue over G by theory, and φ where a rod in the plane of shear has it: there the
+/// eigenvalues are −2Λxy ± i(½(1 − Λ) + Λx²) with x = cos φ, y = sin φ; out of the plane |λ|² is linear in y² and less.
 fn largest_eigenvalue(r: f64) -> (f64, f64) {
     let shape = (r * r - 1.0) / (r * r + 1.0);
     let size = shape.abs();
