@@ -4,14 +4,8 @@ use crate::contact::Contact;
 use crate::orientation::{angles, from_angles};
 use nalgebra::{UnitVector3, Vector3};
 
-/// The collision probability P_c = (α/(s/a + α))^m at the centre distance s/a `distance`, in rod lengths
-/// (eq. 7; eq. 10 with m = 3). α > 0 and m > 0 are real.
-pub fn probability(distance: f64, alpha: f64, m: f64) -> f64 {
-    (alpha / (distance + alpha)).powf(m)
-}
-
-/// The reach s*/a = α(R^{−1/m} − 1) in rod lengths: P_c > R is the same as s < s* (eqs 8 and 9, solved for s).
-/// Infinite for R = 0.
+/// The reach s*/a = α(R^{−1/m} − 1) in rod lengths, where P_c = (α/(s/a + α))^m is R (eq. 7; eq. 10 with m = 3): P_c > R
+/// is the same as s < s* (eqs 8 and 9). α > 0 and m > 0 are real. Infinite for R = 0.
 #[inline]
 pub fn reach(r: f64, alpha: f64, m: f64) -> f64 {
     alpha * (-r.ln() / m).exp_m1()
@@ -128,14 +122,11 @@ mod tests {
     use approx::assert_relative_eq;
 
     #[test]
-    fn the_probability_by_hand() {
-        assert_eq!(probability(0.0, 0.5, 3.0), 1.0);
-        assert_eq!(probability(0.5, 0.5, 3.0), 0.125);
-        assert_relative_eq!(probability(1.5, 0.5, 0.5), 0.5, max_relative = 1e-15);
-    }
-
-    #[test]
     fn the_reach_inverts_the_probability() {
+        let probability = |distance: f64, alpha: f64, m: f64| (alpha / (distance + alpha)).powf(m);
+        // By hand: P_c = 1/8 at s = α for m = 3, and R = 1 reaches nothing.
+        assert_relative_eq!(reach(0.125, 0.5, 3.0), 0.5, max_relative = 1e-15);
+        assert_eq!(reach(1.0, 0.5, 3.0), 0.0);
         for (alpha, m) in [(0.5, 3.0), (0.01, 0.1), (7.0, 50.0), (0.3, 1.7)] {
             for r in [1e-3, 0.1, 0.5, 0.999] {
                 assert_relative_eq!(probability(reach(r, alpha, m), alpha, m), r, max_relative = 1e-12);

@@ -1,6 +1,6 @@
 //! The imposed velocity field: u_i = Σ_j (∂u_i/∂x_j) x_j (eqs 2 and 3).
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
 /// A constant velocity gradient L with L_ij = ∂u_i/∂x_j in 1/s (eq. 2, with the printed ∂x_i read as ∂x_j).
 ///
@@ -54,23 +54,19 @@ impl VelocityGradient {
         // Scaled first, so that neither 10⁻³⁰⁰ nor 10³⁰⁸ is lost in the squares or the sums.
         largest * Self(self.0 / largest).strain_rate().norm() * std::f64::consts::SQRT_2
     }
-
-    /// The liquid's velocity at `position` (eq. 3), in the position's length unit per second.
-    pub fn velocity(&self, position: &Vector3<f64>) -> Vector3<f64> {
-        self.0 * position
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::Vector3;
 
     #[test]
     fn plane_couette_flow_is_recognised_and_only_it() {
         let flow = VelocityGradient::plane_couette(-0.5).unwrap();
         assert_eq!(flow.shear_rate_per_s(), Some(-0.5));
         assert_eq!(
-            flow.velocity(&Vector3::new(2.0, 7.0, 7.0)),
+            flow.per_s() * Vector3::new(2.0, 7.0, 7.0),
             Vector3::new(0.0, -1.0, 0.0)
         );
         let mut other = *flow.per_s();

@@ -31,18 +31,12 @@ candidate-order@@src/suspension.rs@@a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))@@a.1
 deviation-not-percent@@src/rods.rs@@let deviation = mean * particles.aspect_ratio_sd_percent / 100.0;@@let deviation = particles.aspect_ratio_sd_percent / 100.0;
 signed-projection@@src/observable.rs@@sum.add_each(block.len, |i| p[i].abs())@@sum.add_each(block.len, |i| p[i])
 standard-error@@src/ensemble.rs@@(self.deviation[k] / (self.replicas - 1.0) / self.replicas).sqrt()@@(self.deviation[k] / (self.replicas - 1.0)).sqrt()
-velocity-transposed@@src/flow.rs@@self.0 * position@@self.0.transpose() * position
-spin-sign@@src/jeffery.rs@@0.5 * curl + shape_factor@@-0.5 * curl + shape_factor
-phi-rate@@src/jeffery.rs@@(r2 * cos_phi * cos_phi + sin_phi * sin_phi)@@(r2 * sin_phi * sin_phi + cos_phi * cos_phi)
-theta-rate@@src/jeffery.rs@@let theta_rate = 0.25@@let theta_rate = 0.5
-phi-of-time@@src/jeffery.rs@@(aspect_ratio * rest.sin()).atan2(rest.cos())@@(rest.sin() / aspect_ratio).atan2(rest.cos())
-theta-of-phi@@src/jeffery.rs@@cos_phi.hypot(sin_phi / aspect_ratio)@@cos_phi.hypot(sin_phi * aspect_ratio)
 flow-rate-of-a@@src/jeffery.rs@@half * (shape_factor - 1.0) * p.y@@half * (shape_factor + 1.0) * p.y
+rate-of-p3@@src/jeffery.rs@@        -stretch * p.z,@@        stretch * p.z,
 folded-angle@@src/orientation.rs@@p2.abs().atan2(p1.abs())@@p1.abs().atan2(p2.abs())
 positions-half-full@@src/volume.rs@@*x = self.side * rng.random::<f64>();@@*x = 0.5 * self.side * rng.random::<f64>();
 overshoot@@src/volume.rs@@let overshoot = x2.rem_euclid(self.side);@@let overshoot = self.side * rng.random::<f64>();
 volume-side@@src/volume.rs@@(count as f64 / per_cubed_length).cbrt()@@(count as f64 / per_cubed_length).sqrt()
-probability-power@@src/collision.rs@@(alpha / (distance + alpha)).powf(m)@@(alpha / (distance + alpha)).powf(m + 1.0)
 collide-where-not@@src/suspension.rs@@if nearest.square < self.reach.of@@if nearest.square > self.reach.of
 planar-projection@@src/observable.rs@@zip([(p1, p2), (p2, p3), (p1, p3)])@@zip([(p1, p2), (p1, p3), (p2, p3)])
 angle-update@@src/collision.rs@@from_angles(phi + phi_rate * time, theta + theta_rate * time)@@from_angles(phi + phi_rate * time, theta - theta_rate * time)
@@ -79,6 +73,7 @@ newton-ends-early@@validation/src/subject/sphere.rs@@if change.norm() <= NEWTON_
 newton-not-damped@@validation/src/subject/sphere.rs@@if next.norm() < miss.norm() {@@if next.norm().is_finite() {
 short-from-shape@@validation/src/subject/problem.rs@@short: 1.0 / (1.0 + square),@@short: 0.5 - 0.5 * (square - 1.0) / (square + 1.0),
 southern-half@@validation/src/subject/exact.rs@@let p = if start.z < 0.0 { -*start } else { *start };@@let p = *start;
+slope-of-p2@@validation/src/subject/problem.rs@@p * Vector3::new(shape * p.y, shape * p.x, 0.0).transpose()@@p * Vector3::new(shape * p.y, 0.0 * shape * p.x, 0.0).transpose()
 loose-tolerance@@validation/src/subject/adaptive.rs@@start.into_inner(), tolerance, tolerance);@@start.into_inner(), 1e3 * tolerance, 1e3 * tolerance);
 LIST
 )

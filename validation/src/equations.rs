@@ -1,4 +1,7 @@
-//! The paper's equations, and where the code has them: with the registry of cases this makes the traceability table.
+//! The paper's equations, and the code by which a run has them: with the registry of cases this makes the traceability table.
+
+#[cfg(test)]
+mod reach;
 
 /// One numbered equation of the paper.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -7,7 +10,7 @@ pub struct Equation {
     pub number: &'static str,
     /// What it says.
     pub says: &'static str,
-    /// Where the core has it, as `file.rs: item`.
+    /// Where a run has it, as `file.rs: item` (or a folder of that name).
     pub code: &'static [&'static str],
 }
 
@@ -22,7 +25,7 @@ pub const ALL: [Equation; 35] = [
     eq(
         "3",
         "liquid velocity u_i = Σ G_ij x_j",
-        &["flow.rs: velocity", "volume.rs: advance"],
+        &["volume.rs: carry", "suspension.rs: turns"],
     ),
     eq("4", "mean axial projections", &["observable.rs: Projections"]),
     eq(
@@ -35,17 +38,13 @@ pub const ALL: [Equation; 35] = [
         "velocities along the contact line become their mean",
         &["collision.rs: share_velocity"],
     ),
-    eq(
-        "7",
-        "collision probability P_c",
-        &["collision.rs: probability", "collision.rs: reach"],
-    ),
+    eq("7", "collision probability P_c", &["collision.rs: reach"]),
     eq("8", "P_c > R: collision", &["suspension.rs: find_candidates"]),
     eq("9", "P_c < R: no collision", &["suspension.rs: find_candidates"]),
     eq(
         "10",
         "P_c with m = 3",
-        &["collision.rs: probability", "scene.rs: three"],
+        &["collision.rs: reach", "scene.rs: three"],
     ),
     eq("11", "Gaussian aspect ratios", &["rods.rs: draw_shapes"]),
     eq(
@@ -56,17 +55,10 @@ pub const ALL: [Equation; 35] = [
     eq(
         "13",
         "orbit constant C",
-        &[
-            "orientation.rs: orbit_constant",
-            "orientation.rs: bounded_orbit_constant",
-        ],
+        &["orientation.rs: bounded_orbit_constant"],
     ),
     eq("14", "replacement of a rod that left", &["volume.rs: advance"]),
-    eq(
-        "15",
-        "period T",
-        &["jeffery.rs: period_s", "jeffery.rs: strain_per_period"],
-    ),
+    eq("15", "period T", &["jeffery.rs: strain_per_period"]),
     eq("16", "steady mean projections", &["observable.rs: Projections"]),
     eq("17", "time mean of a projection", &["propagator.rs: couette"]),
     eq(
@@ -74,8 +66,12 @@ pub const ALL: [Equation; 35] = [
         "mean angle over rods",
         &["observable.rs: MeanAngle", "orientation.rs: folded_phi"],
     ),
-    eq("19", "time mean of the angle", &["jeffery.rs: phi_rad"]),
-    eq("20", "angle of a single rod", &["jeffery.rs: phi_rad"]),
+    eq(
+        "19",
+        "time mean of the angle",
+        &["propagator.rs: couette", "orientation.rs: folded_phi"],
+    ),
+    eq("20", "angle of a single rod", &["propagator.rs: couette"]),
     eq(
         "21",
         "planar projections (printed with θ for φ)",
@@ -84,25 +80,13 @@ pub const ALL: [Equation; 35] = [
     eq(
         "A.1",
         "Jeffery's angular velocity",
-        &["jeffery.rs: angular_velocity_per_s"],
+        &["jeffery.rs: couette_rate", "propagator.rs: Propagator"],
     ),
-    eq(
-        "A.2",
-        "φ̇ in plane Couette flow",
-        &["jeffery.rs: angle_rates_per_s"],
-    ),
-    eq(
-        "A.3",
-        "θ̇ in plane Couette flow",
-        &["jeffery.rs: angle_rates_per_s"],
-    ),
-    eq("A.4", "φ(t)", &["jeffery.rs: phi_rad", "propagator.rs: couette"]),
-    eq(
-        "A.5",
-        "θ(φ)",
-        &["jeffery.rs: theta_rad", "propagator.rs: couette"],
-    ),
-    eq("A.6", "period T", &["jeffery.rs: period_s"]),
+    eq("A.2", "φ̇ in plane Couette flow", &["jeffery.rs: couette_rate"]),
+    eq("A.3", "θ̇ in plane Couette flow", &["jeffery.rs: couette_rate"]),
+    eq("A.4", "φ(t)", &["propagator.rs: couette"]),
+    eq("A.5", "θ(φ)", &["propagator.rs: couette"]),
+    eq("A.6", "period T", &["jeffery.rs: strain_per_period"]),
     eq(
         "A.7",
         "velocity of a contact point",
@@ -151,6 +135,7 @@ const fn eq(number: &'static str, says: &'static str, code: &'static [&'static s
 
 #[cfg(test)]
 mod tests {
+    use super::reach::Source;
     use super::*;
     use crate::cases;
     use std::collections::BTreeSet;
@@ -192,14 +177,22 @@ mod tests {
     }
 
     #[test]
-    fn the_code_it_points_to_is_there() {
-        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../src");
+    fn the_code_it_points_to_is_what_a_run_executes() {
+        let source = Source::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../src"));
         for equation in ALL {
             for place in equation.code {
-                let (file, item) = place.split_once(": ").expect("file.rs: item");
-                let text = std::fs::read_to_string(source.join(file)).expect(place);
-                assert!(text.contains(item), "{}: {place}", equation.number);
+                let (module, item) = place.split_once(".rs: ").expect("file.rs: item");
+                assert_eq!(
+                    source.runs(module, item),
+                    Some(true),
+                    "{}: {place}",
+                    equation.number
+                );
             }
+        }
+        // Where formulas are written, there is none that only tests could judge.
+        for module in ["jeffery", "orientation", "collision", "contact"] {
+            assert_eq!(source.idle(module), [""; 0], "{module}");
         }
     }
 }

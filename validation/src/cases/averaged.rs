@@ -5,12 +5,12 @@ use super::lab::Sample;
 use crate::accept::Rule;
 use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::kicks::averaged::{Apart, apart, scene};
+use crate::oracle::jeffery::direction_rate_per_s;
 use crate::oracle::naive::Problem;
 use nalgebra::{UnitVector3, Vector3};
 use rayon::prelude::*;
 use shearbed::collision::{share_velocity, step_angles, turn};
 use shearbed::contact::contact;
-use shearbed::jeffery::direction_rate_per_s;
 use shearbed::orientation::from_angles;
 use shearbed::propagator::Propagator;
 
@@ -154,7 +154,7 @@ fn updates([rotation, angles]: &[Update; 2], _: &Effort) -> Vec<Evidence> {
         // Rates that have a bound: the two differ in the second order.
         rated.push((ends_apart(&p, &way, 2e-3) / ends_apart(&p, &way, 1e-3)).log2());
         // A collision that changes nothing turns the rod straight, where Jeffery's path is curved.
-        let rate = direction_rate_per_s(&flow, 11.6, &p);
+        let rate = direction_rate_per_s(flow.per_s(), 11.6, &p);
         for update in [rotation, angles] {
             let off = |time: f64| {
                 let turned = update(&p, &rate, time).0;
@@ -194,7 +194,7 @@ fn core_arm_rate(p: [Vector3<f64>; 2], separation: &Vector3<f64>, time: f64) -> 
     let flow = shearbed::flow::VelocityGradient::plane_couette(1.0)?;
     let units = p.map(UnitVector3::new_unchecked);
     let before = contact(separation, &p[0], &p[1], 0.0)?;
-    let free = units.map(|p| direction_rate_per_s(&flow, LONG, &p));
+    let free = units.map(|p| direction_rate_per_s(flow.per_s(), LONG, &p));
     let after = share_velocity(&before, &(flow.per_s() * separation), free);
     let turned = turn(&units[0], &(after[0] - free[0]), time).0;
     let arm = contact(separation, &turned, &p[1], 0.0)?.arms[0];

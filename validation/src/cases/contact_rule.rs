@@ -209,7 +209,7 @@ fn any_pair(random: &mut Pcg64Dxsm) -> Pair {
 }
 
 fn invariants(rule: &ContactRule, effort: &Effort) -> Vec<Evidence> {
-    let mut random = Pcg64Dxsm::seed_from_u64(1);
+    let mut random = Pcg64Dxsm::seed_from_u64(effort.seed(0));
     let mut worst = [0.0f64; PROPERTIES.len()];
     for _ in 0..effort.pick(2_000, 50_000) {
         let pair = pair(&mut random);
@@ -267,14 +267,14 @@ fn against_turning(rates: &AngleRates, _: &Effort) -> Vec<Evidence> {
         }
     }
     let because =
-        "the central difference's own error, (Δt²/6)·|third derivative| with 1/sin²θ up to 25, is 2·10⁻⁶";
+        "the central difference's own error: Δt²/6 times a third derivative of 8(|ṗ|/sin θ)³ ≤ 8·5³ at most";
     [
         "error of φ̇′ in rad per unit time",
         "error of θ̇′ in rad per unit time",
     ]
     .into_iter()
     .zip(worst)
-    .map(|(what, worst)| Evidence::new(what, Rule::within(worst, 1e-5, because)))
+    .map(|(what, worst)| Evidence::new(what, Rule::within(worst, 2e-6, because)))
     .collect()
 }
 

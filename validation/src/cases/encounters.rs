@@ -4,7 +4,7 @@ use super::lab::{self, Sample};
 use crate::accept::Rule;
 use crate::case::{About, Case, Effort, Evidence, Judges};
 use rayon::prelude::*;
-use shearbed::collision::{probability, reach};
+use shearbed::collision::reach;
 use shearbed::jeffery::strain_per_period;
 use shearbed::scene::Scene;
 
@@ -14,28 +14,18 @@ pub fn cases() -> Vec<Case> {
             About {
                 name: "collision-probability",
                 judges: Judges::Core,
-                claim: "P_c is 1 at s = 0, falls as (αa/s)^m far away, and its reach s* inverts it, for any α, m > 0.",
+                claim: "The reach s* is where P_c = R, 0 at R = 1 and αa R^{−1/m} for small R, for any α, m > 0.",
                 source: "eqs 7, 10",
                 equations: &["7", "10"],
             },
-            (probability as Formula, reach as Formula),
+            reach as Formula,
             vec![
-                (
-                    "α missing in the denominator",
-                    (|s, alpha, m| (alpha / s).powf(m), reach as Formula),
-                ),
-                (
-                    "m = 3 whatever m is",
-                    (|s, alpha, _| probability(s, alpha, 3.0), reach as Formula),
-                ),
-                (
-                    "s in rod radii",
-                    (|s, alpha, m| probability(2.0 * s, alpha, m), reach as Formula),
-                ),
-                (
-                    "the reach of 1 − R",
-                    (probability as Formula, |r, alpha, m| reach(1.0 - r, alpha, m)),
-                ),
+                ("α missing in P_c's denominator", |r, alpha, m| {
+                    alpha * r.powf(-1.0 / m)
+                }),
+                ("m = 3 whatever m is", |r, alpha, _| reach(r, alpha, 3.0)),
+                ("s in rod radii", |r, alpha, m| 0.5 * reach(r, alpha, m)),
+                ("the reach of 1 − R", |r, alpha, m| reach(1.0 - r, alpha, m)),
             ],
             limits,
         ),
@@ -97,49 +87,41 @@ pub fn cases() -> Vec<Case> {
 
 type Formula = fn(f64, f64, f64) -> f64;
 
-fn limits((probability, reach): &(Formula, Formula), _: &Effort) -> Vec<Evidence> {
-    let mut worst = [0.0f64; 3];
+fn limits(reach: &Formula, _: &Effort) -> Vec<Evidence> {
+    let (mut nearest, mut far, mut inverse) = (0.0f64, 0.0f64, 0.0f64);
     for alpha in [1e-3f64, 0.1, 0.5, 1.0, 7.0] {
         for m in [0.1, 0.7, 1.0, 3.0, 4.5, 50.0] {
-            let far = 1e5 * alpha;
-            let power = (alpha / far).powf(m);
-            let errors = [
-                probability(0.0, alpha, m) - 1.0,
-                // The next term of the series is −mα/s.
-                (probability(far, alpha, m) / power - 1.0) / (1.0 + m),
-                (1..20)
-                    .map(|k| f64::from(k) / 20.0)
-                    .map(|r| ((probability(reach(r, alpha, m), alpha, m) - r) / r / (1.0 + m)).abs())
-                    .fold(0.0, f64::max),
-            ];
-            for (worst, error) in worst.iter_mut().zip(errors) {
-                *worst = if error.is_nan() {
-                    f64::NAN
-                } else {
-                    worst.max(error.abs())
-                };
+            nearest = nearest.max(reach(1.0, alpha, m).abs());
+            // R = 10⁻⁶ᵐ reaches 10⁶ αa, but for one αa.
+            far = far.max((reach(1e-6f64.powf(m), alpha, m) / (1e6 * alpha) - 1.0).abs());
+            for r in (1..20).map(|k| f64::from(k) / 20.0) {
+                // Eq. 7 as printed. Its slope at s* turns the rounding of s* into m roundings of R.
+                let p_c = (alpha / (reach(r, alpha, m) + alpha)).powf(m);
+                inverse = inverse.max(((p_c - r) / r / (1.0 + m)).abs());
             }
         }
     }
-    // Eq. 10 by hand: α = 0.5, s = a gives (1/3)³.
-    let by_hand = probability(1.0, 0.5, 3.0) - 1.0 / 27.0;
     vec![
-        Evidence::new("P_c(0) − 1", Rule::exact(worst[0])),
+        Evidence::new("s* at R = 1", Rule::exact(nearest)),
         Evidence::new(
-            "P_c over (αa/s)^m at s = 10⁵ αa, less 1, over 1 + m",
-            Rule::within(worst[1], 1e-5, "the series' next term, mαa/s = 10⁻⁵ m"),
-        ),
-        Evidence::new(
-            "P_c(s*(R)) over R, less 1, over 1 + m",
+            "s* over αa R^{−1/m} at R = 10⁻⁶ᵐ, less 1",
             Rule::within(
-                worst[2],
-                8.0 * f64::EPSILON,
-                "round-off of the two powers, m times that of their bases",
+                far,
+                1e-6 * (1.0 + 1e-6),
+                "the other term of s*, −αa; a logarithm of up to 691 rounded, over m, is 10⁻¹³",
             ),
         ),
         Evidence::new(
-            "eq. 10 at s = a, α = ½",
-            Rule::within(by_hand, f64::EPSILON, "one rounding"),
+            "P_c at s* over R, less 1, over 1 + m",
+            Rule::within(
+                inverse,
+                8.0 * f64::EPSILON,
+                "a logarithm, a power, a quotient: a few roundings",
+            ),
+        ),
+        Evidence::new(
+            "eq. 10 by hand: P_c = ⅛ at s = αa",
+            Rule::within(reach(0.125, 0.5, 3.0) - 0.5, f64::EPSILON, "roundings of ½"),
         ),
     ]
 }

@@ -4,9 +4,11 @@ use crate::accept::Rule;
 use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::stability::core;
 use crate::stability::map::{ASPECT_RATIOS, STEPS};
+use crate::subject::{ClosedForm, Problem, Setting, Subject};
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use shearbed::flow::VelocityGradient;
 use shearbed::orientation;
+use shearbed::phase::Phase;
 use shearbed::propagator::Propagator;
 use std::f64::consts::TAU;
 
@@ -34,9 +36,8 @@ pub fn cases() -> Vec<Case> {
             core::exact as Motion,
             vec![
                 ("q not rescaled", |r, g, p, turns| {
-                    let map = VelocityGradient::plane_couette(g)
-                        .and_then(|flow| Propagator::new(&flow, r).map_over_turns(turns));
-                    map.map_or(Vector3::repeat(f64::NAN), |map| map * p.as_ref())
+                    let Phase { cos, sin } = Phase::of_turns(g.signum() * turns);
+                    Vector3::new(p.x * cos - p.y / r * sin, r * p.x * sin + p.y * cos, p.z)
                 }),
                 ("whole turns left in the phase", |r, _, p, turns| {
                     let (sin, cos) = (TAU * turns).sin_cos();
@@ -46,9 +47,8 @@ pub fn cases() -> Vec<Case> {
                     core::exact(r, g, p, turns * shearbed::jeffery::strain_per_period(r))
                 }),
                 ("through tan θ and φ (A.4, A.5)", |r, _, p, turns| {
-                    let c = orientation::orbit_constant(p, r);
-                    let phi = shearbed::jeffery::phi_rad(r, turns);
-                    orientation::from_angles(phi, shearbed::jeffery::theta_rad(c, r, phi)).into_inner()
+                    let end = ClosedForm.advance(&Problem::new(r, turns), p, Setting::Once);
+                    end.unwrap_or(Vector3::repeat(f64::NAN))
                 }),
             ],
             extreme_motion,
@@ -61,10 +61,15 @@ pub fn cases() -> Vec<Case> {
                 &["3", "A.1"],
             ),
             (|flow, r, p, time_s| Propagator::new(flow, r).after(p, time_s).into_inner()) as FlowMotion,
-            vec![("the plain exponential", |flow, r, p, time_s| {
-                let a = flow.vorticity() + shearbed::jeffery::shape_factor(r) * flow.strain_rate();
-                ((a * time_s).exp() * p.as_ref()).normalize()
-            })],
+            vec![
+                ("the plain exponential", |flow, r, p, time_s| {
+                    let a = flow.vorticity() + shearbed::jeffery::shape_factor(r) * flow.strain_rate();
+                    ((a * time_s).exp() * p.as_ref()).normalize()
+                }),
+                ("a millionth of the strain", |flow, r, p, time_s| {
+                    Propagator::new(flow, r).after(p, 1e-6 * time_s).into_inner()
+                }),
+            ],
             extreme_flows,
         ),
     ]
@@ -143,7 +148,7 @@ fn thousand_steps(motion: &Motion) -> (f64, f64) {
 }
 
 fn extreme_flows(motion: &FlowMotion, _: &Effort) -> Vec<Evidence> {
-    let (mut length, mut end) = (0.0f64, 0.0f64);
+    let (mut length, mut end, mut lost) = (0.0f64, 0.0f64, 0.0);
     // Flows that lead every rod of r_e > 1 to axis 1, and the strain rate of each.
     for rows in [
         [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 0.0]],
@@ -157,6 +162,10 @@ fn extreme_flows(motion: &FlowMotion, _: &Effort) -> Vec<Evidence> {
                     let start = orientation::from_angles(phi, theta);
                     for strain in [1e-9, 1.0, 1e2, 1e6, 1e12] {
                         let p = motion(&flow, r, &start, strain / rate);
+                        if !p.sum().is_finite() {
+                            lost += 1.0;
+                            continue;
+                        }
                         length = worse(length, off_length(&p));
                         if strain >= 1e6 {
                             end = worse(end, p.y.hypot(p.z) * start.x.abs());
@@ -167,6 +176,7 @@ fn extreme_flows(motion: &FlowMotion, _: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
+        Evidence::new("directions that are not finite", Rule::exact(lost)),
         Evidence::new("largest ||p| − 1|", Rule::within(length, LENGTH, LENGTH_BECAUSE)),
         Evidence::new(
             "distance from the flow's axis at a strain of 10⁶ or more, times |p_1| at first",

@@ -5,10 +5,12 @@
 use super::lab;
 use crate::accept::Rule;
 use crate::case::{About, Case, Effort, Evidence, Judges};
-use nalgebra::{Matrix3, Vector3};
+use crate::subject::rk4;
+use nalgebra::{Matrix3, UnitVector3, Vector3};
 use shearbed::flow::VelocityGradient;
 use shearbed::observable::{Block, Observable, Sum};
 use shearbed::orientation;
+use shearbed::propagator::Propagator;
 
 pub fn cases() -> Vec<Case> {
     vec![
@@ -16,7 +18,8 @@ pub fn cases() -> Vec<Case> {
             About {
                 name: "gradient-of-eq-2",
                 judges: Judges::Oracle,
-                claim: "With G_ij = ∂u_i/∂x_j, eq. 3 gives back the velocity; with the printed ∂u_i/∂x_i it does not.",
+                claim: "With G_ij = ∂u_i/∂x_j a thread turns as the line between two points of the liquid does; with the printed \
+                        ∂u_i/∂x_i it does not.",
                 source: "eqs 2, 3",
                 equations: &["2", "3"],
             },
@@ -90,15 +93,41 @@ fn gives_back_velocity(component: &Gradient, _: &Effort) -> Vec<Evidence> {
         }),
     ];
     let error = |u: Field| {
-        let flow = VelocityGradient::new(Matrix3::from_fn(|i, j| component(u, i, j)));
-        let x = Vector3::new(1.0, -2.0, 4.0);
-        flow.map_or(f64::NAN, |flow| (flow.velocity(&x) - u(x)).norm())
+        let gradient = Matrix3::from_fn(|i, j| component(u, i, j));
+        let flow = VelocityGradient::new(gradient).expect("finite components");
+        let thread = Propagator::new(&flow, 1e9);
+        [[1.0, -2.0, 4.0], [3.0, 1.0, 0.5], [-1.0, 2.0, 0.0]]
+            .map(Vector3::from)
+            .into_iter()
+            .map(|line| {
+                let end = thread.after(&UnitVector3::new_normalize(line), TIME_S);
+                end.cross(&carried(u, line).normalize()).norm()
+            })
+            .fold(0.0, f64::max)
     };
-    // Small integers and halves: every operation is exact.
+    let because = "RK4 on the field: (|G|h)⁴|G|t/120 = 10⁻¹³ at |G| = 6 and h = 2.5·10⁻⁴, and 2000 roundings, both stretched \
+                   e^{|G|t} = 20-fold; the thread's 1 − Λ is 2·10⁻¹⁸";
     fields
         .iter()
-        .map(|(name, u)| Evidence::new(format!("error of u, {name}"), Rule::exact(error(*u))))
+        .map(|(name, u)| {
+            Evidence::new(
+                format!("largest angle between thread and line, {name}"),
+                Rule::within(error(*u), 1e-11, because),
+            )
+        })
         .collect()
+}
+
+/// How long lines and threads turn.
+const TIME_S: f64 = 0.5;
+
+/// The line from the origin, which rests, to a point that the field carries along from `x`.
+fn carried(u: Field, mut x: Vector3<f64>) -> Vector3<f64> {
+    let steps = 2000;
+    for _ in 0..steps {
+        x = rk4(u, x, TIME_S / f64::from(steps));
+    }
+    x
 }
 
 /// The projections of one rod on the planes x₁x₂, x₂x₃, x₁x₃.
@@ -159,7 +188,7 @@ fn free_rods_keep_c(reading: &Reading, effort: &Effort) -> Vec<Evidence> {
             let change = (after[rod] - before[rod]).abs();
             if reading(collided[rod]) {
                 colliding += 1;
-                unchanged += u32::from(change < 1e-12);
+                unchanged += u32::from(change <= ROUND_OFF);
             } else {
                 free_change = free_change.max(change);
             }
@@ -169,15 +198,16 @@ fn free_rods_keep_c(reading: &Reading, effort: &Effort) -> Vec<Evidence> {
     vec![
         Evidence::new(
             "largest change of C_b of a free rod in one step",
-            Rule::within(free_change, 1e-14, "the exact motion keeps C to round-off"),
+            Rule::within(free_change, ROUND_OFF, "the exact motion keeps C to round-off"),
         ),
         Evidence::new(
-            format!("share of {colliding} colliding rods whose C_b stayed"),
-            Rule::within(
-                f64::from(unchanged) / f64::from(colliding.max(1)) + if colliding == 0 { 1.0 } else { 0.0 },
-                0.01,
-                "a kick that leaves C alone is a set of measure 0; a hundredth allows for weak kicks",
-            ),
+            format!("of {colliding} colliding rods, those whose C_b stayed to round-off"),
+            // Where no rod is said to collide, every rod is said to be free, and the evidence above is of all.
+            Rule::exact(f64::from(unchanged)),
         ),
     ]
 }
+
+/// Of C_b ≤ 1, over one evaluation of the exact motion and of C_b before and after. A kick changes C_b by less than 10⁻⁵ once
+/// in a hundred (11 of 994), and the share falls as that bound: some 10⁻⁹ of the collisions of a run by chance.
+const ROUND_OFF: f64 = 16.0 * f64::EPSILON;

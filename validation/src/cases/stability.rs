@@ -20,7 +20,7 @@ pub fn cases() -> Vec<Case> {
             source: "A.2 to A.5, eq. 13",
             equations: &["13", "A.2", "A.3", "A.4", "A.5"],
         },
-        subject::all as Subjects,
+        subject::own as Subjects,
         vec![
             ("whole turns are left in the phase", || vec![Box::new(WholeTurns)]),
             ("RK4 in p said to keep |p|", || {
@@ -97,7 +97,8 @@ fn corners(subjects: &Subjects, effort: &Effort) -> Vec<Evidence> {
             Rule::within(
                 accurate,
                 4.0,
-                "φ̇/G = cos²φ and its derivatives are 2 at most, and a flip lasts a few 1/G; below 10⁻³ round-off is more",
+                "a step of order 2 is off by (GΔt)³/6 times a third derivative, 3 at most by A.2, and a flip lasts some 8/G: \
+                 4 (GΔt)²; order 4 is nearer; below 10⁻³ round-off is more",
             ),
         ),
         Evidence::new(

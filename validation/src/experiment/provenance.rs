@@ -40,7 +40,9 @@ impl Time {
     pub fn per_period(self, aspect_ratio: f64) -> f64 {
         match self {
             Self::Periods => 1.0,
-            Self::Seconds { shear_rate_per_s } => jeffery::period_s(shear_rate_per_s, aspect_ratio),
+            Self::Seconds { shear_rate_per_s } => {
+                jeffery::strain_per_period(aspect_ratio) / shear_rate_per_s.abs()
+            }
             Self::Strain => jeffery::strain_per_period(aspect_ratio),
         }
     }

@@ -3,6 +3,7 @@
 pub mod closed_form;
 pub mod exponential;
 pub mod isotropic;
+pub mod jeffery;
 pub mod kicks;
 pub mod naive;
 pub mod pairing;

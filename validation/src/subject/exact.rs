@@ -4,8 +4,7 @@ use super::{Failure, Problem, Setting, Subject, Theory};
 use nalgebra::{UnitVector3, Vector3};
 use shearbed::phase::Phase;
 use shearbed::propagator::couette;
-use shearbed::{jeffery, orientation};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// The core's propagator: p = q/|q| with q linear in p(0).
 pub struct ExactPropagator;
@@ -34,7 +33,7 @@ impl Subject for ExactPropagator {
     }
 }
 
-/// A.4 for φ, then A.5 for θ, as the core has them.
+/// A.4 for φ, then A.5 for θ, as the paper has them: what the exact propagator does without angles.
 pub struct ClosedForm;
 
 impl Subject for ClosedForm {
@@ -60,8 +59,50 @@ impl Subject for ClosedForm {
         // A.5 gives θ up to π/2: of p and −p, the one in that half.
         let p = if start.z < 0.0 { -*start } else { *start };
         let before = (p.y / r).atan2(p.x) / TAU;
-        let phi = jeffery::phi_rad(r, before + problem.turns);
-        let theta = jeffery::theta_rad(orientation::orbit_constant(&p, r), r, phi);
-        Ok(orientation::from_angles(phi, theta).into_inner())
+        let phi = phi_rad(r, before + problem.turns);
+        let (sin_phi, cos_phi) = phi.sin_cos();
+        // Eq. 13, then A.5.
+        let orbit_constant = p.x.hypot(p.y / r) / p.z.abs();
+        let (sin_theta, cos_theta) = (orbit_constant / cos_phi.hypot(sin_phi / r)).atan().sin_cos();
+        Ok(Vector3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta))
+    }
+}
+
+/// φ in radians at `turns` = t/T for a rod with φ = 0 at t = 0, continuous over the branches of the arctangent (A.4).
+fn phi_rad(aspect_ratio: f64, turns: f64) -> f64 {
+    let half_turns = (2.0 * turns).round();
+    let rest = PI * (2.0 * turns - half_turns);
+    half_turns * PI + (aspect_ratio * rest.sin()).atan2(rest.cos())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_phase_is_continuous_and_gains_two_pi_a_period() {
+        let mut last = phi_rad(11.6, 0.0);
+        for k in 1..=20_000 {
+            let now = phi_rad(11.6, f64::from(k) / 10_000.0);
+            assert!(now > last && now - last < 0.02, "at {k}: {last} to {now}");
+            last = now;
+        }
+        assert!((last - 2.0 * TAU).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_closed_form_in_angles_is_the_reference() {
+        for r in [0.3, 2.0, 11.6] {
+            for theta in [0.4, 1.3, 2.8] {
+                let (problem, start) = Problem::into_flip(r, 0.7, theta, 1.3);
+                let end = ClosedForm.advance(&problem, &start, Setting::Once);
+                let off = end.map(|end| super::super::apart_rad(&end, &problem.reference(&start)));
+                // The phase is rounded to ε, and φ moves by max(r_e, 1/r_e) times that.
+                assert!(
+                    off.is_ok_and(|off| off < 32.0 * f64::EPSILON * r.max(1.0 / r)),
+                    "{r} {theta}"
+                );
+            }
+        }
     }
 }

@@ -125,17 +125,17 @@ fn direction(phi: f64, theta: f64) -> UnitVector3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use shearbed::flow::VelocityGradient;
-    use shearbed::jeffery;
+    use crate::oracle::jeffery;
 
     #[test]
-    fn the_right_hand_sides_are_the_core_s() {
-        let flow = VelocityGradient::plane_couette(1.0).unwrap();
+    fn the_right_hand_sides_are_those_of_the_paper() {
+        let mut gradient = Matrix3::zeros();
+        gradient[(1, 0)] = 1.0;
         for r in [0.3, 2.0, 11.6, 100.0] {
             let problem = Problem::new(r, 1.0);
             for (phi, theta) in [(0.3f64, 1.0f64), (2.0, 0.4), (-1.0, 1.4)] {
                 let p = direction(phi, theta);
-                let expected = jeffery::direction_rate_per_s(&flow, r, &p);
+                let expected = jeffery::direction_rate_per_s(&gradient, r, &p);
                 assert!((problem.rate(&p) - expected).norm() < 1e-15);
                 assert!((problem.tangent_rate(&p) - expected).norm() < 1e-15);
                 let rates = problem.angle_rates(&Vector2::new(phi, theta));
@@ -144,6 +144,20 @@ mod tests {
                 let tangent = problem.tangent_rate(&(2.5 * p.into_inner()));
                 assert!(tangent.dot(&p).abs() < 1e-15);
             }
+        }
+    }
+
+    #[test]
+    fn the_slope_is_that_of_the_rate() {
+        let problem = Problem::new(3.0, 1.0);
+        let m = Vector3::new(0.4, -0.7, 0.5);
+        let slope = problem.rate_slope(&m);
+        for axis in 0..3 {
+            let mut e = Vector3::zeros();
+            e[axis] = 1e-5;
+            let difference = (problem.rate(&(m + e)) - problem.rate(&(m - e))) / 2e-5;
+            // h² times a third derivative of 3Λ/3! at most, and ε/h.
+            assert!((slope.column(axis) - difference).norm() < 1e-9);
         }
     }
 

@@ -122,9 +122,20 @@ mod tests {
     }
 
     #[test]
-    fn a_step_too_long_for_newton_gives_no_number_and_no_hang() {
+    fn a_long_step_solves_the_equation_and_one_that_overflows_gives_no_number() {
         let (problem, start) = Problem::mid_flip(11.6);
-        let end = implicit_midpoint(&problem, start.into_inner(), 1e300);
-        assert!(end.iter().any(|component| component.is_nan()) || (end.norm() - 1.0).abs() < 1e-6);
+        let p = start.into_inner();
+        for h in [10.0, 100.0] {
+            let end = implicit_midpoint(&problem, p, h);
+            let miss = end - p - problem.tangent_rate(&(0.5 * (p + end))) * h;
+            // m is within 10⁻¹², and h f(m) that times h.
+            assert!(miss.norm() <= 1e-12 * (2.0 + 2.0 * h), "{h}: {miss:?}");
+            assert!((end.norm() - 1.0).abs() <= 1e-12);
+        }
+        // The square of what is missed overflows: no change can be seen to help.
+        for h in [1e300, f64::INFINITY] {
+            let end = implicit_midpoint(&problem, p, h);
+            assert!(end.iter().all(|component| component.is_nan()), "{h}: {end:?}");
+        }
     }
 }

@@ -1,0 +1,108 @@
+//! Two rods put down by hand, so near to overflow as no drawn rods come.
+
+use super::super::lab;
+use crate::case::Effort;
+use nalgebra::{UnitVector3, Vector3};
+use shearbed::collision::share_velocity;
+use shearbed::contact::contact;
+use shearbed::jeffery::{couette_rate, shape_factor, strain_per_period};
+use shearbed::scene::Scene;
+
+/// Two rods put down by hand.
+pub(super) struct Placed {
+    second: UnitVector3<f64>,
+    /// A's arm, in rod lengths.
+    arm: f64,
+}
+
+/// What became of two rods in a step.
+pub(super) enum Stepped {
+    Turned(Vec<Vector3<f64>>),
+    /// They made no contact.
+    Free,
+    /// The run stopped, with this message.
+    Stopped(String),
+}
+
+/// What a step makes of two rods.
+pub(super) type Pair = fn(&Scene, &Placed) -> Stepped;
+
+/// The direction of A: between axes 1 and 3.
+fn first() -> UnitVector3<f64> {
+    UnitVector3::new_normalize(Vector3::new(1.0, 0.0, 1.0))
+}
+
+/// B beside A by `arm` along A's axis: A's arm is that, and ℓ has a part along the flow's difference.
+pub(super) fn step_of_the_core(scene: &Scene, placed: &Placed) -> Stepped {
+    let mut suspension = lab::suspension(scene, 0);
+    let middle = 0.5 * suspension.side_in_lengths();
+    let along = placed.arm * first().into_inner();
+    let at = [
+        vec![0.0, along.x],
+        vec![middle, middle + BESIDE],
+        vec![0.0, along.z],
+    ];
+    if suspension.place(at, &[first(), placed.second]).is_none() {
+        return Stepped::Free;
+    }
+    match suspension.step() {
+        Ok([]) => Stepped::Free,
+        Ok(_) => Stepped::Turned(suspension.directions()),
+        Err(error) => Stepped::Stopped(error.to_string()),
+    }
+}
+
+/// How far B is from A along axis 2, in rod lengths.
+const BESIDE: f64 = 0.3;
+
+/// The same step with |ṗ| by squares, which overflow where the kick does not.
+pub(super) fn step_with_squares(scene: &Scene, placed: &Placed) -> Stepped {
+    let p = [first(), placed.second];
+    let separation = placed.arm * p[0].into_inner() + Vector3::new(0.0, BESIDE, 0.0);
+    let Some(contact) = contact(&separation, &p[0], &p[1], 0.0) else {
+        return Stepped::Free;
+    };
+    let shape = shape_factor(scene.particles.aspect_ratio);
+    let free = p.map(|p| couette_rate(&p, shape, 1.0));
+    let rates = share_velocity(&contact, &Vector3::new(0.0, separation.x, 0.0), free);
+    let strain = strain_per_period(scene.particles.aspect_ratio) / scene.steps_per_period() as f64;
+    let turned = [0, 1].map(|k| {
+        let speed = rates[k].norm_squared().sqrt();
+        let (sin, cos) = (speed * strain).sin_cos();
+        (p[k].into_inner() * cos + rates[k] * (sin / speed)).normalize()
+    });
+    match turned.iter().all(|p| p.sum().is_finite()) {
+        true => Stepped::Turned(turned.into()),
+        false => Stepped::Stopped("not finite".into()),
+    }
+}
+
+/// Directions of pairs put down by hand after one step, and how many ended otherwise than they should.
+pub(super) fn ends(pair: Pair, effort: &Effort) -> (Vec<Vector3<f64>>, f64) {
+    let mut scene = lab::interacting_scene(effort);
+    scene.particles.count = 2;
+    lab::interaction(&mut scene).alpha = 1e300;
+    let seed = format!("seed {}", scene.ensemble.seed);
+    let ulp = UnitVector3::new_normalize(Vector3::new(1.0, f64::EPSILON, 1.0));
+    let y = Vector3::y_axis();
+    let mut directions = Vec::new();
+    let mut unlike = 0.0;
+    for (second, arm, overflows) in [
+        (ulp, 0.5, false),
+        (ulp, 1e-3, false),
+        (y, 1e-3, false),
+        (y, 1e-150, false),
+        (y, f64::MIN_POSITIVE, false),
+        (y, 1e-320, true),
+    ] {
+        match pair(&scene, &Placed { second, arm }) {
+            Stepped::Turned(turned) if !overflows => directions.extend(turned),
+            Stepped::Stopped(text) if overflows => {
+                let words = ["rod ", "step 0", &seed, "arm"];
+                unlike += f64::from(!words.iter().all(|word| text.contains(word)));
+            }
+            _ => unlike += 1.0,
+        }
+    }
+    (directions, unlike)
+}
