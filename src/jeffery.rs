@@ -13,6 +13,11 @@ pub fn shape_factor(aspect_ratio: f64) -> f64 {
     (aspect_ratio - inverse) / (aspect_ratio + inverse)
 }
 
+/// The period T = 2π(r_e + 1/r_e)/|G| of a rod in plane Couette flow, in s (eq. 15, A.6).
+pub fn period_s(shear_rate_per_s: f64, aspect_ratio: f64) -> f64 {
+    strain_per_period(aspect_ratio) / shear_rate_per_s.abs()
+}
+
 /// The shear strain |G|T = 2π(r_e + 1/r_e) in one period of a rod in plane Couette flow (eq. 15, A.6).
 pub fn strain_per_period(aspect_ratio: f64) -> f64 {
     TAU * (aspect_ratio + 1.0 / aspect_ratio)
