@@ -147,22 +147,18 @@ impl Source {
         for (k, node) in self.0.iter().enumerate() {
             by_name.entry(&node.name).or_default().push(k);
         }
+        let fits = |node: &Node, mention: &Mention| match (mention, &node.owner) {
+            (Mention::Member(_), owner) => owner.is_some(),
+            (Mention::Path(None, _), owner) => owner.is_none(),
+            (Mention::Path(Some(before), _), Some(owner)) => owner == before,
+            (Mention::Path(Some(before), _), None) => {
+                node.module == *before || ["crate", "super", "self"].contains(&before.as_str())
+            }
+        };
         let named = |mention: &Mention| -> Vec<usize> {
-            let (name, fits): (_, Box<dyn Fn(&Node) -> bool>) = match mention {
-                Mention::Member(name) => (name, Box::new(|node| node.owner.is_some())),
-                Mention::Path(None, name) => (name, Box::new(|node| node.owner.is_none())),
-                Mention::Path(Some(before), name) => (
-                    name,
-                    Box::new(move |node| match &node.owner {
-                        Some(owner) => owner == before,
-                        None => {
-                            node.module == *before || ["crate", "super", "self"].contains(&before.as_str())
-                        }
-                    }),
-                ),
-            };
+            let (Mention::Member(name) | Mention::Path(_, name)) = mention;
             let all = by_name.get(name.as_str()).into_iter().flatten().copied();
-            all.filter(|k| fits(&self.0[*k])).collect()
+            all.filter(|k| fits(&self.0[*k], mention)).collect()
         };
         let mut open: Vec<usize> = ROOTS
             .iter()
