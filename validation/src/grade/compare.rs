@@ -77,7 +77,7 @@ pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
         phase_lost_per_period: couette_per_s(loaded)
             .filter(|_| directions)
             .and_then(|rate| phase_lost(loaded, answer, rate)),
-        too_little_data: !(largest_se <= enough),
+        too_little_data: largest_se.is_nan() || largest_se > enough,
     }
 }
 
@@ -149,7 +149,7 @@ fn remark(
         return Some(format!("{}: a value is not finite", place()));
     }
     if let Some(ensemble) = &loaded.problem.ensemble
-        && !(largest_se <= ensemble.largest_standard_error)
+        && (largest_se.is_nan() || largest_se > ensemble.largest_standard_error)
     {
         let enough = ensemble.largest_standard_error;
         return Some(format!(

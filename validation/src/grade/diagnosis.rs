@@ -16,7 +16,7 @@ type Distance<'a> = Box<dyn Fn(&Mistake) -> Option<f64> + 'a>;
 
 /// What is to be said of an answer that is `error` from the truth.
 pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Option<String> {
-    if !(error > loaded.problem.tolerance) {
+    if error.is_nan() || error <= loaded.problem.tolerance {
         return None;
     }
     let l = &loaded.problem.gradient_per_s;
@@ -63,10 +63,8 @@ pub(super) fn said(mut near: Vec<(f64, String)>, tolerance: f64) -> Option<Strin
 
 /// The largest of the distances; `None` where one is missing or not finite.
 fn largest(distances: impl Iterator<Item = Option<f64>>) -> Option<f64> {
-    let largest = distances.fold(Some(0.0), |a: Option<f64>, b| {
-        Some(a?.max(b.filter(|b| b.is_finite())?))
-    });
-    largest.filter(|found| found.is_finite())
+    let finite = |distance: Option<f64>| distance.filter(|distance| distance.is_finite());
+    distances.map(finite).try_fold(0.0, |a: f64, b| Some(a.max(b?)))
 }
 
 fn rods(loaded: &LoadedProblem, answer: &Answer, setting: &Setting, mistake: &Mistake) -> Option<f64> {

@@ -107,7 +107,7 @@ impl Row {
     /// The outcome of a case that was run with this effort.
     pub(super) fn new(outcome: Outcome, effort: &Effort) -> Self {
         let evidence: Vec<_> = (outcome.evidence.iter())
-            .map(|judged| Line::new(judged))
+            .map(Line::new)
             .collect();
         // The first of equals.
         let worst = (0..evidence.len()).rev().max_by(|a, b| {
