@@ -86,11 +86,7 @@ impl FreeMotion {
 }
 
 /// Where a rod that starts along `start` goes, with its error and what of it is the rounding of the start.
-fn directed(
-    propagator: &Propagator,
-    start: &UnitVector3<f64>,
-    span: Span,
-) -> Option<([f64; 3], f64, f64)> {
+fn directed(propagator: &Propagator, start: &UnitVector3<f64>, span: Span) -> Option<([f64; 3], f64, f64)> {
     let moved = propagator.moved(start, span)?;
     let rounding = ROUNDING_OF_START * moved.condition;
     Some((moved.p.into_inner().into(), moved.error + rounding, rounding))
@@ -106,7 +102,10 @@ fn at_each<T: Send>(
     // A scene in periods has been checked to have one.
     let all = all.unwrap_or_default();
     let worst = all.iter().map(|(_, error, of_start)| (*error, *of_start));
-    let (error, of_start) = worst.fold((0.0, 0.0), |worst, next| if next.0 > worst.0 { next } else { worst });
+    let (error, of_start) = worst.fold(
+        (0.0, 0.0),
+        |worst, next| if next.0 > worst.0 { next } else { worst },
+    );
     if error > MAX_ERROR_RAD {
         return Err(unknown(scene, error, of_start));
     }

@@ -2,9 +2,9 @@
 
 use crate::collision::reach;
 use crate::ensemble::{batch, width};
+use crate::free::Way;
 use crate::observable::Sum;
 use crate::plan::{Plan, Stage};
-use crate::free::Way;
 use crate::propagator::Propagator;
 use crate::suspension::BYTES_OF_A_CANDIDATE;
 use std::f64::consts::PI;
@@ -36,8 +36,7 @@ pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
     let per_output = width * size_of::<Sum>();
     let waiting = scene.ensemble.replicas.min(batch(plan));
     let lists = BYTES_OF_A_CANDIDATE as f64 * candidates(plan) * scene.particles.count as f64;
-    let rods =
-        replicas * (lists as u64 + (scene.particles.count * per_rod) as u64) + maps[1] as u64;
+    let rods = replicas * (lists as u64 + (scene.particles.count * per_rod) as u64) + maps[1] as u64;
     // Sums of replicas that wait to be added in order, and three running moments of 8 bytes.
     let sums = plan.outputs() as u64 * (waiting * per_output as u64 + 3 * 8 * width as u64);
     rods + sums

@@ -106,7 +106,8 @@ mod tests {
     fn right_angles_are_exact_and_others_those_of_radians() {
         for quarters in -9i32..=9 {
             let [cos, sin] = of_degrees(90.0 * f64::from(quarters));
-            let expected = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]][quarters.rem_euclid(4) as usize];
+            let expected =
+                [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]][quarters.rem_euclid(4) as usize];
             assert_eq!([cos, sin], expected);
         }
         for k in 0..2000 {
@@ -114,7 +115,9 @@ mod tests {
             let (sin, cos) = degrees.to_radians().sin_cos();
             let found = of_degrees(degrees);
             // The radians, up to 15, are rounded to 15 ε.
-            assert!((found[0] - cos).abs() < 16.0 * f64::EPSILON && (found[1] - sin).abs() < 16.0 * f64::EPSILON);
+            assert!(
+                (found[0] - cos).abs() < 16.0 * f64::EPSILON && (found[1] - sin).abs() < 16.0 * f64::EPSILON
+            );
         }
         // cos(90° − 10⁻⁹ °) to its own digits, where that of radians has six.
         let [cos, _] = of_degrees(90.0 - 2f64.powi(-30));

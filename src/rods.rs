@@ -240,9 +240,7 @@ fn draw_directions(plan: &Plan, replica: u64) -> [Vec<f64>; 3] {
             let drawn = rng.as_mut().map(|rng| isotropic(rng.random(), rng.random()));
             let direction = match (particles.orientation, drawn) {
                 (Orientation::Random(_), Some(drawn)) => drawn,
-                (Orientation::Given { phi_deg, theta_deg }, _) => {
-                    from_degrees(phi_deg, theta_deg)
-                }
+                (Orientation::Given { phi_deg, theta_deg }, _) => from_degrees(phi_deg, theta_deg),
                 (Orientation::Random(_), None) => unreachable!("a plan keeps the draws of random directions"),
             };
             [*p1, *p2, *p3] = direction.into_inner().into();

@@ -154,10 +154,7 @@ impl Ball {
             return Self::exact(first);
         }
         let second = rest.hi / other.hi;
-        let third = rest
-            .plus(Self::exact(-second).times(other.middle()))
-            .hi
-            / other.hi;
+        let third = rest.plus(Self::exact(-second).times(other.middle())).hi / other.hi;
         let (hi, lo) = quick_two_sum(first, second);
         let (hi, lo) = quick_two_sum(hi, lo + third);
         let carried = (self.error + hi.abs() * other.error) / other.least();

@@ -58,9 +58,7 @@ impl General {
             product(|i, k| x[k][i], |k, j| x[k][j]),
         ];
         let n_squared: Square = from_fn(|i| {
-            from_fn(|j| {
-                forward[i][j] - rho * (mixed[0][i][j] + mixed[1][i][j]) + rho * rho * forward[j][i]
-            })
+            from_fn(|j| forward[i][j] - rho * (mixed[0][i][j] + mixed[1][i][j]) + rho * rho * forward[j][i])
         });
         // λ³ − tλ² + cλ − d.
         let t = rest * trace(&x);
@@ -101,7 +99,11 @@ impl General {
     /// `time_s` seconds.
     pub fn time_of_seconds(&self, time_s: f64) -> Time {
         let span = shifted(time_s, -self.power);
-        let rounded = if shifted(span, self.power) == time_s { 0.0 } else { span * f64::EPSILON };
+        let rounded = if shifted(span, self.power) == time_s {
+            0.0
+        } else {
+            span * f64::EPSILON
+        };
         Time {
             span: Ball::exact(span).widened(rounded) * self.slower,
             turns: None,

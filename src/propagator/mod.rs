@@ -67,7 +67,10 @@ pub struct Propagator(Motion);
 #[derive(Clone, Debug)]
 enum Motion {
     /// Plane Couette flow u_2 = G x_1: the closed form.
-    Couette { shear_rate_per_s: f64, aspect_ratio: f64 },
+    Couette {
+        shear_rate_per_s: f64,
+        aspect_ratio: f64,
+    },
     /// Any flow.
     General(General),
 }
@@ -234,7 +237,11 @@ fn normalized(q: &[Ball; 3]) -> ([f64; 3], f64) {
     let scale = 1.0 / length(0);
     let off = length(1) * scale;
     // Up to 0.1, an arcsine is less than 1.01 times its sine. The direction itself is rounded to double.
-    let error = if off < 0.1 { 1.01 * off + 4.0 * f64::EPSILON } else { f64::INFINITY };
+    let error = if off < 0.1 {
+        1.01 * off + 4.0 * f64::EPSILON
+    } else {
+        f64::INFINITY
+    };
     (q.map(|q| q[0] * scale), known(error))
 }
 

@@ -178,7 +178,9 @@ impl Cubic {
         [
             s0.widened(left_out),
             s1.widened(left_out * time.most()).scaled(inverse),
-            s2.widened(left_out * time.most().powi(2)).scaled(inverse).scaled(inverse),
+            s2.widened(left_out * time.most().powi(2))
+                .scaled(inverse)
+                .scaled(inverse),
         ]
     }
 }
@@ -213,5 +215,9 @@ fn largest_root([t, c, d]: [Ball; 3]) -> Ball {
     // Within this distance the slope changes by less than half of itself, and the value is made up for twice.
     let (least, off) = (slope(root).least(), value(root).most());
     let error = 2.0 * off / least;
-    root.widened(if 16.0 * error <= least { error } else { f64::INFINITY })
+    root.widened(if 16.0 * error <= least {
+        error
+    } else {
+        f64::INFINITY
+    })
 }

@@ -41,7 +41,9 @@ impl Scene {
             return Err(refused("output.observables", format!("{names:?}")));
         }
         let by_closed_form = flow.shear_rate_per_s().is_some() && self.time.strain.is_none();
-        let free = (!by_closed_form).then(|| FreeMotion::new(self, &flow)).transpose()?;
+        let free = (!by_closed_form)
+            .then(|| FreeMotion::new(self, &flow))
+            .transpose()?;
         Ok((flow, free))
     }
 

@@ -37,12 +37,21 @@ fn one(index: u64) -> Problem {
             break gradient;
         }
     };
-    let rod = Rod {
+    let mut rod = Rod {
         gradient_per_s: std::array::from_fn(|i| std::array::from_fn(|j| gradient[(i, j)])),
         aspect_ratio: aspect_ratio(rng),
         p: start(rng),
     };
-    Problem::new(rod, size(rng, -13.0, 6.0))
+    let strain = size(rng, -13.0, 6.0);
+    if rng.random_range(0..4) == 0 {
+        // From the end backwards: the start that the flow turns most of the way, where the condition number is large.
+        let back = Rod {
+            gradient_per_s: rod.gradient_per_s.map(|row| row.map(|x| -x)),
+            ..rod
+        };
+        rod.p = back.after(Span::Strain(strain));
+    }
+    Problem::new(rod, strain)
 }
 
 /// 10 to a power between `least` and `most`.
@@ -139,7 +148,11 @@ fn turned(rng: &mut impl Rng, l: Matrix3<f64>) -> Matrix3<f64> {
 /// A swirl beside an extension along its axis, the one 10⁻¹⁶ to 10¹⁶ times the other.
 fn spiral(rng: &mut impl Rng) -> Matrix3<f64> {
     let ratio = size(rng, -16.0, 16.0);
-    let (swirl, e) = if ratio > 1.0 { (1.0, 1.0 / ratio) } else { (ratio, 1.0) };
+    let (swirl, e) = if ratio > 1.0 {
+        (1.0, 1.0 / ratio)
+    } else {
+        (ratio, 1.0)
+    };
     let e = e * signed(rng).signum();
     Matrix3::new(-0.5 * e, -swirl, 0.0, swirl, -0.5 * e, 0.0, 0.0, 0.0, e)
 }
@@ -147,12 +160,30 @@ fn spiral(rng: &mut impl Rng) -> Matrix3<f64> {
 /// Three real rates, two of which nearly meet.
 fn real(rng: &mut impl Rng) -> Matrix3<f64> {
     let (a, gap) = (signed(rng), size(rng, -17.0, 0.0));
-    let coupled = if rng.random_range(0..2) == 0 { 0.0 } else { signed(rng) };
+    let coupled = if rng.random_range(0..2) == 0 {
+        0.0
+    } else {
+        signed(rng)
+    };
     Matrix3::new(a + gap, coupled, 0.0, 0.0, a, 0.0, 0.0, 0.0, -2.0 * a)
 }
 
 /// Planar flows from rotation through shear to extension.
 fn planar(rng: &mut impl Rng) -> Matrix3<f64> {
     let back = signed(rng).signum() * size(rng, -17.0, 0.0);
-    Matrix3::new(0.0, if rng.random_range(0..2) == 0 { back } else { back - 1.0 }, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    Matrix3::new(
+        0.0,
+        if rng.random_range(0..2) == 0 {
+            back
+        } else {
+            back - 1.0
+        },
+        0.0,
+        1.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+    )
 }
