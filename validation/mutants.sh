@@ -13,7 +13,7 @@ export CARGO_TARGET_DIR="$scratch/target"
 mistakes=$(cat <<'LIST'
 shape-factor-one@@src/jeffery.rs@@(aspect_ratio - inverse) / (aspect_ratio + inverse)@@1.0 + 0.0 * inverse
 period-without-inverse@@src/jeffery.rs@@TAU * (aspect_ratio + 1.0 / aspect_ratio)@@TAU * aspect_ratio
-couette-sign@@src/propagator.rs@@let q1 = p[0] * phase.cos - p[1]@@let q1 = p[0] * phase.cos + p[1]
+couette-sign@@src/propagator/mod.rs@@let q1 = p[0] * phase.cos - p[1]@@let q1 = p[0] * phase.cos + p[1]
 phase-of-collided-rod@@src/rods.rs@@let phase = clock.phase(self.elapsed(rod, tick), clock.periods(&self.shapes, r));@@let phase = clock.phase(tick as f64, clock.periods(&self.shapes, r));
 orbit-constant@@src/orientation.rs@@let in_plane = p[0].hypot(p[1] / aspect_ratio);@@let in_plane = p[0].hypot(p[1] * aspect_ratio);
 isotropic-angle@@src/orientation.rs@@1.0 - 2.0 * r5,@@1.0 - r5,
@@ -43,11 +43,11 @@ angle-update@@src/collision.rs@@from_angles(phi + phi_rate * time, theta + theta
 turn-sign@@src/collision.rs@@let turned = p.as_ref() * cos + rate * (sin / speed);@@let turned = p.as_ref() * cos - rate * (sin / speed);
 normal-part-changed@@src/collision.rs@@rates[0] + line * (0.5 * gap / arm_a)@@rates[0] * 0.9 + line * (0.5 * gap / arm_a)
 mean-over-one-rod-less@@src/ensemble.rs@@let value = sum.value / n;@@let value = sum.value / (n - 1.0);
-direction-not-rescaled@@src/propagator.rs@@let scale = 1.0 / (q1 * q1 + q2 * q2 + p[2] * p[2]).sqrt();@@let scale = 1.0 + 0.0 * (q1 * q1 + q2 * q2 + p[2] * p[2]).sqrt();
+direction-not-rescaled@@src/propagator/mod.rs@@let scale = 1.0 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2]).sqrt();@@let scale = 1.0 + 0.0 * q[0];
 kick-whole-turn@@src/suspension.rs@@norm(&(rates[k] - free[k]))@@norm(&rates[k])
 short-arms-kept@@src/contact.rs@@r.abs() >= min_arm@@r.abs() >= 0.5 * min_arm
 gap-without-turn@@src/collision.rs@@+ arm_b * line.dot(&rates[1]) - arm_a * line.dot(&rates[0]);@@;
-no-rescaled-squaring@@src/propagator.rs@@map /= map.amax();@@map /= 1.0;
+rounded-rho@@src/propagator/general.rs@@(Ball::ONE.over(square), difference.over(square))@@(Ball::exact(1.0 / square.hi), difference.over(square))
 replicas-share-streams@@src/random.rs@@let key = [replica, purpose as u64]@@let key = [replica / 64, purpose as u64]
 kicks-bounded@@src/suspension.rs@@min_arm: interaction.min_contact_arm,@@min_arm: interaction.min_contact_arm.max(1.0),
 pairs-behind-unseen@@src/neighbours/pairs.rs@@                .min(self.behind[rod])@@
@@ -59,9 +59,9 @@ replaced-share-numbers@@src/volume.rs@@self.replace(axes, &mut ahead(rng, 2 * be
 mirrored-free-phase@@src/rods.rs@@clock.phase(tick as f64, clock.sign)@@clock.phase(tick as f64, 1.0)
 chunks-not-added@@src/observable.rs@@self.value += other.value;@@self.value = other.value;
 whole-turns-late@@src/phase.rs@@Self::of_part(turns.fract())@@Self::of_part((TAU * turns).sin().atan2((TAU * turns).cos()) / TAU)
-hyperbolic-shift-dropped@@src/propagator.rs@@Matrix3::identity() * (-kappa * time).exp() + unit * sinh + unit * unit * (0.5 * decay * decay)@@Matrix3::identity() * (1.0 + 0.0 * decay * sinh) + unit * (kappa * time).sinh() + unit * unit * ((kappa * time).cosh() - 1.0)
-spiral-growth-lost@@src/propagator.rs@@let growth = lead * whole * period;@@let growth = lead * period;
-halves-from-shape@@src/propagator.rs@@(1.0 / (1.0 + 1.0 / square), 1.0 / (1.0 + square))@@(0.5 + 0.5 * (square - 1.0) / (square + 1.0), 0.5 - 0.5 * (square - 1.0) / (square + 1.0))
+larger-factor-kept@@src/propagator/modes.rs@@(Ball::ONE, exp(-lead))@@(exp(lead), Ball::ONE)
+pair-error-lost@@src/propagator/modes.rs@@let omega = (-self.square).sqrt();@@let omega = (-self.square.middle()).sqrt();
+reach-not-asked@@src/propagator/general.rs@@reached[i] || (0..3).any(@@true || (0..3).any(
 kick-overflows@@src/collision.rs@@largest * (v / largest).norm()@@v.norm()
 non-finite-goes-on@@src/suspension.rs@@if !end.iter().all(|component| component.is_finite()) {@@if end.iter().all(|component| component.is_infinite()) {
 seconds-overflow@@src/scene/check.rs@@if duration_s.is_finite() {@@if !duration_s.is_nan() {

@@ -135,7 +135,7 @@ impl Record {
             let least = margins.iter().copied().fold(f64::INFINITY, f64::min);
             format!(
                 "{mistake}: {least:.1}, {mean:.1} ± {sd:.1}, {:.0e}",
-                validation::accept::upper_tail(mean / sd)
+                validation::accept::upper_tail(mean / sd.max(1.0))
             )
         });
         format!(

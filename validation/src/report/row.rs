@@ -106,9 +106,7 @@ pub struct Row {
 impl Row {
     /// The outcome of a case that was run with this effort.
     pub(super) fn new(outcome: Outcome, effort: &Effort) -> Self {
-        let evidence: Vec<_> = (outcome.evidence.iter())
-            .map(Line::new)
-            .collect();
+        let evidence: Vec<_> = (outcome.evidence.iter()).map(Line::new).collect();
         // The first of equals.
         let worst = (0..evidence.len()).rev().max_by(|a, b| {
             let (a, b) = (evidence[*a].badness(), evidence[*b].badness());

@@ -37,12 +37,21 @@ fn one(seed: u64, index: u64) -> Problem {
             break gradient;
         }
     };
-    let rod = Rod {
+    let mut rod = Rod {
         gradient_per_s: std::array::from_fn(|i| std::array::from_fn(|j| gradient[(i, j)])),
         aspect_ratio: aspect_ratio(rng),
         p: start(rng),
     };
-    Problem::new(rod, size(rng, -13.0, 6.0))
+    let strain = size(rng, -13.0, 6.0);
+    if rng.random_range(0..4) == 0 {
+        // From the end backwards: the start that the flow turns most of the way, where the condition number is large.
+        let back = Rod {
+            gradient_per_s: rod.gradient_per_s.map(|row| row.map(|x| -x)),
+            ..rod
+        };
+        rod.p = back.after(Span::Strain(strain));
+    }
+    Problem::new(rod, strain)
 }
 
 /// 10 to a power between `least` and `most`.

@@ -1,0 +1,139 @@
+//! Scenes of free rods in any velocity gradient: each ends with numbers, or is refused with a reason.
+
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngSeed};
+use shearbed::flow::VelocityGradient;
+use shearbed::orientation::from_degrees;
+use shearbed::propagator::{Propagator, Span};
+use shearbed::{Plan, ensemble, scene_file};
+
+fn scene(rows: [[f64; 3]; 3], r: f64, sd: f64, orientation: &str, time: &str) -> String {
+    format!(
+        "title = \"t\"\n[flow]\ngradient_per_s = {rows:?}\n[particles]\ncount = 3\nlength_mm = 1\naspect_ratio = {r:e}\n\
+         aspect_ratio_sd_percent = {sd}\norientation = {orientation}\n[time]\n{time}\n[output]\n\
+         observables = [\"projections\", \"orientation_tensor\", \"orbit_constant\"]\n"
+    )
+}
+
+/// Finite means with ⟨pp⟩ of trace 1, or a refusal that says why.
+fn ends_or_is_refused(text: &str) {
+    let scene = match scene_file::parse("s.toml", text) {
+        Ok(scene) => scene,
+        Err(error) => {
+            let error = error.to_string();
+            assert!(
+                error.contains("is not allowed: ") && error.len() > 60,
+                "{error}\n{text}"
+            );
+            return;
+        }
+    };
+    let plan = Plan::new(&scene).unwrap();
+    assert!(plan.error_rad().is_none_or(|error| error <= 1e-6), "{text}");
+    let results = ensemble::run(&plan, || ()).unwrap();
+    let mean = |name: &str, k: usize| results.channel(name).unwrap().mean[k];
+    for k in 0..results.times.len() {
+        let trace = mean("a11", k) + mean("a22", k) + mean("a33", k);
+        // |p|² of three rods: 2 · 4 ulp each, and the roundings of their mean.
+        assert!(
+            (trace - 1.0).abs() <= 64.0 * f64::EPSILON,
+            "{trace} at {k}\n{text}"
+        );
+        assert!(mean("c_b", k).is_finite(), "c_b at {k}\n{text}");
+    }
+}
+
+fn component() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        (-3i32..=3).prop_map(f64::from),
+        -1.0f64..1.0,
+        (-300.0f64..300.0).prop_map(|e| 10f64.powf(e)),
+        Just(0.0),
+    ]
+}
+
+proptest! {
+    #![proptest_config(Config { rng_seed: RngSeed::Fixed(1982), failure_persistence: None, cases: 1000, ..Config::default() })]
+
+    #[test]
+    fn any_gradient_ends_or_is_refused(
+        whole in prop::array::uniform3(prop::array::uniform3((-3i32..=3).prop_map(f64::from))),
+        mixed in prop::array::uniform3(prop::array::uniform3(component())),
+        integers in any::<bool>(), r in prop_oneof![-100.0f64..100.0, -2.0f64..2.0], sd in prop_oneof![Just(0.0), Just(1.0)],
+        start in 0usize..5, time in 0usize..4
+    ) {
+        let start = ["\"isotropic\"", "{ phi_deg = 0, theta_deg = 0 }", "{ phi_deg = 90, theta_deg = 90 }",
+            "{ phi_deg = 20, theta_deg = 70 }", "{ phi_deg = 45, theta_deg = 90 }"][start];
+        let time = ["strain = 2\noutputs_per_strain = 2", "strain = 1000\noutputs_per_strain = 1", "periods = 2\noutputs_per_period = 3",
+            "periods = 100\noutputs_per_period = 1"][time];
+        let rows = if integers { whole } else { mixed };
+        ends_or_is_refused(&scene(rows, 10f64.powf(r), sd, start, time));
+    }
+}
+
+/// The flow on which an eigenvalue solver hung.
+#[test]
+fn three_real_rates_have_no_period() {
+    let rows = [[-1.0, -1.0, 0.0], [-2.0, 2.0, -1.0], [0.0, -2.0, -1.0]];
+    let error =
+        scene_file::parse("s.toml", &scene(rows, 2.0, 0.0, "\"isotropic\"", "periods = 1")).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("have no period in this flow: give strain"),
+        "{error}"
+    );
+}
+
+/// A rotation in space is rounded: how far Couette flow then is from periodic is told, not guessed.
+#[test]
+fn a_rounded_rotation_of_couette_flow_has_a_period_for_as_long_as_it_has() {
+    // Flow along (1, 2, 3), gradient along (1, 1, −1), to 16 digits: neither det L nor tr L² is quite 0.
+    let (along, across) = ([1.0, 2.0, 3.0], [1.0, 1.0, -1.0]);
+    let rows =
+        along.map(|flow: f64| across.map(|gradient: f64| flow / 14f64.sqrt() * (gradient / 3f64.sqrt())));
+    let told = |r: f64, time: &str| scene_file::parse("s.toml", &scene(rows, r, 0.0, "\"isotropic\"", time));
+    assert!(
+        told(11.6, "periods = 10").is_ok(),
+        "{:?}",
+        told(11.6, "periods = 10")
+    );
+    let error = told(1e8, "periods = 10").unwrap_err().to_string();
+    assert!(
+        error.contains("have no period in this flow") && error.contains("give strain"),
+        "{error}"
+    );
+}
+
+/// Next to parabolic: |det A| < 16 ε, and a strain of 10⁶. Digits from 80-digit arithmetic (issue 9).
+#[test]
+fn a_nearly_parabolic_flow_is_not_taken_as_planar() {
+    let flow = VelocityGradient::new(nalgebra::Matrix3::new(
+        1.5e-7, 0.0, 0.0, 1.0, 1.5e-7, 0.0, 0.0, 0.0, -3e-7,
+    ))
+    .unwrap();
+    let moved = Propagator::new(&flow, 1e4)
+        .moved(&from_degrees(90.0, 45.0), Span::Strain(1e6, 1.0))
+        .unwrap();
+    assert!(
+        (moved.p.y.abs() - 0.804).abs() < 5e-4 && (moved.p.z - 0.595).abs() < 5e-4,
+        "{moved:?}"
+    );
+    assert!(moved.error < 1e-12, "{moved:?}");
+}
+
+/// A rod exactly on an axis of the flow is not thrown off it by round-off, however unstable the axis.
+#[test]
+fn a_rod_on_an_axis_of_the_flow_stays_there() {
+    for theta_deg in [0.0, 180.0] {
+        let flow = VelocityGradient::new(nalgebra::Matrix3::new(
+            1.0, 0.3, 0.0, -0.2, -0.5, 0.0, 0.0, 0.0, -0.5,
+        ))
+        .unwrap();
+        let start = from_degrees(37.0, theta_deg);
+        let moved = Propagator::new(&flow, 11.6)
+            .moved(&start, Span::Strain(1e6, 1.0))
+            .unwrap();
+        assert_eq!(moved.p, start);
+    }
+}
