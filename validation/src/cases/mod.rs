@@ -16,6 +16,7 @@ mod kicks;
 pub mod lab;
 mod misprints;
 mod motion;
+mod once;
 mod readings;
 mod reductions;
 mod reference;

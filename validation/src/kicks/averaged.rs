@@ -1,11 +1,12 @@
 //! The core beside the averaged motion: the same rods at the same places, with and without draws.
 
+use crate::case::Effort;
 use crate::cases::lab::{self, Sample};
 use crate::oracle::naive::{Naive, Problem};
 use rayon::prelude::*;
 use shearbed::scene::Scene;
 
-/// How far one replica of the model is from the averaged motion after one period.
+/// How far one replica of the model is from the averaged motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Apart {
     /// X̄₁ of the model less that of the averaged motion.
@@ -17,14 +18,14 @@ pub struct Apart {
     pub averaged_x1: f64,
 }
 
-/// Runs both for a period. Places and replacements depend on no direction, so they are the same. `change` is what
+/// Runs both for so many steps. Places and replacements depend on no direction, so they are the same. `change` is what
 /// is done to the averaged motion alone.
-pub fn apart(scene: &Scene, change: fn(&mut Problem), replica: u64) -> Apart {
+pub fn apart(scene: &Scene, steps: u64, change: fn(&mut Problem), replica: u64) -> Apart {
     let mut core = lab::suspension(scene, replica);
     let mut problem = lab::problem(scene, replica, None);
     change(&mut problem);
     let mut averaged = Naive::new(problem);
-    for _ in 0..scene.steps_per_period() {
+    for _ in 0..steps {
         averaged.step_averaged();
         if core.step().is_err() {
             return Apart {
@@ -61,11 +62,11 @@ pub struct Row {
 }
 
 /// Runs `replicas` with this step and shortest arm.
-pub fn row(steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> Row {
-    let scene = scene(steps_per_period, min_contact_arm);
+pub fn row(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> Row {
+    let scene = scene(effort, steps_per_period, min_contact_arm);
     let found: Vec<_> = (0..replicas)
         .into_par_iter()
-        .map(|replica| apart(&scene, |_| {}, replica))
+        .map(|replica| apart(&scene, steps_per_period, |_| {}, replica))
         .collect();
     let sample = |value: fn(&Apart) -> f64| Sample::of(&found.iter().map(value).collect::<Vec<_>>());
     Row {
@@ -78,8 +79,8 @@ pub fn row(steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> Row {
 }
 
 /// 50 rods at 400 per cm³: eight times as dense as in Fig. 7, so that a few replicas show the limit. One period.
-pub fn scene(steps_per_period: u64, min_contact_arm: f64) -> Scene {
-    let mut scene = lab::interacting_scene(&crate::case::Effort::gate());
+pub fn scene(effort: &Effort, steps_per_period: u64, min_contact_arm: f64) -> Scene {
+    let mut scene = lab::interacting_scene(effort);
     scene.particles.count = 50;
     let interaction = lab::interaction(&mut scene);
     (interaction.concentration_per_cm3, interaction.min_contact_arm) = (400.0, min_contact_arm);

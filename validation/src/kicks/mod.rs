@@ -31,6 +31,24 @@ pub fn kicks_rad(collision: &Collision) -> [f64; 2] {
     collision.kicks_rad
 }
 
+/// What is counted, and on which side.
+#[derive(Clone, Copy)]
+pub struct Counted {
+    /// The angles that count as kicks.
+    pub angles: Angles,
+    /// Whether the liquid pulls the contact points of two rods apart.
+    pub opens: fn(&Vector3<f64>, &Vector3<f64>) -> bool,
+    /// How often the formula looks at the directions.
+    pub looks_per_period: u64,
+}
+
+/// Kicks, by what the gap does.
+pub const KICKS: Counted = Counted {
+    angles: kicks_rad,
+    opens: is_opening,
+    looks_per_period: 200,
+};
+
 /// GΔt of a scene in plane Couette flow.
 pub fn step_strain(scene: &Scene) -> f64 {
     strain_per_period(scene.particles.aspect_ratio) / scene.steps_per_period() as f64
@@ -51,25 +69,22 @@ pub struct Counts {
     pub turns: f64,
 }
 
-/// How often the formula looks at the directions.
-const LOOKS_PER_PERIOD: u64 = 200;
-
 /// Counts the kicks of one replica over whole periods. NaN where the run stopped.
-pub fn count(scene: &Scene, replica: u64, periods: Range<u64>, angles: Angles) -> Counts {
+pub fn count(scene: &Scene, replica: u64, periods: Range<u64>, counted: Counted) -> Counts {
     let mut suspension = lab::suspension(scene, replica);
     let (steps, strain) = (scene.steps_per_period(), step_strain(scene));
     let aspect_ratios = suspension.aspect_ratios();
     let mut counts = Counts::default();
     let mut chances = [[0.0; 4]; 2];
     for step in 0..periods.end * steps {
-        let counted = step >= periods.start * steps;
-        let directions = if counted {
+        let within = step >= periods.start * steps;
+        let directions = if within {
             suspension.directions()
         } else {
             Vec::new()
         };
-        if counted && step % (steps / LOOKS_PER_PERIOD).max(1) == 0 {
-            chances = mean_chances(&directions, &aspect_ratios, strain);
+        if within && step % (steps / counted.looks_per_period).max(1) == 0 {
+            chances = mean_chances(&directions, &aspect_ratios, strain, counted.opens);
         }
         let Ok(collisions) = suspension.step() else {
             return Counts {
@@ -77,9 +92,9 @@ pub fn count(scene: &Scene, replica: u64, periods: Range<u64>, angles: Angles) -
                 ..counts
             };
         };
-        for collision in collisions.iter().filter(|_| counted) {
+        for collision in collisions.iter().filter(|_| within) {
             let [a, b] = collision.rods.map(|rod| directions[rod]);
-            counts.add(is_opening(&a, &b), angles(collision));
+            counts.add((counted.opens)(&a, &b), (counted.angles)(collision));
             for (fresh, chances) in [&mut counts.fresh_closing, &mut counts.fresh_opening]
                 .into_iter()
                 .zip(chances)
@@ -106,7 +121,12 @@ fn is_opening(a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
 
 /// The formula's chances of a kick above each threshold, closing and opening, over pairs of rods that know nothing
 /// of each other.
-fn mean_chances(directions: &[Vector3<f64>], aspect_ratios: &[f64], strain: f64) -> [[f64; 4]; 2] {
+fn mean_chances(
+    directions: &[Vector3<f64>],
+    aspect_ratios: &[f64],
+    strain: f64,
+    opens: fn(&Vector3<f64>, &Vector3<f64>) -> bool,
+) -> [[f64; 4]; 2] {
     let count = directions.len();
     let mut sums = [[0.0; 4]; 2];
     let mut pairs = 0.0;
@@ -114,7 +134,7 @@ fn mean_chances(directions: &[Vector3<f64>], aspect_ratios: &[f64], strain: f64)
         for i in 0..count {
             let j = (i + shift) % count;
             let [a, b] = [directions[i], directions[j]];
-            let side = &mut sums[usize::from(is_opening(&a, &b))];
+            let side = &mut sums[usize::from(opens(&a, &b))];
             for (sum, threshold) in side.iter_mut().zip(THRESHOLDS_RAD) {
                 *sum += chance_of_pair(a.into(), b.into(), aspect_ratios[j], threshold / strain);
             }
@@ -183,7 +203,7 @@ pub fn rates(
     steps_per_period: u64,
     periods: Range<u64>,
     replicas: u64,
-    angles: Angles,
+    counted: Counted,
 ) -> Row {
     let mut scene = scene.clone();
     scene.time.steps_per_period = Some(steps_per_period);
@@ -193,7 +213,7 @@ pub fn rates(
         steps_per_period,
         counts: (0..replicas)
             .into_par_iter()
-            .map(|replica| count(&scene, replica, periods.clone(), angles))
+            .map(|replica| count(&scene, replica, periods.clone(), counted))
             .collect(),
         periods,
     }
@@ -229,7 +249,7 @@ mod tests {
         let mut scene = lab::interacting_scene(&crate::case::Effort::gate());
         lab::interaction(&mut scene).concentration_per_cm3 = 400.0;
         let turns = |periods| {
-            rates(&scene, 50, periods, 2, kicks_rad)
+            rates(&scene, 50, periods, 2, KICKS)
                 .mean(|counts| counts.turns)
                 .mean
         };

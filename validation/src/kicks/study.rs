@@ -1,7 +1,7 @@
 //! What is measured of the limit Δt → 0 for the report and the documents.
 
 use super::tail::{self, Exponent};
-use super::{Row, averaged, kicks_rad, rates, updates};
+use super::{KICKS, Row, averaged, kicks_rad, rates, updates};
 use crate::case::Effort;
 use crate::cases::lab;
 use crate::scenes;
@@ -45,7 +45,7 @@ pub fn measure(effort: &Effort) -> Result<Study, String> {
     let averaged_steps = averaged_steps
         .into_iter()
         .filter(|steps| *steps <= averaged_finest);
-    let mut dense = lab::interacting_scene(&crate::case::Effort::gate());
+    let mut dense = lab::interacting_scene(effort);
     let interaction = lab::interaction(&mut dense);
     (interaction.concentration_per_cm3, interaction.alpha) = (400.0, 2.0);
     let dense_steps = [100, 400, 1600, 6400, 25_600];
@@ -54,24 +54,24 @@ pub fn measure(effort: &Effort) -> Result<Study, String> {
     let arms = [0.25, 0.5 / 11.6, 0.0];
     Ok(Study {
         steps: steps
-            .map(|steps| rates(&scene, steps, 0..2, replicas[0], kicks_rad))
+            .map(|steps| rates(&scene, steps, 0..2, replicas[0], KICKS))
             .collect(),
         dense: dense_steps
-            .map(|steps| rates(&dense, steps, 0..1, replicas[1], kicks_rad))
+            .map(|steps| rates(&dense, steps, 0..1, replicas[1], KICKS))
             .collect(),
         periods: (0..6)
-            .map(|period| rates(&scene, PERIODS_AT, period..period + 1, replicas[0], kicks_rad))
+            .map(|period| rates(&scene, PERIODS_AT, period..period + 1, replicas[0], KICKS))
             .collect(),
         tails: tails(&scene, replicas[0]),
         averaged: arms
             .into_iter()
             .flat_map(|arm| averaged_steps.clone().map(move |steps| (steps, arm)))
-            .map(|(steps, arm)| averaged::row(steps, arm, replicas[1]))
+            .map(|(steps, arm)| averaged::row(effort, steps, arm, replicas[1]))
             .collect(),
         updates: [0.25, 0.0]
             .into_iter()
             .flat_map(|arm| averaged_steps.clone().map(move |steps| (steps, arm)))
-            .map(|(steps, arm)| updates::row(steps, arm, 2 * replicas[1]))
+            .map(|(steps, arm)| updates::row(effort, steps, arm, 2 * replicas[1]))
             .collect(),
         replicas,
     })

@@ -1,6 +1,7 @@
 //! The update `angles` beside `rotation`, with the same draws.
 
 use super::averaged;
+use crate::case::Effort;
 use crate::cases::lab::{self, Sample};
 use shearbed::scene::Update;
 
@@ -18,9 +19,9 @@ pub struct Row {
 }
 
 /// Runs `replicas` of the scene of the averaged motion by both updates for a period.
-pub fn row(steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> Row {
+pub fn row(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> Row {
     let x1 = |update| {
-        let mut scene = averaged::scene(steps_per_period, min_contact_arm);
+        let mut scene = averaged::scene(effort, steps_per_period, min_contact_arm);
         lab::interaction(&mut scene).update = update;
         lab::per_replica(&scene, replicas, |means| means.at(1, 0))
     };

@@ -139,12 +139,12 @@ impl Free {
     }
 
     /// The rods that `start` lays, and the errors of X̄₁ in `trials` of them.
-    pub fn errors(&self, start: &Start, count: usize, trials: usize) -> (usize, Vec<f64>) {
+    pub fn errors(&self, start: &Start, count: usize, trials: usize, seed: u64) -> (usize, Vec<f64>) {
         let exact = self.exact();
         let found: Vec<_> = (0..trials as u64)
             .into_par_iter()
             .map(|trial| {
-                let rods = (start.lay)(count, self.unequal(), &mut generator(count, trial));
+                let rods = (start.lay)(count, self.unequal(), &mut generator(seed, count, trial));
                 (rods.len(), self.mean(&rods) - exact)
             })
             .collect();
@@ -168,8 +168,14 @@ impl Free {
         let mut points = Vec::new();
         let mut tried = Vec::new();
         for count in counts {
-            let (rods, errors) = self.errors(start, count, extent.trials);
-            let once = || self.mean(&(start.lay)(count, self.unequal(), &mut generator(count, 0)));
+            let (rods, errors) = self.errors(start, count, extent.trials, SEED);
+            let once = || {
+                self.mean(&(start.lay)(
+                    count,
+                    self.unequal(),
+                    &mut generator(SEED, count, 0),
+                ))
+            };
             points.push(Point {
                 rods,
                 error: root_mean_square(&errors),
@@ -198,9 +204,12 @@ impl Curve {
     }
 }
 
-/// A stream of its own for each number of rods and trial.
-fn generator(count: usize, trial: u64) -> Pcg64Dxsm {
-    Pcg64Dxsm::seed_from_u64((count as u64) << 32 | trial)
+/// The seed of [`Free::bench`].
+const SEED: u64 = 0;
+
+/// A stream of its own for each seed, number of rods and trial.
+fn generator(seed: u64, count: usize, trial: u64) -> Pcg64Dxsm {
+    Pcg64Dxsm::seed_from_u64(seed ^ (count as u64) << 32 ^ trial)
 }
 
 /// The exponents of N in the root-mean-square error, by least squares of the logarithms, one for each of `groups`

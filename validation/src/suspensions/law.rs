@@ -314,6 +314,12 @@ pub fn replicas_exponent(x1: &[f64]) -> Option<Estimate> {
     if size < 64 {
         return None;
     }
+    let (value, se) = mean_and_se(&replicas_exponents(x1, size));
+    Some(Estimate { value, se })
+}
+
+/// The same exponent, one for each group of `size` replicas.
+pub fn replicas_exponents(x1: &[f64], size: usize) -> Vec<f64> {
     let of_group = |group: &[f64]| {
         let points: Vec<_> = (blocks(group).iter())
             .map(|block| {
@@ -325,6 +331,5 @@ pub fn replicas_exponent(x1: &[f64]) -> Option<Estimate> {
             .collect();
         slope(&points)
     };
-    let (value, se) = mean_and_se(&x1.chunks_exact(size).map(of_group).collect::<Vec<_>>());
-    Some(Estimate { value, se })
+    x1.chunks_exact(size).map(of_group).collect()
 }
