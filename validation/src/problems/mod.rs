@@ -7,6 +7,7 @@
 mod contact;
 mod ensemble;
 mod export;
+mod flows;
 mod page;
 mod read;
 mod rods;
