@@ -7,6 +7,7 @@
 mod contact;
 mod ensemble;
 mod export;
+mod flows;
 mod page;
 mod read;
 mod rods;
@@ -204,6 +205,11 @@ pub fn all() -> &'static [ProblemDef] {
         kinds.into_iter().flatten().collect()
     });
     &ALL
+}
+
+/// Those about given free rods, which are built in moments.
+pub fn free_rods() -> Vec<ProblemDef> {
+    rods::problems()
 }
 
 /// The problem of this name with its certified answer, or none.

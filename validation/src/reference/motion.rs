@@ -188,3 +188,81 @@ pub fn product(a: &Matrix, b: &Matrix) -> Matrix {
 pub fn image(a: &Matrix, x: &[Big; 3]) -> [Big; 3] {
     [0, 1, 2].map(|i| &a[i][0] * &x[0] + &a[i][1] * &x[1] + &a[i][2] * &x[2])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn apart(a: &Matrix, b: &Matrix) -> f64 {
+        let differences = (0..9)
+            .map(|k| (k / 3, k % 3))
+            .map(|(i, j)| double(&(&a[i][j] - &b[i][j])).abs());
+        differences.fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn the_exponential_is_the_closed_form_in_couette_flow() {
+        let bits = Bits(300);
+        for (rate, aspect_ratio, strain) in [
+            (0.5, 11.6, 100.0),
+            (-3.0, 0.2, 7.0),
+            (1.0, 1.0, 30.0),
+            (1e10, 1e4, 0.3),
+        ] {
+            let motion = Motion {
+                gradient_per_s: [[0.0; 3], [rate, 0.0, 0.0], [0.0; 3]],
+                aspect_ratio,
+            };
+            let seconds = bits.of(strain) / bits.of(rate.abs());
+            let closed = motion.map(&seconds, Unit::Second, bits).unwrap();
+            let series = exponential(&motion.generator(&seconds, bits), strain, bits);
+            // 300 bits less some for entries of r_e and a hundred squarings.
+            assert!(apart(&closed, &series) < 1e-75, "{rate} {aspect_ratio}");
+            let wrong = Motion {
+                aspect_ratio: aspect_ratio * (1.0 + f64::EPSILON),
+                ..motion
+            };
+            let wrong = exponential(&wrong.generator(&seconds, bits), strain, bits);
+            assert!(apart(&closed, &wrong) > 1e-30 || aspect_ratio == 1.0);
+        }
+    }
+
+    #[test]
+    fn extension_is_the_exponential_of_its_rates_and_a_trace_does_not_matter() {
+        let bits = Bits(300);
+        for trace in [0.0, 6.0] {
+            let rates = [1.0 + trace, -0.75 + trace, -0.25 + trace];
+            let motion = Motion {
+                gradient_per_s: [[rates[0], 0.0, 0.0], [0.0, rates[1], 0.0], [0.0, 0.0, rates[2]]],
+                aspect_ratio: 2.0,
+            };
+            let map = motion.map(&bits.of(3.0), Unit::Second, bits).unwrap();
+            for (i, rate) in [1.0, -0.75, -0.25].into_iter().enumerate() {
+                // Λ = 3/5.
+                let expected = (bits.of(3.0 * rate) * bits.of(3.0) / bits.of(5.0)).exp();
+                assert!(double(&(&map[i][i] / expected - bits.of(1.0))).abs() < 1e-75);
+            }
+        }
+    }
+
+    #[test]
+    fn units_of_time_agree_with_eq_15_and_the_strain() {
+        let bits = Bits(200);
+        let motion = |gradient_per_s| Motion {
+            gradient_per_s,
+            aspect_ratio: 2.0,
+        };
+        let couette = motion([[0.0; 3], [-0.5, 0.0, 0.0], [0.0; 3]]);
+        let one = bits.of(1.0);
+        let seconds = couette.convert(&one, Unit::Period, Unit::Second, bits).unwrap();
+        assert_eq!(double(&seconds), std::f64::consts::TAU * 2.5 / 0.5);
+        let strain = couette.convert(&one, Unit::Second, Unit::Strain, bits).unwrap();
+        assert_eq!(double(&strain), 0.5);
+        let planar = motion([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]]);
+        let strain = planar.convert(&one, Unit::Second, Unit::Strain, bits).unwrap();
+        assert_eq!(double(&strain), 2.0);
+        assert!(planar.convert(&one, Unit::Period, Unit::Second, bits).is_none());
+        let turning = motion([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0; 3]]);
+        assert!(turning.convert(&one, Unit::Strain, Unit::Second, bits).is_none());
+    }
+}

@@ -1,0 +1,176 @@
+//! What certified answers and tolerances are worth: right codes pass, wrong ones fail.
+
+use rayon::prelude::*;
+use std::sync::LazyLock;
+use validation::oracle::naive::{self, Mistake, Naive, Reading, Start, Update};
+use validation::problems::{self, Kind, LoadedProblem, Metric};
+
+/// Every problem, as a program that has only the files sees it.
+static PROBLEMS: LazyLock<Vec<LoadedProblem>> = LazyLock::new(|| {
+    let dir = tempfile::tempdir().unwrap();
+    problems::export(dir.path(), false).unwrap();
+    problems::read(dir.path()).unwrap()
+});
+
+fn of_kind(kind: Kind) -> impl Iterator<Item = &'static LoadedProblem> {
+    PROBLEMS.iter().filter(move |loaded| loaded.problem.kind == kind)
+}
+
+type Vector = [f64; 3];
+
+/// ṗ of A.1 in doubles, as a program would write it down.
+fn rate(l: &[Vector; 3], r: f64, p: Vector) -> Vector {
+    let shape = (r * r - 1.0) / (r * r + 1.0);
+    let a = |i: usize, j: usize| 0.5 * (l[i][j] - l[j][i]) + shape * 0.5 * (l[i][j] + l[j][i]);
+    let pull = [0, 1, 2].map(|i| a(i, 0) * p[0] + a(i, 1) * p[1] + a(i, 2) * p[2]);
+    let along = (0..3).map(|i| p[i] * pull[i]).sum::<f64>();
+    [0, 1, 2].map(|i| pull[i] - p[i] * along)
+}
+
+fn euler(l: &[Vector; 3], r: f64, p: Vector, h: f64) -> Vector {
+    let k = rate(l, r, p);
+    [0, 1, 2].map(|i| p[i] + h * k[i])
+}
+
+fn rk4(l: &[Vector; 3], r: f64, p: Vector, h: f64) -> Vector {
+    let ahead = |k: Vector, h: f64| [0, 1, 2].map(|i| p[i] + h * k[i]);
+    let first = rate(l, r, p);
+    let second = rate(l, r, ahead(first, 0.5 * h));
+    let third = rate(l, r, ahead(second, 0.5 * h));
+    let fourth = rate(l, r, ahead(third, h));
+    [0, 1, 2].map(|i| p[i] + h / 6.0 * (first[i] + 2.0 * (second[i] + third[i]) + fourth[i]))
+}
+
+type Step = fn(&[Vector; 3], f64, Vector, f64) -> Vector;
+
+/// The largest angle of a fixed-step method from the certified axes.
+fn error(loaded: &LoadedProblem, gradient: &[Vector; 3], step: Step, steps_per_strain: f64) -> f64 {
+    let (problem, rods) = (&loaded.problem, loaded.start.len());
+    let norm = gradient.as_flattened().iter().map(|x| x * x).sum::<f64>().sqrt();
+    let of_rod = |rod: usize| {
+        let (mut p, mut now, mut worst) = (loaded.start[rod], 0.0, 0.0_f64);
+        for (at, time) in problem.times_s.iter().enumerate() {
+            let steps = ((time - now) * norm * steps_per_strain).ceil().max(1.0);
+            for _ in 0..steps as u64 {
+                p = step(gradient, problem.aspect_ratio, p, (time - now) / steps);
+                let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+                p = p.map(|x| x / length);
+            }
+            now = *time;
+            let row = &loaded.certified.rows[at * rods + rod];
+            let q = [row[2], row[3], row[4]];
+            let across = [0, 1, 2].map(|i| p[(i + 1) % 3] * q[(i + 2) % 3] - p[(i + 2) % 3] * q[(i + 1) % 3]);
+            let sine = across.iter().map(|x| x * x).sum::<f64>().sqrt();
+            worst = worst.max(if sine.is_nan() {
+                f64::INFINITY
+            } else {
+                sine.min(1.0).asin()
+            });
+        }
+        worst
+    };
+    (0..rods).into_par_iter().map(of_rod).reduce(|| 0.0, f64::max)
+}
+
+#[test]
+fn a_right_code_in_doubles_passes_and_wrong_ones_fail() {
+    for loaded in of_kind(Kind::Rods) {
+        let problem = &loaded.problem;
+        let (name, l, tolerance) = (problem.name.as_str(), problem.gradient_per_s, problem.tolerance);
+        assert_eq!(problem.metric, Metric::Angle);
+        // RK4 needs h⁴/100 or so per strain; where the tolerance is loose, fewer steps do.
+        let steps_per_strain = if name == "mid-flip-10000" { 50.0 } else { 300.0 };
+        let right = error(loaded, &l, rk4, steps_per_strain);
+        assert!(right <= tolerance, "{name}: {right:e} > {tolerance:e}");
+        if name == "ten-thousand-periods" {
+            continue;
+        }
+        let transposed = [0, 1, 2].map(|i| [0, 1, 2].map(|j| l[j][i]));
+        let halved = l.map(|row| row.map(|x| 0.5 * x));
+        let wrong = [
+            ("Euler", error(loaded, &l, euler, steps_per_strain)),
+            ("transposed", error(loaded, &transposed, rk4, steps_per_strain)),
+            ("half the rate", error(loaded, &halved, rk4, steps_per_strain)),
+        ];
+        for (mistake, error) in wrong {
+            // On the vorticity axis nothing moves; a symmetric gradient is its own transpose.
+            let blind = name == "log-rolling" || (mistake == "transposed" && name.ends_with("extension"));
+            assert_eq!(error > 2.0 * tolerance, !blind, "{name}: {mistake}: {error:e}");
+        }
+    }
+}
+
+/// The suspension of an ensemble problem, for the naive reference, which shares no code with the simulator.
+fn suspension(loaded: &LoadedProblem, replica: u64, mistake: Option<Mistake>) -> naive::Problem {
+    let (problem, ensemble) = (&loaded.problem, loaded.problem.ensemble.as_ref().unwrap());
+    naive::Problem {
+        count: ensemble.count as usize,
+        shear_rate_per_s: problem.gradient_per_s[1][0],
+        length_mm: ensemble.length_mm,
+        aspect_ratio: problem.aspect_ratio,
+        aspect_ratio_sd_percent: problem.aspect_ratio_sd_percent,
+        orientation: Start::Isotropic,
+        concentration_per_cm3: ensemble.concentration_per_cm3,
+        alpha: ensemble.alpha,
+        m: ensemble.m,
+        min_contact_arm: 0.0,
+        update: Update::Rotation,
+        reading: Reading::default(),
+        steps_per_period: ensemble.steps_per_period as usize,
+        seed: 11,
+        replica,
+        mistake,
+    }
+}
+
+/// The largest difference from the certified means in standard errors, and the largest standard error.
+fn standard_errors(loaded: &LoadedProblem, replicas: u64, mistake: Option<Mistake>) -> (f64, f64) {
+    let times = &loaded.problem.times_s;
+    let trace = |replica: u64| -> Vec<Vector> {
+        let mut naive = Naive::new(suspension(loaded, replica, mistake));
+        let step_s = suspension(loaded, replica, None).time_step_s();
+        let mut done = 0;
+        let mean = |time: &f64| {
+            let steps = (time / step_s).round() as u64;
+            (done..steps).for_each(|_| naive.step());
+            done = steps;
+            naive::mean_projections(&naive.orientations)
+        };
+        times.iter().map(mean).collect()
+    };
+    let traces: Vec<_> = (0..replicas).into_par_iter().map(trace).collect();
+    let n = replicas as f64;
+    let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
+    for (at, row) in loaded.certified.rows.iter().enumerate() {
+        for axis in 0..3 {
+            let mean = traces.iter().map(|trace| trace[at][axis]).sum::<f64>() / n;
+            let squares = traces
+                .iter()
+                .map(|trace| (trace[at][axis] - mean).powi(2))
+                .sum::<f64>();
+            let se = (squares / (n - 1.0) / n).sqrt();
+            worst = worst.max((mean - row[1 + 2 * axis]).abs() / se.hypot(row[2 + 2 * axis]));
+            largest = largest.max(se);
+        }
+    }
+    (worst, largest)
+}
+
+#[test]
+fn the_naive_reference_agrees_with_certified_ensembles_and_wrong_ones_do_not() {
+    for loaded in of_kind(Kind::Ensemble) {
+        let (tolerance, ensemble) = (
+            loaded.problem.tolerance,
+            loaded.problem.ensemble.as_ref().unwrap(),
+        );
+        let (error, se) = standard_errors(loaded, 200, None);
+        assert!(
+            error <= tolerance && se <= ensemble.largest_standard_error,
+            "{error} {se}"
+        );
+        for mistake in [Mistake::KickSign, Mistake::ProbabilityComplement] {
+            let (error, _) = standard_errors(loaded, 100, Some(mistake));
+            assert!(error > 2.0 * tolerance, "{mistake:?}: {error}");
+        }
+    }
+}
