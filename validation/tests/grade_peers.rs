@@ -215,7 +215,7 @@ const PLANTED: &[(&str, &str, &str, &str)] = &[
     ),
     (
         "    A, start =",
-        "    r_e = 1.24 * r_e / math.sqrt(math.log(r_e))\n    A, start =",
+        "    r_e = 1.24 * r_e / math.sqrt(math.log(max(r_e, 2)))\n    A, start =",
         "mid-flip-11.6",
         "r_p for r_e (r_e taken as r_p of Cox 1971)",
     ),

@@ -166,9 +166,11 @@ pub fn all() -> Vec<Mistake> {
             aspect_ratio: s.aspect_ratio.max(1.0 / s.aspect_ratio),
             ..s
         }),
-        moved("Λ with the wrong sign (1/r_e for r_e)", |s| Setting {
-            aspect_ratio: 1.0 / s.aspect_ratio,
-            ..s
+        // Of a disc that is Λ without its sign.
+        linear("Λ with the wrong sign (1/r_e for r_e)", |s, time| {
+            let aspect_ratio = 1.0 / s.aspect_ratio;
+            let spoilt = Setting { aspect_ratio, ..*s };
+            (aspect_ratio < 1.0).then(|| right_map(&spoilt, time)).flatten()
         }),
         rate("no 1/r_e (Λ = 1, an infinitely slender rod)", |w, d, _| w + d),
         rate("D without its ½", |w, d, shape| w + 2.0 * shape * d),

@@ -207,6 +207,11 @@ pub fn all() -> &'static [ProblemDef] {
     &ALL
 }
 
+/// Those about given free rods, which are built in moments.
+pub fn free_rods() -> Vec<ProblemDef> {
+    rods::problems()
+}
+
 /// The problem of this name with its certified answer, or none.
 pub fn build(name: &str) -> Option<Built> {
     all().iter().find(|def| def.name == name).map(ProblemDef::build)

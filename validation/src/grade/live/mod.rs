@@ -14,16 +14,13 @@ pub use program::{Asked, Program, Question};
 pub use signals::end_with_this_program;
 pub use studies::{Studies, studies};
 
-use crate::problems::{self, Kind, LoadedProblem, Table};
+use crate::problems::{self, LoadedProblem, Table};
 use std::path::PathBuf;
 
 /// The problems about free rods that this build has, as they would be exported.
 pub fn built_in() -> Result<Vec<LoadedProblem>, String> {
-    let built = problems::all().iter().map(problems::ProblemDef::build);
-    built
-        .filter(|built| built.problem.kind == Kind::Rods)
-        .map(loaded)
-        .collect()
+    let rods = problems::free_rods();
+    rods.iter().map(problems::ProblemDef::build).map(loaded).collect()
 }
 
 fn loaded(built: problems::Built) -> Result<LoadedProblem, String> {
