@@ -68,7 +68,7 @@ pub const ALL: [Equation; 35] = [
         &["jeffery.rs: period_s", "jeffery.rs: strain_per_period"],
     ),
     eq("16", "steady mean projections", &["observable.rs: Projections"]),
-    eq("17", "time mean of a projection", &["propagator.rs: couette"]),
+    eq("17", "time mean of a projection", &["propagator/mod.rs: turned"]),
     eq(
         "18",
         "mean angle over rods",
@@ -96,11 +96,15 @@ pub const ALL: [Equation; 35] = [
         "θ̇ in plane Couette flow",
         &["jeffery.rs: angle_rates_per_s"],
     ),
-    eq("A.4", "φ(t)", &["jeffery.rs: phi_rad", "propagator.rs: couette"]),
+    eq(
+        "A.4",
+        "φ(t)",
+        &["jeffery.rs: phi_rad", "propagator/mod.rs: turned"],
+    ),
     eq(
         "A.5",
         "θ(φ)",
-        &["jeffery.rs: theta_rad", "propagator.rs: couette"],
+        &["jeffery.rs: theta_rad", "propagator/mod.rs: turned"],
     ),
     eq("A.6", "period T", &["jeffery.rs: period_s"]),
     eq(
