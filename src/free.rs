@@ -29,7 +29,7 @@ pub(crate) enum Way {
     /// All rods are alike: the map to each output, periodically.
     Maps(Vec<Matrix3<f64>>),
     /// A propagator for each rod; spans to each output, and the propagator that has their periods.
-    Each { mean: Propagator, spans: Vec<Span> },
+    Each { mean: Box<Propagator>, spans: Vec<Span> },
 }
 
 impl FreeMotion {
@@ -61,7 +61,7 @@ impl FreeMotion {
                 })?;
                 error_rad = error_rad.max(errors.1);
             }
-            let mean = Propagator::new(flow, r);
+            let mean = Box::new(Propagator::new(flow, r));
             let spans = self::spans(scene);
             return Ok(Self {
                 way: Way::Each { mean, spans },

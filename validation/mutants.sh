@@ -61,6 +61,7 @@ chunks-not-added@@src/observable.rs@@self.value += other.value;@@self.value = ot
 whole-turns-late@@src/phase.rs@@Self::of_part(turns.fract())@@Self::of_part((TAU * turns).sin().atan2((TAU * turns).cos()) / TAU)
 larger-factor-kept@@src/propagator/modes.rs@@(Ball::ONE, exp(-lead))@@(exp(lead), Ball::ONE)
 pair-error-lost@@src/propagator/modes.rs@@let omega = (-self.square).sqrt();@@let omega = (-self.square.middle()).sqrt();
+projector-left-out@@src/propagator/modes.rs@@sinh - rest * middle.scaled(2.0),@@sinh,
 reach-not-asked@@src/propagator/general.rs@@reached[i] || (0..3).any(@@true || (0..3).any(
 kick-overflows@@src/collision.rs@@largest * (v / largest).norm()@@v.norm()
 non-finite-goes-on@@src/suspension.rs@@if !end.iter().all(|component| component.is_finite()) {@@if end.iter().all(|component| component.is_infinite()) {

@@ -192,14 +192,10 @@ fn determinants(x: &Square) -> (Ball, Ball) {
         let (c, d) = ((j + 1) % 3, (j + 2) % 3);
         x[a][c] * x[b][d] - x[a][d] * x[b][c]
     };
-    let mut sums = (Ball::ZERO, Ball::ZERO);
-    for i in 0..3 {
-        sums.0 = sums.0 + x[0][i] * cofactor(0, i);
-        for j in 0..3 {
-            sums.1 = sums.1 + cofactor(j, i) * x[i][j];
-        }
-    }
-    sums
+    let sum = |terms: [Ball; 3]| terms[0] + terms[1] + terms[2];
+    let determinant = sum(from_fn(|i| x[0][i] * cofactor(0, i)));
+    let with_transpose = sum(from_fn(|i| sum(from_fn(|j| cofactor(j, i) * x[i][j]))));
+    (determinant, with_transpose)
 }
 
 /// L times a power of two that makes its largest component about 1, and the power's exponent.

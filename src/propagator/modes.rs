@@ -201,10 +201,11 @@ fn largest_root([t, c, d]: [Ball; 3]) -> Ball {
     let mut x = 4.0 / 3.0;
     for _ in 0..200 {
         let next = x - (x * (x * x + c0) - d0) / (3.0 * x * x + c0);
-        if !(next < x) {
+        if next < x {
+            x = next;
+        } else {
             break;
         }
-        x = next;
     }
     let value = |x: Ball| ((x - t) * x + c) * x - d;
     let slope = |x: Ball| (x.scaled(3.0) - t.scaled(2.0)) * x + c;

@@ -159,7 +159,7 @@ impl Scene {
             return Err(Invalid::new(key, periods, format!("{no_period}: give strain")));
         };
         let drift = drift * periods;
-        if !(drift <= MAX_DRIFT) {
+        if drift.is_nan() || drift > MAX_DRIFT {
             let allowed = format!(
                 "{no_period}: in what would be one, times this, what turns has grown by e^{drift:.1e} against what does \
                  not, more than e^{MAX_DRIFT:e}: give strain"

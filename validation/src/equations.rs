@@ -60,7 +60,7 @@ pub const ALL: [Equation; 35] = [
     eq("14", "replacement of a rod that left", &["volume.rs: advance"]),
     eq("15", "period T", &["jeffery.rs: strain_per_period"]),
     eq("16", "steady mean projections", &["observable.rs: Projections"]),
-    eq("17", "time mean of a projection", &["propagator.rs: couette"]),
+    eq("17", "time mean of a projection", &["propagator.rs: turned"]),
     eq(
         "18",
         "mean angle over rods",
@@ -84,8 +84,8 @@ pub const ALL: [Equation; 35] = [
     ),
     eq("A.2", "φ̇ in plane Couette flow", &["jeffery.rs: couette_rate"]),
     eq("A.3", "θ̇ in plane Couette flow", &["jeffery.rs: couette_rate"]),
-    eq("A.4", "φ(t)", &["propagator.rs: couette"]),
-    eq("A.5", "θ(φ)", &["propagator.rs: couette"]),
+    eq("A.4", "φ(t)", &["propagator.rs: turned"]),
+    eq("A.5", "θ(φ)", &["propagator.rs: turned"]),
     eq("A.6", "period T", &["jeffery.rs: strain_per_period"]),
     eq(
         "A.7",
