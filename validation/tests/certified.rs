@@ -87,8 +87,14 @@ fn a_right_code_in_doubles_passes_and_wrong_ones_fail() {
         }
         let transposed = [0, 1, 2].map(|i| [0, 1, 2].map(|j| l[j][i]));
         let halved = l.map(|row| row.map(|x| 0.5 * x));
+        // Euler's method comes to 2e-3 as well where its steps are short enough.
+        let coarse = if name == "mid-flip-10000" {
+            10.0
+        } else {
+            steps_per_strain
+        };
         let wrong = [
-            ("Euler", error(loaded, &l, euler, steps_per_strain)),
+            ("Euler", error(loaded, &l, euler, coarse)),
             ("transposed", error(loaded, &transposed, rk4, steps_per_strain)),
             ("half the rate", error(loaded, &halved, rk4, steps_per_strain)),
         ];
@@ -168,7 +174,8 @@ fn the_naive_reference_agrees_with_certified_ensembles_and_wrong_ones_do_not() {
             error <= tolerance && se <= ensemble.largest_standard_error,
             "{error} {se}"
         );
-        for mistake in [Mistake::KickSign, Mistake::ProbabilityComplement] {
+        // The sign of a kick does not show in means, because either sign is as likely; the problem `contact-rule` has it.
+        for mistake in [Mistake::ProbabilityExponent, Mistake::ProbabilityComplement] {
             let (error, _) = standard_errors(loaded, 100, Some(mistake));
             assert!(error > 2.0 * tolerance, "{mistake:?}: {error}");
         }

@@ -235,7 +235,7 @@ fn shear_plane() -> Asked {
 fn poles() -> Asked {
     let aspect_ratio = 11.6;
     let t = period_s(aspect_ratio);
-    let near = 1e-9;
+    let near = 1e-6;
     let mut start = vec![[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
     start.extend([0.3, 2.0, 4.4].map(|phi| direction(phi, near)));
     start.extend([0.3, 2.0, 4.4].map(|phi| direction(phi, PI - near)));
@@ -245,7 +245,7 @@ fn poles() -> Asked {
         start,
         times_s: vec![0.1 * t, 0.25 * t, 0.6 * t, t],
         summary: "Eight free rods of r_e = 11.6 in plane Couette flow: one at each pole θ = 0 and θ = π of the angles, and three \
-                  10⁻⁹ rad beside each. Those at a pole stay, the others go round it on small ellipses. A code in φ and θ divides \
+                  10⁻⁶ rad beside each. Those at a pole stay, the others go round it on small ellipses. A code in φ and θ divides \
                   by sin θ here; nothing is singular in p."
             .into(),
         equations: COUETTE_EQUATIONS,

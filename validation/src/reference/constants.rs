@@ -152,12 +152,12 @@ fn phase_means(sine: &Big, cosine: &Big, r: &Big) -> [Big; 6] {
 ///
 /// ∫ f(C) ⟨…⟩_C dC with f(C) = (2r_e/π) C E(m)/((1 + C²)^½(1 + r_e²C²)), m = (1 − r_e²)C²/(1 + C²), by the trapezoid rule in
 /// u = ln C. It is analytic for |Im u| < π/2, so the error falls as e^{−2π·½π/h}: with h = ln 9/8 that is e^{−80} at 0.95 of it.
-/// It rises as C or faster below min(1, 1/r_e) and falls as 1/C above max(1, 1/r_e): beyond 52 there, e^{−52}.
+/// It rises as C or faster below min(1, 1/r_e) and falls as 1/C above max(1, 1/r_e): beyond 62 there, e^{−62}.
 fn plateaus(r: &Big) -> [Big; 6] {
     let one = BITS.of(1.0);
     let steps = |range: f64| (range / 1.125f64.ln()).ceil() as usize;
     let knee = -super::big::double(&r.ln());
-    let (left, right) = (steps(52.0 - knee.min(0.0)), steps(52.0 + knee.max(0.0)));
+    let (left, right) = (steps(62.0 - knee.min(0.0)), steps(62.0 + knee.max(0.0)));
     let mut sums = [0; 6].map(|_| BITS.of(0.0));
     let mut add = |c: &Big| {
         let square = c.sqr();

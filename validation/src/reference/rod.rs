@@ -105,3 +105,73 @@ impl Start {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::big::double;
+    use super::*;
+    use crate::oracle::closed_form::{angles_at, orbit_constant_from_angles};
+    use crate::oracle::quadrature::spread;
+    use std::f64::consts::TAU;
+
+    fn couette(aspect_ratio: f64) -> Motion {
+        Motion {
+            gradient_per_s: [[0.0; 3], [0.5, 0.0, 0.0], [0.0; 3]],
+            aspect_ratio,
+        }
+    }
+
+    fn rod(aspect_ratio: f64, phi_deg: f64, theta_deg: f64, turns: f64) -> Rod {
+        let start = Direction::Angles { phi_deg, theta_deg };
+        at(&couette(aspect_ratio), start, &Bits(64).of(turns), Unit::Period).unwrap()
+    }
+
+    #[test]
+    fn angles_and_orbits_are_those_of_a_4_a_5_and_eq_13() {
+        for (u, v) in spread(100) {
+            let (r, phi_deg, theta_deg) = (
+                100f64.powf(2.0 * u - 1.0),
+                720.0 * (v - 0.5),
+                180.0 * (7.0 * u + v).fract(),
+            );
+            let found = rod(r, phi_deg, theta_deg, 3.0 * v);
+            let (phi0, theta0) = (phi_deg.to_radians(), theta_deg.to_radians());
+            let (phi, theta) = angles_at(phi0, theta0, r, 3.0 * v);
+            // The conditioning of the doubles' formula, and of φ₀ up to 4π.
+            let tolerance = 2e-14 * r.max(1.0 / r);
+            let apart = |phi: f64| {
+                let turns = (double(found.phi.as_ref().unwrap()) - phi) / TAU;
+                (turns - turns.round()).abs() * TAU
+            };
+            assert!(
+                apart(phi) < tolerance && (double(&found.theta) - theta).abs() < tolerance,
+                "{r}"
+            );
+            // Wrong variant: half a turn less.
+            assert!(apart(angles_at(phi0, theta0, r, 3.0 * v - 0.5).0) > 1.0);
+            let c = orbit_constant_from_angles(phi0, theta0, r);
+            let c_b = double(found.c_b.as_ref().unwrap());
+            assert!((c_b - c / (1.0 + c)).abs() < 1e-13, "{r}");
+            let p = found.p.map(|x| double(&x));
+            let from_p = (r * p[0]).hypot(p[1]) / (r * p[2].abs());
+            assert!((from_p / (1.0 + from_p) - c_b).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn poles_planes_and_whole_turns_are_exact() {
+        for r in [1e-100, 0.3, 1.0, 1e100] {
+            let pole = rod(r, 40.0, 180.0, 0.3);
+            assert_eq!(pole.p.map(|x| double(&x)), [0.0, 0.0, -1.0]);
+            assert_eq!(double(&pole.c_b.unwrap()), 0.0);
+            let plane = rod(r, 90.0, 90.0, 0.25);
+            assert_eq!(plane.p.map(|x| double(&x)), [-1.0, 0.0, 0.0]);
+            assert_eq!(double(&plane.c_b.unwrap()), 1.0);
+            let (start, later) = (rod(r, 33.0, 44.0, 0.0), rod(r, 33.0, 44.0, 1e6));
+            assert_eq!(start.p, later.p);
+            let other = rod(r, 33.0, 44.0, 1e6 + 0.5);
+            assert_eq!(other.p[2], start.p[2]);
+            assert_eq!(double(&other.p[0]), -double(&start.p[0]));
+        }
+    }
+}
