@@ -1,6 +1,7 @@
 //! The registry: every case, declared once. `cargo test`, the report and the catalogue are made from it.
 
 mod averaged;
+mod cheapest_split;
 mod closed_forms;
 mod contact_rule;
 mod decay;
@@ -11,6 +12,7 @@ mod extremes;
 mod free_suspension;
 mod integrator_claims;
 mod jeffery_equations;
+mod kick_sizes;
 mod kicks;
 pub mod lab;
 mod misprints;
@@ -19,6 +21,7 @@ mod once;
 mod readings;
 mod reductions;
 mod reference;
+mod replacement;
 mod stability;
 mod steady;
 mod step_limits;
@@ -37,7 +40,9 @@ pub fn all() -> Vec<Case> {
         contact_rule::cases(),
         misprints::cases(),
         encounters::cases(),
+        replacement::cases(),
         kicks::cases(),
+        kick_sizes::cases(),
         averaged::cases(),
         free_suspension::cases(),
         closed_forms::cases(),
@@ -53,6 +58,7 @@ pub fn all() -> Vec<Case> {
         step_limits::cases(),
         work_precision::cases(),
         work_precision_coupled::cases(),
+        cheapest_split::cases(),
         decay::cases(),
         words::cases(),
         experiments::cases(),
