@@ -1,6 +1,7 @@
 //! The registry: every case, declared once. `cargo test`, the report and the catalogue are made from it.
 
 mod averaged;
+mod cheapest_split;
 mod closed_forms;
 mod contact_rule;
 mod decay;
@@ -12,6 +13,7 @@ mod free_suspension;
 mod general_flows;
 mod integrator_claims;
 mod jeffery_equations;
+mod kick_sizes;
 mod kicks;
 pub mod lab;
 mod misprints;
@@ -20,6 +22,7 @@ mod once;
 mod readings;
 mod reductions;
 mod reference;
+mod replacement;
 pub mod resolution;
 mod stability;
 mod statements;
@@ -40,7 +43,9 @@ pub fn all() -> Vec<Case> {
         contact_rule::cases(),
         misprints::cases(),
         encounters::cases(),
+        replacement::cases(),
         kicks::cases(),
+        kick_sizes::cases(),
         averaged::cases(),
         free_suspension::cases(),
         closed_forms::cases(),
@@ -59,6 +64,7 @@ pub fn all() -> Vec<Case> {
         step_limits::cases(),
         work_precision::cases(),
         work_precision_coupled::cases(),
+        cheapest_split::cases(),
         decay::cases(),
         statements::cases(),
         experiments::cases(),

@@ -1,0 +1,116 @@
+//! The cheapest split of a run: what `docs/work-precision.md` says of it.
+
+use super::lab;
+use super::once::Once;
+use super::work_precision_coupled::first;
+use crate::accept::Rule;
+use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::suspensions::coupled::interacting;
+use crate::suspensions::split::{Constants, Scope, Split};
+use crate::suspensions::{Estimate, covariance, mean_and_se};
+use shearbed::Scene;
+
+/// A change to what is run for an error.
+type Respell = fn(&mut Split);
+
+pub fn cases() -> Vec<Case> {
+    vec![Case::new(
+        About {
+            name: "cheapest-split",
+            judges: Judges::Program,
+            claim: "Steps and replicas by the rule for an error of 0.02 give the bias and the scatter that it says.",
+            source: "eqs 4, 8, 12",
+            equations: &["4"],
+        },
+        (|_| {}) as Respell,
+        vec![
+            ("a quarter of the replicas", |split| {
+                split.replicas = split.replicas.div_ceil(4)
+            }),
+            ("two steps a period", |split| split.steps_per_period = 2),
+        ],
+        realised,
+    )]
+}
+
+/// What a small study of the steps says of 25 rods, and X̄₁ at its finest.
+struct Known {
+    constants: Constants,
+    reference: Estimate,
+}
+
+/// Rods of the split.
+const RODS: usize = 25;
+
+/// Steps of the study, coarse and fine, and replicas of each.
+const STUDY: ([u64; 2], u64) = ([100, 400], 400);
+
+/// The bias of the steps from two of them, with the same random numbers, and the variance.
+fn study(scene: &Scene) -> Known {
+    let (steps, replicas) = STUDY;
+    let [coarse, fine] = steps.map(|steps| first(interacting(scene, steps, 1.0, 4, replicas), 3));
+    let differences: Vec<_> = (coarse.iter().zip(&fine))
+        .map(|(coarse, fine)| coarse - fine)
+        .collect();
+    let (difference, se) = mean_and_se(&differences);
+    let [coarse_step, fine_step] = steps.map(|steps| 1.0 / steps as f64);
+    let (value, reference_se) = mean_and_se(&fine);
+    Known {
+        constants: Constants {
+            steps_bias: (difference.abs() + 2.0 * se) / (coarse_step - fine_step),
+            fewest_steps: steps[0],
+            // The rods are the scene's own.
+            rods_bias: 0.0,
+            variance_per_rod: covariance(&coarse, &coarse) * RODS as f64,
+        },
+        reference: Estimate {
+            value,
+            se: reference_se,
+        },
+    }
+}
+
+fn realised(respell: &Respell, effort: &Effort) -> Vec<Evidence> {
+    static KNOWN: Once<Known> = Once::new();
+    let mut scene = lab::interacting_scene(effort);
+    scene.particles.count = RODS;
+    let known = KNOWN.at(effort, || study(&scene));
+    let constants = known.constants;
+    let said = constants.cheapest(Scope::OwnRods(RODS), 0.02);
+    let mut run = said;
+    respell(&mut run);
+    scene.ensemble.seed = effort.seed(1);
+    let repeats = effort.pick(1, 4) * 140;
+    let Ok(found) = run.realise(&scene, repeats, known.reference) else {
+        return vec![Evidence::new("runs that stopped", Rule::exact(1.0))];
+    };
+    // The cube root of a variance's ratio is normal to a part in 10³ (Wilson & Hilferty 1931), where the ratio is not.
+    let ratio = (found.scatter.value / said.scatter).powi(2);
+    let [of_repeats, of_study] = [repeats, STUDY.1].map(|count| 2.0 / (9.0 * (count as f64 - 1.0)));
+    vec![
+        Evidence::new(
+            "bias of the steps and replicas that the rule says for an error of 0.02, against 400 steps",
+            Rule::Mean {
+                mean: found.bias.value,
+                se: found.bias.se,
+                samples: repeats,
+                reference: 0.0,
+                allowance: said.bias + constants.bias(Scope::OwnRods(RODS), 400.0, RODS as f64),
+                effect: 0.05,
+                because: "the bias that the rule allows for, and that of the reference; two steps are off by more",
+            },
+        ),
+        Evidence::new(
+            "cube root of the variance of repeats over the one that the rule says",
+            Rule::Mean {
+                mean: ratio.cbrt(),
+                se: (of_repeats + of_study).sqrt(),
+                samples: repeats,
+                reference: 1.0 - of_repeats + of_study,
+                allowance: 0.0,
+                effect: 0.5,
+                because: "both variances are estimates; a quarter of the replicas bring ∛4, 0.59 more",
+            },
+        ),
+    ]
+}
