@@ -54,10 +54,11 @@ fn read(text: &str) -> Result<Scene, Vec<Found>> {
     let reported = |error: toml::de::Error| vec![as_reported(text, &error)];
     let document = DeTable::parse(text).map_err(reported)?;
     let keys = keys(text, "", document.get_ref());
+    let values: Table = text.parse().map_err(reported)?;
     let mut found = missing(&keys);
     let (mut scene, mut known) = (example(), Vec::new());
     for key in &keys {
-        match key.put_into(&mut scene) {
+        match key.put_into(&mut scene, &values) {
             Ok(()) => known.push(key.path.as_str()),
             Err(message) => found.push((key.span.start, message)),
         }
@@ -114,7 +115,7 @@ impl Key {
     }
 
     /// Gives the scene this key's value, where it can have it; or says why not.
-    fn put_into(&self, scene: &mut Table) -> Result<(), String> {
+    fn put_into(&self, scene: &mut Table, values: &Table) -> Result<(), String> {
         let path = self.path.as_str();
         let Some(allowed) = allowed(path) else {
             return Err(format!("{}: {}", self.line, unknown(path)));
@@ -123,10 +124,11 @@ impl Key {
         if TABLES.contains(&path) {
             return if self.is_table { Ok(()) } else { Err(refused()) };
         }
-        let read: Result<Table, _> = format!("value = {}", self.text).parse();
-        let value = read.ok().and_then(|mut table| table.remove("value"));
+        let (table, key) = path.split_once('.').unwrap_or(("", path));
+        let within = values.get(table).and_then(Value::as_table).unwrap_or(values);
         // No key takes a date, which would be read as a text.
-        let value = value.filter(|value| !value.is_datetime()).ok_or_else(refused)?;
+        let value = within.get(key).filter(|value| !value.is_datetime()).cloned();
+        let value = value.ok_or_else(refused)?;
         let mut tried = scene.clone();
         put(&mut tried, path, value);
         match tried.clone().try_into::<Scene>() {

@@ -361,3 +361,19 @@ fn no_part_of_a_file_makes_the_reader_panic() {
         }
     }
 }
+
+#[test]
+fn a_table_may_have_a_header_of_its_own() {
+    let text = |orientation: &str| {
+        format!(
+            "title = \"t\"\n[flow]\nshear_rate_per_s = 1\n[particles]\ncount = 1\nlength_mm = 1\naspect_ratio = 2\n\
+             {orientation}\n[time]\nperiods = 1\n"
+        )
+    };
+    let inline = text("orientation = { phi_deg = -30, theta_deg = 60 }");
+    let header = text("[particles.orientation]\nphi_deg = -30\ntheta_deg = 60.0");
+    let scene = |text: &str| shearbed::scene_file::parse("f.toml", text).unwrap();
+    assert_eq!(scene(&inline), scene(&header));
+    let wrong = text("[particles.orientation]\nphi_deg = -30\ntheta_deg = 600");
+    assert!(shearbed::scene_file::parse("f.toml", &wrong).is_err());
+}

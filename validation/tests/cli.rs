@@ -381,7 +381,10 @@ fn chosen_cases_are_run_and_reported() {
     );
     assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""));
     let lines: Vec<_> = ended.stdout.lines().collect();
-    assert!(lines[0].starts_with("pass            jeffery-period "), "{lines:?}");
+    assert!(
+        lines[0].starts_with("pass            jeffery-period "),
+        "{lines:?}"
+    );
     assert!(lines[2].starts_with("Passed: core 1 of 1. 0 fail, "), "{lines:?}");
     assert_eq!(
         lines[3],

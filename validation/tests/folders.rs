@@ -124,8 +124,9 @@ fn two_sweeps_started_together_do_not_mix() {
 #[test]
 fn two_runs_into_one_folder_do_not_mix_their_files() {
     let dir = folder();
-    let of_seed =
-        |seed: u32, out: &str| format!("run small.toml --quiet --threads 1 --seed {seed} --out {out}");
+    let of_seed = |seed: u32, out: &str| {
+        format!("run small.toml --quiet --force --threads 1 --seed {seed} --out {out}")
+    };
     let tables = |out: &str| {
         let mut all = files(&dir.path().join(out));
         all.retain(|name, _| name.ends_with(".csv"));

@@ -242,7 +242,6 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Repor
     let wanted = chosen(args, rods)?;
     output::probe(&args.out, 0)?;
     let timeout = Duration::from_secs_f64(args.timeout);
-    live::end_with_this_program().map_err(|error| Failure::Input(format!("signals: {error}")))?;
     let program = Program::start(command, timeout).map_err(Failure::Input)?;
     let mode = live::mode(&program);
     let claim = Claim { order: args.order };

@@ -27,6 +27,7 @@ pub(super) fn watch() {
              kept, and the same command goes on from them"
         );
         cluster::failed(&message, code as u8);
+        crate::grade::live::end_all();
         output::stop(code)
     };
     std::thread::spawn(wait);

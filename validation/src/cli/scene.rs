@@ -2,6 +2,7 @@
 
 use super::Failure;
 use crate::sweep::{self, Setting};
+use crate::text::line;
 use crate::{cluster, scenes};
 use shearbed::{Scene, scene_file};
 use std::ffi::OsStr;
@@ -79,7 +80,7 @@ pub(super) fn warn<'a>(source: &str, warnings: impl IntoIterator<Item = &'a Stri
     let mut stderr = std::io::stderr().lock();
     for warning in warnings {
         // A warning that cannot be written stands in the files all the same.
-        let _ = writeln!(stderr, "warning: {source}: {warning}");
+        let _ = writeln!(stderr, "{}", line(&format!("warning: {source}: {warning}")));
     }
 }
 

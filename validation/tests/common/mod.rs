@@ -22,7 +22,7 @@ concentration_per_cm3 = 50
 alpha = 0.5
 [time]
 periods = 1
-steps_per_period = 20
+steps_per_period = 200
 outputs_per_period = 4
 [ensemble]
 replicas = 3

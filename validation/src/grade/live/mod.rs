@@ -11,7 +11,7 @@ mod studies;
 pub use bench::{Bench, echo, theory};
 pub use ladder::{Mode, grade, mode};
 pub use program::{Asked, Program, Question};
-pub use signals::end_with_this_program;
+pub use signals::end_all;
 pub use studies::{Studies, studies};
 
 use crate::problems::{self, LoadedProblem, Table};

@@ -10,25 +10,15 @@ pub(super) fn running() -> MutexGuard<'static, BTreeSet<u32>> {
     RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// From now on, kills every program that was started before an interrupt, a hang-up or a request to end ends this one.
+/// Kills every program that was started and still runs: this one is about to end.
 #[cfg(unix)]
-pub fn end_with_this_program() -> std::io::Result<()> {
+pub fn end_all() {
     use rustix::process::{Pid, Signal, kill_process_group};
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-    let mut signals = signal_hook::iterator::Signals::new([SIGHUP, SIGINT, SIGTERM])?;
-    std::thread::spawn(move || {
-        if let Some(signal) = signals.forever().next() {
-            for group in running().iter().filter_map(|id| Pid::from_raw(*id as i32)) {
-                let _ = kill_process_group(group, Signal::KILL);
-            }
-            std::process::exit(128 + signal);
-        }
-    });
-    Ok(())
+    for group in running().iter().filter_map(|id| Pid::from_raw(*id as i32)) {
+        let _ = kill_process_group(group, Signal::KILL);
+    }
 }
 
-/// There are no such signals.
+/// There are no process groups.
 #[cfg(not(unix))]
-pub fn end_with_this_program() -> std::io::Result<()> {
-    Ok(())
-}
+pub fn end_all() {}
