@@ -54,7 +54,8 @@ fn read(text: &str) -> Result<Scene, Vec<Found>> {
     let reported = |error: toml::de::Error| vec![as_reported(text, &error)];
     let document = DeTable::parse(text).map_err(reported)?;
     let keys = keys(text, "", document.get_ref());
-    let values: Table = text.parse().map_err(reported)?;
+    // A number that no float holds spoils the whole text.
+    let values: Table = text.parse().unwrap_or_default();
     let mut found = missing(&keys);
     let (mut scene, mut known) = (example(), Vec::new());
     for key in &keys {
@@ -124,11 +125,17 @@ impl Key {
         if TABLES.contains(&path) {
             return if self.is_table { Ok(()) } else { Err(refused()) };
         }
-        let (table, key) = path.split_once('.').unwrap_or(("", path));
-        let within = values.get(table).and_then(Value::as_table).unwrap_or(values);
+        let value = if self.is_table {
+            // What stands at the key may be a header alone.
+            let (table, key) = path.split_once('.').unwrap_or(("", path));
+            let within = values.get(table).and_then(Value::as_table);
+            within.unwrap_or(values).get(key).cloned()
+        } else {
+            let read: Result<Table, _> = format!("value = {}", self.text).parse();
+            read.ok().and_then(|mut table| table.remove("value"))
+        };
         // No key takes a date, which would be read as a text.
-        let value = within.get(key).filter(|value| !value.is_datetime()).cloned();
-        let value = value.ok_or_else(refused)?;
+        let value = value.filter(|value| !value.is_datetime()).ok_or_else(refused)?;
         let mut tried = scene.clone();
         put(&mut tried, path, value);
         match tried.clone().try_into::<Scene>() {

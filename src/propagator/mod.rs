@@ -19,7 +19,7 @@ use general::{General, known, rounded};
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use std::f64::consts::TAU;
 
-/// The direction after the phase `phase` of a free rod in plane Couette flow with G > 0, p = q/|q| ([`turned`]).
+/// The direction after the phase `phase` of a free rod in plane Couette flow with G > 0, p = q/|q| (`turned`).
 #[inline(always)]
 pub fn couette(p: [f64; 3], aspect_ratio: f64, phase: Phase) -> [f64; 3] {
     let q = turned(p, aspect_ratio, phase);
