@@ -5,7 +5,7 @@ use crate::free::FreeMotion;
 use crate::jeffery::{period_s, strain_per_period};
 use crate::observable::Observable;
 use crate::propagator::Propagator;
-use crate::scene::{Interaction, Invalid, Orientation, RESOLVED_STRAIN, Scene};
+use crate::scene::{Interaction, Invalid, Orientation, Scene, resolved_strain};
 use serde::Serialize;
 use std::fmt;
 use std::sync::Arc;
@@ -191,12 +191,13 @@ impl Plan {
     /// What the reader of the results should know before trusting them.
     pub fn warnings(&self) -> Vec<String> {
         let (steps, strain) = (self.scene.steps_per_period(), self.scene.strain_per_step());
-        if self.steps() == 0 || strain <= RESOLVED_STRAIN {
+        let resolved = resolved_strain(self.scene.particles.aspect_ratio);
+        if self.steps() == 0 || strain <= resolved {
             return Vec::new();
         }
         vec![format!(
             "time.steps_per_period = {steps} does not resolve the motion: the strain per step is {strain:.3}, above \
-             {RESOLVED_STRAIN}; {} steps a period resolve it (the default)",
+             {resolved:.3}; {} steps a period resolve it (the default)",
             self.scene.resolving_steps_per_period()
         )]
     }

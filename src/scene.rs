@@ -10,7 +10,7 @@ mod ranges;
 mod steps;
 pub use allowed::{Invalid, MAX_COUNT, MAX_PER_UNIT, MAX_REPLICAS, MAX_SEED};
 pub(crate) use allowed::{KEYS, TABLES, allowed, required};
-pub use steps::RESOLVED_STRAIN;
+pub use steps::resolved_strain;
 
 /// A whole scene. The tables and keys are those of the scene file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

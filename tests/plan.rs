@@ -1,7 +1,7 @@
 //! Plans, printed; and that no stage, where it is left out, would have changed a bit of the results.
 
 use shearbed::plan::Stage;
-use shearbed::scene::RESOLVED_STRAIN;
+use shearbed::scene::resolved_strain;
 use shearbed::{Observable, Plan, Results, Scene, ensemble, scene_file};
 
 const FREE: &str = r#"
@@ -201,8 +201,8 @@ fn turning(aspect_ratio: f64, time: &str) -> String {
 
 #[test]
 fn steps_resolve_the_motion_by_default() {
-    // 2π(r_e + 1/r_e)/0.37 is 71.5, 198.5, 289.7, 849.4 and 1698.3.
-    for (r, steps) in [(3.96, 100), (11.6, 200), (17.0, 300), (50.0, 850), (100.0, 1700)] {
+    // 2π(r_e + 1/r_e) over 0.37, 0.37, 4.4/17, 0.09 and 0.09 is 71.5, 198.5, 414.1, 3492.1 and 6982.0.
+    for (r, steps) in [(3.96, 100), (11.6, 200), (17.0, 450), (50.0, 3500), (100.0, 7000)] {
         let plan = plan(&turning(r, ""));
         assert_eq!((plan.steps(), plan.outputs()), (steps, 51), "{r}");
         assert_eq!(plan.scene().resolved().time.steps_per_period, Some(steps));
@@ -210,7 +210,8 @@ fn steps_resolve_the_motion_by_default() {
     }
     // Outputs that are given fall on steps.
     for (r, outputs, steps) in [
-        (50.0, 4, 900),
+        (50.0, 4, 3500),
+        (50.0, 8, 3600),
         (11.6, 40, 200),
         (11.6, 7, 350),
         (11.6, 1000, 1000),
@@ -226,13 +227,13 @@ fn steps_resolve_the_motion_by_default() {
 
 #[test]
 fn the_default_is_the_fewest_steps_that_will_do() {
-    for k in 1..4000 {
+    for k in 1..3900 {
         let r = 1.0 + (0.003 * f64::from(k)).exp_m1();
         let scene = scene(&turning(r, ""));
         let (steps, strain) = (scene.steps_per_period(), scene.strain_per_step());
-        assert!(strain <= RESOLVED_STRAIN && steps.is_multiple_of(50), "{r}");
+        assert!(strain <= resolved_strain(r) && steps.is_multiple_of(50), "{r}");
         let fewer = strain * steps as f64 / (steps - 50) as f64;
-        assert!(steps == 50 || fewer > RESOLVED_STRAIN, "{r}");
+        assert!(steps == 50 || fewer > resolved_strain(r), "{r}");
     }
 }
 
@@ -260,19 +261,19 @@ fn long_rods_need_more_steps_than_there_may_be_and_say_what_to_set() {
     let refusal = |text: &str| scene_file::parse("s.toml", text).unwrap_err().to_string();
     assert_eq!(
         refusal(&turning(1e6, "")),
-        "s.toml:10: time.steps_per_period is missing: at aspect_ratio = 1000000 some 1.7e7 steps a period resolve the \
-         motion (GΔt ≤ 0.37), and at most 10000000 are allowed; set steps_per_period to take fewer, which do not \
+        "s.toml:10: time.steps_per_period is missing: at aspect_ratio = 1000000 some 7.0e7 steps a period resolve the \
+         motion (GΔt ≤ 0.09), and at most 10000000 are allowed; set steps_per_period to take fewer, which do not \
          resolve it, or a smaller aspect_ratio"
     );
-    assert!(refusal(&turning(1e100, "")).contains("some 1.7e101 steps a period"));
+    assert!(refusal(&turning(1e100, "")).contains("some 7.0e101 steps a period"));
     let set = plan(&turning(1e6, "steps_per_period = 10000"));
     assert_eq!(set.warnings().len(), 1);
     // The limit of all steps counts the default too.
     let long = turning(1e5, "").replace("periods = 1", "periods = 1000");
     let refusal = refusal(&long);
     assert!(
-        refusal.contains("at most 1e9 steps in all, not 1.69")
-            && refusal.contains("1698200 a period by default"),
+        refusal.contains("at most 1e9 steps in all, not 6.98")
+            && refusal.contains("6981350 a period by default"),
         "{refusal}"
     );
 }

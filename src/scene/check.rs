@@ -1,7 +1,7 @@
 //! Checking a scene: which values go together.
 
 use super::allowed::{Invalid, MAX_PER_UNIT, refused};
-use super::{Interaction, RESOLVED_STRAIN, Scene};
+use super::{Interaction, Scene, resolved_strain};
 use crate::flow::VelocityGradient;
 use crate::free::FreeMotion;
 use crate::jeffery::strain_per_period;
@@ -202,9 +202,10 @@ impl Scene {
             return Ok(());
         }
         let r = self.particles.aspect_ratio;
-        let needed = strain_per_period(r) / RESOLVED_STRAIN;
+        let resolved = resolved_strain(r);
+        let needed = strain_per_period(r) / resolved;
         let allowed = format!(
-            "at aspect_ratio = {r} some {needed:.1e} steps a period resolve the motion (GΔt ≤ {RESOLVED_STRAIN}), and at \
+            "at aspect_ratio = {r} some {needed:.1e} steps a period resolve the motion (GΔt ≤ {resolved}), and at \
              most {MAX_PER_UNIT} are allowed; set steps_per_period to take fewer, which do not resolve it, or a smaller \
              aspect_ratio"
         );

@@ -1,5 +1,7 @@
-//! Prints the table of docs/time-step.md that says which steps resolve the motion, as Markdown; with `-- full`, from
-//! 2000 replicas in place of 50.
+//! Prints the table of docs/time-step.md that says which steps resolve the motion, as Markdown.
+//!
+//! `cargo run --release -p validation --example resolution -- REPLICAS [R_E...]`: 50 replicas, and the aspect ratios of the
+//! table, where nothing else is asked for.
 
 use validation::case::Effort;
 use validation::cases::lab::Sample;
@@ -9,16 +11,33 @@ use validation::cases::resolution::{change, scene, steps, x1};
 const FINE: f64 = 0.023;
 const STRAINS: [f64; 7] = [0.092, 0.184, 0.37, 0.45, 0.55, 0.74, 1.5];
 
+/// r_e and σ in percent.
+const RODS: [(f64, f64); 6] = [
+    (3.96, 0.0),
+    (11.6, 0.0),
+    (17.0, 0.0),
+    (50.0, 0.0),
+    (100.0, 0.0),
+    (11.6, 30.0),
+];
+
 fn main() {
-    let full = std::env::args().any(|argument| argument == "full");
-    let replicas = if full { 2000 } else { 50 };
+    let numbers = std::env::args().skip(1).map(|word| word.parse::<f64>());
+    let numbers: Vec<f64> = numbers.collect::<Result<_, _>>().expect("numbers: REPLICAS [R_E...]");
+    let (replicas, asked) = match numbers.split_first() {
+        Some((replicas, asked)) => (*replicas as u64, asked),
+        None => (50, &[][..]),
+    };
     println!(
         "| r_e | σ | n per cm³ | X̄₁ at GΔt = {FINE} | {} |",
         STRAINS.map(|s| format!("{s}")).join(" | ")
     );
     println!("|{}", " --- |".repeat(4 + STRAINS.len()));
-    let ratios = [3.96, 11.6, 17.0, 50.0, 100.0].map(|r| (r, 0.0));
-    for (r, sd) in ratios.into_iter().chain([(11.6, 30.0)]) {
+    let rods = match asked {
+        [] => RODS.to_vec(),
+        asked => asked.iter().map(|r| (*r, 0.0)).collect(),
+    };
+    for (r, sd) in rods {
         for n in [20.0, 50.0, 100.0] {
             let mut scene = scene(&Effort::gate(), r, n);
             scene.particles.aspect_ratio_sd_percent = sd;

@@ -24,7 +24,8 @@ pub fn cases() -> Vec<Case> {
                 name: "general-flows",
                 judges: Judges::Core,
                 claim: "In any flow, at r_e from 10⁻¹⁰⁰ to 10¹⁰⁰ and strains from 10⁻¹³ to 10⁶, a direction is off the oracle's, of \
-                    hundreds of bits, by no more than the bound that comes with it; where that is above 10⁻⁶ rad, a scene is refused.",
+                    hundreds of bits, by no more than the bound that comes with it; where that is above 10⁻⁶ rad, a scene is \
+                    refused, and none that numbers of 106 bits can answer.",
                 source: "eqs 2, 3, A.1",
                 equations: &["2", "3", "A.1"],
             },
@@ -51,6 +52,13 @@ pub fn cases() -> Vec<Case> {
                 ("no bound, but for the oracle's own rounding", |problem| Moved {
                     error: 0.0,
                     ..core(problem)
+                }),
+                ("a bound as wide as double would need", |problem| {
+                    let moved = core(problem);
+                    Moved {
+                        error: moved.error.max(moved.condition * problem.strain.max(1.0) * f64::EPSILON),
+                        ..moved
+                    }
                 }),
             ],
             general_flows,
@@ -168,6 +176,21 @@ fn apart(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
     (a - b).norm().min((a + b).norm())
 }
 
+/// Whether numbers of 106 bits leave 10⁻⁶ rad. Two roots that meet are known from their equation to the root of a rounding only,
+/// and then e^{At} is off by (|A|t)² roundings of its size; what is left of the start's direction is smaller by the condition
+/// number. A thousand roundings are allowed for.
+fn answerable(problem: &Problem) -> bool {
+    let (a, time) = rates(problem);
+    let turned = (a.norm() * time).max(1.0);
+    let propagator = Propagator::general(&flow(problem), problem.rod.aspect_ratio);
+    let (map, _) = propagator
+        .map(Span::Strain(problem.strain, 1.0))
+        .expect("any flow has a strain");
+    let condition = map.norm() / (map * start(problem).as_ref()).norm();
+    // The condition number itself is known to double precision only.
+    condition < 1e12 && 1e3 * 2f64.powi(-106) * turned * turned * condition <= MAX_ERROR_RAD
+}
+
 /// What happened to problems of similar condition numbers.
 #[derive(Clone, Copy, Default)]
 struct Decades {
@@ -180,13 +203,14 @@ struct Decades {
 fn general_flows(motion: &Motion, effort: &Effort) -> Vec<Evidence> {
     // Up to 10², 10⁴, … and beyond.
     let mut decades = [Decades::default(); 9];
-    let (mut wrong, mut share) = (0.0, 0.0f64);
+    let (mut wrong, mut share, mut needless) = (0.0, 0.0f64, 0.0);
     for problem in shared(effort).iter() {
         let moved = motion(problem);
         let at = ((moved.condition.log10() / 2.0).ceil() as usize).clamp(1, 9) - 1;
         let decades = &mut decades[at];
         if moved.error.is_nan() || moved.error > MAX_ERROR_RAD {
             decades.refused += 1;
+            needless += f64::from(answerable(problem));
             continue;
         }
         let off = apart(&moved.p, &problem.truth.into());
@@ -211,6 +235,7 @@ fn general_flows(motion: &Motion, effort: &Effort) -> Vec<Evidence> {
             "largest error over its bound",
             Rule::within(share, 1.0, "what a bound is"),
         ),
+        Evidence::new("refused, though 106 bits can answer", Rule::exact(needless)),
     ];
     for (k, found) in decades
         .iter()

@@ -13,7 +13,7 @@ use serde::Serialize;
 use serde_json::json;
 use shearbed::jeffery::strain_per_period;
 use shearbed::plan::Stage;
-use shearbed::scene::{MAX_REPLICAS, RESOLVED_STRAIN};
+use shearbed::scene::{MAX_REPLICAS, resolved_strain};
 use shearbed::{Plan, Scene};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -125,12 +125,13 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
 /// Which of the steps that are tried do not resolve the motion.
 fn coarse(scene: &Scene) -> String {
     let strain = |steps: u64| strain_per_period(scene.particles.aspect_ratio) / steps as f64;
-    let steps = law::STEPS_PER_PERIOD.map(|steps| (steps, strain(steps) > RESOLVED_STRAIN));
+    let resolved = resolved_strain(scene.particles.aspect_ratio);
+    let steps = law::STEPS_PER_PERIOD.map(|steps| (steps, strain(steps) > resolved));
     let coarse = steps.iter().filter(|(_, coarse)| *coarse).count();
     let (first, last) = (law::STEPS_PER_PERIOD[0], law::STEPS_PER_PERIOD[coarse.max(1) - 1]);
     format!(
         "{coarse} of the {} numbers of steps that are tried, {first} to {last} a period (strain per step {:.3} to {:.3}), \
-         do not resolve the motion (strain per step at most {RESOLVED_STRAIN}): they are run on purpose, to show what a \
+         do not resolve the motion (strain per step at most {resolved:.3}): they are run on purpose, to show what a \
          coarse step changes",
         steps.len(),
         strain(first),

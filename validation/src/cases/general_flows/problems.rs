@@ -43,13 +43,20 @@ fn one(seed: u64, index: u64) -> Problem {
         p: start(rng),
     };
     let strain = size(rng, -13.0, 6.0);
-    if rng.random_range(0..4) == 0 {
-        // From the end backwards: the start that the flow turns most of the way, where the condition number is large.
+    if rng.random_range(0..3) == 0 {
+        // From the end backwards: the start that the flow turns most of the way, where the condition number is largest; and
+        // starts at any distance from it, for the condition numbers between.
         let back = Rod {
             gradient_per_s: rod.gradient_per_s.map(|row| row.map(|x| -x)),
             ..rod
         };
-        rod.p = back.after(Span::Strain(strain));
+        let most = Vector3::from(back.after(Span::Strain(strain)));
+        let beside = Vector3::from_fn(|_, _| signed(rng)) * size(rng, -17.0, 0.0);
+        rod.p = match rng.random_range(0..4) {
+            0 => most,
+            _ => (most + beside).normalize(),
+        }
+        .into();
     }
     Problem::new(rod, strain)
 }
