@@ -242,3 +242,6 @@ impl Neg for Ball {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

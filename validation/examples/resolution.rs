@@ -23,7 +23,9 @@ const RODS: [(f64, f64); 6] = [
 
 fn main() {
     let numbers = std::env::args().skip(1).map(|word| word.parse::<f64>());
-    let numbers: Vec<f64> = numbers.collect::<Result<_, _>>().expect("numbers: REPLICAS [R_E...]");
+    let numbers: Vec<f64> = numbers
+        .collect::<Result<_, _>>()
+        .expect("numbers: REPLICAS [R_E...]");
     let (replicas, asked) = match numbers.split_first() {
         Some((replicas, asked)) => (*replicas as u64, asked),
         None => (50, &[][..]),

@@ -56,7 +56,9 @@ pub fn cases() -> Vec<Case> {
                 ("a bound as wide as double would need", |problem| {
                     let moved = core(problem);
                     Moved {
-                        error: moved.error.max(moved.condition * problem.strain.max(1.0) * f64::EPSILON),
+                        error: moved
+                            .error
+                            .max(moved.condition * problem.strain.max(1.0) * f64::EPSILON),
                         ..moved
                     }
                 }),
@@ -176,9 +178,9 @@ fn apart(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
     (a - b).norm().min((a + b).norm())
 }
 
-/// Whether numbers of 106 bits leave 10⁻⁶ rad. Two roots that meet are known from their equation to the root of a rounding only,
-/// and then e^{At} is off by (|A|t)² roundings of its size; what is left of the start's direction is smaller by the condition
-/// number. A thousand roundings are allowed for.
+/// Whether numbers of 106 bits leave 10⁻⁶ rad. Where two roots meet their distance is known from the equation to the root of a
+/// rounding only: coefficients of e^{At} are off by (|A|t)² roundings, and are |A|t times as large as what is left of them. What
+/// is left of the start's direction is smaller by the condition number. A thousand roundings are allowed for.
 fn answerable(problem: &Problem) -> bool {
     let (a, time) = rates(problem);
     let turned = (a.norm() * time).max(1.0);
@@ -188,7 +190,7 @@ fn answerable(problem: &Problem) -> bool {
         .expect("any flow has a strain");
     let condition = map.norm() / (map * start(problem).as_ref()).norm();
     // The condition number itself is known to double precision only.
-    condition < 1e12 && 1e3 * 2f64.powi(-106) * turned * turned * condition <= MAX_ERROR_RAD
+    condition < 1e12 && 1e3 * 2f64.powi(-106) * turned.powi(3) * condition <= MAX_ERROR_RAD
 }
 
 /// What happened to problems of similar condition numbers.

@@ -1,0 +1,143 @@
+//! Every operation against the same one in 300 bits: the exact result lies within the error that comes with the ball's.
+
+use super::super::functions::{cosh_sinh_over, exp, sin_cos};
+use super::*;
+use dashu_float::FBig;
+use dashu_float::round::mode::HalfEven;
+use proptest::prelude::*;
+
+type Big = FBig<HalfEven>;
+
+const BITS: usize = 300;
+
+fn big(x: f64) -> Big {
+    Big::try_from(x).unwrap().with_precision(BITS).value()
+}
+
+fn middle(ball: Ball) -> Big {
+    big(ball.hi) + big(ball.lo)
+}
+
+/// A number of the ball: its middle and so much of its error.
+fn within(ball: Ball, share: f64) -> Big {
+    middle(ball) + big(share) * big(ball.error)
+}
+
+/// How far `exact` is from the middle, over the error; 0 where there is none.
+fn off(ball: Ball, exact: &Big) -> f64 {
+    let apart = middle(ball) - exact;
+    let apart = if apart < big(0.0) { -apart } else { apart };
+    if apart == big(0.0) {
+        0.0
+    } else {
+        (apart / big(ball.error)).to_f64().value()
+    }
+}
+
+/// Balls of every kind: doubles, sums of two, with errors from none to a thousandth, of sizes from 10⁻²⁰ to 10²⁰.
+fn ball() -> impl Strategy<Value = Ball> {
+    ball_of(-20..20)
+}
+
+/// With powers of ten from a range.
+fn ball_of(powers: std::ops::Range<i32>) -> impl Strategy<Value = Ball> {
+    let size = (-1.0f64..1.0, powers).prop_map(|(x, power)| x * 10f64.powi(power));
+    let low = prop_oneof![Just(0.0), -0.5f64..0.5];
+    let error = prop_oneof![Just(0.0), (-35i32..-3).prop_map(|power| 10f64.powi(power))];
+    (size, low, error).prop_map(|(hi, low, error)| Ball {
+        hi,
+        lo: low * f64::EPSILON * hi * 0.49,
+        error: error * hi.abs(),
+    })
+}
+
+fn share() -> impl Strategy<Value = f64> {
+    prop_oneof![Just(-1.0), Just(1.0), -1.0f64..1.0]
+}
+
+/// Large enough that an exact result of 300 bits counts as exact.
+const ONE: f64 = 1.0 + 1e-9;
+
+proptest! {
+    #![proptest_config(crate::fixed_seed(1000))]
+
+    #[test]
+    fn sums_and_products_hold_the_exact_ones(a in ball(), b in ball(), s in share(), t in share()) {
+        let (x, y) = (within(a, s), within(b, t));
+        prop_assert!(off(a + b, &(&x + &y)) <= ONE, "{a:?} + {b:?}");
+        prop_assert!(off(a - b, &(&x - &y)) <= ONE, "{a:?} - {b:?}");
+        prop_assert!(off(a * b, &(&x * &y)) <= ONE, "{a:?} * {b:?}");
+    }
+
+    #[test]
+    fn sums_that_cancel_hold_the_exact_ones(a in ball(), b in ball(), s in share(), t in share()) {
+        let b = Ball { hi: -a.hi, lo: b.lo * a.hi / b.hi.abs().max(1e-300), error: b.error * a.hi.abs() };
+        prop_assert!(off(a + b, &(within(a, s) + within(b, t))) <= ONE, "{a:?} + {b:?}");
+    }
+
+    #[test]
+    fn quotients_hold_the_exact_ones(a in ball(), b in ball(), s in share(), t in share()) {
+        prop_assume!(b.least() > 0.0);
+        prop_assert!(off(a.over(b), &(within(a, s) / within(b, t))) <= ONE, "{a:?} / {b:?}");
+    }
+
+    #[test]
+    fn roots_hold_the_exact_ones(a in ball(), s in share()) {
+        let a = if a.hi < 0.0 { -a } else { a };
+        let x = within(a, s);
+        prop_assume!(x > big(0.0));
+        prop_assert!(off(a.sqrt(), &x.sqrt()) <= ONE, "root of {a:?}");
+    }
+
+    #[test]
+    fn exponentials_hold_the_exact_ones(a in ball_of(-20..3), s in share()) {
+        let a = Ball { hi: -a.hi.abs(), lo: if a.hi < 0.0 { a.lo } else { -a.lo }, error: a.error };
+        prop_assert!(off(exp(a), &within(a, s).exp()) <= ONE, "e to {a:?}");
+    }
+
+    #[test]
+    fn sines_and_cosines_hold_the_exact_ones(a in ball_of(-20..9), s in share()) {
+        let angle = within(a, s) * big(1.0).atan() * big(8.0);
+        let (sin, cos) = sin_cos(a);
+        prop_assert!(off(sin, &angle.sin()) <= ONE, "sine of {a:?} turns");
+        prop_assert!(off(cos, &angle.cos()) <= ONE, "cosine of {a:?} turns");
+    }
+
+    #[test]
+    fn hyperbolic_functions_hold_the_exact_ones(a in ball_of(-13..0), s in share()) {
+        let a = if a.hi < 0.0 { -a } else { a };
+        prop_assume!(a.hi > 1e-15);
+        let root = within(a, s).sqrt();
+        let (up, down) = (root.exp(), (-&root).exp());
+        let (cosh, sinh) = cosh_sinh_over(a);
+        prop_assert!(off(cosh, &((&up + &down) / big(2.0))) <= ONE, "cosh √{a:?}");
+        prop_assert!(off(sinh, &((up - down) / big(2.0) / root)) <= ONE, "sinh √{a:?}");
+    }
+
+    #[test]
+    fn an_error_is_no_wider_than_it_must_be(a in ball(), b in ball()) {
+        // A thousand roundings of 106 bits beside what comes with the operands: a bound as wide as double's would fail.
+        let rounding = 1e3 * 2f64.powi(-106);
+        let (x, y) = (a.error / a.hi.abs(), b.error / b.hi.abs());
+        prop_assert!((a * b).error <= (1.01 * (x + y) + x * y + rounding) * (a.hi * b.hi).abs());
+        prop_assert!((a + b).error <= 1.01 * (a.error + b.error) + rounding * (a.hi.abs() + b.hi.abs()));
+        prop_assert!(a.over(b).error <= (1.02 * (x + y) + rounding) * (a.hi / b.hi).abs());
+    }
+}
+
+#[test]
+fn what_is_exact_stays_exact() {
+    let (third, half) = (Ball::ONE.over(Ball::exact(3.0)), Ball::exact(0.5));
+    assert!(third.error > 0.0 && !third.is_zero());
+    assert!((third - third.middle()).error > 0.0);
+    assert_eq!((half + half, half * half), (Ball::ONE, Ball::exact(0.25)));
+    assert!((half - half).is_zero() && (half * Ball::ZERO).is_zero() && Ball::ZERO.over(half).is_zero());
+    assert_eq!(Ball::ONE.over(half), Ball::exact(2.0));
+    assert!(Ball::ONE.over(Ball::ZERO).error.is_infinite() || Ball::ONE.over(Ball::ZERO).error.is_nan());
+}
+
+#[test]
+fn the_constants_are_those_of_300_bits() {
+    assert!(off(Ball::TAU, &(big(1.0).atan() * big(8.0))) <= ONE);
+    assert!(off(Ball::LN_2, &big(2.0).ln()) <= ONE);
+}
