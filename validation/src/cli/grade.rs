@@ -276,10 +276,11 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Repor
 
 /// This program as an echo.
 fn echo() -> String {
-    let own = std::env::current_exe().map(|path| path.to_string_lossy().into_owned());
-    let own = own.unwrap_or_else(|_| "shearbed".to_owned());
-    let quoted = shlex::try_quote(&own)
-        .map(std::borrow::Cow::into_owned)
-        .unwrap_or(own);
-    format!("{quoted} grade --echo")
+    let words = super::program::again();
+    let words: Vec<_> = words.iter().map(|word| word.to_string_lossy()).collect();
+    let quoted = shlex::try_join(words.iter().map(|word| word.as_ref()));
+    format!(
+        "{} grade --echo",
+        quoted.unwrap_or_else(|_| "shearbed".to_owned())
+    )
 }

@@ -9,6 +9,7 @@ mod kept;
 mod memory;
 mod pictures;
 mod problems;
+mod program;
 mod record;
 mod reference;
 mod run;
@@ -25,6 +26,7 @@ use crate::{cluster, output, text};
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::{Value, json};
+use std::ffi::OsString;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
@@ -82,7 +84,7 @@ impl Failure {
     }
 }
 
-/// Runs the command of the program's arguments.
+/// Runs the command of the process's arguments.
 pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
@@ -104,6 +106,44 @@ pub fn main() -> ExitCode {
         }
         Err(panic) => joined.fail(&panic, 101),
     }
+}
+
+/// The same in a process of another program, and without ranks: `program` are the words that start it, `arguments` what
+/// follows them. The exit code.
+pub fn main_of(program: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
+    program::give(program, arguments.clone());
+    let cli = match Cli::try_parse_from(with_name(arguments)) {
+        Ok(cli) => cli,
+        Err(error) => {
+            told(&error);
+            return error.exit_code() as u8;
+        }
+    };
+    interrupt::watch();
+    match command(cli.command).map_err(Failure::message_and_code) {
+        Ok(()) => 0,
+        Err((message, code)) => {
+            cluster::failed(&message, code);
+            code
+        }
+    }
+}
+
+/// Runs a command, without its name as the first word, inside another program: no signal is watched for, and what went
+/// wrong comes back in the program's words, with its exit code.
+pub fn call(arguments: Vec<OsString>) -> Result<(), (String, u8)> {
+    let cli = Cli::try_parse_from(with_name(arguments))
+        .map_err(|error| (error.to_string(), error.exit_code() as u8))?;
+    command(cli.command).map_err(Failure::message_and_code)
+}
+
+fn with_name(arguments: Vec<OsString>) -> Vec<OsString> {
+    std::iter::once("shearbed".into()).chain(arguments).collect()
+}
+
+/// Whether a plan fits into memory, with so many replicas at a time; why not.
+pub fn fits(plan: &shearbed::Plan, threads: Option<u64>, source: &str) -> Result<(), String> {
+    memory::check(plan, threads, source).map_err(|failure| failure.message_and_code().0)
 }
 
 /// Says what is wrong with the arguments, or how to use them.
@@ -131,8 +171,9 @@ impl Command {
 fn command(command: Command) -> Result<(), Failure> {
     threads::check()?;
     if !command.is_shared() {
-        let name = std::env::args().nth(1).unwrap_or_default();
-        agree(&name, json!({}))?;
+        let words = program::words();
+        let name = words.get(1).map(|word| word.to_string_lossy().into_owned());
+        agree(&name.unwrap_or_default(), json!({}))?;
         if !cluster::is_root() {
             return Ok(());
         }

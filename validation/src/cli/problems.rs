@@ -20,6 +20,9 @@ enum What {
         /// Write even where the folder holds something else, which stays
         #[arg(long)]
         force: bool,
+        /// Print nothing but errors
+        #[arg(long)]
+        quiet: bool,
     },
     /// Print the JSON Schema of problem.json
     Schema,
@@ -30,8 +33,11 @@ pub(super) fn problems(args: &Args) -> Result<(), Failure> {
     match &args.what {
         None => print(&list()),
         Some(What::Schema) => print(problems::SCHEMA),
-        Some(What::Export { dir, force }) => {
+        Some(What::Export { dir, force, quiet }) => {
             let names = problems::export(dir, *force)?;
+            if *quiet {
+                return Ok(());
+            }
             print(&format!("in {}: {}\n", dir.display(), names.join(", ")))
         }
     }

@@ -50,7 +50,7 @@ pub(super) fn json(
 ) -> Result<String, String> {
     let record = Record {
         build: BUILD,
-        command: command(std::env::args_os()),
+        command: command(super::program::words()),
         scene: plan.scene().resolved(),
         seed: plan.scene().ensemble.seed,
         plan: plan.entries(),

@@ -86,7 +86,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let (Some(outcomes), Some(sections)) = (outcomes, sections) else {
         return Ok(());
     };
-    let report = report::build(outcomes, sections, &effort, command(std::env::args_os()));
+    let report = report::build(outcomes, sections, &effort, command(super::program::words()));
     let curves = report.curves().map_err(Failure::Failed)?;
     let mut files: Vec<_> = (curves.into_iter())
         .map(|(name, text)| (format!("curves/{name}"), text))

@@ -1,0 +1,27 @@
+"""Rigid slender rods in a sheared liquid, after Lee & Springer (1982): the program shearbed for Python.
+
+Axes: 1 = gradient, 2 = flow, 3 = vorticity; u_2 = G x_1. A rod has no head: p and -p are the same.
+"""
+
+from __future__ import annotations
+
+from ._core import SceneError, __version__
+from ._grading import Problem, Report, grade, problems
+from ._reference import reference
+from ._results import Results
+from ._scene import Scene
+from ._running import run, sweep
+
+__all__ = [
+    "Problem",
+    "Report",
+    "Results",
+    "Scene",
+    "SceneError",
+    "__version__",
+    "grade",
+    "problems",
+    "reference",
+    "run",
+    "sweep",
+]

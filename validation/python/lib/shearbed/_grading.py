@@ -1,0 +1,202 @@
+"""Grading a Python function by the problems and the code that grade every other program."""
+
+from __future__ import annotations
+
+import csv
+import json
+import tempfile
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._reference import call, read
+
+Array = NDArray[np.float64]
+
+Solver = Callable[[Array, float, Array, Array, int], Array]
+Step = Callable[[Array, float, Array, float], Array]
+
+STEPS = (100, 200, 400, 800)
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A reference problem with its certified answer."""
+
+    name: str
+    title: str
+    kind: str
+    gradient_per_s: Array
+    aspect_ratio: float
+    times_s: Array
+    start: Array
+    """p of each rod at t = 0 as (rods, 3); no rows where none are given."""
+    certified: dict[str, Array]
+    """The columns of the certified answer, rounded to double."""
+    tolerance: float
+    because: str
+    equations: tuple[str, ...]
+
+
+@cache
+def problems() -> tuple[Problem, ...]:
+    """The reference problems, in the order of ``shearbed problems``."""
+    with tempfile.TemporaryDirectory(prefix="shearbed-") as folder:
+        call(["problems", "export", folder, "--quiet"])
+        return tuple(_problem(path) for path in sorted(Path(folder).iterdir()))
+
+
+def _problem(folder: Path) -> Problem:
+    told = json.loads((folder / "problem.json").read_text(encoding="utf-8"))
+    start = folder / "start.csv"
+    rods = np.array([row[1:] for row in read(start)[1]]) if start.exists() else np.empty((0, 3))
+    header, rows = read(folder / "certified.csv")
+    return Problem(
+        name=told["name"],
+        title=told["title"],
+        kind=told["kind"],
+        gradient_per_s=np.array(told["gradient_per_s"]),
+        aspect_ratio=told["aspect_ratio"],
+        times_s=np.array(told["times_s"]),
+        start=rods,
+        certified={name: np.array([row[k] for row in rows]) for k, name in enumerate(header)},
+        tolerance=told["tolerance"],
+        because=told["because"],
+        equations=tuple(told["equations"]),
+    )
+
+
+class Report:
+    """What was found: a verdict for each problem. True where a problem passes and none fails."""
+
+    def __init__(self, told: dict[str, Any]) -> None:
+        self.problems: list[dict[str, Any]] = told["problems"]
+        """name, verdict, error, tolerance, observed_order, diagnosis, ... of each problem."""
+
+    def __bool__(self) -> bool:
+        verdicts = [problem["verdict"] for problem in self.problems]
+        return "PASS" in verdicts and "FAIL" not in verdicts
+
+    def __getitem__(self, name: str) -> dict[str, Any]:
+        for problem in self.problems:
+            if problem["name"] == name:
+                return problem
+        raise KeyError(name)
+
+    def __str__(self) -> str:
+        lines = [f"{'problem':<22} {'verdict':<8} {'error':>9} {'tolerance':>9} {'order':>6}  diagnosis"]
+        for problem in self.problems:
+            error, order = problem["error"], problem["observed_order"]
+            lines.append(
+                f"{problem['name']:<22} {problem['verdict']:<8} {_short(error):>9} {problem['tolerance']:>9.1e} "
+                f"{'–' if order is None else f'{order:.2f}':>6}  {problem['diagnosis'] or ''}".rstrip()
+            )
+        return "\n".join(lines)
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws each problem's error over its tolerance, and returns the axes."""
+        import matplotlib.pyplot as plt
+
+        judged = [problem for problem in self.problems if problem["error"] is not None]
+        if ax is None:
+            _, ax = plt.subplots(figsize=(7, 0.3 * len(judged) + 1.2), layout="constrained")
+        shares = [max(problem["error"] / problem["tolerance"], 1e-6) for problem in judged]
+        passed = [problem["verdict"] == "PASS" for problem in judged]
+        ax.barh(range(len(judged)), shares, color=["#0072b2" if good else "#d55e00" for good in passed], left=1e-7)
+        ax.set_yticks(range(len(judged)), [problem["name"] for problem in judged])
+        ax.set_xscale("log")
+        ax.invert_yaxis()
+        ax.axvline(1.0, color="black", linewidth=1)
+        ax.set_xlabel("error / tolerance")
+        return ax
+
+
+def _short(number: float | None) -> str:
+    return "–" if number is None else f"{number:.1e}"
+
+
+def grade(
+    function: Solver | Step,
+    *,
+    kind: str = "solver",
+    order: float | None = None,
+    steps: Sequence[int] = STEPS,
+    names: Sequence[str] | None = None,
+) -> Report:
+    """Grades a Python function on the problems of free rods, as ``shearbed grade`` grades files.
+
+    ``kind="solver"``: ``function(gradient_per_s, aspect_ratio, start, times_s, steps)`` returns p at the times as
+    (times, rods, 3), with at least ``steps`` steps to the last time. ``kind="step"``: ``function(gradient_per_s, aspect_ratio,
+    p, dt_s)`` returns p of all rods one step later. Both get and give all rods at once: ``start`` and ``p`` are (rods, 3).
+
+    The function is asked with each number of ``steps``; the error of the last is judged, and the observed order is read
+    off all. With ``order`` the observed order is judged too. A function that raises has no answer to that problem.
+    """
+    if kind not in ("solver", "step"):
+        raise ValueError(f"kind = {kind!r}: 'solver' and 'step' are allowed")
+    known = [problem.name for problem in problems() if problem.kind == "rods"]
+    for name in names or ():
+        if name not in known:
+            raise ValueError(f"{name}: no problem of free rods has this name; there are {', '.join(known)}")
+    wanted = [problem for problem in problems() if problem.name in (names or known)]
+    with tempfile.TemporaryDirectory(prefix="shearbed-") as folder:
+        reference, mine, out = (Path(folder, name) for name in ("reference", "mine", "out"))
+        call(["problems", "export", str(reference), "--quiet"])
+        for problem in wanted:
+            for count in steps:
+                answer = _answer(function, kind, problem, count)
+                if answer is None:
+                    break
+                _write(mine / problem.name / f"steps-{count}.csv", problem, answer)
+        mine.mkdir(exist_ok=True)
+        words = ["grade", str(reference), str(mine), "--out", str(out), "--quiet"]
+        for problem in wanted:
+            words += ["--problem", problem.name]
+        if order is not None:
+            words += ["--order", repr(float(order))]
+        call(words, allowed=(0, 1))
+        return Report(json.loads((out / "grade.json").read_text(encoding="utf-8")))
+
+
+def _answer(function: Any, kind: str, problem: Problem, count: int) -> Array | None:
+    given = (problem.gradient_per_s.copy(), problem.aspect_ratio)
+    try:
+        if kind == "solver":
+            found = function(*given, problem.start.copy(), problem.times_s.copy(), count)
+        else:
+            found = _stepped(function, given, problem, count)
+    except (ArithmeticError, ValueError, RuntimeError):
+        return None
+    answer: Array = np.asarray(found, dtype=float)
+    wanted = (len(problem.times_s), len(problem.start), 3)
+    if answer.shape != wanted:
+        raise ValueError(f"{problem.name}: p as (times, rods, 3) = {wanted} is asked for, not {answer.shape}")
+    return answer
+
+
+def _stepped(function: Any, given: tuple[Array, float], problem: Problem, count: int) -> list[Array]:
+    """Equal steps to each time, about so many to the last."""
+    p, now, found = problem.start.copy(), 0.0, []
+    end = float(problem.times_s[-1])
+    for time in map(float, problem.times_s):
+        own = max(1, round(count * (time - now) / end)) if time > now else 0
+        for _ in range(own):
+            p = np.asarray(function(*given, p, (time - now) / own), dtype=float)
+        now = time
+        found.append(p)
+    return found
+
+
+def _write(file: Path, problem: Problem, answer: Array) -> None:
+    file.parent.mkdir(parents=True, exist_ok=True)
+    with open(file, "w", encoding="utf-8", newline="") as text:
+        writer = csv.writer(text, lineterminator="\n")
+        writer.writerow(("time_s", "rod", "p1", "p2", "p3"))
+        for time, rods in zip(problem.times_s, answer):
+            for rod, p in enumerate(rods):
+                writer.writerow((repr(float(time)), rod, *(repr(float(component)) for component in p)))

@@ -1,0 +1,101 @@
+"""The results of a run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import pandas
+
+Array = NDArray[np.float64]
+
+_PAIRS = (("a11", 0, 0), ("a22", 1, 1), ("a33", 2, 2), ("a12", 0, 1), ("a13", 0, 2), ("a23", 1, 2))
+
+
+class Results:
+    """Means over rods and replicas against time.
+
+    ``x1`` is the mean of channel ``x1`` and ``x1_se`` its standard error, one number an output; so for every channel in
+    ``channels``. Standard errors are over replicas, over rods where there is one replica.
+    """
+
+    def __init__(self, found: dict[str, Any]) -> None:
+        self.t: Array = found["times"]
+        """The outputs' times: t/T, or strain where the scene's time is a strain (see ``time_name``)."""
+        self.time_name: str = found["time_name"]
+        self.time_s: Array = found["time_s"]
+        self.strain: Array = found["strain"]
+        self.observables: dict[str, list[str]] = found["observables"]
+        """The channels of each observable."""
+        self.scene: str = found["scene"]
+        """The scene that was run, as TOML."""
+        self.warnings: list[str] = found["warnings"]
+        self._channels: dict[str, tuple[Array, Array]] = found["channels"]
+
+    @property
+    def channels(self) -> list[str]:
+        """The names of the channels."""
+        return list(self._channels)
+
+    def __getattr__(self, name: str) -> Array:
+        channels = self.__dict__.get("_channels", {})
+        if name in channels:
+            mean: Array = channels[name][0]
+            return mean
+        if name.endswith("_se") and name[:-3] in channels:
+            se: Array = channels[name[:-3]][1]
+            return se
+        if name in ("a", "a_se"):
+            raise AttributeError(f'{name}: the scene has to ask for it: observables = ["orientation_tensor"]')
+        raise AttributeError(f"{name}: this run has the channels {', '.join(channels)}, each also with _se")
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._channels, *(f"{name}_se" for name in self._channels)]
+
+    @property
+    def a(self) -> Array:
+        """<pp> as (time, 3, 3); needs the observable ``orientation_tensor``."""
+        return self._tensor(0)
+
+    @property
+    def a_se(self) -> Array:
+        """The standard errors of <pp> as (time, 3, 3)."""
+        return self._tensor(1)
+
+    def _tensor(self, which: int) -> Array:
+        if "a11" not in self._channels:
+            raise AttributeError  # __getattr__ says why
+        tensor = np.empty((len(self.t), 3, 3))
+        for name, i, j in _PAIRS:
+            tensor[:, i, j] = tensor[:, j, i] = self._channels[name][which]
+        return tensor
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The columns of the program's CSV files in one table."""
+        import pandas
+
+        columns: dict[str, Array] = {self.time_name: self.t, "time_s": self.time_s, "strain": self.strain}
+        for name, (mean, se) in self._channels.items():
+            columns[name] = mean
+            columns[f"{name}_se"] = se
+        return pandas.DataFrame(columns)
+
+    def plot(self, *channels: str, ax: Any = None) -> Any:
+        """Draws channels (by default those of the first observable) with bands of 95 %, and returns the axes."""
+        import matplotlib.pyplot as plt
+
+        if ax is None:
+            _, ax = plt.subplots()
+        for name in list(channels) or next(iter(self.observables.values())):
+            mean, se = self._channels[name]
+            (line,) = ax.plot(self.t, mean, label=name)
+            ax.fill_between(self.t, mean - 1.96 * se, mean + 1.96 * se, color=line.get_color(), alpha=0.2, linewidth=0)
+        ax.set_xlabel("t/T" if self.time_name == "t_over_T" else "strain")
+        ax.legend()
+        return ax
+
+    def __repr__(self) -> str:
+        return f"Results({len(self.t)} outputs of {', '.join(self._channels)})"

@@ -1,0 +1,97 @@
+"""Running scenes."""
+
+from __future__ import annotations
+
+import csv
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+from ._results import Results
+from ._scene import Scene, _value, scene_of
+
+
+def run(
+    scene: Scene | Mapping[str, Any] | str | os.PathLike[str],
+    *,
+    replicas: int | None = None,
+    seed: int | None = None,
+    threads: int | None = None,
+    progress: Callable[[int, int], object] | bool = False,
+) -> Results:
+    """Runs a scene: the same bits as the program, on any number of threads.
+
+    ``replicas`` and ``seed`` stand in place of the scene's own. ``progress(done, of)`` is called about twenty times a second;
+    ``progress=True`` draws a bar with tqdm where it is installed. Other Python threads go on meanwhile, and Ctrl-C stops it.
+
+    Raises :class:`SceneError` for a scene that cannot be run, ``RuntimeError`` for a run that cannot go on.
+    """
+    scene = scene_of(scene)
+    told = _bar() if progress is True else progress or None
+    return Results(_core.run(scene._name, scene._text, replicas, seed, threads, told))
+
+
+def _bar() -> Callable[[int, int], object] | None:
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        return None
+    bar = tqdm(unit="replica")
+
+    def told(done: int, of: int) -> None:
+        bar.total = of
+        bar.update(done - bar.n)
+        if done == of:
+            bar.close()
+
+    return told
+
+
+def sweep(
+    scene: Scene | Mapping[str, Any] | str | os.PathLike[str],
+    over: Mapping[str, Sequence[Any]],
+    *,
+    replicas: int | None = None,
+    seed: int | None = None,
+) -> dict[str, NDArray[Any]]:
+    """Runs a scene at every combination of its keys' values, as ``shearbed sweep`` does.
+
+    ``sweep(scene, {"interaction.alpha": [0.25, 0.5, 1]})`` gives the columns of ``sweep.csv``, one row a point: the swept
+    keys, then time, means and standard errors at the last output. All points have the same seed.
+    """
+    scene = scene_of(scene)
+    with tempfile.TemporaryDirectory(prefix="shearbed-") as folder:
+        file = Path(folder, "scene.toml")
+        file.write_text(scene._text, encoding="utf-8")
+        words = ["sweep", str(file), "--out", str(Path(folder, "out")), "--quiet"]
+        for key, values in over.items():
+            words += ["--over", f"{key}=" + ",".join(_value(value) for value in values)]
+        for flag, value in (("--replicas", replicas), ("--seed", seed)):
+            if value is not None:
+                words += [flag, str(value)]
+        program(words)
+        with open(Path(folder, "out", "sweep.csv"), encoding="utf-8", newline="") as text:
+            header, *rows = list(csv.reader(text))
+    return {name: _column([row[k] for row in rows]) for k, name in enumerate(header)}
+
+
+def _column(fields: list[str]) -> NDArray[Any]:
+    try:
+        return np.array([float(field) for field in fields])
+    except ValueError:
+        return np.array(fields)
+
+
+def program(words: Sequence[str]) -> None:
+    """Runs a command in a process of its own, which Ctrl-C ends too; raises its message as ``ValueError``."""
+    ended = subprocess.run([sys.executable, "-m", "shearbed", *words], capture_output=True, text=True, check=False)
+    if ended.returncode:
+        raise ValueError(ended.stderr.strip().removeprefix("error: "))

@@ -1,0 +1,126 @@
+"""A scene from keywords, a dictionary, TOML or a file."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from typing import Any
+
+from . import _core
+
+# Which table of a scene file holds a key: keywords are given without it.
+_TABLES = {
+    "flow": ("shear_rate_per_s", "gradient_per_s"),
+    "particles": ("count", "length_mm", "aspect_ratio", "aspect_ratio_sd_percent", "orientation"),
+    "interaction": ("concentration_per_cm3", "alpha", "m", "update", "min_contact_arm"),
+    "time": ("periods", "strain", "steps_per_period", "outputs_per_period", "outputs_per_strain"),
+    "ensemble": ("replicas", "seed"),
+    "output": ("observables",),
+}
+_TABLE_OF = {key: table for table, keys in _TABLES.items() for key in keys}
+
+
+def _value(value: Any) -> str:
+    """A value as TOML."""
+    if hasattr(value, "tolist"):  # NumPy's arrays and numbers
+        value = value.tolist()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return json.dumps(value)
+    if isinstance(value, (int, float)):
+        return repr(value)
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{_key(key)} = {_value(item)}" for key, item in value.items()) + " }"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(map(_value, value)) + "]"
+    raise TypeError(f"{value!r}: a number, text, list or dictionary is allowed in a scene")
+
+
+def _key(key: Any) -> str:
+    """A key as TOML, of whatever letters it has."""
+    text = str(key)
+    plain = text.isascii() and text.replace("_", "").replace("-", "").isalnum()
+    return text if plain else json.dumps(text)
+
+
+def _toml(tables: Mapping[str, Any]) -> str:
+    lines = [f"{_key(key)} = {_value(value)}" for key, value in tables.items() if not isinstance(value, Mapping)]
+    for key, table in tables.items():
+        if isinstance(table, Mapping):
+            lines.append(f"[{_key(key)}]")
+            lines += [f"{_key(inner)} = {_value(value)}" for inner, value in table.items()]
+    return "\n".join(lines) + "\n"
+
+
+def _gathered(keywords: Mapping[str, Any]) -> dict[str, Any]:
+    """Keywords in their tables; tables and unknown keys stay, so that an error names them."""
+    tables: dict[str, Any] = {"title": "scene"}
+    for key, value in keywords.items():
+        table = _TABLE_OF.get(key)
+        if table is None:
+            tables[key] = dict(value) if isinstance(value, Mapping) else value
+        else:
+            tables.setdefault(table, {})[key] = value
+    return tables
+
+
+class Scene:
+    """What is simulated, checked. Keys and units are those of a scene file.
+
+    ``Scene(shear_rate_per_s=0.5, count=100, length_mm=0.72, aspect_ratio=11.6, orientation="isotropic", periods=2)``,
+    ``Scene({"flow": {...}, "particles": {...}, ...})``, ``Scene(toml="...")`` or ``Scene(file="mine.toml")``.
+
+    Raises :class:`SceneError` where the scene is not allowed: every problem at once, with key, value and what is allowed.
+    """
+
+    def __init__(
+        self,
+        tables: Mapping[str, Any] | None = None,
+        /,
+        *,
+        toml: str | None = None,
+        file: str | os.PathLike[str] | None = None,
+        **keywords: Any,
+    ) -> None:
+        given = [way for way in (tables, toml, file, keywords or None) if way is not None]
+        if len(given) != 1:
+            raise TypeError("Scene: one of keywords, a dictionary, toml= and file= is allowed")
+        self._name = "scene"
+        if file is not None:
+            self._name = os.fspath(file)
+            with open(file, encoding="utf-8") as text:
+                self._text = text.read()
+        elif toml is not None:
+            self._text = toml
+        else:
+            self._text = _toml(_gathered(keywords if tables is None else tables))
+        self._resolved, self._plan, self._warnings = _core.describe(self._name, self._text)
+
+    @property
+    def toml(self) -> str:
+        """The scene file, with every default written out."""
+        return self._resolved
+
+    @property
+    def plan(self) -> str:
+        """What a run does, what it leaves out, and why."""
+        return self._plan
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the reader of the results should know before trusting them."""
+        return list(self._warnings)
+
+    def __repr__(self) -> str:
+        return f"Scene(toml={self._resolved!r})"
+
+
+def scene_of(scene: Scene | Mapping[str, Any] | str | os.PathLike[str]) -> Scene:
+    """A scene as functions take it: itself, a dictionary, or a file's name."""
+    if isinstance(scene, Scene):
+        return scene
+    if isinstance(scene, Mapping):
+        return Scene(scene)
+    return Scene(file=scene)

@@ -1,0 +1,197 @@
+//! shearbed for Python: the core's runs as NumPy arrays, and the program's commands. Nothing is computed here.
+
+use numpy::PyArray1;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use pyo3::{create_exception, wrap_pyfunction};
+use rayon::prelude::*;
+use shearbed::run::{Replica, run_replica};
+use shearbed::work::RunError;
+use shearbed::{Plan, Results, Scene, ensemble, scene_file};
+use std::ffi::OsString;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::time::Duration;
+
+create_exception!(
+    _core,
+    SceneError,
+    PyValueError,
+    "A scene that cannot be run, in the words of the program."
+);
+
+fn plan(name: &str, text: &str, replicas: Option<u64>, seed: Option<u64>) -> PyResult<Plan> {
+    let refused = |error: &dyn std::fmt::Display| SceneError::new_err(error.to_string());
+    let mut scene = scene_file::parse(name, text).map_err(|error| refused(&error))?;
+    scene.ensemble.replicas = replicas.unwrap_or(scene.ensemble.replicas);
+    scene.ensemble.seed = seed.unwrap_or(scene.ensemble.seed);
+    Plan::new(&scene).map_err(|error| SceneError::new_err(format!("{name}: {error}")))
+}
+
+fn toml_of(scene: &Scene) -> PyResult<String> {
+    toml::to_string(scene).map_err(|error| PyRuntimeError::new_err(error.to_string()))
+}
+
+/// The scene with every default written out as TOML, its plan in words, and what the reader of its results should know.
+#[pyfunction]
+fn describe(name: &str, text: &str) -> PyResult<(String, String, Vec<String>)> {
+    let plan = plan(name, text, None, None)?;
+    Ok((
+        toml_of(&plan.scene().resolved())?,
+        plan.to_string(),
+        plan.warnings(),
+    ))
+}
+
+/// Why a run gave no results.
+enum Stopped {
+    Asked,
+    Failed(RunError),
+}
+
+/// Runs a scene: a dictionary of arrays and of what was done.
+///
+/// `progress(done, of)` is called now and then, from the thread that called this.
+#[pyfunction]
+#[pyo3(signature = (name, text, replicas=None, seed=None, threads=None, progress=None))]
+fn run<'py>(
+    py: Python<'py>,
+    name: &str,
+    text: &str,
+    replicas: Option<u64>,
+    seed: Option<u64>,
+    threads: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let plan = plan(name, text, replicas, seed)?;
+    validation::cli::fits(&plan, threads.map(|count| count as u64), name).map_err(SceneError::new_err)?;
+    let pool = threads
+        .map(|count| rayon::ThreadPoolBuilder::new().num_threads(count).build())
+        .transpose()
+        .map_err(|error| PyValueError::new_err(format!("threads: {error}")))?;
+    let results = py.detach(|| watched(&plan, pool.as_ref(), progress.as_ref()))?;
+    let results = results.map_err(|error| PyRuntimeError::new_err(format!("{name}: {error}")))?;
+    dictionary(py, &plan, results)
+}
+
+/// Runs the plan on other threads, while this one looks for signals and tells how far it is.
+fn watched(
+    plan: &Plan,
+    pool: Option<&rayon::ThreadPool>,
+    progress: Option<&Py<PyAny>>,
+) -> PyResult<Result<Results, RunError>> {
+    let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
+    let all = plan.scene().ensemble.replicas;
+    std::thread::scope(|scope| {
+        let (ended, end) = mpsc::channel();
+        let work = || folded(plan, &stop, &done);
+        let worker = scope.spawn(move || {
+            let results = pool.map_or_else(work, |pool| pool.install(work));
+            // The other side waits for it, or has an error of its own to tell.
+            let _ = ended.send(());
+            results
+        });
+        let mut told = 0;
+        let mut look = || -> PyResult<()> {
+            Python::attach(|py| {
+                py.check_signals()?;
+                let now = done.load(Ordering::Relaxed);
+                match progress {
+                    Some(progress) if now != told => {
+                        told = now;
+                        progress.call1(py, (now, all)).map(drop)
+                    }
+                    _ => Ok(()),
+                }
+            })
+        };
+        let mut interrupted = None;
+        while let Err(RecvTimeoutError::Timeout) = end.recv_timeout(Duration::from_millis(50)) {
+            if interrupted.is_none()
+                && let Err(error) = look()
+            {
+                stop.store(true, Ordering::Relaxed);
+                interrupted = Some(error);
+            }
+        }
+        let results = worker.join();
+        match (interrupted, results) {
+            (Some(error), _) => Err(error),
+            (None, Ok(Ok(results))) => look().map(|()| Ok(results)),
+            (None, Ok(Err(Stopped::Failed(error)))) => Ok(Err(error)),
+            (None, Ok(Err(Stopped::Asked)) | Err(_)) => {
+                Err(PyRuntimeError::new_err("the run ended by a mistake of its own"))
+            }
+        }
+    })
+}
+
+fn folded(plan: &Plan, stop: &AtomicBool, done: &AtomicU64) -> Result<Results, Stopped> {
+    let one = |replica: u64| -> Result<Replica, Stopped> {
+        if stop.load(Ordering::Relaxed) {
+            return Err(Stopped::Asked);
+        }
+        let replica = run_replica(plan, replica).map_err(Stopped::Failed)?;
+        done.fetch_add(1, Ordering::Relaxed);
+        Ok(replica)
+    };
+    ensemble::fold(plan, |replicas: Range<u64>| {
+        replicas.into_par_iter().map(one).collect()
+    })
+}
+
+fn dictionary<'py>(py: Python<'py>, plan: &Plan, results: Results) -> PyResult<Bound<'py, PyDict>> {
+    let array = |values: Vec<f64>| PyArray1::from_vec(py, values);
+    let channels = PyDict::new(py);
+    let observables = PyDict::new(py);
+    let scaled = |unit: f64| results.times.iter().map(|time| time * unit).collect();
+    let (time_s, strain) = (scaled(results.unit.seconds), scaled(results.unit.strain));
+    for series in results.series {
+        let mut names = Vec::new();
+        for channel in series.channels {
+            channels.set_item(&channel.name, (array(channel.mean), array(channel.se)))?;
+            names.push(channel.name);
+        }
+        observables.set_item(series.observable.name(), names)?;
+    }
+    let all = PyDict::new(py);
+    all.set_item("time_name", results.time_name)?;
+    all.set_item("times", array(results.times))?;
+    all.set_item("time_s", array(time_s))?;
+    all.set_item("strain", array(strain))?;
+    all.set_item("channels", channels)?;
+    all.set_item("observables", observables)?;
+    all.set_item("scene", toml_of(&plan.scene().resolved())?)?;
+    all.set_item("warnings", plan.warnings())?;
+    Ok(all)
+}
+
+/// Runs a command of the program in this process, without a word on the terminal but what the command prints: the exit
+/// code, and what went wrong.
+#[pyfunction]
+fn call(py: Python<'_>, arguments: Vec<OsString>) -> (u8, String) {
+    let ended = py.detach(|| std::panic::catch_unwind(|| validation::cli::call(arguments)));
+    match ended {
+        Ok(Ok(())) => (0, String::new()),
+        Ok(Err((message, code))) => (code, message),
+        Err(_) => (101, "the command ended by a mistake of its own".to_owned()),
+    }
+}
+
+/// The program: `program` are the words that start it again. Ends the process.
+#[pyfunction]
+fn main(py: Python<'_>, program: Vec<OsString>, arguments: Vec<OsString>) {
+    py.detach(|| std::process::exit(i32::from(validation::cli::main_of(program, arguments))))
+}
+
+#[pymodule]
+fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("SceneError", module.py().get_type::<SceneError>())?;
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_function(wrap_pyfunction!(describe, module)?)?;
+    module.add_function(wrap_pyfunction!(run, module)?)?;
+    module.add_function(wrap_pyfunction!(call, module)?)?;
+    module.add_function(wrap_pyfunction!(main, module)?)
+}

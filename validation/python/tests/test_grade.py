@@ -1,0 +1,115 @@
+"""Reference values, problems, and the grading of Python functions."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import shearbed
+
+Array = NDArray[np.float64]
+NAMES = ["mid-flip-2", "mid-flip-11.6"]
+
+
+def rate(gradient: Array, aspect_ratio: float, p: Array) -> Array:
+    shape = (aspect_ratio**2 - 1) / (aspect_ratio**2 + 1)
+    a = 0.5 * (1 + shape) * gradient - 0.5 * (1 - shape) * gradient.T
+    turned: Array = p @ a.T
+    return turned - p * np.einsum("ni,ni->n", p, turned)[:, None]
+
+
+def rk4(gradient: Array, aspect_ratio: float, p: Array, dt: float) -> Array:
+    k1 = rate(gradient, aspect_ratio, p)
+    k2 = rate(gradient, aspect_ratio, p + 0.5 * dt * k1)
+    k3 = rate(gradient, aspect_ratio, p + 0.5 * dt * k2)
+    k4 = rate(gradient, aspect_ratio, p + dt * k3)
+    return p + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+
+
+def euler(gradient: Array, aspect_ratio: float, p: Array, dt: float) -> Array:
+    return p + dt * rate(gradient, aspect_ratio, p)
+
+
+def test_rk4_is_of_order_4_and_passes() -> None:
+    report = shearbed.grade(rk4, kind="step", order=4, steps=(500, 1000, 2000), names=NAMES)
+    assert report, str(report)
+    for problem in report.problems:
+        assert problem["verdict"] == "PASS" and abs(problem["observed_order"] - 4) < 0.3
+        assert problem["diagnosis"] is None
+    assert "PASS" in str(report)
+
+
+def test_euler_is_of_order_1_and_fails() -> None:
+    report = shearbed.grade(euler, kind="step", order=4, steps=(500, 1000, 2000), names=NAMES)
+    assert not report
+    assert all(problem["verdict"] == "FAIL" for problem in report.problems)
+    assert abs(report["mid-flip-2"]["observed_order"] - 1) < 0.3
+
+
+def test_a_transposed_gradient_is_named() -> None:
+    report = shearbed.grade(
+        lambda gradient, r, p, dt: rk4(gradient.T, r, p, dt), kind="step", steps=(2000,), names=["mid-flip-11.6"]
+    )
+    assert not report
+    assert "transposed" in report["mid-flip-11.6"]["diagnosis"]
+
+
+def test_an_exact_solver_passes_every_problem_of_free_rods() -> None:
+    def exact(gradient: Array, r: float, start: Array, times: Array, steps: int) -> Array:
+        # The certified answers themselves: what a perfect solver gives.
+        for problem in shearbed.problems():
+            if problem.kind == "rods" and np.array_equal(problem.gradient_per_s, gradient) and problem.aspect_ratio == r \
+                    and np.array_equal(problem.start, start) and np.array_equal(problem.times_s, times):
+                columns = [problem.certified[name] for name in ("p1", "p2", "p3")]
+                return np.stack(columns, axis=1).reshape(len(times), len(start), 3)
+        raise AssertionError("a problem that is not among the problems")
+
+    report = shearbed.grade(exact, steps=(1,))
+    assert report and all(problem["verdict"] == "PASS" for problem in report.problems), str(report)
+
+
+def test_a_function_that_fails_has_no_answer_and_a_wrong_shape_is_said() -> None:
+    def fails(*_: object) -> Array:
+        raise ZeroDivisionError
+
+    report = shearbed.grade(fails, names=["mid-flip-2"])
+    assert not report and report["mid-flip-2"]["verdict"] == "MISSING"
+    with pytest.raises(ValueError, match="times, rods, 3"):
+        shearbed.grade(lambda *_: np.zeros(3), names=["mid-flip-2"])
+    with pytest.raises(ValueError, match="mid-flip-2"):
+        shearbed.grade(fails, names=["mid-flop"])
+    with pytest.raises(ValueError, match="solver"):
+        shearbed.grade(fails, kind="rhs")
+
+
+def test_an_answer_that_is_no_number_does_not_pass() -> None:
+    report = shearbed.grade(
+        lambda gradient, r, start, times, steps: np.full((len(times), len(start), 3), np.nan), names=["mid-flip-2"]
+    )
+    assert not report and report["mid-flip-2"]["verdict"] == "FAIL"
+
+
+def test_reference_values_are_those_of_the_closed_form() -> None:
+    r, phi, theta = 11.6, np.radians(10.0), np.radians(60.0)
+    values = shearbed.reference(r, start=(10, 60), times=(0, 1, 9))
+    p = np.array([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)])
+    turn = 2 * np.pi * values["t_over_T"]
+    q = np.stack([
+        p[0] * np.cos(turn) - p[1] / r * np.sin(turn),
+        r * p[0] * np.sin(turn) + p[1] * np.cos(turn),
+        np.full_like(turn, p[2]),
+    ])
+    q /= np.linalg.norm(q, axis=0)
+    for k in range(3):
+        assert np.allclose(values[f"p{k + 1}"], q[k], atol=1e-13)
+    with pytest.raises(ValueError, match="1e100"):
+        shearbed.reference(0.0, times=(0, 1, 2))
+
+
+def test_problems_have_answers() -> None:
+    names = [problem.name for problem in shearbed.problems()]
+    assert {"mid-flip-2", "mid-flip-11.6", "mid-flip-100", "mid-flip-10000"} <= set(names)
+    problem = next(problem for problem in shearbed.problems() if problem.name == "mid-flip-2")
+    assert problem.start.shape[1] == 3 and problem.tolerance > 0
+    assert len(problem.certified["p1"]) == len(problem.times_s) * len(problem.start)

@@ -1,0 +1,186 @@
+"""Runs: the same bits as the program, exceptions with its words, no growth of memory."""
+
+from __future__ import annotations
+
+import csv
+import gc
+import math
+import os
+import resource
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import shearbed
+
+FREE = dict(shear_rate_per_s=0.5, count=50, length_mm=0.72, aspect_ratio=11.6, orientation="isotropic", periods=1)
+SMALL = FREE | dict(concentration_per_cm3=50, alpha=0.5, count=20, periods=0.5)
+EVERY = ["projections", "planar_projections", "mean_angle", "orbit_constant", "orientation_tensor"]
+
+SCENES = {
+    "free": FREE,
+    "every observable": FREE | dict(observables=EVERY),
+    "disc": FREE | dict(aspect_ratio=0.1),
+    "one rod": FREE | dict(count=1, orientation={"phi_deg": 0, "theta_deg": 60}),
+    "unequal": FREE | dict(aspect_ratio_sd_percent=8.5, replicas=3),
+    "extension": {
+        key: value for key, value in FREE.items() if key not in ("shear_rate_per_s", "periods")
+    } | dict(gradient_per_s=np.diag([1.0, -0.5, -0.5]), strain=3),
+    "interacting": SMALL | dict(replicas=4),
+    "angles": SMALL | dict(update="angles", seed=7),
+    "short arms": SMALL | dict(min_contact_arm=0.05, m=2.5),
+    "dense": SMALL | dict(concentration_per_cm3=500, aspect_ratio=5),
+}
+
+
+def program(*words: str, cwd: Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, "-m", "shearbed", *words], cwd=cwd, capture_output=True, text=True)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_bits_are_those_of_the_program(name: str, tmp_path: Path) -> None:
+    scene = shearbed.Scene(**SCENES[name])
+    (tmp_path / "scene.toml").write_text(scene.toml)
+    ended = program("run", "scene.toml", "--out", "out", "--quiet", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    results = shearbed.run(scene, threads=2)
+    for observable, channels in results.observables.items():
+        with open(tmp_path / "out" / f"{observable}.csv", newline="") as text:
+            header, *rows = list(csv.reader(text))
+        table = {key: np.array([float(row[k]) for row in rows]) for k, key in enumerate(header)}
+        columns = {results.time_name: results.t, "time_s": results.time_s, "strain": results.strain}
+        for channel in channels:
+            columns |= {channel: getattr(results, channel), f"{channel}_se": getattr(results, f"{channel}_se")}
+        assert set(columns) == set(table)
+        for key, values in columns.items():
+            same = (values.view(np.int64) == table[key].view(np.int64)) | (np.isnan(values) & np.isnan(table[key]))
+            assert same.all(), key
+
+
+def test_seed_and_replicas_stand_in_place_of_the_scenes_own() -> None:
+    own = shearbed.run(SMALL | dict(replicas=3, seed=5))
+    given = shearbed.run(SMALL, replicas=3, seed=5)
+    other = shearbed.run(SMALL, replicas=3, seed=6)
+    assert own.x1.tobytes() == given.x1.tobytes() != other.x1.tobytes()
+
+
+def test_one_scene_in_every_form(tmp_path: Path) -> None:
+    keywords = shearbed.Scene(**FREE)
+    tables = shearbed.Scene({
+        "title": "scene",
+        "flow": {"shear_rate_per_s": 0.5},
+        "particles": {key: FREE[key] for key in ("count", "length_mm", "aspect_ratio", "orientation")},
+        "time": {"periods": 1},
+    })
+    text = shearbed.Scene(toml=keywords.toml)
+    (tmp_path / "a.toml").write_text(keywords.toml)
+    assert keywords.toml == tables.toml == text.toml == shearbed.Scene(file=tmp_path / "a.toml").toml
+    assert "free" in keywords.plan or "rods" in keywords.plan
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        (dict(count=-1), "count"),
+        (dict(aspect_ratio=math.nan), "aspect_ratio"),
+        (dict(alpha=0.5), "concentration_per_cm3"),
+        (dict(colour="red"), "colour"),
+        (dict(orientation="up"), "orientation"),
+        (dict(observables=["speed"]), "observables"),
+        (dict(periods=1e9), "periods"),
+        ({"title": 'a"b\nc\u202e', "count": 0}, "count"),
+    ],
+)
+def test_a_scene_that_is_not_allowed_says_key_value_and_what_is(changed: dict[str, object], words: str) -> None:
+    with pytest.raises(shearbed.SceneError, match=words):
+        shearbed.Scene(**(FREE | changed))
+
+
+def test_other_mistakes_are_type_errors() -> None:
+    for call in (lambda: shearbed.Scene(), lambda: shearbed.Scene({}, toml=""), lambda: shearbed.Scene(count=object())):
+        with pytest.raises(TypeError):
+            call()
+    with pytest.raises(AttributeError, match="x1, x2, x3"):
+        shearbed.run(FREE).x4
+    with pytest.raises(AttributeError, match="orientation_tensor"):
+        shearbed.run(FREE).a
+
+
+def test_a_scene_that_would_not_fit_in_memory_is_refused() -> None:
+    with pytest.raises(shearbed.SceneError, match="memory"):
+        shearbed.run(FREE | dict(count=10**8), replicas=512, threads=512)
+
+
+def test_the_tensor_is_symmetric_and_has_the_trace_1() -> None:
+    a = shearbed.run(FREE | dict(observables=["orientation_tensor"])).a
+    assert a.shape[1:] == (3, 3)
+    assert np.allclose(np.trace(a, axis1=1, axis2=2), 1.0, atol=1e-14)
+    assert (a == a.transpose(0, 2, 1)).all()
+
+
+def test_progress_is_told_and_may_stop_the_run() -> None:
+    told: list[tuple[int, int]] = []
+    shearbed.run(SMALL, replicas=200, progress=lambda done, of: told.append((done, of)))
+    assert told[-1] == (200, 200)
+
+    def stop(done: int, of: int) -> None:
+        raise KeyError("enough")
+
+    with pytest.raises(KeyError, match="enough"):
+        shearbed.run(SMALL, replicas=100_000, progress=stop)
+
+
+def test_ctrl_c_stops_a_run() -> None:
+    threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        shearbed.run(SMALL, replicas=1_000_000)
+    assert time.monotonic() - start < 30
+
+
+def test_other_threads_go_on_during_a_run() -> None:
+    results: list[shearbed.Results] = []
+    worker = threading.Thread(target=lambda: results.append(shearbed.run(SMALL, replicas=300, threads=1)))
+    worker.start()
+    count = 0
+    while worker.is_alive():
+        count += 1
+    worker.join()
+    assert count > 1000 and len(results) == 1
+    assert results[0].x1.tobytes() == shearbed.run(SMALL, replicas=300).x1.tobytes()
+
+
+def test_memory_does_not_grow() -> None:
+    scene = shearbed.Scene(**FREE)
+
+    def many() -> int:
+        for _ in range(500):
+            shearbed.run(scene, threads=1)
+        gc.collect()
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+    first = many()
+    # In kB; 500 results of 51 outputs in nine arrays would be 1.8 MB if one were kept of each.
+    assert many() - first < 1000
+
+
+def test_a_sweep_has_the_rows_of_the_program() -> None:
+    table = shearbed.sweep(SMALL, {"interaction.alpha": [0.25, 1.0], "interaction.update": ["rotation", "angles"]}, replicas=2)
+    assert list(table["interaction.alpha"]) == [0.25, 0.25, 1.0, 1.0]
+    assert list(table["interaction.update"]) == ["rotation", "angles"] * 2
+    last = shearbed.run(SMALL | dict(alpha=1.0, update="angles"), replicas=2)
+    assert table["x1"][3] == last.x1[-1]
+    with pytest.raises(ValueError, match="interaction.alpha"):
+        shearbed.sweep(SMALL, {"alpha": [1.0]})
+
+
+def test_the_program_is_there(tmp_path: Path) -> None:
+    assert program("--version", cwd=tmp_path).stdout.startswith("shearbed ")
+    ended = program("run", "nothing.toml", cwd=tmp_path)
+    assert ended.returncode == 2 and "nothing.toml" in ended.stderr and not list(tmp_path.iterdir())

@@ -1,0 +1,34 @@
+//! By which words this program was started.
+
+use std::ffi::OsString;
+use std::sync::OnceLock;
+
+/// What stands in place of the process's own words where another program holds this one.
+struct Words {
+    program: Vec<OsString>,
+    arguments: Vec<OsString>,
+}
+
+static GIVEN: OnceLock<Words> = OnceLock::new();
+
+/// From now on the program was started by the words `program` and has these arguments. The first call counts.
+pub(super) fn give(program: Vec<OsString>, arguments: Vec<OsString>) {
+    // A second call is of the same process, and so of the same words.
+    let _ = GIVEN.set(Words { program, arguments });
+}
+
+/// All words of the command line.
+pub(super) fn words() -> Vec<OsString> {
+    match GIVEN.get() {
+        Some(words) => [&words.program[..], &words.arguments[..]].concat(),
+        None => std::env::args_os().collect(),
+    }
+}
+
+/// The words that start this program again.
+pub(super) fn again() -> Vec<OsString> {
+    let own = || std::env::current_exe().map_or_else(|_| "shearbed".into(), Into::into);
+    GIVEN
+        .get()
+        .map_or_else(|| vec![own()], |words| words.program.clone())
+}
