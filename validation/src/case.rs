@@ -1,7 +1,6 @@
 //! A case: one claim, the check that tests it, and the controls that the same check must fail.
 
-use crate::accept::{Design, MISS, Rule, Verdict, Words, judge};
-use crate::cluster::text_of_the_source;
+use crate::accept::{Design, MISS, Rule, Text, Verdict, judge};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -253,8 +252,7 @@ impl Judged {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Control {
     /// The mistake in the model.
-    #[serde(deserialize_with = "text_of_the_source")]
-    pub mistake: Words,
+    pub mistake: Text,
     /// Whether the check failed, as it must, on numbers.
     pub caught: bool,
     /// Whether it was caught by drawn numbers alone, so that it could be missed at another seed.
@@ -265,14 +263,14 @@ pub struct Control {
 
 impl Control {
     /// A check that ends in no numbers has broken, and has caught nothing.
-    fn new(mistake: Words, evidence: &[Evidence]) -> Self {
+    fn new(mistake: &'static str, evidence: &[Evidence]) -> Self {
         let broke = evidence.iter().any(|e| e.rule.error().is_nan());
         let failed: Vec<_> = (evidence.iter().map(|e| &e.rule))
             .filter(|rule| !broke && judge(rule) == Verdict::Fail)
             .collect();
         let drawn = failed.iter().all(|rule| rule.is_statistical());
         Self {
-            mistake,
+            mistake: mistake.into(),
             caught: !failed.is_empty(),
             drawn,
             margin: (failed.iter().filter(|_| drawn))

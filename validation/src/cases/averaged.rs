@@ -1,12 +1,13 @@
 //! What the model tends to as Δt → 0 where the arms are bounded, and how the two updates differ where they are not
 //! (docs/time-step.md).
 
-use super::lab::{self, Sample};
 use crate::accept::{Design, Rule};
 use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::kicks::averaged::{Apart, apart, scene};
+use crate::lab;
 use crate::oracle::jeffery::direction_rate_per_s;
 use crate::oracle::naive::Problem;
+use crate::statistics::Sample;
 use nalgebra::{UnitVector3, Vector3};
 use rayon::prelude::*;
 use shearbed::collision::{share_velocity, step_angles, turn};

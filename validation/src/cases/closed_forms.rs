@@ -1,13 +1,15 @@
 //! Free suspensions against their closed forms: phase means, the orbit constant's distribution, plateaus, the
 //! damping by unequal aspect ratios, rods started in the shear plane.
 
-use super::lab::{self, Sample, per_replica};
 use crate::accept::{Design, Rule, kolmogorov_samples};
 use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::lab::{self, per_replica};
 use crate::oracle::{closed_form, isotropic, quadrature};
+use crate::statistics::Sample;
 use nalgebra::UnitVector3;
 use shearbed::ensemble;
 use shearbed::flow::VelocityGradient;
+use shearbed::observable::Channel;
 use shearbed::orientation;
 use shearbed::propagator::Propagator;
 use shearbed::scene::{Orientation, Scene};
@@ -251,7 +253,7 @@ fn plateau(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let (below, middle, above) = (node(-1.0), node(0.0), node(1.0));
     let mut evidence = Vec::new();
     for (axis, name) in ["x1", "x2", "x3"].into_iter().enumerate() {
-        let channel = results.as_ref().ok().and_then(|results| results.channel(name));
+        let channel = results.as_ref().ok().and_then(|results| results.column(name));
         let (mean, se) = channel.map_or((f64::NAN, f64::NAN), |c| (c.mean[49], c.se[49]));
         let sample = Sample {
             mean,
@@ -302,8 +304,8 @@ fn spread_damping(factor: &Factor, effort: &Effort) -> Vec<Evidence> {
         let quadrature = |k: usize| isotropic::mean_projections_polydisperse(r, sd, k as f64 / 40.0)[0];
         let first = harmonic(0, &|k| isotropic::mean_projections(r, k as f64 / 40.0)[0]);
         let expected = harmonic(middle - 10, &quadrature) / first;
-        let found = per_replica(&scene, effort.samples(design), |means| {
-            harmonic(middle - 10, &|k| means.at(k, 0)) / first
+        let found = per_replica(&scene, effort.samples(design), |mean| {
+            harmonic(middle - 10, &|k| mean(Channel::X[0], k)) / first
         });
         let at = (middle as f64 - 0.5) / 40.0;
         let what = format!("first harmonic at t/T = {at:.4} over that at once, σ = {sd} %");
@@ -341,7 +343,7 @@ fn in_plane_start(change: &Change, effort: &Effort) -> Vec<Evidence> {
     change(&mut scene);
     let results = ensemble::run(&lab::plan(&scene), || ());
     let channel = |name: &str| {
-        let found = results.as_ref().ok().and_then(|results| results.channel(name));
+        let found = results.as_ref().ok().and_then(|results| results.column(name));
         found.map_or_else(|| vec![f64::NAN; 101], |channel| channel.mean.clone())
     };
     let (mut worst, [x1, x2, x3]) = (0.0f64, ["x1", "x2", "x3"].map(channel));

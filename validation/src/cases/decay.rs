@@ -4,10 +4,12 @@
 //! X̄₁(t) − X̄₁(t + T/4) at t = 0, T/2, T, …, where free rods peak. Effects and deviations are of pilots at seed 99, each
 //! effect three standard errors below its pilot's mean, unless a closed form is named.
 
-use super::lab::{self, Means, Sample, per_replica};
 use super::readings::LINE;
 use crate::accept::Design;
 use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::lab::{self, per_replica};
+use crate::statistics::Sample;
+use shearbed::observable::Channel;
 use shearbed::scene::Scene;
 use std::f64::consts::E;
 
@@ -208,21 +210,19 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-impl Means {
-    /// |X̄_i(kT/2) − X̄_i(kT/2 + T/4)|, signed so that free rods give a positive one; four outputs a period.
-    fn swing(&self, half_periods: usize, axis: usize) -> f64 {
-        let fall = self.at(2 * half_periods, axis) - self.at(2 * half_periods + 1, axis);
-        if axis == 1 { -fall } else { fall }
-    }
+/// |X̄_i(kT/2) − X̄_i(kT/2 + T/4)|, signed so that free rods give a positive one; four outputs a period.
+fn swing(mean: &dyn Fn(Channel, usize) -> f64, half_periods: usize, axis: usize) -> f64 {
+    let fall = mean(Channel::X[axis], 2 * half_periods) - mean(Channel::X[axis], 2 * half_periods + 1);
+    if axis == 1 { -fall } else { fall }
 }
 
 /// The amplitude of X̄₁ at t = kT/2, replica by replica.
 fn amplitudes(scene: &Scene, replicas: u64, half_periods: &[usize]) -> Vec<Vec<f64>> {
     let last = half_periods.iter().max().copied().unwrap_or(0);
-    let found = per_replica(&quarters(scene.clone(), last), replicas, |means| {
+    let found = per_replica(&quarters(scene.clone(), last), replicas, |mean| {
         half_periods
             .iter()
-            .map(|&k| means.swing(k, 0))
+            .map(|&k| swing(mean, k, 0))
             .collect::<Vec<_>>()
     });
     (0..half_periods.len())
@@ -403,8 +403,8 @@ fn on_all_axes(axes: &Axes, effort: &Effort) -> Vec<Evidence> {
     let swings = |change: Change| {
         let mut scene = lab::free_scene(effort);
         change(&mut scene);
-        per_replica(&quarters(scene, 4), replicas, |means| {
-            [0, 1, 2].map(|axis| [means.swing(0, axis), means.swing(4, axis)])
+        per_replica(&quarters(scene, 4), replicas, |mean| {
+            [0, 1, 2].map(|axis| [swing(mean, 0, axis), swing(mean, 4, axis)])
         })
     };
     let [first, others] = axes.map(swings);

@@ -1,9 +1,10 @@
 //! Who collides: P_c and its empirical frequency.
 
-use super::lab::{self, Sample};
 use crate::accept::{Design, Rule};
 use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::lab;
 use crate::oracle::naive::collision_probability;
+use crate::statistics::Sample;
 use rayon::prelude::*;
 use shearbed::collision::reach;
 use shearbed::scene::Scene;

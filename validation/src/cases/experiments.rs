@@ -3,6 +3,7 @@
 use crate::accept::Rule;
 use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::experiment::{self, ANCZUROWSKI, Comparison, Curve, DataError, OKAGAWA_MASON, Source};
+use crate::statistics::Sample;
 use shearbed::scene::Scene;
 
 /// A change to the scene that the model runs.
@@ -69,7 +70,12 @@ const SUPPLY: &str = "put the digitised points (CSV) and their provenance (TOML)
                       run `shearbed validate --data DIR`; docs/experiments.md has the format";
 
 fn no_data(what: impl Into<String>) -> Vec<Evidence> {
-    vec![Evidence::new(what, Rule::NoData { supply: SUPPLY })]
+    vec![Evidence::new(
+        what,
+        Rule::NoData {
+            supply: SUPPLY.into(),
+        },
+    )]
 }
 
 /// What cannot be judged fails, and says why.
@@ -153,7 +159,7 @@ fn fit(comparison: &Comparison, late: usize, source: &Source) -> Evidence {
         enough: 3,
         distance: None,
         because: "χ² over all points with their full covariance; three points can tell a shape from a shift, and the \
-                  controls show the power",
+                  controls show the power".into(),
     };
     Evidence::new(what, rule)
 }
@@ -179,14 +185,16 @@ fn same_alpha(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
         "best α: {:.3} ± {:.3} at r_e = 11.6, {:.3} ± {:.3} at 14.2; their difference",
         short.alpha, short.se, long.alpha, long.se
     );
-    let rule = Rule::Mean {
+    let rule = Sample {
         mean: long.alpha - short.alpha,
         se: short.se.hypot(long.se),
         samples: (short.points + long.points) as u64,
-        reference: 0.0,
-        allowance: 0.0,
-        effect: 1.0,
-        because: "points that would show α = 1.5 beside 0.5, a standard error of about 0.1; blunter ones say nothing",
-    };
+    }
+    .is(
+        0.0,
+        0.0,
+        1.0,
+        "points that would show α = 1.5 beside 0.5, a standard error of about 0.1; blunter ones say nothing",
+    );
     vec![Evidence::new(what, rule)]
 }

@@ -4,9 +4,9 @@ mod placed;
 
 use self::placed::{Pair, step_of_the_core, step_with_squares};
 use super::extremes::{LENGTH, LENGTH_BECAUSE, off_length, worse};
-use super::lab;
 use crate::accept::Rule;
 use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::lab;
 use crate::stability::map::ASPECT_RATIOS;
 use nalgebra::{Matrix3, Vector3};
 use shearbed::jeffery::{couette_rate, shape_factor, strain_per_period};
@@ -181,12 +181,12 @@ fn whole_run(scene: &Scene) -> Ended {
     let Ok(results) = ensemble::run(&lab::plan(&scene), || ()) else {
         return Ended::LOST;
     };
-    let mut channels = results.series.iter().flat_map(|series| &series.channels);
+    let mut channels = results.series.iter().flat_map(|series| &series.columns);
     let finite =
         channels.all(|channel| (channel.mean.iter().chain(&channel.se)).all(|value| value.is_finite()));
     let mean = |name: &str, output: usize| {
         results
-            .channel(name)
+            .column(name)
             .map_or(f64::NAN, |channel| channel.mean[output])
     };
     if !finite {

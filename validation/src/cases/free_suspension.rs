@@ -1,9 +1,10 @@
 //! Whole runs of free rods against closed forms with no simulation in them.
 
-use super::lab;
 use crate::accept::{Design, Rule};
 use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::lab;
 use crate::oracle::isotropic;
+use crate::statistics::Sample;
 use shearbed::ensemble;
 use shearbed::scene::Scene;
 
@@ -129,19 +130,21 @@ fn compare(
     for &output in sevenths {
         for (axis, reference) in expected(output as f64 / 7.0).into_iter().enumerate() {
             let name = ["x1", "x2", "x3"][axis];
-            let channel = results.as_ref().ok().and_then(|results| results.channel(name));
+            let channel = results.as_ref().ok().and_then(|results| results.column(name));
             let (mean, se) = channel.map_or((f64::NAN, f64::NAN), |c| (c.mean[output], c.se[output]));
             evidence.push(Evidence::new(
                 format!("X̄_{} at t/T = {output}/7, r_e = {r}, σ = {sd} %", axis + 1),
-                Rule::Mean {
+                Sample {
                     mean,
                     se,
                     samples: scene.particles.count as u64,
+                }
+                .is(
                     reference,
-                    allowance: 0.0,
-                    effect: DESIGN.effect,
-                    because: "the closed form is exact to 10⁻⁹; independent rods",
-                },
+                    0.0,
+                    DESIGN.effect,
+                    "the closed form is exact to 10⁻⁹; independent rods",
+                ),
             ));
         }
     }
@@ -157,7 +160,7 @@ fn half_period(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let mut worst = 0.0f64;
     match ensemble::run(&lab::plan(&scene), || ()) {
         Ok(results) => {
-            for channel in results.series.iter().flat_map(|series| &series.channels) {
+            for channel in results.series.iter().flat_map(|series| &series.columns) {
                 for (k, later) in channel.mean.iter().enumerate().skip(10) {
                     worst = worst.max((later - channel.mean[k - 10]).abs());
                 }

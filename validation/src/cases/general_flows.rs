@@ -3,9 +3,9 @@
 mod problems;
 mod scenes;
 
-use super::lab::Shared;
 use crate::accept::Rule;
 use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::lab::Shared;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use problems::Problem;
 use shearbed::flow::VelocityGradient;
@@ -157,7 +157,7 @@ fn planar(a: &Matrix3<f64>, time: f64) -> Matrix3<f64> {
 
 /// Problems with answers, worked out once for the check and its controls.
 fn shared(effort: &Effort) -> Arc<Vec<Problem>> {
-    static PROBLEMS: Shared<Vec<Problem>> = Shared::new();
+    static PROBLEMS: Shared<u64, Vec<Problem>> = Shared::new();
     PROBLEMS.get(effort, 0, || {
         problems::random(effort.seed(9), effort.pick(400, 100_000))
     })

@@ -1,10 +1,10 @@
 //! Jeffery's equations one by one: the rate of a run's rods against A.1 to A.3 as printed, and the motion of a whole run
 //! against A.4 and A.5.
 
-use super::lab;
 use super::motion::larger;
 use crate::accept::Rule;
 use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::lab;
 use crate::oracle::{closed_form, jeffery as printed};
 use crate::subject::apart_rad;
 use nalgebra::{Matrix3, Vector3};
@@ -224,7 +224,7 @@ struct Rod {
 fn run(scene: &Scene) -> Vec<Rod> {
     let results = ensemble::run(&lab::plan(scene), || ()).expect("free rods do not stop");
     let at = |name: &str, output: usize| {
-        let channel = results.channel(name);
+        let channel = results.column(name);
         channel.map_or(f64::NAN, |channel| channel.mean[output])
     };
     (0..results.times.len())

@@ -1,11 +1,12 @@
 //! Kicks: how heavy their tail is, and what bounds them (docs/time-step.md).
 
 use super::kicks::fresh_scene;
-use super::lab;
 use crate::accept::{Design, Rule};
 use crate::case::{About, Case, Effort, Evidence, Judges};
 use crate::kicks::{Angles, kicks_rad, step_strain, tail};
+use crate::lab;
 use crate::oracle::kicks::{kicks, largest_kick};
+use crate::statistics::Sample;
 
 pub fn cases() -> Vec<Case> {
     vec![
@@ -69,15 +70,12 @@ fn heavy((angles, min_arm): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
         ),
     ];
     let evidence = hills.map(|(what, hill, because)| {
-        let rule = Rule::Mean {
+        let rule = Sample {
             mean: hill.alpha,
             se: hill.se,
             samples: hill.count,
-            reference: 1.0,
-            allowance: 0.01,
-            effect: design.effect,
-            because,
-        };
+        }
+        .is(1.0, 0.01, design.effect, because);
         Evidence::new(format!("Hill's exponent of {what}"), rule)
     });
     evidence.into()

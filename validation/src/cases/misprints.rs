@@ -2,9 +2,9 @@
 //!
 //! A.13 is in `contact_rule`, eq. 14's text in `encounters`, the period's number (eq. 15) in `motion`.
 
-use super::lab;
 use crate::accept::Rule;
 use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::lab;
 use crate::subject::rk4;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use shearbed::flow::VelocityGradient;

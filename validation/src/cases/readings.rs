@@ -1,11 +1,13 @@
 //! What the paper leaves open: which readings change X̄₁ of Fig. 7's rods, and which do not.
 
-use super::lab::{self, Sample, per_replica};
 use crate::accept::Design;
 use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::lab::{self, per_replica};
 use crate::oracle::naive::{Lines, Naive, Problem, Who, mean_projections};
 use crate::readings::{Change, paper};
+use crate::statistics::Sample;
 use rayon::prelude::*;
+use shearbed::observable::Channel;
 use shearbed::scene::{Interaction, Update};
 
 /// The width of a drawn line, in rod lengths: 1 % of an axis from 0 to ½, the amplitude of free rods.
@@ -214,7 +216,7 @@ fn by_core(change: fn(&mut Interaction), effort: &Effort, replicas: u64) -> Vec<
     let interaction = lab::interaction(&mut scene);
     interaction.concentration_per_cm3 = CONCENTRATION_PER_CM3;
     change(interaction);
-    per_replica(&scene, replicas, |means| means.at(1, 0))
+    per_replica(&scene, replicas, |mean| mean(Channel::X[0], 1))
 }
 
 fn by_reference(change: Change, effort: &Effort, replicas: u64) -> Vec<f64> {

@@ -1,9 +1,11 @@
 //! A richer model must reduce to the simpler one; standard errors are those of independent values.
 
-use super::lab::{self, Sample, per_replica};
 use crate::accept::Rule;
 use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::lab::{self, per_replica};
+use crate::statistics::Sample;
 use shearbed::ensemble::{self, Results};
+use shearbed::observable::Channel;
 use shearbed::scene::Scene;
 
 /// How far each limit is taken.
@@ -104,7 +106,7 @@ pub(super) fn difference(a: &Scene, b: &Scene) -> f64 {
         results
             .series
             .iter()
-            .flat_map(|series| &series.channels)
+            .flat_map(|series| &series.columns)
             .flat_map(|c| c.mean.clone())
             .collect()
     };
@@ -180,7 +182,7 @@ fn standard_errors(standard_error: &StandardError, effort: &Effort) -> Vec<Evide
     scene.time.outputs_per_period = Some(10);
     scene.ensemble.replicas = 16;
     let over_replicas = run(&scene).map_or(f64::NAN, |results| {
-        let expected = |output| standard_error(&per_replica(&scene, 16, |means| means.at(output, 0)));
+        let expected = |output| standard_error(&per_replica(&scene, 16, |mean| mean(Channel::X[0], output)));
         worst_ratio(&results, |output| Some(expected(output)))
     });
     // One replica of rods whose projections at t = 0 are known one by one.
@@ -211,7 +213,7 @@ fn standard_errors(standard_error: &StandardError, effort: &Effort) -> Vec<Evide
 
 /// The largest relative error of X̄₁'s standard errors where one is expected.
 fn worst_ratio(results: &Results, expected: impl Fn(usize) -> Option<f64>) -> f64 {
-    let Some(channel) = results.channel("x1") else {
+    let Some(channel) = results.column("x1") else {
         return f64::NAN;
     };
     let errors = channel.se.iter().enumerate();

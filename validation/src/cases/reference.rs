@@ -1,8 +1,8 @@
 //! The core against the naive reference: the same draws, collision by collision.
 
-use super::lab::{self, problem};
 use crate::accept::Rule;
 use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::lab::{self, problem};
 use crate::oracle::naive::{Mistake, Naive};
 use nalgebra::Vector3;
 use shearbed::Suspension;

@@ -1,8 +1,8 @@
 //! The control volume: rods that leave it come back by eq. 14.
 
-use super::lab;
 use crate::accept::{Rule, kolmogorov_samples};
 use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::lab;
 use crate::oracle::naive::stream;
 use rand::RngExt;
 use rand_pcg::Pcg64Dxsm;

@@ -1,10 +1,12 @@
 //! Whether a step resolves the motion: X̄₁ of interacting rods at half a period, where free rods are back at their
 //! start and a step that is too long shows most, against a finer step.
 
-use super::lab::{self, Sample, Shared};
 use crate::accept::Design;
 use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::lab::{self, Shared};
+use crate::statistics::Sample;
 use shearbed::jeffery::strain_per_period;
+use shearbed::observable::Channel;
 use shearbed::scene::Scene;
 
 /// Fig. 7's rods for half a period, with another mean aspect ratio and so many rods per cm³.
@@ -26,7 +28,7 @@ pub fn steps(aspect_ratio: f64, strain: f64) -> u64 {
 pub fn x1(scene: &Scene, steps_per_period: u64, replicas: u64) -> Vec<f64> {
     let mut scene = scene.clone();
     scene.time.steps_per_period = Some(steps_per_period);
-    lab::per_replica(&scene, replicas, |means| means.at(1, 0))
+    lab::per_replica(&scene, replicas, |mean| mean(Channel::X[0], 1))
 }
 
 /// The mean of a − b, replica by replica: both start from the same rods.
@@ -121,7 +123,7 @@ fn half_the_step(size: &Size, coarse: bool, effort: &Effort) -> Evidence {
     let steps = if coarse { size.coarse } else { default };
     let replicas = effort.samples(size.design);
     // By far the longest of the runs.
-    static FINE: Shared<Vec<f64>> = Shared::new();
+    static FINE: Shared<u64, Vec<f64>> = Shared::new();
     let fine = FINE.get(effort, default, || x1(&scene, 2 * default, replicas));
     Evidence::new(
         format!(

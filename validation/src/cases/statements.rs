@@ -1,11 +1,13 @@
 //! The paper's sentences as tests: each claim with the place of its sentence, a number and a confidence.
 //! How oscillations die is in `decay`. Effects and deviations are of pilots at seed 99.
 
-use super::lab::{self, Sample, per_replica};
 use super::readings::LINE;
 use crate::accept::{Design, Rule};
 use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::lab::{self, per_replica};
+use crate::statistics::Sample;
 use rayon::prelude::*;
+use shearbed::observable::Channel;
 use shearbed::scene::{Orientation, Scene};
 
 /// A change to every scene that the model runs; the expectation stays that of the unchanged scene.
@@ -92,8 +94,8 @@ fn period(change: &Change, effort: &Effort) -> Vec<Evidence> {
         scene.time.steps_per_period = Some(200);
         scene.time.outputs_per_period = Some(50);
         change(&mut scene);
-        let frequencies = per_replica(&scene, effort.samples(design), |means| {
-            let series: Vec<f64> = (0..=200).map(|output| means.at(output, 0)).collect();
+        let frequencies = per_replica(&scene, effort.samples(design), |mean| {
+            let series: Vec<f64> = (0..=200).map(|output| mean(Channel::X[0], output)).collect();
             peak_frequency(&series, 50.0)
         });
         Evidence::new(
@@ -154,8 +156,8 @@ fn enough_rods(count: &Count, effort: &Effort) -> Vec<Evidence> {
         scene.particles.count = count;
         scene.time.periods = Some(2.0);
         scene.time.outputs_per_period = Some(1);
-        per_replica(&scene, replicas, |means| {
-            [1, 2].map(|output| means.at(output, 0) - means.at(0, 0))
+        per_replica(&scene, replicas, |mean| {
+            [1, 2].map(|output| mean(Channel::X[0], output) - mean(Channel::X[0], 0))
         })
     };
     // A pilot of 200: two rods are off by 0.041 and 0.061, differences scatter by 0.015 at most.
@@ -201,8 +203,15 @@ fn stays_put(from: &Periods, effort: &Effort) -> Vec<Evidence> {
     // 0.008 and 0.011.
     let designs = [(0.02, 0.006), (0.03, 0.0095), (0.04, 0.0135)].map(|(effect, sd)| Design { effect, sd });
     let replicas = designs.map(|design| effort.samples(design)).into_iter().max();
-    let drifts = per_replica(&scene, replicas.unwrap_or(0), |means| {
-        [0, 1, 2].map(|axis| means.over(start + 10..start + 20, axis) - means.over(start..start + 10, axis))
+    let drifts = per_replica(&scene, replicas.unwrap_or(0), |mean| {
+        // Half a period, where free rods are back.
+        let over_ten = |channel, first| {
+            (first..first + 10)
+                .map(|output| mean(channel, output))
+                .sum::<f64>()
+                / 10.0
+        };
+        Channel::X.map(|axis| over_ten(axis, start + 10) - over_ten(axis, start))
     });
     (0..3)
         .map(|axis| {

@@ -1,10 +1,12 @@
 //! The steady state of interacting rods (Fig. 11).
 
-use super::lab::{self, Sample};
 use crate::accept::Design;
 use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::lab;
 use crate::oracle::closed_form;
+use crate::statistics::Sample;
 use shearbed::Observable;
+use shearbed::observable::Channel;
 use shearbed::scene::Scene;
 
 /// A change to the scene that the model runs; the expectation stays that of the unchanged scene.
@@ -43,8 +45,11 @@ fn steady_angle(change: &Change, effort: &Effort) -> Vec<Evidence> {
         scene.output.observables = vec![Observable::MeanAngle];
         change(&mut scene);
         let outputs = 6 * 50;
-        let means = lab::per_replica(&scene, effort.samples(design), |means| {
-            means.over(outputs - 100..outputs, 0)
+        let means = lab::per_replica(&scene, effort.samples(design), |mean| {
+            (outputs - 100..outputs)
+                .map(|output| mean(Channel::X[0], output))
+                .sum::<f64>()
+                / 100.0
         });
         evidence.push(Evidence::new(
             format!("steady φ̄ in rad, r_e = {r}"),

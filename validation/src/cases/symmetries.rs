@@ -1,10 +1,12 @@
 //! Whole runs keep the symmetries of the equations.
 
-use super::lab::{self, Sample, per_replica};
 use super::reductions::difference;
 use crate::accept::{Design, Rule};
 use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::lab::{self, per_replica};
+use crate::statistics::Sample;
 use nalgebra::UnitVector3;
+use shearbed::observable::Channel;
 use shearbed::scene::{Orientation, Scene};
 
 /// How the second run of each pair is made.
@@ -229,8 +231,8 @@ fn mirrored(mirror: &Mirror, effort: &Effort) -> Vec<Evidence> {
     let replicas = designs.map(|design| effort.samples(design)).into_iter().max();
     // Every rod is back after a whole period where nothing collides: less where it was, means scatter less.
     let changes = |scene: &Scene| {
-        per_replica(scene, replicas.unwrap_or(0), |means| {
-            [0, 1, 2].map(|axis| means.at(1, axis) - means.at(0, axis))
+        per_replica(scene, replicas.unwrap_or(0), |mean| {
+            Channel::X.map(|axis| mean(axis, 1) - mean(axis, 0))
         })
     };
     let (here, there) = (changes(&straight), changes(&mirrored));

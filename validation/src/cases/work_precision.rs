@@ -1,9 +1,10 @@
 //! How the error of a suspension's mean falls with the rods: what `docs/work-precision.md` says. Nothing is timed.
 
-use super::lab::{self, Sample};
 use crate::accept::Design;
 use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::lab;
 use crate::oracle::naive::collision_probability;
+use crate::statistics::Sample;
 use crate::suspensions::free::{Free, exponents};
 use crate::suspensions::law;
 use crate::suspensions::starts::{self, Start};

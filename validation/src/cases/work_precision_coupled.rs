@@ -1,10 +1,11 @@
 //! Runs that share random numbers: what `docs/work-precision.md` says of them.
 
-use super::lab::{self, Sample};
-use super::once::Once;
 use crate::accept::Design;
 use crate::case::{About, Case, Effort, Evidence, Judges};
-use crate::suspensions::correlation;
+use crate::lab;
+use crate::lab::Shared;
+use crate::statistics::Sample;
+use crate::statistics::correlation;
 use crate::suspensions::coupled::{at, free, free_mean, interacting};
 use crate::suspensions::job::Job;
 use crate::suspensions::law;
@@ -149,7 +150,7 @@ fn correlations(a: &[f64], b: &[f64]) -> Vec<f64> {
 }
 
 fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
-    static RUNS: Once<Runs> = Once::new();
+    static RUNS: Shared<(), Runs> = Shared::new();
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = 25;
     let changed = |mend: Mend| {
@@ -172,7 +173,7 @@ fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
         sd: 0.0085,
     };
     let [of_more, of_common, of_mean] = [more, common, mean].map(|design| effort.samples(design));
-    let runs = RUNS.at(effort, || Runs {
+    let runs = RUNS.get(effort, (), || Runs {
         own: first(interacting(&scene, 100, 1.0, 1, of_more.max(of_common)), 0),
         finer: first(interacting(&scene, 200, 1.0, 1, of_more), 0),
     });

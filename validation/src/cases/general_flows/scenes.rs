@@ -1,9 +1,9 @@
 //! Whole scenes that were wrong once: overflowing spirals, extreme shapes, near-parabolic flows, Couette flow turned by 45°,
 //! a weak strain in a strong rotation.
 
-use super::super::lab;
 use crate::accept::Rule;
 use crate::case::{Effort, Evidence};
+use crate::lab;
 use crate::oracle::exponential::{Rod, Span};
 use shearbed::orientation::from_degrees;
 use shearbed::scene::{Orientation, Scene};
@@ -117,7 +117,7 @@ pub fn program(scene: &Scene) -> Option<([f64; 3], f64)> {
     let plan = Plan::new(scene).ok()?;
     let results = ensemble::run(&plan, || ()).ok()?;
     let last = results.times.len() - 1;
-    let end = ["x1", "x2", "x3"].map(|name| results.channel(name).map_or(f64::NAN, |x| x.mean[last]));
+    let end = ["x1", "x2", "x3"].map(|name| results.column(name).map_or(f64::NAN, |x| x.mean[last]));
     Some((end, plan.error_rad()?))
 }
 
