@@ -102,7 +102,10 @@ impl Record {
                     .or_default() += 1;
             }
             if let Some(margin) = control.margin {
-                self.controls.entry(control.mistake.to_string()).or_default().push(margin);
+                self.controls
+                    .entry(control.mistake.to_string())
+                    .or_default()
+                    .push(margin);
             }
         }
         for judged in &outcome.evidence {

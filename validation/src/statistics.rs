@@ -25,6 +25,11 @@ impl Sample {
         }
     }
 
+    /// The sample of the differences a − b, pair by pair.
+    pub fn of_differences(a: &[f64], b: &[f64]) -> Self {
+        Self::of(&a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>())
+    }
+
     /// Half the width of the 95 % confidence interval of the mean.
     pub fn half_width(self) -> f64 {
         student(0.05, self.samples) * self.se
@@ -57,6 +62,20 @@ impl Estimate {
             se: ((n - 1.0) / n * square).sqrt(),
         }
     }
+}
+
+/// The larger of two errors; NaN stays.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else {
+        a.max(b)
+    }
+}
+
+/// The largest of errors, 0 where there are none; NaN stays.
+pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
+    errors.into_iter().fold(0.0, larger)
 }
 
 /// The mean of independent values and its standard error.
@@ -102,6 +121,14 @@ pub fn freedom(samples: u64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_error_that_is_no_number_stays() {
+        assert_eq!(worst([0.1, 0.3, 0.2]), 0.3);
+        for errors in [[f64::NAN, 1.0, 2.0], [1.0, f64::NAN, 2.0], [1.0, 2.0, f64::NAN]] {
+            assert!(worst(errors).is_nan());
+        }
+    }
 
     #[test]
     fn the_critical_value_is_students() {

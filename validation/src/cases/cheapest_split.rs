@@ -1,8 +1,7 @@
 //! The cheapest split of a run: what `docs/work-precision.md` says of it.
 
 use super::work_precision_coupled::first;
-use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
 use crate::lab;
 use crate::lab::Shared;
 use crate::statistics::{Estimate, Sample, covariance, mean_and_se};
@@ -14,23 +13,21 @@ use shearbed::Scene;
 type Respell = fn(&mut Split);
 
 pub fn cases() -> Vec<Case> {
-    vec![Case::new(
-        About {
-            name: "cheapest-split",
-            judges: Judges::Program,
-            claim: "Steps and replicas by the rule for an error of 0.02 give the bias and the scatter that it says.",
-            source: "eqs 4, 8, 12",
-            equations: &["4"],
-        },
-        (|_| {}) as Respell,
-        vec![
-            ("a quarter of the replicas", |split| {
+    vec![
+        Case::program("cheapest-split")
+            .claim(
+                "Steps and replicas by the rule for an error of 0.02 give the bias and the scatter that it \
+                 says.",
+            )
+            .source("eqs 4, 8, 12")
+            .equations(&["4"])
+            .subject((|_| {}) as Respell)
+            .mistake("a quarter of the replicas", |split| {
                 split.replicas = split.replicas.div_ceil(4)
-            }),
-            ("two steps a period", |split| split.steps_per_period = 2),
-        ],
-        realised,
-    )]
+            })
+            .mistake("two steps a period", |split| split.steps_per_period = 2)
+            .check(realised),
+    ]
 }
 
 /// What a small study of the steps says of 25 rods, and X̄₁ at its finest.
@@ -82,7 +79,7 @@ fn realised(respell: &Respell, effort: &Effort) -> Vec<Evidence> {
     scene.ensemble.seed = effort.seed(1);
     let repeats = effort.pick(1, 4) * 140;
     let Ok(found) = run.realise(&scene, repeats, known.reference) else {
-        return vec![Evidence::new("runs that stopped", Rule::exact(1.0))];
+        return vec![Evidence::exact("runs that stopped", 1.0)];
     };
     // The cube root of a variance's ratio is normal to a part in 10³ (Wilson & Hilferty 1931), where the ratio is not.
     let ratio = (found.scatter.value / said.scatter).powi(2);

@@ -2,7 +2,7 @@
 //! start and a step that is too long shows most, against a finer step.
 
 use crate::accept::Design;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
 use crate::lab::{self, Shared};
 use crate::statistics::Sample;
 use shearbed::jeffery::strain_per_period;
@@ -57,26 +57,17 @@ const SIZES: [Size; 3] = [
     Size {
         aspect_ratio: 11.6,
         coarse: 4,
-        design: Design {
-            effect: 0.0195,
-            sd: 0.0275,
-        },
+        design: Design::new(0.0195, 0.0275),
     },
     Size {
         aspect_ratio: 50.0,
         coarse: 200,
-        design: Design {
-            effect: 0.022,
-            sd: 0.0385,
-        },
+        design: Design::new(0.022, 0.0385),
     },
     Size {
         aspect_ratio: 100.0,
         coarse: 200,
-        design: Design {
-            effect: 0.051,
-            sd: 0.0385,
-        },
+        design: Design::new(0.051, 0.0385),
     },
 ];
 
@@ -92,29 +83,26 @@ pub fn cases() -> Vec<Case> {
         sizes: &SIZES[k..=k],
         coarse: true,
     };
-    vec![Case::new(
-        About {
-            name: "default-step-resolves",
-            judges: Judges::Core,
-            claim: "The default steps resolve the motion: half the step changes X̄₁ at t/T = ½ by less than a drawn line, for \
-                    r_e = 11.6, 50 and 100.",
-            source: "eq. 15, Fig. 7",
-            equations: &["15"],
-        },
-        Subject {
-            sizes: &SIZES,
-            coarse: false,
-        },
-        vec![
-            ("4 steps a period at r_e = 11.6", control(0)),
-            ("200 steps a period at r_e = 50", control(1)),
-            ("200 steps a period at r_e = 100", control(2)),
-        ],
-        |subject, effort| {
-            let of_size = |size| half_the_step(size, subject.coarse, effort);
-            subject.sizes.iter().map(of_size).collect()
-        },
-    )]
+    vec![
+        Case::core("default-step-resolves")
+            .claim(
+                "The default steps resolve the motion: half the step changes X̄₁ at t/T = ½ by less than a \
+                 drawn line, for r_e = 11.6, 50 and 100.",
+            )
+            .source("eq. 15, Fig. 7")
+            .equations(&["15"])
+            .subject(Subject {
+                sizes: &SIZES,
+                coarse: false,
+            })
+            .mistake("4 steps a period at r_e = 11.6", control(0))
+            .mistake("200 steps a period at r_e = 50", control(1))
+            .mistake("200 steps a period at r_e = 100", control(2))
+            .check(|subject, effort| {
+                let of_size = |size| half_the_step(size, subject.coarse, effort);
+                subject.sizes.iter().map(of_size).collect::<Vec<_>>()
+            }),
+    ]
 }
 
 fn half_the_step(size: &Size, coarse: bool, effort: &Effort) -> Evidence {

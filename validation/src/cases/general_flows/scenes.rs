@@ -1,7 +1,6 @@
 //! Whole scenes that were wrong once: overflowing spirals, extreme shapes, near-parabolic flows, Couette flow turned by 45°,
 //! a weak strain in a strong rotation.
 
-use crate::accept::Rule;
 use crate::case::{Effort, Evidence};
 use crate::lab;
 use crate::oracle::exponential::{Rod, Span};
@@ -153,17 +152,19 @@ pub fn listed_scenes(run: &Run, _: &Effort) -> Vec<Evidence> {
         run(&scene).is_none()
     });
     vec![
-        Evidence::new(
+        Evidence::within(
             "largest error of |p_i| at the end over the bound that the plan states",
-            Rule::within(share, 1.0, "what a bound is: the start's rounding and the map's"),
+            share,
+            1.0,
+            "what a bound is: the start's rounding and the map's",
         ),
-        Evidence::new(
+        Evidence::exact(
             "scenes refused, or with an end that is no number",
-            Rule::exact(refused + unknown),
+            refused + unknown,
         ),
-        Evidence::new(
+        Evidence::exact(
             "a flow of three real rates, on which an eigenvalue solver hung, that is given a period",
-            Rule::exact(f64::from(!no_period)),
+            f64::from(!no_period),
         ),
     ]
 }
