@@ -1,7 +1,7 @@
 //! The border of the core: nothing leaves a run that is no result. Every rod must have a direction, every sum must be
 //! finite, and the trace of ⟨pp⟩ must be 1.
 
-use crate::observable::{Block, Observable, Sum, lane_sum};
+use crate::observable::{Block, Channel, Observable, Sum, lane_sum};
 
 /// How far the mean of |p|² over a block may be from 1: p = q/|q| is rounded some ten times on its way, each time by ε/2 of
 /// itself at most, and counts twice; the sum over 128 rods in 8 lanes is rounded 24 times.
@@ -60,8 +60,12 @@ pub(crate) fn sums(observable: Observable, block: &Block, sums: &[Sum]) -> Resul
     if sums.iter().all(finite) {
         return Ok(());
     }
-    let channels = observable.channels();
-    let name = |k: usize| channels.get(k).map_or("", |name| name.as_str());
+    let name = |k: usize| {
+        observable
+            .channels()
+            .nth(k)
+            .map_or_else(String::new, Channel::name)
+    };
     let culprit = (0..block.len).find_map(|rod| {
         let mut own = vec![Sum::default(); sums.len()];
         observable.add(&alone(block, rod), &mut own);

@@ -2,15 +2,15 @@
 
 use crate::observable::{Observable, Sum};
 use crate::plan::{Plan, Unit};
-use crate::run::{Replica, run_replica};
+use crate::run::{self, Replica, run_replica};
 use crate::work::{Counters, RunError};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// A channel of an observable against time.
+/// A channel of an observable against time: a column of its table.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Channel {
-    /// The name of its column.
+pub struct Column {
+    /// Its name.
     pub name: String,
     /// The mean over rods and replicas, per output.
     pub mean: Vec<f64>,
@@ -24,8 +24,8 @@ pub struct Channel {
 pub struct Series {
     /// Which observable.
     pub observable: Observable,
-    /// Its channels, in the order of [`Observable::channels`].
-    pub channels: Vec<Channel>,
+    /// Its columns, in the order of [`Observable::channels`].
+    pub columns: Vec<Column>,
 }
 
 /// The results of a scene.
@@ -44,12 +44,10 @@ pub struct Results {
 }
 
 impl Results {
-    /// The channel with the given column name.
-    pub fn channel(&self, name: &str) -> Option<&Channel> {
-        self.series
-            .iter()
-            .flat_map(|s| &s.channels)
-            .find(|c| c.name == name)
+    /// The column with this name.
+    pub fn column(&self, name: &str) -> Option<&Column> {
+        let mut all = self.series.iter().flat_map(|series| &series.columns);
+        all.find(|column| column.name == name)
     }
 }
 
@@ -97,7 +95,7 @@ pub fn fold<E>(
 
 /// Sums per output.
 pub(crate) fn width(plan: &Plan) -> usize {
-    plan.observables().iter().map(|o| o.width()).sum()
+    run::width(&plan.observables())
 }
 
 /// Replicas held in memory at a time: about 256 MB of sums.
@@ -154,21 +152,17 @@ fn collect(plan: &Plan, moments: &Moments, counters: Counters) -> Results {
     let mut start = 0;
     let series = (plan.observables().into_iter())
         .map(|observable| {
-            let channels = observable
-                .channels()
-                .into_iter()
-                .enumerate()
-                .map(|(channel, name)| {
-                    let at = |output: usize| output * width + start + channel;
-                    Channel {
-                        name,
-                        mean: (0..plan.outputs()).map(|k| moments.mean[at(k)]).collect(),
-                        se: (0..plan.outputs()).map(|k| moments.se(at(k))).collect(),
-                    }
-                });
-            let channels = channels.collect();
+            let columns = observable.channels().enumerate().map(|(place, channel)| {
+                let at = |output: usize| output * width + start + place;
+                Column {
+                    name: channel.name(),
+                    mean: (0..plan.outputs()).map(|k| moments.mean[at(k)]).collect(),
+                    se: (0..plan.outputs()).map(|k| moments.se(at(k))).collect(),
+                }
+            });
+            let columns = columns.collect();
             start += observable.width();
-            Series { observable, channels }
+            Series { observable, columns }
         })
         .collect();
     Results {

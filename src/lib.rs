@@ -40,7 +40,7 @@
 //! let plan = shearbed::Plan::new(&scene)?;
 //! let results = shearbed::ensemble::run(&plan, || ())?;
 //! // Free rods of one aspect ratio are back after half a period, because p ≡ −p.
-//! let x1 = &results.channel("x1").expect("projections are the default").mean;
+//! let x1 = &results.column("x1").expect("projections are the default").mean;
 //! assert!((x1[2] - x1[0]).abs() < 1e-12);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -2,7 +2,7 @@
 
 use crate::border::{self, Fault};
 use crate::chunks::{CHUNK, of_chunks};
-use crate::observable::{BLOCK, Block, Observable, Sum};
+use crate::observable::{BLOCK, Block, Channel, Observable, Sum};
 use crate::plan::{Plan, Stage};
 use crate::rods::Rods;
 use crate::suspension::Suspension;
@@ -13,10 +13,26 @@ use std::ops::Range;
 /// The sums of one replica.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Replica {
+    observables: Vec<Observable>,
+    rods: usize,
     /// Per output, the channels of every observable of the plan, one after the other: sums over rods.
-    pub sums: Vec<Sum>,
+    pub(crate) sums: Vec<Sum>,
     /// What was done.
     pub counters: Counters,
+}
+
+impl Replica {
+    /// The mean of a channel over the rods at an output; `None` where the scene does not observe it or has no such output.
+    pub fn mean(&self, channel: Channel, output: usize) -> Option<f64> {
+        let place = channel.place(&self.observables)?;
+        let sum = self.sums.get(output * width(&self.observables) + place)?;
+        Some(sum.value / self.rods as f64)
+    }
+}
+
+/// Sums per output.
+pub(crate) fn width(observables: &[Observable]) -> usize {
+    observables.iter().map(|observable| observable.width()).sum()
 }
 
 /// Runs one replica. Its bits depend on the scene, the seed and `replica` only.
@@ -28,6 +44,8 @@ pub fn run_replica(plan: &Plan, replica: u64) -> Result<Replica, RunError> {
     };
     counters.directions = (plan.outputs() * plan.scene().particles.count) as u64;
     Ok(Replica {
+        observables: plan.observables(),
+        rods: plan.scene().particles.count,
         sums: recorder.sums,
         counters,
     })

@@ -48,7 +48,8 @@ pub struct Suspension {
     candidates: Vec<Candidate>,
     collisions: Vec<Collision>,
     /// For error messages.
-    place: (u64, u64),
+    seed: u64,
+    replica: u64,
 }
 
 /// The square of a distance, the rod that drew R, its nearest neighbour.
@@ -121,7 +122,8 @@ impl Suspension {
             drawn: Vec::new(),
             candidates: Vec::new(),
             collisions: Vec::new(),
-            place: (seed, replica),
+            seed,
+            replica,
         })
     }
 
@@ -264,8 +266,8 @@ impl Suspension {
         RunError::NonFinite {
             rod,
             step: self.tick,
-            seed: self.place.0,
-            replica: self.place.1,
+            seed: self.seed,
+            replica: self.replica,
             cause: format!("a contact arm of {arm:e} rod lengths turned it by {angle_rad:e} rad"),
         }
     }

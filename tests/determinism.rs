@@ -1,5 +1,6 @@
 //! The same scene and seed give the same bits: on any number of threads, and for a replica run alone.
 
+use shearbed::observable::Channel;
 use shearbed::run::run_replica;
 use shearbed::{Observable, Plan, Results, Scene, ensemble, scene_file};
 
@@ -35,7 +36,7 @@ fn plan(replicas: u64, seed: u64) -> Plan {
 
 /// Means and standard errors of every channel, bit by bit.
 fn bits(results: &Results) -> Vec<u64> {
-    let channels = results.series.iter().flat_map(|series| &series.channels);
+    let channels = results.series.iter().flat_map(|series| &series.columns);
     channels
         .flat_map(|channel| channel.mean.iter().chain(&channel.se))
         .map(|value| value.to_bits())
@@ -101,13 +102,17 @@ fn a_large_run_sums_over_all_rods() {
     scene.interaction = None;
     scene.particles.count = 150_000;
     scene.output.observables = vec![Observable::OrientationTensor];
-    let replica = run_replica(&Plan::new(&scene).unwrap(), 0).unwrap();
-    for sums in replica.sums.chunks_exact(6) {
-        let squares: f64 = sums[..3].iter().map(|sum| sum.value).sum();
-        assert!((squares / 150_000.0 - 1.0).abs() < 1e-12, "Σ|p|² = {squares}");
-        // ⟨p₁²⟩ has its standard error from the squares: of one replica.
-        let square = sums[2].square.unwrap();
-        assert!(square < sums[2].value && square > 0.5 * sums[2].value.powi(2) / 150_000.0);
+    let results = ensemble::run(&Plan::new(&scene).unwrap(), || ()).unwrap();
+    let column = |name| results.column(name).unwrap();
+    for output in 0..results.times.len() {
+        let squares: f64 = ["a11", "a22", "a33"]
+            .map(|name| column(name).mean[output])
+            .iter()
+            .sum();
+        assert!((squares - 1.0).abs() < 1e-12, "⟨|p|²⟩ = {squares}");
+        // ⟨p₃²⟩ of one replica has its standard error from the squares: of numbers in [0, 1].
+        let (mean, se) = (column("a33").mean[output], column("a33").se[output]);
+        assert!(se > 0.0 && se * se * 149_999.0 < mean * (1.0 - mean));
     }
 }
 
@@ -116,27 +121,26 @@ fn a_replica_run_alone_is_its_part_of_the_ensemble() {
     let plan = plan(4, 1);
     let whole = ensemble::run(&plan, || ()).unwrap();
     // Backwards, so that nothing can lean on an earlier replica.
-    let mut alone: Vec<_> = (0..4)
-        .rev()
-        .map(|k| run_replica(&plan, k).unwrap().sums)
-        .collect();
+    let mut alone: Vec<_> = (0..4).rev().map(|k| run_replica(&plan, k).unwrap()).collect();
     alone.reverse();
-    let channels = &whole.series[0].channels;
-    for (output, _) in whole.times.iter().enumerate() {
-        for (k, channel) in channels.iter().enumerate() {
+    let columns = whole.series.iter().flat_map(|series| &series.columns);
+    for column in columns {
+        let channel = Channel::named(&column.name).unwrap();
+        for (output, expected) in column.mean.iter().enumerate() {
             let mut mean = 0.0;
-            for (replica, sums) in alone.iter().enumerate() {
-                let value = sums[output * channels.len() + k].value / 100.0;
-                mean += (value - mean) / (replica + 1) as f64;
+            for (replica, found) in alone.iter().enumerate() {
+                mean += (found.mean(channel, output).unwrap() - mean) / (replica + 1) as f64;
             }
             assert_eq!(
                 mean.to_bits(),
-                channel.mean[output].to_bits(),
+                expected.to_bits(),
                 "{} at output {output}",
-                channel.name
+                column.name
             );
         }
     }
+    assert_eq!(alone[0].mean(Channel::X[0], whole.times.len()), None);
+    assert_eq!(alone[0].mean(Channel::named("c_b").unwrap(), 0), None);
 }
 
 #[test]
@@ -147,18 +151,12 @@ fn a_replica_does_not_depend_on_how_many_there_are() {
 
 #[test]
 fn replicas_and_seeds_differ() {
-    let sums = |seed, replica| run_replica(&plan(2, seed), replica).unwrap().sums;
-    let runs = [
-        sums(1, 0),
-        sums(1, 1),
-        sums(2, 0),
-        sums(0, 0),
-        sums(u64::MAX >> 1, 0),
-    ];
+    let run = |seed, replica| run_replica(&plan(2, seed), replica).unwrap();
+    let runs = [run(1, 0), run(1, 1), run(2, 0), run(0, 0), run(u64::MAX >> 1, 0)];
     for (k, one) in runs.iter().enumerate() {
         for other in &runs[..k] {
             // Already the first output differs.
-            assert_ne!(one[0], other[0]);
+            assert_ne!(one.mean(Channel::X[0], 0), other.mean(Channel::X[0], 0));
         }
     }
 }

@@ -31,7 +31,7 @@ fn ends_or_is_refused(text: &str) {
     let plan = Plan::new(&scene).unwrap();
     assert!(plan.error_rad().is_none_or(|error| error <= 1e-6), "{text}");
     let results = ensemble::run(&plan, || ()).unwrap();
-    let mean = |name: &str, k: usize| results.channel(name).unwrap().mean[k];
+    let mean = |name: &str, k: usize| results.column(name).unwrap().mean[k];
     for k in 0..results.times.len() {
         let trace = mean("a11", k) + mean("a22", k) + mean("a33", k);
         // |p|² of three rods: 2 · 4 ulp each, and the roundings of their mean.

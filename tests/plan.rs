@@ -84,9 +84,9 @@ fn extension_counts_strain() {
 fn assert_same_bits(part: &Results, whole: &Results, what: &str) {
     let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
     assert_eq!(bits(&part.times), bits(&whole.times), "{what}");
-    for channel in part.series.iter().flat_map(|series| &series.channels) {
+    for channel in part.series.iter().flat_map(|series| &series.columns) {
         let other = whole
-            .channel(&channel.name)
+            .column(&channel.name)
             .expect("the whole has every channel of the part");
         assert_eq!(bits(&channel.mean), bits(&other.mean), "{what}: {}", channel.name);
         assert_eq!(

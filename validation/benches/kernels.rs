@@ -15,7 +15,7 @@ use shearbed::run::run_replica;
 use shearbed::volume::ControlVolume;
 use shearbed::work::Counters;
 use std::hint::black_box;
-use validation::cases::lab;
+use validation::lab;
 use validation::oracle::naive::Naive;
 use validation::readings::paper;
 use validation::scenes;

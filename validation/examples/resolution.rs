@@ -4,8 +4,8 @@
 //! table, where nothing else is asked for.
 
 use validation::case::Effort;
-use validation::cases::lab::Sample;
 use validation::cases::resolution::{change, scene, steps, x1};
+use validation::statistics::Sample;
 
 /// GΔt of the reference, and of the steps that are compared with it.
 const FINE: f64 = 0.023;

@@ -67,7 +67,7 @@ struct Record {
     seconds: f64,
     first: Option<String>,
     draws: bool,
-    controls: BTreeMap<&'static str, Vec<f64>>,
+    controls: BTreeMap<String, Vec<f64>>,
 }
 
 impl Record {
@@ -102,7 +102,10 @@ impl Record {
                     .or_default() += 1;
             }
             if let Some(margin) = control.margin {
-                self.controls.entry(control.mistake).or_default().push(margin);
+                self.controls
+                    .entry(control.mistake.to_string())
+                    .or_default()
+                    .push(margin);
             }
         }
         for judged in &outcome.evidence {

@@ -1,70 +1,18 @@
 //! A case: one claim, the check that tests it, and the controls that the same check must fail.
 
-use crate::accept::{Design, MISS, Rule, Verdict, Words, judge};
-use crate::cluster::text_of_the_source;
+mod effort;
+mod judges;
+mod outcome;
+
+pub use effort::{Effort, GATE_SEED};
+pub use judges::Judges;
+pub use outcome::{Control, Judged, Outcome};
+
+use crate::accept::{Rule, Text, Verdict};
+use outcome::overall;
 use serde::{Deserialize, Serialize};
-use std::path::PathBuf;
+use std::fmt;
 use std::time::Instant;
-
-/// What a case judges. Verification asks whether the equations are solved right; validation, whether they are the right
-/// equations, by measurements. What tests our own choices or the paper's sentences is neither.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Judges {
-    /// Verification of the simulator's core: closed forms, orders, invariants.
-    Core,
-    /// Verification of whole runs and of the program: files, errors, statistics, refusals.
-    Program,
-    /// Verification of an integrator, or of a claim about integrators.
-    Integrator,
-    /// Verification of an oracle, or of a misprint that it corrects.
-    Oracle,
-    /// A modelling choice where the paper is open: what the alternatives change.
-    Interpretation,
-    /// A sentence of the paper about its model's results.
-    Statement,
-    /// Validation: the model against measured points.
-    Measurement,
-}
-
-impl Judges {
-    /// All, in the order in which they are counted.
-    pub const ALL: [Self; 7] = [
-        Self::Core,
-        Self::Program,
-        Self::Integrator,
-        Self::Oracle,
-        Self::Interpretation,
-        Self::Statement,
-        Self::Measurement,
-    ];
-
-    /// In one word, as `validate --tag` takes it.
-    pub fn tag(self) -> &'static str {
-        match self {
-            Self::Core => "core",
-            Self::Program => "program",
-            Self::Integrator => "integrator",
-            Self::Oracle => "oracle",
-            Self::Interpretation => "interpretation",
-            Self::Statement => "statement",
-            Self::Measurement => "measurement",
-        }
-    }
-
-    /// In words, as the headline counts them.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Core => "core",
-            Self::Program => "program",
-            Self::Integrator => "integrators",
-            Self::Oracle => "oracles",
-            Self::Interpretation => "interpretations",
-            Self::Statement => "paper's statements",
-            Self::Measurement => "measured points",
-        }
-    }
-}
 
 /// One number and the rule it is judged by.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -76,6 +24,16 @@ pub struct Evidence {
 }
 
 impl Evidence {
+    /// `error` is at most `tolerance`, and why.
+    pub fn within(what: impl Into<String>, error: f64, tolerance: f64, because: impl Into<Text>) -> Self {
+        Self::new(what, Rule::within(error, tolerance, because))
+    }
+
+    /// Nothing is off at all.
+    pub fn exact(what: impl Into<String>, error: f64) -> Self {
+        Self::new(what, Rule::exact(error))
+    }
+
     /// `rule` applied to what `what` says.
     pub fn new(what: impl Into<String>, rule: Rule) -> Self {
         Self {
@@ -85,50 +43,21 @@ impl Evidence {
     }
 }
 
-/// How hard a case works, and from which random streams.
-#[derive(Clone, Debug)]
-pub struct Effort {
-    /// More replicas and samples, the same cases.
-    pub full: bool,
-    /// The seed from which every case takes its seeds.
-    pub seed: u64,
-    /// A folder with measured points, where the user has them.
-    pub data: Option<PathBuf>,
+/// What a check brings home: evidence, or the error that kept it from any, which fails it without a number.
+pub trait Findings {
+    /// As evidence.
+    fn evidence(self) -> Vec<Evidence>;
 }
 
-/// The seed of the gate.
-pub const GATE_SEED: u64 = 1;
-
-impl Effort {
-    /// That of `cargo test`.
-    pub fn gate() -> Self {
-        Self {
-            full: false,
-            seed: GATE_SEED,
-            data: None,
-        }
+impl Findings for Vec<Evidence> {
+    fn evidence(self) -> Vec<Evidence> {
+        self
     }
+}
 
-    /// `quick` for the gate, `full` for `--full`.
-    pub fn pick<T>(&self, quick: T, full: T) -> T {
-        if self.full { full } else { quick }
-    }
-
-    /// The values that a sample needs; four times as many in a full run.
-    pub fn samples(&self, design: Design) -> u64 {
-        self.pick(1, 4) * design.samples()
-    }
-
-    /// The seed of one of a case's streams: another for every `stream` and every seed of the run.
-    pub fn seed(&self, stream: u64) -> u64 {
-        // SplitMix64's output function on both; 63 bits, as scenes allow.
-        let mix = |z: u64| {
-            let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-            let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-            z ^ (z >> 31)
-        };
-        const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
-        mix(mix(self.seed.wrapping_add(STEP)) ^ stream.wrapping_add(STEP)) >> 1
+impl<E: fmt::Display> Findings for Result<Vec<Evidence>, E> {
+    fn evidence(self) -> Vec<Evidence> {
+        self.unwrap_or_else(|error| vec![Evidence::exact(error.to_string(), f64::NAN)])
     }
 }
 
@@ -170,30 +99,40 @@ pub struct Case {
 }
 
 impl Case {
-    /// A case whose `check` judges `subject`; the very same `check` must fail on each of `broken`.
-    pub fn new<S: Send + Sync + 'static>(
-        about: About,
-        subject: S,
-        broken: Vec<(&'static str, S)>,
-        check: fn(&S, &Effort) -> Vec<Evidence>,
-    ) -> Self {
-        let bind = |subject: S| -> Check { Box::new(move |effort| check(&subject, effort)) };
-        Self {
-            about,
-            check: bind(subject),
-            controls: broken
-                .into_iter()
-                .map(|(name, subject)| (name, bind(subject)))
-                .collect(),
-            uncaught: Verdict::Fail,
-        }
+    /// Verification of the simulator's core.
+    pub fn core(name: &'static str) -> Draft {
+        Draft::new(name, Judges::Core)
     }
 
-    /// The same case on points that others measured: where they are too few to catch a control, that is no
-    /// fault of the code, and the case is under-powered.
-    pub fn on_measured_points(mut self) -> Self {
-        self.uncaught = Verdict::Underpowered;
-        self
+    /// Verification of whole runs and of the program.
+    pub fn program(name: &'static str) -> Draft {
+        Draft::new(name, Judges::Program)
+    }
+
+    /// Verification of integrators.
+    pub fn integrator(name: &'static str) -> Draft {
+        Draft::new(name, Judges::Integrator)
+    }
+
+    /// Verification of an oracle.
+    pub fn oracle(name: &'static str) -> Draft {
+        Draft::new(name, Judges::Oracle)
+    }
+
+    /// A modelling choice where the paper is open.
+    pub fn interpretation(name: &'static str) -> Draft {
+        Draft::new(name, Judges::Interpretation)
+    }
+
+    /// A sentence of the paper.
+    pub fn statement(name: &'static str) -> Draft {
+        Draft::new(name, Judges::Statement)
+    }
+
+    /// Validation by points that others measured: where they are too few to catch a control, that is no fault of the
+    /// code, and the case is under-powered.
+    pub fn measurement(name: &'static str) -> Draft {
+        Draft::new(name, Judges::Measurement)
     }
 
     /// Runs the check, then every control. Without data there is nothing that a control could fail on.
@@ -217,96 +156,82 @@ impl Case {
     }
 }
 
-/// A case passes when all its evidence does and every control was caught.
-fn overall(evidence: &[Judged], controls: &[Control], uncaught: Verdict) -> Verdict {
-    let has = |verdict| evidence.iter().any(|judged| judged.verdict == verdict);
-    if has(Verdict::NoData) {
-        Verdict::NoData
-    } else if evidence.is_empty() || has(Verdict::Fail) || controls.is_empty() {
-        Verdict::Fail
-    } else if controls.iter().any(|control| !control.caught) {
-        uncaught
-    } else if has(Verdict::Underpowered) {
-        Verdict::Underpowered
-    } else {
-        Verdict::Pass
+/// A case that still lacks what it judges.
+pub struct Draft(About);
+
+impl Draft {
+    fn new(name: &'static str, judges: Judges) -> Self {
+        Self(About {
+            name,
+            judges,
+            claim: "",
+            source: "",
+            equations: &[],
+        })
     }
-}
 
-/// Evidence with its verdict.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Judged {
-    /// The evidence.
-    pub evidence: Evidence,
-    /// How it ended.
-    pub verdict: Verdict,
-}
-
-impl Judged {
-    fn new(evidence: Evidence) -> Self {
-        let verdict = judge(&evidence.rule);
-        Self { evidence, verdict }
+    /// The claim, in one sentence.
+    pub fn claim(mut self, claim: &'static str) -> Self {
+        self.0.claim = claim;
+        self
     }
-}
 
-/// A deliberate mistake and whether the check failed on it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Control {
-    /// The mistake in the model.
-    #[serde(deserialize_with = "text_of_the_source")]
-    pub mistake: Words,
-    /// Whether the check failed, as it must, on numbers.
-    pub caught: bool,
-    /// Whether it was caught by drawn numbers alone, so that it could be missed at another seed.
-    pub drawn: bool,
-    /// By how many standard deviations the surest of its rules failed ([`Rule::margin`]).
-    pub margin: Option<f64>,
-}
+    /// Equations, figures or sections of the paper, in words.
+    pub fn source(mut self, source: &'static str) -> Self {
+        self.0.source = source;
+        self
+    }
 
-impl Control {
-    /// A check that ends in no numbers has broken, and has caught nothing.
-    fn new(mistake: Words, evidence: &[Evidence]) -> Self {
-        let broke = evidence.iter().any(|e| e.rule.error().is_nan());
-        let failed: Vec<_> = (evidence.iter().map(|e| &e.rule))
-            .filter(|rule| !broke && judge(rule) == Verdict::Fail)
-            .collect();
-        let drawn = failed.iter().all(|rule| rule.is_statistical());
-        Self {
-            mistake,
-            caught: !failed.is_empty(),
-            drawn,
-            margin: (failed.iter().filter(|_| drawn))
-                .filter_map(|rule| rule.margin())
-                .reduce(f64::max),
+    /// The equations it tests, by their numbers.
+    pub fn equations(mut self, equations: &'static [&'static str]) -> Self {
+        self.0.equations = equations;
+        self
+    }
+
+    /// What is judged: a function, a scene, a model.
+    pub fn subject<S>(self, subject: S) -> Subjected<S> {
+        Subjected {
+            about: self.0,
+            subject,
+            mistakes: Vec::new(),
         }
     }
 }
 
-/// The outcome of a case.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Outcome {
-    /// Which case.
-    pub about: About,
-    /// How it ended.
-    pub verdict: Verdict,
-    /// Everything measured.
-    pub evidence: Vec<Judged>,
-    /// Every control.
-    pub controls: Vec<Control>,
-    /// Wall time of check and controls.
-    pub seconds: f64,
+/// A case that still lacks its check.
+pub struct Subjected<S> {
+    about: About,
+    subject: S,
+    mistakes: Vec<(&'static str, S)>,
 }
 
-impl Outcome {
-    /// The probability, at most, that correct code turns this case red: its checks, and a control that is not caught.
-    pub fn false_alarm(&self) -> f64 {
-        if self.verdict == Verdict::NoData {
-            return 0.0;
+impl<S: Send + Sync + 'static> Subjected<S> {
+    /// A control: a broken subject that the same check must fail.
+    pub fn mistake(mut self, name: &'static str, broken: S) -> Self {
+        self.mistakes.push((name, broken));
+        self
+    }
+
+    /// Several controls.
+    pub fn mistakes(mut self, broken: impl IntoIterator<Item = (&'static str, S)>) -> Self {
+        self.mistakes.extend(broken);
+        self
+    }
+
+    /// The check of the subject and of every mistake.
+    pub fn check<F: Findings + 'static>(self, check: fn(&S, &Effort) -> F) -> Case {
+        let bind = |subject: S| -> Check { Box::new(move |effort| check(&subject, effort).evidence()) };
+        Case {
+            about: self.about,
+            check: bind(self.subject),
+            controls: (self.mistakes.into_iter())
+                .map(|(name, broken)| (name, bind(broken)))
+                .collect(),
+            uncaught: match self.about.judges {
+                Judges::Measurement => Verdict::Underpowered,
+                _ => Verdict::Fail,
+            },
         }
-        let rules = || self.evidence.iter().map(|judged| &judged.evidence.rule);
-        let checks: f64 = rules().map(Rule::false_alarm).sum();
-        // What is sized for a control misses it with this probability at most.
-        checks + MISS * self.controls.iter().filter(|control| control.drawn).count() as f64
     }
 }
 
@@ -314,29 +239,23 @@ impl Outcome {
 mod tests {
     use super::*;
 
-    fn about() -> About {
-        About {
-            name: "a",
-            judges: Judges::Core,
-            claim: "c",
-            source: "s",
-            equations: &[],
+    fn is_three(subject: &f64, _: &Effort) -> Result<Vec<Evidence>, &'static str> {
+        match subject {
+            7.0 => Err("no seven"),
+            _ => Ok(vec![Evidence::exact("three", subject - 3.0)]),
         }
     }
 
-    fn is_three(subject: &f64, _: &Effort) -> Vec<Evidence> {
-        vec![Evidence::new("three", Rule::exact(*subject - 3.0))]
-    }
-
-    const EFFORT: Effort = Effort {
-        full: false,
-        seed: GATE_SEED,
-        data: None,
-    };
-
     #[test]
     fn a_case_passes_only_with_its_controls_caught() {
-        let verdict = |subject, broken| Case::new(about(), subject, broken, is_three).run(&EFFORT).verdict;
+        let verdict = |subject, broken: Vec<(&'static str, f64)>| {
+            let case = Case::core("a")
+                .claim("c")
+                .subject(subject)
+                .mistakes(broken)
+                .check(is_three);
+            case.run(&Effort::gate()).verdict
+        };
         assert_eq!(verdict(3.0, vec![("four", 4.0)]), Verdict::Pass);
         assert_eq!(verdict(4.0, vec![("four", 4.0)]), Verdict::Fail);
         assert_eq!(
@@ -350,9 +269,28 @@ mod tests {
         );
         assert_eq!(verdict(f64::NAN, vec![("four", 4.0)]), Verdict::Fail);
         assert_eq!(
+            verdict(7.0, vec![("four", 4.0)]),
+            Verdict::Fail,
+            "an error is no result"
+        );
+        assert_eq!(
             verdict(3.0, vec![("no number", f64::NAN)]),
             Verdict::Fail,
             "a check that breaks has caught nothing"
         );
+        assert_eq!(
+            verdict(3.0, vec![("an error", 7.0)]),
+            Verdict::Fail,
+            "nor has an error"
+        );
+    }
+
+    #[test]
+    fn measured_points_that_are_too_few_are_no_fault() {
+        let case = Case::measurement("a")
+            .subject(3.0)
+            .mistake("not broken", 3.0)
+            .check(is_three);
+        assert_eq!(case.run(&Effort::gate()).verdict, Verdict::Underpowered);
     }
 }

@@ -14,6 +14,7 @@ use crate::cluster;
 use crate::oracle::naive::{
     Images, Lines, Naive, Problem, Reading, Replacement, Start, Update, Who, mean_projections,
 };
+use crate::statistics::Estimate;
 use rayon::prelude::*;
 use std::convert::Infallible;
 use std::iter::once;
@@ -26,15 +27,6 @@ const QUARTERS: usize = 8;
 
 /// The means of one replica: X̄₁ at every quarter of a period, then collisions per rod and period.
 pub type Trace = [f64; QUARTERS + 2];
-
-/// A mean and its standard error.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Estimate {
-    /// The mean, or what follows from means.
-    pub value: f64,
-    /// The standard error.
-    pub se: f64,
-}
 
 /// One reading, measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -177,7 +169,7 @@ pub fn damping_rate(x1: &Trace) -> f64 {
 /// A quantity of the mean trace.
 pub fn value(quantity: Quantity, traces: &[Trace]) -> Estimate {
     let without: Vec<_> = means_without_one(traces).iter().map(quantity).collect();
-    jackknife(quantity(&mean(traces)), &without)
+    Estimate::jackknife(quantity(&mean(traces)), &without)
 }
 
 /// A quantity of the mean of `traces` less that of `default`, replica by replica from the same random numbers.
@@ -185,7 +177,7 @@ pub fn change(quantity: Quantity, default: &[Trace], traces: &[Trace]) -> Estima
     let less = |after: &Trace, before: &Trace| quantity(after) - quantity(before);
     let (after, before) = (means_without_one(traces), means_without_one(default));
     let without: Vec<_> = after.iter().zip(&before).map(|(a, b)| less(a, b)).collect();
-    jackknife(less(&mean(traces), &mean(default)), &without)
+    Estimate::jackknife(less(&mean(traces), &mean(default)), &without)
 }
 
 fn mean(traces: &[Trace]) -> Trace {
@@ -197,18 +189,6 @@ fn means_without_one(traces: &[Trace]) -> Vec<Trace> {
     let (n, mean) = (traces.len() as f64, mean(traces));
     let without = |trace: &Trace| std::array::from_fn(|i| (n * mean[i] - trace[i]) / (n - 1.0));
     traces.iter().map(without).collect()
-}
-
-/// A statistic with the standard error of the delete-one jackknife, se² = (n−1)/n Σ(s_k − s̄)², s_k being the
-/// statistic without replica k. For a mean, this is the usual standard error.
-fn jackknife(value: f64, without: &[f64]) -> Estimate {
-    let n = without.len() as f64;
-    let mean = without.iter().sum::<f64>() / n;
-    let square: f64 = without.iter().map(|s| (s - mean).powi(2)).sum();
-    Estimate {
-        value,
-        se: ((n - 1.0) / n * square).sqrt(),
-    }
 }
 
 #[cfg(test)]

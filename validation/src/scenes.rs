@@ -88,7 +88,7 @@ mod tests {
             let means = results
                 .series
                 .iter()
-                .flat_map(|s| &s.channels)
+                .flat_map(|s| &s.columns)
                 .flat_map(|c| &c.mean);
             assert!(
                 means.into_iter().all(|mean| mean.is_finite()),

@@ -4,7 +4,7 @@
 pub mod figures;
 pub mod tables;
 
-use crate::cases::lab;
+use crate::lab;
 use crate::oracle::naive::{Naive, Problem};
 use crate::readings::paper;
 use rayon::prelude::*;

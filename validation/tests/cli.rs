@@ -127,7 +127,7 @@ fn the_scene_in_run_json_gives_the_same_bits() {
         let mut reader = csv::Reader::from_path(file).unwrap();
         for (k, row) in reader.deserialize::<Vec<f64>>().enumerate() {
             let channels = series
-                .channels
+                .columns
                 .iter()
                 .flat_map(|channel| [channel.mean[k], channel.se[k]]);
             let time = results.times[k];

@@ -45,7 +45,7 @@ fn synthesise(data: &Path, folder: &str, scene_name: &str, observables: &[&str],
     for k in 1..30 {
         let output = 10 * k;
         let cells = observables.iter().map(|name| {
-            let y = results.channel(name).unwrap().mean[output];
+            let y = results.column(name).unwrap().mean[output];
             format!("{:.5},{:.5}", results.times[output] + noise(U_X), y + noise(U_Y))
         });
         lines.push(cells.collect::<Vec<_>>().join(","));

@@ -1,36 +1,33 @@
 //! The cheapest split of a run: what `docs/work-precision.md` says of it.
 
-use super::lab;
-use super::once::Once;
 use super::work_precision_coupled::first;
-use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
+use crate::lab;
+use crate::lab::Shared;
+use crate::statistics::{Estimate, Sample, covariance, mean_and_se};
 use crate::suspensions::coupled::interacting;
 use crate::suspensions::split::{Constants, Scope, Split};
-use crate::suspensions::{Estimate, covariance, mean_and_se};
 use shearbed::Scene;
 
 /// A change to what is run for an error.
 type Respell = fn(&mut Split);
 
 pub fn cases() -> Vec<Case> {
-    vec![Case::new(
-        About {
-            name: "cheapest-split",
-            judges: Judges::Program,
-            claim: "Steps and replicas by the rule for an error of 0.02 give the bias and the scatter that it says.",
-            source: "eqs 4, 8, 12",
-            equations: &["4"],
-        },
-        (|_| {}) as Respell,
-        vec![
-            ("a quarter of the replicas", |split| {
+    vec![
+        Case::program("cheapest-split")
+            .claim(
+                "Steps and replicas by the rule for an error of 0.02 give the bias and the scatter that it \
+                 says.",
+            )
+            .source("eqs 4, 8, 12")
+            .equations(&["4"])
+            .subject((|_| {}) as Respell)
+            .mistake("a quarter of the replicas", |split| {
                 split.replicas = split.replicas.div_ceil(4)
-            }),
-            ("two steps a period", |split| split.steps_per_period = 2),
-        ],
-        realised,
-    )]
+            })
+            .mistake("two steps a period", |split| split.steps_per_period = 2)
+            .check(realised),
+    ]
 }
 
 /// What a small study of the steps says of 25 rods, and X̄₁ at its finest.
@@ -71,10 +68,10 @@ fn study(scene: &Scene) -> Known {
 }
 
 fn realised(respell: &Respell, effort: &Effort) -> Vec<Evidence> {
-    static KNOWN: Once<Known> = Once::new();
+    static KNOWN: Shared<(), Known> = Shared::new();
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = RODS;
-    let known = KNOWN.at(effort, || study(&scene));
+    let known = KNOWN.get(effort, (), || study(&scene));
     let constants = known.constants;
     let said = constants.cheapest(Scope::OwnRods(RODS), 0.02);
     let mut run = said;
@@ -82,7 +79,7 @@ fn realised(respell: &Respell, effort: &Effort) -> Vec<Evidence> {
     scene.ensemble.seed = effort.seed(1);
     let repeats = effort.pick(1, 4) * 140;
     let Ok(found) = run.realise(&scene, repeats, known.reference) else {
-        return vec![Evidence::new("runs that stopped", Rule::exact(1.0))];
+        return vec![Evidence::exact("runs that stopped", 1.0)];
     };
     // The cube root of a variance's ratio is normal to a part in 10³ (Wilson & Hilferty 1931), where the ratio is not.
     let ratio = (found.scatter.value / said.scatter).powi(2);
@@ -90,27 +87,31 @@ fn realised(respell: &Respell, effort: &Effort) -> Vec<Evidence> {
     vec![
         Evidence::new(
             "bias of the steps and replicas that the rule says for an error of 0.02, against 400 steps",
-            Rule::Mean {
+            Sample {
                 mean: found.bias.value,
                 se: found.bias.se,
                 samples: repeats,
-                reference: 0.0,
-                allowance: said.bias + constants.bias(Scope::OwnRods(RODS), 400.0, RODS as f64),
-                effect: 0.05,
-                because: "the bias that the rule allows for, and that of the reference; two steps are off by more",
-            },
+            }
+            .is(
+                0.0,
+                said.bias + constants.bias(Scope::OwnRods(RODS), 400.0, RODS as f64),
+                0.05,
+                "the bias that the rule allows for, and that of the reference; two steps are off by more",
+            ),
         ),
         Evidence::new(
             "cube root of the variance of repeats over the one that the rule says",
-            Rule::Mean {
+            Sample {
                 mean: ratio.cbrt(),
                 se: (of_repeats + of_study).sqrt(),
                 samples: repeats,
-                reference: 1.0 - of_repeats + of_study,
-                allowance: 0.0,
-                effect: 0.5,
-                because: "both variances are estimates; a quarter of the replicas bring ∛4, 0.59 more",
-            },
+            }
+            .is(
+                1.0 - of_repeats + of_study,
+                0.0,
+                0.5,
+                "both variances are estimates; a quarter of the replicas bring ∛4, 0.59 more",
+            ),
         ),
     ]
 }

@@ -1,7 +1,7 @@
 //! The contact rule's invariants as properties, and the corrected A.13 against the printed one.
 
-use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
+use crate::statistics::larger;
 use nalgebra::{Rotation3, UnitVector3, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
@@ -85,7 +85,7 @@ const PROPERTIES: [(&str, Property); 11] = [
                 let dv = contact_velocities(pair, &after)[k] - contact_velocities(pair, &pair.rate)[k];
                 (dv - line * line.dot(&dv)).norm()
             };
-            Some(change(0).max(change(1)))
+            Some(larger(change(0), change(1)))
         },
     ),
     (
@@ -111,10 +111,10 @@ const PROPERTIES: [(&str, Property); 11] = [
                     turn(&pair.p[k], &after[k], 0.1).0,
                     step_angles(&pair.p[k], &after[k], 0.1).0,
                 ];
-                let stretched = lengths.iter().map(|p| (p.norm() - 1.0).abs()).fold(0.0, f64::max);
+                let stretched = lengths.iter().map(|p| (p.norm() - 1.0).abs()).fold(0.0, larger);
                 stretched + after[k].dot(&pair.p[k]).abs()
             };
-            Some(off(0).max(off(1)))
+            Some(larger(off(0), off(1)))
         },
     ),
     ("A and B exchanged", |rule, pair| {
@@ -215,11 +215,7 @@ fn invariants(rule: &ContactRule, effort: &Effort) -> Vec<Evidence> {
         let pair = pair(&mut random);
         for ((_, property), worst) in PROPERTIES.iter().zip(&mut worst) {
             let violation = property(*rule, &pair).map_or(f64::NAN, |violation| violation / scale(&pair));
-            *worst = if violation.is_nan() {
-                f64::NAN
-            } else {
-                worst.max(violation)
-            };
+            *worst = larger(*worst, violation);
         }
     }
     PROPERTIES
@@ -227,7 +223,7 @@ fn invariants(rule: &ContactRule, effort: &Effort) -> Vec<Evidence> {
         .zip(worst)
         .map(|((what, _), worst)| {
             let because = "some dozens of roundings, over the kick times the condition of its arm";
-            Evidence::new(*what, Rule::within(worst, 64.0 * f64::EPSILON, because))
+            Evidence::within(*what, worst, 64.0 * f64::EPSILON, because)
         })
         .collect()
 }
@@ -262,70 +258,56 @@ fn against_turning(rates: &AngleRates, _: &Effort) -> Vec<Evidence> {
                 theta_rate - (theta_1 - theta_0) / (2.0 * dt),
             ];
             for (worst, error) in worst.iter_mut().zip(errors) {
-                *worst = worst.max(error.abs());
+                *worst = larger(*worst, error.abs());
             }
         }
     }
-    let because =
-        "the central difference's own error: Δt²/6 times a third derivative of 8(|ṗ|/sin θ)³ ≤ 8·5³ at most";
+    let because = "the central difference's own error: Δt²/6 times a third derivative of 8(|ṗ|/sin θ)³ ≤ \
+                   8·5³ at most";
     [
         "error of φ̇′ in rad per unit time",
         "error of θ̇′ in rad per unit time",
     ]
     .into_iter()
     .zip(worst)
-    .map(|(what, worst)| Evidence::new(what, Rule::within(worst, 2e-6, because)))
+    .map(|(what, worst)| Evidence::within(what, worst, 2e-6, because))
     .collect()
 }
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::new(
-            About {
-                name: "contact-rule",
-                judges: Judges::Core,
-                claim: "The contact rule keeps its invariants for any two rods in contact.",
-                source: "eqs 5, 6, A.7–A.12",
-                equations: &["5", "6", "A.7", "A.8", "A.9", "A.10", "A.11", "A.12"],
-            },
-            core_rule as ContactRule,
-            vec![
-                ("no collision at all", |pair| Some(pair.rate)),
-                ("the sum in place of the mean", |pair| scaled_change(pair, 2.0)),
-                ("the kick with the wrong sign", |pair| scaled_change(pair, -1.0)),
-                ("arms exchanged", |pair| spoilt(pair, |[a, b]| [b, a])),
-                ("arms without their sign", |pair| {
-                    spoilt(pair, |arms| arms.map(f64::abs))
-                }),
-                ("the liquid's velocity left out", |pair| {
-                    core_rule(&Pair {
-                        u: [Vector3::zeros(); 2],
-                        ..*pair
-                    })
-                }),
-                ("only A moved", |pair| Some([core_rule(pair)?[0], pair.rate[1]])),
-            ],
-            invariants,
-        ),
-        Case::new(
-            About {
-                name: "corrected-a13",
-                judges: Judges::Core,
-                claim: "The corrected A.13 is the rate of the angles of a turning rod; the printed one is not.",
-                source: "A.13, A.14",
-                equations: &["A.13", "A.14"],
-            },
-            angle_rates as AngleRates,
-            vec![
-                ("A.13 as printed", printed_a13),
-                ("only φ̇′ corrected", |p, rate| {
-                    (angle_rates(p, rate).0, printed_a13(p, rate).1)
-                }),
-                ("only θ̇′ corrected", |p, rate| {
-                    (printed_a13(p, rate).0, angle_rates(p, rate).1)
-                }),
-            ],
-            against_turning,
-        ),
+        Case::core("contact-rule")
+            .claim("The contact rule keeps its invariants for any two rods in contact.")
+            .source("eqs 5, 6, A.7–A.12")
+            .equations(&["5", "6", "A.7", "A.8", "A.9", "A.10", "A.11", "A.12"])
+            .subject(core_rule as ContactRule)
+            .mistake("no collision at all", |pair| Some(pair.rate))
+            .mistake("the sum in place of the mean", |pair| scaled_change(pair, 2.0))
+            .mistake("the kick with the wrong sign", |pair| scaled_change(pair, -1.0))
+            .mistake("arms exchanged", |pair| spoilt(pair, |[a, b]| [b, a]))
+            .mistake("arms without their sign", |pair| {
+                spoilt(pair, |arms| arms.map(f64::abs))
+            })
+            .mistake("the liquid's velocity left out", |pair| {
+                core_rule(&Pair {
+                    u: [Vector3::zeros(); 2],
+                    ..*pair
+                })
+            })
+            .mistake("only A moved", |pair| Some([core_rule(pair)?[0], pair.rate[1]]))
+            .check(invariants),
+        Case::core("corrected-a13")
+            .claim("The corrected A.13 is the rate of the angles of a turning rod; the printed one is not.")
+            .source("A.13, A.14")
+            .equations(&["A.13", "A.14"])
+            .subject(angle_rates as AngleRates)
+            .mistake("A.13 as printed", printed_a13)
+            .mistake("only φ̇′ corrected", |p, rate| {
+                (angle_rates(p, rate).0, printed_a13(p, rate).1)
+            })
+            .mistake("only θ̇′ corrected", |p, rate| {
+                (printed_a13(p, rate).0, angle_rates(p, rate).1)
+            })
+            .check(against_turning),
     ]
 }

@@ -4,10 +4,12 @@
 //! X̄₁(t) − X̄₁(t + T/4) at t = 0, T/2, T, …, where free rods peak. Effects and deviations are of pilots at seed 99, each
 //! effect three standard errors below its pilot's mean, unless a closed form is named.
 
-use super::lab::{self, Means, Sample, per_replica};
 use super::readings::LINE;
 use crate::accept::Design;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
+use crate::lab::{self, per_replica};
+use crate::statistics::Sample;
+use shearbed::observable::Channel;
 use shearbed::scene::Scene;
 use std::f64::consts::E;
 
@@ -26,13 +28,6 @@ struct Order {
 type Axes = [Change; 2];
 
 pub fn cases() -> Vec<Case> {
-    let about = |name, claim, source| About {
-        name,
-        judges: Judges::Statement,
-        claim,
-        source,
-        equations: &["4"],
-    };
     // The closed form falls by 0.105 and 0.150; a pilot of 4,000 replicas scattered by 0.013 and 0.017.
     let spread = Order {
         scenes: [
@@ -40,10 +35,7 @@ pub fn cases() -> Vec<Case> {
             |scene| scene.particles.aspect_ratio_sd_percent = 3.6,
             |scene| scene.particles.aspect_ratio_sd_percent = 7.2,
         ],
-        design: Design {
-            effect: 0.1,
-            sd: 0.02,
-        },
+        design: Design::new(0.1, 0.02),
     };
     // A pilot of 300 replicas: 0.087 ± 0.028 and 0.109 ± 0.038 (mean and deviation).
     let concentration = Order {
@@ -52,10 +44,7 @@ pub fn cases() -> Vec<Case> {
             |scene| lab::interaction(scene).concentration_per_cm3 = 50.0,
             |scene| lab::interaction(scene).concentration_per_cm3 = 250.0,
         ],
-        design: Design {
-            effect: 0.08,
-            sd: 0.043,
-        },
+        design: Design::new(0.08, 0.043),
     };
     // A pilot of 300 replicas: 0.103 ± 0.029 and 0.142 ± 0.040 (mean and deviation).
     let length = Order {
@@ -72,41 +61,36 @@ pub fn cases() -> Vec<Case> {
                 scene.particles.length_mm = 1.44;
             },
         ],
-        design: Design {
-            effect: 0.095,
-            sd: 0.045,
-        },
+        design: Design::new(0.095, 0.045),
     };
     let instead = |order: Order, scenes| Order { scenes, ..order };
     vec![
-        Case::new(
-            about(
-                "free-amplitude",
-                "\"The amplitude of oscillations is approximately half the particle length and is constant\" for free uniform rods.",
-                "Results, before Fig. 6; Fig. 6 (top)",
-            ),
-            (|_| {}) as Change,
-            vec![
-                ("nearly round: r_e = 3", |scene| {
-                    scene.particles.aspect_ratio = 3.0
-                }),
-                ("unequal aspect ratios", |scene| {
-                    scene.particles.aspect_ratio_sd_percent = 7.2
-                }),
-                ("rods in collision", |scene| {
-                    lab::interaction(scene).concentration_per_cm3 = 100.0
-                }),
-            ],
-            free_amplitude,
-        ),
-        Case::new(
-            about(
-                "faster-with-spread",
+        Case::statement("free-amplitude")
+            .claim(
+                "\"The amplitude of oscillations is approximately half the particle length and is \
+                 constant\" for free uniform rods.",
+            )
+            .source("Results, before Fig. 6; Fig. 6 (top)")
+            .equations(&["4"])
+            .subject((|_| {}) as Change)
+            .mistake("nearly round: r_e = 3", |scene| {
+                scene.particles.aspect_ratio = 3.0
+            })
+            .mistake("unequal aspect ratios", |scene| {
+                scene.particles.aspect_ratio_sd_percent = 7.2
+            })
+            .mistake("rods in collision", |scene| {
+                lab::interaction(scene).concentration_per_cm3 = 100.0
+            })
+            .check(free_amplitude),
+        Case::statement("faster-with-spread")
+            .claim(
                 "\"The oscillations decay faster … as the differences in the aspect ratios become larger\".",
-                "Results, before Fig. 7; Fig. 9",
-            ),
-            spread,
-            vec![(
+            )
+            .source("Results, before Fig. 7; Fig. 9")
+            .equations(&["4"])
+            .subject(spread)
+            .mistake(
                 "σ shifts all rods alike",
                 instead(
                     spread,
@@ -116,17 +100,17 @@ pub fn cases() -> Vec<Case> {
                         |scene| scene.particles.aspect_ratio *= 1.072,
                     ],
                 ),
-            )],
-            faster,
-        ),
-        Case::new(
-            about(
-                "faster-with-concentration",
-                "\"The oscillations decay faster as the concentration (and consequently the number of collisions) increases\".",
-                "Results, before Fig. 7; Fig. 7",
-            ),
-            concentration,
-            vec![(
+            )
+            .check(faster),
+        Case::statement("faster-with-concentration")
+            .claim(
+                "\"The oscillations decay faster as the concentration (and consequently the number of \
+                 collisions) increases\".",
+            )
+            .source("Results, before Fig. 7; Fig. 7")
+            .equations(&["4"])
+            .subject(concentration)
+            .mistake(
                 "a volume with the side (N n)^⅓ in place of (N/n)^⅓, right at 50 per cm³",
                 instead(
                     concentration,
@@ -136,17 +120,14 @@ pub fn cases() -> Vec<Case> {
                         |scene| lab::interaction(scene).concentration_per_cm3 = 10.0,
                     ],
                 ),
-            )],
-            faster,
-        ),
-        Case::new(
-            about(
-                "faster-with-length",
-                "\"The oscillations decay faster … as the particles become longer\" at fixed r_e.",
-                "Results, before Fig. 7; Fig. 8",
-            ),
-            length,
-            vec![(
+            )
+            .check(faster),
+        Case::statement("faster-with-length")
+            .claim("\"The oscillations decay faster … as the particles become longer\" at fixed r_e.")
+            .source("Results, before Fig. 7; Fig. 8")
+            .equations(&["4"])
+            .subject(length)
+            .mistake(
                 "rods per a³ taken as n/a³ in place of n a³, right at 0.72 mm",
                 instead(
                     length,
@@ -158,71 +139,63 @@ pub fn cases() -> Vec<Case> {
                         |scene| lab::interaction(scene).concentration_per_cm3 = 6.25,
                     ],
                 ),
-            )],
-            faster,
-        ),
-        Case::new(
-            about(
-                "faster-with-collisions",
-                "\"The amplitude decays much faster when collisions occur than in the absence of particle-particle interactions\".",
-                "Results, after Fig. 10; Figs 6 and 10",
-            ),
-            (|scene| {
-                lab::interaction(scene);
-            }) as Change,
-            vec![("α a tenth", |scene| lab::interaction(scene).alpha *= 0.1)],
-            collisions_damp,
-        ),
-        Case::new(
-            About {
-                equations: &["4", "16"],
-                ..about(
-                    "dies-out",
-                    "\"The oscillations die out … after a few rotations, in contrast to the undamped oscillations\": to less than 1/e in four rotations with collisions and σ = 3.6 %; with collisions alone they are smaller after one, two and four rotations each time.",
-                    "Results, after Fig. 6",
-                )
-            },
-            (|_| {}) as Change,
-            vec![("collisions without effect and uniform rods", |scene| {
+            )
+            .check(faster),
+        Case::statement("faster-with-collisions")
+            .claim(
+                "\"The amplitude decays much faster when collisions occur than in the absence of \
+                 particle-particle interactions\".",
+            )
+            .source("Results, after Fig. 10; Figs 6 and 10")
+            .equations(&["4"])
+            .subject(
+                (|scene| {
+                    lab::interaction(scene);
+                }) as Change,
+            )
+            .mistake("α a tenth", |scene| lab::interaction(scene).alpha *= 0.1)
+            .check(collisions_damp),
+        Case::statement("dies-out")
+            .claim(
+                "\"The oscillations die out … after a few rotations, in contrast to the undamped \
+                 oscillations\": to less than 1/e in four rotations with collisions and σ = 3.6 %; with \
+                 collisions alone they are smaller after one, two and four rotations each time.",
+            )
+            .source("Results, after Fig. 6")
+            .equations(&["4", "16"])
+            .subject((|_| {}) as Change)
+            .mistake("collisions without effect and uniform rods", |scene| {
                 lab::interaction(scene).alpha = 0.0;
                 scene.particles.aspect_ratio_sd_percent = 0.0;
-            })],
-            dies_out,
-        ),
-        Case::new(
-            About {
-                equations: &["4", "16"],
-                ..about(
-                    "other-axes-decay",
-                    "\"The amplitudes of X̄_2 and X̄_3 decay in similar manner\" as that of X̄_1: at rates that differ by less than a factor of two.",
-                    "Results, after Fig. 10",
-                )
-            },
-            [damped as Change; 2] as Axes,
-            vec![
-                ("X̄_2 and X̄_3 not damped", [damped, undamped]),
-                ("X̄_1 not damped", [undamped, damped]),
-            ],
-            on_all_axes,
-        ),
+            })
+            .check(dies_out),
+        Case::statement("other-axes-decay")
+            .claim(
+                "\"The amplitudes of X̄_2 and X̄_3 decay in similar manner\" as that of X̄_1: at rates \
+                 that differ by less than a factor of two.",
+            )
+            .source("Results, after Fig. 10")
+            .equations(&["4", "16"])
+            .subject([damped as Change; 2] as Axes)
+            .mistake("X̄_2 and X̄_3 not damped", [damped, undamped])
+            .mistake("X̄_1 not damped", [undamped, damped])
+            .check(on_all_axes),
     ]
 }
 
-impl Means {
-    /// |X̄_i(kT/2) − X̄_i(kT/2 + T/4)|, signed so that free rods give a positive one; four outputs a period.
-    fn swing(&self, half_periods: usize, axis: usize) -> f64 {
-        let fall = self.at(2 * half_periods, axis) - self.at(2 * half_periods + 1, axis);
-        if axis == 1 { -fall } else { fall }
-    }
+/// |X̄_i(kT/2) − X̄_i(kT/2 + T/4)|, signed so that free rods give a positive one; four outputs a period.
+fn swing(mean: &dyn Fn(Channel, usize) -> f64, half_periods: usize, axis: usize) -> f64 {
+    let fall = mean(Channel::X[axis], 2 * half_periods) - mean(Channel::X[axis], 2 * half_periods + 1);
+    if axis == 1 { -fall } else { fall }
 }
 
 /// The amplitude of X̄₁ at t = kT/2, replica by replica.
 fn amplitudes(scene: &Scene, replicas: u64, half_periods: &[usize]) -> Vec<Vec<f64>> {
     let last = half_periods.iter().max().copied().unwrap_or(0);
-    let found = per_replica(&quarters(scene.clone(), last), replicas, |means| {
+    let found = per_replica(&quarters(scene.clone(), last), replicas, |mean| {
         half_periods
             .iter()
-            .map(|&k| means.swing(k, 0))
+            .map(|&k| swing(mean, k, 0))
             .collect::<Vec<_>>()
     });
     (0..half_periods.len())
@@ -241,10 +214,7 @@ fn free_amplitude(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let mut scene = lab::free_scene(effort);
     change(&mut scene);
     // A pilot of 2,000 replicas scattered by 0.031, and by 0.042 with r_e = 3.
-    let design = Design {
-        effect: 0.09,
-        sd: 0.045,
-    };
+    let design = Design::new(0.09, 0.045);
     let found = amplitudes(&scene, effort.samples(design), &[0, 8]);
     let change: Vec<f64> = found[0]
         .iter()
@@ -297,22 +267,7 @@ fn collisions_damp(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let mut evidence = Vec::new();
     // Pilots of 300 replicas at t/T = 1 and 2: 0.112 ± 0.025 and 0.178 ± 0.030 for σ = 0 (mean and deviation), 0.054 ±
     // 0.022 and 0.051 ± 0.026 for σ = 3.6 %.
-    for (sd, design) in [
-        (
-            0.0,
-            Design {
-                effect: 0.09,
-                sd: 0.035,
-            },
-        ),
-        (
-            3.6,
-            Design {
-                effect: 0.036,
-                sd: 0.029,
-            },
-        ),
-    ] {
+    for (sd, design) in [(0.0, Design::new(0.09, 0.035)), (3.6, Design::new(0.036, 0.029))] {
         let mut free = lab::free_scene(effort);
         free.particles.aspect_ratio_sd_percent = sd;
         let mut interacting = free.clone();
@@ -341,16 +296,7 @@ fn dies_out(change: &Change, effort: &Effort) -> Vec<Evidence> {
         amplitudes(&scene, effort.samples(design), &[0, 2, 4, 8])
     };
     // Pilots of 300 replicas: 0.136 ± 0.035 (mean and deviation); 0.107 ± 0.024, 0.066 ± 0.023 and 0.080 ± 0.028.
-    let (both, alone) = (
-        Design {
-            effect: 0.13,
-            sd: 0.042,
-        },
-        Design {
-            effect: 0.06,
-            sd: 0.032,
-        },
-    );
+    let (both, alone) = (Design::new(0.13, 0.042), Design::new(0.06, 0.032));
     let spread = found(3.6, both);
     let margin: Vec<f64> = spread[0]
         .iter()
@@ -391,20 +337,14 @@ fn undamped(_: &mut Scene) {}
 /// twice as fast as X̄_j where a_i > a_j².
 fn on_all_axes(axes: &Axes, effort: &Effort) -> Vec<Evidence> {
     // A pilot of 200 replicas: a − b² of 0.127 ± 0.039 (mean and deviation), 0.213 ± 0.055, 0.284 ± 0.046, 0.234 ± 0.051.
-    let narrow = Design {
-        effect: 0.11,
-        sd: 0.046,
-    };
-    let wide = Design {
-        effect: 0.2,
-        sd: 0.065,
-    };
+    let narrow = Design::new(0.11, 0.046);
+    let wide = Design::new(0.2, 0.065);
     let replicas = effort.samples(narrow).max(effort.samples(wide));
     let swings = |change: Change| {
         let mut scene = lab::free_scene(effort);
         change(&mut scene);
-        per_replica(&quarters(scene, 4), replicas, |means| {
-            [0, 1, 2].map(|axis| [means.swing(0, axis), means.swing(4, axis)])
+        per_replica(&quarters(scene, 4), replicas, |mean| {
+            [0, 1, 2].map(|axis| [swing(mean, 0, axis), swing(mean, 4, axis)])
         })
     };
     let [first, others] = axes.map(swings);

@@ -1,49 +1,39 @@
 //! Who collides: P_c and its empirical frequency.
 
-use super::lab::{self, Sample};
-use crate::accept::{Design, Rule};
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::accept::Design;
+use crate::case::{Case, Effort, Evidence};
+use crate::lab;
 use crate::oracle::naive::collision_probability;
+use crate::statistics::{Sample, larger};
 use rayon::prelude::*;
 use shearbed::collision::reach;
 use shearbed::scene::Scene;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::new(
-            About {
-                name: "collision-probability",
-                judges: Judges::Core,
-                claim: "The reach of a draw R, which runs compare distances with, is the s at which P_c of eq. 7 is R, for any α, m > 0.",
-                source: "eqs 7, 10",
-                equations: &["7", "10"],
-            },
-            reach as Formula,
-            vec![
-                ("α missing in the denominator of P_c", |r, alpha, m| {
-                    alpha * r.powf(-1.0 / m)
-                }),
-                ("m = 3 whatever m is", |r, alpha, _| reach(r, alpha, 3.0)),
-                ("s in rod radii", |r, alpha, m| 0.5 * reach(r, alpha, m)),
-                ("the reach of 1 − R", |r, alpha, m| reach(1.0 - r, alpha, m)),
-            ],
-            limits,
-        ),
-        Case::new(
-            About {
-                name: "collision-frequency",
-                judges: Judges::Core,
-                claim: "In a run, nearest pairs become candidates as often as the sum of their P_c says.",
-                source: "eqs 7, 8, 9",
-                equations: &["7", "8", "9"],
-            },
-            (|_| {}) as Mend,
-            vec![
-                ("α 10 % larger", |scene| lab::interaction(scene).alpha *= 1.1),
-                ("m = 2", |scene| lab::interaction(scene).m = 2.0),
-            ],
-            frequency,
-        ),
+        Case::core("collision-probability")
+            .claim(
+                "The reach of a draw R, which runs compare distances with, is the s at which P_c of eq. 7 \
+                 is R, for any α, m > 0.",
+            )
+            .source("eqs 7, 10")
+            .equations(&["7", "10"])
+            .subject(reach as Formula)
+            .mistake("α missing in the denominator of P_c", |r, alpha, m| {
+                alpha * r.powf(-1.0 / m)
+            })
+            .mistake("m = 3 whatever m is", |r, alpha, _| reach(r, alpha, 3.0))
+            .mistake("s in rod radii", |r, alpha, m| 0.5 * reach(r, alpha, m))
+            .mistake("the reach of 1 − R", |r, alpha, m| reach(1.0 - r, alpha, m))
+            .check(limits),
+        Case::core("collision-frequency")
+            .claim("In a run, nearest pairs become candidates as often as the sum of their P_c says.")
+            .source("eqs 7, 8, 9")
+            .equations(&["7", "8", "9"])
+            .subject((|_| {}) as Mend)
+            .mistake("α 10 % larger", |scene| lab::interaction(scene).alpha *= 1.1)
+            .mistake("m = 2", |scene| lab::interaction(scene).m = 2.0)
+            .check(frequency),
     ]
 }
 
@@ -59,39 +49,28 @@ fn limits(reach: &Formula, _: &Effort) -> Vec<Evidence> {
             for r in (1..20).map(|k| f64::from(k) / 20.0) {
                 let back = collision_probability(reach(r, alpha, m), 1.0, alpha, m);
                 let error = ((back - r) / r / (1.0 + m)).abs();
-                worst = if error.is_nan() {
-                    f64::INFINITY
-                } else {
-                    worst.max(error)
-                };
+                worst = larger(worst, error);
             }
-            certain = certain.max(reach(1.0, alpha, m).abs());
+            certain = larger(certain, reach(1.0, alpha, m).abs());
             bounded += f64::from(u8::from(reach(0.0, alpha, m) != f64::INFINITY));
         }
     }
     // By hand: α = 0.5 and m = 3 give (1/3)³ at s = a.
     let by_hand = reach(1.0 / 27.0, 0.5, 3.0) - 1.0;
     vec![
-        Evidence::new("s* of R = 1, where P_c is certain", Rule::exact(certain)),
-        Evidence::new(
-            "scenes in which R = 0 does not reach everyone",
-            Rule::exact(bounded),
-        ),
-        Evidence::new(
+        Evidence::exact("s* of R = 1, where P_c is certain", certain),
+        Evidence::exact("scenes in which R = 0 does not reach everyone", bounded),
+        Evidence::within(
             "P_c(s*(R)) over R, less 1, over 1 + m",
-            Rule::within(
-                worst,
-                8.0 * f64::EPSILON,
-                "round-off of the two powers, m times that of their bases",
-            ),
+            worst,
+            8.0 * f64::EPSILON,
+            "round-off of the two powers, m times that of their bases",
         ),
-        Evidence::new(
+        Evidence::within(
             "s* of R = 1/27 for α = ½, m = 3, less a rod length",
-            Rule::within(
-                by_hand,
-                4.0 * f64::EPSILON,
-                "roundings of 1/27, of its root, and of two operations on 3",
-            ),
+            by_hand,
+            4.0 * f64::EPSILON,
+            "roundings of 1/27, of its root, and of two operations on 3",
         ),
     ]
 }
@@ -137,7 +116,10 @@ fn frequency(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
             })
             .collect();
         Evidence::new(
-            format!("candidates over the sum of P_c, {count} rods, α = {alpha}, m = {m}, n = {concentration} per cm³"),
+            format!(
+                "candidates over the sum of P_c, {count} rods, α = {alpha}, m = {m}, n = {concentration} \
+                 per cm³"
+            ),
             Sample::of(&ratios).is(
                 1.0,
                 0.0,

@@ -1,8 +1,9 @@
 //! Experiments (Figs 4 and 5): judged where the measured points are at hand, `NoData` where they are not.
 
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
 use crate::experiment::{self, ANCZUROWSKI, Comparison, Curve, DataError, OKAGAWA_MASON, Source};
+use crate::statistics::Sample;
 use shearbed::scene::Scene;
 
 /// A change to the scene that the model runs.
@@ -10,46 +11,34 @@ type Mend = fn(&mut Scene);
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::new(
-            About {
-                name: "okagawa-mason-1973",
-                judges: Judges::Measurement,
-                claim: "With α = 0.5 the mean projections are those that Okagawa & Mason measured, at n = 20, 50 and 100 per cm³.",
-                source: "Fig. 4",
-                equations: &["4"],
-            },
-            (|_| {}) as Mend,
-            controls(),
-            |mend, effort| agreement(&OKAGAWA_MASON, *mend, effort),
-        ),
-        Case::new(
-            About {
-                name: "anczurowski-1967",
-                judges: Judges::Measurement,
-                claim: "With α = 0.5 the mean projections up to t/T = 3 are those that Anczurowski, Cox & Mason measured.",
-                source: "Fig. 5",
-                equations: &["4"],
-            },
-            (|_| {}) as Mend,
-            controls(),
-            |mend, effort| agreement(&ANCZUROWSKI, *mend, effort),
-        ),
-        Case::new(
-            About {
-                name: "alpha-same-for-both",
-                judges: Judges::Measurement,
-                claim: "The α that fits the experiments best is the same at r_e = 11.6 and at 14.2.",
-                source: "Figs 4, 5",
-                equations: &["7"],
-            },
-            (|_| {}) as Mend,
-            vec![("α doubled unseen, at r_e = 14.2 only", double_alpha as Mend)],
-            same_alpha,
-        ),
+        Case::measurement("okagawa-mason-1973")
+            .claim(
+                "With α = 0.5 the mean projections are those that Okagawa & Mason measured, at n = 20, 50 \
+                 and 100 per cm³.",
+            )
+            .source("Fig. 4")
+            .equations(&["4"])
+            .subject((|_| {}) as Mend)
+            .mistakes(controls())
+            .check(|mend, effort| agreement(&OKAGAWA_MASON, *mend, effort)),
+        Case::measurement("anczurowski-1967")
+            .claim(
+                "With α = 0.5 the mean projections up to t/T = 3 are those that Anczurowski, Cox & Mason \
+                 measured.",
+            )
+            .source("Fig. 5")
+            .equations(&["4"])
+            .subject((|_| {}) as Mend)
+            .mistakes(controls())
+            .check(|mend, effort| agreement(&ANCZUROWSKI, *mend, effort)),
+        Case::measurement("alpha-same-for-both")
+            .claim("The α that fits the experiments best is the same at r_e = 11.6 and at 14.2.")
+            .source("Figs 4, 5")
+            .equations(&["7"])
+            .subject((|_| {}) as Mend)
+            .mistake("α doubled unseen, at r_e = 14.2 only", double_alpha as Mend)
+            .check(same_alpha),
     ]
-    .into_iter()
-    .map(Case::on_measured_points)
-    .collect()
 }
 
 fn controls() -> Vec<(&'static str, Mend)> {
@@ -65,16 +54,21 @@ fn double_alpha(scene: &mut Scene) {
     }
 }
 
-const SUPPLY: &str = "put the digitised points (CSV) and their provenance (TOML) into the source's folder under DIR and \
-                      run `shearbed validate --data DIR`; docs/experiments.md has the format";
+const SUPPLY: &str = "put the digitised points (CSV) and their provenance (TOML) into the source's folder under \
+                      DIR and run `shearbed validate --data DIR`; docs/experiments.md has the format";
 
 fn no_data(what: impl Into<String>) -> Vec<Evidence> {
-    vec![Evidence::new(what, Rule::NoData { supply: SUPPLY })]
+    vec![Evidence::new(
+        what,
+        Rule::NoData {
+            supply: SUPPLY.into(),
+        },
+    )]
 }
 
 /// What cannot be judged fails, and says why.
 fn failed(what: impl Into<String>) -> Evidence {
-    Evidence::new(what, Rule::exact(f64::NAN))
+    Evidence::exact(what, f64::NAN)
 }
 
 /// The points of a source that are judged, and how many are not.
@@ -152,8 +146,9 @@ fn fit(comparison: &Comparison, late: usize, source: &Source) -> Evidence {
         samples: n as u64,
         enough: 3,
         distance: None,
-        because: "χ² over all points with their full covariance; three points can tell a shape from a shift, and the \
-                  controls show the power",
+        because: "χ² over all points with their full covariance; three points can tell a shape from a \
+                  shift, and the controls show the power"
+            .into(),
     };
     Evidence::new(what, rule)
 }
@@ -179,14 +174,17 @@ fn same_alpha(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
         "best α: {:.3} ± {:.3} at r_e = 11.6, {:.3} ± {:.3} at 14.2; their difference",
         short.alpha, short.se, long.alpha, long.se
     );
-    let rule = Rule::Mean {
+    let rule = Sample {
         mean: long.alpha - short.alpha,
         se: short.se.hypot(long.se),
         samples: (short.points + long.points) as u64,
-        reference: 0.0,
-        allowance: 0.0,
-        effect: 1.0,
-        because: "points that would show α = 1.5 beside 0.5, a standard error of about 0.1; blunter ones say nothing",
-    };
+    }
+    .is(
+        0.0,
+        0.0,
+        1.0,
+        "points that would show α = 1.5 beside 0.5, a standard error of about 0.1; blunter ones \
+         say nothing",
+    );
     vec![Evidence::new(what, rule)]
 }

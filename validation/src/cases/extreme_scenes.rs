@@ -3,11 +3,11 @@
 mod placed;
 
 use self::placed::{Pair, step_of_the_core, step_with_squares};
-use super::extremes::{LENGTH, LENGTH_BECAUSE, off_length, worse};
-use super::lab;
-use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use super::extremes::{LENGTH, LENGTH_BECAUSE, off_length};
+use crate::case::{Case, Effort, Evidence};
+use crate::lab;
 use crate::stability::map::ASPECT_RATIOS;
+use crate::statistics::larger;
 use nalgebra::{Matrix3, Vector3};
 use shearbed::jeffery::{couette_rate, shape_factor, strain_per_period};
 use shearbed::scene::{Orientation, Scene, Update};
@@ -33,81 +33,53 @@ const CORE: Model = Model {
 type Program = fn(&Scene) -> Ended;
 
 pub fn cases() -> Vec<Case> {
-    let about = |name, claim, source, equations| About {
-        name,
-        judges: Judges::Program,
-        claim,
-        source,
-        equations,
-    };
     vec![
-        Case::new(
-            about(
-                "extreme-suspensions",
-                "Interacting rods stay finite and |p| = 1 to 4 ulp: dense and thin, N = 1 and 2, α = 0 and huge, m from 0.1 to 50, σ at its limit, G from 10⁻³⁰ to 10³⁰ 1/s, steps from 10⁻⁷ T to T, parallel to one ulp, arms to the smallest normal number. A kick that overflows stops the run and names rod, step, seed and arm.",
-                "eqs 5–14, A.7–A.14",
-                &["7", "14", "A.13", "A.14"],
-            ),
-            CORE,
-            vec![
-                (
-                    "the last step by explicit Euler, not rescaled",
-                    Model {
+        Case::program("extreme-suspensions")
+            .claim("Interacting rods stay finite and |p| = 1 to 4 ulp: dense and thin, N = 1 and 2, α = 0 and \
+                    huge, m from 0.1 to 50, σ at its limit, G from 10⁻³⁰ to 10³⁰ 1/s, steps from 10⁻⁷ T to T, \
+                    parallel to one ulp, arms to the smallest normal number. A kick that overflows stops the \
+                    run and names rod, step, seed and arm.")
+            .source("eqs 5–14, A.7–A.14")
+            .equations(&["7", "14", "A.13", "A.14"])
+            .subject(CORE)
+            .mistake("the last step by explicit Euler, not rescaled", Model {
                         directions: stepped_by_euler,
                         ..CORE
-                    },
-                ),
-                (
-                    "|ṗ| as the root of its squares",
-                    Model {
+                    })
+            .mistake("|ṗ| as the root of its squares", Model {
                         pair: step_with_squares,
                         ..CORE
-                    },
-                ),
-                (
-                    "a shortest arm of 10⁻³ nobody asked for",
-                    Model {
+                    })
+            .mistake("a shortest arm of 10⁻³ nobody asked for", Model {
                         pair: |scene, placed| {
                             let mut scene = scene.clone();
                             lab::interaction(&mut scene).min_contact_arm = 1.1e-3;
                             step_of_the_core(&scene, placed)
                         },
                         ..CORE
-                    },
-                ),
-                (
-                    "α without effect",
-                    Model {
+                    })
+            .mistake("α without effect", Model {
                         meeting: |scene| lab::interaction(scene).alpha = 1e-300,
                         ..CORE
-                    },
-                ),
-            ],
-            extreme_suspensions,
-        ),
-        Case::new(
-            about(
-                "extreme-scenes",
-                "Scenes of free rods end with finite means and tr⟨pp⟩ = 1: G from 10⁻³⁰ to 10³⁰ 1/s, r_e from 10⁻⁸ to 10⁸, σ at \
-                 its limit, both poles, the flip, 10⁴ periods, and extension to a strain of 10⁴ (10⁵ and 10⁶ in a full run), which aligns \
-                 every rod.",
-                "eqs 3, 4, 11, 12, 15",
-                &["3", "4", "11", "15"],
-            ),
-            whole_run as Program,
-            vec![
-                ("a thousandth of the strain", |scene| {
+                    })
+            .check(extreme_suspensions),
+        Case::program("extreme-scenes")
+            .claim("Scenes of free rods end with finite means and tr⟨pp⟩ = 1: G from 10⁻³⁰ to 10³⁰ 1/s, r_e \
+                    from 10⁻⁸ to 10⁸, σ at its limit, both poles, the flip, 10⁴ periods, and extension to a \
+                    strain of 10⁴ (10⁵ and 10⁶ in a full run), which aligns every rod.")
+            .source("eqs 3, 4, 11, 12, 15")
+            .equations(&["3", "4", "11", "15"])
+            .subject(whole_run as Program)
+            .mistake("a thousandth of the strain", |scene| {
                     let mut short = scene.clone();
                     short.time.strain = scene.time.strain.map(|strain| 1e-3 * strain);
                     whole_run(&short)
-                }),
-                ("the plain exponential", |scene| by_exponential(scene, true)),
-                ("the plain exponential, not rescaled", |scene| {
+                })
+            .mistake("the plain exponential", |scene| by_exponential(scene, true))
+            .mistake("the plain exponential, not rescaled", |scene| {
                     by_exponential(scene, false)
-                }),
-            ],
-            extreme_scenes,
-        ),
+                })
+            .check(extreme_scenes),
     ]
 }
 
@@ -119,33 +91,28 @@ fn extreme_suspensions(model: &Model, effort: &Effort) -> Vec<Evidence> {
         let mut suspension = lab::stepped(&scene, 0);
         stopped += f64::from(run(&mut suspension, 300).is_none());
         for p in (model.directions)(&suspension) {
-            length = worse(length, off_length(&p));
+            length = larger(length, off_length(&p));
         }
         let ended = whole_run(&scene);
-        trace = worse(trace, ended.trace);
+        trace = larger(trace, ended.trace);
         stopped += f64::from(!ended.finite);
     }
     let (placed, unlike) = placed::ends(model.pair, effort);
     for p in placed {
-        length = worse(length, off_length(&p));
+        length = larger(length, off_length(&p));
     }
     vec![
-        Evidence::new("largest ||p| − 1|", Rule::within(length, LENGTH, LENGTH_BECAUSE)),
-        Evidence::new(
-            "largest |tr⟨pp⟩ − 1| of whole runs",
-            Rule::within(trace, TRACE, TRACE_BECAUSE),
-        ),
-        Evidence::new(
+        Evidence::within("largest ||p| − 1|", length, LENGTH, LENGTH_BECAUSE),
+        Evidence::within("largest |tr⟨pp⟩ − 1| of whole runs", trace, TRACE, TRACE_BECAUSE),
+        Evidence::exact(
             "rods that met although n = 10⁻³⁰ per cm³, or did not although α = 10³⁰⁰",
-            Rule::exact(meetings(model, effort)),
+            meetings(model, effort),
         ),
-        Evidence::new(
-            "runs that stopped or had a mean that is not finite",
-            Rule::exact(stopped),
-        ),
-        Evidence::new(
-            "pairs put down by hand that did not turn, or did not stop with rod, step, seed and arm where the kick overflows",
-            Rule::exact(unlike),
+        Evidence::exact("runs that stopped or had a mean that is not finite", stopped),
+        Evidence::exact(
+            "pairs put down by hand that did not turn, or did not stop with rod, step, seed and arm \
+             where the kick overflows",
+            unlike,
         ),
     ]
 }
@@ -181,12 +148,12 @@ fn whole_run(scene: &Scene) -> Ended {
     let Ok(results) = ensemble::run(&lab::plan(&scene), || ()) else {
         return Ended::LOST;
     };
-    let mut channels = results.series.iter().flat_map(|series| &series.channels);
+    let mut channels = results.series.iter().flat_map(|series| &series.columns);
     let finite =
         channels.all(|channel| (channel.mean.iter().chain(&channel.se)).all(|value| value.is_finite()));
     let mean = |name: &str, output: usize| {
         results
-            .channel(name)
+            .column(name)
             .map_or(f64::NAN, |channel| channel.mean[output])
     };
     if !finite {
@@ -202,7 +169,7 @@ fn whole_run(scene: &Scene) -> Ended {
     };
     let last = results.times.len() - 1;
     Ended {
-        trace: (0..=last).map(trace).fold(0.0, worse),
+        trace: (0..=last).map(trace).fold(0.0, larger),
         finite,
         last_x1: mean("x1", last),
     }
@@ -279,7 +246,7 @@ fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence> {
     let (mut trace, mut failed, mut apart) = (0.0, 0.0, 0.0);
     for scene in &scenes {
         let ended = program(scene);
-        trace = worse(trace, ended.trace);
+        trace = larger(trace, ended.trace);
         failed += f64::from(!ended.finite);
     }
     let longest = effort.pick(1e4, 1e6);
@@ -297,21 +264,20 @@ fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence> {
                     scene.output.observables = FEW.to_vec();
                     scene.time.outputs_per_strain = Some(1);
                 }));
-                trace = worse(trace, ended.trace);
+                trace = larger(trace, ended.trace);
                 failed += f64::from(!ended.finite);
-                apart = worse(apart, (ended.last_x1 - 1.0).abs());
+                apart = larger(apart, (ended.last_x1 - 1.0).abs());
             }
         }
     }
     vec![
-        Evidence::new(
-            "scenes that stopped or had a result that is not finite",
-            Rule::exact(failed),
-        ),
-        Evidence::new("largest |tr⟨pp⟩ − 1|", Rule::within(trace, TRACE, TRACE_BECAUSE)),
-        Evidence::new(
+        Evidence::exact("scenes that stopped or had a result that is not finite", failed),
+        Evidence::within("largest |tr⟨pp⟩ − 1|", trace, TRACE, TRACE_BECAUSE),
+        Evidence::within(
             "largest |X̄₁ − 1| at the end of an extension",
-            Rule::within(apart, LENGTH, LENGTH_BECAUSE),
+            apart,
+            LENGTH,
+            LENGTH_BECAUSE,
         ),
     ]
 }

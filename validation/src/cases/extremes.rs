@@ -1,9 +1,9 @@
 //! The core where it is stiff or extreme: no NaN, no panic, |p| = 1 to 4 ulp, C to its bound.
 
-use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
 use crate::stability::core;
 use crate::stability::map::{ASPECT_RATIOS, STEPS};
+use crate::statistics::larger;
 use crate::subject::{ClosedForm, Problem, Setting, Subject};
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use shearbed::flow::VelocityGradient;
@@ -18,60 +18,50 @@ type Motion = fn(f64, f64, &UnitVector3<f64>, f64) -> Vector3<f64>;
 type FlowMotion = fn(&VelocityGradient, f64, &UnitVector3<f64>, f64) -> Vector3<f64>;
 
 pub fn cases() -> Vec<Case> {
-    let about = |name, claim, source, equations| About {
-        name,
-        judges: Judges::Core,
-        claim,
-        source,
-        equations,
-    };
     vec![
-        Case::new(
-            about(
-                "extreme-motion",
-                "Free rods in plane Couette flow keep |p| = 1 to 4 ulp and C_b to 8, and are where the closed form has them, for r_e from 10⁻⁸ to 10⁸, G from 10⁻³⁰ to 10³⁰ 1/s, 10⁻⁹ to 10⁸ periods, at once and in a thousand steps, from any start.",
-                "eqs 13, 15, A.4, A.5",
-                &["13", "15"],
-            ),
-            core::exact as Motion,
-            vec![
-                ("q not rescaled", |r, g, p, turns| {
-                    let Phase { cos, sin } = Phase::of_turns(g.signum() * turns);
-                    Vector3::new(p.x * cos - p.y / r * sin, r * p.x * sin + p.y * cos, p.z)
-                }),
-                ("whole turns left in the phase", |r, _, p, turns| {
-                    let (sin, cos) = (TAU * turns).sin_cos();
-                    Vector3::new(p.x * cos - p.y / r * sin, r * p.x * sin + p.y * cos, p.z).normalize()
-                }),
-                ("G t for G t/T", |r, g, p, turns| {
-                    core::exact(r, g, p, turns * shearbed::jeffery::strain_per_period(r))
-                }),
-                ("through tan θ and φ (A.4, A.5)", |r, _, p, turns| {
-                    let end = ClosedForm.advance(&Problem::new(r, turns), p, Setting::Once);
-                    end.unwrap_or(Vector3::repeat(f64::NAN))
-                }),
-            ],
-            extreme_motion,
-        ),
-        Case::new(
-            about(
-                "extreme-flows",
-                "In other flows rods keep |p| = 1 to 4 ulp up to a strain of 10⁶ and beyond, and end where the flow leads.",
-                "eq. 3, A.1",
-                &["3", "A.1"],
-            ),
-            (|flow, r, p, time_s| Propagator::new(flow, r).after(p, time_s).into_inner()) as FlowMotion,
-            vec![
-                ("the plain exponential", |flow, r, p, time_s| {
-                    let a = flow.vorticity() + shearbed::jeffery::shape_factor(r) * flow.strain_rate();
-                    ((a * time_s).exp() * p.as_ref()).normalize()
-                }),
-                ("a millionth of the strain", |flow, r, p, time_s| {
-                    Propagator::new(flow, r).after(p, 1e-6 * time_s).into_inner()
-                }),
-            ],
-            extreme_flows,
-        ),
+        Case::core("extreme-motion")
+            .claim(
+                "Free rods in plane Couette flow keep |p| = 1 to 4 ulp and C_b to 8, and are where the \
+                 closed form has them, for r_e from 10⁻⁸ to 10⁸, G from 10⁻³⁰ to 10³⁰ 1/s, 10⁻⁹ to 10⁸ \
+                 periods, at once and in a thousand steps, from any start.",
+            )
+            .source("eqs 13, 15, A.4, A.5")
+            .equations(&["13", "15"])
+            .subject(core::exact as Motion)
+            .mistake("q not rescaled", |r, g, p, turns| {
+                let Phase { cos, sin } = Phase::of_turns(g.signum() * turns);
+                Vector3::new(p.x * cos - p.y / r * sin, r * p.x * sin + p.y * cos, p.z)
+            })
+            .mistake("whole turns left in the phase", |r, _, p, turns| {
+                let (sin, cos) = (TAU * turns).sin_cos();
+                Vector3::new(p.x * cos - p.y / r * sin, r * p.x * sin + p.y * cos, p.z).normalize()
+            })
+            .mistake("G t for G t/T", |r, g, p, turns| {
+                core::exact(r, g, p, turns * shearbed::jeffery::strain_per_period(r))
+            })
+            .mistake("through tan θ and φ (A.4, A.5)", |r, _, p, turns| {
+                let end = ClosedForm.advance(&Problem::new(r, turns), p, Setting::Once);
+                end.unwrap_or(Vector3::repeat(f64::NAN))
+            })
+            .check(extreme_motion),
+        Case::core("extreme-flows")
+            .claim(
+                "In other flows rods keep |p| = 1 to 4 ulp up to a strain of 10⁶ and beyond, and end where \
+                 the flow leads.",
+            )
+            .source("eq. 3, A.1")
+            .equations(&["3", "A.1"])
+            .subject(
+                (|flow, r, p, time_s| Propagator::new(flow, r).after(p, time_s).into_inner()) as FlowMotion,
+            )
+            .mistake("the plain exponential", |flow, r, p, time_s| {
+                let a = flow.vorticity() + shearbed::jeffery::shape_factor(r) * flow.strain_rate();
+                ((a * time_s).exp() * p.as_ref()).normalize()
+            })
+            .mistake("a millionth of the strain", |flow, r, p, time_s| {
+                Propagator::new(flow, r).after(p, 1e-6 * time_s).into_inner()
+            })
+            .check(extreme_flows),
     ]
 }
 
@@ -83,49 +73,40 @@ pub(super) fn off_length(p: &Vector3<f64>) -> f64 {
     (p.norm() - 1.0).abs()
 }
 
-/// The larger; NaN stays.
-pub(super) fn worse(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() {
-        f64::NAN
-    } else {
-        a.max(b)
-    }
-}
-
 fn extreme_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
     let (mut length, mut orbit, mut angle) = (0.0f64, 0.0f64, 0.0f64);
     for r in ASPECT_RATIOS.into_iter().chain([1.0]) {
         let found = core::worst(r, motion);
-        length = worse(length, found.length);
-        orbit = worse(orbit, found.orbit);
-        angle = worse(angle, found.angle);
+        length = larger(length, found.length);
+        orbit = larger(orbit, found.orbit);
+        angle = larger(angle, found.angle);
     }
     let (stepped_length, stepped_orbit) = thousand_steps(motion);
     vec![
-        Evidence::new(
+        Evidence::within(
             "largest ||p| − 1|",
-            Rule::within(worse(length, stepped_length), LENGTH, LENGTH_BECAUSE),
+            larger(length, stepped_length),
+            LENGTH,
+            LENGTH_BECAUSE,
         ),
-        Evidence::new(
+        Evidence::within(
             "largest change of C_b",
-            Rule::within(
-                orbit,
-                8.0 * f64::EPSILON,
-                "one evaluation's roundings; C_b ≤ 1 has slope ≤ 1 in ln C / 4",
-            ),
+            orbit,
+            8.0 * f64::EPSILON,
+            "one evaluation's roundings; C_b ≤ 1 has slope ≤ 1 in ln C / 4",
         ),
-        Evidence::new(
+        Evidence::within(
             "largest change of C_b in 1000 steps of 10⁻⁹ T to 10³ T",
-            Rule::within(stepped_orbit, 8000.0 * f64::EPSILON, "a thousand evaluations"),
+            stepped_orbit,
+            8000.0 * f64::EPSILON,
+            "a thousand evaluations",
         ),
-        Evidence::new(
+        Evidence::within(
             "largest angle to the closed form over 16 ε(1 + 2π max(r_e, 1/r_e)|rest|)",
-            Rule::within(
-                angle,
-                1.0,
-                "the phase without whole turns is rounded to ε, and φ moves by max(r_e, 1/r_e) times that; some sixteen \
-                 roundings",
-            ),
+            angle,
+            1.0,
+            "the phase without whole turns is rounded to ε, and φ moves by max(r_e, 1/r_e) times that; \
+             some sixteen roundings",
         ),
     ]
 }
@@ -140,8 +121,8 @@ fn thousand_steps(motion: &Motion) -> (f64, f64) {
             let end = (0..1000).fold(start.into_inner(), |p, _| {
                 motion(r, 0.5, &UnitVector3::new_unchecked(p), step)
             });
-            length = worse(length, off_length(&end));
-            drift = worse(drift, (bounded(&end) - bounded(&start)).abs());
+            length = larger(length, off_length(&end));
+            drift = larger(drift, (bounded(&end) - bounded(&start)).abs());
         }
     }
     (length, drift)
@@ -166,9 +147,9 @@ fn extreme_flows(motion: &FlowMotion, _: &Effort) -> Vec<Evidence> {
                             lost += 1.0;
                             continue;
                         }
-                        length = worse(length, off_length(&p));
+                        length = larger(length, off_length(&p));
                         if strain >= 1e6 {
-                            end = worse(end, p.y.hypot(p.z) * start.x.abs());
+                            end = larger(end, p.y.hypot(p.z) * start.x.abs());
                         }
                     }
                 }
@@ -176,15 +157,14 @@ fn extreme_flows(motion: &FlowMotion, _: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::new("directions that are not finite", Rule::exact(lost)),
-        Evidence::new("largest ||p| − 1|", Rule::within(length, LENGTH, LENGTH_BECAUSE)),
-        Evidence::new(
+        Evidence::exact("directions that are not finite", lost),
+        Evidence::within("largest ||p| − 1|", length, LENGTH, LENGTH_BECAUSE),
+        Evidence::within(
             "distance from the flow's axis at a strain of 10⁶ or more, times |p_1| at first",
-            Rule::within(
-                end,
-                LENGTH,
-                "e^{−Λ·10⁶} is 0; the map is known to some ε, which a start near the dividing plane grows by 1/|p_1|",
-            ),
+            end,
+            LENGTH,
+            "e^{−Λ·10⁶} is 0; the map is known to some ε, which a start near the dividing plane grows \
+             by 1/|p_1|",
         ),
     ]
 }

@@ -1,9 +1,10 @@
 //! Whole runs of free rods against closed forms with no simulation in them.
 
-use super::lab;
-use crate::accept::{Design, Rule};
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::accept::Design;
+use crate::case::{Case, Effort, Evidence};
+use crate::lab;
 use crate::oracle::isotropic;
+use crate::statistics::{Sample, larger};
 use shearbed::ensemble;
 use shearbed::scene::Scene;
 
@@ -12,74 +13,56 @@ type Change = fn(&mut Scene);
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::new(
-            About {
-                name: "free-isotropic",
-                judges: Judges::Core,
-                claim: "Free rods of one aspect ratio, isotropic at first, have the mean projections of the closed form.",
-                source: "eqs 4, 12, Fig. 6 (top)",
-                equations: &["4", "12"],
-            },
-            (|_| {}) as Change,
-            vec![
-                ("r_e 5 % longer", |scene| scene.particles.aspect_ratio *= 1.05),
-                ("aspect ratios spread by 3.6 %", |scene| {
-                    scene.particles.aspect_ratio_sd_percent = 3.6
-                }),
-                ("the flow turned round", |scene| {
-                    // u_1 = G x_2: axes 1 and 2 exchanged.
-                    scene.flow.shear_rate_per_s = None;
-                    scene.flow.gradient_per_s = Some([[0.0, 0.5, 0.0], [0.0; 3], [0.0; 3]]);
-                }),
-            ],
-            uniform_rods,
-        ),
-        Case::new(
-            About {
-                name: "free-polydisperse",
-                judges: Judges::Core,
-                claim: "Free rods of Gaussian aspect ratio, isotropic at first, have the mean projections of the quadrature.",
-                source: "eqs 4, 11, 12, Fig. 6 (middle), Fig. 9",
-                equations: &["4", "11"],
-            },
-            (|_| {}) as Change,
-            vec![
-                ("no spread", |scene| scene.particles.aspect_ratio_sd_percent = 0.0),
-                ("the spread 20 % too wide", |scene| {
-                    scene.particles.aspect_ratio_sd_percent *= 1.2
-                }),
-                ("r_e 10 % longer", |scene| scene.particles.aspect_ratio *= 1.1),
-            ],
-            spread_rods,
-        ),
-        Case::new(
-            About {
-                name: "free-half-period",
-                judges: Judges::Core,
-                claim: "Mean projections of free rods of one aspect ratio repeat after T/2, because p ≡ −p.",
-                source: "eqs 4, 15, A.4",
-                equations: &["4", "15"],
-            },
-            (|_| {}) as Change,
-            vec![
-                ("aspect ratios spread by 1 %", |scene| {
-                    scene.particles.aspect_ratio_sd_percent = 1.0
-                }),
-                ("rods that interact", |scene| {
-                    lab::interaction(scene);
-                }),
-            ],
-            half_period,
-        ),
+        Case::core("free-isotropic")
+            .claim(
+                "Free rods of one aspect ratio, isotropic at first, have the mean projections of the \
+                 closed form.",
+            )
+            .source("eqs 4, 12, Fig. 6 (top)")
+            .equations(&["4", "12"])
+            .subject((|_| {}) as Change)
+            .mistake("r_e 5 % longer", |scene| scene.particles.aspect_ratio *= 1.05)
+            .mistake("aspect ratios spread by 3.6 %", |scene| {
+                scene.particles.aspect_ratio_sd_percent = 3.6
+            })
+            .mistake("the flow turned round", |scene| {
+                // u_1 = G x_2: axes 1 and 2 exchanged.
+                scene.flow.shear_rate_per_s = None;
+                scene.flow.gradient_per_s = Some([[0.0, 0.5, 0.0], [0.0; 3], [0.0; 3]]);
+            })
+            .check(uniform_rods),
+        Case::core("free-polydisperse")
+            .claim(
+                "Free rods of Gaussian aspect ratio, isotropic at first, have the mean projections of the \
+                 quadrature.",
+            )
+            .source("eqs 4, 11, 12, Fig. 6 (middle), Fig. 9")
+            .equations(&["4", "11"])
+            .subject((|_| {}) as Change)
+            .mistake("no spread", |scene| scene.particles.aspect_ratio_sd_percent = 0.0)
+            .mistake("the spread 20 % too wide", |scene| {
+                scene.particles.aspect_ratio_sd_percent *= 1.2
+            })
+            .mistake("r_e 10 % longer", |scene| scene.particles.aspect_ratio *= 1.1)
+            .check(spread_rods),
+        Case::core("free-half-period")
+            .claim("Mean projections of free rods of one aspect ratio repeat after T/2, because p ≡ −p.")
+            .source("eqs 4, 15, A.4")
+            .equations(&["4", "15"])
+            .subject((|_| {}) as Change)
+            .mistake("aspect ratios spread by 1 %", |scene| {
+                scene.particles.aspect_ratio_sd_percent = 1.0
+            })
+            .mistake("rods that interact", |scene| {
+                lab::interaction(scene);
+            })
+            .check(half_period),
     ]
 }
 
 /// What must be seen of every mean. |p_i| of a rod scatters by 0.294 at most in a pilot at seed 99; the controls change a
 /// mean by 0.016 (r_e 5 % longer, r_e = 1.5, t/T = 2/7) and 0.015 (r_e 10 % longer, r_e = 5, σ = 7.2 %), by the closed forms.
-const DESIGN: Design = Design {
-    effect: 0.01,
-    sd: 0.31,
-};
+const DESIGN: Design = Design::new(0.01, 0.31);
 
 fn uniform_rods(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let problems: [(f64, &[usize]); 4] = [(1.5, &[2, 20]), (5.0, &[10]), (11.6, &[2, 10]), (50.0, &[20])];
@@ -129,19 +112,21 @@ fn compare(
     for &output in sevenths {
         for (axis, reference) in expected(output as f64 / 7.0).into_iter().enumerate() {
             let name = ["x1", "x2", "x3"][axis];
-            let channel = results.as_ref().ok().and_then(|results| results.channel(name));
+            let channel = results.as_ref().ok().and_then(|results| results.column(name));
             let (mean, se) = channel.map_or((f64::NAN, f64::NAN), |c| (c.mean[output], c.se[output]));
             evidence.push(Evidence::new(
                 format!("X̄_{} at t/T = {output}/7, r_e = {r}, σ = {sd} %", axis + 1),
-                Rule::Mean {
+                Sample {
                     mean,
                     se,
                     samples: scene.particles.count as u64,
+                }
+                .is(
                     reference,
-                    allowance: 0.0,
-                    effect: DESIGN.effect,
-                    because: "the closed form is exact to 10⁻⁹; independent rods",
-                },
+                    0.0,
+                    DESIGN.effect,
+                    "the closed form is exact to 10⁻⁹; independent rods",
+                ),
             ));
         }
     }
@@ -157,17 +142,19 @@ fn half_period(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let mut worst = 0.0f64;
     match ensemble::run(&lab::plan(&scene), || ()) {
         Ok(results) => {
-            for channel in results.series.iter().flat_map(|series| &series.channels) {
+            for channel in results.series.iter().flat_map(|series| &series.columns) {
                 for (k, later) in channel.mean.iter().enumerate().skip(10) {
-                    worst = worst.max((later - channel.mean[k - 10]).abs());
+                    worst = larger(worst, (later - channel.mean[k - 10]).abs());
                 }
             }
         }
         Err(_) => worst = f64::NAN,
     }
     let because = "the phases are equal bits; the sums of 1000 terms are rounded alike up to signs of zero";
-    vec![Evidence::new(
+    vec![Evidence::within(
         "largest |X̄_i(t + T/2) − X̄_i(t)|",
-        Rule::within(worst, 1e-14, because),
+        worst,
+        1e-14,
+        because,
     )]
 }

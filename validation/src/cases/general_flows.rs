@@ -3,9 +3,8 @@
 mod problems;
 mod scenes;
 
-use super::lab::Shared;
-use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
+use crate::lab::Shared;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use problems::Problem;
 use shearbed::flow::VelocityGradient;
@@ -19,72 +18,55 @@ type Motion = fn(&Problem) -> Moved;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::new(
-            About {
-                name: "general-flows",
-                judges: Judges::Core,
-                claim: "In any flow, at r_e from 10⁻¹⁰⁰ to 10¹⁰⁰ and strains from 10⁻¹³ to 10⁶, a direction is off the oracle's, of \
-                    hundreds of bits, by no more than the bound that comes with it; where that is above 10⁻⁶ rad, a scene is \
-                    refused, and none that numbers of 106 bits can answer.",
-                source: "eqs 2, 3, A.1",
-                equations: &["2", "3", "A.1"],
-            },
-            core as Motion,
-            vec![
-                ("Λ rounded to double before 1 − Λ is formed", |problem| {
+        Case::core("general-flows")
+            .claim("In any flow, at r_e from 10⁻¹⁰⁰ to 10¹⁰⁰ and strains from 10⁻¹³ to 10⁶, a direction is \
+                    off the oracle's, of hundreds of bits, by no more than the bound that comes with it; \
+                    where that is above 10⁻⁶ rad, a scene is refused, and none that numbers of 106 bits can \
+                    answer.")
+            .source("eqs 2, 3, A.1")
+            .equations(&["2", "3", "A.1"])
+            .subject(core as Motion)
+            .mistake("Λ rounded to double before 1 − Λ is formed", |problem| {
                     let shape = shape_factor(problem.rod.aspect_ratio);
                     let rounded = ((1.0 + shape) / (1.0 - shape)).sqrt().clamp(1e-100, 1e100);
                     let mut other = *problem;
                     other.rod.aspect_ratio = rounded;
                     core(&other)
-                }),
-                ("double for double-double", |problem| {
+                })
+            .mistake("double for double-double", |problem| {
                     in_double(problem, squared_exponential)
-                }),
-                ("|det A| ≤ 16 ε taken as planar", |problem| {
+                })
+            .mistake("|det A| ≤ 16 ε taken as planar", |problem| {
                     let (a, _) = rates(problem);
                     if a.determinant().abs() <= 16.0 * f64::EPSILON {
                         in_double(problem, planar)
                     } else {
                         core(problem)
                     }
-                }),
-                ("no bound, but for the oracle's own rounding", |problem| Moved {
+                })
+            .mistake("no bound, but for the oracle's own rounding", |problem| Moved {
                     error: 0.0,
                     ..core(problem)
-                }),
-                ("a bound as wide as double would need", |problem| {
+                })
+            .mistake("a bound as wide as double would need", |problem| {
                     let moved = core(problem);
-                    Moved {
-                        error: moved
-                            .error
-                            .max(moved.condition * problem.strain.max(1.0) * f64::EPSILON),
-                        ..moved
-                    }
-                }),
-            ],
-            general_flows,
-        ),
-        Case::new(
-            About {
-                name: "listed-scenes",
-                judges: Judges::Core,
-                claim: "Scenes that were wrong once end where the oracle has them, within the error that their plan states: slow swirls \
-                    to a strain of 3000, r_e = 10¹⁰⁰ and 10⁻¹⁰⁰ along an axis, flows next to shear, Couette flow turned by 45° at \
-                    r_e = 10⁸, a strain of 10⁻¹³ of a rotation.",
-                source: "eqs 2, 3, 15, A.1",
-                equations: &["3", "15", "A.1"],
-            },
-            scenes::program as scenes::Run,
-            vec![
-                ("r_e longer by 10⁻⁶ of itself", |scene| {
+                    let wide = moved.condition * problem.strain.max(1.0) * f64::EPSILON;
+                    Moved { error: moved.error.max(wide), ..moved }
+                })
+            .check(general_flows),
+        Case::core("listed-scenes")
+            .claim("Scenes that were wrong once end where the oracle has them, within the error that their \
+                    plan states: slow swirls to a strain of 3000, r_e = 10¹⁰⁰ and 10⁻¹⁰⁰ along an axis, flows \
+                    next to shear, Couette flow turned by 45° at r_e = 10⁸, a strain of 10⁻¹³ of a rotation.")
+            .source("eqs 2, 3, 15, A.1")
+            .equations(&["3", "15", "A.1"])
+            .subject(scenes::program as scenes::Run)
+            .mistake("r_e longer by 10⁻⁶ of itself", |scene| {
                     let mut longer = scene.clone();
                     longer.particles.aspect_ratio *= 1.0 + 1e-6;
                     scenes::program(&longer)
-                }),
-                (
-                    "nearly plane taken as plane: the flow along axis 3 left out",
-                    |scene| {
+                })
+            .mistake("nearly plane taken as plane: the flow along axis 3 left out", |scene| {
                         let mut plane = scene.clone();
                         if let Some(rows) = plane
                             .flow
@@ -98,11 +80,8 @@ pub fn cases() -> Vec<Case> {
                                 .for_each(|(k, row)| row[k] += if k < 2 { 0.5 * third } else { -third });
                         }
                         scenes::program(&plane)
-                    },
-                ),
-            ],
-            scenes::listed_scenes,
-        ),
+                    })
+            .check(scenes::listed_scenes),
     ]
 }
 
@@ -167,7 +146,7 @@ fn planar(a: &Matrix3<f64>, time: f64) -> Matrix3<f64> {
 
 /// Problems with answers, worked out once for the check and its controls.
 fn shared(effort: &Effort) -> Arc<Vec<Problem>> {
-    static PROBLEMS: Shared<Vec<Problem>> = Shared::new();
+    static PROBLEMS: Shared<u64, Vec<Problem>> = Shared::new();
     PROBLEMS.get(effort, 0, || {
         problems::random(effort.seed(9), effort.pick(400, 100_000))
     })
@@ -229,15 +208,9 @@ fn general_flows(motion: &Motion, effort: &Effort) -> Vec<Evidence> {
         decades.bound = decades.bound.max(bound);
     }
     let mut evidence = vec![
-        Evidence::new(
-            "answers that are off by more than their bound",
-            Rule::exact(wrong),
-        ),
-        Evidence::new(
-            "largest error over its bound",
-            Rule::within(share, 1.0, "what a bound is"),
-        ),
-        Evidence::new("refused, though 106 bits can answer", Rule::exact(needless)),
+        Evidence::exact("answers that are off by more than their bound", wrong),
+        Evidence::within("largest error over its bound", share, 1.0, "what a bound is"),
+        Evidence::exact("refused, though 106 bits can answer", needless),
     ];
     for (k, found) in decades
         .iter()
@@ -250,12 +223,14 @@ fn general_flows(motion: &Motion, effort: &Effort) -> Vec<Evidence> {
             worst,
             bound,
         } = found;
-        evidence.push(Evidence::new(
+        evidence.push(Evidence::within(
             format!(
                 "worst of {answered} answers, condition number up to 10^{}; {refused} refused",
                 2 * (k + 1)
             ),
-            Rule::within(*worst, *bound, "the largest bound among them"),
+            *worst,
+            *bound,
+            "the largest bound among them",
         ));
     }
     evidence

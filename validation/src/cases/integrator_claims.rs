@@ -1,11 +1,10 @@
 //! What `docs/integrators.md` says of the problem and of the subjects, beyond orders and limits.
 
-use super::motion::larger;
 use super::subjects::Subjects;
 use super::subjects::spoiled::in_p;
-use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
 use crate::stability::orbit::Place;
+use crate::statistics::larger;
 use crate::subject::{self, *};
 use crate::work_precision::order;
 use nalgebra::{Matrix3, Vector3};
@@ -18,111 +17,89 @@ type Rate = fn(&Problem, &Vector3<f64>) -> Vector3<f64>;
 type Slope = fn(&Problem, &Vector3<f64>) -> Matrix3<f64>;
 
 pub fn cases() -> Vec<Case> {
-    let about = |name, claim, source, equations| About {
-        name,
-        judges: Judges::Integrator,
-        claim,
-        source,
-        equations,
-    };
     let through_shape: Rate = |problem, p| {
         let shape = shearbed::jeffery::shape_factor(problem.aspect_ratio);
         let pull = Vector3::new(-0.5 * (1.0 - shape) * p.y, 0.5 * (1.0 + shape) * p.x, 0.0);
         pull - p * (shape * p.x * p.y)
     };
     vec![
-        Case::new(
-            about(
-                "where-errors-show",
-                "A phase that is off by a tenth of a period shows as an angle of less than 1/r_e where a long rod lies along \
-                 the flow, and as more than ½ in its flip.",
-                "A.4",
-                &["A.4"],
-            ),
-            1.0,
-            vec![("rods a thousandth as long", 1e-3)],
-            where_errors_show,
-        ),
-        Case::new(
-            about(
-                "right-hand-side-digits",
-                "The right-hand sides of the subjects keep every digit of 1 − Λ, and with it the period, up to r_e = 10⁸.",
-                "A.1, eq. 15",
-                &["15", "A.1"],
-            ),
-            (|problem: &Problem, p: &Vector3<f64>| problem.rate(p)) as Rate,
-            vec![
-                ("from Λ itself", through_shape),
-                ("1/r_e² for 1/(r_e² + 1)", |problem, p| {
-                    let r2 = problem.aspect_ratio.powi(2);
-                    Vector3::new(-p.y / r2, p.x, 0.0) - p * (p.x * p.y)
-                }),
-            ],
-            digits,
-        ),
-        Case::new(
-            about(
-                "flip-not-stiff",
-                "No eigenvalue of Jeffery's equation in p is larger than (⅓ + Λ²)^½ G, or ½(1 + |Λ|) G where |Λ| < ⅓: at most 2/√3 G, \
-                 so the flip is short, but the equation is not stiff.",
-                "A.1",
-                &["A.1"],
-            ),
-            (|problem: &Problem, p: &Vector3<f64>| problem.rate_slope(p)) as Slope,
-            vec![
-                ("the pull along p left out of the slope", |problem, p| {
-                    let shape = shearbed::jeffery::shape_factor(problem.aspect_ratio);
-                    problem.rate_slope(p) + p * Vector3::new(shape * p.y, shape * p.x, 0.0).transpose()
-                }),
-                ("twice the pull along p", |problem, p| {
-                    let shape = shearbed::jeffery::shape_factor(problem.aspect_ratio);
-                    problem.rate_slope(p) - p * Vector3::new(shape * p.y, shape * p.x, 0.0).transpose()
-                }),
-                ("a rod 1 % longer", |problem, p| {
-                    Problem::new(1.01 * problem.aspect_ratio, 1.0).rate_slope(p)
-                }),
-            ],
-            eigenvalues,
-        ),
-        Case::new(
-            about(
-                "who-loses-length",
-                "The subjects that are not said to keep |p| lose it: each by more than round-off.",
-                "p·ṗ = 0 (A.1)",
-                &["A.1"],
-            ),
-            subject::own as Subjects,
-            vec![("projected RK4 not said to keep it", || {
+        Case::integrator("where-errors-show")
+            .claim(
+                "A phase that is off by a tenth of a period shows as an angle of less than 1/r_e where a \
+                 long rod lies along the flow, and as more than ½ in its flip.",
+            )
+            .source("A.4")
+            .equations(&["A.4"])
+            .subject(1.0)
+            .mistake("rods a thousandth as long", 1e-3)
+            .check(where_errors_show),
+        Case::integrator("right-hand-side-digits")
+            .claim(
+                "The right-hand sides of the subjects keep every digit of 1 − Λ, and with it the period, \
+                 up to r_e = 10⁸.",
+            )
+            .source("A.1, eq. 15")
+            .equations(&["15", "A.1"])
+            .subject((|problem: &Problem, p: &Vector3<f64>| problem.rate(p)) as Rate)
+            .mistake("from Λ itself", through_shape)
+            .mistake("1/r_e² for 1/(r_e² + 1)", |problem, p| {
+                let r2 = problem.aspect_ratio.powi(2);
+                Vector3::new(-p.y / r2, p.x, 0.0) - p * (p.x * p.y)
+            })
+            .check(digits),
+        Case::integrator("flip-not-stiff")
+            .claim(
+                "No eigenvalue of Jeffery's equation in p is larger than (⅓ + Λ²)^½ G, or ½(1 + |Λ|) G \
+                 where |Λ| < ⅓: at most 2/√3 G, so the flip is short, but the equation is not stiff.",
+            )
+            .source("A.1")
+            .equations(&["A.1"])
+            .subject((|problem: &Problem, p: &Vector3<f64>| problem.rate_slope(p)) as Slope)
+            .mistake("the pull along p left out of the slope", |problem, p| {
+                let shape = shearbed::jeffery::shape_factor(problem.aspect_ratio);
+                problem.rate_slope(p) + p * Vector3::new(shape * p.y, shape * p.x, 0.0).transpose()
+            })
+            .mistake("twice the pull along p", |problem, p| {
+                let shape = shearbed::jeffery::shape_factor(problem.aspect_ratio);
+                problem.rate_slope(p) - p * Vector3::new(shape * p.y, shape * p.x, 0.0).transpose()
+            })
+            .mistake("a rod 1 % longer", |problem, p| {
+                Problem::new(1.01 * problem.aspect_ratio, 1.0).rate_slope(p)
+            })
+            .check(eigenvalues),
+        Case::integrator("who-loses-length")
+            .claim("The subjects that are not said to keep |p| lose it: each by more than round-off.")
+            .source("p·ṗ = 0 (A.1)")
+            .equations(&["A.1"])
+            .subject(subject::own as Subjects)
+            .mistake("projected RK4 not said to keep it", || {
                 in_p(4, false, |problem, p, h| {
                     rk4(|y| problem.rate(&y), p, h).normalize()
                 })
-            })],
-            lose_length,
-        ),
-        Case::new(
-            about(
-                "coarse-steps",
-                "At GΔt = 10 and r_e = 11.6 RK4 in p gives no finite direction, and projected RK4 a wrong one of length 1.",
-                "A.1",
-                &["A.1"],
-            ),
-            10.0,
-            vec![("GΔt = 0.1", 0.1)],
-            coarse,
-        ),
-        Case::new(
-            about(
-                "grid-convergence-index",
-                "At r_e = 11.6 the grid convergence index bounds the error of every fixed-step subject on its finest three grids.",
-                "A.4, A.5",
-                &["A.4", "A.5"],
-            ),
-            subject::own as Subjects,
-            vec![("explicit Euler said to be of order 3", || {
+            })
+            .check(lose_length),
+        Case::integrator("coarse-steps")
+            .claim(
+                "At GΔt = 10 and r_e = 11.6 RK4 in p gives no finite direction, and projected RK4 a wrong \
+                 one of length 1.",
+            )
+            .source("A.1")
+            .equations(&["A.1"])
+            .subject(10.0)
+            .mistake("GΔt = 0.1", 0.1)
+            .check(coarse),
+        Case::integrator("grid-convergence-index")
+            .claim(
+                "At r_e = 11.6 the grid convergence index bounds the error of every fixed-step subject on \
+                 its finest three grids.",
+            )
+            .source("A.4, A.5")
+            .equations(&["A.4", "A.5"])
+            .subject(subject::own as Subjects)
+            .mistake("explicit Euler said to be of order 3", || {
                 in_p(3, false, |problem, p, h| p + h * problem.tangent_rate(&p))
-            })],
-            index_bounds,
-        ),
+            })
+            .check(index_bounds),
     ]
 }
 
@@ -136,17 +113,18 @@ fn where_errors_show(scale: &f64, _: &Effort) -> Vec<Evidence> {
         flip = larger(flip, 0.5 / apart_rad(&at(0.0), &at(0.1)));
     }
     vec![
-        Evidence::new(
+        Evidence::within(
             "largest angle between two directions along the flow, a tenth of a period apart, times r_e",
-            Rule::within(
-                along,
-                1.0,
-                "A.4: π/2 − φ = cot(κ)/r_e, and cot κ changes by 2 cot 72° = 0.65 between the two, for the longest rods",
-            ),
+            along,
+            1.0,
+            "A.4: π/2 − φ = cot(κ)/r_e, and cot κ changes by 2 cot 72° = 0.65 between the two, for the \
+             longest rods",
         ),
-        Evidence::new(
+        Evidence::within(
             "½ over the smallest angle between the flip and a tenth of a period before",
-            Rule::within(flip, 1.0, "from φ = 1 to a rod along the flow, π/2"),
+            flip,
+            1.0,
+            "from φ = 1 to a rod along the flow, π/2",
         ),
     ]
 }
@@ -165,13 +143,17 @@ fn digits(rate: &Rate, _: &Effort) -> Vec<Evidence> {
     }
     let because = "a square, a sum, a quotient, a root: a dozen roundings";
     vec![
-        Evidence::new(
+        Evidence::within(
             "relative error of r_e read off the right-hand side",
-            Rule::within(worst, 12.0 * f64::EPSILON, because),
+            worst,
+            12.0 * f64::EPSILON,
+            because,
         ),
-        Evidence::new(
+        Evidence::within(
             "relative error of the period read off it",
-            Rule::within(period, 12.0 * f64::EPSILON, because),
+            period,
+            12.0 * f64::EPSILON,
+            because,
         ),
     ]
 }
@@ -211,16 +193,20 @@ fn eigenvalues(slope: &Slope, _: &Effort) -> Vec<Evidence> {
             }
         }
     }
-    let because =
-        "eigenvalues of a matrix near 1, whose two largest are apart by 1.1 or more where they are largest";
+    let because = "eigenvalues of a matrix near 1, whose two largest are apart by 1.1 or more where they are \
+                   largest";
     vec![
-        Evidence::new(
+        Evidence::within(
             "by how much the largest eigenvalue of ∂ṗ/∂p exceeds theory, over 1152 directions",
-            Rule::within(above.max(0.0), 1e-13, because),
+            above.max(0.0),
+            1e-13,
+            because,
         ),
-        Evidence::new(
+        Evidence::within(
             "relative difference of the two where theory has it largest",
-            Rule::within(apart, 1e-13, because),
+            apart,
+            1e-13,
+            because,
         ),
     ]
 }
@@ -240,9 +226,9 @@ fn lose_length(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
     let losing = all
         .iter()
         .filter(|subject| !subject.keeps_length() && subject.theory() != Theory::Exact);
-    vec![Evidence::new(
+    vec![Evidence::exact(
         "subjects that keep |p| to round-off without being said to",
-        Rule::exact(losing.filter(|subject| kept(subject.as_ref())).count() as f64),
+        losing.filter(|subject| kept(subject.as_ref())).count() as f64,
     )]
 }
 
@@ -260,7 +246,7 @@ fn coarse(strain: &f64, _: &Effort) -> Vec<Evidence> {
         };
         unlike += f64::from(!as_said);
     }
-    vec![Evidence::new("of the two, not as said", Rule::exact(unlike))]
+    vec![Evidence::exact("of the two, not as said", unlike)]
 }
 
 fn index_bounds(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
@@ -276,12 +262,10 @@ fn index_bounds(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
             );
         }
     }
-    vec![Evidence::new(
+    vec![Evidence::within(
         "largest error over its index",
-        Rule::within(
-            worst,
-            1.0,
-            "the index is 1.25 times the error where the error falls with the order of theory",
-        ),
+        worst,
+        1.0,
+        "the index is 1.25 times the error where the error falls with the order of theory",
     )]
 }

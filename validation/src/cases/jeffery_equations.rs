@@ -1,11 +1,10 @@
 //! Jeffery's equations one by one: the rate of a run's rods against A.1 to A.3 as printed, and the motion of a whole run
 //! against A.4 and A.5.
 
-use super::lab;
-use super::motion::larger;
-use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
+use crate::lab;
 use crate::oracle::{closed_form, jeffery as printed};
+use crate::statistics::larger;
 use crate::subject::apart_rad;
 use nalgebra::{Matrix3, Vector3};
 use shearbed::jeffery::{couette_rate, shape_factor};
@@ -25,77 +24,59 @@ type Change = fn(&mut Scene);
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::new(
-            About {
-                name: "angular-velocity",
-                judges: Judges::Core,
-                claim: "The ṗ that a run's collisions start from is ω × p with ω by A.1 in the body frame, r_e = a/b.",
-                source: "eq. 1, A.1",
-                equations: &["1", "A.1"],
-            },
-            rate_in_a_run as Rate,
-            vec![
-                ("b/a for a/b", |p, r, sign| rate_in_a_run(p, 1.0 / r, sign)),
-                ("the transposed gradient", |p, r, sign| {
-                    let swap = |v: &Vector3<f64>| Vector3::new(v.y, v.x, v.z);
-                    swap(&rate_in_a_run(&swap(p), r, sign))
-                }),
-                ("no vorticity", |p, r, sign| {
-                    rate_in_a_run(p, r, sign) - rate_in_a_run(p, 1.0, sign)
-                }),
-                ("r_e for r_e² in Λ", |p, r, sign| {
-                    rate_in_a_run(p, r.sqrt(), sign)
-                }),
-                ("the sign of G left out", |p, r, _| rate_in_a_run(p, r, 1.0)),
-            ],
-            body_frame,
-        ),
-        Case::new(
-            About {
-                name: "angle-rates",
-                judges: Judges::Core,
-                claim: "The angles of a rod that moves at a run's ṗ have the rates of A.2 and A.3.",
-                source: "A.2, A.3",
-                equations: &["A.2", "A.3"],
-            },
-            rate_in_a_run as Rate,
-            vec![
-                ("a quarter turn of φ", |p, r, sign| {
-                    let turned = |v: &Vector3<f64>, k: f64| Vector3::new(-k * v.y, k * v.x, v.z);
-                    turned(&rate_in_a_run(&turned(p, 1.0), r, sign), -1.0)
-                }),
-                ("Λ = 1", |p, _, sign| couette_rate(p, 1.0, sign)),
-                ("p_3 pulled the other way", |p, r, sign| {
-                    rate_in_a_run(p, r, sign).component_mul(&Vector3::new(1.0, 1.0, -1.0))
-                }),
-            ],
-            rates_of_angles,
-        ),
-        Case::new(
-            About {
-                name: "angles-in-closed-form",
-                judges: Judges::Core,
-                claim: "What a run makes of one rod is A.4 and A.5: its direction, φ and C_b at every output.",
-                source: "A.4, A.5, eqs 13, 18, 20",
-                equations: &["13", "18", "20", "A.4", "A.5"],
-            },
-            (|_| {}) as Change,
-            vec![
-                ("r_e a millionth too long", |scene| {
-                    scene.particles.aspect_ratio *= 1.0 + 1e-6;
-                }),
-                ("−G for G", |scene| {
-                    scene.flow.shear_rate_per_s = None;
-                    scene.flow.gradient_per_s = Some([[0.0; 3], [-0.5, 0.0, 0.0], [0.0; 3]]);
-                }),
-                ("φ from axis 2", |scene| {
-                    if let Orientation::Given { phi_deg, .. } = &mut scene.particles.orientation {
-                        *phi_deg = 90.0 - *phi_deg;
-                    }
-                }),
-            ],
-            one_rod,
-        ),
+        Case::core("angular-velocity")
+            .claim(
+                "The ṗ that a run's collisions start from is ω × p with ω by A.1 in the body frame, r_e = \
+                 a/b.",
+            )
+            .source("eq. 1, A.1")
+            .equations(&["1", "A.1"])
+            .subject(rate_in_a_run as Rate)
+            .mistake("b/a for a/b", |p, r, sign| rate_in_a_run(p, 1.0 / r, sign))
+            .mistake("the transposed gradient", |p, r, sign| {
+                let swap = |v: &Vector3<f64>| Vector3::new(v.y, v.x, v.z);
+                swap(&rate_in_a_run(&swap(p), r, sign))
+            })
+            .mistake("no vorticity", |p, r, sign| {
+                rate_in_a_run(p, r, sign) - rate_in_a_run(p, 1.0, sign)
+            })
+            .mistake("r_e for r_e² in Λ", |p, r, sign| {
+                rate_in_a_run(p, r.sqrt(), sign)
+            })
+            .mistake("the sign of G left out", |p, r, _| rate_in_a_run(p, r, 1.0))
+            .check(body_frame),
+        Case::core("angle-rates")
+            .claim("The angles of a rod that moves at a run's ṗ have the rates of A.2 and A.3.")
+            .source("A.2, A.3")
+            .equations(&["A.2", "A.3"])
+            .subject(rate_in_a_run as Rate)
+            .mistake("a quarter turn of φ", |p, r, sign| {
+                let turned = |v: &Vector3<f64>, k: f64| Vector3::new(-k * v.y, k * v.x, v.z);
+                turned(&rate_in_a_run(&turned(p, 1.0), r, sign), -1.0)
+            })
+            .mistake("Λ = 1", |p, _, sign| couette_rate(p, 1.0, sign))
+            .mistake("p_3 pulled the other way", |p, r, sign| {
+                rate_in_a_run(p, r, sign).component_mul(&Vector3::new(1.0, 1.0, -1.0))
+            })
+            .check(rates_of_angles),
+        Case::core("angles-in-closed-form")
+            .claim("What a run makes of one rod is A.4 and A.5: its direction, φ and C_b at every output.")
+            .source("A.4, A.5, eqs 13, 18, 20")
+            .equations(&["13", "18", "20", "A.4", "A.5"])
+            .subject((|_| {}) as Change)
+            .mistake("r_e a millionth too long", |scene| {
+                scene.particles.aspect_ratio *= 1.0 + 1e-6;
+            })
+            .mistake("−G for G", |scene| {
+                scene.flow.shear_rate_per_s = None;
+                scene.flow.gradient_per_s = Some([[0.0; 3], [-0.5, 0.0, 0.0], [0.0; 3]]);
+            })
+            .mistake("φ from axis 2", |scene| {
+                if let Orientation::Given { phi_deg, .. } = &mut scene.particles.orientation {
+                    *phi_deg = 90.0 - *phi_deg;
+                }
+            })
+            .check(one_rod),
     ]
 }
 
@@ -120,9 +101,11 @@ fn body_frame(rate: &Rate, _: &Effort) -> Vec<Evidence> {
         (found - printed::direction_rate_per_s(gradient, r, &p)).norm()
     });
     let because = "some dozens of roundings of numbers up to 1, in the frame of the particle and back";
-    vec![Evidence::new(
+    vec![Evidence::within(
         "largest difference of ṗ/G",
-        Rule::within(worst, 32.0 * f64::EPSILON, because),
+        worst,
+        32.0 * f64::EPSILON,
+        because,
     )]
 }
 
@@ -142,9 +125,11 @@ fn rates_of_angles(rate: &Rate, _: &Effort) -> Vec<Evidence> {
     [("φ̇", phi_off), ("θ̇", theta_off)]
         .into_iter()
         .map(|(rate, worst)| {
-            Evidence::new(
+            Evidence::within(
                 format!("largest error of {rate}/G"),
-                Rule::within(worst, 32.0 * f64::EPSILON, because),
+                worst,
+                32.0 * f64::EPSILON,
+                because,
             )
         })
         .collect()
@@ -191,24 +176,27 @@ fn one_rod(change: &Change, effort: &Effort) -> Vec<Evidence> {
             }
         }
     }
-    let because =
-        "a rounding of the phase, πε, grows by dφ/d(phase) ≤ max(r_e, 1/r_e); so does one of the start";
+    let because = "a rounding of the phase, πε, grows by dφ/d(phase) ≤ max(r_e, 1/r_e); so does one of the \
+                   start";
     vec![
-        Evidence::new(
+        Evidence::within(
             "largest angle between the two directions over max(r_e, 1/r_e)",
-            Rule::within(worst[0], 16.0 * f64::EPSILON, because),
+            worst[0],
+            16.0 * f64::EPSILON,
+            because,
         ),
-        Evidence::new(
+        Evidence::within(
             "largest error of φ times sin θ at the start over max(r_e, 1/r_e)",
-            Rule::within(worst[1], 16.0 * f64::EPSILON, because),
+            worst[1],
+            16.0 * f64::EPSILON,
+            because,
         ),
-        Evidence::new(
+        Evidence::within(
             "largest error of C_b",
-            Rule::within(
-                worst[2],
-                16.0 * f64::EPSILON,
-                "C_b ≤ 1 has slope ≤ ¼ in ln C, which is a ratio of lengths and a tangent known to some sixteen roundings",
-            ),
+            worst[2],
+            16.0 * f64::EPSILON,
+            "C_b ≤ 1 has slope ≤ ¼ in ln C, which is a ratio of lengths and a tangent known to some \
+             sixteen roundings",
         ),
     ]
 }
@@ -224,7 +212,7 @@ struct Rod {
 fn run(scene: &Scene) -> Vec<Rod> {
     let results = ensemble::run(&lab::plan(scene), || ()).expect("free rods do not stop");
     let at = |name: &str, output: usize| {
-        let channel = results.channel(name);
+        let channel = results.column(name);
         channel.map_or(f64::NAN, |channel| channel.mean[output])
     };
     (0..results.times.len())

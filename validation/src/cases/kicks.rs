@@ -1,12 +1,13 @@
 //! Kicks: how often, and what the time step has to do with it (docs/time-step.md).
 
-use super::lab::{self, Sample};
-use super::once::Once;
 use crate::accept::Design;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
 use crate::kicks::{Counted, KICKS, is_above, kicks_rad, of_one_step, rates, step_strain};
+use crate::lab;
+use crate::lab::Shared;
 use crate::oracle::kicks::{chance_of_threads, tail_of_isotropic};
 use crate::oracle::pairing::{Pair, nearest_pairs};
+use crate::statistics::Sample;
 use rayon::prelude::*;
 use shearbed::Suspension;
 use shearbed::scene::Scene;
@@ -14,57 +15,49 @@ use std::f64::consts::PI;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::new(
-            About {
-                name: "kick-formula",
-                judges: Judges::Core,
-                claim: "Isotropic rods at random places are kicked by more than κ as often as P_c, the arm's density at 0 and the gap's velocity say, whatever Δt is.",
-                source: "eqs 7–10, A.7–A.13; docs/time-step.md",
-                equations: &["7", "8", "9", "10", "A.7", "A.10", "A.13"],
-            },
-            (|fresh, chance| 2.0 * fresh.chances * chance(1.0)) as Expected,
-            vec![
-                ("one arm left out", |fresh, chance| fresh.chances * chance(1.0)),
-                ("not weighted with P_c", |fresh, chance| {
-                    2.0 * fresh.pairs * chance(1.0)
-                }),
-                (
-                    "the arm's density at 0 without the crossing angle",
-                    |fresh, chance| 2.0 * fresh.chances * chance(0.25 * PI),
-                ),
-                ("a kick ∝ 2Δt", |fresh, chance| {
-                    2.0 * fresh.chances * chance(0.5)
-                }),
-            ],
-            formula,
-        ),
-        Case::new(
-            About {
-                name: "kick-memory",
-                judges: Judges::Core,
-                claim: "In runs, pairs whose gap closes are kicked as often as the formula says at any Δt; those whose gap opens ever less often as Δt → 0.",
-                source: "A.7–A.14; docs/time-step.md",
-                equations: &["A.13", "A.14"],
-            },
-            KICKS,
-            vec![
-                (
-                    "the gap of the opposite shear",
-                    Counted {
-                        opens: |a, b| !(KICKS.opens)(a, b),
-                        ..KICKS
-                    },
-                ),
-                (
-                    "the whole turn |ṗ′|Δt for the kick",
-                    Counted {
-                        angles: |c| c.angles_rad,
-                        ..KICKS
-                    },
-                ),
-            ],
-            memory,
-        ),
+        Case::core("kick-formula")
+            .claim(
+                "Isotropic rods at random places are kicked by more than κ as often as P_c, the arm's \
+                 density at 0 and the gap's velocity say, whatever Δt is.",
+            )
+            .source("eqs 7–10, A.7–A.13; docs/time-step.md")
+            .equations(&["7", "8", "9", "10", "A.7", "A.10", "A.13"])
+            .subject((|fresh, chance| 2.0 * fresh.chances * chance(1.0)) as Expected)
+            .mistake("one arm left out", |fresh, chance| fresh.chances * chance(1.0))
+            .mistake("not weighted with P_c", |fresh, chance| {
+                2.0 * fresh.pairs * chance(1.0)
+            })
+            .mistake(
+                "the arm's density at 0 without the crossing angle",
+                |fresh, chance| 2.0 * fresh.chances * chance(0.25 * PI),
+            )
+            .mistake("a kick ∝ 2Δt", |fresh, chance| {
+                2.0 * fresh.chances * chance(0.5)
+            })
+            .check(formula),
+        Case::core("kick-memory")
+            .claim(
+                "In runs, pairs whose gap closes are kicked as often as the formula says at any Δt; those \
+                 whose gap opens ever less often as Δt → 0.",
+            )
+            .source("A.7–A.14; docs/time-step.md")
+            .equations(&["A.13", "A.14"])
+            .subject(KICKS)
+            .mistake(
+                "the gap of the opposite shear",
+                Counted {
+                    opens: |a, b| !(KICKS.opens)(a, b),
+                    ..KICKS
+                },
+            )
+            .mistake(
+                "the whole turn |ṗ′|Δt for the kick",
+                Counted {
+                    angles: |c| c.angles_rad,
+                    ..KICKS
+                },
+            )
+            .check(memory),
     ]
 }
 
@@ -86,19 +79,16 @@ struct Fresh {
 const SETTINGS: [(f64, u64, u64); 3] = [(0.1, 800, 1), (1.0, 100, 2), (10.0, 10, 3)];
 
 fn formula(expected: &Expected, effort: &Effort) -> Vec<Evidence> {
-    static FRESH: Once<[Vec<Fresh>; 3]> = Once::new();
+    static FRESH: Shared<(), [Vec<Fresh>; 3]> = Shared::new();
     // Pilot of 13,220 replicas at seeds 9001 to 9010: 0.42, 0.47 and 0.47; a tenth of room.
-    let design = Design {
-        effect: 0.2,
-        sd: 0.52,
-    };
+    let design = Design::new(0.2, 0.52);
     let scene = |(_, steps, stream)| {
         let mut scene = fresh_scene(effort, 300, steps);
         scene.ensemble.seed = effort.seed(stream);
         scene
     };
     let replicas = effort.samples(design);
-    let found = FRESH.at(effort, || {
+    let found = FRESH.get(effort, (), || {
         SETTINGS.map(|setting| {
             let scene = scene(setting);
             let fresh = |replica| first_step(&scene, replica, setting.0);
@@ -115,13 +105,15 @@ fn formula(expected: &Expected, effort: &Effort) -> Vec<Evidence> {
             .map(|fresh| fresh.kicked / expected(fresh, &chance))
             .collect();
         Evidence::new(
-            format!("rods kicked by more than {threshold_rad} rad over those expected, {steps} steps a period"),
+            format!(
+                "rods kicked by more than {threshold_rad} rad over those expected, {steps} steps a period"
+            ),
             Sample::of(&ratios).is(
                 1.0,
                 0.003,
                 design.effect,
-                "left out, 10⁻³ each: the next term in GΔt/κ, terms in (1 − Λ)/Y², the cube's corners, to which \
-                 distant neighbours point; the nearest of the controls is 1 − π/4 = 0.21 off",
+                "left out, 10⁻³ each: the next term in GΔt/κ, terms in (1 − Λ)/Y², the cube's corners, to \
+                 which distant neighbours point; the nearest of the controls is 1 − π/4 = 0.21 off",
             ),
         )
     });
@@ -180,10 +172,7 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
     // α = 4 for the opening ones: the more collisions a pair has, the sooner its memory shows.
     // Pilot of 1,200 replicas at seeds 9001 to 9008: a fall of 0.731 ± 0.012 from 1.1, with a deviation of 0.395: 0.5 and
     // 0.27 of the sum of both rates.
-    let fall = Design {
-        effect: 0.37,
-        sd: 0.29,
-    };
+    let fall = Design::new(0.37, 0.29);
     let [coarse, fine] = [100, 800].map(|steps| run(4.0, steps, 1, effort.samples(fall), 1));
     let both = Sample::of(
         &coarse
@@ -197,7 +186,8 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
         .map(|(coarse, fine)| (coarse.opening[OVER] - fine.opening[OVER]) / both)
         .collect();
     let mut evidence = vec![Evidence::new(
-        "kicks > 0.1 rad of opening pairs at 100 steps a period, less those at 800, over both; α = 4",
+        "kicks > 0.1 rad of opening pairs at 100 steps a period, less those at 800, over both; α = \
+         4",
         Sample::of(&falls).exceeds(
             0.1,
             fall.effect,
@@ -205,10 +195,7 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
         ),
     )];
     // Pilot of 4,650 replicas at seeds 9001 to 9010: 0.35 for both.
-    let off = Design {
-        effect: 0.5,
-        sd: 0.39,
-    };
+    let off = Design::new(0.5, 0.39);
     for (steps, stream) in [(200, 2), (400, 3)] {
         let counts = run(0.5, steps, stream, effort.samples(off), 50);
         let fresh = Sample::of(&counts.iter().map(|c| c.fresh_closing[OVER]).collect::<Vec<_>>()).mean;
@@ -216,13 +203,16 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
             .map(|c| (c.closing[OVER] - c.fresh_closing[OVER]) / fresh)
             .collect();
         evidence.push(Evidence::new(
-            format!("kicks > 0.1 rad of closing pairs over the formula's number, less 1; {steps} steps a period, α = ½"),
+            format!(
+                "kicks > 0.1 rad of closing pairs over the formula's number, less 1; {steps} steps a \
+                 period, α = ½"
+            ),
             Sample::of(&offs).is(
                 0.0,
                 0.05,
                 off.effect,
-                "the formula takes the separation to be independent of the directions; a pair that collides is no \
-                 longer so, by the share of P_c ≈ 0.05",
+                "the formula takes the separation to be independent of the directions; a pair that \
+                 collides is no longer so, by the share of P_c ≈ 0.05",
             ),
         ));
     }

@@ -2,9 +2,10 @@
 //!
 //! A.13 is in `contact_rule`, eq. 14's text in `encounters`, the period's number (eq. 15) in `motion`.
 
-use super::lab;
 use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
+use crate::lab;
+use crate::statistics::larger;
 use crate::subject::rk4;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use shearbed::flow::VelocityGradient;
@@ -14,58 +15,42 @@ use shearbed::propagator::Propagator;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::new(
-            About {
-                name: "gradient-of-eq-2",
-                judges: Judges::Oracle,
-                claim: "With G_ij = ∂u_i/∂x_j a thread turns as the line between two points of the liquid does; with the printed \
-                        ∂u_i/∂x_i it does not.",
-                source: "eqs 2, 3",
-                equations: &["2", "3"],
-            },
-            (|u, i, j| slope(u, i, j)) as Gradient,
-            vec![
-                ("∂u_i/∂x_i as printed", |u, i, _| slope(u, i, i)),
-                ("∂u_j/∂x_i", |u, i, j| slope(u, j, i)),
-            ],
-            gives_back_velocity,
-        ),
-        Case::new(
-            About {
-                name: "planar-projections",
-                judges: Judges::Oracle,
-                claim: "The planar projections are lengths of shadows; with the printed θ for φ they are not.",
-                source: "eq. 21, Fig. 12",
-                equations: &["21"],
-            },
-            observed_shadows as Shadows,
-            vec![
-                ("eq. 21 as printed", |_, theta: f64| {
-                    let (s2, c2) = (theta.sin().powi(2), theta.cos().powi(2));
-                    [theta.sin(), (c2 + s2 * s2).sqrt(), (c2 + s2 * c2).sqrt()]
-                }),
-                ("the planes 2-3 and 1-3 exchanged", |phi, theta| {
-                    let [a, b, c] = observed_shadows(phi, theta);
-                    [a, c, b]
-                }),
-            ],
-            shadows,
-        ),
-        Case::new(
-            About {
-                name: "who-moves-how",
-                judges: Judges::Oracle,
-                claim: "In a run, rods that move freely keep C (A.2–A.6) and colliding rods get a new one (A.7–A.14), not the other way round.",
-                source: "text after eqs 12 and 13",
-                equations: &["13", "A.2", "A.7"],
-            },
-            (|collided| collided) as Reading,
-            vec![
-                ("A.7–A.14 for free rods, as printed", |collided| !collided),
-                ("every rod free", |_| false),
-            ],
-            free_rods_keep_c,
-        ),
+        Case::oracle("gradient-of-eq-2")
+            .claim(
+                "With G_ij = ∂u_i/∂x_j a thread turns as the line between two points of the liquid does; \
+                 with the printed ∂u_i/∂x_i it does not.",
+            )
+            .source("eqs 2, 3")
+            .equations(&["2", "3"])
+            .subject((|u, i, j| slope(u, i, j)) as Gradient)
+            .mistake("∂u_i/∂x_i as printed", |u, i, _| slope(u, i, i))
+            .mistake("∂u_j/∂x_i", |u, i, j| slope(u, j, i))
+            .check(gives_back_velocity),
+        Case::oracle("planar-projections")
+            .claim("The planar projections are lengths of shadows; with the printed θ for φ they are not.")
+            .source("eq. 21, Fig. 12")
+            .equations(&["21"])
+            .subject(observed_shadows as Shadows)
+            .mistake("eq. 21 as printed", |_, theta: f64| {
+                let (s2, c2) = (theta.sin().powi(2), theta.cos().powi(2));
+                [theta.sin(), (c2 + s2 * s2).sqrt(), (c2 + s2 * c2).sqrt()]
+            })
+            .mistake("the planes 2-3 and 1-3 exchanged", |phi, theta| {
+                let [a, b, c] = observed_shadows(phi, theta);
+                [a, c, b]
+            })
+            .check(shadows),
+        Case::oracle("who-moves-how")
+            .claim(
+                "In a run, rods that move freely keep C (A.2–A.6) and colliding rods get a new one \
+                 (A.7–A.14), not the other way round.",
+            )
+            .source("text after eqs 12 and 13")
+            .equations(&["13", "A.2", "A.7"])
+            .subject((|collided| collided) as Reading)
+            .mistake("A.7–A.14 for free rods, as printed", |collided| !collided)
+            .mistake("every rod free", |_| false)
+            .check(free_rods_keep_c),
     ]
 }
 
@@ -103,16 +88,18 @@ fn gives_back_velocity(component: &Gradient, _: &Effort) -> Vec<Evidence> {
                 let end = thread.after(&UnitVector3::new_normalize(line), TIME_S);
                 end.cross(&carried(u, line).normalize()).norm()
             })
-            .fold(0.0, f64::max)
+            .fold(0.0, larger)
     };
-    let because = "RK4 on the field: (|G|h)⁴|G|t/120 = 10⁻¹³ at |G| = 6 and h = 2.5·10⁻⁴, and 2000 roundings, both stretched \
-                   e^{|G|t} = 20-fold; the thread's 1 − Λ is 2·10⁻¹⁸";
+    let because = "RK4 on the field: (|G|h)⁴|G|t/120 = 10⁻¹³ at |G| = 6 and h = 2.5·10⁻⁴, and 2000 \
+                   roundings, both stretched e^{|G|t} = 20-fold; the thread's 1 − Λ is 2·10⁻¹⁸";
     fields
         .iter()
         .map(|(name, u)| {
-            Evidence::new(
+            Evidence::within(
                 format!("largest angle between thread and line, {name}"),
-                Rule::within(error(*u), 1e-11, because),
+                error(*u),
+                1e-11,
+                because,
             )
         })
         .collect()
@@ -154,12 +141,14 @@ fn shadows(model: &Shadows, _: &Effort) -> Vec<Evidence> {
         // A shadow on a plane is the rod's own length seen along the plane's normal: |p × e|.
         let expected = [2, 0, 1].map(|axis| p.cross(&Vector3::ith(axis, 1.0)).norm());
         for (found, expected) in model(phi, theta).into_iter().zip(expected) {
-            worst = worst.max((found - expected).abs());
+            worst = larger(worst, (found - expected).abs());
         }
     }
-    vec![Evidence::new(
+    vec![Evidence::within(
         "largest error of a shadow",
-        Rule::within(worst, 4.0 * f64::EPSILON, "a few roundings of numbers up to 1"),
+        worst,
+        4.0 * f64::EPSILON,
+        "a few roundings of numbers up to 1",
     )]
 }
 
@@ -190,15 +179,17 @@ fn free_rods_keep_c(reading: &Reading, effort: &Effort) -> Vec<Evidence> {
                 colliding += 1;
                 unchanged += u32::from(change <= ROUND_OFF);
             } else {
-                free_change = free_change.max(change);
+                free_change = larger(free_change, change);
             }
         }
         before = after;
     }
     vec![
-        Evidence::new(
+        Evidence::within(
             "largest change of C_b of a free rod in one step",
-            Rule::within(free_change, ROUND_OFF, "the exact motion keeps C to round-off"),
+            free_change,
+            ROUND_OFF,
+            "the exact motion keeps C to round-off",
         ),
         Evidence::new(
             format!("of {colliding} colliding rods, those whose C_b stayed to round-off"),

@@ -1,9 +1,9 @@
 //! Free rods one by one: period, orbit constant, the exact propagator against closed forms and an integrator.
 
-use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
 use crate::oracle::jeffery::direction_rate_per_s;
 use crate::oracle::{closed_form, quadrature};
+use crate::statistics::larger;
 use nalgebra::{Matrix3, SVector, UnitVector3, Vector3};
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, System};
@@ -38,117 +38,87 @@ fn apart(a: &UnitVector3<f64>, b: &UnitVector3<f64>) -> f64 {
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::new(
-            About {
-                name: "jeffery-period",
-                judges: Judges::Core,
-                claim: "A free rod comes back after T = 2π(r_e + 1/r_e)/G, for r_e from 1.01 to 10⁶.",
-                source: "eq. 15, A.6",
-                equations: &["15", "A.6"],
-            },
-            exact as Motion,
-            vec![
-                ("Λ = 1: a thread", |flow, _, p, t| exact(flow, 1e9, p, t)),
-                ("r_e − 1/r_e in the period", |flow, r, p, t| {
-                    exact(flow, r, p, t * (r + 1.0 / r) / (r - 1.0 / r))
-                }),
-                ("half the shear rate", |flow, r, p, t| exact(flow, r, p, 0.5 * t)),
-            ],
-            period,
-        ),
-        Case::new(
-            About {
-                name: "orbit-constant",
-                judges: Judges::Core,
-                claim: "The orbit constant of a free rod keeps its value over 10⁴ periods.",
-                source: "eq. 13, A.5",
-                equations: &["13", "A.5"],
-            },
-            exact as Motion,
-            vec![
-                ("r_e 0.1 % too long", |flow, r, p, t| exact(flow, 1.001 * r, p, t)),
-                ("p_3 not rescaled", |flow, r, p, t| {
-                    let q = exact(flow, r, p, t);
-                    UnitVector3::new_normalize(Vector3::new(q.x, q.y, p.z))
-                }),
-                ("one RK4 step of 0.01 strain per call", |flow, r, p, _| {
-                    rk4_step(flow, r, p, 0.01 / flow.magnitude_per_s())
-                }),
-            ],
-            orbit_constant,
-        ),
-        Case::new(
-            About {
-                name: "propagator-closed-form",
-                judges: Judges::Core,
-                claim: "The propagator of plane Couette flow is Jeffery's closed form in angles.",
-                source: "A.4, A.5, eq. 20",
-                equations: &["20", "A.4", "A.5"],
-            },
-            exact as Motion,
-            vec![
-                ("the phase turns backwards", |flow, r, p, t| {
-                    exact(&VelocityGradient::new(-flow.per_s()).unwrap_or(*flow), r, p, t)
-                }),
-                ("1/r_e for r_e", |flow, r, p, t| exact(flow, 1.0 / r, p, t)),
-                ("θ frozen", |flow, r, p, t| {
-                    let (phi, _) = orientation::angles(&exact(flow, r, p, t));
-                    orientation::from_angles(phi, orientation::angles(p).1)
-                }),
-            ],
-            closed_form_motion,
-        ),
-        Case::new(
-            About {
-                name: "propagator-integrator",
-                judges: Judges::Core,
-                claim: "The propagator solves ṗ = W·p + Λ(D·p − p p·D·p) in any flow, by Dormand–Prince 8(5,3) of ode_solvers.",
-                source: "A.1, eq. 3",
-                equations: &["3", "A.1"],
-            },
-            exact as Motion,
-            vec![
-                ("Λ = 1", |flow, _, p, t| exact(flow, 1e9, p, t)),
-                ("Λ for a disc", |flow, r, p, t| exact(flow, 1.0 / r, p, t)),
-                ("the transposed gradient", |flow, r, p, t| {
-                    exact(
-                        &VelocityGradient::new(flow.per_s().transpose()).unwrap_or(*flow),
-                        r,
-                        p,
-                        t,
-                    )
-                }),
-                ("no vorticity", |flow, r, p, t| {
-                    exact(
-                        &VelocityGradient::new(flow.strain_rate()).unwrap_or(*flow),
-                        r,
-                        p,
-                        t,
-                    )
-                }),
-            ],
-            integrated_motion,
-        ),
-        Case::new(
-            About {
-                name: "mean-angle-quadrature",
-                judges: Judges::Core,
-                claim: "⟨φ⟩ of a single rod, integrated over the φ(t) that a run has, is the dilogarithm, and tends to π/2 as \
-                        (2/π)(1 + ln r_e)/r_e for a thread.",
-                source: "eqs 18, 19, 20, A.4",
-                equations: &["18", "19", "20"],
-            },
-            angle_in_a_run as Angle,
-            vec![
-                ("r_e² for r_e", |r, turns| angle_in_a_run(r * r, turns)),
-                ("φ grows evenly", |_, turns| 2.0 * PI * turns),
-                ("φ from axis 2", |r, turns| FRAC_PI_2 - angle_in_a_run(r, turns)),
-                ("r_e a millionth too long", |r, turns| {
-                    angle_in_a_run(r * (1.0 + 1e-6), turns)
-                }),
-            ],
-            mean_angle,
-        ),
+        Case::core("jeffery-period")
+            .claim("A free rod comes back after T = 2π(r_e + 1/r_e)/G, for r_e from 1.01 to 10⁶.")
+            .source("eq. 15, A.6")
+            .equations(&["15", "A.6"])
+            .subject(exact as Motion)
+            .mistake("Λ = 1: a thread", |flow, _, p, t| exact(flow, 1e9, p, t))
+            .mistake("r_e − 1/r_e in the period", |flow, r, p, t| {
+                exact(flow, r, p, t * (r + 1.0 / r) / (r - 1.0 / r))
+            })
+            .mistake("half the shear rate", |flow, r, p, t| exact(flow, r, p, 0.5 * t))
+            .check(period),
+        Case::core("orbit-constant")
+            .claim("The orbit constant of a free rod keeps its value over 10⁴ periods.")
+            .source("eq. 13, A.5")
+            .equations(&["13", "A.5"])
+            .subject(exact as Motion)
+            .mistake("r_e 0.1 % too long", |flow, r, p, t| exact(flow, 1.001 * r, p, t))
+            .mistake("p_3 not rescaled", |flow, r, p, t| {
+                let q = exact(flow, r, p, t);
+                UnitVector3::new_normalize(Vector3::new(q.x, q.y, p.z))
+            })
+            .mistake("one RK4 step of 0.01 strain per call", |flow, r, p, _| {
+                rk4_step(flow, r, p, 0.01 / flow.magnitude_per_s())
+            })
+            .check(orbit_constant),
+        Case::core("propagator-closed-form")
+            .claim("The propagator of plane Couette flow is Jeffery's closed form in angles.")
+            .source("A.4, A.5, eq. 20")
+            .equations(&["20", "A.4", "A.5"])
+            .subject(exact as Motion)
+            .mistake("the phase turns backwards", |flow, r, p, t| {
+                exact(&VelocityGradient::new(-flow.per_s()).unwrap_or(*flow), r, p, t)
+            })
+            .mistake("1/r_e for r_e", |flow, r, p, t| exact(flow, 1.0 / r, p, t))
+            .mistake("θ frozen", |flow, r, p, t| {
+                let (phi, _) = orientation::angles(&exact(flow, r, p, t));
+                orientation::from_angles(phi, orientation::angles(p).1)
+            })
+            .check(closed_form_motion),
+        Case::core("propagator-integrator")
+            .claim(
+                "The propagator solves ṗ = W·p + Λ(D·p − p p·D·p) in any flow, by Dormand–Prince 8(5,3) of \
+                 ode_solvers.",
+            )
+            .source("A.1, eq. 3")
+            .equations(&["3", "A.1"])
+            .subject(exact as Motion)
+            .mistake("Λ = 1", |flow, _, p, t| exact(flow, 1e9, p, t))
+            .mistake("Λ for a disc", |flow, r, p, t| exact(flow, 1.0 / r, p, t))
+            .mistake("the transposed gradient", |flow, r, p, t| {
+                exact(
+                    &VelocityGradient::new(flow.per_s().transpose()).unwrap_or(*flow),
+                    r,
+                    p,
+                    t,
+                )
+            })
+            .mistake("no vorticity", |flow, r, p, t| {
+                exact(
+                    &VelocityGradient::new(flow.strain_rate()).unwrap_or(*flow),
+                    r,
+                    p,
+                    t,
+                )
+            })
+            .check(integrated_motion),
+        Case::core("mean-angle-quadrature")
+            .claim(
+                "⟨φ⟩ of a single rod, integrated over the φ(t) that a run has, is the dilogarithm, and \
+                 tends to π/2 as (2/π)(1 + ln r_e)/r_e for a thread.",
+            )
+            .source("eqs 18, 19, 20, A.4")
+            .equations(&["18", "19", "20"])
+            .subject(angle_in_a_run as Angle)
+            .mistake("r_e² for r_e", |r, turns| angle_in_a_run(r * r, turns))
+            .mistake("φ grows evenly", |_, turns| 2.0 * PI * turns)
+            .mistake("φ from axis 2", |r, turns| FRAC_PI_2 - angle_in_a_run(r, turns))
+            .mistake("r_e a millionth too long", |r, turns| {
+                angle_in_a_run(r * (1.0 + 1e-6), turns)
+            })
+            .check(mean_angle),
     ]
 }
 
@@ -170,13 +140,17 @@ fn period(motion: &Motion, _: &Effort) -> Vec<Evidence> {
     }
     let because = "the root is found to the last bit; eight roundings of the phase";
     vec![
-        Evidence::new(
+        Evidence::within(
             "relative error of the period, plane Couette flow by its closed form",
-            Rule::within(worst[0], 8.0 * f64::EPSILON, because),
+            worst[0],
+            8.0 * f64::EPSILON,
+            because,
         ),
-        Evidence::new(
+        Evidence::within(
             "relative error of the period, the same flow about other axes",
-            Rule::within(worst[1], 8.0 * f64::EPSILON, because),
+            worst[1],
+            8.0 * f64::EPSILON,
+            because,
         ),
     ]
 }
@@ -214,13 +188,12 @@ fn orbit_constant(motion: &Motion, _: &Effort) -> Vec<Evidence> {
             }
         }
     }
-    vec![Evidence::new(
+    vec![Evidence::within(
         "largest relative drift of C up to 10⁴ periods",
-        Rule::within(
-            worst,
-            16.0 * f64::EPSILON,
-            "one evaluation, however many periods it spans: C is a ratio of lengths without cancellation, some sixteen roundings",
-        ),
+        worst,
+        16.0 * f64::EPSILON,
+        "one evaluation, however many periods it spans: C is a ratio of lengths without \
+         cancellation, some sixteen roundings",
     )]
 }
 
@@ -247,13 +220,11 @@ fn closed_form_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
             }
         }
     }
-    vec![Evidence::new(
+    vec![Evidence::within(
         "angle between the two, over max(r_e, 1/r_e)·(1 + t/T)",
-        Rule::within(
-            worst,
-            32.0 * f64::EPSILON,
-            "a rounding of the phase, 2π(t/T)ε, grows by dφ/d(phase) ≤ max(r_e, 1/r_e) at the flip",
-        ),
+        worst,
+        32.0 * f64::EPSILON,
+        "a rounding of the phase, 2π(t/T)ε, grows by dφ/d(phase) ≤ max(r_e, 1/r_e) at the flip",
     )]
 }
 
@@ -297,13 +268,12 @@ fn integrated_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
                 }
             }
         }
-        evidence.push(Evidence::new(
+        evidence.push(Evidence::within(
             format!("angle to the integrator's direction up to strain 30, over its own error, {name}"),
-            Rule::within(
-                worst,
-                1.0,
-                "each step is off by atol + rtol |p| = 2·10⁻¹³, and grows r_e² = 135-fold at most, from along the flow to the flip",
-            ),
+            worst,
+            1.0,
+            "each step is off by atol + rtol |p| = 2·10⁻¹³, and grows r_e² = 135-fold at most, from \
+             along the flow to the flip",
         ));
     }
     evidence
@@ -401,22 +371,18 @@ fn mean_angle(angle: &Angle, _: &Effort) -> Vec<Evidence> {
     }
     let because = "the quadrature asks for 10⁻¹⁴ on each panel of a quarter";
     vec![
-        Evidence::new(
+        Evidence::within(
             "difference of ⟨φ⟩ over the quadrature's tolerance, r_e from 1 to 1000",
-            Rule::within(worst, 1.0, because),
+            worst,
+            1.0,
+            because,
         ),
-        Evidence::new(
-            "difference of π/2 − ⟨φ⟩ and its first term, over that tolerance and the next term, r_e from 10⁵ to 10⁷",
-            Rule::within(thread, 1.0, because),
+        Evidence::within(
+            "difference of π/2 − ⟨φ⟩ and its first term, over that tolerance and the next term, r_e \
+             from 10⁵ to 10⁷",
+            thread,
+            1.0,
+            because,
         ),
     ]
-}
-
-/// The larger of two errors; NaN stays.
-pub(super) fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() {
-        f64::NAN
-    } else {
-        a.max(b)
-    }
 }

@@ -1,11 +1,13 @@
 //! What the paper leaves open: which readings change X̄₁ of Fig. 7's rods, and which do not.
 
-use super::lab::{self, Sample, per_replica};
 use crate::accept::Design;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
+use crate::lab::{self, per_replica};
 use crate::oracle::naive::{Lines, Naive, Problem, Who, mean_projections};
 use crate::readings::{Change, paper};
+use crate::statistics::Sample;
 use rayon::prelude::*;
+use shearbed::observable::Channel;
 use shearbed::scene::{Interaction, Update};
 
 /// The width of a drawn line, in rod lengths: 1 % of an axis from 0 to ½, the amplitude of free rods.
@@ -45,120 +47,78 @@ pub fn cases() -> Vec<Case> {
         sign: 1.0,
         bound: LINE,
         // 0.0267 ± 0.0360
-        design: Design {
-            effect: 0.0189,
-            sd: 0.0395,
-        },
+        design: Design::new(0.0189, 0.0395),
     };
     let angles = Alternative {
         model: Model::Core(|i| i.update = Update::Angles),
         sign: -1.0,
         bound: 0.0,
         // 0.0084 ± 0.0114
-        design: Design {
-            effect: 0.0072,
-            sd: 0.0125,
-        },
+        design: Design::new(0.0072, 0.0125),
     };
     let shortest_arm = Alternative {
         model: Model::Core(|i| i.min_contact_arm = 0.5 / 11.6),
         sign: 1.0,
         bound: LINE,
         // 0.0162 ± 0.0149
-        design: Design {
-            effect: 0.0096,
-            sd: 0.0165,
-        },
+        design: Design::new(0.0096, 0.0165),
     };
     let cut_lines = Alternative {
         model: Model::Naive(|p| p.reading.lines = Lines::CutAtEnds),
         sign: 1.0,
         bound: LINE,
         // 0.0377 ± 0.0389
-        design: Design {
-            effect: 0.0297,
-            sd: 0.043,
-        },
+        design: Design::new(0.0297, 0.043),
     };
     let instead = |alternative, model| Alternative { model, ..alternative };
     vec![
-        Case::new(
-            about(
-                "reading-who-draws",
+        Case::interpretation("reading-who-draws")
+            .claim(
                 "With one draw per mutual pair in place of two, rods are damped less: this reading matters.",
-                "eqs 8, 9; whose R decides is left open",
-                &["8", "9"],
-            ),
-            who_draws,
-            vec![("index order instead", instead(who_draws, index_order))],
-            matters,
-        ),
-        Case::new(
-            about(
-                "reading-order",
-                "Taking candidates in index order in place of closest first changes next to nothing.",
-                "eqs 8, 9; the order is left open",
-                &["8", "9"],
-            ),
-            index_order,
-            vec![("one draw per mutual pair instead", pair_draws)],
-            does_not_matter,
-        ),
-        Case::new(
-            about(
-                "reading-update",
-                "A.14 to the letter damps a little more than a turn about p × ṗ′: this reading matters.",
-                "A.13, A.14; the pole of the angles",
-                &["A.13", "A.14"],
-            ),
-            angles,
-            vec![(
+            )
+            .source("eqs 8, 9; whose R decides is left open")
+            .equations(&["8", "9"])
+            .subject(who_draws)
+            .mistake("index order instead", instead(who_draws, index_order))
+            .check(matters),
+        Case::interpretation("reading-order")
+            .claim("Taking candidates in index order in place of closest first changes next to nothing.")
+            .source("eqs 8, 9; the order is left open")
+            .equations(&["8", "9"])
+            .subject(index_order)
+            .mistake("one draw per mutual pair instead", pair_draws)
+            .check(does_not_matter),
+        Case::interpretation("reading-update")
+            .claim("A.14 to the letter damps a little more than a turn about p × ṗ′: this reading matters.")
+            .source("A.13, A.14; the pole of the angles")
+            .equations(&["A.13", "A.14"])
+            .subject(angles)
+            .mistake(
                 "no contact at arms below a thousandth of the length instead",
                 instead(angles, hardly_any_arm),
-            )],
-            matters,
-        ),
-        Case::new(
-            about(
-                "reading-shortest-arm",
-                "Without contacts at arms below the rod's radius, rods are damped less: this reading matters.",
-                "A.13; a kick ∝ 1/r has no bound",
-                &["A.13"],
-            ),
-            shortest_arm,
-            vec![(
+            )
+            .check(matters),
+        Case::interpretation("reading-shortest-arm")
+            .claim(
+                "Without contacts at arms below the rod's radius, rods are damped less: this reading \
+                 matters.",
+            )
+            .source("A.13; a kick ∝ 1/r has no bound")
+            .equations(&["A.13"])
+            .subject(shortest_arm)
+            .mistake(
                 "arms below a thousandth of the length instead",
                 instead(shortest_arm, hardly_any_arm),
-            )],
-            matters,
-        ),
-        Case::new(
-            about(
-                "reading-contact-lines",
-                "With contact lines cut at the rods' ends, rods are damped less: this reading matters.",
-                "Fig. 2, assumption ii",
-                &["A.7"],
-            ),
-            cut_lines,
-            vec![("index order instead", instead(cut_lines, index_order))],
-            matters,
-        ),
+            )
+            .check(matters),
+        Case::interpretation("reading-contact-lines")
+            .claim("With contact lines cut at the rods' ends, rods are damped less: this reading matters.")
+            .source("Fig. 2, assumption ii")
+            .equations(&["A.7"])
+            .subject(cut_lines)
+            .mistake("index order instead", instead(cut_lines, index_order))
+            .check(matters),
     ]
-}
-
-fn about(
-    name: &'static str,
-    claim: &'static str,
-    source: &'static str,
-    equations: &'static [&'static str],
-) -> About {
-    About {
-        name,
-        judges: Judges::Interpretation,
-        claim,
-        source,
-        equations,
-    }
 }
 
 fn matters(alternative: &Alternative, effort: &Effort) -> Vec<Evidence> {
@@ -169,18 +129,15 @@ fn matters(alternative: &Alternative, effort: &Effort) -> Vec<Evidence> {
         Sample::of(&changes).exceeds(
             alternative.bound,
             alternative.design.effect,
-            "more than the width of a drawn line, 1 % of the amplitude ½ of free rods; for \"a little\" any change \
-             that is beyond chance",
+            "more than the width of a drawn line, 1 % of the amplitude ½ of free rods; for \"a \
+             little\" any change that is beyond chance",
         ),
     )]
 }
 
 fn does_not_matter(model: &Model, effort: &Effort) -> Vec<Evidence> {
     // The control's pilot is that of `reading-who-draws`; index order itself changed −0.0004 ± 0.0105.
-    let design = Design {
-        effect: 0.0214,
-        sd: 0.0395,
-    };
+    let design = Design::new(0.0214, 0.0395);
     vec![Evidence::new(
         "change of X̄₁ at t/T = ½",
         Sample::of(&changes(*model, effort, effort.samples(design))).is(
@@ -214,7 +171,7 @@ fn by_core(change: fn(&mut Interaction), effort: &Effort, replicas: u64) -> Vec<
     let interaction = lab::interaction(&mut scene);
     interaction.concentration_per_cm3 = CONCENTRATION_PER_CM3;
     change(interaction);
-    per_replica(&scene, replicas, |means| means.at(1, 0))
+    per_replica(&scene, replicas, |mean| mean(Channel::X[0], 1))
 }
 
 fn by_reference(change: Change, effort: &Effort, replicas: u64) -> Vec<f64> {

@@ -1,9 +1,10 @@
 //! A richer model must reduce to the simpler one; standard errors are those of independent values.
 
-use super::lab::{self, Sample, per_replica};
-use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
+use crate::lab::{self, per_replica};
+use crate::statistics::{Sample, larger};
 use shearbed::ensemble::{self, Results};
+use shearbed::observable::Channel;
 use shearbed::scene::Scene;
 
 /// How far each limit is taken.
@@ -31,63 +32,54 @@ type StandardError = fn(&[f64]) -> f64;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::new(
-            About {
-                name: "reductions",
-                judges: Judges::Core,
-                claim: "α → 0, n → 0, m → ∞ and one rod give free rods to the bit; σ → 0 gives uniform rods and r_e → 1 gives spheres to round-off.",
-                source: "eqs 7, 11; A.1",
-                equations: &["7", "11"],
-            },
-            TAKEN,
-            vec![
-                ("α = ½", Limits { alpha: 0.5, ..TAKEN }),
-                (
-                    "n = 50 per cm³",
-                    Limits {
-                        concentration_per_cm3: 50.0,
-                        ..TAKEN
-                    },
-                ),
-                ("m = 3", Limits { m: 3.0, ..TAKEN }),
-                ("100 rods for one", Limits { count: 100, ..TAKEN }),
-                (
-                    "σ = 10⁻⁶ %",
-                    Limits {
-                        sd_percent: 1e-6,
-                        ..TAKEN
-                    },
-                ),
-                (
-                    "r_e = 1 + 10⁻⁶",
-                    Limits {
-                        aspect_ratio: 1.0 + 1e-6,
-                        ..TAKEN
-                    },
-                ),
-            ],
-            reductions,
-        ),
-        Case::new(
-            About {
-                name: "standard-errors",
-                judges: Judges::Program,
-                claim: "Standard errors are those of independent replicas, or of rods where there is one replica.",
-                source: "the results' own columns",
-                equations: &[],
-            },
-            (|values| Sample::of(values).se) as StandardError,
-            vec![
-                ("without the root of their number", |values| {
-                    Sample::of(values).se * (values.len() as f64).sqrt()
-                }),
-                ("N for N − 1", |values| {
-                    let n = values.len() as f64;
-                    Sample::of(values).se * ((n - 1.0) / n).sqrt()
-                }),
-            ],
-            standard_errors,
-        ),
+        Case::core("reductions")
+            .claim(
+                "α → 0, n → 0, m → ∞ and one rod give free rods to the bit; σ → 0 gives uniform rods and \
+                 r_e → 1 gives spheres to round-off.",
+            )
+            .source("eqs 7, 11; A.1")
+            .equations(&["7", "11"])
+            .subject(TAKEN)
+            .mistake("α = ½", Limits { alpha: 0.5, ..TAKEN })
+            .mistake(
+                "n = 50 per cm³",
+                Limits {
+                    concentration_per_cm3: 50.0,
+                    ..TAKEN
+                },
+            )
+            .mistake("m = 3", Limits { m: 3.0, ..TAKEN })
+            .mistake("100 rods for one", Limits { count: 100, ..TAKEN })
+            .mistake(
+                "σ = 10⁻⁶ %",
+                Limits {
+                    sd_percent: 1e-6,
+                    ..TAKEN
+                },
+            )
+            .mistake(
+                "r_e = 1 + 10⁻⁶",
+                Limits {
+                    aspect_ratio: 1.0 + 1e-6,
+                    ..TAKEN
+                },
+            )
+            .check(reductions),
+        Case::program("standard-errors")
+            .claim(
+                "Standard errors are those of independent replicas, or of rods where there is one replica.",
+            )
+            .source("the results' own columns")
+            .equations(&[])
+            .subject((|values| Sample::of(values).se) as StandardError)
+            .mistake("without the root of their number", |values| {
+                Sample::of(values).se * (values.len() as f64).sqrt()
+            })
+            .mistake("N for N − 1", |values| {
+                let n = values.len() as f64;
+                Sample::of(values).se * ((n - 1.0) / n).sqrt()
+            })
+            .check(standard_errors),
     ]
 }
 
@@ -104,15 +96,12 @@ pub(super) fn difference(a: &Scene, b: &Scene) -> f64 {
         results
             .series
             .iter()
-            .flat_map(|series| &series.channels)
+            .flat_map(|series| &series.columns)
             .flat_map(|c| c.mean.clone())
             .collect()
     };
     let pairs = channels(&a).into_iter().zip(channels(&b));
-    pairs.map(|(a, b)| (a - b).abs()).fold(
-        0.0,
-        |worst, d| if d.is_nan() { f64::NAN } else { f64::max(worst, d) },
-    )
+    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, larger)
 }
 
 fn reductions(limits: &Limits, effort: &Effort) -> Vec<Evidence> {
@@ -143,33 +132,24 @@ fn reductions(limits: &Limits, effort: &Effort) -> Vec<Evidence> {
     sphere.particles.aspect_ratio = 1.0;
 
     vec![
-        Evidence::new(
-            "α = 10⁻³⁰⁰ against free rods",
-            Rule::exact(difference(&alpha, &free)),
-        ),
-        Evidence::new(
-            "n = 10⁻³⁰ per cm³ against free rods",
-            Rule::exact(difference(&thin, &free)),
-        ),
-        Evidence::new(
-            "m = 10⁹ against free rods",
-            Rule::exact(difference(&steep, &free)),
-        ),
-        Evidence::new(
+        Evidence::exact("α = 10⁻³⁰⁰ against free rods", difference(&alpha, &free)),
+        Evidence::exact("n = 10⁻³⁰ per cm³ against free rods", difference(&thin, &free)),
+        Evidence::exact("m = 10⁹ against free rods", difference(&steep, &free)),
+        Evidence::exact(
             "one interacting rod against one free rod",
-            Rule::exact(difference(&one, &one_free)),
+            difference(&one, &one_free),
         ),
-        Evidence::new(
+        Evidence::within(
             "σ = 10⁻¹² % against σ = 0",
-            Rule::within(
-                difference(&narrow, &uniform),
-                1e-11,
-                "a phase of 6π shifted by σ, grown by r_e at the flip",
-            ),
+            difference(&narrow, &uniform),
+            1e-11,
+            "a phase of 6π shifted by σ, grown by r_e at the flip",
         ),
-        Evidence::new(
+        Evidence::within(
             "r_e = 1 + 10⁻¹² against a sphere",
-            Rule::within(difference(&round, &sphere), 1e-11, "the map differs by r_e − 1"),
+            difference(&round, &sphere),
+            1e-11,
+            "the map differs by r_e − 1",
         ),
     ]
 }
@@ -180,7 +160,7 @@ fn standard_errors(standard_error: &StandardError, effort: &Effort) -> Vec<Evide
     scene.time.outputs_per_period = Some(10);
     scene.ensemble.replicas = 16;
     let over_replicas = run(&scene).map_or(f64::NAN, |results| {
-        let expected = |output| standard_error(&per_replica(&scene, 16, |means| means.at(output, 0)));
+        let expected = |output| standard_error(&per_replica(&scene, 16, |mean| mean(Channel::X[0], output)));
         worst_ratio(&results, |output| Some(expected(output)))
     });
     // One replica of rods whose projections at t = 0 are known one by one.
@@ -198,32 +178,30 @@ fn standard_errors(standard_error: &StandardError, effort: &Effort) -> Vec<Evide
     });
     let because = "two ways of summing sixteen squares";
     vec![
-        Evidence::new(
+        Evidence::within(
             "relative error of the errors over replicas",
-            Rule::within(over_replicas, 1e-12, because),
+            over_replicas,
+            1e-12,
+            because,
         ),
-        Evidence::new(
+        Evidence::within(
             "relative error of the errors over rods",
-            Rule::within(over_rods, 1e-12, because),
+            over_rods,
+            1e-12,
+            because,
         ),
     ]
 }
 
 /// The largest relative error of X̄₁'s standard errors where one is expected.
 fn worst_ratio(results: &Results, expected: impl Fn(usize) -> Option<f64>) -> f64 {
-    let Some(channel) = results.channel("x1") else {
+    let Some(channel) = results.column("x1") else {
         return f64::NAN;
     };
     let errors = channel.se.iter().enumerate();
     errors
         .filter_map(|(output, se)| expected(output).map(|expected| (se / expected - 1.0).abs()))
-        .fold(0.0, |worst, error| {
-            if error.is_nan() {
-                f64::NAN
-            } else {
-                f64::max(worst, error)
-            }
-        })
+        .fold(0.0, larger)
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! The core against the naive reference: the same draws, collision by collision.
 
-use super::lab::{self, problem};
-use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
+use crate::lab::{self, problem};
 use crate::oracle::naive::{Mistake, Naive};
+use crate::statistics::larger;
 use nalgebra::Vector3;
 use shearbed::Suspension;
 use shearbed::scene::{self, Orientation, Scene};
@@ -12,21 +12,21 @@ pub fn cases() -> Vec<Case> {
     let mistakes = Mistake::ALL
         .into_iter()
         .map(|mistake| (name(mistake), Some(mistake)));
-    vec![Case::new(
-        About {
-            name: "naive-reference",
-            judges: Judges::Core,
-            claim: "The core and a naive O(N²) reference with the same draws have the same collisions and, to round-off, the same rods.",
-            source: "method of solution, eqs 5–9, 11, 12, 14, A.7–A.14",
-            equations: &[
+    vec![
+        Case::core("naive-reference")
+            .claim(
+                "The core and a naive O(N²) reference with the same draws have the same collisions and, to \
+                 round-off, the same rods.",
+            )
+            .source("method of solution, eqs 5–9, 11, 12, 14, A.7–A.14")
+            .equations(&[
                 "5", "6", "7", "8", "9", "11", "12", "14", "A.7", "A.8", "A.9", "A.10", "A.11", "A.12",
                 "A.13", "A.14",
-            ],
-        },
-        None,
-        mistakes.collect(),
-        against_reference,
-    )]
+            ])
+            .subject(None)
+            .mistakes(mistakes)
+            .check(against_reference),
+    ]
 }
 
 fn name(mistake: Mistake) -> &'static str {
@@ -128,25 +128,26 @@ fn against_reference(mistake: &Option<Mistake>, effort: &Effort) -> Vec<Evidence
         }
     }
     vec![
-        Evidence::new(
+        Evidence::exact(
             format!(
                 "steps in which other rods collided, of {} with {} collisions",
                 off.steps, off.collisions
             ),
-            Rule::exact(off.pairs as f64),
+            off.pairs as f64,
         ),
-        Evidence::new(
+        Evidence::within(
             "largest difference of places in rod lengths, after up to one period",
-            Rule::within(off.places, 1e-11, "round-off of 200 sums of lengths up to 100"),
+            off.places,
+            1e-11,
+            "round-off of 200 sums of lengths up to 100",
         ),
-        Evidence::new(
-            "largest difference of directions after one step from the same state, over the condition of its contacts",
-            Rule::within(
-                off.step,
-                256.0 * f64::EPSILON,
-                "some hundred roundings of the reference's tensors and frames; places and directions off by ε move an arm r by \
-                 ε(1 + |d|)/sin², and the angle turned, ∝ 1/r, by that over r",
-            ),
+        Evidence::within(
+            "largest difference of directions after one step from the same state, over the condition \
+             of its contacts",
+            off.step,
+            256.0 * f64::EPSILON,
+            "some hundred roundings of the reference's tensors and frames; places and directions off \
+             by ε move an arm r by ε(1 + |d|)/sin², and the angle turned, ∝ 1/r, by that over r",
         ),
     ]
 }
@@ -166,13 +167,13 @@ fn compare(scene: &Scene, replica: u64, mistake: Option<Mistake>, off: &mut Off)
         off.steps += 1;
         off.collisions += expected.pairs.len() as u64;
         off.pairs += u64::from(expected.pairs != found.pairs);
-        off.places = off.places.max(apart(&expected.places, &found.places, [1.0]));
+        off.places = larger(off.places, apart(&expected.places, &found.places, [1.0]));
         let directions = apart(&expected.directions, &found.directions, [1.0, -1.0]);
         let turns = reference.last_turns_rad.iter().map(|[a, b]| a.max(*b));
         let condition = (expected.pairs.iter().zip(turns))
             .map(|(pair, turn)| condition(&before, *pair, turn))
             .fold(scene.particles.aspect_ratio, f64::max);
-        off.step = off.step.max(directions / condition);
+        off.step = larger(off.step, directions / condition);
         reference.orientations = found.directions;
     }
 }
@@ -203,13 +204,7 @@ fn apart<const K: usize>(a: &[[f64; 3]], b: &[[f64; 3]], signs: [f64; K]) -> f64
             .map(|&sign| distance(a, b, sign))
             .fold(f64::INFINITY, f64::min)
     };
-    a.iter().zip(b).map(nearest).fold(0.0, |worst, d| {
-        if d.is_nan() {
-            f64::INFINITY
-        } else {
-            f64::max(worst, d)
-        }
-    })
+    a.iter().zip(b).map(nearest).fold(0.0, larger)
 }
 
 /// Scenes of 2 to 400 rods; the small ones are dense enough to collide.

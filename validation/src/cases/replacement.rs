@@ -1,55 +1,54 @@
 //! The control volume: rods that leave it come back by eq. 14.
 
-use super::lab;
-use crate::accept::{Rule, kolmogorov_samples};
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::accept::kolmogorov_samples;
+use crate::case::{Case, Effort, Evidence};
+use crate::lab;
 use crate::oracle::naive::stream;
+use crate::statistics::larger;
 use rand::RngExt;
 use rand_pcg::Pcg64Dxsm;
 use shearbed::Suspension;
 use shearbed::jeffery::strain_per_period;
 
 pub fn cases() -> Vec<Case> {
-    vec![Case::new(
-        About {
-            name: "replacement",
-            judges: Judges::Core,
-            claim: "Replacement keeps every rod inside, new rods have x_1 = H√R and x_3 = HR, and the volume stays evenly filled.",
-            source: "eqs 12, 14",
-            equations: &["12", "14"],
-        },
-        Volume::Core { step: 1 },
-        vec![
-            (
+    vec![
+        Case::core("replacement")
+            .claim(
+                "Replacement keeps every rod inside, new rods have x_1 = H√R and x_3 = HR, and the volume \
+                 stays evenly filled.",
+            )
+            .source("eqs 12, 14")
+            .equations(&["12", "14"])
+            .subject(Volume::Core { step: 1 })
+            .mistake(
                 "x_1 = HR for new rods",
                 Volume::Wrong(|x, draws| *x = [draws.random(), x[1].rem_euclid(1.0), draws.random()]),
-            ),
-            (
+            )
+            .mistake(
                 "new rods in the lower half of axis 3",
                 Volume::Wrong(|x, draws| {
                     *x = [root(draws), x[1].rem_euclid(1.0), 0.5 * draws.random::<f64>()];
                 }),
-            ),
-            (
+            )
+            .mistake(
                 "x_2 drawn at random, as eq. 14's text has it",
                 Volume::Wrong(|x, draws| *x = [root(draws), draws.random(), draws.random()]),
-            ),
-            (
+            )
+            .mistake(
                 "new rods keep x_1 and x_3",
                 Volume::Wrong(|x, _| x[1] = x[1].rem_euclid(1.0)),
-            ),
-            (
+            )
+            .mistake(
                 "rods of the far half of axis 1 are not brought back",
                 Volume::Wrong(|x, draws| {
                     if x[0] < 0.5 {
                         *x = [root(draws), x[1].rem_euclid(1.0), draws.random()];
                     }
                 }),
-            ),
-            ("steps as long as the whole strain", Volume::Core { step: STEPS }),
-        ],
-        replacement,
-    )]
+            )
+            .mistake("steps as long as the whole strain", Volume::Core { step: STEPS })
+            .check(replacement),
+    ]
 }
 
 /// Who moves and replaces the rods.
@@ -92,7 +91,7 @@ fn replacement(volume: &Volume, effort: &Effort) -> Vec<Evidence> {
     let overshoot_off = places
         .new_x2_off
         .iter()
-        .fold(0.0f64, |worst, off| worst.max(off.abs()));
+        .fold(0.0, |worst, off| larger(worst, off.abs()));
     let squares = places.new_x1.iter().map(|x| x * x).collect();
     // The test is of values in [0, 1]; those outside are counted above.
     let end = places
@@ -101,16 +100,14 @@ fn replacement(volume: &Volume, effort: &Effort) -> Vec<Evidence> {
     let [x1, x2, x3] = end;
     let even = "Kolmogorov–Smirnov; long steps move x_1 by 0.12 at the least";
     vec![
-        Evidence::new("rods outside the volume", Rule::exact(outside as f64)),
-        Evidence::new(
+        Evidence::exact("rods outside the volume", outside as f64),
+        Evidence::within(
             "largest |x_2 − overshoot modulo H| of new rods, over H",
-            Rule::within(
-                overshoot_off,
-                4.0 * f64::EPSILON,
-                "five roundings of numbers near 1, half an ε each",
-            ),
+            overshoot_off,
+            4.0 * f64::EPSILON,
+            "five roundings of numbers near 1, half an ε each",
         ),
-        Evidence::new("new rods that kept x_1 or x_3", Rule::exact(places.kept as f64)),
+        Evidence::exact("new rods that kept x_1 or x_3", places.kept as f64),
         Evidence::new(
             "p of (x_1/H)² of new rods being uniform",
             lab::uniform(

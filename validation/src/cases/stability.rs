@@ -1,40 +1,36 @@
 //! Where integrators of a free rod leave their region of stability: what `docs/stability.md` says.
 
-use super::motion::larger;
 use super::subjects::Subjects;
 use super::subjects::spoiled::{Refuses, WholeTurns, in_angles, in_p};
-use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
 use crate::stability::map::{self, ASPECT_RATIOS, Cell, Found, STEPS, TOLERANCES};
 use crate::stability::orbit::Place;
+use crate::statistics::larger;
 use crate::subject::{self, *};
 
 pub fn cases() -> Vec<Case> {
-    vec![Case::new(
-        About {
-            name: "stability-map",
-            judges: Judges::Integrator,
-            claim: "In every corner of the map every subject ends, with a direction or with an error: the exact propagator at \
-                    round-off, A.4 and A.5 in angles within 4·10⁻⁵ rad, who keeps |p| with |p| = 1, and orders 2 and 4 within \
-                    4 (GΔt)² rad over one period where GΔt ≤ ½.",
-            source: "A.2 to A.5, eq. 13",
-            equations: &["13", "A.2", "A.3", "A.4", "A.5"],
-        },
-        subject::own as Subjects,
-        vec![
-            ("whole turns are left in the phase", || vec![Box::new(WholeTurns)]),
-            ("RK4 in p said to keep |p|", || {
+    vec![
+        Case::integrator("stability-map")
+            .claim(
+                "In every corner of the map every subject ends, with a direction or with an error: the \
+                 exact propagator at round-off, A.4 and A.5 in angles within 4·10⁻⁵ rad, who keeps |p| \
+                 with |p| = 1, and orders 2 and 4 within 4 (GΔt)² rad over one period where GΔt ≤ ½.",
+            )
+            .source("A.2 to A.5, eq. 13")
+            .equations(&["13", "A.2", "A.3", "A.4", "A.5"])
+            .subject(subject::own as Subjects)
+            .mistake("whole turns are left in the phase", || vec![Box::new(WholeTurns)])
+            .mistake("RK4 in p said to keep |p|", || {
                 in_p(4, true, |problem, p, h| rk4(|y| problem.rate(&y), p, h))
-            }),
-            ("RK4 in angles with an order 4 that is 1", || {
+            })
+            .mistake("RK4 in angles with an order 4 that is 1", || {
                 in_angles(4, |problem, y, h| {
                     explicit_euler(|y| problem.angle_rates(&y), y, h)
                 })
-            }),
-            ("an error in place of every direction", || vec![Box::new(Refuses)]),
-        ],
-        corners,
-    )]
+            })
+            .mistake("an error in place of every direction", || vec![Box::new(Refuses)])
+            .check(corners),
+    ]
 }
 
 /// A cell with what it is a cell of.
@@ -71,40 +67,31 @@ fn corners(subjects: &Subjects, effort: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::new(
+        Evidence::exact(
             "cells in which a subject without steps, other than in angles, is not at round-off",
-            Rule::exact(exact),
+            exact,
         ),
-        Evidence::new(
+        Evidence::within(
             "largest angle to the closed form, A.4 and A.5 in angles",
-            Rule::within(
-                angles,
-                4e-5,
-                "the starting phase is added to t/T before whole turns are taken out: rounded to half an ulp of 10³, \
-                 6·10⁻¹⁴, times 2π r_e = 6·10⁸",
-            ),
+            angles,
+            4e-5,
+            "the starting phase is added to t/T before whole turns are taken out: rounded to half an \
+             ulp of 10³, 6·10⁻¹⁴, times 2π r_e = 6·10⁸",
         ),
-        Evidence::new(
+        Evidence::within(
             "largest ||p| − 1| of who keeps it",
-            Rule::within(
-                length,
-                4.0 * most_steps as f64 * f64::EPSILON,
-                "each step rounds |p| by four roundings at most",
-            ),
+            length,
+            4.0 * most_steps as f64 * f64::EPSILON,
+            "each step rounds |p| by four roundings at most",
         ),
-        Evidence::new(
+        Evidence::within(
             "largest angle over (GΔt)² where 10⁻³ ≤ GΔt ≤ ½ and the order is 2 or 4, over one period",
-            Rule::within(
-                accurate,
-                4.0,
-                "a step of order 2 is off by (GΔt)³/6 times a third derivative, 3 at most by A.2, and a flip lasts some 8/G: \
-                 4 (GΔt)²; order 4 is nearer; below 10⁻³ round-off is more",
-            ),
+            accurate,
+            4.0,
+            "a step of order 2 is off by (GΔt)³/6 times a third derivative, 3 at most by A.2, and a \
+             flip lasts some 8/G: 4 (GΔt)²; order 4 is nearer; below 10⁻³ round-off is more",
         ),
-        Evidence::new(
-            "cells without a direction and without an error",
-            Rule::exact(silent),
-        ),
+        Evidence::exact("cells without a direction and without an error", silent),
     ]
 }
 

@@ -1,71 +1,63 @@
 //! The paper's sentences as tests: each claim with the place of its sentence, a number and a confidence.
 //! How oscillations die is in `decay`. Effects and deviations are of pilots at seed 99.
 
-use super::lab::{self, Sample, per_replica};
 use super::readings::LINE;
-use crate::accept::{Design, Rule};
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::accept::Design;
+use crate::case::{Case, Effort, Evidence};
+use crate::lab::{self, per_replica};
+use crate::statistics::{Sample, larger};
 use rayon::prelude::*;
+use shearbed::observable::Channel;
 use shearbed::scene::{Orientation, Scene};
 
 /// A change to every scene that the model runs; the expectation stays that of the unchanged scene.
 type Change = fn(&mut Scene);
 
 pub fn cases() -> Vec<Case> {
-    let about = |name, claim, source| About {
-        name,
-        judges: Judges::Statement,
-        claim,
-        source,
-        equations: &["4"],
-    };
     vec![
-        Case::new(
-            about(
-                "period-unaffected",
-                "\"The period of oscillation is practically unaffected by collisions or by differences in particle size\".",
-                "Results, before Fig. 7; Fig. 6",
-            ),
-            (|_| {}) as Change,
-            vec![("periods 6 % longer at the same clock", |scene| {
+        Case::statement("period-unaffected")
+            .claim(
+                "\"The period of oscillation is practically unaffected by collisions or by differences in \
+                 particle size\".",
+            )
+            .source("Results, before Fig. 7; Fig. 6")
+            .equations(&["4"])
+            .subject((|_| {}) as Change)
+            .mistake("periods 6 % longer at the same clock", |scene| {
                 // r_e + 1/r_e 6 % larger; steps and outputs as far apart as before, in seconds.
                 let sum = 1.06 * (11.6 + 1.0 / 11.6);
                 scene.particles.aspect_ratio = 0.5 * (sum + f64::sqrt(sum * sum - 4.0));
                 scene.time.steps_per_period = Some(212);
                 scene.time.outputs_per_period = Some(53);
-            })],
-            period,
-        ),
-        Case::new(
-            about(
-                "hundred-rods-suffice",
-                "\"The results did not change significantly when 100 or more particles were used\".",
-                "Results, second paragraph",
-            ),
-            100 as Count,
-            vec![("2 rods", 2)],
-            enough_rods,
-        ),
-        Case::new(
-            about(
-                "steady-stays-put",
-                "\"According to the model, the mean axial projections should remain constant after their steady state values are reached\".",
-                "Results, before Fig. 5; Fig. 5",
-            ),
-            6.0 as Periods,
-            vec![("from the start", 0.0)],
-            stays_put,
-        ),
-        Case::new(
-            about(
-                "in-plane-rods",
-                "Rods in the shear plane stay there, and do not disturb each other as Δt → 0: \"there should have been no collisions\".",
-                "Results, the r_e = 3.96 experiment",
-            ),
-            90.0 as ThetaDeg,
-            vec![("10° out of the plane", 80.0)],
-            in_plane,
-        ),
+            })
+            .check(period),
+        Case::statement("hundred-rods-suffice")
+            .claim("\"The results did not change significantly when 100 or more particles were used\".")
+            .source("Results, second paragraph")
+            .equations(&["4"])
+            .subject(100 as Count)
+            .mistake("2 rods", 2)
+            .check(enough_rods),
+        Case::statement("steady-stays-put")
+            .claim(
+                "\"According to the model, the mean axial projections should remain constant after their \
+                 steady state values are reached\".",
+            )
+            .source("Results, before Fig. 5; Fig. 5")
+            .equations(&["4"])
+            .subject(6.0 as Periods)
+            .mistake("from the start", 0.0)
+            .check(stays_put),
+        Case::statement("in-plane-rods")
+            .claim(
+                "Rods in the shear plane stay there, and do not disturb each other as Δt → 0: \"there \
+                 should have been no collisions\".",
+            )
+            .source("Results, the r_e = 3.96 experiment")
+            .equations(&["4"])
+            .subject(90.0 as ThetaDeg)
+            .mistake("10° out of the plane", 80.0)
+            .check(in_plane),
     ]
 }
 
@@ -76,10 +68,7 @@ fn period(change: &Change, effort: &Effort) -> Vec<Evidence> {
         lab::interaction(scene);
     };
     // The control's frequency is 2/1.06 = 1.887. Pilots of 100 replicas scattered by 0.014 and 0.007.
-    let design = Design {
-        effect: 0.06,
-        sd: 0.017,
-    };
+    let design = Design::new(0.06, 0.017);
     [
         ("unequal aspect ratios", polydisperse),
         ("collisions", interacting),
@@ -92,8 +81,8 @@ fn period(change: &Change, effort: &Effort) -> Vec<Evidence> {
         scene.time.steps_per_period = Some(200);
         scene.time.outputs_per_period = Some(50);
         change(&mut scene);
-        let frequencies = per_replica(&scene, effort.samples(design), |means| {
-            let series: Vec<f64> = (0..=200).map(|output| means.at(output, 0)).collect();
+        let frequencies = per_replica(&scene, effort.samples(design), |mean| {
+            let series: Vec<f64> = (0..=200).map(|output| mean(Channel::X[0], output)).collect();
             peak_frequency(&series, 50.0)
         });
         Evidence::new(
@@ -102,8 +91,8 @@ fn period(change: &Change, effort: &Effort) -> Vec<Evidence> {
                 2.0,
                 0.04,
                 design.effect,
-                "\"practically unaffected\": 2 %, a maximum at t/T = 2 that is 0.04 off on an axis of six periods; |p_1| \
-                 has the period T/2",
+                "\"practically unaffected\": 2 %, a maximum at t/T = 2 that is 0.04 off on an axis of six \
+                 periods; |p_1| has the period T/2",
             ),
         )
     })
@@ -154,15 +143,12 @@ fn enough_rods(count: &Count, effort: &Effort) -> Vec<Evidence> {
         scene.particles.count = count;
         scene.time.periods = Some(2.0);
         scene.time.outputs_per_period = Some(1);
-        per_replica(&scene, replicas, |means| {
-            [1, 2].map(|output| means.at(output, 0) - means.at(0, 0))
+        per_replica(&scene, replicas, |mean| {
+            [1, 2].map(|output| mean(Channel::X[0], output) - mean(Channel::X[0], 0))
         })
     };
     // A pilot of 200: two rods are off by 0.041 and 0.061, differences scatter by 0.015 at most.
-    let design = Design {
-        effect: 0.048,
-        sd: 0.018,
-    };
+    let design = Design::new(0.048, 0.018);
     let (samples, share) = (effort.samples(design), (MANY / count).min(100));
     let few = changes(*count, samples * share as u64, 0);
     let many = changes(MANY, samples, 1);
@@ -173,16 +159,13 @@ fn enough_rods(count: &Count, effort: &Effort) -> Vec<Evidence> {
                 few.iter().map(|change| change[k]).sum::<f64>() / share as f64 - many[k]
             };
             let differences: Vec<f64> = few.chunks(share).zip(&many).map(difference).collect();
-            Evidence::new(
-                format!("bias of X̄₁ at t/T = {}, {count} rods against {MANY}", k + 1),
-                Sample::of(&differences).is(
+            Evidence::new(format!("bias of X̄₁ at t/T = {}, {count} rods against {MANY}", k + 1), Sample::of(&differences).is(
                     0.0,
                     2.0 * LINE,
                     design.effect,
-                    "\"not significantly\": less than two curves are told apart by, twice the width of a line; rods \
-                     near a face have fewer neighbours",
-                ),
-            )
+                    "\"not significantly\": less than two curves are told apart by, twice the width of a line; \
+                     rods near a face have fewer neighbours",
+                ))
         })
         .collect()
 }
@@ -201,8 +184,15 @@ fn stays_put(from: &Periods, effort: &Effort) -> Vec<Evidence> {
     // 0.008 and 0.011.
     let designs = [(0.02, 0.006), (0.03, 0.0095), (0.04, 0.0135)].map(|(effect, sd)| Design { effect, sd });
     let replicas = designs.map(|design| effort.samples(design)).into_iter().max();
-    let drifts = per_replica(&scene, replicas.unwrap_or(0), |means| {
-        [0, 1, 2].map(|axis| means.over(start + 10..start + 20, axis) - means.over(start..start + 10, axis))
+    let drifts = per_replica(&scene, replicas.unwrap_or(0), |mean| {
+        // Half a period, where free rods are back.
+        let over_ten = |channel, first| {
+            (first..first + 10)
+                .map(|output| mean(channel, output))
+                .sum::<f64>()
+                / 10.0
+        };
+        Channel::X.map(|axis| over_ten(axis, start + 10) - over_ten(axis, start))
     });
     (0..3)
         .map(|axis| {
@@ -245,17 +235,14 @@ fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {
                 return (f64::NAN, f64::NAN);
             }
             let directions = with.directions();
-            out_of_plane = directions.iter().map(|p| p.z.abs()).fold(out_of_plane, f64::max);
+            out_of_plane = directions.iter().map(|p| p.z.abs()).fold(out_of_plane, larger);
         }
         let (with, without) = (with.directions(), without.directions());
         let apart: f64 = with.iter().zip(&without).map(|(a, b)| a.cross(b).norm()).sum();
         (out_of_plane, apart / with.len() as f64)
     };
     // A pilot of 40 replicas: 0.01607 and 0.00333 on average, which leaves 0.0047 ± 0.0008 (mean and deviation).
-    let design = Design {
-        effect: 0.0043,
-        sd: 0.001,
-    };
+    let design = Design::new(0.0043, 0.001);
     let found: Vec<_> = (0..effort.samples(design))
         .into_par_iter()
         .map(|replica| (run(200, replica), run(800, replica)))
@@ -263,27 +250,22 @@ fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {
     let most = found
         .iter()
         .flat_map(|(coarse, fine)| [coarse.0, fine.0])
-        .fold(
-            0.0,
-            |most, z| if z.is_nan() { f64::NAN } else { f64::max(most, z) },
-        );
+        .fold(0.0, larger);
     let fall: Vec<f64> = found
         .iter()
         .map(|(coarse, fine)| 0.5 * coarse.1 - fine.1)
         .collect();
     vec![
-        Evidence::new(
+        Evidence::within(
             "largest |p_3| within one period",
-            Rule::within(
-                most,
-                1e-9,
-                "cos 90° is 6·10⁻¹⁷, which kicks ∝ 1/r grow: 60-fold at most in ten times these steps, and x times \
-                 that with a probability ∝ 1/x",
-            ),
+            most,
+            1e-9,
+            "cos 90° is 6·10⁻¹⁷, which kicks ∝ 1/r grow: 60-fold at most in ten times these steps, and \
+             x times that with a probability ∝ 1/x",
         ),
         Evidence::new(
-            "half the mean angle in rad between rods with and without interactions after one period at 200 steps, less \
-             that at 800 steps",
+            "half the mean angle in rad between rods with and without interactions after one period at \
+             200 steps, less that at 800 steps",
             Sample::of(&fall).exceeds(
                 0.0,
                 design.effect,

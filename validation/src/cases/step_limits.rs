@@ -1,13 +1,12 @@
 //! The longest steps of fixed-step subjects against theory, by bisection (`docs/stability.md`).
 
-use super::motion::larger;
 use super::subjects::Subjects;
 use super::subjects::spoiled::{in_angles, in_p};
-use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
 use crate::stability::limit_tables::{ONE_STEP, TEN_PERIODS};
 use crate::stability::limits::{Limit, Property, bisect, holds};
 use crate::stability::theory;
+use crate::statistics::larger;
 use crate::subject::{self, *};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -55,13 +54,6 @@ fn implicit_midpoint() -> Vec<Box<dyn Subject>> {
 }
 
 pub fn cases() -> Vec<Case> {
-    let about = |name, claim, equations| About {
-        name,
-        judges: Judges::Integrator,
-        claim,
-        source: "A.2, A.3; A.14 is such a step",
-        equations,
-    };
     let order = |subjects: Subjects| Claimed {
         subjects,
         property: Property::Order,
@@ -87,129 +79,77 @@ pub fn cases() -> Vec<Case> {
         found_late: OF_MIDPOINTS,
     };
     vec![
-        Case::new(
-            about(
-                "euler-step-limit",
-                "Explicit Euler's step on A.2 lets one rod overtake another where GΔt > 1/Λ, and never below.",
-                &["A.2"],
-            ),
-            order(euler),
-            vec![
-                ("half of the rate", order(half_euler)),
-                ("RK4", order(rk4_in_angles)),
-                ("the exact propagator", order(|| vec![Box::new(ExactPropagator)])),
-            ],
-            agrees,
-        ),
-        Case::new(
-            about(
-                "step-limit-turning",
-                "Explicit Euler and the Lie-group midpoint rule turn every rod in the plane of shear by less than half a turn \
-                 a step up to GΔt = π(1 + 1/r_e²), and not beyond.",
-                &["A.2"],
-            ),
-            turning(|| {
+        Case::integrator("euler-step-limit")
+            .claim("Explicit Euler's step on A.2 lets one rod overtake another where GΔt > 1/Λ, and never \
+                    below.")
+            .source("A.2, A.3; A.14 is such a step")
+            .equations(&["A.2"])
+            .subject(order(euler))
+            .mistake("half of the rate", order(half_euler))
+            .mistake("RK4", order(rk4_in_angles))
+            .mistake("the exact propagator", order(|| vec![Box::new(ExactPropagator)]))
+            .check(agrees),
+        Case::integrator("step-limit-turning")
+            .claim("Explicit Euler and the Lie-group midpoint rule turn every rod in the plane of shear by \
+                    less than half a turn a step up to GΔt = π(1 + 1/r_e²), and not beyond.")
+            .source("A.2, A.3; A.14 is such a step")
+            .equations(&["A.2"])
+            .subject(turning(|| {
                 [euler(), own("Lie-group midpoint")]
                     .into_iter()
                     .flatten()
                     .collect()
-            }),
-            vec![
-                ("half of the rate", turning(half_euler)),
-                ("RK4", turning(rk4_in_angles)),
-                (
-                    "the exact propagator",
-                    turning(|| vec![Box::new(ExactPropagator)]),
-                ),
-            ],
-            agrees,
-        ),
-        Case::new(
-            about(
-                "rods-come-to-rest",
-                "Just above GΔt = π(1 + 1/r_e²) explicit Euler brings every rod in the plane of shear to rest where there is \
-                 no rest; just below it none stops.",
-                &["A.2"],
-            ),
-            euler as Subjects,
-            vec![
-                ("half of the rate", half_euler as Subjects),
-                ("RK4", rk4_in_angles as Subjects),
-            ],
-            rest,
-        ),
-        Case::new(
-            about(
-                "step-limit-side",
-                "Explicit Euler lets no rod cross the plane of shear up to GΔt = 2/Λ, and not beyond.",
-                &["A.3"],
-            ),
-            Claimed {
+            }))
+            .mistake("half of the rate", turning(half_euler))
+            .mistake("RK4", turning(rk4_in_angles))
+            .mistake("the exact propagator", turning(|| vec![Box::new(ExactPropagator)]))
+            .check(agrees),
+        Case::integrator("rods-come-to-rest")
+            .claim("Just above GΔt = π(1 + 1/r_e²) explicit Euler brings every rod in the plane of shear to \
+                    rest where there is no rest; just below it none stops.")
+            .source("A.2, A.3; A.14 is such a step")
+            .equations(&["A.2"])
+            .subject(euler as Subjects)
+            .mistake("half of the rate", half_euler as Subjects)
+            .mistake("RK4", rk4_in_angles as Subjects)
+            .check(rest),
+        Case::integrator("step-limit-side")
+            .claim("Explicit Euler lets no rod cross the plane of shear up to GΔt = 2/Λ, and not beyond.")
+            .source("A.2, A.3; A.14 is such a step")
+            .equations(&["A.3"])
+            .subject(Claimed {
                 found_late: OF_EULER,
                 ..side(euler, theory::euler_side)
-            },
-            vec![
-                ("half of the rate", side(half_euler, theory::euler_side)),
-                ("RK4", side(rk4_in_angles, theory::euler_side)),
-            ],
-            agrees,
-        ),
-        Case::new(
-            about(
-                "implicit-midpoint-order",
-                "The implicit midpoint rule keeps the order of rods in the plane of shear at every step for r_e < 1 + √2, and \
-                 for longer rods up to GΔt = 2/(Λ(1 − u²)^{3/2}), 2u³ − 3u + 1/Λ = 0.",
-                &["A.2"],
-            ),
-            folded(implicit_midpoint, theory::implicit_midpoint_order),
-            vec![
-                (
-                    "no limit, as an A-stable method on a linear equation",
-                    folded(implicit_midpoint, |_| f64::INFINITY),
-                ),
-                (
-                    "the explicit midpoint rule",
-                    folded(|| own("Lie-group midpoint"), theory::implicit_midpoint_order),
-                ),
-                (
-                    "Newton's method after two changes",
-                    folded(two_changes, theory::implicit_midpoint_order),
-                ),
-            ],
-            agrees,
-        ),
-        Case::new(
-            about(
-                "implicit-midpoint-side",
-                "The implicit midpoint rule lets no rod cross the plane of shear up to GΔt = 4/Λ or up to where its order is \
-                 lost, whichever is less, and not beyond.",
-                &["A.3"],
-            ),
-            side(implicit_midpoint, theory::implicit_midpoint_one_solution),
-            vec![
-                (
-                    "4/Λ at every r_e",
-                    side(implicit_midpoint, theory::implicit_midpoint_side),
-                ),
-                (
-                    "where its order is lost, at every r_e",
-                    side(implicit_midpoint, theory::implicit_midpoint_order),
-                ),
-                (
-                    "explicit Euler",
-                    side(euler, theory::implicit_midpoint_one_solution),
-                ),
-            ],
-            agrees,
-        ),
-        Case::new(
-            about(
-                "step-limit-at-least",
-                "Explicit methods of order p in angles keep the order of rods at least up to GΔtΛ = x, x + … + xᵖ/p! = 1; in \
-                 the plane of shear the Lie-group RKMK4 is RK4 in angles.",
-                &["A.2"],
-            ),
-            (|| {
+            })
+            .mistake("half of the rate", side(half_euler, theory::euler_side))
+            .mistake("RK4", side(rk4_in_angles, theory::euler_side))
+            .check(agrees),
+        Case::integrator("implicit-midpoint-order")
+            .claim("The implicit midpoint rule keeps the order of rods in the plane of shear at every step \
+                    for r_e < 1 + √2, and for longer rods up to GΔt = 2/(Λ(1 − u²)^{3/2}), 2u³ − 3u + 1/Λ = 0.")
+            .source("A.2, A.3; A.14 is such a step")
+            .equations(&["A.2"])
+            .subject(folded(implicit_midpoint, theory::implicit_midpoint_order))
+            .mistake("no limit, as an A-stable method on a linear equation", folded(implicit_midpoint, |_| f64::INFINITY))
+            .mistake("the explicit midpoint rule", folded(|| own("Lie-group midpoint"), theory::implicit_midpoint_order))
+            .mistake("Newton's method after two changes", folded(two_changes, theory::implicit_midpoint_order))
+            .check(agrees),
+        Case::integrator("implicit-midpoint-side")
+            .claim("The implicit midpoint rule lets no rod cross the plane of shear up to GΔt = 4/Λ or up to \
+                    where its order is lost, whichever is less, and not beyond.")
+            .source("A.2, A.3; A.14 is such a step")
+            .equations(&["A.3"])
+            .subject(side(implicit_midpoint, theory::implicit_midpoint_one_solution))
+            .mistake("4/Λ at every r_e", side(implicit_midpoint, theory::implicit_midpoint_side))
+            .mistake("where its order is lost, at every r_e", side(implicit_midpoint, theory::implicit_midpoint_order))
+            .mistake("explicit Euler", side(euler, theory::implicit_midpoint_one_solution))
+            .check(agrees),
+        Case::integrator("step-limit-at-least")
+            .claim("Explicit methods of order p in angles keep the order of rods at least up to GΔtΛ = x, x + \
+                    … + xᵖ/p! = 1; in the plane of shear the Lie-group RKMK4 is RK4 in angles.")
+            .source("A.2, A.3; A.14 is such a step")
+            .equations(&["A.2"])
+            .subject((|| {
                 [
                     "explicit Euler in angles",
                     "RK4 in angles",
@@ -219,59 +159,46 @@ pub fn cases() -> Vec<Case> {
                 .into_iter()
                 .flat_map(own)
                 .collect()
-            }) as Subjects,
-            vec![
-                ("RK4 in steps of three times the length", || {
+            }) as Subjects)
+            .mistake("RK4 in steps of three times the length", || {
                     in_angles(4, |problem, y, h| rk4(|y| problem.angle_rates(&y), y, 3.0 * h))
-                }),
-                ("RK4 in p in place of RKMK4", || {
+                })
+            .mistake("RK4 in p in place of RKMK4", || {
                     vec![rk4_in_angles(), own("RK4 in p")]
                         .into_iter()
                         .flatten()
                         .collect()
-                }),
-            ],
-            at_least,
-        ),
-        Case::new(
-            about(
-                "rk4-near-a-sphere",
-                "As r_e → 1, RK4 in p turns every rod up to GΔt = 2√6 and its length is bounded up to 4√2, its limit on the \
-                 imaginary axis.",
-                &["A.1"],
-            ),
-            (|| own("RK4 in p")) as Subjects,
-            vec![
-                ("RK4 in angles", rk4_in_angles as Subjects),
-                ("explicit Euler in p", || {
+                })
+            .check(at_least),
+        Case::integrator("rk4-near-a-sphere")
+            .claim("As r_e → 1, RK4 in p turns every rod up to GΔt = 2√6 and its length is bounded up to 4√2, \
+                    its limit on the imaginary axis.")
+            .source("A.2, A.3; A.14 is such a step")
+            .equations(&["A.1"])
+            .subject((|| own("RK4 in p")) as Subjects)
+            .mistake("RK4 in angles", rk4_in_angles as Subjects)
+            .mistake("explicit Euler in p", || {
                     in_p(1, false, |problem, p, h| p + h * problem.rate(&p))
-                }),
-                ("the linear equation with half its rate", || {
+                })
+            .mistake("the linear equation with half its rate", || {
                     in_p(4, false, |problem, p, h| rk4(|y| problem.rate(&y), p, 0.5 * h))
-                }),
-            ],
-            near_a_sphere,
-        ),
-        Case::new(
-            about(
-                "frozen-limit",
-                "RK4 in p loses its length before the limit that frozen coefficients give on the real axis, GΔt = 2.785/Λ, for \
-                 r_e from 1.5 to 100.",
-                &["A.1"],
-            ),
-            (|| own("RK4 in p")) as Subjects,
-            vec![
-                ("projected", || own("projected RK4 in p")),
-                ("in angles", rk4_in_angles as Subjects),
-                ("steps of half the length", || {
+                })
+            .check(near_a_sphere),
+        Case::integrator("frozen-limit")
+            .claim("RK4 in p loses its length before the limit that frozen coefficients give on the real \
+                    axis, GΔt = 2.785/Λ, for r_e from 1.5 to 100.")
+            .source("A.2, A.3; A.14 is such a step")
+            .equations(&["A.1"])
+            .subject((|| own("RK4 in p")) as Subjects)
+            .mistake("projected", || own("projected RK4 in p"))
+            .mistake("in angles", rk4_in_angles as Subjects)
+            .mistake("steps of half the length", || {
                     in_p(4, false, |problem, p, h| {
                         let f = |y| problem.rate(&y);
                         rk4(f, rk4(f, p, 0.5 * h), 0.5 * h)
                     })
-                }),
-            ],
-            frozen,
-        ),
+                })
+            .check(frozen),
     ]
 }
 
@@ -302,16 +229,15 @@ fn agrees(claimed: &Claimed, _: &Effort) -> Vec<Evidence> {
                 Limit::Beyond(_) | Limit::Below(_) => f64::INFINITY,
             }
         });
-        Evidence::new(
+        Evidence::within(
             format!(
                 "relative difference of the longest step and theory, {}",
                 subject.name()
             ),
-            Rule::within(
-                worst.into_iter().fold(0.0, larger),
-                claimed.found_late * (PI / 1024.0).powi(2),
-                "δ² times what stretches δ: of 512 rods one is within δ = π/1024 of the extreme one, where what is judged is flat",
-            ),
+            worst.into_iter().fold(0.0, larger),
+            claimed.found_late * (PI / 1024.0).powi(2),
+            "δ² times what stretches δ: of 512 rods one is within δ = π/1024 of the extreme one, where \
+             what is judged is flat",
         )
     };
     (claimed.subjects)().into_iter().map(judged).collect()
@@ -343,14 +269,11 @@ fn rest(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::new(
+        Evidence::exact(
             "rods still moving after 1000 steps of 1.02 times the limit",
-            Rule::exact(moving),
+            moving,
         ),
-        Evidence::new(
-            "rods at rest after 1000 steps of 0.98 times the limit",
-            Rule::exact(resting),
-        ),
+        Evidence::exact("rods at rest after 1000 steps of 0.98 times the limit", resting),
     ]
 }
 
@@ -372,13 +295,15 @@ fn at_least(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
             .iter()
             .zip(found)
             .map(|(r, found)| theory::runge_kutta_order_at_least(order, *r) / found);
-        evidence.push(Evidence::new(
-            format!("bound over the longest step without overtaking, {}", subject.name()),
-            Rule::within(
-                least.fold(0.0, larger),
-                1.0 + 1e-6,
-                "a bound from below: too few rods find a step too long, which is no excuse; the bisection ends at 10⁻⁷",
+        evidence.push(Evidence::within(
+            format!(
+                "bound over the longest step without overtaking, {}",
+                subject.name()
             ),
+            least.fold(0.0, larger),
+            1.0 + 1e-6,
+            "a bound from below: too few rods find a step too long, which is no excuse; the bisection \
+             ends at 10⁻⁷",
         ));
         if order == 4 {
             let apart = |first: &f64, found: f64| (found / first - 1.0).abs();
@@ -386,9 +311,11 @@ fn at_least(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
                 .iter()
                 .zip(found)
                 .map(|(first, found)| apart(first, found));
-            evidence.push(Evidence::new(
+            evidence.push(Evidence::within(
                 format!("relative difference to the first of order 4, {}", subject.name()),
-                Rule::within(off.fold(0.0, larger), 1e-6, "the bisection ends at 10⁻⁷"),
+                off.fold(0.0, larger),
+                1e-6,
+                "the bisection ends at 10⁻⁷",
             ));
             if classical.is_empty() {
                 classical = found.into();
@@ -408,24 +335,25 @@ fn near_a_sphere(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
     let mut evidence = Vec::new();
     for subject in subjects() {
         let found = |property, ladder| bisect(ladder, |h| holds(subject.as_ref(), property, r, h));
-        evidence.push(Evidence::new(
+        evidence.push(Evidence::within(
             "relative difference of the longest step that turns and 2√6",
-            Rule::within(
-                off(
-                    found(Property::Turning, ONE_STEP),
-                    theory::rk4_turning_of_a_sphere(),
-                ),
-                2e-5,
-                "rates of rods of r_e = 1 + 10⁻⁵ differ by Λ = 10⁻⁵, and of 512 rods one is within δ = π/1024 of the fastest: δ² = 10⁻⁵",
+            off(
+                found(Property::Turning, ONE_STEP),
+                theory::rk4_turning_of_a_sphere(),
             ),
+            2e-5,
+            "rates of rods of r_e = 1 + 10⁻⁵ differ by Λ = 10⁻⁵, and of 512 rods one is within δ = \
+             π/1024 of the fastest: δ² = 10⁻⁵",
         ));
-        evidence.push(Evidence::new(
+        evidence.push(Evidence::within(
             "relative difference of the longest step with a bounded length and 4√2",
-            Rule::within(
-                off(found(Property::Length, TEN_PERIODS), theory::rk4_length_of_a_sphere()),
-                3e-3,
-                "|R|² = 1 + 0.89(y² − 8): in the 22 steps of ten periods |p| grows to 1.5 at y² = 8.04, which is 0.26 % more",
+            off(
+                found(Property::Length, TEN_PERIODS),
+                theory::rk4_length_of_a_sphere(),
             ),
+            3e-3,
+            "|R|² = 1 + 0.89(y² − 8): in the 22 steps of ten periods |p| grows to 1.5 at y² = 8.04, \
+             which is 0.26 % more",
         ));
     }
     evidence
@@ -449,12 +377,10 @@ fn frozen(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
             );
         }
     }
-    vec![Evidence::new(
+    vec![Evidence::within(
         "largest step with a bounded length over 2.785/(ΛG)",
-        Rule::within(
-            worst,
-            0.99,
-            "a hundredth below is told from equal: ten periods find a growth of 10⁻³ a step",
-        ),
+        worst,
+        0.99,
+        "a hundredth below is told from equal: ten periods find a growth of 10⁻³ a step",
     )]
 }

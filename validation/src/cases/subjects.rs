@@ -2,9 +2,8 @@
 
 pub(super) mod spoiled;
 
-use super::motion::larger;
-use crate::accept::Rule;
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::case::{Case, Effort, Evidence};
+use crate::statistics::larger;
 use crate::subject::{self, *};
 use crate::work_precision::order::{self, ORDER_TOLERANCE};
 use nalgebra::{Vector2, Vector3};
@@ -15,107 +14,86 @@ pub(super) type Subjects = fn() -> Vec<Box<dyn Subject>>;
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::new(
-            About {
-                name: "subject-orders",
-                judges: Judges::Integrator,
-                claim: "The error of every fixed-step subject falls with the order of its theory.",
-                source: "A.2 to A.5; Jeffery's equation in p",
-                equations: &["A.2", "A.3", "A.4", "A.5"],
-            },
-            subject::own as Subjects,
-            vec![
-                ("a stage of RK4 at the wrong place", || {
-                    in_angles(4, |problem, y, h| {
-                        let f = |y: Vector2<f64>| problem.angle_rates(&y);
-                        let k1 = f(y);
-                        let k2 = f(y + 0.5 * h * k1);
-                        let k3 = f(y + 0.5 * h * k1);
-                        let k4 = f(y + h * k3);
-                        y + h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4)
-                    })
-                }),
-                ("explicit Euler said to be of order 2", || {
-                    in_p(2, false, |problem, p, h| p + h * problem.rate(&p))
-                }),
-                ("RK4 on eq. A.2 with r_e for r_e²", || {
-                    in_angles(4, |problem, y, h| {
-                        let wrong = Problem::new(problem.aspect_ratio.sqrt(), 1.0);
-                        rk4(|y| wrong.angle_rates(&y), y, h)
-                    })
-                }),
-                ("an error that doubles whenever the step is halved", || {
-                    in_p(1, false, |problem, p, h| {
-                        rk4(|y| problem.rate(&y), p, h) + Vector3::new(0.0, 0.0, 1e-9)
-                    })
-                }),
-            ],
-            orders,
-        ),
-        Case::new(
-            About {
-                name: "subject-lengths",
-                judges: Judges::Integrator,
-                claim: "Subjects that are said to keep |p| = 1 keep it to round-off at any step.",
-                source: "p·ṗ = 0 (A.1)",
-                equations: &["A.1"],
-            },
-            subject::own as Subjects,
-            vec![
-                ("RK4 in p, not projected", || {
-                    in_p(4, true, |problem, p, h| rk4(|y| problem.rate(&y), p, h))
-                }),
-                ("the implicit midpoint rule after two sweeps", || {
-                    in_p(2, true, |problem, p, h| {
-                        let sweep = |m: Vector3<f64>| p + 0.5 * h * problem.tangent_rate(&m);
-                        2.0 * sweep(sweep(p)) - p
-                    })
-                }),
-            ],
-            lengths,
-        ),
-        Case::new(
-            About {
-                name: "exact-propagator-round-off",
-                judges: Judges::Integrator,
-                claim: "The exact propagator's error is round-off for r_e from 1.01 to 10⁶ and up to 10⁶ periods, in \
-                        the middle of a flip.",
-                source: "A.4, A.5, eq. 20",
-                equations: &["20", "A.4", "A.5"],
-            },
-            (|| vec![Box::new(ExactPropagator) as Box<dyn Subject>]) as Subjects,
-            vec![
-                ("whole turns are left in the phase", || vec![Box::new(WholeTurns)]),
-                ("A.4 and A.5 in angles", || vec![Box::new(ClosedForm)]),
-            ],
-            round_off,
-        ),
-        Case::new(
-            About {
-                name: "adaptive-subjects",
-                judges: Judges::Integrator,
-                claim: "At a tolerance of 10⁻¹¹ both adaptive subjects come as near as their steps, each off by the tolerance, allow.",
-                source: "A.2 to A.5; Jeffery's equation in p",
-                equations: &["A.4", "A.5"],
-            },
-            (|| -> Vec<Box<dyn Subject>> { vec![Box::new(DormandPrince), Box::new(Radau)] }) as Subjects,
-            vec![
-                ("r_e 0.1 % too long", || {
-                    vec![Box::new(Spoiled(|problem| {
-                        (Problem::new(1.001 * problem.aspect_ratio, problem.turns), 1.0)
-                    }))]
-                }),
-                ("a tolerance 10⁸ times as large", || {
-                    vec![Box::new(Spoiled(|problem| (problem, 1e8)))]
-                }),
-                ("the last step is left out", || {
-                    vec![Box::new(Spoiled(|problem| {
-                        (Problem::new(problem.aspect_ratio, 0.99 * problem.turns), 1.0)
-                    }))]
-                }),
-            ],
-            adaptive,
-        ),
+        Case::integrator("subject-orders")
+            .claim("The error of every fixed-step subject falls with the order of its theory.")
+            .source("A.2 to A.5; Jeffery's equation in p")
+            .equations(&["A.2", "A.3", "A.4", "A.5"])
+            .subject(subject::own as Subjects)
+            .mistake("a stage of RK4 at the wrong place", || {
+                in_angles(4, |problem, y, h| {
+                    let f = |y: Vector2<f64>| problem.angle_rates(&y);
+                    let k1 = f(y);
+                    let k2 = f(y + 0.5 * h * k1);
+                    let k3 = f(y + 0.5 * h * k1);
+                    let k4 = f(y + h * k3);
+                    y + h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4)
+                })
+            })
+            .mistake("explicit Euler said to be of order 2", || {
+                in_p(2, false, |problem, p, h| p + h * problem.rate(&p))
+            })
+            .mistake("RK4 on eq. A.2 with r_e for r_e²", || {
+                in_angles(4, |problem, y, h| {
+                    let wrong = Problem::new(problem.aspect_ratio.sqrt(), 1.0);
+                    rk4(|y| wrong.angle_rates(&y), y, h)
+                })
+            })
+            .mistake("an error that doubles whenever the step is halved", || {
+                in_p(1, false, |problem, p, h| {
+                    rk4(|y| problem.rate(&y), p, h) + Vector3::new(0.0, 0.0, 1e-9)
+                })
+            })
+            .check(orders),
+        Case::integrator("subject-lengths")
+            .claim("Subjects that are said to keep |p| = 1 keep it to round-off at any step.")
+            .source("p·ṗ = 0 (A.1)")
+            .equations(&["A.1"])
+            .subject(subject::own as Subjects)
+            .mistake("RK4 in p, not projected", || {
+                in_p(4, true, |problem, p, h| rk4(|y| problem.rate(&y), p, h))
+            })
+            .mistake("the implicit midpoint rule after two sweeps", || {
+                in_p(2, true, |problem, p, h| {
+                    let sweep = |m: Vector3<f64>| p + 0.5 * h * problem.tangent_rate(&m);
+                    2.0 * sweep(sweep(p)) - p
+                })
+            })
+            .check(lengths),
+        Case::integrator("exact-propagator-round-off")
+            .claim(
+                "The exact propagator's error is round-off for r_e from 1.01 to 10⁶ and up to 10⁶ periods, \
+                 in the middle of a flip.",
+            )
+            .source("A.4, A.5, eq. 20")
+            .equations(&["20", "A.4", "A.5"])
+            .subject((|| vec![Box::new(ExactPropagator) as Box<dyn Subject>]) as Subjects)
+            .mistake("whole turns are left in the phase", || vec![Box::new(WholeTurns)])
+            .mistake("A.4 and A.5 in angles", || vec![Box::new(ClosedForm)])
+            .check(round_off),
+        Case::integrator("adaptive-subjects")
+            .claim(
+                "At a tolerance of 10⁻¹¹ both adaptive subjects come as near as their steps, each off by \
+                 the tolerance, allow.",
+            )
+            .source("A.2 to A.5; Jeffery's equation in p")
+            .equations(&["A.4", "A.5"])
+            .subject(
+                (|| -> Vec<Box<dyn Subject>> { vec![Box::new(DormandPrince), Box::new(Radau)] }) as Subjects,
+            )
+            .mistake("r_e 0.1 % too long", || {
+                vec![Box::new(Spoiled(|problem| {
+                    (Problem::new(1.001 * problem.aspect_ratio, problem.turns), 1.0)
+                }))]
+            })
+            .mistake("a tolerance 10⁸ times as large", || {
+                vec![Box::new(Spoiled(|problem| (problem, 1e8)))]
+            })
+            .mistake("the last step is left out", || {
+                vec![Box::new(Spoiled(|problem| {
+                    (Problem::new(problem.aspect_ratio, 0.99 * problem.turns), 1.0)
+                }))]
+            })
+            .check(adaptive),
     ]
 }
 
@@ -139,13 +117,12 @@ fn orders(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
                 .fold(larger(worst, enough), larger);
         }
         if matches!(subject.theory(), Theory::Order(_)) {
-            evidence.push(Evidence::new(
+            evidence.push(Evidence::within(
                 format!("observed order against theory, {}", subject.name()),
-                Rule::within(
-                    worst,
-                    ORDER_TOLERANCE,
-                    "the next power of Δt is a tenth or less of the leading one on the last two pairs above round-off",
-                ),
+                worst,
+                ORDER_TOLERANCE,
+                "the next power of Δt is a tenth or less of the leading one on the last two pairs above \
+                 round-off",
             ));
         }
     }
@@ -163,13 +140,11 @@ fn lengths(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
                 Theory::Adaptive => (Setting::Tolerance(1e-6), 1024),
             };
             let off = grade(subject.as_ref(), &problem, &start, setting).map_or(1.0, |e| e.length);
-            Evidence::new(
+            Evidence::within(
                 format!("|p| − 1 at the end, {}", subject.name()),
-                Rule::within(
-                    off,
-                    4.0 * f64::from(steps) * f64::EPSILON,
-                    "each step, of 1024 or of one, rounds |p| by four roundings at most",
-                ),
+                off,
+                4.0 * f64::from(steps) * f64::EPSILON,
+                "each step, of 1024 or of one, rounds |p| by four roundings at most",
             )
         })
         .collect()
@@ -187,14 +162,12 @@ fn round_off(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
             }
         }
     }
-    vec![Evidence::new(
+    vec![Evidence::within(
         "largest angle to the closed form",
-        Rule::within(
-            worst,
-            32.0 * f64::EPSILON,
-            "near a whole turn the phase that is left is small, and its relative error ε moves φ by ε, not by r_e ε; \
-             a few dozen roundings of the propagator and the closed form",
-        ),
+        worst,
+        32.0 * f64::EPSILON,
+        "near a whole turn the phase that is left is small, and its relative error ε moves φ by ε, \
+         not by r_e ε; a few dozen roundings of the propagator and the closed form",
     )]
 }
 
@@ -208,17 +181,15 @@ fn adaptive(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
             let steps = steps[usize::from(subject.name() == Radau.name())];
             let (problem, start) = Problem::mid_flip(r);
             let error = grade(subject.as_ref(), &problem, &start, Setting::Tolerance(1e-11));
-            evidence.push(Evidence::new(
+            evidence.push(Evidence::within(
                 format!(
                     "angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, {}",
                     subject.name()
-                ),
-                Rule::within(
-                    // A subject that gives up is off by as much as can be.
-                    error.map_or(std::f64::consts::FRAC_PI_2, |errors| errors.orientation_rad),
-                    steps * 1e-11 * r,
-                    "each step is off by the tolerance, in a direction of its own; their sum is a phase, which r_e magnifies",
-                ),
+                ), // A subject that gives up is off by as much as can be.
+                error.map_or(std::f64::consts::FRAC_PI_2, |errors| errors.orientation_rad),
+                steps * 1e-11 * r,
+                "each step is off by the tolerance, in a direction of its own; their sum is a phase, which \
+                 r_e magnifies",
             ));
         }
     }

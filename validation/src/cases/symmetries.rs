@@ -1,10 +1,12 @@
 //! Whole runs keep the symmetries of the equations.
 
-use super::lab::{self, Sample, per_replica};
 use super::reductions::difference;
-use crate::accept::{Design, Rule};
-use crate::case::{About, Case, Effort, Evidence, Judges};
+use crate::accept::Design;
+use crate::case::{Case, Effort, Evidence};
+use crate::lab::{self, per_replica};
+use crate::statistics::{Sample, larger};
 use nalgebra::UnitVector3;
+use shearbed::observable::Channel;
 use shearbed::scene::{Orientation, Scene};
 
 /// How the second run of each pair is made.
@@ -39,75 +41,66 @@ struct Mirror {
 
 pub fn cases() -> Vec<Case> {
     vec![
-        Case::new(
-            About {
-                name: "symmetries",
-                judges: Judges::Core,
-                claim: "Whole runs keep the symmetries: rods in another order and units of length and time to the bit, p → −p to round-off, the mirrored flow exactly for free rods.",
-                source: "eqs 3, 4, 7, 15",
-                equations: &["4"],
-            },
-            SYMMETRIC,
-            vec![
-                (
-                    "places in another order, directions not",
-                    Mapping {
-                        directions_too: false,
-                        ..SYMMETRIC
-                    },
-                ),
-                (
-                    "rods per area in place of volume",
-                    Mapping {
-                        per_volume: 64.0,
-                        ..SYMMETRIC
-                    },
-                ),
-                (
-                    "a time step that is no share of the period",
-                    Mapping {
-                        steps_per_period: 250,
-                        ..SYMMETRIC
-                    },
-                ),
-                (
-                    "turned round axis 3, not head to tail",
-                    Mapping {
-                        tail_deg: [205.0, 70.0],
-                        ..SYMMETRIC
-                    },
-                ),
-                (
-                    "the flow mirrored, the rods not",
-                    Mapping {
-                        mirrored_phi_deg: 25.0,
-                        ..SYMMETRIC
-                    },
-                ),
-            ],
-            symmetries,
-        ),
-        Case::new(
-            About {
-                name: "mirrored-flow",
-                judges: Judges::Core,
-                claim: "Interacting rods in the mirrored flow have the same mean projections in law.",
-                source: "eqs 3, 14",
-                equations: &["3", "14"],
-            },
-            Mirror {
+        Case::core("symmetries")
+            .claim(
+                "Whole runs keep the symmetries: rods in another order and units of length and time to the \
+                 bit, p → −p to round-off, the mirrored flow exactly for free rods.",
+            )
+            .source("eqs 3, 4, 7, 15")
+            .equations(&["4"])
+            .subject(SYMMETRIC)
+            .mistake(
+                "places in another order, directions not",
+                Mapping {
+                    directions_too: false,
+                    ..SYMMETRIC
+                },
+            )
+            .mistake(
+                "rods per area in place of volume",
+                Mapping {
+                    per_volume: 64.0,
+                    ..SYMMETRIC
+                },
+            )
+            .mistake(
+                "a time step that is no share of the period",
+                Mapping {
+                    steps_per_period: 250,
+                    ..SYMMETRIC
+                },
+            )
+            .mistake(
+                "turned round axis 3, not head to tail",
+                Mapping {
+                    tail_deg: [205.0, 70.0],
+                    ..SYMMETRIC
+                },
+            )
+            .mistake(
+                "the flow mirrored, the rods not",
+                Mapping {
+                    mirrored_phi_deg: 25.0,
+                    ..SYMMETRIC
+                },
+            )
+            .check(symmetries),
+        Case::core("mirrored-flow")
+            .claim("Interacting rods in the mirrored flow have the same mean projections in law.")
+            .source("eqs 3, 14")
+            .equations(&["3", "14"])
+            .subject(Mirror {
                 shear_rate_per_s: -0.5,
                 concentration_per_cm3: 50.0,
-            },
-            vec![(
+            })
+            .mistake(
                 "a quarter of the concentration in the mirrored flow",
                 Mirror {
                     shear_rate_per_s: -0.5,
                     concentration_per_cm3: 12.5,
                 },
-            )],
-            mirrored,
-        ),
+            )
+            .check(mirrored),
     ]
 }
 
@@ -142,33 +135,26 @@ fn symmetries(mapping: &Mapping, effort: &Effort) -> Vec<Evidence> {
     let straight = given(&lab::free_scene(effort), [25.0, 70.0]);
 
     vec![
-        Evidence::new(
+        Evidence::exact(
             "the same rods in another order, every one of them a candidate",
-            Rule::exact(relabelled(mapping.directions_too, effort)),
+            relabelled(mapping.directions_too, effort),
         ),
-        Evidence::new(
+        Evidence::exact(
             "lengths 8 times larger, concentration 512 times less",
-            Rule::exact(difference(&lengths, &base)),
+            difference(&lengths, &base),
         ),
-        Evidence::new(
-            "a shear rate of 5·10⁻³¹ 1/s",
-            Rule::exact(difference(&times, &base)),
-        ),
-        Evidence::new(
+        Evidence::exact("a shear rate of 5·10⁻³¹ 1/s", difference(&times, &base)),
+        Evidence::within(
             "every rod turned head to tail, interacting",
-            Rule::within(
-                difference(&tail, &head),
-                1e-10,
-                "the turned angles are rounded to 10⁻¹⁶, which kicks ∝ 1/r grow",
-            ),
+            difference(&tail, &head),
+            1e-10,
+            "the turned angles are rounded to 10⁻¹⁶, which kicks ∝ 1/r grow",
         ),
-        Evidence::new(
+        Evidence::within(
             "free rods in the mirrored flow from mirrored angles",
-            Rule::within(
-                difference(&mirror, &straight),
-                0.0,
-                "every product has the same factors up to sign",
-            ),
+            difference(&mirror, &straight),
+            0.0,
+            "every product has the same factors up to sign",
         ),
     ]
 }
@@ -207,7 +193,7 @@ fn relabelled(directions_too: bool, effort: &Effort) -> f64 {
     }
     let (forth, back) = (first.directions(), second.directions());
     let distances = forth.iter().zip(back.iter().rev()).map(|(a, b)| (a - b).norm());
-    distances.fold(0.0, f64::max)
+    distances.fold(0.0, larger)
         + if first.counters().collisions > 0 {
             0.0
         } else {
@@ -229,8 +215,8 @@ fn mirrored(mirror: &Mirror, effort: &Effort) -> Vec<Evidence> {
     let replicas = designs.map(|design| effort.samples(design)).into_iter().max();
     // Every rod is back after a whole period where nothing collides: less where it was, means scatter less.
     let changes = |scene: &Scene| {
-        per_replica(scene, replicas.unwrap_or(0), |means| {
-            [0, 1, 2].map(|axis| means.at(1, axis) - means.at(0, axis))
+        per_replica(scene, replicas.unwrap_or(0), |mean| {
+            Channel::X.map(|axis| mean(axis, 1) - mean(axis, 0))
         })
     };
     let (here, there) = (changes(&straight), changes(&mirrored));

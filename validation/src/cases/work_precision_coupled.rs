@@ -1,10 +1,11 @@
 //! Runs that share random numbers: what `docs/work-precision.md` says of them.
 
-use super::lab::{self, Sample};
-use super::once::Once;
 use crate::accept::Design;
-use crate::case::{About, Case, Effort, Evidence, Judges};
-use crate::suspensions::correlation;
+use crate::case::{Case, Effort, Evidence};
+use crate::lab;
+use crate::lab::Shared;
+use crate::statistics::Sample;
+use crate::statistics::correlation;
 use crate::suspensions::coupled::{at, free, free_mean, interacting};
 use crate::suspensions::job::Job;
 use crate::suspensions::law;
@@ -29,57 +30,50 @@ pub fn cases() -> Vec<Case> {
         mean: |_| {},
     };
     vec![
-        Case::new(
-            About {
-                name: "paths-do-not-converge",
-                judges: Judges::Core,
-                claim: "Halving the time step again and again does not bring a rod's paths together, because kicks have \
-                        no bound.",
-                source: "A.13, A.14; eq. 8 without Δt",
-                equations: &["A.13", "A.14"],
-            },
-            (|_| {}) as Mend,
-            vec![(
+        Case::core("paths-do-not-converge")
+            .claim(
+                "Halving the time step again and again does not bring a rod's paths together, because \
+                 kicks have no bound.",
+            )
+            .source("A.13, A.14; eq. 8 without Δt")
+            .equations(&["A.13", "A.14"])
+            .subject((|_| {}) as Mend)
+            .mistake(
                 "arms below a rod length are no contact, so that kicks are bounded",
                 |scene| lab::interaction(scene).min_contact_arm = 1.0,
-            )],
-            paths,
-        ),
-        Case::new(
-            About {
-                name: "shared-random-numbers",
-                judges: Judges::Program,
-                claim: "The same rods without collisions say more of X̄₁ than a run at half the step, and their mean is \
-                        known; for a difference between two α, shared random numbers save a factor of four at T/4.",
-                source: "eqs 4, 7, 12",
-                equations: &["4", "7"],
-            },
-            same,
-            vec![
-                (
-                    "free rods of another seed",
-                    Beside {
-                        free: |scene| scene.ensemble.seed += 1,
-                        ..same
-                    },
-                ),
-                (
-                    "the other α at another seed",
-                    Beside {
-                        other: |scene| scene.ensemble.seed += 1,
-                        ..same
-                    },
-                ),
-                (
-                    "the closed form of rods a tenth longer",
-                    Beside {
-                        mean: |scene| scene.particles.aspect_ratio *= 1.1,
-                        ..same
-                    },
-                ),
-            ],
-            shared,
-        ),
+            )
+            .check(paths),
+        Case::program("shared-random-numbers")
+            .claim(
+                "The same rods without collisions say more of X̄₁ than a run at half the step, and their \
+                 mean is known; for a difference between two α, shared random numbers save a factor of \
+                 four at T/4.",
+            )
+            .source("eqs 4, 7, 12")
+            .equations(&["4", "7"])
+            .subject(same)
+            .mistake(
+                "free rods of another seed",
+                Beside {
+                    free: |scene| scene.ensemble.seed += 1,
+                    ..same
+                },
+            )
+            .mistake(
+                "the other α at another seed",
+                Beside {
+                    other: |scene| scene.ensemble.seed += 1,
+                    ..same
+                },
+            )
+            .mistake(
+                "the closed form of rods a tenth longer",
+                Beside {
+                    mean: |scene| scene.particles.aspect_ratio *= 1.1,
+                    ..same
+                },
+            )
+            .check(shared),
     ]
 }
 
@@ -102,10 +96,7 @@ fn paths(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
     let mut scene = lab::interacting_scene(effort);
     mend(&mut scene);
     // Pilot of 1,716 replicas at seeds 9001 to 9006: 0.0217 ± 0.0005, each 0.0229.
-    let design = Design {
-        effect: 0.018,
-        sd: 0.0255,
-    };
+    let design = Design::new(0.018, 0.0255);
     let replicas = effort.samples(design);
     let (coarse, fine) = (
         mean_squares(&scene, 100, replicas),
@@ -115,11 +106,13 @@ fn paths(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
         .map(|(fine, coarse)| fine - 0.5 * coarse)
         .collect();
     vec![Evidence::new(
-        "mean square angle (rad²) between 400 and 800 steps a period, less half of that between 100 and 200",
+        "mean square angle (rad²) between 400 and 800 steps a period, less half of that between \
+         100 and 200",
         Sample::of(&kept).exceeds(
             0.0,
             design.effect,
-            "paths that converge with order ½ or more would bring a quarter or less; the mean square is some 0.035",
+            "paths that converge with order ½ or more would bring a quarter or less; the mean square \
+             is some 0.035",
         ),
     )]
 }
@@ -149,7 +142,7 @@ fn correlations(a: &[f64], b: &[f64]) -> Vec<f64> {
 }
 
 fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
-    static RUNS: Once<Runs> = Once::new();
+    static RUNS: Shared<(), Runs> = Shared::new();
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = 25;
     let changed = |mend: Mend| {
@@ -159,20 +152,11 @@ fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
     };
     // Pilot of 17,106 replicas at seeds 9001 to 9006: 0.219 with a deviation of 0.89, of 1.2 where the free rods are others;
     // ρ = 0.870, whose influence has 0.59, 2.4 in artanh; it has a long tail and came out 2.8 at 2 of 35 seeds; 0.0175 with 0.0076.
-    let more = Design {
-        effect: 0.19,
-        sd: 1.4,
-    };
-    let common = Design {
-        effect: 0.33,
-        sd: 3.1,
-    };
-    let mean = Design {
-        effect: 0.0016,
-        sd: 0.0085,
-    };
+    let more = Design::new(0.19, 1.4);
+    let common = Design::new(0.33, 3.1);
+    let mean = Design::new(0.0016, 0.0085);
     let [of_more, of_common, of_mean] = [more, common, mean].map(|design| effort.samples(design));
-    let runs = RUNS.at(effort, || Runs {
+    let runs = RUNS.get(effort, (), || Runs {
         own: first(interacting(&scene, 100, 1.0, 1, of_more.max(of_common)), 0),
         finer: first(interacting(&scene, 200, 1.0, 1, of_more), 0),
     });

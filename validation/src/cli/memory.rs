@@ -92,7 +92,7 @@ fn size(bytes: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cases::lab;
+    use crate::lab;
 
     #[test]
     fn what_does_not_fit_is_refused_with_its_number() {

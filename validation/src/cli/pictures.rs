@@ -1,7 +1,7 @@
 //! Results as pictures: each observable's means against time with 95 % bands.
 
 use crate::plot::{Curve, Figure};
-use shearbed::ensemble::{Channel, Series};
+use shearbed::ensemble::{Column, Series};
 use shearbed::{Observable, Results, Scene};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -21,8 +21,8 @@ pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<
     } else {
         "t/T"
     };
-    let against_time = |channels: &[Channel]| {
-        let curve = |channel: &Channel| Curve {
+    let against_time = |channels: &[Column]| {
+        let curve = |channel: &Column| Curve {
             label: channel.name.clone(),
             x: results.times.clone(),
             y: channel.mean.clone(),
@@ -34,7 +34,7 @@ pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<
             channels.iter().map(curve).collect(),
         )
     };
-    match (series.observable, series.channels.split_first()) {
+    match (series.observable, series.columns.split_first()) {
         (Observable::OrbitConstant, Some((mean, density))) => {
             let ends = [0, results.times.len().saturating_sub(1)];
             let curves = ends.map(|output| Curve {
@@ -56,7 +56,7 @@ pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<
                 (format!("{stem}_density"), density),
             ]
         }
-        _ => vec![(stem.to_owned(), against_time(&series.channels))],
+        _ => vec![(stem.to_owned(), against_time(&series.columns))],
     }
 }
 

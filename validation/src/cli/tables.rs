@@ -1,6 +1,6 @@
 //! Results as tables: CSV for files, a short one for the terminal.
 
-use shearbed::ensemble::{Channel, Series};
+use shearbed::ensemble::{Column, Series};
 use shearbed::{Observable, Plan, Results};
 
 /// An observable's file: the time, also in s and as strain, then each channel with its standard error. Every number is
@@ -9,14 +9,14 @@ pub(super) fn csv(results: &Results, series: &Series) -> Result<String, String> 
     let mut writer = csv::Writer::from_writer(Vec::new());
     let times = times(results);
     let mut header: Vec<_> = times.iter().map(|(name, _)| (*name).to_owned()).collect();
-    for channel in &series.channels {
+    for channel in &series.columns {
         header.extend([channel.name.clone(), format!("{}_se", channel.name)]);
     }
     writer.write_record(header).map_err(|error| error.to_string())?;
     for (k, time) in results.times.iter().enumerate() {
         let times = times.iter().map(|(_, unit)| time * unit);
         let values = series
-            .channels
+            .columns
             .iter()
             .flat_map(|channel| [channel.mean[k], channel.se[k]]);
         let row: Vec<f64> = times.chain(values).collect();
@@ -109,8 +109,8 @@ pub(super) fn summary(results: &Results) -> String {
 }
 
 /// Every channel but the many of a density.
-fn shown(series: &Series) -> &[Channel] {
-    match (series.observable, series.channels.as_slice()) {
+fn shown(series: &Series) -> &[Column] {
+    match (series.observable, series.columns.as_slice()) {
         (Observable::OrbitConstant, [mean, ..]) => std::slice::from_ref(mean),
         (_, all) => all,
     }

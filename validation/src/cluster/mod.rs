@@ -21,8 +21,8 @@ pub use replicas::ensemble;
 use crate::build;
 use crate::difference::difference;
 use crate::text::{readable, shortened};
+use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
 use std::io::Write;
 use std::process::ExitCode;
@@ -70,13 +70,6 @@ where
 pub fn failed(message: &str, code: u8) -> ExitCode {
     let _ = writeln!(std::io::stderr(), "error: {}", readable(&shortened(message)));
     ExitCode::from(code)
-}
-
-/// Reads a text that is written in the source, and so lives as long as the program: it comes from another rank. The
-/// few that there are stay in memory.
-pub fn text_of_the_source<'de, D: Deserializer<'de>>(reader: D) -> Result<&'static str, D::Error> {
-    let text = String::deserialize(reader)?;
-    Ok(text.leak())
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
+use shearbed::observable::Channel;
 use shearbed::plan::Plan;
 use shearbed::run::run_replica;
 use shearbed::{Observable, Scene};
@@ -48,15 +49,12 @@ pub(super) fn run(scene: &Scene, places: &[Place], replicas: u64, finer: u64) ->
     scene.time.steps_per_period = Some(per_period * finer);
     scene.output.observables = vec![Observable::Projections];
     let plan = Plan::new(&scene).map_err(|invalid| invalid.to_string())?;
-    let count = scene.particles.count as f64;
     let rows = (0..replicas)
         .into_par_iter()
         .map(|replica| {
-            let sums = run_replica(&plan, replica)
-                .map_err(|error| error.to_string())?
-                .sums;
+            let found = run_replica(&plan, replica).map_err(|error| error.to_string())?;
             let evaluate = |place: &Place| -> [f64; EACH] {
-                let at = |output: usize| sums[3 * output + place.channel].value / count;
+                let at = |output: usize| found.mean(Channel::X[place.channel], output).unwrap_or(f64::NAN);
                 let cubic = |turns: f64| interpolate(plan.outputs(), turns * per_period as f64, 4, at);
                 let linear = interpolate(plan.outputs(), place.turns * per_period as f64, 2, at);
                 let [before, after] = nodes(place);
@@ -122,7 +120,7 @@ mod tests {
 
     #[test]
     fn finer_steps_are_other_steps_at_the_same_times() {
-        let scene = crate::cases::lab::interacting_scene(&crate::case::Effort::gate());
+        let scene = crate::lab::interacting_scene(&crate::case::Effort::gate());
         let place = |turns| Place {
             turns,
             u_turns: 0.0,

@@ -2,7 +2,7 @@
 
 use super::amplitude::amplitude;
 use super::measured::measured;
-use super::run::{Run, Runs, half_width};
+use super::run::{Run, Runs};
 use crate::case::Effort;
 use crate::cases;
 use crate::markup::cites_figure;
@@ -197,7 +197,7 @@ fn fig11(runs: &Runs) -> Result<ReportFigure, String> {
         });
         steady.x.push(run.scene().particles.aspect_ratio);
         steady.y.push(sample.mean);
-        errors.push(half_width(sample));
+        errors.push(sample.half_width());
     }
     steady.y_error = Some(errors);
     let x: Vec<f64> = (4..=220).map(|k| 0.25 * f64::from(k)).collect();

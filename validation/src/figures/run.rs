@@ -1,36 +1,23 @@
 //! The built-in scenes behind the figures, run replica by replica, and the curves read from them.
 
-use crate::accept::critical_at;
-use crate::cases::lab::Sample;
 use crate::cluster;
 use crate::plot::Curve;
 use crate::report::ScenePlan;
 use crate::scenes::{self, BuiltIn};
-use rayon::prelude::*;
-use shearbed::run::run_replica;
-use shearbed::{Plan, Scene};
+use crate::statistics::Sample;
+use shearbed::observable::Channel;
+use shearbed::run::Replica;
+use shearbed::{Plan, Scene, ensemble};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// A scene's means over rods in every replica.
+/// A scene's replicas.
 pub(super) struct Run {
     plan: Plan,
-    /// The names of the channels, as the columns of tables.
-    channels: Vec<String>,
-    /// Per replica: output by output, channel by channel.
-    means: Vec<Vec<f64>>,
+    replicas: Vec<Replica>,
 }
 
 impl Run {
-    fn new(plan: Plan, means: Vec<Vec<f64>>) -> Self {
-        let observables = plan.observables();
-        Self {
-            channels: observables.iter().flat_map(|o| o.channels()).collect(),
-            plan,
-            means,
-        }
-    }
-
     /// The times of the outputs, t/T.
     pub(super) fn times(&self) -> Vec<f64> {
         self.plan.times()
@@ -44,11 +31,19 @@ impl Run {
     /// The sample over replicas of what `value` makes of a channel's means against time. Empty where the scene
     /// does not observe the channel.
     pub(super) fn sample(&self, channel: &str, value: impl Fn(&dyn Fn(usize) -> f64) -> f64) -> Sample {
-        let column = self.channels.iter().position(|name| name == channel);
-        let of_replica = |means: &Vec<f64>| {
-            column.map(|column| value(&|output| means[output * self.channels.len() + column]))
+        let channel = Channel::named(channel);
+        let observed = |replica: &Replica| channel.is_some_and(|channel| replica.mean(channel, 0).is_some());
+        let mean = |replica: &Replica, output| {
+            channel
+                .and_then(|channel| replica.mean(channel, output))
+                .unwrap_or(f64::NAN)
         };
-        Sample::of(&self.means.iter().filter_map(of_replica).collect::<Vec<_>>())
+        let replicas = self.replicas.iter().filter(|replica| observed(replica));
+        Sample::of(
+            &replicas
+                .map(|replica| value(&|output| mean(replica, output)))
+                .collect::<Vec<_>>(),
+        )
     }
 
     /// A channel's mean against t/T with its 95 % band.
@@ -69,15 +64,10 @@ pub(super) fn with_band(label: impl Into<String>, samples: impl Iterator<Item = 
     for (x, sample) in samples {
         curve.x.push(x);
         curve.y.push(sample.mean);
-        band.push(half_width(sample));
+        band.push(sample.half_width());
     }
     curve.half_band = Some(band);
     curve
-}
-
-/// Half the width of the 95 % confidence interval of a mean.
-pub(super) fn half_width(sample: Sample) -> f64 {
-    critical_at(0.05, sample.samples) * sample.se
 }
 
 /// The runs of all scenes, by the scenes' names. Scenes that differ in their titles only share a run.
@@ -92,7 +82,7 @@ impl Runs {
         let own: Vec<_> = (0..plans.len()).filter(|k| first(*k) == Some(*k)).collect();
         let job = |job: usize| {
             let (name, plan) = &plans[own[job]];
-            means(plan).map_err(|error| format!("{name}: {error}"))
+            replicas(plan).map_err(|error| format!("{name}: {error}"))
         };
         let arrived = |job: usize, _: &_| {
             let shared = (0..plans.len()).filter(|k| first(*k) == Some(own[job]));
@@ -103,7 +93,10 @@ impl Runs {
         let Some(found) = cluster::share(own.len(), job, arrived)? else {
             return Ok(None);
         };
-        let run = |(k, means): (&usize, _)| (*k, Arc::new(Run::new(plans[*k].1.clone(), means)));
+        let run = |(k, replicas): (&usize, _)| {
+            let plan = plans[*k].1.clone();
+            (*k, Arc::new(Run { plan, replicas }))
+        };
         let runs: BTreeMap<usize, Arc<Run>> = own.iter().zip(found).map(run).collect();
         let named = (0..plans.len()).filter_map(|k| Some((plans[k].0, runs.get(&first(k)?)?.clone())));
         Ok(Some(Self(named.collect())))
@@ -117,15 +110,10 @@ impl Runs {
     }
 }
 
-/// A scene's means over rods in every replica: output by output, channel by channel.
-fn means(plan: &Plan) -> Result<Vec<Vec<f64>>, String> {
-    let count = plan.scene().particles.count as f64;
-    let of_replica = |replica| {
-        let result = run_replica(plan, replica).map_err(|error| error.to_string())?;
-        Ok(result.sums.iter().map(|sum| sum.value / count).collect())
-    };
+/// Every replica of a scene.
+fn replicas(plan: &Plan) -> Result<Vec<Replica>, String> {
     let replicas = 0..plan.scene().ensemble.replicas;
-    replicas.into_par_iter().map(of_replica).collect()
+    ensemble::replicas_of(plan, replicas, &|| ()).map_err(|error| error.to_string())
 }
 
 /// Whether two scenes differ in nothing but their titles.

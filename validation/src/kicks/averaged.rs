@@ -1,8 +1,9 @@
 //! The core beside the averaged motion: the same rods at the same places, with and without draws.
 
 use crate::case::Effort;
-use crate::cases::lab::{self, Sample};
+use crate::lab;
 use crate::oracle::naive::{Naive, Problem};
+use crate::statistics::Sample;
 use rayon::prelude::*;
 use shearbed::scene::Scene;
 

@@ -10,8 +10,9 @@ pub mod tables;
 pub mod tail;
 pub mod updates;
 
-use crate::cases::lab::{self, Sample};
+use crate::lab;
 use crate::oracle::kicks::chance_of_pair;
+use crate::statistics::Sample;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use shearbed::Suspension;

@@ -3,7 +3,7 @@
 use super::tail::{self, Exponent};
 use super::{KICKS, Row, averaged, kicks_rad, rates, updates};
 use crate::case::Effort;
-use crate::cases::lab;
+use crate::lab;
 use crate::scenes;
 use shearbed::scene::Scene;
 

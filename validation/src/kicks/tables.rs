@@ -3,9 +3,9 @@
 use super::study::{PERIODS_AT, SCENE, Study};
 use super::tail::Exponent;
 use super::{Row, averaged, updates};
-use crate::cases::lab::Sample;
 use crate::plot;
 use crate::report::{ReportFigure, ReportTable};
+use crate::statistics::Sample;
 
 fn value(sample: Sample) -> String {
     // Two digits of the error.

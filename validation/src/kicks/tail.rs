@@ -1,7 +1,7 @@
 //! How heavy the tail of the kicks is.
 
 use super::{Angles, is_above, of_one_step};
-use crate::cases::lab;
+use crate::lab;
 use rayon::prelude::*;
 use shearbed::scene::Scene;
 

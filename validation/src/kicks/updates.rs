@@ -2,7 +2,9 @@
 
 use super::averaged;
 use crate::case::Effort;
-use crate::cases::lab::{self, Sample};
+use crate::lab;
+use crate::statistics::Sample;
+use shearbed::observable::Channel;
 use shearbed::scene::Update;
 
 /// Both updates at one step.
@@ -23,7 +25,7 @@ pub fn row(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replica
     let x1 = |update| {
         let mut scene = averaged::scene(effort, steps_per_period, min_contact_arm);
         lab::interaction(&mut scene).update = update;
-        lab::per_replica(&scene, replicas, |means| means.at(1, 0))
+        lab::per_replica(&scene, replicas, |mean| mean(Channel::X[0], 1))
     };
     let (rotation, angles) = (x1(Update::Rotation), x1(Update::Angles));
     let change: Vec<_> = angles.iter().zip(&rotation).map(|(a, r)| a - r).collect();

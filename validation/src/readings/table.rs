@@ -46,7 +46,7 @@ pub fn table(rows: &[Row]) -> ReportTable {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::readings::Estimate;
+    use crate::statistics::Estimate;
 
     #[test]
     fn a_table_has_a_cell_for_every_column() {

@@ -37,7 +37,7 @@ fn outcome(
         evidence: rules.into_iter().enumerate().map(judged).collect(),
         controls: (controls.iter())
             .map(|&(mistake, caught)| Control {
-                mistake,
+                mistake: mistake.into(),
                 caught,
                 drawn: false,
                 margin: None,
@@ -55,7 +55,7 @@ fn mean(se: f64) -> Rule {
         reference: 0.5,
         allowance: 0.0,
         effect: 0.1,
-        because: "synthetic: 2 % of the amplitude",
+        because: "synthetic: 2 % of the amplitude".into(),
     }
 }
 
@@ -65,7 +65,7 @@ fn p_value(p: f64) -> Rule {
         samples: 1000,
         enough: 100,
         distance: None,
-        because: "synthetic: Kolmogorov–Smirnov",
+        because: "synthetic: Kolmogorov–Smirnov".into(),
     }
 }
 
@@ -103,7 +103,9 @@ fn synthetic() -> Report {
         outcome(
             "synthetic-no-data",
             Verdict::NoData,
-            vec![Rule::NoData { supply }],
+            vec![Rule::NoData {
+                supply: supply.into(),
+            }],
             &[],
         ),
     ];

@@ -1,6 +1,7 @@
 //! The core's motion of free rods in every corner of plane Couette flow.
 
 use super::map;
+use crate::statistics::larger;
 use nalgebra::{UnitVector3, Vector3};
 use shearbed::flow::VelocityGradient;
 use shearbed::propagator::Propagator;
@@ -63,19 +64,11 @@ pub fn worst(aspect_ratio: f64, motion: &Motion) -> Worst {
                 let in_plane = p.x.hypot(p.y / aspect_ratio);
                 let orbit = in_plane / (in_plane + p.z.abs()) - end.bounded_orbit_constant();
                 let angle = crate::subject::apart_rad(&p, &end.direction(aspect_ratio));
-                worst.length = worse(worst.length, (p.norm() - 1.0).abs());
-                worst.orbit = worse(worst.orbit, orbit.abs());
-                worst.angle = worse(worst.angle, angle / bound);
+                worst.length = larger(worst.length, (p.norm() - 1.0).abs());
+                worst.orbit = larger(worst.orbit, orbit.abs());
+                worst.angle = larger(worst.angle, angle / bound);
             }
         }
     }
     worst
-}
-
-/// The larger; NaN stays.
-fn worse(a: f64, b: f64) -> f64 {
-    match a.is_nan() || b.is_nan() {
-        true => f64::NAN,
-        false => a.max(b),
-    }
 }

@@ -10,6 +10,7 @@ use super::{covariance, mean_and_se};
 use crate::oracle::isotropic;
 use rayon::prelude::*;
 use serde::Serialize;
+use shearbed::observable::Channel;
 use shearbed::run::run_replica;
 use shearbed::{Observable, Plan, Scene};
 
@@ -123,14 +124,13 @@ pub fn free(scene: &Scene, quarters: u64, replicas: u64) -> Result<Values, Strin
     scene.time.outputs_per_period = Some(4);
     scene.output.observables = vec![Observable::Projections];
     let plan = Plan::new(&scene).map_err(|error| error.to_string())?;
-    let count = scene.particles.count as f64;
     (0..replicas)
         .into_par_iter()
         .map(|replica| {
             let found = run_replica(&plan, replica).map_err(|error| error.to_string())?;
-            // Three channels an output; the first output is the start.
-            let x1 = found.sums.iter().step_by(3).skip(1);
-            Ok(x1.map(|sum| sum.value / count).collect())
+            // The first output is the start.
+            let x1 = (1..plan.outputs()).map(|output| found.mean(Channel::X[0], output));
+            Ok(x1.map(|mean| mean.unwrap_or(f64::NAN)).collect())
         })
         .collect()
 }

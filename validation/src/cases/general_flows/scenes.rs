@@ -1,9 +1,8 @@
 //! Whole scenes that were wrong once: overflowing spirals, extreme shapes, near-parabolic flows, Couette flow turned by 45°,
 //! a weak strain in a strong rotation.
 
-use super::super::lab;
-use crate::accept::Rule;
 use crate::case::{Effort, Evidence};
+use crate::lab;
 use crate::oracle::exponential::{Rod, Span};
 use shearbed::orientation::from_degrees;
 use shearbed::scene::{Orientation, Scene};
@@ -117,7 +116,7 @@ pub fn program(scene: &Scene) -> Option<([f64; 3], f64)> {
     let plan = Plan::new(scene).ok()?;
     let results = ensemble::run(&plan, || ()).ok()?;
     let last = results.times.len() - 1;
-    let end = ["x1", "x2", "x3"].map(|name| results.channel(name).map_or(f64::NAN, |x| x.mean[last]));
+    let end = ["x1", "x2", "x3"].map(|name| results.column(name).map_or(f64::NAN, |x| x.mean[last]));
     Some((end, plan.error_rad()?))
 }
 
@@ -153,17 +152,19 @@ pub fn listed_scenes(run: &Run, _: &Effort) -> Vec<Evidence> {
         run(&scene).is_none()
     });
     vec![
-        Evidence::new(
+        Evidence::within(
             "largest error of |p_i| at the end over the bound that the plan states",
-            Rule::within(share, 1.0, "what a bound is: the start's rounding and the map's"),
+            share,
+            1.0,
+            "what a bound is: the start's rounding and the map's",
         ),
-        Evidence::new(
+        Evidence::exact(
             "scenes refused, or with an end that is no number",
-            Rule::exact(refused + unknown),
+            refused + unknown,
         ),
-        Evidence::new(
+        Evidence::exact(
             "a flow of three real rates, on which an eigenvalue solver hung, that is given a period",
-            Rule::exact(f64::from(!no_period)),
+            f64::from(!no_period),
         ),
     ]
 }

@@ -1,0 +1,39 @@
+//! A scene as the naive reference takes it.
+
+use super::interaction;
+use crate::oracle::naive::{self, Mistake, Problem, Reading, Start};
+use shearbed::scene::{Orientation, Scene, Update};
+
+/// The scene as the naive reference takes it.
+pub fn problem(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> Problem {
+    let mut scene = scene.clone();
+    let interaction = interaction(&mut scene).clone();
+    let particles = scene.particles.clone();
+    Problem {
+        count: particles.count,
+        shear_rate_per_s: scene.flow.shear_rate_per_s.unwrap_or(f64::NAN),
+        length_mm: particles.length_mm,
+        aspect_ratio: particles.aspect_ratio,
+        aspect_ratio_sd_percent: particles.aspect_ratio_sd_percent,
+        orientation: match particles.orientation {
+            Orientation::Random(_) => Start::Isotropic,
+            Orientation::Given { phi_deg, theta_deg } => Start::Fixed {
+                phi_rad: phi_deg.to_radians(),
+                theta_rad: theta_deg.to_radians(),
+            },
+        },
+        concentration_per_cm3: interaction.concentration_per_cm3,
+        alpha: interaction.alpha,
+        m: interaction.m,
+        min_contact_arm: interaction.min_contact_arm,
+        update: match interaction.update {
+            Update::Rotation => naive::Update::Rotation,
+            Update::Angles => naive::Update::Angles,
+        },
+        reading: Reading::default(),
+        steps_per_period: scene.steps_per_period() as usize,
+        seed: scene.ensemble.seed,
+        replica,
+        mistake,
+    }
+}

@@ -1,0 +1,139 @@
+//! Small statistics of independent values, for runs, figures, cases and studies alike.
+
+use serde::{Deserialize, Serialize};
+use statrs::distribution::{ContinuousCDF, StudentsT};
+use statrs::statistics::Statistics;
+
+/// Mean and standard error of independent values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// The mean.
+    pub mean: f64,
+    /// Its standard error.
+    pub se: f64,
+    /// How many values.
+    pub samples: u64,
+}
+
+impl Sample {
+    /// The sample of `values`.
+    pub fn of(values: &[f64]) -> Self {
+        Self {
+            mean: values.mean(),
+            se: values.std_dev() / (values.len() as f64).sqrt(),
+            samples: values.len() as u64,
+        }
+    }
+
+    /// The sample of the differences a − b, pair by pair.
+    pub fn of_differences(a: &[f64], b: &[f64]) -> Self {
+        Self::of(&a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>())
+    }
+
+    /// Half the width of the 95 % confidence interval of the mean.
+    pub fn half_width(self) -> f64 {
+        student(0.05, self.samples) * self.se
+    }
+}
+
+/// A number with its standard error.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// The number.
+    pub value: f64,
+    /// Its standard error.
+    pub se: f64,
+}
+
+impl Estimate {
+    /// Whether it is known from 0: two standard errors or more.
+    pub fn readable(&self) -> bool {
+        self.value.abs() >= 2.0 * self.se
+    }
+
+    /// A statistic with the standard error of the delete-one jackknife, se² = (n−1)/n Σ(s_k − s̄)², s_k being the
+    /// statistic without the k-th value (Efron & Stein 1981).
+    pub fn jackknife(value: f64, without: &[f64]) -> Self {
+        let n = without.len() as f64;
+        let mean = mean(without);
+        let square: f64 = without.iter().map(|s| (s - mean).powi(2)).sum();
+        Self {
+            value,
+            se: ((n - 1.0) / n * square).sqrt(),
+        }
+    }
+}
+
+/// The larger of two errors; NaN stays.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else {
+        a.max(b)
+    }
+}
+
+/// The largest of errors, 0 where there are none; NaN stays.
+pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
+    errors.into_iter().fold(0.0, larger)
+}
+
+/// The mean of independent values and its standard error.
+pub fn mean_and_se(values: &[f64]) -> (f64, f64) {
+    let count = values.len() as f64;
+    (mean(values), (covariance(values, values) / count).sqrt())
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// The covariance of as many pairs as both have.
+pub fn covariance(a: &[f64], b: &[f64]) -> f64 {
+    let count = a.len().min(b.len());
+    let (a, b) = (&a[..count], &b[..count]);
+    let (mean_a, mean_b) = (mean(a), mean(b));
+    let products = a.iter().zip(b).map(|(a, b)| (a - mean_a) * (b - mean_b));
+    products.sum::<f64>() / (count as f64 - 1.0)
+}
+
+/// The correlation of pairs.
+pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
+    covariance(a, b) / (covariance(a, a) * covariance(b, b)).sqrt()
+}
+
+/// The slope of a straight line through points, by least squares.
+pub fn slope(points: &[(f64, f64)]) -> f64 {
+    let (x, y): (Vec<_>, Vec<_>) = points.iter().copied().unzip();
+    covariance(&x, &y) / covariance(&x, &x)
+}
+
+/// The two-sided critical value of Student's t at `level` for a mean of `samples` independent values.
+pub fn student(level: f64, samples: u64) -> f64 {
+    StudentsT::new(0.0, 1.0, freedom(samples)).map_or(f64::NAN, |t| t.inverse_cdf(1.0 - 0.5 * level))
+}
+
+/// The degrees of freedom of the standard deviation of so many values.
+pub fn freedom(samples: u64) -> f64 {
+    samples.saturating_sub(1).max(1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_that_is_no_number_stays() {
+        assert_eq!(worst([0.1, 0.3, 0.2]), 0.3);
+        for errors in [[f64::NAN, 1.0, 2.0], [1.0, f64::NAN, 2.0], [1.0, 2.0, f64::NAN]] {
+            assert!(worst(errors).is_nan());
+        }
+    }
+
+    #[test]
+    fn the_critical_value_is_students() {
+        // Tables: t at 0.9995 with 10 degrees of freedom is 4.587, and 3.291 for the normal limit.
+        assert!((student(1e-3, 11) - 4.587).abs() < 1e-3);
+        assert!((student(1e-3, 1_000_000) - 3.2905).abs() < 1e-3);
+    }
+}
