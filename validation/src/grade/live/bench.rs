@@ -1,6 +1,7 @@
 //! Error against run time of a program beside the project's own integrators, and what the pipe itself costs.
 
 use super::program::{Program, Question};
+use crate::grade::figures::LEAST;
 use crate::plot;
 use crate::report::ReportTable;
 use crate::subject::{self, Setting, Theory};
@@ -12,9 +13,6 @@ use std::time::Duration;
 
 /// The aspect ratio of the bench: the paper's.
 pub const ASPECT_RATIO: f64 = 11.6;
-
-/// An error of 0 has no place on a logarithmic axis; it is drawn here.
-const LEAST: f64 = 1e-17;
 
 /// Requests from which the pipe's cost is taken, after some to warm up.
 const ECHOES: usize = 200;
