@@ -62,7 +62,7 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
 /// The program in bold beside the project's own integrators, as SVG by the name of its file.
 fn pictures(report: &Report, problems: &[LoadedProblem]) -> Result<Vec<output::Output>, String> {
     let mut pictures = Vec::new();
-    if let Some(steps) = grade::figures::steps(problems, &report.problems, &report.answers) {
+    if let Some(steps) = grade::figures::steps(problems, &report.problems) {
         pictures.push(("steps.svg".to_owned(), plot::svg_of_one(&steps)?));
     }
     if let Some(bench) = report.live.as_ref().and_then(|live| live.work_precision.as_ref()) {
@@ -165,6 +165,23 @@ fn report(reference: String, answers: String, problems: Vec<Graded>, remarks: Ve
     }
 }
 
+/// A problem about anything else is a mistake of the caller, not of a name.
+fn check_rods_alone(args: &Args) -> Result<(), Failure> {
+    const INSTEAD: &str =
+        "a program that runs is asked about single rods only; other answers go into files (grade REF MINE)";
+    let other = |name: &&String| {
+        let of_rods = problems::free_rods().iter().any(|def| def.name == **name);
+        !of_rods && problems::all().iter().any(|def| def.name == **name)
+    };
+    if let Some(name) = args.problems.iter().find(other) {
+        return Err(Failure::Input(format!("--problem {name}: {INSTEAD}")));
+    }
+    match args.kind {
+        None | Some(Kind::Rods) => Ok(()),
+        Some(_) => Err(Failure::Input(format!("--kind: {INSTEAD}; rods is allowed"))),
+    }
+}
+
 fn program(
     args: &Args,
     command: &str,
@@ -174,6 +191,7 @@ fn program(
         Some(dir) => problems::read(dir).map_err(|error| Failure::Input(error.to_string()))?,
         None => live::built_in().map_err(Failure::Failed)?,
     };
+    check_rods_alone(args)?;
     let rods = all
         .into_iter()
         .filter(|loaded| loaded.problem.kind == Kind::Rods)

@@ -14,9 +14,12 @@ const MOST_STEPS: u64 = 20_000;
 /// An error of 0 has no place on a logarithmic axis; it is drawn here.
 pub(super) const LEAST: f64 = 1e-17;
 
+/// How the program is called in a picture: its own name may be long, and _ would lower what follows.
+pub(super) const PROGRAM: &str = "the graded program";
+
 /// Error against the number of steps on one problem about rods in plane Couette flow, the program's first, then the
 /// project's own; `None` where the program has answered none of them with two numbers of steps.
-pub fn steps(problems: &[LoadedProblem], graded: &[Graded], program: &str) -> Option<Figure> {
+pub fn steps(problems: &[LoadedProblem], graded: &[Graded]) -> Option<Figure> {
     let with_steps = |name: &str| {
         let of = |graded: &&Graded| graded.name == name && drawn(graded).len() >= 2;
         graded.iter().find(of)
@@ -30,7 +33,7 @@ pub fn steps(problems: &[LoadedProblem], graded: &[Graded], program: &str) -> Op
         candidates.min_by_key(|(loaded, ..)| loaded.problem.name != "mid-flip-11.6")?;
     let errors = drawn(graded);
     let counts: Vec<_> = errors.iter().map(|(steps, _)| *steps).collect();
-    let mut curves = vec![curve(program.to_owned(), &errors)];
+    let mut curves = vec![curve(PROGRAM.to_owned(), &errors)];
     for subject in subject::own() {
         if matches!(subject.theory(), Theory::Order(_)) {
             let errors = own_errors(subject.as_ref(), loaded, rate, &counts);

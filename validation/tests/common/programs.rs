@@ -1,5 +1,6 @@
 //! Programs in other languages, where a machine has them.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -38,5 +39,6 @@ pub fn run(program: &str, arguments: &[&Path]) {
 
 /// Says in one line what was not run, and why.
 pub fn skipped(name: &str, reason: &str) {
-    println!("skipped: {name}, {reason}");
+    // Not by println!, which is shown of a test that fails alone.
+    let _ = writeln!(std::io::stderr(), "skipped: {name}, {reason}");
 }

@@ -1,6 +1,6 @@
 //! What is refused, with which place and reason.
 
-use crate::grading::{REFERENCE, files, problem, text, write};
+use crate::grading::{REFERENCE, files, graded, problem, text, write};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -189,6 +189,19 @@ fn another_format_and_wrong_folders_are_refused() {
         assert!(
             ended.code == Some(2) && ended.words.contains(reason),
             "{reason}: {}",
+            ended.words
+        );
+    }
+}
+
+#[test]
+fn a_program_that_runs_is_asked_about_rods_alone() {
+    for more in [["--problem", "isotropic-3"], ["--kind", "contact"]] {
+        let ended = graded(&[&["--command", "true", "--brief"][..], &more].concat());
+        let told = ended.words.contains(more[0]) && ended.words.contains("asked about single rods only");
+        assert!(
+            ended.code == Some(2) && told && ended.grade.is_none(),
+            "{}",
             ended.words
         );
     }

@@ -1,7 +1,7 @@
 //! Error against run time of a program beside the project's own integrators, and what the pipe itself costs.
 
 use super::program::{Program, Question};
-use crate::grade::figures::LEAST;
+use crate::grade::figures::{LEAST, PROGRAM};
 use crate::plot;
 use crate::report::ReportTable;
 use crate::subject::{self, Setting, Theory};
@@ -90,7 +90,8 @@ impl Bench {
 
     /// The program's curve in bold beside ours in grey, as SVG. A program that takes no steps is a dash.
     pub fn picture(&self) -> Result<String, String> {
-        let program = self.without_pipe();
+        let mut program = self.without_pipe();
+        program.subject = PROGRAM.to_owned();
         let line = |curve: &Curve| {
             let points = || curve.points.iter().filter(|point| point.errors.is_some());
             let mut x: Vec<_> = points().map(|point| point.seconds.least).collect();
