@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Free rods with NumPy: RK4 of q' = A q in equal steps, p = q/|q|; with --euler, explicit Euler of p' = Ap - p (p.Ap).
+"""Free rods with NumPy: RK4 of q' = A q in equal steps, p = q/|q|. With --euler explicit Euler: of p' = Ap - p (p.Ap) for
+single rods, of q' = A q for means over isotropic ones.
 
     numpy_rk4.py REF MINE [--euler]    answers every problem of REF in MINE/NAME/steps-N.csv
     numpy_rk4.py --live [--euler]      answers requests, lines of JSON, until its input ends
@@ -25,26 +26,27 @@ def rate_matrix(gradient, r_e):
 
 
 def power(matrix, n):
-    """matrix^n as a matrix and the logarithm of a factor, so that nothing overflows."""
-    result, base, log_result, log_base = np.eye(len(matrix)), matrix, 0.0, 0.0
+    """matrix^n (of a stack, each) as a matrix and the logarithm of a factor, so that nothing overflows."""
+
+    def scaled(matrix, log_factor):
+        scale = np.abs(matrix).max(axis=(-2, -1), keepdims=True)
+        return matrix / scale, log_factor + np.log(scale)
+
+    result, base, log_result, log_base = np.eye(3), matrix, 0.0, 0.0
     while n:
         if n & 1:
-            result, log_result = result @ base, log_result + log_base
-            scale = np.abs(result).max()
-            result, log_result = result / scale, log_result + math.log(scale)
-        base, log_base = base @ base, 2 * log_base
-        scale = np.abs(base).max()
-        base, log_base = base / scale, log_base + math.log(scale)
+            result, log_result = scaled(result @ base, log_result + log_base)
+        base, log_base = scaled(base @ base, 2 * log_base)
         n >>= 1
     return result, log_result
 
 
-def rk4_map(A, time, steps):
-    """The map over time: one RK4 step of q' = A q is a polynomial in hA, and equal steps are its power."""
+def map_over(A, time, steps):
+    """The map over time: one step of q' = A q is a polynomial in hA, and equal steps are its power."""
     hA, one = A * (time / steps), np.eye(3)
-    step = one + hA @ (one + hA / 2 @ (one + hA / 3 @ (one + hA / 4)))
+    step = one + hA if EULER else one + hA @ (one + hA / 2 @ (one + hA / 3 @ (one + hA / 4)))
     matrix, log_factor = power(step, steps)
-    return matrix * math.exp(min(log_factor, 700.0))
+    return matrix * np.exp(np.minimum(log_factor, 700.0))
 
 
 def euler(A, start, time, steps):
@@ -60,27 +62,27 @@ def directions(gradient, r_e, start, time, steps):
     A, start = rate_matrix(gradient, r_e), np.array(start, dtype=float)
     if EULER:
         return euler(A, start, time, steps)
-    q = start @ rk4_map(A, time, steps).T
+    q = start @ map_over(A, time, steps).T
     return q / np.linalg.norm(q, axis=1, keepdims=True)
 
 
 def isotropic_means(F):
-    """|p_i| and a_ij of directions F p0/|F p0| with p0 isotropic.
+    """|p_i| and a_ij of directions F p0/|F p0| with p0 isotropic, for each F of a stack.
 
     p0 may be read as a normal vector's direction, so q = F p0 is normal with the covariance S = F F^T. With
     1/|q| = 2/sqrt(pi) int exp(-u^2 q.q) du and 1/q.q = int exp(-s q.q) ds all means are integrals of one variable, here
     by the double-exponential rule.
     """
-    F = F / abs(np.linalg.det(F)) ** (1 / 3)
+    F = F / np.abs(np.linalg.det(F))[:, None, None] ** (1 / 3)
     V, s, _ = np.linalg.svd(F)
-    s, tau = s * s, np.arange(-4.4, 4.4, 1 / 32)
+    s, W, tau = (s * s)[:, None, :], V.transpose(0, 2, 1), np.arange(-4.4, 4.4, 1 / 32)
     u = np.exp(math.pi / 2 * np.sinh(tau))
     weight = u * math.pi / 2 * np.cosh(tau) / 32
-    damp = 1 + 2 * np.multiply.outer(u, s)
-    spread = s / damp / np.sqrt(damp.prod(axis=1))[:, None]
-    a = V @ np.diag(weight @ spread) @ V.T
-    damp = 1 + 2 * np.multiply.outer(u * u, s)
-    x = weight @ (np.sqrt((s / damp) @ (V * V).T) / np.sqrt(damp.prod(axis=1))[:, None])
+    damp = 1 + 2 * u[:, None] * s
+    spread = s / damp / np.sqrt(damp.prod(axis=2, keepdims=True))
+    a = V * (weight @ spread)[:, None, :] @ W
+    damp = 1 + 2 * (u * u)[:, None] * s
+    x = weight @ (np.sqrt((s / damp) @ (W * W)) / np.sqrt(damp.prod(axis=2, keepdims=True)))
     return 2 / math.pi * math.sqrt(2) * x, a
 
 
@@ -91,26 +93,24 @@ def tensor(problem, mine):
     weights = np.exp(-offsets**2 / 2)
     ratios = mean * (1 + sd * offsets)
     ratios, weights = ratios[ratios > 0], weights[ratios > 0] / weights[ratios > 0].sum()
-    names = problem["columns"][1:]
+    A = np.stack([rate_matrix(problem["gradient_per_s"], r_e) for r_e in ratios])
     for steps in doublings(problem):
         with open(mine / f"steps-{steps}.csv", "w") as file:
             print(",".join(problem["columns"]), file=file)
             for time in problem["times_s"]:
-                total = dict.fromkeys(names, 0.0)
                 share = max(math.ceil(steps * time / problem["times_s"][-1]), 1)
-                for r_e, weight in zip(ratios, weights):
-                    x, a = isotropic_means(rk4_map(rate_matrix(problem["gradient_per_s"], r_e), time, share))
-                    for name in names:
-                        axes = [int(digit) - 1 for digit in name[1:]]
-                        total[name] += weight * (x[axes[0]] if name[0] == "x" else a[axes[0], axes[1]])
-                print(repr(time), *(f"{total[name]:.17g}" for name in names), sep=",", file=file)
+                x, a = isotropic_means(map_over(A, time, share))
+                x, a = weights @ x, np.tensordot(weights, a, 1)
+                axes = [[int(digit) - 1 for digit in name[1:]] for name in problem["columns"][1:]]
+                values = [a[tuple(of)] if len(of) == 2 else x[of[0]] for of in axes]
+                print(repr(time), *(f"{value:.17g}" for value in values), sep=",", file=file)
 
 
 def doublings(problem):
     """Steps a problem: the finest of four is to have a quarter of the tolerance, by RK4's (wh)^4/120 a radian of phase."""
     time = problem["times_s"][-1]
     if EULER:
-        return [2000 * 2**k for k in range(4)]
+        return [2000, 4000, 8000]
     r_e = problem["aspect_ratio"]
     A = rate_matrix(problem["gradient_per_s"], r_e)
     phase = max(np.abs(np.linalg.eigvals(A)).max() * time, 1.0)
@@ -190,7 +190,7 @@ def main():
         folder.mkdir(parents=True, exist_ok=True)
         if problem["kind"] == "rods":
             rods(problem, file.parent, folder)
-        elif problem["kind"] == "tensor" and not EULER:
+        elif problem["kind"] == "tensor":
             tensor(problem, folder)
         elif problem["kind"] == "contact":
             contact(problem, file.parent, folder)

@@ -1,106 +1,25 @@
 //! `shearbed grade`.
 
+mod args;
+
+pub(super) use args::Args;
+
 use super::{Failure, print};
 use crate::grade::live::{self, Mode, Program};
-use crate::grade::{self, Axes, Claim, Dump, Foreign, Graded, Options, Report, Told};
+use crate::grade::{self, Claim, Dump, Graded, LineEnds, Options, Report, Told};
 use crate::output;
+use crate::plot;
 use crate::problems::{self, Kind, LoadedProblem};
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
-
-/// Arguments of `grade`.
-#[derive(clap::Args)]
-pub(super) struct Args {
-    /// The folder with the problems, as `problems export` writes it
-    #[arg(value_name = "REF", required_unless_present_any = ["command", "echo"])]
-    reference: Option<PathBuf>,
-    /// The folder with the answers: MINE/NAME/answer.csv or MINE/NAME/steps-N.csv
-    #[arg(value_name = "MINE", required_unless_present_any = ["command", "echo"], conflicts_with = "command")]
-    mine: Option<PathBuf>,
-    /// Start this program once and ask it by lines of JSON, in place of answers in files
-    #[arg(long, value_name = "PROGRAM ARGS")]
-    command: Option<String>,
-    /// The folder for grade.json, grade.md, junit.xml and pictures
-    #[arg(long, value_name = "DIR", default_value = "out/grade")]
-    out: PathBuf,
-    /// Grade this problem only; can be given more than once
-    #[arg(long = "problem", value_name = "NAME")]
-    problems: Vec<String>,
-    /// Grade problems of this kind only: rods, tensor, contact or ensemble
-    #[arg(long, value_name = "KIND", value_parser = kind)]
-    kind: Option<Kind>,
-    /// The answer's columns in the order of the file, - for one to leave out: time_s,rod,p3,p1,p2
-    #[arg(
-        long,
-        value_name = "NAMES",
-        value_delimiter = ',',
-        conflicts_with = "layout",
-        allow_hyphen_values = true
-    )]
-    columns: Option<Vec<String>>,
-    /// What the program's axes 1, 2, 3 are, as flow,gradient,vorticity; -flow is against the flow
-    #[arg(
-        long,
-        value_name = "AXES",
-        default_value = "gradient,flow,vorticity",
-        allow_hyphen_values = true
-    )]
-    axes: Axes,
-    /// The layout of a known program's tables
-    #[arg(long, value_name = "PROGRAM")]
-    layout: Option<Foreign>,
-    /// The order that the program's error is said to have: another observed order fails
-    #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]
-    order: Option<f64>,
-    /// LAMMPS dumps: the length of a time step in s, where the dump has no ITEM: TIME
-    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
-    timestep_s: Option<f64>,
-    /// LAMMPS dumps: the rod's axis in the body's frame, where shapex, shapey, shapez do not tell
-    #[arg(long, value_name = "x|y|z", value_parser = body_axis)]
-    rod_axis: Option<usize>,
-    /// With --command: seconds that an answer may take
-    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true, default_value = "10")]
-    timeout: f64,
-    /// With --command: verdicts only, without work–precision, longest steps and the stability map
-    #[arg(long)]
-    brief: bool,
-    /// Answer requests with their own start: what the pipe itself costs
-    #[arg(long, conflicts_with_all = ["reference", "command"])]
-    echo: bool,
-    /// A missing answer is a failure
-    #[arg(long)]
-    all: bool,
-    /// Print nothing but errors
-    #[arg(long)]
-    quiet: bool,
-}
-
-fn kind(text: &str) -> Result<Kind, String> {
-    serde_json::from_value(text.into())
-        .map_err(|_| "rods, tensor, contact and ensemble are allowed".to_owned())
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number > 0.0 && number < 1e9 => Ok(number),
-        _ => Err("a positive number below 1e9 is allowed".to_owned()),
-    }
-}
-
-fn body_axis(text: &str) -> Result<usize, String> {
-    ["x", "y", "z"]
-        .iter()
-        .position(|axis| *axis == text)
-        .ok_or_else(|| "x, y and z are allowed".to_owned())
-}
 
 /// Grades answers in files, or a program.
 pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     if args.echo {
         return live::echo(io::stdin().lock(), io::stdout().lock()).map_err(Failure::Input);
     }
-    let report = match (&args.command, &args.reference, &args.mine) {
+    let (report, wanted) = match (&args.command, &args.reference, &args.mine) {
         (Some(command), reference, _) => program(args, command, reference.as_deref())?,
         (None, Some(reference), Some(mine)) => files(args, reference, mine)?,
         _ => {
@@ -109,23 +28,22 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
             ));
         }
     };
+    let pictures = pictures(&report, &wanted).map_err(Failure::Failed)?;
+    let inside: Vec<_> = pictures.iter().map(|(_, svg)| svg.as_str()).collect();
+    let html = grade::html(&report, report.passes(args.all), &inside).map_err(Failure::Failed)?;
     let mut written = vec![
         (
             "grade.json".to_owned(),
             grade::json(&report).map_err(Failure::Failed)?,
         ),
+        ("grade.html".to_owned(), html),
         ("grade.md".to_owned(), grade::markdown(&report)),
         ("junit.xml".to_owned(), grade::junit(&report)),
     ];
-    if let Some(bench) = report.live.as_ref().and_then(|live| live.work_precision.as_ref()) {
-        written.push((
-            "work-precision.svg".to_owned(),
-            bench.picture().map_err(Failure::Failed)?,
-        ));
-    }
+    written.extend(pictures);
     output::write_all(&args.out, &written)?;
     if !args.quiet {
-        let place = args.out.join("grade.json");
+        let place = args.out.join("grade.html");
         print(&format!(
             "{}\nreport: {}\n",
             grade::terminal(&report),
@@ -141,12 +59,28 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     }
 }
 
+/// The program in bold beside the project's own integrators, as SVG by the name of its file.
+fn pictures(report: &Report, problems: &[LoadedProblem]) -> Result<Vec<output::Output>, String> {
+    let mut pictures = Vec::new();
+    if let Some(steps) = grade::figures::steps(problems, &report.problems) {
+        pictures.push(("steps.svg".to_owned(), plot::svg_of_one(&steps)?));
+    }
+    if let Some(bench) = report.live.as_ref().and_then(|live| live.work_precision.as_ref()) {
+        pictures.push(("work-precision.svg".to_owned(), bench.picture()?));
+    }
+    Ok(pictures)
+}
+
 fn options(args: &Args) -> Options {
     Options {
         told: Told {
             columns: args.columns.clone(),
             foreign: args.layout,
             axes: args.axes,
+            ends: match args.windows_text {
+                true => LineEnds::Windows,
+                false => LineEnds::Unix,
+            },
         },
         dump: Dump {
             timestep_s: args.timestep_s,
@@ -177,7 +111,7 @@ fn chosen(args: &Args, mut all: Vec<LoadedProblem>) -> Result<Vec<LoadedProblem>
     }
 }
 
-fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Report, Failure> {
+fn files(args: &Args, reference: &Path, mine: &Path) -> Result<(Report, Vec<LoadedProblem>), Failure> {
     let all = problems::read(reference).map_err(|error| Failure::Input(error.to_string()))?;
     let names: Vec<_> = all.iter().map(|loaded| loaded.problem.name.clone()).collect();
     let wanted = chosen(args, all)?;
@@ -192,12 +126,13 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Report, Failure> 
         let lines: Vec<_> = errors.iter().map(ToString::to_string).collect();
         Failure::Input(lines.join("\n"))
     })?;
-    Ok(report(
+    let report = report(
         reference.display().to_string(),
         mine.display().to_string(),
         problems,
         unknown_folders(mine, &names),
-    ))
+    );
+    Ok((report, wanted))
 }
 
 /// Folders of answers to problems that there are not.
@@ -230,11 +165,33 @@ fn report(reference: String, answers: String, problems: Vec<Graded>, remarks: Ve
     }
 }
 
-fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Report, Failure> {
+/// A problem about anything else is a mistake of the caller, not of a name.
+fn check_rods_alone(args: &Args) -> Result<(), Failure> {
+    const INSTEAD: &str =
+        "a program that runs is asked about single rods only; other answers go into files (grade REF MINE)";
+    let other = |name: &&String| {
+        let of_rods = problems::free_rods().iter().any(|def| def.name == **name);
+        !of_rods && problems::all().iter().any(|def| def.name == **name)
+    };
+    if let Some(name) = args.problems.iter().find(other) {
+        return Err(Failure::Input(format!("--problem {name}: {INSTEAD}")));
+    }
+    match args.kind {
+        None | Some(Kind::Rods) => Ok(()),
+        Some(_) => Err(Failure::Input(format!("--kind: {INSTEAD}; rods is allowed"))),
+    }
+}
+
+fn program(
+    args: &Args,
+    command: &str,
+    reference: Option<&Path>,
+) -> Result<(Report, Vec<LoadedProblem>), Failure> {
     let all = match reference {
         Some(dir) => problems::read(dir).map_err(|error| Failure::Input(error.to_string()))?,
         None => live::built_in().map_err(Failure::Failed)?,
     };
+    check_rods_alone(args)?;
     let rods = all
         .into_iter()
         .filter(|loaded| loaded.problem.kind == Kind::Rods)
@@ -271,7 +228,7 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Repor
     let reference = reference.map_or("built-in problems".to_owned(), |dir| dir.display().to_string());
     let mut report = report(reference, command.to_owned(), problems, remarks);
     report.live = studies;
-    Ok(report)
+    Ok((report, wanted))
 }
 
 /// This program as an echo.

@@ -23,38 +23,59 @@ pub struct Answer {
     pub lines: Vec<u64>,
 }
 
-/// Rows as they come, put where they belong.
+/// Rows as they come, put where they belong. They come in the problem's order: a shuffled file is a mistake in the making.
 pub(super) struct Collector<'a> {
     problem: &'a LoadedProblem,
     rods: usize,
-    rows: Vec<Option<(u64, Vec<f64>)>>,
+    /// Rows at t = 0 that come before those that are asked for.
+    ahead: usize,
+    /// The line of each row that was there, those at t = 0 first.
+    lines: Vec<Option<u64>>,
+    /// The place of the last one.
+    last: usize,
+    rows: Vec<Vec<f64>>,
 }
 
 impl<'a> Collector<'a> {
     pub(super) fn new(problem: &'a LoadedProblem) -> Self {
+        let rods = problem.start.len().max(1);
+        let ahead = match problem.problem.kind {
+            Kind::Contact => 0,
+            _ => rods,
+        };
         let rows = problem.certified.rows.len();
         Self {
             problem,
-            rods: problem.start.len().max(1),
-            rows: vec![None; rows],
+            rods,
+            ahead,
+            lines: vec![None; ahead + rows],
+            last: 0,
+            rows: vec![Vec::new(); rows],
         }
     }
 
     /// Adds the row with these keys. `Err` has the key that is wrong, and why.
     pub(super) fn add(&mut self, line: u64, keys: &[f64], values: Vec<f64>) -> Result<(), (usize, String)> {
-        let Some(at) = self.place(keys)? else {
-            return Ok(());
-        };
-        if let Some((before, _)) = &self.rows[at] {
-            let names = self.problem.problem.kind.keys().join(" and ");
+        let at = self.place(keys)?;
+        let names = self.problem.problem.kind.keys().join(" and ");
+        if let Some(before) = self.lines[at] {
             return Err((keys.len() - 1, format!("the same {names} as in line {before}")));
         }
-        self.rows[at] = Some((line, values));
+        if at < self.last {
+            let earlier = at / self.rods < self.last / self.rods;
+            let key = if earlier { 0 } else { keys.len() - 1 };
+            return Err((key, format!("out of order: rows must ascend in {names}")));
+        }
+        self.last = at;
+        self.lines[at] = Some(line);
+        if let Some(row) = at.checked_sub(self.ahead) {
+            self.rows[row] = values;
+        }
         Ok(())
     }
 
-    /// Which row it is; `None` for the start, where it is not asked for.
-    fn place(&self, keys: &[f64]) -> Result<Option<usize>, (usize, String)> {
+    /// Its place among rows at t = 0 and those that are asked for.
+    fn place(&self, keys: &[f64]) -> Result<usize, (usize, String)> {
         let whole = |key: usize, count: usize| {
             let found = keys[key];
             let name = self.problem.problem.kind.keys()[key];
@@ -70,13 +91,14 @@ impl<'a> Collector<'a> {
             }
         };
         if self.problem.problem.kind == Kind::Contact {
-            return whole(0, self.rows.len()).map(Some);
+            return whole(0, self.rows.len());
         }
         let time = self.time(keys[0])?;
         let rod = if keys.len() > 1 { whole(1, self.rods)? } else { 0 };
-        Ok(time.map(|time| time * self.rods + rod))
+        Ok(time.map_or(0, |time| time + 1) * self.rods + rod)
     }
 
+    /// Which time; `None` at the start, where it is not asked for.
     fn time(&self, found: f64) -> Result<Option<usize>, (usize, String)> {
         let times = &self.problem.problem.times_s;
         let after = times.partition_point(|time| *time < found);
@@ -103,40 +125,37 @@ impl<'a> Collector<'a> {
     }
 
     pub(super) fn finish(self, path: &Path, last: u64) -> Result<Answer, ReadError> {
-        let missing = self.rows.iter().filter(|row| row.is_none()).count();
-        if let Some(first) = self.rows.iter().position(Option::is_none) {
-            let problem = &self.problem.problem;
-            let names = problem.kind.keys();
+        let lines = &self.lines[self.ahead..];
+        let missing = lines.iter().filter(|line| line.is_none()).count();
+        if let Some(first) = lines.iter().position(Option::is_none) {
+            let names = self.problem.problem.kind.keys();
             let keys = &self.problem.certified.rows[first];
-            let key: Vec<_> = names
-                .iter()
-                .zip(keys)
+            let key: Vec<_> = (names.iter().zip(keys))
                 .map(|(name, key)| format!("{name} = {key}"))
                 .collect();
             let message = format!(
                 "ends without {} ({missing} of {} rows are missing)",
                 key.join(", "),
-                self.rows.len()
+                lines.len()
             );
             return Err(ReadError::at(path, last, 1, message));
         }
-        let (lines, rows) = self.rows.into_iter().flatten().unzip();
         Ok(Answer {
             path: path.to_owned(),
-            rows,
-            lines,
+            lines: lines.iter().flatten().copied().collect(),
+            rows: self.rows,
         })
     }
 }
 
-/// Reads an answer. Rows may be in any order.
+/// Reads an answer.
 pub fn read(
     path: &Path,
     problem: &LoadedProblem,
     told: &Told,
     dump: &lammps::Told,
 ) -> Result<Answer, ReadError> {
-    let mut lines = Lines::open(path)?;
+    let mut lines = Lines::open(path, told.ends)?;
     let first = lines.next_line()?;
     let first = first.ok_or_else(|| ReadError::at(path, 1, 1, "the file is empty"))?;
     if first.starts_with("ITEM:") {

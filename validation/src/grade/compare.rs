@@ -122,7 +122,8 @@ fn with_errors(names: &[String]) -> impl Iterator<Item = (usize, usize)> + '_ {
     })
 }
 
-fn standard_errors(names: &[String], values: &[f64], certified: &[f64]) -> f64 {
+/// The largest difference of means in their common standard errors.
+pub(super) fn standard_errors(names: &[String], values: &[f64], certified: &[f64]) -> f64 {
     largest(with_errors(names).map(|(mean, se)| {
         let se = values[se].hypot(certified[se]);
         (values[mean] - certified[mean]).abs() / se.max(f64::MIN_POSITIVE)

@@ -2,6 +2,7 @@
 
 use super::answer::Answer;
 use super::contact;
+use super::means;
 use super::mistakes::{self, Mistake, Setting};
 use crate::problems::{Kind, LoadedProblem};
 use crate::subject::apart_rad;
@@ -27,12 +28,16 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Option<S
     if loaded.problem.kind == Kind::Contact {
         return contact::diagnose(loaded, answer, NEARER * error);
     }
+    if loaded.problem.kind == Kind::Ensemble {
+        return means::ensemble(loaded, answer);
+    }
+    if loaded.problem.aspect_ratio_sd_percent > 0.0 {
+        let near = means::unequal(loaded, answer, NEARER * error);
+        return said(near, loaded.problem.tolerance);
+    }
     let distance: Distance<'_> = match loaded.problem.kind {
         Kind::Rods => Box::new(move |mistake| rods(loaded, answer, &setting, mistake)),
-        Kind::Tensor if loaded.problem.aspect_ratio_sd_percent == 0.0 => {
-            Box::new(move |mistake| tensor(loaded, answer, &setting, mistake))
-        }
-        _ => return None,
+        _ => Box::new(move |mistake| tensor(loaded, answer, &setting, mistake)),
     };
     let near: Vec<_> = (mistakes::all().into_iter())
         .filter_map(|mistake| Some((distance(&mistake)?, mistake.name)))

@@ -126,6 +126,7 @@ fn one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, 
         return Ok(graded);
     };
     (graded.orders, graded.observed_order) = orders(&errors, problem.tolerance);
+    graded.errors = errors;
     graded.steps = steps;
     judge(&mut graded, loaded, &answer, options.claim);
     Ok(graded)

@@ -1,6 +1,7 @@
 //! Which field of a row is what: by the header, by `--columns`, or by the layout of a known program.
 
 use super::axes::Axes;
+use super::lines::LineEnds;
 use crate::problems::{Kind, Problem};
 
 /// What the field of a row is.
@@ -73,6 +74,8 @@ pub struct Told {
     pub foreign: Option<Foreign>,
     /// Axes in another order.
     pub axes: Axes,
+    /// How lines may end.
+    pub ends: LineEnds,
 }
 
 impl Layout {

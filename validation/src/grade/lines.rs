@@ -8,21 +8,35 @@ use std::path::{Path, PathBuf};
 /// The longest line that is read, in bytes: a row of numbers has a few hundred.
 const LONGEST: usize = 1 << 16;
 
-/// The lines of a file that are not blank. A byte order mark and carriage returns are taken off.
+/// What a text by a program on Windows may have and others may not: a byte order mark, and CR LF at line ends.
+///
+/// Unasked they are refused: a program that reads such a file on its way elsewhere takes them for part of a name or a value.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LineEnds {
+    /// LF alone.
+    #[default]
+    Unix,
+    /// CR LF or LF, with or without a byte order mark; both are taken off.
+    Windows,
+}
+
+/// The lines of a file that are not blank.
 pub struct Lines {
     path: PathBuf,
     reader: BufReader<File>,
     number: u64,
+    ends: LineEnds,
 }
 
 impl Lines {
     /// Opens a file.
-    pub fn open(path: &Path) -> Result<Self, ReadError> {
+    pub fn open(path: &Path, ends: LineEnds) -> Result<Self, ReadError> {
         let failed = |error: std::io::Error| ReadError::whole(path, format!("cannot be read: {error}"));
         Ok(Self {
             path: path.to_owned(),
             reader: BufReader::new(File::open(path).map_err(failed)?),
             number: 0,
+            ends,
         })
     }
 
@@ -57,16 +71,36 @@ impl Lines {
                 Err(error) => return Err(self.error(0, format!("cannot be read: {error}"))),
             }
             let text = String::from_utf8(bytes).map_err(|_| self.error(0, "no UTF-8 text"))?;
-            let text = match self.number {
-                1 => text.strip_prefix('\u{feff}').unwrap_or(&text),
-                _ => &text,
-            };
+            let text = self.plain(&text)?;
             if !text.trim().is_empty() {
-                return Ok(Some(text.trim_end_matches(['\n', '\r']).to_owned()));
+                return Ok(Some(text.to_owned()));
             }
         }
     }
+
+    /// A line without its end.
+    fn plain<'a>(&self, line: &'a str) -> Result<&'a str, ReadError> {
+        let windows = self.ends == LineEnds::Windows;
+        let line = line.strip_suffix('\n').unwrap_or(line);
+        let line = match line.strip_prefix('\u{feff}').filter(|_| self.number == 1) {
+            Some(_) if !windows => return Err(self.error(1, MARKED)),
+            Some(line) => line,
+            None => line,
+        };
+        match line.strip_suffix('\r') {
+            Some(line) if !windows => {
+                let last = line.split([',', ';', '\t']).count();
+                Err(self.error(last, CARRIED))
+            }
+            Some(line) => Ok(line),
+            None => Ok(line),
+        }
+    }
 }
+
+const MARKED: &str = "begins with a byte order mark: write UTF-8 without it (in Python encoding=\"utf-8\"), or give --windows-text";
+const CARRIED: &str =
+    "ends in CR LF: write LF alone (csv.writer of Python has lineterminator=\"\\n\"), or give --windows-text";
 
 /// A field as a number. NaN and infinities that are written as such are answers; a number that is too large for a double
 /// is none.

@@ -1,7 +1,6 @@
 //! The curves that known mistakes give: what a program computes that has one of them and is right otherwise.
 //!
-//! The exact motion is p = q/|q|, q = M(t) p(0) with M = exp(At), A = W + ΛD. A mistake spoils the flow, the aspect
-//! ratio, the start, the map or the answer; the rest stays.
+//! The exact motion is p = q/|q|, q = exp(At) p(0), A = W + ΛD. A mistake spoils flow, r_e, start, map or answer alone.
 
 mod physical;
 

@@ -6,18 +6,23 @@ mod axes;
 mod compare;
 mod contact;
 mod diagnosis;
+pub mod figures;
 mod files;
+mod html;
 mod lammps;
 mod layout;
 mod lines;
 pub mod live;
+mod means;
 mod mistakes;
 mod report;
 
 pub use axes::Axes;
 pub use files::{Claim, Options, grade};
+pub use html::html;
 pub use lammps::Told as Dump;
 pub use layout::{Foreign, Told};
+pub use lines::LineEnds;
 pub use report::{Report, json, junit, markdown, terminal};
 
 use crate::problems::Kind;
@@ -71,7 +76,9 @@ pub struct Graded {
     pub steps: Option<u64>,
     /// The tolerance asked of the program, where it chooses its steps.
     pub asked_tolerance: Option<f64>,
-    /// Every pair's order, from coarse to fine.
+    /// Errors (steps, error) from coarse to fine, where several numbers of steps were answered.
+    pub errors: Vec<(u64, f64)>,
+    /// The order between each two neighbours of these.
     pub orders: Vec<Option<f64>>,
     /// The largest ||p| − 1|.
     pub length_drift: Option<f64>,
@@ -96,10 +103,26 @@ impl Graded {
             note: None,
             steps: None,
             asked_tolerance: None,
+            errors: Vec::new(),
             orders: Vec::new(),
             length_drift: None,
             orbit_drift: None,
             phase_lost_per_period: None,
+        }
+    }
+
+    /// The observed order with its sign.
+    fn order_text(&self) -> String {
+        self.observed_order
+            .map_or("–".into(), |order| format!("{order:+.2}"))
+    }
+
+    /// What the program was set to.
+    fn setting_text(&self) -> String {
+        match (self.steps, self.asked_tolerance) {
+            (Some(steps), _) => format!("{steps} steps"),
+            (None, Some(tolerance)) => format!("tolerance {tolerance:.0e}"),
+            (None, None) => "–".into(),
         }
     }
 }

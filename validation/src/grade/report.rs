@@ -60,27 +60,21 @@ pub fn json(report: &Report) -> Result<String, String> {
     export::json(report)
 }
 
-fn number(value: Option<f64>) -> String {
+/// A number with two digits.
+pub(super) fn number(value: Option<f64>) -> String {
     value.map_or("–".into(), |value| format!("{value:.1e}"))
 }
 
 /// The verdicts as a table.
 fn verdicts(report: &Report) -> ReportTable {
     let row = |graded: &Graded| {
-        let setting = match (graded.steps, graded.asked_tolerance) {
-            (Some(steps), _) => format!("{steps} steps"),
-            (None, Some(tolerance)) => format!("tolerance {tolerance:.0e}"),
-            (None, None) => "–".into(),
-        };
         vec![
             graded.verdict.word().to_owned(),
             graded.name.clone(),
             number(graded.error),
             number(Some(graded.tolerance)),
-            graded
-                .observed_order
-                .map_or("–".into(), |order| format!("{order:+.2}")),
-            setting,
+            graded.order_text(),
+            graded.setting_text(),
             number(graded.length_drift),
             number(graded.orbit_drift),
             number(graded.phase_lost_per_period),
@@ -105,11 +99,16 @@ fn verdicts(report: &Report) -> ReportTable {
     )
 }
 
+/// What is said of a problem beyond numbers.
+pub(super) fn words(graded: &Graded) -> Vec<&str> {
+    let parts = [graded.diagnosis.as_deref(), graded.note.as_deref()];
+    parts.into_iter().flatten().collect()
+}
+
 /// What is said of single problems, and the remarks.
-fn words(report: &Report) -> Vec<String> {
+fn lines(report: &Report) -> Vec<String> {
     let of = |graded: &Graded| {
-        let parts = [graded.diagnosis.as_deref(), graded.note.as_deref()];
-        let parts: Vec<_> = parts.into_iter().flatten().collect();
+        let parts = words(graded);
         (!parts.is_empty())
             .then(|| format!("{} {}: {}", graded.verdict.word(), graded.name, parts.join("; ")))
     };
@@ -117,7 +116,8 @@ fn words(report: &Report) -> Vec<String> {
     report.problems.iter().filter_map(of).chain(remarks).collect()
 }
 
-fn tables(report: &Report) -> Vec<ReportTable> {
+/// The verdicts, then what was measured.
+pub(super) fn tables(report: &Report) -> Vec<ReportTable> {
     let mut tables = vec![verdicts(report)];
     tables.extend(report.live.iter().flat_map(Studies::tables));
     tables
@@ -125,7 +125,7 @@ fn tables(report: &Report) -> Vec<ReportTable> {
 
 /// For the terminal.
 pub fn terminal(report: &Report) -> String {
-    let words: String = words(report).iter().map(|line| format!("{line}\n")).collect();
+    let words: String = lines(report).iter().map(|line| format!("{line}\n")).collect();
     let mut tables = tables(report).into_iter();
     let first = tables
         .next()
@@ -149,7 +149,7 @@ pub fn markdown(report: &Report) -> String {
         );
         if k == 0 {
             text += "\n";
-            text += &words(report)
+            text += &lines(report)
                 .iter()
                 .map(|line| format!("- {line}\n"))
                 .collect::<String>();
@@ -170,12 +170,11 @@ pub fn junit(report: &Report) -> String {
         let name = escape(&graded.name);
         xml += &format!("<testcase classname=\"shearbed\" name=\"{name}\">");
         if graded.verdict != Verdict::Pass {
-            let parts = [graded.diagnosis.as_deref(), graded.note.as_deref()];
             let message = format!(
                 "error {}, tolerance {}; {}",
                 number(graded.error),
                 number(Some(graded.tolerance)),
-                parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
+                words(graded).join("; ")
             );
             let element = if graded.verdict == Verdict::Missing {
                 "skipped"

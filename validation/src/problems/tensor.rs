@@ -5,7 +5,6 @@ use super::{Built, FORMAT, Kind, Metric, Problem, ProblemDef, tolerance};
 use crate::reference::big::{Bits, digits};
 use crate::reference::isotropic::Covariance;
 use crate::reference::motion::{Motion, Unit};
-use crate::reference::unequal;
 
 /// Significant digits of a certified number: the quadrature is good to 24.
 const DIGITS: usize = 22;
@@ -89,28 +88,30 @@ fn unequal_rods(def: &ProblemDef) -> Built {
     let times_s = turns.map(|turns| turns * period_s(motion.aspect_ratio)).to_vec();
     let strain = motion.strain(times_s[turns.len() - 1], Unit::Second);
     let of_rods = tolerance::couette(motion.aspect_ratio, strain);
-    let row = |(time, turns): (&f64, f64)| {
-        let means =
-            unequal::means(motion.aspect_ratio, SD_PERCENT, turns).expect("well inside what is allowed");
-        let values = means[..3].iter().map(|x| format!("{x:.11}"));
-        std::iter::once(format!("{time:?}")).chain(values).collect()
-    };
     Built {
-        certified: times_s.iter().zip(turns).map(row).collect(),
+        certified: unequal_table(),
         problem: Problem {
             summary: "Mean projections x_i = ⟨|p_i|⟩ of infinitely many free rods, isotropic at t = 0, whose r_e is Gaussian with mean \
                       11.6 and a standard deviation of 3.6 % (the paper's): each has its own period, so the phases mix and the \
-                      oscillation dies out without any collision. By quadrature over r_e; certified to eleven decimals."
+                      oscillation dies out without any collision. By quadrature over r_e."
                 .into(),
             aspect_ratio_sd_percent: SD_PERCENT,
             columns: ["time_s", "x1", "x2", "x3"].map(String::from).into(),
             because: because(of_rods),
-            equations: vec!["4, 11, A.4, A.5, 12: mean of |p_i| (Carlson's R_J), then over r_e".into()],
+            equations: vec!["4, 11, A.4, A.5, 12: mean of |p_i| (elliptic integrals), then over r_e, the whole Gaussian".into()],
             ..problem(def, &motion, times_s, of_rods)
         },
         start: Vec::new(),
         inputs: Vec::new(),
     }
+}
+
+/// The certified answer of `unequal-rods`, by `examples/certify_unequal_rods.rs`, which takes minutes.
+const UNEQUAL: &str = include_str!("data/unequal-rods.csv");
+
+fn unequal_table() -> Vec<Vec<String>> {
+    let fields = |line: &str| line.split(',').map(str::to_owned).collect();
+    UNEQUAL.lines().skip(1).map(fields).collect()
 }
 
 /// What these problems share.
@@ -150,4 +151,43 @@ fn all_round() -> Vec<[f64; 3]> {
     thetas
         .flat_map(|theta| (0..6).map(move |k| direction(0.2 + f64::from(k), theta)))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::oracle::isotropic::mean_projections_polydisperse;
+    use crate::reference::unequal::means_to_22_digits;
+
+    #[test]
+    fn the_table_of_unequal_rods_is_computed_anew_and_by_a_quadrature_in_doubles() {
+        let built = crate::problems::build("unequal-rods").unwrap();
+        let (r, sd_percent) = (built.problem.aspect_ratio, built.problem.aspect_ratio_sd_percent);
+        let rate = built.problem.gradient_per_s[1][0];
+        // A quarter of a period: d = 2/π, and steps of 1/16 are d/10.
+        let first = |sd_percent: f64| {
+            let means = means_to_22_digits(rate, r, sd_percent, built.problem.times_s[0], 4);
+            means.map(|x| digits(&x, DIGITS))
+        };
+        assert_eq!(first(sd_percent), built.certified[0][1..]);
+        assert_ne!(first(3.7), built.certified[0][1..]);
+        assert_eq!(built.certified.len(), built.problem.times_s.len());
+        for (time, row) in built.problem.times_s.iter().zip(&built.certified) {
+            assert_eq!(format!("{time:?}"), row[0]);
+            let by_doubles = |sd_percent| mean_projections_polydisperse(r, sd_percent, time / period_s(r));
+            let off = |expected: [f64; 3]| {
+                let found = row[1..].iter().map(|x| x.parse::<f64>().unwrap());
+                found
+                    .zip(expected)
+                    .map(|(a, b)| (a - b).abs())
+                    .fold(0.0, f64::max)
+            };
+            // What is claimed of the quadrature in doubles.
+            assert!(off(by_doubles(sd_percent)) < 2e-12, "{time}");
+            assert!(off(by_doubles(3.7)) > 1e-6, "{time}");
+            // More digits than a double can lose, but for zeros at the end.
+            let most = row[1..].iter().map(|x| x.len()).max().unwrap();
+            assert!(most >= DIGITS, "{row:?}");
+        }
+    }
 }

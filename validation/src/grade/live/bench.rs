@@ -1,6 +1,7 @@
 //! Error against run time of a program beside the project's own integrators, and what the pipe itself costs.
 
 use super::program::{Program, Question};
+use crate::grade::figures::{LEAST, PROGRAM};
 use crate::plot;
 use crate::report::ReportTable;
 use crate::subject::{self, Setting, Theory};
@@ -12,9 +13,6 @@ use std::time::Duration;
 
 /// The aspect ratio of the bench: the paper's.
 pub const ASPECT_RATIO: f64 = 11.6;
-
-/// An error of 0 has no place on a logarithmic axis; it is drawn here.
-const LEAST: f64 = 1e-17;
 
 /// Requests from which the pipe's cost is taken, after some to warm up.
 const ECHOES: usize = 200;
@@ -92,7 +90,8 @@ impl Bench {
 
     /// The program's curve in bold beside ours in grey, as SVG. A program that takes no steps is a dash.
     pub fn picture(&self) -> Result<String, String> {
-        let program = self.without_pipe();
+        let mut program = self.without_pipe();
+        program.subject = PROGRAM.to_owned();
         let line = |curve: &Curve| {
             let points = || curve.points.iter().filter(|point| point.errors.is_some());
             let mut x: Vec<_> = points().map(|point| point.seconds.least).collect();

@@ -59,6 +59,7 @@ pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Clai
         .filter_map(|rung| Some((rung.setting.steps().ok()?, rung.compared.error)));
     let errors: Vec<_> = errors.collect();
     (graded.orders, graded.observed_order) = orders(&errors, of.tolerance);
+    graded.errors = errors;
     let Some(finest) = rungs.last() else {
         graded.note = stopped.breach.or(stopped.reason);
         return graded;

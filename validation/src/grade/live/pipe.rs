@@ -17,8 +17,8 @@ const LINES_HELD: usize = 4;
 /// How much is kept of the end of what the program writes to standard error, in bytes.
 const LAST_WORDS: usize = 2048;
 
-/// How long a program may take to end once its input is closed.
-const GRACE: Duration = Duration::from_secs(3);
+/// How long a program may take to end once its input or its output is closed. No verdict hangs on it, a remark alone.
+const GRACE: Duration = Duration::from_secs(1);
 
 /// Why there is no next line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -168,8 +168,8 @@ impl Pipe {
     }
 
     fn ended(&mut self) -> Trouble {
-        // Its output is closed: if it is about to end, that takes moments, on a busy machine seconds.
-        let deadline = Instant::now() + 2 * GRACE;
+        // Its output is closed: if it is about to end, that takes moments.
+        let deadline = Instant::now() + GRACE;
         while !self.has_ended() && Instant::now() < deadline {
             thread::sleep(Duration::from_millis(5));
         }

@@ -46,6 +46,43 @@ fn the_naive_reference_passes_and_a_wrong_one_fails() {
     assert!(worst(&pairs, -1.0) > 0.1);
 }
 
+/// By differences in many digits, of the certified answer itself.
+fn condition_in_many_digits(pair: &Pair, step: &Big, answer: Answer) -> f64 {
+    let small = BITS.of(2f64.powi(-64));
+    let of = |pair: &[Big; 14]| touched(pair).map(|rod| answer(&rod, step));
+    let norm = |x: &[Big]| double(&x.iter().fold(BITS.of(0.0), |sum, x| sum + x.sqr()).sqrt());
+    let exact = pair.map(|x| BITS.of(x));
+    let before = of(&exact);
+    let mut sums = [0.0; 2];
+    for at in 0..exact.len() {
+        let mut moved = exact.clone();
+        moved[at] += &exact[at] * &small;
+        for (rod, after) in of(&moved).iter().enumerate() {
+            let change: Vec<_> = (after.iter().zip(&before[rod]))
+                .map(|(x, y)| (x - y) / &small)
+                .collect();
+            sums[rod] += norm(&change) / norm(&before[rod]);
+        }
+    }
+    sums[0].max(sums[1])
+}
+
+#[test]
+fn condition_numbers_are_those_of_the_certified_answers() {
+    let step_s = period_s(ASPECT_RATIO) / 200.0;
+    for pair in &pairs()[..20] {
+        for (step_s, answer) in [
+            (None, (|rod, _| rod.rate.to_vec()) as Answer),
+            (Some(step_s), angles),
+        ] {
+            let expected = condition_in_many_digits(pair, &BITS.of(step_s.unwrap_or_default()), answer);
+            let found = condition(pair, step_s);
+            // ε^(2/3) κ², κ up to a thousand; the tolerance is rounded up to one digit.
+            assert!((found / expected - 1.0).abs() < 1e-3, "{found} {expected}");
+        }
+    }
+}
+
 #[test]
 fn angles_are_those_of_a_turning_axis() {
     // A.13 corrected says how the angles of p turn when p turns at ṗ′: by differences of atan2 and acos.

@@ -1,0 +1,86 @@
+//! The contact rule in doubles, right or with a known mistake: for condition numbers, and for what mistakes give.
+//!
+//! The rule changes what lies along the contact line ℓ ∝ p_a × p_b alone: ṗ′ = ṗ + ℓ (v̄ − v)/r for each rod, v = ℓ·V_c the
+//! velocity of its contact point x + r p along ℓ, v̄ the mean of both.
+
+use nalgebra::{Matrix3, Vector3};
+
+/// How the rule is applied.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Variant {
+    /// The factor on the change of ṗ.
+    pub(crate) kick: f64,
+    /// Whether A.13 is taken as it is printed.
+    pub(crate) printed: bool,
+}
+
+/// The rule, with A.13 corrected.
+pub(crate) const RIGHT: Variant = Variant {
+    kick: 1.0,
+    printed: false,
+};
+
+/// For rods a and b of a pair (of each the centre in mm, the axis and r_e): ṗ′ in 1/s, or with Δt in s the four numbers of
+/// A.13 and A.14.
+pub(crate) fn answers(
+    gradient_per_s: &Matrix3<f64>,
+    pair: &[f64],
+    step_s: Option<f64>,
+    variant: Variant,
+) -> [Vec<f64>; 2] {
+    rates(gradient_per_s, pair, variant.kick).map(|(p, rate)| match step_s {
+        None => rate.as_slice().to_vec(),
+        Some(step_s) => angles(&p, &rate, step_s, variant.printed),
+    })
+}
+
+/// p and ṗ′ in 1/s of both rods; of each centre, axis and r_e are given.
+fn rates(gradient: &Matrix3<f64>, pair: &[f64], kick: f64) -> [(Vector3<f64>, Vector3<f64>); 2] {
+    let (w, d) = (
+        0.5 * (gradient - gradient.transpose()),
+        0.5 * (gradient + gradient.transpose()),
+    );
+    let rod = |of: &[f64]| {
+        let (x, p, r_e) = (
+            Vector3::from_row_slice(&of[..3]),
+            Vector3::from_row_slice(&of[3..6]).normalize(),
+            of[6],
+        );
+        let shape = (r_e * r_e - 1.0) / (r_e * r_e + 1.0);
+        let free = w * p + shape * (d * p - p * p.dot(&(d * p)));
+        (x, p, free)
+    };
+    let (a, b) = (rod(&pair[..7]), rod(&pair[7..14]));
+    let line = a.1.cross(&b.1).normalize();
+    // The feet of the common normal: (x_b + r_b p_b − x_a − r_a p_a) ∥ ℓ.
+    let (apart, cosine) = (b.0 - a.0, a.1.dot(&b.1));
+    let sine_squared = 1.0 - cosine * cosine;
+    let arm_a = (apart.dot(&a.1) - cosine * apart.dot(&b.1)) / sine_squared;
+    let arm_b = (cosine * apart.dot(&a.1) - apart.dot(&b.1)) / sine_squared;
+    let along = |(x, _, free): &(Vector3<f64>, Vector3<f64>, Vector3<f64>), arm: f64| {
+        line.dot(&(gradient * x + free * arm))
+    };
+    let (v_a, v_b) = (along(&a, arm_a), along(&b, arm_b));
+    let mean = 0.5 * (v_a + v_b);
+    [
+        (a.1, a.2 + line * (kick * (mean - v_a) / arm_a)),
+        (b.1, b.2 + line * (kick * (mean - v_b) / arm_b)),
+    ]
+}
+
+/// φ̇′, θ̇′ in 1/s by A.13, corrected or as printed, and φ and θ in rad after a step by A.14.
+fn angles(p: &Vector3<f64>, rate: &Vector3<f64>, step_s: f64, printed: bool) -> Vec<f64> {
+    let (phi, theta) = (p.y.atan2(p.x), p.x.hypot(p.y).atan2(p.z));
+    let around = -rate.x * phi.sin() + rate.y * phi.cos();
+    let across = rate.x * phi.cos() + rate.y * phi.sin();
+    let (phi_rate, theta_rate) = match printed {
+        false => (around / theta.sin(), across * theta.cos() - rate.z * theta.sin()),
+        true => (around, across * theta.sin() - rate.z * theta.cos()),
+    };
+    vec![
+        phi_rate,
+        theta_rate,
+        phi + phi_rate * step_s,
+        theta + theta_rate * step_s,
+    ]
+}

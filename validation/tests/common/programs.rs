@@ -1,0 +1,44 @@
+//! Programs in other languages, where a machine has them.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// The folder of programs to be graded.
+pub fn peers() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("peers")
+}
+
+/// A Python that can import a module: of `.ci/run`'s virtual environment, or the machine's.
+pub fn python(module: &str) -> Option<String> {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/peers-venv/bin/python");
+    let candidates = [own.to_string_lossy().into_owned(), "python3".to_owned()];
+    let can = |python: &String| runs(python, &["-c", &format!("import {module}")]);
+    candidates.into_iter().find(can)
+}
+
+/// Whether a program can be run, and ends well.
+pub fn runs(program: &str, arguments: &[&str]) -> bool {
+    let quiet = Command::new(program)
+        .args(arguments)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status();
+    quiet.is_ok_and(|status| status.success())
+}
+
+/// Runs a program that must end well.
+pub fn run(program: &str, arguments: &[&Path]) {
+    let output = Command::new(program).args(arguments).output().unwrap();
+    assert!(
+        output.status.success(),
+        "{program} {arguments:?}: {}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+}
+
+/// Says in one line what was not run, and why.
+pub fn skipped(name: &str, reason: &str) {
+    // Not by println!, which is shown of a test that fails alone.
+    let _ = writeln!(std::io::stderr(), "skipped: {name}, {reason}");
+}

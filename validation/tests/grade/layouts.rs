@@ -1,0 +1,102 @@
+//! Which layouts of an answer are read, and how.
+
+use crate::grading::{REFERENCE, files, problem, text, write};
+use crate::programs::peers;
+use std::fs;
+
+#[test]
+fn separators_heads_and_digits_of_labels_change_nothing() {
+    let dir = tempfile::tempdir().unwrap();
+    let (_, mut rows) = problem("shear-plane");
+    for (k, row) in rows.iter_mut().enumerate() {
+        if k > 0 {
+            // Head or tail.
+            for value in &mut row[2..] {
+                *value = format!("{:e}", -value.parse::<f64>().unwrap());
+            }
+            row[0] = format!("{:.4}", row[0].parse::<f64>().unwrap());
+        }
+        row.swap(0, 4);
+    }
+    let windows = format!("\u{feff}{}\r\n\r\n", text(&rows).replace('\n', "\r\n"));
+    let blanks = format!("# {}", text(&rows).replace(',', " "));
+    let headless = text(&rows[1..]);
+    // The start, which is not asked for, once for each rod.
+    let mut with_start = rows.clone();
+    for rod in (0..4).rev() {
+        with_start.insert(1, ["0", &rod.to_string(), "0", "0", "0"].map(String::from).into());
+    }
+    let with_start = text(&with_start);
+    let columns = ["--columns", "p3,rod,p1,p2,time_s"];
+    for (text, more) in [
+        (text(&rows), &[][..]),
+        (windows, &["--windows-text"]),
+        (blanks, &[]),
+        (with_start, &[]),
+        (headless, &columns),
+    ] {
+        write(dir.path(), "shear-plane", "answer.csv", text);
+        let only = [more, &["--problem", "shear-plane", "--problem", "mid-flip-2"]].concat();
+        let ended = files(REFERENCE.path(), dir.path(), &only);
+        assert_eq!(ended.of("shear-plane")["verdict"], "PASS", "{}", ended.words);
+        assert_eq!(ended.of("mid-flip-2")["verdict"], "MISSING");
+        assert_eq!(ended.code, Some(0), "{}", ended.words);
+        let all = files(REFERENCE.path(), dir.path(), &[&only[..], &["--all"]].concat());
+        assert_eq!(all.code, Some(1));
+    }
+}
+
+#[test]
+fn axes_in_another_order_are_put_back() {
+    let dir = tempfile::tempdir().unwrap();
+    for (name, file) in [
+        ("couette-turned", "time_s,rod,p2,-p1,p3"),
+        ("isotropic-11.6", "time_s,a22,a11,a33,-a12,a23,-a13"),
+    ] {
+        let (_, rows) = problem(name);
+        let place = |wanted: &str| rows[0].iter().position(|name| name == wanted).unwrap();
+        let mut told: Vec<Vec<String>> = vec![rows[0].clone()];
+        for row in &rows[1..] {
+            let value = |column: &str| match column.strip_prefix('-') {
+                Some(column) => format!("{:e}", -row[place(column)].parse::<f64>().unwrap()),
+                None => row[place(column)].clone(),
+            };
+            told.push(file.split(',').map(value).collect());
+        }
+        // The program's axes are the flow, against the gradient, and the vorticity.
+        write(dir.path(), name, "answer.csv", text(&told));
+        let only = ["--problem", name];
+        let wrong = files(REFERENCE.path(), dir.path(), &only);
+        assert_eq!(wrong.of(name)["verdict"], "FAIL");
+        let right = files(
+            REFERENCE.path(),
+            dir.path(),
+            &[&only[..], &["--axes", "flow,-gradient,vorticity"]].concat(),
+        );
+        assert_eq!(right.of(name)["verdict"], "PASS", "{}", right.words);
+    }
+}
+
+#[test]
+fn layouts_of_other_programs_are_read_as_they_are() {
+    let layouts = peers().join("layouts");
+    for (sample, problem, more, verdict) in [
+        ("fiberoripy.csv", "isotropic-3", &[][..], "FAIL"),
+        ("fiberpy.csv", "isotropic-3", &["--layout", "fiberpy"], "FAIL"),
+        ("openfoam.csv", "isotropic-3", &[], "PASS"),
+        ("lammps.dump", "shear-plane", &[], "PASS"),
+    ] {
+        let dir = tempfile::tempdir().unwrap();
+        let ending = sample.split('.').next_back().unwrap();
+        fs::create_dir(dir.path().join(problem)).unwrap();
+        fs::copy(
+            layouts.join(sample),
+            dir.path().join(problem).join(format!("answer.{ending}")),
+        )
+        .unwrap();
+        let found = files(REFERENCE.path(), dir.path(), more);
+        assert_eq!(found.verdict(problem), verdict, "{sample}: {}", found.words);
+        // A closure is near the truth; columns in a wrong order are not.
+        assert!(found.error(problem) < 0.05, "{sample}: {}", found.words);
+    }
+}

@@ -1,0 +1,15 @@
+//! `shearbed grade REF MINE` and `shearbed grade --command` as a user meets them, on answers made from the certified ones and
+//! on programs in other languages. The problems are exported once.
+
+#[path = "../common/grading.rs"]
+mod grading;
+#[path = "../common/programs.rs"]
+mod programs;
+
+mod layouts;
+mod means;
+mod peers;
+mod planted;
+mod quick_start;
+mod refused;
+mod verdicts;

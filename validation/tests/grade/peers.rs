@@ -1,0 +1,238 @@
+//! Programs that nobody here wrote, and small ones in other languages, graded as a user would. What cannot run here is skipped
+//! by name and reason in one line, and recorded answers (`validation/peers/recorded`) are graded in its place.
+
+use crate::grading::{Graded, REFERENCE, files, graded, names, some};
+use crate::programs::{peers, python, run, runs, skipped};
+use serde_json::Value;
+use std::path::Path;
+
+#[test]
+fn numpy_rk4_passes_with_order_4_and_euler_fails_with_order_1() {
+    let script = peers().join("numpy_rk4.py");
+    let dir = tempfile::tempdir().unwrap();
+    let mine = match python("numpy") {
+        Some(python) => {
+            run(&python, &[&script, REFERENCE.path(), dir.path()]);
+            dir.path().to_owned()
+        }
+        None => {
+            skipped("numpy_rk4.py", "no python3 with numpy");
+            peers().join("recorded/numpy_rk4")
+        }
+    };
+    let rk4 = files(REFERENCE.path(), &mine, &[]);
+    assert_eq!(rk4.code, Some(0), "{}", rk4.words);
+    for name in ["mid-flip-2", "mid-flip-11.6", "isotropic-11.6"] {
+        assert_eq!(rk4.verdict(name), "PASS", "{}", rk4.words);
+        assert!((rk4.order(name) - 4.0).abs() < 0.2, "{name}: {}", rk4.words);
+    }
+    let Some(python) = python("numpy") else { return };
+    let ensembles = ["lee-springer", "lee-springer-unequal"];
+    for name in names().iter().filter(|name| !ensembles.contains(&name.as_str())) {
+        assert_eq!(rk4.verdict(name), "PASS", "{}", rk4.words);
+    }
+    let mine = dir.path().join("euler");
+    run(&python, &[&script, REFERENCE.path(), &mine, Path::new("--euler")]);
+    let euler = files(REFERENCE.path(), &mine, &[]);
+    assert_eq!(euler.code, Some(1));
+    // Whatever moves; contacts take no steps.
+    let still = ["log-rolling", "contact-rule", "contact-angles"];
+    for name in names().iter().filter(|name| !ensembles.contains(&name.as_str())) {
+        let expected = if still.contains(&name.as_str()) {
+            "PASS"
+        } else {
+            "FAIL"
+        };
+        assert_eq!(euler.verdict(name), expected, "{}", euler.words);
+        assert_eq!(
+            euler.diagnosis(name),
+            "",
+            "Euler's is no known mistake: {}",
+            euler.words
+        );
+        // It steps over every flip of these.
+        let diverges = ["mid-flip-10000", "ten-thousand-periods"].contains(&name.as_str());
+        if expected == "FAIL" && !diverges {
+            assert!((euler.order(name) - 1.0).abs() < 0.2, "{name}: {}", euler.words);
+        }
+    }
+    let live = format!("'{python}' '{}' --live", script.display());
+    let live = graded(&["--command", &live, "--brief", "--order", "4", "--timeout", "60"]);
+    assert_eq!(live.code, Some(0), "{}", live.words);
+}
+
+#[test]
+fn c_compiled_with_cc_passes_with_order_4() {
+    if !runs("cc", &["--version"]) {
+        return skipped("c_rk4.c", "no cc");
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let program = dir.path().join("c_rk4");
+    run(
+        "cc",
+        &[
+            Path::new("-O2"),
+            Path::new("-o"),
+            &program,
+            &peers().join("c_rk4.c"),
+            Path::new("-lm"),
+        ],
+    );
+    let command = format!("'{}'", program.display());
+    let found = graded(&["--command", &command, "--order", "4", "--timeout", "60"]);
+    assert_eq!(found.code, Some(0), "{}", found.words);
+    assert!((found.order("mid-flip-11.6") - 4.0).abs() < 0.2);
+    let live = &found.grade.as_ref().unwrap()["live"];
+    for title in [
+        "Error against steps, mid-flip-11.6",
+        "Error against run time, one rod",
+    ] {
+        assert!(found.html.as_ref().unwrap().contains(title), "{title}");
+    }
+    assert!(
+        live["work_precision"]["pipe_s"]
+            .as_f64()
+            .is_some_and(|seconds| seconds > 0.0),
+        "{}",
+        found.words
+    );
+    // As the project's own RK4 in p: the longest step with which every rod of r_e = 11.6 turns.
+    let limits = live["limits"].as_array().unwrap();
+    let turning = limits
+        .iter()
+        .find(|limit| limit["property"] == "turning" && limit["aspect_ratio"] == 11.6)
+        .unwrap();
+    let own = own_turning_limit();
+    assert!(
+        (turning["strain"]["at"].as_f64().unwrap() / own - 1.0).abs() < 1e-3,
+        "{turning} {own}"
+    );
+}
+
+/// Of the subject `RK4 in p`, by the same ladder.
+fn own_turning_limit() -> f64 {
+    use validation::stability::limits::{Ladder, Limit, Property, bisect, holds};
+    let subjects = validation::subject::all();
+    let rk4 = subjects
+        .iter()
+        .find(|subject| subject.name() == "RK4 in p")
+        .unwrap();
+    let ladder = Ladder {
+        least: 0.01,
+        most: 100.0,
+        factor: 1.25,
+    };
+    match bisect(ladder, |strain| {
+        holds(rk4.as_ref(), Property::Turning, 11.6, strain)
+    }) {
+        Limit::At(strain) => strain,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn javascript_has_order_2() {
+    if !runs("node", &["--version"]) {
+        return skipped("midpoint.js", "no node");
+    }
+    let script = peers().join("midpoint.js");
+    let command = format!("node '{}'", script.display());
+    let of = [
+        "--problem",
+        "mid-flip-2",
+        "--problem",
+        "mid-flip-11.6",
+        "--problem",
+        "spiral",
+    ];
+    let found = graded(
+        &[
+            &[
+                "--command",
+                &command,
+                "--brief",
+                "--order",
+                "2",
+                "--timeout",
+                "20",
+            ][..],
+            &of,
+        ]
+        .concat(),
+    );
+    for name in ["mid-flip-2", "mid-flip-11.6", "spiral"] {
+        assert!((found.order(name) - 2.0).abs() < 0.2, "{name}: {}", found.words);
+        assert!(found.of(name)["length_drift"].as_f64().unwrap() < 1e-14);
+    }
+    let dir = tempfile::tempdir().unwrap();
+    run("node", &[&script, REFERENCE.path(), dir.path()]);
+    let found = files(REFERENCE.path(), dir.path(), &[]);
+    assert_eq!(
+        (found.verdict("log-rolling"), found.verdict("mid-flip-10000")),
+        ("PASS", "FAIL"),
+        "{}",
+        found.words
+    );
+}
+
+/// fiberoripy 1.4.0 with SciPy's DOP853 at 10⁻¹² and its closures.
+fn judge_fiberoripy(found: &Graded) {
+    assert_eq!(found.code, Some(1));
+    for name in ["mid-flip-2", "mid-flip-11.6"] {
+        assert_eq!(found.verdict(name), "PASS", "{}", found.words);
+    }
+    // It claims success and has lost the fibre.
+    let fibre = found.of("mid-flip-10000");
+    assert!(
+        fibre["verdict"] == "FAIL" && fibre["error"].as_f64().unwrap() > 0.01,
+        "{fibre:#}"
+    );
+    for (name, error) in CLOSURES {
+        let of = found.of(name);
+        assert_eq!(of["verdict"], "FAIL");
+        assert!(
+            (of["error"].as_f64().unwrap() / error - 1.0).abs() < 0.01,
+            "{name} {error}: {of:#}"
+        );
+        assert_eq!(of["diagnosis"], Value::Null);
+    }
+}
+
+/// By how much the IBOF closure misses a_ij of isotropic rods: recorded from fiberoripy 1.4.0, to a percent.
+const CLOSURES: [(&str, f64); 2] = [("isotropic-3", 0.01503), ("isotropic-11.6", 0.09602)];
+
+#[test]
+fn fiberoripy_is_right_until_rods_are_fibres_and_its_closure_is_no_solution() {
+    judge_fiberoripy(&files(
+        REFERENCE.path(),
+        &peers().join("recorded/fiberoripy-1.4.0"),
+        &[],
+    ));
+    let Some(python) = python("fiberoripy") else {
+        return skipped(
+            "fiberoripy",
+            "no python3 with fiberoripy: only its recorded answers were graded",
+        );
+    };
+    let script = peers().join("fiberoripy_peer.py");
+    let dir = tempfile::tempdir().unwrap();
+    // It needs minutes for the others.
+    let names = [
+        "mid-flip-2",
+        "mid-flip-11.6",
+        "mid-flip-10000",
+        "isotropic-3",
+        "isotropic-11.6",
+    ];
+    let reference = some(&dir.path().join("ref"), &names);
+    let mine = dir.path().join("mine");
+    run(&python, &[&script, &reference, &mine]);
+    judge_fiberoripy(&files(REFERENCE.path(), &mine, &[]));
+    let command = format!("'{python}' '{}' --live", script.display());
+    let of = ["--problem", "mid-flip-2", "--problem", "mid-flip-10000"];
+    let live = graded(&[&["--command", &command, "--brief", "--timeout", "60"][..], &of].concat());
+    assert_eq!(live.verdict("mid-flip-2"), "PASS", "{}", live.words);
+    assert_eq!(live.verdict("mid-flip-10000"), "FAIL", "{}", live.words);
+    let note = live.of("mid-flip-10000")["note"].as_str().unwrap();
+    assert!(note.starts_with("it claims success"), "{note}");
+}

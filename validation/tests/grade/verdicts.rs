@@ -1,0 +1,127 @@
+//! What passes, what fails, and with which numbers.
+
+use crate::grading::{REFERENCE, files, names, off_by, problem, text, write};
+use serde_json::Value;
+
+#[test]
+fn half_the_tolerance_passes_and_twice_fails_in_every_problem_and_metric() {
+    let dir = tempfile::tempdir().unwrap();
+    let names = names();
+    assert!(names.len() > 15, "{names:?}");
+    for (part, verdict, code) in [(0.0, "PASS", 0), (0.5, "PASS", 0), (2.0, "FAIL", 1)] {
+        let mine = dir.path().join(verdict);
+        for name in &names {
+            write(&mine, name, "answer.csv", text(&off_by(name, part)));
+        }
+        let ended = files(REFERENCE.path(), &mine, &["--all"]);
+        let html = ended.html.as_deref().unwrap();
+        assert_eq!(html.matches(&format!(">{verdict}</span>")).count(), names.len());
+        assert_eq!(ended.code, Some(code), "{part}: {}", ended.words);
+        for name in &names {
+            let found = ended.of(name);
+            assert_eq!(found["verdict"], verdict, "{part}: {found:#}");
+            assert_eq!(found["diagnosis"], Value::Null, "{found:#}");
+            let ratio = found["error"].as_f64().unwrap() / found["tolerance"].as_f64().unwrap();
+            assert!(
+                (ratio - part).abs() < 0.02 + 0.01 * part,
+                "{part} {ratio}: {found:#}"
+            );
+        }
+    }
+}
+
+#[test]
+fn what_is_not_finite_is_an_answer_that_fails() {
+    for word in ["nan", "NaN", "inf", "-Infinity"] {
+        let dir = tempfile::tempdir().unwrap();
+        let (_, mut rows) = problem("mid-flip-2");
+        rows[2][3] = word.into();
+        let file = write(dir.path(), "mid-flip-2", "answer.csv", text(&rows));
+        let ended = files(REFERENCE.path(), dir.path(), &[]);
+        let found = ended.of("mid-flip-2");
+        let expected = format!("{}:3: a value is not finite", file.display());
+        assert_eq!(
+            (ended.code, &found["verdict"], &found["error"]),
+            (Some(1), &"FAIL".into(), &Value::Null)
+        );
+        assert_eq!(found["note"], expected);
+    }
+}
+
+#[test]
+fn orders_are_read_from_steps_and_judged_against_a_claim() {
+    let dir = tempfile::tempdir().unwrap();
+    // Errors of 4096, 256, 16 tolerances, and one below it.
+    for (steps, part) in [(100, 4096.0), (200, 256.0), (400, 16.0), (800, 0.9)] {
+        let file = format!("steps-{steps}.csv");
+        write(
+            dir.path(),
+            "mid-flip-100",
+            &file,
+            text(&off_by("mid-flip-100", part)),
+        );
+    }
+    let ended = files(REFERENCE.path(), dir.path(), &["--order", "4"]);
+    let found = ended.of("mid-flip-100");
+    assert_eq!(
+        (&found["verdict"], &found["steps"]),
+        (&"PASS".into(), &800.into()),
+        "{found:#}"
+    );
+    assert!((found["observed_order"].as_f64().unwrap() - 4.0).abs() < 1e-3);
+    // The picture has the program's curve in bold black, and ours in grey.
+    let html = ended.html.as_deref().unwrap();
+    let picture = html.split_once("<svg").unwrap().1.split_once("</svg>").unwrap().0;
+    assert!(picture.contains("Error against steps, mid-flip-100") && picture.contains("RK4 in p"));
+    let line = |stroke: &str| {
+        picture
+            .match_indices(stroke)
+            .map(|(at, _)| at)
+            .collect::<Vec<_>>()
+    };
+    let (bold, grey) = (line("stroke=\"#000000\" stroke-width=\"24\""), line("#9A9A9A"));
+    assert!(
+        !bold.is_empty() && grey.len() >= 4,
+        "{} {}",
+        bold.len(),
+        grey.len()
+    );
+    let ended = files(REFERENCE.path(), dir.path(), &["--order", "3"]);
+    assert_eq!(
+        ended.of("mid-flip-100")["note"],
+        "observed order +4.00 where 3 is claimed"
+    );
+    assert_eq!(ended.code, Some(1));
+    // It diverges.
+    for (steps, part) in [(100, 16.0), (200, 256.0), (400, 4096.0)] {
+        let file = format!("steps-{steps}.csv");
+        write(dir.path(), "mid-flip-2", &file, text(&off_by("mid-flip-2", part)));
+    }
+    let ended = files(REFERENCE.path(), dir.path(), &[]);
+    let order = ended.of("mid-flip-2")["observed_order"].as_f64().unwrap();
+    assert!((order + 4.0).abs() < 1e-3, "{order}");
+}
+
+#[test]
+fn too_little_data_does_not_pass() {
+    let dir = tempfile::tempdir().unwrap();
+    let (problem, mut rows) = problem("lee-springer");
+    let allowed = problem["ensemble"]["largest_standard_error"].as_f64().unwrap();
+    for (se, verdict) in [
+        (0.9 * allowed, "PASS"),
+        (1.1 * allowed, "FAIL"),
+        (-0.5 * allowed, "FAIL"),
+    ] {
+        rows[3][2] = se.to_string();
+        write(dir.path(), "lee-springer", "answer.csv", text(&rows));
+        let ended = files(REFERENCE.path(), dir.path(), &[]);
+        let found = ended.of("lee-springer");
+        assert_eq!(found["verdict"], verdict, "{found:#}");
+        assert_eq!(
+            found["note"]
+                .as_str()
+                .is_some_and(|note| note.contains("too little data")),
+            verdict == "FAIL"
+        );
+    }
+}

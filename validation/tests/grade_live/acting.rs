@@ -1,0 +1,105 @@
+//! Programs that behave, and programs that do not.
+
+use nalgebra::{Matrix3, Vector3};
+use serde_json::{Value, json};
+use std::fs;
+use std::io::{BufRead, Write};
+use std::process::{Command, ExitCode, Stdio};
+use std::time::Duration;
+
+/// Acts as a program that is to be graded. From its third answer on it does what its name says.
+pub fn program(name: &str, pids: Option<&str>) -> ExitCode {
+    let note = |pid: u32| {
+        let file = fs::OpenOptions::new()
+            .create(true)
+            .append(true)
+            .open(pids.unwrap());
+        writeln!(file.unwrap(), "{pid}").unwrap();
+    };
+    note(std::process::id());
+    let forever = || -> ! {
+        loop {
+            std::thread::sleep(Duration::from_secs(1000));
+        }
+    };
+    if name == "never_reads" {
+        forever();
+    }
+    let mut out = std::io::stdout();
+    for (k, line) in std::io::stdin().lock().lines().enumerate() {
+        let request: Value = serde_json::from_str(&line.unwrap()).unwrap();
+        let answer = answer(name, &request);
+        match (name, k) {
+            ("is_right_on_one_line_of_stderr_each", _) => eprintln!("working"),
+            ("floods_stderr", 2) => (0..20_000).for_each(|_| eprintln!("{}", "x".repeat(1000))),
+            ("hangs", 2) => forever(),
+            ("hangs_with_a_child", 2) => {
+                let child = Command::new("sleep").arg("1000").stderr(Stdio::null()).spawn();
+                note(child.unwrap().id());
+                forever();
+            }
+            ("ends", 2) => {
+                eprintln!("out of ideas");
+                return ExitCode::from(3);
+            }
+            ("aborts", 2) => std::process::abort(),
+            ("prints_junk", 2) => writeln!(out, "step 1 of 10").unwrap(),
+            ("floods_stdout_with_lines", 1) => while writeln!(out, "flood").is_ok() {},
+            ("floods_stdout_without_lines", 2) => while write!(out, "flood").is_ok() {},
+            ("answers_twice", 0) => writeln!(out, "{answer}").unwrap(),
+            #[cfg(unix)]
+            ("closes_its_output", 2) => {
+                // Another program in its place, without the pipe.
+                use std::os::unix::process::CommandExt;
+                let error = Command::new("sleep").arg("1000").stdout(Stdio::null()).exec();
+                panic!("{error}");
+            }
+            _ => {}
+        }
+        if writeln!(out, "{answer}").and_then(|()| out.flush()).is_err() {
+            return ExitCode::FAILURE;
+        }
+    }
+    match name {
+        "stays" => forever(),
+        "says_more_at_the_end" => println!("bye"),
+        _ => {}
+    }
+    ExitCode::SUCCESS
+}
+
+fn answer(name: &str, request: &Value) -> Value {
+    let id = request["id"].as_u64().unwrap();
+    if name == "only_has_errors" {
+        return json!({"id": id, "error": "not today"});
+    }
+    let number = |value: &Value| value.as_f64().unwrap();
+    let mut l = Matrix3::from_fn(|i, j| number(&request["gradient_per_s"][i][j]));
+    if name == "transposes" {
+        l.transpose_mut();
+    }
+    let square = number(&request["aspect_ratio"]).powi(2);
+    let a = (square * l - l.transpose()) / (square + 1.0);
+    let steps = request["steps"].as_u64().unwrap();
+    let h = number(&request["end_s"]) / steps as f64;
+    let rate = |p: Vector3<f64>| a * p - p * p.dot(&(a * p));
+    let rk4 = |p: Vector3<f64>| {
+        let k1 = rate(p);
+        let k2 = rate(p + k1 * (0.5 * h));
+        let k3 = rate(p + k2 * (0.5 * h));
+        let k4 = rate(p + k3 * h);
+        p + (k1 + (k2 + k3) * 2.0 + k4) * (h / 6.0)
+    };
+    let rods = request["start"].as_array().unwrap();
+    let mut p: Vec<_> = (rods.iter())
+        .map(|p| (0..steps).fold(Vector3::from_fn(|i, _| number(&p[i])), |p, _| rk4(p)))
+        .map(|p| json!([p.x, p.y, p.z]))
+        .collect();
+    match name {
+        "answers_nan" if id > 2 => p[0][0] = Value::Null,
+        "forgets_a_rod" if id > 2 => drop(p.pop()),
+        "answers_out_of_order" if id == 3 => return json!({"id": 2, "p": p}),
+        _ => {}
+    }
+    json!({"id": id, "p": p})
+}
