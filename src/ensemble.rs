@@ -53,12 +53,20 @@ impl Results {
 
 /// Runs every replica of the plan on the threads of the current rayon pool; `finished` is called after each
 /// replica. The results are the same bits for any number of threads.
+///
+/// # Errors
+///
+/// The first replica that stopped, or had a result that is none.
 pub fn run(plan: &Plan, finished: impl Fn() + Sync) -> Result<Results, RunError> {
     fold(plan, |replicas| replicas_of(plan, replicas, &finished))
 }
 
 /// Runs some replicas of the plan on the threads of the current rayon pool, and returns them in order; `finished`
 /// is called after each.
+///
+/// # Errors
+///
+/// As [`run`].
 pub fn replicas_of(
     plan: &Plan,
     replicas: Range<u64>,
@@ -74,6 +82,10 @@ pub fn replicas_of(
 
 /// The results of a plan whose replicas `run` runs, a range of them at a time and wherever it likes, as long as it
 /// returns them in order. The results' bits do not depend on where.
+///
+/// # Errors
+///
+/// The first of `run`.
 pub fn fold<E>(
     plan: &Plan,
     mut run: impl FnMut(Range<u64>) -> Result<Vec<Replica>, E>,

@@ -102,11 +102,15 @@ fn at_each<T: Send>(
     // A scene in periods has been checked to have one.
     let all = all.unwrap_or_default();
     let worst = all.iter().map(|(_, error, of_start)| (*error, *of_start));
-    let (error, of_start) = worst.fold(
-        (0.0, 0.0),
-        |worst, next| if next.0 > worst.0 { next } else { worst },
-    );
-    if error > MAX_ERROR_RAD {
+    let (error, of_start) = worst.fold((0.0, 0.0), |worst, next| {
+        if next.0 > worst.0 || next.0.is_nan() {
+            next
+        } else {
+            worst
+        }
+    });
+    // An error that is no number is not known to be small.
+    if error.is_nan() || error > MAX_ERROR_RAD {
         return Err(unknown(scene, error, of_start));
     }
     Ok((all.into_iter().map(|(value, ..)| value).collect(), error))

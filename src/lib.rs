@@ -71,6 +71,9 @@ pub mod suspension;
 pub mod volume;
 pub mod work;
 
+/// The vectors and matrices of this crate's interface.
+pub use nalgebra;
+
 pub use ensemble::Results;
 pub use observable::Observable;
 pub use plan::Plan;

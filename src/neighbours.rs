@@ -1,5 +1,6 @@
 //! Who is nearest to whom inside the control volume.
 
+mod branchless;
 mod grid;
 mod pairs;
 

@@ -1,5 +1,9 @@
 //! What is observed of the rods: means over rods of a value per rod.
 
+mod channel;
+
+pub use channel::Channel;
+
 use crate::orientation::{bounded_orbit_constant, folded_phi};
 use serde::{Deserialize, Serialize};
 
@@ -83,10 +87,7 @@ impl Observable {
 
     /// Its channels, in the order of its columns.
     pub fn channels(self) -> impl Iterator<Item = Channel> {
-        (0..self.width()).map(move |index| Channel {
-            observable: self,
-            index,
-        })
+        (0..self.width()).map(move |index| Channel::new(self, index))
     }
 
     /// How many channels there are.
@@ -133,59 +134,6 @@ impl Observable {
                 }
             }
         }
-    }
-}
-
-/// One number of an observable: a column of its table.
-///
-/// ```
-/// use shearbed::observable::Channel;
-/// assert_eq!(Channel::X[0].name(), "x1");
-/// assert_eq!(Channel::named("x1"), Some(Channel::X[0]));
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Channel {
-    observable: Observable,
-    index: usize,
-}
-
-impl Channel {
-    /// x1, x2 and x3: the mean projections on the axes.
-    pub const X: [Self; 3] = [Self::projection(0), Self::projection(1), Self::projection(2)];
-
-    const fn projection(index: usize) -> Self {
-        Self {
-            observable: Observable::Projections,
-            index,
-        }
-    }
-
-    /// The name of its column.
-    pub fn name(self) -> String {
-        let fixed: &[&str] = match self.observable {
-            Observable::Projections => &["x1", "x2", "x3"],
-            Observable::PlanarProjections => &["x1x2", "x2x3", "x1x3"],
-            Observable::MeanAngle => &["phi"],
-            Observable::OrbitConstant => &["c_b"],
-            Observable::OrientationTensor => &["a11", "a22", "a33", "a12", "a13", "a23"],
-        };
-        match fixed.get(self.index) {
-            Some(&name) => name.to_owned(),
-            None => format!("density_from_{:.2}", (self.index - 1) as f64 / BINS as f64),
-        }
-    }
-
-    /// The channel whose column has this name.
-    pub fn named(name: &str) -> Option<Self> {
-        let mut all = Observable::ALL.into_iter().flat_map(Observable::channels);
-        all.find(|channel| channel.name() == name)
-    }
-
-    /// Which of the channels of `observables`, put one after the other, it is.
-    pub(crate) fn place(self, observables: &[Observable]) -> Option<usize> {
-        let before = observables.iter().position(|o| *o == self.observable)?;
-        let start: usize = observables[..before].iter().map(|o| o.width()).sum();
-        Some(start + self.index)
     }
 }
 

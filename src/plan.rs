@@ -1,66 +1,18 @@
 //! The plan of a scene: which stages run, which are left out, and why.
 
+mod stages;
+
+pub use stages::{Entry, Stage};
+
 use crate::flow::VelocityGradient;
 use crate::free::FreeMotion;
 use crate::jeffery::{period_s, strain_per_period};
 use crate::observable::Observable;
 use crate::propagator::Propagator;
-use crate::scene::{Interaction, Invalid, Orientation, Scene, resolved_strain};
-use serde::Serialize;
+use crate::scene::{Invalid, Scene, resolved_strain};
+use stages::entries;
 use std::fmt;
 use std::sync::Arc;
-
-/// A part of a run that can be left out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Stage {
-    /// Draw Gaussian aspect ratios (eq. 11).
-    AspectRatios,
-    /// Draw isotropic directions (eq. 12).
-    Orientations,
-    /// Draw positions in the control volume (eq. 12).
-    Positions,
-    /// Take time steps in which rods are carried by the liquid and replaced (eqs 3 and 14).
-    Translation,
-    /// Sort rods into cells and find nearest neighbours.
-    Neighbours,
-    /// Draw one R per rod and step (eqs 8 and 9).
-    CollisionDraws,
-    /// Apply the contact rule to colliding pairs (eqs 5 and 6, A.7 to A.14).
-    Contacts,
-    /// Compute an observable.
-    Observe(Observable),
-    /// Sum squares for standard errors over rods.
-    RodErrors,
-}
-
-impl fmt::Display for Stage {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let text = match self {
-            Self::AspectRatios => "aspect ratios",
-            Self::Orientations => "orientations",
-            Self::Positions => "positions",
-            Self::Translation => "translation",
-            Self::Neighbours => "neighbours",
-            Self::CollisionDraws => "collision draws",
-            Self::Contacts => "contacts",
-            Self::Observe(observable) => return f.pad(&observable.name().replace('_', " ")),
-            Self::RodErrors => "errors over rods",
-        };
-        f.pad(text)
-    }
-}
-
-/// One line of a plan.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Entry {
-    /// The stage.
-    pub stage: Stage,
-    /// Whether it runs.
-    pub kept: bool,
-    /// Why it runs or does not.
-    pub reason: String,
-}
 
 /// The units in which outputs and steps are counted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,6 +44,10 @@ pub struct Plan {
 
 impl Plan {
     /// Checks the scene and decides what it needs.
+    ///
+    /// # Errors
+    ///
+    /// The first value, or combination of values, that is not allowed.
     pub fn new(scene: &Scene) -> Result<Self, Invalid> {
         let (flow, free) = scene.checked()?;
         Ok(Self {
@@ -297,72 +253,4 @@ impl fmt::Display for Plan {
 fn counted(count: u64, what: &str) -> String {
     let plural = if count == 1 { "" } else { "s" };
     format!("{count} {what}{plural}")
-}
-
-/// Why no rods of this scene can meet, or `None` where they can.
-fn no_interaction(scene: &Scene) -> Option<&'static str> {
-    match &scene.interaction {
-        None => Some("no [interaction] table: free rods"),
-        Some(Interaction { alpha: 0.0, .. }) => Some("alpha = 0: the collision probability is 0"),
-        Some(_) if scene.particles.count == 1 => Some("one rod has no neighbour"),
-        Some(_) => None,
-    }
-}
-
-fn entries(scene: &Scene) -> Vec<Entry> {
-    let mut entries = Vec::new();
-    let mut add = |stage, kept, reason: &str| {
-        entries.push(Entry {
-            stage,
-            kept,
-            reason: reason.to_owned(),
-        });
-    };
-    if scene.particles.aspect_ratio_sd_percent > 0.0 {
-        add(Stage::AspectRatios, true, "Gaussian aspect ratios are drawn");
-    } else {
-        add(
-            Stage::AspectRatios,
-            false,
-            "standard deviation 0: all rods share the mean",
-        );
-    }
-    match scene.particles.orientation {
-        Orientation::Random(_) => add(Stage::Orientations, true, "isotropic directions are drawn"),
-        Orientation::Given { .. } => add(Stage::Orientations, false, "every rod starts at the given angles"),
-    }
-    let free = no_interaction(scene);
-    for (stage, why) in [
-        (Stage::Positions, "distances between rods are needed"),
-        (
-            Stage::Translation,
-            "the liquid carries rods past each other, step by step",
-        ),
-        (Stage::Neighbours, "each rod meets its nearest neighbour"),
-        (Stage::CollisionDraws, "P_c > R decides who collides"),
-        (
-            Stage::Contacts,
-            "colliding rods share their velocity along the contact line",
-        ),
-    ] {
-        add(stage, free.is_none(), free.unwrap_or(why));
-    }
-    for &observable in &scene.output.observables {
-        add(Stage::Observe(observable), true, "asked for by the scene");
-    }
-    for observable in Observable::ALL {
-        if !scene.output.observables.contains(&observable) {
-            add(Stage::Observe(observable), false, "not asked for");
-        }
-    }
-    if scene.ensemble.replicas == 1 {
-        add(
-            Stage::RodErrors,
-            true,
-            "one replica: standard errors come from the rods",
-        );
-    } else {
-        add(Stage::RodErrors, false, "standard errors come from the replicas");
-    }
-    entries
 }

@@ -36,6 +36,10 @@ pub(crate) fn width(observables: &[Observable]) -> usize {
 }
 
 /// Runs one replica. Its bits depend on the scene, the seed and `replica` only.
+///
+/// # Errors
+///
+/// A kick that overflows, or a direction or a sum that is no result.
 pub fn run_replica(plan: &Plan, replica: u64) -> Result<Replica, RunError> {
     let mut recorder = Recorder::new(plan, replica);
     let mut counters = match Suspension::new(plan, replica) {

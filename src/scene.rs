@@ -6,13 +6,27 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 mod allowed;
 mod check;
+mod keys;
 mod ranges;
 mod steps;
-pub use allowed::{Invalid, MAX_COUNT, MAX_PER_UNIT, MAX_REPLICAS, MAX_SEED};
-pub(crate) use allowed::{KEYS, TABLES, allowed, required};
+pub use allowed::Invalid;
+pub use keys::{Absent, Holds, KEYS, Key, MAX_COUNT, MAX_PER_UNIT, MAX_REPLICAS, MAX_SEED, TABLES};
+pub(crate) use keys::{find, required};
 pub use steps::resolved_strain;
 
-/// A whole scene. The tables and keys are those of the scene file.
+/// A whole scene. The tables and keys are those of the scene file ([`KEYS`]). In code, start from the default and say
+/// what differs; [`crate::Plan::new`] checks it.
+///
+/// ```
+/// use shearbed::scene::{Interaction, Particles, Scene};
+/// let scene = Scene {
+///     particles: Particles { count: 50, ..Particles::default() },
+///     interaction: Some(Interaction { alpha: 0.3, ..Interaction::default() }),
+///     ..Scene::default()
+/// };
+/// assert!(shearbed::Plan::new(&scene)?.steps() > 0);
+/// # Ok::<(), shearbed::scene::Invalid>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
@@ -136,7 +150,7 @@ pub enum Update {
 }
 
 /// `[time]`: `periods` of the mean aspect ratio, or `strain`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Time {
     /// Duration in periods T of the mean aspect ratio.
@@ -164,6 +178,60 @@ pub struct Ensemble {
     pub replicas: u64,
     /// The seed of all random streams.
     pub seed: u64,
+}
+
+/// Free rods of the paper's Fig. 6 for one period.
+impl Default for Scene {
+    fn default() -> Self {
+        Self {
+            title: "Rods of Fig. 6".to_owned(),
+            flow: Flow::default(),
+            particles: Particles::default(),
+            interaction: None,
+            time: Time {
+                periods: Some(1.0),
+                ..Time::default()
+            },
+            ensemble: Ensemble::default(),
+            output: Output::default(),
+        }
+    }
+}
+
+/// G = 0.5 1/s.
+impl Default for Flow {
+    fn default() -> Self {
+        Self {
+            shear_rate_per_s: Some(0.5),
+            gradient_per_s: None,
+        }
+    }
+}
+
+/// A hundred rods of 0.72 mm with r_e = 11.6, in random directions.
+impl Default for Particles {
+    fn default() -> Self {
+        Self {
+            count: 100,
+            length_mm: 0.72,
+            aspect_ratio: 11.6,
+            aspect_ratio_sd_percent: 0.0,
+            orientation: Orientation::Random(Isotropic::Isotropic),
+        }
+    }
+}
+
+/// 50 rods per cm³, with the paper's α = 0.5 and m = 3.
+impl Default for Interaction {
+    fn default() -> Self {
+        Self {
+            concentration_per_cm3: 50.0,
+            alpha: 0.5,
+            m: three(),
+            update: Update::default(),
+            min_contact_arm: 0.0,
+        }
+    }
 }
 
 impl Default for Ensemble {

@@ -1,13 +1,14 @@
 //! Reading a scene from TOML text, with errors that name file, line, key, value and what is allowed: all that can be
 //! told at once, not the first alone.
 
-use crate::scene::{Invalid, KEYS, Scene, TABLES, allowed, required};
+use crate::scene::{self, Invalid, KEYS, Scene, TABLES, find, required};
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 
 /// Why a scene file was refused. Printed, each problem has a line.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 #[error("{}", self.lines())]
 pub struct SceneError {
     /// The file's name as given.
@@ -18,6 +19,7 @@ pub struct SceneError {
 
 /// One thing that is wrong with a scene file.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Problem {
     /// The line at fault, from 1.
     pub line: usize,
@@ -36,6 +38,10 @@ impl SceneError {
 type Found = (usize, String);
 
 /// Reads and checks a scene; `file` names the text in errors.
+///
+/// # Errors
+///
+/// Everything that can be told to be wrong at once, each with its line.
 pub fn parse(file: &str, text: &str) -> Result<Scene, SceneError> {
     read(text).map_err(|mut found| {
         found.sort();
@@ -101,7 +107,7 @@ fn keys(text: &str, above: &str, table: &DeTable<'_>) -> Vec<Key> {
             is_table: value.get_ref().is_table(),
         });
         if let DeValue::Table(inner) = value.get_ref()
-            && TABLES.contains(&path.as_str())
+            && is_table(&path)
         {
             found.extend(keys(text, &format!("{path}."), inner));
         }
@@ -118,11 +124,11 @@ impl Key {
     /// Gives the scene this key's value, where it can have it; or says why not.
     fn put_into(&self, scene: &mut Table, values: &Table) -> Result<(), String> {
         let path = self.path.as_str();
-        let Some(allowed) = allowed(path) else {
+        let Some(allowed) = find(path).map(|key| key.holds) else {
             return Err(format!("{}: {}", self.line, unknown(path)));
         };
         let refused = || format!("{path} = {} is not allowed: {allowed}", self.value());
-        if TABLES.contains(&path) {
+        if is_table(path) {
             return if self.is_table { Ok(()) } else { Err(refused()) };
         }
         let value = if self.is_table {
@@ -168,22 +174,21 @@ fn example() -> Table {
 fn missing(keys: &[Key]) -> Vec<Found> {
     let has = |path: &str| keys.iter().find(|key| key.path == path);
     let misspelt = |path: &str| {
-        let mut unknown = keys.iter().filter(|key| allowed(&key.path).is_none());
+        let mut unknown = keys.iter().filter(|key| find(&key.path).is_none());
         unknown.any(|key| nearest(&key.path) == Some(path))
     };
-    let lacks = |path: &&str| has(path).is_none() && !misspelt(path);
-    let of_table = |(table, names): (&str, &'static [&'static str])| {
+    let mut found = Vec::new();
+    for table in ["", "particles", "interaction"] {
         let at = match table {
             "" => Some(0),
             _ => has(table).filter(|key| key.is_table).map(|key| key.span.start),
         };
-        at.map(|at| (at, names))
-    };
-    let mut found = Vec::new();
-    for (at, names) in required().into_iter().filter_map(of_table) {
-        for path in names.iter().filter(|path| lacks(path)) {
-            let allowed = allowed(path).unwrap_or_default();
-            found.push((at, format!("{path} is missing: {allowed}")));
+        let lacks = |key: &&scene::Key| has(key.path).is_none() && !misspelt(key.path);
+        for (at, key) in at
+            .into_iter()
+            .flat_map(|at| required(table).filter(lacks).map(move |key| (at, key)))
+        {
+            found.push((at, format!("{} is missing: {}", key.path, key.holds)));
         }
     }
     found
@@ -191,7 +196,9 @@ fn missing(keys: &[Key]) -> Vec<Found> {
 
 /// What is known in place of an unknown key.
 fn unknown(path: &str) -> String {
-    let known = KEYS.iter().chain(&TABLES).filter(|key| table(key) == table(path));
+    let known = paths(&KEYS)
+        .chain(paths(&TABLES))
+        .filter(|key| table(key) == table(path));
     let known: Vec<_> = known.map(|key| format!("`{}`", last(key))).collect();
     let expected = match known.as_slice() {
         [one] => one.clone(),
@@ -204,18 +211,26 @@ fn unknown(path: &str) -> String {
 
 /// The key or table that an unknown one may stand for, by its last word.
 fn nearest(path: &str) -> Option<&'static str> {
-    let tables = TABLES.iter().filter(|_| table(path).is_empty());
+    let tables = paths(&TABLES).filter(|_| table(path).is_empty());
     let likeness = |key: &&'static str| {
         (
             strsim::jaro_winkler(last(path), last(key)),
             table(path) == table(key),
         )
     };
-    let all = KEYS.iter().chain(tables).map(|key| (likeness(key), *key));
+    let all = paths(&KEYS).chain(tables).map(|key| (likeness(&key), key));
     // Of equals the one in the same table, or the first.
     let (best, key) = all.reduce(|a, b| if b.0 > a.0 { b } else { a })?;
     // A letter too many, too few or exchanged leaves more than this in words of five letters.
     (best.0 > 0.85).then_some(key)
+}
+
+fn paths(keys: &'static [scene::Key]) -> impl Iterator<Item = &'static str> {
+    keys.iter().map(|key| key.path)
+}
+
+fn is_table(path: &str) -> bool {
+    paths(&TABLES).any(|table| table == path)
 }
 
 fn table(path: &str) -> &str {

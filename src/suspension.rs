@@ -1,5 +1,7 @@
 //! Interacting rods in the control volume, step by step (the paper's method of solution).
 
+mod state;
+
 use crate::collision::{Reach, norm, share_velocity, step_angles, turn};
 use crate::contact::contact;
 use crate::jeffery::{couette_rate, shape_factor, strain_per_period};
@@ -142,6 +144,10 @@ impl Suspension {
     }
 
     /// Takes one step and returns its collisions, closest pair first.
+    ///
+    /// # Errors
+    ///
+    /// A kick that overflows; the suspension is then in the middle of its step.
     pub fn step(&mut self) -> Result<&[Collision], RunError> {
         self.find_candidates();
         self.collide()?;
@@ -278,39 +284,5 @@ impl Suspension {
             self.positions[1][rod],
             self.positions[2][rod],
         )
-    }
-
-    /// The work done so far.
-    pub fn counters(&self) -> &Counters {
-        &self.counters
-    }
-
-    /// Steps taken so far.
-    pub fn tick(&self) -> u64 {
-        self.tick
-    }
-
-    /// The side H/a of the control volume, in rod lengths.
-    pub fn side_in_lengths(&self) -> f64 {
-        self.volume.side()
-    }
-
-    /// The rods' positions in rod lengths: three arrays of coordinates.
-    pub fn positions_in_lengths(&self) -> &[Vec<f64>; 3] {
-        &self.positions
-    }
-
-    /// The direction of every rod now.
-    pub fn directions(&self) -> Vec<Vector3<f64>> {
-        (0..self.rods.count())
-            .map(|rod| self.rods.direction(rod, self.tick))
-            .collect()
-    }
-
-    /// The aspect ratio of every rod.
-    pub fn aspect_ratios(&self) -> Vec<f64> {
-        (0..self.rods.count())
-            .map(|rod| self.rods.aspect_ratio(rod))
-            .collect()
     }
 }

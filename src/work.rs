@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Why a run stopped.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RunError {
     /// A rod's direction would have become NaN or infinite.
     #[error("rod {rod} would become non-finite in step {step} of replica {replica}, seed {seed}: {cause}")]

@@ -1,6 +1,7 @@
 //! Nearest neighbours of many rods, by a grid of cells.
 
 use super::Nearest;
+use super::branchless::{each_rod_in, greater, lesser};
 use crate::chunks::{CHUNK, of_chunks};
 use crate::work::Counters;
 use rayon::prelude::*;
@@ -289,34 +290,8 @@ impl Grid {
     }
 }
 
-/// Calls `found` with every rod whose cell is in `range`, in the order of rods.
-fn each_rod_in(cells: &[u32], range: Range<usize>, mut found: impl FnMut(usize)) {
-    let (first, len) = (range.start as u32, range.len() as u32);
-    for (block, cells) in cells.chunks(BLOCK).enumerate() {
-        // Listed without a branch: which rod is in the range cannot be foretold.
-        let mut list = [0u8; BLOCK];
-        let mut listed = 0;
-        for (k, cell) in cells.iter().enumerate() {
-            list[listed] = k as u8;
-            listed += usize::from(cell.wrapping_sub(first) < len);
-        }
-        for k in &list[..listed] {
-            found(block * BLOCK + usize::from(*k));
-        }
-    }
-}
-
-/// As one instruction: `f32::min` minds NaN too.
-fn lesser(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
-}
-
-fn greater(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
-}
-
 /// Rods that are looked at together.
-const BLOCK: usize = 128;
+pub(super) const BLOCK: usize = 128;
 /// How many rods before and behind, in the order of cells, are looked at first.
 const WINDOW: usize = 4;
 const MARGIN: usize = WINDOW + 1;

@@ -1,7 +1,7 @@
 //! Checking a scene: which values go together.
 
-use super::allowed::{Invalid, MAX_PER_UNIT, refused};
-use super::{Interaction, Scene, resolved_strain};
+use super::allowed::{Invalid, refused};
+use super::{Interaction, MAX_PER_UNIT, Scene, resolved_strain};
 use crate::flow::VelocityGradient;
 use crate::free::FreeMotion;
 use crate::jeffery::strain_per_period;
@@ -17,7 +17,11 @@ const MAX_OUTPUTS: f64 = 1e6;
 const MAX_DRIFT: f64 = 1e-6;
 
 impl Scene {
-    /// Checks every value and every combination of values; the first problem.
+    /// Checks every value and every combination of values.
+    ///
+    /// # Errors
+    ///
+    /// The first that is not allowed.
     pub fn check(&self) -> Result<(), Invalid> {
         self.problems().into_iter().next().map_or(Ok(()), Err)
     }

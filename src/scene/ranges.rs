@@ -1,25 +1,22 @@
 //! Checking each value of a scene by itself.
 
-use super::allowed::{Invalid, not_negative, number, positive, refused, whole};
+use super::allowed::{Invalid, number, refused, whole};
 use super::{Interaction, Orientation, Scene};
 
 impl Scene {
     /// Every value that its key does not allow.
     pub(crate) fn out_of_range(&self) -> Vec<Invalid> {
-        let given = |key, value: Option<f64>, check: fn(&'static str, f64) -> Result<(), Invalid>| {
-            value.map_or(Ok(()), |value| check(key, value))
-        };
+        let given = |key, value: Option<f64>| value.map_or(Ok(()), |value| number(key, value));
         let (flow, particles, time) = (&self.flow, &self.particles, &self.time);
         let interaction = self.interaction.as_ref();
         let of_interaction = |value: fn(&Interaction) -> f64| interaction.map(value);
-        let r = particles.aspect_ratio;
         [
-            given("flow.shear_rate_per_s", flow.shear_rate_per_s, positive),
+            given("flow.shear_rate_per_s", flow.shear_rate_per_s),
             self.check_gradient(),
             whole("particles.count", particles.count as u64),
-            positive("particles.length_mm", particles.length_mm),
-            number("particles.aspect_ratio", r, (1e-100..=1e100).contains(&r)),
-            not_negative(
+            number("particles.length_mm", particles.length_mm),
+            number("particles.aspect_ratio", particles.aspect_ratio),
+            number(
                 "particles.aspect_ratio_sd_percent",
                 particles.aspect_ratio_sd_percent,
             ),
@@ -27,17 +24,15 @@ impl Scene {
             given(
                 "interaction.concentration_per_cm3",
                 of_interaction(|i| i.concentration_per_cm3),
-                positive,
             ),
-            given("interaction.alpha", of_interaction(|i| i.alpha), not_negative),
-            given("interaction.m", of_interaction(|i| i.m), positive),
+            given("interaction.alpha", of_interaction(|i| i.alpha)),
+            given("interaction.m", of_interaction(|i| i.m)),
             given(
                 "interaction.min_contact_arm",
                 of_interaction(|i| i.min_contact_arm),
-                not_negative,
             ),
-            given("time.periods", time.periods, not_negative),
-            given("time.strain", time.strain, not_negative),
+            given("time.periods", time.periods),
+            given("time.strain", time.strain),
             whole("time.steps_per_period", time.steps_per_period.unwrap_or(1)),
             whole("time.outputs_per_period", time.outputs_per_period.unwrap_or(1)),
             whole("time.outputs_per_strain", time.outputs_per_strain.unwrap_or(1)),

@@ -24,6 +24,7 @@ pub mod problems;
 pub mod readings;
 pub mod reference;
 pub mod report;
+pub mod scene_keys;
 pub mod scenes;
 pub mod speed;
 pub mod stability;

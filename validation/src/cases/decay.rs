@@ -4,17 +4,17 @@
 //! X̄₁(t) − X̄₁(t + T/4) at t = 0, T/2, T, …, where free rods peak. Effects and deviations are of pilots at seed 99, each
 //! effect three standard errors below its pilot's mean, unless a closed form is named.
 
+mod dying;
+
+use self::dying::{damped, dies_out, on_all_axes, undamped};
 use super::readings::LINE;
 use crate::accept::Design;
 use crate::case::{Case, Effort, Evidence};
-use crate::lab::{self, per_replica};
+use crate::lab::{self, Change, per_replica};
 use crate::statistics::Sample;
 use shearbed::observable::Channel;
 use shearbed::scene::Scene;
 use std::f64::consts::E;
-
-/// A change to the scene that the model runs; the expectation stays that of the unchanged scene.
-type Change = fn(&mut Scene);
 
 /// Changes of a scene in the order in which the paper says that oscillations die out faster.
 #[derive(Clone, Copy)]
@@ -286,98 +286,4 @@ fn collisions_damp(change: &Change, effort: &Effort) -> Vec<Evidence> {
         }
     }
     evidence
-}
-
-fn dies_out(change: &Change, effort: &Effort) -> Vec<Evidence> {
-    let found = |sd, design| {
-        let mut scene = lab::interacting_scene(effort);
-        scene.particles.aspect_ratio_sd_percent = sd;
-        change(&mut scene);
-        amplitudes(&scene, effort.samples(design), &[0, 2, 4, 8])
-    };
-    // Pilots of 300 replicas: 0.136 ± 0.035 (mean and deviation); 0.107 ± 0.024, 0.066 ± 0.023 and 0.080 ± 0.028.
-    let (both, alone) = (Design::new(0.13, 0.042), Design::new(0.06, 0.032));
-    let spread = found(3.6, both);
-    let margin: Vec<f64> = spread[0]
-        .iter()
-        .zip(&spread[3])
-        .map(|(first, last)| first / E - last)
-        .collect();
-    let mut evidence = vec![Evidence::new(
-        "1/e of the first amplitude less that at t/T = 4, n = 50 per cm³, σ = 3.6 %",
-        Sample::of(&margin).exceeds(
-            0.0,
-            both.effect,
-            "\"a few\" is read as four, \"die out\" as below 1/e, where a decay has its time",
-        ),
-    )];
-    let uniform = found(0.0, alone);
-    for (k, which) in [(1, "0 and 1"), (2, "1 and 2"), (3, "2 and 4")] {
-        let fall: Vec<f64> = uniform[k - 1]
-            .iter()
-            .zip(&uniform[k])
-            .map(|(a, b)| a - b)
-            .collect();
-        evidence.push(Evidence::new(
-            format!("fall of the amplitude between t/T = {which}, n = 50 per cm³, σ = 0"),
-            Sample::of(&fall).exceeds(0.0, alone.effect, "an order without a number"),
-        ));
-    }
-    evidence
-}
-
-fn damped(scene: &mut Scene) {
-    lab::interaction(scene);
-    scene.particles.aspect_ratio_sd_percent = 3.6;
-}
-
-fn undamped(_: &mut Scene) {}
-
-/// What is left of the amplitudes after two periods: b, of X̄_i or X̄_1, and a, of the other. X̄_i decays less than
-/// twice as fast as X̄_j where a_i > a_j².
-fn on_all_axes(axes: &Axes, effort: &Effort) -> Vec<Evidence> {
-    // A pilot of 200 replicas: a − b² of 0.127 ± 0.039 (mean and deviation), 0.213 ± 0.055, 0.284 ± 0.046, 0.234 ± 0.051.
-    let narrow = Design::new(0.11, 0.046);
-    let wide = Design::new(0.2, 0.065);
-    let replicas = effort.samples(narrow).max(effort.samples(wide));
-    let swings = |change: Change| {
-        let mut scene = lab::free_scene(effort);
-        change(&mut scene);
-        per_replica(&quarters(scene, 4), replicas, |mean| {
-            [0, 1, 2].map(|axis| [swing(mean, 0, axis), swing(mean, 4, axis)])
-        })
-    };
-    let [first, others] = axes.map(swings);
-    // The share of the means, with each replica's deviation to first order: a replica's own ratio is noisy and so biased.
-    let left = [0, 1, 2].map(|axis| {
-        let swings = if axis == 0 { &first } else { &others };
-        let mean = |k: usize| swings.iter().map(|s| s[axis][k]).sum::<f64>() / swings.len() as f64;
-        let (start, share) = (mean(0), mean(1) / mean(0));
-        let value = |s: &[[f64; 2]; 3]| share + (s[axis][1] - share * s[axis][0]) / start;
-        swings.iter().map(value).collect::<Vec<_>>()
-    });
-    [(1, 0, narrow), (2, 0, wide), (0, 1, wide), (0, 2, wide)]
-        .into_iter()
-        .map(|(i, j, design)| {
-            let mean = Sample::of(&left[j]).mean;
-            // a − b² to first order in each replica's deviation: its mean is that of the means.
-            let difference: Vec<f64> = left[i]
-                .iter()
-                .zip(&left[j])
-                .map(|(a, b)| a - 2.0 * mean * b + mean * mean)
-                .collect();
-            Evidence::new(
-                format!(
-                    "share of the amplitude left at t/T = 2, X̄_{} less the square of that of X̄_{}",
-                    i + 1,
-                    j + 1
-                ),
-                Sample::of(&difference).exceeds(
-                    0.0,
-                    design.effect,
-                    "\"similar\" has no number in the paper: rates within a factor of two",
-                ),
-            )
-        })
-        .collect()
 }

@@ -2,12 +2,11 @@
 
 use crate::accept::Design;
 use crate::case::{Case, Effort, Evidence};
-use crate::lab;
+use crate::lab::{self, Change};
 use crate::oracle::naive::collision_probability;
 use crate::statistics::{Sample, larger};
 use rayon::prelude::*;
 use shearbed::collision::reach;
-use shearbed::scene::Scene;
 
 pub fn cases() -> Vec<Case> {
     vec![
@@ -30,7 +29,7 @@ pub fn cases() -> Vec<Case> {
             .claim("In a run, nearest pairs become candidates as often as the sum of their P_c says.")
             .source("eqs 7, 8, 9")
             .equations(&["7", "8", "9"])
-            .subject((|_| {}) as Mend)
+            .subject((|_| {}) as Change)
             .mistake("α 10 % larger", |scene| lab::interaction(scene).alpha *= 1.1)
             .mistake("m = 2", |scene| lab::interaction(scene).m = 2.0)
             .check(frequency),
@@ -75,13 +74,10 @@ fn limits(reach: &Formula, _: &Effort) -> Vec<Evidence> {
     ]
 }
 
-/// A change to the scene that the model runs; the expectation stays that of the unchanged scene.
-type Mend = fn(&mut Scene);
-
 /// Candidates less the sum of P_c over all rods and steps: a martingale, so that its increments are
 /// uncorrelated and runs with different seeds independent. Places know nothing of the draws, so that the ratio of
 /// the two has the mean 1.
-fn frequency(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
+fn frequency(change: &Change, effort: &Effort) -> Vec<Evidence> {
     // Few rods where all pairs are searched, and as many as are sorted into cells. The last is the deviation of a
     // replica's ratio: 0.172 of 14,000 replicas and 0.122 of 6,180 at seeds 9001 to 9010, and a sixth.
     let settings = [
@@ -99,7 +95,7 @@ fn frequency(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
             interaction.concentration_per_cm3,
         ) = (alpha, m, concentration);
         let mut model = scene.clone();
-        mend(&mut model);
+        change(&mut model);
         let design = Design { effect: 0.12, sd };
         let ratios: Vec<f64> = (0..effort.samples(design))
             .into_par_iter()

@@ -2,12 +2,10 @@
 
 use crate::accept::Rule;
 use crate::case::{Case, Effort, Evidence};
-use crate::experiment::{self, ANCZUROWSKI, Comparison, Curve, DataError, OKAGAWA_MASON, Source};
+use crate::experiment::{self, ANCZUROWSKI, Comparison, DataError, MeasuredCurve, OKAGAWA_MASON, Source};
+use crate::lab::Change;
 use crate::statistics::Sample;
 use shearbed::scene::Scene;
-
-/// A change to the scene that the model runs.
-type Mend = fn(&mut Scene);
 
 pub fn cases() -> Vec<Case> {
     vec![
@@ -18,9 +16,9 @@ pub fn cases() -> Vec<Case> {
             )
             .source("Fig. 4")
             .equations(&["4"])
-            .subject((|_| {}) as Mend)
+            .subject((|_| {}) as Change)
             .mistakes(controls())
-            .check(|mend, effort| agreement(&OKAGAWA_MASON, *mend, effort)),
+            .check(|change, effort| agreement(&OKAGAWA_MASON, *change, effort)),
         Case::measurement("anczurowski-1967")
             .claim(
                 "With α = 0.5 the mean projections up to t/T = 3 are those that Anczurowski, Cox & Mason \
@@ -28,20 +26,20 @@ pub fn cases() -> Vec<Case> {
             )
             .source("Fig. 5")
             .equations(&["4"])
-            .subject((|_| {}) as Mend)
+            .subject((|_| {}) as Change)
             .mistakes(controls())
-            .check(|mend, effort| agreement(&ANCZUROWSKI, *mend, effort)),
+            .check(|change, effort| agreement(&ANCZUROWSKI, *change, effort)),
         Case::measurement("alpha-same-for-both")
             .claim("The α that fits the experiments best is the same at r_e = 11.6 and at 14.2.")
             .source("Figs 4, 5")
             .equations(&["7"])
-            .subject((|_| {}) as Mend)
-            .mistake("α doubled unseen, at r_e = 14.2 only", double_alpha as Mend)
+            .subject((|_| {}) as Change)
+            .mistake("α doubled unseen, at r_e = 14.2 only", double_alpha as Change)
             .check(same_alpha),
     ]
 }
 
-fn controls() -> Vec<(&'static str, Mend)> {
+fn controls() -> Vec<(&'static str, Change)> {
     vec![
         ("α = 1", double_alpha),
         ("rods that do not interact", |scene| scene.interaction = None),
@@ -72,7 +70,7 @@ fn failed(what: impl Into<String>) -> Evidence {
 }
 
 /// The points of a source that are judged, and how many are not.
-fn judged(source: &Source, effort: &Effort) -> Result<(Vec<Curve>, usize), DataError> {
+fn judged(source: &Source, effort: &Effort) -> Result<(Vec<MeasuredCurve>, usize), DataError> {
     let Some(data) = &effort.data else {
         return Ok((Vec::new(), 0));
     };
@@ -92,7 +90,7 @@ fn replicas(effort: &Effort) -> u64 {
 }
 
 /// One goodness of fit for each scene with points.
-fn agreement(source: &Source, mend: Mend, effort: &Effort) -> Vec<Evidence> {
+fn agreement(source: &Source, change: Change, effort: &Effort) -> Vec<Evidence> {
     let (curves, late) = match judged(source, effort) {
         Ok(found) => found,
         Err(error) => return vec![failed(error.to_string())],
@@ -111,10 +109,12 @@ fn agreement(source: &Source, mend: Mend, effort: &Effort) -> Vec<Evidence> {
         if here.is_empty() {
             continue;
         }
-        evidence.push(match experiment::compare(scene, &here, mend, replicas(effort)) {
-            Ok(comparison) => fit(&comparison, late, source),
-            Err(error) => failed(format!("{scene}: {error}")),
-        });
+        evidence.push(
+            match experiment::compare(scene, &here, change, replicas(effort)) {
+                Ok(comparison) => fit(&comparison, late, source),
+                Err(error) => failed(format!("{scene}: {error}")),
+            },
+        );
     }
     evidence
 }
@@ -154,7 +154,7 @@ fn fit(comparison: &Comparison, late: usize, source: &Source) -> Evidence {
 }
 
 /// The difference of the two best α. The control doubles α in the model at r_e = 14.2 behind the estimate's back.
-fn same_alpha(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
+fn same_alpha(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let both =
         judged(&OKAGAWA_MASON, effort).and_then(|short| Ok((short.0, judged(&ANCZUROWSKI, effort)?.0)));
     let (short, long) = match both {
@@ -165,7 +165,7 @@ fn same_alpha(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
         return no_data("points at both aspect ratios");
     }
     let fits = experiment::alpha(&short, |_| {}, replicas(effort))
-        .and_then(|a| Ok((a, experiment::alpha(&long, *mend, replicas(effort))?)));
+        .and_then(|a| Ok((a, experiment::alpha(&long, *change, replicas(effort))?)));
     let (short, long) = match fits {
         Ok(fits) => fits,
         Err(error) => return vec![failed(error)],

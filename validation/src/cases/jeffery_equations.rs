@@ -2,7 +2,7 @@
 //! against A.4 and A.5.
 
 use crate::case::{Case, Effort, Evidence};
-use crate::lab;
+use crate::lab::{self, Change};
 use crate::oracle::{closed_form, jeffery as printed};
 use crate::statistics::larger;
 use crate::subject::apart_rad;
@@ -18,9 +18,6 @@ type Rate = fn(&Vector3<f64>, f64, f64) -> Vector3<f64>;
 fn rate_in_a_run(p: &Vector3<f64>, r: f64, sign: f64) -> Vector3<f64> {
     couette_rate(p, shape_factor(r), sign)
 }
-
-/// A change to the scene that is run; the expectation stays that of the unchanged scene.
-type Change = fn(&mut Scene);
 
 pub fn cases() -> Vec<Case> {
     vec![

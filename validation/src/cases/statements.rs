@@ -4,14 +4,11 @@
 use super::readings::LINE;
 use crate::accept::Design;
 use crate::case::{Case, Effort, Evidence};
-use crate::lab::{self, per_replica};
+use crate::lab::{self, Change, per_replica};
 use crate::statistics::{Sample, larger};
 use rayon::prelude::*;
 use shearbed::observable::Channel;
-use shearbed::scene::{Orientation, Scene};
-
-/// A change to every scene that the model runs; the expectation stays that of the unchanged scene.
-type Change = fn(&mut Scene);
+use shearbed::scene::Orientation;
 
 pub fn cases() -> Vec<Case> {
     vec![

@@ -2,15 +2,11 @@
 
 use crate::accept::Design;
 use crate::case::{Case, Effort, Evidence};
-use crate::lab;
+use crate::lab::{self, Change};
 use crate::oracle::closed_form;
 use crate::statistics::Sample;
 use shearbed::Observable;
 use shearbed::observable::Channel;
-use shearbed::scene::Scene;
-
-/// A change to the scene that the model runs; the expectation stays that of the unchanged scene.
-type Change = fn(&mut Scene);
 
 pub fn cases() -> Vec<Case> {
     vec![

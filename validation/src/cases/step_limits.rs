@@ -1,5 +1,8 @@
 //! The longest steps of fixed-step subjects against theory, by bisection (`docs/stability.md`).
 
+mod in_p;
+
+use self::in_p::{at_least, frozen, near_a_sphere};
 use super::subjects::Subjects;
 use super::subjects::spoiled::{in_angles, in_p};
 use crate::case::{Case, Effort, Evidence};
@@ -275,112 +278,4 @@ fn rest(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
         ),
         Evidence::exact("rods at rest after 1000 steps of 0.98 times the limit", resting),
     ]
-}
-
-fn at_least(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
-    let mut evidence = Vec::new();
-    let mut classical: Vec<f64> = Vec::new();
-    for subject in subjects() {
-        let Theory::Order(order) = subject.theory() else {
-            continue;
-        };
-        let found =
-            RATIOS.map(
-                |r| match bisect(ONE_STEP, |h| holds(subject.as_ref(), Property::Order, r, h)) {
-                    Limit::At(strain) => strain,
-                    _ => f64::NAN,
-                },
-            );
-        let least = RATIOS
-            .iter()
-            .zip(found)
-            .map(|(r, found)| theory::runge_kutta_order_at_least(order, *r) / found);
-        evidence.push(Evidence::within(
-            format!(
-                "bound over the longest step without overtaking, {}",
-                subject.name()
-            ),
-            least.fold(0.0, larger),
-            1.0 + 1e-6,
-            "a bound from below: too few rods find a step too long, which is no excuse; the bisection \
-             ends at 10⁻⁷",
-        ));
-        if order == 4 {
-            let apart = |first: &f64, found: f64| (found / first - 1.0).abs();
-            let off = classical
-                .iter()
-                .zip(found)
-                .map(|(first, found)| apart(first, found));
-            evidence.push(Evidence::within(
-                format!("relative difference to the first of order 4, {}", subject.name()),
-                off.fold(0.0, larger),
-                1e-6,
-                "the bisection ends at 10⁻⁷",
-            ));
-            if classical.is_empty() {
-                classical = found.into();
-            }
-        }
-    }
-    evidence
-}
-
-fn near_a_sphere(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
-    let r = 1.0 + 1e-5;
-    let off = |limit: Limit, expected: f64| match limit {
-        Limit::At(strain) => strain / expected - 1.0,
-        // No limit at all where one is said to be.
-        _ => 1.0,
-    };
-    let mut evidence = Vec::new();
-    for subject in subjects() {
-        let found = |property, ladder| bisect(ladder, |h| holds(subject.as_ref(), property, r, h));
-        evidence.push(Evidence::within(
-            "relative difference of the longest step that turns and 2√6",
-            off(
-                found(Property::Turning, ONE_STEP),
-                theory::rk4_turning_of_a_sphere(),
-            ),
-            2e-5,
-            "rates of rods of r_e = 1 + 10⁻⁵ differ by Λ = 10⁻⁵, and of 512 rods one is within δ = \
-             π/1024 of the fastest: δ² = 10⁻⁵",
-        ));
-        evidence.push(Evidence::within(
-            "relative difference of the longest step with a bounded length and 4√2",
-            off(
-                found(Property::Length, TEN_PERIODS),
-                theory::rk4_length_of_a_sphere(),
-            ),
-            3e-3,
-            "|R|² = 1 + 0.89(y² − 8): in the 22 steps of ten periods |p| grows to 1.5 at y² = 8.04, \
-             which is 0.26 % more",
-        ));
-    }
-    evidence
-}
-
-fn frozen(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
-    let mut worst = 0.0f64;
-    for subject in subjects() {
-        for r in [1.5, 2.0, 3.0, 11.6, 100.0] {
-            let ladder = crate::stability::limits::Ladder {
-                least: 1.0,
-                ..TEN_PERIODS
-            };
-            let frozen = 2.785 * theory::euler_order(r);
-            worst = larger(
-                worst,
-                match bisect(ladder, |h| holds(subject.as_ref(), Property::Length, r, h)) {
-                    Limit::At(strain) => strain / frozen,
-                    _ => f64::INFINITY,
-                },
-            );
-        }
-    }
-    vec![Evidence::within(
-        "largest step with a bounded length over 2.785/(ΛG)",
-        worst,
-        0.99,
-        "a hundredth below is told from equal: ten periods find a growth of 10⁻³ a step",
-    )]
 }

@@ -2,8 +2,8 @@
 
 use crate::accept::Design;
 use crate::case::{Case, Effort, Evidence};
-use crate::lab;
 use crate::lab::Shared;
+use crate::lab::{self, Change};
 use crate::statistics::Sample;
 use crate::statistics::correlation;
 use crate::suspensions::coupled::{at, free, free_mean, interacting};
@@ -12,15 +12,12 @@ use crate::suspensions::law;
 use shearbed::Scene;
 use statrs::statistics::Statistics;
 
-/// A change to the scene.
-type Mend = fn(&mut Scene);
-
 /// Which scene runs beside, and which closed form is taken for its mean.
 #[derive(Clone, Copy)]
 struct Beside {
-    free: Mend,
-    other: Mend,
-    mean: Mend,
+    free: Change,
+    other: Change,
+    mean: Change,
 }
 
 pub fn cases() -> Vec<Case> {
@@ -37,7 +34,7 @@ pub fn cases() -> Vec<Case> {
             )
             .source("A.13, A.14; eq. 8 without Δt")
             .equations(&["A.13", "A.14"])
-            .subject((|_| {}) as Mend)
+            .subject((|_| {}) as Change)
             .mistake(
                 "arms below a rod length are no contact, so that kicks are bounded",
                 |scene| lab::interaction(scene).min_contact_arm = 1.0,
@@ -92,9 +89,9 @@ fn mean_squares(scene: &Scene, steps: u64, replicas: u64) -> Vec<f64> {
         .collect()
 }
 
-fn paths(mend: &Mend, effort: &Effort) -> Vec<Evidence> {
+fn paths(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let mut scene = lab::interacting_scene(effort);
-    mend(&mut scene);
+    change(&mut scene);
     // Pilot of 1,716 replicas at seeds 9001 to 9006: 0.0217 ± 0.0005, each 0.0229.
     let design = Design::new(0.018, 0.0255);
     let replicas = effort.samples(design);
@@ -145,9 +142,9 @@ fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
     static RUNS: Shared<(), Runs> = Shared::new();
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = 25;
-    let changed = |mend: Mend| {
+    let changed = |change: Change| {
         let mut scene = scene.clone();
-        mend(&mut scene);
+        change(&mut scene);
         scene
     };
     // Pilot of 17,106 replicas at seeds 9001 to 9006: 0.219 with a deviation of 0.89, of 1.2 where the free rods are others;

@@ -1,8 +1,8 @@
 //! `shearbed plan` and `shearbed scenes`.
 
 use super::{Failure, print, scene};
-use crate::scenes;
 use crate::sweep::Setting;
+use crate::{scene_keys, scenes};
 use shearbed::Plan;
 use std::ffi::OsString;
 
@@ -23,6 +23,9 @@ pub(super) struct ScenesArgs {
     /// `shearbed scenes --show fig4-n50 > mine.toml`
     #[arg(long, value_name = "NAME")]
     show: Option<String>,
+    /// Print every key of a scene file: what it means, its unit, what is allowed, its default
+    #[arg(long, conflicts_with = "show")]
+    keys: bool,
 }
 
 /// Prints a scene's plan.
@@ -35,6 +38,9 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
 
 /// Lists the built-in scenes, or prints one.
 pub(super) fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
+    if args.keys {
+        return print(&scene_keys::text());
+    }
     let Some(name) = &args.show else {
         return print(&table()?);
     };

@@ -3,80 +3,26 @@
 #[cfg(test)]
 mod tests;
 
-use super::bias::{Bias, bias};
+use super::bias::bias;
+use super::comparison::{AlphaFit, Comparison, Point};
 use super::covariance::{Covariance, Solver};
-use super::model::{self, Model, Place};
+use super::model::{self, MeasuredAt, Model};
 use super::provenance::INPUTS;
-use super::{Curve, Measured, OBSERVABLES};
+use super::{Measured, MeasuredCurve, OBSERVABLES};
+use crate::lab::Change;
 use crate::scenes;
 use nalgebra::{DMatrix, DVector, RowDVector};
-use serde::Serialize;
 use shearbed::Scene;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-/// A point with the model's value and every standard uncertainty of their difference.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Point {
-    /// x1, x2 or x3.
-    pub observable: &'static str,
-    /// Its time.
-    pub t_over_t: f64,
-    /// D.
-    pub measured: f64,
-    /// S.
-    pub simulated: f64,
-    /// E = S − D.
-    pub error: f64,
-    /// u_D: reading off in y, in x through the slope of S, and the experiment's number of rods.
-    pub u_d: f64,
-    /// u_num: replicas, time step, interpolation.
-    pub u_num: f64,
-    /// u_input: the experiment's conditions.
-    pub u_input: f64,
-    /// u_val = (u_D² + u_num² + u_input²)^½.
-    pub u_val: f64,
-}
-
-/// Model against experiment under the conditions of one scene.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Comparison {
-    /// The scene.
-    pub scene: String,
-    /// Every point.
-    pub points: Vec<Point>,
-    /// The mean of E.
-    pub mean_error: f64,
-    /// The root of the mean of E².
-    pub rms_error: f64,
-    /// The share of points with |E| ≤ 2 u_val.
-    pub within_two_u_val: f64,
-    /// FDS's bias and scatter; `None` for fewer than two points or values that are not positive.
-    pub bias: Option<Bias>,
-    /// Whether the provenance states uncertainties of the experiment's conditions; u_input is 0 where it does not.
-    pub inputs_stated: bool,
-    /// Eᵀ V⁻¹ E, V the covariance of E.
-    pub chi_square: f64,
-    /// The probability of a larger χ² if the model were right.
-    pub p: f64,
-}
-
-/// α as the measured points have it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct AlphaFit {
-    /// The estimate.
-    pub alpha: f64,
-    /// Its standard error.
-    pub se: f64,
-    /// The points behind it.
-    pub points: usize,
-}
-
-/// A change of the scene that the model runs.
-pub type Mend = fn(&mut Scene);
-
-/// Compares the points of curves of one scene with replicas of that scene, changed by `mend`.
-pub fn compare(scene: &str, curves: &[Curve], mend: Mend, replicas: u64) -> Result<Comparison, String> {
-    let assessed = Assessed::new(scene, curves, mend, replicas)?;
+/// Compares the points of curves of one scene with replicas of that scene, changed by `change`.
+pub fn compare(
+    scene: &str,
+    curves: &[MeasuredCurve],
+    change: Change,
+    replicas: u64,
+) -> Result<Comparison, String> {
+    let assessed = Assessed::new(scene, curves, change, replicas)?;
     let (chi_square, p) = goodness_of_fit(&assessed.error, assessed.solver.as_ref());
     let points = assessed.points;
     let n = points.len() as f64;
@@ -105,9 +51,9 @@ fn goodness_of_fit(error: &DVector<f64>, solver: Option<&Solver>) -> (f64, f64) 
     (chi_square, law.map_or(f64::NAN, |law| law.sf(chi_square)))
 }
 
-/// The α that fits curves of several scenes best, by one step of weighted least squares from the scenes' own α. `mend`
+/// The α that fits curves of several scenes best, by one step of weighted least squares from the scenes' own α. `change`
 /// changes what the model runs unseen by the estimate.
-pub fn alpha(curves: &[Curve], mend: Mend, replicas: u64) -> Result<AlphaFit, String> {
+pub fn alpha(curves: &[MeasuredCurve], change: Change, replicas: u64) -> Result<AlphaFit, String> {
     let (mut score, mut information, mut start) = (0.0, 0.0, f64::NAN);
     let mut names: Vec<_> = curves.iter().map(|curve| curve.scene).collect();
     names.sort_unstable();
@@ -121,7 +67,7 @@ pub fn alpha(curves: &[Curve], mend: Mend, replicas: u64) -> Result<AlphaFit, St
         start = built_in(name)?
             .interaction
             .map_or(f64::NAN, |interaction| interaction.alpha);
-        let assessed = Assessed::new(name, &here, mend, replicas)?;
+        let assessed = Assessed::new(name, &here, change, replicas)?;
         let slope = assessed.slope(
             &here,
             |scene| Some(&mut scene.interaction.as_mut()?.alpha),
@@ -155,9 +101,9 @@ struct Assessed {
 }
 
 impl Assessed {
-    fn new(name: &str, curves: &[Curve], mend: Mend, replicas: u64) -> Result<Self, String> {
+    fn new(name: &str, curves: &[MeasuredCurve], change: Change, replicas: u64) -> Result<Self, String> {
         let mut scene = built_in(name)?;
-        mend(&mut scene);
+        change(&mut scene);
         let places = places(curves, &scene)?;
         let model = model::run(&scene, &places, replicas, 1)?;
         let mut assessed = Self {
@@ -211,7 +157,12 @@ impl Assessed {
     }
 
     /// The time step's error, S − S(Δt → 0) of first order, from a run with half the step. Free rods take no steps.
-    fn step_error(&self, model: &Model, places: &[Place], replicas: u64) -> Result<DVector<f64>, String> {
+    fn step_error(
+        &self,
+        model: &Model,
+        places: &[MeasuredAt],
+        replicas: u64,
+    ) -> Result<DVector<f64>, String> {
         if self.scene.interaction.is_none() {
             return Ok(DVector::zeros(places.len()));
         }
@@ -220,10 +171,10 @@ impl Assessed {
     }
 
     /// How far each stated input moves every point when it is one standard deviation off.
-    fn input_errors(&self, curves: &[Curve], replicas: u64) -> Result<Vec<DVector<f64>>, String> {
+    fn input_errors(&self, curves: &[MeasuredCurve], replicas: u64) -> Result<Vec<DVector<f64>>, String> {
         let mut errors = Vec::new();
         for (index, (_, value)) in INPUTS.iter().enumerate() {
-            let stated = |curve: &Curve| {
+            let stated = |curve: &MeasuredCurve| {
                 let found = curve.provenance.inputs.iter().find(|(input, _)| *input == index);
                 found.map_or(0.0, |(_, u)| *u)
             };
@@ -242,7 +193,7 @@ impl Assessed {
     /// dS/dvalue at every point, from runs with the value larger and smaller by a `share`; 0 where the scene has none.
     fn slope(
         &self,
-        curves: &[Curve],
+        curves: &[MeasuredCurve],
         value: impl Fn(&mut Scene) -> Option<&mut f64>,
         share: f64,
         replicas: u64,
@@ -265,18 +216,18 @@ impl Assessed {
     }
 }
 
-fn measured(curves: &[Curve]) -> impl Iterator<Item = &Measured> {
+fn measured(curves: &[MeasuredCurve]) -> impl Iterator<Item = &Measured> {
     curves.iter().flat_map(|curve| &curve.points)
 }
 
 /// Where the points lie in the periods of this scene: a time in seconds or strain is another t/T when r_e is another.
-fn places(curves: &[Curve], scene: &Scene) -> Result<Vec<Place>, String> {
+fn places(curves: &[MeasuredCurve], scene: &Scene) -> Result<Vec<MeasuredAt>, String> {
     let mut places = Vec::new();
     for curve in curves {
         let quantity = curve.provenance.x.quantity;
         let nominal = quantity.per_period(built_in(curve.scene)?.particles.aspect_ratio);
         let scale = nominal / quantity.per_period(scene.particles.aspect_ratio);
-        places.extend(curve.points.iter().map(|point| Place {
+        places.extend(curve.points.iter().map(|point| MeasuredAt {
             turns: point.x * scale,
             u_turns: point.u_x * scale,
             channel: curve.channel,
@@ -287,7 +238,7 @@ fn places(curves: &[Curve], scene: &Scene) -> Result<Vec<Place>, String> {
 
 /// The spread of a mean over the experiment's rods, where their number is known: that of a mean over the scene's rods,
 /// scaled. Curves of a scene are of the same rods.
-fn rods(spread: &DMatrix<f64>, curves: &[Curve], count: usize) -> DMatrix<f64> {
+fn rods(spread: &DMatrix<f64>, curves: &[MeasuredCurve], count: usize) -> DMatrix<f64> {
     let factors = curves.iter().flat_map(|curve| {
         let factor = curve
             .provenance

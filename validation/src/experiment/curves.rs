@@ -2,8 +2,8 @@
 
 use super::error::{DataError, read_text};
 use super::provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance};
-use super::table::{self, Dataset, Row};
-use super::{Curve, Measured, Source, provenance_file};
+use super::table::{self, DataRow, Dataset};
+use super::{Measured, MeasuredCurve, Source, provenance_file};
 use crate::scenes;
 use std::collections::HashMap;
 use std::path::Path;
@@ -16,7 +16,7 @@ const TIME_UNCERTAINTY: &str =
     "one standard deviation of at most a quarter of a period, a whole oscillation from end to end";
 
 /// Reads the provenance file `path` and the CSV file of the same name beside it.
-pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<Curve>, DataError> {
+pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, DataError> {
     let csv_path = path.with_extension("csv");
     if !csv_path.is_file() {
         let message = format!("it has no {} beside it", csv_path.display());
@@ -100,7 +100,7 @@ fn convert(
     dataset: &Dataset,
     provenance: &Provenance,
     source: &Source,
-) -> Result<Curve, DataError> {
+) -> Result<MeasuredCurve, DataError> {
     if dataset.rows.is_empty() {
         let message = format!("`{}` has no points", dataset.name);
         return Err(DataError::at(file, 1, message));
@@ -125,7 +125,7 @@ fn convert(
     let (aspect_ratio, length_mm) = particles.map_or((f64::NAN, f64::NAN), |p| (p.aspect_ratio, p.length_mm));
     let period = provenance.x.quantity.per_period(aspect_ratio);
     let most = MOST_UNCERTAIN * period;
-    let vague = |row: &&Row| row.u_x.is_some_and(|u| u > most);
+    let vague = |row: &&DataRow| row.u_x.is_some_and(|u| u > most);
     if let Some(row) = dataset.rows.iter().find(vague) {
         let (name, u) = (provenance.x.quantity.column(), row.u_x.unwrap_or_default());
         let message = format!("column {name}_u: `{u}` is not allowed: {TIME_UNCERTAINTY}, here {most}");
@@ -135,7 +135,7 @@ fn convert(
         Projection::Fraction => 1.0,
         Projection::Millimetres => length_mm,
     };
-    let point = |row: &Row| Measured {
+    let point = |row: &DataRow| Measured {
         label: format!("{}, {}", source.label, provenance.figure),
         observable: OBSERVABLES[key.channel],
         x: row.x / period,
@@ -145,7 +145,7 @@ fn convert(
     };
     let mut points: Vec<_> = dataset.rows.iter().map(point).collect();
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    Ok(Curve {
+    Ok(MeasuredCurve {
         scene: key.scene,
         channel: key.channel,
         points,

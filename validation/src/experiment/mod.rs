@@ -5,6 +5,7 @@
 
 mod bias;
 mod compare;
+mod comparison;
 mod covariance;
 mod curves;
 mod error;
@@ -17,7 +18,8 @@ mod table;
 mod tests;
 
 pub use bias::{Bias, bias};
-pub use compare::{AlphaFit, Comparison, Point, alpha, compare};
+pub use compare::{alpha, compare};
+pub use comparison::{AlphaFit, Comparison, Point};
 pub use error::DataError;
 pub use provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance, Time};
 
@@ -76,7 +78,7 @@ pub struct Measured {
 
 /// The measured points of one observable under the conditions of one scene.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Curve {
+pub struct MeasuredCurve {
     /// A built-in scene.
     pub scene: &'static str,
     /// 0, 1, 2 for x1, x2, x3.
@@ -88,7 +90,7 @@ pub struct Curve {
 }
 
 /// Every curve of a source under `data`; none where the source has no folder or no files there.
-pub fn read(data: &Path, source: &Source) -> Result<Vec<Curve>, DataError> {
+pub fn read(data: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, DataError> {
     let folder = data.join(source.folder);
     if !folder.exists() {
         return Ok(Vec::new());
@@ -104,10 +106,10 @@ pub fn read(data: &Path, source: &Source) -> Result<Vec<Curve>, DataError> {
         let message = "it has no provenance file of the same name beside it, ending in .toml";
         return Err(DataError::whole(alone, message));
     }
-    let mut found: Vec<Curve> = Vec::new();
+    let mut found: Vec<MeasuredCurve> = Vec::new();
     for path in with("toml") {
         let new = curves::read(path, source)?;
-        let again = |curve: &&Curve| {
+        let again = |curve: &&MeasuredCurve| {
             found
                 .iter()
                 .any(|old| (old.scene, old.channel) == (curve.scene, curve.channel))

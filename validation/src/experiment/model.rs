@@ -9,7 +9,7 @@ use shearbed::{Observable, Scene};
 
 /// Where a curve of the model is wanted.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct MeasuredAt {
     /// t/T.
     pub(super) turns: f64,
     /// One standard deviation of t/T.
@@ -37,11 +37,12 @@ const EACH: usize = 4;
 
 /// Runs replicas of a scene with an output in each of its steps, for as long as the places need. The steps may be finer
 /// than those outputs, by the factor `finer`.
-pub(super) fn run(scene: &Scene, places: &[Place], replicas: u64, finer: u64) -> Result<Model, String> {
+pub(super) fn run(scene: &Scene, places: &[MeasuredAt], replicas: u64, finer: u64) -> Result<Model, String> {
     let mut scene = scene.clone();
     let per_period = scene.steps_per_period();
     // Gauss–Hermite's outer nodes, ±√3 standard deviations.
-    let nodes = |place: &Place| [-1.0, 1.0].map(|side| place.turns + side * 3.0_f64.sqrt() * place.u_turns);
+    let nodes =
+        |place: &MeasuredAt| [-1.0, 1.0].map(|side| place.turns + side * 3.0_f64.sqrt() * place.u_turns);
     let last = places.iter().map(|place| nodes(place)[1]).fold(0.0, f64::max);
     // One output more than the last place needs, for the cubic.
     scene.time.periods = Some(((last * per_period as f64).ceil() + 1.0) / per_period as f64);
@@ -53,7 +54,7 @@ pub(super) fn run(scene: &Scene, places: &[Place], replicas: u64, finer: u64) ->
         .into_par_iter()
         .map(|replica| {
             let found = run_replica(&plan, replica).map_err(|error| error.to_string())?;
-            let evaluate = |place: &Place| -> [f64; EACH] {
+            let evaluate = |place: &MeasuredAt| -> [f64; EACH] {
                 let at = |output: usize| found.mean(Channel::X[place.channel], output).unwrap_or(f64::NAN);
                 let cubic = |turns: f64| interpolate(plan.outputs(), turns * per_period as f64, 4, at);
                 let linear = interpolate(plan.outputs(), place.turns * per_period as f64, 2, at);
@@ -121,7 +122,7 @@ mod tests {
     #[test]
     fn finer_steps_are_other_steps_at_the_same_times() {
         let scene = crate::lab::interacting_scene(&crate::case::Effort::gate());
-        let place = |turns| Place {
+        let place = |turns| MeasuredAt {
             turns,
             u_turns: 0.0,
             channel: 0,

@@ -9,12 +9,12 @@ pub(super) struct Dataset {
     /// The column's or the dataset's name; empty in an export of two columns.
     pub(super) name: String,
     /// In the order of the file.
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Vec<DataRow>,
 }
 
 /// One point, in the units of the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Row {
+pub(super) struct DataRow {
     pub(super) line: usize,
     pub(super) x: f64,
     pub(super) y: f64,
@@ -113,7 +113,7 @@ pub(super) fn columns(file: &str, text: &str, x: &str, ys: &[String]) -> Result<
                 Some(place) if !cells[place].is_empty() => positive(file, *line, names[place], &cells[place]),
                 _ => Ok(None),
             };
-            let point = Row {
+            let point = DataRow {
                 line: *line,
                 x: read(x_place)?,
                 y: if cells[y_place].is_empty() {
@@ -204,7 +204,7 @@ pub(super) fn webplotdigitizer(file: &str, text: &str) -> Result<Vec<Dataset>, D
             let read =
                 |axis: &str, cell: &str| number(file, *line, &format!("{} {axis}", dataset.name), cell);
             let (x, y) = (read("X", x)?, read("Y", y)?);
-            dataset.rows.push(Row {
+            dataset.rows.push(DataRow {
                 line: *line,
                 x,
                 y,

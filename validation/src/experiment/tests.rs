@@ -38,7 +38,7 @@ fn folder(provenance: &str, points: impl AsRef<[u8]>) -> TempDir {
     dir
 }
 
-fn curves(provenance: &str, points: impl AsRef<[u8]>) -> Vec<Curve> {
+fn curves(provenance: &str, points: impl AsRef<[u8]>) -> Vec<MeasuredCurve> {
     read(folder(provenance, points).path(), &OKAGAWA_MASON).unwrap()
 }
 
@@ -50,7 +50,7 @@ fn refusal(provenance: &str, points: impl AsRef<[u8]>) -> String {
     error.replace(&format!("{start}/"), "")
 }
 
-fn xy(curve: &Curve) -> Vec<(f64, f64)> {
+fn xy(curve: &MeasuredCurve) -> Vec<(f64, f64)> {
     curve.points.iter().map(|point| (point.x, point.y)).collect()
 }
 

@@ -10,64 +10,36 @@ pub use sampling::{per_replica, uniform};
 pub use shared::Shared;
 
 use crate::case::Effort;
+use shearbed::Suspension;
 use shearbed::plan::{Plan, Stage};
-use shearbed::scene::{
-    Ensemble, Flow, Interaction, Isotropic, Orientation, Output, Particles, Scene, Time, Update,
-};
-use shearbed::{Observable, Suspension};
+use shearbed::scene::{Ensemble, Interaction, Scene};
+
+/// A change of a scene: what a case varies, or a mistake.
+pub type Change = fn(&mut Scene);
 
 /// Free rods of the paper's Fig. 6 (G = 0.5 1/s, r_e = 11.6, a = 0.72 mm): one period, projections.
 pub fn free_scene(effort: &Effort) -> Scene {
     Scene {
         title: "a case".to_owned(),
-        flow: Flow {
-            shear_rate_per_s: Some(0.5),
-            gradient_per_s: None,
-        },
-        particles: Particles {
-            count: 100,
-            length_mm: 0.72,
-            aspect_ratio: 11.6,
-            aspect_ratio_sd_percent: 0.0,
-            orientation: Orientation::Random(Isotropic::Isotropic),
-        },
-        interaction: None,
-        time: Time {
-            periods: Some(1.0),
-            strain: None,
-            steps_per_period: None,
-            outputs_per_period: None,
-            outputs_per_strain: None,
-        },
         ensemble: Ensemble {
             replicas: 1,
             seed: effort.seed(0),
         },
-        output: Output {
-            observables: vec![Observable::Projections],
-        },
+        ..Scene::default()
     }
 }
 
 /// The same rods at 50 per cm³ with α = 0.5 and m = 3 (Fig. 6, bottom).
 pub fn interacting_scene(effort: &Effort) -> Scene {
     Scene {
-        interaction: Some(PAPER),
+        interaction: Some(Interaction::default()),
         ..free_scene(effort)
     }
 }
 
-const PAPER: Interaction = Interaction {
-    concentration_per_cm3: 50.0,
-    alpha: 0.5,
-    m: 3.0,
-    update: Update::Rotation,
-    min_contact_arm: 0.0,
-};
-
 /// The interaction of a scene; the paper's where it had none.
 pub fn interaction(scene: &mut Scene) -> &mut Interaction {
-    scene.interaction.get_or_insert(PAPER)
+    scene.interaction.get_or_insert_default()
 }
 
 /// The plan of a scene that a case has written.

@@ -3,7 +3,7 @@ use crate::experiment::{Axis, Layout, Projection, Provenance, Time};
 use approx::assert_relative_eq;
 
 /// Three synthetic points of the scene Fig. 4 at n = 100, with the values `y` at early times, in seconds.
-fn synthetic(y: [f64; 3]) -> Curve {
+fn synthetic(y: [f64; 3]) -> MeasuredCurve {
     let axis_s = Axis {
         quantity: Time::Seconds {
             shear_rate_per_s: 0.5,
@@ -24,7 +24,7 @@ fn synthetic(y: [f64; 3]) -> Curve {
         u_x: 0.003,
         u_y: 0.005,
     };
-    Curve {
+    MeasuredCurve {
         scene: "fig4-n100",
         channel: 1,
         points: [0.1, 0.2, 0.5].into_iter().zip(y).map(point).collect(),
@@ -44,7 +44,7 @@ fn synthetic(y: [f64; 3]) -> Curve {
     }
 }
 
-fn compared(curve: &Curve) -> Comparison {
+fn compared(curve: &MeasuredCurve) -> Comparison {
     compare(curve.scene, std::slice::from_ref(curve), |_| {}, 20).unwrap()
 }
 
@@ -103,12 +103,12 @@ fn the_terms_add_up() {
 #[test]
 fn each_source_of_uncertainty_counts() {
     let plain = synthetic([0.6, 0.5, 0.7]);
-    let u = |change: &dyn Fn(&mut Curve), term: fn(&Point) -> f64| {
+    let u = |change: &dyn Fn(&mut MeasuredCurve), term: fn(&Point) -> f64| {
         let mut curve = plain.clone();
         change(&mut curve);
         term(&compared(&curve).points[2])
     };
-    let u_d = |change: &dyn Fn(&mut Curve)| u(change, |point| point.u_d).powi(2);
+    let u_d = |change: &dyn Fn(&mut MeasuredCurve)| u(change, |point| point.u_d).powi(2);
     let none = u_d(&|_| {});
     // Four times the rods have a quarter of the variance.
     let few = u_d(&|curve| curve.provenance.rods = Some(100.0)) - none;

@@ -1,0 +1,57 @@
+//! The channels of observables, and their names.
+
+use super::{BINS, Observable};
+
+/// One number of an observable: a column of its table.
+///
+/// ```
+/// use shearbed::observable::Channel;
+/// assert_eq!(Channel::X[0].name(), "x1");
+/// assert_eq!(Channel::named("x1"), Some(Channel::X[0]));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Channel {
+    observable: Observable,
+    index: usize,
+}
+
+impl Channel {
+    /// x1, x2 and x3: the mean projections on the axes.
+    pub const X: [Self; 3] = [Self::projection(0), Self::projection(1), Self::projection(2)];
+
+    const fn projection(index: usize) -> Self {
+        Self::new(Observable::Projections, index)
+    }
+
+    pub(super) const fn new(observable: Observable, index: usize) -> Self {
+        Self { observable, index }
+    }
+
+    /// The name of its column.
+    pub fn name(self) -> String {
+        let fixed: &[&str] = match self.observable {
+            Observable::Projections => &["x1", "x2", "x3"],
+            Observable::PlanarProjections => &["x1x2", "x2x3", "x1x3"],
+            Observable::MeanAngle => &["phi"],
+            Observable::OrbitConstant => &["c_b"],
+            Observable::OrientationTensor => &["a11", "a22", "a33", "a12", "a13", "a23"],
+        };
+        match fixed.get(self.index) {
+            Some(&name) => name.to_owned(),
+            None => format!("density_from_{:.2}", (self.index - 1) as f64 / BINS as f64),
+        }
+    }
+
+    /// The channel whose column has this name.
+    pub fn named(name: &str) -> Option<Self> {
+        let mut all = Observable::ALL.into_iter().flat_map(Observable::channels);
+        all.find(|channel| channel.name() == name)
+    }
+
+    /// Which of the channels of `observables`, put one after the other, it is.
+    pub(crate) fn place(self, observables: &[Observable]) -> Option<usize> {
+        let before = observables.iter().position(|o| *o == self.observable)?;
+        let start: usize = observables[..before].iter().map(|o| o.width()).sum();
+        Some(start + self.index)
+    }
+}

@@ -1,0 +1,41 @@
+//! What can be asked of a suspension.
+
+use super::Suspension;
+use crate::work::Counters;
+use nalgebra::Vector3;
+
+impl Suspension {
+    /// The work done so far.
+    pub fn counters(&self) -> &Counters {
+        &self.counters
+    }
+
+    /// Steps taken so far.
+    pub fn tick(&self) -> u64 {
+        self.tick
+    }
+
+    /// The side H/a of the control volume, in rod lengths.
+    pub fn side_in_lengths(&self) -> f64 {
+        self.volume.side()
+    }
+
+    /// The rods' positions in rod lengths: three arrays of coordinates.
+    pub fn positions_in_lengths(&self) -> &[Vec<f64>; 3] {
+        &self.positions
+    }
+
+    /// The direction of every rod now.
+    pub fn directions(&self) -> Vec<Vector3<f64>> {
+        (0..self.rods.count())
+            .map(|rod| self.rods.direction(rod, self.tick))
+            .collect()
+    }
+
+    /// The aspect ratio of every rod.
+    pub fn aspect_ratios(&self) -> Vec<f64> {
+        (0..self.rods.count())
+            .map(|rod| self.rods.aspect_ratio(rod))
+            .collect()
+    }
+}

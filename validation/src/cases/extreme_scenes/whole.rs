@@ -1,0 +1,169 @@
+//! Whole runs of free rods at the extremes.
+
+use super::*;
+
+/// tr⟨pp⟩ is the mean of |p|².
+pub(super) const TRACE: f64 = 64.0 * f64::EPSILON;
+
+pub(super) const TRACE_BECAUSE: &str =
+    "2 · 4 ulp of |p|², and the roundings of a mean over twenty rods and two replicas";
+
+/// How a scene ended.
+pub(super) struct Ended {
+    /// The largest |tr⟨pp⟩ − 1|.
+    pub(super) trace: f64,
+    /// Whether it ended, with finite means and standard errors.
+    pub(super) finite: bool,
+    /// X̄₁ at the end.
+    pub(super) last_x1: f64,
+}
+
+impl Ended {
+    /// It stopped, or had a result that is no number: it is counted, and says nothing else.
+    const LOST: Self = Self {
+        trace: 0.0,
+        finite: false,
+        last_x1: 1.0,
+    };
+}
+
+/// Runs a scene as the program does.
+pub(super) fn whole_run(scene: &Scene) -> Ended {
+    let mut scene = scene.clone();
+    scene.ensemble.replicas = 2;
+    let Ok(results) = ensemble::run(&lab::plan(&scene), || ()) else {
+        return Ended::LOST;
+    };
+    let mut channels = results.series.iter().flat_map(|series| &series.columns);
+    let finite =
+        channels.all(|channel| (channel.mean.iter().chain(&channel.se)).all(|value| value.is_finite()));
+    let mean = |name: &str, output: usize| {
+        results
+            .column(name)
+            .map_or(f64::NAN, |channel| channel.mean[output])
+    };
+    if !finite {
+        return Ended::LOST;
+    }
+    let trace = |output: usize| {
+        (["a11", "a22", "a33"]
+            .map(|name| mean(name, output))
+            .iter()
+            .sum::<f64>()
+            - 1.0)
+            .abs()
+    };
+    let last = results.times.len() - 1;
+    Ended {
+        trace: (0..=last).map(trace).fold(0.0, larger),
+        finite,
+        last_x1: mean("x1", last),
+    }
+}
+
+/// One rod at the end of a scene by q = exp(At) p as it stands: no growth is shifted away, no turn taken out.
+pub(super) fn by_exponential(scene: &Scene, rescaled: bool) -> Ended {
+    let plan = lab::plan(scene);
+    let flow = plan.flow();
+    let r = scene.particles.aspect_ratio;
+    let strain = (scene.time.strain).or(scene.time.periods.map(|periods| periods * strain_per_period(r)));
+    let a = flow.vorticity() + shape_factor(r) * flow.strain_rate();
+    let map: Matrix3<f64> = (a * (strain.unwrap_or(0.0) / flow.magnitude_per_s())).exp();
+    let q = map * Vector3::new(0.6, 0.0, 0.8);
+    let p = if rescaled { q.normalize() } else { q };
+    if !p.norm_squared().is_finite() {
+        return Ended::LOST;
+    }
+    Ended {
+        trace: (p.norm_squared() - 1.0).abs(),
+        finite: true,
+        last_x1: p.x.abs(),
+    }
+}
+
+/// What is enough where there are very many outputs.
+const FEW: [Observable; 2] = [Observable::Projections, Observable::OrientationTensor];
+
+pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence> {
+    let scene = |change: &dyn Fn(&mut Scene)| {
+        let mut scene = lab::free_scene(effort);
+        scene.particles.count = 5;
+        scene.output.observables = Observable::ALL.to_vec();
+        change(&mut scene);
+        scene
+    };
+    let mut scenes = Vec::new();
+    for r in ASPECT_RATIOS {
+        for g in [1e-30, 1e30] {
+            scenes.push(scene(&|scene| {
+                scene.particles.aspect_ratio = r;
+                scene.flow.shear_rate_per_s = Some(g);
+                scene.time.outputs_per_period = Some(4);
+            }));
+        }
+        for (phi_deg, theta_deg) in [
+            (0.0, 0.0),
+            (0.0, 180.0),
+            (0.0, 90.0),
+            (180.0, 90.0),
+            (90.0, 90.0),
+            (0.0, 1e-300),
+        ] {
+            scenes.push(scene(&|scene| {
+                scene.particles.aspect_ratio = r;
+                scene.particles.orientation = Orientation::Given { phi_deg, theta_deg };
+                scene.time.outputs_per_period = Some(4);
+            }));
+        }
+    }
+    // Three standard deviations reach 1, or 0 for discs, at 5.5556, 33.333 and 33.333 %.
+    for (r, sd) in [(1.2, 5.555), (1e8, 33.33), (0.5, 33.33)] {
+        scenes.push(scene(&|scene| {
+            scene.particles.aspect_ratio = r;
+            scene.particles.aspect_ratio_sd_percent = sd;
+        }));
+    }
+    scenes.push(scene(&|scene| {
+        scene.particles.count = 1;
+        scene.output.observables = FEW.to_vec();
+        scene.time.periods = Some(effort.pick(1e4, 1e5));
+        scene.time.outputs_per_period = Some(1);
+    }));
+    let (mut trace, mut failed, mut apart) = (0.0, 0.0, 0.0);
+    for scene in &scenes {
+        let ended = program(scene);
+        trace = larger(trace, ended.trace);
+        failed += f64::from(!ended.finite);
+    }
+    let longest = effort.pick(1e4, 1e6);
+    for (e, strain) in [(1e-30, 1e3), (1.0, longest), (1e30, 1e3)] {
+        for rows in [[e, -e, 0.0], [e, -0.5 * e, -0.5 * e]] {
+            for r in [1.5, 1e8] {
+                let ended = program(&scene(&|scene| {
+                    let [a, b, c] = rows;
+                    scene.flow.shear_rate_per_s = None;
+                    scene.flow.gradient_per_s = Some([[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]]);
+                    scene.particles.aspect_ratio = r;
+                    scene.particles.count = 1;
+                    scene.time.periods = None;
+                    scene.time.strain = Some(strain);
+                    scene.output.observables = FEW.to_vec();
+                    scene.time.outputs_per_strain = Some(1);
+                }));
+                trace = larger(trace, ended.trace);
+                failed += f64::from(!ended.finite);
+                apart = larger(apart, (ended.last_x1 - 1.0).abs());
+            }
+        }
+    }
+    vec![
+        Evidence::exact("scenes that stopped or had a result that is not finite", failed),
+        Evidence::within("largest |tr⟨pp⟩ − 1|", trace, TRACE, TRACE_BECAUSE),
+        Evidence::within(
+            "largest |X̄₁ − 1| at the end of an extension",
+            apart,
+            LENGTH,
+            LENGTH_BECAUSE,
+        ),
+    ]
+}
