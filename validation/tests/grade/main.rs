@@ -8,6 +8,7 @@ mod programs;
 
 mod layouts;
 mod means;
+mod numbers;
 mod peers;
 mod planted;
 mod quick_start;

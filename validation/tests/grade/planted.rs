@@ -92,10 +92,17 @@ const PLANTED_IN_MEANS: &[(&str, &str, &str, &str)] = &[
         "half the shear rate",
     ),
     (
+        "np.array(gradient, dtype=float)",
+        "0.5 * np.array(gradient, dtype=float)",
+        "unequal-rods",
+        "half the shear rate",
+    ),
+    // Their means |p_i| are the same.
+    (
         "(r_e**2 * L - L.T)",
         "(r_e**2 * L.T - L)",
         "unequal-rods",
-        "a transposed gradient",
+        "p_1 and p_2 exchanged or of a transposed gradient or of Λ with the wrong sign (1/r_e for r_e)",
     ),
     (
         "np.linspace(-8, 8, 801) if sd else np.zeros(1)",
@@ -173,6 +180,7 @@ fn each_planted_mistake_gets_its_own_name_and_the_unspoilt_code_none() {
                 "{mistake}: {diagnosis:?} for {expected}: {}",
                 spoilt.words
             );
-            assert!(!diagnosis.contains(" or of "), "{mistake}: {diagnosis}");
+            let several = |text: &str| text.contains(" or of ");
+            assert_eq!(several(diagnosis), several(expected), "{mistake}: {diagnosis}");
         });
 }
