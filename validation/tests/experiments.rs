@@ -11,7 +11,7 @@ use std::process::Command;
 use tempfile::TempDir;
 use validation::accept::Verdict;
 use validation::case::{Effort, Outcome};
-use validation::experiment::{ANCZUROWSKI, OKAGAWA_MASON};
+use validation::experiment::{ANCZUROWSKI, OKAGAWA_MASON, Runs};
 use validation::{cases, experiment, scenes};
 
 /// One standard deviation of reading off, in T and in the rod's length.
@@ -160,7 +160,15 @@ fn one_alpha_for_both_aspect_ratios() {
 fn the_alpha_of_a_synthetic_experiment_is_found() {
     let data = okagawa(&["fig4-n100"], 0.6);
     let curves = experiment::read(data.path(), &OKAGAWA_MASON).unwrap();
-    let fit = experiment::alpha(&curves, |_| {}, 100).unwrap();
+    let fit = experiment::alpha(
+        &curves,
+        |_| {},
+        Runs {
+            replicas: 100,
+            seed: 1,
+        },
+    )
+    .unwrap();
     assert!((fit.alpha - 0.6).abs() < 3.0 * fit.se && fit.se < 0.05, "{fit:?}");
     assert_eq!(fit.points, 29);
 }

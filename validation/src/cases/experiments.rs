@@ -2,7 +2,9 @@
 
 use crate::accept::Rule;
 use crate::case::{Case, Effort, Evidence};
-use crate::experiment::{self, ANCZUROWSKI, Comparison, DataError, MeasuredCurve, OKAGAWA_MASON, Source};
+use crate::experiment::{
+    self, ANCZUROWSKI, Comparison, DataError, MeasuredCurve, OKAGAWA_MASON, Runs, Source,
+};
 use crate::lab::Change;
 use crate::statistics::Sample;
 use shearbed::scene::Scene;
@@ -85,8 +87,12 @@ fn judged(source: &Source, effort: &Effort) -> Result<(Vec<MeasuredCurve>, usize
     Ok((curves, late))
 }
 
-fn replicas(effort: &Effort) -> u64 {
-    effort.pick(100, 2000)
+/// The runs of the model that are compared with the points of one curve after another: `stream` tells them apart.
+fn runs(effort: &Effort, stream: u64) -> Runs {
+    Runs {
+        replicas: effort.pick(100, 2000),
+        seed: effort.seed(stream),
+    }
 }
 
 /// One goodness of fit for each scene with points.
@@ -98,9 +104,9 @@ fn agreement(source: &Source, change: Change, effort: &Effort) -> Vec<Evidence> 
     if curves.is_empty() {
         return no_data(format!("points of {}", source.label));
     }
-    let scenes = source.scenes.iter();
+    let scenes = source.scenes.iter().zip(0..);
     let mut evidence = Vec::new();
-    for scene in scenes {
+    for (scene, stream) in scenes {
         let here: Vec<_> = curves
             .iter()
             .filter(|curve| curve.scene == *scene)
@@ -110,7 +116,7 @@ fn agreement(source: &Source, change: Change, effort: &Effort) -> Vec<Evidence> 
             continue;
         }
         evidence.push(
-            match experiment::compare(scene, &here, change, replicas(effort)) {
+            match experiment::compare(scene, &here, change, runs(effort, stream)) {
                 Ok(comparison) => fit(&comparison, late, source),
                 Err(error) => failed(format!("{scene}: {error}")),
             },
@@ -164,8 +170,8 @@ fn same_alpha(change: &Change, effort: &Effort) -> Vec<Evidence> {
     if short.is_empty() || long.is_empty() {
         return no_data("points at both aspect ratios");
     }
-    let fits = experiment::alpha(&short, |_| {}, replicas(effort))
-        .and_then(|a| Ok((a, experiment::alpha(&long, *change, replicas(effort))?)));
+    let fits = experiment::alpha(&short, |_| {}, runs(effort, 0))
+        .and_then(|a| Ok((a, experiment::alpha(&long, *change, runs(effort, 1))?)));
     let (short, long) = match fits {
         Ok(fits) => fits,
         Err(error) => return vec![failed(error)],

@@ -15,14 +15,23 @@ use nalgebra::{DMatrix, DVector, RowDVector};
 use shearbed::Scene;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
+/// How often and with which random numbers the model runs.
+#[derive(Clone, Copy, Debug)]
+pub struct Runs {
+    /// Independent replicas.
+    pub replicas: u64,
+    /// The seed of their streams.
+    pub seed: u64,
+}
+
 /// Compares the points of curves of one scene with replicas of that scene, changed by `change`.
 pub fn compare(
     scene: &str,
     curves: &[MeasuredCurve],
     change: Change,
-    replicas: u64,
+    runs: Runs,
 ) -> Result<Comparison, String> {
-    let assessed = Assessed::new(scene, curves, change, replicas)?;
+    let assessed = Assessed::new(scene, curves, change, runs)?;
     let (chi_square, p) = goodness_of_fit(&assessed.error, assessed.solver.as_ref());
     let points = assessed.points;
     let n = points.len() as f64;
@@ -53,12 +62,17 @@ fn goodness_of_fit(error: &DVector<f64>, solver: Option<&Solver>) -> (f64, f64) 
 
 /// The α that fits curves of several scenes best, by one step of weighted least squares from the scenes' own α. `change`
 /// changes what the model runs unseen by the estimate.
-pub fn alpha(curves: &[MeasuredCurve], change: Change, replicas: u64) -> Result<AlphaFit, String> {
+pub fn alpha(curves: &[MeasuredCurve], change: Change, runs: Runs) -> Result<AlphaFit, String> {
     let (mut score, mut information, mut start) = (0.0, 0.0, f64::NAN);
     let mut names: Vec<_> = curves.iter().map(|curve| curve.scene).collect();
     names.sort_unstable();
     names.dedup();
-    for name in names {
+    for (k, name) in names.into_iter().enumerate() {
+        // Scenes are independent: each has random numbers of its own.
+        let runs = Runs {
+            seed: runs.seed ^ k as u64,
+            ..runs
+        };
         let here: Vec<_> = curves
             .iter()
             .filter(|curve| curve.scene == name)
@@ -67,12 +81,12 @@ pub fn alpha(curves: &[MeasuredCurve], change: Change, replicas: u64) -> Result<
         start = built_in(name)?
             .interaction
             .map_or(f64::NAN, |interaction| interaction.alpha);
-        let assessed = Assessed::new(name, &here, change, replicas)?;
+        let assessed = Assessed::new(name, &here, change, runs)?;
         let slope = assessed.slope(
             &here,
             |scene| Some(&mut scene.interaction.as_mut()?.alpha),
             0.2,
-            replicas,
+            runs.replicas,
         )?;
         let weighted = assessed.solver.as_ref().map(|v| v.solve(&slope));
         let weighted = weighted.ok_or("the covariance of the points is not positive")?;
@@ -101,8 +115,10 @@ struct Assessed {
 }
 
 impl Assessed {
-    fn new(name: &str, curves: &[MeasuredCurve], change: Change, replicas: u64) -> Result<Self, String> {
+    fn new(name: &str, curves: &[MeasuredCurve], change: Change, runs: Runs) -> Result<Self, String> {
+        let Runs { replicas, seed } = runs;
         let mut scene = built_in(name)?;
+        scene.ensemble.seed = seed;
         change(&mut scene);
         let places = places(curves, &scene)?;
         let model = model::run(&scene, &places, replicas, 1)?;

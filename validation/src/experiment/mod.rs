@@ -18,7 +18,7 @@ mod table;
 mod tests;
 
 pub use bias::{Bias, bias};
-pub use compare::{alpha, compare};
+pub use compare::{Runs, alpha, compare};
 pub use comparison::{AlphaFit, Comparison, Point};
 pub use error::DataError;
 pub use provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance, Time};

@@ -45,7 +45,16 @@ fn synthetic(y: [f64; 3]) -> MeasuredCurve {
 }
 
 fn compared(curve: &MeasuredCurve) -> Comparison {
-    compare(curve.scene, std::slice::from_ref(curve), |_| {}, 20).unwrap()
+    compare(
+        curve.scene,
+        std::slice::from_ref(curve),
+        |_| {},
+        Runs {
+            replicas: 20,
+            seed: 1,
+        },
+    )
+    .unwrap()
 }
 
 /// The index of an input.
