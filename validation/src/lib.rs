@@ -36,3 +36,8 @@ mod text;
 pub mod work_precision;
 #[cfg(test)]
 mod xml;
+
+/// The example in CONTRIBUTING.md is run as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../CONTRIBUTING.md")]
+pub struct Contributing;

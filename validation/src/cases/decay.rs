@@ -211,53 +211,34 @@ fn quarters(mut scene: Scene, half_periods: usize) -> Scene {
 }
 
 fn free_amplitude(change: &Change, effort: &Effort) -> Vec<Evidence> {
-    let mut scene = lab::free_scene(effort);
-    change(&mut scene);
+    let scene = lab::changed(lab::free_scene(effort), change);
     // A pilot of 2,000 replicas scattered by 0.031, and by 0.042 with r_e = 3.
     let design = Design::new(0.09, 0.045);
     let found = amplitudes(&scene, effort.samples(design), &[0, 8]);
-    let change: Vec<f64> = found[0]
-        .iter()
-        .zip(&found[1])
-        .map(|(first, last)| last - first)
-        .collect();
+    let half = "\"approximately half\": 0.5 to one digit; r_e = 3 has 0.35 by the closed form";
+    let start = Sample::of(&found[0]).is(0.5, 0.05, design.effect, half);
+    let constant = "constant: the same phases come back to round-off";
+    let change = Sample::of_differences(&found[1], &found[0]).is(0.0, 1e-12, design.effect, constant);
     vec![
-        Evidence::new(
-            "amplitude at t = 0, in rod lengths",
-            Sample::of(&found[0]).is(
-                0.5,
-                0.05,
-                design.effect,
-                "\"approximately half\": 0.5 to one digit; r_e = 3 has 0.35 by the closed form",
-            ),
-        ),
-        Evidence::new(
-            "its change by t/T = 4",
-            Sample::of(&change).is(
-                0.0,
-                1e-12,
-                design.effect,
-                "constant: the same phases come back to round-off",
-            ),
-        ),
+        Evidence::new("amplitude at t = 0, in rod lengths", start),
+        Evidence::new("its change by t/T = 4", change),
     ]
 }
 
 fn faster(order: &Order, effort: &Effort) -> Vec<Evidence> {
     let replicas = effort.samples(order.design);
     let found = order.scenes.map(|change| {
-        let mut scene = lab::free_scene(effort);
-        change(&mut scene);
+        let scene = lab::changed(lab::free_scene(effort), change);
         amplitudes(&scene, replicas, &[3]).remove(0)
     });
     let because = "an order without a number; the same seeds in all three";
     [(0, 1, "first less second"), (1, 2, "second less third")]
         .into_iter()
         .map(|(a, b, which)| {
-            let fall: Vec<f64> = found[a].iter().zip(&found[b]).map(|(a, b)| a - b).collect();
+            let fall = Sample::of_differences(&found[a], &found[b]);
             Evidence::new(
                 format!("fall of the amplitude at t/T = 1½, {which}"),
-                Sample::of(&fall).exceeds(0.0, order.design.effect, because),
+                fall.exceeds(0.0, order.design.effect, because),
             )
         })
         .collect()
@@ -270,18 +251,17 @@ fn collisions_damp(change: &Change, effort: &Effort) -> Vec<Evidence> {
     for (sd, design) in [(0.0, Design::new(0.09, 0.035)), (3.6, Design::new(0.036, 0.029))] {
         let mut free = lab::free_scene(effort);
         free.particles.aspect_ratio_sd_percent = sd;
-        let mut interacting = free.clone();
-        change(&mut interacting);
+        let interacting = lab::changed(free.clone(), change);
         let replicas = effort.samples(design);
         let without = amplitudes(&free, replicas, &[2, 4]);
         let with = amplitudes(&interacting, replicas, &[2, 4]);
         for (k, when) in [(0, "1"), (1, "2")] {
-            let fall: Vec<f64> = without[k].iter().zip(&with[k]).map(|(a, b)| a - b).collect();
+            let fall = Sample::of_differences(&without[k], &with[k]);
             let because =
                 "\"much\" has no number in the paper: two curves as far apart as twice the width of a line";
             evidence.push(Evidence::new(
                 format!("amplitude without less with collisions at t/T = {when}, σ = {sd} %"),
-                Sample::of(&fall).exceeds(2.0 * LINE, design.effect, because),
+                fall.exceeds(2.0 * LINE, design.effect, because),
             ));
         }
     }

@@ -156,13 +156,12 @@ fn enough_rods(count: &Count, effort: &Effort) -> Vec<Evidence> {
                 few.iter().map(|change| change[k]).sum::<f64>() / share as f64 - many[k]
             };
             let differences: Vec<f64> = few.chunks(share).zip(&many).map(difference).collect();
-            Evidence::new(format!("bias of X̄₁ at t/T = {}, {count} rods against {MANY}", k + 1), Sample::of(&differences).is(
-                    0.0,
-                    2.0 * LINE,
-                    design.effect,
-                    "\"not significantly\": less than two curves are told apart by, twice the width of a line; \
-                     rods near a face have fewer neighbours",
-                ))
+            let because = "\"not significantly\": less than two curves are told apart by, twice the width of a \
+                           line; rods near a face have fewer neighbours";
+            Evidence::new(
+                format!("bias of X̄₁ at t/T = {}, {count} rods against {MANY}", k + 1),
+                Sample::of(&differences).is(0.0, 2.0 * LINE, design.effect, because),
+            )
         })
         .collect()
 }

@@ -17,6 +17,12 @@ use shearbed::scene::{Ensemble, Interaction, Scene};
 /// A change of a scene: what a case varies, or a mistake.
 pub type Change = fn(&mut Scene);
 
+/// The scene with a change.
+pub fn changed(mut scene: Scene, change: impl FnOnce(&mut Scene)) -> Scene {
+    change(&mut scene);
+    scene
+}
+
 /// Free rods of the paper's Fig. 6 (G = 0.5 1/s, r_e = 11.6, a = 0.72 mm): one period, projections.
 pub fn free_scene(effort: &Effort) -> Scene {
     Scene {

@@ -27,14 +27,10 @@ pub(super) fn dies_out(change: &Change, effort: &Effort) -> Vec<Evidence> {
     )];
     let uniform = found(0.0, alone);
     for (k, which) in [(1, "0 and 1"), (2, "1 and 2"), (3, "2 and 4")] {
-        let fall: Vec<f64> = uniform[k - 1]
-            .iter()
-            .zip(&uniform[k])
-            .map(|(a, b)| a - b)
-            .collect();
+        let fall = Sample::of_differences(&uniform[k - 1], &uniform[k]);
         evidence.push(Evidence::new(
             format!("fall of the amplitude between t/T = {which}, n = 50 per cm³, σ = 0"),
-            Sample::of(&fall).exceeds(0.0, alone.effect, "an order without a number"),
+            fall.exceeds(0.0, alone.effect, "an order without a number"),
         ));
     }
     evidence
@@ -55,8 +51,7 @@ pub(super) fn on_all_axes(axes: &Axes, effort: &Effort) -> Vec<Evidence> {
     let wide = Design::new(0.2, 0.065);
     let replicas = effort.samples(narrow).max(effort.samples(wide));
     let swings = |change: Change| {
-        let mut scene = lab::free_scene(effort);
-        change(&mut scene);
+        let scene = lab::changed(lab::free_scene(effort), change);
         per_replica(&quarters(scene, 4), replicas, |mean| {
             [0, 1, 2].map(|axis| [swing(mean, 0, axis), swing(mean, 4, axis)])
         })
