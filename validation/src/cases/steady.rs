@@ -37,7 +37,7 @@ fn steady_angle(change: &Change, effort: &Effort) -> Vec<Evidence> {
         let outputs = 6 * 50;
         let means = lab::per_replica(&scene, effort.samples(design), |mean| {
             (outputs - 100..outputs)
-                .map(|output| mean(Channel::X[0], output))
+                .map(|output| mean(Channel::PHI, output))
                 .sum::<f64>()
                 / 100.0
         });
