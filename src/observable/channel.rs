@@ -19,7 +19,7 @@ impl Channel {
     /// x1, x2 and x3: the mean projections on the axes.
     pub const X: [Self; 3] = [Self::projection(0), Self::projection(1), Self::projection(2)];
 
-    /// phi: the mean angle (eq. 18).
+    /// phi: the mean of φ folded into [0, π/2] (eq. 18).
     pub const PHI: Self = Self::new(Observable::MeanAngle, 0);
 
     const fn projection(index: usize) -> Self {
