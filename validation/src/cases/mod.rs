@@ -9,6 +9,7 @@ mod encounters;
 mod experiments;
 mod extreme_scenes;
 mod extremes;
+mod fit_covers;
 mod free_suspension;
 mod general_flows;
 mod integrator_claims;
@@ -19,6 +20,7 @@ pub mod lab;
 mod misprints;
 mod motion;
 mod once;
+mod published;
 mod readings;
 mod reductions;
 mod reference;
@@ -68,6 +70,8 @@ pub fn all() -> Vec<Case> {
         decay::cases(),
         statements::cases(),
         experiments::cases(),
+        fit_covers::cases(),
+        published::cases(),
     ]
     .into_iter()
     .flatten()

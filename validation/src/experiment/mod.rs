@@ -12,13 +12,15 @@ mod keys;
 mod model;
 mod provenance;
 mod provenance_file;
-mod table;
+pub(crate) mod table;
 #[cfg(test)]
 mod tests;
 
 pub use bias::{Bias, bias};
 pub use compare::{AlphaFit, Comparison, Point, alpha, compare};
 pub use error::DataError;
+pub(crate) use error::read_text;
+pub(crate) use model::interpolate;
 pub use provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance, Time};
 
 use std::collections::BTreeMap;
