@@ -12,8 +12,7 @@ use std::time::{Duration, Instant};
 
 /// Points of about a second.
 fn long(dir: &Path) {
-    let scene = SMALL
-        .replace("replicas = 3", "replicas = 300");
+    let scene = SMALL.replace("replicas = 3", "replicas = 300");
     fs::write(dir.join("long.toml"), scene).unwrap();
 }
 

@@ -9,6 +9,7 @@ mod encounters;
 mod experiments;
 mod extreme_scenes;
 mod extremes;
+mod fit_covers;
 mod free_suspension;
 mod general_flows;
 mod integrator_claims;
@@ -17,6 +18,7 @@ mod kick_sizes;
 mod kicks;
 mod misprints;
 mod motion;
+mod published;
 mod readings;
 mod reductions;
 mod reference;
@@ -66,6 +68,8 @@ pub fn all() -> Vec<Case> {
         decay::cases(),
         statements::cases(),
         experiments::cases(),
+        fit_covers::cases(),
+        published::cases(),
     ]
     .into_iter()
     .flatten()

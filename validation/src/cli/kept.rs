@@ -57,10 +57,10 @@ fn refused(path: &Path, what: &str) -> Failure {
     ))
 }
 
-/// The files that the record of a run in the folder lists, without those in `written`: after another run has overwritten
-/// the rest, they would pass for its own.
-pub(super) fn left_over(out: &Path, written: &[&str]) -> Vec<String> {
-    let text = fs::read_to_string(out.join("run.json")).unwrap_or_default();
+/// The files that a `record` in the folder lists, as `run.json` does, without those in `written`: after another run has
+/// overwritten the rest, they would pass for its own.
+pub(super) fn left_over(out: &Path, record: &str, written: &[&str]) -> Vec<String> {
+    let text = fs::read_to_string(out.join(record)).unwrap_or_default();
     let kept: Value = serde_json::from_str(&text).unwrap_or_default();
     let listed = kept["files"].as_array().into_iter().flatten();
     let names = listed.filter_map(Value::as_str);

@@ -3,6 +3,7 @@
 mod bench;
 mod choice;
 mod converge;
+mod fit;
 mod grade;
 mod interrupt;
 mod kept;
@@ -15,6 +16,7 @@ mod reference;
 mod run;
 mod scene;
 mod sections;
+mod shape;
 mod show;
 mod sweep;
 mod tables;
@@ -59,10 +61,14 @@ enum Command {
     Sweep(sweep::Args),
     /// Show how a scene's results depend on the step, and for interacting rods on their number and the replicas
     Converge(converge::Args),
+    /// Fit keys of a scene to measured points: estimates, intervals, goodness of fit
+    Fit(fit::Args),
     /// Grade any program's answers to the reference problems, from files or while it runs
     Grade(grade::Args),
     /// List the reference problems for any program, or export them with their certified answers
     Problems(problems::Args),
+    /// List the aspect ratio r_e of the ellipsoid that turns as a cylinder does, by published formulas
+    Shape(shape::Args),
     /// Exact values without a simulation: one free rod, or means over isotropic rods, as CSV
     Reference(reference::Args),
 }
@@ -186,8 +192,10 @@ fn command(command: Command) -> Result<(), Failure> {
         Command::Plan(args) => show::plan(&args),
         Command::Scenes(args) => show::scenes(&args),
         Command::Bench(args) => bench::bench(&args),
+        Command::Fit(args) => fit::fit(&args),
         Command::Grade(args) => grade::grade(&args),
         Command::Problems(args) => problems::problems(&args),
+        Command::Shape(args) => shape::shape(&args),
         Command::Reference(args) => reference::reference(&args),
     }
 }

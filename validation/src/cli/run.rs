@@ -100,7 +100,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let record = record::json(&plan, &results, threads, seconds, names).map_err(Failure::Failed)?;
     files.push(("run.json".to_owned(), record));
     let names: Vec<_> = files.iter().map(|(name, _)| name.as_str()).collect();
-    let left_over = kept::left_over(&out, &names);
+    let left_over = kept::left_over(&out, "run.json", &names);
     output::write_all(&out, &files)?;
     output::remove(&out, &left_over)?;
     if args.quiet {

@@ -16,7 +16,7 @@ pub struct DataError {
 
 impl DataError {
     /// An error about a whole file or folder.
-    pub(super) fn whole(file: &Path, message: impl Into<String>) -> Self {
+    pub(crate) fn whole(file: &Path, message: impl Into<String>) -> Self {
         Self {
             file: file.display().to_string(),
             line: None,
@@ -25,7 +25,7 @@ impl DataError {
     }
 
     /// An error in a line.
-    pub(super) fn at(file: &str, line: usize, message: impl Into<String>) -> Self {
+    pub(crate) fn at(file: &str, line: usize, message: impl Into<String>) -> Self {
         Self {
             file: file.to_owned(),
             line: Some(line),
@@ -46,7 +46,7 @@ impl fmt::Display for DataError {
 impl std::error::Error for DataError {}
 
 /// The text of a file in UTF-8, without a byte-order mark.
-pub(super) fn read_text(path: &Path) -> Result<String, DataError> {
+pub(crate) fn read_text(path: &Path) -> Result<String, DataError> {
     let bytes =
         std::fs::read(path).map_err(|error| DataError::whole(path, format!("cannot be read: {error}")))?;
     let text = String::from_utf8(bytes).map_err(|error| {

@@ -13,7 +13,7 @@ mod keys;
 mod model;
 mod provenance;
 mod provenance_file;
-mod table;
+pub(crate) mod table;
 #[cfg(test)]
 mod tests;
 
@@ -21,6 +21,8 @@ pub use bias::{Bias, bias};
 pub use compare::{Runs, alpha, compare};
 pub use comparison::{AlphaFit, Comparison, Point};
 pub use error::DataError;
+pub(crate) use error::read_text;
+pub(crate) use model::interpolate;
 pub use provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance, Time};
 
 use std::collections::BTreeMap;

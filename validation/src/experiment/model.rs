@@ -86,7 +86,7 @@ pub(super) fn run(scene: &Scene, places: &[MeasuredAt], replicas: u64, finer: u6
 
 /// Lagrange's polynomial through the `order` outputs around `at`, counted in outputs. Before the first output the curve
 /// stays what it was there.
-fn interpolate(outputs: usize, at: f64, order: usize, value: impl Fn(usize) -> f64) -> f64 {
+pub(crate) fn interpolate(outputs: usize, at: f64, order: usize, value: impl Fn(usize) -> f64) -> f64 {
     let at = at.clamp(0.0, (outputs - 1) as f64);
     let order = order.min(outputs);
     let first = (at.floor() as usize + 1)

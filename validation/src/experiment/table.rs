@@ -5,22 +5,22 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 
 /// Points under one name, in the units of the file.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Dataset {
+pub(crate) struct Dataset {
     /// The column's or the dataset's name; empty in an export of two columns.
-    pub(super) name: String,
+    pub(crate) name: String,
     /// In the order of the file.
-    pub(super) rows: Vec<DataRow>,
+    pub(crate) rows: Vec<DataRow>,
 }
 
 /// One point, in the units of the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct DataRow {
-    pub(super) line: usize,
-    pub(super) x: f64,
-    pub(super) y: f64,
+pub(crate) struct DataRow {
+    pub(crate) line: usize,
+    pub(crate) x: f64,
+    pub(crate) y: f64,
     /// Uncertainties of this point, where it has its own.
-    pub(super) u_x: Option<f64>,
-    pub(super) u_y: Option<f64>,
+    pub(crate) u_x: Option<f64>,
+    pub(crate) u_y: Option<f64>,
 }
 
 /// A line of the file that is not blank, in cells.
@@ -69,7 +69,7 @@ fn number(file: &str, line: usize, column: &str, cell: &str) -> Result<f64, Data
 
 /// Reads the project's columns: `x`, each of `ys`, and where there are any their uncertainties `NAME_u`. A blank `y` was
 /// not measured; a blank uncertainty is that of the provenance file.
-pub(super) fn columns(file: &str, text: &str, x: &str, ys: &[String]) -> Result<Vec<Dataset>, DataError> {
+pub(crate) fn columns(file: &str, text: &str, x: &str, ys: &[String]) -> Result<Vec<Dataset>, DataError> {
     let records = records(file, text)?;
     let Some((header, body)) = records.split_first() else {
         return Err(DataError::at(file, 1, "the file is empty"));

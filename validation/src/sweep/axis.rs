@@ -54,7 +54,7 @@ impl Setting {
 }
 
 /// What stands before and after the first `=`; the first is a key.
-fn key_and_text<'a>(text: &'a str, shape: &str) -> Result<(&'a str, &'a str), String> {
+pub(crate) fn key_and_text<'a>(text: &'a str, shape: &str) -> Result<(&'a str, &'a str), String> {
     let (key, text) = text.split_once('=').ok_or(shape)?;
     let (key, text) = (key.trim(), text.trim());
     let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';

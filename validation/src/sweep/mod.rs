@@ -3,6 +3,7 @@
 mod axis;
 mod folder;
 
+pub(crate) use axis::key_and_text;
 pub use axis::{Axis, MAX_POINTS, Setting, shown};
 pub use folder::{Folder, Identity, Points, Refused};
 

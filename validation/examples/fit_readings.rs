@@ -1,0 +1,98 @@
+//! What α would be under each open reading of the paper: the same synthetic points, fitted by the naive reference under each
+//! as a Markdown table. `cargo run --release -p validation --example fit_readings -- 150` gives each value of α up to 150
+//! replicas.
+
+use rand::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64Dxsm;
+use rayon::prelude::*;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+use std::iter::once;
+use validation::fit::Range;
+use validation::fit::data::Datum;
+use validation::fit::emulator::{Prediction, Replica};
+use validation::fit::search::{Problem, Watch, search};
+use validation::oracle::naive::{Naive, mean_projections};
+use validation::readings::{ALTERNATIVES, Change, paper};
+
+const PLANTED: f64 = 0.8;
+const NOISE: f64 = 0.01;
+const POINTS: usize = 20;
+const TRUTH: u64 = 1000;
+
+/// X̄₁ at every twentieth of a period, up to one period.
+fn curve(change: Change, alpha: f64, seed: u64, replica: u64) -> Vec<Prediction> {
+    let mut problem = paper(replica);
+    change(&mut problem);
+    (problem.alpha, problem.seed) = (alpha, seed);
+    let steps = problem.steps_per_period / POINTS;
+    let mut naive = Naive::new(problem);
+    let mut next = || {
+        (0..steps).for_each(|_| naive.step());
+        [mean_projections(&naive.orientations)[0]; 3]
+    };
+    (0..POINTS).map(|_| next()).collect()
+}
+
+fn main() -> Result<(), String> {
+    let most: u64 = std::env::args()
+        .nth(1)
+        .map_or(Ok(150), |text| text.parse())
+        .map_err(|error| format!("{error}"))?;
+    let default: Change = |_| ();
+    let rows: Vec<_> = (0..TRUTH)
+        .into_par_iter()
+        .map(|replica| curve(default, PLANTED, 99, replica))
+        .collect();
+    let mut rng = Pcg64Dxsm::seed_from_u64(7);
+    let point = |k: usize| {
+        let noise: f64 = StandardNormal.sample(&mut rng);
+        Datum {
+            set: 0,
+            line: 0,
+            column: "x1".into(),
+            time: (k + 1) as f64 / POINTS as f64,
+            value: rows.iter().map(|row| row[k][0]).sum::<f64>() / TRUTH as f64 + NOISE * noise,
+            u_time: 0.0,
+            u: NOISE,
+        }
+    };
+    let data: Vec<Datum> = (0..POINTS).map(point).collect();
+    let law = ChiSquared::new((POINTS - 1) as f64).map_err(|error| error.to_string())?;
+    println!(
+        "| open | reading | α | 95 % interval | χ² of {} | p |",
+        POINTS - 1
+    );
+    println!("| --- | --- | ---: | --- | ---: | ---: |");
+    let all = once(("–", "this project", default)).chain(ALTERNATIVES);
+    for (open, reading, change) in all {
+        let model = move |values: &[f64]| -> Result<Replica, String> {
+            let alpha = values[0];
+            Ok(Box::new(move |replica| Ok(curve(change, alpha, 1, replica))))
+        };
+        let problem = Problem {
+            data: &data,
+            ranges: &[Range::parse("interaction.alpha=0.1:5")?],
+            rods_over_measured: &[0.0],
+            model: &model,
+            most_replicas: most,
+        };
+        let fit = search(
+            &problem,
+            &Watch {
+                planned: &|_| (),
+                done: &|| (),
+            },
+        )?;
+        let ends = fit.interval(0, 0.95);
+        println!(
+            "| {open} | {reading} | {:.3} | {:.3} to {:.3} | {:.1} | {:.2} |",
+            fit.values(&fit.best.place)[0],
+            ends.low,
+            ends.high,
+            fit.best.chi_square,
+            law.sf(fit.best.chi_square)
+        );
+    }
+    Ok(())
+}

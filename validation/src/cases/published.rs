@@ -1,0 +1,53 @@
+//! The model beside numbers that others published on related suspensions.
+
+use crate::case::{Case, Evidence};
+use crate::published::{SPH_ASPECT_RATIO, first_half_turn, sph_fibres};
+use crate::shape::spread;
+use shearbed::jeffery::strain_per_period;
+
+/// The least and the greatest strain of half a turn of a cylinder of this physical aspect ratio.
+type HalfTurn = fn(f64) -> (f64, f64);
+
+pub fn cases() -> Vec<Case> {
+    vec![
+        Case::core("sph-half-turn")
+            .claim(
+                "Fibres that others simulated by smoothed particle hydrodynamics (not measured) make their first half \
+                 turn in T/2 of an r_e that published formulas give for their shape; their later damping is outside the \
+                 model.",
+            )
+            .source("eq. 15; Meyer et al. 2020; docs/fit.md")
+            .equations(&["15"])
+            .subject(of_formulas as HalfTurn)
+            .mistake("a whole period for half a turn", |r| {
+                let (least, most) = of_formulas(r);
+                (2.0 * least, 2.0 * most)
+            })
+            .mistake("r_e is the cylinder's own length over diameter", |r| {
+                (0.5 * strain_per_period(r), 0.5 * strain_per_period(r))
+            })
+            .check(|half_turn, _| {
+                let found: Vec<f64> = sph_fibres().rows.iter().filter_map(first_half_turn).collect();
+                let mean = found.iter().sum::<f64>() / found.len() as f64;
+                let (least, most) = half_turn(SPH_ASPECT_RATIO);
+                // Of no number, outside is NaN, which fails.
+                let outside = match (least..=most).contains(&mean) {
+                    true => 0.0,
+                    false => (least - mean).max(mean - most),
+                };
+                vec![
+                    Evidence::exact("runs that turn", found.len() as f64 - 5.0),
+                    Evidence::exact(
+                        format!("strain {mean:.2} of the first half turn, outside {least:.2} to {most:.2}"),
+                        outside,
+                    ),
+                ]
+            }),
+    ]
+}
+
+/// T/2 of the least and the greatest r_e that published formulas give.
+fn of_formulas(r: f64) -> (f64, f64) {
+    let (least, most) = spread(r).unwrap_or((f64::NAN, f64::NAN));
+    (0.5 * strain_per_period(least), 0.5 * strain_per_period(most))
+}

@@ -1,0 +1,194 @@
+//! `shearbed fit`.
+
+mod input;
+
+use super::{Failure, MAX_THREADS, kept, on_threads, print, probe, progress, scene, whole};
+use crate::build::BUILD;
+use crate::fit::budget::{self, Shift};
+use crate::fit::emulator::Model;
+use crate::fit::report::{self, Report};
+use crate::fit::scenes::{AS_WRITTEN, Variant};
+use crate::fit::search::{Fit, Problem, Watch, search};
+use crate::fit::{Range, pictures, words};
+use crate::output::{self, Output};
+use crate::plot;
+use crate::sweep::Setting;
+use crate::text::command;
+use input::{Input, input};
+use serde_json::{Value, json};
+use shearbed::Plan;
+use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+/// The most replicas at each value of the parameters, unless asked for more.
+const MOST_REPLICAS: u64 = 1000;
+
+/// Arguments of `fit`.
+#[derive(clap::Args)]
+#[command(after_help = "\
+FILE.csv has the columns t_over_T (or t_s, strain), x1, x1_u, and as you like x2, x2_u, … (docs/fit.md).
+Examples:
+  shearbed fit fig4-n50 --data points.csv --over interaction.alpha=0.05:5
+  shearbed fit fig4-n20 --data n20.csv --data fig4-n50=n50.csv --over interaction.alpha=0.1:2 --over interaction.m=1:6")]
+pub(super) struct Args {
+    /// A scene file, or the name of a built-in scene
+    scene: OsString,
+    /// Measured points of SCENE; SCENE2=FILE.csv: points of another scene, fitted with the same parameters
+    #[arg(long, value_name = "FILE.csv", required = true)]
+    data: Vec<OsString>,
+    /// A key of the scene to fit, and the range to look in; up to three times
+    #[arg(long, value_name = "KEY=FROM:TO", required = true, value_parser = Range::parse)]
+    over: Vec<Range>,
+    /// The folder for fit.json, tables and pictures [default: out/fit-<scene>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// The most independent runs at each value of the parameters: so many only where the model's own error asks for them
+    #[arg(long, value_name = "N", default_value_t = MOST_REPLICAS, value_parser = whole(20, MAX_REPLICAS), allow_negative_numbers = true)]
+    replicas: u64,
+    /// The seed of all random numbers, in place of the scene's own
+    #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), allow_negative_numbers = true)]
+    seed: Option<u64>,
+    /// Rods that each measured point is a mean over; without it their sampling is taken to be in the uncertainties
+    #[arg(long, value_name = "N", value_parser = whole(1, u64::MAX), allow_negative_numbers = true)]
+    rods: Option<u64>,
+    /// A key of every scene and the value to give it; can be given more than once
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Setting::parse)]
+    settings: Vec<Setting>,
+    /// Threads to run on; the results do not depend on it [default: one for each core]
+    #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
+    threads: Option<u64>,
+    /// Print nothing but errors and warnings
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// What a fit leaves.
+struct Done {
+    fit: Fit,
+    report: Report,
+    figures: Vec<(String, plot::Figure)>,
+}
+
+/// Fits keys of a scene to measured points.
+pub(super) fn fit(args: &Args) -> Result<(), Failure> {
+    let input = input(args)?;
+    let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("fit-{}", input.stem)));
+    probe(&out, 0)?;
+    let bar = progress(0, "runs", args.quiet);
+    let watch = Watch {
+        planned: &|runs| bar.inc_length(runs),
+        done: &|| bar.inc(1),
+    };
+    let done = on_threads(args.threads, || work(args, &input, &watch))?;
+    bar.finish_and_clear();
+    let done = done?;
+    let times: Vec<&str> = input.scenes.sets.iter().map(|set| set.time.name()).collect();
+    let mut files: Vec<Output> = vec![
+        (
+            "residuals.csv".into(),
+            report::residuals_csv(&done.report, &times).map_err(Failure::Failed)?,
+        ),
+        (
+            "profiles.csv".into(),
+            report::profiles_csv(&done.fit).map_err(Failure::Failed)?,
+        ),
+    ];
+    for (stem, figure) in &done.figures {
+        files.push((format!("{stem}.svg"), plot::svg(figure).map_err(Failure::Failed)?));
+    }
+    let names: Vec<&str> = std::iter::once("fit.json")
+        .chain(files.iter().map(|(name, _)| name.as_str()))
+        .collect();
+    let record = record(args, &input, &done, &names)?;
+    let left_over = kept::left_over(&out, "fit.json", &names);
+    let names = names.join(", ");
+    files.push(("fit.json".into(), record));
+    output::write_all(&out, &files)?;
+    output::remove(&out, &left_over)?;
+    scene::warn(&input.stem, &done.report.warnings);
+    if args.quiet {
+        return Ok(());
+    }
+    print(&format!(
+        "{}\n\n{}\nin {}: {names}\n",
+        words::sentence(&done.fit, &done.report),
+        words::table(&done.fit, &done.report),
+        out.display(),
+    ))
+}
+
+fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> {
+    let Input { scenes, data, .. } = input;
+    let stopped = |error: String| Failure::Input(error);
+    let model = |values: &[f64]| scenes.model(data, AS_WRITTEN, values);
+    let rods: Vec<f64> = (scenes.sets.iter().enumerate())
+        .map(|(set, _)| {
+            let middle: Vec<f64> = args.over.iter().map(|range| range.from).collect();
+            let count = scenes
+                .scene(set, &middle)
+                .map_or(f64::NAN, |scene| scene.particles.count as f64);
+            args.rods.map_or(0.0, |rods| count / rods as f64)
+        })
+        .collect();
+    let problem = Problem {
+        data,
+        ranges: &args.over,
+        rods_over_measured: &rods,
+        model: &model,
+        most_replicas: args.replicas,
+    };
+    let fit = search(&problem, watch).map_err(stopped)?;
+    let shifts = shifts(input, &fit, &model, watch).map_err(stopped)?;
+    let mut report = report::report(&fit, data, shifts);
+    let best = scenes
+        .plans(&fit.values(&fit.best.place), data, AS_WRITTEN)
+        .map_err(stopped)?;
+    let mut warnings: Vec<String> = best.iter().flat_map(Plan::warnings).collect();
+    warnings.dedup();
+    report.warnings.extend(warnings);
+    let places = pictures::places(data);
+    let drawn = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values);
+    let curves = pictures::best_curves(&fit, &places, &drawn, watch).map_err(stopped)?;
+    let times: Vec<&str> = scenes.sets.iter().map(|set| set.time.name()).collect();
+    let figures = pictures::figures(&fit, &report, data, (&places, &curves), &input.names, &times);
+    Ok(Done { fit, report, figures })
+}
+
+/// What half the step, and twice the rods, would change: of rods that interact.
+fn shifts(input: &Input, fit: &Fit, own: &Model<'_>, watch: &Watch<'_>) -> Result<Vec<Shift>, String> {
+    let values = fit.values(&fit.best.place);
+    let scenes = &input.scenes;
+    let interact = (0..scenes.sets.len()).map(|set| Ok(scenes.scene(set, &values)?.interaction.is_some()));
+    if !interact.collect::<Result<Vec<bool>, String>>()?.contains(&true) {
+        return Ok(Vec::new());
+    }
+    let variants = [
+        ("half the time step", Variant { steps: 2, rods: 1 }),
+        ("twice the rods", Variant { steps: 1, rods: 2 }),
+    ];
+    let shift = |(change, variant): (&'static str, Variant)| {
+        let changed = |values: &[f64]| scenes.model(&input.data, variant, values);
+        budget::shift(fit, change, own, &changed, watch)
+    };
+    variants.into_iter().map(shift).collect()
+}
+
+/// The text of `fit.json`.
+fn record(args: &Args, input: &Input, done: &Done, files: &[&str]) -> Result<String, Failure> {
+    let failed = |error: serde_json::Error| Failure::Failed(error.to_string());
+    let mut record = serde_json::to_value(&done.report).map_err(failed)?;
+    let sets: Vec<Value> = (input.scenes.sets.iter().zip(&input.files))
+        .map(|(set, file)| {
+            json!({ "scene": set.source, "file": file, "time": set.time, "seed": set.seed, "scene_text": set.text })
+        })
+        .collect();
+    record["build"] = json!(BUILD);
+    record["command"] = json!(command(std::env::args_os()));
+    record["data"] = json!(sets);
+    record["rods"] = json!(args.rods);
+    record["files"] = json!(files);
+    serde_json::to_string_pretty(&record)
+        .map(|text| text + "\n")
+        .map_err(failed)
+}

@@ -1,0 +1,152 @@
+//! What `shearbed fit` starts from: scenes, points and ranges, checked.
+
+use super::Args;
+use crate::cli::{Failure, memory, scene};
+use crate::fit::Range;
+use crate::fit::basis::MOST_PARAMETERS;
+use crate::fit::data::{self, Datum, MOST_POINTS, TimeColumn};
+use crate::fit::scenes::{AS_WRITTEN, Scenes, Set};
+use crate::sweep;
+use crate::text::line;
+use shearbed::Plan;
+use std::ffi::OsStr;
+use std::path::Path;
+
+/// Tables of a scene that hold no property of rods, liquid or interaction.
+const NOT_FITTED: [&str; 3] = ["ensemble", "output", "time"];
+
+/// Everything a fit starts from.
+pub(super) struct Input {
+    pub(super) scenes: Scenes,
+    pub(super) data: Vec<Datum>,
+    /// What each data set is called, and the file it is from.
+    pub(super) names: Vec<String>,
+    pub(super) files: Vec<String>,
+    pub(super) stem: String,
+}
+
+/// Reads scenes and points. Every fault of either is found here, before anything runs.
+pub(super) fn input(args: &Args) -> Result<Input, Failure> {
+    if args.over.len() > MOST_PARAMETERS {
+        return Err(Failure::Input(format!(
+            "--over: given {} times; up to {MOST_PARAMETERS} parameters at once are allowed",
+            args.over.len()
+        )));
+    }
+    let over = args.over.iter().map(|range| ("--over", range.key.as_str()));
+    let set = args
+        .settings
+        .iter()
+        .map(|setting| ("--set", setting.key.as_str()));
+    let mut owners: Vec<_> = over.chain(set).collect();
+    if args.seed.is_some() {
+        owners.push(("--seed", "ensemble.seed"));
+    }
+    sweep::one_owner(&owners).map_err(Failure::Input)?;
+    for Range { key, .. } in &args.over {
+        if let Some(table) = NOT_FITTED
+            .iter()
+            .find(|table| key.split('.').next() == Some(table))
+        {
+            return Err(Failure::Input(format!(
+                "--over {key}: {table} is nothing that points tell; keys of flow, particles and interaction are allowed"
+            )));
+        }
+    }
+    let (mut sets, mut data, mut names, mut files) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut stem = String::new();
+    for (k, given) in args.data.iter().enumerate() {
+        let (scene, path) = scene_and_file(&args.scene, given);
+        let named = scene::load(scene)?;
+        let points = data::read(path, k).map_err(|error| Failure::Input(error.to_string()))?;
+        within_scene(&named, args, points.time, &points.points, path)?;
+        if k == 0 {
+            stem.clone_from(&named.stem);
+        }
+        names.push(line(&named.scene.title));
+        files.push(path.display().to_string());
+        data.extend(points.points);
+        sets.push(Set {
+            seed: args.seed.unwrap_or(named.scene.ensemble.seed),
+            source: named.source,
+            text: named.text,
+            settings: args.settings.clone(),
+            time: points.time,
+        });
+    }
+    if data.len() > MOST_POINTS {
+        return Err(Failure::Input(format!(
+            "--data: {} points; at most {MOST_POINTS} are allowed",
+            data.len()
+        )));
+    }
+    if data.len() <= args.over.len() {
+        return Err(Failure::Input(format!(
+            "--data: {} points for {} parameters; more points than parameters are needed",
+            data.len(),
+            args.over.len()
+        )));
+    }
+    let scenes = Scenes::new(sets, args.over.clone()).map_err(Failure::Input)?;
+    let ends = [|range: &Range| range.from, |range: &Range| range.to];
+    for values in ends.map(|end| args.over.iter().map(end).collect::<Vec<f64>>()) {
+        for plan in scenes.plans(&values, &data, AS_WRITTEN).map_err(Failure::Input)? {
+            memory::check(&plan, args.threads, &stem)?;
+        }
+    }
+    Ok(Input {
+        scenes,
+        data,
+        names,
+        files,
+        stem,
+    })
+}
+
+/// `FILE` belongs to the scene of the command, `SCENE2=FILE` to another. What exists as a file is one, whatever its name.
+fn scene_and_file<'a>(scene: &'a OsStr, given: &'a OsStr) -> (&'a OsStr, &'a Path) {
+    match given.to_str().and_then(|text| text.split_once('=')) {
+        Some((other, file)) if !Path::new(given).exists() => (OsStr::new(other), Path::new(file)),
+        _ => (scene, Path::new(given)),
+    }
+}
+
+/// Refuses points later than the scene runs: they would make it run for long, and are mostly of another unit.
+fn within_scene(
+    named: &scene::Named,
+    args: &Args,
+    time: TimeColumn,
+    points: &[Datum],
+    path: &Path,
+) -> Result<(), Failure> {
+    let scene = sweep::scene_with(&named.text, &args.settings)
+        .map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
+    let plan = Plan::new(&scene).map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
+    let per_unit = time.per_unit(&plan).ok_or_else(|| {
+        Failure::Input(format!(
+            "{}: {} has no periods; t_s or strain are allowed in place of t_over_T",
+            path.display(),
+            named.source
+        ))
+    })?;
+    let (key, last) = match (scene.time.strain, scene.time.periods) {
+        (Some(strain), _) => ("strain", strain),
+        (None, periods) => ("periods", periods.unwrap_or(f64::NAN)),
+    };
+    // A point at the very end may be rounded beyond it.
+    match points
+        .iter()
+        .find(|point| point.time > last * per_unit * (1.0 + 1e-12))
+    {
+        None => Ok(()),
+        Some(point) => Err(Failure::Input(format!(
+            "{}:{}: column {}: `{}` is not allowed: {} ends at {} there; --set time.{key}=… moves that",
+            path.display(),
+            point.line,
+            time.name(),
+            point.time,
+            named.source,
+            last * per_unit
+        ))),
+    }
+}

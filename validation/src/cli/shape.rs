@@ -1,0 +1,45 @@
+//! `shearbed shape`.
+
+use super::{Failure, print};
+use crate::shape::{ALLOWED, FORMULAS, spread};
+
+/// Arguments of `shape`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Length over diameter of a cylinder, from 2 to 1000
+    #[arg(long, value_name = "R", value_parser = ratio, allow_negative_numbers = true)]
+    physical: f64,
+}
+
+fn ratio(text: &str) -> Result<f64, String> {
+    let (least, most) = ALLOWED;
+    match text.parse() {
+        Ok(r) if (least..=most).contains(&r) => Ok(r),
+        _ => Err(format!("a number from {least} to {most} is allowed")),
+    }
+}
+
+/// Prints the equivalent aspect ratio of a cylinder by every formula.
+pub(super) fn shape(args: &Args) -> Result<(), Failure> {
+    let r = args.physical;
+    let mut text = match spread(r) {
+        Some((least, most)) => {
+            let percent = 200.0 * (most - least) / (most + least);
+            format!("a cylinder of r = {r}: r_e from {least:.3} to {most:.3}, a spread of {percent:.1} %\n\n")
+        }
+        None => format!("a cylinder of r = {r}: no formula gives an r_e\n\n"),
+    };
+    for formula in &FORMULAS {
+        let value = match formula.equivalent(r) {
+            Some(value) => format!("{value:.3}"),
+            None => "none".into(),
+        };
+        text += &format!(
+            "{value:>9}  {}: r_e = {}\n           of {}; {}\n           read in {}\n",
+            formula.name, formula.formula, formula.range, formula.source, formula.read_in
+        );
+    }
+    text += "\nNone of the sources themselves was at hand. \"none\": there the formula gives an r_e above r, or one that falls as r \
+             grows.\nIn a scene, particles.aspect_ratio is r_e.\n";
+    print(&text)
+}

@@ -1,0 +1,198 @@
+//! Where in a box of parameters the model runs, and the polynomials that run through what it finds there.
+
+use nalgebra::{DMatrix, DVector};
+
+/// The most parameters that can be fitted at once: the runs grow with their number as a power.
+pub const MOST_PARAMETERS: usize = 3;
+
+/// Chebyshev–Lobatto nodes along each axis, and the total degree of the polynomials, by the number of parameters: fewer
+/// coefficients than nodes, so that the polynomials smooth the noise of the runs instead of following it.
+const DESIGNS: [(usize, usize); MOST_PARAMETERS] = [(7, 4), (5, 4), (4, 3)];
+
+/// Chebyshev polynomials over the box [−1, 1]^p and the nodes by which they are fitted (least squares).
+#[derive(Clone, Debug)]
+pub struct Basis {
+    /// The degree of every term in every parameter.
+    degrees: Vec<Vec<usize>>,
+    /// Every node, the corners among them.
+    pub nodes: Vec<Vec<f64>>,
+    /// A row for each coefficient and a column for each node: from values at the nodes to coefficients.
+    pub project: DMatrix<f64>,
+    /// The same for polynomials of a degree less, the highest terms 0: what the two differ by tells how good they are.
+    pub project_lower: DMatrix<f64>,
+}
+
+impl Basis {
+    /// The basis for `parameters` parameters, 1 to [`MOST_PARAMETERS`].
+    pub fn new(parameters: usize) -> Self {
+        let (along, degree) = DESIGNS[parameters.clamp(1, MOST_PARAMETERS) - 1];
+        let place = |k: usize| -(std::f64::consts::PI * k as f64 / (along - 1) as f64).cos();
+        let nodes: Vec<Vec<f64>> = (grid(parameters, along).into_iter())
+            .map(|index| index.into_iter().map(place).collect())
+            .collect();
+        let degrees: Vec<Vec<usize>> = (grid(parameters, degree + 1).into_iter())
+            .filter(|degrees| degrees.iter().sum::<usize>() <= degree)
+            .collect();
+        let project = projection(&degrees, &nodes);
+        let highest = |degrees: &Vec<usize>| degrees.iter().sum::<usize>() == degree;
+        let lower: Vec<_> = degrees.iter().filter(|d| !highest(d)).cloned().collect();
+        let mut rows = projection(&lower, &nodes)
+            .row_iter()
+            .map(|row| row.into_owned())
+            .collect::<Vec<_>>()
+            .into_iter();
+        let zero = DMatrix::zeros(1, nodes.len());
+        let padded: Vec<_> = degrees
+            .iter()
+            .map(|d| {
+                if highest(d) {
+                    zero.row(0).into_owned()
+                } else {
+                    rows.next().unwrap_or_else(|| zero.row(0).into_owned())
+                }
+            })
+            .collect();
+        Self {
+            project_lower: DMatrix::from_rows(&padded),
+            project,
+            degrees,
+            nodes,
+        }
+    }
+
+    /// Every term at a place of the box.
+    pub fn terms(&self, place: &[f64]) -> DVector<f64> {
+        terms(&self.degrees, place)
+    }
+
+    /// The derivative of every term by every parameter: a row for each term, a column for each parameter.
+    pub fn slopes(&self, place: &[f64]) -> DMatrix<f64> {
+        let values: Vec<_> = place.iter().map(|x| chebyshev(*x)).collect();
+        DMatrix::from_fn(self.degrees.len(), place.len(), |term, by| {
+            let factor = |(k, degree): (usize, &usize)| match k == by {
+                true => values[k][*degree].1,
+                false => values[k][*degree].0,
+            };
+            self.degrees[term].iter().enumerate().map(factor).product()
+        })
+    }
+}
+
+/// Every combination of numbers from 0 to below `along`.
+fn grid(axes: usize, along: usize) -> Vec<Vec<usize>> {
+    (0..along.pow(axes as u32))
+        .map(|mut k| {
+            let digit = |_| {
+                let digit = k % along;
+                k /= along;
+                digit
+            };
+            (0..axes).map(digit).collect()
+        })
+        .collect()
+}
+
+fn terms(degrees: &[Vec<usize>], place: &[f64]) -> DVector<f64> {
+    let values: Vec<_> = place.iter().map(|x| chebyshev(*x)).collect();
+    let term = |degrees: &Vec<usize>| {
+        (degrees.iter().zip(&values))
+            .map(|(degree, of)| of[*degree].0)
+            .product()
+    };
+    DVector::from_iterator(degrees.len(), degrees.iter().map(term))
+}
+
+/// T_k(x) and its derivative for every degree that is used.
+fn chebyshev(x: f64) -> [(f64, f64); 5] {
+    let mut all = [(1.0, 0.0); 5];
+    all[1] = (x, 1.0);
+    for k in 2..all.len() {
+        let ((before, slope_before), (last, slope)) = (all[k - 2], all[k - 1]);
+        all[k] = (
+            2.0 * x * last - before,
+            2.0 * last + 2.0 * x * slope - slope_before,
+        );
+    }
+    all
+}
+
+/// The pseudo-inverse of the terms at the nodes.
+fn projection(degrees: &[Vec<usize>], nodes: &[Vec<f64>]) -> DMatrix<f64> {
+    let rows: Vec<_> = nodes
+        .iter()
+        .map(|node| terms(degrees, node).transpose())
+        .collect();
+    let design = DMatrix::from_rows(&rows);
+    let normal = design.tr_mul(&design).cholesky();
+    normal.map_or_else(
+        || DMatrix::from_element(degrees.len(), nodes.len(), f64::NAN),
+        |normal| normal.solve(&design.transpose()),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A polynomial of total degree 3 in up to three parameters, with its derivatives.
+    fn cubic(place: &[f64]) -> (f64, Vec<f64>) {
+        let [x, y, z] = std::array::from_fn(|k| place.get(k).copied().unwrap_or(0.0));
+        let value = 1.0 + x - 2.0 * y + x * y * z + 0.5 * x.powi(3) - y * y * x;
+        let slopes = [
+            1.0 + y * z + 1.5 * x * x - y * y,
+            -2.0 + x * z - 2.0 * y * x,
+            x * y,
+        ];
+        (value, slopes[..place.len()].to_vec())
+    }
+
+    #[test]
+    fn a_cubic_is_met_with_its_slopes_in_one_to_three_parameters() {
+        for parameters in 1..=MOST_PARAMETERS {
+            let basis = Basis::new(parameters);
+            let values =
+                DVector::from_iterator(basis.nodes.len(), basis.nodes.iter().map(|node| cubic(node).0));
+            let coefficients = &basis.project * values;
+            for place in [[0.3, -0.7, 0.1], [-1.0, 1.0, 1.0], [0.0, 0.0, 0.0]] {
+                let place = &place[..parameters];
+                let (value, slopes) = cubic(place);
+                let found = basis.terms(place).dot(&coefficients);
+                // Sums of some twenty terms of order 1.
+                assert!((found - value).abs() < 1e-13, "{found} {value}");
+                let found = basis.slopes(place).tr_mul(&coefficients);
+                for (found, slope) in found.iter().zip(slopes) {
+                    assert!((found - slope).abs() < 1e-12, "{found} {slope}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_lower_degree_misses_what_only_the_higher_can_have() {
+        let basis = Basis::new(1);
+        let quartic = DVector::from_iterator(
+            7,
+            basis
+                .nodes
+                .iter()
+                .map(|node| 8.0 * node[0].powi(4) - 8.0 * node[0].powi(2) + 1.0),
+        );
+        let missed = (&basis.project - &basis.project_lower) * &quartic;
+        assert!((missed[4] - 1.0).abs() < 1e-14, "{missed}");
+        let cubic = DVector::from_iterator(7, basis.nodes.iter().map(|node| cubic(node).0));
+        let missed = (&basis.project - &basis.project_lower) * &cubic;
+        assert!(missed.amax() < 1e-14, "{missed}");
+    }
+
+    #[test]
+    fn the_corners_are_nodes() {
+        for parameters in 1..=MOST_PARAMETERS {
+            let basis = Basis::new(parameters);
+            let corners = basis
+                .nodes
+                .iter()
+                .filter(|node| node.iter().all(|x| x.abs() == 1.0));
+            assert_eq!(corners.count(), 1 << parameters);
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! What an estimate's uncertainty is made of, and what a finer or larger model would change in it (JCGM 100, the "GUM").
+
+use super::data::Datum;
+use super::emulator::{Model, Prediction};
+use super::likelihood::CAUSES;
+use super::search::{Fit, Watch};
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// One line of the budget.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Part {
+    /// What it comes from.
+    pub source: &'static str,
+    /// One standard uncertainty of each parameter, in the parameter's unit.
+    pub u: Vec<f64>,
+}
+
+/// What another model would make of the same points.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Shift {
+    /// How the model is changed.
+    pub change: &'static str,
+    /// By how much each estimate would move, in the parameter's unit.
+    pub shift: Vec<f64>,
+    /// The standard error of that.
+    pub se: Vec<f64>,
+}
+
+/// The budget of a fit: one part for each cause in the covariance of the points, then all of them.
+pub fn parts(fit: &Fit) -> Vec<Part> {
+    let u = |spread: &DMatrix<f64>| -> Vec<f64> {
+        let diagonal = spread.diagonal();
+        (0..diagonal.len())
+            .map(|axis| diagonal[axis].max(0.0).sqrt() * fit.scale(axis))
+            .collect()
+    };
+    let own = CAUSES
+        .iter()
+        .zip(&fit.best.spread)
+        .map(|(source, spread)| Part { source, u: u(spread) });
+    own.chain([Part {
+        source: "all of these",
+        u: u(&fit.best.covariance()),
+    }])
+    .collect()
+}
+
+/// The most replicas by which a shift is measured.
+const MOST_REPLICAS: u64 = 200;
+
+/// By how much the estimate would move with a changed model, from pairs of replicas at the best values: the changed model
+/// predicts `changed`, the fitted one `own`. Linear in the change.
+pub fn shift(
+    fit: &Fit,
+    change: &'static str,
+    own: &Model<'_>,
+    changed: &Model<'_>,
+    watch: &Watch<'_>,
+) -> Result<Shift, String> {
+    let values = fit.values(&fit.best.place);
+    let (own, changed) = (own(&values)?, changed(&values)?);
+    let replicas = (fit.emulator.replicas() as u64).min(MOST_REPLICAS);
+    (watch.planned)(replicas);
+    let pair = |replica: u64| {
+        let (before, after): (Vec<Prediction>, _) = (own(replica)?, changed(replica)?);
+        (watch.done)();
+        let difference = before
+            .iter()
+            .zip(&after)
+            .map(|(before, after)| after[0] - before[0]);
+        // The points stay: where the model rises, the estimate goes the other way.
+        Ok(-&fit.best.influence * DVector::from_iterator(before.len(), difference))
+    };
+    let moves: Vec<DVector<f64>> = (0..replicas)
+        .into_par_iter()
+        .map(pair)
+        .collect::<Result<_, String>>()?;
+    let n = moves.len() as f64;
+    let mean = moves
+        .iter()
+        .fold(DVector::zeros(fit.sides.len()), |sum, one| sum + one)
+        / n;
+    let square = moves
+        .iter()
+        .fold(DVector::zeros(fit.sides.len()), |sum: DVector<f64>, one| {
+            sum + (one - &mean).map(|d| d * d)
+        });
+    let scaled = |vector: &DVector<f64>| {
+        (0..vector.len())
+            .map(|axis| vector[axis] * fit.scale(axis))
+            .collect()
+    };
+    Ok(Shift {
+        change,
+        shift: scaled(&mean),
+        se: scaled(&square.map(|square| (square / (n * (n - 1.0))).sqrt())),
+    })
+}
+
+/// Each point beside the best model.
+pub fn residuals(fit: &Fit, data: &[Datum]) -> Vec<Residual> {
+    let simulated = fit.emulator.at(&fit.best.place);
+    let one = |(k, datum): (usize, &Datum)| {
+        let variance: f64 = fit.best.causes.iter().map(|cause| cause[(k, k)]).sum();
+        Residual {
+            set: datum.set,
+            column: datum.column.clone(),
+            time: datum.time,
+            measured: datum.value,
+            simulated: simulated[k],
+            residual: datum.value - simulated[k],
+            u: variance.sqrt(),
+        }
+    };
+    data.iter().enumerate().map(one).collect()
+}
+
+/// A measured point D and the best model S at its time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Residual {
+    /// The data set.
+    pub set: usize,
+    /// As `x1`.
+    pub column: String,
+    /// In the unit of the file.
+    pub time: f64,
+    /// D.
+    pub measured: f64,
+    /// S.
+    pub simulated: f64,
+    /// D − S.
+    pub residual: f64,
+    /// One standard uncertainty of D − S.
+    pub u: f64,
+}

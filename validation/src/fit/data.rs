@@ -1,0 +1,254 @@
+//! Measured points from a CSV file, in the columns of `docs/experiments.md`.
+
+use crate::experiment::{DataError, read_text, table};
+use serde::Serialize;
+use shearbed::observable::Channel;
+use shearbed::{Observable, Plan};
+use std::path::Path;
+
+/// The most points that are fitted at once: their covariance is a full matrix.
+pub const MOST_POINTS: usize = 1000;
+
+/// A measured point.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Datum {
+    /// Which data set it is of.
+    pub set: usize,
+    /// Its line in the file.
+    pub line: usize,
+    /// The column, as `x1`.
+    pub column: String,
+    /// Its time in the unit of the file's column.
+    pub time: f64,
+    /// What was measured.
+    pub value: f64,
+    /// One standard deviation of the time; 0 where none is given.
+    pub u_time: f64,
+    /// One standard deviation of the value.
+    pub u: f64,
+}
+
+/// The unit of a file's times: the name of its first column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum TimeColumn {
+    /// Periods of the scene's mean aspect ratio, whatever that is when it is fitted.
+    #[serde(rename = "t_over_T")]
+    Periods,
+    /// Seconds.
+    #[serde(rename = "t_s")]
+    Seconds,
+    /// Shear strain.
+    #[serde(rename = "strain")]
+    Strain,
+}
+
+impl TimeColumn {
+    const ALL: [Self; 3] = [Self::Periods, Self::Seconds, Self::Strain];
+
+    /// The column's name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Periods => "t_over_T",
+            Self::Seconds => "t_s",
+            Self::Strain => "strain",
+        }
+    }
+
+    /// How much of it is one unit of a plan's times; none where the plan has no periods to count.
+    pub fn per_unit(self, plan: &Plan) -> Option<f64> {
+        match self {
+            Self::Periods => (plan.time_name() == "t_over_T").then_some(1.0),
+            Self::Seconds => Some(plan.unit().seconds),
+            Self::Strain => Some(plan.unit().strain),
+        }
+    }
+}
+
+/// The points of one file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Points {
+    /// The unit of their times.
+    pub time: TimeColumn,
+    /// In the order of the columns, then of the lines.
+    pub points: Vec<Datum>,
+}
+
+/// Every column that can be measured: the channels of all observables.
+fn measurable() -> Vec<String> {
+    Observable::ALL
+        .iter()
+        .flat_map(|observable| observable.channels())
+        .map(Channel::name)
+        .collect()
+}
+
+/// Reads the file `path` as data set number `set`. Every point needs an uncertainty `NAME_u`; blank points were not
+/// measured.
+pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
+    let text = read_text(path)?;
+    let file = path.display().to_string();
+    let first = text.lines().position(|line| !line.trim().is_empty()).unwrap_or(0);
+    let header: Vec<&str> = (text.lines().nth(first).unwrap_or_default().split(','))
+        .map(str::trim)
+        .collect();
+    let refused = |message: String| DataError::at(&file, first + 1, message);
+    let times = TimeColumn::ALL.map(TimeColumn::name).join(", ");
+    let here: Vec<_> = TimeColumn::ALL
+        .into_iter()
+        .filter(|time| header.contains(&time.name()))
+        .collect();
+    let [time] = here[..] else {
+        let found = here.iter().map(|time| time.name()).collect::<Vec<_>>().join(", ");
+        return Err(refused(format!(
+            "the first line has the time columns [{found}]; one of {times} is allowed"
+        )));
+    };
+    let known = measurable();
+    let mut columns: Vec<String> = Vec::new();
+    for name in &header {
+        let (value, is_uncertainty) = match name.strip_suffix("_u") {
+            Some(value) => (value, true),
+            None => (*name, false),
+        };
+        if value == time.name() {
+            continue;
+        }
+        if !known.iter().any(|known| known == value) {
+            return Err(refused(format!(
+                "column `{name}` is not allowed: a time ({times}), x1, x2, x3 or another column of `shearbed run` \
+                 (phi, c_b, a11, …), and after a name `_u` for its uncertainty"
+            )));
+        }
+        if !is_uncertainty {
+            columns.push(value.to_owned());
+        }
+    }
+    if columns.is_empty() {
+        return Err(refused(
+            "no column of measured values; x1, x2, x3 … are allowed".into(),
+        ));
+    }
+    if let Some(bare) = columns
+        .iter()
+        .find(|name| !header.contains(&format!("{name}_u").as_str()))
+    {
+        return Err(refused(format!(
+            "column {bare}_u is missing: one standard deviation of each {bare} is needed"
+        )));
+    }
+    let mut points = Vec::new();
+    for dataset in table::columns(&file, &text, time.name(), &columns)? {
+        for row in dataset.rows {
+            let refused = |message: String| DataError::at(&file, row.line, message);
+            let u = row.u_y.ok_or_else(|| {
+                refused(format!(
+                    "column {}_u is blank: one standard deviation, a number > 0, is needed",
+                    dataset.name
+                ))
+            })?;
+            if row.x < 0.0 {
+                return Err(refused(format!(
+                    "column {}: `{}` is not allowed: a time ≥ 0",
+                    time.name(),
+                    row.x
+                )));
+            }
+            points.push(Datum {
+                set,
+                line: row.line,
+                column: dataset.name.clone(),
+                time: row.x,
+                value: row.y,
+                u_time: row.u_x.unwrap_or(0.0),
+                u,
+            });
+        }
+    }
+    check(&file, &points)?;
+    Ok(Points { time, points })
+}
+
+fn check(file: &str, points: &[Datum]) -> Result<(), DataError> {
+    if points.is_empty() {
+        return Err(DataError::at(file, 1, "no points: one row for each is needed"));
+    }
+    if points.len() > MOST_POINTS {
+        let message = format!("{} points; at most {MOST_POINTS} are allowed", points.len());
+        return Err(DataError::at(file, points[MOST_POINTS].line, message));
+    }
+    for (k, point) in points.iter().enumerate() {
+        let same = |other: &&Datum| {
+            (&other.column, other.time, other.value) == (&point.column, point.time, point.value)
+        };
+        if let Some(first) = points[..k].iter().find(same) {
+            let message = format!(
+                "{} = {} at {} is in line {} already: each point once is allowed",
+                point.column, point.value, point.time, first.line
+            );
+            return Err(DataError::at(file, point.line, message));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    fn read_of(text: &str) -> Result<Points, String> {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("points.csv");
+        fs::write(&path, text).unwrap();
+        read(&path, 3).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn points_are_read_column_by_column_with_blanks_left_out() {
+        let found =
+            read_of("t_over_T,t_over_T_u,x1,x1_u,x3,x3_u\n0,,0.5,0.01,,\n0.5,0.02,0.4,0.02,0.6,0.03\n")
+                .unwrap();
+        assert_eq!(found.time, TimeColumn::Periods);
+        let short: Vec<_> = (found.points.iter())
+            .map(|p| (p.line, p.column.as_str(), p.time, p.u_time, p.value, p.u))
+            .collect();
+        let expected = [
+            (2, "x1", 0.0, 0.0, 0.5, 0.01),
+            (3, "x1", 0.5, 0.02, 0.4, 0.02),
+            (3, "x3", 0.5, 0.02, 0.6, 0.03),
+        ];
+        assert_eq!(short, expected);
+        assert!(found.points.iter().all(|point| point.set == 3));
+        assert_eq!(
+            read_of("strain,phi,phi_u\n1,0.7,0.1\n").unwrap().time,
+            TimeColumn::Strain
+        );
+    }
+
+    #[test]
+    fn what_cannot_be_is_refused_with_line_and_what_is_allowed() {
+        for (text, line, named) in [
+            ("", 1, "empty"),
+            ("x1,x1_u\n0.5,0.1\n", 1, "one of t_over_T, t_s, strain is allowed"),
+            ("t_s,strain,x1,x1_u\n", 1, "[t_s, strain]"),
+            ("t_s,x4,x4_u\n", 1, "column `x4`"),
+            ("t_s\n1\n", 1, "no column of measured values"),
+            ("t_s,x1\n1,0.5\n", 1, "x1_u is missing"),
+            ("t_s,x1,x1_u\n", 1, "no points"),
+            ("t_s,x1,x1_u\n1,0.5,\n", 2, "x1_u is blank"),
+            ("t_s,x1,x1_u\n1,0.5,0\n", 2, "> 0"),
+            ("t_s,x1,x1_u\n1,nan,0.1\n", 2, "`nan`"),
+            ("t_s,x1,x1_u\n-1,0.5,0.1\n", 2, "a time ≥ 0"),
+            ("t_s,x1,x1_u\n1,0.5,0.1\n\n1,0.5,0.2\n", 4, "in line 2 already"),
+            ("t_s,x1,x1_u,x1\n1,0.5,0.1,2\n", 1, "twice"),
+            ("t_s,x1,x1_u\n1,0.5\n", 2, "2 cells"),
+        ] {
+            let error = read_of(text).unwrap_err();
+            assert!(
+                error.contains(&format!("points.csv:{line}: ")),
+                "{text:?}: {error}"
+            );
+            assert!(error.contains(named), "{text:?}: {error}");
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! The model between the nodes: one polynomial for each measured point, and how far it may be off.
+
+use super::basis::Basis;
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+/// What the model says of one measured point: at its time, and at √3 standard deviations of that time before and after.
+pub type Prediction = [f64; 3];
+
+/// A replica of the model with given parameters: every prediction, in the order of the points.
+pub type Replica = Box<dyn Fn(u64) -> Result<Vec<Prediction>, String> + Send + Sync>;
+
+/// The model with parameters of these values. The same replica has the same random numbers whatever the values.
+pub type Model<'a> = dyn Fn(&[f64]) -> Result<Replica, String> + Sync + 'a;
+
+/// A place of the box on the scale of the ranges: both ends of each side.
+pub type Sides = Vec<(f64, f64)>;
+
+/// The runs of a model at every node of a box. Polynomials are linear in what they run through, so that each replica has
+/// polynomials of its own: their mean is the model, their scatter its error, and what replicas share between parameter
+/// values cancels as it should.
+#[derive(Clone, Debug)]
+pub struct Emulator {
+    pub(super) basis: Basis,
+    /// A row for each coefficient, a column for each point: of the mean over replicas, at, before and after.
+    mean: [DMatrix<f64>; 3],
+    /// How far the mean's polynomials are from those of a degree less.
+    lack: DMatrix<f64>,
+    /// Each replica's coefficients less the mean's, at.
+    deviations: Vec<DMatrix<f64>>,
+}
+
+/// The coefficients of one replica: at, before, after, and what a degree less misses of "at".
+pub type Coefficients = [DMatrix<f64>; 4];
+
+/// Runs some replicas at every node of a box; `value` turns a node's coordinates into parameters. The order of the result
+/// is that of the replicas, on any number of threads.
+pub fn coefficients(
+    basis: &Basis,
+    model: &Model<'_>,
+    value: impl Fn(&[f64]) -> Vec<f64>,
+    replicas: std::ops::Range<u64>,
+    done: &(dyn Fn() + Sync),
+) -> Result<Vec<Coefficients>, String> {
+    let nodes = basis.nodes.iter().map(|node| model(&value(node)));
+    let nodes = nodes.collect::<Result<Vec<_>, String>>()?;
+    let one = |replica: u64| {
+        let mut rows = Vec::with_capacity(nodes.len());
+        for node in &nodes {
+            rows.push(node(replica)?);
+            done();
+        }
+        let of = |which: usize| {
+            DMatrix::from_fn(rows.len(), rows[0].len(), |node, point| rows[node][point][which])
+        };
+        let [at, before, after] = [0, 1, 2].map(of);
+        let lack = (&basis.project - &basis.project_lower) * &at;
+        Ok([
+            &basis.project * at,
+            &basis.project * before,
+            &basis.project * after,
+            lack,
+        ])
+    };
+    replicas.into_par_iter().map(one).collect()
+}
+
+impl Emulator {
+    /// The emulator of these replicas, two at least.
+    pub fn new(basis: &Basis, replicas: &[Coefficients]) -> Self {
+        let share = 1.0 / replicas.len() as f64;
+        let mean = |which: usize| {
+            let first = &replicas[0][which];
+            let zero = DMatrix::zeros(first.nrows(), first.ncols());
+            replicas.iter().fold(zero, |sum, one| sum + &one[which]) * share
+        };
+        let at = mean(0);
+        Self {
+            basis: basis.clone(),
+            deviations: replicas.iter().map(|one| &one[0] - &at).collect(),
+            lack: mean(3),
+            mean: [at, mean(1), mean(2)],
+        }
+    }
+
+    /// Replicas behind it.
+    pub fn replicas(&self) -> usize {
+        self.deviations.len()
+    }
+
+    /// Measured points.
+    pub fn points(&self) -> usize {
+        self.lack.ncols()
+    }
+
+    /// Coefficients of the mean, a row for each term and a column for each point.
+    pub(super) fn mean(&self) -> &DMatrix<f64> {
+        &self.mean[0]
+    }
+
+    /// Every prediction at a place of the box.
+    pub fn at(&self, place: &[f64]) -> DVector<f64> {
+        self.mean[0].tr_mul(&self.basis.terms(place))
+    }
+
+    /// The variance that an uncertain time gives each point: the mean of (S(t + ε) − S(t))² over a Gaussian ε by
+    /// Gauss–Hermite's rule of three nodes, which is right on a peak too, where the slope alone would be 0.
+    pub fn time_variance(&self, place: &[f64]) -> DVector<f64> {
+        let terms = self.basis.terms(place);
+        let [at, before, after] = [0, 1, 2].map(|which| self.mean[which].tr_mul(&terms));
+        ((before - &at).map(|d| d * d) + (after - &at).map(|d| d * d)) / 6.0
+    }
+
+    /// How far polynomials of a degree less are from these.
+    pub fn lack_of_fit(&self, place: &[f64]) -> DVector<f64> {
+        self.lack.tr_mul(&self.basis.terms(place))
+    }
+
+    /// The covariance of one replica's predictions, points × points.
+    pub fn covariance(&self, place: &[f64]) -> DMatrix<f64> {
+        let terms = self.basis.terms(place);
+        let rows: Vec<_> = (self.deviations.iter())
+            .map(|one| one.tr_mul(&terms).transpose())
+            .collect();
+        let spread = DMatrix::from_rows(&rows);
+        spread.tr_mul(&spread) / (self.deviations.len() as f64 - 1.0)
+    }
+
+    /// The derivative of every prediction by every parameter, on the box's scale: points × parameters.
+    pub fn slopes(&self, place: &[f64]) -> DMatrix<f64> {
+        self.mean[0].tr_mul(&self.basis.slopes(place))
+    }
+}

@@ -1,0 +1,158 @@
+//! χ² of the measured points over the box, with everything in their covariance that is known to be there.
+
+use super::basis::Basis;
+use super::data::Datum;
+use super::emulator::Emulator;
+use super::minimise::minimise;
+use nalgebra::{DMatrix, DVector};
+
+/// The causes of a difference between model and measurement, in the order of [`Causes`]; for tables.
+pub const CAUSES: [&str; 5] = [
+    "reading off in y",
+    "reading off in time",
+    "rods that were measured",
+    "replicas of the model",
+    "emulator",
+];
+
+/// The covariance that each cause gives the points, at one place of the box.
+pub type Causes = [DMatrix<f64>; CAUSES.len()];
+
+/// The index of the simulation's own error among the causes.
+pub const REPLICAS: usize = 3;
+/// The index of the emulator's.
+pub const EMULATOR: usize = 4;
+
+/// The covariance of each cause. `rods_over_measured`, for each data set: rods of a replica over rods that each point is a
+/// mean of, 0 where that is not known. Rods of different data sets are different ones.
+pub fn causes(data: &[Datum], emulator: &Emulator, place: &[f64], rods_over_measured: &[f64]) -> Causes {
+    let reading = DVector::from_iterator(data.len(), data.iter().map(|datum| datum.u.powi(2)));
+    let of_replica = emulator.covariance(place);
+    let lack = emulator.lack_of_fit(place);
+    let rods = DMatrix::from_fn(data.len(), data.len(), |i, j| match data[i].set == data[j].set {
+        true => rods_over_measured[data[i].set] * of_replica[(i, j)],
+        false => 0.0,
+    });
+    [
+        DMatrix::from_diagonal(&reading),
+        DMatrix::from_diagonal(&emulator.time_variance(place)),
+        rods,
+        of_replica / emulator.replicas() as f64,
+        // A polynomial that does not fit may move points together or each by itself.
+        &lack * lack.transpose() + DMatrix::from_diagonal(&lack.map(|lack| lack * lack)),
+    ]
+}
+
+/// χ² over the box at a fixed covariance V: a polynomial form, so that its cost does not grow with the points.
+#[derive(Clone, Debug)]
+pub struct ChiSquare {
+    basis: Basis,
+    /// The terms at a place near the best one, from which all else counts: so little cancels.
+    origin: DVector<f64>,
+    /// EᵀV⁻¹E, CV⁻¹E, CV⁻¹Cᵀ with E = D − S there; C holds a row of coefficients for each term.
+    constant: f64,
+    linear: DVector<f64>,
+    square: DMatrix<f64>,
+}
+
+impl ChiSquare {
+    fn new(data: &[Datum], emulator: &Emulator, covariance: &DMatrix<f64>, near: &[f64]) -> Option<Self> {
+        let terms = emulator.mean();
+        let measured = DVector::from_iterator(data.len(), data.iter().map(|datum| datum.value));
+        let error = measured - emulator.at(near);
+        let solver = covariance.clone().cholesky()?;
+        let weighted = solver.solve(&error);
+        Some(Self {
+            origin: emulator.basis.terms(near),
+            constant: error.dot(&weighted),
+            linear: terms * weighted,
+            square: terms * solver.solve(&terms.transpose()),
+            basis: emulator.basis.clone(),
+        })
+    }
+
+    /// χ² at a place.
+    pub fn at(&self, place: &[f64]) -> f64 {
+        let away = self.basis.terms(place) - &self.origin;
+        self.constant - 2.0 * self.linear.dot(&away) + away.dot(&(&self.square * &away))
+    }
+
+    /// Half its gradient, and half its second derivatives without those of the model (Gauss–Newton).
+    pub fn slopes(&self, place: &[f64]) -> (DVector<f64>, DMatrix<f64>) {
+        let (away, slopes) = (self.basis.terms(place) - &self.origin, self.basis.slopes(place));
+        let gradient = slopes.tr_mul(&(&self.square * away - &self.linear));
+        (gradient, slopes.tr_mul(&(&self.square * &slopes)))
+    }
+}
+
+/// The place that fits best in a box, by generalised least squares: V is that at the best place, found by turns.
+#[derive(Clone, Debug)]
+pub struct Best {
+    /// In the box, from −1 to 1.
+    pub place: Vec<f64>,
+    /// χ² there.
+    pub chi_square: f64,
+    /// χ² over the box with V held.
+    pub surface: ChiSquare,
+    /// V by its causes.
+    pub causes: Causes,
+    /// The covariance of the parameters by cause, on the box's scale: A V_cause Aᵀ, A = (JᵀV⁻¹J)⁻¹JᵀV⁻¹.
+    pub spread: Vec<DMatrix<f64>>,
+    /// A: parameters × points, by how much an estimate follows each point.
+    pub influence: DMatrix<f64>,
+}
+
+/// The most rounds in which V follows the best place, and the move of that, in half boxes, below which it stays.
+const ROUNDS: usize = 6;
+const STAYS: f64 = 1e-3;
+
+/// The best place; `None` where V or the information is not positive.
+pub fn best(data: &[Datum], emulator: &Emulator, rods_over_measured: &[f64]) -> Option<Best> {
+    let parameters = emulator.basis.nodes[0].len();
+    let mut place = vec![0.0; parameters];
+    let total = |causes: &Causes| {
+        causes
+            .iter()
+            .fold(DMatrix::zeros(data.len(), data.len()), |sum, one| sum + one)
+    };
+    for _ in 0..ROUNDS {
+        let causes = causes(data, emulator, &place, rods_over_measured);
+        let surface = ChiSquare::new(data, emulator, &total(&causes), &place)?;
+        let before = std::mem::replace(&mut place, minimise(&surface, &vec![None; parameters], None).0);
+        if before.iter().zip(&place).all(|(a, b)| (a - b).abs() < STAYS) {
+            break;
+        }
+    }
+    let causes = causes(data, emulator, &place, rods_over_measured);
+    let covariance = total(&causes);
+    let surface = ChiSquare::new(data, emulator, &covariance, &place)?;
+    let (place, chi_square) = minimise(&surface, &vec![None; parameters], Some(&place));
+    let slopes = emulator.slopes(&place);
+    let weighted = covariance.cholesky()?.solve(&slopes);
+    let influence = slopes.tr_mul(&weighted).cholesky()?.solve(&weighted.transpose());
+    let spread = (causes.iter())
+        .map(|cause| &influence * cause * influence.transpose())
+        .collect();
+    Some(Best {
+        place,
+        chi_square,
+        surface,
+        causes,
+        spread,
+        influence,
+    })
+}
+
+impl Best {
+    /// The covariance of the parameters, on the box's scale.
+    pub fn covariance(&self) -> DMatrix<f64> {
+        let zero = DMatrix::zeros(self.place.len(), self.place.len());
+        self.spread.iter().fold(zero, |sum, one| sum + one)
+    }
+
+    /// The largest share that a cause has in the variance of a parameter.
+    pub fn share(&self, cause: usize) -> f64 {
+        let (own, all) = (self.spread[cause].diagonal(), self.covariance().diagonal());
+        own.component_div(&all).max()
+    }
+}

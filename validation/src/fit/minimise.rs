@@ -1,0 +1,89 @@
+//! The least value of χ² in a box of one to three parameters.
+
+use super::likelihood::ChiSquare;
+use nalgebra::{DMatrix, DVector};
+
+/// Places along each free axis from which the search starts at the best one, by the number of free axes.
+const STARTS: [usize; 4] = [1, 33, 13, 9];
+
+/// Steps of Levenberg and Marquardt: a few suffice, more are for flat valleys.
+const STEPS: usize = 100;
+
+/// The place with the least χ² in the box [−1, 1]^p, and that χ². Parameters that `fixed` gives a place stay there. With a
+/// `start` the search is from there alone; else from the best place of a grid, so that of several valleys the deepest is
+/// found.
+pub fn minimise(surface: &ChiSquare, fixed: &[Option<f64>], start: Option<&[f64]>) -> (Vec<f64>, f64) {
+    let free: Vec<usize> = (0..fixed.len()).filter(|k| fixed[*k].is_none()).collect();
+    let mut place = match start {
+        Some(start) => start.to_vec(),
+        None => best_of_grid(surface, fixed, &free),
+    };
+    for (place, fixed) in place.iter_mut().zip(fixed) {
+        *place = fixed.unwrap_or(*place);
+    }
+    let mut value = surface.at(&place);
+    let mut damping = 1e-3;
+    for _ in 0..STEPS {
+        let (gradient, curvature) = surface.slopes(&place);
+        // A parameter at an edge that χ² pushes outwards stays there.
+        let inwards = |k: &usize| place[*k].abs() < 1.0 || gradient[*k] * place[*k] > 0.0;
+        let moving: Vec<usize> = free.iter().copied().filter(inwards).collect();
+        if moving.is_empty() {
+            break;
+        }
+        let slope = DVector::from_iterator(moving.len(), moving.iter().map(|k| gradient[*k]));
+        let damped = DMatrix::from_fn(moving.len(), moving.len(), |i, j| {
+            let own = curvature[(moving[i], moving[j])];
+            if i == j {
+                own * (1.0 + damping) + f64::MIN_POSITIVE
+            } else {
+                own
+            }
+        });
+        let Some(step) = damped.cholesky().map(|solver| solver.solve(&slope)) else {
+            damping *= 10.0;
+            continue;
+        };
+        let mut next = place.clone();
+        for (k, step) in moving.iter().zip(step.iter()) {
+            next[*k] = (next[*k] - step).clamp(-1.0, 1.0);
+        }
+        let moved = next
+            .iter()
+            .zip(&place)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f64::max);
+        let found = surface.at(&next);
+        if found < value {
+            (place, value) = (next, found);
+            damping *= 0.1;
+        } else {
+            damping *= 10.0;
+        }
+        // Far below any uncertainty, which is some tenth of a box: χ² then changes by 1e-11.
+        if moved < 1e-6 {
+            break;
+        }
+    }
+    (place, value)
+}
+
+fn best_of_grid(surface: &ChiSquare, fixed: &[Option<f64>], free: &[usize]) -> Vec<f64> {
+    let along = STARTS[free.len()];
+    let mut best = (
+        f64::INFINITY,
+        fixed.iter().map(|fixed| fixed.unwrap_or(0.0)).collect::<Vec<_>>(),
+    );
+    for k in 0..along.pow(free.len() as u32) {
+        let mut place = best.1.clone();
+        for (digit, axis) in free.iter().enumerate() {
+            let index = k / along.pow(digit as u32) % along;
+            place[*axis] = -1.0 + 2.0 * index as f64 / (along - 1) as f64;
+        }
+        let value = surface.at(&place);
+        if value < best.0 {
+            best = (value, place);
+        }
+    }
+    best.1
+}

@@ -1,0 +1,23 @@
+//! From measured points to a model's parameters: estimate, intervals, goodness of fit, and what limits them.
+//!
+//! The model runs at the nodes of a box of parameters, with the same random numbers at each; polynomials run through what is
+//! found there, and generalised least squares through those. The covariance of the points holds reading off in both axes,
+//! the measured rods, the model's replicas and the polynomials' lack of fit. `docs/fit.md` has the formulas.
+
+pub mod basis;
+pub mod budget;
+pub mod data;
+pub mod emulator;
+pub mod likelihood;
+mod minimise;
+pub mod pictures;
+pub mod profile;
+mod range;
+pub mod report;
+pub mod scenes;
+pub mod search;
+#[cfg(test)]
+mod tests;
+pub mod words;
+
+pub use range::Range;

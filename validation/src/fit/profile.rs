@@ -1,0 +1,137 @@
+//! Intervals by profile likelihood: how far a parameter can go while the others follow it.
+
+use super::likelihood::Best;
+use super::minimise::minimise;
+use serde::Serialize;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+/// The places of a profile between the edges of the box.
+const PLACES: usize = 61;
+
+/// Halvings that find where a profile crosses a level between two places: to 3e-8 of half a box.
+const HALVINGS: usize = 20;
+
+/// An interval of one parameter, on the scale of the box.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Interval {
+    /// Its lower end.
+    pub low: f64,
+    /// Its upper end.
+    pub high: f64,
+    /// Whether the profile has not risen to the level before the box ends, below and above.
+    pub open: [bool; 2],
+}
+
+/// χ² less its least value along one parameter, the others at their best.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    /// The parameter's places in the box, rising.
+    pub place: Vec<f64>,
+    /// χ² − χ²_min.
+    pub rise: Vec<f64>,
+}
+
+/// By how much χ² rises at the ends of an interval of this confidence for one parameter.
+pub fn rise_of(confidence: f64) -> f64 {
+    rise_of_several(confidence, 1)
+}
+
+/// The same for the region of several parameters together.
+pub fn rise_of_several(confidence: f64, parameters: usize) -> f64 {
+    ChiSquared::new(parameters as f64).map_or(f64::NAN, |law| law.inverse_cdf(confidence))
+}
+
+/// χ² − χ²_min where parameter `axis` has this place and the others their best ones.
+fn rise(best: &Best, axis: usize, place: f64) -> f64 {
+    let mut fixed = vec![None; best.place.len()];
+    fixed[axis] = Some(place);
+    minimise(&best.surface, &fixed, Some(&best.place)).1 - best.chi_square
+}
+
+/// The profile of one parameter over the box, its best place among the places.
+pub fn profile(best: &Best, axis: usize) -> Profile {
+    let even = (0..PLACES).map(|k| -1.0 + 2.0 * k as f64 / (PLACES - 1) as f64);
+    let mut place: Vec<f64> = even.chain([best.place[axis]]).collect();
+    place.sort_by(f64::total_cmp);
+    let rise = place
+        .iter()
+        .map(|place| rise(best, axis, *place).max(0.0))
+        .collect();
+    Profile { place, rise }
+}
+
+/// Where a profile is below `level`: from its outermost crossing on either side, so that a second valley is inside.
+pub fn interval(best: &Best, axis: usize, profile: &Profile, level: f64) -> Interval {
+    let inside: Vec<usize> = (0..profile.place.len())
+        .filter(|k| profile.rise[*k] <= level)
+        .collect();
+    let last = profile.place.len() - 1;
+    let (first_in, last_in) = match (inside.first(), inside.last()) {
+        (Some(first), Some(last)) => (*first, *last),
+        _ => (0, last),
+    };
+    let crossing = |mut inner: f64, mut outer: f64| {
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (inner + outer);
+            *(if rise(best, axis, middle) <= level {
+                &mut inner
+            } else {
+                &mut outer
+            }) = middle;
+        }
+        0.5 * (inner + outer)
+    };
+    let open = [first_in == 0, last_in == last];
+    Interval {
+        low: match open[0] {
+            true => -1.0,
+            false => crossing(profile.place[first_in], profile.place[first_in - 1]),
+        },
+        high: match open[1] {
+            true => 1.0,
+            false => crossing(profile.place[last_in], profile.place[last_in + 1]),
+        },
+        open,
+    }
+}
+
+/// Where the region of two parameters, `axes`, ends in every direction from the best place: a closed curve, cut at the edges
+/// of the box. Directions are even where the covariance is a circle, so that a long thin region has its share of them. Other
+/// parameters are at their best.
+pub fn contour(best: &Best, axes: [usize; 2], level: f64) -> Vec<[f64; 2]> {
+    const DIRECTIONS: usize = 144;
+    let [a, b] = axes;
+    let rise = |point: [f64; 2]| {
+        let mut fixed = vec![None; best.place.len()];
+        (fixed[a], fixed[b]) = (Some(point[0]), Some(point[1]));
+        minimise(&best.surface, &fixed, Some(&best.place)).1 - best.chi_square
+    };
+    let spread = best.covariance();
+    let (along_a, shared) = (spread[(a, a)].sqrt(), spread[(a, b)] / spread[(a, a)].sqrt());
+    let along_b = (spread[(b, b)] - shared * shared).max(0.0).sqrt();
+    let centre = [best.place[a], best.place[b]];
+    let end = |k: usize| {
+        let (sin, cos) = (std::f64::consts::TAU * k as f64 / DIRECTIONS as f64).sin_cos();
+        let way = [along_a * cos, shared * cos + along_b * sin];
+        let to_edge = |k: usize| match way[k].abs() < 1e-12 {
+            true => f64::INFINITY,
+            false => (way[k].signum() - centre[k]) / way[k],
+        };
+        let most = to_edge(0).min(to_edge(1)).max(0.0);
+        let point = |reach: f64| [0, 1].map(|k| (centre[k] + reach * way[k]).clamp(-1.0, 1.0));
+        if rise(point(most)) <= level {
+            return point(most);
+        }
+        let (mut inner, mut outer) = (0.0, most);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (inner + outer);
+            *(if rise(point(middle)) <= level {
+                &mut inner
+            } else {
+                &mut outer
+            }) = middle;
+        }
+        point(inner)
+    };
+    (0..=DIRECTIONS).map(end).collect()
+}

@@ -1,0 +1,207 @@
+//! Scenes as a model of measured points: a scene's keys set to values, its replicas run, and looked at where points lie.
+
+use super::data::{Datum, TimeColumn};
+use super::emulator::{Prediction, Replica};
+use super::range::Range;
+use crate::experiment::interpolate;
+use crate::sweep::{self, Setting};
+use shearbed::observable::Channel;
+use shearbed::run::run_replica;
+use shearbed::{Observable, Plan, Scene};
+use toml::Value;
+
+/// A scene with the times and columns at which it was measured.
+#[derive(Clone, Debug)]
+pub struct Set {
+    /// The scene's name or file, for messages.
+    pub source: String,
+    /// The text of the scene's file.
+    pub text: String,
+    /// Keys that have other values than in the text, the same for all parameters.
+    pub settings: Vec<Setting>,
+    /// The seed of all random numbers.
+    pub seed: u64,
+    /// The unit of its points' times.
+    pub time: TimeColumn,
+}
+
+/// How a model differs from the scene as it is written, to see what that changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Variant {
+    /// Steps, in multiples of the scene's.
+    pub steps: u64,
+    /// Rods, in multiples of the scene's.
+    pub rods: usize,
+}
+
+/// The scene as it is written.
+pub const AS_WRITTEN: Variant = Variant { steps: 1, rods: 1 };
+
+/// Several scenes with common parameters.
+#[derive(Clone, Debug)]
+pub struct Scenes {
+    /// The scenes.
+    pub sets: Vec<Set>,
+    /// The parameters.
+    pub ranges: Vec<Range>,
+    /// Steps per period of each scene, the same for all values of the parameters: so they keep their random numbers.
+    steps: Vec<u64>,
+}
+
+/// √3: Gauss–Hermite's outer nodes in standard deviations.
+const OUTER: f64 = 1.732_050_807_568_877_2;
+
+/// Outputs per unit of strain, where time is no period.
+const PER_STRAIN: u64 = 40;
+
+impl Scenes {
+    /// Checks every scene at all corners of the ranges. On error, which scene, which values, and why.
+    pub fn new(sets: Vec<Set>, ranges: Vec<Range>) -> Result<Self, String> {
+        let mut scenes = Self {
+            steps: vec![0; sets.len()],
+            sets,
+            ranges,
+        };
+        for set in 0..scenes.sets.len() {
+            for corner in scenes.corners() {
+                let scene = scenes.scene(set, &corner)?;
+                scenes.steps[set] = scenes.steps[set].max(scene.steps_per_period());
+            }
+        }
+        Ok(scenes)
+    }
+
+    fn corners(&self) -> Vec<Vec<f64>> {
+        let end = |k: usize, range: usize| match k >> range & 1 {
+            0 => self.ranges[range].from,
+            _ => self.ranges[range].to,
+        };
+        (0..1 << self.ranges.len())
+            .map(|k: usize| (0..self.ranges.len()).map(|range| end(k, range)).collect())
+            .collect()
+    }
+
+    /// The scene of a set with these values, as its file has it otherwise.
+    pub fn scene(&self, set: usize, values: &[f64]) -> Result<Scene, String> {
+        let Set {
+            source,
+            text,
+            settings,
+            seed,
+            ..
+        } = &self.sets[set];
+        let own = self.ranges.iter().zip(values).map(|(range, value)| Setting {
+            key: range.key.clone(),
+            value: Value::Float(*value),
+        });
+        let settings: Vec<_> = settings.iter().cloned().chain(own).collect();
+        let said = || {
+            let pairs = self
+                .ranges
+                .iter()
+                .zip(values)
+                .map(|(range, value)| format!(" {}={value}", range.key));
+            pairs.collect::<String>()
+        };
+        let mut scene = sweep::scene_with(text, &settings)
+            .map_err(|error| format!("{source}: --over{}: {error}", said()))?;
+        scene.ensemble.seed = *seed;
+        Ok(scene)
+    }
+
+    /// The plans of all scenes with these values that reach the last of these times (in the unit of each set), with an
+    /// output in every step.
+    pub fn plans(&self, values: &[f64], data: &[Datum], variant: Variant) -> Result<Vec<Plan>, String> {
+        (0..self.sets.len())
+            .map(|set| self.plan(set, values, data, variant))
+            .collect()
+    }
+
+    fn plan(&self, set: usize, values: &[f64], data: &[Datum], variant: Variant) -> Result<Plan, String> {
+        let refused = |error: String| format!("{}: {error}", self.sets[set].source);
+        let mut scene = self.scene(set, values)?;
+        let own = Plan::new(&scene).map_err(|error| refused(error.to_string()))?;
+        let per_unit = self.sets[set].time.per_unit(&own).ok_or_else(|| {
+            refused("has no period: times as t_s or strain are allowed, not t_over_T".into())
+        })?;
+        let here = data.iter().filter(|datum| datum.set == set);
+        let last = here
+            .map(|datum| (datum.time + OUTER * datum.u_time) / per_unit)
+            .fold(0.0, f64::max);
+        // One output more than the last point needs, for the cubic.
+        if scene.time.strain.is_some() {
+            let outputs = scene.outputs_per_strain().max(PER_STRAIN);
+            scene.time.strain = Some(((last * outputs as f64).ceil() + 1.0) / outputs as f64);
+            scene.time.outputs_per_strain = Some(outputs);
+        } else {
+            let outputs = self.steps[set];
+            scene.time.periods = Some(((last * outputs as f64).ceil() + 1.0) / outputs as f64);
+            scene.time.outputs_per_period = Some(outputs);
+            scene.time.steps_per_period = Some(outputs * variant.steps);
+        }
+        scene.particles.count *= variant.rods;
+        let needed = |observable: &Observable| {
+            let mut channels = observable.channels();
+            channels.any(|channel| {
+                data.iter()
+                    .any(|datum| datum.set == set && datum.column == channel.name())
+            })
+        };
+        scene.output.observables = Observable::ALL.into_iter().filter(needed).collect();
+        Plan::new(&scene).map_err(|error| refused(error.to_string()))
+    }
+
+    /// The model of these points with parameters of these values.
+    pub fn model(&self, data: &[Datum], variant: Variant, values: &[f64]) -> Result<Replica, String> {
+        let sets: Vec<(Plan, Vec<Look>)> = (self.plans(values, data, variant)?.into_iter().enumerate())
+            .map(|(set, plan)| {
+                let looks = looks(&plan, self.sets[set].time, data, set);
+                (plan, looks)
+            })
+            .collect();
+        let points = data.len();
+        Ok(Box::new(move |replica| {
+            let mut all = vec![[f64::NAN; 3]; points];
+            for (plan, looks) in &sets {
+                predict(plan, looks, replica, &mut all)?;
+            }
+            Ok(all)
+        }))
+    }
+}
+
+/// Where a scene is looked at for one point.
+#[derive(Clone, Copy, Debug)]
+struct Look {
+    /// Which point.
+    point: usize,
+    /// What was measured.
+    channel: Channel,
+    /// Its time, and one standard deviation, in outputs.
+    outputs: f64,
+    u_outputs: f64,
+}
+
+fn looks(plan: &Plan, time: TimeColumn, data: &[Datum], set: usize) -> Vec<Look> {
+    let per_output = plan.times().get(1).copied().unwrap_or(1.0) * time.per_unit(plan).unwrap_or(f64::NAN);
+    let here = data.iter().enumerate().filter(|(_, datum)| datum.set == set);
+    here.filter_map(|(point, datum)| {
+        Some(Look {
+            point,
+            channel: Channel::named(&datum.column)?,
+            outputs: datum.time / per_output,
+            u_outputs: datum.u_time / per_output,
+        })
+    })
+    .collect()
+}
+
+fn predict(plan: &Plan, looks: &[Look], replica: u64, all: &mut [Prediction]) -> Result<(), String> {
+    let found = run_replica(plan, replica).map_err(|error| error.to_string())?;
+    for look in looks {
+        let mean = |output: usize| found.mean(look.channel, output).unwrap_or(f64::NAN);
+        let at = |outputs: f64| interpolate(plan.outputs(), outputs, 4, mean);
+        all[look.point] = [0.0, -OUTER, OUTER].map(|side| at(look.outputs + side * look.u_outputs));
+    }
+    Ok(())
+}

@@ -1,0 +1,212 @@
+//! The search: runs over the whole range, then over the part of it that the data leave, until the model's own error is
+//! small beside the data's.
+
+use super::basis::Basis;
+use super::data::Datum;
+use super::emulator::{Coefficients, Emulator, Model, Sides, coefficients};
+use super::likelihood::{Best, REPLICAS, best};
+use super::profile::{Interval, Profile, interval, profile, rise_of};
+use super::range::Range;
+
+/// Replicas of the first runs, which only say where to look closer.
+pub const FIRST_REPLICAS: u64 = 50;
+
+/// The share that the model's own sampling error may have in the variance of a parameter before replicas are added: it
+/// makes the interval 5 % longer.
+pub const MOST_SHARE: f64 = 0.1;
+
+/// The most times that the box changes.
+const MOST_ROUNDS: u64 = 12;
+
+/// By how much χ² rises where the box may end: four standard deviations from the best place.
+const FAR: f64 = 16.0;
+
+/// A box is made smaller only when a side shrinks below this share of it: runs anew cost more than that gains.
+const WORTH: f64 = 0.6;
+
+/// What is to be fitted.
+pub struct Problem<'a> {
+    /// The measured points.
+    pub data: &'a [Datum],
+    /// The parameters.
+    pub ranges: &'a [Range],
+    /// For each data set: rods of a replica over rods that each point is a mean of; 0 where that is not known.
+    pub rods_over_measured: &'a [f64],
+    /// What predicts the points.
+    pub model: &'a Model<'a>,
+    /// The most replicas at each parameter value.
+    pub most_replicas: u64,
+}
+
+/// Told of the runs that are to come, and of each that is done.
+pub struct Watch<'a> {
+    /// So many more runs.
+    pub planned: &'a (dyn Fn(u64) + Sync),
+    /// One is done.
+    pub done: &'a (dyn Fn() + Sync),
+}
+
+/// A fit.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// The parameters.
+    pub ranges: Vec<Range>,
+    /// The last box, on the ranges' scales.
+    pub sides: Sides,
+    /// The best place in it.
+    pub best: Best,
+    /// The model over it.
+    pub emulator: Emulator,
+    /// A profile for each parameter.
+    pub profiles: Vec<Profile>,
+    /// Runs of the model, over all boxes.
+    pub runs: u64,
+    /// Boxes that were tried.
+    pub rounds: u64,
+}
+
+/// Fits the parameters. On error, why a run could not be or was not finished.
+pub fn search(problem: &Problem<'_>, watch: &Watch<'_>) -> Result<Fit, String> {
+    let basis = Basis::new(problem.ranges.len());
+    let whole: Sides = (problem.ranges.iter())
+        .map(|range| (range.scaled(range.from), range.scaled(range.to)))
+        .collect();
+    let mut sides = whole.clone();
+    let mut wanted = FIRST_REPLICAS.min(problem.most_replicas);
+    let (mut runs, mut rounds) = (0, 1);
+    let mut found: Vec<Coefficients> = Vec::new();
+    loop {
+        let new = found.len() as u64..wanted;
+        let planned = (wanted - new.start) * basis.nodes.len() as u64;
+        (watch.planned)(planned);
+        runs += planned;
+        let value = |node: &[f64]| values(problem.ranges, &sides, node);
+        found.extend(coefficients(&basis, problem.model, value, new, watch.done)?);
+        let fit = fitted(problem, &basis, &sides, &found)?;
+        if rounds < MOST_ROUNDS
+            && let Some(other) = other_sides(&fit, &whole)
+        {
+            sides = other;
+            found.clear();
+            rounds += 1;
+            continue;
+        }
+        let share = fit.best.share(REPLICAS);
+        if share <= MOST_SHARE || wanted >= problem.most_replicas {
+            return match enclosed(&fit, &whole) {
+                true => Ok(Fit { runs, rounds, ..fit }),
+                false => Err(format!(
+                    "--over: the best values were not enclosed in {rounds} boxes; a narrower range near {:?} may do",
+                    fit.values(&fit.best.place)
+                )),
+            };
+        }
+        wanted = enough(wanted, share).min(problem.most_replicas);
+    }
+}
+
+/// The values of the parameters at a place of a box.
+pub fn values(ranges: &[Range], sides: &Sides, place: &[f64]) -> Vec<f64> {
+    let one = |((range, (low, high)), place): ((&Range, &(f64, f64)), &f64)| {
+        range.value(0.5 * (low + high) + 0.5 * (high - low) * place)
+    };
+    ranges.iter().zip(sides).zip(place).map(one).collect()
+}
+
+/// The fit of some replicas over a box.
+pub fn fitted(
+    problem: &Problem<'_>,
+    basis: &Basis,
+    sides: &Sides,
+    found: &[Coefficients],
+) -> Result<Fit, String> {
+    let emulator = Emulator::new(basis, found);
+    let best = best(problem.data, &emulator, problem.rods_over_measured)
+        .ok_or("the points say nothing about a parameter: no model value changes with it")?;
+    Ok(Fit {
+        ranges: problem.ranges.to_vec(),
+        sides: sides.clone(),
+        profiles: (0..sides.len()).map(|axis| profile(&best, axis)).collect(),
+        best,
+        emulator,
+        runs: 0,
+        rounds: 1,
+    })
+}
+
+/// The replicas that bring the share of the sampling variance, which falls as one over their number, to what is allowed;
+/// some more, as the share is known no better than the variance itself.
+fn enough(replicas: u64, share: f64) -> u64 {
+    let others = 1.0 - share;
+    let needed = replicas as f64 * (share / others) * (1.0 - MOST_SHARE) / MOST_SHARE;
+    (1.1 * needed).ceil() as u64 + 1
+}
+
+/// The box in which to look next; none where this one will do. Each side is to end some five standard deviations from the
+/// best place: nearer, the interval may be cut, farther, polynomials of this degree are blunt.
+fn other_sides(fit: &Fit, whole: &Sides) -> Option<Sides> {
+    let mut change = false;
+    let sides = (0..whole.len())
+        .map(|axis| {
+            let (low, high) = fit.sides[axis];
+            let at = |place: f64| 0.5 * (low + high) + 0.5 * (high - low) * place;
+            let far = interval(&fit.best, axis, &fit.profiles[axis], FAR);
+            let centre = fit.best.place[axis];
+            let end = |place: f64, open: bool| match open {
+                // Not seen yet: beyond this box, far beyond where even the best place is at its edge.
+                true if centre.abs() > 0.99 => at(place + 4.0 * place.signum()),
+                true => at(place + place.signum()),
+                false => at(place + 0.25 * (place - centre)),
+            };
+            let wanted = (
+                end(far.low, far.open[0]).max(whole[axis].0),
+                end(far.high, far.open[1]).min(whole[axis].1),
+            );
+            let wider = wanted.0 < low && far.open[0] || wanted.1 > high && far.open[1];
+            change |= wider || wanted.1 - wanted.0 < WORTH * (high - low);
+            wanted
+        })
+        .collect();
+    change.then_some(sides)
+}
+
+/// Whether every 95 % interval ends inside its box or at the edge of its range.
+fn enclosed(fit: &Fit, whole: &Sides) -> bool {
+    (0..whole.len()).all(|axis| {
+        let found = interval(&fit.best, axis, &fit.profiles[axis], rise_of(0.95));
+        let (own, all) = (fit.sides[axis], whole[axis]);
+        (!found.open[0] || own.0 <= all.0) && (!found.open[1] || own.1 >= all.1)
+    })
+}
+
+impl Fit {
+    /// The values of the parameters at a place of the box.
+    pub fn values(&self, place: &[f64]) -> Vec<f64> {
+        values(&self.ranges, &self.sides, place)
+    }
+
+    /// The value of one parameter at its place in the box.
+    pub fn value(&self, axis: usize, place: f64) -> f64 {
+        let mut all = vec![0.0; self.ranges.len()];
+        all[axis] = place;
+        self.values(&all)[axis]
+    }
+
+    /// By how much each parameter changes with its place in the box, at the best place.
+    pub fn scale(&self, axis: usize) -> f64 {
+        let (low, high) = self.sides[axis];
+        let scaled = 0.5 * (low + high) + 0.5 * (high - low) * self.best.place[axis];
+        0.5 * (high - low) * self.ranges[axis].slope(scaled)
+    }
+
+    /// The interval of a parameter at a confidence, in the parameter's unit. It is open at an end that is the edge of the
+    /// parameter's range.
+    pub fn interval(&self, axis: usize, confidence: f64) -> Interval {
+        let found = interval(&self.best, axis, &self.profiles[axis], rise_of(confidence));
+        Interval {
+            low: self.value(axis, found.low),
+            high: self.value(axis, found.high),
+            open: found.open,
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! `shearbed fit` as a user meets it: synthetic points, files, refusals. No point here is measured.
+
+mod common;
+
+use common::{ended, files, folder};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+/// The mean curve of `small.toml` at α = 0.8, another seed than the fit's, with noise of 0.01 that is fixed: each point is
+/// off by a Gaussian quantile, in an order without a pattern.
+fn points(dir: &Path) {
+    let run = ended(
+        dir,
+        "run small.toml --set interaction.alpha=0.8 --set time.outputs_per_period=20 --seed 7 --replicas 400 --out truth",
+    );
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let mut csv = csv::Reader::from_path(dir.join("truth/projections.csv")).unwrap();
+    let quantiles = [
+        -1.6, -1.1, -0.8, -0.6, -0.5, -0.3, -0.2, -0.1, 0.1, 0.2, 0.3, 0.5, 0.6, 0.8, 1.1, 1.6, 0.0, 0.4,
+        -0.4, 0.7,
+    ];
+    let mut text = "t_over_T,x1,x1_u\n".to_owned();
+    for (k, row) in csv.records().skip(1).enumerate() {
+        let row = row.unwrap();
+        let x1: f64 = row[3].parse().unwrap();
+        text += &format!(
+            "{},{},0.01\n",
+            &row[0],
+            x1 + 0.01 * quantiles[(7 * k + 3) % quantiles.len()]
+        );
+    }
+    fs::write(dir.join("points.csv"), text).unwrap();
+}
+
+fn json(path: &Path) -> Value {
+    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+}
+
+#[test]
+fn the_planted_alpha_is_found_and_everything_is_written() {
+    let dir = folder();
+    points(dir.path());
+    let fit = "fit small.toml --data points.csv --over interaction.alpha=0.05:5 --replicas 100";
+    let done = ended(dir.path(), &format!("{fit} --out one --threads 1"));
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    let first = done.stdout.lines().next().unwrap();
+    assert!(
+        first.starts_with("alpha = ")
+            && first.contains(", 95 % from ")
+            && first.contains("for 19 degrees of freedom"),
+        "{first}"
+    );
+
+    let record = json(&dir.path().join("one/fit.json"));
+    let alpha = &record["parameters"]["interaction.alpha"];
+    let number = |key: &str| alpha[key].as_f64().unwrap();
+    let (estimate, u) = (number("estimate"), number("standard_uncertainty"));
+    // Correct code is outside four standard uncertainties at one seed in 16 000.
+    assert!((estimate - 0.8).abs() < 4.0 * u, "{estimate} ± {u}");
+    let rising = ["low_95", "low_68", "estimate", "high_68", "high_95"].map(number);
+    assert!(rising.windows(2).all(|pair| pair[0] < pair[1]), "{rising:?}");
+    assert!(rising[0] > 0.05 && rising[4] < 5.0, "{rising:?}");
+    assert_eq!(record["degrees_of_freedom"], 19);
+    assert!(record["chi2"].as_f64().unwrap() > 0.0);
+    assert!((0.0..=1.0).contains(&record["p_value"].as_f64().unwrap()));
+    assert_eq!(record["residuals"].as_array().unwrap().len(), 20);
+    let squares = |rows: &[&Value]| {
+        rows.iter()
+            .map(|row| row["u"][0].as_f64().unwrap().powi(2))
+            .sum::<f64>()
+    };
+    let (all, parts) = record["budget"].as_array().unwrap().split_last().unwrap();
+    assert!((squares(&[all]) / squares(&parts.iter().collect::<Vec<_>>()) - 1.0).abs() < 1e-9);
+    assert!((squares(&[all]).sqrt() / u - 1.0).abs() < 1e-9);
+    assert_eq!(record["shifts"].as_array().unwrap().len(), 2);
+
+    let written = files(&dir.path().join("one"));
+    let names: Vec<_> = written.keys().map(String::as_str).collect();
+    assert_eq!(
+        names,
+        [
+            "fit.json",
+            "points.svg",
+            "profile_alpha.svg",
+            "profiles.csv",
+            "residuals.csv",
+            "residuals.svg"
+        ]
+    );
+    let residuals = String::from_utf8(written["residuals.csv"].clone()).unwrap();
+    assert_eq!(residuals.lines().count(), 21);
+
+    // The same bits on another number of threads.
+    let again = ended(dir.path(), &format!("{fit} --out two --threads 2"));
+    assert_eq!(again.code, Some(0));
+    let mut two = files(&dir.path().join("two"));
+    let mut one = written;
+    one.remove("fit.json");
+    two.remove("fit.json");
+    assert_eq!(one, two);
+    let other = json(&dir.path().join("two/fit.json"));
+    assert_eq!(other["parameters"], record["parameters"]);
+}
+
+#[test]
+fn what_the_points_do_not_say_is_warned_of() {
+    let dir = folder();
+    points(dir.path());
+    let done = ended(
+        dir.path(),
+        "fit small.toml --data points.csv --over interaction.alpha=0.05:0.3 --replicas 50 --out out",
+    );
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    assert!(
+        done.stderr
+            .contains("interaction.alpha: its 95 % interval reaches the upper end of its range, 0.3"),
+        "{}",
+        done.stderr
+    );
+    let record = json(&dir.path().join("out/fit.json"));
+    assert_eq!(record["parameters"]["interaction.alpha"]["high_95"], 0.3);
+    assert!(record["warnings"].to_string().contains("upper end"));
+}
+
+#[test]
+fn two_sets_share_their_parameters() {
+    let dir = folder();
+    points(dir.path());
+    let args = "fit small.toml --data points.csv --data small.toml=points.csv --over interaction.alpha=0.2:2 --replicas 50 --out both";
+    let done = ended(dir.path(), args);
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    let record = json(&dir.path().join("both/fit.json"));
+    assert_eq!(record["degrees_of_freedom"], 39);
+    assert_eq!(record["data"].as_array().unwrap().len(), 2);
+    assert!(dir.path().join("both/points_2.svg").is_file());
+}
+
+#[test]
+fn bad_input_ends_with_two_and_leaves_nothing() {
+    let dir = folder();
+    fs::write(
+        dir.path().join("good.csv"),
+        "t_over_T,x1,x1_u\n0.2,0.3,0.01\n0.5,0.3,0.01\n0.8,0.3,0.01\n",
+    )
+    .unwrap();
+    fs::write(
+        dir.path().join("bad.csv"),
+        "t_over_T,x1,x1_u\n0.2,0.3,0.01\n0.5,zero,0.01\n",
+    )
+    .unwrap();
+    fs::write(
+        dir.path().join("late.csv"),
+        "t_over_T,x1,x1_u\n0.2,0.3,0.01\n1.5,0.3,0.01\n",
+    )
+    .unwrap();
+    fs::write(dir.path().join("one.csv"), "t_over_T,x1,x1_u\n0.2,0.3,0.01\n").unwrap();
+    let good = "--data good.csv";
+    for (arguments, named) in [
+        (
+            "--data none.csv --over interaction.alpha=0.1:1".to_owned(),
+            "none.csv: cannot be read",
+        ),
+        (
+            "--data bad.csv --over interaction.alpha=0.1:1".into(),
+            "bad.csv:3: column x1: `zero` is not allowed",
+        ),
+        (
+            "--data late.csv --over interaction.alpha=0.1:1".into(),
+            "late.csv:3: column t_over_T: `1.5` is not allowed",
+        ),
+        (
+            "--data one.csv --over interaction.alpha=0.1:1".into(),
+            "1 points for 1 parameters",
+        ),
+        (
+            "--data other=good.csv --over interaction.alpha=0.1:1".into(),
+            "other: cannot be read",
+        ),
+        (
+            format!("{good} --over interaction.alpha=1:0.1"),
+            "FROM < TO is allowed",
+        ),
+        (
+            format!("{good} --over interaction.alpha=0.1:1:5"),
+            "\"1:5\" is no end of a range",
+        ),
+        (
+            format!("{good} --over interaction.alpa=0.1:1"),
+            "unknown key `alpa`",
+        ),
+        (
+            format!("{good} --over interaction.alpha=-1:1"),
+            "interaction.alpha = -1",
+        ),
+        (format!("{good} --over particles.count=10:15"), "a whole number"),
+        (
+            format!("{good} --over ensemble.seed=1:5"),
+            "ensemble is nothing that points tell",
+        ),
+        (
+            format!("{good} --over interaction.alpha=0.1:1 --over interaction.alpha=0.1:2"),
+            "both set it",
+        ),
+        (
+            format!("{good} --over interaction.alpha=0.1:1 --set interaction.alpha=1"),
+            "both set it",
+        ),
+        (
+            format!("{good} --over interaction.alpha=0.1:1 --replicas 5"),
+            "a whole number from 20",
+        ),
+        (
+            format!("{good} --over interaction.alpha=0.1:1 --rods 0"),
+            "a whole number from 1",
+        ),
+        (good.into(), "--over"),
+    ] {
+        let done = ended(dir.path(), &format!("fit small.toml {arguments} --out out"));
+        assert_eq!(done.code, Some(2), "{arguments}: {}", done.stderr);
+        assert!(done.stderr.contains(named), "{arguments}: {}", done.stderr);
+        assert!(!dir.path().join("out").exists(), "{arguments}");
+    }
+}
