@@ -41,7 +41,7 @@ pub fn cases() -> Vec<Case> {
             vec![
                 Evidence::new("runs that turn", Rule::exact(found.len() as f64 - 5.0)),
                 Evidence::new(
-                    format!("strain {mean:.2} of the first half turn, outside {least:.2} to {most:.2}"),
+                    format!("strain {mean:.2} of the first half turn; T/2 is {least:.2} to {most:.2}"),
                     Rule::exact(outside),
                 ),
             ]
