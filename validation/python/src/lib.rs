@@ -150,7 +150,7 @@ fn dictionary<'py>(py: Python<'py>, plan: &Plan, results: Results) -> PyResult<B
     let (time_s, strain) = (scaled(results.unit.seconds), scaled(results.unit.strain));
     for series in results.series {
         let mut names = Vec::new();
-        for channel in series.channels {
+        for channel in series.columns {
             channels.set_item(&channel.name, (array(channel.mean), array(channel.se)))?;
             names.push(channel.name);
         }

@@ -38,7 +38,7 @@ pub fn cases() -> Vec<Case> {
                 vec![
                     Evidence::exact("runs that turn", found.len() as f64 - 5.0),
                     Evidence::exact(
-                        format!("strain {mean:.2} of the first half turn, outside {least:.2} to {most:.2}"),
+                        format!("strain {mean:.2} of the first half turn; T/2 is {least:.2} to {most:.2}"),
                         outside,
                     ),
                 ]
