@@ -26,9 +26,11 @@ pub mod report;
 pub mod scenes;
 pub mod speed;
 pub mod stability;
+pub mod studies;
 pub mod subject;
 pub mod suspensions;
 pub mod sweep;
+pub mod table;
 mod text;
 pub mod work_precision;
 #[cfg(test)]
