@@ -35,3 +35,19 @@ pub const BUILD: Build = Build {
 pub fn record() -> Value {
     json!(BUILD)
 }
+
+/// A record with the build that made it.
+#[derive(Serialize)]
+struct Made<'a, T> {
+    #[serde(flatten)]
+    build: Build,
+    #[serde(flatten)]
+    data: &'a T,
+}
+
+/// Any structure as JSON, after the build that made it.
+pub fn json(data: &impl Serialize) -> Result<String, String> {
+    let made = Made { build: BUILD, data };
+    let text = serde_json::to_string_pretty(&made).map_err(|error| error.to_string())?;
+    Ok(text + "\n")
+}

@@ -1,25 +1,24 @@
 //! The catalogue of cases and equations, made from the registry: for the report and for `docs/catalogue.md`.
 
-use crate::report::{ReportEquation, ReportTable, equation_table, markdown_table};
+use crate::case::About;
+use crate::report::{ReportEquation, equation_table, markdown_table};
+use crate::table::{ReportTable, words};
 use crate::{cases, equations};
 
 /// The catalogue as Markdown.
 pub fn markdown() -> String {
     let about: Vec<_> = cases::all().into_iter().map(|case| case.about).collect();
-    let columns = ["case", "judges", "claim", "source"];
-    let rows = about.iter().map(|about| {
+    let table = ReportTable::new(
+        ["cases", "Cases"],
+        "",
+        &about,
         vec![
-            format!("`{}`", about.name),
-            about.judges.name().into(),
-            about.claim.into(),
-            about.source.into(),
-        ]
-    });
-    let table = ReportTable {
-        columns: columns.map(String::from).into(),
-        rows: rows.collect(),
-        ..Default::default()
-    };
+            words("case", |about: &&About| format!("`{}`", about.name)),
+            words("judges", |about: &&About| about.judges.name()),
+            words("claim", |about: &&About| about.claim),
+            words("source", |about: &&About| about.source),
+        ],
+    );
     format!(
         "# The catalogue\n\nMade from the registry; `UPDATE_DOCS=1 cargo test -p validation --test docs` makes \
          it anew.\n\n## Cases\n\n{}\n{} cases; `docs/strength.md` has their probabilities of a false alarm and of a miss.\n\n\

@@ -1,7 +1,7 @@
 //! What the program is built from, as the report shows it: read from `docs/dependencies.md`, which a test keeps in
 //! step with the manifests.
 
-use crate::report::ReportTable;
+use crate::table::{ReportTable, of_words};
 
 /// The document.
 pub const DOCUMENT: &str = include_str!("../../docs/dependencies.md");
@@ -11,16 +11,17 @@ pub fn table() -> ReportTable {
     let mut lines = (DOCUMENT.lines())
         .filter(|line| line.starts_with('|') && !line.starts_with("| ---"))
         .map(cells);
-    ReportTable {
-        name: "dependencies".into(),
-        title: "Dependencies, and what each is for".into(),
-        caption: format!(
+    let columns = lines.next().unwrap_or_default();
+    of_words(
+        "dependencies",
+        "Dependencies, and what each is for",
+        &format!(
             "The program is built from {} crates of others. Those that it asks for itself, and those of its tests:",
             crates().unwrap_or_default()
         ),
-        columns: lines.next().unwrap_or_default(),
-        rows: lines.collect(),
-    }
+        &columns,
+        lines.collect(),
+    )
 }
 
 /// How many crates of others the document says the program is built from.

@@ -32,9 +32,11 @@ pub mod shape;
 pub mod speed;
 pub mod stability;
 pub mod statistics;
+pub mod studies;
 pub mod subject;
 pub mod suspensions;
 pub mod sweep;
+pub mod table;
 mod text;
 pub mod work_precision;
 #[cfg(test)]

@@ -15,9 +15,50 @@ use crate::oracle::naive::{
     Images, Lines, Naive, Problem, Reading, Replacement, Start, Update, Who, mean_projections,
 };
 use crate::statistics::Estimate;
+use crate::studies::{self, Extent, Found, Study};
 use rayon::prelude::*;
 use std::convert::Infallible;
 use std::iter::once;
+
+/// What the paper leaves open.
+pub const STUDY: Study = Study {
+    name: "readings",
+    title: "What the paper leaves open",
+    question: "What would other readings of the paper change?",
+    cases: &[
+        "reading-who-draws",
+        "reading-order",
+        "reading-update",
+        "reading-shortest-arm",
+        "reading-contact-lines",
+        "faces-cost-collisions",
+    ],
+    command: "cargo run --release -p validation --example readings",
+    benches: studies::none,
+    shared: true,
+    run,
+};
+
+fn run(extent: &Extent) -> Result<Option<Found>, String> {
+    let Some(rows) = measure(extent.effort) else {
+        return Ok(None);
+    };
+    let change = |row: &&Row| row.changes.as_ref().map_or(0.0, |changes| changes[0].value.abs());
+    let largest = rows.iter().max_by(|a, b| change(a).total_cmp(&change(b)));
+    let answer = largest.map_or(String::new(), |row| {
+        format!(
+            "X̄₁ at t/T = 1 changes most, by {:.3}, with {}: {}.",
+            change(&row),
+            row.open,
+            row.reading
+        )
+    });
+    Ok(Some(Found {
+        answer,
+        exhibits: vec![table(&rows).into()],
+        ..Default::default()
+    }))
+}
 
 /// The seed of all replicas.
 pub const SEED: u64 = 1;

@@ -4,9 +4,11 @@
 pub mod figures;
 pub mod tables;
 
+use crate::build;
 use crate::lab;
 use crate::oracle::naive::{Naive, Problem};
 use crate::readings::paper;
+use crate::studies::{Exhibit, Extent, Found, Study};
 use rayon::prelude::*;
 use serde::Serialize;
 use shearbed::run::run_replica;
@@ -14,6 +16,37 @@ use shearbed::scene::Scene;
 use shearbed::{Plan, Suspension, ensemble, memory};
 use std::hint::black_box;
 use std::time::Instant;
+
+/// The core's speed beside targets.
+pub const STUDY: Study = Study {
+    name: "speed",
+    title: "Speed of the core",
+    question: "How fast is the core against the naive reference and against what the machine can do?",
+    cases: &["naive-reference"],
+    command: "cargo run --release -- bench --case speed",
+    benches: || vec!["speed".into()],
+    shared: false,
+    run,
+};
+
+fn run(extent: &Extent) -> Result<Option<Found>, String> {
+    if !(extent.wanted)("speed") {
+        return Ok(None);
+    }
+    let speed = measure(extent.effort.pick(Amount::QUICK, Amount::FULL))?;
+    let met = speed.checks.iter().filter(|check| check.met()).count();
+    let mut exhibits: Vec<Exhibit> = figures::figures(&speed).into_iter().map(Exhibit::from).collect();
+    exhibits[0].table = Some(tables::table(&speed));
+    Ok(Some(Found {
+        answer: format!(
+            "{met} of {} targets are met on this machine; times depend on what else runs on it.",
+            speed.checks.len()
+        ),
+        exhibits,
+        files: vec![("speed.json".into(), build::json(&speed)?)],
+        ..Default::default()
+    }))
+}
 
 /// How much is measured.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -24,7 +24,7 @@ pub(crate) fn is_well_formed(xml: &str) -> bool {
         let name = tag.split_whitespace().next().unwrap_or("");
         match name.strip_prefix('/') {
             Some(name) if open.pop() != Some(name) => return false,
-            None if !tag.ends_with('/') && !tag.starts_with('!') => open.push(name),
+            None if !tag.ends_with('/') && !tag.starts_with(['!', '?']) => open.push(name),
             _ => {}
         }
     }

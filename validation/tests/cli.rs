@@ -68,11 +68,15 @@ fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap()
 }
 
-/// The text without the numbers of its tables, which are not the same on every machine.
+/// The text without the numbers and bars of its tables, which are not the same on every machine.
 fn without_means(text: &str) -> String {
-    let lines = text.lines().map(|line| match line.find(" ± ") {
-        Some(_) if line.starts_with(' ') => line.get(..8).unwrap_or(line),
-        _ => line.trim_end(),
+    let bars = |line: &str| line.trim_start().starts_with(|c| ('▁'..='█').contains(&c));
+    let lines = text.lines().map(|line| match line {
+        line if bars(line) => "       bars",
+        line if line.contains(" ± ") && !line.starts_with("Means") => {
+            line.get(..7).unwrap_or(line).trim_end()
+        }
+        line => line.trim_end(),
     });
     lines.collect::<Vec<_>>().join("\n")
 }
@@ -101,6 +105,116 @@ fn a_run_writes_a_table_and_a_picture_of_each_observable_and_a_record() {
         .collect();
     assert!(files.iter().all(|name| out.join(name).is_file()));
     assert_eq!(files.len() + 1, names(&out).len());
+}
+
+#[test]
+fn what_a_run_prints_is_in_its_tables() {
+    let dir = folder();
+    let printed = shearbed(dir.path(), "run small.toml").stdout;
+    let table = read(&dir.path().join("out/small/projections.csv"));
+    let x1: Vec<f64> = (table.lines().skip(1))
+        .map(|line| line.split(',').nth(3).unwrap().parse().unwrap())
+        .collect();
+    let line = printed.lines().find(|line| line.starts_with("x1 ")).unwrap();
+    let least = x1.iter().copied().fold(f64::INFINITY, f64::min);
+    for number in [x1[0], x1[4], least] {
+        assert!(line.contains(&format!("{number:.4}")), "{number} in {line}");
+    }
+    // Five outputs: the one with the least mean is a quarter of a period in.
+    assert!(line.contains(&format!("{least:.4} at 0.25")), "{line}");
+    let record: Value = serde_json::from_str(&read(&dir.path().join("out/small/run.json"))).unwrap();
+    assert_eq!(record["facts"]["regime"], "dilute");
+}
+
+#[test]
+fn one_picture_is_drawn_from_several_runs_and_from_a_sweep() {
+    let dir = folder();
+    for (seed, out) in [(1, "a"), (2, "b")] {
+        let ended = shearbed(
+            dir.path(),
+            &format!("run small.toml --seed {seed} --out {out} --quiet"),
+        );
+        assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+    }
+    assert_eq!(
+        shearbed(dir.path(), "plot a b --y x2 --out two.svg").code,
+        Some(0)
+    );
+    let picture = read(&dir.path().join("two.svg"));
+    for text in [">\na\n<", ">\nb\n<", "95 % band", "t/T"] {
+        assert!(picture.contains(text), "{text}");
+    }
+    let sweep = "sweep small.toml --over interaction.alpha=0.1,0.2 --quiet --out s";
+    assert_eq!(shearbed(dir.path(), sweep).code, Some(0));
+    assert_eq!(shearbed(dir.path(), "plot s --out s.svg").code, Some(0));
+    assert!(read(&dir.path().join("s.svg")).contains("interaction.alpha = 0.2"));
+    for (arguments, words) in [
+        (
+            "plot a --y x9",
+            "--y x9: a has no such channel; there are x1, x2, x3, x1x2,",
+        ),
+        (
+            "plot nowhere",
+            "nowhere: neither run.json nor sweep.json is in it",
+        ),
+        ("plot a --out picture.gif", "a name that ends in .svg is allowed"),
+    ] {
+        let ended = shearbed(dir.path(), arguments);
+        assert_eq!(ended.code, Some(2), "{arguments}");
+        assert!(ended.stderr.contains(words), "{arguments}: {}", ended.stderr);
+    }
+    assert!(!dir.path().join("out/plot.svg").exists());
+}
+
+#[test]
+fn two_reports_are_compared() {
+    let dir = folder();
+    let case = "validate --case jeffery-period --quiet --out";
+    assert_eq!(shearbed(dir.path(), &format!("{case} a")).code, Some(0));
+    let text = read(&dir.path().join("a/report.json"));
+    let same = shearbed(dir.path(), "compare a/report.json a/report.json");
+    assert_eq!(same.code, Some(0), "{}", same.stderr);
+    assert!(
+        same.stdout.contains("Verdicts: none of 1 changed."),
+        "{}",
+        same.stdout
+    );
+    assert!(
+        same.stdout.contains("No error moved beyond its noise."),
+        "{}",
+        same.stdout
+    );
+    // A spoilt report: another verdict, and an error that is no longer what it was.
+    let mut spoilt: Value = serde_json::from_str(&text).unwrap();
+    spoilt["cases"][0]["verdict"] = "fail".into();
+    spoilt["cases"][0]["evidence"][0]["error"] = 1.0.into();
+    fs::write(dir.path().join("b.json"), spoilt.to_string()).unwrap();
+    let other = shearbed(dir.path(), "compare a/report.json b.json").stdout;
+    assert!(other.contains("jeffery-period: pass → fail"), "{other}");
+    assert!(other.contains("Errors that moved"), "{other}");
+    let bad = shearbed(dir.path(), "compare a/report.json small.toml");
+    assert_eq!(bad.code, Some(2));
+    assert!(
+        bad.stderr.contains("small.toml: is no report.json"),
+        "{}",
+        bad.stderr
+    );
+    assert!(read(&dir.path().join("a/junit.xml")).contains("name=\"jeffery-period\""));
+}
+
+#[test]
+fn a_build_says_how_it_is_cited() {
+    let text = shearbed(folder().path(), "cite").stdout;
+    let version = format!("version = {{{}}}", env!("CARGO_PKG_VERSION"));
+    for words in [
+        "@software{shearbed,",
+        &version,
+        "note    = {commit ",
+        "@article{lee-springer-1982,",
+    ] {
+        assert!(text.contains(words), "{text}");
+    }
+    assert_eq!(text.matches('{').count(), text.matches('}').count());
 }
 
 #[test]

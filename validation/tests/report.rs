@@ -2,7 +2,7 @@
 
 use validation::case::Effort;
 use validation::figures::{self, Replicas};
-use validation::report::{self, Report, Sections};
+use validation::report::{self, Report, ReportStudy, Sections};
 use validation::{cases, catalogue};
 
 /// Names of cases that are quick, of which some are cited by figures.
@@ -23,12 +23,11 @@ fn small_report() -> Report {
     let chosen = cases::all()
         .into_iter()
         .filter(|case| CHOSEN.contains(&case.about.name));
-    let sections = Sections {
-        figures: drawn.figures,
-        plans: drawn.plans,
+    let mut sections = Sections {
         equations: catalogue::equations(),
         ..Default::default()
     };
+    sections.add(ReportStudy::new(&figures::STUDY, drawn, 0.0));
     let outcomes = chosen.map(|case| case.run(&effort)).collect();
     report::build(outcomes, sections, &effort, "shearbed validate".into())
 }
@@ -48,11 +47,15 @@ fn a_real_report_is_whole() {
         );
     }
     let links = quoted(&html, "href=\"");
+    let files = report.data().unwrap();
     for link in &links {
-        let target = link.strip_prefix('#').unwrap_or("a link that leaves the report");
-        assert!(anchors.contains(&target), "{link}");
+        let known = match link.strip_prefix('#') {
+            Some(anchor) => anchors.contains(&anchor),
+            None => files.iter().any(|(name, _)| name == link),
+        };
+        assert!(known, "{link}");
     }
-    for load in ["<script", "<link", "<img", "src=", "@import", "url("] {
+    for load in ["<script ", "<link", "<img", "src=", "@import", "url("] {
         assert!(!html.contains(load), "{load}");
     }
 
@@ -79,10 +82,11 @@ fn a_real_report_is_whole() {
 #[test]
 fn every_figure_has_its_numbers() {
     let report = small_report();
-    let curves = report.curves().unwrap();
-    assert_eq!(curves.len(), report.sections.figures.len());
-    for ((name, csv), figure) in curves.iter().zip(&report.sections.figures) {
-        assert_eq!(*name, format!("{}.csv", figure.name));
+    let figures: Vec<_> = report.sections.figures().collect();
+    let data = report.data().unwrap();
+    assert_eq!(data.len(), 2 * figures.len(), "each has a table beside it");
+    for ((name, csv), figure) in data.iter().zip(&figures) {
+        assert_eq!(*name, format!("curves/{}.csv", figure.name));
         assert!(csv.lines().count() > 20 && !csv.contains("NaN"), "{name}");
         let picture = &figure.figure;
         assert!(!picture.title.is_empty() && !figure.caption.is_empty(), "{name}");
@@ -98,12 +102,7 @@ fn every_figure_has_its_numbers() {
         }
     }
     // Free rods of one size keep their amplitude, and it is about 1/2.
-    let fig9 = report
-        .sections
-        .figures
-        .iter()
-        .find(|figure| figure.name == "fig9")
-        .unwrap();
+    let fig9 = figures.iter().find(|figure| figure.name == "fig9").unwrap();
     let amplitude = &fig9.figure.curves[0].y;
     assert!(amplitude.iter().all(|a| (a - 0.48).abs() < 0.02), "{amplitude:?}");
 }

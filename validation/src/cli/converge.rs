@@ -1,14 +1,14 @@
 //! `shearbed converge`.
 
 use super::{Failure, MAX_THREADS, agree, memory, on_threads, print, probe, progress, scene, whole};
-use crate::cluster;
 use crate::output::{self, Output};
-use crate::report::ReportTable;
 use crate::suspensions::law::{self, Law, Replicas};
 use crate::suspensions::split::{Constants, Scope, Split, TARGETS};
 use crate::suspensions::{self, law_tables};
+use crate::table::ReportTable;
 use crate::work_precision::order::{self, Found};
 use crate::work_precision::{export, tables};
+use crate::{build, cluster};
 use serde::Serialize;
 use serde_json::json;
 use shearbed::jeffery::strain_per_period;
@@ -73,7 +73,7 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     output::write_all(&out, &done.files)?;
     if !args.quiet {
         let names: Vec<_> = done.files.iter().map(|(name, _)| name.as_str()).collect();
-        let text: String = done.tables.iter().map(export::text).collect();
+        let text: String = done.tables.iter().map(ReportTable::text).collect();
         print(&format!("{text}in {}: {}\n", out.display(), names.join(", ")))?;
     }
     match done.wrong {
@@ -110,7 +110,7 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
     let orders = order::of_scene(scene).ok_or_else(|| {
         Failure::Input("time: the subjects turn rods through periods; periods is needed".into())
     })?;
-    let (csv, json) = (export::orders_csv(&orders.studies), export::json(&orders));
+    let (csv, json) = (export::orders_csv(&orders.studies), build::json(&orders));
     let wrong: Vec<_> = (orders.studies.iter())
         .filter(|study| study.found == Found::Not)
         .map(|study| study.subject.as_str())
@@ -175,7 +175,7 @@ fn interacting(
     tables.extend((constants.iter()).map(|constants| suspensions::tables::splits(constants, &splits)));
     let csv = suspensions::export::law_csv(&law);
     let blocks = suspensions::export::replicas_csv(&law);
-    let json = export::json(&Written {
+    let json = build::json(&Written {
         warnings,
         law,
         constants,

@@ -2,20 +2,23 @@
 
 mod bench;
 mod choice;
+mod cite;
+mod compare;
 mod converge;
+mod facts;
 mod fit;
 mod grade;
 mod interrupt;
 mod kept;
 mod memory;
 mod pictures;
+mod plot;
 mod problems;
 mod program;
 mod record;
 mod reference;
 mod run;
 mod scene;
-mod sections;
 mod shape;
 mod show;
 mod sweep;
@@ -26,12 +29,14 @@ mod validate;
 use crate::text::readable;
 use crate::{cluster, output, text};
 use clap::{Parser, Subcommand};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use serde_json::{Value, json};
 use std::ffi::OsString;
+use std::fmt;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
+use std::time::Duration;
 use threads::{MAX_THREADS, on_threads};
 
 /// Rigid slender rods in a sheared viscous liquid, after Lee & Springer (1982).
@@ -69,6 +74,12 @@ enum Command {
     Problems(problems::Args),
     /// List the aspect ratio r_e of the ellipsoid that turns as a cylinder does, by published formulas
     Shape(shape::Args),
+    /// Draw one picture of a channel from several runs, or from the points of a sweep
+    Plot(plot::Args),
+    /// Show what changed between two reports: verdicts, errors, speed
+    Compare(compare::Args),
+    /// Print BibTeX for this build
+    Cite,
     /// Exact values without a simulation: one free rod, or means over isotropic rods, as CSV
     Reference(reference::Args),
 }
@@ -196,6 +207,9 @@ fn command(command: Command) -> Result<(), Failure> {
         Command::Grade(args) => grade::grade(&args),
         Command::Problems(args) => problems::problems(&args),
         Command::Shape(args) => shape::shape(&args),
+        Command::Plot(args) => plot::plot(&args),
+        Command::Compare(args) => compare::compare(&args),
+        Command::Cite => cite::cite(),
         Command::Reference(args) => reference::reference(&args),
     }
 }
@@ -217,16 +231,37 @@ fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// A bar over the steps of a slow part on a terminal, and nothing elsewhere.
+/// A bar over the steps of a slow part on a terminal, and nothing elsewhere. The time left is told once a step is done, and
+/// then from the rate of all; of a single step only the time that it has taken.
 fn progress(steps: u64, what: &str, quiet: bool) -> ProgressBar {
     if quiet || !cluster::is_root() || !io::stderr().is_terminal() {
         return ProgressBar::hidden();
     }
-    let style = ProgressStyle::with_template(&format!(
-        "{{wide_bar}} {{pos}}/{{len}} {what}, {{eta}} left {{msg}}"
-    ));
-    ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::stderr())
-        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+    let template = match steps {
+        0 | 1 => "{spinner} running for {elapsed} {msg}".to_owned(),
+        _ => format!("{{wide_bar}} {{pos}}/{{len}} {what}, {{left}} {{msg}}"),
+    };
+    let left = |state: &ProgressState, text: &mut dyn fmt::Write| {
+        let elapsed = state.elapsed().as_secs_f64();
+        let words = match (state.pos(), state.len()) {
+            (0, _) | (_, None) => format!("{elapsed:.0} s so far"),
+            (done, Some(all)) => {
+                let rate = done as f64 / elapsed.max(1e-9);
+                format!(
+                    "{rate:.2} a second, {:.0} s left",
+                    all.saturating_sub(done) as f64 / rate
+                )
+            }
+        };
+        // Where even this cannot be written, there is no bar.
+        let _ = text.write_str(&words);
+    };
+    let style = ProgressStyle::with_template(&template);
+    let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
+    let bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::stderr());
+    bar.set_style(style.with_key("left", left));
+    bar.enable_steady_tick(Duration::from_millis(500));
+    bar
 }
 
 /// Whether the root can write files into `dir`, so many bytes of them and a little more: known before a long run.

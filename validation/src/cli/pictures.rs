@@ -72,7 +72,7 @@ fn y_name(observable: Observable) -> &'static str {
 
 /// Half the width of a 95 % band in standard errors: Student's t for the replicas, or for the rods of one replica.
 /// `None` where one value has no standard error.
-fn half_widths(scene: &Scene) -> Option<f64> {
+pub(super) fn half_widths(scene: &Scene) -> Option<f64> {
     let samples = match scene.ensemble.replicas {
         1 => scene.particles.count as u64,
         replicas => replicas,

@@ -1,5 +1,6 @@
 //! `run.json`: what ran, so that it can be run again.
 
+use super::facts::{Facts, warnings};
 use crate::build::{BUILD, Build};
 use crate::text::command;
 use serde::Serialize;
@@ -26,6 +27,7 @@ struct Record<'a> {
     command: String,
     /// With every default written out.
     scene: Scene,
+    facts: Facts,
     seed: u64,
     plan: &'a [Entry],
     plan_text: String,
@@ -52,10 +54,11 @@ pub(super) fn json(
         build: BUILD,
         command: command(super::program::words()),
         scene: plan.scene().resolved(),
+        facts: Facts::of(plan),
         seed: plan.scene().ensemble.seed,
         plan: plan.entries(),
         plan_text: plan.to_string(),
-        warnings: plan.warnings(),
+        warnings: warnings(plan),
         counters: results.counters,
         ranks: crate::cluster::size(),
         threads,

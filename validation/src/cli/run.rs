@@ -2,8 +2,8 @@
 
 use super::record::Seconds;
 use super::{
-    Failure, MAX_THREADS, agree, kept, memory, on_threads, pictures, print, probe, progress, record, scene,
-    tables, whole,
+    Failure, MAX_THREADS, agree, facts, kept, memory, on_threads, pictures, print, probe, progress, record,
+    scene, tables, whole,
 };
 use crate::output::{self, Output};
 use crate::sweep::Setting;
@@ -73,7 +73,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if !args.force && cluster::is_root() {
         kept::check(&out, &plan)?;
     }
-    scene::warn(&named.source, &plan.warnings());
+    scene::warn(&named.source, &facts::warnings(&plan));
     let mut seconds = Seconds {
         plan: start.elapsed().as_secs_f64(),
         ..Seconds::default()

@@ -1,5 +1,6 @@
 //! `shearbed plan` and `shearbed scenes`.
 
+use super::facts::{self, Facts};
 use super::{Failure, print, scene};
 use crate::sweep::Setting;
 use crate::{scene_keys, scenes};
@@ -33,7 +34,12 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
     let named = scene::load(&args.scene)?.with(&args.settings)?;
     let plan =
         Plan::new(&named.scene).map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
-    print(&plan.to_string())
+    let facts = Facts::of(&plan).text();
+    let own = plan.warnings().len();
+    let more: String = (facts::warnings(&plan).iter().skip(own))
+        .map(|warning| format!("warning: {warning}\n"))
+        .collect();
+    print(&format!("{plan}{facts}{more}"))
 }
 
 /// Lists the built-in scenes, or prints one.

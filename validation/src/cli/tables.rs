@@ -72,40 +72,74 @@ pub(super) fn most_memory(plan: &Plan) -> u64 {
     results + most_bytes(plan) + table.max(8 * picture)
 }
 
-/// The most lines of a table for the terminal.
-const MOST_LINES: f64 = 24.0;
-
-/// Each observable's means at whole and half periods, or at whole strains; at fewer where they are many.
+/// Of each channel the first and the last mean, the least and the largest with their times, and a sparkline.
 pub(super) fn summary(results: &Results) -> String {
-    let last = results.times.last().copied().unwrap_or(0.0);
-    let (name, mut every) = match results.time_name {
-        "strain" => ("strain", 1.0),
-        _ => ("t/T", 0.5),
+    let name = match results.time_name {
+        "strain" => "strain",
+        _ => "t/T",
     };
-    while last / every > MOST_LINES {
-        every *= 2.0;
-    }
+    let last = results.times.len().saturating_sub(1);
+    let time = |k: usize| results.times.get(k).copied().unwrap_or(f64::NAN);
     let mut text = String::new();
     for series in &results.series {
-        let channels = shown(series);
-        let names = channels
-            .iter()
-            .map(|channel| format!("  {:>7}{:9}", channel.name, ""));
-        text.push_str(format!("{name:>8}{}", names.collect::<String>()).trim_end());
-        for (k, time) in results
-            .times
-            .iter()
-            .enumerate()
-            .filter(|(_, time)| *time % every == 0.0)
-        {
-            text.push_str(&format!("\n{time:>8.1}"));
-            for channel in channels {
-                text.push_str(&format!("  {:>7.4} ± {:.4}", channel.mean[k], channel.se[k]));
-            }
+        text += &format!(
+            "{:<7}{:<18}{:<18}{:<17}largest\n",
+            "",
+            format!("at {name} = {}", time(0)),
+            format!("at {name} = {}", time(last)),
+            "least"
+        );
+        for channel in shown(series) {
+            let value = |k: usize| format!("{:.4} ± {:.4}", channel.mean[k], channel.se[k]);
+            let order = |a: &usize, b: &usize| channel.mean[*a].total_cmp(&channel.mean[*b]);
+            let extreme = |k: Option<usize>| {
+                k.map_or_else(String::new, |k| {
+                    format!("{:.4} at {}", channel.mean[k], shortest(time(k)))
+                })
+            };
+            let outputs = 0..channel.mean.len();
+            text += &format!(
+                "{:<7}{:<18}{:<18}{:<17}{}\n{:<7}{}\n",
+                channel.name,
+                value(0),
+                value(last),
+                extreme(outputs.clone().min_by(order)),
+                extreme(outputs.rev().max_by(order)),
+                "",
+                sparkline(&channel.mean)
+            );
         }
-        text.push_str("\n\n");
+        text.push('\n');
     }
     text
+}
+
+/// A time to three decimals at most.
+fn shortest(time: f64) -> f64 {
+    (time * 1e3).round() / 1e3
+}
+
+/// The widest sparkline.
+const WIDEST: usize = 72;
+
+/// Means in bars of eight heights, from the least to the largest. Where there are more means than bars, every other bar is
+/// the largest and the next the least of what it stands for: a fast oscillation is a comb, and never looks like a
+/// slow one or none.
+fn sparkline(means: &[f64]) -> String {
+    const BARS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
+    let bars = means.len().min(WIDEST);
+    let of_bar = |k: usize| {
+        let range = k * means.len() / bars..(k + 1) * means.len() / bars;
+        let pick = if k.is_multiple_of(2) { f64::max } else { f64::min };
+        means[range].iter().copied().reduce(pick).unwrap_or(f64::NAN)
+    };
+    let least = means.iter().copied().fold(f64::INFINITY, f64::min);
+    let span = means.iter().copied().fold(f64::NEG_INFINITY, f64::max) - least;
+    let bar = |k: usize| match (of_bar(k) - least) / span {
+        part if part.is_finite() => BARS[((8.0 * part) as usize).min(7)],
+        _ => BARS[0],
+    };
+    (0..bars).map(bar).collect()
 }
 
 /// Every channel but the many of a density.
@@ -113,5 +147,24 @@ fn shown(series: &Series) -> &[Column] {
     match (series.observable, series.columns.as_slice()) {
         (Observable::OrbitConstant, [mean, ..]) => std::slice::from_ref(mean),
         (_, all) => all,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn a_fast_oscillation_looks_like_no_slow_one() {
+        // Of 1200 outputs a bar stands for some 17, and the wave has a period of 16: sampled, it would look slow.
+        let wave: Vec<f64> = (0..1200).map(|k| (TAU * f64::from(k) / 16.0).sin()).collect();
+        let line: Vec<char> = sparkline(&wave).chars().collect();
+        assert_eq!(line.len(), WIDEST);
+        assert!(line.chunks(2).all(|pair| pair == ['█', '▁']), "{line:?}");
+        let slope: Vec<f64> = (0..8).map(f64::from).collect();
+        assert_eq!(sparkline(&slope), "▁▂▃▄▅▆▇█");
+        assert_eq!(sparkline(&[0.5, 0.5]), "▁▁");
+        assert_eq!(sparkline(&[]), "");
     }
 }

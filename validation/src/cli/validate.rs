@@ -1,15 +1,17 @@
 //! `shearbed validate`.
 
-use super::{Failure, MAX_THREADS, agree, choice, on_threads, print, probe, progress, sections, whole};
+use super::{Failure, MAX_THREADS, agree, choice, on_threads, print, probe, progress, whole};
 use crate::accept::Verdict;
 use crate::case::{Case, Control, Effort, GATE_SEED, Judged, Outcome};
-use crate::report::{self, Row, Sections};
+use crate::report::{self, ReportStudy, Row, Sections};
+use crate::studies::{self, Extent};
 use crate::text::command;
-use crate::{cluster, experiment, output};
+use crate::{catalogue, cluster, dependencies, experiment, figures, output};
 use serde_json::json;
 use shearbed::scene::MAX_SEED;
 use std::io::Write;
 use std::path::PathBuf;
+use std::time::Instant;
 
 /// Arguments of `validate`.
 #[derive(clap::Args)]
@@ -78,7 +80,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let (outcomes, sections) = on_threads(args.threads, || {
         let outcomes = outcomes(&chosen, &effort, args.quiet)?;
         let sections = match args.cases.is_empty() && args.tags.is_empty() {
-            true => sections::gather(&effort, args.quiet)?,
+            true => gather(&effort, args.quiet)?,
             false => Some(Sections::default()),
         };
         Ok::<_, Failure>((outcomes, sections))
@@ -87,18 +89,16 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
         return Ok(());
     };
     let report = report::build(outcomes, sections, &effort, command(super::program::words()));
-    let curves = report.curves().map_err(Failure::Failed)?;
-    let mut files: Vec<_> = (curves.into_iter())
-        .map(|(name, text)| (format!("curves/{name}"), text))
-        .collect();
+    let mut files = report.data().map_err(Failure::Failed)?;
     let pages = [
         ("report.html", report.html().map_err(Failure::Failed)?),
         ("report.json", report.json()),
         ("report.md", report.markdown()),
+        ("junit.xml", report.junit()),
     ];
     files.extend(pages.map(|(name, text)| (name.to_owned(), text)));
     output::write_all(&args.out, &files)?;
-    let red: String = report.cases.iter().map(reasons).collect();
+    let red: String = report.cases.iter().map(Row::reasons).collect();
     if !red.is_empty() && cluster::is_root() {
         // Also where nothing else is printed: what is red is an error. Where even this cannot be written, the exit code
         // has to say it.
@@ -115,6 +115,37 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
             report.headline()
         ))),
     }
+}
+
+/// Runs every study and gathers what the report shows beside its cases on the root; nothing elsewhere.
+fn gather(effort: &Effort, quiet: bool) -> Result<Option<Sections>, Failure> {
+    let mut sections = Sections {
+        equations: catalogue::equations(),
+        tables: vec![dependencies::table()],
+        ..Default::default()
+    };
+    for study in studies::ALL {
+        if !quiet {
+            print(&format!("study: {}\n", study.title))?;
+        }
+        // One study alone calls back for its pieces of work.
+        let work = match study.name == figures::STUDY.name {
+            true => figures::work(figures::Replicas::of(effort)).map_err(Failure::Failed)?,
+            false => 0,
+        };
+        let bar = progress(work, "replicas", quiet || work == 0);
+        let start = Instant::now();
+        let found = study.found(&Extent {
+            effort,
+            wanted: &|_| true,
+            finished: &|| bar.inc(1),
+        });
+        bar.finish_and_clear();
+        if let Some(found) = found.map_err(Failure::Failed)? {
+            sections.add(ReportStudy::new(&study, found, start.elapsed().as_secs_f64()));
+        }
+    }
+    Ok(cluster::is_root().then_some(sections))
 }
 
 /// Runs the cases, each rank its part one after the other, and prints how each ended. All outcomes on the root, and
@@ -163,32 +194,4 @@ fn line(name: &str, verdict: Verdict, seconds: f64) -> String {
         Verdict::NoData => "no data",
     };
     format!("{verdict:<14}  {name:<40}  {seconds:>7.2} s\n")
-}
-
-/// Why a case is red: each rule that did not hold with its numbers, each control that was not caught, and the command.
-fn reasons(row: &Row) -> String {
-    let bad = |verdict| matches!(verdict, Verdict::Fail | Verdict::Underpowered);
-    let mut text = String::new();
-    for line in row.evidence.iter().filter(|line| bad(line.verdict)) {
-        let how = match line.verdict {
-            Verdict::Fail => "failed",
-            _ => "too little data",
-        };
-        text += &format!(
-            "  {how}: {}: {}\n    because: {}\n",
-            line.what,
-            line.numbers(),
-            line.because
-        );
-    }
-    for control in row.controls.iter().filter(|control| !control.caught) {
-        text += &format!(
-            "  not caught: the same check passes or breaks on this mistake: {}\n",
-            control.mistake
-        );
-    }
-    match text.is_empty() && !bad(row.verdict) {
-        true => text,
-        false => format!("{}: {}\n{text}  repeat: {}\n", row.name, row.claim, row.command),
-    }
 }

@@ -1,12 +1,14 @@
 //! Figures 4 to 12 of the paper, drawn from the built-in scenes in the paper's own axes.
 
 mod amplitude;
+mod beside;
 mod measured;
 mod paper;
 mod run;
 
 use crate::case::Effort;
-use crate::report::{ReportFigure, ScenePlan};
+use crate::report::ReportFigure;
+use crate::studies::{self, Exhibit, Extent, Found, Study};
 use run::Runs;
 
 /// How many replicas of a scene are run.
@@ -28,13 +30,36 @@ impl Replicas {
     }
 }
 
-/// The figures, and the plans of the scenes behind them.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Drawn {
-    /// The figures, in the paper's order.
-    pub figures: Vec<ReportFigure>,
-    /// The scenes, in the same order.
-    pub plans: Vec<ScenePlan>,
+/// The figures of the paper.
+pub const STUDY: Study = Study {
+    name: "figures",
+    title: "Figures 4 to 12 of the paper",
+    question: "Do the model's results look as the paper shows and describes them?",
+    cases: &[
+        "okagawa-mason-1973",
+        "anczurowski-1967",
+        "alpha-same-for-both",
+        "free-amplitude",
+        "faster-with-concentration",
+        "faster-with-length",
+        "faster-with-spread",
+        "faster-with-collisions",
+        "dies-out",
+        "other-axes-decay",
+        "period-unaffected",
+        "hundred-rods-suffice",
+        "steady-stays-put",
+        "steady-mean-angle",
+        "in-plane-rods",
+    ],
+    command: "cargo run --release -- validate",
+    benches: studies::none,
+    shared: true,
+    run,
+};
+
+fn run(extent: &Extent) -> Result<Option<Found>, String> {
+    draw(extent.effort, Replicas::of(extent.effort), extent.finished)
 }
 
 /// How often [`draw`] calls `finished`.
@@ -43,16 +68,22 @@ pub fn work(replicas: Replicas) -> Result<u64, String> {
     Ok(plans.iter().map(|(_, plan)| plan.scene().ensemble.replicas).sum())
 }
 
-/// Runs the scenes over all ranks and draws the figures on the root, none elsewhere; `finished` is called on
-/// the root for each replica, after its scene.
-pub fn draw(effort: &Effort, replicas: Replicas, finished: &dyn Fn()) -> Result<Option<Drawn>, String> {
+/// Runs the scenes over all ranks and draws the figures, each beside its numbers, on the root, none elsewhere;
+/// `finished` is called on the root for each replica, after its scene.
+pub fn draw(effort: &Effort, replicas: Replicas, finished: &dyn Fn()) -> Result<Option<Found>, String> {
     let plans = run::plans(replicas)?;
     let shown = plans.iter().map(run::shown).collect();
     let Some(runs) = Runs::new(plans, finished)? else {
         return Ok(None);
     };
-    Ok(Some(Drawn {
-        figures: paper::figures(&runs, effort)?,
+    let beside = |figure: ReportFigure| {
+        let table = beside::table(&figure);
+        Exhibit::both(figure, table)
+    };
+    Ok(Some(Found {
+        answer: paper::answer(&runs)?,
+        exhibits: (paper::figures(&runs, effort)?.into_iter()).map(beside).collect(),
         plans: shown,
+        ..Default::default()
     }))
 }

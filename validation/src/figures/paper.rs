@@ -16,8 +16,7 @@ const AMPLITUDE: &str = "amplitude A₁ of X̄₁ (rod lengths)";
 
 /// All figures, in the paper's order.
 pub(super) fn figures(runs: &Runs, effort: &Effort) -> Result<Vec<ReportFigure>, String> {
-    let mut figures = fig4(runs, effort)?;
-    figures.push(fig5(runs, effort)?);
+    let mut figures = vec![fig4(runs, effort)?, fig5(runs, effort)?, fig6_overlaid(runs)?];
     figures.extend(fig6(runs)?);
     figures.extend(amplitudes(runs)?);
     figures.push(fig11(runs)?);
@@ -59,19 +58,49 @@ fn projections(run: &Run) -> Vec<Curve> {
     channels.map(|(channel, label)| run.curve(channel, label)).into()
 }
 
-fn fig4(runs: &Runs, effort: &Effort) -> Result<Vec<ReportFigure>, String> {
-    let panel = |n: u32| {
+fn fig4(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
+    let mut drawn = against_time(
+        "Fig. 4: X̄₁ at three concentrations, α = 0.5".into(),
+        PROJECTION,
+        Vec::new(),
+    );
+    let mut supplied = String::new();
+    for n in [20, 50, 100] {
         let scene = format!("fig4-n{n}");
-        let curve = runs.get(&scene)?.curve("x1", "X̄₁, α = 0.5");
-        let mut drawn = against_time(format!("Fig. 4: n = {n} cm⁻³"), PROJECTION, vec![curve]);
-        let supplied = measured(&scene, effort, &mut drawn)?;
-        let caption = format!(
-            "The oscillation of X̄₁ about a plateau dies out; compare the three panels: faster where n is larger. The \
-             maxima stay at multiples of T/2. {supplied}"
-        );
-        Ok(figure(&scene, 4, "Fig. 4, eqs 4, 15", drawn, caption))
+        let label = format!("n = {n} cm⁻³");
+        drawn.curves.push(runs.get(&scene)?.curve("x1", label.as_str()));
+        let known = drawn.points.len();
+        supplied = measured(&scene, effort, &mut drawn)?;
+        for points in &mut drawn.points[known..] {
+            points.label = format!("{}, {label}", points.label);
+        }
+    }
+    let caption = format!(
+        "The oscillation of X̄₁ about a plateau dies out, faster where n is larger. The maxima stay at multiples of T/2. \
+         {supplied}"
+    );
+    Ok(figure("fig4", 4, "Fig. 4, eqs 4, 15", drawn, caption))
+}
+
+/// What Fig. 4 says in numbers.
+pub(super) fn answer(runs: &Runs) -> Result<String, String> {
+    let at = |n: u32| {
+        let run = runs.get(&format!("fig4-n{n}"))?;
+        let output = run.times().iter().position(|t| (t - 2.0).abs() < 1e-9);
+        let sample = run.sample("x1", |x1| output.map_or(f64::NAN, x1));
+        Ok::<_, String>(format!(
+            "{:.3} ± {:.3} at n = {n}",
+            sample.mean,
+            sample.half_width()
+        ))
     };
-    [20, 50, 100].into_iter().map(panel).collect()
+    Ok(format!(
+        "In Fig. 4 X̄₁ at its maximum at t/T = 2 is {}, {} and {} per cm³ (95 %); measured points are needed to say whether \
+         nature does so too.",
+        at(20)?,
+        at(50)?,
+        at(100)?
+    ))
 }
 
 fn fig5(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
@@ -87,6 +116,24 @@ fn fig5(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
          orbits become steady later than the phases, and `steady-stays-put` judges what comes then. {supplied}"
     );
     Ok(figure("fig5", 5, "Fig. 5, eqs 4, 11", drawn, caption))
+}
+
+/// X̄₁ of the three panels in one picture.
+fn fig6_overlaid(runs: &Runs) -> Result<ReportFigure, String> {
+    let scenes = [
+        ("fig6-uniform", "free, one size"),
+        ("fig6-polydisperse", "free, σ = 3.6 %"),
+        ("fig6-interacting", "one size, n = 50 cm⁻³"),
+    ];
+    let curves = scenes.map(|(scene, label)| Ok(runs.get(scene)?.curve("x1", label)));
+    let drawn = against_time(
+        "Fig. 6: X̄₁ without damping, with unequal sizes, with collisions".into(),
+        PROJECTION,
+        curves.into_iter().collect::<Result<_, String>>()?,
+    );
+    let caption = "The spread of r_e alone, and collisions alone, damp the oscillation; free rods of one size keep it. The \
+                   three panels below have all projections.";
+    Ok(figure("fig6", 6, "Fig. 6, eq. 4", drawn, caption.into()))
 }
 
 fn fig6(runs: &Runs) -> Result<Vec<ReportFigure>, String> {

@@ -3,8 +3,7 @@
 use super::live::Studies;
 use super::{Graded, Verdict};
 use crate::report::{ReportTable, markdown_table};
-use crate::work_precision::export;
-use crate::work_precision::tables::table;
+use crate::table::of_words;
 use serde::Serialize;
 
 /// Everything that is said of a program.
@@ -57,7 +56,7 @@ impl Report {
 
 /// grade.json.
 pub fn json(report: &Report) -> Result<String, String> {
-    export::json(report)
+    crate::build::json(report)
 }
 
 /// A number with two digits.
@@ -80,7 +79,7 @@ fn verdicts(report: &Report) -> ReportTable {
             number(graded.phase_lost_per_period),
         ]
     };
-    table(
+    of_words(
         "grade",
         &format!("{} on {}", report.answers, report.reference),
         &format!("{}.", report.headline()),
@@ -127,13 +126,8 @@ pub(super) fn tables(report: &Report) -> Vec<ReportTable> {
 pub fn terminal(report: &Report) -> String {
     let words: String = lines(report).iter().map(|line| format!("{line}\n")).collect();
     let mut tables = tables(report).into_iter();
-    let first = tables
-        .next()
-        .map(|table| export::text(&table))
-        .unwrap_or_default();
-    let more: String = tables
-        .map(|table| "\n".to_owned() + &export::text(&table))
-        .collect();
+    let first = tables.next().map(|table| table.text()).unwrap_or_default();
+    let more: String = tables.map(|table| "\n".to_owned() + &table.text()).collect();
     first + &words + &more
 }
 

@@ -5,6 +5,7 @@
 //! 200 steps a period passes 0.1 rad in every flip with no collision at all.
 
 pub mod averaged;
+pub mod chapter;
 pub mod study;
 pub mod tables;
 pub mod tail;

@@ -1,14 +1,15 @@
 //! The axes and the data in them.
 
 use super::axis::{Axis, place};
+use super::legend::Legend;
 use super::style::{
-    AXES_HEIGHT, BAR_WIDTH, FINE, MARKER, TEXT, WIDTH, colour, curve, marker, text, text_width,
+    AXES_HEIGHT, BAR_WIDTH, FINE, MARKER, TEXT, WIDTH, colour, curve, looks, marker, text, text_width,
 };
 use super::{Drawn, Figure};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Axis, Axis>>;
+type Chart<'a, DB> = ChartContext<'a, DB, Cartesian2d<Axis, Axis>>;
 
 /// A point in placed values, with the ends of its error bars; NaN for what it does not have.
 struct Placed {
@@ -47,7 +48,15 @@ fn placed(figure: &Figure, x: &[f64], y: &[f64], x_error: Errors, y_error: Error
 }
 
 /// Draws axes and data so that all of it is in the area.
-pub(super) fn draw(figure: &Figure, area: &DrawingArea<SVGBackend, Shift>) -> Drawn {
+pub(super) fn draw<DB: DrawingBackend>(
+    figure: &Figure,
+    legend: &Legend,
+    area: &DrawingArea<DB, Shift>,
+) -> Drawn
+where
+    DB::ErrorType: 'static,
+{
+    let looks = looks(figure);
     let curves: Vec<_> = (figure.curves.iter())
         .map(|c| placed(figure, &c.x, &c.y, None, c.half_band.as_deref()))
         .collect();
@@ -69,28 +78,40 @@ pub(super) fn draw(figure: &Figure, area: &DrawingArea<SVGBackend, Shift>) -> Dr
 
     let foot = (x.low, y.low);
     let centre = (0.5 * (x.low + x.high), 0.5 * (y.low + y.high));
-    let mut chart = mesh(figure, area, x, y)?;
+    let mut chart = mesh(figure, legend, area, x, y)?;
     if shown().next().is_none() {
         chart.draw_series([Text::new("no data", centre, text(TEXT))])?;
     }
-    for (index, curve) in curves.iter().enumerate() {
-        band(&mut chart, curve, index, foot.1)?;
+    for (curve, look) in curves.iter().zip(&looks) {
+        band(&mut chart, curve, *look, foot.1)?;
     }
-    for (index, curve) in curves.iter().enumerate() {
-        line(&mut chart, curve, index)?;
+    for (curve, look) in curves.iter().zip(&looks) {
+        line(&mut chart, curve, *look)?;
     }
-    for (index, points) in points.iter().enumerate() {
-        scatter(&mut chart, points, curves.len() + index, foot)?;
+    for (points, look) in points.iter().zip(&looks[curves.len()..]) {
+        scatter(&mut chart, points, *look, foot)?;
     }
-    Ok(())
+    let (right, height) = chart.plotting_area().get_pixel_range();
+    let origin = area.get_base_pixel();
+    let end = |series: usize| {
+        let placed = curves.iter().chain(&points).nth(series);
+        let last = placed.and_then(|placed| placed.iter().rfind(|p| p.is_finite()));
+        last.map_or(height.end, |p| chart.backend_coord(&(p.x, p.y)).1) - origin.1
+    };
+    let inside = (height.start - origin.1, height.end - origin.1);
+    legend.draw_beside(area, right.end - origin.0, inside, end)
 }
 
-fn mesh<'a, 'b>(
+fn mesh<'a, DB: DrawingBackend + 'a>(
     figure: &Figure,
-    area: &DrawingArea<SVGBackend<'b>, Shift>,
+    legend: &Legend,
+    area: &DrawingArea<DB, Shift>,
     x: Axis,
     y: Axis,
-) -> Result<Chart<'a, 'b>, Box<dyn std::error::Error>> {
+) -> Result<Chart<'a, DB>, Box<dyn std::error::Error>>
+where
+    DB::ErrorType: 'static,
+{
     let widest = y.ticks.iter().map(|(_, label)| text_width(label, TEXT)).max();
     let (left, bottom) = (widest.unwrap_or(0) + 40 * FINE, 50 * FINE);
     // Smaller where a name is long, but not so small that nobody reads it.
@@ -101,7 +122,7 @@ fn mesh<'a, 'b>(
     let name_size = fit(&figure.x_name, WIDTH - left).min(fit(&figure.y_name, AXES_HEIGHT - bottom));
     let mut chart = ChartBuilder::on(area)
         .margin_top(10 * FINE)
-        .margin_right(24 * FINE)
+        .margin_right((24 * FINE).max(legend.width()))
         .margin_bottom(8 * FINE)
         .margin_left(8 * FINE)
         .x_label_area_size(bottom)
@@ -121,7 +142,10 @@ fn mesh<'a, 'b>(
 }
 
 /// The translucent band, cut at the foot of a logarithmic axis.
-fn band(chart: &mut Chart, curve: &[Placed], index: usize, foot: f64) -> Drawn {
+fn band<DB: DrawingBackend>(chart: &mut Chart<DB>, curve: &[Placed], index: usize, foot: f64) -> Drawn
+where
+    DB::ErrorType: 'static,
+{
     for run in curve.split(|p| !p.is_finite() || !p.high.is_finite()) {
         let above = run.iter().map(|p| (p.x, p.high));
         let below = run.iter().rev().map(|p| (p.x, p.low.max(foot)));
@@ -133,7 +157,10 @@ fn band(chart: &mut Chart, curve: &[Placed], index: usize, foot: f64) -> Drawn {
     Ok(())
 }
 
-fn line(chart: &mut Chart, points: &[Placed], index: usize) -> Drawn {
+fn line<DB: DrawingBackend>(chart: &mut Chart<DB>, points: &[Placed], index: usize) -> Drawn
+where
+    DB::ErrorType: 'static,
+{
     for run in points.split(|p| !p.is_finite()) {
         match run {
             [] => {}
@@ -150,7 +177,15 @@ fn line(chart: &mut Chart, points: &[Placed], index: usize) -> Drawn {
     Ok(())
 }
 
-fn scatter(chart: &mut Chart, points: &[Placed], index: usize, foot: (f64, f64)) -> Drawn {
+fn scatter<DB: DrawingBackend>(
+    chart: &mut Chart<DB>,
+    points: &[Placed],
+    index: usize,
+    foot: (f64, f64),
+) -> Drawn
+where
+    DB::ErrorType: 'static,
+{
     let bar = |from, to| PathElement::new(vec![from, to], colour(index).stroke_width(BAR_WIDTH));
     for p in points.iter().filter(|p| p.is_finite()) {
         if p.right.is_finite() {

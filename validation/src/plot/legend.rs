@@ -1,14 +1,22 @@
-//! The legend: rows above the axes, where it covers no data.
+//! The legend: rows above the axes, where it covers no data; where that were more than five entries, labels beside the
+//! axes, each as near to the end of its curve as the others let it.
 
-use super::style::{FINE, MARGIN, ROW, TEXT, WIDTH, curve, marker, text, text_width};
+use super::style::{FINE, MARGIN, ROW, TEXT, WIDTH, curve, looks, marker, text, text_width};
 use super::{Drawn, Figure};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
 const SAMPLE: i32 = 34 * FINE;
 const GAP: i32 = 6 * FINE;
+/// Letters beside the axes, the lines that they take, and the samples before them.
+const SMALL: f64 = 12.0;
+const LINE: i32 = 16 * FINE;
+const SHORT: i32 = 18 * FINE;
+/// Above the axes there are no more entries than these.
+const MOST: usize = 5;
 
 /// What an entry shows beside its label.
+#[derive(Clone, Copy)]
 enum Mark {
     Curve(usize),
     Points(usize),
@@ -16,24 +24,101 @@ enum Mark {
 }
 
 /// One entry and where it stands in its row.
-pub(super) struct Entry {
+struct Entry {
     mark: Mark,
     label: String,
     x: i32,
 }
 
-/// The entries in rows that are no wider than the figure.
-pub(super) fn rows(figure: &Figure) -> Vec<Vec<Entry>> {
-    let curves = figure.curves.iter().enumerate();
-    let points = figure.points.iter().enumerate();
-    let band = figure.curves.iter().any(|curve| curve.half_band.is_some());
-    let marks = (curves.map(|(k, curve)| (Mark::Curve(k), curve.label.clone())))
-        .chain(points.map(|(k, points)| (Mark::Points(figure.curves.len() + k), points.label.clone())))
-        .filter(|(_, label)| !label.is_empty())
-        .chain(band.then(|| (Mark::Band, "95 % band".to_string())));
+/// All entries.
+pub(super) struct Legend {
+    rows: Vec<Vec<Entry>>,
+    /// Beside the axes: which series, and its label.
+    beside: Vec<(usize, Mark, String)>,
+}
+
+impl Legend {
+    pub(super) fn of(figure: &Figure) -> Self {
+        let looks = looks(figure);
+        let curves = figure.curves.iter().map(|curve| &curve.label);
+        let labels = curves.chain(figure.points.iter().map(|points| &points.label));
+        let mark = |series: usize| match series < figure.curves.len() {
+            true => Mark::Curve(looks[series]),
+            false => Mark::Points(looks[series]),
+        };
+        let mut series: Vec<_> = (labels.enumerate())
+            .filter(|(_, label)| !label.is_empty())
+            .map(|(series, label)| (series, mark(series), label.clone()))
+            .collect();
+        let beside = match series.len() > MOST {
+            true => std::mem::take(&mut series),
+            false => Vec::new(),
+        };
+        let band = figure.curves.iter().any(|curve| curve.half_band.is_some());
+        let above = series.into_iter().map(|(_, mark, label)| (mark, label));
+        let above = above.chain(band.then(|| (Mark::Band, "95 % band".to_string())));
+        Self {
+            rows: rows(above),
+            beside,
+        }
+    }
+
+    /// The rows above the axes.
+    pub(super) fn height(&self) -> i32 {
+        self.rows.len() as i32 * ROW
+    }
+
+    /// The room right of the axes.
+    pub(super) fn width(&self) -> i32 {
+        let widths = self.beside.iter().map(|(_, _, label)| text_width(label, SMALL));
+        widths.max().map_or(0, |width| width + SHORT + 2 * GAP)
+    }
+
+    /// Draws what is above the axes, with its top at `top`.
+    pub(super) fn draw<DB: DrawingBackend>(&self, canvas: &DrawingArea<DB, Shift>, top: i32) -> Drawn
+    where
+        DB::ErrorType: 'static,
+    {
+        for (row, entries) in self.rows.iter().enumerate() {
+            let y = top + row as i32 * ROW;
+            for Entry { mark, label, x } in entries {
+                sample(canvas, *mark, (*x, y + 9 * FINE), SAMPLE)?;
+                let place = (x + SAMPLE + GAP, y + 3 * FINE);
+                canvas.draw(&Text::new(label.as_str(), place, text(TEXT)))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Draws what is beside the axes, whose right edge and height are given; `end` is where a series ends.
+    pub(super) fn draw_beside<DB: DrawingBackend>(
+        &self,
+        canvas: &DrawingArea<DB, Shift>,
+        left: i32,
+        height: (i32, i32),
+        end: impl Fn(usize) -> i32,
+    ) -> Drawn
+    where
+        DB::ErrorType: 'static,
+    {
+        let mut wanted: Vec<_> = (self.beside.iter())
+            .map(|(series, mark, label)| (end(*series), *mark, label))
+            .collect();
+        wanted.sort_by_key(|entry| entry.0);
+        let places = apart(wanted.iter().map(|entry| entry.0).collect(), LINE, height);
+        for ((_, mark, label), y) in wanted.into_iter().zip(places) {
+            sample(canvas, mark, (left + GAP, y), SHORT)?;
+            let place = (left + GAP + SHORT + GAP / 2, y - 6 * FINE);
+            canvas.draw(&Text::new(label.as_str(), place, text(SMALL)))?;
+        }
+        Ok(())
+    }
+}
+
+fn rows(entries: impl Iterator<Item = (Mark, String)>) -> Vec<Vec<Entry>> {
     let mut rows: Vec<Vec<Entry>> = Vec::new();
     let mut x = MARGIN;
-    for (mark, label) in marks {
+    for (mark, label) in entries {
         let width = SAMPLE + GAP + text_width(&label, TEXT) + 2 * GAP;
         if rows.is_empty() || (x + width > WIDTH - MARGIN && x > MARGIN) {
             rows.push(Vec::new());
@@ -47,26 +132,51 @@ pub(super) fn rows(figure: &Figure) -> Vec<Vec<Entry>> {
     rows
 }
 
-/// Draws the rows, the first with its top at `top`.
-pub(super) fn draw(canvas: &DrawingArea<SVGBackend, Shift>, rows: &[Vec<Entry>], top: i32) -> Drawn {
-    for (row, entries) in rows.iter().enumerate() {
-        let y = top + row as i32 * ROW;
-        let middle = y + 9 * FINE;
-        for Entry { mark, label, x } in entries {
-            let ends = vec![(*x, middle), (x + SAMPLE, middle)];
-            match mark {
-                Mark::Curve(index) => canvas.draw(&PathElement::new(ends, curve(*index)))?,
-                Mark::Points(index) => {
-                    canvas.draw(&(EmptyElement::at((x + SAMPLE / 2, middle)) + marker(*index)))?
-                }
-                Mark::Band => {
-                    let corners = [(*x, middle - 6 * FINE), (x + SAMPLE, middle + 6 * FINE)];
-                    canvas.draw(&Rectangle::new(corners, BLACK.mix(0.2).filled()))?;
-                }
-            }
-            let place = (x + SAMPLE + GAP, y + 3 * FINE);
-            canvas.draw(&Text::new(label.as_str(), place, text(TEXT)))?;
+/// Places in ascending order, moved until each is `least` from the next and all are inside.
+fn apart(mut places: Vec<i32>, least: i32, (top, bottom): (i32, i32)) -> Vec<i32> {
+    let mut next = top;
+    for place in &mut places {
+        *place = (*place).max(next);
+        next = *place + least;
+    }
+    let mut next = bottom;
+    for place in places.iter_mut().rev() {
+        *place = (*place).min(next);
+        next = *place - least;
+    }
+    places
+}
+
+fn sample<DB: DrawingBackend>(
+    canvas: &DrawingArea<DB, Shift>,
+    mark: Mark,
+    (x, y): (i32, i32),
+    width: i32,
+) -> Drawn
+where
+    DB::ErrorType: 'static,
+{
+    match mark {
+        Mark::Curve(look) => {
+            canvas.draw(&PathElement::new(vec![(x, y), (x + width, y)], curve(look)))?;
+        }
+        Mark::Points(look) => canvas.draw(&(EmptyElement::at((x + width / 2, y)) + marker(look)))?,
+        Mark::Band => {
+            let corners = [(x, y - 6 * FINE), (x + width, y + 6 * FINE)];
+            canvas.draw(&Rectangle::new(corners, BLACK.mix(0.2).filled()))?;
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_are_kept_apart_and_inside() {
+        assert_eq!(apart(vec![5, 6, 50], 10, (0, 100)), [5, 15, 50]);
+        assert_eq!(apart(vec![95, 96, 97], 10, (0, 100)), [80, 90, 100]);
+        assert_eq!(apart(vec![-20, -20], 10, (0, 100)), [0, 10]);
+    }
 }

@@ -1,5 +1,6 @@
 //! Sizes, colours, dashes and markers. Colours are Okabe & Ito's, safe for the colour-blind.
 
+use super::Figure;
 use plotters::prelude::*;
 
 /// Plotters' SVG has whole pixels only: figures are drawn this much larger, and scaled by the view box.
@@ -30,11 +31,85 @@ const PALETTE: [RGBColor; 7] = [
 /// Dashes and gaps. Seven colours and six of these: 42 curves before a pair is used again.
 const DASHES: [&str; 6] = ["", "32 14", "8 12", "44 12 8 12", "18 10", "60 16"];
 
-/// The colour of a curve or of points. Each has a colour of its own, if only by its last bits, so that
-/// `curve_stroke` names one curve.
+/// The integrators that are drawn in many pictures, each with the same colour, dashes and marker in all of them.
+const NAMED: [&str; 11] = [
+    "exact propagator",
+    "explicit Euler in angles",
+    "RK4 in angles",
+    "implicit midpoint in p",
+    "A.4 and A.5 in angles",
+    "RK4 in p",
+    "Lie-group midpoint",
+    "Dormand–Prince 8(5,3)",
+    "Lie-group RKMK4",
+    "projected RK4 in p",
+    "Radau IIA 5",
+];
+
+/// A theory's line has its method's colour, and a number beyond all others.
+const THEORY: usize = 7 * 6;
+
+/// The look of every curve and then of all points: that of the integrator that the label names, or the first that nobody
+/// in the figure has.
+pub(super) fn looks(figure: &Figure) -> Vec<usize> {
+    let labels = figure
+        .curves
+        .iter()
+        .map(|c| &c.label)
+        .chain(figure.points.iter().map(|p| &p.label));
+    let named = |label: &String| {
+        let (name, theory) = match label.strip_suffix(", theory") {
+            Some(name) => (name, THEORY),
+            None => (label.as_str(), 0),
+        };
+        NAMED
+            .iter()
+            .position(|known| *known == name)
+            .map(|look| look + theory)
+    };
+    let known: Vec<_> = labels.map(named).collect();
+    let mut free = (0..).filter(|look| !known.contains(&Some(*look)));
+    (known.iter())
+        .map(|look| look.or_else(|| free.next()).unwrap_or(0))
+        .collect()
+}
+
+/// The colour of a look. Each has a colour of its own, if only by its last bits, so that `curve_stroke` names one curve.
 pub(super) fn colour(index: usize) -> RGBColor {
     let RGBColor(red, green, blue) = PALETTE[index % PALETTE.len()];
     RGBColor(red, green, blue ^ (index / PALETTE.len()) as u8)
+}
+
+/// The colours of a map's classes, from right to not run: told apart also in grey, and by their glyphs.
+pub(super) const CLASSES: [RGBColor; 6] = [
+    RGBColor(178, 223, 205),
+    RGBColor(240, 228, 66),
+    RGBColor(230, 159, 0),
+    RGBColor(170, 60, 0),
+    RGBColor(86, 130, 200),
+    RGBColor(235, 235, 235),
+];
+
+/// The ink of a class's glyph.
+pub(super) fn class_ink(class: usize) -> RGBColor {
+    match class {
+        3 => RGBColor(255, 255, 255),
+        _ => RGBColor(40, 40, 40),
+    }
+}
+
+/// The strokes of a class's glyph about its cell's middle: nothing for right, then a stroke, a cross, two bars, a
+/// square, a dot.
+pub(super) fn glyph(class: usize) -> Vec<Vec<(i32, i32)>> {
+    let r = 3 * FINE;
+    match class {
+        1 => vec![vec![(-r, 0), (r, 0)]],
+        2 => vec![vec![(-r, r), (r, -r)]],
+        3 => vec![vec![(-r, r), (r, -r)], vec![(-r, -r), (r, r)]],
+        4 => vec![vec![(-r, -r), (r, -r), (r, r), (-r, r), (-r, -r)]],
+        5 => vec![vec![(-FINE / 2, 0), (FINE / 2, 0)]],
+        _ => Vec::new(),
+    }
 }
 
 pub(super) fn curve(index: usize) -> ShapeStyle {
@@ -86,11 +161,37 @@ fn styled(size: f64, style: FontStyle) -> TextStyle<'static> {
     font.style(style).color(&RGBColor(34, 34, 34))
 }
 
-/// The room a text needs, on the safe side: no font is at hand to measure it.
+/// The room a text needs in the widest font that a browser or a printer falls back to: DejaVu Sans, bold for what may be
+/// bold. No font is at hand to measure it.
 pub(super) fn text_width(text: &str, size: f64) -> i32 {
-    let combining = |c: &char| ('\u{300}'..'\u{370}').contains(c);
-    let letters = text.chars().filter(|c| !combining(c)).count();
-    (0.56 * size * f64::from(FINE) * letters as f64).ceil() as i32
+    const BOLD: f64 = 1.1;
+    let bold = if size >= TITLE || size == SMALL_BOLD {
+        BOLD
+    } else {
+        1.0
+    };
+    let ems: f64 = text.chars().map(ems).sum();
+    (bold * ems * size * f64::from(FINE)).ceil() as i32
+}
+
+/// The letters of a map's title.
+pub(super) const SMALL_BOLD: f64 = 12.0;
+
+/// The advance of a letter of DejaVu Sans, rounded up, in its size.
+fn ems(letter: char) -> f64 {
+    match letter {
+        // Combining marks stand on the letter before.
+        '\u{300}'..'\u{370}' => 0.0,
+        'i' | 'j' | 'l' | '\'' | 'ᵢ' | 'ⱼ' => 0.28,
+        ' ' | ',' | '.' | ':' | ';' | '·' | 'I' | 'J' => 0.34,
+        '(' | ')' | '[' | ']' | 'f' | 't' | 'r' | '-' | '/' | '|' | '!' => 0.42,
+        '⁰'..='₟' | '¹' | '²' | '³' | 'ᵣ' | 'ᵤ' | 'ᵥ' => 0.43,
+        'm' | 'w' | 'M' | 'W' | '%' | '—' | '…' => 1.0,
+        '=' | '+' | '−' | '<' | '>' | '≤' | '≥' | '±' | '≈' | '∞' | '→' | '×' | 'G' | 'O' | 'Q' | 'N'
+        | 'H' | 'D' | 'U' => 0.84,
+        'A'..='Z' | 'Δ' | 'Λ' | 'Φ' | 'Σ' => 0.7,
+        _ => 0.64,
+    }
 }
 
 /// The lines of a text that has so much room.

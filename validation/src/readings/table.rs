@@ -1,46 +1,40 @@
 //! The measured readings in words.
 
 use super::{QUANTITIES, Row, SEED};
-use crate::report::ReportTable;
+use crate::table::{ReportTable, estimate, words};
 
 /// The rows in words.
 pub fn table(rows: &[Row]) -> ReportTable {
     let replicas = rows.iter().map(|row| row.replicas).min().unwrap_or(0);
-    let quantities = QUANTITIES
-        .iter()
-        .flat_map(|(name, _)| [name.to_string(), "change".to_owned()]);
-    let cells = |row: &Row| {
-        let values = row.values.iter().map(|e| format!("{:.4} ± {:.4}", e.value, e.se));
-        let changes: Vec<_> = match &row.changes {
-            Some(changes) => changes
-                .iter()
-                .map(|e| format!("{:+.4} ± {:.4}", e.value, e.se).replace('-', "−"))
-                .collect(),
-            None => vec!["–".to_owned(); row.values.len()],
-        };
-        let measured = values.zip(changes).flat_map(|(value, change)| [value, change]);
-        [row.open.to_owned(), row.reading.to_owned()]
-            .into_iter()
-            .chain(measured)
-            .collect()
-    };
-    ReportTable {
-        name: "readings".to_owned(),
-        title: "What the open readings change".to_owned(),
-        caption: format!(
+    let mut columns = vec![
+        words("left open", |row: &&Row| row.open),
+        words("read as", |row: &&Row| row.reading),
+    ];
+    for (k, (name, _)) in QUANTITIES.iter().enumerate() {
+        columns.push(estimate(
+            *name,
+            |x, se| format!("{x:.4} ± {se:.4}"),
+            move |row: &&Row| (row.values[k].value, row.values[k].se),
+        ));
+        let signed = |x: f64, se: f64| format!("{x:+.4} ± {se:.4}").replace('-', "−");
+        columns.push(estimate("change", signed, move |row: &&Row| {
+            row.changes
+                .as_ref()
+                .map(|changes| (changes[k].value, changes[k].se))
+        }));
+    }
+    ReportTable::new(
+        ["readings", "What the open readings change"],
+        format!(
             "The rods of Fig. 7 at 50 per cm³ (N = 100, σ = 0, r_e = 11.6, α = 0.5, 200 steps a period): each \
              reading alone against the project's own, then two of them with half the step. Mean ± standard error of \
              {replicas} replicas, seed {SEED}, by the naive reference. A change is from pairs of replicas with the \
              same random numbers. The damping rate is minus the slope, by least squares over four half periods, of \
              ln A; A is the mean of two neighbouring maxima of X̄₁ (t/T = 0, ½, 1, 1½, 2) less the minimum between."
         ),
-        columns: ["left open", "read as"]
-            .map(str::to_owned)
-            .into_iter()
-            .chain(quantities)
-            .collect(),
-        rows: rows.iter().map(cells).collect(),
-    }
+        rows,
+        columns,
+    )
 }
 
 #[cfg(test)]

@@ -1,12 +1,17 @@
 //! The curves and points of a figure as a table.
 
 use super::ReportFigure;
+use crate::plot::{Figure, Grid};
+use crate::table::{ReportTable, words};
 use crate::text::cell;
 
 /// A figure as CSV: a row for each point of each curve, with the half widths of its 95 % intervals where it has them.
 /// Every number is the shortest text that reads back as the same bits.
 pub(super) fn csv(figure: &ReportFigure) -> Result<String, String> {
     let picture = &figure.figure;
+    if let Some(grid) = &picture.grid {
+        return cells(picture, grid);
+    }
     let mut writer = csv::Writer::from_writer(Vec::new());
     let header = [
         "series",
@@ -35,10 +40,39 @@ pub(super) fn csv(figure: &ReportFigure) -> Result<String, String> {
     String::from_utf8(bytes).map_err(|error| error.to_string())
 }
 
+/// Maps as CSV: a row for each cell, with its sign and the class in words.
+fn cells(picture: &Figure, grid: &Grid) -> Result<String, String> {
+    type Cell<'a> = (&'a str, usize, &'a str, usize);
+    let maps = grid.maps.iter();
+    let cells = maps.flat_map(|map| {
+        let rows = map.cells.iter().zip(&grid.rows);
+        rows.flat_map(move |(cells, row)| {
+            let cells = cells.iter().enumerate();
+            cells.map(move |(column, class)| (map.title.as_str(), column, row.as_str(), *class))
+        })
+    });
+    let columns = vec![
+        words("series", |cell: &Cell| cell.0),
+        words(picture.x_name.as_str(), |cell: &Cell| {
+            grid.values[cell.1].as_str()
+        }),
+        words(
+            if picture.y_name.is_empty() {
+                "row"
+            } else {
+                &picture.y_name
+            },
+            |cell: &Cell| cell.2,
+        ),
+        words("found", |cell: &Cell| grid.classes[cell.3].as_str()),
+    ];
+    ReportTable::new(["", ""], "", cells, columns).csv()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::{Curve, Figure, Points};
+    use crate::plot::{Curve, Points};
 
     #[test]
     fn every_point_has_a_row() {

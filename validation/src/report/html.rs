@@ -1,11 +1,13 @@
 //! The report as one HTML file.
 
+use super::first::{Card, Closest, Thumbnail, cards, closest, thumbnails};
 use super::prose::Anchors;
-use super::words::{bounds, detail, number, seconds, verdict};
-use super::{Line, Origin, Report, ReportTable, Row, ScenePlan};
+use super::words::{bounds, detail, number, seconds, share, verdict};
+use super::{Line, Origin, Report, ReportFigure, ReportTable, Row, ScenePlan};
 use crate::accept::Verdict;
-use crate::case::Control;
+use crate::case::{Control, Judges};
 use crate::plot;
+use crate::studies::Exhibit;
 use crate::text::readable;
 use minijinja::value::{Serde, Value};
 use minijinja::{Environment, UndefinedBehavior};
@@ -15,12 +17,16 @@ use serde::Serialize;
 #[derive(Serialize)]
 struct Page<'a> {
     style: &'static str,
+    script: &'static str,
     headline: String,
     good: bool,
-    /// The cases to look at first.
+    cards: Vec<Card>,
+    thumbnails: Vec<Thumbnail<'a>>,
+    /// The cases to look at first: what is red, then what is nearest to its bound.
     attention: Vec<Link<'a>>,
-    cases: Vec<CaseView<'a>>,
-    figures: Vec<FigureView<'a>>,
+    closest: Vec<Closest<'a>>,
+    studies: Vec<StudyView<'a>>,
+    groups: Vec<Group<'a>>,
     tables: Vec<TableView<'a>>,
     equations: Vec<EquationView<'a>>,
     plans: &'a [ScenePlan],
@@ -30,17 +36,51 @@ struct Page<'a> {
     origin: &'a Origin,
 }
 
+/// The cases that judge one thing.
+#[derive(Serialize)]
+struct Group<'a> {
+    tag: &'static str,
+    name: &'static str,
+    means: &'static str,
+    cases: Vec<CaseView<'a>>,
+}
+
+/// A study with its pictures and tables.
+#[derive(Serialize)]
+struct StudyView<'a> {
+    name: &'a str,
+    title: &'a str,
+    question: &'a str,
+    answer: &'a str,
+    command: &'a str,
+    time: String,
+    cases: Vec<Link<'a>>,
+    exhibits: Vec<ExhibitView<'a>>,
+}
+
+/// A picture beside its table.
+#[derive(Serialize)]
+struct ExhibitView<'a> {
+    figure: Option<FigureView<'a>>,
+    table: Option<TableView<'a>>,
+    /// The table is narrow enough to stand beside the picture.
+    beside: bool,
+}
+
 /// A row as text.
 #[derive(Serialize)]
 struct CaseView<'a> {
     name: &'a str,
     claim: &'a str,
-    judges: &'static str,
+    tags: String,
     source: &'a str,
     class: Verdict,
     symbol: &'static str,
     word: &'static str,
-    worst: Option<LineView<'a>>,
+    used: String,
+    /// How long the bar of the used tolerance is, in percent.
+    bar: Option<f64>,
+    because: &'a str,
     evidence: Vec<LineView<'a>>,
     caught: usize,
     controls: &'a [Control],
@@ -66,6 +106,7 @@ struct LineView<'a> {
 #[derive(Serialize)]
 struct FigureView<'a> {
     name: &'a str,
+    title: &'a str,
     svg: String,
     caption: &'a str,
     source: &'a str,
@@ -75,18 +116,22 @@ struct FigureView<'a> {
 /// A table, and which of its columns hold numbers.
 #[derive(Serialize)]
 struct TableView<'a> {
-    #[serde(flatten)]
-    table: &'a ReportTable,
+    name: &'a str,
+    title: &'a str,
+    caption: &'a str,
+    columns: &'a [String],
+    rows: &'a [Vec<String>],
     numeric: Vec<bool>,
 }
 
-/// An equation with the cases that test it.
+/// An equation with the cases that test it, and the mistakes that they caught.
 #[derive(Serialize)]
 struct EquationView<'a> {
     number: &'a str,
     says: &'a str,
     code: &'a [String],
     cases: Vec<Link<'a>>,
+    caught: Vec<&'a str>,
 }
 
 /// A link inside the report, to a case with its verdict or to a figure.
@@ -105,19 +150,20 @@ pub(super) fn write(report: &Report) -> Result<String, String> {
     environment.add_filter("prose", move |text: &str| {
         Value::from_safe_string(anchors.html(text))
     });
-    let cases: Vec<_> = report.cases.iter().map(|row| case(report, row)).collect();
-    let figures = figures(report)?;
-    let attention: Vec<_> = (report.cases.iter())
+    let attention = (report.cases.iter())
         .filter(|row| matches!(row.verdict, Verdict::Fail | Verdict::Underpowered))
-        .map(case_link)
-        .collect();
+        .map(case_link);
     let page = Page {
         style: include_str!("report.css"),
+        script: include_str!("report.js"),
         headline: report.headline(),
         good: report.exit_code() == 0,
-        attention,
-        cases,
-        figures,
+        cards: cards(report),
+        thumbnails: thumbnails(report)?,
+        attention: attention.collect(),
+        closest: closest(report),
+        studies: studies(report)?,
+        groups: groups(report),
         tables: report.sections.tables.iter().map(table).collect(),
         equations: equations(report),
         plans: &report.sections.plans,
@@ -134,22 +180,41 @@ pub(super) fn write(report: &Report) -> Result<String, String> {
         .map_err(|error| format!("cannot write the report: {error}"))
 }
 
+fn groups(report: &Report) -> Vec<Group<'_>> {
+    let group = |judges: &Judges| Group {
+        tag: judges.tag(),
+        name: super::first::title(*judges),
+        means: super::first::means(*judges),
+        cases: (report.cases.iter())
+            .filter(|row| row.judges == *judges)
+            .map(|row| case(report, row))
+            .collect(),
+    };
+    let groups = Judges::ALL.iter().map(group);
+    groups.filter(|group| !group.cases.is_empty()).collect()
+}
+
 fn case<'a>(report: &'a Report, row: &'a Row) -> CaseView<'a> {
     let (symbol, word) = verdict(row.verdict);
-    let figures = report
-        .sections
-        .figures
-        .iter()
-        .filter(|f| f.cases.contains(&row.name));
+    let equations = (report.sections.equations.iter())
+        .filter(|equation| equation.cases.contains(&row.name))
+        .map(|equation| format!(" eq-{}", equation.number));
+    let figures = report.sections.figures().filter(|f| f.cases.contains(&row.name));
+    let used = row
+        .worst()
+        .filter(|_| row.verdict != Verdict::NoData)
+        .map(|line| line.used);
     CaseView {
         name: &row.name,
         claim: &row.claim,
-        judges: row.judges.name(),
+        tags: row.judges.tag().to_owned() + &equations.collect::<String>(),
         source: &row.source,
         class: row.verdict,
         symbol,
         word,
-        worst: row.worst().map(line),
+        used: used.map_or("–".into(), share),
+        bar: used.map(bar),
+        because: row.worst().map_or("no evidence", |line| &line.because),
         evidence: row.evidence.iter().map(line).collect(),
         caught: row.caught,
         controls: &row.controls,
@@ -163,6 +228,16 @@ fn case<'a>(report: &'a Report, row: &'a Row) -> CaseView<'a> {
                 symbol: "",
             })
             .collect(),
+    }
+}
+
+/// A share of the tolerance as the length of a bar in percent, on a logarithmic scale from 10⁻⁴ to 10.
+fn bar(used: f64) -> f64 {
+    match used.is_nan() {
+        true => 100.0,
+        false => (20.0 * (used.max(1e-300).log10() + 4.0))
+            .clamp(0.0, 100.0)
+            .round(),
     }
 }
 
@@ -181,21 +256,56 @@ fn line(line: &Line) -> LineView<'_> {
     }
 }
 
-fn figures(report: &Report) -> Result<Vec<FigureView<'_>>, String> {
-    (report.sections.figures.iter())
-        .map(|figure| {
-            Ok(FigureView {
-                name: &figure.name,
-                svg: plot::svg(&figure.figure)?,
-                caption: &figure.caption,
-                source: &figure.source,
-                cases: case_links(report, &figure.cases),
+fn studies(report: &Report) -> Result<Vec<StudyView<'_>>, String> {
+    (report.sections.studies.iter())
+        .map(|study| {
+            Ok(StudyView {
+                name: &study.name,
+                title: &study.title,
+                question: &study.question,
+                answer: &study.answer,
+                command: &study.command,
+                time: seconds(study.seconds),
+                cases: case_links(report, &study.cases),
+                exhibits: (study.exhibits.iter())
+                    .map(|exhibit| view(report, exhibit))
+                    .collect::<Result<_, String>>()?,
             })
         })
         .collect()
 }
 
+fn view<'a>(report: &'a Report, exhibit: &'a Exhibit) -> Result<ExhibitView<'a>, String> {
+    /// So many columns stand beside a picture.
+    const BESIDE: usize = 6;
+    let figure = exhibit.figure.as_ref().map(|f| self::figure(report, f));
+    let columns = exhibit.table.as_ref().map_or(0, |table| table.columns.len());
+    Ok(ExhibitView {
+        figure: figure.transpose()?,
+        table: exhibit.table.as_ref().map(table),
+        beside: exhibit.figure.is_some() && (1..=BESIDE).contains(&columns),
+    })
+}
+
+fn figure<'a>(report: &'a Report, figure: &'a ReportFigure) -> Result<FigureView<'a>, String> {
+    Ok(FigureView {
+        name: &figure.name,
+        title: &figure.figure.title,
+        svg: plot::svg(&figure.figure)?,
+        caption: &figure.caption,
+        source: &figure.source,
+        cases: case_links(report, &figure.cases),
+    })
+}
+
 fn equations(report: &Report) -> Vec<EquationView<'_>> {
+    let caught = |cases: &[String]| {
+        let rows = report.cases.iter().filter(|row| cases.contains(&row.name));
+        let controls = rows
+            .flat_map(|row| &row.controls)
+            .filter(|control| control.caught);
+        controls.map(|control| control.mistake.as_ref()).collect()
+    };
     let equations = report.sections.equations.iter();
     equations
         .map(|equation| EquationView {
@@ -203,6 +313,7 @@ fn equations(report: &Report) -> Vec<EquationView<'_>> {
             says: &equation.says,
             code: &equation.code,
             cases: case_links(report, &equation.cases),
+            caught: caught(&equation.cases),
         })
         .collect()
 }
@@ -217,7 +328,11 @@ fn table(table: &ReportTable) -> TableView<'_> {
         numeric: (0..table.columns.len())
             .map(|column| table.rows.iter().all(|row| is_number(row, column)))
             .collect(),
-        table,
+        name: &table.name,
+        title: &table.title,
+        caption: &table.caption,
+        columns: &table.columns,
+        rows: &table.rows,
     }
 }
 

@@ -1,8 +1,9 @@
 //! The report as Markdown.
 
 use super::words::{bounds, seconds, verdict};
-use super::{Report, ReportEquation, ReportFigure, ReportTable, Row};
+use super::{Report, ReportEquation, ReportStudy, Row};
 use crate::markup::{Piece, pieces, unicode};
+use crate::table::{ReportTable, of_words};
 use crate::text::readable;
 
 pub(super) fn write(report: &Report) -> String {
@@ -16,8 +17,8 @@ pub(super) fn write(report: &Report) -> String {
     text += "\nError and tolerance are those of the worst line of evidence; for a goodness-of-fit test they are \
              its p-value and the smallest allowed. To repeat one case: \
              `cargo run --release -- validate --case NAME`.\n\n";
-    text += &figures(&report.sections.figures);
-    text += &(report.sections.tables.iter()).map(section).collect::<String>();
+    text += &report.sections.studies.iter().map(study).collect::<String>();
+    text += &report.sections.tables.iter().map(section).collect::<String>();
     if !report.sections.equations.is_empty() {
         text += &section(&equation_table(&report.sections.equations));
     }
@@ -54,16 +55,30 @@ fn row(case: &Row) -> String {
     )
 }
 
-fn figures(figures: &[ReportFigure]) -> String {
-    if figures.is_empty() {
-        return String::new();
+/// A study: its question, its answer, and each picture's data and table.
+fn study(study: &ReportStudy) -> String {
+    let mut text = format!(
+        "## {}\n\n*{}* {}\n\nRepeat: {}\n\n",
+        escape(&study.title),
+        escape(&study.question),
+        escape(&study.answer),
+        code(&study.command)
+    );
+    for exhibit in &study.exhibits {
+        if let Some(figure) = &exhibit.figure {
+            let (title, caption) = (escape(&figure.figure.title), escape(&figure.caption));
+            text += &format!("**{title}** (`curves/{}.csv`): {caption}\n\n", figure.name);
+        }
+        if let Some(table) = &exhibit.table {
+            text += &format!(
+                "### {}\n\n{}\n\n{}\n",
+                escape(&table.title),
+                escape(&table.caption),
+                markdown_table(table)
+            );
+        }
     }
-    let line = |figure: &ReportFigure| {
-        let title = escape(&figure.figure.title);
-        let caption = escape(&figure.caption);
-        format!("- **{title}** (`curves/{}.csv`): {caption}\n", figure.name)
-    };
-    format!("## Figures\n\n{}\n", figures.iter().map(line).collect::<String>())
+    text
 }
 
 fn section(table: &ReportTable) -> String {
@@ -92,16 +107,12 @@ pub(crate) fn markdown_table(table: &ReportTable) -> String {
 /// The equations as a table.
 pub(crate) fn equation_table(equations: &[ReportEquation]) -> ReportTable {
     let code = |items: &[String]| items.iter().map(|item| format!("`{item}`")).collect::<Vec<_>>();
-    ReportTable {
-        name: "equations".into(),
-        title: "Equations".into(),
-        caption:
-            "From each equation of the paper to the code that is made from it and the cases that test it."
-                .into(),
-        columns: ["equation", "says", "code, in `src/`", "cases"]
-            .map(String::from)
-            .into(),
-        rows: (equations.iter())
+    of_words(
+        "equations",
+        "Equations",
+        "From each equation of the paper to the code that is made from it and the cases that test it.",
+        &["equation", "says", "code, in `src/`", "cases"],
+        (equations.iter())
             .map(|e| {
                 vec![
                     e.number.clone(),
@@ -111,7 +122,7 @@ pub(crate) fn equation_table(equations: &[ReportEquation]) -> ReportTable {
                 ]
             })
             .collect(),
-    }
+    )
 }
 
 /// A text as code, whatever backticks are in it: CommonMark ends a span at as many as it begins with.

@@ -1,7 +1,10 @@
 //! The report: what every case said, as plain data, and its writers.
 
 mod curves;
+mod first;
 mod html;
+mod json;
+mod junit;
 mod markdown;
 mod origin;
 mod prose;
@@ -16,9 +19,10 @@ pub(crate) use markdown::{equation_table, markdown_table};
 use crate::accept::{FALSE_ALARM_BUDGET, Verdict};
 use crate::case::{Effort, Judges, Outcome};
 use crate::output::Output;
+pub use crate::table::ReportTable;
 pub use origin::Origin;
 pub use row::{Line, Row};
-pub use sections::{ReportEquation, ReportFigure, ReportTable, ScenePlan, Sections};
+pub use sections::{ReportEquation, ReportFigure, ReportStudy, ScenePlan, Sections};
 use serde::Serialize;
 
 /// How many cases ended how.
@@ -81,14 +85,13 @@ impl std::fmt::Display for Part {
 }
 
 /// Everything a run of the suite found.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// How many cases ended how.
     pub summary: Summary,
     /// The cases, in the order of the registry.
     pub cases: Vec<Row>,
     /// What is shown beside them.
-    #[serde(flatten)]
     pub sections: Sections,
     /// Where, when and from what.
     pub origin: Origin,
@@ -131,17 +134,23 @@ impl Report {
         markdown::write(self)
     }
 
-    /// The tables behind the figures: names of files, and CSV.
-    pub fn curves(&self) -> Result<Vec<Output>, String> {
-        let figures = self.sections.figures.iter();
-        figures
-            .map(|figure| Ok((format!("{}.csv", figure.name), curves::csv(figure)?)))
-            .collect()
+    /// The data behind figures and tables: names of files, and CSV.
+    pub fn data(&self) -> Result<Vec<Output>, String> {
+        let figures = self.sections.figures();
+        let curves = figures.map(|figure| Ok((format!("curves/{}.csv", figure.name), curves::csv(figure)?)));
+        let tables = self.sections.tables();
+        let tables = tables.map(|table| Ok((format!("tables/{}.csv", table.name), table.csv()?)));
+        curves.chain(tables).collect()
     }
 
-    /// Everything as data; numbers that are not finite are null.
+    /// Everything as data; numbers that are not finite are null. `schemas/report.schema.json` describes it.
     pub fn json(&self) -> String {
-        serde_json::to_string_pretty(self).unwrap_or_else(|error| format!("{{\"error\": \"{error}\"}}"))
+        json::write(self)
+    }
+
+    /// A test case for each case, for programs that show tests.
+    pub fn junit(&self) -> String {
+        junit::write(self)
     }
 
     /// 1 when a case failed or had too little data to say, or where chance alone could do so too often, else 0.

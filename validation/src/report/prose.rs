@@ -14,11 +14,7 @@ pub(super) struct Anchors {
 impl Anchors {
     pub(super) fn of(report: &Report) -> Self {
         let sections = &report.sections;
-        let figures: Vec<_> = sections
-            .figures
-            .iter()
-            .map(|figure| figure.name.clone())
-            .collect();
+        let figures: Vec<_> = sections.figures().map(|figure| figure.name.clone()).collect();
         let cases = report.cases.iter().map(|row| format!("case-{}", row.name));
         let equations = (sections.equations.iter()).map(|e| format!("equation-{}", e.number));
         Self {

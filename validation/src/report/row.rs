@@ -32,6 +32,9 @@ impl Line {
         let used = match rule {
             _ if error == 0.0 && tolerance == 0.0 => 0.0,
             Rule::PValue { .. } => tolerance / error,
+            // The mean must exceed the bound: what is not above 0 has used up all of it.
+            Rule::Above { .. } if error <= 0.0 => f64::INFINITY,
+            Rule::Above { .. } => tolerance.max(0.0) / error,
             _ => error / tolerance,
         };
         Self {
@@ -131,6 +134,38 @@ impl Row {
     /// The worst line of the evidence.
     pub fn worst(&self) -> Option<&Line> {
         self.worst.and_then(|index| self.evidence.get(index))
+    }
+
+    /// Why it is red: each rule that did not hold with its numbers, each control that was not caught, and the command.
+    /// Nothing where it is not.
+    pub fn reasons(&self) -> String {
+        let bad = |verdict| matches!(verdict, Verdict::Fail | Verdict::Underpowered);
+        let mut text = String::new();
+        for line in self.evidence.iter().filter(|line| bad(line.verdict)) {
+            let how = match line.verdict {
+                Verdict::Fail => "failed",
+                _ => "too little data",
+            };
+            text += &format!(
+                "  {how}: {}: {}\n    because: {}\n",
+                line.what,
+                line.numbers(),
+                line.because
+            );
+        }
+        for control in self.controls.iter().filter(|control| !control.caught) {
+            text += &format!(
+                "  not caught: the same check passes or breaks on this mistake: {}\n",
+                control.mistake
+            );
+        }
+        match text.is_empty() && !bad(self.verdict) {
+            true => text,
+            false => format!(
+                "{}: {}\n{text}  repeat: {}\n",
+                self.name, self.claim, self.command
+            ),
+        }
     }
 }
 

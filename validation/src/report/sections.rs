@@ -1,6 +1,8 @@
 //! What a report shows beside its cases, as plain data.
 
 use crate::plot::Figure;
+use crate::studies::{Exhibit, Found, Study};
+use crate::table::ReportTable;
 use serde::Serialize;
 
 /// A picture with what to see in it.
@@ -16,21 +18,6 @@ pub struct ReportFigure {
     pub source: String,
     /// The cases that judge what is shown, which link here.
     pub cases: Vec<String>,
-}
-
-/// A table: a study that is no case, in plain text. A text in backticks is code, and a link where it is a case's name.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct ReportTable {
-    /// Its name, in words joined by `-`; its anchor is `table-NAME`.
-    pub name: String,
-    /// What it holds, in a few words.
-    pub title: String,
-    /// What to see.
-    pub caption: String,
-    /// The heads of the columns, with units.
-    pub columns: Vec<String>,
-    /// The cells, row by row.
-    pub rows: Vec<Vec<String>>,
 }
 
 /// An equation of the paper, the code that is made from it and the cases that test it.
@@ -61,15 +48,78 @@ pub struct ScenePlan {
     pub text: String,
 }
 
+/// A study with what it found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ReportStudy {
+    /// Its name, in words joined by `-`; its anchor is `study-NAME`.
+    pub name: String,
+    /// What it is about.
+    pub title: String,
+    /// What it asks.
+    pub question: String,
+    /// The answer, in a sentence.
+    pub answer: String,
+    /// The command that repeats it.
+    pub command: String,
+    /// The cases that judge it.
+    pub cases: Vec<String>,
+    /// Pictures beside their tables.
+    pub exhibits: Vec<Exhibit>,
+    /// The scenes behind it.
+    pub(crate) plans: Vec<ScenePlan>,
+    /// Wall time.
+    pub seconds: f64,
+}
+
+impl ReportStudy {
+    /// What a study found in so many seconds.
+    pub fn new(study: &Study, found: Found, seconds: f64) -> Self {
+        Self {
+            name: study.name.into(),
+            title: study.title.into(),
+            question: study.question.into(),
+            answer: found.answer,
+            command: study.command.into(),
+            cases: study.cases.iter().map(|case| (*case).into()).collect(),
+            exhibits: found.exhibits,
+            plans: found.plans,
+            seconds,
+        }
+    }
+}
+
 /// What a report shows beside its cases.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sections {
-    /// The pictures.
-    pub figures: Vec<ReportFigure>,
     /// The studies.
+    pub studies: Vec<ReportStudy>,
+    /// Tables of no study.
     pub tables: Vec<ReportTable>,
     /// Every equation of the paper.
     pub equations: Vec<ReportEquation>,
-    /// Every scene behind a figure.
+    /// Every scene behind a study.
     pub plans: Vec<ScenePlan>,
+}
+
+impl Sections {
+    /// Adds a study, and its scenes to those of all.
+    pub fn add(&mut self, mut study: ReportStudy) {
+        self.plans.append(&mut study.plans);
+        self.studies.push(study);
+    }
+
+    /// All pictures.
+    pub fn figures(&self) -> impl Iterator<Item = &ReportFigure> {
+        self.exhibits().filter_map(|exhibit| exhibit.figure.as_ref())
+    }
+
+    /// All tables.
+    pub fn tables(&self) -> impl Iterator<Item = &ReportTable> {
+        let of_studies = self.exhibits().filter_map(|exhibit| exhibit.table.as_ref());
+        of_studies.chain(&self.tables)
+    }
+
+    fn exhibits(&self) -> impl Iterator<Item = &Exhibit> {
+        self.studies.iter().flat_map(|study| &study.exhibits)
+    }
 }

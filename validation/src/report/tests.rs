@@ -4,6 +4,8 @@ use super::*;
 use crate::accept::{Rule, judge};
 use crate::case::{About, Control, Evidence, GATE_SEED, Judged, Judges};
 use crate::plot::{Curve, Figure};
+use crate::studies::Exhibit;
+use crate::table::{number, words};
 use crate::xml::is_well_formed;
 
 const EFFORT: Effort = Effort {
@@ -128,10 +130,34 @@ fn synthetic() -> Report {
         source: "Fig. 4".into(),
         cases: vec!["synthetic-pass".into()],
     };
+    let table = ReportTable::new(
+        ["synthetic", "Synthetic numbers"],
+        "What to see: `synthetic-pass`.",
+        [1.0, 2.5],
+        vec![
+            number("x (s)", |x| format!("{x:.1}"), |x: &f64| *x),
+            words("in words", |x: &f64| format!("<{x}>")),
+        ],
+    );
     let mut report = build(
         outcomes,
         Sections {
-            figures: vec![figure],
+            studies: vec![ReportStudy {
+                name: "synthetic".into(),
+                title: "A synthetic study".into(),
+                question: "Is it synthetic?".into(),
+                answer: "It is, 1 < 2 & so on.".into(),
+                command: "shearbed bench --case synthetic".into(),
+                cases: vec!["synthetic-fail".into()],
+                exhibits: vec![Exhibit::both(figure, table)],
+                ..Default::default()
+            }],
+            equations: vec![ReportEquation {
+                number: "A.4".into(),
+                says: "a synthetic equation".into(),
+                code: vec!["nothing::at_all".into()],
+                cases: vec!["synthetic-pass".into()],
+            }],
             ..Default::default()
         },
         &EFFORT,
@@ -208,8 +234,10 @@ fn html_stands_alone() {
     let report = synthetic();
     let html = report.html().unwrap();
     assert!(is_well_formed(&html), "{html}");
+    // One script, in the page itself.
+    assert_eq!(html.matches("<script").count(), 1);
     for load in [
-        "<script",
+        "<script ",
         "<link",
         "<img",
         "<iframe",
@@ -239,6 +267,13 @@ fn html_stands_alone() {
         "id=\"figure-synthetic\"",
         "a wave &amp; nothing else",
         "href=\"#figure-synthetic\"",
+        "href=\"curves/synthetic.csv\"",
+        "href=\"tables/synthetic.csv\"",
+        "Is it synthetic?",
+        "1 &lt; 2 &amp; so on",
+        "&lt;2.5&gt;",
+        "0 of 2, no data for 1",
+        "<summary>2</summary><ul class=\"controls\"><li>sign of the spin</li>",
     ] {
         assert!(html.contains(text), "{text}");
     }
@@ -260,7 +295,13 @@ fn hostile_texts_are_harmless_in_every_writing() {
     ] {
         *text = hostile.into();
     }
-    let figure = &mut report.sections.figures[0];
+    let study = &mut report.sections.studies[0];
+    let table = study.exhibits[0].table.as_mut().unwrap();
+    table.caption = hostile.into();
+    table.rows[0][1] = hostile.into();
+    table.data[0][1] = hostile.into();
+    study.answer = hostile.into();
+    let figure = study.exhibits[0].figure.as_mut().unwrap();
     figure.caption = hostile.into();
     figure.figure.title = hostile.into();
     figure.figure.x_name = hostile.into();
@@ -271,7 +312,7 @@ fn hostile_texts_are_harmless_in_every_writing() {
     };
     let html = report.html().unwrap();
     assert!(is_well_formed(&html), "{html}");
-    assert!(!html.contains("<script") && !control(&html));
+    assert!(html.matches("<script").count() == 1 && !control(&html));
     let markdown = report.markdown();
     assert!(!control(&markdown), "{markdown}");
     let made = markdown.lines().last().unwrap();
@@ -289,9 +330,12 @@ fn hostile_texts_are_harmless_in_every_writing() {
         let links = part.replace("\\[", "").contains('[');
         assert!(!part.contains("<script") && !links, "{part}");
     }
-    for (_, csv) in report.curves().unwrap() {
-        assert!(!control(&csv) && csv.contains("'=cmd|"), "{csv}");
+    for (name, csv) in report.data().unwrap() {
+        assert!(!control(&csv), "{csv}");
+        assert!(csv.contains("'=cmd|") || name.starts_with("tables/"), "{csv}");
     }
+    let junit = report.junit();
+    assert!(is_well_formed(&junit) && !control(&junit), "{junit}");
 }
 
 #[test]
@@ -315,4 +359,68 @@ fn json_has_numbers_as_numbers() {
     );
     assert_eq!(report["cases"][3]["controls"][1]["caught"], false);
     assert_eq!(report["figures"][0]["figure"]["curves"][0]["y"][0], 0.0);
+}
+
+#[test]
+fn json_is_as_its_schema_says() {
+    let schema: serde_json::Value =
+        serde_json::from_str(include_str!("../../schemas/report.schema.json")).unwrap();
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    let mut report: serde_json::Value = serde_json::from_str(&synthetic().json()).unwrap();
+    let errors: Vec<_> = validator
+        .iter_errors(&report)
+        .map(|error| error.to_string())
+        .collect();
+    assert!(errors.is_empty(), "{errors:#?}");
+    // Controls: what is not in the form is refused.
+    report["cases"][0]["verdict"] = "perhaps".into();
+    assert!(!validator.is_valid(&report));
+    report["cases"][0]["verdict"] = "pass".into();
+    assert!(validator.is_valid(&report));
+    report["studies"][0]["answer"].take();
+    assert!(!validator.is_valid(&report));
+}
+
+#[test]
+fn junit_counts_what_is_red() {
+    let junit = synthetic().junit();
+    assert!(is_well_formed(&junit), "{junit}");
+    assert!(
+        junit.contains("tests=\"7\" failures=\"4\" errors=\"0\" skipped=\"1\""),
+        "{junit}"
+    );
+    assert_eq!(junit.matches("<testcase ").count(), 7);
+    assert_eq!(junit.matches("<failure ").count(), 4);
+    assert_eq!(junit.matches("<skipped ").count(), 1);
+    assert!(junit.contains("not caught: the same check passes or breaks on this mistake: factor &lt; 2"));
+}
+
+#[test]
+fn the_first_screen_says_where_to_look() {
+    let report = synthetic();
+    let html = report.html().unwrap();
+    let first = html.split("<section").next().unwrap();
+    for name in [
+        "synthetic-fail",
+        "synthetic-blind",
+        "synthetic-empty",
+        "synthetic-underpowered",
+    ] {
+        assert!(first.contains(&format!("href=\"#case-{name}\"")), "{name}");
+    }
+    // Of those that pass, the one that uses most of its tolerance comes first: 0.25, and the p-value 2·10⁻⁶/0.31.
+    let (pass, p_value) = (
+        first.find("#case-synthetic-pass"),
+        first.find("#case-synthetic-p-value"),
+    );
+    assert!(pass.unwrap() < p_value.unwrap());
+    // What passes is folded, what is red is open.
+    assert!(
+        html.contains("id=\"case-synthetic-pass\" data-tags=\"core eq-A.4 pass\">"),
+        "{html}"
+    );
+    assert!(
+        html.contains("id=\"case-synthetic-fail\" data-tags=\"core fail\" open=\"\">"),
+        "{html}"
+    );
 }

@@ -60,6 +60,18 @@ pub(super) fn bounds(line: &Line) -> (String, String) {
     }
 }
 
+/// A share of a tolerance in percent.
+pub(super) fn share(used: f64) -> String {
+    match used {
+        used if used.is_nan() => "not a number".into(),
+        used if used == 0.0 => "0 %".into(),
+        used if used < 1e-3 => "< 0.1 %".into(),
+        used if used < 0.1 => format!("{:.1} %", 100.0 * used),
+        used if used < 10.0 => format!("{:.0} %", 100.0 * used),
+        _ => "> 1000 %".into(),
+    }
+}
+
 /// The numbers behind a rule, where there are more than its error and tolerance.
 pub(super) fn detail(rule: &Rule) -> String {
     match rule {

@@ -63,7 +63,7 @@ fn figure(
             x_log: true,
             y_log: true,
             x_span: Some((1.0, 1e4)),
-            y_span: None,
+            ..Default::default()
         },
         caption: "Points by bisection between 512 rods; the numbers are in the table of the same name. A point that is \
                   missing has no limit up to GΔt = 941. Projected RK4 lies on RK4 in p, and in the plane of shear RKMK4 on RK4 in \

@@ -1,10 +1,10 @@
 //! The longest steps beside their theory, as tables.
 
 use super::limits::{Ladder, Limit, Property, bisect, holds};
-use super::tables::{ratio, table};
+use super::maps::ratio;
 use super::theory;
-use crate::report::ReportTable;
 use crate::subject::{Subject, Theory};
+use crate::table::{ReportTable, of_words};
 
 /// The aspect ratios at which limits are sought.
 pub const LIMIT_RATIOS: [f64; 9] = [1.01, 1.5, 2.0, 2.5, 3.0, 11.6, 100.0, 1e4, 1e5];
@@ -136,14 +136,15 @@ fn limit_table(
         }
     }
     let columns = ratios.iter().map(|r| format!("r_e = {}", ratio(*r)));
-    table(
+    let columns: Vec<_> = std::iter::once("subject".to_owned()).chain(columns).collect();
+    of_words(
         name,
         title,
-        format!(
+        &format!(
             "{caption} Fixed-step subjects that are not listed have no limit up to {:.0}.",
             ladder.most
         ),
-        std::iter::once("subject".to_owned()).chain(columns).collect(),
+        &columns,
         rows,
     )
 }

@@ -1,11 +1,13 @@
 //! Where integrators of a free rod leave their region of stability: maps of what was found in every corner, and the
 //! longest steps by bisection beside theory. Derived in `docs/stability.md`.
 
+pub mod chapter;
 pub mod core;
+pub mod core_table;
 pub mod figures;
 pub mod limit_tables;
 pub mod limits;
 pub mod map;
+pub mod maps;
 pub mod orbit;
-pub mod tables;
 pub mod theory;

@@ -1,6 +1,7 @@
 //! Error against run time of suspensions as pictures.
 
 use super::free::Bench;
+use super::law::Law;
 use super::split::Scope;
 use super::study::Study;
 use crate::plot::{Curve, Figure, Points};
@@ -108,5 +109,44 @@ pub fn interacting(study: &Study) -> ReportFigure {
         ),
         source: "eqs 4 to 14".into(),
         cases: vec!["cheapest-split".into()],
+    }
+}
+
+/// X̄₁ against the step, and the straight line of first order.
+pub fn steps(law: &Law) -> ReportFigure {
+    let inverse = |steps: u64| 1.0 / steps as f64;
+    let line = law.steps_line.as_ref().map(|line| {
+        let coarsest = law
+            .steps
+            .get(law.line_from)
+            .map_or(0.0, |s| inverse(s.steps_per_period));
+        Curve {
+            label: "first order".into(),
+            x: vec![0.0, coarsest],
+            y: vec![line.intercept, line.intercept + line.slope * coarsest],
+            half_band: None,
+        }
+    });
+    ReportFigure {
+        name: "steps".into(),
+        figure: Figure {
+            title: "Interacting rods: X̄₁ at t/T = 1 against the step".into(),
+            x_name: "step Δt/T".into(),
+            y_name: "X̄₁ (rod lengths)".into(),
+            curves: line.into_iter().collect(),
+            points: vec![Points {
+                label: "measured, ± 2 se".into(),
+                x: law.steps.iter().map(|s| inverse(s.steps_per_period)).collect(),
+                y: law.steps.iter().map(|s| s.x1).collect(),
+                y_error: Some(law.steps.iter().map(|s| 2.0 * s.se).collect()),
+                ..Default::default()
+            }],
+            ..Default::default()
+        },
+        caption: "Convergence in law: the mean tends to a limit as Δt → 0, and the line is the first-order bias, where one \
+                  fits."
+            .into(),
+        source: "eqs 4 to 14".into(),
+        cases: vec!["cheapest-split".into(), "paths-do-not-converge".into()],
     }
 }

@@ -2,16 +2,23 @@
 
 use super::Estimate;
 use super::law::{Block, Change, Law, Sample};
-use crate::report::ReportTable;
-use crate::work_precision::tables::table;
+use crate::table::{ReportTable, estimate, field, number, words};
 
 /// Against steps, rods and replicas; `strain` is that of a period.
 pub fn law(law: &Law, strain: f64) -> Vec<ReportTable> {
     vec![steps(law, strain), paths(law), rods(law), replicas(law)]
 }
 
-fn plus_minus(estimate: &Estimate) -> String {
-    format!("{:+.5} ± {:.5}", estimate.value, estimate.se)
+fn signed(value: f64, se: f64) -> String {
+    format!("{value:+.5} ± {se:.5}")
+}
+
+fn pair(estimate: &Estimate) -> (f64, f64) {
+    (estimate.value, estimate.se)
+}
+
+fn five(number: f64) -> String {
+    format!("{number:.5}")
 }
 
 /// How the weak order was read, or that it was not.
@@ -47,96 +54,85 @@ pub fn order_in_words(law: &Law) -> String {
 }
 
 fn steps(law: &Law, strain: f64) -> ReportTable {
-    let row = |k: usize, sample: &Sample| {
-        let mut row = vec![
-            sample.steps_per_period.to_string(),
-            format!("{:.3}", strain / sample.steps_per_period as f64),
-            sample.replicas.to_string(),
-            format!("{:.5}", sample.x1),
-            format!("{:.5}", sample.se),
-        ];
-        row.extend(match law.changes.get(k) {
-            Some(change) => [
-                plus_minus(&change.x1),
-                match change.x1.readable() {
-                    true => "yes".into(),
-                    false => "not readable".into(),
-                },
-                plus_minus(&change.p1_distribution),
-                plus_minus(&change.orbit_distribution),
-            ],
-            None => ["–"; 4].map(String::from),
-        });
-        row
+    type Row<'a> = (&'a Sample, Option<&'a Change>);
+    let rows = (law.steps.iter().enumerate()).map(|(k, sample)| (sample, law.changes.get(k)));
+    let change = |of: fn(&Change) -> Estimate| move |r: &Row| r.1.map(|change| pair(&of(change)));
+    let readable = |r: &Row| match r.1.map(|change| change.x1.readable()) {
+        Some(true) => "yes",
+        Some(false) => "not readable",
+        None => "–",
     };
-    table(
-        "steps",
-        "X̄₁ at t/T = 1 against the steps per period: convergence in law",
-        &format!(
+    ReportTable::new(
+        [
+            "steps",
+            "X̄₁ at t/T = 1 against the steps per period: convergence in law",
+        ],
+        format!(
             "Differences are to the next finer step at the same seeds; not readable: below two standard errors. The last \
              two columns: the difference of the distribution functions of |p_1| and of C_b, of nine places where it is \
              largest in its standard errors (below 2.8 of them it is chance, 19 times in 20). {}",
             order_in_words(law)
         ),
-        &[
-            "steps per period",
-            "GΔt",
-            "replicas",
-            "X̄₁",
-            "± se",
-            "less the next",
-            "readable",
-            "share below |p_1|",
-            "share below C_b",
+        rows,
+        vec![
+            field("steps per period", |r: &Row| r.0.steps_per_period),
+            number(
+                "GΔt",
+                |x| format!("{x:.3}"),
+                move |r: &Row| strain / r.0.steps_per_period as f64,
+            ),
+            field("replicas", |r: &Row| r.0.replicas),
+            number("X̄₁", five, |r: &Row| r.0.x1),
+            number("± se", five, |r: &Row| r.0.se),
+            estimate("less the next", signed, change(|c| c.x1)),
+            words("readable", readable),
+            estimate("share below |p_1|", signed, change(|c| c.p1_distribution)),
+            estimate("share below C_b", signed, change(|c| c.orbit_distribution)),
         ],
-        law.steps.iter().enumerate().map(|(k, s)| row(k, s)).collect(),
     )
 }
 
 fn paths(law: &Law) -> ReportTable {
-    let row = |(pair, change): (&[Sample], &Change)| {
-        vec![
-            format!("{} and {}", pair[0].steps_per_period, pair[1].steps_per_period),
-            format!("{:.3}", change.apart_rad),
-            format!("{:.3}", change.unrelated_rad),
-            format!("{:.3} ± {:.3}", change.correlation.value, change.correlation.se),
-            format!("{:.2}", 2.0 * (1.0 - change.correlation.value)),
-        ]
-    };
-    table(
-        "paths",
-        "Paths do not converge: the same rods at two steps, t/T = 1",
+    type Row<'a> = (&'a [Sample], &'a Change);
+    let three = |x: f64| format!("{x:.3}");
+    ReportTable::new(
+        [
+            "paths",
+            "Paths do not converge: the same rods at two steps, t/T = 1",
+        ],
         "A rod's direction is the exact motion plus kicks ∝ Δt/r at contact arms r down to 0. Halving Δt doubles the \
          collisions and halves what each does, but other draws decide which arms are met: the large kicks, at a rate \
          that does not depend on Δt, come at other times to other rods. So the angle between the same rod at two steps \
          does not fall, and the variance of a difference of X̄₁ stays of the size of the variance itself \
          (`paths-do-not-converge`).",
-        &[
-            "steps per period",
-            "same rod apart (rad, rms)",
-            "other rods",
-            "correlation of X̄₁",
-            "variance of the difference / variance",
+        law.steps.windows(2).zip(&law.changes),
+        vec![
+            words("steps per period", |r: &Row| {
+                format!("{} and {}", r.0[0].steps_per_period, r.0[1].steps_per_period)
+            }),
+            number("same rod apart (rad, rms)", three, |r: &Row| r.1.apart_rad),
+            number("other rods", three, |r: &Row| r.1.unrelated_rad),
+            estimate(
+                "correlation of X̄₁",
+                |x, se| format!("{x:.3} ± {se:.3}"),
+                |r: &Row| pair(&r.1.correlation),
+            ),
+            number(
+                "variance of the difference / variance",
+                |x| format!("{x:.2}"),
+                |r: &Row| 2.0 * (1.0 - r.1.correlation.value),
+            ),
         ],
-        law.steps.windows(2).zip(&law.changes).map(row).collect(),
     )
 }
 
 fn rods(law: &Law) -> ReportTable {
     let last = law.rods.last().copied();
-    let row = |sample: &Sample| {
-        let apart = last
-            .filter(|last| last != sample)
-            .map_or("–".into(), |last| plus_minus(&less(sample, &last)));
-        vec![
-            sample.rods.to_string(),
-            sample.replicas.to_string(),
-            format!("{:.5}", sample.x1),
-            format!("{:.5}", sample.se),
-            apart,
-        ]
+    let less = move |sample: &&Sample| {
+        let last = last.filter(|last| last != *sample)?;
+        Some((sample.x1 - last.x1, sample.se.hypot(last.se)))
     };
-    let words = |k: usize, name: &str| match &law.rods_lines[k] {
+    let line = |k: usize, name: &str| match &law.rods_lines[k] {
         Some(line) => format!(
             "X̄₁ = {:.5} ± {:.5} {:+.4} {name} (± {:.4}; p = {})",
             line.intercept,
@@ -147,37 +143,27 @@ fn rods(law: &Law) -> ReportTable {
         ),
         None => format!("no line in {name}"),
     };
-    table(
-        "rods",
-        "X̄₁ at t/T = 1 against the rods",
-        &format!(
+    ReportTable::new(
+        ["rods", "X̄₁ at t/T = 1 against the rods"],
+        format!(
             "Rods near a face of the volume lack neighbours, and the share of the volume near faces is ∝ N^(−1/3) \
              (`faces-cost-collisions`). Fits: {}; {}. A line with p below 0.001 is refuted; \
              N^(−1/2) is not told from N^(−1/3) by this.",
-            words(0, "N^(−1/3)"),
-            words(1, "/N")
+            line(0, "N^(−1/3)"),
+            line(1, "/N")
         ),
-        &["rods", "replicas", "X̄₁", "± se", "less the most"],
-        law.rods.iter().map(row).collect(),
+        &law.rods,
+        vec![
+            field("rods", |s: &&Sample| s.rods),
+            field("replicas", |s: &&Sample| s.replicas),
+            number("X̄₁", five, |s: &&Sample| s.x1),
+            number("± se", five, |s: &&Sample| s.se),
+            estimate("less the most", signed, less),
+        ],
     )
 }
 
-fn less(one: &Sample, other: &Sample) -> Estimate {
-    Estimate {
-        value: one.x1 - other.x1,
-        se: one.se.hypot(other.se),
-    }
-}
-
 fn replicas(law: &Law) -> ReportTable {
-    let row = |block: &Block| {
-        vec![
-            block.replicas.to_string(),
-            block.blocks.to_string(),
-            format!("{:.5}", block.deviation),
-            format!("{:.4}", block.deviation * (block.replicas as f64).sqrt()),
-        ]
-    };
     let exponent = match &law.replicas_exponent {
         Some(exponent) => format!(
             "The exponent of M is {:+.3} ± {:.3}; by theory −½.",
@@ -185,14 +171,22 @@ fn replicas(law: &Law) -> ReportTable {
         ),
         None => "Fewer than 1024 replicas: the exponent of M is not read.".into(),
     };
-    table(
-        "replicas",
-        "The scatter of X̄₁ at t/T = 1 against the replicas M",
-        &format!(
+    ReportTable::new(
+        ["replicas", "The scatter of X̄₁ at t/T = 1 against the replicas M"],
+        format!(
             "The standard deviation of means over blocks of M replicas; the last column is constant where it falls as \
              1/√M. {exponent}"
         ),
-        &["replicas", "blocks", "deviation of means", "deviation √M"],
-        law.blocks.iter().map(row).collect(),
+        &law.blocks,
+        vec![
+            field("replicas", |b: &&Block| b.replicas),
+            field("blocks", |b: &&Block| b.blocks),
+            number("deviation of means", five, |b: &&Block| b.deviation),
+            number(
+                "deviation √M",
+                |x| format!("{x:.4}"),
+                |b: &&Block| b.deviation * (b.replicas as f64).sqrt(),
+            ),
+        ],
     )
 }

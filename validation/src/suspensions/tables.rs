@@ -4,44 +4,42 @@ use super::coupled::{Coupled, Row};
 use super::free::{Bench, Curve, TARGETS};
 use super::split::{Constants, Scope, Split};
 use super::study::{Answer, Study};
-use crate::report::ReportTable;
-use crate::work_precision::tables::{NOT_REACHED, table, time};
+use crate::table::{Column, ReportTable, estimate, field, number, words};
+use crate::work_precision::tables::{NOT_REACHED, time};
 
 /// Free suspensions: what each start reaches, and when.
 pub fn free(benches: &[Bench]) -> ReportTable {
-    let row = |bench: &Bench, curve: &Curve| {
-        let mut row = vec![
-            bench.free.scene.to_owned(),
-            curve.start.to_owned(),
-            format!("{:+.2}", curve.theory),
-            format!("{:+.2} ± {:.2}", curve.exponent, curve.exponent_se),
-        ];
-        row.extend(TARGETS.map(|target| match curve.cheapest(target) {
-            Some(point) => format!("{} ({} rods)", time(point.seconds.least), point.rods),
-            None => NOT_REACHED.into(),
-        }));
-        row
-    };
+    type Of<'a> = (&'a Bench, &'a Curve);
     let rows = benches
         .iter()
-        .flat_map(|bench| bench.curves.iter().map(move |curve| row(bench, curve)));
-    table(
-        "suspension-starts",
-        "Free suspensions: the time for an error of X̄₁, by how the rods are laid",
+        .flat_map(|bench| bench.curves.iter().map(move |c| (bench, c)));
+    let mut columns: Vec<Column<Of>> = vec![
+        words("scene", |r: &Of| r.0.free.scene),
+        words("start", |r: &Of| r.1.start),
+        number("theory", |x| format!("{x:+.2}"), |r: &Of| r.1.theory),
+        estimate(
+            "exponent",
+            |x, se| format!("{x:+.2} ± {se:.2}"),
+            |r: &Of| (r.1.exponent, r.1.exponent_se),
+        ),
+    ];
+    columns.extend(TARGETS.map(|target| {
+        let reached = move |r: &Of| match r.1.cheapest(target) {
+            Some(point) => format!("{} ({} rods)", time(point.seconds.least), point.rods),
+            None => NOT_REACHED.into(),
+        };
+        words(format!("error {target:.0e}"), reached)
+    }));
+    ReportTable::new(
+        [
+            "suspension-starts",
+            "Free suspensions: the time for an error of X̄₁, by how the rods are laid",
+        ],
         "Isotropic rods without collisions at t/T = 0.95, against the closed form; root mean square over trials. The \
          exponent is of the number of rods in the error, over 10³ rods and more. No time step is taken: the whole \
          error is that of the sample (`free-suspension-rates`).",
-        &[
-            "scene",
-            "start",
-            "theory",
-            "exponent",
-            "error 1e-2",
-            "1e-3",
-            "1e-4",
-            "1e-6",
-        ],
-        rows.collect(),
+        rows,
+        columns,
     )
 }
 
@@ -56,62 +54,48 @@ fn rule(constants: &Constants) -> String {
     )
 }
 
-fn split_cells(split: &Split) -> Vec<String> {
-    let counted_from = match split.scope {
-        Scope::OwnRods(rods) => format!("Δt → 0, {rods} rods"),
-        Scope::Unbounded => "Δt → 0, N → ∞".into(),
-    };
+fn split_columns<'a, R>(of: impl Fn(&R) -> Split + Copy + 'a) -> Vec<Column<'a, R>> {
+    let e = |x: f64| format!("{x:.1e}");
     vec![
-        format!("{:.0e}", split.target),
-        counted_from,
-        split.steps_per_period.to_string(),
-        split.rods.to_string(),
-        split.replicas.to_string(),
-        format!("{:.1e}", split.bias),
-        format!("{:.1e}", split.scatter),
-        format!("{:.1e}", split.rod_steps() as f64),
+        number("error", |x| format!("{x:.0e}"), move |r| of(r).target),
+        words("from", move |r| match of(r).scope {
+            Scope::OwnRods(rods) => format!("Δt → 0, {rods} rods"),
+            Scope::Unbounded => "Δt → 0, N → ∞".into(),
+        }),
+        field("steps per period", move |r| of(r).steps_per_period),
+        field("rods", move |r| of(r).rods),
+        field("replicas", move |r| of(r).replicas),
+        number("bias ≤", e, move |r| of(r).bias),
+        number("scatter", e, move |r| of(r).scatter),
+        number("rods × steps", e, move |r| of(r).rod_steps() as f64),
     ]
 }
 
-const SPLIT_COLUMNS: [&str; 8] = [
-    "error",
-    "from",
-    "steps per period",
-    "rods",
-    "replicas",
-    "bias ≤",
-    "scatter",
-    "rods × steps",
-];
-
 /// What to run for an error, for any scene.
 pub fn splits(constants: &Constants, splits: &[Split]) -> ReportTable {
-    table(
-        "splits",
-        "The cheapest steps, rods and replicas for an error of X̄₁ at t/T = 1",
-        &rule(constants),
-        &SPLIT_COLUMNS,
-        splits.iter().map(split_cells).collect(),
+    ReportTable::new(
+        [
+            "splits",
+            "The cheapest steps, rods and replicas for an error of X̄₁ at t/T = 1",
+        ],
+        rule(constants),
+        splits,
+        split_columns(|split: &&Split| **split),
     )
 }
 
 /// The same with times, and what was realised.
 pub fn answers(study: &Study) -> ReportTable {
-    let row = |answer: &Answer| {
-        let mut row = split_cells(&answer.split);
-        row.push(time(answer.seconds));
-        row.push(match &answer.realised {
-            Some(realised) => format!(
-                "{:.1e} (bias {:+.1e} ± {:.0e}, scatter {:.1e} ± {:.0e})",
-                realised.error,
-                realised.bias.value,
-                realised.bias.se,
-                realised.scatter.value,
-                realised.scatter.se
-            ),
-            None => "– (not run)".into(),
-        });
-        row
+    let realised = |answer: &&Answer| match &answer.realised {
+        Some(realised) => format!(
+            "{:.1e} (bias {:+.1e} ± {:.0e}, scatter {:.1e} ± {:.0e})",
+            realised.error,
+            realised.bias.value,
+            realised.bias.se,
+            realised.scatter.value,
+            realised.scatter.se
+        ),
+        None => "– (not run)".into(),
     };
     let references: Vec<_> = (study.references.iter())
         .map(|r| {
@@ -121,44 +105,38 @@ pub fn answers(study: &Study) -> ReportTable {
             )
         })
         .collect();
-    let mut columns = SPLIT_COLUMNS.to_vec();
-    columns.extend(["time, one core", "realised error"]);
-    table(
-        "suspension-splits",
-        &format!(
-            "Interacting rods ({}): the cheapest split for an error of X̄₁ at t/T = 1",
-            study.scene
-        ),
-        &format!(
+    let mut columns = split_columns(|answer: &&Answer| answer.split);
+    columns.push(number("time, one core", time, |answer: &&Answer| answer.seconds));
+    columns.push(words("realised error", realised));
+    ReportTable::new(
+        [
+            "suspension-splits",
+            &format!(
+                "Interacting rods ({}): the cheapest split for an error of X̄₁ at t/T = 1",
+                study.scene
+            ),
+        ],
+        format!(
             "{} A rod's step takes {} on one core. The error includes the bias of the steps; the second half counts that \
              of the faces too. Realised errors are counted from {} (`cheapest-split`).",
             rule(&study.constants),
             time(study.rod_step_s),
             references.join(" and ")
         ),
-        &columns,
-        study.answers.iter().map(row).collect(),
+        &study.answers,
+        columns,
     )
 }
 
 /// What shared random numbers save.
 pub fn coupled(coupled: &Coupled) -> ReportTable {
-    let row = |row: &Row| {
-        vec![
-            row.turns.to_string(),
-            format!("{:.2}", row.finer),
-            format!("{:.2}", row.multilevel()),
-            format!("{:.2}", row.multilevel_at_best()),
-            format!("{:.2}", row.free),
-            format!("{:.2}", row.control_variate()),
-            format!("{:.2}", row.other_alpha),
-            format!("{:.2}", row.common_numbers()),
-        ]
-    };
-    table(
-        "suspension-coupled",
-        "Shared random numbers: by what factor fewer runs are needed",
-        &format!(
+    let two = |x: f64| format!("{x:.2}");
+    ReportTable::new(
+        [
+            "suspension-coupled",
+            "Shared random numbers: by what factor fewer runs are needed",
+        ],
+        format!(
             "Levels in Δt ({} and {} steps per period, same seeds) are tied by their starts alone: the gain with coarse \
              runs at an eighth of the cost, and the most that coarse runs for nothing could give; below 1 it costs more \
              than it saves. The same rods without collisions, whose mean has a closed form, give more for less. Common \
@@ -168,16 +146,16 @@ pub fn coupled(coupled: &Coupled) -> ReportTable {
             2 * coupled.steps_per_period,
             coupled.replicas
         ),
-        &[
-            "t/T",
-            "ρ, half the step",
-            "gain, levels",
-            "at best",
-            "ρ, free rods",
-            "gain, control variate",
-            "ρ, other α",
-            "gain for the difference",
+        &coupled.rows,
+        vec![
+            number("t/T", |t| t.to_string(), |r: &&Row| r.turns),
+            number("ρ, half the step", two, |r: &&Row| r.finer),
+            number("gain, levels", two, |r: &&Row| r.multilevel()),
+            number("at best", two, |r: &&Row| r.multilevel_at_best()),
+            number("ρ, free rods", two, |r: &&Row| r.free),
+            number("gain, control variate", two, |r: &&Row| r.control_variate()),
+            number("ρ, other α", two, |r: &&Row| r.other_alpha),
+            number("gain for the difference", two, |r: &&Row| r.common_numbers()),
         ],
-        coupled.rows.iter().map(row).collect(),
     )
 }

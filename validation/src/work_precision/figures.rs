@@ -1,5 +1,6 @@
 //! Error against run time as pictures.
 
+use super::order::Orders;
 use super::{Bench, Curve};
 use crate::plot;
 use crate::report::ReportFigure;
@@ -36,6 +37,7 @@ fn figure(bench: &Bench) -> ReportFigure {
             y_log: true,
             x_span: Some((1e-8, 0.1)),
             y_span: Some((LEAST, FAILED)),
+            grid: None,
         },
         caption: format!(
             "One rod over {:.5} periods, into the middle of a flip; the least of repeated runs, on one core. \
@@ -44,6 +46,36 @@ fn figure(bench: &Bench) -> ReportFigure {
         ),
         source: "A.1 to A.5, eq. 20".into(),
         cases: vec!["subject-orders".into(), "exact-propagator-round-off".into()],
+    }
+}
+
+/// The error of every method with steps against the step.
+pub fn orders(orders: &Orders) -> ReportFigure {
+    let curve = |study: &super::order::Study| plot::Curve {
+        label: study.subject.clone(),
+        x: study.halvings.iter().map(|h| h.steps as f64).collect(),
+        y: (study.halvings.iter())
+            .map(|h| {
+                h.errors
+                    .map_or(f64::NAN, |errors| errors.orientation_rad.max(LEAST))
+            })
+            .collect(),
+        half_band: None,
+    };
+    ReportFigure {
+        name: "orders".into(),
+        figure: plot::Figure {
+            title: "Error against the number of steps".into(),
+            x_name: "steps".into(),
+            y_name: "angle to the closed form (rad)".into(),
+            curves: orders.studies.iter().map(curve).collect(),
+            x_log: true,
+            y_log: true,
+            ..Default::default()
+        },
+        caption: "Twice the steps divide the error by 2, 4 or 16 for methods of order 1, 2 or 4, down to round-off.".into(),
+        source: "A.1 to A.5".into(),
+        cases: vec!["subject-orders".into(), "grid-convergence-index".into()],
     }
 }
 

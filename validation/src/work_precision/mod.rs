@@ -1,6 +1,7 @@
 //! Error against run time of every subject, and how its error falls with the step: plain data. Writers are in
 //! [`export`], [`tables`] and [`figures`].
 
+pub mod chapter;
 pub mod export;
 pub mod figures;
 pub mod order;
@@ -265,11 +266,11 @@ mod tests {
         let csv = export::bench_csv(&benches).unwrap();
         assert_eq!(csv.matches(",too stiff,").count(), 13, "{csv}");
         assert!(
-            export::json(&export::Benches { benches: &benches })
+            crate::build::json(&benches[0].curves[0].points[0])
                 .unwrap()
                 .contains("\"failure\": \"too stiff\"")
         );
-        let tables: String = tables::tables(&benches).iter().map(export::text).collect();
+        let tables = tables::cheapest(&benches).text() + &tables::every_subject(&benches[0]).text();
         assert!(
             tables.contains("not reached") && tables.contains("13 of 13"),
             "{tables}"
@@ -282,14 +283,8 @@ mod tests {
     fn every_subject_is_in_every_table() {
         let subjects = subject::all();
         let bench = run(2.0, &subjects, QUICK);
-        let tables = tables::tables(std::slice::from_ref(&bench));
-        for table in &tables {
-            assert!(
-                table.rows.iter().all(|row| row.len() == table.columns.len()),
-                "{table:?}"
-            );
-        }
-        let names: Vec<_> = tables[2].rows.iter().map(|row| row[0].as_str()).collect();
+        let table = tables::every_subject(&bench);
+        let names: Vec<_> = table.rows.iter().map(|row| row[0].as_str()).collect();
         assert!(
             names
                 .iter()

@@ -2,188 +2,177 @@
 
 use super::order::{Found, Orders, Study};
 use super::{Bench, Curve, Point, TARGETS_RAD};
-use crate::report::ReportTable;
 use crate::subject::Theory;
+use crate::table::{Column, NONE, ReportTable, number, words};
 
-/// What is cheapest at each aspect ratio, then every subject for each bench.
-pub fn tables(benches: &[Bench]) -> Vec<ReportTable> {
-    let each = benches.iter().map(every_subject);
-    [cheapest(benches), ratio(benches)]
-        .into_iter()
-        .chain(each)
-        .collect()
+/// A curve and one of its points, of a bench.
+type Chosen<'a> = Option<(&'a Curve, &'a Point)>;
+
+fn named(chosen: Chosen) -> String {
+    chosen.map_or(NOT_REACHED.into(), |(curve, _)| curve.subject.clone())
 }
 
-/// A table.
-pub(crate) fn table(
-    name: &str,
-    title: &str,
-    caption: &str,
-    columns: &[&str],
-    rows: Vec<Vec<String>>,
-) -> ReportTable {
-    ReportTable {
-        name: name.into(),
-        title: title.into(),
-        caption: caption.into(),
-        columns: columns.iter().map(|column| (*column).into()).collect(),
-        rows,
-    }
+fn timed(chosen: Chosen) -> Option<f64> {
+    chosen.map(|(_, point)| point.seconds.least)
 }
 
-fn cheapest(benches: &[Bench]) -> ReportTable {
-    let named = |found: Option<(&Curve, &Point)>| match found {
-        Some((curve, point)) => [curve.subject.clone(), time(point.seconds.least)],
-        None => [NOT_REACHED.into(), String::new()],
+/// For each error and aspect ratio the cheapest subject.
+pub(super) fn cheapest(benches: &[Bench]) -> ReportTable {
+    type Row<'a> = (&'a Bench, f64, Chosen<'a>, Chosen<'a>);
+    let row = |bench, target| -> Row {
+        let steps = |theory| theory != Theory::Exact;
+        (
+            bench,
+            target,
+            Bench::cheapest(bench, target, |_| true),
+            Bench::cheapest(bench, target, steps),
+        )
     };
-    let row = |bench: &Bench, target: f64| {
-        let mut row = vec![bench.aspect_ratio.to_string(), format!("{target:.0e}")];
-        row.extend(named(bench.cheapest(target, |_| true)));
-        row.extend(named(bench.cheapest(target, |theory| theory != Theory::Exact)));
-        row
-    };
-    let rows = benches
-        .iter()
-        .flat_map(|bench| TARGETS_RAD.map(|target| row(bench, target)));
-    table(
-        "work-precision",
-        "For an error: the cheapest subject and its time",
+    ReportTable::new(
+        [
+            "work-precision",
+            "For an error: the cheapest subject and its time",
+        ],
         "One rod into the middle of its third flip. A point counts where the next finer one reaches the error too.",
-        &[
-            "r_e",
-            "error (rad)",
-            "cheapest",
-            "time",
-            "cheapest that takes steps",
-            "time of that",
-        ],
-        rows.collect(),
-    )
-}
-
-fn ratio(benches: &[Bench]) -> ReportTable {
-    let row = |bench: &Bench| {
-        let exact = bench.curves.iter().find(|curve| curve.theory == Theory::Exact);
-        let point = exact.and_then(|curve| curve.points.first());
-        let adaptive = bench.cheapest(1e-6, |theory| theory == Theory::Adaptive);
+        (benches.iter()).flat_map(|bench| TARGETS_RAD.map(|target| row(bench, target))),
         vec![
-            bench.aspect_ratio.to_string(),
-            point.map_or(NOT_REACHED.into(), |point| format!("{:.1e}", point.error_rad())),
-            point.map_or(NOT_REACHED.into(), |point| time(point.seconds.least)),
-            adaptive.map_or(NOT_REACHED.into(), |(curve, _)| curve.subject.clone()),
-            adaptive.map_or(NOT_REACHED.into(), |(_, point)| time(point.seconds.least)),
-            bench
-                .exact_over_adaptive()
-                .map_or("–".into(), |ratio| format!("1/{:.0}", 1.0 / ratio)),
-        ]
-    };
-    table(
-        "exact-against-adaptive",
-        "The exact propagator against the cheapest adaptive subject",
-        "The propagator's time for round-off error over the cheapest adaptive subject's for 10⁻⁶ rad.",
-        &[
-            "r_e",
-            "error of the propagator (rad)",
-            "its time",
-            "adaptive, for 1e-6",
-            "its time for 1e-6",
-            "ratio",
+            number("r_e", |r| r.to_string(), |r: &Row| r.0.aspect_ratio),
+            number("error (rad)", |e| format!("{e:.0e}"), |r: &Row| r.1),
+            words("cheapest", |r: &Row| named(r.2)),
+            number("time", time, |r: &Row| timed(r.2)).or(""),
+            words("cheapest that takes steps", |r: &Row| named(r.3)),
+            number("time of that", time, |r: &Row| timed(r.3)).or(""),
         ],
-        benches.iter().map(row).collect(),
     )
 }
 
-fn every_subject(bench: &Bench) -> ReportTable {
-    let row = |curve: &Curve| {
-        let mut row = vec![curve.subject.clone()];
-        row.extend(TARGETS_RAD.map(|target| match curve.cheapest(target) {
-            Some(point) => time(point.seconds.least),
-            None => NOT_REACHED.into(),
-        }));
-        let best = curve.best().and_then(|point| Some((point, point.errors?)));
-        row.extend(match best {
-            Some((point, errors)) => [
-                format!("{:.1e}", errors.orientation_rad),
-                format!("{:.1e}", errors.orbit_constant),
-                format!("{:.1e}", errors.phase_turns),
-                point.setting.to_string(),
-                format!("{} to {}", time(point.seconds.least), time(point.seconds.most)),
-            ],
-            None => ["failed", "", "", "", ""].map(String::from),
-        });
-        row.push(format!("{} of {}", curve.failures(), curve.points.len()));
-        row
+/// The exact propagator's time against the cheapest adaptive subject's.
+pub(super) fn ratio(benches: &[Bench]) -> ReportTable {
+    let exact = |bench: &Bench| {
+        let exact = bench.curves.iter().find(|curve| curve.theory == Theory::Exact);
+        exact.and_then(|curve| curve.points.first().cloned())
     };
-    table(
-        &format!("work-precision-{}", bench.name),
-        &format!("Every subject at r_e = {}", bench.aspect_ratio),
-        "Times for an error, then the smallest error found: the angle, C_b and the phase at one setting.",
-        &[
-            "subject",
-            "1e-3 rad",
-            "1e-6 rad",
-            "1e-9 rad",
-            "best (rad)",
-            "C_b",
-            "t/T",
-            "setting",
-            "time",
-            "failed",
+    let adaptive = |bench: &Bench| {
+        let found = bench.cheapest(1e-6, |theory| theory == Theory::Adaptive);
+        (named(found), timed(found))
+    };
+    ReportTable::new(
+        [
+            "exact-against-adaptive",
+            "The exact propagator against the cheapest adaptive subject",
         ],
-        bench.curves.iter().map(row).collect(),
+        "The propagator's time for round-off error over the cheapest adaptive subject's for 10⁻⁶ rad.",
+        benches.iter(),
+        vec![
+            number("r_e", |r| r.to_string(), |b: &&Bench| b.aspect_ratio),
+            number(
+                "error of the propagator (rad)",
+                |e| format!("{e:.1e}"),
+                move |b: &&Bench| exact(b).map(|point| point.error_rad()),
+            )
+            .or(NOT_REACHED),
+            number("its time", time, move |b: &&Bench| {
+                exact(b).map(|point| point.seconds.least)
+            })
+            .or(NOT_REACHED),
+            words("adaptive, for 1e-6", move |b: &&Bench| adaptive(b).0),
+            number("its time for 1e-6", time, move |b: &&Bench| adaptive(b).1).or(NOT_REACHED),
+            number(
+                "ratio",
+                |ratio| format!("1/{:.0}", 1.0 / ratio),
+                |b: &&Bench| b.exact_over_adaptive(),
+            ),
+        ],
+    )
+}
+
+/// Every subject of a bench: the time for each error, then the best it can do.
+pub(super) fn every_subject(bench: &Bench) -> ReportTable {
+    let best = |curve: &Curve| Some((curve.best()?.clone(), curve.best()?.errors?));
+    let e = |error: f64| format!("{error:.1e}");
+    let mut columns: Vec<Column<&Curve>> = vec![words("subject", |c: &&Curve| c.subject.as_str())];
+    columns.extend(TARGETS_RAD.map(|target| {
+        number(format!("{target:.0e} rad"), time, move |c: &&Curve| {
+            c.cheapest(target).map(|point| point.seconds.least)
+        })
+        .or(NOT_REACHED)
+    }));
+    columns.extend([
+        number("best (rad)", e, move |c: &&Curve| {
+            best(c).map(|b| b.1.orientation_rad)
+        }),
+        number("C_b", e, move |c: &&Curve| best(c).map(|b| b.1.orbit_constant)),
+        number("t/T", e, move |c: &&Curve| best(c).map(|b| b.1.phase_turns)),
+        words("setting", move |c: &&Curve| {
+            best(c).map_or("failed".into(), |b| b.0.setting.to_string())
+        }),
+        words("time", move |c: &&Curve| {
+            let seconds = best(c).map(|b| b.0.seconds);
+            seconds.map_or(NONE.into(), |s| format!("{} to {}", time(s.least), time(s.most)))
+        }),
+        words("failed", |c: &&Curve| {
+            format!("{} of {}", c.failures(), c.points.len())
+        }),
+    ]);
+    ReportTable::new(
+        [
+            &format!("work-precision-{}", bench.name),
+            &format!("Every subject at r_e = {}", bench.aspect_ratio),
+        ],
+        "Times for an error, then the smallest error found: the angle, C_b and the phase at one setting.",
+        &bench.curves,
+        columns,
     )
 }
 
 /// Observed orders.
 pub fn orders(orders: &Orders) -> ReportTable {
-    let row = |study: &Study| {
-        let judged: Vec<_> = study.judged.iter().map(|order| format!("{order:+.3}")).collect();
-        let found = match study.found {
-            Found::AsTheory => "as theory",
-            Found::Not => "NOT as theory",
-            Found::RoundOff => "at round-off",
-        };
-        let mut row = vec![
-            study.subject.clone(),
-            study.theory.to_string(),
-            judged.join(" "),
-            found.into(),
-        ];
-        row.extend(match &study.richardson {
-            Some(found) => [
-                found.steps.to_string(),
-                format!("{:+.3}", found.order),
-                format!("{:.12}", found.value),
-                format!("{:.1e}", found.error),
-                format!("{:.1e}", found.index),
-                format!("{:.1e}", found.true_error),
-            ],
-            None => ["–"; 6].map(String::from),
-        });
-        row
+    let found = |study: &&Study| match study.found {
+        Found::AsTheory => "as theory",
+        Found::Not => "NOT as theory",
+        Found::RoundOff => "at round-off",
     };
-    table(
-        "orders",
-        "Observed order, Richardson's value and grid convergence index",
-        &format!(
+    let judged = |study: &&Study| {
+        let judged: Vec<_> = study.judged.iter().map(|order| format!("{order:+.3}")).collect();
+        judged.join(" ")
+    };
+    let e = |error: f64| format!("{error:.1e}");
+    ReportTable::new(
+        [
+            "orders",
+            "Observed order, Richardson's value and grid convergence index",
+        ],
+        format!(
             "{}. The core itself takes no step for a free rod: these are the orders of integrators that do. Orders of the \
              angle's error on the last two pairs above round-off, negative where it grows; the rest is of |p_1|, from \
              three grids: its index is to bound its error.",
             orders.problem
         ),
-        &[
-            "subject",
-            "theory",
-            "observed",
-            "verdict",
-            "steps",
-            "order of |p_1|",
-            "at Δt = 0",
-            "off by",
-            "index",
-            "error",
+        &orders.studies,
+        vec![
+            words("subject", |s: &&Study| s.subject.as_str()),
+            words("theory", |s: &&Study| s.theory.to_string()),
+            words("observed", judged),
+            words("verdict", found),
+            number(
+                "steps",
+                |steps| steps.to_string(),
+                |s: &&Study| s.richardson.map(|r| r.steps as f64),
+            ),
+            number(
+                "order of |p_1|",
+                |o| format!("{o:+.3}"),
+                |s: &&Study| s.richardson.map(|r| r.order),
+            ),
+            number(
+                "at Δt = 0",
+                |v| format!("{v:.12}"),
+                |s: &&Study| s.richardson.map(|r| r.value),
+            ),
+            number("off by", e, |s: &&Study| s.richardson.map(|r| r.error)),
+            number("index", e, |s: &&Study| s.richardson.map(|r| r.index)),
+            number("error", e, |s: &&Study| s.richardson.map(|r| r.true_error)),
         ],
-        orders.studies.iter().map(row).collect(),
     )
 }
 

@@ -5,7 +5,8 @@ use crate::grade::figures::{LEAST, PROGRAM};
 use crate::plot;
 use crate::report::ReportTable;
 use crate::subject::{self, Setting, Theory};
-use crate::work_precision::tables::{NOT_REACHED, table, time};
+use crate::table::of_words;
+use crate::work_precision::tables::{NOT_REACHED, time};
 use crate::work_precision::{Budget, Curve, TARGETS_RAD, curve};
 use serde::Serialize;
 use std::io::{BufRead, Write};
@@ -116,6 +117,7 @@ impl Bench {
             y_log: true,
             x_span: Some((1e-8, 0.1)),
             y_span: Some((LEAST, 10.0)),
+            grid: None,
         })
     }
 
@@ -141,7 +143,7 @@ impl Bench {
             ),
             None => "The pipe's own cost could not be measured and is in the program's times.".to_owned(),
         };
-        table(
+        of_words(
             "grade-work-precision",
             &format!("Time for an error, one rod of r_e = {}", self.aspect_ratio),
             &format!("{pipe} Times not longer than the pipe's are not known better than a tenth of it."),

@@ -6,7 +6,7 @@ use crate::report::ReportTable;
 use crate::stability::limits::{Ladder, Limit, Property, bisect, holds};
 use crate::stability::map;
 use crate::subject::{Setting, Subject, Theory};
-use crate::work_precision::tables::table;
+use crate::table::of_words;
 use serde::Serialize;
 
 /// Everything that was measured; `None` where there was not enough time for it (`--timeout`).
@@ -149,7 +149,7 @@ impl Studies {
                 .chain(signs)
                 .collect()
         };
-        let mut map = table(
+        let mut map = of_words(
             "grade-stability",
             "What becomes of a rod",
             "= at round-off, + within 10⁻² rad, w stable but wrong, L length lost, N not finite, R refused with an error.",
@@ -176,7 +176,7 @@ fn limit_table(limits: &[Longest]) -> ReportTable {
         };
         vec![property.to_owned(), longest.aspect_ratio.to_string(), limit]
     };
-    table(
+    of_words(
         "grade-limits",
         "The longest step GΔt with which",
         "By a ladder with the factor 1.25 and bisection.",

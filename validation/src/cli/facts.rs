@@ -1,0 +1,97 @@
+//! What follows from a scene before anything runs: its period, its step, its shape factor, and how dilute it is.
+
+use serde::Serialize;
+use shearbed::Plan;
+
+/// What a scene is in numbers; null where there is no such thing.
+#[derive(Serialize)]
+pub(super) struct Facts {
+    /// T, where the flow has a period.
+    period_s: Option<f64>,
+    /// GΔt, where steps are taken.
+    strain_per_step: Option<f64>,
+    /// Λ = (r_e² − 1)/(r_e² + 1) of the mean aspect ratio.
+    shape_factor: f64,
+    /// n a³ with the full length a, where rods interact.
+    n_a3: Option<f64>,
+    /// `dilute`, `semi-dilute` or `concentrated`.
+    regime: Option<&'static str>,
+}
+
+impl Facts {
+    pub(super) fn of(plan: &Plan) -> Self {
+        let scene = plan.scene();
+        let r = scene.particles.aspect_ratio;
+        let length_cm = 0.1 * scene.particles.length_mm;
+        let n_a3 = (scene.interaction.as_ref()).map(|i| i.concentration_per_cm3 * length_cm.powi(3));
+        let period_s = plan.unit().seconds;
+        Self {
+            period_s: (plan.time_name() != "strain" && period_s.is_finite()).then_some(period_s),
+            strain_per_step: (plan.steps() > 0).then(|| scene.strain_per_step()),
+            // Divided through: r² is infinite for long rods.
+            shape_factor: (r - 1.0 / r) / (r + 1.0 / r),
+            n_a3,
+            regime: n_a3.map(|n_a3| regime(n_a3, r)),
+        }
+    }
+
+    /// In a line.
+    pub(super) fn text(&self) -> String {
+        let mut parts = Vec::new();
+        parts.extend(self.period_s.map(|period| format!("T = {period:.4} s")));
+        parts.extend(self.strain_per_step.map(|strain| format!("GΔt = {strain:.4}")));
+        parts.push(format!("Λ = {:.6}", self.shape_factor));
+        let dilute = self.n_a3.zip(self.regime);
+        parts.extend(dilute.map(|(n_a3, regime)| format!("n a³ = {n_a3:.3e} ({regime})")));
+        parts.join(", ") + "\n"
+    }
+}
+
+/// Doi & Edwards: rods turn freely below one rod in the cube of a rod's length; above, they hinder each other, and at a
+/// volume fraction of about 1/r_e, which is n a³ = r_e, they do so everywhere.
+fn regime(n_a3: f64, aspect_ratio: f64) -> &'static str {
+    match n_a3 {
+        n_a3 if n_a3 < 1.0 => "dilute",
+        n_a3 if n_a3 < aspect_ratio => "semi-dilute",
+        _ => "concentrated",
+    }
+}
+
+/// What to know before trusting the results.
+pub(super) fn warnings(plan: &Plan) -> Vec<String> {
+    let mut warnings = plan.warnings();
+    let facts = Facts::of(plan);
+    if let Some((n_a3, regime)) = facts.n_a3.zip(facts.regime).filter(|(n_a3, _)| *n_a3 >= 1.0) {
+        warnings.push(format!(
+            "interaction.concentration_per_cm3 and particles.length_mm give n a³ = {n_a3:.3}: {regime}. The model is for \
+             dilute suspensions, n a³ < 1, in which two rods meet at a time"
+        ));
+    }
+    warnings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes;
+
+    fn facts(n: f64) -> (Facts, Vec<String>) {
+        let mut scene = scenes::find("fig4-n50").unwrap().scene().unwrap();
+        scene.interaction.as_mut().unwrap().concentration_per_cm3 = n;
+        let plan = Plan::new(&scene).unwrap();
+        (Facts::of(&plan), warnings(&plan))
+    }
+
+    #[test]
+    fn fig_4_is_dilute_and_a_dense_one_is_warned_of() {
+        // 50 per cm³ of 0.072 cm.
+        let (dilute, none) = facts(50.0);
+        assert!((dilute.n_a3.unwrap() - 0.0186624).abs() < 1e-12 && none.is_empty());
+        assert_eq!(dilute.regime, Some("dilute"));
+        let (dense, warned) = facts(5000.0);
+        assert_eq!(dense.regime, Some("semi-dilute"));
+        assert!(warned[0].contains("n a³ = 1.866"), "{warned:?}");
+        assert_eq!(facts(50_000.0).0.regime, Some("concentrated"));
+        assert!(dilute.text().starts_with("T = 146.8"), "{}", dilute.text());
+    }
+}

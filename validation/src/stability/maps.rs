@@ -1,0 +1,423 @@
+//! The maps: what was found in every corner, as pictures, and in words where each integrator leaves.
+
+use super::limit_tables::THEORIES;
+use super::limits::Property;
+use super::map::{self, ASPECT_RATIOS, Cell, Found, PERIODS, STEPS, TOLERANCES};
+use super::orbit::Place;
+use crate::plot::{Figure, Grid, Map, decade, power_of_ten};
+use crate::report::ReportFigure;
+use crate::subject::{Setting, Subject, Theory};
+use crate::table::{ReportTable, of_words};
+use shearbed::jeffery::strain_per_period;
+
+/// Steps that a run of the maps over steps and over starts may take; ten times as many over durations.
+pub const MOST_STEPS: u64 = 20_000;
+
+/// The steps GΔt of the picture: quarter decades.
+const STRAINS: std::ops::RangeInclusive<i32> = -6..=10;
+
+/// The aspect ratios of the picture, which theory's limits cover.
+const RODS: [f64; 10] = [1.01, 1.5, 2.0, 3.0, 5.0, 11.6, 30.0, 100.0, 1e3, 1e4];
+
+/// What was found of one subject, or at one aspect ratio: a row and a column for each cell.
+struct Panel {
+    title: String,
+    cells: Vec<Vec<Cell>>,
+    limit: Vec<(f64, f64)>,
+}
+
+/// A picture of panels with the same rows and columns.
+struct Panels<'a> {
+    words: [&'a str; 2],
+    caption: String,
+    axes: [&'a str; 2],
+    columns: Vec<String>,
+    values: Vec<String>,
+    rows: Vec<String>,
+    panels: Vec<Panel>,
+}
+
+impl Panels<'_> {
+    fn figure(self) -> ReportFigure {
+        let [name, title] = self.words;
+        let map = |panel: Panel| Map {
+            title: panel.title,
+            cells: (panel.cells.iter())
+                .map(|row| row.iter().map(|cell| cell.found.class()).collect())
+                .collect(),
+            limit: panel.limit,
+        };
+        ReportFigure {
+            name: name.into(),
+            figure: Figure {
+                title: title.into(),
+                x_name: self.axes[0].into(),
+                y_name: self.axes[1].into(),
+                grid: Some(Grid {
+                    classes: Found::CLASSES.map(String::from).into(),
+                    columns: self.columns,
+                    values: self.values,
+                    rows: self.rows,
+                    maps: self.panels.into_iter().map(map).collect(),
+                    limit_name: "theory: the longest step without overtaking".into(),
+                }),
+                ..Default::default()
+            },
+            caption: self.caption,
+            source: "A.1 to A.5".into(),
+            cases: vec!["stability-map".into()],
+        }
+    }
+}
+
+impl Found {
+    /// What a map tells apart.
+    const CLASSES: [&'static str; 6] = [
+        "right",
+        "stable but wrong",
+        "length lost",
+        "not finite",
+        "refused",
+        "not run",
+    ];
+
+    /// Its place among [`Self::CLASSES`].
+    fn class(self) -> usize {
+        match self {
+            Self::RoundOff | Self::Accurate => 0,
+            Self::Wrong => 1,
+            Self::LengthLost => 2,
+            Self::NotFinite => 3,
+            Self::Refused => 4,
+            Self::NotRun => 5,
+        }
+    }
+}
+
+fn strain(quarter: i32) -> f64 {
+    10f64.powf(0.25 * f64::from(quarter))
+}
+
+/// The limit of the order by theory, in columns and rows of the picture by steps.
+fn limit(subject: &str) -> Vec<(f64, f64)> {
+    let theory = (THEORIES.iter()).find(|theory| theory.0 == subject && theory.1 == Property::Order);
+    let Some((_, _, theory)) = theory else {
+        return Vec::new();
+    };
+    let column = |strain: f64| 4.0 * strain.log10() - f64::from(*STRAINS.start());
+    let at = |(row, r): (usize, &f64)| (column(theory(*r)), row as f64);
+    let points = RODS.iter().enumerate().map(at);
+    points.filter(|(column, _)| column.is_finite()).collect()
+}
+
+/// How far each method with steps is right at every aspect ratio of the picture: the longest step of the grid up to
+/// which nothing else was found, from the worst method to the best.
+pub fn answer(figures: &[ReportFigure]) -> String {
+    let grid = figures.first().and_then(|figure| figure.figure.grid.as_ref());
+    let maps = grid.iter().flat_map(|grid| &grid.maps);
+    let right = |map: &Map| {
+        let wrong = |column: &usize| map.cells.iter().any(|row| row[*column] != 0);
+        (0..STRAINS.count()).find(wrong).unwrap_or(STRAINS.count())
+    };
+    let mut reached: Vec<_> = maps.map(|map| (right(map), map.title.as_str())).collect();
+    reached.sort_unstable();
+    let words = |(columns, name): &(usize, &str)| match columns {
+        0 => format!("{name} at none of the steps tried"),
+        columns => format!(
+            "{name} up to GΔt = {:.2}",
+            strain(STRAINS.start() + *columns as i32 - 1)
+        ),
+    };
+    match (reached.first(), reached.last()) {
+        (Some(worst), Some(best)) => format!(
+            "Over one period and at every aspect ratio {} is right to 10⁻² rad, and {}; the others lie between.",
+            words(worst),
+            words(best)
+        ),
+        _ => "No method with steps was tried.".into(),
+    }
+}
+
+/// The maps as pictures.
+pub fn figures(subjects: &[Box<dyn Subject>]) -> Vec<ReportFigure> {
+    [
+        steps(subjects),
+        tolerances(subjects),
+        starts(subjects),
+        durations(subjects),
+    ]
+    .map(Panels::figure)
+    .into()
+}
+
+fn of<'a>(subjects: &'a [Box<dyn Subject>], which: impl Fn(Theory) -> bool) -> Vec<&'a dyn Subject> {
+    let subjects = subjects.iter().map(AsRef::as_ref);
+    subjects
+        .filter(|subject: &&dyn Subject| which(subject.theory()))
+        .collect()
+}
+
+fn steps(subjects: &[Box<dyn Subject>]) -> Panels<'static> {
+    let panel = |subject: &dyn Subject| Panel {
+        title: subject.name().into(),
+        cells: RODS
+            .map(|r| {
+                let run = |quarter| {
+                    let step = strain(quarter) / strain_per_period(r);
+                    map::by_step(subject.theory(), r, step, MOST_STEPS).of(subject)
+                };
+                STRAINS.map(run).collect()
+            })
+            .into(),
+        limit: limit(subject.name()),
+    };
+    let stepped = of(subjects, |theory| matches!(theory, Theory::Order(_)));
+    Panels {
+        words: ["stability-steps", "Stability by step and aspect ratio"],
+        caption: format!(
+            "Runs end in the middle of a flip, after one period or twenty steps, whichever is more; at short steps after \
+             {MOST_STEPS} of them. Right: within 10⁻² rad of the closed form. The black line is theory's longest step \
+             without overtaking, where there is one: a step is inaccurate long before. The exact propagator takes no steps \
+             and is right everywhere."
+        ),
+        axes: ["step GΔt", "aspect ratio r_e"],
+        columns: STRAINS
+            .map(|quarter| match quarter % 4 {
+                0 => decade(quarter / 4),
+                _ => String::new(),
+            })
+            .collect(),
+        values: STRAINS.map(|quarter| strain(quarter).to_string()).collect(),
+        rows: RODS.map(ratio).into(),
+        panels: stepped.into_iter().map(panel).collect(),
+    }
+}
+
+/// From fine to coarse, as steps are from short to long.
+fn tolerances_from_fine() -> impl Iterator<Item = f64> {
+    TOLERANCES.into_iter().rev()
+}
+
+fn with_tolerance(subject: &dyn Subject, r: f64, tolerance: f64) -> Cell {
+    let run = map::by_duration(subject.theory(), r, 1.0, Place::mid_flip(r), MOST_STEPS);
+    let setting = Setting::Tolerance(tolerance);
+    run.map_or_else(Cell::not_run, |run| map::Run { setting, ..run }.of(subject))
+}
+
+fn tolerances(subjects: &[Box<dyn Subject>]) -> Panels<'static> {
+    let panel = |subject: &dyn Subject| Panel {
+        title: subject.name().into(),
+        cells: ASPECT_RATIOS
+            .map(|r| {
+                tolerances_from_fine()
+                    .map(|t| with_tolerance(subject, r, t))
+                    .collect()
+            })
+            .into(),
+        limit: Vec::new(),
+    };
+    Panels {
+        words: ["stability-tolerances", "Stability by tolerance and aspect ratio"],
+        caption: "Integrators that choose their step: one period, into the middle of a flip.".into(),
+        axes: ["tolerance", "aspect ratio r_e"],
+        columns: tolerances_from_fine().map(power).collect(),
+        values: tolerances_from_fine().map(|t| format!("{t:e}")).collect(),
+        rows: ASPECT_RATIOS.map(ratio).into(),
+        panels: of(subjects, |theory| theory == Theory::Adaptive)
+            .into_iter()
+            .map(panel)
+            .collect(),
+    }
+}
+
+fn power(value: f64) -> String {
+    decade(value.log10().round() as i32)
+}
+
+fn cell(subject: &dyn Subject, r: f64, periods: f64, end: Place, most_steps: u64) -> Cell {
+    map::by_duration(subject.theory(), r, periods, end, most_steps)
+        .map_or_else(Cell::not_run, |run| run.of(subject))
+}
+
+fn names(subjects: &[Box<dyn Subject>]) -> Vec<String> {
+    subjects.iter().map(|subject| subject.name().to_owned()).collect()
+}
+
+fn starts(subjects: &[Box<dyn Subject>]) -> Panels<'static> {
+    let panel = |r: f64| Panel {
+        title: format!("r_e = {}", ratio(r)),
+        cells: (subjects.iter())
+            .map(|subject| {
+                let places = map::places(r).into_iter();
+                let found = |(_, place)| cell(subject.as_ref(), r, 1.0, place, MOST_STEPS);
+                places.map(found).collect()
+            })
+            .collect(),
+        limit: Vec::new(),
+    };
+    let places = map::places(2.0).into_iter().map(|(name, _)| name);
+    Panels {
+        words: [
+            "stability-starts",
+            "Stability at the poles, in the flip, and on orbits from C = 0 to ∞",
+        ],
+        caption: format!(
+            "The end of one period and a flip. Places: {}. GΔt = {}, tolerance {:.0e}.",
+            places
+                .clone()
+                .enumerate()
+                .map(|(k, name)| format!("{} {name}", k + 1))
+                .collect::<Vec<_>>()
+                .join("; "),
+            map::STRAIN_PER_STEP,
+            map::TOLERANCE
+        ),
+        axes: ["place", ""],
+        columns: places
+            .clone()
+            .enumerate()
+            .map(|(k, _)| (k + 1).to_string())
+            .collect(),
+        values: places.map(String::from).collect(),
+        rows: names(subjects),
+        panels: [1e-8, 1.0 + 1e-12, 11.6, 1e8].map(panel).into(),
+    }
+}
+
+fn durations(subjects: &[Box<dyn Subject>]) -> Panels<'static> {
+    let r = 11.6;
+    let row = |subject: &Box<dyn Subject>| {
+        let found = |periods| cell(subject.as_ref(), r, periods, Place::mid_flip(r), 10 * MOST_STEPS);
+        PERIODS.map(found).into()
+    };
+    Panels {
+        words: [
+            "stability-durations",
+            "Stability over up to 10⁸ periods at r_e = 11.6",
+        ],
+        caption: format!(
+            "GΔt = {}, tolerance {:.0e}; at most {} steps, so longer runs of methods with steps are not run.",
+            map::STRAIN_PER_STEP,
+            map::TOLERANCE,
+            10 * MOST_STEPS
+        ),
+        axes: ["duration (periods)", ""],
+        columns: PERIODS.map(power).into(),
+        values: PERIODS.map(|periods| format!("{periods:e}")).into(),
+        rows: names(subjects),
+        panels: vec![Panel {
+            title: String::new(),
+            cells: subjects.iter().map(row).collect(),
+            limit: Vec::new(),
+        }],
+    }
+}
+
+/// The last setting before the first whose end is not right, and what comes then.
+fn leaves(cells: &[Cell], setting: impl Fn(usize) -> String) -> String {
+    match cells.iter().position(|cell| !cell.found.is_right()) {
+        Some(0) => format!("never: {}", cells[0].found.words()),
+        Some(bad) => format!("to {}, then {}", setting(bad - 1), cells[bad].found.words()),
+        None => "all".into(),
+    }
+}
+
+/// Where each subject leaves, by the step as a part of the period and by the tolerance: a row for each r_e.
+pub fn ends(subjects: &[Box<dyn Subject>]) -> [ReportTable; 2] {
+    let by_step = |subject: &dyn Subject, r: f64| {
+        let run = |step| map::by_step(subject.theory(), r, step, MOST_STEPS).of(subject);
+        leaves(&STEPS.map(run), |k| format!("{:.0e} T", STEPS[k]))
+    };
+    let by_tolerance = |subject: &dyn Subject, r: f64| {
+        let settings: Vec<f64> = tolerances_from_fine().collect();
+        let cells: Vec<_> = settings.iter().map(|t| with_tolerance(subject, r, *t)).collect();
+        leaves(&cells, |k| format!("{:.0e}", settings[k]))
+    };
+    let table = |words: [&str; 2],
+                 caption: &str,
+                 which: Vec<&dyn Subject>,
+                 end: &dyn Fn(&dyn Subject, f64) -> String| {
+        let names = which.iter().map(|subject| subject.name().to_owned());
+        let row = |r: f64| {
+            let ends = which.iter().map(|subject| end(*subject, r));
+            std::iter::once(ratio(r)).chain(ends).collect()
+        };
+        let columns: Vec<_> = std::iter::once("r_e".to_owned()).chain(names).collect();
+        of_words(
+            words[0],
+            words[1],
+            caption,
+            &columns,
+            ASPECT_RATIOS.map(row).into(),
+        )
+    };
+    [
+        table(
+            [
+                "stability-steps-end",
+                "The longest step that is right, and what comes after it",
+            ],
+            "Of the steps 10⁻⁹, 10⁻⁸, … 10³ T; subjects without steps go the length of a step at once.",
+            of(subjects, |theory| theory != Theory::Adaptive),
+            &by_step,
+        ),
+        table(
+            [
+                "stability-tolerances-end",
+                "The loosest tolerance that is right, and what comes after it",
+            ],
+            "Of the tolerances 10⁻¹², 10⁻¹⁰, 10⁻⁸, 10⁻⁶, 10⁻⁴, 10⁻², 10⁻¹.",
+            of(subjects, |theory| theory == Theory::Adaptive),
+            &by_tolerance,
+        ),
+    ]
+}
+
+/// An aspect ratio in few letters.
+pub(super) fn ratio(r: f64) -> String {
+    match r {
+        r if r > 1.0 && r < 1.0 + 1e-9 => format!("1 + {}", power_of_ten((r - 1.0).log10().round() as i32)),
+        r if (0.01..1e4).contains(&r) => r.to_string(),
+        r => power_of_ten(r.log10().round() as i32),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::subject;
+
+    #[test]
+    fn a_row_of_cells_says_where_it_leaves() {
+        let (problem, end) = (map::by_step(Theory::Exact, 2.0, 1.0, 1), Place::mid_flip(2.0));
+        let right = problem.of(&subject::ExactPropagator);
+        let wrong = map::Run {
+            end: end.before(0.1),
+            ..problem
+        };
+        let late = map::Run {
+            turns: 1.1,
+            end,
+            ..problem
+        }
+        .of(&subject::ExactPropagator);
+        assert_eq!((right.found, late.found), (Found::RoundOff, Found::RoundOff));
+        assert!(wrong.of(&subject::ExactPropagator).found.is_right());
+        let bad = Cell::not_run("many".into());
+        let cells = [right.clone(), right.clone(), bad.clone(), right.clone()];
+        assert_eq!(leaves(&cells, |k| k.to_string()), "to 1, then not run");
+        assert_eq!(leaves(&[bad], |k| k.to_string()), "never: not run");
+        assert_eq!(leaves(&[right], |k| k.to_string()), "all");
+    }
+
+    #[test]
+    fn theory_s_limit_lies_where_its_step_is() {
+        // 1/Λ is 1 for long rods, the column of 10⁰; at r_e = 1.01 it is far to the right.
+        let limit = limit("explicit Euler in angles");
+        assert_eq!(limit.len(), RODS.len());
+        let (column, row) = limit[9];
+        assert!((column - 6.0).abs() < 1e-6 && row == 9.0, "{limit:?}");
+        assert!(limit[0].0 > limit[1].0, "{limit:?}");
+        assert!(super::limit("RK4 in p").is_empty());
+    }
+}
