@@ -139,19 +139,22 @@ fn synthetic() -> Report {
             words("in words", |x: &f64| format!("<{x}>")),
         ],
     );
+    let mut study = ReportStudy::default();
+    for (field, text) in [
+        (&mut study.name, "synthetic"),
+        (&mut study.title, "A synthetic study"),
+        (&mut study.question, "Is it synthetic?"),
+        (&mut study.answer, "It is, 1 < 2 & so on."),
+        (&mut study.command, "shearbed bench --case synthetic"),
+    ] {
+        *field = text.into();
+    }
+    study.cases = vec!["synthetic-fail".into()];
+    study.exhibits = vec![Exhibit::both(figure, table)];
     let mut report = build(
         outcomes,
         Sections {
-            studies: vec![ReportStudy {
-                name: "synthetic".into(),
-                title: "A synthetic study".into(),
-                question: "Is it synthetic?".into(),
-                answer: "It is, 1 < 2 & so on.".into(),
-                command: "shearbed bench --case synthetic".into(),
-                cases: vec!["synthetic-fail".into()],
-                exhibits: vec![Exhibit::both(figure, table)],
-                ..Default::default()
-            }],
+            studies: vec![study],
             equations: vec![ReportEquation {
                 number: "A.4".into(),
                 says: "a synthetic equation".into(),
