@@ -1,5 +1,5 @@
 //! What α would be under each open reading of the paper: the same synthetic points, fitted by the naive reference under each
-//! as a Markdown table. `cargo run --release -p validation --example fit_readings -- 150` gives each value of α up to 150
+//! as a Markdown table. `cargo run --release -p validation --example fit_readings -- 50` gives each value of α up to 50
 //! replicas.
 
 use rand::SeedableRng;
@@ -18,7 +18,7 @@ use validation::readings::{ALTERNATIVES, Change, paper};
 const PLANTED: f64 = 0.8;
 const NOISE: f64 = 0.01;
 const POINTS: usize = 20;
-const TRUTH: u64 = 1000;
+const TRUTH: u64 = 400;
 
 /// X̄₁ at every twentieth of a period, up to one period.
 fn curve(change: Change, alpha: f64, seed: u64, replica: u64) -> Vec<Prediction> {
@@ -37,7 +37,7 @@ fn curve(change: Change, alpha: f64, seed: u64, replica: u64) -> Vec<Prediction>
 fn main() -> Result<(), String> {
     let most: u64 = std::env::args()
         .nth(1)
-        .map_or(Ok(150), |text| text.parse())
+        .map_or(Ok(50), |text| text.parse())
         .map_err(|error| format!("{error}"))?;
     let default: Change = |_| ();
     let rows: Vec<_> = (0..TRUTH)
@@ -72,7 +72,7 @@ fn main() -> Result<(), String> {
         };
         let problem = Problem {
             data: &data,
-            ranges: &[Range::parse("interaction.alpha=0.1:5")?],
+            ranges: &[Range::parse("interaction.alpha=0.2:3")?],
             rods_over_measured: &[0.0],
             model: &model,
             most_replicas: most,

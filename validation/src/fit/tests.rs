@@ -5,6 +5,7 @@ use super::emulator::{Prediction, Replica};
 use super::range::Range;
 use super::search::{Fit, Problem, Watch, search};
 use crate::accept::{Design, Rule, Verdict, judge};
+use nalgebra::{DMatrix, DVector};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;
@@ -174,5 +175,73 @@ fn intervals_hold_the_planted_value_as_often_as_they_say() {
         }
         let rule = share(&found, |repeat| repeat.p >= 0.05, 0.95);
         assert_eq!(judge(&rule), Verdict::Pass, "{over:?}: {rule:?}");
+    }
+}
+
+/// A straight line a + b t, whose replicas are off by an offset each.
+fn line(values: &[f64]) -> Result<Replica, String> {
+    let (a, b) = (values[0], values[1]);
+    Ok(Box::new(move |replica| {
+        let offset = line_offset(replica);
+        Ok(times().map(|time| [a + b * (1.0 + time) + offset; 3]).collect())
+    }))
+}
+
+fn line_offset(replica: u64) -> f64 {
+    0.1 * normal(&mut Pcg64Dxsm::seed_from_u64(77 + replica))
+}
+
+#[test]
+fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
+    let mut data = points(0.8, 1.0, 0.05, 3);
+    for datum in &mut data {
+        datum.value += 1.0 + 0.5 * datum.time;
+    }
+    // One range is linear, the other logarithmic; a and b are strongly correlated, as t starts at 1.
+    let problem = Problem {
+        data: &data,
+        ranges: &ranges(&["line.a=-3:5", "line.b=0.1:4"]),
+        rods_over_measured: &[0.0],
+        model: &line,
+        most_replicas: 50,
+    };
+    let watch = Watch {
+        planned: &|_| (),
+        done: &|| (),
+    };
+    let fit = search(&problem, &watch).unwrap();
+
+    // Generalised least squares in closed form.
+    let replicas = fit.emulator.replicas();
+    let offsets: Vec<f64> = (0..replicas as u64).map(line_offset).collect();
+    let mean = offsets.iter().sum::<f64>() / replicas as f64;
+    let square: f64 = offsets.iter().map(|offset| (offset - mean).powi(2)).sum();
+    let shared = square / (replicas * (replicas - 1)) as f64;
+    let v = DMatrix::from_fn(TIMES, TIMES, |i, j| {
+        shared + if i == j { 0.05 * 0.05 } else { 0.0 }
+    });
+    let x = DMatrix::from_fn(TIMES, 2, |i, j| if j == 0 { 1.0 } else { 1.0 + data[i].time });
+    let d = DVector::from_iterator(TIMES, data.iter().map(|datum| datum.value - mean));
+    let inverse = v.try_inverse().unwrap();
+    let covariance = (x.transpose() * &inverse * &x).try_inverse().unwrap();
+    let expected = &covariance * x.transpose() * &inverse * d;
+    assert!(covariance[(0, 1)] / (covariance[(0, 0)] * covariance[(1, 1)]).sqrt() < -0.8);
+    for axis in 0..2 {
+        let se = covariance[(axis, axis)].sqrt();
+        // The polynomials of ln b over the last box bend b by less than a hundredth of its uncertainty.
+        let close = |found: f64, expected: f64| (found - expected).abs() < 0.02 * se;
+        let found = fit.value(axis, fit.best.place[axis]);
+        assert!(close(found, expected[axis]), "{axis}: {found} {}", expected[axis]);
+        let u = fit.best.covariance()[(axis, axis)].sqrt() * fit.scale(axis);
+        assert!(close(u, se), "{axis}: {u} {se}");
+        let ends = fit.interval(axis, 0.95);
+        assert!(
+            close(ends.low, expected[axis] - 1.959_964 * se),
+            "{axis}: {ends:?} {se}"
+        );
+        assert!(
+            close(ends.high, expected[axis] + 1.959_964 * se),
+            "{axis}: {ends:?} {se}"
+        );
     }
 }
