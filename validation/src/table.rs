@@ -273,7 +273,11 @@ mod tests {
             vec![
                 field("n", |r: &Row| r.0),
                 number("x (s)", |x| format!("{x:.1}"), |r: &Row| r.1),
-                estimate("y", |y, se| format!("{y} ± {se}"), |r: &Row| r.1.map(|x| (2.0, x))),
+                estimate(
+                    "y",
+                    |y, se| format!("{y} ± {se}"),
+                    |r: &Row| r.1.map(|x| (2.0, x)),
+                ),
                 words("said", |r: &Row| if r.0 == 1 { "=1" } else { "a, b" }),
             ],
         );

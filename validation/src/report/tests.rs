@@ -137,19 +137,22 @@ fn synthetic() -> Report {
             words("in words", |x: &f64| format!("<{x}>")),
         ],
     );
+    let mut study = ReportStudy::default();
+    for (field, text) in [
+        (&mut study.name, "synthetic"),
+        (&mut study.title, "A synthetic study"),
+        (&mut study.question, "Is it synthetic?"),
+        (&mut study.answer, "It is, 1 < 2 & so on."),
+        (&mut study.command, "shearbed bench --case synthetic"),
+    ] {
+        *field = text.into();
+    }
+    study.cases = vec!["synthetic-fail".into()];
+    study.exhibits = vec![Exhibit::both(figure, table)];
     let mut report = build(
         outcomes,
         Sections {
-            studies: vec![ReportStudy {
-                name: "synthetic".into(),
-                title: "A synthetic study".into(),
-                question: "Is it synthetic?".into(),
-                answer: "It is, 1 < 2 & so on.".into(),
-                command: "shearbed bench --case synthetic".into(),
-                cases: vec!["synthetic-fail".into()],
-                exhibits: vec![Exhibit::both(figure, table)],
-                ..Default::default()
-            }],
+            studies: vec![study],
             equations: vec![ReportEquation {
                 number: "A.4".into(),
                 says: "a synthetic equation".into(),
@@ -421,4 +424,23 @@ fn the_first_screen_says_where_to_look() {
         html.contains("id=\"case-synthetic-fail\" data-tags=\"core fail\" open=\"\">"),
         "{html}"
     );
+}
+
+#[test]
+fn a_one_sided_rule_uses_less_of_its_bound_the_farther_it_is() {
+    let used = |mean| {
+        let rule = Rule::Above {
+            mean,
+            se: 0.0,
+            samples: 100,
+            bound: 0.1,
+            effect: 0.2,
+            because: "synthetic",
+        };
+        let row = Row::new(outcome("synthetic", Verdict::Pass, vec![rule], &[]), &EFFORT);
+        row.evidence[0].used
+    };
+    assert_eq!(used(0.4), 0.25);
+    assert_eq!(used(0.05), 2.0);
+    assert_eq!(used(-0.1), f64::INFINITY);
 }
