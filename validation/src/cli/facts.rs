@@ -62,8 +62,12 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
     let mut warnings = plan.warnings();
     let facts = Facts::of(plan);
     if let Some((n_a3, regime)) = facts.n_a3.zip(facts.regime).filter(|(n_a3, _)| *n_a3 >= 1.0) {
+        let shown = match n_a3 < 1e4 {
+            true => format!("{n_a3:.3}"),
+            false => format!("{n_a3:.3e}"),
+        };
         warnings.push(format!(
-            "interaction.concentration_per_cm3 and particles.length_mm give n a³ = {n_a3:.3}: {regime}. The model is for \
+            "interaction.concentration_per_cm3 and particles.length_mm give n a³ = {shown}: {regime}. The model is for \
              dilute suspensions, n a³ < 1, in which two rods meet at a time"
         ));
     }

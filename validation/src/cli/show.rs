@@ -34,12 +34,18 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
     let named = scene::load(&args.scene)?.with(&args.settings)?;
     let plan =
         Plan::new(&named.scene).map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
-    let facts = Facts::of(&plan).text();
-    let own = plan.warnings().len();
-    let more: String = (facts::warnings(&plan).iter().skip(own))
-        .map(|warning| format!("warning: {warning}\n"))
-        .collect();
-    print(&format!("{plan}{facts}{more}"))
+    // The plan ends with its own warnings, and all of them come last.
+    let said = |warnings: Vec<String>| -> String {
+        let lines = warnings.iter().map(|warning| format!("warning: {warning}\n"));
+        lines.collect()
+    };
+    let text = plan.to_string();
+    let stages = text.strip_suffix(&said(plan.warnings())).unwrap_or(&text);
+    print(&format!(
+        "{stages}{}{}",
+        Facts::of(&plan).text(),
+        said(facts::warnings(&plan))
+    ))
 }
 
 /// Lists the built-in scenes, or prints one.

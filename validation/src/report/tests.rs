@@ -427,3 +427,22 @@ fn the_first_screen_says_where_to_look() {
         "{html}"
     );
 }
+
+#[test]
+fn a_one_sided_rule_uses_less_of_its_bound_the_farther_it_is() {
+    let used = |mean| {
+        let rule = Rule::Above {
+            mean,
+            se: 0.0,
+            samples: 100,
+            bound: 0.1,
+            effect: 0.2,
+            because: "synthetic",
+        };
+        let row = Row::new(outcome("synthetic", Verdict::Pass, vec![rule], &[]), &EFFORT);
+        row.evidence[0].used
+    };
+    assert_eq!(used(0.4), 0.25);
+    assert_eq!(used(0.05), 2.0);
+    assert_eq!(used(-0.1), f64::INFINITY);
+}
