@@ -70,7 +70,7 @@ fn a_signal_ends_a_run_with_a_message_and_leaves_nothing() {
 fn a_sweep_that_was_told_to_end_goes_on() {
     let dir = folder();
     long(dir.path());
-    let sweep = "sweep long.toml --over interaction.alpha=0.1:2:6 --quiet --threads 1 --out x";
+    let sweep = "sweep long.toml --over interaction.alpha=0.1:2:12 --quiet --threads 1 --out x";
     let child = command(dir.path(), sweep).stderr(Stdio::piped()).spawn().unwrap();
     let points = dir.path().join("x/points");
     wait_for(|| fs::read_dir(&points).is_ok_and(|found| found.count() >= 2));
@@ -153,7 +153,7 @@ fn what_cannot_be_written_is_told() {
 fn a_folder_that_vanishes_ends_a_sweep() {
     let dir = folder();
     long(dir.path());
-    let sweep = "sweep long.toml --over interaction.alpha=0.1:2:6 --quiet --threads 1 --out x";
+    let sweep = "sweep long.toml --over interaction.alpha=0.1:2:12 --quiet --threads 1 --out x";
     let child = command(dir.path(), sweep).stderr(Stdio::piped()).spawn().unwrap();
     let points = dir.path().join("x/points");
     wait_for(|| points.join("01").exists());
