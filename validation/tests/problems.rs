@@ -2,7 +2,6 @@
 
 mod common;
 
-use rayon::prelude::*;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -12,13 +11,9 @@ use validation::problems;
 
 /// The files of every problem, by `NAME/FILE`: built once.
 static FILES: LazyLock<BTreeMap<String, String>> = LazyLock::new(|| {
-    let built: Vec<_> = problems::all()
-        .par_iter()
-        .map(|def| (def.name, def.build()))
-        .collect();
-    let files = built.iter().flat_map(|(name, built)| {
+    let files = problems::built().iter().flat_map(|built| {
         let files = problems::files(built).into_iter();
-        files.map(move |(file, text)| (format!("{name}/{file}"), text))
+        files.map(move |(file, text)| (format!("{}/{file}", built.problem.name), text))
     });
     files.collect()
 });

@@ -1,8 +1,7 @@
 //! Writing problems as folders of files.
 
-use super::{Built, INPUT_COLUMNS, ProblemDef, all, page};
+use super::{Built, INPUT_COLUMNS, all, built, page};
 use crate::output::{self, Output, OutputError};
-use rayon::prelude::*;
 use std::ffi::OsString;
 use std::fmt;
 use std::fs;
@@ -53,10 +52,10 @@ pub fn export(dir: &Path, force: bool) -> Result<Vec<&'static str>, ExportError>
         return Err(ExportError::Foreign(foreign));
     }
     output::probe(dir, 0).map_err(ExportError::Output)?;
-    let built: Vec<_> = all().par_iter().map(ProblemDef::build).collect();
+    let built = built();
     let dir_made = !dir.exists();
     let mut made = Vec::new();
-    for problem in &built {
+    for problem in built {
         let folder = dir.join(&problem.problem.name);
         if !folder.exists() {
             made.push(folder.clone());

@@ -19,6 +19,7 @@ pub use export::{ExportError, SCHEMA, export, files};
 pub use read::read;
 pub use table::{ReadError, Table};
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::LazyLock;
@@ -205,6 +206,12 @@ pub fn all() -> &'static [ProblemDef] {
         kinds.into_iter().flatten().collect()
     });
     &ALL
+}
+
+/// Every problem with its certified answer, computed once.
+pub fn built() -> &'static [Built] {
+    static BUILT: LazyLock<Vec<Built>> = LazyLock::new(|| all().par_iter().map(ProblemDef::build).collect());
+    &BUILT
 }
 
 /// Those about given free rods, which are built in moments.

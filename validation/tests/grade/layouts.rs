@@ -100,3 +100,63 @@ fn layouts_of_other_programs_are_read_as_they_are() {
         assert!(found.error(problem) < 0.05, "{sample}: {}", found.words);
     }
 }
+
+/// Quaternions that turn axis x of the body onto p: w = 1 + p₁, (i, j, k) = x × p. Their conjugates mirror p.
+#[test]
+fn a_dump_without_times_and_shapes_is_told_what_it_does_not_say() {
+    let (_, rows) = problem("shear-plane");
+    let mut dump = String::new();
+    for snapshot in rows[1..].chunks(4) {
+        let time_s: f64 = snapshot[0][0].parse().unwrap();
+        let step = (time_s / 1e-5).round();
+        dump += &format!("ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n4\nITEM: BOX BOUNDS pp pp pp\n");
+        dump += &"0 1\n".repeat(3);
+        dump += "ITEM: ATOMS id c_q[1] c_q[2] c_q[3] c_q[4]\n";
+        for row in snapshot {
+            let number = |k: usize| row[k].parse::<f64>().unwrap();
+            let id = row[1].parse::<u32>().unwrap() + 1;
+            dump += &format!("{id} {} 0 {} {}\n", 1.0 + number(2), -number(4), number(3));
+        }
+    }
+    let dir = tempfile::tempdir().unwrap();
+    write(dir.path(), "shear-plane", "answer.dump", dump);
+    let only = ["--problem", "shear-plane"];
+    for (more, reason) in [
+        (&["--rod-axis", "x"][..], "--timestep-s"),
+        (&["--timestep-s", "1e-5"], "--rod-axis"),
+    ] {
+        let ended = files(REFERENCE.path(), dir.path(), &[&only[..], more].concat());
+        assert!(
+            ended.code == Some(2) && ended.words.contains(reason),
+            "{}",
+            ended.words
+        );
+    }
+    let told = ["--rod-axis", "x", "--timestep-s", "1e-5"];
+    let ended = files(REFERENCE.path(), dir.path(), &[&only[..], &told].concat());
+    assert_eq!(ended.verdict("shear-plane"), "PASS", "{}", ended.words);
+}
+
+/// fiberpy's a23 and a13 are 0 in the recorded sample: here the program's axes are the vorticity, the gradient and the flow,
+/// and its a23 is the problem's a12.
+#[test]
+fn fiberpy_has_23_before_13() {
+    let (_, rows) = problem("isotropic-3");
+    let place = |wanted: &str| rows[0].iter().position(|name| name == wanted).unwrap();
+    let ours = ["time_s", "a33", "a11", "a22", "a13", "a12", "a23"].map(place);
+    let told: Vec<Vec<String>> = (rows[1..].iter())
+        .map(|row| ours.iter().map(|at| row[*at].clone()).collect())
+        .collect();
+    let dir = tempfile::tempdir().unwrap();
+    write(dir.path(), "isotropic-3", "answer.csv", text(&told));
+    let more = [
+        "--layout",
+        "fiberpy",
+        "--axes",
+        "vorticity,gradient,flow",
+        "--problem",
+        "isotropic-3",
+    ];
+    let ended = files(REFERENCE.path(), dir.path(), &more);
+    assert_eq!(ended.verdict("isotropic-3"), "PASS", "{}", ended.words);
+}

@@ -21,6 +21,9 @@ fn half_the_tolerance_passes_and_twice_fails_in_every_problem_and_metric() {
             let found = ended.of(name);
             assert_eq!(found["verdict"], verdict, "{part}: {found:#}");
             assert_eq!(found["diagnosis"], Value::Null, "{found:#}");
+            // Certified directions stay on their own orbits, to the digits of a double at r_e = 10⁴.
+            let drift = found["orbit_drift"].as_f64().unwrap_or(0.0);
+            assert!(part > 0.0 || drift < 1e-8, "{found:#}");
             let ratio = found["error"].as_f64().unwrap() / found["tolerance"].as_f64().unwrap();
             assert!(
                 (ratio - part).abs() < 0.02 + 0.01 * part,
@@ -73,6 +76,10 @@ fn orders_are_read_from_steps_and_judged_against_a_claim() {
     let html = ended.html.as_deref().unwrap();
     let picture = html.split_once("<svg").unwrap().1.split_once("</svg>").unwrap().0;
     assert!(picture.contains("Error against steps, mid-flip-100") && picture.contains("RK4 in p"));
+    assert!(
+        picture.contains("error (rad) against steps: the graded program, "),
+        "first, and so bold"
+    );
     let line = |stroke: &str| {
         picture
             .match_indices(stroke)

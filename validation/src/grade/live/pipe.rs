@@ -65,8 +65,8 @@ pub struct Pipe {
     requests: Option<Sender<Vec<u8>>>,
     lines: Receiver<Heard>,
     last_words: Arc<Mutex<Vec<u8>>>,
-    /// Who reads them.
-    listener: Option<thread::JoinHandle<()>>,
+    /// Nothing is sent: it is closed when standard error has been read to its end.
+    all_said: Receiver<()>,
     /// Lines heard so far.
     heard: u64,
     /// How it ended, once that has been noted: its number may then be another's.
@@ -93,20 +93,23 @@ impl Pipe {
         let (requests, to_write) = mpsc::channel();
         let (heard, lines) = mpsc::sync_channel(LINES_HELD);
         let last_words = Arc::new(Mutex::new(Vec::new()));
-        let mut listener = None;
+        let (saying, all_said) = mpsc::channel();
         // The threads are never joined: what escaped the process group may hold a pipe open for ever.
         if let (Some(stdin), Some(stdout), Some(stderr)) = (stdin, stdout, stderr) {
             let words = Arc::clone(&last_words);
             thread::spawn(move || write_requests(stdin, to_write));
             thread::spawn(move || read_lines(stdout, heard));
-            listener = Some(thread::spawn(move || keep_last_words(stderr, &words)));
+            thread::spawn(move || {
+                keep_last_words(stderr, &words);
+                drop::<Sender<()>>(saying);
+            });
         }
         Ok(Self {
             child,
             requests: Some(requests),
             lines,
             last_words,
-            listener,
+            all_said,
             heard: 0,
             status: None,
         })
@@ -184,11 +187,8 @@ impl Pipe {
             },
             false => "it closed its standard output and went on; it was stopped".to_owned(),
         };
-        // What it wrote before its end may not have been read yet.
-        let listens = |listener: &thread::JoinHandle<()>| !listener.is_finished();
-        while self.listener.as_ref().is_some_and(listens) && Instant::now() < deadline {
-            thread::sleep(Duration::from_millis(5));
-        }
+        // What it wrote last may still be on its way; a child may hold standard error open.
+        let _ = self.all_said.recv_timeout(GRACE);
         let words = self.last_words.lock().unwrap_or_else(PoisonError::into_inner);
         let words = String::from_utf8_lossy(&words).trim().replace('\n', " | ");
         let start = words.char_indices().rev().nth(299).map_or(0, |(at, _)| at);
