@@ -437,7 +437,7 @@ fn a_one_sided_rule_uses_less_of_its_bound_the_farther_it_is() {
             samples: 100,
             bound: 0.1,
             effect: 0.2,
-            because: "synthetic",
+            because: "synthetic".into(),
         };
         let row = Row::new(outcome("synthetic", Verdict::Pass, vec![rule], &[]), &EFFORT);
         row.evidence[0].used
