@@ -218,7 +218,7 @@ impl ReportTable {
     /// and a text that a spreadsheet would take for a formula has an apostrophe before it.
     pub fn csv(&self) -> Result<String, String> {
         let safe = |datum: &Datum| match datum {
-            Datum::Text(text) => Datum::Text(cell(text).into()),
+            Datum::Text(text) => Datum::Text(cell(text)),
             other => other.clone(),
         };
         let mut writer = csv::Writer::from_writer(Vec::new());

@@ -130,7 +130,7 @@ impl Parts {
     fn of(figure: &Figure) -> Self {
         let title = style::wrap(&figure.title, WIDTH - 2 * MARGIN, TITLE);
         let legend = Legend::of(figure);
-        let grid = figure.grid.as_ref().map(|grid| grid::Layout::of(grid));
+        let grid = figure.grid.as_ref().map(grid::Layout::of);
         let head = MARGIN + title.len() as i32 * ROW + if grid.is_some() { 0 } else { legend.height() };
         let body = grid.as_ref().map_or(AXES_HEIGHT, |layout| layout.height);
         Self {

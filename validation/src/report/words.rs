@@ -64,7 +64,7 @@ pub(super) fn bounds(line: &Line) -> (String, String) {
 pub(super) fn share(used: f64) -> String {
     match used {
         used if used.is_nan() => "not a number".into(),
-        used if used == 0.0 => "0 %".into(),
+        0.0 => "0 %".into(),
         used if used < 1e-3 => "< 0.1 %".into(),
         used if used < 0.1 => format!("{:.1} %", 100.0 * used),
         used if used < 10.0 => format!("{:.0} %", 100.0 * used),

@@ -150,7 +150,7 @@ pub fn figures(subjects: &[Box<dyn Subject>]) -> Vec<ReportFigure> {
     .into()
 }
 
-fn of<'a>(subjects: &'a [Box<dyn Subject>], which: impl Fn(Theory) -> bool) -> Vec<&'a dyn Subject> {
+fn of(subjects: &[Box<dyn Subject>], which: impl Fn(Theory) -> bool) -> Vec<&dyn Subject> {
     let subjects = subjects.iter().map(AsRef::as_ref);
     subjects
         .filter(|subject: &&dyn Subject| which(subject.theory()))
@@ -286,8 +286,8 @@ fn starts(subjects: &[Box<dyn Subject>]) -> Panels<'static> {
 
 fn durations(subjects: &[Box<dyn Subject>]) -> Panels<'static> {
     let r = 11.6;
-    let row = |subject: &Box<dyn Subject>| {
-        let found = |periods| cell(subject.as_ref(), r, periods, Place::mid_flip(r), 10 * MOST_STEPS);
+    let row = |subject: &dyn Subject| {
+        let found = |periods| cell(subject, r, periods, Place::mid_flip(r), 10 * MOST_STEPS);
         PERIODS.map(found).into()
     };
     Panels {
@@ -307,7 +307,7 @@ fn durations(subjects: &[Box<dyn Subject>]) -> Panels<'static> {
         rows: names(subjects),
         panels: vec![Panel {
             title: String::new(),
-            cells: subjects.iter().map(row).collect(),
+            cells: subjects.iter().map(AsRef::as_ref).map(row).collect(),
             limit: Vec::new(),
         }],
     }
