@@ -66,7 +66,7 @@ pub fn run(plan: &Plan, finished: impl Fn() + Sync) -> Result<Results, RunError>
 ///
 /// # Errors
 ///
-/// As [`run`].
+/// As [`run()`].
 pub fn replicas_of(
     plan: &Plan,
     replicas: Range<u64>,

@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 Solver = Callable[[Array, float, Array, Array, int], Array]
 Step = Callable[[Array, float, Array, float], Array]
 
-STEPS = (100, 200, 400, 800)
+STEPS = (250, 500, 1000, 2000, 4000, 8000)
 
 
 @dataclass(frozen=True)
