@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{SMALL, command, ended, files, folder};
+use common::{SMALL, command, ended, files, folder, limited};
 use std::fs;
 use std::path::Path;
 use std::process::Stdio;
@@ -194,17 +194,9 @@ fn a_full_disk_is_found_before_the_work() {
         "validate --out x",
         "bench --out x",
     ] {
-        let limited = format!(
-            "trap '' XFSZ; ulimit -f 100; exec {} {arguments}",
-            env!("CARGO_BIN_EXE_shearbed")
-        );
-        let output = std::process::Command::new("timeout")
-            .args(["60", "bash", "-c", &limited])
-            .current_dir(dir.path())
-            .output()
-            .unwrap();
-        let message = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{arguments}: {message}");
+        let ended = limited(dir.path(), "trap '' XFSZ; ulimit -f 100", arguments);
+        let message = ended.stderr;
+        assert_eq!(ended.code, Some(2), "{arguments}: {message}");
         assert!(
             message.contains("x: cannot be written: File too large"),
             "{message}"

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{SMALL, command, ended, files, folder};
+use common::{SMALL, command, ended, files, folder, limited};
 use std::fs;
 
 /// A title that sets a terminal's title, clears it, turns the writing, and would end a tag.
@@ -144,17 +144,9 @@ fn a_limit_on_memory_is_heeded_before_the_work() {
     let big = SMALL.replace("count = 20", "count = 20000000");
     fs::write(dir.path().join("big.toml"), big).unwrap();
     for arguments in ["run big.toml", "converge big.toml"] {
-        let limited = format!(
-            "ulimit -v 1000000; exec {} {arguments}",
-            env!("CARGO_BIN_EXE_shearbed")
-        );
-        let output = std::process::Command::new("timeout")
-            .args(["60", "bash", "-c", &limited])
-            .current_dir(dir.path())
-            .output()
-            .unwrap();
-        let message = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{arguments}: {message}");
+        let ended = limited(dir.path(), "ulimit -v 1000000", arguments);
+        let message = ended.stderr;
+        assert_eq!(ended.code, Some(2), "{arguments}: {message}");
         assert!(message.contains("particles.count = 20000000"), "{message}");
         assert!(
             (message.contains("of memory, and 0.") || message.contains("of memory, and 1.0"))

@@ -53,7 +53,21 @@ pub struct Ended {
 
 /// Runs a command to its end.
 pub fn ended(dir: &Path, arguments: &str) -> Ended {
-    let output = command(dir, arguments).output().unwrap();
+    told(&mut command(dir, arguments))
+}
+
+/// The same for at most a minute under the limits that a shell sets first.
+pub fn limited(dir: &Path, limits: &str, arguments: &str) -> Ended {
+    let script = format!("{limits}; exec {} {arguments}", env!("CARGO_BIN_EXE_shearbed"));
+    told(
+        Command::new("timeout")
+            .args(["60", "bash", "-c", &script])
+            .current_dir(dir),
+    )
+}
+
+fn told(command: &mut Command) -> Ended {
+    let output = command.output().unwrap();
     Ended {
         code: output.status.code(),
         stdout: String::from_utf8(output.stdout).unwrap(),
