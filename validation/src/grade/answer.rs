@@ -4,6 +4,7 @@ use super::lammps;
 use super::layout::{Field, Layout, Told};
 use super::lines::{Lines, number};
 use crate::problems::{Kind, LoadedProblem, ReadError};
+use crate::statistics::worst;
 use std::path::{Path, PathBuf};
 
 /// How far a tensor's two halves may be apart: beyond six digits they are two answers.
@@ -21,6 +22,14 @@ pub struct Answer {
     pub rows: Vec<Vec<f64>>,
     /// The line that each row was in.
     pub lines: Vec<u64>,
+}
+
+impl Answer {
+    /// The largest difference of a value from the same value of another answer; NaN where one is not finite.
+    pub fn largest_change(&self, other: &Self) -> f64 {
+        let pairs = self.rows.iter().flatten().zip(other.rows.iter().flatten());
+        worst(pairs.map(|(a, b)| (a - b).abs()))
+    }
 }
 
 /// Rows as they come, put where they belong. They come in the problem's order: a shuffled file is a mistake in the making.

@@ -14,6 +14,9 @@ use std::time::{Duration, Instant};
 /// Doublings of the steps at most, from GΔt of about 1.
 const DOUBLINGS: u32 = 24;
 
+/// Rungs from which nothing is foretold: from here on a step is at most a hundredth of a unit of strain.
+const RESOLVING: usize = 7;
+
 /// What a program takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
@@ -44,6 +47,7 @@ struct Rung {
     setting: Setting,
     answer: Answer,
     compared: Compared,
+    took: Duration,
 }
 
 /// Grades a program on a problem about free rods, at its last time.
@@ -144,6 +148,7 @@ fn climb(program: &Program, problem: &LoadedProblem, mode: Mode) -> (Vec<Rung>, 
                     setting,
                     answer,
                     compared,
+                    took,
                 });
                 took
             }
@@ -165,6 +170,10 @@ fn climb(program: &Program, problem: &LoadedProblem, mode: Mode) -> (Vec<Rung>, 
         if rungs.len() >= 2 && rungs[rungs.len() - 2..].iter().all(within) {
             break;
         }
+        if let Some(reason) = hopeless(&rungs, problem.problem.tolerance, program.timeout()) {
+            stopped.reason = Some(reason);
+            break;
+        }
         if 4 * took > program.timeout() || begun.elapsed() > program.timeout() {
             let seconds = begun.elapsed().as_secs_f64();
             stopped.reason = Some(format!(
@@ -174,6 +183,33 @@ fn climb(program: &Program, problem: &LoadedProblem, mode: Mode) -> (Vec<Rung>, 
         }
     }
     (rungs, stopped)
+}
+
+/// Why finer settings would not come within the tolerance, where that can be told from those that were tried.
+fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration) -> Option<String> {
+    // From coarse steps nothing follows: they may be unstable, or miss the motion.
+    let [.., third, second, first, last] = &rungs[RESOLVING.min(rungs.len())..] else {
+        return None;
+    };
+    let errors = [third, second, first, last].map(|rung| rung.compared.error);
+    if !errors.iter().any(|error| error.is_finite()) {
+        return Some("finer ones are not finite either".to_owned());
+    }
+    let changes = [(third, second), (second, first), (first, last)];
+    let changes = changes.map(|(coarse, fine)| coarse.answer.largest_change(&fine.answer));
+    if changes.iter().all(|change| *change <= 0.01 * tolerance) && errors[3] > tolerance {
+        return Some("finer ones no longer change the answer".to_owned());
+    }
+    // A steady order foretells the steps, and two times that double what they take.
+    let orders = [0, 1, 2].map(|k| (errors[k] / errors[k + 1]).log2());
+    let steady = orders
+        .iter()
+        .all(|order| *order > 0.5 && (order - orders[2]).abs() < 0.1);
+    let doubles = first.took > Duration::from_millis(200) && last.took < 3 * first.took;
+    let more = (errors[3] / tolerance).powf(1.0 / orders[2]);
+    let needed_s = last.took.as_secs_f64() * more;
+    (steady && doubles && needed_s > 4.0 * timeout.as_secs_f64())
+        .then(|| format!("those would take some {needed_s:.0e} s, which --timeout does not allow"))
 }
 
 fn settings(problem: &LoadedProblem, mode: Mode) -> Vec<Setting> {
@@ -196,5 +232,76 @@ fn answer(p: Vec<[f64; 3]>) -> Answer {
         path: "standard output".into(),
         lines: vec![0; p.len()],
         rows: p.into_iter().map(Vec::from).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TOLERANCE: f64 = 1e-6;
+
+    /// A rung for each doubling: the angle by which a rod is off, which is its error too, and how long it took.
+    fn climbed(rungs: impl Fn(i32) -> (f64, f64)) -> Option<String> {
+        let rung = |k: i32| {
+            let (error, seconds) = rungs(k);
+            Rung {
+                setting: Setting::Steps(8 << k),
+                answer: answer(vec![[error.cos(), error.sin(), 0.0]]),
+                compared: Compared {
+                    error,
+                    row: 0,
+                    remark: None,
+                    length_drift: None,
+                    orbit_drift: None,
+                    phase_lost_per_period: None,
+                    too_little_data: false,
+                },
+                took: Duration::from_secs_f64(seconds),
+            }
+        };
+        let rungs: Vec<_> = (0..15).map(rung).collect();
+        (1..=rungs.len()).find_map(|k| hopeless(&rungs[..k], TOLERANCE, Duration::from_secs(60)))
+    }
+
+    /// Seconds in proportion to the steps.
+    fn seconds(k: i32) -> f64 {
+        2e-5 * 2f64.powi(k)
+    }
+
+    #[test]
+    fn what_no_longer_changes_is_not_asked_on() {
+        let wrong = climbed(|k| (0.3 + 1e-3 * 16f64.powi(-k), seconds(k)));
+        assert_eq!(wrong.as_deref(), Some("finer ones no longer change the answer"));
+        let not_a_number = climbed(|k| (f64::NAN, seconds(k)));
+        assert_eq!(not_a_number.as_deref(), Some("finer ones are not finite either"));
+    }
+
+    #[test]
+    fn an_order_too_low_for_the_time_is_told_early() {
+        let first = climbed(|k| (0.3 * 2f64.powi(-k), 1000.0 * seconds(k))).unwrap();
+        assert!(first.contains("s, which --timeout does not allow"), "{first}");
+    }
+
+    #[test]
+    fn what_may_yet_come_within_the_tolerance_is_asked_on() {
+        let second = |k: i32| 0.3 * 4f64.powi(-k);
+        assert_eq!(climbed(|k| (second(k), seconds(k))), None);
+        // Coarse steps that are unstable, or miss the motion.
+        let unstable = |k: i32| if k < 9 { f64::NAN } else { second(k) };
+        assert_eq!(climbed(|k| (unstable(k), seconds(k))), None);
+        let missed = |k: i32| {
+            if k < 9 {
+                1.5 + 1e-4 * f64::from(k)
+            } else {
+                second(k)
+            }
+        };
+        assert_eq!(climbed(|k| (missed(k), seconds(k))), None);
+        // A pause of the machine; what takes long to start.
+        let pause = |k: i32| seconds(k) + if k == 10 { 3.0 } else { 0.0 };
+        assert_eq!(climbed(|k| (0.3 * 2f64.powi(-k), pause(k))), None);
+        let start = |k: i32| if k == 0 { 3.0 } else { 1e-4 };
+        assert_eq!(climbed(|k| (second(k), start(k))), None);
     }
 }
