@@ -13,22 +13,25 @@ function rateMatrix(L, ratio) {
   return L.map((row, i) => row.map((value, j) => (square * value - L[j][i]) / (square + 1)));
 }
 
-function rate(A, p) {
-  const Ap = A.map((row) => row[0] * p[0] + row[1] * p[1] + row[2] * p[2]);
-  const along = p[0] * Ap[0] + p[1] * Ap[1] + p[2] * Ap[2];
-  return Ap.map((value, i) => value - p[i] * along);
+function rate(A, x, y, z) {
+  const a = A[0][0] * x + A[0][1] * y + A[0][2] * z;
+  const b = A[1][0] * x + A[1][1] * y + A[1][2] * z;
+  const c = A[2][0] * x + A[2][1] * y + A[2][2] * z;
+  const along = x * a + y * b + z * c;
+  return [a - x * along, b - y * along, c - z * along];
 }
 
 function advance(A, start, time, steps) {
   const h = time / steps;
-  let p = start;
+  let [x, y, z] = start;
   for (let k = 0; k < steps; k++) {
-    const half = rate(A, p).map((value, i) => p[i] + 0.5 * h * value);
-    const end = rate(A, half).map((value, i) => p[i] + h * value);
-    const length = Math.hypot(...end);
-    p = end.map((value) => value / length);
+    const [a, b, c] = rate(A, x, y, z);
+    const [d, e, f] = rate(A, x + 0.5 * h * a, y + 0.5 * h * b, z + 0.5 * h * c);
+    [x, y, z] = [x + h * d, y + h * e, z + h * f];
+    const length = Math.sqrt(x * x + y * y + z * z);
+    [x, y, z] = [x / length, y / length, z / length];
   }
-  return p;
+  return [x, y, z];
 }
 
 function answer(request) {
