@@ -3,6 +3,7 @@
 use crate::observable::{Observable, Sum};
 use crate::plan::{Plan, Unit};
 use crate::run::{self, Replica, run_replica};
+use crate::snapshot::Snapshot;
 use crate::work::{Counters, RunError};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -39,6 +40,8 @@ pub struct Results {
     pub unit: Unit,
     /// One per observable, in the order of the plan.
     pub series: Vec<Series>,
+    /// Every rod at each output that the scene asks for them: replica by replica, and in each in the order of time.
+    pub snapshots: Vec<Snapshot>,
     /// Work over all replicas.
     pub counters: Counters,
 }
@@ -93,16 +96,21 @@ pub fn fold<E>(
     let replicas = plan.scene().ensemble.replicas;
     let mut moments = Moments::new(plan.outputs() * width(plan));
     let mut counters = Counters::default();
+    let mut snapshots = Vec::new();
     let mut first = 0;
     while first < replicas {
         let last = replicas.min(first + batch(plan));
         for replica in run(first..last)? {
             counters.add(&replica.counters);
             moments.add(&replica.sums, plan.scene().particles.count);
+            snapshots.extend(replica.snapshots);
         }
         first = last;
     }
-    Ok(collect(plan, &moments, counters))
+    Ok(Results {
+        snapshots,
+        ..collect(plan, &moments, counters)
+    })
 }
 
 /// Sums per output.
@@ -182,6 +190,7 @@ fn collect(plan: &Plan, moments: &Moments, counters: Counters) -> Results {
         times: plan.times(),
         unit: plan.unit(),
         series,
+        snapshots: Vec::new(),
         counters,
     }
 }

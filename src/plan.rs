@@ -192,11 +192,20 @@ impl Plan {
 
     /// The times of the outputs, in periods or units of strain.
     pub fn times(&self) -> Vec<f64> {
-        let per_unit = match self.scene.time.strain {
-            Some(_) => self.scene.outputs_per_strain(),
-            None => self.scene.outputs_per_period(),
-        };
+        let per_unit = self.scene.outputs_per_unit();
         (0..self.outputs()).map(|k| k as f64 / per_unit as f64).collect()
+    }
+
+    /// The outputs at which every rod is wanted, in the order of time.
+    pub fn rods_outputs(&self) -> Vec<usize> {
+        let times = self.scene.output.rods_at.iter();
+        times.filter_map(|time| self.scene.output_at(*time)).collect()
+    }
+
+    /// All rods that are wanted: of each replica at each of these outputs.
+    pub fn rods_out(&self) -> u64 {
+        let of_replica = self.scene.output.rods_at.len() as u64 * self.scene.particles.count as u64;
+        of_replica.saturating_mul(self.scene.ensemble.replicas)
     }
 
     pub(crate) fn clock(&self) -> Clock {

@@ -5,6 +5,7 @@ use crate::chunks::{CHUNK, of_chunks};
 use crate::observable::{BLOCK, Block, Channel, Observable, Sum};
 use crate::plan::{Plan, Stage};
 use crate::rods::Rods;
+use crate::snapshot::Snapshot;
 use crate::suspension::Suspension;
 use crate::work::{Counters, RunError};
 use serde::{Deserialize, Serialize};
@@ -17,6 +18,8 @@ pub struct Replica {
     rods: usize,
     /// Per output, the channels of every observable of the plan, one after the other: sums over rods.
     pub(crate) sums: Vec<Sum>,
+    /// Every rod at each output that the scene asks for them.
+    pub snapshots: Vec<Snapshot>,
     /// What was done.
     pub counters: Counters,
 }
@@ -42,21 +45,28 @@ pub(crate) fn width(observables: &[Observable]) -> usize {
 /// A kick that overflows, or a direction or a sum that is no result.
 pub fn run_replica(plan: &Plan, replica: u64) -> Result<Replica, RunError> {
     let mut recorder = Recorder::new(plan, replica);
+    let mut snapshots = Vec::new();
     let mut counters = match Suspension::new(plan, replica) {
-        Some(suspension) => stepped(plan, suspension, &mut recorder)?,
-        None => straight(plan, replica, &mut recorder)?,
+        Some(suspension) => stepped(plan, suspension, &mut recorder, &mut snapshots)?,
+        None => straight(plan, replica, &mut recorder, &mut snapshots)?,
     };
     counters.directions = (plan.outputs() * plan.scene().particles.count) as u64;
     Ok(Replica {
         observables: plan.observables(),
         rods: plan.scene().particles.count,
         sums: recorder.sums,
+        snapshots,
         counters,
     })
 }
 
 /// Free rods: the exact motion straight to each output. A block of rods is read once for many outputs.
-fn straight(plan: &Plan, replica: u64, recorder: &mut Recorder) -> Result<Counters, RunError> {
+fn straight(
+    plan: &Plan,
+    replica: u64,
+    recorder: &mut Recorder,
+    snapshots: &mut Vec<Snapshot>,
+) -> Result<Counters, RunError> {
     let (rods, aspect_ratios_redrawn) = Rods::draw(plan, replica);
     for first in (0..plan.outputs()).step_by(OUTPUTS) {
         let outputs = first..plan.outputs().min(first + OUTPUTS);
@@ -64,6 +74,8 @@ fn straight(plan: &Plan, replica: u64, recorder: &mut Recorder) -> Result<Counte
             rods.orient(first, output as u64, block)
         })?;
     }
+    let asked = plan.rods_outputs().into_iter();
+    snapshots.extend(asked.map(|output| Snapshot::of_free(&rods, replica, output)));
     Ok(Counters {
         aspect_ratios_redrawn,
         ..Counters::default()
@@ -74,7 +86,13 @@ fn straight(plan: &Plan, replica: u64, recorder: &mut Recorder) -> Result<Counte
 const OUTPUTS: usize = 64;
 
 /// Interacting rods: steps from output to output.
-fn stepped(plan: &Plan, mut suspension: Suspension, recorder: &mut Recorder) -> Result<Counters, RunError> {
+fn stepped(
+    plan: &Plan,
+    mut suspension: Suspension,
+    recorder: &mut Recorder,
+    snapshots: &mut Vec<Snapshot>,
+) -> Result<Counters, RunError> {
+    let asked = plan.rods_outputs();
     for output in 0..plan.outputs() {
         if output > 0 {
             for _ in 0..plan.ticks_per_output() {
@@ -85,6 +103,9 @@ fn stepped(plan: &Plan, mut suspension: Suspension, recorder: &mut Recorder) -> 
         recorder.record(output..output + 1, |first, _, block| {
             rods.orient(first, tick, block)
         })?;
+        if asked.contains(&output) {
+            snapshots.push(Snapshot::of_suspension(&suspension, recorder.replica, output));
+        }
     }
     Ok(suspension.counters)
 }

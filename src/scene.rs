@@ -246,12 +246,16 @@ impl Default for Ensemble {
 pub struct Output {
     /// What is observed.
     pub observables: Vec<Observable>,
+    /// When every rod is written: times of outputs, in the unit of [`crate::Plan::times`].
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rods_at: Vec<f64>,
 }
 
 impl Default for Output {
     fn default() -> Self {
         Self {
             observables: vec![Observable::Projections],
+            rods_at: Vec::new(),
         }
     }
 }

@@ -26,6 +26,8 @@ pub enum Stage {
     Contacts,
     /// Compute an observable.
     Observe(Observable),
+    /// Keep every rod at some outputs.
+    Rods,
     /// Sum squares for standard errors over rods.
     RodErrors,
 }
@@ -41,6 +43,7 @@ impl fmt::Display for Stage {
             Self::CollisionDraws => "collision draws",
             Self::Contacts => "contacts",
             Self::Observe(observable) => return f.pad(&observable.name().replace('_', " ")),
+            Self::Rods => "every rod",
             Self::RodErrors => "errors over rods",
         };
         f.pad(text)
@@ -113,6 +116,9 @@ pub(super) fn entries(scene: &Scene) -> Vec<Entry> {
         if !scene.output.observables.contains(&observable) {
             add(Stage::Observe(observable), false, "not asked for");
         }
+    }
+    if !scene.output.rods_at.is_empty() {
+        add(Stage::Rods, true, "asked for by output.rods_at");
     }
     if scene.ensemble.replicas == 1 {
         add(

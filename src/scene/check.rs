@@ -57,6 +57,7 @@ impl Scene {
             self.check_interaction(interaction, &flow)?;
         }
         self.check_time(&flow)?;
+        self.check_rods_outputs()?;
         let by_closed_form = flow.shear_rate_per_s().is_some() && self.time.strain.is_none();
         let free = (!by_closed_form)
             .then(|| FreeMotion::new(self, &flow))
@@ -66,12 +67,47 @@ impl Scene {
 
     /// The number of outputs, the one at t = 0 included.
     pub(crate) fn outputs(&self) -> usize {
-        let all = match self.time.strain {
-            Some(strain) => strain * self.outputs_per_strain() as f64,
-            None => self.time.periods.unwrap_or(0.0) * self.outputs_per_period() as f64,
-        };
+        let duration = self.time.strain.or(self.time.periods).unwrap_or(0.0);
+        let all = duration * self.outputs_per_unit() as f64;
         // The slack takes in a product that was rounded down.
         1 + (all * (1.0 + 4.0 * f64::EPSILON)).floor() as usize
+    }
+
+    /// Outputs per unit of time.
+    pub(crate) fn outputs_per_unit(&self) -> u64 {
+        match self.time.strain {
+            Some(_) => self.outputs_per_strain(),
+            None => self.outputs_per_period(),
+        }
+    }
+
+    /// The output at this time; `None` where it is farther than a millionth of their distance from all.
+    pub(crate) fn output_at(&self, time: f64) -> Option<usize> {
+        let place = time * self.outputs_per_unit() as f64;
+        let near = (place - place.round()).abs() <= 1e-6 && place.round() < self.outputs() as f64;
+        near.then_some(place.round() as usize)
+    }
+
+    fn check_rods_outputs(&self) -> Result<(), Invalid> {
+        let outputs: Vec<_> = self
+            .output
+            .rods_at
+            .iter()
+            .map(|time| self.output_at(*time))
+            .collect();
+        let wrong =
+            (0..outputs.len()).find(|&k| outputs[k].is_none() || k > 0 && outputs[k] == outputs[k - 1]);
+        let Some(wrong) = wrong else {
+            return Ok(());
+        };
+        let each = self.outputs_per_unit();
+        let allowed = format!(
+            "each the time of another output, k/{each} up to {}, which {} is not",
+            (self.outputs() - 1) as f64 / each as f64,
+            self.output.rods_at[wrong]
+        );
+        let value = format!("{:?}", self.output.rods_at);
+        Err(Invalid::new("output.rods_at", value, allowed))
     }
 
     fn check_flow(&self) -> Result<VelocityGradient, Invalid> {

@@ -67,6 +67,8 @@ pub enum Holds {
     OneOf([&'static str; 2]),
     /// Observables, each once.
     Observables,
+    /// Times of outputs.
+    Times,
 }
 
 impl Holds {
@@ -101,6 +103,7 @@ impl std::fmt::Display for Holds {
                 let names = Observable::ALL.map(|observable| format!("\"{}\"", observable.name()));
                 write!(f, "a list of one or more of {}, each once", names.join(", "))
             }
+            Self::Times => f.write_str("a list of finite numbers ≥ 0 that grow, each the time of an output"),
         }
     }
 }
@@ -152,7 +155,7 @@ pub const TABLES: [Key; 6] = [
 
 /// The keys of a scene, in the order of the tables.
 #[rustfmt::skip]
-pub const KEYS: [Key; 21] = [
+pub const KEYS: [Key; 22] = [
     key("title", "a line that says what the scene is", "", Text, Refused),
     key("flow.shear_rate_per_s", "G of plane Couette flow u_2 = G x_1", "1/s", Positive, Other("gradient_per_s")),
     key("flow.gradient_per_s", "row i and column j hold ∂u_i/∂x_j", "1/s", Holds::Gradient, Other("shear_rate_per_s")),
@@ -174,6 +177,7 @@ pub const KEYS: [Key; 21] = [
     key("ensemble.replicas", "independent runs of the scene", "", whole(1, MAX_REPLICAS), Default("1")),
     key("ensemble.seed", "the seed of all random numbers", "", whole(0, MAX_SEED), Default("1")),
     key("output.observables", "what is observed: each has a file of its own", "", Holds::Observables, Default("[\"projections\"]")),
+    key("output.rods_at", "when rods.csv has every rod: t/T, or strain where the time is one", "T or strain", Holds::Times, Default("[]")),
 ];
 
 /// The table or key with this path.

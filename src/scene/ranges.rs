@@ -39,6 +39,7 @@ impl Scene {
             whole("ensemble.replicas", self.ensemble.replicas),
             whole("ensemble.seed", self.ensemble.seed),
             self.check_observables(),
+            self.check_rods_at(),
         ]
         .into_iter()
         .filter_map(Result::err)
@@ -64,6 +65,16 @@ impl Scene {
             }
             _ => Ok(()),
         }
+    }
+
+    /// That they are outputs depends on other keys.
+    fn check_rods_at(&self) -> Result<(), Invalid> {
+        let times = &self.output.rods_at;
+        let known = times.iter().all(|time| time.is_finite() && *time >= 0.0);
+        if known && times.is_sorted_by(|a, b| a < b) {
+            return Ok(());
+        }
+        Err(refused("output.rods_at", format!("{times:?}")))
     }
 
     fn check_observables(&self) -> Result<(), Invalid> {

@@ -108,6 +108,9 @@ fn holds(holds: &Holds) -> Value {
             let names = Observable::ALL.map(Observable::name);
             json!({ "type": "array", "items": { "enum": names }, "minItems": 1, "uniqueItems": true })
         }
+        Holds::Times => {
+            json!({ "type": "array", "items": { "type": "number", "minimum": 0 }, "uniqueItems": true })
+        }
         _ => json!({ "type": "string" }),
     }
 }

@@ -1,5 +1,6 @@
 //! What follows from a scene before anything runs: its period, its step, its shape factor, and how dilute it is.
 
+use super::rods;
 use serde::Serialize;
 use shearbed::Plan;
 
@@ -16,6 +17,16 @@ pub(super) struct Facts {
     n_a3: Option<f64>,
     /// `dilute`, `semi-dilute` or `concentrated`.
     regime: Option<&'static str>,
+    /// The rows of rods.csv and its most bytes, where there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rods: Option<RodsOut>,
+}
+
+/// What `rods.csv` will be.
+#[derive(Serialize)]
+struct RodsOut {
+    rows: u64,
+    most_bytes: u64,
 }
 
 impl Facts {
@@ -32,6 +43,10 @@ impl Facts {
             shape_factor: (r - 1.0 / r) / (r + 1.0 / r),
             n_a3,
             regime: n_a3.map(|n_a3| regime(n_a3, r)),
+            rods: (plan.rods_out() > 0).then(|| RodsOut {
+                rows: plan.rods_out(),
+                most_bytes: rods::most_bytes(plan, false),
+            }),
         }
     }
 
@@ -43,7 +58,11 @@ impl Facts {
         parts.push(format!("Λ = {:.6}", self.shape_factor));
         let dilute = self.n_a3.zip(self.regime);
         parts.extend(dilute.map(|(n_a3, regime)| format!("n a³ = {n_a3:.3e} ({regime})")));
-        parts.join(", ") + "\n"
+        let rods = self.rods.as_ref().map(|rods| {
+            let megabytes = 1e-6 * rods.most_bytes as f64;
+            format!("\nrods.csv: {} rows, at most {megabytes:.2} MB", rods.rows)
+        });
+        parts.join(", ") + &rods.unwrap_or_default() + "\n"
     }
 }
 

@@ -2,7 +2,7 @@
 
 mod available;
 
-use super::{Failure, tables, threads};
+use super::{Failure, rods, tables, threads};
 use crate::suspensions::job::{Job, Look};
 use available::available;
 use shearbed::{Plan, memory};
@@ -13,13 +13,13 @@ const PROGRAM: u64 = 32 << 20;
 /// What a thread takes beside its replica: its stack.
 const THREAD: u64 = 2 << 20;
 
-/// Refuses a plan that needs more memory than there is, with `threads` replicas at a time. Where the system does not say
-/// what there is, nothing is refused.
-pub(super) fn check(plan: &Plan, threads: Option<u64>, source: &str) -> Result<(), Failure> {
+/// Refuses a plan that needs more memory than there is, with `threads` replicas at a time, and with `vtk` files for
+/// ParaView. Where the system does not say what there is, nothing is refused.
+pub(super) fn check(plan: &Plan, threads: Option<u64>, vtk: bool, source: &str) -> Result<(), Failure> {
     let threads = threads::count(threads)?;
     match available() {
         Some(free) => {
-            fits(plan, threads, free).map_err(|message| Failure::Input(format!("{source}: {message}")))
+            fits(plan, threads, vtk, free).map_err(|message| Failure::Input(format!("{source}: {message}")))
         }
         None => Ok(()),
     }
@@ -59,17 +59,44 @@ fn left_by(job: &Job) -> u64 {
 }
 
 /// What a run of a plan holds, with its results and their tables and pictures at its end.
-fn needed(plan: &Plan, threads: u64) -> u64 {
-    memory::bytes(plan, threads) + threads * THREAD + PROGRAM + tables::most_memory(plan)
+fn needed(plan: &Plan, threads: u64, vtk: bool) -> u64 {
+    // A text that grows has twice its room.
+    let rods = rods::most_bytes(plan, vtk).saturating_mul(2);
+    let rest = threads * THREAD + PROGRAM + tables::most_memory(plan);
+    memory::bytes(plan, threads)
+        .saturating_add(rest)
+        .saturating_add(rods)
 }
 
-fn fits(plan: &Plan, threads: u64, free: u64) -> Result<(), String> {
-    let most = needed(plan, threads);
+/// Refuses every rod at every time that is asked for, where it is they that do not fit.
+fn rods_fit(plan: &Plan, threads: u64, vtk: bool, free: u64) -> Result<(), String> {
+    let mut scene = plan.scene().clone();
+    scene.output.rods_at.clear();
+    let without = Plan::new(&scene).map_err(|error| error.to_string())?;
+    if plan.rods_out() == 0 || needed(&without, threads, false) > free {
+        return Ok(());
+    }
+    Err(format!(
+        "output.rods_at = {:?}: {} times of {} rods in each of {} replicas make files of up to {} and need {} of \
+         memory, and {} are free; allowed: fewer times, rods or replicas",
+        plan.scene().output.rods_at,
+        plan.scene().output.rods_at.len(),
+        plan.scene().particles.count,
+        plan.scene().ensemble.replicas,
+        size(rods::most_bytes(plan, vtk)),
+        size(needed(plan, threads, vtk)),
+        size(free),
+    ))
+}
+
+fn fits(plan: &Plan, threads: u64, vtk: bool, free: u64) -> Result<(), String> {
+    let most = needed(plan, threads, vtk);
     if most <= free {
         return Ok(());
     }
+    rods_fit(plan, threads, vtk, free)?;
     let replicas = threads.min(plan.scene().ensemble.replicas);
-    let least = needed(plan, 1);
+    let least = needed(plan, 1, vtk);
     let allowed = match least <= free {
         true => format!("fewer --threads: {} with one", size(least)),
         false => format!("fewer: one replica needs {}", size(least)),
@@ -100,19 +127,43 @@ mod tests {
         scene.particles.count = 10_000_000;
         scene.ensemble.replicas = 3;
         let plan = lab::plan(&scene);
-        let one = needed(&plan, 1);
+        let one = needed(&plan, 1, false);
         assert!((1.0e9..1.2e9).contains(&(one as f64)), "{one}");
-        assert_eq!(fits(&plan, 1, one), Ok(()));
-        let refused = fits(&plan, 2, one).unwrap_err();
+        assert_eq!(fits(&plan, 1, false, one), Ok(()));
+        let refused = fits(&plan, 2, false, one).unwrap_err();
         assert!(
             refused.starts_with("particles.count = 10000000: 2 at a time of 3 replicas")
                 && refused.contains("fewer --threads"),
             "{refused}"
         );
         assert!(
-            fits(&plan, 1, one - 1)
+            fits(&plan, 1, false, one - 1)
                 .unwrap_err()
                 .contains("fewer: one replica needs 1.")
         );
+    }
+
+    #[test]
+    fn rods_that_do_not_fit_are_refused_by_their_key() {
+        let mut scene = lab::interacting_scene(&crate::case::Effort::gate());
+        let without = needed(&lab::plan(&scene), 1, false);
+        scene.output.rods_at = vec![0.0, 0.5, 1.0];
+        let plan = lab::plan(&scene);
+        let (table, lines) = (needed(&plan, 1, false), needed(&plan, 1, true));
+        // 300 rods: 57 bytes each, and the text of their rows twice.
+        assert_eq!(table - without, 300 * (57 + 2 * 237));
+        assert_eq!(fits(&plan, 1, true, lines), Ok(()));
+        let refused = fits(&plan, 1, true, lines - 1).unwrap_err();
+        let expected =
+            "output.rods_at = [0.0, 0.5, 1.0]: 3 times of 100 rods in each of 1 replicas make files of up to";
+        assert!(refused.starts_with(expected), "{refused}");
+        // Where the run alone does not fit, the rods are not to blame.
+        let refused = fits(&plan, 1, true, without - 1).unwrap_err();
+        assert!(refused.starts_with("particles.count"), "{refused}");
+        scene.ensemble.replicas = 10_000_000;
+        scene.output.rods_at = (0..51).map(|k| f64::from(k) / 50.0).collect();
+        scene.particles.count = 1_000_000;
+        let refused = fits(&lab::plan(&scene), 1, true, 1 << 40).unwrap_err();
+        assert!(refused.starts_with("output.rods_at"), "{refused}");
     }
 }

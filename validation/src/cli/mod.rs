@@ -17,6 +17,7 @@ mod problems;
 mod program;
 mod record;
 mod reference;
+mod rods;
 mod run;
 mod scene;
 mod shape;
@@ -160,7 +161,7 @@ fn with_name(arguments: Vec<OsString>) -> Vec<OsString> {
 
 /// Whether a plan fits into memory, with so many replicas at a time; why not.
 pub fn fits(plan: &shearbed::Plan, threads: Option<u64>, source: &str) -> Result<(), String> {
-    memory::check(plan, threads, source).map_err(|failure| failure.message_and_code().0)
+    memory::check(plan, threads, false, source).map_err(|failure| failure.message_and_code().0)
 }
 
 /// Says what is wrong with the arguments, or how to use them.

@@ -3,7 +3,7 @@
 use super::record::Seconds;
 use super::{
     Failure, MAX_THREADS, agree, facts, kept, memory, on_threads, pictures, print, probe, progress, record,
-    scene, tables, whole,
+    rods, scene, tables, whole,
 };
 use crate::output::{self, Output};
 use crate::sweep::Setting;
@@ -37,6 +37,9 @@ pub(super) struct Args {
     /// A key of the scene and the value to give it, as `sweep --over` takes them; can be given more than once
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Setting::parse)]
     settings: Vec<Setting>,
+    /// Write the rods of output.rods_at for ParaView too: rods.pvd, and a .vtp file for each time
+    #[arg(long)]
+    vtk: bool,
     /// Overwrite a folder that holds another run
     #[arg(long)]
     force: bool,
@@ -63,13 +66,20 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     scene.ensemble.replicas = args.replicas.unwrap_or(scene.ensemble.replicas);
     scene.ensemble.seed = args.seed.unwrap_or(scene.ensemble.seed);
     let plan = Plan::new(&scene).map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
-    memory::check(&plan, args.threads, &named.source)?;
+    if args.vtk && plan.rods_outputs().is_empty() {
+        return Err(Failure::Input(format!(
+            "{}: --vtk: output.rods_at is missing: the times at which rods are to be written",
+            named.source
+        )));
+    }
+    memory::check(&plan, args.threads, args.vtk, &named.source)?;
     let out = args
         .out
         .clone()
         .unwrap_or_else(|| Path::new("out").join(&named.stem));
     agree("run", json!({ "scene": plan.scene().resolved() }))?;
-    probe(&out, tables::most_bytes(&plan))?;
+    let bytes = tables::most_bytes(&plan).saturating_add(rods::most_bytes(&plan, args.vtk));
+    probe(&out, bytes)?;
     if !args.force && cluster::is_root() {
         kept::check(&out, &plan)?;
     }
@@ -95,6 +105,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
     let start = Instant::now();
     let mut files = files(&plan, &results).map_err(Failure::Failed)?;
+    files.extend(rods::files(&plan, &results, args.vtk));
     seconds.tables_and_pictures = start.elapsed().as_secs_f64();
     let names = files.iter().map(|(name, _)| name.as_str()).collect();
     let record = record::json(&plan, &results, threads, seconds, names).map_err(Failure::Failed)?;

@@ -1,7 +1,7 @@
 //! `shearbed plan` and `shearbed scenes`.
 
 use super::facts::{self, Facts};
-use super::{Failure, print, scene};
+use super::{Failure, memory, print, scene};
 use crate::sweep::Setting;
 use crate::{scene_keys, scenes};
 use shearbed::Plan;
@@ -34,6 +34,9 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
     let named = scene::load(&args.scene)?.with(&args.settings)?;
     let plan =
         Plan::new(&named.scene).map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
+    if plan.rods_out() > 0 {
+        memory::check(&plan, None, false, &named.source)?;
+    }
     // The plan ends with its own warnings, and all of them come last.
     let said = |warnings: Vec<String>| -> String {
         let lines = warnings.iter().map(|warning| format!("warning: {warning}\n"));

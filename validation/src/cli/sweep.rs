@@ -70,6 +70,12 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     }
     sweep::one_owner(&owners).map_err(Failure::Input)?;
     check(&args.over)?;
+    if !named.scene.output.rods_at.is_empty() {
+        return Err(Failure::Input(format!(
+            "{}: output.rods_at: a sweep keeps no rods; without the key it is allowed",
+            named.source
+        )));
+    }
     let points = sweep::points(&named.text, &settings, &args.over)
         .map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
     for point in &points {
@@ -78,7 +84,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
             named.source,
             sweep::described(&args.over, &point.values)
         );
-        memory::check(&point.plan, args.threads, &at)?;
+        memory::check(&point.plan, args.threads, false, &at)?;
     }
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("sweep-{}", named.stem)));
     let total = points.len();

@@ -148,6 +148,7 @@ impl Scenes {
             })
         };
         scene.output.observables = Observable::ALL.into_iter().filter(needed).collect();
+        scene.output.rods_at.clear();
         Plan::new(&scene).map_err(|error| refused(error.to_string()))
     }
 

@@ -1,0 +1,61 @@
+//! The rods of one replica as they are at one output, where a scene asks for them.
+
+use crate::observable::{BLOCK, Block};
+use crate::rods::Rods;
+use crate::suspension::Suspension;
+use serde::{Deserialize, Serialize};
+
+/// Every rod of one replica at one output, as structure of arrays.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Snapshot {
+    /// The replica, from 0.
+    pub replica: u64,
+    /// The output, from 0.
+    pub output: usize,
+    /// p₁, p₂ and p₃.
+    pub p: [Vec<f64>; 3],
+    /// r_e.
+    pub aspect_ratio: Vec<f64>,
+    /// Where the rods' centres are in the control volume, in rod lengths; `None` for free rods, which have no place.
+    pub place_in_lengths: Option<[Vec<f64>; 3]>,
+    /// Whether the rod collided in the step that ended at this output; free rods never do.
+    pub collided: Vec<bool>,
+}
+
+impl Snapshot {
+    /// Free rods at an output.
+    pub(crate) fn of_free(rods: &Rods, replica: u64, output: usize) -> Self {
+        Self::of(rods, replica, output, output as u64)
+    }
+
+    /// The rods of a suspension at an output, which is now.
+    pub(crate) fn of_suspension(suspension: &Suspension, replica: u64, output: usize) -> Self {
+        let (rods, tick) = (&suspension.rods, suspension.tick());
+        let collided = |rod| tick > 0 && rods.turned_after(rod, tick - 1);
+        Self {
+            place_in_lengths: Some(suspension.positions_in_lengths().clone()),
+            collided: (0..rods.count()).map(collided).collect(),
+            ..Self::of(rods, replica, output, tick)
+        }
+    }
+
+    fn of(rods: &Rods, replica: u64, output: usize, tick: u64) -> Self {
+        let count = rods.count();
+        let mut p = [(); 3].map(|()| Vec::with_capacity(count));
+        let mut block = Block::default();
+        for first in (0..count).step_by(BLOCK) {
+            rods.orient(first, tick, &mut block);
+            for (axis, from) in p.iter_mut().zip(&block.p) {
+                axis.extend_from_slice(&from[..block.len]);
+            }
+        }
+        Self {
+            replica,
+            output,
+            p,
+            aspect_ratio: (0..count).map(|rod| rods.aspect_ratio(rod)).collect(),
+            place_in_lengths: None,
+            collided: vec![false; count],
+        }
+    }
+}
