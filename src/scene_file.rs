@@ -211,6 +211,10 @@ fn unknown(path: &str) -> String {
 
 /// The key or table that an unknown one may stand for, by its last word.
 fn nearest(path: &str) -> Option<&'static str> {
+    // To compare a line of megabytes takes seconds, and what is ten times as long as any key is like none.
+    if last(path).len() > 200 {
+        return None;
+    }
     let tables = paths(&TABLES).filter(|_| table(path).is_empty());
     let likeness = |key: &&'static str| {
         (

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{command, ended, folder};
+use common::{FREE, command, ended, folder};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -40,6 +40,7 @@ fn every_record_names_the_commit_of_the_build() {
     ] {
         git(dir.path(), arguments);
     }
+    fs::write(dir.path().join("free.toml"), FREE).unwrap();
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let of_project = git(here, &["ls-files", "build.rs"]).is_some_and(|found| !found.is_empty());
     let commit = git(here, &["rev-parse", "--short=12", "HEAD"]).filter(|_| of_project);
@@ -52,7 +53,7 @@ fn every_record_names_the_commit_of_the_build() {
             "",
         ),
         ("converge extension --out c", "c/converge.json", ""),
-        ("converge fig6-uniform --out c", "c/converge.json", ""),
+        ("converge free.toml --out c", "c/converge.json", ""),
         ("converge small.toml --replicas 2 --out d", "d/converge.json", ""),
         (
             "validate --case jeffery-period --out e",

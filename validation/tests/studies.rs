@@ -1,26 +1,15 @@
 //! `bench` and `converge` as a user meets them: exit codes, messages and files.
 
-use std::path::Path;
-use std::process::Command;
+mod common;
 
-/// Runs `shearbed` in `dir`: exit code, standard output and standard error.
-fn shearbed(dir: &Path, arguments: &str) -> (Option<i32>, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_shearbed"))
-        .args(arguments.split_whitespace())
-        .current_dir(dir)
-        .output()
-        .unwrap();
-    (
-        output.status.code(),
-        String::from_utf8(output.stdout).unwrap(),
-        String::from_utf8(output.stderr).unwrap(),
-    )
-}
+use common::{Ended, FREE, ended};
 
 #[test]
 fn an_unknown_bench_is_refused_with_those_there_are() {
     let dir = tempfile::tempdir().unwrap();
-    let (code, _, error) = shearbed(dir.path(), "bench --case re3");
+    let Ended {
+        code, stderr: error, ..
+    } = ended(dir.path(), "bench --case re3");
     assert_eq!(code, Some(2));
     for text in [
         "--case re3",
@@ -34,10 +23,15 @@ fn an_unknown_bench_is_refused_with_those_there_are() {
 #[test]
 fn a_free_scene_shows_every_order_as_theory() {
     let dir = tempfile::tempdir().unwrap();
-    let (code, text, error) = shearbed(dir.path(), "converge fig6-uniform");
+    std::fs::write(dir.path().join("free.toml"), FREE).unwrap();
+    let Ended {
+        code,
+        stdout: text,
+        stderr: error,
+    } = ended(dir.path(), "converge free.toml");
     assert_eq!(code, Some(0), "{error}");
     assert_eq!(text.matches("as theory").count(), 7, "{text}");
-    let out = dir.path().join("out/converge-fig6-uniform");
+    let out = dir.path().join("out/converge-free");
     let csv = std::fs::read_to_string(out.join("converge.csv")).unwrap();
     assert_eq!(csv.lines().count(), 1 + 7 * 13, "{csv}");
     assert!(out.join("converge.json").exists());
@@ -54,7 +48,11 @@ fn a_free_scene_starts_where_it_says() {
         )
     };
     std::fs::write(dir.path().join("one.toml"), scene("periods = 2")).unwrap();
-    let (code, text, error) = shearbed(dir.path(), "converge one.toml");
+    let Ended {
+        code,
+        stdout: text,
+        stderr: error,
+    } = ended(dir.path(), "converge one.toml");
     assert_eq!(code, Some(0), "{error}");
     for words in [
         "r_e = 3 from φ = 0.1745 and θ = 1.0472 rad (the scene's own start) over 2.",
@@ -63,7 +61,9 @@ fn a_free_scene_starts_where_it_says() {
         assert!(text.contains(words), "{text}");
     }
     std::fs::write(dir.path().join("strain.toml"), scene("strain = 2")).unwrap();
-    let (code, _, error) = shearbed(dir.path(), "converge strain.toml");
+    let Ended {
+        code, stderr: error, ..
+    } = ended(dir.path(), "converge strain.toml");
     assert_eq!(code, Some(2));
     assert!(
         error.contains("time: the subjects turn rods through periods; periods is needed"),
@@ -74,7 +74,9 @@ fn a_free_scene_starts_where_it_says() {
 #[test]
 fn a_free_scene_in_another_flow_is_refused() {
     let dir = tempfile::tempdir().unwrap();
-    let (code, _, error) = shearbed(dir.path(), "converge extension");
+    let Ended {
+        code, stderr: error, ..
+    } = ended(dir.path(), "converge extension");
     assert_eq!(code, Some(2));
     assert!(
         error.contains("extension: flow:") && error.contains("shear_rate_per_s"),
@@ -85,7 +87,11 @@ fn a_free_scene_in_another_flow_is_refused() {
 #[test]
 fn an_interacting_scene_shows_steps_rods_and_replicas() {
     let dir = tempfile::tempdir().unwrap();
-    let (code, text, error) = shearbed(dir.path(), "converge fig4-n50 --replicas 4 --out here");
+    let Ended {
+        code,
+        stdout: text,
+        stderr: error,
+    } = ended(dir.path(), "converge fig4-n50 --replicas 4 --out here");
     assert_eq!(code, Some(0), "{error}");
     for head in [
         "steps per period",

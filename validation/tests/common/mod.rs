@@ -30,6 +30,19 @@ replicas = 3
 observables = ["projections", "mean_angle"]
 "#;
 
+/// Free rods in random directions.
+pub const FREE: &str = r#"title = "Free rods"
+[flow]
+shear_rate_per_s = 0.5
+[particles]
+count = 20
+length_mm = 0.72
+aspect_ratio = 3
+orientation = "isotropic"
+[time]
+periods = 1
+"#;
+
 /// A folder with `small.toml` in it.
 pub fn folder() -> TempDir {
     let dir = tempfile::tempdir().unwrap();
