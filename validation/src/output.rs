@@ -74,7 +74,7 @@ pub fn probe(dir: &Path, bytes: u64) -> Result<(), OutputError> {
 /// Writes all files into `dir`, which is made where it does not exist. A new folder appears with all of them; in one
 /// that exists the files of two sets never stand side by side (see [`Claim::write_all`]). On any error before the last
 /// moment nothing that was there has changed.
-pub fn write_all(dir: &Path, files: &[Output]) -> Result<(), OutputError> {
+pub fn write_all<C: AsRef<[u8]>>(dir: &Path, files: &[(String, C)]) -> Result<(), OutputError> {
     if !dir.exists() && appear(dir, files)? {
         return Ok(());
     }
@@ -83,7 +83,7 @@ pub fn write_all(dir: &Path, files: &[Output]) -> Result<(), OutputError> {
 
 /// Writes a new folder beside its place, under a hidden name, and moves it there; false where somebody else made one in
 /// between. What a killed process left under the hidden name is replaced.
-fn appear(dir: &Path, files: &[Output]) -> Result<bool, OutputError> {
+fn appear<C: AsRef<[u8]>>(dir: &Path, files: &[(String, C)]) -> Result<bool, OutputError> {
     let Some(name) = dir.file_name() else {
         return Ok(false);
     };
@@ -119,7 +119,7 @@ pub fn write_folder(dir: &Path, files: &[Output]) -> Result<(), OutputError> {
 
 /// Empties the folder `part` but for a lock and writes files there, to the disk. Errors name the folder `dir`, to which
 /// they belong.
-fn refill(part: &Path, dir: &Path, files: &[Output]) -> Result<(), OutputError> {
+fn refill<C: AsRef<[u8]>>(part: &Path, dir: &Path, files: &[(String, C)]) -> Result<(), OutputError> {
     let empty = || {
         for entry in fs::read_dir(part)? {
             let path = entry?.path();
@@ -138,7 +138,7 @@ fn refill(part: &Path, dir: &Path, files: &[Output]) -> Result<(), OutputError> 
                 fs::create_dir_all(part.join(folder))?;
             }
             let mut file = File::create_new(part.join(name))?;
-            file.write_all(contents.as_bytes())?;
+            file.write_all(contents.as_ref())?;
             file.sync_all()
         };
         write().map_err(at(&dir.join(name)))?;

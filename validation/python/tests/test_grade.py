@@ -73,14 +73,49 @@ def test_a_function_that_fails_has_no_answer_and_a_wrong_shape_is_said() -> None
     def fails(*_: object) -> Array:
         raise ZeroDivisionError
 
-    report = shearbed.grade(fails, names=["mid-flip-2"])
-    assert not report and report["mid-flip-2"]["verdict"] == "MISSING"
-    with pytest.raises(ValueError, match="times, rods, 3"):
-        shearbed.grade(lambda *_: np.zeros(3), names=["mid-flip-2"])
+    for kind in ("rhs", "step", "solver"):
+        report = shearbed.grade(fails, kind=kind, names=["mid-flip-2"])
+        assert not report and report["mid-flip-2"]["verdict"] == "MISSING"
+        assert "ZeroDivisionError" in report["mid-flip-2"]["raised"] and "ZeroDivisionError" in str(report)
+    with pytest.raises(TypeError, match="times, rods, 3"):
+        shearbed.grade(lambda *_: np.zeros(3), kind="solver", names=["mid-flip-2"])
+    for kind in ("rhs", "step"):
+        with pytest.raises(TypeError, match="rods, 3"):
+            shearbed.grade(lambda *_: np.zeros(3), kind=kind, names=["mid-flip-2"])
     with pytest.raises(ValueError, match="mid-flip-2"):
-        shearbed.grade(fails, names=["mid-flop"])
-    with pytest.raises(ValueError, match="solver"):
-        shearbed.grade(fails, kind="rhs")
+        shearbed.grade(rk4, names=["mid-flop"])
+    with pytest.raises(ValueError, match="'rhs', 'step' and 'solver'"):
+        shearbed.grade(fails, kind="flow")
+    with pytest.raises(ValueError, match="kind='rhs'"):
+        shearbed.grade(fails, names=["mid-flip-2"])
+    with pytest.raises(ValueError, match="order = 4"):
+        shearbed.grade(rate, order=4)
+
+
+def test_a_right_hand_side_is_judged_as_it_is() -> None:
+    report = shearbed.grade(rate)
+    assert report and all(problem["verdict"] == "PASS" for problem in report.problems), str(report)
+    # Controls: the mistakes that are made, one of a hundredth of a percent, and no motion at all.
+    wrong = {
+        "transposed": lambda gradient, r, p: rate(gradient.T, r, p),
+        "shape": lambda gradient, r, p: rate(gradient, 1.0001 * r, p),
+        "no motion": lambda gradient, r, p: 0 * p,
+    }
+    for name, mistaken in wrong.items():
+        report = shearbed.grade(mistaken, names=["mid-flip-11.6"])
+        assert not report and report["mid-flip-11.6"]["verdict"] == "FAIL", name
+    runaway = shearbed.grade(lambda gradient, r, p: 1e3 * p, names=["mid-flip-2"])
+    assert not runaway
+
+
+def test_a_kind_is_seen_from_the_parameters() -> None:
+    assert shearbed.grade(rk4, order=4, names=NAMES)
+    assert not shearbed.grade(euler, names=["mid-flip-2"])
+
+    def solver(gradient: Array, r: float, start: Array, times: Array, steps: int, *, theta: float = 1.0) -> Array:
+        return np.broadcast_to(start, (len(times), len(start), 3))
+
+    assert not shearbed.grade(solver, names=["mid-flip-2"])
 
 
 def test_an_answer_that_is_no_number_does_not_pass() -> None:

@@ -1,26 +1,35 @@
-"""The README's code runs, and the stubs are what the binding has."""
+"""The README's code and the example run, and the stubs are what the binding has."""
 
 from __future__ import annotations
 
 import inspect
 import re
+import runpy
 from pathlib import Path
 
 import pytest
+from blocks import run_all
 
 import shearbed
 from shearbed import _core
 
 HERE = Path(__file__).parent.parent
-BLOCKS = re.findall(r"```python\n(.*?)```", (HERE / "README.md").read_text(encoding="utf-8"), re.DOTALL)
 
 
 def test_every_block_of_the_readme_runs(capsys: pytest.CaptureFixture[str]) -> None:
-    assert len(BLOCKS) >= 3
-    names: dict[str, object] = {}
-    for block in BLOCKS:
-        exec(compile(block, "README.md", "exec"), names)
+    assert run_all() >= 4
     assert "mid-flip-11.6" in capsys.readouterr().out
+
+
+def test_the_example_grades_fiberoripy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("fiberoripy", reason="fiberoripy, scipy and matplotlib are not here")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "Agg")
+    told = runpy.run_path(str(HERE / "examples" / "verify_my_code.py"))
+    assert told["report"], str(told["report"])
+    assert (tmp_path / "verify_my_code.png").stat().st_size > 10_000
+    lines = (HERE / "examples" / "verify_my_code.py").read_text(encoding="utf-8").splitlines()
+    assert len(lines) < 40, "an example is short"
 
 
 def test_the_stub_has_what_the_binding_has() -> None:

@@ -1,6 +1,6 @@
 //! `shearbed plot`: one picture of a channel from several runs, or from the points of a sweep.
 
-use super::{Failure, pictures, print};
+use super::{Failure, pictures, print, scene};
 use crate::output;
 use crate::plot::{self, Curve, Figure};
 use serde_json::Value;
@@ -17,7 +17,7 @@ pub(super) struct Args {
     /// The column to draw, as x1, phi or a12 [default: the first of the first table]
     #[arg(long = "y", value_name = "CHANNEL")]
     channel: Option<String>,
-    /// The picture, whose name ends in .svg
+    /// The picture, whose name ends in .svg or .png
     #[arg(long, value_name = "FILE", default_value = "out/plot.svg", value_parser = picture)]
     out: PathBuf,
 }
@@ -25,8 +25,8 @@ pub(super) struct Args {
 fn picture(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match path.extension().and_then(|extension| extension.to_str()) {
-        Some("svg") => Ok(path),
-        _ => Err("a name that ends in .svg is allowed; no other format is written".to_owned()),
+        Some("svg" | "png") => Ok(path),
+        _ => Err("a name that ends in .svg or .png is allowed; no other format is written".to_owned()),
     }
 }
 
@@ -93,8 +93,21 @@ fn write(out: &Path, figure: &Figure) -> Result<(), Failure> {
     let dir = out.parent().filter(|dir| !dir.as_os_str().is_empty());
     let dir = dir.unwrap_or(Path::new("."));
     let name = out.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let svg = plot::svg(figure).map_err(Failure::Failed)?;
-    Ok(output::write_all(dir, &[(name, svg)])?)
+    let contents = match name.ends_with(".png") {
+        false => plot::svg(figure).map_err(Failure::Failed)?.into_bytes(),
+        true => {
+            let plot::Png { bytes, missing } = plot::png(figure).map_err(Failure::Failed)?;
+            if !missing.is_empty() {
+                let missing = String::from_iter(missing);
+                let lacking = format!(
+                    "PNG pictures have no letters for {missing:?}; boxes stand for them, SVG has them"
+                );
+                scene::warn(&out.display().to_string(), &[lacking]);
+            }
+            bytes
+        }
+    };
+    Ok(output::write_all(dir, &[(name, contents)])?)
 }
 
 /// The runs that a folder holds: itself, or the points of a sweep.

@@ -1,6 +1,6 @@
 //! The right to write in a folder, held by one process at a time.
 
-use super::{Output, OutputError, at, refill};
+use super::{OutputError, at, refill};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -98,7 +98,7 @@ impl Claim {
     /// Writes all files. They are written to the disk under a hidden name; then the old files of these names are removed,
     /// and the new ones moved into place, JSON last. So files of two sets never stand side by side, and a process
     /// that is killed in between leaves a set without its JSON, which the next claim makes whole.
-    pub fn write_all(&self, files: &[Output]) -> Result<(), OutputError> {
+    pub fn write_all<C: AsRef<[u8]>>(&self, files: &[(String, C)]) -> Result<(), OutputError> {
         let _writing = writing();
         let part = self.dir.join(PART);
         fs::create_dir_all(&part).map_err(at(&self.dir))?;
@@ -113,7 +113,7 @@ impl Claim {
         self.move_into_place()
     }
 
-    fn no_folder_in_the_way(&self, files: &[Output]) -> Result<(), OutputError> {
+    fn no_folder_in_the_way<C>(&self, files: &[(String, C)]) -> Result<(), OutputError> {
         let mut targets = files.iter().map(|(name, _)| self.dir.join(name));
         match targets.find(|target| target.is_dir()) {
             Some(target) => Err(at(&target)(io::ErrorKind::IsADirectory.into())),

@@ -3,7 +3,8 @@
 use super::axis::{Axis, place};
 use super::legend::Legend;
 use super::style::{
-    AXES_HEIGHT, BAR_WIDTH, FINE, MARKER, TEXT, WIDTH, colour, curve, looks, marker, text, text_width,
+    AXES_HEIGHT, BAR_WIDTH, FINE, MARKER, SMALL_MARKER, TEXT, WIDTH, colour, curve, cut, looks, marker, text,
+    text_width,
 };
 use super::{Drawn, Figure};
 use plotters::coord::Shift;
@@ -70,7 +71,8 @@ where
     let x = shown().flat_map(|p| [p.x, p.left, p.right]);
     let x = x.chain(span(figure.x_span, figure.x_log));
     // A curve may end at the frame, half a marker may not.
-    let margin = if points.is_empty() { 0.0 } else { 0.04 };
+    let marked = figure.curves.iter().any(super::Curve::is_marked);
+    let margin = if points.is_empty() && !marked { 0.0 } else { 0.04 };
     let x = Axis::over(x, figure.x_log, margin);
     let y = shown().flat_map(|p| [p.y, p.low, p.high]);
     let y = y.chain(span(figure.y_span, figure.y_log));
@@ -78,7 +80,14 @@ where
 
     let foot = (x.low, y.low);
     let centre = (0.5 * (x.low + x.high), 0.5 * (y.low + y.high));
+    let (along, up) = (x.between.clone(), y.between.clone());
     let mut chart = mesh(figure, legend, area, x, y)?;
+    let along = along.iter().map(|x| ((*x, foot.1), (0, 2 * FINE)));
+    let up = up.iter().map(|y| ((foot.0, *y), (-2 * FINE, 0)));
+    for (place, end) in along.chain(up) {
+        let tick = PathElement::new(vec![(0, 0), end], axis_ink());
+        chart.draw_series([EmptyElement::at(place) + tick])?;
+    }
     if shown().next().is_none() {
         chart.draw_series([Text::new("no data", centre, text(TEXT))])?;
     }
@@ -87,6 +96,12 @@ where
     }
     for (curve, look) in curves.iter().zip(&looks) {
         line(&mut chart, curve, *look)?;
+    }
+    let marked = (figure.curves.iter().zip(&curves).zip(&looks)).filter(|((curve, _), _)| curve.is_marked());
+    for ((_, placed), look) in marked {
+        for p in placed.iter().filter(|p| p.is_finite()) {
+            chart.draw_series([EmptyElement::at((p.x, p.y)) + marker(*look, SMALL_MARKER)])?;
+        }
     }
     for (points, look) in points.iter().zip(&looks[curves.len()..]) {
         scatter(&mut chart, points, *look, foot)?;
@@ -100,6 +115,10 @@ where
     };
     let inside = (height.start - origin.1, height.end - origin.1);
     legend.draw_beside(area, right.end - origin.0, inside, end)
+}
+
+fn axis_ink() -> ShapeStyle {
+    RGBColor(85, 85, 85).stroke_width(FINE as u32)
 }
 
 fn mesh<'a, DB: DrawingBackend + 'a>(
@@ -119,10 +138,16 @@ where
         let size = TEXT * f64::from(room) / f64::from(text_width(name, TEXT));
         size.clamp(0.7 * TEXT, TEXT)
     };
-    let name_size = fit(&figure.x_name, WIDTH - left).min(fit(&figure.y_name, AXES_HEIGHT - bottom));
+    let right = (24 * FINE).max(legend.width());
+    let (across, up) = (WIDTH - left - right - 16 * FINE, AXES_HEIGHT - bottom);
+    let name_size = fit(&figure.x_name, across).min(fit(&figure.y_name, up));
+    let (x_name, y_name) = (
+        cut(&figure.x_name, across, name_size),
+        cut(&figure.y_name, up, name_size),
+    );
     let mut chart = ChartBuilder::on(area)
         .margin_top(10 * FINE)
-        .margin_right((24 * FINE).max(legend.width()))
+        .margin_right(right)
         .margin_bottom(8 * FINE)
         .margin_left(8 * FINE)
         .x_label_area_size(bottom)
@@ -131,12 +156,12 @@ where
     (chart.configure_mesh())
         .bold_line_style(RGBColor(224, 224, 224).stroke_width(FINE as u32))
         .light_line_style(TRANSPARENT)
-        .axis_style(RGBColor(85, 85, 85).stroke_width(FINE as u32))
+        .axis_style(axis_ink())
         .label_style(text(TEXT))
         .axis_desc_style(text(name_size))
         .set_all_tick_mark_size(4 * FINE)
-        .x_desc(figure.x_name.as_str())
-        .y_desc(figure.y_name.as_str())
+        .x_desc(x_name)
+        .y_desc(y_name)
         .draw()?;
     Ok(chart)
 }
@@ -194,7 +219,7 @@ where
         if p.high.is_finite() {
             chart.draw_series([bar((p.x, p.low.max(foot.1)), (p.x, p.high))])?;
         }
-        chart.draw_series([EmptyElement::at((p.x, p.y)) + marker(index)])?;
+        chart.draw_series([EmptyElement::at((p.x, p.y)) + marker(index, MARKER)])?;
     }
     Ok(())
 }

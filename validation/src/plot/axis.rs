@@ -18,6 +18,8 @@ pub(super) struct Axis {
     pub(super) high: f64,
     /// Where the ticks are, and what they say.
     pub(super) ticks: Vec<(f64, String)>,
+    /// Between the powers of a logarithmic axis, from 2 to 9 of each: without them it looks like a linear one.
+    pub(super) between: Vec<f64>,
 }
 
 impl Axis {
@@ -85,7 +87,12 @@ fn linear(low: f64, high: f64, margin: f64) -> Axis {
         .into_iter()
         .map(|tick| (tick, linear_label(tick, step, largest)))
         .collect();
-    Axis { low, high, ticks }
+    Axis {
+        low,
+        high,
+        ticks,
+        between: Vec::new(),
+    }
 }
 
 /// The least 1, 2 or 5 times a power of ten that is not below `least`.
@@ -123,18 +130,32 @@ fn logarithmic(low: f64, high: f64) -> Axis {
     } else {
         &[1.0, 2.0, 5.0]
     };
-    let ticks = (low.floor() as i32..=high.ceil() as i32)
+    let exponents = || low.floor() as i32..=high.ceil() as i32;
+    let inside = |tick: &f64| (low - 1e-9..=high + 1e-9).contains(tick);
+    let between = exponents()
+        .filter(|_| stride == 1)
+        .flat_map(|exponent| (2..10).map(move |factor| f64::from(exponent) + f64::from(factor).log10()))
+        .filter(inside)
+        .collect();
+    // One way of writing them along an axis.
+    let plain = low >= -2.0 - 1e-9 && high <= 4.0 + 1e-9;
+    let ticks = exponents()
         .filter(|exponent| exponent % stride == 0)
         .flat_map(|exponent| factors.iter().map(move |f| (*f, exponent)))
         .map(|(factor, exponent)| {
             (
                 f64::from(exponent) + factor.log10(),
-                logarithmic_label(factor, exponent),
+                logarithmic_label(factor, exponent, plain),
             )
         })
-        .filter(|(tick, _)| (low - 1e-9..=high + 1e-9).contains(tick))
+        .filter(|(tick, _)| inside(tick))
         .collect();
-    Axis { low, high, ticks }
+    Axis {
+        low,
+        high,
+        ticks,
+        between,
+    }
 }
 
 /// The largest logarithm of 1, 2 or 5 times a power of ten that is not above `logarithm`.
@@ -145,12 +166,15 @@ fn one_two_five_below(logarithm: f64) -> f64 {
     power + factors.into_iter().find(|f| *f <= rest).unwrap_or(0.0)
 }
 
-fn logarithmic_label(factor: f64, exponent: i32) -> String {
-    if (-2..=3).contains(&exponent) {
+fn logarithmic_label(factor: f64, exponent: i32, plain: bool) -> String {
+    if plain {
         let decimals = (-exponent).max(0) as usize;
         format!("{:.decimals$}", factor * 10f64.powi(exponent))
     } else if factor == 1.0 {
-        power_of_ten(exponent)
+        match exponent {
+            0 => "1".into(),
+            exponent => power_of_ten(exponent),
+        }
     } else {
         format!("{factor}·{}", power_of_ten(exponent))
     }
@@ -193,9 +217,13 @@ mod tests {
 
     #[test]
     fn logarithmic_ticks_are_powers() {
-        assert_eq!(labels(&[1e-4, 1e-1], true), ["10⁻⁴", "10⁻³", "0.01", "0.1"]);
+        assert_eq!(labels(&[1e-4, 1.0], true), ["10⁻⁴", "10⁻³", "10⁻²", "10⁻¹", "1"]);
+        assert_eq!(labels(&[0.02, 1e3], true), ["0.1", "1", "10", "100", "1000"]);
         assert_eq!(labels(&[6.0, 40.0], true), ["5", "10", "20", "50"]);
         assert_eq!(labels(&[1e-30, 1e30], true).len(), 7);
+        let axis = Axis::over([1e-4, 1.0].into_iter().map(|v| place(v, true)), true, 0.0);
+        assert_eq!(axis.between.len(), 4 * 8);
+        assert!((axis.between[0] - 2e-4_f64.log10()).abs() < 1e-12);
     }
 
     #[test]

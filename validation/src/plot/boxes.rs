@@ -5,11 +5,11 @@ use super::style::{FINE, text_width};
 /// A text and the room that it takes.
 #[derive(Clone, Debug)]
 pub(crate) struct Box {
-    text: String,
-    left: f64,
-    right: f64,
-    top: f64,
-    bottom: f64,
+    pub(super) text: String,
+    pub(super) left: f64,
+    pub(super) right: f64,
+    pub(super) top: f64,
+    pub(super) bottom: f64,
 }
 
 fn attribute<'a>(tag: &'a str, name: &str) -> Option<&'a str> {
@@ -24,7 +24,7 @@ fn number(tag: &str, name: &str) -> f64 {
 }
 
 /// Every text of a picture.
-fn boxes(svg: &str) -> Vec<Box> {
+pub(super) fn boxes(svg: &str) -> Vec<Box> {
     let of = |part: &str| {
         let (tag, rest) = part.split_once('>')?;
         let text = rest.split("</text>").next()?.trim();

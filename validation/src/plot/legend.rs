@@ -1,7 +1,9 @@
 //! The legend: rows above the axes, where it covers no data; where that were more than five entries, labels beside the
 //! axes, each as near to the end of its curve as the others let it.
 
-use super::style::{FINE, MARGIN, ROW, TEXT, WIDTH, curve, looks, marker, text, text_width};
+use super::style::{
+    FINE, MARGIN, MARKER, ROW, SMALL_MARKER, TEXT, WIDTH, curve, cut, looks, marker, text, text_width,
+};
 use super::{Drawn, Figure};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -12,13 +14,16 @@ const GAP: i32 = 6 * FINE;
 const SMALL: f64 = 12.0;
 const LINE: i32 = 16 * FINE;
 const SHORT: i32 = 18 * FINE;
+/// The room for a label beside the axes.
+const WIDEST: i32 = 2 * WIDTH / 5;
 /// Above the axes there are no more entries than these.
 const MOST: usize = 5;
 
 /// What an entry shows beside its label.
 #[derive(Clone, Copy)]
 enum Mark {
-    Curve(usize),
+    /// With a marker where the curve has them.
+    Curve(usize, bool),
     Points(usize),
     Band,
 }
@@ -43,7 +48,7 @@ impl Legend {
         let curves = figure.curves.iter().map(|curve| &curve.label);
         let labels = curves.chain(figure.points.iter().map(|points| &points.label));
         let mark = |series: usize| match series < figure.curves.len() {
-            true => Mark::Curve(looks[series]),
+            true => Mark::Curve(looks[series], figure.curves[series].is_marked()),
             false => Mark::Points(looks[series]),
         };
         let mut series: Vec<_> = (labels.enumerate())
@@ -54,6 +59,9 @@ impl Legend {
             true => std::mem::take(&mut series),
             false => Vec::new(),
         };
+        let beside = (beside.into_iter())
+            .map(|(series, mark, label)| (series, mark, cut(&label, WIDEST, SMALL)))
+            .collect();
         let band = figure.curves.iter().any(|curve| curve.half_band.is_some());
         let above = series.into_iter().map(|(_, mark, label)| (mark, label));
         let above = above.chain(band.then(|| (Mark::Band, "95 % band".to_string())));
@@ -66,6 +74,11 @@ impl Legend {
     /// The rows above the axes.
     pub(super) fn height(&self) -> i32 {
         self.rows.len() as i32 * ROW
+    }
+
+    /// The height that the labels beside the axes need.
+    pub(super) fn height_beside(&self) -> i32 {
+        self.beside.len() as i32 * LINE
     }
 
     /// The room right of the axes.
@@ -119,6 +132,7 @@ fn rows(entries: impl Iterator<Item = (Mark, String)>) -> Vec<Vec<Entry>> {
     let mut rows: Vec<Vec<Entry>> = Vec::new();
     let mut x = MARGIN;
     for (mark, label) in entries {
+        let label = cut(&label, WIDTH - 2 * MARGIN - SAMPLE - GAP, TEXT);
         let width = SAMPLE + GAP + text_width(&label, TEXT) + 2 * GAP;
         if rows.is_empty() || (x + width > WIDTH - MARGIN && x > MARGIN) {
             rows.push(Vec::new());
@@ -157,10 +171,14 @@ where
     DB::ErrorType: 'static,
 {
     match mark {
-        Mark::Curve(look) => {
+        Mark::Curve(look, marked) => {
             canvas.draw(&PathElement::new(vec![(x, y), (x + width, y)], curve(look)))?;
+            if marked {
+                let middle = EmptyElement::at((x + width / 2, y));
+                canvas.draw(&(middle + marker(look, SMALL_MARKER)))?;
+            }
         }
-        Mark::Points(look) => canvas.draw(&(EmptyElement::at((x + width / 2, y)) + marker(look)))?,
+        Mark::Points(look) => canvas.draw(&(EmptyElement::at((x + width / 2, y)) + marker(look, MARKER)))?,
         Mark::Band => {
             let corners = [(x, y - 6 * FINE), (x + width, y + 6 * FINE)];
             canvas.draw(&Rectangle::new(corners, BLACK.mix(0.2).filled()))?;

@@ -1,7 +1,7 @@
-//! Pictures of curves and points as SVG: plain data in, a string out.
+//! Pictures of curves, points and maps as SVG or PNG: plain data in, a file's contents out.
 //!
-//! Curves differ by colour (Okabe & Ito's palette, safe for the colour-blind) and by dashes, points by colour
-//! and marker; the legend stands above the axes, where it covers no data.
+//! Curves differ by colour (Okabe & Ito's palette, safe for the colour-blind), by dashes and, where their points are
+//! few, by markers, points by colour and marker; the legend stands above the axes, where it covers no data.
 
 mod axes;
 mod axis;
@@ -9,6 +9,8 @@ mod axis;
 mod boxes;
 mod grid;
 mod legend;
+mod letters;
+mod png;
 mod style;
 #[cfg(test)]
 mod tests;
@@ -19,6 +21,7 @@ pub(crate) use axis::power_of_ten;
 pub(crate) use grid::decade;
 use legend::Legend;
 use plotters::prelude::*;
+pub use png::{Png, png};
 use serde::Serialize;
 use std::error::Error;
 use style::{AXES_HEIGHT, FINE, MARGIN, ROW, TITLE, WIDTH};
@@ -34,6 +37,14 @@ pub struct Curve {
     pub y: Vec<f64>,
     /// Half the width of the 95 % band about it, drawn as a translucent area.
     pub half_band: Option<Vec<f64>>,
+}
+
+impl Curve {
+    /// Whether each of its points is shown: there are few, and so each is a result of its own. A line through two is a
+    /// guide for the eye, and theory has no points.
+    fn is_marked(&self) -> bool {
+        (3..=40).contains(&self.x.len()) && !self.label.ends_with(", theory")
+    }
 }
 
 /// Single points with, perhaps, error bars.
@@ -132,7 +143,8 @@ impl Parts {
         let legend = Legend::of(figure);
         let grid = figure.grid.as_ref().map(grid::Layout::of);
         let head = MARGIN + title.len() as i32 * ROW + if grid.is_some() { 0 } else { legend.height() };
-        let body = grid.as_ref().map_or(AXES_HEIGHT, |layout| layout.height);
+        let axes = AXES_HEIGHT.max(legend.height_beside() + style::AXES_FRAME);
+        let body = grid.as_ref().map_or(axes, |layout| layout.height);
         Self {
             title,
             legend,

@@ -7,12 +7,16 @@ use plotters::prelude::*;
 pub(super) const FINE: i32 = 4;
 pub(super) const WIDTH: i32 = 560 * FINE;
 pub(super) const AXES_HEIGHT: i32 = 340 * FINE;
+/// What is above and below the axes in that height.
+pub(super) const AXES_FRAME: i32 = 76 * FINE;
 pub(super) const ROW: i32 = 23 * FINE;
 pub(super) const MARGIN: i32 = 12 * FINE;
 /// Sizes of letters.
 pub(super) const TEXT: f64 = 16.0;
 pub(super) const TITLE: f64 = 17.0;
 pub(super) const MARKER: i32 = 5 * FINE;
+/// Of the computed points of a curve.
+pub(super) const SMALL_MARKER: i32 = 4 * FINE;
 /// Not a curve's width, so that error bars are not dashed.
 pub(super) const BAR_WIDTH: u32 = 6;
 pub(super) const CURVE_WIDTH: u32 = 8;
@@ -28,26 +32,30 @@ const PALETTE: [RGBColor; 7] = [
     RGBColor(86, 180, 233),
 ];
 
-/// Dashes and gaps. Seven colours and six of these: 42 curves before a pair is used again.
+/// Dashes and gaps.
 const DASHES: [&str; 6] = ["", "32 14", "8 12", "44 12 8 12", "18 10", "60 16"];
 
-/// The integrators that are drawn in many pictures, each with the same colour, dashes and marker in all of them.
+/// What has none of the palette's colours is grey, and told apart by its dashes, its marker and the label at its end.
+const GREY: u8 = 140;
+
+/// The integrators that are drawn in many pictures, each with the same colour, dashes and marker in all of them: seven in
+/// colours, the others grey.
 const NAMED: [&str; 11] = [
     "exact propagator",
     "explicit Euler in angles",
     "RK4 in angles",
     "implicit midpoint in p",
     "A.4 and A.5 in angles",
+    "Radau IIA 5",
+    "Dormand–Prince 8(5,3)",
     "RK4 in p",
     "Lie-group midpoint",
-    "Dormand–Prince 8(5,3)",
     "Lie-group RKMK4",
     "projected RK4 in p",
-    "Radau IIA 5",
 ];
 
 /// A theory's line has its method's colour, and a number beyond all others.
-const THEORY: usize = 7 * 6;
+const THEORY: usize = 42;
 
 /// The look of every curve and then of all points: that of the integrator that the label names, or the first that nobody
 /// in the figure has.
@@ -76,8 +84,14 @@ pub(super) fn looks(figure: &Figure) -> Vec<usize> {
 
 /// The colour of a look. Each has a colour of its own, if only by its last bits, so that `curve_stroke` names one curve.
 pub(super) fn colour(index: usize) -> RGBColor {
-    let RGBColor(red, green, blue) = PALETTE[index % PALETTE.len()];
-    RGBColor(red, green, blue ^ (index / PALETTE.len()) as u8)
+    let (method, theory) = (index % THEORY, (index / THEORY) as u8);
+    match PALETTE.get(method) {
+        Some(RGBColor(red, green, blue)) => RGBColor(*red, *green, blue ^ theory),
+        None => {
+            let number = (method - PALETTE.len()) as u8;
+            RGBColor(GREY ^ (number & 7), GREY ^ (number >> 3), GREY ^ theory)
+        }
+    }
 }
 
 /// The colours of a map's classes, from right to not run: told apart also in grey, and by their glyphs.
@@ -122,9 +136,14 @@ pub(super) fn curve_stroke(index: usize) -> String {
     format!("stroke=\"#{red:02X}{green:02X}{blue:02X}\" stroke-width=\"{CURVE_WIDTH}\"")
 }
 
+/// The lengths of a curve's dashes and gaps; empty where it has none.
+pub(super) fn dash_lengths(index: usize) -> &'static str {
+    DASHES[index % DASHES.len()]
+}
+
 /// The attribute that makes the dashes of a curve.
 pub(super) fn dashes(index: usize) -> String {
-    match DASHES[index % DASHES.len()] {
+    match dash_lengths(index) {
         "" => String::new(),
         lengths => format!(" stroke-dasharray=\"{lengths}\""),
     }
@@ -132,9 +151,9 @@ pub(super) fn dashes(index: usize) -> String {
 
 /// The mark of a point about the origin: a disc, a diamond, a triangle, a square, a triangle on its tip, as a polygon
 /// with so many corners and the first of them at an angle.
-pub(super) fn marker(index: usize) -> Polygon<(i32, i32)> {
+pub(super) fn marker(index: usize, size: i32) -> Polygon<(i32, i32)> {
     let (corners, first) = [(16, 0.0), (4, 0.0), (3, 0.75), (4, 0.125), (3, 0.25)][index % 5];
-    let radius = f64::from(MARKER) * if corners == 16 { 0.85 } else { 1.1 };
+    let radius = f64::from(size) * if corners == 16 { 0.85 } else { 1.1 };
     let outline: Vec<(i32, i32)> = (0..corners)
         .map(|corner| {
             let angle = std::f64::consts::TAU * (first + f64::from(corner) / f64::from(corners));
@@ -161,47 +180,50 @@ fn styled(size: f64, style: FontStyle) -> TextStyle<'static> {
     font.style(style).color(&RGBColor(34, 34, 34))
 }
 
+/// Lines of a title.
+const MOST_LINES: usize = 4;
+
 /// The room a text needs in the widest font that a browser or a printer falls back to: DejaVu Sans, bold for what may be
-/// bold. No font is at hand to measure it.
+/// bold.
 pub(super) fn text_width(text: &str, size: f64) -> i32 {
-    const BOLD: f64 = 1.1;
-    let bold = if size >= TITLE || size == SMALL_BOLD {
-        BOLD
-    } else {
-        1.0
-    };
-    let ems: f64 = text.chars().map(ems).sum();
-    (bold * ems * size * f64::from(FINE)).ceil() as i32
+    let bold = size >= TITLE || size == SMALL_BOLD;
+    (super::letters::ems(text, bold) * size * f64::from(FINE)).ceil() as i32
 }
 
 /// The letters of a map's title.
 pub(super) const SMALL_BOLD: f64 = 12.0;
 
-/// The advance of a letter of DejaVu Sans, rounded up, in its size.
-fn ems(letter: char) -> f64 {
-    match letter {
-        // Combining marks stand on the letter before.
-        '\u{300}'..'\u{370}' => 0.0,
-        'i' | 'j' | 'l' | '\'' | 'ᵢ' | 'ⱼ' => 0.28,
-        ' ' | ',' | '.' | ':' | ';' | '·' | 'I' | 'J' => 0.34,
-        '(' | ')' | '[' | ']' | 'f' | 't' | 'r' | '-' | '/' | '|' | '!' => 0.42,
-        '⁰'..='₟' | '¹' | '²' | '³' | 'ᵣ' | 'ᵤ' | 'ᵥ' => 0.43,
-        'm' | 'w' | 'M' | 'W' | '%' | '—' | '…' => 1.0,
-        '=' | '+' | '−' | '<' | '>' | '≤' | '≥' | '±' | '≈' | '∞' | '→' | '×' | 'G' | 'O' | 'Q' | 'N'
-        | 'H' | 'D' | 'U' => 0.84,
-        'A'..='Z' | 'Δ' | 'Λ' | 'Φ' | 'Σ' => 0.7,
-        _ => 0.64,
+/// As much of a text as there is room for; `…` stands for the rest.
+pub(super) fn cut(text: &str, room: i32, size: f64) -> String {
+    if text_width(text, size) <= room {
+        return text.to_owned();
     }
+    let mut kept = String::new();
+    for letter in text.chars() {
+        kept.push(letter);
+        if text_width(&kept, size) + text_width("…", size) > room {
+            kept.pop();
+            break;
+        }
+    }
+    kept.push('…');
+    kept
 }
 
-/// The lines of a text that has so much room.
+/// The lines of a text that has so much room, four at most; a word without room is cut.
 pub(super) fn wrap(text: &str, room: i32, size: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
+        let word = &cut(word, room, size);
+        let full = lines.len() == MOST_LINES;
         match lines.last_mut() {
             Some(line) if text_width(line, size) + text_width(word, size) < room => {
                 line.push(' ');
                 line.push_str(word);
+            }
+            Some(last) if full => {
+                *last = cut(&format!("{last} {word}"), room, size);
+                break;
             }
             _ => lines.push(word.to_string()),
         }
@@ -215,12 +237,27 @@ mod tests {
 
     #[test]
     fn no_two_curves_look_the_same() {
-        let looks: std::collections::BTreeSet<_> = (0..42)
-            .map(|index| (index % PALETTE.len(), dashes(index)))
+        // To the eye: colours, or grey with dashes and marker.
+        let looks: std::collections::BTreeSet<_> = (0..37)
+            .map(|index| {
+                let marker = (index >= PALETTE.len()).then(|| (dashes(index), index % 5));
+                (index.min(PALETTE.len()), marker)
+            })
             .collect();
-        assert_eq!(looks.len(), 42);
-        let strokes: std::collections::BTreeSet<_> = (0..42).map(curve_stroke).collect();
-        assert_eq!(strokes.len(), 42);
+        assert_eq!(looks.len(), 37);
+        let strokes: std::collections::BTreeSet<_> = (0..2 * THEORY).map(curve_stroke).collect();
+        assert_eq!(strokes.len(), 2 * THEORY);
+    }
+
+    #[test]
+    fn integrators_have_a_colour_or_are_grey_and_a_marker() {
+        let greys = NAMED.len() - PALETTE.len();
+        let markers: std::collections::BTreeSet<_> = (PALETTE.len()..NAMED.len()).map(|k| k % 5).collect();
+        assert_eq!(markers.len(), greys);
+        for index in PALETTE.len()..NAMED.len() {
+            let RGBColor(red, green, blue) = colour(index);
+            assert!([red, green, blue].iter().all(|part| part.abs_diff(GREY) < 8));
+        }
     }
 
     #[test]
@@ -231,6 +268,12 @@ mod tests {
             ["a picture of", "two words"]
         );
         assert!(wrap("", room, TEXT).is_empty());
-        assert_eq!(wrap("incomprehensibilities", room, TEXT).len(), 1);
+        let cut = &wrap("incomprehensibilities", room, TEXT)[0];
+        assert!(cut.starts_with("incomp") && cut.ends_with('…') && text_width(cut, TEXT) <= room);
+        let long = wrap(&"word ".repeat(100), room, TEXT);
+        assert!(
+            long.len() == MOST_LINES && long[MOST_LINES - 1].ends_with('…'),
+            "{long:?}"
+        );
     }
 }

@@ -15,7 +15,7 @@ fn wave(label: &str, phase: f64) -> Curve {
     }
 }
 
-fn synthetic() -> Figure {
+pub(super) fn synthetic() -> Figure {
     Figure {
         title: "Synthetic: a < b & c, for a test of the drawing that has a title of more than one line"
             .into(),
@@ -140,7 +140,7 @@ fn a_power_law_is_straight_on_logarithmic_axes() {
 }
 
 /// As many curves as there are integrators, that all end near each other.
-fn many() -> Figure {
+pub(super) fn many() -> Figure {
     let names = [
         "exact propagator",
         "explicit Euler in angles",
@@ -167,7 +167,7 @@ fn many() -> Figure {
     }
 }
 
-fn maps() -> Figure {
+pub(super) fn maps() -> Figure {
     let map = |k: usize| Map {
         title: format!("explicit Euler in angles {k}"),
         cells: (0..10)
@@ -216,6 +216,23 @@ fn no_text_leaves_its_picture_or_overlaps_another() {
         let faults = boxes::faults(&svg);
         assert!(faults.is_empty(), "{}: {faults:#?}", figure.title);
     }
+    // What a user may write: words without end, and more runs than there is room for.
+    let long = |name: &str| format!("{name}{}", "unendliches".repeat(20));
+    for count in [3, 30] {
+        let mut figure = Figure {
+            title: format!("{} {}", long("title"), "and more words ".repeat(60)),
+            x_name: long("time"),
+            y_name: long("mean"),
+            ..synthetic()
+        };
+        figure.points.clear();
+        figure.curves = (0..count)
+            .map(|k| wave(&long(&k.to_string()), 0.1 * f64::from(k)))
+            .collect();
+        let svg = svg(&figure).unwrap();
+        let faults = boxes::faults(&svg);
+        assert!(faults.is_empty(), "{count}: {faults:#?}");
+    }
     // Controls: a text that is moved out, and one that is moved onto another.
     let svg = svg(&many()).unwrap();
     let place = svg.split("<text x=\"").nth(1).unwrap().split('"').next().unwrap();
@@ -231,6 +248,42 @@ fn no_text_leaves_its_picture_or_overlaps_another() {
             .iter()
             .any(|fault| fault.starts_with("overlap"))
     );
+}
+
+#[test]
+fn few_points_are_shown_and_theory_has_none() {
+    let markers = |figure: &Figure| svg(figure).unwrap().matches("<polygon").count();
+    let mut figure = many();
+    // Three points and a sample in the legend, of each.
+    assert_eq!(markers(&figure), 7 * 4);
+    figure.curves[0].label += ", theory";
+    assert_eq!(markers(&figure), 6 * 4);
+    figure.curves.truncate(2);
+    figure.curves[1] = Curve {
+        half_band: None,
+        ..wave("many points", 0.0)
+    };
+    assert_eq!(markers(&figure), 0);
+}
+
+/// Every picture of the paper's figures, with the titles and names that the report has.
+#[test]
+fn no_text_of_the_papers_figures_leaves_its_picture_or_overlaps_another() {
+    let few = crate::figures::Replicas {
+        interacting: 2,
+        free: 2,
+    };
+    let drawn = crate::figures::draw(&crate::case::Effort::gate(), few, &|| ())
+        .unwrap()
+        .unwrap();
+    let figures: Vec<_> = (drawn.exhibits.iter())
+        .filter_map(|exhibit| exhibit.figure.as_ref())
+        .collect();
+    assert!(figures.len() > 8);
+    for figure in figures {
+        let faults = boxes::faults(&svg(&figure.figure).unwrap());
+        assert!(faults.is_empty(), "{}: {faults:#?}", figure.name);
+    }
 }
 
 #[test]

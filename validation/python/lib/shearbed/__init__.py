@@ -6,6 +6,7 @@ Axes: 1 = gradient, 2 = flow, 3 = vorticity; u_2 = G x_1. A rod has no head: p a
 from __future__ import annotations
 
 from ._core import SceneError, __version__
+from ._fitting import Estimate, Fit, fit
 from ._grading import Problem, Report, grade, problems
 from ._reference import reference
 from ._results import Results
@@ -13,12 +14,15 @@ from ._scene import Scene
 from ._running import run, sweep
 
 __all__ = [
+    "Estimate",
+    "Fit",
     "Problem",
     "Report",
     "Results",
     "Scene",
     "SceneError",
     "__version__",
+    "fit",
     "grade",
     "problems",
     "reference",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import inspect
 import json
 import tempfile
 from collections.abc import Callable, Sequence
@@ -14,12 +15,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ._extrapolation import motion
 from ._reference import call, read
 
 Array = NDArray[np.float64]
 
 Solver = Callable[[Array, float, Array, Array, int], Array]
 Step = Callable[[Array, float, Array, float], Array]
+Rhs = Callable[[Array, float, Array], Array]
+
+_KINDS = {3: "rhs", 4: "step", 5: "solver"}
 
 STEPS = (250, 500, 1000, 2000, 4000, 8000)
 
@@ -76,7 +81,7 @@ class Report:
 
     def __init__(self, told: dict[str, Any]) -> None:
         self.problems: list[dict[str, Any]] = told["problems"]
-        """name, verdict, error, tolerance, observed_order, diagnosis, ... of each problem."""
+        """name, verdict, error, tolerance, observed_order, diagnosis, raised, ... of each problem."""
 
     def __bool__(self) -> bool:
         verdicts = [problem["verdict"] for problem in self.problems]
@@ -94,7 +99,7 @@ class Report:
             error, order = problem["error"], problem["observed_order"]
             lines.append(
                 f"{problem['name']:<22} {problem['verdict']:<8} {_short(error):>9} {problem['tolerance']:>9.1e} "
-                f"{'–' if order is None else f'{order:.2f}':>6}  {problem['diagnosis'] or ''}".rstrip()
+                f"{'–' if order is None else f'{order:.2f}':>6}  {problem['diagnosis'] or problem['raised'] or ''}".rstrip()
             )
         return "\n".join(lines)
 
@@ -121,38 +126,53 @@ def _short(number: float | None) -> str:
 
 
 def grade(
-    function: Solver | Step,
+    function: Rhs | Step | Solver,
     *,
-    kind: str = "solver",
+    kind: str | None = None,
     order: float | None = None,
-    steps: Sequence[int] = STEPS,
+    steps: Sequence[int] | None = None,
     names: Sequence[str] | None = None,
 ) -> Report:
     """Grades a Python function on the problems of free rods, as ``shearbed grade`` grades files.
 
-    ``kind="solver"``: ``function(gradient_per_s, aspect_ratio, start, times_s, steps)`` returns p at the times as
-    (times, rods, 3), with at least ``steps`` steps to the last time. ``kind="step"``: ``function(gradient_per_s, aspect_ratio,
-    p, dt_s)`` returns p of all rods one step later. Both get and give all rods at once: ``start`` and ``p`` are (rods, 3).
+    What the function is, is seen from the number of its parameters, or said by ``kind``:
 
-    The function is asked with each number of ``steps``; the error of the last is judged, and the observed order is read
-    off all. With ``order`` the observed order is judged too. A function that raises has no answer to that problem.
+    - ``"rhs"``: ``function(gradient_per_s, aspect_ratio, p)`` returns dp/dt in 1/s. It is integrated here, to round-off:
+      the error is that of the right-hand side.
+    - ``"step"``: ``function(gradient_per_s, aspect_ratio, p, dt_s)`` returns p one step later.
+    - ``"solver"``: ``function(gradient_per_s, aspect_ratio, start, times_s, steps)`` returns p at the times as
+      (times, rods, 3), with at least ``steps`` steps to the last time.
+
+    All rods come and go at once: ``start``, ``p`` and dp/dt are (rods, 3). A step or a solver is asked with each number of
+    ``steps``; the error of the last is judged, and the observed order is read off all. With ``order`` the observed order is
+    judged too. A function that raises an ``ArithmeticError``, ``ValueError`` or ``RuntimeError`` has no answer from there
+    on, and the report says what it raised.
     """
-    if kind not in ("solver", "step"):
-        raise ValueError(f"kind = {kind!r}: 'solver' and 'step' are allowed")
+    kind = kind or _kind_of(function)
+    if kind not in _KINDS.values():
+        raise ValueError(f"kind = {kind!r}: 'rhs', 'step' and 'solver' are allowed")
+    if kind == "rhs":
+        for name, given in (("order", order), ("steps", steps)):
+            if given is not None:
+                raise ValueError(f"{name} = {given!r}: a right-hand side has none; a step or a solver has")
     known = [problem.name for problem in problems() if problem.kind == "rods"]
     for name in names or ():
         if name not in known:
             raise ValueError(f"{name}: no problem of free rods has this name; there are {', '.join(known)}")
     wanted = [problem for problem in problems() if problem.name in (names or known)]
+    raised: dict[str, str] = {}
     with tempfile.TemporaryDirectory(prefix="shearbed-") as folder:
         reference, mine, out = (Path(folder, name) for name in ("reference", "mine", "out"))
         call(["problems", "export", str(reference), "--quiet"])
         for problem in wanted:
-            for count in steps:
-                answer = _answer(function, kind, problem, count)
-                if answer is None:
+            for count in (None,) if kind == "rhs" else steps or STEPS:
+                try:
+                    found = _answer(function, kind, problem, count)
+                except (ArithmeticError, RuntimeError, ValueError) as error:
+                    raised[problem.name] = f"{type(error).__name__}: {error}"
                     break
-                _write(mine / problem.name / f"steps-{count}.csv", problem, answer)
+                answer = "answer.csv" if count is None else f"steps-{count}.csv"
+                _write(mine / problem.name / answer, problem, _shaped(found, problem))
         mine.mkdir(exist_ok=True)
         words = ["grade", str(reference), str(mine), "--out", str(out), "--quiet"]
         for problem in wanted:
@@ -160,22 +180,48 @@ def grade(
         if order is not None:
             words += ["--order", repr(float(order))]
         call(words, allowed=(0, 1))
-        return Report(json.loads((out / "grade.json").read_text(encoding="utf-8")))
+        told = json.loads((out / "grade.json").read_text(encoding="utf-8"))
+    for judged in told["problems"]:
+        judged["raised"] = raised.get(judged["name"])
+    return Report(told)
 
 
-def _answer(function: Any, kind: str, problem: Problem, count: int) -> Array | None:
+def _kind_of(function: Rhs | Step | Solver) -> str:
+    """What a function is, by what it must be given."""
+    needed = [
+        parameter
+        for parameter in inspect.signature(function).parameters.values()
+        if parameter.default is parameter.empty and parameter.kind is not parameter.KEYWORD_ONLY
+    ]
+    if any(parameter.kind is parameter.VAR_POSITIONAL for parameter in needed) or len(needed) not in _KINDS:
+        raise ValueError(
+            f"kind: a function of {', '.join(map(str, needed)) or 'nothing'} does not tell what it is; "
+            "kind='rhs', 'step' or 'solver' says it"
+        )
+    return _KINDS[len(needed)]
+
+
+def _answer(function: Any, kind: str, problem: Problem, count: int | None) -> Any:
     given = (problem.gradient_per_s.copy(), problem.aspect_ratio)
-    try:
-        if kind == "solver":
-            found = function(*given, problem.start.copy(), problem.times_s.copy(), count)
-        else:
-            found = _stepped(function, given, problem, count)
-    except (ArithmeticError, ValueError, RuntimeError):
-        return None
+    if kind == "rhs":
+        return motion(lambda p: _like(function(*given, p.copy()), p, problem), problem.start, problem.times_s)
+    if kind == "solver":
+        return function(*given, problem.start.copy(), problem.times_s.copy(), count)
+    return _stepped(function, given, problem, count or 1)
+
+
+def _like(found: Any, p: Array, problem: Problem) -> Array:
+    rates: Array = np.asarray(found, dtype=float)
+    if rates.shape != p.shape:
+        raise TypeError(f"{problem.name}: (rods, 3) = {p.shape} is asked for, not {rates.shape}")
+    return rates
+
+
+def _shaped(found: Any, problem: Problem) -> Array:
     answer: Array = np.asarray(found, dtype=float)
     wanted = (len(problem.times_s), len(problem.start), 3)
     if answer.shape != wanted:
-        raise ValueError(f"{problem.name}: p as (times, rods, 3) = {wanted} is asked for, not {answer.shape}")
+        raise TypeError(f"{problem.name}: p as (times, rods, 3) = {wanted} is asked for, not {answer.shape}")
     return answer
 
 
@@ -186,7 +232,7 @@ def _stepped(function: Any, given: tuple[Array, float], problem: Problem, count:
     for time in map(float, problem.times_s):
         own = max(1, round(count * (time - now) / end)) if time > now else 0
         for _ in range(own):
-            p = np.asarray(function(*given, p, (time - now) / own), dtype=float)
+            p = _like(function(*given, p.copy(), (time - now) / own), p, problem)
         now = time
         found.append(p)
     return found

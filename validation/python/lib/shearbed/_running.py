@@ -80,18 +80,23 @@ def sweep(
         program(words)
         with open(Path(folder, "out", "sweep.csv"), encoding="utf-8", newline="") as text:
             header, *rows = list(csv.reader(text))
-    return {name: _column([row[k] for row in rows]) for k, name in enumerate(header)}
+    return {name: column([row[k] for row in rows]) for k, name in enumerate(header)}
 
 
-def _column(fields: list[str]) -> NDArray[Any]:
+def column(fields: list[str]) -> NDArray[Any]:
+    """Numbers where all fields are, else texts."""
     try:
         return np.array([float(field) for field in fields])
     except ValueError:
         return np.array(fields)
 
 
-def program(words: Sequence[str]) -> None:
-    """Runs a command in a process of its own, which Ctrl-C ends too; raises its message as ``ValueError``."""
-    ended = subprocess.run([sys.executable, "-m", "shearbed", *words], capture_output=True, text=True, check=False)
+def program(words: Sequence[str], cwd: Path | None = None) -> str:
+    """Runs a command in a process of its own, which Ctrl-C ends too, and gives what it prints; raises its message, as
+    ``ValueError`` for what is not allowed and ``RuntimeError`` for what went wrong."""
+    started = [sys.executable, "-m", "shearbed", *words]
+    ended = subprocess.run(started, cwd=cwd, capture_output=True, text=True, encoding="utf-8", check=False)
     if ended.returncode:
-        raise ValueError(ended.stderr.strip().removeprefix("error: "))
+        message = ended.stderr.strip().removeprefix("error: ") or f"the program ended with {ended.returncode}"
+        raise (ValueError if ended.returncode == 2 else RuntimeError)(message)
+    return ended.stdout

@@ -1,0 +1,152 @@
+"""From measured points to a model's parameters."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._running import column, program
+from ._scene import Scene, scene_of
+
+Array = NDArray[np.float64]
+SceneLike = Scene | Mapping[str, Any] | str | os.PathLike[str]
+Points = Mapping[str, ArrayLike] | str | os.PathLike[str]
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A parameter as the points have it, in the unit of its key."""
+
+    estimate: float
+    low_68: float
+    high_68: float
+    low_95: float
+    high_95: float
+    standard_uncertainty: float
+    range: tuple[float, float]
+    """Where it was sought."""
+    ends_at_edge: tuple[bool, bool]
+    """Whether the 95 % interval ends at an edge of the range, below and above: the points do not say where it does."""
+
+
+class Fit:
+    """What a fit found: ``fit.json``, ``residuals.csv`` and ``profiles.csv`` of ``shearbed fit``."""
+
+    def __init__(self, folder: Path, words: str) -> None:
+        self.record: dict[str, Any] = json.loads((folder / "fit.json").read_text(encoding="utf-8"))
+        """All of ``fit.json``."""
+        self.parameters: dict[str, Estimate] = {
+            key: Estimate(**{**found, "range": tuple(found["range"]), "ends_at_edge": tuple(found["ends_at_edge"])})
+            for key, found in self.record["parameters"].items()
+        }
+        self.chi2: float = self.record["chi2"]
+        self.degrees_of_freedom: int = self.record["degrees_of_freedom"]
+        self.p_value: float = self.record["p_value"]
+        """The probability of a larger chi2 if the model were right."""
+        self.order: list[str] = self.record["order"]
+        """The parameters in the order of ``covariance`` and ``correlation``."""
+        self.covariance: Array = np.array(self.record["covariance"], dtype=float)
+        self.correlation: Array = np.array(self.record["correlation"], dtype=float)
+        self.residuals: dict[str, NDArray[Any]] = _columns(folder / "residuals.csv")
+        """Each point beside the best model: set, time_unit, time, column, measured, simulated, residual, u."""
+        profiles = _columns(folder / "profiles.csv")
+        self.profiles: dict[str, tuple[Array, Array]] = {
+            key: (profiles["value"][rows], profiles["rise_of_chi2"][rows])
+            for key in self.order
+            for rows in [profiles["parameter"] == key]
+        }
+        """Of each parameter: its values, and chi2 above its least there."""
+        self.warnings: list[str] = self.record["warnings"]
+        """What to know before trusting it."""
+        self._words = words
+
+    def __getitem__(self, key: str) -> Estimate:
+        return self.parameters[key]
+
+    def __str__(self) -> str:
+        return self._words
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws points with their uncertainties and the best model at their times, and returns the axes."""
+        import matplotlib.pyplot as plt
+
+        if ax is None:
+            _, ax = plt.subplots(layout="constrained")
+        found = self.residuals
+        for group in sorted(set(zip(found["set"], found["column"]))):
+            rows = (found["set"] == group[0]) & (found["column"] == group[1])
+            time = found["time"][rows]
+            drawn = ax.errorbar(time, found["measured"][rows], found["u"][rows], fmt="o", label=f"{group[1]}, points")
+            ax.plot(time, found["simulated"][rows], color=drawn[0].get_color(), label=f"{group[1]}, best model")
+        ax.set_xlabel(", ".join(sorted(set(found["time_unit"]))).replace("t_over_T", "t/T"))
+        ax.legend()
+        return ax
+
+
+def fit(
+    scene: SceneLike,
+    data: Points,
+    over: Mapping[str, tuple[float, float]],
+    *,
+    also: Sequence[tuple[SceneLike, Points]] = (),
+    replicas: int | None = None,
+    seed: int | None = None,
+    rods: int | None = None,
+    threads: int | None = None,
+) -> Fit:
+    """Fits keys of a scene to measured points, as ``shearbed fit`` does, with the same result.
+
+    ``data`` is a CSV file or its columns: a time (``t_over_T``, ``t_s`` or ``strain``), and channels each with one standard
+    deviation, as ``x1`` and ``x1_u``; NaN was not measured. ``over={"interaction.alpha": (0.05, 5)}`` are up to three keys
+    with the range to look in. ``also`` are other scenes with points of their own, fitted with the same parameters.
+    ``replicas`` is the most at each value, ``rods`` how many each point is a mean over.
+
+    The work is done in a process of its own: other Python threads go on meanwhile, and Ctrl-C ends it. Raises ``ValueError``
+    with the program's words for what is not allowed, ``RuntimeError`` for a fit that cannot go on.
+    """
+    with tempfile.TemporaryDirectory(prefix="shearbed-") as made:
+        folder = Path(made)
+        words = ["fit", "scene.toml", "--out", "out"]
+        for k, (of, points) in enumerate([(scene, data), *also]):
+            name = "scene.toml" if k == 0 else f"scene-{k + 1}.toml"
+            (folder / name).write_text(scene_of(of)._text, encoding="utf-8")
+            file = _file(points, folder / f"points-{k + 1}.csv")
+            words += ["--data", file if k == 0 else f"{name}={file}"]
+        for key, (low, high) in over.items():
+            words += ["--over", f"{key}={float(low)!r}:{float(high)!r}"]
+        for flag, value in (("--replicas", replicas), ("--seed", seed), ("--rods", rods), ("--threads", threads)):
+            if value is not None:
+                words += [flag, str(value)]
+        said = program(words, cwd=folder)
+        # The last line names a folder that is no more.
+        return Fit(folder / "out", said.rsplit("\nin out", 1)[0])
+
+
+def _file(points: Points, place: Path) -> str:
+    """The name of a CSV file of points, which is written if they are columns."""
+    if not isinstance(points, Mapping) and not hasattr(points, "items"):
+        return os.path.abspath(points)
+    columns = {str(name): np.asarray(values, dtype=float) for name, values in points.items()}
+    lengths = {name: values.shape for name, values in columns.items()}
+    if len(set(lengths.values())) != 1 or any(len(shape) != 1 for shape in lengths.values()):
+        raise ValueError(f"data: columns of one length are allowed; there are {lengths}")
+    with open(place, "w", encoding="utf-8", newline="") as text:
+        writer = csv.writer(text, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows([["" if value != value else repr(float(value)) for value in row] for row in zip(*columns.values())])
+    return place.name
+
+
+def _columns(file: Path) -> dict[str, NDArray[Any]]:
+    with open(file, encoding="utf-8", newline="") as text:
+        header, *rows = list(csv.reader(text))
+    return {name: column([row[k] for row in rows]) for k, name in enumerate(header)}
