@@ -16,11 +16,20 @@ const THREAD: u64 = 2 << 20;
 /// Refuses a plan that needs more memory than there is, with `threads` replicas at a time. Where the system does not say
 /// what there is, nothing is refused.
 pub(super) fn check(plan: &Plan, threads: Option<u64>, source: &str) -> Result<(), Failure> {
+    check_beside(plan, threads, source, 0)
+}
+
+/// The same where so many bytes are held beside each replica.
+pub(super) fn check_beside(
+    plan: &Plan,
+    threads: Option<u64>,
+    source: &str,
+    beside: u64,
+) -> Result<(), Failure> {
     let threads = threads::count(threads)?;
     match available() {
-        Some(free) => {
-            fits(plan, threads, free).map_err(|message| Failure::Input(format!("{source}: {message}")))
-        }
+        Some(free) => fits(plan, threads, free, beside)
+            .map_err(|message| Failure::Input(format!("{source}: {message}"))),
         None => Ok(()),
     }
 }
@@ -58,18 +67,20 @@ fn left_by(job: &Job) -> u64 {
     looks + job.followed.min(job.replicas) * 24 * job.scene.particles.count as u64
 }
 
-/// What a run of a plan holds, with its results and their tables and pictures at its end.
-fn needed(plan: &Plan, threads: u64) -> u64 {
-    memory::bytes(plan, threads) + threads * THREAD + PROGRAM + tables::most_memory(plan)
+/// What a run of a plan holds, with its results and their tables and pictures at its end, and so many bytes beside each
+/// replica.
+fn needed(plan: &Plan, threads: u64, beside: u64) -> u64 {
+    let replicas = threads.min(plan.scene().ensemble.replicas);
+    memory::bytes(plan, threads) + replicas * beside + threads * THREAD + PROGRAM + tables::most_memory(plan)
 }
 
-fn fits(plan: &Plan, threads: u64, free: u64) -> Result<(), String> {
-    let most = needed(plan, threads);
+fn fits(plan: &Plan, threads: u64, free: u64, beside: u64) -> Result<(), String> {
+    let most = needed(plan, threads, beside);
     if most <= free {
         return Ok(());
     }
     let replicas = threads.min(plan.scene().ensemble.replicas);
-    let least = needed(plan, 1);
+    let least = needed(plan, 1, beside);
     let allowed = match least <= free {
         true => format!("fewer --threads: {} with one", size(least)),
         false => format!("fewer: one replica needs {}", size(least)),
@@ -100,17 +111,18 @@ mod tests {
         scene.particles.count = 10_000_000;
         scene.ensemble.replicas = 3;
         let plan = lab::plan(&scene);
-        let one = needed(&plan, 1);
+        let one = needed(&plan, 1, 0);
         assert!((1.0e9..1.2e9).contains(&(one as f64)), "{one}");
-        assert_eq!(fits(&plan, 1, one), Ok(()));
-        let refused = fits(&plan, 2, one).unwrap_err();
+        assert_eq!(fits(&plan, 1, one, 0), Ok(()));
+        assert!(fits(&plan, 1, one, 1).is_err(), "what is held beside counts");
+        let refused = fits(&plan, 2, one, 0).unwrap_err();
         assert!(
             refused.starts_with("particles.count = 10000000: 2 at a time of 3 replicas")
                 && refused.contains("fewer --threads"),
             "{refused}"
         );
         assert!(
-            fits(&plan, 1, one - 1)
+            fits(&plan, 1, one - 1, 0)
                 .unwrap_err()
                 .contains("fewer: one replica needs 1.")
         );
