@@ -6,6 +6,7 @@ use crate::run::{self, Replica, run_replica};
 use crate::snapshot::Snapshot;
 use crate::work::{Counters, RunError};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// A channel of an observable against time: a column of its table.
@@ -94,23 +95,14 @@ pub fn fold<E>(
     mut run: impl FnMut(Range<u64>) -> Result<Vec<Replica>, E>,
 ) -> Result<Results, E> {
     let replicas = plan.scene().ensemble.replicas;
-    let mut moments = Moments::new(plan.outputs() * width(plan));
-    let mut counters = Counters::default();
-    let mut snapshots = Vec::new();
-    let mut first = 0;
-    while first < replicas {
-        let last = replicas.min(first + batch(plan));
-        for replica in run(first..last)? {
-            counters.add(&replica.counters);
-            moments.add(&replica.sums, plan.scene().particles.count);
-            snapshots.extend(replica.snapshots);
+    let mut tally = Tally::new(plan);
+    while tally.replicas < replicas {
+        let last = replicas.min(tally.replicas + batch(plan));
+        for replica in run(tally.replicas..last)? {
+            tally.add(replica);
         }
-        first = last;
     }
-    Ok(Results {
-        snapshots,
-        ..collect(plan, &moments, counters)
-    })
+    Ok(tally.results(plan))
 }
 
 /// Sums per output.
@@ -124,73 +116,117 @@ pub(crate) fn batch(plan: &Plan) -> u64 {
     ((256 << 20) / bytes.max(1)).clamp(1, 4096) as u64
 }
 
-/// Running means and squared deviations over replicas (Welford 1962).
-struct Moments {
-    replicas: f64,
+/// Replicas added up, one after the other: running means and squared deviations (Welford 1962).
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Tally {
+    replicas: u64,
+    counters: Counters,
     mean: Vec<f64>,
     deviation: Vec<f64>,
     /// Standard errors over the rods of one replica.
     over_rods: Vec<f64>,
+    /// Every rod at the outputs for which the scene asks for them.
+    snapshots: Vec<Snapshot>,
 }
 
-impl Moments {
-    fn new(len: usize) -> Self {
+impl Tally {
+    /// Of no replica of the plan.
+    pub fn new(plan: &Plan) -> Self {
+        let len = plan.outputs() * width(plan);
         Self {
-            replicas: 0.0,
+            replicas: 0,
+            counters: Counters::default(),
             mean: vec![0.0; len],
             deviation: vec![0.0; len],
             over_rods: vec![f64::NAN; len],
+            snapshots: Vec::new(),
         }
     }
 
-    fn add(&mut self, sums: &[Sum], count: usize) {
-        let n = count as f64;
-        self.replicas += 1.0;
-        for (k, sum) in sums.iter().enumerate() {
+    /// How many replicas are in it: the first ones.
+    pub fn replicas(&self) -> u64 {
+        self.replicas
+    }
+
+    /// Whether it can be one of the plan.
+    ///
+    /// # Errors
+    ///
+    /// What of it cannot be.
+    pub fn check(&self, plan: &Plan) -> Result<(), &'static str> {
+        let len = plan.outputs() * width(plan);
+        if [&self.mean, &self.deviation, &self.over_rods].map(Vec::len) != [len; 3]
+            || self.replicas > plan.scene().ensemble.replicas
+        {
+            return Err("its means are not those of this scene");
+        }
+        let rods_at = plan.rods_outputs().len() as u64;
+        if self.snapshots.len() as u64 != self.replicas * rods_at
+            || !self.snapshots.iter().all(|s| s.fits(plan))
+        {
+            return Err("its rods are not those of this scene");
+        }
+        let deviations = self.deviation.iter().all(|x| x.is_finite() && *x >= 0.0);
+        if !deviations || !self.mean.iter().all(|x| x.is_finite()) {
+            return Err("a mean in it is no number");
+        }
+        Ok(())
+    }
+
+    /// Adds the next replica.
+    pub fn add(&mut self, replica: Replica) {
+        let n = replica.rods as f64;
+        self.counters.add(&replica.counters);
+        self.replicas += 1;
+        let replicas = self.replicas as f64;
+        for (k, sum) in replica.sums.iter().enumerate() {
             let value = sum.value / n;
             let change = value - self.mean[k];
-            self.mean[k] += change / self.replicas;
+            self.mean[k] += change / replicas;
             self.deviation[k] += change * (value - self.mean[k]);
             if let Some(square) = sum.square {
                 let variance = (square / n - value * value).max(0.0);
                 self.over_rods[k] = (variance / (n - 1.0)).sqrt();
             }
         }
+        self.snapshots.extend(replica.snapshots);
     }
 
     fn se(&self, k: usize) -> f64 {
-        if self.replicas > 1.0 {
-            (self.deviation[k] / (self.replicas - 1.0) / self.replicas).sqrt()
+        let replicas = self.replicas as f64;
+        if self.replicas > 1 {
+            (self.deviation[k] / (replicas - 1.0) / replicas).sqrt()
         } else {
             self.over_rods[k]
         }
     }
-}
 
-fn collect(plan: &Plan, moments: &Moments, counters: Counters) -> Results {
-    let width = width(plan);
-    let mut start = 0;
-    let series = (plan.observables().into_iter())
-        .map(|observable| {
-            let columns = observable.channels().enumerate().map(|(place, channel)| {
-                let at = |output: usize| output * width + start + place;
-                Column {
-                    name: channel.name(),
-                    mean: (0..plan.outputs()).map(|k| moments.mean[at(k)]).collect(),
-                    se: (0..plan.outputs()).map(|k| moments.se(at(k))).collect(),
-                }
-            });
-            let columns = columns.collect();
-            start += observable.width();
-            Series { observable, columns }
-        })
-        .collect();
-    Results {
-        time_name: plan.time_name(),
-        times: plan.times(),
-        unit: plan.unit(),
-        series,
-        snapshots: Vec::new(),
-        counters,
+    /// What the replicas in it come to.
+    pub fn results(self, plan: &Plan) -> Results {
+        let width = width(plan);
+        let mut start = 0;
+        let series = (plan.observables().into_iter())
+            .map(|observable| {
+                let columns = observable.channels().enumerate().map(|(place, channel)| {
+                    let at = |output: usize| output * width + start + place;
+                    Column {
+                        name: channel.name(),
+                        mean: (0..plan.outputs()).map(|k| self.mean[at(k)]).collect(),
+                        se: (0..plan.outputs()).map(|k| self.se(at(k))).collect(),
+                    }
+                });
+                let columns = columns.collect();
+                start += observable.width();
+                Series { observable, columns }
+            })
+            .collect();
+        Results {
+            time_name: plan.time_name(),
+            times: plan.times(),
+            unit: plan.unit(),
+            series,
+            snapshots: self.snapshots,
+            counters: self.counters,
+        }
     }
 }

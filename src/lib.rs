@@ -63,6 +63,7 @@ pub mod phase;
 pub mod plan;
 pub mod propagator;
 pub mod random;
+pub mod resume;
 mod rods;
 pub mod run;
 pub mod scene;

@@ -150,6 +150,11 @@ pub struct Sum {
 const LANES: usize = 8;
 
 impl Sum {
+    /// Whether it is a number, and its square one where there is to be one.
+    pub(crate) fn is_finite(&self, square: bool) -> bool {
+        self.value.is_finite() && self.square.map_or(!square, |sum| square && sum.is_finite())
+    }
+
     /// Adds what was summed over other rods.
     pub(crate) fn merge(&mut self, other: &Self) {
         self.value += other.value;

@@ -87,6 +87,17 @@ impl Rods {
         self.since[rod] = tick as u32;
     }
 
+    /// Each rod's direction after its last collision, and the tick of that.
+    pub fn kept(&self) -> ([Vec<f64>; 3], Vec<u32>) {
+        (self.p.clone(), self.since.clone())
+    }
+
+    /// Puts all rods where [`Rods::kept`] had them.
+    pub fn restore(&mut self, p: [Vec<f64>; 3], since: Vec<u32>) {
+        self.p = p;
+        self.since = since;
+    }
+
     /// The direction of one rod in plane Couette flow at `tick`.
     pub fn direction(&self, rod: usize, tick: u64) -> Vector3<f64> {
         let Motion::Couette(clock) = &self.motion else {

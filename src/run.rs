@@ -1,9 +1,13 @@
 //! One replica of a scene, from its plan to the sums of its observables.
 
+#[cfg(test)]
+mod tests;
+
 use crate::border::{self, Fault};
 use crate::chunks::{CHUNK, of_chunks};
 use crate::observable::{BLOCK, Block, Channel, Observable, Sum};
 use crate::plan::{Plan, Stage};
+use crate::resume::{Halfway, Placed};
 use crate::rods::Rods;
 use crate::snapshot::Snapshot;
 use crate::suspension::Suspension;
@@ -15,7 +19,7 @@ use std::ops::Range;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Replica {
     observables: Vec<Observable>,
-    rods: usize,
+    pub(crate) rods: usize,
     /// Per output, the channels of every observable of the plan, one after the other: sums over rods.
     pub(crate) sums: Vec<Sum>,
     /// Every rod at each output that the scene asks for them.
@@ -25,6 +29,26 @@ pub struct Replica {
 }
 
 impl Replica {
+    /// Whether it can be one of the plan.
+    ///
+    /// # Errors
+    ///
+    /// What of it cannot be.
+    pub fn check(&self, plan: &Plan) -> Result<(), &'static str> {
+        let own = self.observables == plan.observables()
+            && self.rods == plan.scene().particles.count
+            && self.sums.len() == plan.outputs() * width(&self.observables);
+        let squares = plan.keeps(Stage::RodErrors);
+        if !own || !self.sums.iter().all(|sum| sum.is_finite(squares)) {
+            return Err("its sums are not those of this scene");
+        }
+        let rods_at = plan.rods_outputs().len();
+        if self.snapshots.len() != rods_at || !self.snapshots.iter().all(|snapshot| snapshot.fits(plan)) {
+            return Err("its rods are not those of this scene");
+        }
+        Ok(())
+    }
+
     /// The mean of a channel over the rods at an output; `None` where the scene does not observe it or has no such output.
     pub fn mean(&self, channel: Channel, output: usize) -> Option<f64> {
         let place = channel.place(&self.observables)?;
@@ -44,18 +68,46 @@ pub(crate) fn width(observables: &[Observable]) -> usize {
 ///
 /// A kick that overflows, or a direction or a sum that is no result.
 pub fn run_replica(plan: &Plan, replica: u64) -> Result<Replica, RunError> {
+    go_on(plan, replica, None, |_| ())
+}
+
+/// Runs one replica from its start or from halfway. `look` is called between its steps, for free rods between outputs, with
+/// what makes the state to go on from. The bits are those of [`run_replica`].
+///
+/// # Errors
+///
+/// As [`run_replica`], and what is halfway of no replica of this plan.
+pub fn go_on(
+    plan: &Plan,
+    replica: u64,
+    from: Option<Halfway>,
+    mut look: impl FnMut(&dyn Fn() -> Halfway),
+) -> Result<Replica, RunError> {
+    if let Some(from) = &from {
+        let refused = |cause| RunError::Misfit { replica, cause };
+        from.check(plan).map_err(refused)?;
+    }
     let mut recorder = Recorder::new(plan, replica);
-    let mut snapshots = Vec::new();
-    let mut counters = match Suspension::new(plan, replica) {
-        Some(suspension) => stepped(plan, suspension, &mut recorder, &mut snapshots)?,
-        None => straight(plan, replica, &mut recorder, &mut snapshots)?,
+    let rods = from.and_then(|from| {
+        recorder.done = from.outputs(plan);
+        recorder.sums[..from.sums.len()].copy_from_slice(&from.sums);
+        recorder.snapshots = from.snapshots;
+        from.rods
+    });
+    let suspension = match rods {
+        Some(rods) => rods.suspension(plan, replica),
+        None => Suspension::new(plan, replica),
+    };
+    let mut counters = match suspension {
+        Some(suspension) => stepped(plan, suspension, &mut recorder, &mut look)?,
+        None => straight(plan, replica, &mut recorder, &mut look)?,
     };
     counters.directions = (plan.outputs() * plan.scene().particles.count) as u64;
     Ok(Replica {
         observables: plan.observables(),
         rods: plan.scene().particles.count,
         sums: recorder.sums,
-        snapshots,
+        snapshots: recorder.snapshots,
         counters,
     })
 }
@@ -65,17 +117,20 @@ fn straight(
     plan: &Plan,
     replica: u64,
     recorder: &mut Recorder,
-    snapshots: &mut Vec<Snapshot>,
+    look: &mut impl FnMut(&dyn Fn() -> Halfway),
 ) -> Result<Counters, RunError> {
     let (rods, aspect_ratios_redrawn) = Rods::draw(plan, replica);
-    for first in (0..plan.outputs()).step_by(OUTPUTS) {
+    for first in (recorder.done..plan.outputs()).step_by(OUTPUTS) {
         let outputs = first..plan.outputs().min(first + OUTPUTS);
         recorder.record(outputs, |first, output, block| {
             rods.orient(first, output as u64, block)
         })?;
+        look(&|| recorder.halfway(None));
     }
     let asked = plan.rods_outputs().into_iter();
-    snapshots.extend(asked.map(|output| Snapshot::of_free(&rods, replica, output)));
+    recorder.snapshots = asked
+        .map(|output| Snapshot::of_free(&rods, replica, output))
+        .collect();
     Ok(Counters {
         aspect_ratios_redrawn,
         ..Counters::default()
@@ -90,21 +145,21 @@ fn stepped(
     plan: &Plan,
     mut suspension: Suspension,
     recorder: &mut Recorder,
-    snapshots: &mut Vec<Snapshot>,
+    look: &mut impl FnMut(&dyn Fn() -> Halfway),
 ) -> Result<Counters, RunError> {
     let asked = plan.rods_outputs();
-    for output in 0..plan.outputs() {
-        if output > 0 {
-            for _ in 0..plan.ticks_per_output() {
-                suspension.step()?;
-            }
+    for output in recorder.done..plan.outputs() {
+        while suspension.tick() < output as u64 * plan.ticks_per_output() {
+            suspension.step()?;
+            look(&|| recorder.halfway(Some(suspension.placed())));
         }
         let (rods, tick) = (&suspension.rods, suspension.tick());
         recorder.record(output..output + 1, |first, _, block| {
             rods.orient(first, tick, block)
         })?;
         if asked.contains(&output) {
-            snapshots.push(Snapshot::of_suspension(&suspension, recorder.replica, output));
+            let snapshot = Snapshot::of_suspension(&suspension, recorder.replica, output);
+            recorder.snapshots.push(snapshot);
         }
     }
     Ok(suspension.counters)
@@ -117,6 +172,9 @@ struct Recorder<'a> {
     width: usize,
     empty: Sum,
     sums: Vec<Sum>,
+    /// Outputs that are done: the first ones.
+    done: usize,
+    snapshots: Vec<Snapshot>,
 }
 
 impl<'a> Recorder<'a> {
@@ -142,6 +200,17 @@ impl<'a> Recorder<'a> {
             width,
             empty,
             sums: vec![empty; width * plan.outputs()],
+            done: 0,
+            snapshots: Vec::new(),
+        }
+    }
+
+    /// What is done, with the rods where they interact.
+    fn halfway(&self, rods: Option<Placed>) -> Halfway {
+        Halfway {
+            sums: self.sums[..self.done * self.width].to_vec(),
+            snapshots: self.snapshots.clone(),
+            rods,
         }
     }
 
@@ -153,6 +222,7 @@ impl<'a> Recorder<'a> {
         orient: impl Fn(usize, usize, &mut Block) + Sync,
     ) -> Result<(), RunError> {
         let count = self.plan.scene().particles.count;
+        let done = outputs.end;
         let mut sums = std::mem::take(&mut self.sums);
         let own = &mut sums[self.width * outputs.start..self.width * outputs.end];
         if count <= CHUNK {
@@ -174,6 +244,7 @@ impl<'a> Recorder<'a> {
             }
         }
         self.sums = sums;
+        self.done = done;
         Ok(())
     }
 
@@ -211,65 +282,5 @@ impl<'a> Recorder<'a> {
             replica: self.replica,
             cause: fault.cause,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene_file;
-
-    fn plan(count: usize, replicas: u64) -> Plan {
-        let text = format!(
-            "title = \"t\"\n[flow]\nshear_rate_per_s = 1\n[particles]\ncount = {count}\nlength_mm = 1\n\
-             aspect_ratio = 5\norientation = \"isotropic\"\n[time]\nperiods = 2\noutputs_per_period = 4\n\
-             [ensemble]\nreplicas = {replicas}\nseed = 7\n[output]\n\
-             observables = [\"projections\", \"orbit_constant\", \"orientation_tensor\"]\n"
-        );
-        Plan::new(&scene_file::parse("s.toml", &text).unwrap()).unwrap()
-    }
-
-    /// A run whose propagation puts a rod along `wrong` at an output.
-    fn broken(count: usize, rod: usize, at: usize, wrong: [f64; 3]) -> Result<(), RunError> {
-        let plan = plan(count, 2);
-        let (rods, _) = Rods::draw(&plan, 1);
-        Recorder::new(&plan, 1).record(0..plan.outputs(), |first, output, block| {
-            rods.orient(first, output as u64, block);
-            if output == at && (first..first + block.len).contains(&rod) {
-                (0..3).for_each(|axis| block.p[axis][rod - first] = wrong[axis]);
-            }
-        })
-    }
-
-    #[test]
-    fn a_broken_propagation_stops_the_run_and_names_rod_output_and_replica() {
-        // In the first block and the last, on one thread and on many.
-        for (count, rod) in [(300, 0), (300, 299), (1, 0), (CHUNK + 200, CHUNK + 131)] {
-            assert_eq!(broken(count, rod, 5, [0.6, 0.0, 0.8]), Ok(()));
-            for wrong in [[0.0; 3], [f64::NAN; 3], [0.6, 0.8, 0.1]] {
-                let error = broken(count, rod, 5, wrong).unwrap_err();
-                let start =
-                    format!("rod {rod}, output 5 (t_over_T = 1.25) of replica 1, seed 7: its direction");
-                assert!(error.to_string().starts_with(&start), "{error}");
-                assert!(error.to_string().contains("r_e = 5"), "{error}");
-            }
-        }
-    }
-
-    #[test]
-    fn of_several_wrong_rods_the_first_is_named_whatever_the_threads() {
-        let plan = plan(3 * CHUNK, 1);
-        let recorder = |_| {
-            Recorder::new(&plan, 0)
-                .record(0..1, |_, _, block| block.len = BLOCK)
-                .unwrap_err()
-        };
-        let errors: Vec<_> = (0..4).map(recorder).collect();
-        assert!(errors.iter().all(|error| *error == errors[0]));
-        assert!(
-            errors[0].to_string().starts_with("rod 0, output 0 "),
-            "{}",
-            errors[0]
-        );
     }
 }

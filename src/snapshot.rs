@@ -1,6 +1,7 @@
 //! The rods of one replica as they are at one output, where a scene asks for them.
 
 use crate::observable::{BLOCK, Block};
+use crate::plan::Plan;
 use crate::rods::Rods;
 use crate::suspension::Suspension;
 use serde::{Deserialize, Serialize};
@@ -23,6 +24,22 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
+    /// Bytes that it holds of each rod.
+    pub(crate) const BYTES_PER_ROD: usize = 7 * size_of::<f64>() + 1;
+
+    /// Whether it can be one of the plan.
+    pub(crate) fn fits(&self, plan: &Plan) -> bool {
+        let count = plan.scene().particles.count;
+        let places = self.place_in_lengths.iter().flatten();
+        let mut axes = self.p.iter().chain(places).chain([&self.aspect_ratio]);
+        let whole = |axis: &Vec<f64>| axis.len() == count && axis.iter().all(|x| x.is_finite());
+        self.place_in_lengths.is_some() == plan.scene().interaction.is_some()
+            && axes.all(whole)
+            && self.collided.len() == count
+            && plan.rods_outputs().contains(&self.output)
+            && self.replica < plan.scene().ensemble.replicas
+    }
+
     /// Free rods at an output.
     pub(crate) fn of_free(rods: &Rods, replica: u64, output: usize) -> Self {
         Self::of(rods, replica, output, output as u64)

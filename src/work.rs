@@ -20,6 +20,14 @@ pub enum RunError {
         /// What happened.
         cause: String,
     },
+    /// A state to go on from that is of no replica of the plan.
+    #[error("replica {replica} cannot go on from where it was kept: {cause}")]
+    Misfit {
+        /// The replica, from 0.
+        replica: u64,
+        /// What of it does not fit.
+        cause: &'static str,
+    },
     /// What would have left the run is no result.
     #[error(
         "{}output {output} ({time_name} = {time}) of replica {replica}, seed {seed}: {cause}",

@@ -30,7 +30,7 @@ liquid-at-rest@@src/suspension.rs@@Vector3::new(0.0, self.rule.sign * separation
 candidate-order@@src/suspension.rs@@a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))@@a.1.cmp(&b.1)
 deviation-not-percent@@src/rods.rs@@let deviation = mean * particles.aspect_ratio_sd_percent / 100.0;@@let deviation = particles.aspect_ratio_sd_percent / 100.0;
 signed-projection@@src/observable.rs@@sum.add_each(block.len, |i| p[i].abs())@@sum.add_each(block.len, |i| p[i])
-standard-error@@src/ensemble.rs@@(self.deviation[k] / (self.replicas - 1.0) / self.replicas).sqrt()@@(self.deviation[k] / (self.replicas - 1.0)).sqrt()
+standard-error@@src/ensemble.rs@@(self.deviation[k] / (replicas - 1.0) / replicas).sqrt()@@(self.deviation[k] / (replicas - 1.0)).sqrt()
 flow-rate-of-a@@src/jeffery.rs@@half * (shape_factor - 1.0) * p.y@@half * (shape_factor + 1.0) * p.y
 rate-of-p3@@src/jeffery.rs@@        -stretch * p.z,@@        stretch * p.z,
 folded-angle@@src/orientation.rs@@p2.abs().atan2(p1.abs())@@p1.abs().atan2(p2.abs())

@@ -6,6 +6,7 @@ pub mod build;
 pub mod case;
 pub mod cases;
 pub mod catalogue;
+pub mod checkpoint;
 pub mod cli;
 pub mod cluster;
 pub mod dependencies;

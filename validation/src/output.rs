@@ -1,11 +1,13 @@
 //! Writing files so that a set of them appears together or not at all, and that two processes do not mix theirs.
 
 mod claim;
+mod replaced;
 #[cfg(test)]
 mod tests;
 
 pub use claim::Claim;
 pub(crate) use claim::stop;
+pub use replaced::{Part, Replaced};
 
 use std::fs::{self, File};
 use std::io::{self, Write};

@@ -4,7 +4,7 @@
 /// the signal's number, and never in the middle of writing files.
 #[cfg(unix)]
 pub(super) fn watch() {
-    use crate::{cluster, output};
+    use crate::{checkpoint, cluster, output};
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
 
@@ -22,10 +22,10 @@ pub(super) fn watch() {
             _ => "SIGHUP",
         };
         let code = 128 + signal;
-        let message = format!(
-            "stopped by {name}: files that were not complete were not written; the finished points of a sweep are \
-             kept, and the same command goes on from them"
-        );
+        let kept = checkpoint::last_words().unwrap_or_else(|| {
+            "the finished points of a sweep are kept, and the same command goes on from them".to_owned()
+        });
+        let message = format!("stopped by {name}: files that were not complete were not written; {kept}");
         cluster::failed(&message, code as u8);
         crate::grade::live::end_all();
         output::stop(code)

@@ -10,6 +10,7 @@ mod fit;
 mod grade;
 mod interrupt;
 mod kept;
+mod kept_cases;
 mod memory;
 mod pictures;
 mod plot;
@@ -280,11 +281,28 @@ fn agree(command: &str, input: Value) -> Result<(), Failure> {
     cluster::agree(command, input).map_err(Failure::Input)
 }
 
+/// Refuses a checkpoint of more than one rank.
+fn alone(checkpoint: &Path) -> Result<(), Failure> {
+    match cluster::size() {
+        1 => Ok(()),
+        ranks => Err(Failure::Input(format!(
+            "--checkpoint {}: {ranks} ranks; one process alone is allowed",
+            checkpoint.display()
+        ))),
+    }
+}
+
 /// A parser of whole numbers whose error says what is allowed.
 fn whole(least: u64, most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone + Send + Sync + 'static {
     move |text| match text.parse() {
         Ok(number) if (least..=most).contains(&number) => Ok(number),
         _ => Err(format!("a whole number from {least} to {most} is allowed")),
+    }
+}
+
+impl From<crate::checkpoint::Refused> for Failure {
+    fn from(refused: crate::checkpoint::Refused) -> Self {
+        Self::Input(refused.0)
     }
 }
 

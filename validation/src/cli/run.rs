@@ -2,20 +2,23 @@
 
 use super::record::Seconds;
 use super::{
-    Failure, MAX_THREADS, agree, facts, kept, memory, on_threads, pictures, print, probe, progress, record,
-    rods, scene, tables, whole,
+    Failure, MAX_THREADS, agree, alone, facts, kept, memory, on_threads, pictures, print, probe, progress,
+    record, rods, scene, tables, threads, whole,
 };
+use crate::checkpoint::Replicas;
 use crate::output::{self, Output};
 use crate::sweep::Setting;
 use crate::text::line;
 use crate::{cluster, plot};
 use serde_json::json;
+use shearbed::resume::Halfway;
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shearbed::work::RunError;
 use shearbed::{Plan, Results};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// Arguments of `run`.
 #[derive(clap::Args)]
@@ -40,12 +43,45 @@ pub(super) struct Args {
     /// Write the rods of output.rods_at for ParaView too: rods.pvd, and a .vtp file for each time
     #[arg(long)]
     vtk: bool,
+    /// Keep the run in this file while it runs, and go on from there where the file exists
+    #[arg(long, value_name = "FILE")]
+    checkpoint: Option<PathBuf>,
+    /// Seconds between two checkpoints [default: 60]
+    #[arg(long, value_name = "S", value_parser = seconds, requires = "checkpoint", allow_negative_numbers = true)]
+    every: Option<Duration>,
     /// Overwrite a folder that holds another run
     #[arg(long)]
     force: bool,
     /// Print nothing but errors and warnings
     #[arg(long)]
     quiet: bool,
+}
+
+/// A time between checkpoints.
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().filter(|s| (0.01..=86_400.0).contains(s));
+    let seconds = seconds.ok_or("seconds from 0.01 to 86400 are allowed")?;
+    Ok(Duration::from_secs_f64(seconds))
+}
+
+/// The run's checkpoint, and how far it has come, where one is asked for.
+fn checkpoint(args: &Args, plan: &Plan) -> Result<Option<Arc<Replicas>>, Failure> {
+    let Some(path) = &args.checkpoint else {
+        return Ok(None);
+    };
+    alone(path)?;
+    let every = args.every.unwrap_or(Duration::from_secs(60));
+    let replicas = Replicas::open(plan, path, every)?;
+    if replicas.done() > 0 || replicas.halfway() > 0 {
+        let (done, all) = (replicas.done(), plan.scene().ensemble.replicas);
+        let told = format!(
+            "goes on from {}: {done} of {all} replicas are done, {} halfway\n",
+            path.display(),
+            replicas.halfway()
+        );
+        print(if args.quiet { "" } else { &told })?;
+    }
+    Ok(Some(replicas))
 }
 
 /// Runs a scene and writes its results.
@@ -72,7 +108,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             named.source
         )));
     }
-    memory::check(&plan, args.threads, args.vtk, &named.source)?;
+    let beside = args.checkpoint.as_ref().map_or(0, |_| Halfway::bytes(&plan));
+    memory::check_beside(&plan, args.threads, args.vtk, &named.source, beside)?;
     let out = args
         .out
         .clone()
@@ -89,14 +126,24 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         ..Seconds::default()
     };
 
+    let checkpoint = checkpoint(args, &plan)?;
     let bar = progress(scene.ensemble.replicas, "replicas", args.quiet);
+    bar.inc(checkpoint.as_ref().map_or(0, |kept| kept.done()));
     let start = Instant::now();
-    let (results, threads) = on_threads(args.threads, || {
-        (
-            cluster::ensemble(&plan, || bar.inc(1)),
-            rayon::current_num_threads(),
-        )
-    })?;
+    let threads = threads::count(args.threads)? as usize;
+    let results = match &checkpoint {
+        Some(kept) => kept
+            .run(
+                threads,
+                || bar.inc(1),
+                |error| {
+                    let lost = format!("{error}; the run goes on, and what comes is not kept");
+                    scene::warn("--checkpoint", [&lost]);
+                },
+            )
+            .map(Some),
+        None => on_threads(args.threads, || cluster::ensemble(&plan, || bar.inc(1)))?,
+    };
     bar.finish_and_clear();
     let Some(results) = ended(&named.source, results)? else {
         return Ok(());

@@ -1,8 +1,9 @@
 //! `shearbed validate`.
 
+use super::kept_cases::{Found, Kept};
 use super::{Failure, MAX_THREADS, agree, choice, on_threads, print, probe, progress, whole};
 use crate::accept::Verdict;
-use crate::case::{Case, Control, Effort, GATE_SEED, Judged, Outcome};
+use crate::case::{Case, Effort, GATE_SEED, Outcome};
 use crate::report::{self, ReportStudy, Row, Sections};
 use crate::studies::{self, Extent};
 use crate::text::command;
@@ -31,6 +32,9 @@ pub(super) struct Args {
     /// The seed from which every case takes its random numbers [default: that of the gate]
     #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), default_value_t = GATE_SEED, allow_negative_numbers = true)]
     seed: u64,
+    /// Keep finished cases in this file, and do not run again those that it has
+    #[arg(long, value_name = "FILE")]
+    checkpoint: Option<PathBuf>,
     /// A folder with measured points, for the cases that compare with experiments
     #[arg(long, value_name = "DIR", value_parser = folder)]
     data: Option<PathBuf>,
@@ -67,18 +71,20 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let names: Vec<_> = chosen.iter().map(|case| case.about.name).collect();
     let data = (args.data.as_deref()).map(experiment::digest).transpose();
     let data = data.map_err(|error| Failure::Input(error.to_string()))?;
-    agree(
-        "validate",
-        json!({ "cases": names, "full": args.full, "seed": args.seed, "data": data }),
-    )?;
+    let input = json!({ "full": args.full, "seed": args.seed, "data": data });
+    agree("validate", json!({ "cases": names, "effort": input }))?;
     probe(&args.out, 0)?;
+    let kept = match &args.checkpoint {
+        Some(path) => Some(Kept::open(path, input, args.quiet)?),
+        None => None,
+    };
     let effort = Effort {
         full: args.full,
         seed: args.seed,
         data: args.data,
     };
     let (outcomes, sections) = on_threads(args.threads, || {
-        let outcomes = outcomes(&chosen, &effort, args.quiet)?;
+        let outcomes = outcomes(&chosen, &effort, kept.as_ref(), args.quiet)?;
         let sections = match args.cases.is_empty() && args.tags.is_empty() {
             true => gather(&effort, args.quiet)?,
             false => Some(Sections::default()),
@@ -150,11 +156,19 @@ fn gather(effort: &Effort, quiet: bool) -> Result<Option<Sections>, Failure> {
 
 /// Runs the cases, each rank its part one after the other, and prints how each ended. All outcomes on the root, and
 /// none elsewhere.
-fn outcomes(chosen: &[Case], effort: &Effort, quiet: bool) -> Result<Option<Vec<Outcome>>, Failure> {
+fn outcomes(
+    chosen: &[Case],
+    effort: &Effort,
+    kept: Option<&Kept>,
+    quiet: bool,
+) -> Result<Option<Vec<Outcome>>, Failure> {
     let bar = progress(chosen.len() as u64, "cases", quiet);
     // What a case says of itself every rank knows.
     let run = |k: usize| {
         let case: &Case = &chosen[k];
+        if let Some(found) = kept.and_then(|kept| kept.found(case.about.name)) {
+            return Ok(found);
+        }
         bar.set_message(case.about.name);
         let outcome = case.run(effort);
         Ok((
@@ -169,7 +183,7 @@ fn outcomes(chosen: &[Case], effort: &Effort, quiet: bool) -> Result<Option<Vec<
             bar.suspend(|| print(&line(chosen[k].about.name, found.0, found.3)))?;
         }
         bar.inc(1);
-        Ok::<_, Failure>(())
+        kept.map_or(Ok(()), |kept| kept.keep(chosen[k].about.name, found))
     };
     let found = cluster::share(chosen.len(), run, arrived)?;
     bar.finish_and_clear();
@@ -182,9 +196,6 @@ fn outcomes(chosen: &[Case], effort: &Effort, quiet: bool) -> Result<Option<Vec<
     };
     Ok(found.map(|found| chosen.iter().zip(found).map(outcome).collect()))
 }
-
-/// An outcome without what the case says of itself.
-type Found = (Verdict, Vec<Judged>, Vec<Control>, f64);
 
 fn line(name: &str, verdict: Verdict, seconds: f64) -> String {
     let verdict = match verdict {

@@ -23,8 +23,15 @@ pub struct Claim {
     dir: PathBuf,
     /// The folder was made for it.
     made: bool,
-    /// Held open for its lock.
-    _lock: File,
+    lock: Option<Lock>,
+}
+
+/// A file that exists for its lock.
+#[derive(Debug)]
+pub(super) struct Lock {
+    path: PathBuf,
+    /// Held open.
+    _file: File,
 }
 
 /// Held by whoever writes a set of files.
@@ -55,40 +62,22 @@ impl Claim {
     /// Claims a folder, which is made where it does not exist, waiting so long for others. Then what a killed process
     /// left there is put right: a set of files that was complete is moved into place, one that was not is removed.
     pub fn new(dir: &Path, patience: Duration) -> Result<Self, OutputError> {
-        let start = Instant::now();
         let made = !dir.exists();
-        let path = dir.join(LOCK);
-        let lock = loop {
-            fs::create_dir_all(dir).map_err(at(dir))?;
-            let mut options = OpenOptions::new();
-            let file = match options.write(true).create(true).truncate(false).open(&path) {
-                // The folder was removed just now.
-                Err(error) if error.kind() == io::ErrorKind::NotFound && !dir.exists() => continue,
-                file => file.map_err(at(dir))?,
+        let busy = "another shearbed is at work in this folder; wait for it, or give another --out";
+        let lock = Lock::new(dir, LOCK, patience, |reason| {
+            let reason = match reason.kind() {
+                io::ErrorKind::WouldBlock => io::Error::new(reason.kind(), busy),
+                io::ErrorKind::Unsupported => {
+                    io::Error::new(reason.kind(), format!("{reason}; give another --out"))
+                }
+                _ => reason,
             };
-            match file.try_lock() {
-                // Whoever held it may have removed it: then it locks nothing.
-                Ok(()) if is_there(&file) => break file,
-                Ok(()) => continue,
-                Err(TryLockError::WouldBlock) if start.elapsed() < patience => {
-                    sleep(Duration::from_millis(5))
-                }
-                Err(TryLockError::WouldBlock) => {
-                    let busy =
-                        "another shearbed is at work in this folder; wait for it, or give another --out";
-                    return Err(at(dir)(io::Error::new(io::ErrorKind::WouldBlock, busy)));
-                }
-                Err(TryLockError::Error(error)) => {
-                    let why = format!("this file system grants no locks: {error}; give another --out");
-                    return Err(at(dir)(io::Error::new(error.kind(), why)));
-                }
-            }
-        };
-        held(&LOCKS).push(path);
+            at(dir)(reason)
+        })?;
         let claim = Self {
             dir: dir.to_owned(),
             made,
-            _lock: lock,
+            lock: Some(lock),
         };
         let _writing = writing();
         claim.put_right()?;
@@ -169,21 +158,72 @@ impl Claim {
 
     /// The claimed folder has another name now, and the claim ends.
     pub(super) fn moved_to(mut self, dir: &Path) {
-        held(&LOCKS).retain(|path| *path != self.dir.join(LOCK));
+        if let Some(lock) = &mut self.lock {
+            lock.moved_to(dir.join(LOCK));
+        }
         self.dir = dir.to_owned();
     }
 }
 
 impl Drop for Claim {
     fn drop(&mut self) {
-        let path = self.dir.join(LOCK);
-        // Removed while it is locked: nobody else can hold it.
-        let _ = fs::remove_file(&path);
-        held(&LOCKS).retain(|held| *held != path);
+        drop(self.lock.take());
         if self.made {
             // Only where nothing was written.
             let _ = fs::remove_dir(&self.dir);
         }
+    }
+}
+
+impl Lock {
+    /// Makes the file `name` in a folder, and the folder where it does not exist, waiting so long for other processes that
+    /// hold it: then the error's kind is `WouldBlock`, and `Unsupported` where the file system grants no locks.
+    pub(super) fn new(
+        dir: &Path,
+        name: &str,
+        patience: Duration,
+        at: impl Fn(io::Error) -> OutputError,
+    ) -> Result<Self, OutputError> {
+        let start = Instant::now();
+        let path = dir.join(name);
+        let file = loop {
+            fs::create_dir_all(dir).map_err(&at)?;
+            let mut options = OpenOptions::new();
+            let file = match options.write(true).create(true).truncate(false).open(&path) {
+                // The folder was removed just now.
+                Err(error) if error.kind() == io::ErrorKind::NotFound && !dir.exists() => continue,
+                file => file.map_err(&at)?,
+            };
+            match file.try_lock() {
+                // Whoever held it may have removed it: then it locks nothing.
+                Ok(()) if is_there(&file) => break file,
+                Ok(()) => continue,
+                Err(TryLockError::WouldBlock) if start.elapsed() < patience => {
+                    sleep(Duration::from_millis(5))
+                }
+                Err(TryLockError::WouldBlock) => return Err(at(io::ErrorKind::WouldBlock.into())),
+                Err(TryLockError::Error(error)) => {
+                    let why = format!("this file system grants no locks: {error}");
+                    return Err(at(io::Error::new(io::ErrorKind::Unsupported, why)));
+                }
+            }
+        };
+        held(&LOCKS).push(path.clone());
+        Ok(Self { path, _file: file })
+    }
+
+    /// The file has another name now.
+    fn moved_to(&mut self, path: PathBuf) {
+        held(&LOCKS).retain(|held| *held != self.path);
+        self.path = path;
+    }
+}
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        // Removed while it is locked: nobody else can hold it.
+        let _ = fs::remove_file(&self.path);
+        held(&LOCKS).retain(|held| *held != self.path);
     }
 }
 

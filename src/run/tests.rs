@@ -1,0 +1,55 @@
+use super::*;
+use crate::scene_file;
+
+fn plan(count: usize, replicas: u64) -> Plan {
+    let text = format!(
+        "title = \"t\"\n[flow]\nshear_rate_per_s = 1\n[particles]\ncount = {count}\nlength_mm = 1\n\
+         aspect_ratio = 5\norientation = \"isotropic\"\n[time]\nperiods = 2\noutputs_per_period = 4\n\
+         [ensemble]\nreplicas = {replicas}\nseed = 7\n[output]\n\
+         observables = [\"projections\", \"orbit_constant\", \"orientation_tensor\"]\n"
+    );
+    Plan::new(&scene_file::parse("s.toml", &text).unwrap()).unwrap()
+}
+
+/// A run whose propagation puts a rod along `wrong` at an output.
+fn broken(count: usize, rod: usize, at: usize, wrong: [f64; 3]) -> Result<(), RunError> {
+    let plan = plan(count, 2);
+    let (rods, _) = Rods::draw(&plan, 1);
+    Recorder::new(&plan, 1).record(0..plan.outputs(), |first, output, block| {
+        rods.orient(first, output as u64, block);
+        if output == at && (first..first + block.len).contains(&rod) {
+            (0..3).for_each(|axis| block.p[axis][rod - first] = wrong[axis]);
+        }
+    })
+}
+
+#[test]
+fn a_broken_propagation_stops_the_run_and_names_rod_output_and_replica() {
+    // In the first block and the last, on one thread and on many.
+    for (count, rod) in [(300, 0), (300, 299), (1, 0), (CHUNK + 200, CHUNK + 131)] {
+        assert_eq!(broken(count, rod, 5, [0.6, 0.0, 0.8]), Ok(()));
+        for wrong in [[0.0; 3], [f64::NAN; 3], [0.6, 0.8, 0.1]] {
+            let error = broken(count, rod, 5, wrong).unwrap_err();
+            let start = format!("rod {rod}, output 5 (t_over_T = 1.25) of replica 1, seed 7: its direction");
+            assert!(error.to_string().starts_with(&start), "{error}");
+            assert!(error.to_string().contains("r_e = 5"), "{error}");
+        }
+    }
+}
+
+#[test]
+fn of_several_wrong_rods_the_first_is_named_whatever_the_threads() {
+    let plan = plan(3 * CHUNK, 1);
+    let recorder = |_| {
+        Recorder::new(&plan, 0)
+            .record(0..1, |_, _, block| block.len = BLOCK)
+            .unwrap_err()
+    };
+    let errors: Vec<_> = (0..4).map(recorder).collect();
+    assert!(errors.iter().all(|error| *error == errors[0]));
+    assert!(
+        errors[0].to_string().starts_with("rod 0, output 0 "),
+        "{}",
+        errors[0]
+    );
+}

@@ -1,0 +1,138 @@
+//! A replica that was stopped and gone on from gives the bits of one that was not.
+
+use serde_json::{Value, json};
+use shearbed::resume::Halfway;
+use shearbed::run::{Replica, go_on, run_replica};
+use shearbed::work::RunError;
+use shearbed::{Plan, scene_file};
+
+/// A plan of `count` rods, with tables and keys put in.
+fn plan(count: usize, flow: &str, interaction: &str, time: &str, replicas: u64) -> Plan {
+    let text = format!(
+        "title = \"t\"\n[flow]\n{flow}\n[particles]\ncount = {count}\nlength_mm = 0.72\naspect_ratio = 11.6\n\
+         aspect_ratio_sd_percent = 3.6\norientation = \"isotropic\"\n{interaction}\n[time]\n{time}\n\
+         [ensemble]\nreplicas = {replicas}\nseed = 5\n[output]\nobservables = [\"projections\", \"orientation_tensor\"]\n"
+    );
+    Plan::new(&scene_file::parse("s.toml", &text).unwrap()).unwrap()
+}
+
+const COUETTE: &str = "gradient_per_s = [[0,0,0],[-0.5,0,0],[0,0,0]]";
+const DENSE: &str = "[interaction]\nconcentration_per_cm3 = 500\nalpha = 0.5";
+const ANGLES: &str = "[interaction]\nconcentration_per_cm3 = 500\nalpha = 0.5\nupdate = \"angles\"";
+
+/// Scenes that keep something different each, and how often they are looked at in one replica.
+fn scenes() -> Vec<(Plan, usize)> {
+    let steps = "periods = 0.5\nsteps_per_period = 100\noutputs_per_period = 10";
+    vec![
+        (plan(40, COUETTE, DENSE, steps, 3), 50),
+        (plan(40, COUETTE, ANGLES, steps, 3), 50),
+        // Standard errors over rods.
+        (plan(40, COUETTE, DENSE, steps, 1), 50),
+        // The search by cells, and numbers that are drawn by chunks.
+        (plan(700, COUETTE, DENSE, steps, 3), 50),
+        (
+            plan(
+                70_000,
+                COUETTE,
+                DENSE,
+                "periods = 0.03\noutputs_per_period = 100\nsteps_per_period = 200",
+                3,
+            ),
+            6,
+        ),
+        // Free rods, more outputs than are made at once.
+        (plan(40, COUETTE, "", "periods = 3", 3), 3),
+        (
+            plan(
+                40,
+                "gradient_per_s = [[0.5,0,0],[0,-0.5,0],[0.1,0,0]]",
+                "",
+                "strain = 8\noutputs_per_strain = 20",
+                3,
+            ),
+            3,
+        ),
+    ]
+}
+
+/// The states at all looks of a replica, and its end.
+fn watched(plan: &Plan, from: Option<Halfway>) -> (Vec<Halfway>, Replica) {
+    let mut states = Vec::new();
+    let end = go_on(plan, 2, from, |state| states.push(state())).unwrap();
+    (states, end)
+}
+
+#[test]
+fn a_replica_goes_on_bit_for_bit_from_wherever_it_was() {
+    for (plan, looks) in scenes() {
+        let alone = run_replica(&plan, 2).unwrap();
+        let (states, end) = watched(&plan, None);
+        assert_eq!((states.len(), &end), (looks, &alone), "{plan}");
+        for (k, state) in states
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| k % 7 == 0 || k + 2 > looks)
+        {
+            assert_eq!(state.check(&plan), Ok(()), "{plan}");
+            let (rest, end) = watched(&plan, Some(state.clone()));
+            assert_eq!(end, alone, "{plan} from look {k}");
+            assert_eq!(rest, states[k + 1..], "{plan} from look {k}");
+        }
+    }
+}
+
+#[test]
+fn what_is_of_no_replica_of_the_plan_is_refused() {
+    let steps = "periods = 0.5\nsteps_per_period = 100\noutputs_per_period = 10";
+    let plans = [
+        plan(40, COUETTE, DENSE, steps, 3),
+        plan(40, COUETTE, "", "periods = 3", 3),
+    ];
+    let [interacting, free] = plans.each_ref().map(|plan| {
+        let (states, _) = watched(plan, None);
+        serde_json::to_value(&states[states.len() / 2]).unwrap()
+    });
+    let refused = |plan: &Plan, state: Value| {
+        let state: Halfway = serde_json::from_value(state).unwrap();
+        let cause = state.check(plan).unwrap_err();
+        let error = go_on(plan, 2, Some(state), |_| ()).unwrap_err();
+        assert_eq!(error, RunError::Misfit { replica: 2, cause });
+        cause
+    };
+    assert!(refused(&plans[1], interacting.clone()).contains("has rods"));
+    let mut without = interacting.clone();
+    without["rods"] = Value::Null;
+    assert!(refused(&plans[0], without).contains("has rods"));
+    assert!(refused(&plans[0], free).contains("sums"));
+    type Spoil = fn(&mut Value);
+    let spoilt: [(&str, Spoil); 14] = [
+        ("sums", |s| drop(s["sums"].as_array_mut().unwrap().pop())),
+        ("sums", |s| {
+            s["sums"] = json!(vec![json!({ "value": 0.0, "square": null }); 10_000])
+        }),
+        ("sums", |s| s["sums"][0]["square"] = json!(1.0)),
+        ("outputs", |s| s["rods"]["counters"]["steps"] = json!(5)),
+        ("outputs", |s| s["rods"]["counters"]["steps"] = json!(u64::MAX)),
+        ("numbers", |s| s["rods"]["counters"]["draws"] = json!(7)),
+        ("numbers", |s| {
+            s["rods"]["counters"]["replacements"] = json!(u64::MAX)
+        }),
+        ("number of rods", |s| {
+            drop(s["rods"]["since"].as_array_mut().unwrap().pop())
+        }),
+        ("number of rods", |s| {
+            drop(s["rods"]["positions"][1].as_array_mut().unwrap().pop())
+        }),
+        ("number of rods", |s| s["rods"]["directions"][2] = json!([])),
+        ("length 1", |s| s["rods"]["directions"][2][7] = json!(2.0)),
+        ("collision", |s| s["rods"]["since"][3] = json!(49)),
+        ("control volume", |s| s["rods"]["positions"][0][3] = json!(-1e-3)),
+        ("control volume", |s| s["rods"]["positions"][2][3] = json!(1e300)),
+    ];
+    for (word, spoil) in spoilt {
+        let mut state = interacting.clone();
+        spoil(&mut state);
+        let cause = refused(&plans[0], state);
+        assert!(cause.contains(word), "{word}: {cause}");
+    }
+}
