@@ -46,7 +46,7 @@ pub fn checkpoint() -> Target {
     // The first replicas added up, one that waits for its turn, and one in the middle.
     let kept = |added: u64| {
         let mut tally = Tally::new(&plan);
-        (0..added).for_each(|k| tally.add(&run_replica(&plan, k).expect("it runs")));
+        (0..added).for_each(|k| tally.add(run_replica(&plan, k).expect("it runs")));
         let mut states = Vec::new();
         let last = go_on(&plan, 2, None, |state| states.push(state())).expect("it runs");
         let middle = states.swap_remove(states.len() / 2);

@@ -179,7 +179,7 @@ mod tests {
         scene.ensemble.replicas = 10_000_000;
         scene.output.rods_at = (0..51).map(|k| f64::from(k) / 50.0).collect();
         scene.particles.count = 1_000_000;
-        let refused = fits(&lab::plan(&scene), 1, true, 1 << 40).unwrap_err();
+        let refused = fits(&lab::plan(&scene), 1, true, 1 << 40, 0).unwrap_err();
         assert!(refused.starts_with("output.rods_at"), "{refused}");
     }
 }
