@@ -1,7 +1,7 @@
 //! The border of the core: nothing leaves a run that is no result. Every rod must have a direction, every sum must be
-//! finite, and the trace of ⟨pp⟩ must be 1.
+//! finite, and the traces of ⟨pp⟩ and ⟨pppp⟩ must be 1.
 
-use crate::observable::{Block, Channel, Observable, Sum, lane_sum};
+use crate::observable::{Block, Channel, Observable, Sum, TRACES, lane_sum};
 
 /// How far the mean of |p|² over a block may be from 1: p = q/|q| is rounded some ten times on its way, each time by ε/2 of
 /// itself at most, and counts twice; the sum over 128 rods in 8 lanes is rounded 24 times.
@@ -88,17 +88,22 @@ pub(crate) fn sums(observable: Observable, block: &Block, sums: &[Sum]) -> Resul
     })
 }
 
-/// Refuses sums of ⟨pp⟩ over `count` rods whose trace is not 1.
+/// Refuses sums of ⟨pp⟩ or ⟨pppp⟩ over `count` rods whose trace, over all pairs of indices, is not 1.
 pub(crate) fn trace(observable: Observable, sums: &[Sum], count: usize) -> Result<(), Fault> {
-    if observable != Observable::OrientationTensor {
-        return Ok(());
-    }
-    let trace = sums[..3].iter().map(|sum| sum.value).sum::<f64>() / count as f64;
+    let (sum, tensor): (f64, _) = match observable {
+        Observable::OrientationTensor => (sums[..3].iter().map(|sum| sum.value).sum(), "⟨pp⟩"),
+        Observable::OrientationTensor4 => (
+            TRACES.iter().map(|(k, times)| times * sums[*k].value).sum(),
+            "⟨pppp⟩",
+        ),
+        _ => return Ok(()),
+    };
+    let trace = sum / count as f64;
     match (trace - 1.0).abs() <= TRACE {
         true => Ok(()),
         false => Err(Fault {
             rod: None,
-            cause: format!("the trace of ⟨pp⟩ came out as {trace}, not 1"),
+            cause: format!("the trace of {tensor} came out as {trace}, not 1"),
         }),
     }
 }
@@ -203,5 +208,15 @@ mod tests {
         );
         found[1].value = f64::NAN;
         assert!(trace(Observable::OrientationTensor, &found, 128).is_err());
+        // ⟨pppp⟩: each component of its trace counts.
+        let mut found = vec![Sum::default(); 15];
+        Observable::OrientationTensor4.add(&good, &mut found);
+        assert_eq!(trace(Observable::OrientationTensor4, &found, 128), Ok(()));
+        for k in [0, 3, 5, 10, 12, 14] {
+            let mut spoiled = found.clone();
+            spoiled[k].value += 1e-9;
+            let fault = trace(Observable::OrientationTensor4, &spoiled, 128).unwrap_err();
+            assert!(fault.cause.starts_with("the trace of ⟨pppp⟩"), "{k}");
+        }
     }
 }

@@ -18,7 +18,7 @@ const ROUNDING_OF_START: f64 = 4.0 * f64::EPSILON;
 #[derive(Clone, Debug)]
 pub(crate) struct FreeMotion {
     pub way: Way,
-    /// The bound on the error of a direction in rad. Random directions: of the map, relative to its size.
+    /// The bound on the error of a direction in rad. Random directions, and each rod's own: of the map, relative to its size.
     pub error_rad: f64,
 }
 
@@ -28,7 +28,7 @@ pub(crate) enum Way {
     Alike(Vec<[f64; 3]>),
     /// All rods are alike: the map to each output, periodically.
     Maps(Vec<Matrix3<f64>>),
-    /// A propagator for each rod; spans to each output, and the propagator that has their periods.
+    /// A propagator for each rod, or one where they are alike; spans to each output, and the propagator that has their periods.
     Each { mean: Box<Propagator>, spans: Vec<Span> },
 }
 
@@ -45,9 +45,11 @@ impl FreeMotion {
         }
         let start = match particles.orientation {
             Orientation::Given { phi_deg, theta_deg } => Some(from_degrees(phi_deg, theta_deg)),
-            Orientation::Random(_) => None,
+            Orientation::Random(_) | Orientation::Each { .. } => None,
         };
-        if particles.aspect_ratio_sd_percent > 0.0 {
+        // Each start has an error of its own, which a map does not tell.
+        let each = matches!(particles.orientation, Orientation::Each { .. });
+        if each || particles.aspect_ratio_sd_percent > 0.0 {
             let spread = 3.0 * particles.aspect_ratio_sd_percent / 100.0;
             let mut error_rad = 0.0f64;
             for r in [r * (1.0 - spread), r, r * (1.0 + spread)] {

@@ -68,6 +68,7 @@ mod rods;
 pub mod run;
 pub mod scene;
 pub mod scene_file;
+pub mod shape;
 pub mod snapshot;
 pub mod suspension;
 pub mod volume;

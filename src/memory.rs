@@ -21,7 +21,14 @@ pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
     // A propagator for each rod, and what all replicas share for each output.
     let maps = match plan.free().map(|free| &free.way) {
         None => [0, 0],
-        Some(Way::Each { spans, .. }) => [size_of::<Propagator>(), size_of_val(&spans[..])],
+        Some(Way::Each { spans, .. }) => {
+            let each = if plan.keeps(Stage::AspectRatios) {
+                size_of::<Propagator>()
+            } else {
+                0
+            };
+            [each, size_of_val(&spans[..])]
+        }
         Some(Way::Maps(maps)) => [0, size_of_val(&maps[..])],
         Some(Way::Alike(ends)) => [0, size_of_val(&ends[..])],
     };

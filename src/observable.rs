@@ -59,19 +59,50 @@ pub enum Observable {
     OrbitConstant,
     /// ⟨pp⟩.
     OrientationTensor,
+    /// ⟨pppp⟩: its 15 components that differ.
+    #[serde(rename = "orientation_tensor_4")]
+    OrientationTensor4,
+    /// What dilute slender rods add to the stress in plane Couette flow, over μ_fiber G: shear stress σ₁₂ and normal stress
+    /// differences N₁ = σ₂₂ − σ₁₁ (flow less gradient) and N₂ = σ₁₁ − σ₃₃ of σ_ij = μ_fiber ⟨p_i p_j p_k p_l⟩ D_kl, which is
+    /// μ_fiber G ⟨p_i p_j p₁p₂⟩ (Batchelor 1970; docs/coefficients.md).
+    ParticleStress,
 }
+
+/// The components of ⟨pppp⟩ that differ, each as two of the pairs 11, 22, 33, 12, 13, 23 by their places.
+const QUADS: [[usize; 2]; 15] = [
+    [0, 0],
+    [0, 3],
+    [0, 4],
+    [0, 1],
+    [0, 5],
+    [0, 2],
+    [3, 1],
+    [3, 5],
+    [3, 2],
+    [4, 2],
+    [1, 1],
+    [1, 5],
+    [1, 2],
+    [5, 2],
+    [2, 2],
+];
+
+/// Those of [`QUADS`] whose sum over both pairs is the trace of the trace of ⟨pppp⟩, which is 1, and how often each counts.
+pub(crate) const TRACES: [(usize, f64); 6] = [(0, 1.0), (10, 1.0), (14, 1.0), (3, 2.0), (5, 2.0), (12, 2.0)];
 
 /// The bins of the density of C_b over [0, 1].
 const BINS: usize = 20;
 
 impl Observable {
     /// Every observable.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 7] = [
         Self::Projections,
         Self::PlanarProjections,
         Self::MeanAngle,
         Self::OrbitConstant,
         Self::OrientationTensor,
+        Self::OrientationTensor4,
+        Self::ParticleStress,
     ];
 
     /// The key in a scene file, and the stem of the file's name.
@@ -82,6 +113,8 @@ impl Observable {
             Self::MeanAngle => "mean_angle",
             Self::OrbitConstant => "orbit_constant",
             Self::OrientationTensor => "orientation_tensor",
+            Self::OrientationTensor4 => "orientation_tensor_4",
+            Self::ParticleStress => "particle_stress",
         }
     }
 
@@ -93,10 +126,11 @@ impl Observable {
     /// How many channels there are.
     pub fn width(self) -> usize {
         match self {
-            Self::Projections | Self::PlanarProjections => 3,
+            Self::Projections | Self::PlanarProjections | Self::ParticleStress => 3,
             Self::MeanAngle => 1,
             Self::OrbitConstant => 1 + BINS,
             Self::OrientationTensor => 6,
+            Self::OrientationTensor4 => QUADS.len(),
         }
     }
 
@@ -132,6 +166,18 @@ impl Observable {
                 for (sum, (a, b)) in sums.iter_mut().zip(pairs) {
                     sum.add_each(block.len, |i| a[i] * b[i]);
                 }
+            }
+            Self::OrientationTensor4 => {
+                let pairs = [(p1, p1), (p2, p2), (p3, p3), (p1, p2), (p1, p3), (p2, p3)];
+                for (sum, [one, other]) in sums.iter_mut().zip(QUADS) {
+                    let ((a, b), (c, d)) = (pairs[one], pairs[other]);
+                    sum.add_each(block.len, |i| a[i] * b[i] * (c[i] * d[i]));
+                }
+            }
+            Self::ParticleStress => {
+                sums[0].add_each(block.len, |i| (p1[i] * p2[i]).powi(2));
+                sums[1].add_each(block.len, |i| p1[i] * p2[i] * (p2[i] * p2[i] - p1[i] * p1[i]));
+                sums[2].add_each(block.len, |i| p1[i] * p2[i] * (p1[i] * p1[i] - p3[i] * p3[i]));
             }
         }
     }
@@ -220,6 +266,20 @@ mod tests {
         close(observe(Observable::MeanAngle), vec![1.5f64.atan()]);
         let tensor = [4.0, 9.0, 36.0, -6.0, 12.0, -18.0].map(|x| x / 49.0);
         close(observe(Observable::OrientationTensor), tensor.to_vec());
+        // By exponents of 2/7, −3/7 and 6/7: 1111, 1112, 1113, 1122, 1123, 1133, 1222, 1223, 1233, 1333, 2222, …
+        let quads = [
+            16.0, -24.0, 48.0, 36.0, -72.0, 144.0, -54.0, 108.0, -216.0, 432.0, 81.0, -162.0, 324.0, -648.0,
+            1296.0,
+        ];
+        close(
+            observe(Observable::OrientationTensor4),
+            quads.map(|x| x / 2401.0).to_vec(),
+        );
+        // p₁p₂ = −6/49; p₂² − p₁² = 5/49; p₁² − p₃² = −32/49.
+        close(
+            observe(Observable::ParticleStress),
+            [36.0, -30.0, 192.0].map(|x| x / 2401.0).to_vec(),
+        );
         // C = (4·4 + 9)^½/(2·6) = 5/12, so C_b = 5/17 = 0.294.
         let orbit = observe(Observable::OrbitConstant);
         assert_relative_eq!(orbit[0], 5.0 / 17.0, max_relative = 1e-15);

@@ -37,7 +37,7 @@ enum Shapes {
 enum Motion {
     /// Plane Couette flow: phases from ticks.
     Couette(Ticks),
-    /// Anything else as the plan has it, with a propagator per rod where their aspect ratios differ.
+    /// Anything else as the plan has it; where rods are moved one by one with a propagator for each, or one for all.
     Free {
         motion: Arc<FreeMotion>,
         propagators: Vec<Propagator>,
@@ -151,7 +151,7 @@ impl Rods {
                     let span = spans[tick as usize];
                     block.turn(from, |k, p, _| {
                         // No direction rather than one that is not known: a run with one is refused.
-                        match propagators[first + k].moved_beside(mean, p, span) {
+                        match propagators[(first + k) % propagators.len()].moved_beside(mean, p, span) {
                             Some((end, error)) if error <= MAX_ERROR_RAD => end,
                             _ => [f64::NAN; 3],
                         }
@@ -240,6 +240,9 @@ fn draw_shapes(plan: &Plan, replica: u64) -> (Shapes, u64) {
 
 fn draw_directions(plan: &Plan, replica: u64) -> [Vec<f64>; 3] {
     let particles = &plan.scene().particles;
+    if let Orientation::Each { p: Some(p), .. } = &particles.orientation {
+        return (**p).clone();
+    }
     let count = particles.count;
     let mut p = [(); 3].map(|()| vec![0.0; count]);
     let rng = plan
@@ -249,10 +252,10 @@ fn draw_directions(plan: &Plan, replica: u64) -> [Vec<f64>; 3] {
         let mut rng = rng.as_ref().map(|rng| ahead(rng, 2 * first));
         for ((p1, p2), p3) in p1.iter_mut().zip(p2).zip(p3) {
             let drawn = rng.as_mut().map(|rng| isotropic(rng.random(), rng.random()));
-            let direction = match (particles.orientation, drawn) {
+            let direction = match (&particles.orientation, drawn) {
                 (Orientation::Random(_), Some(drawn)) => drawn,
-                (Orientation::Given { phi_deg, theta_deg }, _) => from_degrees(phi_deg, theta_deg),
-                (Orientation::Random(_), None) => unreachable!("a plan keeps the draws of random directions"),
+                (Orientation::Given { phi_deg, theta_deg }, _) => from_degrees(*phi_deg, *theta_deg),
+                _ => unreachable!("a plan keeps the draws of random directions, and has those of a file"),
             };
             [*p1, *p2, *p3] = direction.into_inner().into();
         }
@@ -277,6 +280,7 @@ fn choose_motion(plan: &Plan, shapes: &Shapes) -> Motion {
         (Way::Each { .. }, Shapes::Each(aspect_ratios)) => {
             aspect_ratios.iter().map(|&r| Propagator::new(flow, r)).collect()
         }
+        (Way::Each { .. }, Shapes::Shared(r)) => vec![Propagator::new(flow, *r)],
         _ => Vec::new(),
     };
     Motion::Free { motion, propagators }

@@ -7,11 +7,13 @@ use serde::{Deserialize, Deserializer, Serialize};
 mod allowed;
 mod check;
 mod keys;
+mod particles;
 mod ranges;
 mod steps;
 pub use allowed::Invalid;
 pub use keys::{Absent, Holds, KEYS, Key, MAX_COUNT, MAX_PER_UNIT, MAX_REPLICAS, MAX_SEED, TABLES};
 pub(crate) use keys::{find, required};
+pub use particles::{Isotropic, Orientation, Particles};
 pub use steps::resolved_strain;
 
 /// A whole scene. The tables and keys are those of the scene file ([`KEYS`]). In code, start from the default and say
@@ -73,50 +75,6 @@ fn three_by_three<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[
     gradient
         .map(Some)
         .map_err(|_| D::Error::custom("three rows of three numbers are allowed"))
-}
-
-/// `[particles]`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Particles {
-    /// N, the rods in the control volume.
-    pub count: usize,
-    /// a, the full length of a rod.
-    pub length_mm: f64,
-    /// r_e, or its mean.
-    pub aspect_ratio: f64,
-    /// σ of the Gaussian r_e in percent of its mean (eq. 11).
-    #[serde(default)]
-    pub aspect_ratio_sd_percent: f64,
-    /// The directions at t = 0.
-    pub orientation: Orientation,
-}
-
-/// The directions at t = 0.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(
-    untagged,
-    deny_unknown_fields,
-    expecting = "\"isotropic\" or { phi_deg = number, theta_deg = number } is allowed"
-)]
-pub enum Orientation {
-    /// Drawn by eq. 12.
-    Random(Isotropic),
-    /// The same for every rod.
-    Given {
-        /// φ from axis 1 towards axis 2.
-        phi_deg: f64,
-        /// θ from axis 3.
-        theta_deg: f64,
-    },
-}
-
-/// The word `"isotropic"`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Isotropic {
-    /// Every direction is equally likely.
-    Isotropic,
 }
 
 /// `[interaction]`.
@@ -204,19 +162,6 @@ impl Default for Flow {
         Self {
             shear_rate_per_s: Some(0.5),
             gradient_per_s: None,
-        }
-    }
-}
-
-/// A hundred rods of 0.72 mm with r_e = 11.6, in random directions.
-impl Default for Particles {
-    fn default() -> Self {
-        Self {
-            count: 100,
-            length_mm: 0.72,
-            aspect_ratio: 11.6,
-            aspect_ratio_sd_percent: 0.0,
-            orientation: Orientation::Random(Isotropic::Isotropic),
         }
     }
 }

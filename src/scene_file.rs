@@ -63,6 +63,7 @@ fn read(text: &str) -> Result<Scene, Vec<Found>> {
     // A number that no float holds spoils the whole text.
     let values: Table = text.parse().unwrap_or_default();
     let mut found = missing(&keys);
+    found.extend(one_shape(&keys));
     let (mut scene, mut known) = (example(), Vec::new());
     for key in &keys {
         match key.put_into(&mut scene, &values) {
@@ -173,17 +174,13 @@ fn example() -> Table {
 /// Tables and keys that must be there and are not; a misspelt one is told of as such.
 fn missing(keys: &[Key]) -> Vec<Found> {
     let has = |path: &str| keys.iter().find(|key| key.path == path);
-    let misspelt = |path: &str| {
-        let mut unknown = keys.iter().filter(|key| find(&key.path).is_none());
-        unknown.any(|key| nearest(&key.path) == Some(path))
-    };
     let mut found = Vec::new();
     for table in ["", "particles", "interaction"] {
         let at = match table {
             "" => Some(0),
             _ => has(table).filter(|key| key.is_table).map(|key| key.span.start),
         };
-        let lacks = |key: &&scene::Key| has(key.path).is_none() && !misspelt(key.path);
+        let lacks = |key: &&scene::Key| has(key.path).is_none() && !misspelt(keys, key.path);
         for (at, key) in at
             .into_iter()
             .flat_map(|at| required(table).filter(lacks).map(move |key| (at, key)))
@@ -192,6 +189,38 @@ fn missing(keys: &[Key]) -> Vec<Found> {
         }
     }
     found
+}
+
+/// r_e is given once.
+fn one_shape(keys: &[Key]) -> Option<Found> {
+    let has = |path: &str| keys.iter().find(|key| key.path == path);
+    let particles = has("particles").filter(|key| key.is_table)?;
+    match (
+        has("particles.aspect_ratio"),
+        has("particles.physical_aspect_ratio"),
+    ) {
+        (Some(given), Some(_)) => {
+            let message = format!(
+                "particles.aspect_ratio = {} is not allowed: either aspect_ratio or physical_aspect_ratio, not both",
+                given.value()
+            );
+            Some((given.span.start, message))
+        }
+        (None, None) if !misspelt(keys, "particles.aspect_ratio") => {
+            let allowed = find("particles.aspect_ratio")?.holds;
+            let message = format!(
+                "particles.aspect_ratio is missing: {allowed}; or physical_aspect_ratio and shape_correlation"
+            );
+            Some((particles.span.start, message))
+        }
+        _ => None,
+    }
+}
+
+/// Whether an unknown key may stand for this one.
+fn misspelt(keys: &[Key], path: &str) -> bool {
+    let mut unknown = keys.iter().filter(|key| find(&key.path).is_none());
+    unknown.any(|key| nearest(&key.path) == Some(path))
 }
 
 /// What is known in place of an unknown key.

@@ -26,6 +26,7 @@ replicas = 2
 seed = 1
 [output]
 observables = ["projections"]
+rods_at = [0, 0.5]
 "#;
 
 const EXTENSION: &str = r#"title = "t"
@@ -82,7 +83,7 @@ const KEYS: &[(&str, &str, &[&str])] = &[
     ("particles.aspect_ratio", "interacting rods need a number > 1", &["1", "1.0", "0.5"]),
     ("particles.aspect_ratio_sd_percent", "a finite number ≥ 0", NEGATIVE),
     ("particles.aspect_ratio_sd_percent", "so wide that r_e ≤ 1", &["30.5", "100", "1e300"]),
-    ("particles.orientation", "\"isotropic\" or { phi_deg = a finite number, theta_deg = ", NOT_A_DIRECTION),
+    ("particles.orientation", "\"isotropic\", { phi_deg = a finite number, theta_deg = ", NOT_A_DIRECTION),
     ("interaction.concentration_per_cm3", "a finite number > 0", NOT_POSITIVE),
     ("interaction.alpha", "a finite number ≥ 0", NEGATIVE),
     ("interaction.m", "a finite number > 0", NOT_POSITIVE),
@@ -100,6 +101,8 @@ const KEYS: &[(&str, &str, &[&str])] = &[
     ("ensemble.replicas", "a whole number from 1 to 10000000", &["10000001"]),
     ("ensemble.seed", "a whole number from 0 to 9223372036854775807", &["-1", "1.0", "\"1\""]),
     ("ensemble.seed", "a whole number from 0 to 9223372036854775807", &["9223372036854775808"]),
+    ("output.rods_at", "a list of finite numbers ≥ 0 that grow", &["0.1", "[-1]", "[nan]", "[0.2, 0.1]", "[\"0\"]", "{ }"]),
+    ("output.rods_at", "each the time of another output, k/10 up to 1", &["[0.15]", "[1.1]", "[0, 1e300]"]),
     ("output.observables", "a list of one or more of \"projections\", \"planar", NOT_OBSERVABLES),
 ];
 

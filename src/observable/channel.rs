@@ -38,6 +38,11 @@ impl Channel {
             Observable::MeanAngle => &["phi"],
             Observable::OrbitConstant => &["c_b"],
             Observable::OrientationTensor => &["a11", "a22", "a33", "a12", "a13", "a23"],
+            Observable::OrientationTensor4 => &[
+                "a1111", "a1112", "a1113", "a1122", "a1123", "a1133", "a1222", "a1223", "a1233", "a1333",
+                "a2222", "a2223", "a2233", "a2333", "a3333",
+            ],
+            Observable::ParticleStress => &["s12_per_mu_fiber_g", "n1_per_mu_fiber_g", "n2_per_mu_fiber_g"],
         };
         match fixed.get(self.index) {
             Some(&name) => name.to_owned(),

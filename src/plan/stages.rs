@@ -89,9 +89,14 @@ pub(super) fn entries(scene: &Scene) -> Vec<Entry> {
             "standard deviation 0: all rods share the mean",
         );
     }
-    match scene.particles.orientation {
+    match &scene.particles.orientation {
         Orientation::Random(_) => add(Stage::Orientations, true, "isotropic directions are drawn"),
         Orientation::Given { .. } => add(Stage::Orientations, false, "every rod starts at the given angles"),
+        Orientation::Each { file, .. } => add(
+            Stage::Orientations,
+            false,
+            &format!("every rod starts as in {file}"),
+        ),
     }
     let free = no_interaction(scene);
     for (stage, why) in [

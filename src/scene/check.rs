@@ -1,7 +1,9 @@
 //! Checking a scene: which values go together.
 
 use super::allowed::{Invalid, refused};
-use super::{Interaction, MAX_PER_UNIT, Scene, resolved_strain};
+use super::particles::equivalent;
+use super::{Interaction, MAX_PER_UNIT, Orientation, Scene, find, resolved_strain};
+use crate::Observable;
 use crate::flow::VelocityGradient;
 use crate::free::FreeMotion;
 use crate::jeffery::strain_per_period;
@@ -11,7 +13,7 @@ use nalgebra::Matrix3;
 
 /// The most steps and the most outputs of one scene.
 const MAX_STEPS: f64 = 1e9;
-/// 34 channels of 10⁶ outputs are 800 MB of sums.
+/// 52 channels of 10⁶ outputs are 1.2 GB of sums.
 const MAX_OUTPUTS: f64 = 1e6;
 /// The growth over the whole time up to which what turns is called periodic: a rod misses its start by as many rad.
 const MAX_DRIFT: f64 = 1e-6;
@@ -37,6 +39,9 @@ impl Scene {
     /// What does not go together: of the particles, and of the rest the first, for what is wrong there follows from
     /// one to the next. Every value is one that its key allows.
     fn at_odds(&self) -> Vec<Invalid> {
+        if let Err(refused) = self.check_shape() {
+            return vec![refused];
+        }
         let rest = self.check_motion().map(|_| ());
         [self.check_particles(), rest]
             .into_iter()
@@ -47,12 +52,94 @@ impl Scene {
     /// Checks the scene; its flow, and where rods do not move by the closed form of plane Couette flow, how they do.
     pub(crate) fn checked(&self) -> Result<(VelocityGradient, Option<FreeMotion>), Invalid> {
         self.out_of_range().into_iter().next().map_or(Ok(()), Err)?;
+        self.check_shape()?;
         self.check_particles()?;
+        self.check_start()?;
         self.check_motion()
+    }
+
+    /// Checks that r_e is given once: by itself, or by a cylinder and a formula that gives one for it.
+    fn check_shape(&self) -> Result<(), Invalid> {
+        let particles = &self.particles;
+        let key = "particles.shape_correlation";
+        let (r, formula) = match (particles.physical_aspect_ratio, particles.shape_correlation) {
+            (None, None) => return Ok(()),
+            (None, Some(given)) => {
+                let allowed = "it goes with physical_aspect_ratio, which is not given";
+                return Err(Invalid::new(key, format!("{:?}", given.name()), allowed));
+            }
+            (Some(r), None) => {
+                let words = find(key).map_or_else(String::new, |key| key.holds.to_string());
+                let allowed = format!("physical_aspect_ratio = {r} takes {words}");
+                return Err(Invalid::missing(key, &allowed));
+            }
+            (Some(r), Some(correlation)) => (r, correlation.formula()),
+        };
+        match equivalent(Some(r), particles.shape_correlation) {
+            Some(value) if value == particles.aspect_ratio => Ok(()),
+            Some(value) => {
+                let allowed = format!(
+                    "either aspect_ratio or physical_aspect_ratio, of which {} makes {value}",
+                    formula.name
+                );
+                Err(Invalid::new(
+                    "particles.aspect_ratio",
+                    particles.aspect_ratio,
+                    allowed,
+                ))
+            }
+            None => {
+                let allowed = format!(
+                    "{} ({}) gives no r_e there: above r, or falling as r grows; `shearbed shape` lists what others give",
+                    formula.name, formula.formula
+                );
+                Err(Invalid::new("particles.physical_aspect_ratio", r, allowed))
+            }
+        }
+    }
+
+    /// Checks that the directions of a file are there, one for each rod.
+    fn check_start(&self) -> Result<(), Invalid> {
+        let Orientation::Each { file, p, .. } = &self.particles.orientation else {
+            return Ok(());
+        };
+        let refused = |allowed: String| {
+            let value = format!("{{ file = {file:?} }}");
+            Err(Invalid::new("particles.orientation", value, allowed))
+        };
+        let Some(p) = p else {
+            return refused(
+                "a file's directions where something has read it, as `shearbed run` and `plan` do".into(),
+            );
+        };
+        let count = self.particles.count;
+        if p.iter().any(|axis| axis.len() != count) {
+            return refused(format!(
+                "a direction for each rod: it has {}, and particles.count is {count}",
+                p[0].len()
+            ));
+        }
+        let square = |rod: usize| p.iter().map(|axis| axis[rod] * axis[rod]).sum::<f64>();
+        match (0..count).find(|&rod| !((square(rod) - 1.0).abs() <= 16.0 * f64::EPSILON)) {
+            Some(rod) => refused(format!("directions of length 1, which that of rod {rod} is not")),
+            None => Ok(()),
+        }
+    }
+
+    /// Shear stress and normal stress differences are those of a shear flow.
+    fn check_stress(&self, flow: &VelocityGradient) -> Result<(), Invalid> {
+        let asked = self.output.observables.contains(&Observable::ParticleStress);
+        if !asked || flow.shear_rate_per_s().is_some() {
+            return Ok(());
+        }
+        let names: Vec<_> = self.output.observables.iter().map(|o| o.name()).collect();
+        let allowed = "particle_stress needs plane Couette flow: only ∂u_2/∂x_1 other than 0";
+        Err(Invalid::new("output.observables", format!("{names:?}"), allowed))
     }
 
     fn check_motion(&self) -> Result<(VelocityGradient, Option<FreeMotion>), Invalid> {
         let flow = self.check_flow()?;
+        self.check_stress(&flow)?;
         if let Some(interaction) = &self.interaction {
             self.check_interaction(interaction, &flow)?;
         }
@@ -81,10 +168,10 @@ impl Scene {
         }
     }
 
-    /// The output at this time; `None` where it is farther than a millionth of their distance from all.
+    /// The output at this time; `None` where it is farther than 1e-5 of their distance from all.
     pub(crate) fn output_at(&self, time: f64) -> Option<usize> {
         let place = time * self.outputs_per_unit() as f64;
-        let near = (place - place.round()).abs() <= 1e-6 && place.round() < self.outputs() as f64;
+        let near = (place - place.round()).abs() <= 1e-5 && place.round() < self.outputs() as f64;
         near.then_some(place.round() as usize)
     }
 

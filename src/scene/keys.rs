@@ -1,6 +1,7 @@
 //! The one table of a scene's keys: what each means, its unit, what it may hold and what it is where it is not given.
 
 use crate::observable::Observable;
+use crate::shape::{ALLOWED, Correlation};
 
 /// A table of a scene file, or one of its keys.
 ///
@@ -61,10 +62,10 @@ pub enum Holds {
     },
     /// Three rows of three finite numbers.
     Gradient,
-    /// `"isotropic"`, or two angles.
+    /// `"isotropic"`, two angles, or a file.
     Orientation,
-    /// One of two words.
-    OneOf([&'static str; 2]),
+    /// One of these words.
+    OneOf(&'static [&'static str]),
     /// Observables, each once.
     Observables,
     /// Times of outputs.
@@ -96,9 +97,16 @@ impl std::fmt::Display for Holds {
             Self::Between { least, most } => write!(f, "a number from {least:e} to {most:e}"),
             Self::Gradient => f.write_str("three rows of three finite numbers"),
             Self::Orientation => f.write_str(
-                "\"isotropic\" or { phi_deg = a finite number, theta_deg = a number from 0 to 180 }",
+                "\"isotropic\", { phi_deg = a finite number, theta_deg = a number from 0 to 180 } or { file = a text }",
             ),
-            Self::OneOf([one, other]) => write!(f, "\"{one}\" or \"{other}\""),
+            Self::OneOf(words) => {
+                let words: Vec<_> = words.iter().map(|word| format!("\"{word}\"")).collect();
+                match words.split_last() {
+                    Some((last, [])) => f.write_str(last),
+                    Some((last, others)) => write!(f, "{} or {last}", others.join(", ")),
+                    None => Ok(()),
+                }
+            }
             Self::Observables => {
                 let names = Observable::ALL.map(|observable| format!("\"{}\"", observable.name()));
                 write!(f, "a list of one or more of {}, each once", names.join(", "))
@@ -155,19 +163,21 @@ pub const TABLES: [Key; 6] = [
 
 /// The keys of a scene, in the order of the tables.
 #[rustfmt::skip]
-pub const KEYS: [Key; 22] = [
+pub const KEYS: [Key; 24] = [
     key("title", "a line that says what the scene is", "", Text, Refused),
     key("flow.shear_rate_per_s", "G of plane Couette flow u_2 = G x_1", "1/s", Positive, Other("gradient_per_s")),
     key("flow.gradient_per_s", "row i and column j hold ∂u_i/∂x_j", "1/s", Holds::Gradient, Other("shear_rate_per_s")),
     key("particles.count", "N, rods in the control volume", "", whole(1, MAX_COUNT as u64), Refused),
     key("particles.length_mm", "a, the full length of a rod", "mm", Positive, Refused),
-    key("particles.aspect_ratio", "r_e, or its mean; below 1 a disc; interacting rods need more than 1", "", Holds::Between { least: 1e-100, most: 1e100 }, Refused),
+    key("particles.aspect_ratio", "r_e, or its mean; below 1 a disc; interacting rods need more than 1", "", Holds::Between { least: 1e-100, most: 1e100 }, Other("physical_aspect_ratio")),
+    key("particles.physical_aspect_ratio", "length over diameter of a cylinder, of which shape_correlation makes r_e", "", Holds::Between { least: ALLOWED.0, most: ALLOWED.1 }, Other("aspect_ratio")),
+    key("particles.shape_correlation", "the formula for r_e of a cylinder, as `shearbed shape` lists them", "", OneOf(&Correlation::NAMES), Other("goes with physical_aspect_ratio")),
     key("particles.aspect_ratio_sd_percent", "σ of a Gaussian r_e, in percent of its mean (eq. 11)", "%", NotNegative, Default("0")),
-    key("particles.orientation", "the directions at t = 0; φ from axis 1 to axis 2, θ from axis 3", "degrees", Holds::Orientation, Refused),
+    key("particles.orientation", "the directions at t = 0; φ from axis 1 to axis 2, θ from axis 3; or a CSV file beside the scene with p1,p2,p3 of each rod", "degrees", Holds::Orientation, Refused),
     key("interaction.concentration_per_cm3", "n, rods per volume", "1/cm³", Positive, Refused),
     key("interaction.alpha", "α of P_c = (α/(s/a + α))^m (eq. 7); 0: no rods collide", "", NotNegative, Refused),
     key("interaction.m", "m of eq. 7", "", Positive, Default("3")),
-    key("interaction.update", "how a colliding rod takes its step; angles: A.14 to the letter", "", OneOf(["rotation", "angles"]), Default("\"rotation\"")),
+    key("interaction.update", "how a colliding rod takes its step; angles: A.14 to the letter", "", OneOf(&["rotation", "angles"]), Default("\"rotation\"")),
     key("interaction.min_contact_arm", "a shorter contact arm is no contact", "rod lengths", NotNegative, Default("0")),
     key("time.periods", "how long, in periods T of the mean aspect ratio", "T", NotNegative, Other("strain")),
     key("time.strain", "how long, in shear strain ∫(2D:D)^½ dt: for flows without a period", "", NotNegative, Other("periods")),

@@ -15,7 +15,8 @@ impl Scene {
             self.check_gradient(),
             whole("particles.count", particles.count as u64),
             number("particles.length_mm", particles.length_mm),
-            number("particles.aspect_ratio", particles.aspect_ratio),
+            self.check_aspect_ratio(),
+            given("particles.physical_aspect_ratio", particles.physical_aspect_ratio),
             number(
                 "particles.aspect_ratio_sd_percent",
                 particles.aspect_ratio_sd_percent,
@@ -44,6 +45,14 @@ impl Scene {
         .into_iter()
         .filter_map(Result::err)
         .collect()
+    }
+
+    /// What a correlation makes of another is judged with it.
+    fn check_aspect_ratio(&self) -> Result<(), Invalid> {
+        match self.particles.physical_aspect_ratio {
+            Some(_) => Ok(()),
+            None => number("particles.aspect_ratio", self.particles.aspect_ratio),
+        }
     }
 
     fn check_gradient(&self) -> Result<(), Invalid> {

@@ -101,6 +101,12 @@ fn holds(holds: &Holds) -> Value {
                 },
                 "required": ["phi_deg", "theta_deg"],
                 "additionalProperties": false
+            },
+            {
+                "type": "object",
+                "properties": { "file": { "type": "string" }, "crc32": { "type": "string" } },
+                "required": ["file"],
+                "additionalProperties": false
             }
         ] }),
         Holds::OneOf(words) => json!({ "enum": words }),

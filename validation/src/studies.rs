@@ -6,7 +6,7 @@ use crate::case::Effort;
 use crate::output::Output;
 use crate::report::{ReportFigure, ScenePlan};
 use crate::table::ReportTable;
-use crate::{cluster, figures, kicks, readings, speed, stability, suspensions, work_precision};
+use crate::{cluster, coefficients, figures, kicks, readings, speed, stability, suspensions, work_precision};
 
 /// A study, declared once.
 pub struct Study {
@@ -94,7 +94,7 @@ pub(crate) fn none() -> Vec<String> {
 }
 
 /// Every study, in the order of the report.
-pub const ALL: [Study; 8] = [
+pub const ALL: [Study; 9] = [
     figures::STUDY,
     readings::STUDY,
     kicks::chapter::STUDY,
@@ -102,6 +102,7 @@ pub const ALL: [Study; 8] = [
     stability::chapter::STUDY,
     suspensions::chapter::FREE,
     suspensions::chapter::INTERACTING,
+    coefficients::chapter::STUDY,
     speed::STUDY,
 ];
 

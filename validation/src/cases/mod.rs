@@ -3,6 +3,7 @@
 mod averaged;
 mod cheapest_split;
 mod closed_forms;
+mod coefficients;
 mod contact_rule;
 mod decay;
 mod encounters;
@@ -70,6 +71,7 @@ pub fn all() -> Vec<Case> {
         experiments::cases(),
         fit_covers::cases(),
         published::cases(),
+        coefficients::cases(),
     ]
     .into_iter()
     .flatten()

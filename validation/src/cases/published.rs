@@ -2,8 +2,8 @@
 
 use crate::case::{Case, Evidence};
 use crate::published::{SPH_ASPECT_RATIO, first_half_turn, sph_fibres};
-use crate::shape::spread;
 use shearbed::jeffery::strain_per_period;
+use shearbed::shape::spread;
 
 /// The least and the greatest strain of half a turn of a cylinder of this physical aspect ratio.
 type HalfTurn = fn(f64) -> (f64, f64);

@@ -17,9 +17,20 @@ pub(super) struct Facts {
     n_a3: Option<f64>,
     /// `dilute`, `semi-dilute` or `concentrated`.
     regime: Option<&'static str>,
+    /// r_e, and the formula that made it of the physical aspect ratio, where one did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    equivalent: Option<Equivalent>,
     /// The rows of rods.csv and its most bytes, where there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     rods: Option<RodsOut>,
+}
+
+/// The r_e of a cylinder.
+#[derive(Serialize)]
+struct Equivalent {
+    aspect_ratio: f64,
+    formula: &'static str,
+    by: &'static str,
 }
 
 /// What `rods.csv` will be.
@@ -43,6 +54,11 @@ impl Facts {
             shape_factor: (r - 1.0 / r) / (r + 1.0 / r),
             n_a3,
             regime: n_a3.map(|n_a3| regime(n_a3, r)),
+            equivalent: scene.particles.shape_correlation.map(|correlation| Equivalent {
+                aspect_ratio: r,
+                formula: correlation.formula().formula,
+                by: correlation.formula().name,
+            }),
             rods: (plan.rods_out() > 0).then(|| RodsOut {
                 rows: plan.rods_out(),
                 most_bytes: rods::most_bytes(plan, false),
@@ -58,6 +74,14 @@ impl Facts {
         parts.push(format!("Λ = {:.6}", self.shape_factor));
         let dilute = self.n_a3.zip(self.regime);
         parts.extend(dilute.map(|(n_a3, regime)| format!("n a³ = {n_a3:.3e} ({regime})")));
+        parts.extend(self.equivalent.as_ref().map(|found| {
+            let Equivalent {
+                aspect_ratio,
+                formula,
+                by,
+            } = found;
+            format!("r_e = {aspect_ratio:.4} ({by}: {formula})")
+        }));
         let rods = self.rods.as_ref().map(|rods| {
             let megabytes = 1e-6 * rods.most_bytes as f64;
             format!("\nrods.csv: {} rows, at most {megabytes:.2} MB", rods.rows)

@@ -67,6 +67,8 @@ fn y_name(observable: Observable) -> &'static str {
         Observable::MeanAngle => "mean angle φ (rad)",
         Observable::OrbitConstant => "mean C_b",
         Observable::OrientationTensor => "mean of p_i p_j",
+        Observable::OrientationTensor4 => "mean of p_i p_j p_k p_l",
+        Observable::ParticleStress => "stress of the rods over μ_fiber G",
     }
 }
 

@@ -3,11 +3,11 @@
 use super::Failure;
 use crate::sweep::{self, Setting};
 use crate::text::line;
-use crate::{cluster, scenes};
+use crate::{cluster, scenes, start};
 use shearbed::{Scene, scene_file};
 use std::ffi::OsStr;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A scene with the name of what is made from it.
 pub(super) struct Named {
@@ -16,6 +16,8 @@ pub(super) struct Named {
     pub(super) text: String,
     /// The file as given, or the built-in scene's name: for messages.
     pub(super) source: String,
+    /// The folder of the file: what it names lies there.
+    folder: PathBuf,
     /// The stem of the file's name, or the built-in scene's name.
     pub(super) stem: String,
 }
@@ -39,6 +41,7 @@ impl Named {
                 .map(|setting| format!(" --set {}={}", setting.key, sweep::shown(&setting.value)));
             Failure::Input(format!("{}{}: {error}", self.source, said.collect::<String>()))
         })?;
+        start::fill(&mut self.scene, &self.source, &self.folder).map_err(Failure::Input)?;
         Ok(self)
     }
 }
@@ -58,16 +61,20 @@ pub(super) fn load(given: &OsStr) -> Result<Named, Failure> {
             scene,
             text,
             source,
+            folder: PathBuf::new(),
             stem,
         });
     }
     let text = read(path)?;
-    let scene = scene_file::parse(&source, &text).map_err(|error| Failure::Input(error.to_string()))?;
+    let mut scene = scene_file::parse(&source, &text).map_err(|error| Failure::Input(error.to_string()))?;
+    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    start::fill(&mut scene, &source, &folder).map_err(Failure::Input)?;
     let stem = path.file_stem().unwrap_or(given).to_string_lossy().into_owned();
     Ok(Named {
         scene,
         text,
         source,
+        folder,
         stem,
     })
 }

@@ -1,7 +1,7 @@
 //! `shearbed shape`.
 
 use super::{Failure, print};
-use crate::shape::{ALLOWED, FORMULAS, spread};
+use shearbed::shape::{ALLOWED, Correlation, FORMULAS, spread};
 
 /// Arguments of `shape`.
 #[derive(clap::Args)]
@@ -29,17 +29,18 @@ pub(super) fn shape(args: &Args) -> Result<(), Failure> {
         }
         None => format!("a cylinder of r = {r}: no formula gives an r_e\n\n"),
     };
-    for formula in &FORMULAS {
+    for (formula, key) in FORMULAS.iter().zip(Correlation::NAMES) {
         let value = match formula.equivalent(r) {
             Some(value) => format!("{value:.3}"),
             None => "none".into(),
         };
         text += &format!(
-            "{value:>9}  {}: r_e = {}\n           of {}; {}\n           read in {}\n",
+            "{value:>9}  {} ({key}): r_e = {}\n           of {}; {}\n           read in {}\n",
             formula.name, formula.formula, formula.range, formula.source, formula.read_in
         );
     }
     text += "\nNone of the sources themselves was at hand. \"none\": there the formula gives an r_e above r, or one that falls as r \
-             grows.\nIn a scene, particles.aspect_ratio is r_e.\n";
+             grows.\nIn a scene, particles.aspect_ratio is r_e; or give r as \
+             physical_aspect_ratio and a name in brackets as shape_correlation.\n";
     print(&text)
 }

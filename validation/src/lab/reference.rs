@@ -21,6 +21,7 @@ pub fn problem(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> Problem
                 phi_rad: phi_deg.to_radians(),
                 theta_rad: theta_deg.to_radians(),
             },
+            Orientation::Each { .. } => unreachable!("a case reads no file"),
         },
         concentration_per_cm3: interaction.concentration_per_cm3,
         alpha: interaction.alpha,

@@ -5,6 +5,7 @@ pub mod exponential;
 pub mod isotropic;
 pub mod jeffery;
 pub mod kicks;
+pub mod moments;
 pub mod naive;
 pub mod pairing;
 pub mod quadrature;

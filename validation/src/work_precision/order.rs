@@ -99,6 +99,7 @@ pub fn of_scene(scene: &Scene) -> Option<Orders> {
             "the scene's own start",
         ),
         Orientation::Random(_) => (0.2, 1.0, "as the scene draws its starts at random"),
+        Orientation::Each { .. } => (0.2, 1.0, "as the scene's starts are many"),
     };
     Some(of_all(scene.particles.aspect_ratio, phi, theta, periods, whose))
 }

@@ -1,6 +1,37 @@
 //! Equivalent aspect ratios: a cylinder of length over diameter r turns in shear as an ellipsoid of r_e does (Bretherton
 //! 1962), and these formulas say which.
 
+use serde::{Deserialize, Serialize};
+
+/// Which of [`FORMULAS`], by the name that a scene gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Correlation {
+    /// Goldsmith & Mason 1967.
+    GoldsmithMason,
+    /// Cox 1971.
+    Cox,
+    /// Harris & Pittman 1975.
+    HarrisPittman,
+    /// Zhang et al. 2011.
+    Zhang,
+}
+
+impl Correlation {
+    /// The names, in the order of [`FORMULAS`].
+    pub const NAMES: [&str; 4] = ["goldsmith-mason", "cox", "harris-pittman", "zhang"];
+
+    /// Its formula.
+    pub fn formula(self) -> &'static Formula {
+        &FORMULAS[self as usize]
+    }
+
+    /// Its name in a scene.
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+}
+
 /// A published formula for r_e of a cylinder.
 #[derive(Clone, Copy, Debug)]
 pub struct Formula {
@@ -90,6 +121,24 @@ mod tests {
         }
         let (least, most) = spread(20.0).unwrap();
         assert!((least - 14.096).abs() < 1e-3 && (most - 14.328).abs() < 1e-3);
+    }
+
+    #[test]
+    fn a_correlation_is_the_formula_of_its_name() {
+        for (correlation, name) in [
+            (Correlation::GoldsmithMason, "Goldsmith & Mason 1967"),
+            (Correlation::Cox, "Cox 1971"),
+            (Correlation::HarrisPittman, "Harris & Pittman 1975"),
+            (Correlation::Zhang, "Zhang et al. 2011"),
+        ] {
+            assert_eq!(correlation.formula().name, name);
+            assert!(
+                name.to_lowercase()
+                    .replace(" & ", "-")
+                    .starts_with(correlation.name()),
+                "{name}"
+            );
+        }
     }
 
     #[test]

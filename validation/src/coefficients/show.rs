@@ -1,0 +1,125 @@
+//! The coefficients as tables and pictures.
+
+use super::Row;
+use crate::plot::{Figure, Points};
+use crate::published::folgar_tucker;
+use crate::report::ReportFigure;
+use crate::statistics::{Estimate, student};
+use crate::table::{Column, ReportTable, estimate, field, number};
+
+fn of<'a>(name: &str, value: impl Fn(&Row) -> Estimate + 'a) -> Column<'a, Row> {
+    let digits = |x: f64, se: f64| {
+        let places = (2.0 - se.log10()).floor().clamp(2.0, 6.0) as usize;
+        format!("{x:.places$} ± {se:.places$}")
+    };
+    estimate(name, digits, move |row: &Row| {
+        let Estimate { value, se } = value(row);
+        (value, se)
+    })
+}
+
+fn settings<'a>() -> Vec<Column<'a, Row>> {
+    vec![
+        field("n a³", |row: &Row| row.setting.n_a3),
+        field("r_e", |row: &Row| row.setting.aspect_ratio),
+        field("α", |row: &Row| row.setting.alpha),
+        field("steps ×", |row: &Row| row.setting.finer),
+        field("periods", |row: &Row| row.periods),
+    ]
+}
+
+/// C_I of each suspension, and how well one number does.
+pub(super) fn coefficients(rows: &[Row]) -> ReportTable {
+    let replicas = rows.first().map_or(0, |row| row.replicas);
+    let mut columns = settings();
+    columns.push(number("φ r_p", |x| format!("{x:.4}"), |row: &Row| row.phi_rp));
+    columns.push(of("C_I", |row| row.c_i));
+    for (k, name) in ["of 11", "of 22", "of 33", "of 12"].into_iter().enumerate() {
+        columns.push(of(name, move |row| row.own[k]));
+    }
+    columns.push(of("left over", |row| row.misfit));
+    columns.push(estimate(
+        "X̄₁'s decay per T",
+        |x, se| format!("{x:.2} ± {se:.2}"),
+        |row: &Row| row.damping_per_period.map(|found| (found.value, found.se)),
+    ));
+    ReportTable::new(
+        ["folgar-tucker", "The effective Folgar–Tucker coefficient"],
+        format!(
+            "Steady state of 100 rods, m = 3, {replicas} replicas (± a standard error, jackknife). C_I by least squares over \
+             all components of J, then by each component alone: where these differ, no single C_I describes the collisions, \
+             and the part of |J| that it leaves is in the next column. steps ×: time steps over those that resolve the motion. \
+             periods: before the window and in it. φ r_p: for cylinders, π n a³/(4 r_e). The decay of X̄₁'s oscillation is \
+             over the first two periods from isotropic directions."
+        ),
+        rows.to_vec(),
+        columns,
+    )
+}
+
+/// The rods' steady stress.
+pub(super) fn stress(rows: &[Row]) -> ReportTable {
+    let mut columns = settings();
+    for (k, name) in ["σ_12/(μ_fiber G)", "N_1/(μ_fiber G)", "N_2/(μ_fiber G)"]
+        .into_iter()
+        .enumerate()
+    {
+        columns.push(of(name, move |row| row.stress[k]));
+    }
+    ReportTable::new(
+        ["particle-stress", "What the rods add to the stress, steady"],
+        "σ_ij = μ_fiber G ⟨p_i p_j p₁p₂⟩ of slender rods (Batchelor 1970), in the same runs. 1 is the gradient, 2 the flow; N₁ = \
+         σ₂₂ − σ₁₁, N₂ = σ₁₁ − σ₃₃. What forces between colliding rods add is not in it.",
+        rows.to_vec(),
+        columns,
+    )
+}
+
+/// C_I against φ r_p, beside measured values of far denser suspensions.
+pub(super) fn figure(rows: &[Row]) -> ReportFigure {
+    let of_model = |aspect_ratio: f64| {
+        let own: Vec<_> = rows
+            .iter()
+            .filter(|row| {
+                let setting = row.setting;
+                setting.aspect_ratio == aspect_ratio && setting.alpha == 0.5 && setting.finer == 1
+            })
+            .collect();
+        Points {
+            label: format!("this model, r_e = {aspect_ratio}, α = 0.5"),
+            x: own.iter().map(|row| row.phi_rp).collect(),
+            y: own.iter().map(|row| row.c_i.value).collect(),
+            x_error: None,
+            y_error: Some(
+                own.iter()
+                    .map(|row| student(0.05, row.replicas) * row.c_i.se)
+                    .collect(),
+            ),
+        }
+    };
+    let measured = folgar_tucker().rows;
+    let seven = Points {
+        label: "measured: Folgar & Tucker 1984, n a³ > 3".into(),
+        x: measured.iter().map(|point| point.phi_rp).collect(),
+        y: measured.iter().map(|point| point.c_i).collect(),
+        x_error: None,
+        y_error: None,
+    };
+    ReportFigure {
+        name: "folgar-tucker".into(),
+        figure: Figure {
+            title: "The effective Folgar–Tucker coefficient".into(),
+            x_name: "φ r_p".into(),
+            y_name: "C_I".into(),
+            points: vec![of_model(11.6), seven],
+            x_log: true,
+            y_log: true,
+            ..Default::default()
+        },
+        caption: "Steady C_I of the model for n a³ up to 1, with 95 % intervals, beside seven measured values of suspensions that \
+                  are not dilute (n a³ above 3, second-hand). Nothing is fitted."
+            .into(),
+        source: "Folgar & Tucker 1984; eqs 5 to 10".into(),
+        cases: vec!["effective-ci".into()],
+    }
+}

@@ -1,0 +1,160 @@
+//! The directions that rods start with, from a file beside the scene.
+
+use shearbed::scene::{Orientation, Scene};
+use std::path::Path;
+use std::sync::Arc;
+
+/// The columns that are read.
+const P: [&str; 3] = ["p1", "p2", "p3"];
+
+/// What else may stand in the file, as in `rods.csv`; none of it is a start, but an r_e must be the scene's.
+const OTHERS: [&str; 9] = [
+    "replica",
+    "rod",
+    "time_s",
+    "strain",
+    "aspect_ratio",
+    "x1_mm",
+    "x2_mm",
+    "x3_mm",
+    "collided",
+];
+
+/// How far a length may be from 1: a direction in five decimals or more. It is divided out.
+const LENGTH: f64 = 1e-5;
+
+/// Reads the file of a scene whose rods start as one says; others are left as they are. `source` names the scene in
+/// messages, `beside` is the folder that its file is in.
+///
+/// # Errors
+///
+/// The file, line, column and value, and what is allowed.
+pub fn fill(scene: &mut Scene, source: &str, beside: &Path) -> Result<(), String> {
+    let (count, aspect_ratio) = (scene.particles.count, scene.particles.aspect_ratio);
+    let Orientation::Each { file, crc32, p } = &mut scene.particles.orientation else {
+        return Ok(());
+    };
+    let path = beside.join(&*file);
+    let shown = path.display();
+    let key = format!("{source}: particles.orientation");
+    let bytes = std::fs::read(&path).map_err(|error| format!("{key}: {shown}: cannot be read: {error}"))?;
+    let found = format!("{:08x}", crc32fast::hash(&bytes));
+    if let Some(expected) = crc32.as_ref().filter(|expected| **expected != found) {
+        return Err(format!(
+            "{key}: {shown}: has crc32 = {found}; {expected:?} is allowed, or no crc32"
+        ));
+    }
+    let directions = read(&bytes, aspect_ratio).map_err(|error| format!("{key}: {shown}:{error}"))?;
+    if directions[0].len() != count {
+        return Err(format!(
+            "{key}: {shown}: has {} rows; as many as particles.count = {count} are allowed",
+            directions[0].len()
+        ));
+    }
+    (*crc32, *p) = (Some(found), Some(Arc::new(directions)));
+    Ok(())
+}
+
+/// The directions, row by row; of an error the line first.
+fn read(bytes: &[u8], aspect_ratio: f64) -> Result<[Vec<f64>; 3], String> {
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
+    let in_words = |error: csv::Error| {
+        let line = error.position().map_or(1, csv::Position::line);
+        format!("{line}: not a table in CSV: {error}")
+    };
+    let head = reader.headers().map_err(in_words)?.clone();
+    for (k, name) in head.iter().enumerate() {
+        if !P.contains(&name) && !OTHERS.contains(&name) {
+            return Err(format!(
+                "1: unknown column {name:?}; allowed: p1, p2, p3, and those of rods.csv"
+            ));
+        }
+        if head.iter().take(k).any(|other| other == name) {
+            return Err(format!("1: column {name} is there twice; once is allowed"));
+        }
+    }
+    let place = |name: &str| head.iter().position(|other| other == name);
+    let mut places = [0; 3];
+    for (own, name) in places.iter_mut().zip(P) {
+        *own = place(name).ok_or_else(|| format!("1: column {name} is missing; p1, p2 and p3 are needed"))?;
+    }
+    let shape = place("aspect_ratio");
+    let mut p = [(); 3].map(|()| Vec::new());
+    for record in reader.records() {
+        let record = record.map_err(in_words)?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let number = |place: usize| {
+            let cell = record.get(place).unwrap_or_default();
+            let parsed = cell.parse().ok().filter(|value: &f64| value.is_finite());
+            parsed.ok_or_else(|| {
+                format!(
+                    "{line}: {} = {cell} is not allowed: a finite number",
+                    &head[place]
+                )
+            })
+        };
+        let direction = [number(places[0])?, number(places[1])?, number(places[2])?];
+        let length = direction[0].hypot(direction[1]).hypot(direction[2]);
+        if (length - 1.0).abs() > LENGTH {
+            let [p1, p2, p3] = direction;
+            return Err(format!(
+                "{line}: p = ({p1}, {p2}, {p3}) has length {length}: 1 within {LENGTH:e} is allowed"
+            ));
+        }
+        if let Some(place) = shape
+            && number(place)? != aspect_ratio
+        {
+            return Err(format!(
+                "{line}: aspect_ratio = {} is not allowed: the rods have the scene's, {aspect_ratio}, or the column is left out",
+                &record[place]
+            ));
+        }
+        for (axis, value) in p.iter_mut().zip(direction) {
+            axis.push(value / length);
+        }
+    }
+    Ok(p)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(text: &str) -> String {
+        read(text.as_bytes(), 11.6).unwrap_err()
+    }
+
+    #[test]
+    fn rows_are_directions_in_any_order_of_columns() {
+        let text = "rod,p3,p1,p2\n0,0.8,0.6,0\n7, -0.70711 ,0,0.70711\n";
+        let [p1, p2, p3] = read(text.as_bytes(), 11.6).unwrap();
+        assert_eq!((p1, p3[0]), (vec![0.6, 0.0], 0.8));
+        // 0.70711² · 2 = 1.0000091 is divided out.
+        assert!((p2[1] - 0.5f64.sqrt()).abs() < 1e-15 && (p3[1] + 0.5f64.sqrt()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_is_wrong_is_told_with_its_line() {
+        for (text, said) in [
+            ("p1,p2\n1,0\n", "1: column p3 is missing"),
+            ("p1,p2,p3,p1\n1,0,0,1\n", "1: column p1 is there twice"),
+            ("p1,p2,p3,theta\n1,0,0,1\n", "1: unknown column \"theta\""),
+            ("p1,p2,p3\n1,0,0\n1,zero,0\n", "3: p2 = zero is not allowed"),
+            ("p1,p2,p3\n1,0,nan\n", "2: p3 = nan is not allowed"),
+            ("p1,p2,p3\n1,0,1e999\n", "2: p3 = 1e999 is not allowed"),
+            (
+                "p1,p2,p3\n1,0,0\n0.6,0.8,0.1\n",
+                "3: p = (0.6, 0.8, 0.1) has length 1.00498",
+            ),
+            ("p1,p2,p3\n0,0,0\n", "2: p = (0, 0, 0) has length 0"),
+            ("p1,p2,p3\n1,0\n", "2: not a table in CSV"),
+            (
+                "aspect_ratio,p1,p2,p3\n11.5,1,0,0\n",
+                "2: aspect_ratio = 11.5 is not allowed",
+            ),
+        ] {
+            let found = refused(text);
+            assert!(found.starts_with(said), "{found}");
+        }
+    }
+}
