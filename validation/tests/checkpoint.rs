@@ -22,13 +22,15 @@ fn scenes(dir: &Path) -> [&'static str; 3] {
     let write = |name: &str, text: String| fs::write(dir.join(format!("{name}.toml")), text).unwrap();
     write("many", SMALL.replace("replicas = 3", "replicas = 700"));
     let one = long.replace("replicas = 3", "replicas = 1");
+    let one = one.replace("[output]", "[output]\nrods_at = [0, 30, 60, 100]");
     write("one", one.replace("periods = 1", "periods = 100"));
     let (free, rest) = long.split_once("[interaction]").unwrap();
     let (_, rest) = rest.split_once("[time]").unwrap();
     let free = format!("{free}[time]{rest}").replace("steps_per_period = 200\n", "");
     let free = free
         .replace("count = 300", "count = 5000")
-        .replace("replicas = 3", "replicas = 2");
+        .replace("replicas = 3", "replicas = 2")
+        .replace("[output]", "[output]\nrods_at = [0, 1, 8000]");
     write("free", free.replace("periods = 1", "periods = 8000"));
     ["many", "one", "free"]
 }
