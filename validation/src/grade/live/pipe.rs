@@ -153,24 +153,31 @@ impl Pipe {
     pub fn close(mut self) -> Result<(), String> {
         drop(self.requests.take());
         let deadline = Instant::now() + GRACE;
-        loop {
-            match self.unasked() {
-                Some(Ok((line, text))) => {
-                    return Err(format!(
-                        "line {line} of standard output answers nothing: {}",
-                        excerpt(&text)
-                    ));
-                }
-                Some(Err(trouble)) => return Err(trouble.to_string()),
-                None if self.has_ended() => return Ok(()),
-                None if Instant::now() > deadline => {
-                    let grace = GRACE.as_secs();
-                    return Err(format!(
-                        "it did not end within {grace} s of the end of its input and was stopped"
-                    ));
-                }
-                None => thread::sleep(Duration::from_millis(5)),
+        while !self.has_ended() {
+            self.nothing_more(Duration::ZERO)?;
+            thread::sleep(Duration::from_millis(5));
+            if Instant::now() > deadline {
+                let grace = GRACE.as_secs();
+                return Err(format!(
+                    "it did not end within {grace} s of the end of its input and was stopped"
+                ));
             }
+        }
+        // What it wrote last may still be on its way; a child may hold standard output open.
+        self.nothing_more(GRACE)
+    }
+
+    /// Waits for a line that nobody asked for.
+    fn nothing_more(&mut self, limit: Duration) -> Result<(), String> {
+        let Ok(heard) = self.lines.recv_timeout(limit) else {
+            return Ok(());
+        };
+        match self.counted(heard) {
+            Ok((line, text)) => Err(format!(
+                "line {line} of standard output answers nothing: {}",
+                excerpt(&text)
+            )),
+            Err(trouble) => Err(trouble.to_string()),
         }
     }
 
