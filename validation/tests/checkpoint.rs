@@ -29,7 +29,7 @@ fn scenes(dir: &Path) -> [&'static str; 3] {
     let free = free
         .replace("count = 300", "count = 5000")
         .replace("replicas = 3", "replicas = 2");
-    write("free", free.replace("periods = 1", "periods = 8000"));
+    write("free", free.replace("periods = 1", "periods = 4000"));
     ["many", "one", "free"]
 }
 
