@@ -68,6 +68,7 @@ fn killed(program: &Path, dir: &Path, kills: u32) -> Result<(f64, f64, u32), Box
     while done < kills {
         let mut command = run("killed");
         kept(&mut command);
+        let begun = SystemTime::now();
         let mut child = command.spawn()?;
         sleep(Duration::from_millis(random.random_range(1..LIFE_MS)));
         if child.try_wait()?.is_some_and(|status| status.success()) {

@@ -30,8 +30,8 @@ fn scenes(dir: &Path) -> [&'static str; 3] {
     let free = free
         .replace("count = 300", "count = 5000")
         .replace("replicas = 3", "replicas = 2")
-        .replace("[output]", "[output]\nrods_at = [0, 1, 8000]");
-    write("free", free.replace("periods = 1", "periods = 8000"));
+        .replace("[output]", "[output]\nrods_at = [0, 1, 4000]");
+    write("free", free.replace("periods = 1", "periods = 4000"));
     ["many", "one", "free"]
 }
 

@@ -53,15 +53,21 @@ impl Setting {
     }
 }
 
+/// The most parts of a key, as `particles.orientation.phi_deg` has: more would be tables without end.
+const DEEPEST: usize = 3;
+
 /// What stands before and after the first `=`; the first is a key.
 pub(crate) fn key_and_text<'a>(text: &'a str, shape: &str) -> Result<(&'a str, &'a str), String> {
     let (key, text) = text.split_once('=').ok_or(shape)?;
     let (key, text) = (key.trim(), text.trim());
     let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     let is_key = |part: &str| !part.is_empty() && part.chars().all(bare);
-    match key.split('.').all(is_key) {
-        true => Ok((key, text)),
-        false => Err(format!("{key:?} is no key of a scene; {shape}")),
+    match (key.split('.').all(is_key), key.split('.').count()) {
+        (true, parts) if parts > DEEPEST => Err(format!(
+            "{key:?} is no key of a scene: it has {parts} parts, and at most {DEEPEST} are allowed"
+        )),
+        (true, _) => Ok((key, text)),
+        _ => Err(format!("{key:?} is no key of a scene; {shape}")),
     }
 }
 
@@ -182,6 +188,21 @@ mod tests {
         // Steps added in floating point miss some of these.
         let added: Vec<_> = (0..10).map(|k| (0.1 + 0.1 * f64::from(k)).to_string()).collect();
         assert_ne!(added, tenths);
+    }
+
+    /// Found by fuzzing: thirty thousand parts overflowed the stack.
+    #[test]
+    fn a_key_has_three_parts_at_most() {
+        let deep = |parts| format!("{}=1", vec!["a"; parts].join("."));
+        assert!(Axis::parse(&deep(3)).is_ok() && Setting::parse(&deep(3)).is_ok());
+        for parts in [4, 30_000] {
+            for error in [
+                Axis::parse(&deep(parts)).unwrap_err(),
+                Setting::parse(&deep(parts)).unwrap_err(),
+            ] {
+                assert!(error.contains(&format!("it has {parts} parts, and at most 3 are allowed")));
+            }
+        }
     }
 
     #[test]
