@@ -88,10 +88,9 @@ fn killed(program: &Path, dir: &Path, kills: u32) -> Result<(f64, f64, u32), Box
         }
         done += 1;
         if let Ok(file) = fs::metadata(dir.join("kept")) {
-            let lost = end
-                .duration_since(file.modified()?)
-                .unwrap_or_default()
-                .as_secs_f64();
+            // A life that ends before its first checkpoint has lost itself.
+            let since = file.modified()?.max(begun);
+            let lost = end.duration_since(since).unwrap_or_default().as_secs_f64();
             most = most.max(lost);
             sum += lost;
         }

@@ -72,7 +72,9 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let data = (args.data.as_deref()).map(experiment::digest).transpose();
     let data = data.map_err(|error| Failure::Input(error.to_string()))?;
     let input = json!({ "full": args.full, "seed": args.seed, "data": data });
-    agree("validate", json!({ "cases": names, "effort": input }))?;
+    let mut agreed = input.clone();
+    agreed["cases"] = json!(names);
+    agree("validate", agreed)?;
     probe(&args.out, 0)?;
     let kept = match &args.checkpoint {
         Some(path) => Some(Kept::open(path, input, args.quiet)?),
