@@ -371,7 +371,7 @@ fn a_cylinder_is_given_by_its_own_aspect_ratio_and_a_formula() {
     for (change, said) in [
         (
             format!("aspect_ratio = 3\n{cylinder}"),
-            "c.toml:6: particles.aspect_ratio = 3 is not allowed: either",
+            "c.toml:7: particles.aspect_ratio = 3 is not allowed: either",
         ),
         (
             String::new(),

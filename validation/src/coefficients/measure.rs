@@ -34,33 +34,62 @@ const fn setting(n_a3: f64, aspect_ratio: f64, alpha: f64, finer: u64) -> Settin
     }
 }
 
-/// The suspensions of `shearbed bench`.
-pub const SETTINGS: [Setting; 14] = [
-    setting(0.02, 11.6, 0.5, 1),
-    setting(0.05, 11.6, 0.5, 1),
-    setting(0.1, 11.6, 0.5, 1),
+/// The suspensions of `shearbed bench`: the time step first, then the rest at the step [`Amount`] says.
+const FULL: [Setting; 16] = [
     setting(0.2, 11.6, 0.5, 1),
-    setting(0.5, 11.6, 0.5, 1),
-    setting(1.0, 11.6, 0.5, 1),
     setting(0.2, 11.6, 0.5, 2),
     setting(0.2, 11.6, 0.5, 4),
-    setting(0.2, 5.0, 0.5, 1),
-    setting(0.2, 20.0, 0.5, 1),
-    setting(0.2, 30.0, 0.5, 1),
-    setting(0.2, 11.6, 0.25, 1),
-    setting(0.2, 11.6, 1.0, 1),
-    setting(0.2, 11.6, 2.0, 1),
+    setting(0.2, 11.6, 0.5, 8),
+    setting(0.2, 11.6, 0.5, 16),
+    setting(0.2, 11.6, 0.5, 32),
+    setting(0.05, 11.6, 0.5, 8),
+    setting(0.1, 11.6, 0.5, 8),
+    setting(0.5, 11.6, 0.5, 8),
+    setting(1.0, 11.6, 0.5, 8),
+    setting(0.2, 5.0, 0.5, 8),
+    setting(0.2, 20.0, 0.5, 8),
+    setting(0.2, 30.0, 0.5, 8),
+    setting(0.2, 11.6, 0.25, 8),
+    setting(0.2, 11.6, 1.0, 8),
+    setting(0.2, 11.6, 2.0, 8),
 ];
 
 /// Those of the report.
-pub const QUICK: [Setting; 6] = [
-    setting(0.1, 11.6, 0.5, 1),
+const QUICK: [Setting; 7] = [
     setting(0.2, 11.6, 0.5, 1),
-    setting(0.5, 11.6, 0.5, 1),
-    setting(1.0, 11.6, 0.5, 1),
-    setting(0.2, 5.0, 0.5, 1),
-    setting(0.2, 11.6, 1.0, 1),
+    setting(0.2, 11.6, 0.5, 4),
+    setting(0.1, 11.6, 0.5, 4),
+    setting(0.5, 11.6, 0.5, 4),
+    setting(1.0, 11.6, 0.5, 4),
+    setting(0.2, 5.0, 0.5, 4),
+    setting(0.2, 11.6, 1.0, 4),
 ];
+
+/// How much is measured.
+#[derive(Clone, Copy, Debug)]
+pub struct Amount {
+    /// The suspensions.
+    pub settings: &'static [Setting],
+    /// Time steps over those that resolve the motion, where the rest is compared.
+    pub finer: u64,
+    /// Replicas of each.
+    pub replicas: u64,
+}
+
+impl Amount {
+    /// Of the report.
+    pub const QUICK: Self = Self {
+        settings: &QUICK,
+        finer: 4,
+        replicas: 12,
+    };
+    /// Of `shearbed bench`.
+    pub const FULL: Self = Self {
+        settings: &FULL,
+        finer: 8,
+        replicas: 48,
+    };
+}
 
 /// What was found of a suspension.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -92,10 +121,10 @@ const OUTPUTS: usize = 100;
 const RODS: usize = 100;
 
 /// Measures one suspension after the other.
-pub fn rows(settings: &[Setting], replicas: u64, effort: &Effort) -> Vec<Row> {
+pub fn rows(amount: Amount, effort: &Effort) -> Vec<Row> {
+    let settings = amount.settings.iter();
     settings
-        .iter()
-        .map(|setting| row(*setting, replicas, effort))
+        .map(|setting| row(*setting, amount.replicas, effort))
         .collect()
 }
 
@@ -126,17 +155,22 @@ pub fn scene(setting: Setting, effort: &Effort) -> Scene {
     scene
 }
 
-fn row(setting: Setting, replicas: u64, effort: &Effort) -> Row {
-    let scene = scene(setting, effort);
-    let half = periods(setting) as usize * OUTPUTS;
-    let strain = strain_per_period(setting.aspect_ratio) / OUTPUTS as f64;
+/// The means of each replica in its window, and X̄₁ at each quarter of the first two periods.
+pub(crate) fn windows(scene: &Scene, replicas: u64) -> Vec<(Means, [f64; 9])> {
+    let half = scene.time.periods.unwrap_or(0.0) as usize / 2 * OUTPUTS;
+    let strain = strain_per_period(scene.particles.aspect_ratio) / OUTPUTS as f64;
     let channels = Channels::new();
-    let traces = lab::per_replica(&scene, replicas, |mean| {
+    lab::per_replica(scene, replicas, |mean| {
         let means = channels.window(mean, half..2 * half, strain);
-        let quarters: [f64; 9] = std::array::from_fn(|k| mean(Channel::X[0], k * OUTPUTS / 4));
-        (means, quarters)
-    });
-    let (means, quarters): (Vec<_>, Vec<_>) = traces.into_iter().unzip();
+        (
+            means,
+            std::array::from_fn(|k| mean(Channel::X[0], k * OUTPUTS / 4)),
+        )
+    })
+}
+
+fn row(setting: Setting, replicas: u64, effort: &Effort) -> Row {
+    let (means, quarters): (Vec<_>, Vec<_>) = windows(&scene(setting, effort), replicas).into_iter().unzip();
     let factor = shape_factor(setting.aspect_ratio);
     let of = |value: &dyn Fn(&Means) -> f64| {
         let without: Vec<_> = (0..means.len())
@@ -174,13 +208,13 @@ fn damping(quarters: &[[f64; 9]]) -> Option<Estimate> {
 }
 
 /// The channels of ⟨pp⟩ and of ⟨pp p₁p₂⟩, found once.
-pub(crate) struct Channels {
+struct Channels {
     second: Vec<([usize; 2], Channel)>,
     sheared: Vec<([usize; 2], Channel)>,
 }
 
 impl Channels {
-    pub(crate) fn new() -> Self {
+    fn new() -> Self {
         let pairs = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
         let named = |pair: [usize; 2], more: &[usize]| {
             let mut indices = [&pair[..], more].concat();
@@ -204,7 +238,7 @@ impl Channels {
     }
 
     /// Means over a window of outputs, each `strain` after the one before, by the trapezoidal rule.
-    pub(crate) fn window(
+    fn window(
         &self,
         mean: &dyn Fn(Channel, usize) -> f64,
         outputs: std::ops::Range<usize>,

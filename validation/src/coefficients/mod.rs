@@ -10,7 +10,8 @@ pub mod chapter;
 mod measure;
 mod show;
 
-pub use measure::{QUICK, Row, SETTINGS, Setting, rows};
+pub use measure::{Amount, Row, Setting, rows};
+pub(crate) use measure::{scene, windows};
 
 use nalgebra::Matrix3;
 

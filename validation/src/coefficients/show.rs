@@ -18,6 +18,15 @@ fn of<'a>(name: &str, value: impl Fn(&Row) -> Estimate + 'a) -> Column<'a, Row> 
     })
 }
 
+/// The suspensions of r_e = 11.6 and α = 0.5 with so many times the steps that resolve the motion.
+pub(super) fn base(rows: &[Row], finer: u64) -> Vec<&Row> {
+    let base = |row: &&Row| {
+        let setting = row.setting;
+        setting.aspect_ratio == 11.6 && setting.alpha == 0.5 && setting.finer == finer
+    };
+    rows.iter().filter(base).collect()
+}
+
 fn settings<'a>() -> Vec<Column<'a, Row>> {
     vec![
         field("n a³", |row: &Row| row.setting.n_a3),
@@ -76,26 +85,18 @@ pub(super) fn stress(rows: &[Row]) -> ReportTable {
 }
 
 /// C_I against φ r_p, beside measured values of far denser suspensions.
-pub(super) fn figure(rows: &[Row]) -> ReportFigure {
-    let of_model = |aspect_ratio: f64| {
-        let own: Vec<_> = rows
-            .iter()
-            .filter(|row| {
-                let setting = row.setting;
-                setting.aspect_ratio == aspect_ratio && setting.alpha == 0.5 && setting.finer == 1
-            })
-            .collect();
-        Points {
-            label: format!("this model, r_e = {aspect_ratio}, α = 0.5"),
-            x: own.iter().map(|row| row.phi_rp).collect(),
-            y: own.iter().map(|row| row.c_i.value).collect(),
-            x_error: None,
-            y_error: Some(
-                own.iter()
-                    .map(|row| student(0.05, row.replicas) * row.c_i.se)
-                    .collect(),
-            ),
-        }
+pub(super) fn figure(rows: &[Row], finer: u64) -> ReportFigure {
+    let own = base(rows, finer);
+    let model = Points {
+        label: "this model, r_e = 11.6, α = 0.5".into(),
+        x: own.iter().map(|row| row.phi_rp).collect(),
+        y: own.iter().map(|row| row.c_i.value).collect(),
+        x_error: None,
+        y_error: Some(
+            own.iter()
+                .map(|row| student(0.05, row.replicas) * row.c_i.se)
+                .collect(),
+        ),
     };
     let measured = folgar_tucker().rows;
     let seven = Points {
@@ -111,7 +112,7 @@ pub(super) fn figure(rows: &[Row]) -> ReportFigure {
             title: "The effective Folgar–Tucker coefficient".into(),
             x_name: "φ r_p".into(),
             y_name: "C_I".into(),
-            points: vec![of_model(11.6), seven],
+            points: vec![model, seven],
             x_log: true,
             y_log: true,
             ..Default::default()
@@ -120,6 +121,6 @@ pub(super) fn figure(rows: &[Row]) -> ReportFigure {
                   are not dilute (n a³ above 3, second-hand). Nothing is fitted."
             .into(),
         source: "Folgar & Tucker 1984; eqs 5 to 10".into(),
-        cases: vec!["effective-ci".into()],
+        cases: vec!["effective-ci".into(), "folgar-tucker-seven".into()],
     }
 }
