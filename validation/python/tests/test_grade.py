@@ -105,7 +105,8 @@ def test_a_right_hand_side_is_judged_as_it_is() -> None:
         report = shearbed.grade(mistaken, names=["mid-flip-11.6"])
         assert not report and report["mid-flip-11.6"]["verdict"] == "FAIL", name
     runaway = shearbed.grade(lambda gradient, r, p: 1e3 * p, names=["mid-flip-2"])
-    assert not runaway
+    assert not runaway and runaway["mid-flip-2"]["verdict"] == "FAIL"
+    assert "cannot be followed" in runaway["mid-flip-2"]["raised"]
 
 
 def test_a_kind_is_seen_from_the_parameters() -> None:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._extrapolation import motion
+from ._extrapolation import Lost, motion
 from ._reference import call, read
 
 Array = NDArray[np.float64]
@@ -168,6 +168,9 @@ def grade(
             for count in (None,) if kind == "rhs" else steps or STEPS:
                 try:
                     found = _answer(function, kind, problem, count)
+                except Lost as error:
+                    raised[problem.name] = str(error)
+                    found = np.full((len(problem.times_s), len(problem.start), 3), np.nan)
                 except (ArithmeticError, RuntimeError, ValueError) as error:
                     raised[problem.name] = f"{type(error).__name__}: {error}"
                     break
