@@ -11,8 +11,8 @@ Array = NDArray[np.float64]
 
 _SUBSTEPS = (2, 4, 6, 8, 10, 12, 14, 16)
 _TOLERANCE = 1e-14
-# The longest problem, of ten thousand periods, takes some 33 000.
-_MOST_STEPS = 50_000
+# Ten thousand periods take some 300 000.
+_MOST_STEPS = 1_000_000
 # p is of length 1.
 _LARGEST = 1e6
 
