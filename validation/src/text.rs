@@ -25,6 +25,21 @@ pub(crate) fn readable(text: &str) -> Cow<'_, str> {
     Cow::Owned(all)
 }
 
+/// A readable text inside XML or HTML, between tags or in quotes.
+pub(crate) fn escaped(text: &str) -> String {
+    let mut escaped = String::new();
+    for letter in readable(text).chars() {
+        match letter {
+            '&' => escaped += "&amp;",
+            '<' => escaped += "&lt;",
+            '>' => escaped += "&gt;",
+            '"' => escaped += "&quot;",
+            letter => escaped.push(letter),
+        }
+    }
+    escaped
+}
+
 /// A readable text on one line.
 pub(crate) fn line(text: &str) -> String {
     readable(text).replace('\n', "\\n").replace('\t', " ")
@@ -96,6 +111,14 @@ mod tests {
             r"a\u{1b}]0;x\u{7}\u{9b}2J\u{d}b\u{202e}c\u{7f}"
         );
         assert_eq!(line("a\nerror: b\tc"), r"a\nerror: b c");
+    }
+
+    #[test]
+    fn a_text_in_xml_is_no_markup() {
+        assert_eq!(
+            escaped("<a href=\"x\">&\u{1}"),
+            r"&lt;a href=&quot;x&quot;&gt;&amp;\u{1}"
+        );
     }
 
     #[test]

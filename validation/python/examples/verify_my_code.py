@@ -1,6 +1,7 @@
 """fiberoripy's Jeffery equation graded, with the picture: pip install shearbed fiberoripy==1.4.0 scipy matplotlib
 
 fiberoripy turns tensors: a rod is the tensor pp, for which the quadratic closure is exact, and comes back as its eigenvector.
+It passes at r_e = 2 and 11.6. At 100 and 10 000 it ends without a word, and is wrong.
 """
 
 import numpy as np

@@ -94,6 +94,7 @@ def test_a_function_that_fails_has_no_answer_and_a_wrong_shape_is_said() -> None
 
 def test_a_right_hand_side_is_judged_as_it_is() -> None:
     report = shearbed.grade(rate)
+    assert len(report.problems) > 10
     assert report and all(problem["verdict"] == "PASS" for problem in report.problems), str(report)
     # Controls: the mistakes that are made, one of a hundredth of a percent, and no motion at all.
     wrong = {
@@ -105,7 +106,8 @@ def test_a_right_hand_side_is_judged_as_it_is() -> None:
         report = shearbed.grade(mistaken, names=["mid-flip-11.6"])
         assert not report and report["mid-flip-11.6"]["verdict"] == "FAIL", name
     runaway = shearbed.grade(lambda gradient, r, p: 1e3 * p, names=["mid-flip-2"])
-    assert not runaway
+    assert not runaway and runaway["mid-flip-2"]["verdict"] == "FAIL"
+    assert "cannot be followed" in runaway["mid-flip-2"]["raised"]
 
 
 def test_a_kind_is_seen_from_the_parameters() -> None:

@@ -26,7 +26,11 @@ def test_the_example_grades_fiberoripy(tmp_path: Path, monkeypatch: pytest.Monke
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "Agg")
     told = runpy.run_path(str(HERE / "examples" / "verify_my_code.py"))
-    assert told["report"], str(told["report"])
+    # What the example says of it, and docs/grading.md.
+    verdicts = {problem["name"]: problem["verdict"] for problem in told["report"].problems}
+    assert verdicts == {
+        "mid-flip-2": "PASS", "mid-flip-11.6": "PASS", "mid-flip-100": "FAIL", "mid-flip-10000": "FAIL"
+    }
     assert (tmp_path / "verify_my_code.png").stat().st_size > 10_000
     lines = (HERE / "examples" / "verify_my_code.py").read_text(encoding="utf-8").splitlines()
     assert len(lines) < 40, "an example is short"

@@ -7,6 +7,10 @@ use crate::cases;
 /// The most names that an error suggests.
 const MOST_SUGGESTED: usize = 10;
 
+/// The least likeness, by Jaro and Winkler, of a name that is suggested: two names of cases that have nothing in common
+/// are alike to 0.5 or so.
+const NEAR: f64 = 0.7;
+
 /// The cases of these names and tags in the order of the registry; all, where neither is given.
 pub(super) fn chosen(names: &[String], tags: &[String]) -> Result<Vec<Case>, Failure> {
     let mut all = cases::all();
@@ -35,18 +39,25 @@ fn unknown(flag: &str, word: &str, what: &str, known: &[String]) -> Failure {
         .iter()
         .map(|name| (strsim::jaro_winkler(word, name), name))
         .collect();
+    near.retain(|(likeness, _)| *likeness >= NEAR);
     near.sort_by(|a, b| b.0.total_cmp(&a.0));
     let near: Vec<_> = near
         .iter()
         .take(MOST_SUGGESTED)
         .map(|(_, name)| name.as_str())
         .collect();
-    let (nearest, rest) = near
-        .split_first()
-        .map_or(("", &[][..]), |(first, rest)| (*first, rest));
+    let suggested = match near.split_first() {
+        None => String::new(),
+        Some((nearest, [])) => format!("; did you mean {nearest}?"),
+        Some((nearest, rest)) => {
+            format!(
+                "; did you mean {nearest}? Others that are near: {}",
+                rest.join(", ")
+            )
+        }
+    };
     Failure::Input(format!(
-        "{flag} {word}: {what}; did you mean {nearest}? Others that are near: {}. `shearbed validate --list` has all",
-        rest.join(", ")
+        "{flag} {word}: {what}{suggested}. `shearbed validate --list` has all"
     ))
 }
 
@@ -99,5 +110,11 @@ mod tests {
         assert!(error.matches(',').count() <= MOST_SUGGESTED, "{error}");
         let error = names(&[], &["measurements"]).unwrap_err();
         assert!(error.contains("did you mean measurement?"), "{error}");
+        // What is like nothing gets no guess.
+        let error = names(&["zzz"], &[]).unwrap_err();
+        assert!(
+            error.contains("zzz") && !error.contains("did you mean"),
+            "{error}"
+        );
     }
 }

@@ -4,6 +4,7 @@ use super::live::Studies;
 use super::{Graded, Verdict};
 use crate::report::{ReportTable, markdown_table};
 use crate::table::of_words;
+use crate::text::escaped;
 use serde::Serialize;
 
 /// Everything that is said of a program.
@@ -161,7 +162,7 @@ pub fn junit(report: &Report) -> String {
         report.problems.len()
     );
     for graded in &report.problems {
-        let name = escape(&graded.name);
+        let name = escaped(&graded.name);
         xml += &format!("<testcase classname=\"shearbed\" name=\"{name}\">");
         if graded.verdict != Verdict::Pass {
             let message = format!(
@@ -175,28 +176,11 @@ pub fn junit(report: &Report) -> String {
             } else {
                 "failure"
             };
-            xml += &format!("<{element} message=\"{}\"></{element}>", escape(&message));
+            xml += &format!("<{element} message=\"{}\"></{element}>", escaped(&message));
         }
         xml += "</testcase>\n";
     }
     xml + "</testsuite>\n</testsuites>\n"
-}
-
-fn escape(text: &str) -> String {
-    let mut escaped = String::new();
-    for letter in text.chars() {
-        match letter {
-            '&' => escaped += "&amp;",
-            '<' => escaped += "&lt;",
-            '>' => escaped += "&gt;",
-            '"' => escaped += "&quot;",
-            // XML 1.0 has no other control characters, not even escaped.
-            '\n' | '\t' => escaped.push(' '),
-            letter if letter.is_control() => escaped.push('\u{fffd}'),
-            letter => escaped.push(letter),
-        }
-    }
-    escaped
 }
 
 #[cfg(test)]
@@ -234,7 +218,7 @@ mod tests {
         let xml = junit(&report);
         assert!(is_well_formed(xml.split_once("?>\n").unwrap().1), "{xml}");
         assert!(xml.contains("tests=\"3\" failures=\"1\"") && xml.contains("<skipped"));
-        assert!(xml.contains("&quot;x&quot; &amp; &lt;y&gt;\u{fffd}"));
+        assert!(xml.contains("&quot;x&quot; &amp; &lt;y&gt;\\u{1}"));
         let json: serde_json::Value = serde_json::from_str(&json(&report).unwrap()).unwrap();
         assert_eq!(json["problems"][1]["verdict"], "FAIL");
         assert_eq!(json["problems"][2]["error"], serde_json::Value::Null);

@@ -3,8 +3,8 @@
 use super::axis::{Axis, place};
 use super::legend::Legend;
 use super::style::{
-    AXES_HEIGHT, BAR_WIDTH, FINE, MARKER, SMALL_MARKER, TEXT, WIDTH, colour, curve, cut, looks, marker, text,
-    text_width,
+    AXES_HEIGHT, BAR_WIDTH, FINE, MARKER, SMALL_MARKER, TEXT, WIDTH, colour, curve, cut, is_coloured, looks,
+    marker, text, text_width,
 };
 use super::{Drawn, Figure};
 use plotters::coord::Shift;
@@ -91,11 +91,14 @@ where
     if shown().next().is_none() {
         chart.draw_series([Text::new("no data", centre, text(TEXT))])?;
     }
-    for (curve, look) in curves.iter().zip(&looks) {
-        band(&mut chart, curve, *look, foot.1)?;
+    // What is grey lies beneath.
+    let mut order: Vec<_> = (0..curves.len()).collect();
+    order.sort_by_key(|series| is_coloured(looks[*series]));
+    for series in &order {
+        band(&mut chart, &curves[*series], looks[*series], foot.1)?;
     }
-    for (curve, look) in curves.iter().zip(&looks) {
-        line(&mut chart, curve, *look)?;
+    for series in &order {
+        line(&mut chart, &curves[*series], looks[*series])?;
     }
     let marked = (figure.curves.iter().zip(&curves).zip(&looks)).filter(|((curve, _), _)| curve.is_marked());
     for ((_, placed), look) in marked {

@@ -117,7 +117,12 @@ impl Legend {
         let mut wanted: Vec<_> = (self.beside.iter())
             .map(|(series, mark, label)| (end(*series), *mark, label))
             .collect();
-        wanted.sort_by_key(|entry| entry.0);
+        let ends = || wanted.iter().map(|entry| entry.0);
+        let apart_by = ends().max().unwrap_or(0) - ends().min().unwrap_or(0);
+        // Where most ends are closer than their labels can be, the order in which they were given says more.
+        if 2 * apart_by > self.height_beside() {
+            wanted.sort_by_key(|entry| entry.0);
+        }
         let places = apart(wanted.iter().map(|entry| entry.0).collect(), LINE, height);
         for ((_, mark, label), y) in wanted.into_iter().zip(places) {
             sample(canvas, mark, (left + GAP, y), SHORT)?;
@@ -146,7 +151,7 @@ fn rows(entries: impl Iterator<Item = (Mark, String)>) -> Vec<Vec<Entry>> {
     rows
 }
 
-/// Places in ascending order, moved until each is `least` from the next and all are inside.
+/// Places, moved until they ascend, each is `least` from the next and all are inside.
 fn apart(mut places: Vec<i32>, least: i32, (top, bottom): (i32, i32)) -> Vec<i32> {
     let mut next = top;
     for place in &mut places {

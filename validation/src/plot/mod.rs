@@ -16,7 +16,7 @@ mod style;
 mod tests;
 
 use crate::markup::unicode;
-use crate::text::readable;
+use crate::text::{escaped, readable};
 pub(crate) use axis::power_of_ten;
 pub(crate) use grid::decade;
 use legend::Legend;
@@ -230,8 +230,8 @@ fn finish(figure: &Figure, drawing: &str, height: i32) -> String {
          viewBox=\"0 0 {WIDTH} {height}\">\n<title>{}</title>\n<desc>{}</desc>",
         WIDTH / FINE,
         height / FINE,
-        escape(&figure.title),
-        escape(&format!(
+        escaped(&figure.title),
+        escaped(&format!(
             "{} against {}: {}",
             figure.y_name,
             figure.x_name,
@@ -248,10 +248,4 @@ fn finish(figure: &Figure, drawing: &str, height: i32) -> String {
             body.replace(&stroke, &format!("{stroke} stroke-linejoin=\"round\"{dashes}"))
         });
     open + &dashed
-}
-
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
 }

@@ -94,6 +94,11 @@ pub(super) fn colour(index: usize) -> RGBColor {
     }
 }
 
+/// Whether a look is not grey.
+pub(super) fn is_coloured(index: usize) -> bool {
+    index % THEORY < PALETTE.len()
+}
+
 /// The colours of a map's classes, from right to not run: told apart also in grey, and by their glyphs.
 pub(super) const CLASSES: [RGBColor; 6] = [
     RGBColor(178, 223, 205),

@@ -1,147 +1,19 @@
 //! The report as one HTML file.
 
-use super::first::{Card, Closest, Thumbnail, cards, closest, thumbnails};
+use super::first::{cards, closest, thumbnails};
+use super::page::{
+    CaseView, EquationView, ExhibitView, FigureView, Group, LineView, Link, Page, StudyView, TableView,
+};
 use super::prose::Anchors;
 use super::words::{bounds, detail, number, seconds, share, verdict};
-use super::{Line, Origin, Report, ReportFigure, ReportTable, Row, ScenePlan};
+use super::{Line, Report, ReportFigure, ReportTable, Row};
 use crate::accept::Verdict;
-use crate::case::{Control, Judges};
+use crate::case::Judges;
 use crate::plot;
 use crate::studies::Exhibit;
 use crate::text::readable;
 use minijinja::value::{Serde, Value};
 use minijinja::{Environment, UndefinedBehavior};
-use serde::Serialize;
-
-/// All that the template shows.
-#[derive(Serialize)]
-struct Page<'a> {
-    style: &'static str,
-    script: &'static str,
-    headline: String,
-    good: bool,
-    cards: Vec<Card>,
-    thumbnails: Vec<Thumbnail<'a>>,
-    /// The cases to look at first: what is red, then what is nearest to its bound.
-    attention: Vec<Link<'a>>,
-    closest: Vec<Closest<'a>>,
-    studies: Vec<StudyView<'a>>,
-    groups: Vec<Group<'a>>,
-    tables: Vec<TableView<'a>>,
-    equations: Vec<EquationView<'a>>,
-    plans: &'a [ScenePlan],
-    false_alarm: String,
-    full: bool,
-    time: String,
-    origin: &'a Origin,
-}
-
-/// The cases that judge one thing.
-#[derive(Serialize)]
-struct Group<'a> {
-    tag: &'static str,
-    name: &'static str,
-    means: &'static str,
-    cases: Vec<CaseView<'a>>,
-}
-
-/// A study with its pictures and tables.
-#[derive(Serialize)]
-struct StudyView<'a> {
-    name: &'a str,
-    title: &'a str,
-    question: &'a str,
-    answer: &'a str,
-    command: &'a str,
-    time: String,
-    cases: Vec<Link<'a>>,
-    exhibits: Vec<ExhibitView<'a>>,
-}
-
-/// A picture beside its table.
-#[derive(Serialize)]
-struct ExhibitView<'a> {
-    figure: Option<FigureView<'a>>,
-    table: Option<TableView<'a>>,
-    /// The table is narrow enough to stand beside the picture.
-    beside: bool,
-}
-
-/// A row as text.
-#[derive(Serialize)]
-struct CaseView<'a> {
-    name: &'a str,
-    claim: &'a str,
-    tags: String,
-    source: &'a str,
-    class: Verdict,
-    symbol: &'static str,
-    word: &'static str,
-    used: String,
-    /// How long the bar of the used tolerance is, in percent.
-    bar: Option<f64>,
-    because: &'a str,
-    evidence: Vec<LineView<'a>>,
-    caught: usize,
-    controls: &'a [Control],
-    time: String,
-    command: &'a str,
-    figures: Vec<Link<'a>>,
-}
-
-/// A line of the evidence as text.
-#[derive(Serialize)]
-struct LineView<'a> {
-    what: &'a str,
-    class: Verdict,
-    symbol: &'static str,
-    word: &'static str,
-    error: String,
-    tolerance: String,
-    because: &'a str,
-    detail: String,
-}
-
-/// A picture as SVG.
-#[derive(Serialize)]
-struct FigureView<'a> {
-    name: &'a str,
-    title: &'a str,
-    svg: String,
-    caption: &'a str,
-    source: &'a str,
-    cases: Vec<Link<'a>>,
-}
-
-/// A table, and which of its columns hold numbers.
-#[derive(Serialize)]
-struct TableView<'a> {
-    name: &'a str,
-    title: &'a str,
-    caption: &'a str,
-    columns: &'a [String],
-    rows: &'a [Vec<String>],
-    numeric: Vec<bool>,
-}
-
-/// An equation with the cases that test it, and the mistakes that they caught.
-#[derive(Serialize)]
-struct EquationView<'a> {
-    number: &'a str,
-    says: &'a str,
-    code: &'a [String],
-    cases: Vec<Link<'a>>,
-    caught: Vec<&'a str>,
-}
-
-/// A link inside the report, to a case with its verdict or to a figure.
-#[derive(Serialize)]
-struct Link<'a> {
-    anchor: String,
-    text: &'a str,
-    class: Option<Verdict>,
-    symbol: &'static str,
-}
 
 pub(super) fn write(report: &Report) -> Result<String, String> {
     let mut environment = Environment::new();

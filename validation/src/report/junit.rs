@@ -2,6 +2,7 @@
 
 use super::{Report, Row};
 use crate::accept::Verdict;
+use crate::text::escaped;
 
 pub(super) fn write(report: &Report) -> String {
     let summary = &report.summary;
@@ -12,13 +13,13 @@ pub(super) fn write(report: &Report) -> String {
         summary.fail + summary.underpowered,
         summary.nodata,
         summary.seconds,
-        escape(report.origin.date.trim_end_matches('Z'))
+        escaped(report.origin.date.trim_end_matches('Z'))
     );
     for row in &report.cases {
         xml += &format!(
             "<testcase classname=\"shearbed.{}\" name=\"{}\" time=\"{:.3}\">{}</testcase>\n",
             row.judges.tag(),
-            escape(&row.name),
+            escaped(&row.name),
             row.seconds,
             ended(row)
         );
@@ -28,26 +29,11 @@ pub(super) fn write(report: &Report) -> String {
 
 /// What is wrong with a case, or why it was not judged.
 fn ended(row: &Row) -> String {
-    let words = escape(&row.reasons());
+    let words = escaped(&row.reasons());
     match row.verdict {
         Verdict::Pass => String::new(),
         Verdict::NoData => format!("<skipped message=\"no data\">{words}</skipped>"),
         Verdict::Fail => format!("<failure message=\"failed\">{words}</failure>"),
         Verdict::Underpowered => format!("<failure message=\"under-powered\">{words}</failure>"),
     }
-}
-
-/// A text as XML: without the control characters that XML 1.0 does not have.
-fn escape(text: &str) -> String {
-    let mut escaped = String::new();
-    for letter in crate::text::readable(text).chars() {
-        match letter {
-            '&' => escaped += "&amp;",
-            '<' => escaped += "&lt;",
-            '>' => escaped += "&gt;",
-            '"' => escaped += "&quot;",
-            letter => escaped.push(letter),
-        }
-    }
-    escaped
 }

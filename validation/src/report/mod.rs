@@ -7,6 +7,7 @@ mod json;
 mod junit;
 mod markdown;
 mod origin;
+mod page;
 mod prose;
 mod row;
 mod sections;

@@ -2,6 +2,7 @@
 
 use super::Report;
 use crate::markup::{Piece, pieces, subscripts};
+use crate::text::escaped;
 use std::collections::BTreeSet;
 
 /// The anchors of a report.
@@ -27,11 +28,13 @@ impl Anchors {
     pub(super) fn html(&self, text: &str) -> String {
         let html = pieces(text).into_iter().map(|piece| match piece {
             Piece::Text(text) => typeset(text),
-            Piece::Code(code) => self.link(&format!("case-{code}"), format!("<code>{}</code>", escape(code))),
-            Piece::Equation(number) => self.link(&format!("equation-{number}"), escape(number)),
+            Piece::Code(code) => {
+                self.link(&format!("case-{code}"), format!("<code>{}</code>", escaped(code)))
+            }
+            Piece::Equation(number) => self.link(&format!("equation-{number}"), escaped(number)),
             Piece::Figure(number) => match self.figure(number) {
-                Some(name) => anchor(&format!("figure-{name}"), &escape(number)),
-                None => escape(number),
+                Some(name) => anchor(&format!("figure-{name}"), &escaped(number)),
+                None => escaped(number),
             },
         });
         html.collect()
@@ -58,24 +61,17 @@ impl Anchors {
 }
 
 fn anchor(target: &str, html: &str) -> String {
-    format!("<a href=\"#{}\">{html}</a>", escape(target))
+    format!("<a href=\"#{}\">{html}</a>", escaped(target))
 }
 
 fn typeset(text: &str) -> String {
     // An error stays with its sign where a line is broken.
     let text = text.replace("± ", "±\u{a0}");
     let parts = subscripts(&text).into_iter().map(|(below, part)| match below {
-        true => format!("<sub>{}</sub>", escape(part)),
-        false => escape(part),
+        true => format!("<sub>{}</sub>", escaped(part)),
+        false => escaped(part),
     });
     parts.collect()
-}
-
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
 }
 
 #[cfg(test)]

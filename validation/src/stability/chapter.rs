@@ -1,6 +1,6 @@
 //! The study of stability.
 
-use super::{core_table, figures, limit_tables, maps};
+use super::{core_table, ends, figures, limit_tables, maps};
 use crate::studies::{self, Exhibit, Extent, Found, Study};
 use crate::subject;
 
@@ -34,8 +34,8 @@ fn run(_: &Extent) -> Result<Option<Found>, String> {
     let maps = maps::figures(&subjects);
     let answer = maps::answer(&maps);
     let mut exhibits: Vec<Exhibit> = maps.into_iter().map(Exhibit::from).collect();
-    for (exhibit, ends) in exhibits.iter_mut().zip(maps::ends(&subjects)) {
-        exhibit.table = Some(ends);
+    for (exhibit, table) in exhibits.iter_mut().zip(ends::ends(&subjects)) {
+        exhibit.table = Some(table);
     }
     for figure in figures::figures(&subjects) {
         let beside = limits.iter().position(|table| table.name == figure.name);

@@ -1,13 +1,13 @@
-//! The maps: what was found in every corner, as pictures, and in words where each integrator leaves.
+//! The maps: what was found in every corner, as pictures.
 
 use super::limit_tables::THEORIES;
 use super::limits::Property;
-use super::map::{self, ASPECT_RATIOS, Cell, Found, PERIODS, STEPS, TOLERANCES};
+use super::map::{self, ASPECT_RATIOS, Cell, PERIODS, TOLERANCES};
 use super::orbit::Place;
-use crate::plot::{Figure, Grid, Map, decade, power_of_ten};
+use super::panels::{Panel, Panels};
+use crate::plot::{Map, decade, power_of_ten};
 use crate::report::ReportFigure;
 use crate::subject::{Setting, Subject, Theory};
-use crate::table::{ReportTable, of_words};
 use shearbed::jeffery::strain_per_period;
 
 /// Steps that a run of the maps over steps and over starts may take; ten times as many over durations.
@@ -18,81 +18,6 @@ const STRAINS: std::ops::RangeInclusive<i32> = -6..=10;
 
 /// The aspect ratios of the picture, which theory's limits cover.
 const RODS: [f64; 10] = [1.01, 1.5, 2.0, 3.0, 5.0, 11.6, 30.0, 100.0, 1e3, 1e4];
-
-/// What was found of one subject, or at one aspect ratio: a row and a column for each cell.
-struct Panel {
-    title: String,
-    cells: Vec<Vec<Cell>>,
-    limit: Vec<(f64, f64)>,
-}
-
-/// A picture of panels with the same rows and columns.
-struct Panels<'a> {
-    words: [&'a str; 2],
-    caption: String,
-    axes: [&'a str; 2],
-    columns: Vec<String>,
-    values: Vec<String>,
-    rows: Vec<String>,
-    panels: Vec<Panel>,
-}
-
-impl Panels<'_> {
-    fn figure(self) -> ReportFigure {
-        let [name, title] = self.words;
-        let map = |panel: Panel| Map {
-            title: panel.title,
-            cells: (panel.cells.iter())
-                .map(|row| row.iter().map(|cell| cell.found.class()).collect())
-                .collect(),
-            limit: panel.limit,
-        };
-        ReportFigure {
-            name: name.into(),
-            figure: Figure {
-                title: title.into(),
-                x_name: self.axes[0].into(),
-                y_name: self.axes[1].into(),
-                grid: Some(Grid {
-                    classes: Found::CLASSES.map(String::from).into(),
-                    columns: self.columns,
-                    values: self.values,
-                    rows: self.rows,
-                    maps: self.panels.into_iter().map(map).collect(),
-                    limit_name: "theory: the longest step without overtaking".into(),
-                }),
-                ..Default::default()
-            },
-            caption: self.caption,
-            source: "A.1 to A.5".into(),
-            cases: vec!["stability-map".into()],
-        }
-    }
-}
-
-impl Found {
-    /// What a map tells apart.
-    const CLASSES: [&'static str; 6] = [
-        "right",
-        "stable but wrong",
-        "length lost",
-        "not finite",
-        "refused",
-        "not run",
-    ];
-
-    /// Its place among [`Self::CLASSES`].
-    fn class(self) -> usize {
-        match self {
-            Self::RoundOff | Self::Accurate => 0,
-            Self::Wrong => 1,
-            Self::LengthLost => 2,
-            Self::NotFinite => 3,
-            Self::Refused => 4,
-            Self::NotRun => 5,
-        }
-    }
-}
 
 fn strain(quarter: i32) -> f64 {
     10f64.powf(0.25 * f64::from(quarter))
@@ -150,7 +75,7 @@ pub fn figures(subjects: &[Box<dyn Subject>]) -> Vec<ReportFigure> {
     .into()
 }
 
-fn of(subjects: &[Box<dyn Subject>], which: impl Fn(Theory) -> bool) -> Vec<&dyn Subject> {
+pub(super) fn of(subjects: &[Box<dyn Subject>], which: impl Fn(Theory) -> bool) -> Vec<&dyn Subject> {
     let subjects = subjects.iter().map(AsRef::as_ref);
     subjects
         .filter(|subject: &&dyn Subject| which(subject.theory()))
@@ -194,11 +119,11 @@ fn steps(subjects: &[Box<dyn Subject>]) -> Panels<'static> {
 }
 
 /// From fine to coarse, as steps are from short to long.
-fn tolerances_from_fine() -> impl Iterator<Item = f64> {
+pub(super) fn tolerances_from_fine() -> impl Iterator<Item = f64> {
     TOLERANCES.into_iter().rev()
 }
 
-fn with_tolerance(subject: &dyn Subject, r: f64, tolerance: f64) -> Cell {
+pub(super) fn with_tolerance(subject: &dyn Subject, r: f64, tolerance: f64) -> Cell {
     let run = map::by_duration(subject.theory(), r, 1.0, Place::mid_flip(r), MOST_STEPS);
     let setting = Setting::Tolerance(tolerance);
     run.map_or_else(Cell::not_run, |run| map::Run { setting, ..run }.of(subject))
@@ -313,66 +238,6 @@ fn durations(subjects: &[Box<dyn Subject>]) -> Panels<'static> {
     }
 }
 
-/// The last setting before the first whose end is not right, and what comes then.
-fn leaves(cells: &[Cell], setting: impl Fn(usize) -> String) -> String {
-    match cells.iter().position(|cell| !cell.found.is_right()) {
-        Some(0) => format!("never: {}", cells[0].found.words()),
-        Some(bad) => format!("to {}, then {}", setting(bad - 1), cells[bad].found.words()),
-        None => "all".into(),
-    }
-}
-
-/// Where each subject leaves, by the step as a part of the period and by the tolerance: a row for each r_e.
-pub fn ends(subjects: &[Box<dyn Subject>]) -> [ReportTable; 2] {
-    let by_step = |subject: &dyn Subject, r: f64| {
-        let run = |step| map::by_step(subject.theory(), r, step, MOST_STEPS).of(subject);
-        leaves(&STEPS.map(run), |k| format!("{:.0e} T", STEPS[k]))
-    };
-    let by_tolerance = |subject: &dyn Subject, r: f64| {
-        let settings: Vec<f64> = tolerances_from_fine().collect();
-        let cells: Vec<_> = settings.iter().map(|t| with_tolerance(subject, r, *t)).collect();
-        leaves(&cells, |k| format!("{:.0e}", settings[k]))
-    };
-    let table = |words: [&str; 2],
-                 caption: &str,
-                 which: Vec<&dyn Subject>,
-                 end: &dyn Fn(&dyn Subject, f64) -> String| {
-        let names = which.iter().map(|subject| subject.name().to_owned());
-        let row = |r: f64| {
-            let ends = which.iter().map(|subject| end(*subject, r));
-            std::iter::once(ratio(r)).chain(ends).collect()
-        };
-        let columns: Vec<_> = std::iter::once("r_e".to_owned()).chain(names).collect();
-        of_words(
-            words[0],
-            words[1],
-            caption,
-            &columns,
-            ASPECT_RATIOS.map(row).into(),
-        )
-    };
-    [
-        table(
-            [
-                "stability-steps-end",
-                "The longest step that is right, and what comes after it",
-            ],
-            "Of the steps 10⁻⁹, 10⁻⁸, … 10³ T; subjects without steps go the length of a step at once.",
-            of(subjects, |theory| theory != Theory::Adaptive),
-            &by_step,
-        ),
-        table(
-            [
-                "stability-tolerances-end",
-                "The loosest tolerance that is right, and what comes after it",
-            ],
-            "Of the tolerances 10⁻¹², 10⁻¹⁰, 10⁻⁸, 10⁻⁶, 10⁻⁴, 10⁻², 10⁻¹.",
-            of(subjects, |theory| theory == Theory::Adaptive),
-            &by_tolerance,
-        ),
-    ]
-}
-
 /// An aspect ratio in few letters.
 pub(super) fn ratio(r: f64) -> String {
     match r {
@@ -385,30 +250,6 @@ pub(super) fn ratio(r: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::subject;
-
-    #[test]
-    fn a_row_of_cells_says_where_it_leaves() {
-        let (problem, end) = (map::by_step(Theory::Exact, 2.0, 1.0, 1), Place::mid_flip(2.0));
-        let right = problem.of(&subject::ExactPropagator);
-        let wrong = map::Run {
-            end: end.before(0.1),
-            ..problem
-        };
-        let late = map::Run {
-            turns: 1.1,
-            end,
-            ..problem
-        }
-        .of(&subject::ExactPropagator);
-        assert_eq!((right.found, late.found), (Found::RoundOff, Found::RoundOff));
-        assert!(wrong.of(&subject::ExactPropagator).found.is_right());
-        let bad = Cell::not_run("many".into());
-        let cells = [right.clone(), right.clone(), bad.clone(), right.clone()];
-        assert_eq!(leaves(&cells, |k| k.to_string()), "to 1, then not run");
-        assert_eq!(leaves(&[bad], |k| k.to_string()), "never: not run");
-        assert_eq!(leaves(&[right], |k| k.to_string()), "all");
-    }
 
     #[test]
     fn theory_s_limit_lies_where_its_step_is() {

@@ -4,10 +4,12 @@
 pub mod chapter;
 pub mod core;
 pub mod core_table;
+pub mod ends;
 pub mod figures;
 pub mod limit_tables;
 pub mod limits;
 pub mod map;
 pub mod maps;
 pub mod orbit;
+mod panels;
 pub mod theory;

@@ -11,13 +11,20 @@ Array = NDArray[np.float64]
 
 _SUBSTEPS = (2, 4, 6, 8, 10, 12, 14, 16)
 _TOLERANCE = 1e-14
+# Ten thousand periods take some 300 000.
 _MOST_STEPS = 1_000_000
+# p is of length 1.
+_LARGEST = 1e6
+
+
+class Lost(ArithmeticError):
+    """A right-hand side that cannot be followed."""
 
 
 def motion(rate: Callable[[Array], Array], start: Array, times: Array) -> list[Array]:
     """p at each of the times, which rise from 0; the error of a step is held near the round-off of double precision.
 
-    Raises ``ArithmeticError`` where a step cannot be made short enough, or there are too many.
+    Raises :class:`Lost` where a step cannot be made short enough, there are too many, or p grows without bound.
     """
     p, now, found, taken = start, 0.0, [], 0
     step = 0.1 / max(float(np.abs(rate(start)).max()), 1e-3)
@@ -26,8 +33,8 @@ def motion(rate: Callable[[Array], Array], start: Array, times: Array) -> list[A
             own = min(step, time - now)
             extrapolated, columns = _extrapolated(rate, p, own)
             taken += 1
-            if taken > _MOST_STEPS or now + own == now:
-                raise ArithmeticError(f"at t = {now} s of {time} s the right-hand side cannot be followed")
+            if taken > _MOST_STEPS or now + own == now or float(np.abs(p).max()) > _LARGEST:
+                raise Lost(f"at t = {now} s of {time} s the right-hand side cannot be followed")
             if extrapolated is None:
                 step = own / 2
                 continue
@@ -50,7 +57,7 @@ def _extrapolated(rate: Callable[[Array], Array], p: Array, step: float) -> tupl
             new.append(new[k] + (new[k] - older) / (ratio - 1))
         if not np.isfinite(new[-1]).all():
             return None, count
-        if row and float(np.abs(new[-1] - row[-1]).max()) <= _TOLERANCE:
+        if row and float(np.abs(new[-1] - row[-1]).max()) <= _TOLERANCE * max(1.0, float(np.abs(p).max())):
             return new[-1], count
         row = new
     return None, len(_SUBSTEPS)

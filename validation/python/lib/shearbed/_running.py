@@ -95,8 +95,16 @@ def program(words: Sequence[str], cwd: Path | None = None) -> str:
     """Runs a command in a process of its own, which Ctrl-C ends too, and gives what it prints; raises its message, as
     ``ValueError`` for what is not allowed and ``RuntimeError`` for what went wrong."""
     started = [sys.executable, "-m", "shearbed", *words]
-    ended = subprocess.run(started, cwd=cwd, capture_output=True, text=True, encoding="utf-8", check=False)
-    if ended.returncode:
-        message = ended.stderr.strip().removeprefix("error: ") or f"the program ended with {ended.returncode}"
-        raise (ValueError if ended.returncode == 2 else RuntimeError)(message)
-    return ended.stdout
+    pipe = subprocess.PIPE
+    running = subprocess.Popen(started, cwd=cwd, stdout=pipe, stderr=pipe, text=True, encoding="utf-8")
+    try:
+        said, complained = running.communicate()
+    except BaseException:
+        # Nothing of it stays, not even its entry in the table of processes.
+        running.kill()
+        running.communicate()
+        raise
+    if running.returncode:
+        message = complained.strip().removeprefix("error: ") or f"the program ended with {running.returncode}"
+        raise (ValueError if running.returncode == 2 else RuntimeError)(message)
+    return said
