@@ -9,6 +9,7 @@ mod check;
 mod keys;
 mod particles;
 mod ranges;
+mod rods;
 mod steps;
 pub use allowed::Invalid;
 pub use keys::{Absent, Holds, KEYS, Key, MAX_COUNT, MAX_PER_UNIT, MAX_REPLICAS, MAX_SEED, TABLES};

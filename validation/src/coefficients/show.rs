@@ -117,7 +117,7 @@ pub(super) fn figure(rows: &[Row], finer: u64) -> ReportFigure {
             y_log: true,
             ..Default::default()
         },
-        caption: "Steady C_I of the model for n a³ up to 1, with 95 % intervals, beside seven measured values of suspensions that \
+        caption: "Steady C_I of the model for n a³ up to 1, at the finer time step of its table, with 95 % intervals, beside seven measured values of suspensions that \
                   are not dilute (n a³ above 3, second-hand). Nothing is fitted."
             .into(),
         source: "Folgar & Tucker 1984; eqs 5 to 10".into(),
