@@ -144,6 +144,31 @@ fn one_picture_is_drawn_from_several_runs_and_from_a_sweep() {
     for text in [">\na\n<", ">\nb\n<", "95 % band", "t/T"] {
         assert!(picture.contains(text), "{text}");
     }
+    // The same picture in pixels: a PNG of the view box's size, that is read back.
+    assert_eq!(
+        shearbed(dir.path(), "plot a b --y x2 --out two.png").code,
+        Some(0)
+    );
+    let file = std::fs::File::open(dir.path().join("two.png")).unwrap();
+    let mut reader = png::Decoder::new(std::io::BufReader::new(file))
+        .read_info()
+        .unwrap();
+    let (width, height) = reader.info().size();
+    assert!(picture.contains(&format!("viewBox=\"0 0 {width} {height}\"")));
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut pixels).unwrap();
+    let colours: std::collections::BTreeSet<_> = pixels.chunks(3).collect();
+    assert!(colours.len() > 50, "{} colours", colours.len());
+    // Letters that the fonts lack are named, and the picture is made all the same.
+    let titled = "run small.toml --set title=\"стержни\" --quiet --out c";
+    assert_eq!(shearbed(dir.path(), titled).code, Some(0));
+    let ended = shearbed(dir.path(), "plot c --out c.png");
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+    assert!(
+        ended.stderr.contains("no letters for \"ежинрст\""),
+        "{}",
+        ended.stderr
+    );
     let sweep = "sweep small.toml --over interaction.alpha=0.1,0.2 --quiet --out s";
     assert_eq!(shearbed(dir.path(), sweep).code, Some(0));
     assert_eq!(shearbed(dir.path(), "plot s --out s.svg").code, Some(0));
@@ -157,7 +182,10 @@ fn one_picture_is_drawn_from_several_runs_and_from_a_sweep() {
             "plot nowhere",
             "nowhere: neither run.json nor sweep.json is in it",
         ),
-        ("plot a --out picture.gif", "a name that ends in .svg is allowed"),
+        (
+            "plot a --out picture.gif",
+            "a name that ends in .svg or .png is allowed",
+        ),
     ] {
         let ended = shearbed(dir.path(), arguments);
         assert_eq!(ended.code, Some(2), "{arguments}");
@@ -444,7 +472,8 @@ const REJECTED: &[(&str, &str)] = &[
     ("run small.toml --out file/below", "file/below: cannot be written: "),
     ("run small.toml --fast", "unexpected argument '--fast'"),
     ("scenes --show fig13", "--show fig13: no built-in scene has this name; there are fig4-n20, fig4-n50"),
-    ("validate --case no-such-case", "--case no-such-case: no case has this name; did you mean "),
+    ("validate --case no-such-case", "--case no-such-case: no case has this name. `shearbed validate --list` has all"),
+    ("validate --case jefery-period", "--case jefery-period: no case has this name; did you mean jeffery-period?"),
     ("validate --data no-such-folder", "'no-such-folder' for '--data <DIR>': No such file or directory"),
     ("validate --data file", "'file' for '--data <DIR>': it is no folder; an existing folder is allowed"),
     ("validate --out file", "file: cannot be written: "),
