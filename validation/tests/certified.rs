@@ -177,7 +177,7 @@ fn the_naive_reference_agrees_with_certified_ensembles_and_wrong_ones_do_not() {
         );
         // The sign of a kick does not show in means, because either sign is as likely; the problem `contact-rule` has it.
         for mistake in [Mistake::ProbabilityExponent, Mistake::ProbabilityComplement] {
-            let (error, _) = standard_errors(loaded, 100, Some(mistake));
+            let (error, _) = standard_errors(loaded, 64, Some(mistake));
             assert!(error > 2.0 * tolerance, "{mistake:?}: {error}");
         }
     }
