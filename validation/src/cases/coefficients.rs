@@ -74,7 +74,7 @@ pub fn cases() -> Vec<Case> {
                 still.coefficient(LAMBDA)
             })
             .check(effective),
-        Case::measurement("folgar-tucker-seven")
+        Case::interpretation("folgar-tucker-seven")
             .claim(
                 "The seven C_I that Folgar & Tucker measured (second-hand; n a³ above 3, not dilute) rise with φ r_p, as the \
                  model's rises with n a³; at n a³ = 1, where the model ends, it is below a third of the least of them.",
