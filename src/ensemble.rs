@@ -96,11 +96,14 @@ pub fn fold<E>(
 ) -> Result<Results, E> {
     let replicas = plan.scene().ensemble.replicas;
     let mut tally = Tally::new(plan);
-    while tally.replicas < replicas {
-        let last = replicas.min(tally.replicas + batch(plan));
-        for replica in run(tally.replicas..last)? {
+    let mut first = 0;
+    while first < replicas {
+        let last = replicas.min(first + batch(plan));
+        // Elsewhere than on the root of a job none comes back.
+        for replica in run(first..last)? {
             tally.add(replica);
         }
+        first = last;
     }
     Ok(tally.results(plan))
 }

@@ -82,8 +82,10 @@ pub(super) fn summary(results: &Results) -> String {
     let time = |k: usize| results.times.get(k).copied().unwrap_or(f64::NAN);
     let mut text = String::new();
     for series in &results.series {
+        let longest = shown(series).iter().map(|channel| channel.name.len() + 1).max();
+        let margin = longest.unwrap_or_default().max(7);
         text += &format!(
-            "{:<7}{:<18}{:<18}{:<17}largest\n",
+            "{:<margin$}{:<18}{:<18}{:<17}largest\n",
             "",
             format!("at {name} = {}", time(0)),
             format!("at {name} = {}", time(last)),
@@ -99,7 +101,7 @@ pub(super) fn summary(results: &Results) -> String {
             };
             let outputs = 0..channel.mean.len();
             text += &format!(
-                "{:<7}{:<18}{:<18}{:<17}{}\n{:<7}{}\n",
+                "{:<margin$}{:<18}{:<18}{:<17}{}\n{:<margin$}{}\n",
                 channel.name,
                 value(0),
                 value(last),
