@@ -164,9 +164,7 @@ impl Tally {
             return Err("its means are not those of this scene");
         }
         let rods_at = plan.rods_outputs().len() as u64;
-        if self.snapshots.len() as u64 != self.replicas * rods_at
-            || !self.snapshots.iter().all(|s| s.fits(plan))
-        {
+        if !Snapshot::all_fit(&self.snapshots, self.replicas * rods_at, plan) {
             return Err("its rods are not those of this scene");
         }
         let deviations = self.deviation.iter().all(|x| x.is_finite() && *x >= 0.0);

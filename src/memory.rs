@@ -6,6 +6,7 @@ use crate::free::Way;
 use crate::observable::Sum;
 use crate::plan::{Plan, Stage};
 use crate::propagator::Propagator;
+use crate::snapshot::Snapshot;
 use crate::suspension::BYTES_OF_A_CANDIDATE;
 use std::f64::consts::PI;
 
@@ -46,8 +47,8 @@ pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
     let rods = replicas * (lists as u64 + (scene.particles.count * per_rod) as u64) + maps[1] as u64;
     // Sums of replicas that wait to be added in order, and three running moments of 8 bytes.
     let sums = plan.outputs() as u64 * (waiting * per_output as u64 + 3 * 8 * width as u64);
-    // Every rod that is wanted is held to the end: its direction, aspect ratio, place, and whether it collided.
-    (rods + sums).saturating_add(plan.rods_out().saturating_mul(57))
+    // Every rod that is wanted is held to the end.
+    (rods + sums).saturating_add(plan.rods_out().saturating_mul(Snapshot::BYTES_PER_ROD as u64))
 }
 
 /// The share of rods that make a candidate in a step: s* is farther than the nearest of rods scattered at random,

@@ -66,15 +66,9 @@ impl Halfway {
         if !whole || !self.sums.iter().all(|sum| sum.is_finite(squares)) {
             return Err("its sums are not those of this scene");
         }
-        let asked = match plan.keeps(Stage::Translation) {
-            true => plan
-                .rods_outputs()
-                .iter()
-                .filter(|output| **output < self.outputs(plan))
-                .count(),
-            false => 0,
-        };
-        if self.snapshots.len() != asked || !self.snapshots.iter().all(|snapshot| snapshot.fits(plan)) {
+        let reached = |output: &&usize| plan.keeps(Stage::Translation) && **output < self.outputs(plan);
+        let asked = plan.rods_outputs().iter().filter(reached).count() as u64;
+        if !Snapshot::all_fit(&self.snapshots, asked, plan) {
             return Err("its rods are not at the times of this scene");
         }
         match &self.rods {

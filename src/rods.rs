@@ -149,9 +149,13 @@ impl Rods {
                 }
                 Way::Each { mean, spans } => {
                     let span = spans[tick as usize];
+                    let of_rod = |rod: usize| match &propagators[..] {
+                        [all] => all,
+                        each => &each[rod],
+                    };
                     block.turn(from, |k, p, _| {
                         // No direction rather than one that is not known: a run with one is refused.
-                        match propagators[(first + k) % propagators.len()].moved_beside(mean, p, span) {
+                        match of_rod(first + k).moved_beside(mean, p, span) {
                             Some((end, error)) if error <= MAX_ERROR_RAD => end,
                             _ => [f64::NAN; 3],
                         }

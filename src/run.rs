@@ -42,8 +42,7 @@ impl Replica {
         if !own || !self.sums.iter().all(|sum| sum.is_finite(squares)) {
             return Err("its sums are not those of this scene");
         }
-        let rods_at = plan.rods_outputs().len();
-        if self.snapshots.len() != rods_at || !self.snapshots.iter().all(|snapshot| snapshot.fits(plan)) {
+        if !Snapshot::all_fit(&self.snapshots, plan.rods_outputs().len() as u64, plan) {
             return Err("its rods are not those of this scene");
         }
         Ok(())

@@ -24,11 +24,15 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
-    /// Bytes that it holds of each rod.
+    /// Bytes that it holds of each rod: its direction, aspect ratio, place, and whether it collided.
     pub(crate) const BYTES_PER_ROD: usize = 7 * size_of::<f64>() + 1;
 
-    /// Whether it can be one of the plan.
-    pub(crate) fn fits(&self, plan: &Plan) -> bool {
+    /// Whether these can be of the plan, and are so many.
+    pub(crate) fn all_fit(snapshots: &[Self], count: u64, plan: &Plan) -> bool {
+        snapshots.len() as u64 == count && snapshots.iter().all(|snapshot| snapshot.fits(plan))
+    }
+
+    fn fits(&self, plan: &Plan) -> bool {
         let count = plan.scene().particles.count;
         let places = self.place_in_lengths.iter().flatten();
         let mut axes = self.p.iter().chain(places).chain([&self.aspect_ratio]);

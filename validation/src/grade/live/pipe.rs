@@ -132,12 +132,6 @@ impl Pipe {
         }
     }
 
-    /// A line that is there already, though nobody asked for it.
-    pub fn unasked(&mut self) -> Option<Result<(u64, String), Trouble>> {
-        let heard = self.lines.try_recv().ok()?;
-        Some(self.counted(heard))
-    }
-
     fn counted(&mut self, heard: Heard) -> Result<(u64, String), Trouble> {
         self.heard += 1;
         match heard {
@@ -167,8 +161,8 @@ impl Pipe {
         self.nothing_more(GRACE)
     }
 
-    /// Waits for a line that nobody asked for.
-    fn nothing_more(&mut self, limit: Duration) -> Result<(), String> {
+    /// Waits for a line that nobody asked for. `Err` says that one came.
+    pub fn nothing_more(&mut self, limit: Duration) -> Result<(), String> {
         let Ok(heard) = self.lines.recv_timeout(limit) else {
             return Ok(());
         };

@@ -189,16 +189,7 @@ impl State {
             steps: setting.steps().ok(),
             tolerance: setting.tolerance().ok(),
         };
-        match pipe.unasked() {
-            Some(Ok((line, text))) => {
-                let text = super::pipe::excerpt(&text);
-                return Err(wrong(format!(
-                    "line {line} of standard output answers nothing: {text}"
-                )));
-            }
-            Some(Err(trouble)) => return Err(wrong(trouble.to_string())),
-            None => {}
-        }
+        pipe.nothing_more(Duration::ZERO).map_err(wrong)?;
         pipe.send(serde_json::to_string(&request).map_err(|error| wrong(error.to_string()))?);
         let (line, text) = pipe.line(limit).map_err(|trouble| Breach {
             what: trouble.to_string(),
