@@ -68,7 +68,8 @@ pub enum Rule {
         /// Why this allowance and this effect.
         because: Text,
     },
-    /// mean − t·se > bound at [`LEVEL`]; on a sample that would have shown `effect`, anything else is a failure.
+    /// mean − t·se > bound at [`LEVEL`]; on a sample that would have shown `effect`, anything else is a failure, and on any
+    /// sample mean + t·se < bound is.
     Above {
         /// The mean over independent replicas or samples.
         mean: f64,
@@ -188,11 +189,12 @@ impl Rule {
                 samples,
                 bound,
                 ..
-            } => Some(noncentral(
-                student(LEVEL, *samples),
-                (mean - bound) / se,
-                *samples,
-            )),
+            } => {
+                let critical = student(LEVEL, *samples);
+                // With fewer values than its effect needs, it fails only where the mean is below.
+                let t = if self.has_enough() { critical } else { -critical };
+                Some(noncentral(t, (mean - bound) / se, *samples))
+            }
             Self::PValue {
                 distance, samples, ..
             } => {
@@ -200,6 +202,34 @@ impl Rule {
                 Some(2.0 * (distance * (*samples as f64).sqrt() - massart(LEVEL)))
             }
             Self::Within { .. } | Self::NoData { .. } => None,
+        }
+    }
+
+    /// Whether the sample shows the effect that it is meant to show.
+    fn has_enough(&self) -> bool {
+        match self {
+            Self::Mean {
+                se, samples, effect, ..
+            }
+            | Self::Above {
+                se, samples, effect, ..
+            } => se * needed_noncentrality(LEVEL, MISS, *samples) <= *effect,
+            Self::PValue { samples, enough, .. } => samples >= enough,
+            Self::Within { .. } | Self::NoData { .. } => true,
+        }
+    }
+
+    /// Whether the mean may be above its bound, for all that the sample shows.
+    fn is_hidden(&self) -> bool {
+        match self {
+            Self::Above {
+                mean,
+                se,
+                samples,
+                bound,
+                ..
+            } => mean + student(LEVEL, *samples) * se >= *bound,
+            _ => false,
         }
     }
 
@@ -223,19 +253,9 @@ pub fn judge(rule: &Rule) -> Verdict {
         Rule::PValue { p, .. } => *p >= LEVEL,
         Rule::NoData { .. } => return Verdict::NoData,
     };
-    let enough_data = match rule {
-        Rule::Mean {
-            se, samples, effect, ..
-        }
-        | Rule::Above {
-            se, samples, effect, ..
-        } => se * needed_noncentrality(LEVEL, MISS, *samples) <= *effect,
-        Rule::PValue { samples, enough, .. } => samples >= enough,
-        _ => true,
-    };
-    match (holds, enough_data) {
-        // Noise can hide a difference, but it cannot make a mean come out close.
-        (false, false) if matches!(rule, Rule::Above { .. }) => Verdict::Underpowered,
+    match (holds, rule.has_enough()) {
+        // Noise can hide a difference, but it cannot make a mean come out close, nor below the bound by many of its errors.
+        (false, false) if rule.is_hidden() => Verdict::Underpowered,
         (false, _) => Verdict::Fail,
         (true, false) => Verdict::Underpowered,
         (true, true) => Verdict::Pass,

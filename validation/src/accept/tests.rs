@@ -41,6 +41,10 @@ fn a_difference_needs_to_be_seen() {
     assert_eq!(above(0.1, 0.01), Verdict::Pass);
     assert_eq!(above(0.02, 0.01), Verdict::Fail);
     assert_eq!(above(0.02, 0.1), Verdict::Underpowered);
+    // Below the bound by four of its errors: hidden; by six: a failure.
+    assert_eq!(above(-0.4, 0.1), Verdict::Underpowered);
+    assert_eq!(above(-0.6, 0.1), Verdict::Fail);
+    assert_eq!(above(f64::NAN, f64::NAN), Verdict::Fail);
     assert_eq!(above(f64::NAN, 0.01), Verdict::Fail);
 }
 
