@@ -109,10 +109,12 @@ def tensor(problem, mine):
 def doublings(problem):
     """Steps a problem: the finest of four is to have a quarter of the tolerance, by RK4's (wh)^4/120 a radian of phase."""
     time = problem["times_s"][-1]
-    if EULER:
-        return [2000, 4000, 8000]
     r_e = problem["aspect_ratio"]
     A = rate_matrix(problem["gradient_per_s"], r_e)
+    if EULER:
+        # Forty a unit of strain, 8000 at most: enough to read an order off, never enough for a tolerance.
+        strain = np.linalg.norm(problem["gradient_per_s"]) * time
+        return [math.ceil(share * min(max(40 * strain, 400), 8000)) for share in (0.25, 0.5, 1)]
     phase = max(np.abs(np.linalg.eigvals(A)).max() * time, 1.0)
     stretch = max(r_e, 1 / r_e)
     finest = phase * (stretch * phase * 4 / (120 * problem["tolerance"])) ** 0.25

@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::files;
+use common::{UNEQUAL, files, kill, wait_for};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -20,28 +20,6 @@ const PROGRAM: &str = env!("CARGO_BIN_EXE_shearbed");
 /// How long a job that fails may take to end. It takes a few seconds; a job that hangs takes for ever.
 const BOUND: Duration = Duration::from_secs(60);
 
-const SMALL: &str = r#"title = "A small scene"
-[flow]
-shear_rate_per_s = 0.5
-[particles]
-count = 20
-length_mm = 0.72
-aspect_ratio = 11.6
-aspect_ratio_sd_percent = 3.6
-orientation = "isotropic"
-[interaction]
-concentration_per_cm3 = 50
-alpha = 0.5
-[time]
-periods = 1
-steps_per_period = 20
-outputs_per_period = 4
-[ensemble]
-replicas = 7
-[output]
-observables = ["projections", "planar_projections", "mean_angle", "orbit_constant", "orientation_tensor"]
-"#;
-
 /// One rod in one replica: its standard errors are NaN.
 const ONE: &str = r#"title = "One rod"
 [flow]
@@ -55,17 +33,19 @@ orientation = { phi_deg = 10, theta_deg = 80 }
 periods = 1
 "#;
 
+/// As many replicas as no number of ranks divides.
+fn seven() -> String {
+    UNEQUAL.replace("replicas = 3", "replicas = 7")
+}
+
 fn folder() -> TempDir {
     let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("small.toml"), SMALL).unwrap();
-    fs::write(dir.path().join("one.toml"), ONE).unwrap();
+    let write = |name: &str, text: &str| fs::write(dir.path().join(name), text).unwrap();
+    write("small.toml", &seven());
+    write("one.toml", ONE);
     // Hours on one core: for jobs that are to fail on the way.
-    let long = SMALL.replace("replicas = 7", "replicas = 1000000");
-    fs::write(
-        dir.path().join("long.toml"),
-        long.replace("steps_per_period = 20", "steps_per_period = 2000"),
-    )
-    .unwrap();
+    let long = seven().replace("replicas = 7", "replicas = 1000000");
+    write("long.toml", &long.replace("= 200", "= 2000"));
     dir
 }
 
@@ -169,9 +149,7 @@ fn a_sweep_has_the_bytes_of_one_process() {
 #[test]
 fn a_killed_job_is_gone_on_with_by_one_process() {
     let dir = folder();
-    let scene = SMALL
-        .replace("count = 20", "count = 100")
-        .replace("steps_per_period = 20", "steps_per_period = 200");
+    let scene = seven().replace("count = 20", "count = 100");
     fs::write(dir.path().join("small.toml"), scene).unwrap();
     let over = "sweep small.toml --over interaction.alpha=0.1:2:20 --replicas 100 --quiet";
     let points = dir.path().join("shared/points");
@@ -183,7 +161,7 @@ fn a_killed_job_is_gone_on_with_by_one_process() {
     .spawn()
     .unwrap();
     wait_for(|| fs::read_dir(&points).is_ok_and(|points| points.count() > 1));
-    kill(children(job.id())[2]);
+    kill(children(job.id())[2], "-9");
     assert_ne!(end_of(&mut job).code(), Some(0));
     assert!(!dir.path().join("shared/sweep.csv").exists());
     for out in ["shared", "alone"] {
@@ -296,7 +274,7 @@ fn bad_input_on_one_rank_ends_the_job() {
         let job = format!(
             "-n 3 shearbed {command} --out x --threads 1 : -n 1 shearbed {other} --out x --threads 1"
         );
-        let (code, message) = ended(dir.path(), &job);
+        let (code, message) = shearbed(dir.path(), &job);
         assert_eq!(code, Some(2), "{message}");
         assert!(
             message.contains("error: rank 3 of 4: missing.toml: cannot be read"),
@@ -309,7 +287,7 @@ fn bad_input_on_one_rank_ends_the_job() {
 #[test]
 fn bad_input_on_all_ranks_is_told_once() {
     let dir = folder();
-    let (code, message) = ended(dir.path(), "-n 4 shearbed run missing.toml");
+    let (code, message) = shearbed(dir.path(), "-n 4 shearbed run missing.toml");
     assert_eq!(code, Some(2), "{message}");
     assert_eq!(
         message.matches("missing.toml: cannot be read").count(),
@@ -327,7 +305,7 @@ fn a_root_that_cannot_write_ends_the_job() {
     assert!(first.unwrap().success());
     fs::remove_dir_all(dir.path().join("x/points")).unwrap();
     fs::write(dir.path().join("x/points"), "in the way").unwrap();
-    let (code, message) = ended(dir.path(), &format!("-n 4 shearbed {over} --threads 1"));
+    let (code, message) = shearbed(dir.path(), &format!("-n 4 shearbed {over} --threads 1"));
     assert_eq!(code, Some(2), "{message}");
     assert!(
         message.contains("error: rank 0 of 4: x/points/1: cannot be written"),
@@ -346,7 +324,7 @@ fn a_rank_that_dies_ends_the_job() {
         wait_for(|| children(job.id()).len() == 4);
         // Long enough to be under way, far from the end.
         sleep(Duration::from_secs(2));
-        kill(children(job.id())[dies]);
+        kill(children(job.id())[dies], "-9");
         let status = end_of(&mut job);
         assert!(!status.success(), "{status}");
         assert!(!dir.path().join("x").exists());
@@ -354,7 +332,7 @@ fn a_rank_that_dies_ends_the_job() {
 }
 
 /// A failing job's exit code and message.
-fn ended(dir: &Path, arguments: &str) -> (Option<i32>, String) {
+fn shearbed(dir: &Path, arguments: &str) -> (Option<i32>, String) {
     let mut job = mpirun(dir, arguments)
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
@@ -379,26 +357,8 @@ fn end_of(job: &mut Child) -> std::process::ExitStatus {
     }
 }
 
-fn wait_for(holds: impl Fn() -> bool) {
-    let start = Instant::now();
-    while !holds() {
-        assert!(start.elapsed() < BOUND, "nothing has come within {BOUND:?}");
-        sleep(Duration::from_millis(5));
-    }
-}
-
 /// The processes that a process has started, in order.
 fn children(id: u32) -> Vec<u32> {
     let list = fs::read_to_string(format!("/proc/{id}/task/{id}/children")).unwrap_or_default();
     list.split_whitespace().map(|id| id.parse().unwrap()).collect()
-}
-
-fn kill(id: u32) {
-    assert!(
-        Command::new("kill")
-            .args(["-9", &id.to_string()])
-            .status()
-            .unwrap()
-            .success()
-    );
 }

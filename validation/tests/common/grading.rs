@@ -36,6 +36,7 @@ pub fn graded(arguments: &[&str]) -> Graded {
         .args(["grade", "--out"])
         .arg(out.path())
         .args(arguments)
+        .envs(crate::programs::ONE_THREAD)
         .output()
         .unwrap();
     let words = [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());

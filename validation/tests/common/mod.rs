@@ -6,6 +6,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 /// A scene of milliseconds.
@@ -30,6 +32,29 @@ replicas = 3
 observables = ["projections", "mean_angle"]
 "#;
 
+/// The same with unequal rods and every observable of ⟨p⟩ and ⟨pp⟩.
+pub const UNEQUAL: &str = r#"title = "A small scene"
+[flow]
+shear_rate_per_s = 0.5
+[particles]
+count = 20
+length_mm = 0.72
+aspect_ratio = 11.6
+aspect_ratio_sd_percent = 3.6
+orientation = "isotropic"
+[interaction]
+concentration_per_cm3 = 50
+alpha = 0.5
+[time]
+periods = 1
+steps_per_period = 200
+outputs_per_period = 4
+[ensemble]
+replicas = 3
+[output]
+observables = ["projections", "planar_projections", "mean_angle", "orbit_constant", "orientation_tensor"]
+"#;
+
 /// Free rods in random directions.
 pub const FREE: &str = r#"title = "Free rods"
 [flow]
@@ -43,10 +68,19 @@ orientation = "isotropic"
 periods = 1
 "#;
 
-/// A folder with `small.toml` in it.
+/// A folder with [`SMALL`] as `small.toml` in it.
 pub fn folder() -> TempDir {
+    folder_with(SMALL)
+}
+
+/// A folder with [`UNEQUAL`] as `small.toml` in it.
+pub fn unequal() -> TempDir {
+    folder_with(UNEQUAL)
+}
+
+fn folder_with(scene: &str) -> TempDir {
     let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("small.toml"), SMALL).unwrap();
+    fs::write(dir.path().join("small.toml"), scene).unwrap();
     dir
 }
 
@@ -65,7 +99,7 @@ pub struct Ended {
 }
 
 /// Runs a command to its end.
-pub fn ended(dir: &Path, arguments: &str) -> Ended {
+pub fn shearbed(dir: &Path, arguments: &str) -> Ended {
     told(&mut command(dir, arguments))
 }
 
@@ -86,6 +120,39 @@ fn told(command: &mut Command) -> Ended {
         stdout: String::from_utf8(output.stdout).unwrap(),
         stderr: String::from_utf8(output.stderr).unwrap(),
     }
+}
+
+/// Sends a signal, unless the process has ended.
+pub fn kill(id: u32, signal: &str) {
+    let sent = Command::new("kill").args([signal, &id.to_string()]).output();
+    sent.unwrap();
+}
+
+/// Waits until something holds, for a minute at most.
+pub fn wait_for(holds: impl Fn() -> bool) {
+    let start = Instant::now();
+    while !holds() {
+        assert!(
+            start.elapsed() < Duration::from_secs(60),
+            "nothing has come within a minute"
+        );
+        sleep(Duration::from_millis(5));
+    }
+}
+
+/// The names in a folder, in order.
+pub fn names(dir: &Path) -> Vec<String> {
+    let entries = fs::read_dir(dir).unwrap();
+    let mut names: Vec<_> = entries
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+/// A file's text.
+pub fn read(path: &Path) -> String {
+    fs::read_to_string(path).unwrap()
 }
 
 /// Every file below a folder with its bytes.

@@ -27,9 +27,16 @@ pub fn runs(program: &str, arguments: &[&str]) -> bool {
     quiet.is_ok_and(|status| status.success())
 }
 
+/// For NumPy, whose threads spin while they wait.
+pub const ONE_THREAD: [(&str, &str); 1] = [("OPENBLAS_NUM_THREADS", "1")];
+
 /// Runs a program that must end well.
 pub fn run(program: &str, arguments: &[&Path]) {
-    let output = Command::new(program).args(arguments).output().unwrap();
+    let output = Command::new(program)
+        .args(arguments)
+        .envs(ONE_THREAD)
+        .output()
+        .unwrap();
     assert!(
         output.status.success(),
         "{program} {arguments:?}: {}",

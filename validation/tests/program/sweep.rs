@@ -1,65 +1,22 @@
 //! `shearbed sweep` as a user meets it: rows, going on after a kill, refusals.
 
-mod common;
-
-use common::files;
+use crate::common::{SMALL, command, files, folder, shearbed};
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
-use tempfile::TempDir;
-
-const SMALL: &str = r#"title = "A small scene"
-[flow]
-shear_rate_per_s = 0.5
-[particles]
-count = 20
-length_mm = 0.72
-aspect_ratio = 11.6
-orientation = "isotropic"
-[interaction]
-concentration_per_cm3 = 50
-alpha = 0.5
-[time]
-periods = 1
-steps_per_period = 20
-outputs_per_period = 4
-[ensemble]
-replicas = 3
-[output]
-observables = ["projections", "mean_angle"]
-"#;
-
-fn folder() -> TempDir {
-    let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("small.toml"), SMALL).unwrap();
-    dir
-}
-
-fn command(dir: &Path, arguments: &str) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_shearbed"));
-    command.args(arguments.split_whitespace()).current_dir(dir);
-    command
-}
-
-fn shearbed(dir: &Path, arguments: &str) -> Output {
-    command(dir, arguments).output().unwrap()
-}
 
 /// Exit code 2, and the message.
 fn refused(dir: &Path, arguments: &str) -> String {
-    let output = shearbed(dir, arguments);
-    let message = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2), "{arguments}: {message}");
-    message
+    let ended = shearbed(dir, arguments);
+    assert_eq!(ended.code, Some(2), "{arguments}: {}", ended.stderr);
+    ended.stderr
 }
 
 fn succeeds(dir: &Path, arguments: &str) -> String {
-    let output = shearbed(dir, arguments);
-    let stderr = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(0), "{arguments}: {stderr}");
-    String::from_utf8(output.stdout).unwrap()
+    let ended = shearbed(dir, arguments);
+    assert_eq!(ended.code, Some(0), "{arguments}: {}", ended.stderr);
+    ended.stdout
 }
 
 const GRID: &str = "--over interaction.alpha=0.1:0.3:3 --over interaction.update=rotation,angles";
@@ -117,7 +74,7 @@ fn a_killed_sweep_goes_on_to_the_same_bytes() {
     let dir = folder();
     let scene = SMALL
         .replace("count = 20", "count = 60")
-        .replace("steps_per_period = 20", "steps_per_period = 100");
+        .replace("steps_per_period = 200", "steps_per_period = 100");
     fs::write(dir.path().join("small.toml"), scene).unwrap();
     let killed = dir.path().join("killed");
     let finished =

@@ -1,7 +1,6 @@
 //! Reference problems as files.
 
-mod common;
-
+use crate::common::files;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -38,7 +37,7 @@ fn an_export_is_what_is_read_and_is_not_written_over_foreign_files() {
         .iter()
         .map(|(name, text)| (name.clone(), text.clone().into_bytes()))
         .collect();
-    assert_eq!(common::files(&reference), expected);
+    assert_eq!(files(&reference), expected);
     assert_eq!(problems::read(&reference).unwrap().len(), names.len());
     // Over its own export: the same again.
     problems::export(&reference, false).unwrap();

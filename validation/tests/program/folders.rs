@@ -1,8 +1,6 @@
 //! Folders of results: nothing torn, nothing mixed, nothing damaged passed on.
 
-mod common;
-
-use common::{SMALL, command, ended, files, folder, limited};
+use crate::common::{SMALL, command, files, folder, limited, shearbed};
 use std::fs;
 use std::path::Path;
 use std::process::Stdio;
@@ -19,7 +17,7 @@ fn damage(path: &Path, change: impl FnOnce(&mut Vec<u8>)) {
 #[test]
 fn a_damaged_point_does_not_reach_the_table() {
     let dir = folder();
-    assert_eq!(ended(dir.path(), &format!("{SWEEP} --out good")).code, Some(0));
+    assert_eq!(shearbed(dir.path(), &format!("{SWEEP} --out good")).code, Some(0));
     let good = files(&dir.path().join("good"));
     type Change = fn(&mut Vec<u8>);
     let last_digit: Change = |bytes| {
@@ -57,7 +55,7 @@ fn a_damaged_point_does_not_reach_the_table() {
                 fs::remove_dir_all(out.join("points/4")).unwrap();
             }
             let before = files(&out);
-            let run = ended(dir.path(), &format!("{SWEEP} --out damaged"));
+            let run = shearbed(dir.path(), &format!("{SWEEP} --out damaged"));
             assert_eq!(run.code, Some(2), "{what}: {}", run.stderr);
             assert!(run.stderr.contains("damaged/points/3"), "{what}: {}", run.stderr);
             assert!(
@@ -68,7 +66,10 @@ fn a_damaged_point_does_not_reach_the_table() {
             assert_eq!(files(&out), before, "{what}");
             // What the message asks for helps.
             fs::remove_dir_all(out.join("points/3")).unwrap();
-            assert_eq!(ended(dir.path(), &format!("{SWEEP} --out damaged")).code, Some(0));
+            assert_eq!(
+                shearbed(dir.path(), &format!("{SWEEP} --out damaged")).code,
+                Some(0)
+            );
             assert_eq!(files(&out), good, "{what}");
             fs::remove_dir_all(out).unwrap();
         }
@@ -78,7 +79,7 @@ fn a_damaged_point_does_not_reach_the_table() {
     for (from, to) in [("1", "x"), ("2", "1"), ("x", "2")] {
         fs::rename(points.join(from), points.join(to)).unwrap();
     }
-    let run = ended(dir.path(), &format!("{SWEEP} --out good"));
+    let run = shearbed(dir.path(), &format!("{SWEEP} --out good"));
     assert_eq!(run.code, Some(2), "{}", run.stderr);
     assert!(
         run.stderr
@@ -93,7 +94,10 @@ fn two_sweeps_started_together_do_not_mix() {
     let dir = folder();
     let of_seed = |seed: u32, out: &str| format!("{SWEEP} --seed {seed} --out {out}");
     for seed in [1, 2] {
-        assert_eq!(ended(dir.path(), &of_seed(seed, &seed.to_string())).code, Some(0));
+        assert_eq!(
+            shearbed(dir.path(), &of_seed(seed, &seed.to_string())).code,
+            Some(0)
+        );
     }
     let alone = ["1", "2"].map(|name| files(&dir.path().join(name)));
     for round in 0..20 {
@@ -133,7 +137,10 @@ fn two_runs_into_one_folder_do_not_mix_their_files() {
         all
     };
     for seed in [1, 2] {
-        assert_eq!(ended(dir.path(), &of_seed(seed, &seed.to_string())).code, Some(0));
+        assert_eq!(
+            shearbed(dir.path(), &of_seed(seed, &seed.to_string())).code,
+            Some(0)
+        );
     }
     let alone = ["1", "2"].map(tables);
     assert_ne!(alone[0], alone[1]);
@@ -170,7 +177,7 @@ fn every_key_has_one_owner() {
         ),
         ("--over ensemble={seed=5} --seed 3", "both set ensemble.seed"),
     ] {
-        let run = ended(dir.path(), &format!("sweep small.toml {arguments} --out x"));
+        let run = shearbed(dir.path(), &format!("sweep small.toml {arguments} --out x"));
         assert_eq!(run.code, Some(2), "{arguments}: {}", run.stderr);
         assert!(run.stderr.contains(named), "{}", run.stderr);
     }
@@ -210,7 +217,7 @@ fn a_full_disk_is_found_before_the_work() {
 fn what_a_killed_run_left_is_put_right_by_the_next() {
     let dir = folder();
     let run = "run small.toml --quiet --out x";
-    assert_eq!(ended(dir.path(), run).code, Some(0));
+    assert_eq!(shearbed(dir.path(), run).code, Some(0));
     let x = dir.path().join("x");
     let whole = files(&x);
     // Killed as it wrote: half a set under a hidden name, and the temporary files of an older version.
@@ -220,11 +227,11 @@ fn what_a_killed_run_left_is_put_right_by_the_next() {
     }
     fs::write(x.join(".shearbed-Ab3dE6"), "half a ta").unwrap();
     fs::write(x.join("notes.txt"), "the user's own").unwrap();
-    assert_eq!(ended(dir.path(), run).code, Some(0));
+    assert_eq!(shearbed(dir.path(), run).code, Some(0));
     let mut found = files(&x);
     assert_eq!(found.remove("notes.txt").unwrap(), b"the user's own");
     assert_eq!(found.keys().collect::<Vec<_>>(), whole.keys().collect::<Vec<_>>());
-    assert_eq!(ended(dir.path(), &run.replace("out x", "out y")).code, Some(0));
+    assert_eq!(shearbed(dir.path(), &run.replace("out x", "out y")).code, Some(0));
     assert!(!dir.path().join(".y.shearbed-part").exists());
     assert_eq!(files(&dir.path().join("y")).len(), whole.len());
 
@@ -235,7 +242,7 @@ fn what_a_killed_run_left_is_put_right_by_the_next() {
     for name in ["projections.csv", "run.json"] {
         fs::rename(x.join(name), ready.join(name)).unwrap();
     }
-    let limited = ended(
+    let limited = shearbed(
         dir.path(),
         "sweep small.toml --over interaction.alpha=1,2 --out x/points/no",
     );
@@ -244,7 +251,7 @@ fn what_a_killed_run_left_is_put_right_by_the_next() {
     assert!(ready.exists());
     fs::write(x.join("sweep.json"), "no record").unwrap();
     assert_eq!(
-        ended(
+        shearbed(
             dir.path(),
             "sweep small.toml --over interaction.alpha=1,2 --out x"
         )
@@ -264,7 +271,7 @@ fn a_run_killed_at_any_moment_leaves_a_whole_set_or_none() {
     let dir = folder();
     let run = |seed: u32| format!("run small.toml --quiet --threads 1 --seed {seed} --out x");
     let start = std::time::Instant::now();
-    assert_eq!(ended(dir.path(), &run(0)).code, Some(0));
+    assert_eq!(shearbed(dir.path(), &run(0)).code, Some(0));
     let took = start.elapsed();
     let names: Vec<_> = files(&dir.path().join("x")).into_keys().collect();
     fs::remove_dir_all(dir.path().join("x")).unwrap();

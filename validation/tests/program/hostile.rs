@@ -1,8 +1,6 @@
 //! Texts from files and names that mean harm: on the terminal, in pictures, in tables.
 
-mod common;
-
-use common::{SMALL, command, ended, files, folder, limited};
+use crate::common::{SMALL, command, files, folder, limited, shearbed};
 use std::fs;
 
 /// A title that sets a terminal's title, clears it, turns the writing, and would end a tag.
@@ -84,7 +82,7 @@ fn no_cell_of_a_table_is_a_formula() {
     assert_eq!(titles, expected);
     // A negative number is a number.
     let over = "sweep extension --over particles.orientation={phi_deg=-30,theta_deg=60} --over ensemble.seed=1,2 --out y";
-    assert_eq!(ended(dir.path(), over).code, Some(0));
+    assert_eq!(shearbed(dir.path(), over).code, Some(0));
 }
 
 #[test]
@@ -96,7 +94,7 @@ fn a_long_line_is_not_echoed_whole() {
         ("[flow]", format!("[flow]\n{} = 1", "y".repeat(20_000_000))),
     ] {
         fs::write(dir.path().join("long.toml"), SMALL.replace(old, &scene)).unwrap();
-        let run = ended(dir.path(), "run long.toml");
+        let run = shearbed(dir.path(), "run long.toml");
         assert_eq!(run.code, Some(2));
         assert!(run.stderr.len() < 64_000, "{}", run.stderr.len());
         assert!(

@@ -1,8 +1,6 @@
 //! Every rod out, and rods in, as a user meets them.
 
-mod common;
-
-use common::{SMALL, ended, folder};
+use crate::common::{SMALL, folder, shearbed};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -33,7 +31,7 @@ fn free(text: &str) -> String {
 fn every_rod_has_a_row_with_its_place_in_the_volume() {
     let dir = folder();
     fs::write(dir.path().join("asked.toml"), asked()).unwrap();
-    let done = ended(dir.path(), "run asked.toml --out a --quiet");
+    let done = shearbed(dir.path(), "run asked.toml --out a --quiet");
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     let path = dir.path().join("a/rods.csv");
     assert!(
@@ -64,13 +62,16 @@ fn every_rod_has_a_row_with_its_place_in_the_volume() {
         assert!(["0", "1"].contains(&row["collided"].as_str()) && (time > 0 || row["collided"] == "0"));
     }
     // The other tables have the bytes that they have without.
-    assert_eq!(ended(dir.path(), "run small.toml --out b --quiet").code, Some(0));
+    assert_eq!(
+        shearbed(dir.path(), "run small.toml --out b --quiet").code,
+        Some(0)
+    );
     for name in ["projections.csv", "mean_angle.csv"] {
         let read = |run: &str| fs::read(dir.path().join(run).join(name)).unwrap();
         assert_eq!(read("a"), read("b"));
     }
     assert!(!dir.path().join("b/rods.csv").exists());
-    let plan = ended(dir.path(), "plan asked.toml").stdout;
+    let plan = shearbed(dir.path(), "plan asked.toml").stdout;
     let bytes = fs::metadata(&path).unwrap().len() as f64;
     let line = plan
         .lines()
@@ -87,7 +88,7 @@ fn every_rod_has_a_row_with_its_place_in_the_volume() {
 fn free_rods_have_no_place() {
     let dir = folder();
     fs::write(dir.path().join("free.toml"), free(&asked())).unwrap();
-    let done = ended(dir.path(), "run free.toml --out a --vtk --quiet");
+    let done = shearbed(dir.path(), "run free.toml --out a --vtk --quiet");
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     let rows = rows(&dir.path().join("a/rods.csv"));
     assert_eq!(rows.len(), 180);
@@ -122,7 +123,7 @@ fn lines_for_paraview_are_the_rows_of_the_table() {
     let dir = folder();
     fs::write(dir.path().join("asked.toml"), asked()).unwrap();
     assert_eq!(
-        ended(dir.path(), "run asked.toml --out a --vtk --quiet").code,
+        shearbed(dir.path(), "run asked.toml --out a --vtk --quiet").code,
         Some(0)
     );
     let read = |name: &str| fs::read_to_string(dir.path().join("a").join(name)).unwrap();
@@ -165,7 +166,7 @@ fn lines_for_paraview_are_the_rows_of_the_table() {
     assert!(!dir.path().join("a/rods_0003.vtp").exists());
     // A run without them leaves none that would pass for its own.
     assert_eq!(
-        ended(dir.path(), "run asked.toml --out a --quiet --force").code,
+        shearbed(dir.path(), "run asked.toml --out a --quiet --force").code,
         Some(0)
     );
     assert!(!dir.path().join("a/rods.pvd").exists());
@@ -176,7 +177,7 @@ fn what_cannot_be_written_is_refused_by_its_key() {
     let dir = folder();
     let refused = |text: &str, arguments: &str, said: &str| {
         fs::write(dir.path().join("s.toml"), text).unwrap();
-        let done = ended(dir.path(), arguments);
+        let done = shearbed(dir.path(), arguments);
         assert_eq!(done.code, Some(2), "{arguments}: {}", done.stdout);
         assert!(done.stderr.contains(said), "{}", done.stderr);
     };
@@ -231,13 +232,13 @@ fn rods_that_were_written_go_on_as_they_would_have() {
         let with = |text: String| text.replace("shear_rate_per_s = 0.5", flow);
         fs::write(at("whole.toml"), with(from("\"isotropic\""))).unwrap();
         assert_eq!(
-            ended(dir.path(), "run whole.toml --out whole --quiet").code,
+            shearbed(dir.path(), "run whole.toml --out whole --quiet").code,
             Some(0)
         );
         one_time(&at("whole/rods.csv"), &at("start.csv"), 0);
         let rest = with(from("{ file = \"start.csv\" }")).replace("[0.25, 0.75]", "[0, 0.5]");
         fs::write(at("rest.toml"), &rest).unwrap();
-        let done = ended(dir.path(), "run rest.toml --out rest --quiet");
+        let done = shearbed(dir.path(), "run rest.toml --out rest --quiet");
         assert_eq!(done.code, Some(0), "{}", done.stderr);
         let (whole, rest_rows) = (rows(&at("whole/rods.csv")), rows(&at("rest/rods.csv")));
         for (a, b) in whole.iter().zip(&rest_rows) {
@@ -261,11 +262,11 @@ fn rods_that_were_written_go_on_as_they_would_have() {
         );
         fs::write(at("rest.toml"), pinned).unwrap();
         assert_eq!(
-            ended(dir.path(), "run rest.toml --out rest --quiet").code,
+            shearbed(dir.path(), "run rest.toml --out rest --quiet").code,
             Some(0)
         );
         one_time(&at("whole/rods.csv"), &at("start.csv"), 20);
-        let done = ended(dir.path(), "run rest.toml --out rest --quiet");
+        let done = shearbed(dir.path(), "run rest.toml --out rest --quiet");
         assert_eq!(done.code, Some(2));
         assert!(
             done.stderr
@@ -275,7 +276,7 @@ fn rods_that_were_written_go_on_as_they_would_have() {
         );
         // Without the digest in the scene the folder tells that another run is kept there.
         fs::write(at("rest.toml"), &rest).unwrap();
-        let done = ended(dir.path(), "run rest.toml --out rest --quiet");
+        let done = shearbed(dir.path(), "run rest.toml --out rest --quiet");
         assert!(
             done.code == Some(2) && done.stderr.contains("another run is kept here"),
             "{}",
@@ -295,7 +296,7 @@ fn a_start_that_does_not_fit_is_refused_with_file_and_line() {
             "plan s.toml",
             "sweep s.toml --over particles.length_mm=1,2",
         ] {
-            let done = ended(dir.path(), command);
+            let done = shearbed(dir.path(), command);
             assert_eq!(done.code, Some(2), "{command}");
             assert!(done.stderr.contains(said), "{}", done.stderr);
         }
@@ -311,7 +312,7 @@ fn a_start_that_does_not_fit_is_refused_with_file_and_line() {
         &format!("{key}:3: p = (1, 1, 0) has length 1.414"),
     );
     fs::write(dir.path().join("gone.toml"), from("{ file = \"gone.csv\" }")).unwrap();
-    let done = ended(dir.path(), "plan gone.toml");
+    let done = shearbed(dir.path(), "plan gone.toml");
     assert!(
         done.code == Some(2) && done.stderr.contains("gone.csv: cannot be read"),
         "{}",
@@ -320,11 +321,11 @@ fn a_start_that_does_not_fit_is_refused_with_file_and_line() {
     // A whole file, for commands that take it and one that does not.
     let rods = "0,0,1\n".repeat(20);
     fs::write(dir.path().join("start.csv"), format!("p1,p2,p3\n{rods}")).unwrap();
-    let planned = ended(dir.path(), "plan s.toml").stdout;
+    let planned = shearbed(dir.path(), "plan s.toml").stdout;
     assert!(planned.contains("every rod starts as in start.csv"), "{planned}");
     let text = from("{ file = \"start.csv\" }").replace("rods_at = [0.25, 0.75]\n", "");
     fs::write(dir.path().join("s.toml"), text).unwrap();
-    let done = ended(dir.path(), "sweep s.toml --over particles.length_mm=1,2");
+    let done = shearbed(dir.path(), "sweep s.toml --over particles.length_mm=1,2");
     assert_eq!(done.code, Some(2));
     assert!(
         done.stderr
@@ -332,83 +333,4 @@ fn a_start_that_does_not_fit_is_refused_with_file_and_line() {
         "{}",
         done.stderr
     );
-}
-
-#[test]
-fn a_cylinder_is_given_by_its_own_aspect_ratio_and_a_formula() {
-    let dir = folder();
-    let cylinder = "physical_aspect_ratio = 20\nshape_correlation = \"cox\"";
-    let text = SMALL.replace("aspect_ratio = 11.6", cylinder);
-    fs::write(dir.path().join("c.toml"), &text).unwrap();
-    let planned = ended(dir.path(), "plan c.toml");
-    // 24.8/√(ln 20) = 14.32850.
-    assert!(
-        planned
-            .stdout
-            .contains("r_e = 14.3285 (Cox 1971: 1.24 r/√(ln r))"),
-        "{}",
-        planned.stdout
-    );
-    assert_eq!(ended(dir.path(), "run c.toml --out a --quiet").code, Some(0));
-    let read = |name: &str| fs::read_to_string(dir.path().join(name)).unwrap();
-    let record: serde_json::Value = serde_json::from_str(&read("a/run.json")).unwrap();
-    let r_e = 24.8 / 20f64.ln().sqrt();
-    let found = record["facts"]["equivalent"]["aspect_ratio"].as_f64().unwrap();
-    assert!((found - r_e).abs() < 1e-14);
-    let particles = &record["scene"]["particles"];
-    assert_eq!(particles["physical_aspect_ratio"], 20.0);
-    assert!(particles["aspect_ratio"].is_null());
-    // The same scene by its r_e has the same bits, and so has that of run.json.
-    fs::write(
-        dir.path().join("r.toml"),
-        SMALL.replace("11.6", &format!("{found:?}")),
-    )
-    .unwrap();
-    assert_eq!(ended(dir.path(), "run r.toml --out b --quiet").code, Some(0));
-    assert_eq!(read("a/projections.csv"), read("b/projections.csv"));
-    let again: shearbed::Scene = serde_json::from_value(record["scene"].clone()).unwrap();
-    assert_eq!(again.particles.aspect_ratio, found);
-    for (change, said) in [
-        (
-            format!("aspect_ratio = 3\n{cylinder}"),
-            "c.toml:7: particles.aspect_ratio = 3 is not allowed: either",
-        ),
-        (
-            String::new(),
-            "c.toml:4: particles.aspect_ratio is missing: a number from",
-        ),
-        (
-            "physical_aspect_ratio = 20".into(),
-            "particles.shape_correlation is missing: physical_aspect_ratio = 20 takes \"gold",
-        ),
-        (
-            "shape_correlation = \"cox\"".into(),
-            "particles.aspect_ratio is missing",
-        ),
-        (
-            "aspect_ratio = 3\nshape_correlation = \"cox\"".into(),
-            "particles.shape_correlation = \"cox\" is not allowed: it goes with",
-        ),
-        (
-            cylinder.replace("20", "1.5"),
-            "particles.physical_aspect_ratio = 1.5 is not allowed: a number from",
-        ),
-        (
-            cylinder.replace("20", "3"),
-            "particles.physical_aspect_ratio = 3 is not allowed: Cox 1971 (1.24 r/√(ln r)) gives no",
-        ),
-        (
-            cylinder.replace("cox", "coxx"),
-            "particles.shape_correlation = \"coxx\" is not allowed: \"goldsmith-mason\", \"cox\", ",
-        ),
-    ] {
-        fs::write(
-            dir.path().join("c.toml"),
-            SMALL.replace("aspect_ratio = 11.6", &change),
-        )
-        .unwrap();
-        let done = ended(dir.path(), "plan c.toml");
-        assert_eq!(done.code, Some(2), "{change}");
-        assert!(done.stderr.contains(said), "{change}: {}", done.stderr);
-    }
 }

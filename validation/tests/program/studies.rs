@@ -1,15 +1,13 @@
 //! `bench` and `converge` as a user meets them: exit codes, messages and files.
 
-mod common;
-
-use common::{Ended, FREE, ended};
+use crate::common::{Ended, FREE, shearbed};
 
 #[test]
 fn an_unknown_bench_is_refused_with_those_there_are() {
     let dir = tempfile::tempdir().unwrap();
     let Ended {
         code, stderr: error, ..
-    } = ended(dir.path(), "bench --case re3");
+    } = shearbed(dir.path(), "bench --case re3");
     assert_eq!(code, Some(2));
     for text in [
         "--case re3",
@@ -28,7 +26,7 @@ fn a_free_scene_shows_every_order_as_theory() {
         code,
         stdout: text,
         stderr: error,
-    } = ended(dir.path(), "converge free.toml");
+    } = shearbed(dir.path(), "converge free.toml");
     assert_eq!(code, Some(0), "{error}");
     assert_eq!(text.matches("as theory").count(), 7, "{text}");
     let out = dir.path().join("out/converge-free");
@@ -52,7 +50,7 @@ fn a_free_scene_starts_where_it_says() {
         code,
         stdout: text,
         stderr: error,
-    } = ended(dir.path(), "converge one.toml");
+    } = shearbed(dir.path(), "converge one.toml");
     assert_eq!(code, Some(0), "{error}");
     for words in [
         "r_e = 3 from φ = 0.1745 and θ = 1.0472 rad (the scene's own start) over 2.",
@@ -63,7 +61,7 @@ fn a_free_scene_starts_where_it_says() {
     std::fs::write(dir.path().join("strain.toml"), scene("strain = 2")).unwrap();
     let Ended {
         code, stderr: error, ..
-    } = ended(dir.path(), "converge strain.toml");
+    } = shearbed(dir.path(), "converge strain.toml");
     assert_eq!(code, Some(2));
     assert!(
         error.contains("time: the subjects turn rods through periods; periods is needed"),
@@ -76,7 +74,7 @@ fn a_free_scene_in_another_flow_is_refused() {
     let dir = tempfile::tempdir().unwrap();
     let Ended {
         code, stderr: error, ..
-    } = ended(dir.path(), "converge extension");
+    } = shearbed(dir.path(), "converge extension");
     assert_eq!(code, Some(2));
     assert!(
         error.contains("extension: flow:") && error.contains("shear_rate_per_s"),
@@ -91,7 +89,7 @@ fn an_interacting_scene_shows_steps_rods_and_replicas() {
         code,
         stdout: text,
         stderr: error,
-    } = ended(dir.path(), "converge fig4-n50 --replicas 4 --out here");
+    } = shearbed(dir.path(), "converge fig4-n50 --replicas 4 --out here");
     assert_eq!(code, Some(0), "{error}");
     for head in [
         "steps per period",

@@ -1,37 +1,17 @@
 //! How the program ends when it is told to, or when what it writes to has gone.
 #![cfg(unix)]
 
-mod common;
-
-use common::{SMALL, command, ended, files, folder};
+use crate::common::{SMALL, command, files, folder, kill, shearbed, wait_for};
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Points of about a second.
 fn long(dir: &Path) {
     let scene = SMALL.replace("replicas = 3", "replicas = 300");
     fs::write(dir.join("long.toml"), scene).unwrap();
-}
-
-fn kill(child: &Child, signal: &str) {
-    let sent = Command::new("kill")
-        .args([signal, &child.id().to_string()])
-        .status();
-    assert!(sent.unwrap().success());
-}
-
-fn wait_for(holds: impl Fn() -> bool) {
-    let start = Instant::now();
-    while !holds() {
-        assert!(
-            start.elapsed() < Duration::from_secs(60),
-            "nothing has come within a minute"
-        );
-        sleep(Duration::from_millis(5));
-    }
 }
 
 fn told(child: Child) -> (Option<i32>, String) {
@@ -51,7 +31,7 @@ fn a_signal_ends_a_run_with_a_message_and_leaves_nothing() {
         let mut run = command(dir.path(), "run long.toml --replicas 1000000 --out x");
         let child = run.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
         sleep(Duration::from_millis(300));
-        kill(&child, signal);
+        kill(child.id(), signal);
         let (found, message) = told(child);
         assert_eq!(found, Some(code), "{message}");
         assert!(
@@ -74,7 +54,7 @@ fn a_sweep_that_was_told_to_end_goes_on() {
     let child = command(dir.path(), sweep).stderr(Stdio::piped()).spawn().unwrap();
     let points = dir.path().join("x/points");
     wait_for(|| fs::read_dir(&points).is_ok_and(|found| found.count() >= 2));
-    kill(&child, "-TERM");
+    kill(child.id(), "-TERM");
     let (code, message) = told(child);
     assert_eq!(code, Some(143));
     assert!(message.contains("the same command goes on"), "{message}");
@@ -85,7 +65,7 @@ fn a_sweep_that_was_told_to_end_goes_on() {
         "{:?}",
         left.keys()
     );
-    let go_on = ended(dir.path(), &sweep.replace("--quiet ", ""));
+    let go_on = shearbed(dir.path(), &sweep.replace("--quiet ", ""));
     assert_eq!(go_on.code, Some(0), "{}", go_on.stderr);
     assert!(
         !go_on.stdout.contains("of which 0 were finished before"),
@@ -138,7 +118,7 @@ fn what_cannot_be_written_is_told() {
         "bench",
     ] {
         for out in ["/proc", "/proc/x"] {
-            let run = ended(dir.path(), &format!("{arguments} --out {out}"));
+            let run = shearbed(dir.path(), &format!("{arguments} --out {out}"));
             assert_eq!(run.code, Some(2), "{}", run.stderr);
             assert!(
                 run.stderr.contains(&format!("{out}: cannot be written")),

@@ -1,8 +1,6 @@
 //! `shearbed fit` as a user meets it: synthetic points, files, refusals. No point here is measured.
 
-mod common;
-
-use common::{ended, files, folder};
+use crate::common::{files, folder, shearbed};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -10,7 +8,7 @@ use std::path::Path;
 /// The mean curve of `small.toml` at α = 0.8, another seed than the fit's, with noise of 0.01 that is fixed: each point is
 /// off by a Gaussian quantile, in an order without a pattern.
 fn points(dir: &Path) {
-    let run = ended(
+    let run = shearbed(
         dir,
         "run small.toml --set interaction.alpha=0.8 --set time.outputs_per_period=20 --seed 7 --replicas 400 --out truth",
     );
@@ -42,7 +40,7 @@ fn the_planted_alpha_is_found_and_everything_is_written() {
     let dir = folder();
     points(dir.path());
     let fit = "fit small.toml --data points.csv --over interaction.alpha=0.05:5 --replicas 100";
-    let done = ended(dir.path(), &format!("{fit} --out one --threads 1"));
+    let done = shearbed(dir.path(), &format!("{fit} --out one --threads 1"));
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     let first = done.stdout.lines().next().unwrap();
     assert!(
@@ -92,7 +90,7 @@ fn the_planted_alpha_is_found_and_everything_is_written() {
     assert_eq!(residuals.lines().count(), 21);
 
     // The same bits on another number of threads.
-    let again = ended(dir.path(), &format!("{fit} --out two --threads 2"));
+    let again = shearbed(dir.path(), &format!("{fit} --out two --threads 2"));
     assert_eq!(again.code, Some(0));
     let mut two = files(&dir.path().join("two"));
     let mut one = written;
@@ -107,7 +105,7 @@ fn the_planted_alpha_is_found_and_everything_is_written() {
 fn what_the_points_do_not_say_is_warned_of() {
     let dir = folder();
     points(dir.path());
-    let done = ended(
+    let done = shearbed(
         dir.path(),
         "fit small.toml --data points.csv --over interaction.alpha=0.05:0.3 --replicas 50 --out out",
     );
@@ -128,7 +126,7 @@ fn two_sets_share_their_parameters() {
     let dir = folder();
     points(dir.path());
     let args = "fit small.toml --data points.csv --data small.toml=points.csv --over interaction.alpha=0.2:2 --replicas 50 --out both";
-    let done = ended(dir.path(), args);
+    let done = shearbed(dir.path(), args);
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     let record = json(&dir.path().join("both/fit.json"));
     assert_eq!(record["degrees_of_freedom"], 39);
@@ -216,7 +214,7 @@ fn bad_input_ends_with_two_and_leaves_nothing() {
         ),
         (good.into(), "--over"),
     ] {
-        let done = ended(dir.path(), &format!("fit small.toml {arguments} --out out"));
+        let done = shearbed(dir.path(), &format!("fit small.toml {arguments} --out out"));
         assert_eq!(done.code, Some(2), "{arguments}: {}", done.stderr);
         assert!(done.stderr.contains(named), "{arguments}: {}", done.stderr);
         assert!(!dir.path().join("out").exists(), "{arguments}");

@@ -1,18 +1,16 @@
 //! Runs that are stopped and gone on from: bit for bit those that are not.
 #![cfg(unix)]
 
-mod common;
-
-use common::{SMALL, command, ended, files, folder};
+use crate::common::{SMALL, command, files, folder, kill, shearbed, wait_for};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
 use std::collections::BTreeMap;
 use std::fs;
 use std::os::unix::fs::MetadataExt;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::Stdio;
 use std::thread::sleep;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// About a second: of many replicas, of one, and of free rods.
 fn scenes(dir: &Path) -> [&'static str; 3] {
@@ -33,14 +31,6 @@ fn scenes(dir: &Path) -> [&'static str; 3] {
         .replace("[output]", "[output]\nrods_at = [0, 1, 4000]");
     write("free", free.replace("periods = 1", "periods = 4000"));
     ["many", "one", "free"]
-}
-
-fn kill(child: &mut Child, signal: &str) {
-    let sent = Command::new("kill")
-        .args([signal, &child.id().to_string()])
-        .stderr(Stdio::null())
-        .status();
-    sent.unwrap();
 }
 
 /// Which file stands there: another one after each replacement.
@@ -72,7 +62,7 @@ fn a_run_that_is_killed_goes_on_to_the_same_bits() {
     let mut random = Pcg64Dxsm::seed_from_u64(1982);
     for name in scenes(dir.path()) {
         let whole = format!("run {name}.toml --quiet --out {name}-whole");
-        assert_eq!(ended(dir.path(), &whole).code, Some(0));
+        assert_eq!(shearbed(dir.path(), &whole).code, Some(0));
         let mut killed = 0;
         let run =
             format!("run {name}.toml --quiet --out {name} --checkpoint kept/{name} --every 0.02 --threads 2");
@@ -91,7 +81,7 @@ fn a_run_that_is_killed_goes_on_to_the_same_bits() {
             }
             sleep(Duration::from_micros(random.random_range(0..15_000)));
             let signal = ["-KILL", "-KILL", "-TERM"][life % 3];
-            kill(&mut child, signal);
+            kill(child.id(), signal);
             let code = child.wait().unwrap().code();
             assert!([None, Some(143), Some(0)].contains(&code), "{name}: {code:?}");
             killed += usize::from(code != Some(0));
@@ -100,7 +90,7 @@ fn a_run_that_is_killed_goes_on_to_the_same_bits() {
             assert!(!out.exists() || out.join("run.json").exists());
         }
         assert!(killed > 2, "{name}: it has ended too soon");
-        let last = ended(dir.path(), &run);
+        let last = shearbed(dir.path(), &run);
         assert_eq!(last.code, Some(0), "{name}: {}", last.stderr);
         assert_eq!(
             results(&dir.path().join(name)),
@@ -108,7 +98,7 @@ fn a_run_that_is_killed_goes_on_to_the_same_bits() {
             "{name}"
         );
         // What is done is kept: it need not run again.
-        let again = ended(dir.path(), &run.replace("--quiet", "--force"));
+        let again = shearbed(dir.path(), &run.replace("--quiet", "--force"));
         let replicas = ["700 of 700", "1 of 1", "2 of 2"];
         assert!(
             replicas.iter().any(|done| again
@@ -138,14 +128,10 @@ fn a_signal_keeps_the_run_and_says_how_to_go_on() {
     let run = "run many.toml --replicas 100000 --quiet --checkpoint kept --every 3600";
     for (signal, code) in [("-INT", 130), ("-TERM", 143)] {
         let child = command(dir.path(), run).stderr(Stdio::piped()).spawn();
-        let mut child = child.unwrap();
-        let start = Instant::now();
-        while !dir.path().join("kept").exists() {
-            assert!(start.elapsed() < Duration::from_secs(60));
-            sleep(Duration::from_millis(5));
-        }
+        let child = child.unwrap();
+        wait_for(|| dir.path().join("kept").exists());
         sleep(Duration::from_millis(300));
-        kill(&mut child, signal);
+        kill(child.id(), signal);
         let output = child.wait_with_output().unwrap();
         let told = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(code), "{told}");
@@ -168,7 +154,7 @@ fn a_signal_keeps_the_run_and_says_how_to_go_on() {
 fn a_checkpoint_of_other_work_is_refused() {
     let dir = folder();
     let run = "run small.toml --checkpoint kept --out x";
-    assert_eq!(ended(dir.path(), run).code, Some(0));
+    assert_eq!(shearbed(dir.path(), run).code, Some(0));
     let kept = fs::read(dir.path().join("kept")).unwrap();
     for (change, key) in [
         ("--seed 2", "scene.ensemble.seed was 1 and is 2 now"),
@@ -178,7 +164,7 @@ fn a_checkpoint_of_other_work_is_refused() {
             "scene.interaction.alpha was 0.5 and is 0.6 now",
         ),
     ] {
-        let other = ended(dir.path(), &format!("{run}2 {change}"));
+        let other = shearbed(dir.path(), &format!("{run}2 {change}"));
         assert_eq!(other.code, Some(2), "{}", other.stderr);
         assert!(
             other
@@ -189,7 +175,7 @@ fn a_checkpoint_of_other_work_is_refused() {
         );
         assert!(other.stderr.contains(key), "{}", other.stderr);
     }
-    let other = ended(
+    let other = shearbed(
         dir.path(),
         "validate --case jeffery-period --checkpoint kept --out x2",
     );
@@ -202,7 +188,7 @@ fn a_checkpoint_of_other_work_is_refused() {
     let at = damaged.len() / 2;
     damaged[at] ^= 4;
     fs::write(dir.path().join("kept"), &damaged).unwrap();
-    let other = ended(dir.path(), &run.replace("--out x", "--out x2"));
+    let other = shearbed(dir.path(), &run.replace("--out x", "--out x2"));
     assert_eq!(other.code, Some(2));
     assert!(
         other.stderr.contains("is damaged: its checksum is"),
@@ -227,7 +213,7 @@ fn a_checkpoint_of_other_work_is_refused() {
             "small.toml: is no checkpoint of shearbed",
         ),
     ] {
-        let refused = ended(dir.path(), &format!("run small.toml --out x2 {wrong}"));
+        let refused = shearbed(dir.path(), &format!("run small.toml --out x2 {wrong}"));
         assert_eq!(refused.code, Some(2), "{wrong}: {}", refused.stderr);
         assert!(refused.stderr.contains(allowed), "{wrong}: {}", refused.stderr);
     }
@@ -245,9 +231,9 @@ fn cases(dir: &Path) -> Vec<serde_json::Value> {
 fn finished_cases_are_not_run_again() {
     let dir = folder();
     let two = "validate --case jeffery-period --case gradient-of-eq-2 --checkpoint kept";
-    let first = ended(dir.path(), &format!("{two} --out first"));
+    let first = shearbed(dir.path(), &format!("{two} --out first"));
     assert_eq!(first.code, Some(0), "{}", first.stderr);
-    let more = ended(dir.path(), &format!("{two} --case kick-bound --out more"));
+    let more = shearbed(dir.path(), &format!("{two} --case kick-bound --out more"));
     assert!(
         more.stdout.contains("goes on from kept: 2 cases are finished"),
         "{}",
@@ -260,7 +246,7 @@ fn finished_cases_are_not_run_again() {
         first.iter().all(|case| more.contains(case)),
         "{first:#?}\n{more:#?}"
     );
-    let fresh = ended(
+    let fresh = shearbed(
         dir.path(),
         "validate --case kick-bound --case jeffery-period --out fresh",
     );
@@ -272,7 +258,7 @@ fn finished_cases_are_not_run_again() {
         case["seconds"] = 0.into();
         assert_eq!(kept, case);
     }
-    let other = ended(dir.path(), &format!("{two} --seed 2"));
+    let other = shearbed(dir.path(), &format!("{two} --seed 2"));
     assert_eq!(other.code, Some(2));
     assert!(
         other.stderr.contains("seed was 1 and is 2 now"),

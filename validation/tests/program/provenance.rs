@@ -1,8 +1,6 @@
 //! Which build made a result, and the command that repeats it.
 
-mod common;
-
-use common::{FREE, command, ended, folder};
+use crate::common::{FREE, command, folder, shearbed};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -61,7 +59,7 @@ fn every_record_names_the_commit_of_the_build() {
             "/origin",
         ),
     ] {
-        let run = ended(dir.path(), arguments);
+        let run = shearbed(dir.path(), arguments);
         let Ok(text) = fs::read_to_string(dir.path().join(record)) else {
             assert_eq!(run.code, Some(2), "{arguments}: {}", run.stderr);
             continue;

@@ -1,0 +1,28 @@
+//! The program as a user meets it, and what the suite hands out: one executable, whose tests share the cores.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod certified;
+mod checkpoint;
+mod ending;
+mod experiments;
+mod fit;
+mod folders;
+mod hostile;
+mod overwrite;
+mod plot;
+mod problems;
+mod provenance;
+mod reference;
+mod refused;
+mod report;
+mod reports;
+mod rods;
+mod run;
+mod scenes;
+mod set;
+mod shape;
+mod studies;
+mod supply;
+mod sweep;

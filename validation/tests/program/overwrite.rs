@@ -1,0 +1,131 @@
+//! What lies in a folder already, and what is left where a run cannot be.
+
+use crate::common::{UNEQUAL, names, read, shearbed, unequal};
+use std::fs;
+
+#[test]
+fn a_name_with_a_dot_keeps_it_in_the_folder() {
+    let dir = unequal();
+    assert_eq!(
+        shearbed(dir.path(), "run fig8-a0.36 --replicas 1 --quiet").code,
+        Some(0)
+    );
+    assert_eq!(names(&dir.path().join("out")), ["fig8-a0.36"]);
+}
+
+#[test]
+fn a_run_that_ends_badly_leaves_what_was_complete() {
+    let dir = unequal();
+    assert_eq!(
+        shearbed(dir.path(), "run small.toml --quiet --out a").code,
+        Some(0)
+    );
+    let before: Vec<_> = names(&dir.path().join("a"))
+        .iter()
+        .map(|name| read(&dir.path().join("a").join(name)))
+        .collect();
+    fs::write(
+        dir.path().join("small.toml"),
+        UNEQUAL.replace("aspect_ratio = 11.6", "aspect_ratio = 1e200"),
+    )
+    .unwrap();
+    let ended = shearbed(dir.path(), "run small.toml --quiet --out a");
+    assert_eq!(ended.code, Some(2));
+    assert!(
+        ended
+            .stderr
+            .contains("particles.aspect_ratio = 1e200 is not allowed"),
+        "{}",
+        ended.stderr
+    );
+    let after: Vec<_> = names(&dir.path().join("a"))
+        .iter()
+        .map(|name| read(&dir.path().join("a").join(name)))
+        .collect();
+    assert_eq!(before, after);
+}
+
+#[test]
+fn a_file_that_cannot_be_replaced_leaves_all_as_it_was() {
+    let dir = unequal();
+    let out = dir.path().join("out");
+    fs::create_dir_all(out.join("run.json")).unwrap();
+    fs::write(out.join("projections.csv"), "old").unwrap();
+    let ended = shearbed(dir.path(), "run small.toml --out out");
+    assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""));
+    assert_eq!(
+        ended.stderr,
+        "error: out/run.json: cannot be written: is a directory\n"
+    );
+    assert_eq!(names(&out), ["projections.csv", "run.json"]);
+    assert_eq!(read(&out.join("projections.csv")), "old");
+}
+
+#[test]
+fn another_run_is_overwritten_only_by_force() {
+    let dir = unequal();
+    let run = |arguments: &str| shearbed(dir.path(), &format!("run small.toml --quiet --out a {arguments}"));
+    assert_eq!(run("").code, Some(0));
+    let kept = || -> Vec<_> {
+        let dir = dir.path().join("a");
+        names(&dir)
+            .into_iter()
+            .map(|name| (read(&dir.join(&name)), name))
+            .collect()
+    };
+    let tables = || -> Vec<_> {
+        kept()
+            .into_iter()
+            .filter(|(_, name)| name != "run.json")
+            .collect()
+    };
+    let (before, before_tables) = (kept(), tables());
+    for (arguments, what) in [
+        ("--seed 2", "scene.ensemble.seed was 1 and is 2 now"),
+        ("--replicas 4", "scene.ensemble.replicas was 3 and is 4 now"),
+        (
+            "--set interaction.alpha=0.4",
+            "scene.interaction.alpha was 0.5 and is 0.4 now",
+        ),
+    ] {
+        let ended = run(arguments);
+        assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""));
+        for part in [
+            "error: a/run.json: another run is kept here: \"A small scene\", 3 replicas, seed 1, version \"0.1.0\"",
+            what,
+            "--force overwrites it",
+        ] {
+            assert!(ended.stderr.contains(part), "{arguments}: {}", ended.stderr);
+        }
+        assert!(kept() == before, "{arguments}: nothing was changed");
+    }
+    // The same again is no other run.
+    assert_eq!(run("--threads 1").code, Some(0));
+    assert!(tables() == before_tables);
+    // By force, and what the other run left and this one does not write goes.
+    let fewer = "--force --seed 2 --set output.observables=[\"mean_angle\"]";
+    assert_eq!(run(fewer).code, Some(0));
+    assert_eq!(
+        names(&dir.path().join("a")),
+        ["mean_angle.csv", "mean_angle.svg", "run.json"]
+    );
+
+    let put = |text: &str| fs::write(dir.path().join("a/run.json"), text).unwrap();
+    put("{");
+    assert!(run("").stderr.contains("a/run.json: is no record of a run: "));
+    // Another version, and a record that names a file which is not this folder's.
+    let record = before.iter().find(|(_, name)| name == "run.json").unwrap();
+    put(&record
+        .0
+        .replace("\"version\": \"0.1.0\"", "\"version\": \"0.0.9\""));
+    assert!(
+        run("")
+            .stderr
+            .contains("version was \"0.0.9\" and is \"0.1.0\" now")
+    );
+    put(&record.0.replace("\"mean_angle.csv\"", "\"../small.toml\""));
+    assert_eq!(run("--force --seed 3").code, Some(0));
+    assert_eq!(read(&dir.path().join("small.toml")), UNEQUAL);
+    fs::write(dir.path().join("a/sweep.json"), "{}").unwrap();
+    assert!(run("").stderr.contains("a/sweep.json: a sweep is kept here"));
+}

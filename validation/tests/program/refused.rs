@@ -1,0 +1,85 @@
+//! Bad input: exit code 2, a message, and nothing written.
+
+use crate::common::{UNEQUAL, names, read, shearbed, unequal};
+use std::fs;
+
+/// Arguments, and a part of the message.
+#[rustfmt::skip]
+const REJECTED: &[(&str, &str)] = &[
+    ("", "Usage: shearbed <COMMAND>"),
+    ("rnu small.toml", "unrecognized subcommand 'rnu'"),
+    ("run", "<SCENE>"),
+    ("run no.toml", "no.toml: cannot be read: No such file or directory"),
+    ("run fig4n50", "close names: fig4-n50"),
+    ("plan .", ".: cannot be read: Is a directory"),
+    ("plan latin.toml", "latin.toml:2: not a text in UTF-8"),
+    ("plan file", "file:1: title is missing: a text in quotes"),
+    ("run zero.toml", "zero.toml:5: particles.count = 0 is not allowed: a whole number from 1 to 100000000"),
+    ("run wide.toml", "wide.toml:8: particles.aspect_ratio_sd_percent = 40 is not allowed: so wide that r_e ≤ 1"),
+    ("run sphere.toml", "sphere.toml:7: particles.aspect_ratio = 1 is not allowed: interacting rods need"),
+    ("run small.toml --replicas 0", "'0' for '--replicas <N>': a whole number from 1 to 10000000 is allowed"),
+    ("run small.toml --replicas 1.5", "'1.5' for '--replicas <N>': a whole number from 1 to"),
+    ("run small.toml --replicas 10000001", "'10000001' for '--replicas <N>': a whole number from 1 to"),
+    ("run small.toml --seed -1", "'-1' for '--seed <S>': a whole number from 0 to 9223372036854775807 is"),
+    ("run small.toml --seed 9223372036854775808", "for '--seed <S>': a whole number from 0 to"),
+    ("run small.toml --threads 0", "'0' for '--threads <K>': a whole number from 1 to 1024 is allowed"),
+    ("run small.toml --threads many", "'many' for '--threads <K>': a whole number from 1 to 1024"),
+    ("run small.toml --out file", "file: cannot be written: "),
+    ("run small.toml --out file/below", "file/below: cannot be written: "),
+    ("run small.toml --fast", "unexpected argument '--fast'"),
+    ("scenes --show fig13", "--show fig13: no built-in scene has this name; there are fig4-n20, fig4-n50"),
+    ("validate --case no-such-case", "--case no-such-case: no case has this name. `shearbed validate --list` has all"),
+    ("validate --case jefery-period", "--case jefery-period: no case has this name; did you mean jeffery-period?"),
+    ("validate --data no-such-folder", "'no-such-folder' for '--data <DIR>': No such file or directory"),
+    ("validate --data file", "'file' for '--data <DIR>': it is no folder; an existing folder is allowed"),
+    ("validate --out file", "file: cannot be written: "),
+];
+
+#[test]
+fn bad_input_ends_with_2_and_a_message() {
+    let dir = unequal();
+    let put = |name: &str, text: &[u8]| fs::write(dir.path().join(name), text).unwrap();
+    put("file", b"");
+    put("latin.toml", b"title = \"a\"\n# n = 50 cm\xb3\n");
+    put("zero.toml", UNEQUAL.replace("count = 20", "count = 0").as_bytes());
+    put("wide.toml", UNEQUAL.replace("= 3.6", "= 40").as_bytes());
+    put(
+        "sphere.toml",
+        UNEQUAL
+            .replace("= 11.6", "= 1")
+            .replace("= 3.6", "= 0")
+            .as_bytes(),
+    );
+    let before = names(dir.path());
+    for (arguments, message) in REJECTED {
+        let ended = shearbed(dir.path(), arguments);
+        assert_eq!(ended.code, Some(2), "{arguments}: {}", ended.stderr);
+        assert!(ended.stderr.contains(message), "{arguments}: {}", ended.stderr);
+        assert_eq!(ended.stdout, "", "{arguments}");
+    }
+    assert_eq!(names(dir.path()), before, "nothing was written");
+    assert_eq!(read(&dir.path().join("file")), "");
+}
+
+/// Linux says what memory there is.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_scene_that_does_not_fit_in_memory_is_refused_before_it_starts() {
+    let dir = unequal();
+    let text = shearbed(dir.path(), "scenes --show fig4-n50").stdout;
+    let huge = text.replace("count = 100\n", "count = 100_000_000\n");
+    assert_ne!(huge, text);
+    fs::write(dir.path().join("huge.toml"), huge).unwrap();
+    // 11 GB for every thread.
+    for command in [
+        "run huge.toml --replicas 1000 --threads 200",
+        "sweep huge.toml --over ensemble.replicas=1000,2000 --threads 200",
+    ] {
+        let ended = shearbed(dir.path(), command);
+        assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+        for part in ["huge.toml", "particles.count = 100000000", "200 at a time", "GB"] {
+            assert!(ended.stderr.contains(part), "{}", ended.stderr);
+        }
+    }
+    assert_eq!(names(dir.path()), ["huge.toml", "small.toml"]);
+}
