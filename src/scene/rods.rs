@@ -56,7 +56,8 @@ impl Scene {
         };
         let Some(p) = p else {
             return refused(
-                "a file's directions where something has read it, as `shearbed run` and `plan` do".into(),
+                "a file's directions where something has read it, as `shearbed run`, `plan` and `sweep` do"
+                    .into(),
             );
         };
         let count = self.particles.count;

@@ -23,20 +23,20 @@ const OTHERS: [&str; 9] = [
 /// How far a length may be from 1: a direction in five decimals or more. It is divided out.
 const LENGTH: f64 = 1e-5;
 
-/// Reads the file of a scene whose rods start as one says; others are left as they are. `source` names the scene in
-/// messages, `beside` is the folder that its file is in.
+/// Reads the file of a scene whose rods start as one says; others are left as they are. `beside` is the folder that the
+/// scene's file is in.
 ///
 /// # Errors
 ///
 /// The file, line, column and value, and what is allowed.
-pub fn fill(scene: &mut Scene, source: &str, beside: &Path) -> Result<(), String> {
+pub fn fill(scene: &mut Scene, beside: &Path) -> Result<(), String> {
     let (count, aspect_ratio) = (scene.particles.count, scene.particles.aspect_ratio);
     let Orientation::Each { file, crc32, p } = &mut scene.particles.orientation else {
         return Ok(());
     };
     let path = beside.join(&*file);
     let shown = path.display();
-    let key = format!("{source}: particles.orientation");
+    let key = "particles.orientation";
     let bytes = std::fs::read(&path).map_err(|error| format!("{key}: {shown}: cannot be read: {error}"))?;
     let found = format!("{:08x}", crc32fast::hash(&bytes));
     if let Some(expected) = crc32.as_ref().filter(|expected| **expected != found) {

@@ -1,5 +1,7 @@
 //! shearbed for Python: the core's runs as NumPy arrays, and the program's commands. Nothing is computed here.
 
+mod rods;
+
 use numpy::PyArray1;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -7,10 +9,12 @@ use pyo3::types::PyDict;
 use pyo3::{create_exception, wrap_pyfunction};
 use rayon::prelude::*;
 use shearbed::run::{Replica, run_replica};
+use shearbed::scene::{KEYS, Orientation};
 use shearbed::work::RunError;
 use shearbed::{Plan, Results, Scene, ensemble, scene_file};
 use std::ffi::OsString;
 use std::ops::Range;
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
@@ -25,6 +29,8 @@ create_exception!(
 fn plan(name: &str, text: &str, replicas: Option<u64>, seed: Option<u64>) -> PyResult<Plan> {
     let refused = |error: &dyn std::fmt::Display| SceneError::new_err(error.to_string());
     let mut scene = scene_file::parse(name, text).map_err(|error| refused(&error))?;
+    let folder = Path::new(name).parent().unwrap_or(Path::new(""));
+    validation::start::fill(&mut scene, folder).map_err(|error| refused(&format!("{name}: {error}")))?;
     scene.ensemble.replicas = replicas.unwrap_or(scene.ensemble.replicas);
     scene.ensemble.seed = seed.unwrap_or(scene.ensemble.seed);
     Plan::new(&scene).map_err(|error| SceneError::new_err(format!("{name}: {error}")))
@@ -34,14 +40,26 @@ fn toml_of(scene: &Scene) -> PyResult<String> {
     toml::to_string(scene).map_err(|error| PyRuntimeError::new_err(error.to_string()))
 }
 
-/// The scene with every default written out as TOML, its plan in words, and what the reader of its results should know.
+/// The table and the name of every key of a scene file.
 #[pyfunction]
-fn describe(name: &str, text: &str) -> PyResult<(String, String, Vec<String>)> {
+fn keys() -> Vec<(&'static str, &'static str)> {
+    KEYS.iter().filter_map(|key| key.path.split_once('.')).collect()
+}
+
+/// The scene with every default written out as TOML, its plan in words, what the reader of its results should know, and
+/// the name of the file that its rods start from.
+#[pyfunction]
+fn describe(name: &str, text: &str) -> PyResult<(String, String, Vec<String>, Option<String>)> {
     let plan = plan(name, text, None, None)?;
+    let start = match &plan.scene().particles.orientation {
+        Orientation::Each { file, .. } => Some(file.clone()),
+        _ => None,
+    };
     Ok((
         toml_of(&plan.scene().resolved())?,
         plan.to_string(),
         plan.warnings(),
+        start,
     ))
 }
 
@@ -148,6 +166,7 @@ fn dictionary<'py>(py: Python<'py>, plan: &Plan, results: Results) -> PyResult<B
     let observables = PyDict::new(py);
     let scaled = |unit: f64| results.times.iter().map(|time| time * unit).collect();
     let (time_s, strain) = (scaled(results.unit.seconds), scaled(results.unit.strain));
+    let rods = rods::columns(py, plan, &results)?;
     for series in results.series {
         let mut names = Vec::new();
         for channel in series.columns {
@@ -163,6 +182,7 @@ fn dictionary<'py>(py: Python<'py>, plan: &Plan, results: Results) -> PyResult<B
     all.set_item("strain", array(strain))?;
     all.set_item("channels", channels)?;
     all.set_item("observables", observables)?;
+    all.set_item("rods", rods)?;
     all.set_item("scene", toml_of(&plan.scene().resolved())?)?;
     all.set_item("warnings", plan.warnings())?;
     Ok(all)
@@ -190,6 +210,7 @@ fn main(py: Python<'_>, program: Vec<OsString>, arguments: Vec<OsString>) {
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("SceneError", module.py().get_type::<SceneError>())?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_function(wrap_pyfunction!(keys, module)?)?;
     module.add_function(wrap_pyfunction!(describe, module)?)?;
     module.add_function(wrap_pyfunction!(run, module)?)?;
     module.add_function(wrap_pyfunction!(call, module)?)?;

@@ -63,6 +63,39 @@ def test_the_bits_are_those_of_the_program(name: str, tmp_path: Path) -> None:
             assert same.all(), key
 
 
+@pytest.mark.parametrize("kind", ["free", "interacting"])
+def test_rods_are_those_of_the_programs_table(kind: str, tmp_path: Path) -> None:
+    scene = shearbed.Scene(**(SCENES[kind] | dict(replicas=2, rods_at=[0, 0.2])))
+    (tmp_path / "scene.toml").write_text(scene.toml)
+    assert program("run", "scene.toml", "--out", "out", "--quiet", cwd=tmp_path).returncode == 0
+    with open(tmp_path / "out" / "rods.csv", newline="") as text:
+        rows = list(csv.DictReader(text))
+    rods = shearbed.run(scene).rods
+    assert list(rods) == list(rows[0]) and len(rods["rod"]) == len(rows) == 2 * 2 * SCENES[kind]["count"]
+    for name, values in rods.items():
+        table = np.array([float(row[name] or "nan") for row in rows])
+        assert np.array_equal(values, table, equal_nan=True), name
+    # And in again: the rods of replica 0 at the end.
+    last = [row for row in rows if row["replica"] == "0"][-SCENES[kind]["count"]:]
+    (tmp_path / "below").mkdir()
+    with open(tmp_path / "below" / "start.csv", "w", newline="") as out:
+        table = csv.DictWriter(out, ["p1", "p2", "p3"], extrasaction="ignore")
+        table.writeheader()
+        table.writerows(last)
+    text = shearbed.Scene(**SCENES[kind]).toml
+    for old, new in (("\"isotropic\"", "{ file = \"below/start.csv\" }"), ("observables =", "rods_at = [0]\nobservables =")):
+        assert old in text
+        text = text.replace(old, new)
+    (tmp_path / "on.toml").write_text(text)
+    again = shearbed.run(tmp_path / "on.toml", replicas=1)
+    # Read directions are divided by their length, which is 1 up to a rounding or two.
+    assert np.allclose(again.rods["p2"], [float(row["p2"]) for row in last], rtol=0, atol=1e-15)
+    # A sweep keeps no rods, but starts from them.
+    (tmp_path / "swept.toml").write_text(text.replace("rods_at = [0]\n", ""))
+    swept = shearbed.sweep(tmp_path / "swept.toml", {"ensemble.seed": [1, 2]}, replicas=1)
+    assert len(swept["x1"]) == 2
+
+
 def test_seed_and_replicas_stand_in_place_of_the_scenes_own() -> None:
     own = shearbed.run(SMALL | dict(replicas=3, seed=5))
     given = shearbed.run(SMALL, replicas=3, seed=5)
@@ -110,6 +143,8 @@ def test_other_mistakes_are_type_errors() -> None:
         shearbed.run(FREE).x4
     with pytest.raises(AttributeError, match="orientation_tensor"):
         shearbed.run(FREE).a
+    with pytest.raises(AttributeError, match="rods_at"):
+        shearbed.run(FREE).rods
 
 
 def test_a_scene_that_would_not_fit_in_memory_is_refused() -> None:

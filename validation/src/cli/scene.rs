@@ -17,7 +17,7 @@ pub(super) struct Named {
     /// The file as given, or the built-in scene's name: for messages.
     pub(super) source: String,
     /// The folder of the file: what it names lies there.
-    folder: PathBuf,
+    pub(super) folder: PathBuf,
     /// The stem of the file's name, or the built-in scene's name.
     pub(super) stem: String,
 }
@@ -41,9 +41,13 @@ impl Named {
                 .map(|setting| format!(" --set {}={}", setting.key, sweep::shown(&setting.value)));
             Failure::Input(format!("{}{}: {error}", self.source, said.collect::<String>()))
         })?;
-        start::fill(&mut self.scene, &self.source, &self.folder).map_err(Failure::Input)?;
+        start::fill(&mut self.scene, &self.folder).map_err(|error| refused(&self.source, &error))?;
         Ok(self)
     }
+}
+
+fn refused(source: &str, error: &str) -> Failure {
+    Failure::Input(format!("{source}: {error}"))
 }
 
 /// Reads the file `given`, or where there is none the built-in scene of that name.
@@ -68,7 +72,7 @@ pub(super) fn load(given: &OsStr) -> Result<Named, Failure> {
     let text = read(path)?;
     let mut scene = scene_file::parse(&source, &text).map_err(|error| Failure::Input(error.to_string()))?;
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    start::fill(&mut scene, &source, &folder).map_err(Failure::Input)?;
+    start::fill(&mut scene, &folder).map_err(|error| refused(&source, &error))?;
     let stem = path.file_stem().unwrap_or(given).to_string_lossy().into_owned();
     Ok(Named {
         scene,

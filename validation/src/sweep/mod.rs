@@ -7,7 +7,9 @@ pub(crate) use axis::key_and_text;
 pub use axis::{Axis, MAX_POINTS, Setting, shown};
 pub use folder::{Folder, Identity, Points, Refused};
 
+use crate::start;
 use shearbed::{Plan, Scene, scene_file};
+use std::path::Path;
 use toml::{Table, Value};
 
 /// A point of the grid.
@@ -19,8 +21,13 @@ pub struct Point {
 }
 
 /// Every point, the last axis varying fastest, checked as a scene file is. `fixed` are keys that all points have in
-/// place of the scene's own. On error, which point and why.
-pub fn points(text: &str, fixed: &[(&str, Value)], axes: &[Axis]) -> Result<Vec<Point>, String> {
+/// place of the scene's own; `beside` is the folder of the scene's file. On error, which point and why.
+pub fn points(
+    text: &str,
+    beside: &Path,
+    fixed: &[(&str, Value)],
+    axes: &[Axis],
+) -> Result<Vec<Point>, String> {
     let base: Table = text.parse().map_err(|error: toml::de::Error| error.to_string())?;
     let count = (axes.iter())
         .try_fold(1_usize, |count, axis| count.checked_mul(axis.values.len()))
@@ -30,7 +37,7 @@ pub fn points(text: &str, fixed: &[(&str, Value)], axes: &[Axis]) -> Result<Vec<
         let values = at(axes, k);
         let keys = axes.iter().map(|axis| axis.key.as_str());
         let own = keys.zip(values.iter().cloned());
-        let plan = plan(&base, fixed.iter().cloned().chain(own)).map_err(|error| {
+        let plan = plan(&base, beside, fixed.iter().cloned().chain(own)).map_err(|error| {
             let point = described(axes, &values);
             format!("--over {point} (point {} of {count}): {error}", k + 1)
         })?;
@@ -81,8 +88,13 @@ fn at(axes: &[Axis], mut k: usize) -> Vec<Value> {
 }
 
 /// The plan of the scene `base` with some keys set.
-fn plan<'a>(base: &Table, settings: impl Iterator<Item = (&'a str, Value)>) -> Result<Plan, String> {
-    let scene = with(base, settings)?;
+fn plan<'a>(
+    base: &Table,
+    beside: &Path,
+    settings: impl Iterator<Item = (&'a str, Value)>,
+) -> Result<Plan, String> {
+    let mut scene = with(base, settings)?;
+    start::fill(&mut scene, beside)?;
     Plan::new(&scene).map_err(|error| error.to_string())
 }
 
@@ -139,14 +151,20 @@ mod tests {
 
     fn refused(over: &[&str]) -> String {
         let axes: Vec<_> = over.iter().map(|text| Axis::parse(text).unwrap()).collect();
-        points(text(), &[], &axes).err().unwrap()
+        points(text(), Path::new(""), &[], &axes).err().unwrap()
     }
 
     #[test]
     fn the_grid_is_full_and_its_numbers_reach_the_scene_bit_for_bit() {
         let over = ["interaction.alpha=0.1:0.7:7", "particles.count=10,20"];
         let axes = over.map(|text| Axis::parse(text).unwrap());
-        let found = points(text(), &[("ensemble.replicas", Value::Integer(3))], &axes).unwrap();
+        let found = points(
+            text(),
+            Path::new(""),
+            &[("ensemble.replicas", Value::Integer(3))],
+            &axes,
+        )
+        .unwrap();
         assert_eq!(found.len(), 14);
         for (k, point) in found.iter().enumerate() {
             let scene = point.plan.scene();

@@ -286,6 +286,46 @@ fn rods_that_were_written_go_on_as_they_would_have() {
 }
 
 #[test]
+fn a_sweep_starts_from_a_file_and_knows_it_again() {
+    let dir = folder();
+    let at = |name: &str| dir.path().join(name);
+    fs::create_dir(at("below")).unwrap();
+    fs::write(at("all.toml"), free(&asked())).unwrap();
+    assert_eq!(
+        shearbed(dir.path(), "run all.toml --out all --quiet").code,
+        Some(0)
+    );
+    one_time(&at("all/rods.csv"), &at("below/start.csv"), 0);
+    let scene = from("{ file = \"start.csv\" }").replace("rods_at = [0.25, 0.75]\n", "");
+    fs::write(at("below/s.toml"), &scene).unwrap();
+    let sweep = "sweep below/s.toml --over particles.aspect_ratio=11.6,5 --out x --quiet";
+    // The file has the first r_e in a column of its own.
+    let done = shearbed(dir.path(), sweep);
+    assert_eq!(done.code, Some(2));
+    for words in
+        ["(point 2 of 2): particles.orientation: below/start.csv:2: aspect_ratio = 11.6 is not allowed"]
+    {
+        assert!(done.stderr.contains(words), "{}", done.stderr);
+    }
+    let sweep = sweep.replace("particles.aspect_ratio=11.6,5", "flow.shear_rate_per_s=0.5,1");
+    assert_eq!(shearbed(dir.path(), &sweep).code, Some(0));
+    assert_eq!(
+        shearbed(dir.path(), "run below/s.toml --out one --quiet").code,
+        Some(0)
+    );
+    let one = fs::read_to_string(at("one/projections.csv")).unwrap();
+    assert_eq!(fs::read_to_string(at("x/points/1/projections.csv")).unwrap(), one);
+    // Another start is another sweep.
+    one_time(&at("all/rods.csv"), &at("below/start.csv"), 20);
+    let done = shearbed(dir.path(), &sweep);
+    assert!(
+        done.code == Some(2) && done.stderr.contains("orientation.crc32 was"),
+        "{}",
+        done.stderr
+    );
+}
+
+#[test]
 fn a_start_that_does_not_fit_is_refused_with_file_and_line() {
     let dir = folder();
     let refused = |start: &str, said: &str| {
@@ -323,9 +363,15 @@ fn a_start_that_does_not_fit_is_refused_with_file_and_line() {
     fs::write(dir.path().join("start.csv"), format!("p1,p2,p3\n{rods}")).unwrap();
     let planned = shearbed(dir.path(), "plan s.toml").stdout;
     assert!(planned.contains("every rod starts as in start.csv"), "{planned}");
-    let text = from("{ file = \"start.csv\" }").replace("rods_at = [0.25, 0.75]\n", "");
-    fs::write(dir.path().join("s.toml"), text).unwrap();
-    let done = shearbed(dir.path(), "sweep s.toml --over particles.length_mm=1,2");
+    fs::write(
+        dir.path().join("d.csv"),
+        "t_over_T,x1,x1_u\n0.1,0.3,0.01\n0.2,0.3,0.01\n",
+    )
+    .unwrap();
+    let done = shearbed(
+        dir.path(),
+        "fit s.toml --data d.csv --over particles.aspect_ratio=5:20",
+    );
     assert_eq!(done.code, Some(2));
     assert!(
         done.stderr

@@ -118,7 +118,7 @@ def fit(
         words = ["fit", "scene.toml", "--out", "out"]
         for k, (of, points) in enumerate([(scene, data), *also]):
             name = "scene.toml" if k == 0 else f"scene-{k + 1}.toml"
-            (folder / name).write_text(scene_of(of)._text, encoding="utf-8")
+            scene_of(of)._written(folder, name)
             file = _file(points, folder / f"points-{k + 1}.csv")
             words += ["--data", file if k == 0 else f"{name}={file}"]
         for key, (low, high) in over.items():

@@ -33,6 +33,7 @@ class Results:
         self.scene: str = found["scene"]
         """The scene that was run, as TOML."""
         self.warnings: list[str] = found["warnings"]
+        self._rods: dict[str, Array] | None = found["rods"]
         self._channels: dict[str, tuple[Array, Array]] = found["channels"]
 
     @property
@@ -50,6 +51,8 @@ class Results:
             return se
         if name in ("a", "a_se"):
             raise AttributeError(f'{name}: the scene has to ask for it: observables = ["orientation_tensor"]')
+        if name == "rods":
+            raise AttributeError("rods: the scene has to ask for them: rods_at = [0, 0.5, 1]")
         raise AttributeError(f"{name}: this run has the channels {', '.join(channels)}, each also with _se")
 
     def __dir__(self) -> list[str]:
@@ -72,6 +75,17 @@ class Results:
         for name, i, j in _PAIRS:
             tensor[:, i, j] = tensor[:, j, i] = self._channels[name][which]
         return tensor
+
+    @property
+    def rods(self) -> dict[str, Array]:
+        """Every rod at the times of ``rods_at``: the columns of ``rods.csv``, a number for each rod of each replica and time.
+
+        ``replica``, ``rod``, ``time_s``, ``strain``, ``aspect_ratio``, the place ``x1_mm`` to ``x3_mm`` (NaN for free rods,
+        which have none), the direction ``p1`` to ``p3``, and ``collided``, 1 where the rod collided in the step that ended then.
+        """
+        if self._rods is None:
+            raise AttributeError  # __getattr__ says why
+        return self._rods
 
     def to_pandas(self) -> pandas.DataFrame:
         """The columns of the program's CSV files in one table."""

@@ -69,8 +69,7 @@ def sweep(
     """
     scene = scene_of(scene)
     with tempfile.TemporaryDirectory(prefix="shearbed-") as folder:
-        file = Path(folder, "scene.toml")
-        file.write_text(scene._text, encoding="utf-8")
+        file = scene._written(Path(folder))
         words = ["sweep", str(file), "--out", str(Path(folder, "out")), "--quiet"]
         for key, values in over.items():
             words += ["--over", f"{key}=" + ",".join(_value(value) for value in values)]

@@ -4,21 +4,15 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from . import _core
 
 # Which table of a scene file holds a key: keywords are given without it.
-_TABLES = {
-    "flow": ("shear_rate_per_s", "gradient_per_s"),
-    "particles": ("count", "length_mm", "aspect_ratio", "aspect_ratio_sd_percent", "orientation"),
-    "interaction": ("concentration_per_cm3", "alpha", "m", "update", "min_contact_arm"),
-    "time": ("periods", "strain", "steps_per_period", "outputs_per_period", "outputs_per_strain"),
-    "ensemble": ("replicas", "seed"),
-    "output": ("observables",),
-}
-_TABLE_OF = {key: table for table, keys in _TABLES.items() for key in keys}
+_TABLE_OF = {key: table for table, key in _core.keys()}
 
 
 def _value(value: Any) -> str:
@@ -96,7 +90,16 @@ class Scene:
             self._text = toml
         else:
             self._text = _toml(_gathered(keywords if tables is None else tables))
-        self._resolved, self._plan, self._warnings = _core.describe(self._name, self._text)
+        self._resolved, self._plan, self._warnings, self._start = _core.describe(self._name, self._text)
+
+    def _written(self, folder: Path, name: str = "scene.toml") -> Path:
+        """The scene as a file in ``folder``, with the one that its rods start from beside it."""
+        file = folder / name
+        file.write_text(self._text, encoding="utf-8")
+        if self._start is not None and not os.path.isabs(self._start):
+            (folder / self._start).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(Path(self._name).parent / self._start, folder / self._start)
+        return file
 
     @property
     def toml(self) -> str:

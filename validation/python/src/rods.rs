@@ -1,0 +1,44 @@
+//! Every rod at the times that a scene asks for, as arrays.
+
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use shearbed::snapshot::Snapshot;
+use shearbed::{Plan, Results};
+
+/// The columns of `rods.csv`, with NaN where its cells are empty; `None` where no rods are asked for.
+pub fn columns<'py>(py: Python<'py>, plan: &Plan, results: &Results) -> PyResult<Option<Bound<'py, PyDict>>> {
+    if plan.rods_outputs().is_empty() {
+        return Ok(None);
+    }
+    let all = PyDict::new(py);
+    let each = |of: &dyn Fn(&Snapshot, usize) -> f64| {
+        let mut values = Vec::new();
+        for shot in &results.snapshots {
+            values.extend((0..shot.aspect_ratio.len()).map(|rod| of(shot, rod)));
+        }
+        PyArray1::from_vec(py, values)
+    };
+    let time = |shot: &Snapshot, unit: f64| results.times[shot.output] * unit;
+    let length_mm = plan.scene().particles.length_mm;
+    let place = |shot: &Snapshot, axis: usize, rod: usize| {
+        let places = shot.place_in_lengths.as_ref();
+        places.map_or(f64::NAN, |places| places[axis][rod] * length_mm)
+    };
+    all.set_item("replica", each(&|shot, _| shot.replica as f64))?;
+    all.set_item("rod", each(&|_, rod| rod as f64))?;
+    all.set_item("time_s", each(&|shot, _| time(shot, results.unit.seconds)))?;
+    all.set_item("strain", each(&|shot, _| time(shot, results.unit.strain)))?;
+    all.set_item("aspect_ratio", each(&|shot, rod| shot.aspect_ratio[rod]))?;
+    for (axis, name) in ["x1_mm", "x2_mm", "x3_mm"].into_iter().enumerate() {
+        all.set_item(name, each(&|shot, rod| place(shot, axis, rod)))?;
+    }
+    for (axis, name) in ["p1", "p2", "p3"].into_iter().enumerate() {
+        all.set_item(name, each(&|shot, rod| shot.p[axis][rod]))?;
+    }
+    all.set_item(
+        "collided",
+        each(&|shot, rod| f64::from(u8::from(shot.collided[rod]))),
+    )?;
+    Ok(Some(all))
+}
