@@ -8,7 +8,7 @@ use nalgebra::{UnitVector3, Vector3};
 /// is the same as s < s* (eqs 8 and 9). α > 0 and m > 0 are real. Infinite for R = 0.
 #[inline]
 pub fn reach(r: f64, alpha: f64, m: f64) -> f64 {
-    alpha * (-r.ln() / m).exp_m1()
+    alpha * libm::expm1(-libm::log(r) / m)
 }
 
 /// The reach of eqs 8 and 9 for given α and m, with a bound on it that costs no logarithm.
@@ -72,8 +72,8 @@ pub fn share_velocity(
 /// the printed φ̇′ lacks 1/sin θ, and in the printed θ̇′ sin θ and cos θ are exchanged).
 pub fn angle_rates(p: &UnitVector3<f64>, rate: &Vector3<f64>) -> (f64, f64) {
     let (phi, theta) = angles(p);
-    let (sin_phi, cos_phi) = phi.sin_cos();
-    let (sin_theta, cos_theta) = theta.sin_cos();
+    let (sin_phi, cos_phi) = libm::sincos(phi);
+    let (sin_theta, cos_theta) = libm::sincos(theta);
     (
         (-rate.x * sin_phi + rate.y * cos_phi) / sin_theta,
         rate.x * cos_theta * cos_phi + rate.y * cos_theta * sin_phi - rate.z * sin_theta,
@@ -88,7 +88,7 @@ pub fn turn(p: &UnitVector3<f64>, rate: &Vector3<f64>, time: f64) -> (UnitVector
         return (*p, 0.0);
     }
     let angle = speed * time;
-    let (sin, cos) = angle.sin_cos();
+    let (sin, cos) = libm::sincos(angle);
     let turned = p.as_ref() * cos + rate * (sin / speed);
     (UnitVector3::new_normalize(turned), angle)
 }

@@ -54,6 +54,7 @@ pub mod contact;
 pub mod ensemble;
 pub mod flow;
 pub mod free;
+mod gaussian;
 pub mod jeffery;
 pub mod memory;
 pub mod neighbours;

@@ -62,7 +62,7 @@ fn candidates(plan: &Plan) -> f64 {
     let n = scene.concentration(interaction);
     let hit = |r: f64| {
         let reach = reach(r, interaction.alpha, interaction.m);
-        -(-4.0 / 3.0 * PI * n * reach.powi(3)).exp_m1()
+        -libm::expm1(-4.0 / 3.0 * PI * n * reach.powi(3))
     };
     let points = (0..POINTS).map(|k| hit((k as f64 + 0.5) / POINTS as f64));
     points.sum::<f64>() / POINTS as f64

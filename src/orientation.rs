@@ -6,8 +6,8 @@ use nalgebra::{UnitVector3, Vector3};
 
 /// The direction with the angles `phi_rad` and `theta_rad` (Fig. 1).
 pub fn from_angles(phi_rad: f64, theta_rad: f64) -> UnitVector3<f64> {
-    let (sin_theta, cos_theta) = theta_rad.sin_cos();
-    let (sin_phi, cos_phi) = phi_rad.sin_cos();
+    let (sin_theta, cos_theta) = libm::sincos(theta_rad);
+    let (sin_phi, cos_phi) = libm::sincos(phi_rad);
     UnitVector3::new_normalize(Vector3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta))
 }
 
@@ -23,7 +23,7 @@ fn of_degrees(degrees: f64) -> [f64; 2] {
     // Both remainders are exact.
     let degrees = degrees % 360.0;
     let quarters = (degrees / 90.0).round();
-    let (sin, cos) = (degrees - 90.0 * quarters).to_radians().sin_cos();
+    let (sin, cos) = libm::sincos((degrees - 90.0 * quarters).to_radians());
     match quarters.rem_euclid(4.0) as u8 {
         0 => [cos, sin],
         1 => [-sin, cos],
@@ -36,7 +36,7 @@ fn of_degrees(degrees: f64) -> [f64; 2] {
 pub fn isotropic(r4: f64, r5: f64) -> UnitVector3<f64> {
     // sin θ without the cancellation of 1 − cos²θ near the poles.
     let sin_theta = 2.0 * (r5 * (1.0 - r5)).sqrt();
-    let (sin_phi, cos_phi) = (std::f64::consts::TAU * r4).sin_cos();
+    let (sin_phi, cos_phi) = libm::sincos(std::f64::consts::TAU * r4);
     UnitVector3::new_normalize(Vector3::new(
         sin_theta * cos_phi,
         sin_theta * sin_phi,
@@ -46,20 +46,20 @@ pub fn isotropic(r4: f64, r5: f64) -> UnitVector3<f64> {
 
 /// The angles (φ, θ) in radians, φ in (−π, π] and θ in [0, π].
 pub fn angles(p: &UnitVector3<f64>) -> (f64, f64) {
-    (p.y.atan2(p.x), p.x.hypot(p.y).atan2(p.z))
+    (libm::atan2(p.y, p.x), libm::atan2(libm::hypot(p.x, p.y), p.z))
 }
 
 /// φ in radians folded into [0, π/2] by p ≡ −p and the mirror planes of the flow (eq. 18).
 #[inline]
 pub fn folded_phi(p1: f64, p2: f64) -> f64 {
-    p2.abs().atan2(p1.abs())
+    libm::atan2(p2.abs(), p1.abs())
 }
 
 /// C_b = C/(1 + C), in [0, 1], of the orbit constant C = tan θ (r_e² cos²φ + sin²φ)^½ / r_e (eq. 13): 0 for a rod along
 /// the vorticity axis, 1 for one in the plane of shear, where C itself is infinite.
 #[inline]
 pub fn bounded_orbit_constant(p: [f64; 3], aspect_ratio: f64) -> f64 {
-    let in_plane = p[0].hypot(p[1] / aspect_ratio);
+    let in_plane = libm::hypot(p[0], p[1] / aspect_ratio);
     in_plane / (in_plane + p[2].abs())
 }
 

@@ -3,6 +3,7 @@
 
 use crate::chunks::over_chunks;
 use crate::free::{FreeMotion, MAX_ERROR_RAD, Way};
+use crate::gaussian;
 use crate::jeffery::strain_per_period;
 use crate::observable::{BLOCK, Block};
 use crate::orientation::{from_degrees, isotropic};
@@ -13,7 +14,6 @@ use crate::random::{Purpose, ahead, stream};
 use crate::scene::Orientation;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use rand::RngExt;
-use rand_distr::{Distribution, Normal};
 use std::sync::Arc;
 
 /// Directions and aspect ratios of one replica's rods, as structure of arrays.
@@ -214,10 +214,6 @@ fn draw_shapes(plan: &Plan, replica: u64) -> (Shapes, u64) {
         return (Shapes::Shared(mean), 0);
     }
     let deviation = mean * particles.aspect_ratio_sd_percent / 100.0;
-    // The scene's check allows a finite deviation ≥ 0 only.
-    let Ok(gaussian) = Normal::new(mean, deviation) else {
-        return (Shapes::Shared(mean), 0);
-    };
     let mut rng = stream(plan.scene().ensemble.seed, replica, Purpose::AspectRatios);
     let mut redrawn = 0;
     // A rod stays a rod and a disc a disc; a draw across r_e = 1 (or below 0) is drawn again (eq. 11).
@@ -231,7 +227,7 @@ fn draw_shapes(plan: &Plan, replica: u64) -> (Shapes, u64) {
     let aspect_ratio: Vec<f64> = (0..particles.count)
         .map(|_| {
             loop {
-                let r = gaussian.sample(&mut rng);
+                let r = mean + deviation * gaussian::standard(&mut rng);
                 if allowed(r) {
                     return r;
                 }

@@ -1,7 +1,10 @@
 //! Reading a scene from TOML text, with errors that name file, line, key, value and what is allowed: all that can be
 //! told at once, not the first alone.
 
+mod places;
+
 use crate::scene::{self, Invalid, KEYS, Scene, TABLES, find, required};
+use places::{line_at, line_of, stopped_at};
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
@@ -274,6 +277,14 @@ fn last(path: &str) -> &str {
     path.rsplit('.').next().unwrap_or(path)
 }
 
+/// The reader's own words after the line as written, which holds the key and the value.
+fn as_reported(text: &str, error: &toml::de::Error) -> Found {
+    let offset = stopped_at(text, error);
+    let line = line_at(text, offset);
+    let message = error.message().trim_end().replace('\n', "; ");
+    (offset, format!("{line}: {message}"))
+}
+
 /// Where a checked scene is wrong: the key, or where it is missing its table.
 fn as_written(keys: &[Key], mut invalid: Invalid) -> Found {
     let key = keys.iter().find(|key| key.path == invalid.key);
@@ -283,22 +294,4 @@ fn as_written(keys: &[Key], mut invalid: Invalid) -> Found {
     let table = invalid.key.split('.').next().unwrap_or_default();
     let place = key.or_else(|| keys.iter().find(|key| key.path == table));
     (place.map_or(0, |key| key.span.start), invalid.to_string())
-}
-
-/// The reader's own words after the line as written, which holds the key and the value.
-fn as_reported(text: &str, error: &toml::de::Error) -> Found {
-    let offset = error.span().map_or(0, |span| span.start);
-    let line = line_at(text, offset);
-    let message = error.message().trim_end().replace('\n', "; ");
-    (offset, format!("{line}: {message}"))
-}
-
-fn line_at(text: &str, offset: usize) -> String {
-    let line = text.lines().nth(line_of(text, offset) - 1);
-    line.map_or("(end of file)", str::trim).to_owned()
-}
-
-fn line_of(text: &str, offset: usize) -> usize {
-    let before = &text.as_bytes()[..offset.min(text.len())];
-    1 + before.iter().filter(|byte| **byte == b'\n').count()
 }

@@ -67,7 +67,7 @@ pub const FORMULAS: [Formula; 4] = [
         range: "long slender bodies",
         source: "R. G. Cox, J. Fluid Mech. 45 (1971) 625",
         read_in: "meyer-nils/fiberoripy, aspect_ratios.py",
-        value: |r| 1.24 * r / r.ln().sqrt(),
+        value: |r| 1.24 * r / libm::log(r).sqrt(),
     },
     Formula {
         name: "Harris & Pittman 1975",
@@ -75,7 +75,7 @@ pub const FORMULAS: [Formula; 4] = [
         range: "none given",
         source: "J. B. Harris & J. F. T. Pittman, J. Colloid Interface Sci. 50 (1975)",
         read_in: "a third party's digest only: UNCHECKED",
-        value: |r| 1.14 * r.powf(0.844),
+        value: |r| 1.14 * libm::pow(r, 0.844),
     },
     Formula {
         name: "Zhang et al. 2011",

@@ -18,7 +18,7 @@ impl ControlVolume {
     /// H/a = (N/(n a³))^{1/3}.
     pub fn holding(count: usize, per_cubed_length: f64) -> Self {
         Self {
-            side: (count as f64 / per_cubed_length).cbrt(),
+            side: libm::cbrt(count as f64 / per_cubed_length),
         }
     }
 

@@ -380,3 +380,35 @@ fn a_table_may_have_a_header_of_its_own() {
     let wrong = text("[particles.orientation]\nphi_deg = -30\ntheta_deg = 600");
     assert!(shearbed::scene_file::parse("f.toml", &wrong).is_err());
 }
+
+/// The reader goes 80 deep; of keys it does not say where it stopped.
+#[test]
+fn what_is_nested_too_deep_is_refused_with_its_line() {
+    let nested = |open: &str, close: &str| format!("x = {}1{}", open.repeat(100), close.repeat(100));
+    let key = format!("{}z", "a.".repeat(100));
+    for deep in [
+        nested("[", "]"),
+        nested("{ a = ", " }"),
+        nested("[{ a = ", " }]"),
+        format!("{key} = 1"),
+        format!("[{key}]"),
+        format!("[[{key}]]"),
+        format!("x = [\n1,\n{{ {key} = 1 }},\n2\n]"),
+    ] {
+        for before in ["", "title = \"a.b.c\"\n[flow]\n", INTERACTING] {
+            for after in ["", "\n", "\n[particles]\ncount = 0\n"] {
+                let text = format!("{before}\n{deep}{after}");
+                let line = 1 + text
+                    .lines()
+                    .position(|line| line.contains(&deep[deep.len() / 2..][..20]))
+                    .unwrap();
+                let refusal = refusal(&text);
+                assert!(
+                    refusal.starts_with(&format!("dir/s.toml:{line}: ")),
+                    "{line}: {refusal}"
+                );
+                assert_eq!(refusal.lines().count(), 1);
+            }
+        }
+    }
+}

@@ -39,7 +39,7 @@ pub(super) struct Grid {
 impl Grid {
     /// An empty grid for about `count` rods in a volume of the given side: about one rod a cell.
     pub fn new(side: f64, count: usize) -> Self {
-        let cells_per_side = ((count as f64).cbrt().floor() as usize).clamp(1, 256);
+        let cells_per_side = (libm::cbrt(count as f64).floor() as usize).clamp(1, 256);
         Self {
             side,
             cells_per_side,

@@ -38,8 +38,8 @@ pub(super) fn exp(x: Ball) -> Ball {
     for _ in 0..3 {
         less_one = less_one.scaled(2.0) + less_one * less_one;
     }
-    let value = (Ball::ONE + less_one).scaled(2f64.powi(powers_of_two as i32));
-    value.widened(value.hi * (LEFT_OUT + x.error.exp_m1() * (1.0 + 8.0 * f64::EPSILON)))
+    let value = (Ball::ONE + less_one).scaled(libm::scalbn(1.0, powers_of_two as i32));
+    value.widened(value.hi * (LEFT_OUT + libm::expm1(x.error) * (1.0 + 8.0 * f64::EPSILON)))
 }
 
 /// The sine and cosine of 2π·turns: quarter turns are exact.

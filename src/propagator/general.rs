@@ -216,14 +216,13 @@ fn exponent(x: f64) -> i32 {
     if x == 0.0 {
         0
     } else {
-        x.abs().log2().floor() as i32
+        libm::log2(x.abs()).floor() as i32
     }
 }
 
-/// x · 2^power, with the power in two halves, each of which is a number.
+/// x · 2^power.
 fn shifted(x: f64, power: i32) -> f64 {
-    let half = power / 2;
-    x * 2f64.powi(half) * 2f64.powi(power - half)
+    libm::scalbn(x, power)
 }
 
 /// (2 D:D)^½ = (Σ (L_ij + L_ji)²/2)^½.

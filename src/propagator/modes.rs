@@ -116,9 +116,9 @@ impl Pair {
 
 impl Cubic {
     fn new(t: Ball, c: Ball, d: Ball) -> Self {
-        let size = c.most().sqrt().max(d.most().cbrt()).max(t.most());
+        let size = c.most().sqrt().max(libm::cbrt(d.most())).max(t.most());
         // The cube of this is still a normal number.
-        let size = 2f64.powi((size.log2().ceil() as i32).max(-330));
+        let size = libm::scalbn(1.0, (libm::log2(size).ceil() as i32).max(-330));
         let inverse = size.recip();
         let of_size = [
             t.scaled(inverse),
@@ -172,7 +172,7 @@ impl Cubic {
             sum = [d * s2 + INVERSE_FACTORIALS[n], s0 - c * s2, s1 + t * s2];
         }
         // The first term that is left out, twice; the time's own powers are in s₁ and s₂ too.
-        let left_out = 2.0 * INVERSE_FACTORIALS[TERMS].hi * (2.0 * time.most()).powi(TERMS as i32 - 2);
+        let left_out = 2.0 * INVERSE_FACTORIALS[TERMS].hi * libm::pow(2.0 * time.most(), TERMS as f64 - 2.0);
         let inverse = self.size.recip();
         let [s0, s1, s2] = sum;
         [

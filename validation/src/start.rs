@@ -94,7 +94,8 @@ fn read(bytes: &[u8], aspect_ratio: f64) -> Result<[Vec<f64>; 3], String> {
             })
         };
         let direction = [number(places[0])?, number(places[1])?, number(places[2])?];
-        let length = direction[0].hypot(direction[1]).hypot(direction[2]);
+        // Exact operations only, for the same bits on every machine.
+        let length = direction.map(|x| x * x).iter().sum::<f64>().sqrt();
         if (length - 1.0).abs() > LENGTH {
             let [p1, p2, p3] = direction;
             return Err(format!(

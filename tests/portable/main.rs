@@ -1,0 +1,157 @@
+//! The same scene and seed give the same bits on every machine: no function that rounds as it likes is used, and what
+//! runs give is what is written down here.
+
+mod names;
+
+use shearbed::{Plan, Results, ensemble, scene_file};
+
+/// Scenes that use every function of `libm` that the core does, and the digest of their results: the same on every
+/// machine, so one that differs is a mistake of that machine's build, or a change of the model that has to be said.
+const SCENES: [(&str, u64, &str); 7] = [
+    (
+        "collisions",
+        0x859f_14dd_5d4d_4382,
+        r#"
+        flow = { shear_rate_per_s = 0.5 }
+        particles = { count = 100, length_mm = 0.72, aspect_ratio = 11.6, aspect_ratio_sd_percent = 3.6, orientation = "isotropic" }
+        interaction = { concentration_per_cm3 = 50, alpha = 0.5 }
+        time = { periods = 1, outputs_per_period = 10 }
+        ensemble = { replicas = 10 }
+        output = { observables = ["projections", "mean_angle", "orbit_constant", "orientation_tensor_4"] }
+        "#,
+    ),
+    (
+        "angles",
+        0x8af4_8d19_6533_bfff,
+        r#"
+        flow = { shear_rate_per_s = 0.5 }
+        particles = { count = 100, length_mm = 0.72, physical_aspect_ratio = 20, shape_correlation = "cox", orientation = { phi_deg = 10, theta_deg = 80 } }
+        interaction = { concentration_per_cm3 = 50, alpha = 0.5, m = 2.5, update = "angles" }
+        time = { periods = 1, outputs_per_period = 10 }
+        ensemble = { replicas = 10 }
+        output = { observables = ["particle_stress"] }
+        "#,
+    ),
+    (
+        "many",
+        0x23b7_627a_1eed_4266,
+        r#"
+        flow = { shear_rate_per_s = 2 }
+        particles = { count = 3000, length_mm = 0.72, physical_aspect_ratio = 20, shape_correlation = "harris-pittman", orientation = "isotropic" }
+        interaction = { concentration_per_cm3 = 500, alpha = 0.5 }
+        time = { periods = 0.1, outputs_per_period = 50 }
+        "#,
+    ),
+    (
+        // Some twenty of the rods are drawn from the tail of the Gaussian.
+        "unequal",
+        0x864b_731f_8beb_029f,
+        r#"
+        flow = { shear_rate_per_s = 1 }
+        particles = { count = 70000, length_mm = 1, aspect_ratio = 5, aspect_ratio_sd_percent = 7.2, orientation = "isotropic" }
+        time = { periods = 1, outputs_per_period = 4 }
+        "#,
+    ),
+    (
+        "turning",
+        0x62ce_4419_6d9b_a28b,
+        r#"
+        flow = { gradient_per_s = [[0.1, -1, 0.3], [2, -0.3, 0], [0.2, 0, 0.2]] }
+        particles = { count = 300, length_mm = 1, aspect_ratio = 3, aspect_ratio_sd_percent = 10, orientation = "isotropic" }
+        time = { strain = 20 }
+        "#,
+    ),
+    (
+        "growing",
+        0x308d_3306_f267_f20d,
+        r#"
+        flow = { gradient_per_s = [[1, 0.5, 0], [0.2, -0.7, 0.1], [0, 0, -0.3]] }
+        particles = { count = 300, length_mm = 1, aspect_ratio = 30, aspect_ratio_sd_percent = 10, orientation = "isotropic" }
+        time = { strain = 20 }
+        "#,
+    ),
+    (
+        "a short time",
+        0x4e2c_7cfe_a0e8_4075,
+        r#"
+        flow = { gradient_per_s = [[1, 0.5, 0], [0.2, -0.7, 0.1], [0, 0, -0.3]] }
+        particles = { count = 10, length_mm = 1, aspect_ratio = 30, orientation = "isotropic" }
+        time = { strain = 0.3 }
+        "#,
+    ),
+];
+
+/// FNV-1a of every mean and standard error, bit by bit.
+fn digest(results: &Results) -> u64 {
+    let columns = results.series.iter().flat_map(|series| &series.columns);
+    let values = columns.flat_map(|column| column.mean.iter().chain(&column.se));
+    let bytes = values.flat_map(|value| value.to_bits().to_le_bytes());
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
+    })
+}
+
+fn run(name: &str, text: &str) -> Results {
+    let scene = scene_file::parse(name, &format!("title = \"{name}\"\n{text}")).unwrap();
+    ensemble::run(&Plan::new(&scene).unwrap(), || ()).unwrap()
+}
+
+#[test]
+fn results_have_the_bits_that_are_written_down() {
+    let digests = SCENES.map(|(name, expected, text)| (name, expected, digest(&run(name, text))));
+    for (name, expected, found) in digests {
+        println!("{name}: {found:#018x}");
+        assert_eq!(found, expected, "{name}: {found:#018x}; of all {digests:#x?}");
+    }
+}
+
+#[test]
+fn one_bit_of_one_result_changes_the_digest() {
+    let (name, _, text) = SCENES[6];
+    let mut results = run(name, text);
+    let before = digest(&results);
+    let value = &mut results.series[0].columns[2].mean[1];
+    *value = f64::from_bits(value.to_bits() ^ 1);
+    assert_ne!(digest(&results), before);
+}
+
+/// glibc chooses its sines and exponentials by the processor: here it is told of one without fused operations.
+#[test]
+#[cfg(all(target_os = "linux", target_env = "gnu", target_arch = "x86_64"))]
+fn another_choice_of_the_system_s_functions_changes_no_bit() {
+    const TUNABLES: &str = "GLIBC_TUNABLES";
+    let test = std::env::current_exe().unwrap();
+    let told = |name: &str| {
+        let mut child = std::process::Command::new(&test);
+        child.args(["--exact", name, "--nocapture"]);
+        child.env(TUNABLES, "glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4,-AVX512F");
+        child.output().unwrap()
+    };
+    // The control: the system's own functions do change, or this machine can show nothing.
+    let own = format!("sum of the system's sines: {:#x}", system_sines());
+    let theirs = told("the_system_s_functions_have_a_sum");
+    assert!(theirs.status.success());
+    if String::from_utf8_lossy(&theirs.stdout).contains(&own) {
+        println!("not tested: glibc has one choice on this machine");
+        return;
+    }
+    let ended = told("results_have_the_bits_that_are_written_down");
+    assert!(
+        ended.status.success(),
+        "{}",
+        String::from_utf8_lossy(&ended.stdout)
+    );
+}
+
+#[test]
+fn the_system_s_functions_have_a_sum() {
+    println!("sum of the system's sines: {:#x}", system_sines());
+}
+
+/// A sum of bits, which one other last bit changes.
+fn system_sines() -> u64 {
+    let points = (1..100_000).map(|k| f64::from(k) * 1e-4);
+    points.fold(0, |sum: u64, x| {
+        sum.wrapping_mul(31).wrapping_add((x.sin() + x.exp()).to_bits())
+    })
+}
