@@ -5,9 +5,13 @@ use crate::case::{Case, Effort, Evidence};
 use crate::experiment::{
     self, ANCZUROWSKI, Comparison, DataError, MeasuredCurve, OKAGAWA_MASON, Runs, Source,
 };
-use crate::lab::Change;
-use crate::statistics::Sample;
-use shearbed::scene::Scene;
+use crate::fit::Range;
+use crate::fit::data::TimeColumn;
+use crate::fit::scenes::{Scenes, Set};
+use crate::lab::{self, Change};
+use crate::statistics::{Sample, worst};
+use shearbed::observable::Channel;
+use shearbed::scene::{Orientation, Scene};
 
 pub fn cases() -> Vec<Case> {
     vec![
@@ -38,7 +42,53 @@ pub fn cases() -> Vec<Case> {
             .subject((|_| {}) as Change)
             .mistake("α doubled unseen, at r_e = 14.2 only", double_alpha as Change)
             .check(same_alpha),
+        Case::statement("in-plane-not-fitted")
+            .claim(
+                "Curves of rods that start parallel in the shear plane, as the experiment at r_e = 3.96 had them, do not depend on α, \
+                 and a fit of α to points of them is refused: \"not suitable for comparison with the model\".",
+            )
+            .source("Results, the r_e = 3.96 experiment")
+            .equations(&["4", "7"])
+            .subject(90.0)
+            .mistake("10° out of the plane, of two r_e", 80.0)
+            .check(not_fitted),
     ]
+}
+
+/// How far curves of α = 0.05 and 5 are apart, and whether they may be fitted, of rods that start at this θ.
+fn not_fitted(theta_deg: &f64, effort: &Effort) -> Result<Vec<Evidence>, String> {
+    let mut scene = lab::interacting_scene(effort);
+    scene.particles.orientation = Orientation::Given {
+        phi_deg: 0.0,
+        theta_deg: *theta_deg,
+    };
+    scene.particles.aspect_ratio = 3.96;
+    // Parallel rods of one r_e stay parallel, in the plane and out of it.
+    scene.particles.aspect_ratio_sd_percent = if *theta_deg == 90.0 { 0.0 } else { 3.0 };
+    let curve = |alpha: f64| {
+        let scene = lab::changed(scene.clone(), |scene| lab::interaction(scene).alpha = alpha);
+        lab::per_replica(&scene, 1, |mean| {
+            Channel::X.map(|channel| (0..=50).map(|k| mean(channel, k)).collect::<Vec<_>>())
+        })
+    };
+    let (weak, strong) = (curve(0.05).concat().concat(), curve(5.0).concat().concat());
+    let apart = worst(weak.iter().zip(&strong).map(|(a, b)| (a - b).abs()));
+    let set = Set {
+        source: "a case".into(),
+        text: toml::to_string(&scene).map_err(|error| error.to_string())?,
+        settings: Vec::new(),
+        seed: effort.seed(0),
+        time: TimeColumn::Periods,
+    };
+    let fit = Scenes::new(vec![set], vec![Range::parse("interaction.alpha=0.05:5")?]);
+    let refused = fit.is_err_and(|error| error.contains("such rods do not disturb each other"));
+    Ok(vec![
+        Evidence::exact("the largest difference of X̄_i between α = 0.05 and 5", apart),
+        Evidence::exact(
+            "fits of α to it that are not refused",
+            f64::from(u8::from(!refused)),
+        ),
+    ])
 }
 
 fn controls() -> Vec<(&'static str, Change)> {

@@ -11,6 +11,7 @@ mod experiments;
 mod extreme_scenes;
 mod extremes;
 mod fit_covers;
+mod folgar_tucker;
 mod free_suspension;
 mod general_flows;
 mod integrator_claims;
@@ -72,6 +73,7 @@ pub fn all() -> Vec<Case> {
         fit_covers::cases(),
         published::cases(),
         coefficients::cases(),
+        folgar_tucker::cases(),
     ]
     .into_iter()
     .flatten()

@@ -17,7 +17,7 @@ use crate::text::command;
 use input::{Input, input};
 use serde_json::{Value, json};
 use shearbed::Plan;
-use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
+use shearbed::scene::{MAX_REPLICAS, MAX_SEED, Scene};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -58,6 +58,9 @@ pub(super) struct Args {
     /// Threads to run on; the results do not depend on it [default: one for each core]
     #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
     threads: Option<u64>,
+    /// Overwrite a folder that holds another fit, or what another command wrote
+    #[arg(long)]
+    force: bool,
     /// Print nothing but errors and warnings
     #[arg(long)]
     quiet: bool,
@@ -75,6 +78,10 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     let input = input(args)?;
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("fit-{}", input.stem)));
     probe(&out, 0)?;
+    let asked = asked(args, &input)?;
+    if !args.force {
+        kept::check_fit(&out, &asked)?;
+    }
     let bar = progress(0, "runs", args.quiet);
     let watch = Watch {
         planned: &|runs| bar.inc_length(runs),
@@ -97,13 +104,13 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     for (stem, figure) in &done.figures {
         files.push((format!("{stem}.svg"), plot::svg(figure).map_err(Failure::Failed)?));
     }
-    let names: Vec<&str> = std::iter::once("fit.json")
+    let names: Vec<&str> = std::iter::once(kept::FIT)
         .chain(files.iter().map(|(name, _)| name.as_str()))
         .collect();
-    let record = record(args, &input, &done, &names)?;
-    let left_over = kept::left_over(&out, "fit.json", &names);
+    let record = record(&asked, &done, &names)?;
+    let left_over = kept::left_over(&out, &names);
     let names = names.join(", ");
-    files.push(("fit.json".into(), record));
+    files.push((kept::FIT.into(), record));
     output::write_all(&out, &files)?;
     output::remove(&out, &left_over)?;
     scene::warn(&input.stem, &done.report.warnings);
@@ -145,6 +152,7 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
         .plans(&fit.values(&fit.best.place), data, AS_WRITTEN)
         .map_err(stopped)?;
     let mut warnings: Vec<String> = best.iter().flat_map(Plan::warnings).collect();
+    warnings.extend(best.iter().filter_map(|plan| not_slender(plan.scene())));
     warnings.dedup();
     report.warnings.extend(warnings);
     let places = pictures::places(data);
@@ -153,6 +161,20 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let times: Vec<&str> = scenes.sets.iter().map(|set| set.time.name()).collect();
     let figures = pictures::figures(&fit, &report, data, (&places, &curves), &input.names, &times);
     Ok(Done { fit, report, figures })
+}
+
+/// The largest r_e whose measured points the paper leaves out.
+const LEFT_OUT: f64 = 3.96;
+
+/// That interacting rods are too short for the model.
+fn not_slender(scene: &Scene) -> Option<String> {
+    let aspect_ratio = scene.particles.aspect_ratio;
+    (scene.interaction.is_some() && aspect_ratio <= LEFT_OUT).then(|| {
+        format!(
+            "r_e = {aspect_ratio}: the model is for r_e ≫ 1, and Lee & Springer leave out their measured points of r_e = {LEFT_OUT} \
+             (Results, after Fig. 5)"
+        )
+    })
 }
 
 /// What half the step, and twice the rods, would change: of rods that interact.
@@ -174,19 +196,37 @@ fn shifts(input: &Input, fit: &Fit, own: &Model<'_>, watch: &Watch<'_>) -> Resul
     variants.into_iter().map(shift).collect()
 }
 
+/// What a fit is of: everything that its results depend on.
+fn asked(args: &Args, input: &Input) -> Result<Value, Failure> {
+    let mut data = Vec::new();
+    for (set, path) in input.scenes.sets.iter().zip(&input.files) {
+        let points = std::fs::read(path)
+            .map_err(|error| Failure::Input(format!("{}: cannot be read: {error}", path.display())))?;
+        data.push(json!({
+            "scene": set.source, "file": path.display().to_string(), "crc32": crc32fast::hash(&points), "time": set.time,
+            "seed": set.seed, "scene_text": set.text
+        }));
+    }
+    let set = |setting: &Setting| format!("{}={}", setting.key, setting.value);
+    Ok(json!({
+        "version": BUILD.version,
+        "data": data,
+        "over": args.over,
+        "set": args.settings.iter().map(set).collect::<Vec<_>>(),
+        "rods": args.rods,
+        "most_replicas": args.replicas,
+    }))
+}
+
 /// The text of `fit.json`.
-fn record(args: &Args, input: &Input, done: &Done, files: &[&str]) -> Result<String, Failure> {
+fn record(asked: &Value, done: &Done, files: &[&str]) -> Result<String, Failure> {
     let failed = |error: serde_json::Error| Failure::Failed(error.to_string());
     let mut record = serde_json::to_value(&done.report).map_err(failed)?;
-    let sets: Vec<Value> = (input.scenes.sets.iter().zip(&input.files))
-        .map(|(set, file)| {
-            json!({ "scene": set.source, "file": file, "time": set.time, "seed": set.seed, "scene_text": set.text })
-        })
-        .collect();
     record["build"] = json!(BUILD);
     record["command"] = json!(command(std::env::args_os()));
-    record["data"] = json!(sets);
-    record["rods"] = json!(args.rods);
+    for (key, value) in asked.as_object().into_iter().flatten() {
+        record[key] = value.clone();
+    }
     record["files"] = json!(files);
     serde_json::to_string_pretty(&record)
         .map(|text| text + "\n")

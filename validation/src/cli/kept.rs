@@ -8,22 +8,49 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// Records of other commands, none of which `run` writes.
-const OTHERS: [(&str, &str); 3] = [
+/// The records of the commands that keep results in a folder, and what they are of.
+const RECORDS: [(&str, &str); 5] = [
+    (RUN, "a run"),
+    (FIT, "a fit"),
     ("sweep.json", "a sweep"),
     ("converge.json", "a study of convergence"),
     ("report.json", "a report"),
 ];
 
+/// The record of `run`.
+pub(super) const RUN: &str = "run.json";
+/// The record of `fit`.
+pub(super) const FIT: &str = "fit.json";
+
 /// Refuses a folder that holds another scene's results, or those of another seed, number of replicas or version of the
-/// program. One without a record of a run holds nothing that is known.
-pub(super) fn check(out: &Path, plan: &Plan) -> Result<(), Failure> {
-    for (name, what) in OTHERS {
-        if out.join(name).exists() {
-            return Err(refused(&out.join(name), &format!("{what} is kept here")));
+/// program. One without a record holds nothing that is known.
+pub(super) fn check_run(out: &Path, plan: &Plan) -> Result<(), Failure> {
+    let own = json!({ "version": env!("CARGO_PKG_VERSION"), "scene": plan.scene().resolved() });
+    check(out, RUN, &own, |kept| {
+        let ensemble = &kept["scene"]["ensemble"];
+        format!(
+            "another run is kept here: {}, {} replicas, seed {}, version {}",
+            kept["scene"]["title"], ensemble["replicas"], ensemble["seed"], kept["version"]
+        )
+    })
+}
+
+/// The same for a fit, whose record holds what was `asked`.
+pub(super) fn check_fit(out: &Path, asked: &Value) -> Result<(), Failure> {
+    check(out, FIT, asked, |_| "another fit is kept here".into())
+}
+
+/// Refuses a folder that holds the record of another command, or a `record` with other values under the keys of `own`.
+fn check(out: &Path, record: &str, own: &Value, held: impl Fn(&Value) -> String) -> Result<(), Failure> {
+    let mut what = "results";
+    for (name, whose) in RECORDS {
+        if name == record {
+            what = whose;
+        } else if out.join(name).exists() {
+            return Err(refused(&out.join(name), &format!("{whose} is kept here")));
         }
     }
-    let path = out.join("run.json");
+    let path = out.join(record);
     let text = match fs::read_to_string(&path) {
         Ok(text) => text,
         // That nothing can be written there is for the writer to say.
@@ -32,20 +59,19 @@ pub(super) fn check(out: &Path, plan: &Plan) -> Result<(), Failure> {
         Err(error) => return Err(refused(&path, &format!("cannot be read: {error}"))),
     };
     let kept: Value = serde_json::from_str(&text)
-        .map_err(|error| refused(&path, &format!("is no record of a run: {error}")))?;
-    let own = json!({ "version": env!("CARGO_PKG_VERSION"), "scene": plan.scene().resolved() });
-    let same = json!({ "version": kept["version"], "scene": kept["scene"] });
+        .map_err(|error| refused(&path, &format!("is no record of {what}: {error}")))?;
     // As text: what was written and read again is compared with the same.
-    let own = serde_json::from_str(&own.to_string()).unwrap_or(own);
+    let own: Value = serde_json::from_str(&own.to_string()).unwrap_or_default();
+    let keys = own.as_object().into_iter().flat_map(|own| own.keys());
+    let same: Value = keys.map(|key| (key.clone(), kept[key].clone())).collect();
     match difference(&same, &own) {
         None => Ok(()),
         Some((key, was, is)) => {
-            let ensemble = &kept["scene"]["ensemble"];
-            let held = format!(
-                "another run is kept here: {}, {} replicas, seed {}, version {}; {key} was {was} and is {is} now",
-                kept["scene"]["title"], ensemble["replicas"], ensemble["seed"], kept["version"]
-            );
-            Err(refused(&path, &held))
+            let held = held(&kept);
+            Err(refused(
+                &path,
+                &format!("{held}; {key} was {was} and is {is} now"),
+            ))
         }
     }
 }
@@ -57,18 +83,26 @@ fn refused(path: &Path, what: &str) -> Failure {
     ))
 }
 
-/// The files that a `record` in the folder lists, as `run.json` does, without those in `written`: after another run has
-/// overwritten the rest, they would pass for its own.
-pub(super) fn left_over(out: &Path, record: &str, written: &[&str]) -> Vec<String> {
-    let text = fs::read_to_string(out.join(record)).unwrap_or_default();
-    let kept: Value = serde_json::from_str(&text).unwrap_or_default();
-    let listed = kept["files"].as_array().into_iter().flatten();
-    let names = listed.filter_map(Value::as_str);
+/// The files of an earlier run or fit, as their records list them, and these records, without those in `written`: after another
+/// run or fit has overwritten the rest, they would pass for its own.
+pub(super) fn left_over(out: &Path, written: &[&str]) -> Vec<String> {
+    let of = |record: &str| -> Vec<String> {
+        let text = fs::read_to_string(out.join(record)).unwrap_or_default();
+        let kept: Value = serde_json::from_str(&text).unwrap_or_default();
+        let listed = kept["files"].as_array().into_iter().flatten();
+        let names = listed.filter_map(Value::as_str).chain([record]);
+        names.map(str::to_owned).collect()
+    };
     // A record that names a file elsewhere is not ours to follow.
-    let own = |name: &&str| Path::new(name).file_name().is_some_and(|file| file == *name);
-    names
+    let own = |name: &String| {
+        Path::new(name)
+            .file_name()
+            .is_some_and(|file| file == name.as_str())
+    };
+    [RUN, FIT]
+        .into_iter()
+        .flat_map(of)
         .filter(own)
-        .filter(|name| !written.contains(name))
-        .map(str::to_owned)
+        .filter(|name| !written.contains(&name.as_str()))
         .collect()
 }

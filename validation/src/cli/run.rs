@@ -49,7 +49,7 @@ pub(super) struct Args {
     /// Seconds between two checkpoints [default: 60]
     #[arg(long, value_name = "S", value_parser = seconds, requires = "checkpoint", allow_negative_numbers = true)]
     every: Option<Duration>,
-    /// Overwrite a folder that holds another run
+    /// Overwrite a folder that holds another run, or what another command wrote
     #[arg(long)]
     force: bool,
     /// Print nothing but errors and warnings
@@ -118,7 +118,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let bytes = tables::most_bytes(&plan).saturating_add(rods::most_bytes(&plan, args.vtk));
     probe(&out, bytes)?;
     if !args.force && cluster::is_root() {
-        kept::check(&out, &plan)?;
+        kept::check_run(&out, &plan)?;
     }
     scene::warn(&named.source, &facts::warnings(&plan));
     let mut seconds = Seconds {
@@ -156,9 +156,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     seconds.tables_and_pictures = start.elapsed().as_secs_f64();
     let names = files.iter().map(|(name, _)| name.as_str()).collect();
     let record = record::json(&plan, &results, threads, seconds, names).map_err(Failure::Failed)?;
-    files.push(("run.json".to_owned(), record));
+    files.push((kept::RUN.to_owned(), record));
     let names: Vec<_> = files.iter().map(|(name, _)| name.as_str()).collect();
-    let left_over = kept::left_over(&out, "run.json", &names);
+    let left_over = kept::left_over(&out, &names);
     output::write_all(&out, &files)?;
     output::remove(&out, &left_over)?;
     if args.quiet {

@@ -1,8 +1,9 @@
 //! The study of the effective coefficients.
 
+use super::jumps::{self, Compared, Quantity, above};
 use super::{Amount, rows, show};
 use crate::build;
-use crate::statistics::slope;
+use crate::statistics::{Sample, slope};
 use crate::studies::{Exhibit, Extent, Found, Study};
 
 /// C_I, and the rods' stress.
@@ -15,6 +16,7 @@ pub const STUDY: Study = Study {
         "fourth-moments",
         "particle-stress",
         "folgar-tucker-seven",
+        "kicks-are-no-diffusion",
     ],
     command: "cargo run --release -- bench --case folgar-tucker",
     benches: || vec!["folgar-tucker".to_owned()],
@@ -44,20 +46,50 @@ fn run(extent: &Extent) -> Result<Option<Found>, String> {
         )
     });
     let table = show::coefficients(&rows);
+    let compared = jumps::compared(&show::of_n(&rows, 0.2), extent.effort);
+    let finest = compared.iter().find(|one| one.setting.finer == amount.finer);
+    let [tail, apart] = jumps::tables(&compared, extent.effort);
     let files = vec![
         ("folgar-tucker.csv".into(), table.csv()?),
+        ("kicks-and-diffusion.csv".into(), tail.csv()?),
+        ("steady-orbits.csv".into(), apart.csv()?),
         (
             "folgar-tucker.json".into(),
             build::json(&serde_json::json!({ "rows": rows }))?,
         ),
     ];
+    let [jumped, orbits] = finest
+        .map(jumps::figures)
+        .map_or([None, None], |both| both.map(Some));
     Ok(Some(Found {
-        answer,
+        answer: answer + &finest.map_or(String::new(), told),
         exhibits: vec![
             Exhibit::both(show::figure(&rows, amount.finer), table),
+            Exhibit {
+                figure: jumped,
+                table: Some(tail),
+            },
+            Exhibit {
+                figure: orbits,
+                table: Some(apart),
+            },
             show::stress(&rows).into(),
         ],
         files,
         ..Default::default()
     }))
+}
+
+/// What becomes of rods at equal C_I, in a sentence.
+fn told(one: &Compared) -> String {
+    let per_cent = |all, edge| 100.0 * Sample::of(&above(all, Quantity::Angle, edge)).mean;
+    format!(
+        " Kicks are no diffusion: over a strain of {:.1}, diffusion of the same C_I turns {:.0} % of the rods off Jeffery's motion by \
+         more than 0.01 rad and {:.2} % by more than 0.2 rad, kicks {:.0} % and {:.2} %.",
+        one.strain,
+        per_cent(&one.diffusion, 0.01),
+        per_cent(&one.diffusion, 0.2),
+        per_cent(&one.kicks, 0.01),
+        per_cent(&one.kicks, 0.2),
+    )
 }

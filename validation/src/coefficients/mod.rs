@@ -7,9 +7,12 @@
 //! is taken from runs; C_I is the best factor by least squares over all nine components.
 
 pub mod chapter;
+mod diffusing;
+pub mod jumps;
 mod measure;
 mod show;
 
+pub use diffusing::{Diffusing, Diffusion, free};
 pub use measure::{Amount, Row, Setting, rows};
 pub(crate) use measure::{scene, windows};
 

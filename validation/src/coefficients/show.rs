@@ -27,6 +27,15 @@ pub(super) fn base(rows: &[Row], finer: u64) -> Vec<&Row> {
     rows.iter().filter(base).collect()
 }
 
+/// Those of them with this n a³, at every time step.
+pub(super) fn of_n(rows: &[Row], n_a3: f64) -> Vec<&Row> {
+    let same = |row: &&Row| {
+        let setting = row.setting;
+        (setting.n_a3, setting.aspect_ratio, setting.alpha) == (n_a3, 11.6, 0.5)
+    };
+    rows.iter().filter(same).collect()
+}
+
 fn settings<'a>() -> Vec<Column<'a, Row>> {
     vec![
         field("n a³", |row: &Row| row.setting.n_a3),

@@ -28,6 +28,7 @@ pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenanc
         "date",
         "csv",
         "rods",
+        "aspect_ratio",
         "x",
         "y",
         "curve",
@@ -43,6 +44,8 @@ pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenanc
         true => Some(all.number("rods", "a whole number ≥ 1", |n| n >= 1.0 && n.fract() == 0.0)?),
         false => None,
     };
+    let curves = curves(&all, csv, source)?;
+    own_aspect_ratio(&all, &curves)?;
     Ok(Provenance {
         paper: all.text("paper", "the paper that shows the points, as a text")?,
         figure: all.text("figure", "the figure or table, as a text")?,
@@ -56,7 +59,7 @@ pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenanc
             &all.table("y", "the table [y] of the axis of projections")?,
             projection,
         )?,
-        curves: curves(&all, csv, source)?,
+        curves,
         inputs: inputs(&all)?,
     })
 }
@@ -171,6 +174,24 @@ fn curves(all: &Table<'_>, csv: Layout, source: &Source) -> Result<Vec<Key>, Dat
         keys.push(key);
     }
     Ok(keys)
+}
+
+/// Refuses points of other rods than the scenes'.
+fn own_aspect_ratio(all: &Table<'_>, curves: &[Key]) -> Result<(), DataError> {
+    if !all.has("aspect_ratio") {
+        return Ok(());
+    }
+    for key in curves {
+        let scene = scenes::find(key.scene).and_then(|built_in| built_in.scene().ok());
+        let own = scene.map_or(f64::NAN, |scene| scene.particles.aspect_ratio);
+        let allowed = format!(
+            "the mean r_e of the measured rods, {own} in {}; the paper leaves its points of r_e = 3.96 out (Results, after Fig. 5): \
+             rods that start parallel in the shear plane do not disturb each other in this model",
+            key.scene
+        );
+        all.number("aspect_ratio", &allowed, |given| given == own)?;
+    }
+    Ok(())
 }
 
 fn inputs(all: &Table<'_>) -> Result<Vec<(usize, f64)>, DataError> {

@@ -55,6 +55,15 @@ fn xy(curve: &MeasuredCurve) -> Vec<(f64, f64)> {
 }
 
 #[test]
+fn the_measured_rods_may_be_stated_to_be_the_scenes() {
+    let stated = PROVENANCE.replace("csv = \"columns\"", "csv = \"columns\"\naspect_ratio = 11.6");
+    assert_eq!(
+        curves(&stated, POINTS)[0].points,
+        curves(PROVENANCE, POINTS)[0].points
+    );
+}
+
+#[test]
 fn columns_are_sorted_and_a_point_may_have_its_own_uncertainty() {
     let found = curves(PROVENANCE, POINTS);
     assert_eq!(found.len(), 1);

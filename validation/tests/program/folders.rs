@@ -293,3 +293,83 @@ fn a_run_killed_at_any_moment_leaves_a_whole_set_or_none() {
         }
     }
 }
+
+/// What a folder holds besides records of which each writing differs.
+fn unchanged(dir: &Path, arguments: &str, holds: &str, said: &str) {
+    let before = files(&dir.join(holds));
+    let done = ended(dir, arguments);
+    assert_eq!(done.code, Some(2), "{arguments}: {}", done.stderr);
+    assert!(done.stderr.contains(said), "{arguments}: {}", done.stderr);
+    assert!(
+        done.stderr
+            .contains("--force overwrites it, another --out leaves it; nothing was changed"),
+        "{}",
+        done.stderr
+    );
+    assert_eq!(files(&dir.join(holds)), before, "{arguments}");
+}
+
+#[test]
+fn runs_and_fits_leave_each_others_folders_alone() {
+    let dir = folder();
+    let points = "t_over_T,x1,x1_u\n0.2,0.3,0.02\n0.5,0.3,0.02\n0.8,0.3,0.02\n";
+    fs::write(dir.path().join("points.csv"), points).unwrap();
+    let run = "run small.toml --quiet";
+    let fit = "fit small.toml --data points.csv --over interaction.alpha=0.05:5 --replicas 20 --quiet";
+    assert_eq!(ended(dir.path(), &format!("{run} --out run")).code, Some(0));
+    let done = ended(dir.path(), &format!("{fit} --out fit"));
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+
+    unchanged(
+        dir.path(),
+        &format!("{run} --out fit"),
+        "fit",
+        "fit/fit.json: a fit is kept here",
+    );
+    unchanged(
+        dir.path(),
+        &format!("{fit} --out run"),
+        "run",
+        "run/run.json: a run is kept here",
+    );
+    // The same fit again is no other one; another one is.
+    assert_eq!(ended(dir.path(), &format!("{fit} --out fit")).code, Some(0));
+    let another = "fit/fit.json: another fit is kept here; ";
+    let wider = fit.replace("0.05:5", "0.05:6");
+    unchanged(
+        dir.path(),
+        &format!("{wider} --out fit"),
+        "fit",
+        &format!("{another}over.1.to was 5.0 and is 6.0 now"),
+    );
+    fs::write(
+        dir.path().join("points.csv"),
+        points.replace("0.5,0.3", "0.5,0.31"),
+    )
+    .unwrap();
+    unchanged(
+        dir.path(),
+        &format!("{fit} --out fit"),
+        "fit",
+        &format!("{another}data.1.crc32 was"),
+    );
+
+    // Forced, they leave nothing of the other behind; what is the user's stays.
+    for (forced, out, record) in [(run, "fit", "run.json"), (fit, "run", "fit.json")] {
+        fs::write(dir.path().join(out).join("notes.txt"), "the user's own").unwrap();
+        let done = ended(dir.path(), &format!("{forced} --force --out {out}"));
+        assert_eq!(done.code, Some(0), "{}", done.stderr);
+        assert_eq!(
+            ended(dir.path(), &format!("{forced} --out new-{out}")).code,
+            Some(0)
+        );
+        let mut names = files(&dir.path().join(out));
+        assert!(names.contains_key(record) && names.remove("notes.txt").is_some());
+        assert_eq!(
+            names.keys().collect::<Vec<_>>(),
+            files(&dir.path().join(format!("new-{out}")))
+                .keys()
+                .collect::<Vec<_>>()
+        );
+    }
+}

@@ -10,7 +10,7 @@ use crate::sweep;
 use crate::text::line;
 use shearbed::Plan;
 use std::ffi::OsStr;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Tables of a scene that hold no property of rods, liquid or interaction.
 const NOT_FITTED: [&str; 3] = ["ensemble", "output", "time"];
@@ -21,7 +21,7 @@ pub(super) struct Input {
     pub(super) data: Vec<Datum>,
     /// What each data set is called, and the file it is from.
     pub(super) names: Vec<String>,
-    pub(super) files: Vec<String>,
+    pub(super) files: Vec<PathBuf>,
     pub(super) stem: String,
 }
 
@@ -64,7 +64,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
             stem.clone_from(&named.stem);
         }
         names.push(line(&named.scene.title));
-        files.push(path.display().to_string());
+        files.push(path.to_owned());
         data.extend(points.points);
         sets.push(Set {
             seed: args.seed.unwrap_or(named.scene.ensemble.seed),

@@ -125,6 +125,11 @@ fn bad_exports_are_refused_with_their_line() {
 fn bad_provenance_is_refused_with_its_line() {
     for (before, after, expected) in [
         (
+            "csv = \"columns\"",
+            "csv = \"columns\"\naspect_ratio = 3.96",
+            "a.toml:7: aspect_ratio = 3.96 is not allowed: the mean r_e of the measured rods, 11.6 in fig4-n50; the paper leaves",
+        ),
+        (
             "\"fraction\"",
             "\"a\"",
             "a.toml:12: y.quantity = \"a\" is not allowed: \"fraction\"",
