@@ -195,7 +195,7 @@ mod tests {
     fn all_letters_of_our_pictures_are_there() {
         const OURS: &str = "X̄₁₂₃ ≤ 3·10⁻⁶ cm⁻³, ⟨pp⟩, Δt → 0, pᵢ pⱼ, “Ærøå” – ⅓ Λθφαβχ²∞±×−–ṗ≈≥√∂";
         for bold in [false, true] {
-            assert_eq!(Line::of(OURS, bold).missing, []);
+            assert!(Line::of(OURS, bold).missing.is_empty());
         }
         assert_eq!(Line::of("стержни, 棒", false).missing.len(), 8);
     }

@@ -297,7 +297,7 @@ fn a_run_killed_at_any_moment_leaves_a_whole_set_or_none() {
 /// What a folder holds besides records of which each writing differs.
 fn unchanged(dir: &Path, arguments: &str, holds: &str, said: &str) {
     let before = files(&dir.join(holds));
-    let done = ended(dir, arguments);
+    let done = shearbed(dir, arguments);
     assert_eq!(done.code, Some(2), "{arguments}: {}", done.stderr);
     assert!(done.stderr.contains(said), "{arguments}: {}", done.stderr);
     assert!(
@@ -316,8 +316,8 @@ fn runs_and_fits_leave_each_others_folders_alone() {
     fs::write(dir.path().join("points.csv"), points).unwrap();
     let run = "run small.toml --quiet";
     let fit = "fit small.toml --data points.csv --over interaction.alpha=0.05:5 --replicas 20 --quiet";
-    assert_eq!(ended(dir.path(), &format!("{run} --out run")).code, Some(0));
-    let done = ended(dir.path(), &format!("{fit} --out fit"));
+    assert_eq!(shearbed(dir.path(), &format!("{run} --out run")).code, Some(0));
+    let done = shearbed(dir.path(), &format!("{fit} --out fit"));
     assert_eq!(done.code, Some(0), "{}", done.stderr);
 
     unchanged(
@@ -333,7 +333,7 @@ fn runs_and_fits_leave_each_others_folders_alone() {
         "run/run.json: a run is kept here",
     );
     // The same fit again is no other one; another one is.
-    assert_eq!(ended(dir.path(), &format!("{fit} --out fit")).code, Some(0));
+    assert_eq!(shearbed(dir.path(), &format!("{fit} --out fit")).code, Some(0));
     let another = "fit/fit.json: another fit is kept here; ";
     let wider = fit.replace("0.05:5", "0.05:6");
     unchanged(
@@ -357,10 +357,10 @@ fn runs_and_fits_leave_each_others_folders_alone() {
     // Forced, they leave nothing of the other behind; what is the user's stays.
     for (forced, out, record) in [(run, "fit", "run.json"), (fit, "run", "fit.json")] {
         fs::write(dir.path().join(out).join("notes.txt"), "the user's own").unwrap();
-        let done = ended(dir.path(), &format!("{forced} --force --out {out}"));
+        let done = shearbed(dir.path(), &format!("{forced} --force --out {out}"));
         assert_eq!(done.code, Some(0), "{}", done.stderr);
         assert_eq!(
-            ended(dir.path(), &format!("{forced} --out new-{out}")).code,
+            shearbed(dir.path(), &format!("{forced} --out new-{out}")).code,
             Some(0)
         );
         let mut names = files(&dir.path().join(out));
