@@ -94,3 +94,8 @@ fn fixed_seed(cases: u32) -> proptest::test_runner::Config {
         ..Default::default()
     }
 }
+
+/// The code in the library's README.
+#[cfg(doctest)]
+#[doc = include_str!("README.md")]
+pub struct Readme;

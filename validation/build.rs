@@ -4,11 +4,10 @@ use std::path::Path;
 use std::process::Command;
 
 /// What the program is made of, from the workspace's root.
-const SOURCES: [&str; 9] = [
+const SOURCES: [&str; 8] = [
     "Cargo.toml",
     "Cargo.lock",
     "src",
-    "docs/dependencies.md",
     "validation/Cargo.toml",
     "validation/build.rs",
     "validation/fonts",

@@ -90,7 +90,7 @@ while IFS= read -r line; do
   log="$scratch/$name.txt"
   code=0
   cargo test --no-fail-fast -p shearbed >"$log" 2>&1 || code=$?
-  cargo test --no-fail-fast -p validation --lib --test gate >>"$log" 2>&1 || code=$?
+  cargo test --no-fail-fast -p shearbed-suite --lib --test gate >>"$log" 2>&1 || code=$?
   caught=$(sed -nE 's/^test ([^ ]+) .*FAILED$/\1/p' "$log" | sort -u | paste -sd ' ')
   if [ "$code" = 0 ]; then missed=1; echo "$name: MISSED"; else echo "$name: ${caught:-$(grep -m1 '^error' "$log")}"; fi
   git checkout --quiet -- .

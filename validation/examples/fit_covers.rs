@@ -1,5 +1,5 @@
 //! Repeats whole fits of synthetic points with a planted α, each with a seed and noise of its own, and counts how often the
-//! intervals hold it: `cargo run --release -p validation --example fit_covers -- 200`.
+//! intervals hold it: `cargo run --release -p shearbed-suite --example fit_covers -- 200`.
 
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};

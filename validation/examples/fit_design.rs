@@ -1,5 +1,5 @@
 //! What a curve like Fig. 4's says of α and m, and which times and concentrations say most, as Markdown tables:
-//! `cargo run --release -p validation --example fit_design -- 100` with 100 replicas at each value of the parameters.
+//! `cargo run --release -p shearbed-suite --example fit_design -- 100` with 100 replicas at each value of the parameters.
 
 use nalgebra::{Matrix2, Vector2};
 use validation::fit::Range;

@@ -1,5 +1,5 @@
 //! What α would be under each open reading of the paper: the same synthetic points, fitted by the naive reference under each
-//! as a Markdown table. `cargo run --release -p validation --example fit_readings -- 50` gives each value of α up to 50
+//! as a Markdown table. `cargo run --release -p shearbed-suite --example fit_readings -- 50` gives each value of α up to 50
 //! replicas.
 
 use rand::SeedableRng;

@@ -1,7 +1,7 @@
 //! Kills a run with a checkpoint at random moments, so often as asked, and lets it end: how much each kill cost, whether the file
 //! was whole after each, and whether the results are those of a run that was not killed.
 //!
-//!     cargo build --release && cargo run --release -p validation --example kills -- target/release/shearbed 100
+//!     cargo build --release && cargo run --release -p shearbed-suite --example kills -- target/release/shearbed 100
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;

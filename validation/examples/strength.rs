@@ -1,6 +1,6 @@
 //! Tries the probabilities that the gate promises: the cases at many seeds, and how often each turned red, and why.
 //!
-//! `cargo run --release -p validation --example strength -- SEEDS [full] [CASE...]` prints the tables of
+//! `cargo run --release -p shearbed-suite --example strength -- SEEDS [full] [CASE...]` prints the tables of
 //! `docs/strength.md`. A case whose evidence is the same at the first two seeds draws nothing, and is not run again.
 
 use std::collections::BTreeMap;

@@ -20,7 +20,7 @@ pub fn markdown() -> String {
         ],
     );
     format!(
-        "# The catalogue\n\nMade from the registry; `UPDATE_DOCS=1 cargo test -p validation --test docs` makes \
+        "# The catalogue\n\nMade from the registry; `UPDATE_DOCS=1 cargo test -p shearbed-suite --test docs` makes \
          it anew.\n\n## Cases\n\n{}\n{} cases; `docs/strength.md` has their probabilities of a false alarm and of a miss.\n\n\
          ## Equations\n\n{}",
         markdown_table(&table),

@@ -4,7 +4,7 @@
 use crate::table::{ReportTable, of_words};
 
 /// The document.
-pub const DOCUMENT: &str = include_str!("../../docs/dependencies.md");
+pub const DOCUMENT: &str = include_str!("dependencies.md");
 
 /// The table of the document, under the sentence that counts the crates.
 pub fn table() -> ReportTable {

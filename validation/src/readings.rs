@@ -33,7 +33,7 @@ pub const STUDY: Study = Study {
         "reading-contact-lines",
         "faces-cost-collisions",
     ],
-    command: "cargo run --release -p validation --example readings",
+    command: "cargo run --release -p shearbed-suite --example readings",
     benches: studies::none,
     shared: true,
     run,

@@ -14,7 +14,7 @@ fn fresh(file: &str, expected: &str) {
     let found = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(
         found == expected,
-        "{file} is stale: UPDATE_DOCS=1 cargo test -p validation --test docs"
+        "{file} is stale: UPDATE_DOCS=1 cargo test -p shearbed-suite --test docs"
     );
 }
 
@@ -70,6 +70,12 @@ fn asked_for(manifest: &str) -> BTreeMap<String, &'static str> {
     found
 }
 
+/// The program has the page in it, and a package has no file from beside its folder.
+#[test]
+fn the_page_of_dependencies_is_the_programs() {
+    fresh("../docs/dependencies.md", dependencies::DOCUMENT);
+}
+
 #[test]
 fn every_dependency_has_a_line_and_the_crates_are_counted() {
     let mut expected = asked_for("../Cargo.toml");
@@ -103,7 +109,7 @@ fn every_dependency_has_a_line_and_the_crates_are_counted() {
             "tree",
             "--locked",
             "--package",
-            "validation",
+            "shearbed-suite",
             "--edges",
             "normal,build",
             "--prefix",

@@ -4,15 +4,18 @@ use crate::plot::{Curve, Figure};
 use crate::report::ReportFigure;
 use crate::table::{Column, ReportTable, estimate, number};
 
-/// Abscissas against time: whole and half periods.
-const HALF_PERIODS: u32 = 12;
+/// Abscissas against time. Rods are where they were every half period, so whole and half periods alone would show free
+/// ones as still.
+const PERIODS: [f64; 17] = [
+    0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0, 2.75, 3.0, 3.75, 4.0, 4.75, 5.0, 5.75, 6.0,
+];
 
-/// A row for each point of the first series, or against time for each half period; a column for each series.
+/// A row for each point of the first series, or against time for each of [`PERIODS`]; a column for each series.
 pub(super) fn table(figure: &ReportFigure) -> ReportTable {
     let picture = &figure.figure;
     let rows: Vec<f64> = match picture.points.first() {
         Some(points) if picture.x_span.is_none() => points.x.clone(),
-        _ => (0..=HALF_PERIODS).map(|k| 0.5 * f64::from(k)).collect(),
+        _ => PERIODS.to_vec(),
     };
     let mut columns: Vec<Column<f64>> = vec![number(&picture.x_name, |x| x.to_string(), |x: &f64| *x)];
     columns.extend(series(picture).into_iter().map(column));

@@ -19,7 +19,7 @@ pub const STUDY: Study = Study {
         "updates-in-the-limit",
         "paths-do-not-converge",
     ],
-    command: "cargo run --release -p validation --example time_step",
+    command: "cargo run --release -p shearbed-suite --example time_step",
     benches: studies::none,
     shared: false,
     run,
