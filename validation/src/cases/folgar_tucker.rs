@@ -53,8 +53,9 @@ pub fn cases() -> Vec<Case> {
             .source("eqs 5 to 10; Folgar & Tucker 1984; docs/coefficients.md")
             .subject(Turned::ByKicks(|_| {}))
             .mistake("diffusion in place of kicks", Turned::ByDiffusion)
-            .mistake("no contact by arms shorter than half a rod", Turned::ByKicks(|scene| {
-                lab::interaction(scene).min_contact_arm = 0.5;
+            .mistake("no contact by arms shorter than five rods", Turned::ByKicks(|scene| {
+                // A kick is then 0.03 rad at most, and there are six steps in a strain of 1.
+                lab::interaction(scene).min_contact_arm = 5.0;
             }))
             .check(no_diffusion),
     ]
