@@ -57,7 +57,10 @@ const INEXACT: &[&str] = &[
     "polar",
 ];
 
-/// Where a source calls such a function, or names it with its type, out of tests. `powi` by 2, 3 and −2 has one order of
+/// Crates that take functions from the platform, or from where other crates of the build have them.
+const CRATES: &[&str] = &["num_traits", "rand_distr"];
+
+/// Where a source names such a crate, calls such a function, or names it with its type, out of tests. `powi` by 2, 3 and −2 has one order of
 /// roundings whoever computes it.
 fn inexact(source: &str) -> Vec<String> {
     let mut tokens = Vec::new();
@@ -68,7 +71,7 @@ fn inexact(source: &str) -> Vec<String> {
         let of_a_type = token(at - 1) == ":" && at >= 3 && token(at - 3) != "libm" && token(at - 2) == ":";
         let exact = token(at) == "powi" && matches!(token(at + 2), "2" | "3") && token(at + 3) == ")"
             || token(at) == "powi" && token(at + 2) == "-" && token(at + 3) == "2" && token(at + 4) == ")";
-        INEXACT.contains(&token(at)) && (called && !exact || of_a_type)
+        CRATES.contains(&token(at)) || INEXACT.contains(&token(at)) && (called && !exact || of_a_type)
     });
     found
         .map(|at| tokens[at.saturating_sub(3)..=at].join(" "))
@@ -142,7 +145,9 @@ fn such_a_function_is_found_and_others_are_not() {
         "fn f(x: f64) -> f64 { x /* here */ .\n exp_m1 ( ) }",
         "const F: fn(f64) -> f64 = f64::ln;",
         "fn f(x: f64) -> f64 { <f64>::cos(x) }",
-        "use num_traits::Float; fn f(x: f64) -> f64 { Float::sqrt(Float::hypot(x, x)) }",
+        "fn f(x: f64) -> f64 { Float::sqrt(Float::hypot(x, x)) }",
+        "pub use num_traits as n;",
+        "fn f(r: &mut R) -> f64 { rand_distr::StandardNormal.sample(r) }",
         "fn f(x: f64) -> f64 { twice!(x.sin_cos()) }",
         "fn f(x: f64, n: i32) -> f64 { x.powi(n) + x.powi(2) }",
         "fn f(x: f64) -> f64 { x.powi(20) }",
