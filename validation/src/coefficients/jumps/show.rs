@@ -50,10 +50,10 @@ fn per_cent<'a>(name: impl Into<String>, quantity: Quantity, edge: f64) -> Colum
 
 /// How many rods jumped how far, and how far apart the two samples are.
 pub(in crate::coefficients) fn tables(all: &[Compared], effort: &Effort) -> [ReportTable; 2] {
-    let strain = all.first().map_or(f64::NAN, |one| one.strain);
     let replicas = all.first().map_or(0, |one| one.kicks.len());
     let mut columns = vec![
         field("steps ×", |side: &Sided<'_>| side.of.setting.finer),
+        number("strain", |x| format!("{x:.2}"), |side: &Sided<'_>| side.of.strain),
         words("turned by", |side: &Sided<'_>| side.turned_by),
     ];
     for edge in [0.01, 0.1, 0.2, 0.5, 1.0] {
@@ -66,7 +66,7 @@ pub(in crate::coefficients) fn tables(all: &[Compared], effort: &Effort) -> [Rep
     let jumps = ReportTable::new(
         ["kicks-and-diffusion", "Kicks and diffusion of the same C_I"],
         format!(
-            "Per cent of the rods (± a standard error over {replicas} replicas) that a strain of about {strain:.2} leaves off Jeffery's \
+            "Per cent of the rods (± a standard error over {replicas} replicas) that a strain leaves off Jeffery's \
              motion by more than an angle, or in another orbit by more than |ΔC_b|; last, those whose orbit is nearer to the \
              shear plane. n a³ = 0.2, r_e = 11.6, α = 0.5, steady; diffusion of the C_I that was measured at the same time step."
         ),
