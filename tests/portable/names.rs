@@ -116,9 +116,9 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
         .unwrap()
         .map(|entry| entry.unwrap().path());
     let (folders, files): (Vec<_>, Vec<_>) = entries.partition(|path| path.is_dir());
-    let files = files
-        .into_iter()
-        .filter(|file| file.file_name().unwrap() != "tests.rs");
+    let files = files.into_iter().filter(|file| {
+        file.extension().is_some_and(|of| of == "rs") && file.file_name().unwrap() != "tests.rs"
+    });
     files
         .chain(folders.iter().flat_map(|folder| sources(folder)))
         .collect()

@@ -4,6 +4,7 @@ use crate::subject::{Errors, Failure, Problem, Setting, Subject, Theory};
 use nalgebra::{UnitVector3, Vector3};
 use serde::Serialize;
 use std::f64::consts::PI;
+use std::ops::Range;
 
 /// What a subject keeps with short steps and may lose with long ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -55,6 +56,9 @@ const NEAR_PLANE: f64 = 1e-9;
 /// Rods in half of the plane of shear.
 const RODS: u32 = 512;
 
+/// Those that are stepped at once.
+const PART: u32 = 64;
+
 /// The longest step on the ladder up to which `holds`, refined by bisection between the last rung where it does and the
 /// first where it does not.
 pub fn bisect(ladder: Ladder, holds: impl Fn(f64) -> bool) -> Limit {
@@ -84,21 +88,19 @@ pub fn bisect(ladder: Ladder, holds: impl Fn(f64) -> bool) -> Limit {
 
 /// Whether a subject has a property with steps of GΔt = `strain` at this aspect ratio.
 pub fn holds(subject: &dyn Subject, property: Property, aspect_ratio: f64, strain: f64) -> bool {
+    let stepped = |p3: f64, more: u32| {
+        let parts = (0..RODS).step_by(PART as usize);
+        parts.map(move |first| near_plane(subject, aspect_ratio, strain, p3, first..first + PART + more))
+    };
     match property {
-        Property::Order => (0..RODS).all(|k| {
-            let [a, b] = [k, k + 1].map(|k| in_plane(subject, aspect_ratio, strain, k).1);
-            forward(&a, &b)
+        Property::Order => stepped(0.0, 1).all(|rods| {
+            let mut pairs = rods.windows(2);
+            pairs.all(|pair| forward(&pair[0].1, &pair[1].1))
         }),
-        Property::Turning => (0..RODS).all(|k| {
-            let (before, after) = in_plane(subject, aspect_ratio, strain, k);
-            forward(&before, &after)
-        }),
-        Property::Side => (0..RODS).all(|k| {
-            let phi = phi(k);
-            let p = UnitVector3::new_normalize(Vector3::new(phi.cos(), phi.sin(), NEAR_PLANE));
-            let end = subject.advance(&one_step(aspect_ratio, strain), &p, one(subject));
-            end.is_ok_and(|p| p.z > 0.0)
-        }),
+        Property::Turning => {
+            stepped(0.0, 0).all(|rods| rods.iter().all(|(before, after)| forward(before, after)))
+        }
+        Property::Side => stepped(NEAR_PLANE, 0).all(|rods| rods.iter().all(|(_, after)| after.z > 0.0)),
         Property::Length => {
             let p = UnitVector3::new_normalize(Vector3::new(1.0, 0.0, 0.0));
             ten_periods(subject, aspect_ratio, strain, &p).is_ok_and(|(_, end)| end.norm() < 1.5)
@@ -129,12 +131,23 @@ fn forward(a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
     (a.x * b.y - a.y * b.x) / (a.norm() * b.norm()) >= -4.0 * f64::EPSILON
 }
 
-/// A rod in the plane of shear before and after one step.
-fn in_plane(subject: &dyn Subject, aspect_ratio: f64, strain: f64, k: u32) -> (Vector3<f64>, Vector3<f64>) {
-    let phi = phi(k);
-    let p = UnitVector3::new_normalize(Vector3::new(phi.cos(), phi.sin(), 0.0));
-    let end = subject.advance(&one_step(aspect_ratio, strain), &p, one(subject));
-    (p.into_inner(), end.unwrap_or(Vector3::repeat(f64::NAN)))
+/// Rods before and after one step that start beside the plane of shear by `p3`; NaN where the step cannot be taken.
+fn near_plane(
+    subject: &dyn Subject,
+    aspect_ratio: f64,
+    strain: f64,
+    p3: f64,
+    rods: Range<u32>,
+) -> Vec<(Vector3<f64>, Vector3<f64>)> {
+    let start = |k: u32| UnitVector3::new_normalize(Vector3::new(phi(k).cos(), phi(k).sin(), p3));
+    let starts: Vec<_> = rods.map(start).collect();
+    let ends = subject.advance_all(&one_step(aspect_ratio, strain), &starts, one(subject));
+    let ends = ends.unwrap_or(vec![Vector3::repeat(f64::NAN); starts.len()]);
+    starts
+        .into_iter()
+        .map(UnitVector3::into_inner)
+        .zip(ends)
+        .collect()
 }
 
 fn one_step(aspect_ratio: f64, strain: f64) -> Problem {

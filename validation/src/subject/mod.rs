@@ -41,6 +41,17 @@ pub trait Subject: Send + Sync {
         start: &UnitVector3<f64>,
         setting: Setting,
     ) -> Result<Vector3<f64>, Failure>;
+
+    /// The same for many rods; a program in another process is asked once.
+    fn advance_all(
+        &self,
+        problem: &Problem,
+        starts: &[UnitVector3<f64>],
+        setting: Setting,
+    ) -> Result<Vec<Vector3<f64>>, Failure> {
+        let one = |start| self.advance(problem, start, setting);
+        starts.iter().map(one).collect()
+    }
 }
 
 /// How a subject's error is said to fall, and so which settings it takes.

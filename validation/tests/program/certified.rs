@@ -177,7 +177,7 @@ fn the_naive_reference_agrees_with_certified_ensembles_and_wrong_ones_do_not() {
             loaded.problem.tolerance,
             loaded.problem.ensemble.as_ref().unwrap(),
         );
-        let (error, se) = standard_errors(loaded, 120, None);
+        let (error, se) = standard_errors(loaded, 160, None);
         assert!(
             error <= tolerance && se <= ensemble.largest_standard_error,
             "{error} {se}"

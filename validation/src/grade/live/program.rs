@@ -230,14 +230,24 @@ impl Subject for Program {
         start: &UnitVector3<f64>,
         setting: Setting,
     ) -> Result<Vector3<f64>, Failure> {
+        let all = self.advance_all(problem, std::slice::from_ref(start), setting)?;
+        Ok(all[0])
+    }
+
+    fn advance_all(
+        &self,
+        problem: &Problem,
+        starts: &[UnitVector3<f64>],
+        setting: Setting,
+    ) -> Result<Vec<Vector3<f64>>, Failure> {
         let question = Question {
             gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]],
             aspect_ratio: problem.aspect_ratio,
-            start: vec![[start.x, start.y, start.z]],
+            start: starts.iter().map(|p| [p.x, p.y, p.z]).collect(),
             end_s: problem.strain(),
         };
         match self.ask(&question, setting) {
-            Ok((p, _)) => Ok(Vector3::from(p[0])),
+            Ok((p, _)) => Ok(p.into_iter().map(Vector3::from).collect()),
             Err(asked) => Err(Failure::Gave(asked.to_string())),
         }
     }
