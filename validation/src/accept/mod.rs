@@ -190,6 +190,10 @@ impl Rule {
                 bound,
                 ..
             } => {
+                // Values that do not scatter fail at every seed.
+                if *se == 0.0 && mean <= bound {
+                    return Some(f64::INFINITY);
+                }
                 let critical = student(LEVEL, *samples);
                 // With fewer values than its effect needs, it fails only where the mean is below.
                 let t = if self.has_enough() { critical } else { -critical };

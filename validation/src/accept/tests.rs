@@ -48,6 +48,28 @@ fn a_difference_needs_to_be_seen() {
     assert_eq!(above(f64::NAN, 0.01), Verdict::Fail);
 }
 
+/// How surely a mean that is not above its bound is seen again.
+#[test]
+fn a_failure_has_a_margin_where_its_values_scatter_and_is_certain_where_they_do_not() {
+    let margin = |mean, se| {
+        let rule = Rule::Above {
+            mean,
+            se,
+            samples: 400,
+            bound: 0.0,
+            effect: 0.1,
+            because: "".into(),
+        };
+        rule.margin().unwrap()
+    };
+    assert_eq!(margin(0.0, 0.0), f64::INFINITY);
+    // A large sample fails unless its mean is above by `student`, a small one only where it is below by that.
+    let large = margin(0.0, 0.01);
+    assert!((4.0..6.0).contains(&large), "{large}");
+    assert!((margin(0.0, 0.1) + large).abs() < 0.2);
+    assert!(margin(-0.01, 0.01) > large && margin(-0.1, 0.1) > margin(0.0, 0.1));
+}
+
 #[test]
 fn tolerances_are_closed_and_nan_fails() {
     assert_eq!(judge(&Rule::exact(0.0)), Verdict::Pass);
