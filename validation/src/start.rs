@@ -1,6 +1,7 @@
 //! The directions that rods start with, from a file beside the scene.
 
 use shearbed::scene::{Orientation, Scene};
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -30,33 +31,75 @@ const LENGTH: f64 = 1e-5;
 ///
 /// The file, line, column and value, and what is allowed.
 pub fn fill(scene: &mut Scene, beside: &Path) -> Result<(), String> {
-    let (count, aspect_ratio) = (scene.particles.count, scene.particles.aspect_ratio);
-    let Orientation::Each { file, crc32, p } = &mut scene.particles.orientation else {
-        return Ok(());
-    };
-    let path = beside.join(&*file);
-    let shown = path.display();
-    let key = "particles.orientation";
-    let bytes = std::fs::read(&path).map_err(|error| format!("{key}: {shown}: cannot be read: {error}"))?;
-    let found = format!("{:08x}", crc32fast::hash(&bytes));
-    if let Some(expected) = crc32.as_ref().filter(|expected| **expected != found) {
-        return Err(format!(
-            "{key}: {shown}: has crc32 = {found}; {expected:?} is allowed, or no crc32"
-        ));
-    }
-    let directions = read(&bytes, aspect_ratio).map_err(|error| format!("{key}: {shown}:{error}"))?;
-    if directions[0].len() != count {
-        return Err(format!(
-            "{key}: {shown}: has {} rows; as many as particles.count = {count} are allowed",
-            directions[0].len()
-        ));
-    }
-    (*crc32, *p) = (Some(found), Some(Arc::new(directions)));
-    Ok(())
+    Starts::default().fill(scene, beside)
 }
 
-/// The directions, row by row; of an error the line first.
-fn read(bytes: &[u8], aspect_ratio: f64) -> Result<[Vec<f64>; 3], String> {
+/// The files that were read for scenes of one folder: each is read once, and its directions are held once.
+#[derive(Default)]
+pub struct Starts(BTreeMap<String, Start>);
+
+#[derive(Clone)]
+struct Start {
+    crc32: String,
+    p: Arc<[Vec<f64>; 3]>,
+    /// The r_e of its rods, where it has them.
+    aspect_ratio: Option<f64>,
+}
+
+impl Starts {
+    /// As [`fill`], for one scene after the other.
+    ///
+    /// # Errors
+    ///
+    /// As [`fill`].
+    pub fn fill(&mut self, scene: &mut Scene, beside: &Path) -> Result<(), String> {
+        let (count, aspect_ratio) = (scene.particles.count, scene.particles.aspect_ratio);
+        let Orientation::Each { file, crc32, p } = &mut scene.particles.orientation else {
+            return Ok(());
+        };
+        let path = beside.join(&*file);
+        let refused = |what: String| format!("particles.orientation: {}{what}", path.display());
+        let asked_for = |found: &str| match crc32.as_deref().filter(|expected| *expected != found) {
+            Some(expected) => Err(refused(format!(
+                ": has crc32 = {found}; {expected:?} is allowed, or no crc32"
+            ))),
+            None => Ok(()),
+        };
+        let own = |start: &&Start| start.aspect_ratio.is_none_or(|own| own == aspect_ratio);
+        let start = match self.0.get(file).filter(own) {
+            Some(start) => {
+                asked_for(&start.crc32)?;
+                start.clone()
+            }
+            None => {
+                let bytes =
+                    std::fs::read(&path).map_err(|error| refused(format!(": cannot be read: {error}")))?;
+                let found = format!("{:08x}", crc32fast::hash(&bytes));
+                asked_for(&found)?;
+                let (directions, shaped) =
+                    read(&bytes, aspect_ratio).map_err(|error| refused(format!(":{error}")))?;
+                let start = Start {
+                    crc32: found,
+                    p: Arc::new(directions),
+                    aspect_ratio: shaped.then_some(aspect_ratio),
+                };
+                self.0.insert(file.clone(), start.clone());
+                start
+            }
+        };
+        if start.p[0].len() != count {
+            return Err(refused(format!(
+                ": has {} rows; as many as particles.count = {count} are allowed",
+                start.p[0].len()
+            )));
+        }
+        (*crc32, *p) = (Some(start.crc32), Some(start.p));
+        Ok(())
+    }
+}
+
+/// The directions, row by row, and whether the rows have an r_e, which is then this one; of an error the line first.
+fn read(bytes: &[u8], aspect_ratio: f64) -> Result<([Vec<f64>; 3], bool), String> {
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
     let in_words = |error: csv::Error| {
         let line = error.position().map_or(1, csv::Position::line);
@@ -114,7 +157,7 @@ fn read(bytes: &[u8], aspect_ratio: f64) -> Result<[Vec<f64>; 3], String> {
             axis.push(value / length);
         }
     }
-    Ok(p)
+    Ok((p, shape.is_some()))
 }
 
 #[cfg(test)]
@@ -128,10 +171,49 @@ mod tests {
     #[test]
     fn rows_are_directions_in_any_order_of_columns() {
         let text = "rod,p3,p1,p2\n0,0.8,0.6,0\n7, -0.70711 ,0,0.70711\n";
-        let [p1, p2, p3] = read(text.as_bytes(), 11.6).unwrap();
+        let ([p1, p2, p3], shaped) = read(text.as_bytes(), 11.6).unwrap();
+        assert!(!shaped);
         assert_eq!((p1, p3[0]), (vec![0.6, 0.0], 0.8));
         // 0.70711² · 2 = 1.0000091 is divided out.
         assert!((p2[1] - 0.5f64.sqrt()).abs() < 1e-15 && (p3[1] + 0.5f64.sqrt()).abs() < 1e-15);
+    }
+
+    /// Removed after it was read: a file that is read again would be missed.
+    #[test]
+    fn a_file_is_read_and_held_once_for_all_scenes() {
+        let text = crate::scenes::find("extension").unwrap().text;
+        let mut first = shearbed::scene_file::parse("s", text).unwrap();
+        first.particles.count = 1;
+        first.particles.orientation = Orientation::Each {
+            file: "start.csv".into(),
+            crc32: None,
+            p: None,
+        };
+        let mut other = first.clone();
+        other.particles.aspect_ratio *= 2.0;
+        let of = |scene: &Scene| match &scene.particles.orientation {
+            Orientation::Each { p, .. } => p.clone().unwrap(),
+            _ => panic!("no file"),
+        };
+        let dir = tempfile::tempdir().unwrap();
+        let file = dir.path().join("start.csv");
+        for (rows, same) in [
+            ("p1,p2,p3\n1,0,0\n".to_owned(), true),
+            (
+                format!("p1,p2,p3,aspect_ratio\n1,0,0,{}\n", first.particles.aspect_ratio),
+                false,
+            ),
+        ] {
+            let mut starts = Starts::default();
+            let (mut a, mut b, mut c) = (first.clone(), first.clone(), other.clone());
+            std::fs::write(&file, rows).unwrap();
+            starts.fill(&mut a, dir.path()).unwrap();
+            std::fs::remove_file(&file).unwrap();
+            starts.fill(&mut b, dir.path()).unwrap();
+            assert!(Arc::ptr_eq(&of(&a), &of(&b)));
+            // Rods that have an r_e in the file are not another r_e's.
+            assert_eq!(starts.fill(&mut c, dir.path()).is_ok(), same);
+        }
     }
 
     #[test]

@@ -26,18 +26,21 @@ fn a_mean_needs_closeness_and_enough_data() {
     assert_eq!(mean(f64::NAN, 0.01, 0.0), Verdict::Fail);
 }
 
+/// A mean of 400 values that is to exceed 0, and by 0.1 surely does.
+fn above_zero(mean: f64, se: f64) -> Rule {
+    Rule::Above {
+        mean,
+        se,
+        samples: 400,
+        bound: 0.0,
+        effect: 0.1,
+        because: "".into(),
+    }
+}
+
 #[test]
 fn a_difference_needs_to_be_seen() {
-    let above = |mean, se| {
-        judge(&Rule::Above {
-            mean,
-            se,
-            samples: 400,
-            bound: 0.0,
-            effect: 0.1,
-            because: "".into(),
-        })
-    };
+    let above = |mean, se| judge(&above_zero(mean, se));
     assert_eq!(above(0.1, 0.01), Verdict::Pass);
     assert_eq!(above(0.02, 0.01), Verdict::Fail);
     assert_eq!(above(0.02, 0.1), Verdict::Underpowered);
@@ -51,17 +54,7 @@ fn a_difference_needs_to_be_seen() {
 /// How surely a mean that is not above its bound is seen again.
 #[test]
 fn a_failure_has_a_margin_where_its_values_scatter_and_is_certain_where_they_do_not() {
-    let margin = |mean, se| {
-        let rule = Rule::Above {
-            mean,
-            se,
-            samples: 400,
-            bound: 0.0,
-            effect: 0.1,
-            because: "".into(),
-        };
-        rule.margin().unwrap()
-    };
+    let margin = |mean, se| above_zero(mean, se).margin().unwrap();
     assert_eq!(margin(0.0, 0.0), f64::INFINITY);
     // A large sample fails unless its mean is above by `student`, a small one only where it is below by that.
     let large = margin(0.0, 0.01);
