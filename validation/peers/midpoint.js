@@ -48,7 +48,7 @@ function files(reference, mine) {
     const start = rows.map((row) => row.split(",").slice(1).map(Number));
     const lines = ["time_s,rod,p1,p2,p3"];
     for (const time of problem.times_s) {
-      const request = { ...problem, start, end_s: time, steps: 20000 };
+      const request = { ...problem, start, end_s: time, steps: 5000 };
       answer(request).p.forEach((p, rod) => lines.push([time, rod, ...p].join(",")));
     }
     fs.mkdirSync(path.join(mine, name), { recursive: true });

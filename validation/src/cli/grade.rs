@@ -90,18 +90,27 @@ fn options(args: &Args) -> Options {
     }
 }
 
+/// Whether a problem of this name is to be graded.
+fn asked_for(args: &Args, name: &str) -> bool {
+    args.problems.is_empty() || args.problems.iter().any(|asked| asked == name)
+}
+
+/// That every name after `--problem` is one of these.
+fn check_names(args: &Args, names: &[String]) -> Result<(), Failure> {
+    match args.problems.iter().find(|name| !names.contains(name)) {
+        None => Ok(()),
+        Some(unknown) => Err(Failure::Input(format!(
+            "--problem {unknown}: no problem has this name; there are {}",
+            names.join(", ")
+        ))),
+    }
+}
+
 /// The problems that are to be graded.
 fn chosen(args: &Args, mut all: Vec<LoadedProblem>) -> Result<Vec<LoadedProblem>, Failure> {
-    let names: Vec<_> = all.iter().map(|loaded| loaded.problem.name.clone()).collect();
-    if let Some(unknown) = args.problems.iter().find(|name| !names.contains(name)) {
-        let known = names.join(", ");
-        return Err(Failure::Input(format!(
-            "--problem {unknown}: no problem has this name; there are {known}"
-        )));
-    }
     all.retain(|loaded| {
-        let named = args.problems.is_empty() || args.problems.contains(&loaded.problem.name);
-        named && args.kind.is_none_or(|kind| kind == loaded.problem.kind)
+        let of_kind = args.kind.is_none_or(|kind| kind == loaded.problem.kind);
+        of_kind && asked_for(args, &loaded.problem.name)
     });
     match all.is_empty() {
         true => Err(Failure::Input(
@@ -111,9 +120,14 @@ fn chosen(args: &Args, mut all: Vec<LoadedProblem>) -> Result<Vec<LoadedProblem>
     }
 }
 
+fn names(all: &[LoadedProblem]) -> Vec<String> {
+    all.iter().map(|loaded| loaded.problem.name.clone()).collect()
+}
+
 fn files(args: &Args, reference: &Path, mine: &Path) -> Result<(Report, Vec<LoadedProblem>), Failure> {
     let all = problems::read(reference).map_err(|error| Failure::Input(error.to_string()))?;
-    let names: Vec<_> = all.iter().map(|loaded| loaded.problem.name.clone()).collect();
+    let names = names(&all);
+    check_names(args, &names)?;
     let wanted = chosen(args, all)?;
     if !mine.is_dir() {
         return Err(Failure::Input(format!(
@@ -182,21 +196,29 @@ fn check_rods_alone(args: &Args) -> Result<(), Failure> {
     }
 }
 
+/// The problems that a program is asked.
+fn about_rods(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Failure> {
+    check_rods_alone(args)?;
+    let Some(dir) = reference else {
+        let all: Vec<_> = problems::free_rods()
+            .iter()
+            .map(|def| def.name.to_owned())
+            .collect();
+        check_names(args, &all)?;
+        return live::built_in(|name| asked_for(args, name)).map_err(Failure::Failed);
+    };
+    let mut rods = problems::read(dir).map_err(|error| Failure::Input(error.to_string()))?;
+    rods.retain(|loaded| loaded.problem.kind == Kind::Rods);
+    check_names(args, &names(&rods))?;
+    chosen(args, rods)
+}
+
 fn program(
     args: &Args,
     command: &str,
     reference: Option<&Path>,
 ) -> Result<(Report, Vec<LoadedProblem>), Failure> {
-    let all = match reference {
-        Some(dir) => problems::read(dir).map_err(|error| Failure::Input(error.to_string()))?,
-        None => live::built_in().map_err(Failure::Failed)?,
-    };
-    check_rods_alone(args)?;
-    let rods = all
-        .into_iter()
-        .filter(|loaded| loaded.problem.kind == Kind::Rods)
-        .collect();
-    let wanted = chosen(args, rods)?;
+    let wanted = about_rods(args, reference)?;
     output::probe(&args.out, 0)?;
     let timeout = Duration::from_secs_f64(args.timeout);
     let program = Program::start(command, timeout).map_err(Failure::Input)?;

@@ -165,7 +165,7 @@ fn intervals_hold_the_planted_value_as_often_as_they_say() {
     }
     .samples();
     // Sampling noise that replicas do not quite outgrow, so that leaving it out would show. The case `fit-covers` has one key.
-    let found = repeats(enough, &TWO, 0.02, 60);
+    let found = repeats(enough, &TWO, 0.02, 40);
     for (which, confidence) in [(0, 0.68), (1, 0.95)] {
         let rule = share(&found, |repeat| repeat.inside[which], confidence);
         assert_eq!(judge(&rule), Verdict::Pass, "{rule:?}");

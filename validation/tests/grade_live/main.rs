@@ -89,10 +89,19 @@ fn judge(case: &Case) -> Result<(), Failed> {
     if case.verdict == "PASS" {
         for found in grade["problems"].as_array().unwrap() {
             check(found["verdict"] == "PASS", "every problem")?;
-            // Two in a row within the tolerance, lest a chance crossing count.
-            let errors = found["errors"].as_array().unwrap().iter().rev().take(2);
-            let within = errors.filter(|error| error[1].as_f64() <= found["tolerance"].as_f64());
-            check(within.count() == 2, "the last two")?;
+            // Two in a row within the tolerance, or one after errors that fall by one order, lest a chance crossing count.
+            let errors = found["errors"].as_array().unwrap().iter().rev().take(4);
+            let errors: Vec<_> = errors.map(|error| error[1].as_f64().unwrap()).collect();
+            let within = |k: usize| errors[k] <= found["tolerance"].as_f64().unwrap();
+            let steady = || {
+                errors
+                    .windows(2)
+                    .all(|pair| ((pair[1] / pair[0]).log2() - 4.0).abs() < 0.1)
+            };
+            check(
+                within(0) && (within(1) || errors.len() == 4 && steady()),
+                "the last ones",
+            )?;
         }
     }
     let said = format!("{} {} {}", found["note"], found["diagnosis"], grade["remarks"]);

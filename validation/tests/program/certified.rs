@@ -82,7 +82,7 @@ fn a_right_code_in_doubles_passes_and_wrong_ones_fail() {
         // RK4 errs by (ωh)⁴/120 of the phase, times what a flip stretches; where the tolerance is loose, fewer steps do.
         let steps_per_strain = match name {
             "mid-flip-10000" => 50.0,
-            "ten-thousand-periods" => 150.0,
+            "ten-thousand-periods" => 80.0,
             _ => 300.0,
         };
         let right = error(loaded, &l, rk4, steps_per_strain);
@@ -92,7 +92,7 @@ fn a_right_code_in_doubles_passes_and_wrong_ones_fail() {
         }
         let transposed = [0, 1, 2].map(|i| [0, 1, 2].map(|j| l[j][i]));
         let halved = l.map(|row| row.map(|x| 0.5 * x));
-        // Euler's method comes to 2e-3 as well where its steps are short enough.
+        // Euler's method comes to 2e-3 as well where its steps are short enough; the others are as wrong with few.
         let coarse = if name == "mid-flip-10000" {
             10.0
         } else {
@@ -100,8 +100,8 @@ fn a_right_code_in_doubles_passes_and_wrong_ones_fail() {
         };
         let wrong = [
             ("Euler", error(loaded, &l, euler, coarse)),
-            ("transposed", error(loaded, &transposed, rk4, steps_per_strain)),
-            ("half the rate", error(loaded, &halved, rk4, steps_per_strain)),
+            ("transposed", error(loaded, &transposed, rk4, coarse)),
+            ("half the rate", error(loaded, &halved, rk4, coarse)),
         ];
         for (mistake, error) in wrong {
             // On the vorticity axis nothing moves; a symmetric gradient is its own transpose.
@@ -182,7 +182,7 @@ fn the_naive_reference_agrees_with_certified_ensembles_and_wrong_ones_do_not() {
             error <= tolerance && se <= ensemble.largest_standard_error,
             "{error} {se}"
         );
-        let (error, _) = standard_errors(loaded, 64, Some(mistake));
+        let (error, _) = standard_errors(loaded, 24, Some(mistake));
         assert!(error > 2.0 * tolerance, "{mistake:?}: {error}");
     }
 }

@@ -8,9 +8,9 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-/// Points of about a second.
+/// Points of a third of a second.
 fn long(dir: &Path) {
-    let scene = SMALL.replace("replicas = 3", "replicas = 300");
+    let scene = SMALL.replace("replicas = 3", "replicas = 100");
     fs::write(dir.join("long.toml"), scene).unwrap();
 }
 
@@ -28,7 +28,7 @@ fn a_signal_ends_a_run_with_a_message_and_leaves_nothing() {
         ("-TERM", 143, "SIGTERM"),
         ("-HUP", 129, "SIGHUP"),
     ] {
-        let mut run = command(dir.path(), "run long.toml --replicas 1000000 --out x");
+        let mut run = command(dir.path(), "run long.toml --replicas 1000000 --threads 1 --out x");
         let child = run.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
         sleep(Duration::from_millis(300));
         kill(child.id(), signal);

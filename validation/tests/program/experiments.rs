@@ -20,11 +20,14 @@ const U_Y: f64 = 0.005;
 /// Rods of the synthetic experiment.
 const RODS: u64 = 2000;
 
-/// A synthetic experiment: the scene at this α, read off at 29 times up to t/T = 1.5.
+/// Times at which curves are read off, each a twentieth of a period after the one before.
+const TIMES: usize = 15;
+
+/// A synthetic experiment: the scene at this α, read off at these times.
 fn synthesise(data: &Path, folder: &str, scene_name: &str, observables: &[&str], alpha: f64) {
     let mut scene = scenes::find(scene_name).unwrap().scene().unwrap();
     scene.interaction.as_mut().unwrap().alpha = alpha;
-    scene.time.periods = Some(1.5);
+    scene.time.periods = Some(0.8);
     scene.time.outputs_per_period = Some(200);
     scene.ensemble.replicas = RODS / scene.particles.count as u64;
     scene.ensemble.seed = 1982;
@@ -42,7 +45,7 @@ fn synthesise(data: &Path, folder: &str, scene_name: &str, observables: &[&str],
             .join(","),
     ];
     lines.push(vec!["X,Y"; observables.len()].join(","));
-    for k in 1..30 {
+    for k in 1..=TIMES {
         let output = 10 * k;
         let cells = observables.iter().map(|name| {
             let y = results.column(name).unwrap().mean[output];
@@ -161,7 +164,7 @@ fn the_alpha_of_a_synthetic_experiment_is_found() {
     )
     .unwrap();
     assert!((fit.alpha - 0.6).abs() < 3.0 * fit.se && fit.se < 0.05, "{fit:?}");
-    assert_eq!(fit.points, 29);
+    assert_eq!(fit.points, TIMES);
 }
 
 #[test]
@@ -195,9 +198,9 @@ fn points_for_a_picture_are_in_the_models_units() {
         0.5,
     );
     let points = experiment::points_for(Some(dir.path()), "fig5").unwrap();
-    assert_eq!(points.len(), 2 * 29);
-    assert_eq!((points[0].observable, points[29].observable), ("x1", "x3"));
-    assert!(points[..29].windows(2).all(|pair| pair[0].x <= pair[1].x));
+    assert_eq!(points.len(), 2 * TIMES);
+    assert_eq!((points[0].observable, points[TIMES].observable), ("x1", "x3"));
+    assert!(points[..TIMES].windows(2).all(|pair| pair[0].x <= pair[1].x));
     assert_eq!((points[0].u_x, points[0].u_y), (U_X, U_Y));
     assert_eq!(experiment::points_for(Some(dir.path()), "fig4-n50").unwrap(), []);
 }
@@ -211,7 +214,7 @@ fn a_bad_file_stops_the_program_before_any_case_runs() {
     let (code, text, report) = validate("jeffery-period", Some(data.path()));
     assert_eq!((code, report), (Some(2), serde_json::Value::Null));
     assert!(
-        text.contains("fig4-n50.csv:32: column x1 Y: `0.3x` is not allowed"),
+        text.contains("fig4-n50.csv:18: column x1 Y: `0.3x` is not allowed"),
         "{text}"
     );
     assert!(!text.contains("pass"), "{text}");

@@ -1,5 +1,6 @@
 //! A real report, with the figures of a few replicas, as its reader gets it.
 
+use std::sync::LazyLock;
 use validation::case::Effort;
 use validation::figures::{self, Replicas};
 use validation::report::{self, Report, ReportStudy, Sections};
@@ -8,7 +9,7 @@ use validation::{cases, catalogue};
 /// Names of cases that are quick, of which some are cited by figures.
 const CHOSEN: [&str; 3] = ["jeffery-period", "planar-projections", "free-half-period"];
 
-fn small_report() -> Report {
+static REPORT: LazyLock<Report> = LazyLock::new(|| {
     let effort: Effort = Effort::gate();
     let few = Replicas {
         interacting: 2,
@@ -30,11 +31,11 @@ fn small_report() -> Report {
     sections.add(ReportStudy::new(&figures::STUDY, drawn, 0.0));
     let outcomes = chosen.map(|case| case.run(&effort)).collect();
     report::build(outcomes, sections, &effort, "shearbed validate".into())
-}
+});
 
 #[test]
 fn a_real_report_is_whole() {
-    let report = small_report();
+    let report = &*REPORT;
     let html = report.html().unwrap();
 
     // Anchors are unique, and every link leads to one.
@@ -81,7 +82,7 @@ fn a_real_report_is_whole() {
 
 #[test]
 fn every_figure_has_its_numbers() {
-    let report = small_report();
+    let report = &*REPORT;
     let figures: Vec<_> = report.sections.figures().collect();
     let data = report.data().unwrap();
     assert_eq!(data.len(), 2 * figures.len(), "each has a table beside it");

@@ -128,7 +128,7 @@ struct Stopped {
     reason: Option<String>,
 }
 
-/// Climbs until two settings in a row are within the tolerance, lest a chance crossing count, or time is up.
+/// Climbs until the answer is within the tolerance, or time is up.
 fn climb(program: &Program, problem: &LoadedProblem, mode: Mode) -> (Vec<Rung>, Stopped) {
     let mut rungs: Vec<Rung> = Vec::new();
     let mut stopped = Stopped::default();
@@ -166,11 +166,11 @@ fn climb(program: &Program, problem: &LoadedProblem, mode: Mode) -> (Vec<Rung>, 
                 break;
             }
         };
-        let within = |rung: &Rung| rung.compared.error <= problem.problem.tolerance;
-        if rungs.len() >= 2 && rungs[rungs.len() - 2..].iter().all(within) {
+        let tolerance = problem.problem.tolerance;
+        if reached(&rungs, tolerance) {
             break;
         }
-        if let Some(reason) = hopeless(&rungs, problem.problem.tolerance, program.timeout()) {
+        if let Some(reason) = hopeless(&rungs, tolerance, program.timeout()) {
             stopped.reason = Some(reason);
             break;
         }
@@ -185,10 +185,22 @@ fn climb(program: &Program, problem: &LoadedProblem, mode: Mode) -> (Vec<Rung>, 
     (rungs, stopped)
 }
 
+/// Whether two settings in a row are within the tolerance, or one to which the error fell by a steady order: one alone may be a
+/// chance crossing.
+fn reached(rungs: &[Rung], tolerance: f64) -> bool {
+    let within = |rung: &&Rung| rung.compared.error <= tolerance;
+    match rungs.iter().rev().take_while(within).count() {
+        0 => false,
+        1 => steady_order(rungs).is_some(),
+        _ => true,
+    }
+}
+
 /// Why finer settings would not come within the tolerance, where that can be told from those that were tried.
 fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration) -> Option<String> {
     // From coarse steps nothing follows: they may be unstable, or miss the motion.
-    let [.., third, second, first, last] = &rungs[RESOLVING.min(rungs.len())..] else {
+    let resolving = &rungs[RESOLVING.min(rungs.len())..];
+    let [.., third, second, first, last] = resolving else {
         return None;
     };
     let errors = [third, second, first, last].map(|rung| rung.compared.error);
@@ -201,15 +213,23 @@ fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration) -> Option<String>
         return Some("finer ones no longer change the answer".to_owned());
     }
     // A steady order foretells the steps, and two times that double what they take.
-    let orders = [0, 1, 2].map(|k| (errors[k] / errors[k + 1]).log2());
-    let steady = orders
-        .iter()
-        .all(|order| *order > 0.5 && (order - orders[2]).abs() < 0.1);
+    let order = steady_order(resolving)?;
     let doubles = first.took > Duration::from_millis(200) && last.took < 3 * first.took;
-    let more = (errors[3] / tolerance).powf(1.0 / orders[2]);
+    let more = (errors[3] / tolerance).powf(1.0 / order);
     let needed_s = last.took.as_secs_f64() * more;
-    (steady && doubles && needed_s > 4.0 * timeout.as_secs_f64())
+    (doubles && needed_s > 4.0 * timeout.as_secs_f64())
         .then(|| format!("those would take some {needed_s:.0e} s, which --timeout does not allow"))
+}
+
+/// The order by which the last four errors fall, where it is nearly the same from each to the next.
+fn steady_order(rungs: &[Rung]) -> Option<f64> {
+    let last = rungs
+        .last_chunk::<4>()?
+        .each_ref()
+        .map(|rung| rung.compared.error);
+    let orders = [0, 1, 2].map(|k| (last[k] / last[k + 1]).log2());
+    let steady = |order: &f64| *order > 0.5 && (order - orders[2]).abs() < 0.1;
+    orders.iter().all(steady).then_some(orders[2])
 }
 
 fn settings(problem: &LoadedProblem, mode: Mode) -> Vec<Setting> {
@@ -241,8 +261,8 @@ mod tests {
 
     const TOLERANCE: f64 = 1e-6;
 
-    /// A rung for each doubling: the angle by which a rod is off, which is its error too, and how long it took.
-    fn climbed(rungs: impl Fn(i32) -> (f64, f64)) -> Option<String> {
+    /// Fifteen rungs, one for each doubling: the angle by which a rod is off, which is its error too, and how long it took.
+    fn ladder(rungs: impl Fn(i32) -> (f64, f64)) -> Vec<Rung> {
         let rung = |k: i32| {
             let (error, seconds) = rungs(k);
             Rung {
@@ -260,13 +280,41 @@ mod tests {
                 took: Duration::from_secs_f64(seconds),
             }
         };
-        let rungs: Vec<_> = (0..15).map(rung).collect();
+        (0..15).map(rung).collect()
+    }
+
+    fn climbed(rungs: impl Fn(i32) -> (f64, f64)) -> Option<String> {
+        let rungs = ladder(rungs);
         (1..=rungs.len()).find_map(|k| hopeless(&rungs[..k], TOLERANCE, Duration::from_secs(60)))
     }
 
     /// Seconds in proportion to the steps.
     fn seconds(k: i32) -> f64 {
         2e-5 * 2f64.powi(k)
+    }
+
+    #[test]
+    fn a_steady_order_or_a_second_rung_tells_an_answer_from_a_chance_crossing() {
+        let asked = |error: &dyn Fn(i32) -> f64| {
+            let rungs = ladder(|k| (error(k), seconds(k)));
+            (1..=rungs.len()).find(|asked| reached(&rungs[..*asked], TOLERANCE))
+        };
+        // 0.3/16⁵ is within 10⁻⁶: the sixth rung. Where orders wander, one more.
+        assert_eq!(asked(&|k| 0.3 * 16f64.powi(-k)), Some(6));
+        assert_eq!(
+            asked(&|k| 0.3 * 16f64.powi(-k) * if k % 2 == 0 { 1.0 } else { 1.2 }),
+            Some(7)
+        );
+        // Zeros crossed by chance, among coarse and fine steps.
+        let crossing = |k: i32| {
+            if k == 2 || k == 8 {
+                0.0
+            } else {
+                0.3 * 2f64.powi(-k)
+            }
+        };
+        assert_eq!(asked(&crossing), None);
+        assert_eq!(asked(&|_| f64::NAN), None);
     }
 
     #[test]

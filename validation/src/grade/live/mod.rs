@@ -14,13 +14,15 @@ pub use program::{Asked, Program, Question};
 pub use signals::end_all;
 pub use studies::{Studies, studies};
 
-use crate::problems::{self, LoadedProblem, Table};
+use crate::problems::{self, LoadedProblem, ProblemDef, Table};
+use rayon::prelude::*;
 use std::path::PathBuf;
 
-/// The problems about free rods that this build has, as they would be exported.
-pub fn built_in() -> Result<Vec<LoadedProblem>, String> {
-    let rods = problems::free_rods();
-    rods.iter().map(problems::ProblemDef::build).map(loaded).collect()
+/// Problems about free rods that this build has, as they would be exported: those of the names that are wanted.
+pub fn built_in(wanted: impl Fn(&str) -> bool) -> Result<Vec<LoadedProblem>, String> {
+    let mut rods = problems::free_rods();
+    rods.retain(|def| wanted(def.name));
+    rods.par_iter().map(ProblemDef::build).map(loaded).collect()
 }
 
 fn loaded(built: problems::Built) -> Result<LoadedProblem, String> {
