@@ -1,9 +1,11 @@
 //! The catalogue of cases and equations, made from the registry: for the report and for `docs/catalogue.md`.
 
 use crate::case::About;
-use crate::report::{ReportEquation, equation_table, markdown_table};
+use crate::markup::cites_figure;
+use crate::report::{ReportEquation, Sections, equation_table, markdown_table};
 use crate::table::{ReportTable, words};
 use crate::{cases, equations};
+use std::ops::RangeInclusive;
 
 /// The catalogue as Markdown.
 pub fn markdown() -> String {
@@ -28,6 +30,23 @@ pub fn markdown() -> String {
         markdown_table(&equation_table(&equations())),
     )
 }
+
+/// Names beside each figure of the paper the cases that cite it. Other figures name theirs themselves.
+pub fn name_judges(sections: &mut Sections) {
+    let about: Vec<_> = cases::all().into_iter().map(|case| case.about).collect();
+    for figure in sections.figures_mut().filter(|figure| figure.cases.is_empty()) {
+        let shown: Vec<_> = FIGURES
+            .filter(|number| cites_figure(&figure.source, *number))
+            .collect();
+        let judges = about
+            .iter()
+            .filter(|about| shown.iter().any(|number| cites_figure(about.source, *number)));
+        figure.cases = judges.map(|about| about.name.into()).collect();
+    }
+}
+
+/// Those of the paper.
+const FIGURES: RangeInclusive<u32> = 1..=12;
 
 /// Every equation with the cases of the registry that test it.
 pub fn equations() -> Vec<ReportEquation> {

@@ -153,6 +153,7 @@ fn gather(effort: &Effort, quiet: bool) -> Result<Option<Sections>, Failure> {
             sections.add(ReportStudy::new(&study, found, start.elapsed().as_secs_f64()));
         }
     }
+    catalogue::name_judges(&mut sections);
     Ok(cluster::is_root().then_some(sections))
 }
 

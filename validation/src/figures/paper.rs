@@ -4,8 +4,6 @@ use super::amplitude::amplitude;
 use super::measured::measured;
 use super::run::{Run, Runs};
 use crate::case::Effort;
-use crate::cases;
-use crate::markup::cites_figure;
 use crate::oracle::closed_form;
 use crate::plot::{Curve, Figure, Points};
 use crate::report::ReportFigure;
@@ -24,16 +22,14 @@ pub(super) fn figures(runs: &Runs, effort: &Effort) -> Result<Vec<ReportFigure>,
     Ok(figures)
 }
 
-/// A figure of the paper, judged by every case whose source cites it.
-fn figure(name: &str, number: u32, source: &str, figure: Figure, caption: String) -> ReportFigure {
-    let judges = cases::all().into_iter().map(|case| case.about);
-    let judges = judges.filter(|about| cites_figure(about.source, number));
+/// A figure of the paper; the catalogue knows the cases that cite it.
+fn figure(name: &str, source: &str, figure: Figure, caption: String) -> ReportFigure {
     ReportFigure {
         name: name.into(),
         figure,
         caption,
         source: source.into(),
-        cases: judges.map(|about| about.name.into()).collect(),
+        cases: Vec::new(),
     }
 }
 
@@ -79,7 +75,7 @@ fn fig4(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
         "The oscillation of X̄₁ about a plateau dies out, faster where n is larger. The maxima stay at multiples of T/2. \
          {supplied}"
     );
-    Ok(figure("fig4", 4, "Fig. 4, eqs 4, 15", drawn, caption))
+    Ok(figure("fig4", "Fig. 4, eqs 4, 15", drawn, caption))
 }
 
 /// What Fig. 4 says in numbers.
@@ -115,7 +111,7 @@ fn fig5(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
         "The oscillations are damped out by t/T = 3, and X̄₁ stays where it is. X̄₃ still falls slowly and X̄₂ rises: the \
          orbits become steady later than the phases, and `steady-stays-put` judges what comes then. {supplied}"
     );
-    Ok(figure("fig5", 5, "Fig. 5, eqs 4, 11", drawn, caption))
+    Ok(figure("fig5", "Fig. 5, eqs 4, 11", drawn, caption))
 }
 
 /// X̄₁ of the three panels in one picture.
@@ -133,7 +129,7 @@ fn fig6_overlaid(runs: &Runs) -> Result<ReportFigure, String> {
     );
     let caption = "The spread of r_e alone, and collisions alone, damp the oscillation; free rods of one size keep it. The \
                    three panels below have all projections.";
-    Ok(figure("fig6", 6, "Fig. 6, eq. 4", drawn, caption.into()))
+    Ok(figure("fig6", "Fig. 6, eq. 4", drawn, caption.into()))
 }
 
 fn fig6(runs: &Runs) -> Result<Vec<ReportFigure>, String> {
@@ -157,7 +153,7 @@ fn fig6(runs: &Runs) -> Result<Vec<ReportFigure>, String> {
     let panel = |(scene, title, caption): (&str, &str, &str)| {
         let mut drawn = against_time(title.into(), PROJECTION, projections(runs.get(scene)?));
         drawn.y_span = Some((0.0, 1.0));
-        Ok(figure(scene, 6, "Fig. 6, eq. 4", drawn, caption.into()))
+        Ok(figure(scene, "Fig. 6, eq. 4", drawn, caption.into()))
     };
     panels.into_iter().map(panel).collect()
 }
@@ -220,7 +216,7 @@ fn amplitudes(runs: &Runs) -> Result<Vec<ReportFigure>, String> {
         let curves = scenes.iter().map(curve).collect::<Result<_, String>>()?;
         let drawn = against_time(format!("Fig. {number}: {title}"), AMPLITUDE, curves);
         let (name, source) = (format!("fig{number}"), format!("Fig. {number}"));
-        Ok(figure(&name, number, &source, drawn, caption.into()))
+        Ok(figure(&name, &source, drawn, caption.into()))
     };
     AMPLITUDES.into_iter().map(draw).collect()
 }
@@ -266,7 +262,7 @@ fn fig11(runs: &Runs) -> Result<ReportFigure, String> {
          towards π/2 for long rods. Each point is the mean over the last {STEADY_PERIODS} periods of ten, with its \
          95 % interval."
     );
-    Ok(figure("fig11", 11, "Fig. 11, eqs 18, 19, 20", drawn, caption))
+    Ok(figure("fig11", "Fig. 11, eqs 18, 19, 20", drawn, caption))
 }
 
 fn fig12(runs: &Runs) -> Result<ReportFigure, String> {
@@ -285,5 +281,5 @@ fn fig12(runs: &Runs) -> Result<ReportFigure, String> {
     drawn.y_span = Some((0.0, 1.0));
     let caption = "Rods lie along the flow most of the time: their shadows on the two planes that hold axis 2 are long, \
                    and the third oscillates most. The paper's figure shows typical results only.";
-    Ok(figure("fig12", 12, "Fig. 12, eq. 21", drawn, caption.into()))
+    Ok(figure("fig12", "Fig. 12, eq. 21", drawn, caption.into()))
 }

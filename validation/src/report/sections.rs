@@ -113,6 +113,12 @@ impl Sections {
         self.exhibits().filter_map(|exhibit| exhibit.figure.as_ref())
     }
 
+    /// All pictures, to be completed.
+    pub fn figures_mut(&mut self) -> impl Iterator<Item = &mut ReportFigure> {
+        let exhibits = self.studies.iter_mut().flat_map(|study| &mut study.exhibits);
+        exhibits.filter_map(|exhibit| exhibit.figure.as_mut())
+    }
+
     /// All tables.
     pub fn tables(&self) -> impl Iterator<Item = &ReportTable> {
         let of_studies = self.exhibits().filter_map(|exhibit| exhibit.table.as_ref());

@@ -29,6 +29,7 @@ static REPORT: LazyLock<Report> = LazyLock::new(|| {
         ..Default::default()
     };
     sections.add(ReportStudy::new(&figures::STUDY, drawn, 0.0));
+    catalogue::name_judges(&mut sections);
     let outcomes = chosen.map(|case| case.run(&effort)).collect();
     report::build(outcomes, sections, &effort, "shearbed validate".into())
 });
