@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use validation::fit::Range;
 use validation::fit::data::{Datum, TimeColumn};
+use validation::fit::likelihood::{EMULATOR, REPLICAS};
 use validation::fit::scenes::{AS_WRITTEN, Scenes, Set};
 use validation::fit::search::{Problem, Watch, search};
 use validation::scenes;
@@ -60,7 +61,9 @@ fn main() -> Result<(), String> {
     let truth = |k: usize| rows.iter().map(|row| row[k][0]).sum::<f64>() / TRUTH as f64;
     let truth: Vec<f64> = (0..POINTS).map(truth).collect();
     let law = ChiSquared::new((POINTS - 1) as f64).map_err(|error| error.to_string())?;
-    println!("repeat,alpha,u,low_68,high_68,low_95,high_95,p,replicas,runs");
+    println!(
+        "repeat,alpha,u,share_of_replicas,share_of_emulator,low_68,high_68,low_95,high_95,p,replicas,runs"
+    );
     let (mut inside, mut low_p) = ([0, 0], 0);
     for k in 0..repeats {
         let mut rng = Pcg64Dxsm::seed_from_u64(1000 + k);
@@ -92,7 +95,9 @@ fn main() -> Result<(), String> {
         let alpha = fit.values(&fit.best.place)[0];
         let [inner, outer] = ends;
         println!(
-            "{k},{alpha:.4},{u:.4},{:.4},{:.4},{:.4},{:.4},{p:.3},{},{}",
+            "{k},{alpha:.4},{u:.4},{:.3},{:.3},{:.4},{:.4},{:.4},{:.4},{p:.3},{},{}",
+            fit.best.share(REPLICAS),
+            fit.best.share(EMULATOR),
             inner.low,
             inner.high,
             outer.low,

@@ -34,11 +34,12 @@ Examples:
 pub(super) struct Args {
     /// A scene file, or the name of a built-in scene
     scene: OsString,
-    /// Measured points of SCENE; SCENE2=FILE.csv: points of another scene, fitted with the same parameters
+    /// Measured points of SCENE; SCENE2=FILE.csv: points of another scene, fitted with the same parameters, but for those of one set
     #[arg(long, value_name = "FILE.csv", required = true)]
     data: Vec<OsString>,
-    /// A key of the scene to fit, and the range to look in; up to three times
-    #[arg(long, value_name = "KEY=FROM:TO", required = true, value_parser = Range::parse)]
+    /// A key of the scene to fit, and the range to look in; up to three times. SET:KEY=FROM:TO: a value of its own for the scene
+    /// of the first, second, … --data
+    #[arg(long, value_name = "[SET:]KEY=FROM:TO", required = true, value_parser = Range::parse)]
     over: Vec<Range>,
     /// The folder for fit.json, tables and pictures [default: out/fit-<scene>]
     #[arg(long, value_name = "DIR")]

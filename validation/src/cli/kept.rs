@@ -12,7 +12,7 @@ use std::path::Path;
 const RECORDS: [(&str, &str); 5] = [
     (RUN, "a run"),
     (FIT, "a fit"),
-    ("sweep.json", "a sweep"),
+    (SWEEP, "a sweep"),
     ("converge.json", "a study of convergence"),
     ("report.json", "a report"),
 ];
@@ -21,6 +21,8 @@ const RECORDS: [(&str, &str); 5] = [
 pub(super) const RUN: &str = "run.json";
 /// The record of `fit`.
 pub(super) const FIT: &str = "fit.json";
+/// The record of `sweep`.
+const SWEEP: &str = "sweep.json";
 
 /// Refuses a folder that holds another scene's results, or those of another seed, number of replicas or version of the
 /// program. One without a record holds nothing that is known.
@@ -38,6 +40,18 @@ pub(super) fn check_run(out: &Path, plan: &Plan) -> Result<(), Failure> {
 /// The same for a fit, whose record holds what was `asked`.
 pub(super) fn check_fit(out: &Path, asked: &Value) -> Result<(), Failure> {
     check(out, FIT, asked, |_| "another fit is kept here".into())
+}
+
+/// Refuses a folder that holds the record of another command. Of another sweep the sweep itself knows.
+pub(super) fn check_sweep(out: &Path) -> Result<(), Failure> {
+    let foreign = |(name, _): &&(&str, &str)| *name != SWEEP && out.join(name).exists();
+    match RECORDS.iter().find(foreign) {
+        None => Ok(()),
+        Some((name, whose)) => Err(Failure::Input(format!(
+            "{}: {whose} is kept here; another --out leaves it; nothing was changed",
+            out.join(name).display()
+        ))),
+    }
 }
 
 /// Refuses a folder that holds the record of another command, or a `record` with other values under the keys of `own`.

@@ -1,6 +1,8 @@
 //! `shearbed sweep`.
 
-use super::{Failure, MAX_THREADS, agree, memory, on_threads, print, probe, progress, scene, tables, whole};
+use super::{
+    Failure, MAX_THREADS, agree, kept, memory, on_threads, print, probe, progress, scene, tables, whole,
+};
 use crate::cluster;
 use crate::output::Output;
 use crate::sweep::{self, Axis, Folder, Identity, Point, Points, Refused};
@@ -97,6 +99,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let open = || {
         let bytes = (points.iter()).map(|point| tables::most_bytes(&point.plan)).sum();
         probe(&out, bytes)?;
+        kept::check_sweep(&out)?;
         let points = Points {
             described: (points.iter())
                 .map(|point| sweep::described(&args.over, &point.values))

@@ -213,8 +213,8 @@ fn profile_of(fit: &Fit, axis: usize) -> (String, Figure) {
         level("95 %", outer),
     ];
     let figure = Figure {
-        title: format!("How far {} can go", range.key),
-        x_name: range.key.clone(),
+        title: format!("How far {} can go", range.label()),
+        x_name: range.label(),
         y_name: "χ² above its least".into(),
         curves,
         ..Figure::default()
@@ -235,9 +235,9 @@ fn region_of(fit: &Fit, axes: [usize; 2]) -> (String, Figure) {
     });
     let best = fit.values(&fit.best.place);
     let figure = Figure {
-        title: format!("{} and {} together", fit.ranges[a].key, fit.ranges[b].key),
-        x_name: fit.ranges[a].key.clone(),
-        y_name: fit.ranges[b].key.clone(),
+        title: format!("{} and {} together", fit.ranges[a].label(), fit.ranges[b].label()),
+        x_name: fit.ranges[a].label(),
+        y_name: fit.ranges[b].label(),
         curves: curves.into(),
         points: vec![Points {
             label: "best".into(),

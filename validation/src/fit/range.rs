@@ -1,4 +1,4 @@
-//! `KEY=FROM:TO`: a key of the scene and the range in which it is sought.
+//! `[SET:]KEY=FROM:TO`: a key of the scene and the range in which it is sought, for all sets of points or for one.
 
 use crate::sweep::key_and_text;
 use serde::Serialize;
@@ -11,6 +11,9 @@ const DECADE: f64 = 10.0;
 pub struct Range {
     /// As `interaction.alpha`.
     pub key: String,
+    /// The set of points whose scene alone has it, counted from 1; none where all scenes share it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub set: Option<usize>,
     /// The least value, in the unit of the key.
     pub from: f64,
     /// The most, above the least.
@@ -20,7 +23,17 @@ pub struct Range {
 impl Range {
     /// Reads what stands after `--over`.
     pub fn parse(text: &str) -> Result<Self, String> {
-        const SHAPE: &str = "KEY=FROM:TO is allowed, as interaction.alpha=0.05:5";
+        const SHAPE: &str = "KEY=FROM:TO is allowed, as interaction.alpha=0.05:5, and SET:KEY=FROM:TO with the number of a --data";
+        let (set, text) = match text.split_once(':') {
+            Some((set, rest)) if !set.contains('=') => {
+                let number = set.trim().parse().ok().filter(|number| *number > 0);
+                (
+                    Some(number.ok_or_else(|| format!("{set:?} is no set of points; {SHAPE}"))?),
+                    rest,
+                )
+            }
+            _ => (None, text),
+        };
         let (key, ends) = key_and_text(text, SHAPE)?;
         let (from, to) = (ends.split_once(':')).ok_or_else(|| format!("{ends:?} is no range; {SHAPE}"))?;
         let number = |text: &str| match text.trim().parse::<f64>() {
@@ -33,6 +46,7 @@ impl Range {
         match from < to {
             true => Ok(Self {
                 key: key.to_owned(),
+                set,
                 from,
                 to,
             }),
@@ -40,9 +54,22 @@ impl Range {
         }
     }
 
-    /// The last word of the key, for sentences.
-    pub fn name(&self) -> &str {
-        self.key.rsplit('.').next().unwrap_or(&self.key)
+    /// As it is given: `interaction.alpha`, `2:interaction.alpha`.
+    pub fn label(&self) -> String {
+        self.set
+            .map_or_else(|| self.key.clone(), |set| format!("{set}:{}", self.key))
+    }
+
+    /// The last word of the key, for sentences and names of files: `alpha`, `alpha_2`.
+    pub fn name(&self) -> String {
+        let last = self.key.rsplit('.').next().unwrap_or(&self.key);
+        self.set
+            .map_or_else(|| last.to_owned(), |set| format!("{last}_{set}"))
+    }
+
+    /// Whether the scene of this set, counted from 0, has it.
+    pub fn is_of(&self, set: usize) -> bool {
+        self.set.is_none_or(|own| own == set + 1)
     }
 
     /// Whether the range is covered evenly in the logarithm: both ends positive and a factor of ten apart.
@@ -93,6 +120,22 @@ mod tests {
     }
 
     #[test]
+    fn a_range_may_be_of_one_set() {
+        let of_all = Range::parse("interaction.alpha=0.05:5").unwrap();
+        let own = Range::parse("2:interaction.alpha=0.05:5").unwrap();
+        assert_eq!((own.set, own.key.as_str()), (Some(2), "interaction.alpha"));
+        assert_eq!(
+            (own.label().as_str(), own.name().as_str()),
+            ("2:interaction.alpha", "alpha_2")
+        );
+        assert_eq!([0, 1, 2].map(|set| own.is_of(set)), [false, true, false]);
+        assert_eq!(
+            (of_all.label().as_str(), of_all.is_of(7)),
+            ("interaction.alpha", true)
+        );
+    }
+
+    #[test]
     fn what_is_no_range_is_refused_with_what_is_allowed() {
         for (text, named) in [
             ("alpha", "KEY=FROM:TO"),
@@ -103,6 +146,8 @@ mod tests {
             ("a=1:2:3", "\"2:3\" is no end"),
             ("a=2:2", "FROM < TO"),
             ("a=3:2", "FROM < TO"),
+            ("0:a=1:2", "\"0\" is no set of points"),
+            ("x:a=1:2", "\"x\" is no set of points"),
         ] {
             let error = Range::parse(text).unwrap_err();
             assert!(error.contains(named), "{text}: {error}");

@@ -4,6 +4,7 @@ use super::budget::{self, Part, Residual, Shift};
 use super::data::Datum;
 use super::likelihood::{EMULATOR, REPLICAS};
 use super::profile::rise_of;
+use super::range::Range;
 use super::search::{Fit, MOST_SHARE};
 use crate::experiment::{Bias, bias};
 use nalgebra::DMatrix;
@@ -35,7 +36,7 @@ pub struct Estimate {
 /// Everything that a fit says.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
-    /// By the key of the scene.
+    /// By the key of the scene, `SET:KEY` where it is of one set alone.
     pub parameters: BTreeMap<String, Estimate>,
     /// The least χ².
     pub chi2: f64,
@@ -98,7 +99,7 @@ pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
                 range: [range.from, range.to],
                 ends_at_edge: outer.open,
             };
-            (range.key.clone(), estimate)
+            (range.label(), estimate)
         })
         .collect();
     let residuals = budget::residuals(fit, data);
@@ -117,7 +118,7 @@ pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
         chi2: fit.best.chi_square,
         degrees_of_freedom: freedom,
         p_value,
-        order: fit.ranges.iter().map(|range| range.key.clone()).collect(),
+        order: fit.ranges.iter().map(Range::label).collect(),
         covariance: rows(&covariance),
         correlation: rows(&correlation),
         budget: budget::parts(fit),
@@ -138,7 +139,7 @@ fn warnings(
 ) -> Vec<String> {
     let mut all = Vec::new();
     for range in &fit.ranges {
-        let found = &parameters[&range.key];
+        let found = &parameters[&range.label()];
         let ends = [
             (found.ends_at_edge[0], "lower", range.from),
             (found.ends_at_edge[1], "upper", range.to),
@@ -146,7 +147,7 @@ fn warnings(
         for (_, side, edge) in ends.into_iter().filter(|(open, ..)| *open) {
             all.push(format!(
                 "{}: its 95 % interval reaches the {side} end of its range, {edge}: the points do not say where it ends",
-                range.key
+                range.label()
             ));
         }
     }
@@ -156,8 +157,8 @@ fn warnings(
                 all.push(format!(
                     "{} and {}: these points hardly tell them apart (correlation {:.3}); points at other times or \
                      concentrations may",
-                    fit.ranges[j].key,
-                    fit.ranges[i].key,
+                    fit.ranges[j].label(),
+                    fit.ranges[i].label(),
                     correlation[(i, j)]
                 ));
             }
@@ -220,7 +221,7 @@ pub fn profiles_csv(fit: &Fit) -> Result<String, String> {
     for (axis, profile) in fit.profiles.iter().enumerate() {
         rows.extend(profile.place.iter().zip(&profile.rise).map(|(place, rise)| {
             vec![
-                fit.ranges[axis].key.clone(),
+                fit.ranges[axis].label(),
                 fit.value(axis, *place).to_string(),
                 rise.to_string(),
             ]

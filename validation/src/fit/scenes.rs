@@ -38,7 +38,7 @@ pub struct Variant {
 /// The scene as it is written.
 pub const AS_WRITTEN: Variant = Variant { steps: 1, rods: 1 };
 
-/// Several scenes with common parameters.
+/// Several scenes with parameters that they share or have each for itself.
 #[derive(Clone, Debug)]
 pub struct Scenes {
     /// The scenes.
@@ -92,13 +92,14 @@ impl Scenes {
         let fitted = self
             .ranges
             .iter()
-            .find(|range| range.key.starts_with("interaction."));
+            .find(|range| range.is_of(set) && range.key.starts_with("interaction."));
         match (fitted, apart(scene)) {
             (Some(range), Some(why)) => Err(format!(
                 "{}: --over {}: {why}: such rods do not disturb each other in this model, but by the error of a time step, and points of \
                  them say nothing of it. Lee & Springer leave such points out (r_e = 3.96; Results, after Fig. 5). Keys of particles \
                  and flow are allowed",
-                self.sets[set].source, range.key
+                self.sets[set].source,
+                range.label()
             )),
             _ => Ok(()),
         }
@@ -123,17 +124,19 @@ impl Scenes {
             seed,
             ..
         } = &self.sets[set];
-        let own = self.ranges.iter().zip(values).map(|(range, value)| Setting {
+        let own = || {
+            self.ranges
+                .iter()
+                .zip(values)
+                .filter(|(range, _)| range.is_of(set))
+        };
+        let fitted = own().map(|(range, value)| Setting {
             key: range.key.clone(),
             value: Value::Float(*value),
         });
-        let settings: Vec<_> = settings.iter().cloned().chain(own).collect();
+        let settings: Vec<_> = settings.iter().cloned().chain(fitted).collect();
         let said = || {
-            let pairs = self
-                .ranges
-                .iter()
-                .zip(values)
-                .map(|(range, value)| format!(" {}={value}", range.key));
+            let pairs = own().map(|(range, value)| format!(" {}={value}", range.label()));
             pairs.collect::<String>()
         };
         let mut scene = sweep::scene_with(text, &settings)

@@ -6,7 +6,7 @@ use super::search::Fit;
 /// The answer in one line for each parameter, and the goodness of fit.
 pub fn sentence(fit: &Fit, report: &Report) -> String {
     let parameter = |range: &super::Range| {
-        let found = &report.parameters[&range.key];
+        let found = &report.parameters[&range.label()];
         // Two digits of the uncertainty.
         let digits = decimals(found.standard_uncertainty);
         format!(

@@ -5,15 +5,17 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
-/// The mean curve of `small.toml` at α = 0.8, another seed than the fit's, with noise of 0.01 that is fixed: each point is
+/// The mean curve of `small.toml` at this α, another seed than the fit's, with noise of 0.01 that is fixed: each point is
 /// off by a Gaussian quantile, in an order without a pattern.
-fn points(dir: &Path) {
+fn points_of(dir: &Path, alpha: f64, file: &str) {
     let run = shearbed(
         dir,
-        "run small.toml --set interaction.alpha=0.8 --set time.outputs_per_period=20 --seed 7 --replicas 400 --out truth",
+        &format!(
+            "run small.toml --set interaction.alpha={alpha} --set time.outputs_per_period=20 --seed 7 --replicas 400 --out truth-{file}"
+        ),
     );
     assert_eq!(run.code, Some(0), "{}", run.stderr);
-    let mut csv = csv::Reader::from_path(dir.join("truth/projections.csv")).unwrap();
+    let mut csv = csv::Reader::from_path(dir.join(format!("truth-{file}/projections.csv"))).unwrap();
     let quantiles = [
         -1.6, -1.1, -0.8, -0.6, -0.5, -0.3, -0.2, -0.1, 0.1, 0.2, 0.3, 0.5, 0.6, 0.8, 1.1, 1.6, 0.0, 0.4,
         -0.4, 0.7,
@@ -28,7 +30,11 @@ fn points(dir: &Path) {
             x1 + 0.01 * quantiles[(7 * k + 3) % quantiles.len()]
         );
     }
-    fs::write(dir.join("points.csv"), text).unwrap();
+    fs::write(dir.join(file), text).unwrap();
+}
+
+fn points(dir: &Path) {
+    points_of(dir, 0.8, "points.csv");
 }
 
 fn json(path: &Path) -> Value {
@@ -135,6 +141,45 @@ fn two_sets_share_their_parameters() {
 }
 
 #[test]
+fn two_sets_have_values_of_their_own() {
+    let dir = folder();
+    points(dir.path());
+    points_of(dir.path(), 2.4, "more.csv");
+    let args = "fit small.toml --data points.csv --data small.toml=more.csv --over 1:interaction.alpha=0.1:10 \
+                --over 2:interaction.alpha=0.1:10 --replicas 50 --out own";
+    let done = shearbed(dir.path(), args);
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    assert!(
+        done.stdout.starts_with("alpha_1 = ") && done.stdout.contains("; alpha_2 = "),
+        "{}",
+        done.stdout
+    );
+    let record = json(&dir.path().join("own/fit.json"));
+    assert_eq!(record["degrees_of_freedom"], 38);
+    for (key, planted) in [("1:interaction.alpha", 0.8), ("2:interaction.alpha", 2.4)] {
+        let found = &record["parameters"][key];
+        let number = |key: &str| found[key].as_f64().unwrap();
+        // Correct code is outside four standard uncertainties at one seed in 16 000.
+        let off = (number("estimate") - planted).abs();
+        assert!(off < 4.0 * number("standard_uncertainty"), "{found}");
+    }
+    // Each set tells its own value, and the points of one say nothing of the other.
+    let apart = record["parameters"]["2:interaction.alpha"]["low_95"].as_f64();
+    assert!(
+        apart > record["parameters"]["1:interaction.alpha"]["high_95"].as_f64(),
+        "{record:#}"
+    );
+    for file in [
+        "profile_alpha_1.svg",
+        "profile_alpha_2.svg",
+        "points_2.svg",
+        "region_alpha_1_alpha_2.svg",
+    ] {
+        assert!(dir.path().join("own").join(file).is_file(), "{file}");
+    }
+}
+
+#[test]
 fn bad_input_ends_with_two_and_leaves_nothing() {
     let dir = folder();
     fs::write(
@@ -211,6 +256,14 @@ fn bad_input_ends_with_two_and_leaves_nothing() {
         (
             format!("{good} --over interaction.alpha=0.1:1 --rods 0"),
             "a whole number from 1",
+        ),
+        (
+            format!("{good} --over interaction.alpha=0.1:1 --over 1:interaction.alpha=0.1:2"),
+            "both set it",
+        ),
+        (
+            format!("{good} --over 2:interaction.alpha=0.1:1"),
+            "there is no set 2; --data is given 1 times",
         ),
         (good.into(), "--over"),
     ] {

@@ -332,6 +332,19 @@ fn runs_and_fits_leave_each_others_folders_alone() {
         "run",
         "run/run.json: a run is kept here",
     );
+    let sweep = "sweep small.toml --over interaction.alpha=0.1,0.2 --quiet --out";
+    unchanged(
+        dir.path(),
+        &format!("{sweep} run"),
+        "run",
+        "run/run.json: a run is kept here; another --out",
+    );
+    unchanged(
+        dir.path(),
+        &format!("{sweep} fit"),
+        "fit",
+        "fit/fit.json: a fit is kept here; another --out",
+    );
     // The same fit again is no other one; another one is.
     assert_eq!(shearbed(dir.path(), &format!("{fit} --out fit")).code, Some(0));
     let another = "fit/fit.json: another fit is kept here; ";

@@ -33,17 +33,19 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
             args.over.len()
         )));
     }
-    let over = args.over.iter().map(|range| ("--over", range.key.as_str()));
-    let set = args
-        .settings
-        .iter()
-        .map(|setting| ("--set", setting.key.as_str()));
-    let mut owners: Vec<_> = over.chain(set).collect();
-    if args.seed.is_some() {
-        owners.push(("--seed", "ensemble.seed"));
+    for set in 0..args.data.len() {
+        one_owner(args, set)?;
     }
-    sweep::one_owner(&owners).map_err(Failure::Input)?;
-    for Range { key, .. } in &args.over {
+    for range in &args.over {
+        if let Some(none) = range.set.filter(|set| *set > args.data.len()) {
+            return Err(Failure::Input(format!(
+                "--over {}: there is no set {none}; --data is given {} times, and 1 to {} are allowed",
+                range.label(),
+                args.data.len(),
+                args.data.len()
+            )));
+        }
+        let key = &range.key;
         if let Some(table) = NOT_FITTED
             .iter()
             .find(|table| key.split('.').next() == Some(table))
@@ -101,6 +103,19 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
         files,
         stem,
     })
+}
+
+/// That each key of a set's scene is set by one flag.
+fn one_owner(args: &Args, set: usize) -> Result<(), Failure> {
+    let over = args.over.iter().filter(|range| range.is_of(set));
+    let over = over.map(|range| ("--over", range.key.as_str()));
+    let given = args
+        .settings
+        .iter()
+        .map(|setting| ("--set", setting.key.as_str()));
+    let seed = args.seed.map(|_| ("--seed", "ensemble.seed"));
+    let owners: Vec<_> = over.chain(given).chain(seed).collect();
+    sweep::one_owner(&owners).map_err(Failure::Input)
 }
 
 /// `FILE` belongs to the scene of the command, `SCENE2=FILE` to another. What exists as a file is one, whatever its name.
