@@ -64,7 +64,8 @@ fn run(extent: &Extent) -> Result<Option<Found>, String> {
     Ok(Some(Found {
         answer: answer + &finest.map_or(String::new(), told),
         exhibits: vec![
-            Exhibit::both(show::figure(&rows, amount.finer), table),
+            Exhibit::both(show::against_concentration(&rows, amount.finer), table),
+            show::figure(&rows, amount.finer).into(),
             Exhibit {
                 figure: jumped,
                 table: Some(tail),
