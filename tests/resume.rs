@@ -1,6 +1,7 @@
 //! A replica that was stopped and gone on from gives the bits of one that was not.
 
 use serde_json::{Value, json};
+use shearbed::ensemble::Tally;
 use shearbed::resume::Halfway;
 use shearbed::run::{Replica, go_on, run_replica};
 use shearbed::work::RunError;
@@ -134,5 +135,55 @@ fn what_is_of_no_replica_of_the_plan_is_refused() {
         spoil(&mut state);
         let cause = refused(&plans[0], state);
         assert!(cause.contains(word), "{word}: {cause}");
+    }
+}
+
+#[test]
+fn replicas_and_tallies_of_other_scenes_are_refused() {
+    let steps = "periods = 0.5\nsteps_per_period = 100\noutputs_per_period = 10";
+    let plan = plan(40, COUETTE, DENSE, steps, 3);
+    type Spoil = fn(&mut Value);
+    let shorter: Spoil = |sums| drop(sums.as_array_mut().unwrap().pop());
+
+    let replica = run_replica(&plan, 0).unwrap();
+    assert_eq!(replica.check(&plan), Ok(()));
+    let spoilt: [(&str, Spoil); 3] = [
+        ("sums", shorter),
+        ("rods", |rods| *rods = json!(41)),
+        ("observables", |all| *all = json!(["projections"])),
+    ];
+    for (key, spoil) in spoilt {
+        let mut other = serde_json::to_value(&replica).unwrap();
+        spoil(&mut other[key]);
+        let other: Replica = serde_json::from_value(other).unwrap();
+        assert_eq!(
+            other.check(&plan),
+            Err("its sums are not those of this scene"),
+            "{key}"
+        );
+    }
+
+    let mut tally = Tally::new(&plan);
+    (0..3).for_each(|k| tally.add(run_replica(&plan, k).unwrap()));
+    assert_eq!(tally.check(&plan), Ok(()));
+    let lengths = "its means are not those of this scene";
+    let spoilt: [(&str, Spoil, &str); 5] = [
+        ("mean", shorter, lengths),
+        ("deviation", shorter, lengths),
+        ("over_rods", shorter, lengths),
+        ("replicas", |replicas| *replicas = json!(4), lengths),
+        (
+            "deviation",
+            |all| all[3] = json!(-1.0),
+            "a mean in it is no number",
+        ),
+    ];
+    for (key, spoil, cause) in spoilt {
+        let mut other = serde_json::to_value(&tally).unwrap();
+        // What the scene has no use for is NaN, which JSON does not hold.
+        other["over_rods"] = json!(vec![0.0; other["mean"].as_array().unwrap().len()]);
+        spoil(&mut other[key]);
+        let other: Tally = serde_json::from_value(other).unwrap();
+        assert_eq!(other.check(&plan), Err(cause), "{key}");
     }
 }
