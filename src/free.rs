@@ -28,8 +28,13 @@ pub(crate) enum Way {
     Alike(Vec<[f64; 3]>),
     /// All rods are alike: the map to each output, periodically.
     Maps(Vec<Matrix3<f64>>),
-    /// A propagator for each rod, or one where they are alike; spans to each output, and the propagator that has their periods.
-    Each { mean: Box<Propagator>, spans: Vec<Span> },
+    /// A propagator for each rod, or one where they are alike; spans to each output, the propagator that has their periods, and the
+    /// relative error of the components of the starts.
+    Each {
+        mean: Box<Propagator>,
+        spans: Vec<Span>,
+        rounding: f64,
+    },
 }
 
 impl FreeMotion {
@@ -55,18 +60,31 @@ impl FreeMotion {
             for r in [r * (1.0 - spread), r, r * (1.0 + spread)] {
                 let propagator = Propagator::general(flow, r);
                 let errors = at_each(scene, &self::spans(scene), |span| {
-                    let error = match start {
-                        Some(start) => propagator.moved_beside(&mean, start.into_inner().into(), span)?.1,
-                        None => propagator.map_beside(&mean, span)?.1,
+                    let Some(start) = start else {
+                        return Some(((), propagator.map_beside(&mean, span)?.1, 0.0));
                     };
-                    Some(((), error, 0.0))
+                    let error = |rounding: f64| {
+                        let p = start.into_inner().into();
+                        Some(propagator.moved_beside(&mean, p, rounding, span)?.1)
+                    };
+                    let all = error(ROUNDING_OF_START)?;
+                    Some(((), all, all - error(0.0)?))
                 })?;
                 error_rad = error_rad.max(errors.1);
             }
             let mean = Box::new(Propagator::new(flow, r));
             let spans = self::spans(scene);
+            // Random starts are the doubles that were drawn.
+            let rounding = match particles.orientation {
+                Orientation::Random(_) => 0.0,
+                Orientation::Given { .. } | Orientation::Each { .. } => ROUNDING_OF_START,
+            };
             return Ok(Self {
-                way: Way::Each { mean, spans },
+                way: Way::Each {
+                    mean,
+                    spans,
+                    rounding,
+                },
                 error_rad,
             });
         }

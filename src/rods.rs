@@ -147,7 +147,11 @@ impl Rods {
                     let map = &maps[tick as usize % maps.len()];
                     block.turn(from, |_, p, _| mapped(map, p));
                 }
-                Way::Each { mean, spans } => {
+                Way::Each {
+                    mean,
+                    spans,
+                    rounding,
+                } => {
                     let span = spans[tick as usize];
                     let of_rod = |rod: usize| match &propagators[..] {
                         [all] => all,
@@ -155,7 +159,7 @@ impl Rods {
                     };
                     block.turn(from, |k, p, _| {
                         // No direction rather than one that is not known: a run with one is refused.
-                        match of_rod(first + k).moved_beside(mean, p, span) {
+                        match of_rod(first + k).moved_beside(mean, p, *rounding, span) {
                             Some((end, error)) if error <= MAX_ERROR_RAD => end,
                             _ => [f64::NAN; 3],
                         }

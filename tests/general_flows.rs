@@ -5,7 +5,9 @@ use proptest::test_runner::{Config, RngSeed};
 use shearbed::flow::VelocityGradient;
 use shearbed::orientation::from_degrees;
 use shearbed::propagator::{Propagator, Span};
+use shearbed::scene::Orientation;
 use shearbed::{Plan, ensemble, scene_file};
+use std::sync::Arc;
 
 fn scene(rows: [[f64; 3]; 3], r: f64, sd: f64, orientation: &str, time: &str) -> String {
     format!(
@@ -88,6 +90,49 @@ proptest! {
     fn any_gradient_of_mixed_sizes_ends_or_is_refused(scene in scenes(component())) {
         ends_or_is_refused(&scene);
     }
+}
+
+/// Stretched along (1, 1, 0), a rod that starts at a right angle to it is on one side of the dividing plane or on the other by a
+/// rounding.
+#[test]
+fn a_start_on_a_dividing_plane_is_refused_however_it_is_given() {
+    let rows = [[0.25, 0.75, 0.0], [0.75, 0.25, 0.0], [0.0, 0.0, -0.5]];
+    let told = |sd: f64, start: &str, strain: f64| {
+        let time = format!("strain = {strain}\noutputs_per_strain = 1");
+        scene_file::parse("s.toml", &scene(rows, 11.6, sd, start, &time))
+    };
+    let start = "{ phi_deg = 135, theta_deg = 90 }";
+    for sd in [0.0, 1.0] {
+        let error = told(sd, start, 100.0).unwrap_err().to_string();
+        let cause = "the start is a double, and this flow tells apart what a double cannot";
+        assert!(error.contains(cause), "{sd}: {error}");
+        assert!(told(sd, start, 5.0).is_ok(), "{sd}");
+        // Random starts are the doubles that were drawn.
+        let random = Plan::new(&told(sd, "\"isotropic\"", 100.0).unwrap()).unwrap();
+        assert!(ensemble::run(&random, || ()).is_ok(), "{sd}");
+
+        let mut given = told(sd, "\"isotropic\"", 100.0).unwrap();
+        let (sine, cosine) = (135f64.to_radians().sin(), 135f64.to_radians().cos());
+        given.particles.orientation = Orientation::Each {
+            file: "start.csv".into(),
+            crc32: None,
+            p: Some(Arc::new([vec![cosine; 3], vec![sine; 3], vec![0.0; 3]])),
+        };
+        let refused = Plan::new(&given).map(|plan| ensemble::run(&plan, || ()));
+        assert!(!matches!(refused, Ok(Ok(_))), "{sd}");
+    }
+}
+
+/// Rates that are 200 orders apart: it is not the start that is at fault.
+#[test]
+fn rates_beyond_all_digits_are_refused_as_such() {
+    let rows = [[0.0, 1e200, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    let text = scene(rows, 1e91, 0.0, "\"isotropic\"", "periods = 2");
+    let error = scene_file::parse("s.toml", &text).unwrap_err().to_string();
+    assert!(
+        error.contains("the flow's rates cancel, or grow apart"),
+        "{error}"
+    );
 }
 
 /// The flow on which an eigenvalue solver hung.

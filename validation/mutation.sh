@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Mutation testing of the core: cargo-mutants changes one place at a time. The core's own tests judge each mutant first; the
-# gate (minutes each) judges those that they miss. Prints what neither catches and docs/strength.md does not explain; exit 2 then.
+# suite's (minutes each) judge those that they miss. Prints what neither catches and docs/strength.md does not explain; exit 2 then.
 # Usage: bash validation/mutation.sh [OPTIONS OF cargo mutants]
 #   all of it, some 20 hours on two cores:      bash validation/mutation.sh
 #   one mutant of 24, an even sample:           bash validation/mutation.sh --sharding round-robin --shard 7/24
@@ -14,7 +14,7 @@ fi
 cd "$(dirname "$0")/.."
 out=target/mutation
 rm -rf "$out"
-mkdir -p "$out"/{own,gate}
+mkdir -p "$out"/{own,suite}
 
 # Exit 2 and 3 are mutants that were missed or ran too long: no failure of the run itself.
 mutants() {
@@ -30,14 +30,14 @@ again=()
 while read -r name; do
   again+=(--re "^$(sed 's/[][\.*+?(){}|^$]/\\&/g' <<<"$name")\$")
 done <"$out/own/mutants.out/missed.txt"
-mutants --output "$out/gate" --baseline skip --timeout 600 --test-package shearbed-suite "${again[@]}" -- --test gate
+mutants --output "$out/suite" --baseline skip --timeout 600 --test-package shearbed-suite "${again[@]}" -- --lib --test gate --test program
 
 # A place moves with the lines above it; the file, what is replaced and the function do not.
 without_place() { sed -E 's/^([^:]+):[0-9]+:[0-9]+: /\1: /'; }
 sed -n 's/^- `\(src\/.*\)`: .*/\1/p' docs/strength.md >"$out/explained.txt"
-missed=$(without_place <"$out/gate/mutants.out/missed.txt" | grep -vxFf "$out/explained.txt" || true)
+missed=$(without_place <"$out/suite/mutants.out/missed.txt" | grep -vxFf "$out/explained.txt" || true)
 if [ -n "$missed" ]; then
   printf 'mutation: caught by no test:\n%s\n' "$missed"
   exit 2
 fi
-echo "mutation: what the core's own tests missed, the gate caught, or docs/strength.md explains"
+echo "mutation: what the core's own tests missed, the suite's caught, or docs/strength.md explains"

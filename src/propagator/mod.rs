@@ -154,16 +154,29 @@ impl Propagator {
     }
 
     /// The direction of a rod in the flow of `mean` that started along `p`, and the bound on its error; the span's periods
-    /// are those of `mean`. `None` where it has none.
-    pub(crate) fn moved_beside(&self, mean: &Self, p: [f64; 3], span: Span) -> Option<([f64; 3], f64)> {
+    /// are those of `mean`. `rounding` is the relative error of each component of the start. `None` where it has none.
+    pub(crate) fn moved_beside(
+        &self,
+        mean: &Self,
+        p: [f64; 3],
+        rounding: f64,
+        span: Span,
+    ) -> Option<([f64; 3], f64)> {
         match &self.0 {
             Motion::General(general) => {
                 let time = time_beside(general, mean, span)?;
-                Some(normalized(&general.moved(&general.modes_from(p), p, time)))
+                let modes = general.modes_from(p);
+                let q = general.moved(&modes, p, time);
+                if rounding == 0.0 {
+                    return Some(normalized(&q));
+                }
+                let end = moved(&general.map_of(&modes, time), &q, p);
+                Some((end.p.into_inner().into(), end.error + rounding * end.condition))
             }
             Motion::Couette { aspect_ratio, .. } => {
                 let (phase, error) = self.phase(span)?;
-                Some((couette(p, *aspect_ratio, phase), error))
+                let condition = aspect_ratio.max(1.0 / aspect_ratio);
+                Some((couette(p, *aspect_ratio, phase), error + rounding * condition))
             }
         }
     }

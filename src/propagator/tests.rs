@@ -97,6 +97,23 @@ fn a_pure_rotation_has_the_period_of_its_vorticity() {
     assert!((period / (2.0 * TAU) - 1.0).abs() < 1e-14);
 }
 
+/// A sphere turns by Gt/2, whose sine and cosine the library has to the last digit.
+#[test]
+fn the_bound_on_a_phase_is_kept_and_nearly_reached() {
+    let propagator = Propagator::new(&VelocityGradient::plane_couette(1.0).unwrap(), 1.0);
+    let start = orientation::from_degrees(0.0, 90.0);
+    let (mut worst, mut least_room) = (0.0f64, f64::INFINITY);
+    for k in 0..1000 {
+        let time_s = 1e7 * (1.0 + 0.618_033_988_749_895 * f64::from(k));
+        let moved = propagator.moved(&start, Span::Seconds(time_s)).unwrap();
+        let (sine, cosine) = (0.5 * time_s).sin_cos();
+        let off = (moved.p.x * sine - moved.p.y * cosine).abs();
+        worst = worst.max(off / moved.error);
+        least_room = least_room.min(moved.error - off);
+    }
+    assert!(least_room >= 0.0 && worst > 0.05, "{least_room:e} {worst}");
+}
+
 #[test]
 fn a_phase_of_1e8_periods_is_not_lost() {
     let p = orientation::from_angles(0.2, 0.9);
