@@ -123,6 +123,29 @@ fn a_start_on_a_dividing_plane_is_refused_however_it_is_given() {
     }
 }
 
+/// The rounding of a start grows by the longer of r_e and 1/r_e in plane Couette flow.
+#[test]
+fn a_rounded_start_of_extreme_rods_is_answered_as_far_as_it_is_known() {
+    let rows = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
+    for (r, known) in [(1e8, true), (1e-8, true), (1e10, false), (1e-10, false)] {
+        let text = scene(
+            rows,
+            r,
+            0.0,
+            "\"isotropic\"",
+            "strain = 2\noutputs_per_strain = 2",
+        );
+        let mut scene = scene_file::parse("s.toml", &text).unwrap();
+        scene.particles.orientation = Orientation::Each {
+            file: "start.csv".into(),
+            crc32: None,
+            p: Some(Arc::new([vec![0.6; 3], vec![0.0; 3], vec![0.8; 3]])),
+        };
+        let plan = Plan::new(&scene).unwrap();
+        assert_eq!(ensemble::run(&plan, || ()).is_ok(), known, "{r:e}");
+    }
+}
+
 /// Rates that are 200 orders apart: it is not the start that is at fault.
 #[test]
 fn rates_beyond_all_digits_are_refused_as_such() {
