@@ -30,6 +30,8 @@ again=()
 while read -r name; do
   again+=(--re "^$(sed 's/[][\.*+?(){}|^$]/\\&/g' <<<"$name")\$")
 done <"$out/own/mutants.out/missed.txt"
+# Of cargo-mutants 27.1, --re lets all deleted fields through.
+grep -q 'delete field' "$out/own/mutants.out/missed.txt" || again+=(--exclude-re 'delete field')
 mutants --output "$out/suite" --baseline skip --timeout 600 --test-package shearbed-suite "${again[@]}" -- --lib --test gate --test program
 
 # A place moves with the lines above it; the file, what is replaced and the function do not.
