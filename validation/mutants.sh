@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Puts deliberate mistakes into the core and the integrators, one at a time in a scratch clone, and prints which tests catch each.
+# What cargo-mutants makes of itself, an operator for another, is left to mutation.sh.
 # Usage: bash validation/mutants.sh [NAME ...]      (each mistake costs a build and a run of the gate)
 set -euo pipefail
 root=$(git -C "$(dirname "$0")" rev-parse --show-toplevel)
@@ -13,12 +14,10 @@ export CARGO_TARGET_DIR="$scratch/target"
 mistakes=$(cat <<'LIST'
 shape-factor-one@@src/jeffery.rs@@(aspect_ratio - inverse) / (aspect_ratio + inverse)@@1.0 + 0.0 * inverse
 period-without-inverse@@src/jeffery.rs@@TAU * (aspect_ratio + 1.0 / aspect_ratio)@@TAU * aspect_ratio
-couette-sign@@src/propagator/mod.rs@@let q1 = p[0] * phase.cos - p[1]@@let q1 = p[0] * phase.cos + p[1]
 phase-of-collided-rod@@src/rods.rs@@let phase = clock.phase(self.elapsed(rod, tick), clock.periods(&self.shapes, r));@@let phase = clock.phase(tick as f64, clock.periods(&self.shapes, r));
 orbit-constant@@src/orientation.rs@@let in_plane = libm::hypot(p[0], p[1] / aspect_ratio);@@let in_plane = libm::hypot(p[0], p[1] * aspect_ratio);
 isotropic-angle@@src/orientation.rs@@1.0 - 2.0 * r5,@@1.0 - r5,
 arm-sign@@src/contact.rs@@separation.dot(&p_a.cross(&normal)) / square@@-separation.dot(&p_a.cross(&normal)) / square
-kick-sign@@src/collision.rs@@rates[0] + line * (0.5 * gap / arm_a)@@rates[0] - line * (0.5 * gap / arm_a)
 sum-for-mean@@src/collision.rs@@rates[1] - line * (0.5 * gap / arm_b)@@rates[1] - line * (gap / arm_b)
 printed-a13@@src/collision.rs@@(-rate.x * sin_phi + rate.y * cos_phi) / sin_theta@@(-rate.x * sin_phi + rate.y * cos_phi)
 reach-without-m@@src/collision.rs@@alpha * libm::expm1(-libm::log(r) / m)@@alpha * libm::expm1(-libm::log(r) / 3.0)
@@ -32,15 +31,11 @@ deviation-not-percent@@src/rods.rs@@let deviation = mean * particles.aspect_rati
 signed-projection@@src/observable.rs@@sum.add_each(block.len, |i| p[i].abs())@@sum.add_each(block.len, |i| p[i])
 standard-error@@src/ensemble.rs@@(self.deviation[k] / (replicas - 1.0) / replicas).sqrt()@@(self.deviation[k] / (replicas - 1.0)).sqrt()
 flow-rate-of-a@@src/jeffery.rs@@half * (shape_factor - 1.0) * p.y@@half * (shape_factor + 1.0) * p.y
-rate-of-p3@@src/jeffery.rs@@        -stretch * p.z,@@        stretch * p.z,
 folded-angle@@src/orientation.rs@@libm::atan2(p2.abs(), p1.abs())@@libm::atan2(p1.abs(), p2.abs())
 positions-half-full@@src/volume.rs@@*x = self.side * rng.random::<f64>();@@*x = 0.5 * self.side * rng.random::<f64>();
 overshoot@@src/volume.rs@@let overshoot = x2.rem_euclid(self.side);@@let overshoot = self.side * rng.random::<f64>();
 volume-side@@src/volume.rs@@libm::cbrt(count as f64 / per_cubed_length)@@(count as f64 / per_cubed_length).sqrt()
-collide-where-not@@src/suspension.rs@@if nearest.square < self.reach.of@@if nearest.square > self.reach.of
 planar-projection@@src/observable.rs@@zip([(p1, p2), (p2, p3), (p1, p3)])@@zip([(p1, p2), (p1, p3), (p2, p3)])
-angle-update@@src/collision.rs@@from_angles(phi + phi_rate * time, theta + theta_rate * time)@@from_angles(phi + phi_rate * time, theta - theta_rate * time)
-turn-sign@@src/collision.rs@@let turned = p.as_ref() * cos + rate * (sin / speed);@@let turned = p.as_ref() * cos - rate * (sin / speed);
 normal-part-changed@@src/collision.rs@@rates[0] + line * (0.5 * gap / arm_a)@@rates[0] * 0.9 + line * (0.5 * gap / arm_a)
 mean-over-one-rod-less@@src/ensemble.rs@@let value = sum.value / n;@@let value = sum.value / (n - 1.0);
 direction-not-rescaled@@src/propagator/mod.rs@@let scale = 1.0 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2]).sqrt();@@let scale = 1.0 + 0.0 * q[0];
