@@ -40,6 +40,7 @@ pub mod suspensions;
 pub mod sweep;
 pub mod table;
 mod text;
+pub mod tried;
 pub mod work_precision;
 #[cfg(test)]
 mod xml;

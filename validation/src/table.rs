@@ -187,6 +187,17 @@ pub fn of_words(
     }
 }
 
+/// The cells of a table in Markdown, its head first, without the line below that.
+pub fn rows_of_markdown(text: &str) -> impl Iterator<Item = Vec<String>> {
+    let lines = text
+        .lines()
+        .filter(|line| line.starts_with('|') && !line.starts_with("| ---"));
+    lines.map(|line| {
+        let cells = line.trim_matches('|').split(" | ");
+        cells.map(|cell| cell.trim().to_owned()).collect()
+    })
+}
+
 impl ReportTable {
     /// A row for each record.
     pub fn new<R>(

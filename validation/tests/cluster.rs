@@ -181,22 +181,21 @@ fn a_killed_job_is_gone_on_with_by_one_process() {
 fn other_ranks_need_the_scene_and_write_nothing() {
     let [root, others] = [folder(), folder()];
     let folder = others.path().display().to_string();
-    for command in [
-        "run small.toml",
-        "sweep small.toml --over interaction.alpha=1,2,3",
-        "converge small.toml",
+    for (command, written) in [
+        ("run small.toml", "run.json"),
+        ("sweep small.toml --over interaction.alpha=1,2,3", "sweep.csv"),
+        ("converge small.toml", "converge.csv"),
     ] {
-        let rank = format!("shearbed {command} --out x --threads 1");
+        let rank = format!("shearbed {command} --out {written}-x --threads 1");
         let job = mpirun(root.path(), &format!("-n 1 {rank} : -n 2 -wdir {folder} {rank}"))
             .output()
             .unwrap();
         assert!(job.status.success(), "{}", text(&job.stderr));
+        let written = root.path().join(format!("{written}-x")).join(written);
+        assert!(written.exists(), "{}", written.display());
     }
     let names: Vec<_> = files(others.path()).into_keys().collect();
     assert_eq!(names, ["long.toml", "one.toml", "small.toml"]);
-    for name in ["run.json", "sweep.csv", "converge.csv"] {
-        assert!(root.path().join("x").join(name).exists(), "{name}");
-    }
 }
 
 #[test]

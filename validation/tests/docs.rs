@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::process::Command;
-use validation::{dependencies, scene_keys, scenes};
+use validation::{dependencies, scene_keys, scenes, tried};
 
 /// Compares a committed file with what is made now, or writes it.
 fn fresh(file: &str, expected: &str) {
@@ -74,6 +74,18 @@ fn asked_for(manifest: &str) -> BTreeMap<String, &'static str> {
 #[test]
 fn the_page_of_dependencies_is_the_programs() {
     fresh("../docs/dependencies.md", dependencies::DOCUMENT);
+}
+
+#[test]
+fn the_report_and_the_page_say_the_same_of_what_was_tried() {
+    let page =
+        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/strength.md")).unwrap();
+    assert!(
+        page.contains(tried::DOCUMENT),
+        "docs/strength.md begins with the table of validation/src/tried.md"
+    );
+    let table = tried::table();
+    assert!(table.rows.len() > 5 && table.rows.iter().all(|row| row.len() == table.columns.len()));
 }
 
 #[test]

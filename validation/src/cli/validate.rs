@@ -7,7 +7,7 @@ use crate::case::{Case, Effort, GATE_SEED, Outcome};
 use crate::report::{self, ReportStudy, Row, Sections};
 use crate::studies::{self, Extent};
 use crate::text::command;
-use crate::{catalogue, cluster, dependencies, experiment, figures, output};
+use crate::{catalogue, cluster, dependencies, experiment, figures, output, tried};
 use serde_json::json;
 use shearbed::scene::MAX_SEED;
 use std::io::Write;
@@ -129,7 +129,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
 fn gather(effort: &Effort, quiet: bool) -> Result<Option<Sections>, Failure> {
     let mut sections = Sections {
         equations: catalogue::equations(),
-        tables: vec![dependencies::table()],
+        tables: vec![tried::table(), dependencies::table()],
         ..Default::default()
     };
     for study in studies::ALL {

@@ -132,7 +132,7 @@ fn a_synthetic_experiment_of_half_is_accepted() {
 
 #[test]
 fn a_synthetic_experiment_of_one_is_rejected() {
-    let data = okagawa(&["fig4-n50", "fig4-n100"], 1.0);
+    let data = okagawa(&["fig4-n50"], 1.0);
     let (code, text, report) = validate("okagawa-mason-1973", Some(data.path()));
     assert_eq!(code, Some(1), "{text}");
     assert_eq!(report["summary"]["fail"], 1);
