@@ -44,8 +44,3 @@ pub mod tried;
 pub mod work_precision;
 #[cfg(test)]
 mod xml;
-
-/// The example in CONTRIBUTING.md is run as a test.
-#[cfg(doctest)]
-#[doc = include_str!("../../CONTRIBUTING.md")]
-pub struct Contributing;

@@ -130,7 +130,7 @@ pub(super) fn against_concentration(rows: &[Row], finer: u64) -> ReportFigure {
             ..Default::default()
         },
         caption: format!(
-            "Steady C_I with 95 % intervals, at {finer} times the default's time steps, on which it depends. It grows about as (n a³)^½, falls \
+            "Steady C_I with 95 % intervals, at {finer} times the default's time steps, on which it depends. It grows about as the square root of n a³, falls \
              with r_e and grows nearly in proportion to α."
         ),
         source: "Folgar & Tucker 1984; eqs 5 to 10".into(),

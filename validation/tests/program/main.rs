@@ -5,7 +5,10 @@ mod common;
 
 mod certified;
 mod checkpoint;
+mod contributing;
 mod ending;
+#[rustfmt::skip]
+mod example_case;
 mod experiments;
 mod fit;
 mod folders;
