@@ -145,8 +145,8 @@ fn two_sets_have_values_of_their_own() {
     let dir = folder();
     points(dir.path());
     points_of(dir.path(), 2.4, "more.csv");
-    let args = "fit small.toml --data points.csv --data small.toml=more.csv --over 1:interaction.alpha=0.1:10 \
-                --over 2:interaction.alpha=0.1:10 --replicas 50 --out own";
+    let args = "fit small.toml --data points.csv --data small.toml=more.csv --over 1:interaction.alpha=0.4:1.4 \
+                --over 2:interaction.alpha=1.2:4.8 --replicas 20 --out own";
     let done = shearbed(dir.path(), args);
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     assert!(
