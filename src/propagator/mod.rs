@@ -175,8 +175,12 @@ impl Propagator {
             }
             Motion::Couette { aspect_ratio, .. } => {
                 let (phase, error) = self.phase(span)?;
-                let condition = aspect_ratio.max(1.0 / aspect_ratio);
-                Some((couette(p, *aspect_ratio, phase), error + rounding * condition))
+                // Random directions are judged by the map alone.
+                let condition = match rounding {
+                    0.0 => 1.0,
+                    _ => aspect_ratio.max(1.0 / aspect_ratio),
+                };
+                Some((couette(p, *aspect_ratio, phase), (error + rounding) * condition))
             }
         }
     }
