@@ -28,12 +28,12 @@ pub(crate) enum Way {
     Alike(Vec<[f64; 3]>),
     /// All rods are alike: the map to each output, periodically.
     Maps(Vec<Matrix3<f64>>),
-    /// A propagator for each rod, or one where they are alike; spans to each output, the propagator that has their periods, and the
-    /// relative error of the components of the starts.
+    /// A propagator for each rod, or one where they are alike; spans to each output, the propagator that has their periods, and whether
+    /// the starts are rounded from others, as random ones are not: they are the doubles that were drawn.
     Each {
         mean: Box<Propagator>,
         spans: Vec<Span>,
-        rounding: f64,
+        rounded: bool,
     },
 }
 
@@ -60,37 +60,28 @@ impl FreeMotion {
             for r in [r * (1.0 - spread), r, r * (1.0 + spread)] {
                 let propagator = Propagator::general(flow, r);
                 let errors = at_each(scene, &self::spans(scene), |span| {
-                    let Some(start) = start else {
-                        return Some(((), propagator.map_beside(&mean, span)?.1, 0.0));
+                    let (error, of_start) = match start {
+                        Some(start) => {
+                            let (_, error, of_start) = directed(&propagator, &mean, &start, span)?;
+                            (error, of_start)
+                        }
+                        None => (propagator.map_beside(&mean, span)?.1, 0.0),
                     };
-                    let error = |rounding: f64| {
-                        let p = start.into_inner().into();
-                        Some(propagator.moved_beside(&mean, p, rounding, span)?.1)
-                    };
-                    let all = error(ROUNDING_OF_START)?;
-                    Some(((), all, all - error(0.0)?))
+                    Some(((), error, of_start))
                 })?;
                 error_rad = error_rad.max(errors.1);
             }
             let mean = Box::new(Propagator::new(flow, r));
             let spans = self::spans(scene);
-            // Random starts are the doubles that were drawn.
-            let rounding = match particles.orientation {
-                Orientation::Random(_) => 0.0,
-                Orientation::Given { .. } | Orientation::Each { .. } => ROUNDING_OF_START,
-            };
+            let rounded = !matches!(particles.orientation, Orientation::Random(_));
             return Ok(Self {
-                way: Way::Each {
-                    mean,
-                    spans,
-                    rounding,
-                },
+                way: Way::Each { mean, spans, rounded },
                 error_rad,
             });
         }
         let (way, error_rad) = match start {
             Some(start) => {
-                let (ends, error) = at_each(scene, &spans, |span| directed(&mean, &start, span))?;
+                let (ends, error) = at_each(scene, &spans, |span| directed(&mean, &mean, &start, span))?;
                 (Way::Alike(ends), error)
             }
             None => {
@@ -105,9 +96,15 @@ impl FreeMotion {
     }
 }
 
-/// Where a rod that starts along `start` goes, with its error and what of it is the rounding of the start.
-fn directed(propagator: &Propagator, start: &UnitVector3<f64>, span: Span) -> Option<([f64; 3], f64, f64)> {
-    let moved = propagator.moved(start, span)?;
+/// Where a rod that starts along `start` goes, with its error and what of it is the rounding of the start; the span's periods are
+/// those of `mean`.
+pub(crate) fn directed(
+    propagator: &Propagator,
+    mean: &Propagator,
+    start: &UnitVector3<f64>,
+    span: Span,
+) -> Option<([f64; 3], f64, f64)> {
+    let moved = propagator.moved_beside(mean, start, span)?;
     let rounding = ROUNDING_OF_START * moved.condition;
     Some((moved.p.into_inner().into(), moved.error + rounding, rounding))
 }

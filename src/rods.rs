@@ -2,7 +2,7 @@
 //! motion takes it from there to whatever time is asked for. A free rod is never stepped.
 
 use crate::chunks::over_chunks;
-use crate::free::{FreeMotion, MAX_ERROR_RAD, Way};
+use crate::free::{FreeMotion, MAX_ERROR_RAD, Way, directed};
 use crate::gaussian;
 use crate::jeffery::strain_per_period;
 use crate::observable::{BLOCK, Block};
@@ -147,19 +147,22 @@ impl Rods {
                     let map = &maps[tick as usize % maps.len()];
                     block.turn(from, |_, p, _| mapped(map, p));
                 }
-                Way::Each {
-                    mean,
-                    spans,
-                    rounding,
-                } => {
+                Way::Each { mean, spans, rounded } => {
                     let span = spans[tick as usize];
                     let of_rod = |rod: usize| match &propagators[..] {
                         [all] => all,
                         each => &each[rod],
                     };
                     block.turn(from, |k, p, _| {
+                        let propagator = of_rod(first + k);
+                        let found = if *rounded {
+                            let start = UnitVector3::new_unchecked(p.into());
+                            directed(propagator, mean, &start, span).map(|(end, error, _)| (end, error))
+                        } else {
+                            propagator.direction_beside(mean, p, span)
+                        };
                         // No direction rather than one that is not known: a run with one is refused.
-                        match of_rod(first + k).moved_beside(mean, p, *rounding, span) {
+                        match found {
                             Some((end, error)) if error <= MAX_ERROR_RAD => end,
                             _ => [f64::NAN; 3],
                         }

@@ -132,6 +132,11 @@ impl Propagator {
 
     /// Where a rod goes that starts along `p`; `None` where the span is in periods and there is none.
     pub fn moved(&self, p: &UnitVector3<f64>, span: Span) -> Option<Moved> {
+        self.moved_beside(self, p, span)
+    }
+
+    /// The same over periods of `mean`, in whose flow the rod is.
+    pub(crate) fn moved_beside(&self, mean: &Self, p: &UnitVector3<f64>, span: Span) -> Option<Moved> {
         match &self.0 {
             Motion::Couette { aspect_ratio, .. } => {
                 let (phase, error) = self.phase(span)?;
@@ -144,7 +149,7 @@ impl Propagator {
             }
             Motion::General(general) => {
                 let start = [p.x, p.y, p.z];
-                let time = time(general, span)?;
+                let time = time_beside(general, mean, span)?;
                 let modes = general.modes_from(start);
                 let map = general.map_of(&modes, time);
                 let q = general.moved(&modes, start, time);
@@ -153,34 +158,17 @@ impl Propagator {
         }
     }
 
-    /// The direction of a rod in the flow of `mean` that started along `p`, and the bound on its error; the span's periods
-    /// are those of `mean`. `rounding` is the relative error of each component of the start. `None` where it has none.
-    pub(crate) fn moved_beside(
-        &self,
-        mean: &Self,
-        p: [f64; 3],
-        rounding: f64,
-        span: Span,
-    ) -> Option<([f64; 3], f64)> {
+    /// The direction alone of a rod in the flow of `mean` that started along `p`, and the bound on the error that the map gives it;
+    /// the span's periods are those of `mean`. `None` where it has none.
+    pub(crate) fn direction_beside(&self, mean: &Self, p: [f64; 3], span: Span) -> Option<([f64; 3], f64)> {
         match &self.0 {
             Motion::General(general) => {
                 let time = time_beside(general, mean, span)?;
-                let modes = general.modes_from(p);
-                let q = general.moved(&modes, p, time);
-                if rounding == 0.0 {
-                    return Some(normalized(&q));
-                }
-                let end = moved(&general.map_of(&modes, time), &q, p);
-                Some((end.p.into_inner().into(), end.error + rounding * end.condition))
+                Some(normalized(&general.moved(&general.modes_from(p), p, time)))
             }
             Motion::Couette { aspect_ratio, .. } => {
                 let (phase, error) = self.phase(span)?;
-                // Random directions are judged by the map alone.
-                let condition = match rounding {
-                    0.0 => 1.0,
-                    _ => aspect_ratio.max(1.0 / aspect_ratio),
-                };
-                Some((couette(p, *aspect_ratio, phase), (error + rounding) * condition))
+                Some((couette(p, *aspect_ratio, phase), error))
             }
         }
     }
