@@ -1,26 +1,22 @@
 //! What the program is built from, as the report shows it: read from `docs/dependencies.md`, which a test keeps in
 //! step with the manifests.
 
-use crate::table::{ReportTable, of_words, rows_of_markdown};
+use crate::table::{ReportTable, of_markdown};
 
 /// The document.
 pub const DOCUMENT: &str = include_str!("dependencies.md");
 
 /// The table of the document, under the sentence that counts the crates.
 pub fn table() -> ReportTable {
-    // Links lead nowhere from the report.
-    let text = DOCUMENT.replace("[cluster.md](cluster.md)", "docs/cluster.md");
-    let mut lines = rows_of_markdown(&text);
-    let columns = lines.next().unwrap_or_default();
-    of_words(
+    of_markdown(
         "dependencies",
         "Dependencies, and what each is for",
         &format!(
             "The program is built from {} crates of others. Those that it asks for itself, and those of its tests:",
             crates().unwrap_or_default()
         ),
-        &columns,
-        lines.collect(),
+        // Links lead nowhere from the report.
+        &DOCUMENT.replace("[cluster.md](cluster.md)", "docs/cluster.md"),
     )
 }
 

@@ -187,15 +187,15 @@ pub fn of_words(
     }
 }
 
-/// The cells of a table in Markdown, its head first, without the line below that.
-pub fn rows_of_markdown(text: &str) -> impl Iterator<Item = Vec<String>> {
-    let lines = text
-        .lines()
-        .filter(|line| line.starts_with('|') && !line.starts_with("| ---"));
-    lines.map(|line| {
+/// The table in a text of Markdown.
+pub fn of_markdown(name: &str, title: &str, caption: &str, text: &str) -> ReportTable {
+    let lines = (text.lines()).filter(|line| line.starts_with('|') && !line.starts_with("| ---"));
+    let mut rows = lines.map(|line| {
         let cells = line.trim_matches('|').split(" | ");
-        cells.map(|cell| cell.trim().to_owned()).collect()
-    })
+        cells.map(|cell| cell.trim().to_owned()).collect::<Vec<_>>()
+    });
+    let columns = rows.next().unwrap_or_default();
+    of_words(name, title, caption, &columns, rows.collect())
 }
 
 impl ReportTable {

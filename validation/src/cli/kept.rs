@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use shearbed::Plan;
 use std::fs;
 use std::io::ErrorKind;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The records of the commands that keep results in a folder, and what they are of.
 const RECORDS: [(&str, &str); 5] = [
@@ -44,25 +44,26 @@ pub(super) fn check_fit(out: &Path, asked: &Value) -> Result<(), Failure> {
 
 /// Refuses a folder that holds the record of another command. Of another sweep the sweep itself knows.
 pub(super) fn check_sweep(out: &Path) -> Result<(), Failure> {
-    let foreign = |(name, _): &&(&str, &str)| *name != SWEEP && out.join(name).exists();
-    match RECORDS.iter().find(foreign) {
+    match foreign(out, SWEEP) {
         None => Ok(()),
-        Some((name, whose)) => Err(Failure::Input(format!(
+        Some((path, whose)) => Err(Failure::Input(format!(
             "{}: {whose} is kept here; another --out leaves it; nothing was changed",
-            out.join(name).display()
+            path.display()
         ))),
     }
 }
 
+/// The record of another command than the one of `record`, and what it is of.
+fn foreign(out: &Path, record: &str) -> Option<(PathBuf, &'static str)> {
+    let others = RECORDS.into_iter().filter(|(name, _)| *name != record);
+    let mut paths = others.map(|(name, whose)| (out.join(name), whose));
+    paths.find(|(path, _)| path.exists())
+}
+
 /// Refuses a folder that holds the record of another command, or a `record` with other values under the keys of `own`.
 fn check(out: &Path, record: &str, own: &Value, held: impl Fn(&Value) -> String) -> Result<(), Failure> {
-    let mut what = "results";
-    for (name, whose) in RECORDS {
-        if name == record {
-            what = whose;
-        } else if out.join(name).exists() {
-            return Err(refused(&out.join(name), &format!("{whose} is kept here")));
-        }
+    if let Some((path, whose)) = foreign(out, record) {
+        return Err(refused(&path, &format!("{whose} is kept here")));
     }
     let path = out.join(record);
     let text = match fs::read_to_string(&path) {
@@ -72,6 +73,8 @@ fn check(out: &Path, record: &str, own: &Value, held: impl Fn(&Value) -> String)
         Err(error) if error.kind() == ErrorKind::NotADirectory => return Ok(()),
         Err(error) => return Err(refused(&path, &format!("cannot be read: {error}"))),
     };
+    let own_record = RECORDS.iter().find(|(name, _)| *name == record);
+    let what = own_record.map_or("results", |(_, whose)| whose);
     let kept: Value = serde_json::from_str(&text)
         .map_err(|error| refused(&path, &format!("is no record of {what}: {error}")))?;
     // As text: what was written and read again is compared with the same.
