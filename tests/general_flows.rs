@@ -79,7 +79,7 @@ fn scenes(component: impl Strategy<Value = f64>) -> impl Strategy<Value = String
 }
 
 proptest! {
-    #![proptest_config(Config { rng_seed: RngSeed::Fixed(1982), failure_persistence: None, cases: 400, ..Config::default() })]
+    #![proptest_config(Config { rng_seed: RngSeed::Fixed(1982), failure_persistence: None, cases: 500, ..Config::default() })]
 
     #[test]
     fn any_gradient_of_whole_numbers_ends_or_is_refused(scene in scenes((-3i32..=3).prop_map(f64::from))) {

@@ -57,7 +57,7 @@ fn interaction(concentration_per_cm3: f64) -> String {
 fn a_run_holds_what_it_says_and_its_steps_allocate_nothing() {
     assert_eq!(allocated_in_steps(100), 0);
     assert_eq!(allocated_in_steps(2000), 0);
-    let count = 100_000;
+    let count = 200_000;
     for (tables, most_per_rod) in [
         (interaction(50.0), 120.0),
         (interaction(1e-3), 120.0),

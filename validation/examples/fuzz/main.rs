@@ -175,7 +175,7 @@ fn no_input_breaks_a_reader_and_one_that_breaks_is_seen() {
     faults_are_seen();
     watch();
     for target in targets() {
-        let (accepted, reasons) = feed(&target, 200, 1982).unwrap();
+        let (accepted, reasons) = feed(&target, 400, 1982).unwrap();
         assert!(
             accepted > 0 && reasons.len() > 2,
             "{}: {accepted}, {reasons:?}",
