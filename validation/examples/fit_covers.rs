@@ -12,6 +12,7 @@ use validation::fit::likelihood::{EMULATOR, REPLICAS};
 use validation::fit::scenes::{AS_WRITTEN, Scenes, Set};
 use validation::fit::search::{Problem, Watch, search};
 use validation::scenes;
+use validation::start::Starts;
 use validation::sweep::Setting;
 
 const PLANTED: f64 = 0.8;
@@ -39,6 +40,7 @@ fn scenes(seed: u64, over: &Range) -> Result<Scenes, String> {
     let set = Set {
         source: "fig4-n50".into(),
         text: scenes::find("fig4-n50").ok_or("no scene")?.text.into(),
+        starts: Starts::default(),
         settings: settings.into_iter().collect::<Result<_, _>>()?,
         seed,
         time: TimeColumn::Periods,

@@ -2,7 +2,7 @@
 
 use shearbed::scene::{Orientation, Scene};
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The columns that are read.
@@ -31,14 +31,17 @@ const LENGTH: f64 = 1e-5;
 ///
 /// The file, line, column and value, and what is allowed.
 pub fn fill(scene: &mut Scene, beside: &Path) -> Result<(), String> {
-    Starts::default().fill(scene, beside)
+    Starts::beside(beside).fill(scene)
 }
 
 /// The files that were read for scenes of one folder: each is read once, and its directions are held once.
-#[derive(Default)]
-pub struct Starts(BTreeMap<String, Start>);
+#[derive(Clone, Debug, Default)]
+pub struct Starts {
+    folder: PathBuf,
+    read: BTreeMap<String, Start>,
+}
 
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 struct Start {
     crc32: String,
     p: Arc<[Vec<f64>; 3]>,
@@ -47,17 +50,32 @@ struct Start {
 }
 
 impl Starts {
+    /// For scenes of this folder; nothing is read yet.
+    pub fn beside(folder: &Path) -> Self {
+        Self {
+            folder: folder.to_owned(),
+            read: BTreeMap::new(),
+        }
+    }
+
+    /// The checksum (CRC-32) of each file that was read.
+    pub fn checksums(&self) -> BTreeMap<&str, &str> {
+        (self.read.iter())
+            .map(|(file, start)| (file.as_str(), start.crc32.as_str()))
+            .collect()
+    }
+
     /// As [`fill`], for one scene after the other.
     ///
     /// # Errors
     ///
     /// As [`fill`].
-    pub fn fill(&mut self, scene: &mut Scene, beside: &Path) -> Result<(), String> {
+    pub fn fill(&mut self, scene: &mut Scene) -> Result<(), String> {
         let (count, aspect_ratio) = (scene.particles.count, scene.particles.aspect_ratio);
         let Orientation::Each { file, crc32, p } = &mut scene.particles.orientation else {
             return Ok(());
         };
-        let path = beside.join(&*file);
+        let path = self.folder.join(&*file);
         let refused = |what: String| format!("particles.orientation: {}{what}", path.display());
         let asked_for = |found: &str| match crc32.as_deref().filter(|expected| *expected != found) {
             Some(expected) => Err(refused(format!(
@@ -66,7 +84,7 @@ impl Starts {
             None => Ok(()),
         };
         let own = |start: &&Start| start.aspect_ratio.is_none_or(|own| own == aspect_ratio);
-        let start = match self.0.get(file).filter(own) {
+        let start = match self.read.get(file).filter(own) {
             Some(start) => {
                 asked_for(&start.crc32)?;
                 start.clone()
@@ -83,7 +101,7 @@ impl Starts {
                     p: Arc::new(directions),
                     aspect_ratio: shaped.then_some(aspect_ratio),
                 };
-                self.0.insert(file.clone(), start.clone());
+                self.read.insert(file.clone(), start.clone());
                 start
             }
         };
@@ -204,15 +222,15 @@ mod tests {
                 false,
             ),
         ] {
-            let mut starts = Starts::default();
+            let mut starts = Starts::beside(dir.path());
             let (mut a, mut b, mut c) = (first.clone(), first.clone(), other.clone());
             std::fs::write(&file, rows).unwrap();
-            starts.fill(&mut a, dir.path()).unwrap();
+            starts.fill(&mut a).unwrap();
             std::fs::remove_file(&file).unwrap();
-            starts.fill(&mut b, dir.path()).unwrap();
+            starts.fill(&mut b).unwrap();
             assert!(Arc::ptr_eq(&of(&a), &of(&b)));
             // Rods that have an r_e in the file are not another r_e's.
-            assert_eq!(starts.fill(&mut c, dir.path()).is_ok(), same);
+            assert_eq!(starts.fill(&mut c).is_ok(), same);
         }
     }
 

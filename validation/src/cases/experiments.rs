@@ -9,6 +9,7 @@ use crate::fit::Range;
 use crate::fit::data::TimeColumn;
 use crate::fit::scenes::{Scenes, Set};
 use crate::lab::{self, Change};
+use crate::start::Starts;
 use crate::statistics::{Sample, worst};
 use shearbed::observable::Channel;
 use shearbed::scene::{Orientation, Scene};
@@ -80,6 +81,7 @@ fn not_fitted(theta_deg: &f64, effort: &Effort) -> Result<Vec<Evidence>, String>
     let set = Set {
         source: "a case".into(),
         text,
+        starts: Starts::default(),
         settings: Vec::new(),
         seed: effort.seed(0),
         time: TimeColumn::Periods,

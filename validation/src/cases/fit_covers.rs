@@ -17,6 +17,7 @@ use crate::fit::emulator::{Coefficients, Emulator, coefficients};
 use crate::fit::scenes::{AS_WRITTEN, Scenes, Set};
 use crate::fit::search::{Fit, Problem, fitted};
 use crate::lab::{self, Shared};
+use crate::start::Starts;
 use crate::statistics::Sample;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
@@ -110,6 +111,7 @@ fn pool(effort: &Effort) -> Result<Pool, String> {
         let set = Set {
             source: "a case".into(),
             text: toml::to_string(&scene).map_err(|error| error.to_string())?,
+            starts: Starts::default(),
             settings: Vec::new(),
             seed: effort.seed(70),
             time: TimeColumn::Periods,

@@ -11,6 +11,7 @@ mod experiments;
 mod extreme_scenes;
 mod extremes;
 mod fit_covers;
+mod fit_readings;
 mod folgar_tucker;
 mod free_suspension;
 mod general_flows;
@@ -71,6 +72,7 @@ pub fn all() -> Vec<Case> {
         statements::cases(),
         experiments::cases(),
         fit_covers::cases(),
+        fit_readings::cases(),
         published::cases(),
         coefficients::cases(),
         folgar_tucker::cases(),

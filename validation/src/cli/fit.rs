@@ -5,6 +5,7 @@ mod input;
 use super::{Failure, MAX_THREADS, kept, on_threads, print, probe, progress, scene, whole};
 use crate::build::BUILD;
 use crate::fit::budget::{self, Shift};
+use crate::fit::design::{Candidate, design};
 use crate::fit::emulator::Model;
 use crate::fit::report::{self, Report};
 use crate::fit::scenes::{AS_WRITTEN, Variant};
@@ -17,7 +18,7 @@ use crate::text::command;
 use input::{Input, input};
 use serde_json::{Value, json};
 use shearbed::Plan;
-use shearbed::scene::{MAX_REPLICAS, MAX_SEED, Scene};
+use shearbed::scene::{MAX_REPLICAS, MAX_SEED, Orientation, Scene};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -59,6 +60,9 @@ pub(super) struct Args {
     /// Threads to run on; the results do not depend on it [default: one for each core]
     #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
     threads: Option<u64>,
+    /// List further points, at all times and at half and twice the concentration, with what each would leave of the uncertainties
+    #[arg(long)]
+    design: bool,
     /// Overwrite a folder that holds another fit, or what another command wrote
     #[arg(long)]
     force: bool,
@@ -72,6 +76,7 @@ struct Done {
     fit: Fit,
     report: Report,
     figures: Vec<(String, plot::Figure)>,
+    candidates: Vec<Candidate>,
 }
 
 /// Fits keys of a scene to measured points.
@@ -102,6 +107,10 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
             report::profiles_csv(&done.fit).map_err(Failure::Failed)?,
         ),
     ];
+    if args.design {
+        let text = report::design_csv(&done.fit, &done.candidates, &times);
+        files.push(("design.csv".into(), text.map_err(Failure::Failed)?));
+    }
     for (stem, figure) in &done.figures {
         files.push((format!("{stem}.svg"), plot::svg(figure).map_err(Failure::Failed)?));
     }
@@ -118,8 +127,11 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     if args.quiet {
         return Ok(());
     }
+    let design = (done.report.design.as_ref()).map_or(String::new(), |steps| {
+        words::design(&done.fit, steps, &times) + "\n"
+    });
     print(&format!(
-        "{}\n\n{}\nin {}: {names}\n",
+        "{}\n\n{}\n{design}in {}: {names}\n",
         words::sentence(&done.fit, &done.report),
         words::table(&done.fit, &done.report),
         out.display(),
@@ -149,6 +161,13 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let fit = search(&problem, watch).map_err(stopped)?;
     let shifts = shifts(input, &fit, &model, watch).map_err(stopped)?;
     let mut report = report::report(&fit, data, shifts);
+    let mut candidates = Vec::new();
+    if args.design {
+        let found = design(&fit, scenes, data, watch).map_err(stopped)?;
+        report.warnings.extend(found.warnings);
+        report.design = Some(found.steps);
+        candidates = found.candidates;
+    }
     let best = scenes
         .plans(&fit.values(&fit.best.place), data, AS_WRITTEN)
         .map_err(stopped)?;
@@ -161,7 +180,12 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let curves = pictures::best_curves(&fit, &places, &drawn, watch).map_err(stopped)?;
     let times: Vec<&str> = scenes.sets.iter().map(|set| set.time.name()).collect();
     let figures = pictures::figures(&fit, &report, data, (&places, &curves), &input.names, &times);
-    Ok(Done { fit, report, figures })
+    Ok(Done {
+        fit,
+        report,
+        figures,
+        candidates,
+    })
 }
 
 /// The largest r_e whose measured points the paper leaves out.
@@ -190,11 +214,22 @@ fn shifts(input: &Input, fit: &Fit, own: &Model<'_>, watch: &Watch<'_>) -> Resul
         ("half the time step", Variant { steps: 2, rods: 1 }),
         ("twice the rods", Variant { steps: 1, rods: 2 }),
     ];
+    // As many rods as a file of starts has rows, no more.
+    let from_a_file = |set| {
+        let scene = scenes.scene(set, &values)?;
+        Ok(matches!(scene.particles.orientation, Orientation::Each { .. }))
+    };
+    let fixed = (0..scenes.sets.len())
+        .map(from_a_file)
+        .collect::<Result<Vec<bool>, String>>()?;
+    let variants = variants
+        .into_iter()
+        .filter(|(_, variant)| variant.rods == 1 || !fixed.contains(&true));
     let shift = |(change, variant): (&'static str, Variant)| {
         let changed = |values: &[f64]| scenes.model(&input.data, variant, values);
         budget::shift(fit, change, own, &changed, watch)
     };
-    variants.into_iter().map(shift).collect()
+    variants.map(shift).collect()
 }
 
 /// What a fit is of: everything that its results depend on.
@@ -205,7 +240,7 @@ fn asked(args: &Args, input: &Input) -> Result<Value, Failure> {
             .map_err(|error| Failure::Input(format!("{}: cannot be read: {error}", path.display())))?;
         data.push(json!({
             "scene": set.source, "file": path.display().to_string(), "crc32": crc32fast::hash(&points), "time": set.time,
-            "seed": set.seed, "scene_text": set.text
+            "seed": set.seed, "scene_text": set.text, "starts": set.starts.checksums()
         }));
     }
     let set = |setting: &Setting| format!("{}={}", setting.key, setting.value);

@@ -62,6 +62,12 @@ impl TimeColumn {
             Self::Strain => Some(plan.unit().strain),
         }
     }
+
+    /// Where a plan's scene ends.
+    pub fn end_of(self, plan: &Plan) -> Option<f64> {
+        let time = &plan.scene().time;
+        Some(time.strain.or(time.periods)? * self.per_unit(plan)?)
+    }
 }
 
 /// The points of one file.

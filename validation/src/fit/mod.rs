@@ -7,6 +7,7 @@
 pub mod basis;
 pub mod budget;
 pub mod data;
+pub mod design;
 pub mod emulator;
 pub mod likelihood;
 mod minimise;

@@ -39,7 +39,7 @@ pub fn places(data: &[Datum]) -> Vec<Datum> {
 }
 
 /// Every data set and column, in order.
-fn kinds(data: &[Datum]) -> Vec<(usize, String)> {
+pub(super) fn kinds(data: &[Datum]) -> Vec<(usize, String)> {
     let mut kinds: Vec<_> = data
         .iter()
         .map(|datum| (datum.set, datum.column.clone()))

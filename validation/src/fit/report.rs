@@ -2,6 +2,7 @@
 
 use super::budget::{self, Part, Residual, Shift};
 use super::data::Datum;
+use super::design::{Candidate, Step};
 use super::likelihood::{EMULATOR, REPLICAS};
 use super::profile::rise_of;
 use super::range::Range;
@@ -52,6 +53,9 @@ pub struct Report {
     pub correlation: Vec<Vec<f64>>,
     /// What the standard uncertainties are made of.
     pub budget: Vec<Part>,
+    /// What further points would leave; none where it was not asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub design: Option<Vec<Step>>,
     /// What a finer step and more rods would change; not part of the intervals, which are of the scene as it is written.
     pub shifts: Vec<Shift>,
     /// FDS's bias δ and scatter σ_M of the best model; none where a value is not positive.
@@ -80,9 +84,7 @@ pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
     let p_value = ChiSquared::new(freedom as f64).map_or(f64::NAN, |law| law.sf(fit.best.chi_square));
     let values = fit.values(&fit.best.place);
     let spread = fit.best.covariance();
-    let covariance = DMatrix::from_fn(values.len(), values.len(), |i, j| {
-        spread[(i, j)] * fit.scale(i) * fit.scale(j)
-    });
+    let covariance = fit.covariance();
     let correlation = DMatrix::from_fn(values.len(), values.len(), |i, j| {
         spread[(i, j)] / (spread[(i, i)] * spread[(j, j)]).sqrt()
     });
@@ -123,6 +125,7 @@ pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
         correlation: rows(&correlation),
         budget: budget::parts(fit),
         shifts,
+        design: None,
         bias: bias(&pairs, sigma_e),
         residuals,
         replicas: fit.emulator.replicas(),
@@ -155,8 +158,8 @@ fn warnings(
         for j in 0..i {
             if correlation[(i, j)].abs() > ALIKE {
                 all.push(format!(
-                    "{} and {}: these points hardly tell them apart (correlation {:.3}); points at other times or \
-                     concentrations may",
+                    "{} and {}: these points hardly tell them apart (correlation {:.3}); --design lists \
+                     points that would",
                     fit.ranges[j].label(),
                     fit.ranges[i].label(),
                     correlation[(i, j)]
@@ -227,6 +230,37 @@ pub fn profiles_csv(fit: &Fit) -> Result<String, String> {
             ]
         }));
     }
+    csv_of(&rows)
+}
+
+/// `design.csv`: each point that could be measured, what the measured ones leave of it, and what it would leave of the
+/// parameters.
+pub fn design_csv(fit: &Fit, candidates: &[Candidate], times: &[&str]) -> Result<String, String> {
+    let head = [
+        "set",
+        "time_unit",
+        "time",
+        "column",
+        "concentration_per_cm3",
+        "u",
+        "spread",
+    ];
+    let own = (fit.ranges.iter()).map(|range| format!("u_{}_with_it", range.name()));
+    let mut rows: Vec<Vec<String>> = vec![head.into_iter().map(String::from).chain(own).collect()];
+    rows.extend(candidates.iter().map(|one| {
+        let place = [
+            one.set.to_string(),
+            times[one.set].to_owned(),
+            one.time.to_string(),
+            one.column.clone(),
+            one.concentration_per_cm3.map_or(String::new(), |n| n.to_string()),
+        ];
+        let numbers = [one.u, one.spread].into_iter().chain(one.leaves.iter().copied());
+        place
+            .into_iter()
+            .chain(numbers.map(|number| number.to_string()))
+            .collect()
+    }));
     csv_of(&rows)
 }
 

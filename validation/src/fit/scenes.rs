@@ -4,6 +4,7 @@ use super::data::{Datum, TimeColumn};
 use super::emulator::{Prediction, Replica};
 use super::range::Range;
 use crate::experiment::interpolate;
+use crate::start::Starts;
 use crate::sweep::{self, Setting};
 use shearbed::observable::Channel;
 use shearbed::run::run_replica;
@@ -18,6 +19,8 @@ pub struct Set {
     pub source: String,
     /// The text of the scene's file.
     pub text: String,
+    /// The starts of rods that have theirs in a file beside the scene's, read once for all values of the parameters.
+    pub starts: Starts,
     /// Keys that have other values than in the text, the same for all parameters.
     pub settings: Vec<Setting>,
     /// The seed of all random numbers.
@@ -105,6 +108,35 @@ impl Scenes {
         }
     }
 
+    /// Where the scene of a set ends with these values, in the unit of its points' times.
+    pub fn end(&self, set: usize, values: &[f64]) -> Result<f64, String> {
+        let refused = |error: String| format!("{}: {error}", self.sets[set].source);
+        let plan = Plan::new(&self.scene(set, values)?).map_err(|error| refused(error.to_string()))?;
+        (self.sets[set].time.end_of(&plan)).ok_or_else(|| refused("has no period".into()))
+    }
+
+    /// The same scenes at so many times their concentration, and that; none of rods that do not interact, or whose
+    /// concentration is fitted.
+    pub fn at_concentration(&self, factor: f64, values: &[f64]) -> Result<(Self, Vec<Option<f64>>), String> {
+        const KEY: &str = "interaction.concentration_per_cm3";
+        let (mut scenes, mut all) = (self.clone(), Vec::new());
+        for set in 0..self.sets.len() {
+            let fitted = (self.ranges.iter()).any(|range| range.is_of(set) && range.key == KEY);
+            let own = self.scene(set, values)?.interaction.filter(|_| !fitted);
+            let concentration = own.map(|interaction| factor * interaction.concentration_per_cm3);
+            if let Some(value) = concentration {
+                let settings = &mut scenes.sets[set].settings;
+                settings.retain(|setting| setting.key != KEY);
+                settings.push(Setting {
+                    key: KEY.into(),
+                    value: Value::Float(value),
+                });
+            }
+            all.push(concentration);
+        }
+        Ok((scenes, all))
+    }
+
     fn corners(&self) -> Vec<Vec<f64>> {
         let end = |k: usize, range: usize| match k >> range & 1 {
             0 => self.ranges[range].from,
@@ -120,6 +152,7 @@ impl Scenes {
         let Set {
             source,
             text,
+            starts,
             settings,
             seed,
             ..
@@ -139,7 +172,9 @@ impl Scenes {
             let pairs = own().map(|(range, value)| format!(" {}={value}", range.label()));
             pairs.collect::<String>()
         };
+        let mut filled = starts.clone();
         let mut scene = sweep::scene_with(text, &settings)
+            .and_then(|mut scene| filled.fill(&mut scene).map(|()| scene))
             .map_err(|error| format!("{source}: --over{}: {error}", said()))?;
         scene.ensemble.seed = *seed;
         Ok(scene)

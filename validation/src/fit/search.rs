@@ -7,6 +7,7 @@ use super::emulator::{Coefficients, Emulator, Model, Sides, coefficients};
 use super::likelihood::{Best, REPLICAS, best};
 use super::profile::{Interval, Profile, interval, profile, rise_of};
 use super::range::Range;
+use nalgebra::{DMatrix, DVector};
 
 /// Replicas of the first runs, which only say where to look closer.
 pub const FIRST_REPLICAS: u64 = 50;
@@ -197,6 +198,14 @@ impl Fit {
         let (low, high) = self.sides[axis];
         let scaled = 0.5 * (low + high) + 0.5 * (high - low) * self.best.place[axis];
         0.5 * (high - low) * self.ranges[axis].slope(scaled)
+    }
+
+    /// The covariance of the parameters in their units, of the linear theory.
+    pub fn covariance(&self) -> DMatrix<f64> {
+        let scales = DVector::from_fn(self.sides.len(), |axis, _| self.scale(axis));
+        self.best
+            .covariance()
+            .component_mul(&(&scales * scales.transpose()))
     }
 
     /// The interval of a parameter at a confidence, in the parameter's unit. It is open at an end that is the edge of the

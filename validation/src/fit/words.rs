@@ -1,5 +1,6 @@
 //! A fit in words: the answer in one line, and its budget, for the terminal.
 
+use super::design::{Added, Step};
 use super::report::Report;
 use super::search::Fit;
 
@@ -55,6 +56,57 @@ pub fn table(fit: &Fit, report: &Report) -> String {
         "{text}runs: {}, replicas at each value: {}\n",
         report.runs, report.replicas
     )
+}
+
+/// What further points would leave, for the terminal. `times` are the units of the sets' times.
+pub fn design(fit: &Fit, steps: &[Step], times: &[&str]) -> String {
+    let head = "what further points would leave".to_owned();
+    let all: Vec<String> = (steps.iter()).map(|step| added(&step.added, times)).collect();
+    let wide = all
+        .iter()
+        .map(|text| text.chars().count())
+        .fold(head.len(), usize::max);
+    let names = fit
+        .ranges
+        .iter()
+        .map(|range| format!("  {:>12}", format!("u({})", range.name())));
+    let mut text = format!("{head:<wide$}{}", names.collect::<String>());
+    if fit.ranges.len() > 1 {
+        text += "  correlation";
+    }
+    for (step, what) in steps.iter().zip(all) {
+        let numbers: String = step.u.iter().map(|u| format!("  {u:>12.3}")).collect();
+        let last = step.correlation.map_or(String::new(), |r| format!("  {r:>11.3}"));
+        text += &format!("\n{what:<wide$}{numbers}{last}");
+    }
+    text + "\n"
+}
+
+fn added(added: &Added, times: &[&str]) -> String {
+    let of_set = |set: &usize| match times.len() {
+        1 => String::new(),
+        _ => format!(" of set {}", set + 1),
+    };
+    let at = |n: &Option<f64>| n.map_or(String::new(), |n| format!(", {n} per cm³"));
+    match added {
+        Added::Nothing => "the measured points".into(),
+        Added::AsMany {
+            set,
+            points,
+            concentration_per_cm3: n,
+        } => format!("{points} more{}, evenly over the scene{}", of_set(set), at(n)),
+        Added::Point {
+            set,
+            concentration_per_cm3: n,
+            column,
+            time,
+        } => format!(
+            "the best next point: {column}{} at {} = {time:.2}{}",
+            of_set(set),
+            times[*set],
+            at(n)
+        ),
+    }
 }
 
 /// The decimals that show two digits of a number, up to 12.

@@ -33,12 +33,12 @@ pub fn points(
         .try_fold(1_usize, |count, axis| count.checked_mul(axis.values.len()))
         .filter(|count| *count <= MAX_POINTS)
         .ok_or_else(|| format!("--over: more than {MAX_POINTS} points; at most so many are allowed"))?;
-    let mut starts = Starts::default();
+    let mut starts = Starts::beside(beside);
     let point = |k| {
         let values = at(axes, k);
         let keys = axes.iter().map(|axis| axis.key.as_str());
         let own = keys.zip(values.iter().cloned());
-        let plan = plan(&base, &mut starts, beside, fixed.iter().cloned().chain(own)).map_err(|error| {
+        let plan = plan(&base, &mut starts, fixed.iter().cloned().chain(own)).map_err(|error| {
             let point = described(axes, &values);
             format!("--over {point} (point {} of {count}): {error}", k + 1)
         })?;
@@ -92,11 +92,10 @@ fn at(axes: &[Axis], mut k: usize) -> Vec<Value> {
 fn plan<'a>(
     base: &Table,
     starts: &mut Starts,
-    beside: &Path,
     settings: impl Iterator<Item = (&'a str, Value)>,
 ) -> Result<Plan, String> {
     let mut scene = with(base, settings)?;
-    starts.fill(&mut scene, beside)?;
+    starts.fill(&mut scene)?;
     Plan::new(&scene).map_err(|error| error.to_string())
 }
 

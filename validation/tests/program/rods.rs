@@ -356,25 +356,9 @@ fn a_start_that_does_not_fit_is_refused_with_file_and_line() {
         "{}",
         done.stderr
     );
-    // A whole file, for commands that take it and one that does not.
+    // A whole file.
     let rods = "0,0,1\n".repeat(20);
     fs::write(dir.path().join("start.csv"), format!("p1,p2,p3\n{rods}")).unwrap();
     let planned = shearbed(dir.path(), "plan s.toml").stdout;
     assert!(planned.contains("every rod starts as in start.csv"), "{planned}");
-    fs::write(
-        dir.path().join("d.csv"),
-        "t_over_T,x1,x1_u\n0.1,0.3,0.01\n0.2,0.3,0.01\n",
-    )
-    .unwrap();
-    let done = shearbed(
-        dir.path(),
-        "fit s.toml --data d.csv --over particles.aspect_ratio=5:20",
-    );
-    assert_eq!(done.code, Some(2));
-    assert!(
-        done.stderr
-            .contains("particles.orientation = { file = \"start.csv\" } is not allowed"),
-        "{}",
-        done.stderr
-    );
 }

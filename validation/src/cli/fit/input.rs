@@ -6,6 +6,7 @@ use crate::fit::Range;
 use crate::fit::basis::MOST_PARAMETERS;
 use crate::fit::data::{self, Datum, MOST_POINTS, TimeColumn};
 use crate::fit::scenes::{AS_WRITTEN, Scenes, Set};
+use crate::start::Starts;
 use crate::sweep;
 use crate::text::line;
 use shearbed::Plan;
@@ -61,7 +62,11 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
         let (scene, path) = scene_and_file(&args.scene, given);
         let named = scene::load(scene)?;
         let points = data::read(path, k).map_err(|error| Failure::Input(error.to_string()))?;
-        within_scene(&named, args, points.time, &points.points, path)?;
+        let mut starts = Starts::beside(&named.folder);
+        starts
+            .fill(&mut named.scene.clone())
+            .map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
+        within_scene(&named, &starts, args, points.time, &points.points, path)?;
         if k == 0 {
             stem.clone_from(&named.stem);
         }
@@ -72,6 +77,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
             seed: args.seed.unwrap_or(named.scene.ensemble.seed),
             source: named.source,
             text: named.text,
+            starts,
             settings: args.settings.clone(),
             time: points.time,
         });
@@ -129,30 +135,30 @@ fn scene_and_file<'a>(scene: &'a OsStr, given: &'a OsStr) -> (&'a OsStr, &'a Pat
 /// Refuses points later than the scene runs: they would make it run for long, and are mostly of another unit.
 fn within_scene(
     named: &scene::Named,
+    starts: &Starts,
     args: &Args,
     time: TimeColumn,
     points: &[Datum],
     path: &Path,
 ) -> Result<(), Failure> {
-    let scene = sweep::scene_with(&named.text, &args.settings)
-        .map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
-    let plan = Plan::new(&scene).map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
-    let per_unit = time.per_unit(&plan).ok_or_else(|| {
+    let refused = |error: String| Failure::Input(format!("{}: {error}", named.source));
+    let mut scene = sweep::scene_with(&named.text, &args.settings).map_err(refused)?;
+    starts.clone().fill(&mut scene).map_err(refused)?;
+    let plan = Plan::new(&scene).map_err(|error| refused(error.to_string()))?;
+    let end = time.end_of(&plan).ok_or_else(|| {
         Failure::Input(format!(
             "{}: {} has no periods; t_s or strain are allowed in place of t_over_T",
             path.display(),
             named.source
         ))
     })?;
-    let (key, last) = match (scene.time.strain, scene.time.periods) {
-        (Some(strain), _) => ("strain", strain),
-        (None, periods) => ("periods", periods.unwrap_or(f64::NAN)),
+    let key = if scene.time.strain.is_some() {
+        "strain"
+    } else {
+        "periods"
     };
     // A point at the very end may be rounded beyond it.
-    match points
-        .iter()
-        .find(|point| point.time > last * per_unit * (1.0 + 1e-12))
-    {
+    match points.iter().find(|point| point.time > end * (1.0 + 1e-12)) {
         None => Ok(()),
         Some(point) => Err(Failure::Input(format!(
             "{}:{}: column {}: `{}` is not allowed: {} ends at {} there; --set time.{key}=… moves that",
@@ -161,7 +167,7 @@ fn within_scene(
             time.name(),
             point.time,
             named.source,
-            last * per_unit
+            end
         ))),
     }
 }

@@ -1,0 +1,352 @@
+//! Which further points would tell the parameters: each point that could be measured, at all times of a scene and at half and
+//! twice its concentration, by what it would leave of their uncertainties, and the best ones by turns.
+//!
+//! What the measured points leave is exp(−χ²/2) over the last box, on the scale of its ranges, as far as it has risen. There the
+//! parameters and each new point have means, variances and covariances; a point with a standard uncertainty of u then leaves
+//! C − c cᵀ/(u² + v), with c its covariances with the parameters and v its own variance (linear Bayes estimation: Goldstein &
+//! Wooff, *Bayes Linear Statistics*, 2007). So a bent region is judged as a whole, not by the slopes at its best place.
+
+use super::basis::Basis;
+use super::data::Datum;
+use super::emulator::{Emulator, coefficients};
+use super::scenes::{AS_WRITTEN, Scenes};
+use super::search::{Fit, Watch, values};
+use nalgebra::{DMatrix, DVector};
+use serde::Serialize;
+use std::sync::Arc;
+
+/// Times of a scene at which a point could be measured, evenly.
+const TIMES: usize = 300;
+/// Concentrations, in multiples of the scene's.
+const CONCENTRATIONS: [f64; 3] = [0.5, 1.0, 2.0];
+/// How many of the best points are named.
+const CHOSEN: usize = 6;
+/// The most replicas behind a point's values.
+const MOST_REPLICAS: u64 = 100;
+/// Places along each side of the box, for one, two and three parameters.
+const PLACES: [usize; 3] = [401, 101, 41];
+/// Places whose likelihood is below this share of the largest do not count.
+const SMALL: f64 = 1e-7;
+
+/// A point that could be measured.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Candidate {
+    /// The set whose scene it is of, counted from 0.
+    pub set: usize,
+    /// The concentration of that scene; none where rods do not interact, or it is fitted.
+    pub concentration_per_cm3: Option<f64>,
+    /// As `x1`.
+    pub column: String,
+    /// In the unit of the set's times.
+    pub time: f64,
+    /// Its standard uncertainty: as those of the set that were measured, in the middle, with that of their times.
+    pub u: f64,
+    /// What the measured points leave of it: one standard deviation of its value.
+    pub spread: f64,
+    /// What it alone would leave of each parameter: one standard uncertainty.
+    pub leaves: Vec<f64>,
+}
+
+/// What is left once points are added.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Step {
+    /// Which.
+    pub added: Added,
+    /// One standard uncertainty of each parameter then.
+    pub u: Vec<f64>,
+    /// The correlation of two parameters that is largest in size; none of one parameter.
+    pub correlation: Option<f64>,
+}
+
+/// Points that are added.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "what", rename_all = "snake_case")]
+pub enum Added {
+    /// None: the measured ones alone.
+    Nothing,
+    /// As many points as were measured of this set, evenly over its scene's time.
+    AsMany {
+        /// The set.
+        set: usize,
+        /// How many.
+        points: usize,
+        /// Of its scene.
+        concentration_per_cm3: Option<f64>,
+    },
+    /// One more, beside those above it.
+    Point {
+        /// The set.
+        set: usize,
+        /// Of its scene.
+        concentration_per_cm3: Option<f64>,
+        /// As `x1`.
+        column: String,
+        /// In the unit of the set's times.
+        time: f64,
+    },
+}
+
+/// Points that could be measured, what they would tell, and what could not be looked at.
+#[derive(Clone, Debug, Default)]
+pub struct Design {
+    /// All of them.
+    pub candidates: Vec<Candidate>,
+    /// The measured points, then as many more of each kind, then the best points by turns.
+    pub steps: Vec<Step>,
+    /// Concentrations whose scene is refused, and why.
+    pub warnings: Vec<String>,
+}
+
+/// The design beside a fit of `data`.
+pub fn design(fit: &Fit, scenes: &Scenes, data: &[Datum], watch: &Watch<'_>) -> Result<Design, String> {
+    let best = fit.values(&fit.best.place);
+    let basis = Basis::new(fit.sides.len());
+    let replicas = (fit.emulator.replicas() as u64).min(MOST_REPLICAS);
+    let value = |node: &[f64]| values(&fit.ranges, &fit.sides, node);
+    let places = places(scenes, &best, data)?;
+    let (places_of_box, weights) = weighted(fit);
+    let mut found = Design::default();
+    let mut columns: Vec<DVector<f64>> = Vec::new();
+    for factor in CONCENTRATIONS {
+        let (at, concentrations) = scenes.at_concentration(factor, &best)?;
+        let of: Vec<Datum> = (places.iter())
+            .filter(|place| factor == 1.0 || concentrations[place.set].is_some())
+            .cloned()
+            .collect();
+        if of.is_empty() {
+            continue;
+        }
+        let model = |values: &[f64]| at.model(&of, AS_WRITTEN, values);
+        (watch.planned)(replicas * basis.nodes.len() as u64);
+        let emulator = match coefficients(&basis, &model, value, 0..replicas, watch.done) {
+            Ok(rows) => Emulator::new(&basis, &rows),
+            Err(error) if factor != 1.0 => {
+                let warning = format!("--design: no points of {factor} times the concentration: {error}");
+                found.warnings.push(warning);
+                continue;
+            }
+            Err(error) => return Err(error),
+        };
+        let of_time = emulator.time_variance(&fit.best.place);
+        let rows: Vec<_> = places_of_box.iter().map(|place| emulator.at(place)).collect();
+        for (k, place) in of.into_iter().enumerate() {
+            columns.push(DVector::from_iterator(rows.len(), rows.iter().map(|row| row[k])));
+            found.candidates.push(Candidate {
+                concentration_per_cm3: concentrations[place.set],
+                u: (place.u.powi(2) + of_time[k]).sqrt(),
+                set: place.set,
+                column: place.column,
+                time: place.time,
+                spread: f64::NAN,
+                leaves: Vec::new(),
+            });
+        }
+    }
+    let parameters: Vec<_> = places_of_box.iter().map(|place| fit.values(place)).collect();
+    let known = Known::new(&parameters, &columns, &weights);
+    for (k, candidate) in found.candidates.iter_mut().enumerate() {
+        candidate.spread = known.own[k].max(0.0).sqrt();
+        candidate.leaves = deviations(&known.left(k, candidate.u.powi(2)));
+    }
+    found.steps = steps(&known, &found.candidates, data);
+    Ok(found)
+}
+
+/// Where points of each set and column could be measured.
+fn places(scenes: &Scenes, best: &[f64], data: &[Datum]) -> Result<Vec<Datum>, String> {
+    let mut all = Vec::new();
+    for (set, column) in super::pictures::kinds(data) {
+        let end = scenes.end(set, best)?;
+        let here = || {
+            data.iter()
+                .filter(|datum| (datum.set, &datum.column) == (set, &column))
+        };
+        let middle = |of: fn(&Datum) -> f64| {
+            let mut all: Vec<f64> = here().map(of).collect();
+            all.sort_by(f64::total_cmp);
+            all[all.len() / 2]
+        };
+        all.extend((1..=TIMES).map(|k| Datum {
+            set,
+            line: 0,
+            column: column.clone(),
+            time: end * k as f64 / TIMES as f64,
+            value: f64::NAN,
+            u_time: middle(|datum| datum.u_time),
+            u: middle(|datum| datum.u),
+        }));
+    }
+    Ok(all)
+}
+
+/// Places evenly over the last box that the measured points leave, and their weights, which add up to 1.
+fn weighted(fit: &Fit) -> (Vec<Vec<f64>>, Vec<f64>) {
+    let parameters = fit.sides.len();
+    let count = PLACES[parameters - 1];
+    let coordinate = |k: usize| 2.0 * k as f64 / (count - 1) as f64 - 1.0;
+    let place = |mut k: usize| -> Vec<f64> {
+        let mut next = || {
+            let own = k % count;
+            k /= count;
+            coordinate(own)
+        };
+        (0..parameters).map(|_| next()).collect()
+    };
+    let (mut places, mut weights) = (Vec::new(), Vec::new());
+    for k in 0..count.pow(parameters as u32) {
+        let place = place(k);
+        let weight = (-0.5 * (fit.best.surface.at(&place) - fit.best.chi_square)).exp();
+        if weight > SMALL {
+            places.push(place);
+            weights.push(weight);
+        }
+    }
+    let all: f64 = weights.iter().sum();
+    (places, weights.into_iter().map(|weight| weight / all).collect())
+}
+
+/// What is known of the parameters and of each candidate.
+#[derive(Clone, Debug)]
+pub(super) struct Known {
+    /// The covariance of the parameters.
+    parameters: DMatrix<f64>,
+    /// Parameters × candidates: their covariances.
+    cross: DMatrix<f64>,
+    /// The variance of each candidate.
+    own: DVector<f64>,
+    /// Places × candidates: values less their mean, times the root of the weight.
+    values: Arc<DMatrix<f64>>,
+    /// Of each point that was measured: its covariances with all candidates, and its whole variance.
+    measured: Vec<(DVector<f64>, f64)>,
+}
+
+impl Known {
+    /// From the parameters at weighted places, and each candidate's values there.
+    pub(super) fn new(parameters: &[Vec<f64>], columns: &[DVector<f64>], weights: &[f64]) -> Self {
+        let weights = DVector::from_column_slice(weights);
+        let centred = |column: &DVector<f64>| {
+            let mean = column.dot(&weights);
+            column.zip_map(&weights, |value, weight| (value - mean) * weight.sqrt())
+        };
+        let axes = (0..parameters[0].len()).map(|axis| {
+            let column = parameters.iter().map(|place| place[axis]);
+            centred(&DVector::from_iterator(parameters.len(), column))
+        });
+        let theta = DMatrix::from_columns(&axes.collect::<Vec<_>>());
+        let values = DMatrix::from_columns(&columns.iter().map(centred).collect::<Vec<_>>());
+        Self {
+            parameters: theta.tr_mul(&theta),
+            cross: theta.tr_mul(&values),
+            own: DVector::from_iterator(
+                values.ncols(),
+                values.column_iter().map(|column| column.norm_squared()),
+            ),
+            values: Arc::new(values),
+            measured: Vec::new(),
+        }
+    }
+
+    /// The covariance of the parameters once a point with a variance of its own is known.
+    fn left(&self, k: usize, variance: f64) -> DMatrix<f64> {
+        let with_parameters = self.cross.column(k);
+        &self.parameters - with_parameters * with_parameters.transpose() / (variance + self.own[k])
+    }
+
+    /// One more point is known, with a variance of its own.
+    fn measure(&mut self, k: usize, variance: f64) {
+        let mut with_all = self.values.tr_mul(&self.values.column(k));
+        for (earlier, whole) in &self.measured {
+            with_all -= earlier * (earlier[k] / whole);
+        }
+        let whole = variance + self.own[k];
+        self.parameters = self.left(k, variance);
+        let with_parameters = self.cross.column(k).clone_owned();
+        self.cross -= &with_parameters * with_all.transpose() / whole;
+        self.own -= with_all.map(|c| c * c) / whole;
+        self.measured.push((with_all, whole));
+    }
+
+    /// The point that leaves the least determinant of the parameters' covariance, each with a variance of its own.
+    fn best(&self, variance: impl Fn(usize) -> f64) -> Option<usize> {
+        let information = self.parameters.clone().try_inverse()?;
+        // The share of the determinant that a point takes away.
+        let gain = |k: usize| {
+            let with_parameters = self.cross.column(k);
+            with_parameters.dot(&(&information * with_parameters)) / (variance(k) + self.own[k])
+        };
+        (0..self.own.len()).max_by(|a, b| gain(*a).total_cmp(&gain(*b)))
+    }
+}
+
+fn deviations(covariance: &DMatrix<f64>) -> Vec<f64> {
+    covariance
+        .diagonal()
+        .iter()
+        .map(|square| square.max(0.0).sqrt())
+        .collect()
+}
+
+/// What the measured points leave, what as many more would, and the best points by turns.
+pub(super) fn steps(known: &Known, candidates: &[Candidate], data: &[Datum]) -> Vec<Step> {
+    let mut steps = vec![Step::of(Added::Nothing, known)];
+    let mut kinds: Vec<(usize, Option<f64>)> = Vec::new();
+    for candidate in candidates {
+        let kind = (candidate.set, candidate.concentration_per_cm3);
+        if !kinds.contains(&kind) {
+            kinds.push(kind);
+        }
+    }
+    for (set, concentration_per_cm3) in kinds {
+        let is_here = |one: &Candidate| (one.set, one.concentration_per_cm3) == (set, concentration_per_cm3);
+        let here: Vec<usize> = (0..candidates.len())
+            .filter(|k| is_here(&candidates[*k]))
+            .collect();
+        let points = data.iter().filter(|datum| datum.set == set).count();
+        let mut after = known.clone();
+        for point in 0..points {
+            let k = here[((2 * point + 1) * here.len() / (2 * points)).min(here.len() - 1)];
+            after.measure(k, candidates[k].u.powi(2));
+        }
+        let added = Added::AsMany {
+            set,
+            points,
+            concentration_per_cm3,
+        };
+        steps.push(Step::of(added, &after));
+    }
+    let mut left = known.clone();
+    for _ in 0..CHOSEN {
+        let best = left.best(|k| candidates[k].u.powi(2));
+        let Some(k) = best else { break };
+        let best = &candidates[k];
+        left.measure(k, best.u.powi(2));
+        let added = Added::Point {
+            set: best.set,
+            concentration_per_cm3: best.concentration_per_cm3,
+            column: best.column.clone(),
+            time: best.time,
+        };
+        steps.push(Step::of(added, &left));
+    }
+    steps
+}
+
+impl Step {
+    fn of(added: Added, known: &Known) -> Self {
+        let (u, covariance) = (deviations(&known.parameters), &known.parameters);
+        let mut correlation: Option<f64> = None;
+        for i in 0..u.len() {
+            for j in 0..i {
+                let own = covariance[(i, j)] / (u[i] * u[j]);
+                if correlation.is_none_or(|largest| own.abs() > largest.abs()) {
+                    correlation = Some(own);
+                }
+            }
+        }
+        Self {
+            added,
+            u,
+            correlation,
+        }
+    }
+}
