@@ -9,6 +9,8 @@ mod contributing;
 mod ending;
 #[rustfmt::skip]
 mod example_case;
+#[rustfmt::skip]
+mod example_study;
 mod experiments;
 mod fit;
 mod folders;
