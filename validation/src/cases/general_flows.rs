@@ -6,7 +6,7 @@ mod scenes;
 use crate::case::{Case, Effort, Evidence};
 use crate::lab::Shared;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
-use problems::Problem;
+use problems::{Kind, Problem, random};
 use shearbed::flow::VelocityGradient;
 use shearbed::free::MAX_ERROR_RAD;
 use shearbed::jeffery::shape_factor;
@@ -100,15 +100,20 @@ fn core(problem: &Problem) -> Moved {
         .expect("any flow has a strain")
 }
 
-/// A in units of its flow's largest component, and the time, in double.
-fn rates(problem: &Problem) -> (Matrix3<f64>, f64) {
+/// L without its trace in units of the flow's largest component, and the time, in double.
+fn gradient(problem: &Problem) -> (Matrix3<f64>, f64) {
     let flow = flow(problem);
     let size = flow.per_s().amax();
-    let square = problem.rod.aspect_ratio.powi(2);
     let l = flow.per_s() / size;
-    let l = l - Matrix3::identity() * (l.trace() / 3.0);
-    let a = l / (1.0 + 1.0 / square) - l.transpose() / (1.0 + square);
-    (a, problem.strain * (size / flow.magnitude_per_s()))
+    let time = problem.strain * (size / flow.magnitude_per_s());
+    (l - Matrix3::identity() * (l.trace() / 3.0), time)
+}
+
+/// A in the same units, and the time.
+fn rates(problem: &Problem) -> (Matrix3<f64>, f64) {
+    let (l, time) = gradient(problem);
+    let square = problem.rod.aspect_ratio.powi(2);
+    (l / (1.0 + 1.0 / square) - l.transpose() / (1.0 + square), time)
 }
 
 /// The direction by a map in double, with the core's bound.
@@ -144,11 +149,18 @@ fn planar(a: &Matrix3<f64>, time: f64) -> Matrix3<f64> {
     Matrix3::identity() + a * once + a * a * twice
 }
 
+/// Hard problems. Of 10 000 at another seed 525 show a bound that is too wide and 585 one that is missing, so that at least
+/// 0.047 of all do: none of 300 does with a probability of 0.953³⁰⁰ = 5·10⁻⁷, below [`crate::accept::MISS`]. Of problems of any
+/// kind only 0.005 and 0.009 do, and 400 of these alone missed one or the other at one seed in nine.
+const HARD: u64 = 300;
+
 /// Problems with answers, worked out once for the check and its controls.
 fn shared(effort: &Effort) -> Arc<Vec<Problem>> {
     static PROBLEMS: Shared<u64, Vec<Problem>> = Shared::new();
     PROBLEMS.get(effort, 0, || {
-        problems::random(effort.seed(9), effort.pick(400, 100_000))
+        let any = random(Kind::Any, effort.seed(9), effort.pick(400, 100_000));
+        let hard = random(Kind::Hard, effort.seed(10), effort.pick(HARD, 30_000));
+        [any, hard].concat()
     })
 }
 
@@ -158,11 +170,12 @@ fn apart(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
 }
 
 /// Whether numbers of 106 bits leave 10⁻⁶ rad. Where two roots meet their distance is known from the equation to the root of a
-/// rounding only: coefficients of e^{At} are off by (|A|t)² roundings, and are |A|t times as large as what is left of them. What
-/// is left of the start's direction is smaller by the condition number. A thousand roundings are allowed for.
+/// rounding only: coefficients of e^{At} are off by (|L|t)² roundings, and are |L|t times as large as what is left of them: roundings
+/// are those of L, also where little of it is left in A, near spheres. What is left of the start's direction is smaller by the
+/// condition number. A thousand roundings are allowed for.
 fn answerable(problem: &Problem) -> bool {
-    let (a, time) = rates(problem);
-    let turned = (a.norm() * time).max(1.0);
+    let (l, time) = gradient(problem);
+    let turned = (l.norm() * time).max(1.0);
     let propagator = Propagator::general(&flow(problem), problem.rod.aspect_ratio);
     let (map, _) = propagator
         .map(Span::Strain(problem.strain, 1.0))

@@ -16,20 +16,41 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// With the oracle's answer.
-    pub fn new(rod: Rod, strain: f64) -> Self {
-        let truth = rod.after(Span::Strain(strain));
-        Self { rod, strain, truth }
+    /// With the oracle's answer, where it has one.
+    pub fn new(rod: Rod, strain: f64) -> Option<Self> {
+        let truth = rod.settled(Span::Strain(strain))?;
+        Some(Self { rod, strain, truth })
     }
 }
 
-/// The first `count` random problems of a seed.
-pub fn random(seed: u64, count: u64) -> Vec<Problem> {
-    (0..count).into_par_iter().map(|index| one(seed, index)).collect()
+/// Which problems are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Of every kind.
+    Any,
+    /// Long, and from the start that the flow turns most of the way or beside it: where a bound counts.
+    Hard,
 }
 
-fn one(seed: u64, index: u64) -> Problem {
+/// The first `count` random problems of a seed.
+pub fn random(kind: Kind, seed: u64, count: u64) -> Vec<Problem> {
+    (0..count)
+        .into_par_iter()
+        .map(|index| one(kind, seed, index))
+        .collect()
+}
+
+fn one(kind: Kind, seed: u64, index: u64) -> Problem {
     let rng = &mut Pcg64::seed_from_u64(seed.wrapping_add(index));
+    loop {
+        if let Some(problem) = drawn(kind, rng) {
+            return problem;
+        }
+    }
+}
+
+/// None where the oracle has no answer, some one in 10⁵.
+fn drawn(kind: Kind, rng: &mut impl Rng) -> Option<Problem> {
     let gradient = loop {
         let gradient = gradient(rng);
         // Without a strain rate there is no strain.
@@ -42,15 +63,18 @@ fn one(seed: u64, index: u64) -> Problem {
         aspect_ratio: aspect_ratio(rng),
         p: start(rng),
     };
-    let strain = size(rng, -13.0, 6.0);
-    if rng.random_range(0..3) == 0 {
+    let strain = match kind {
+        Kind::Any => size(rng, -13.0, 6.0),
+        Kind::Hard => size(rng, 0.0, 6.0),
+    };
+    if kind == Kind::Hard || rng.random_range(0..3) == 0 {
         // From the end backwards: the start that the flow turns most of the way, where the condition number is largest; and
         // starts at any distance from it, for the condition numbers between.
         let back = Rod {
             gradient_per_s: rod.gradient_per_s.map(|row| row.map(|x| -x)),
             ..rod
         };
-        let most = Vector3::from(back.after(Span::Strain(strain)));
+        let most = Vector3::from(back.settled(Span::Strain(strain))?);
         let beside = Vector3::from_fn(|_, _| signed(rng)) * size(rng, -17.0, 0.0);
         rod.p = match rng.random_range(0..4) {
             0 => most,

@@ -122,3 +122,16 @@ fn a_chain_of_shears_is_a_polynomial() {
     };
     near(rod.after(Span::Seconds(3.0)), [4.5, 3.0, 1.0], 2.0 * f64::EPSILON);
 }
+
+/// p₂ = p₃ is kept by this flow for ever, and left by any rounding.
+#[test]
+fn what_more_bits_than_there_are_would_settle_is_not_answered() {
+    let rod = Rod {
+        gradient_per_s: [[-1.0, -3.0, -3.0], [3.0, -1.0, -2.0], [3.0, -2.0, -1.0]],
+        aspect_ratio: 1750.9182217714006,
+        p: [0.47627719711573724, -0.6217555916546216, -0.6217555916546216],
+    };
+    assert_eq!(rod.settled(Span::Strain(34924.47400069361)), None);
+    let soon = rod.settled(Span::Strain(10.0)).unwrap();
+    assert_eq!(soon[1], soon[2]);
+}
