@@ -62,15 +62,15 @@ kick-overflows@@src/collision.rs@@largest * (v / largest).norm()@@v.norm()
 non-finite-goes-on@@src/suspension.rs@@if !end.iter().all(|component| component.is_finite()) {@@if end.iter().all(|component| component.is_infinite()) {
 seconds-overflow@@src/scene/check.rs@@if duration_s.is_finite() {@@if !duration_s.is_nan() {
 rate-overflows@@src/flow.rs@@largest * Self(self.0 / largest).strain_rate().norm()@@self.strain_rate().norm()
-rk4-weights@@validation/src/subject/fixed.rs@@y + (k1 + (k2 + k3) * 2.0 + k4) * (h / 6.0)@@y + (k1 + k2 * 3.0 + k3 + k4) * (h / 6.0)
-projection-left-out@@validation/src/subject/fixed.rs@@rk4(|y| problem.rate(&y), p, h).normalize()@@rk4(|y| problem.rate(&y), p, h)
-dexp-sign@@validation/src/subject/sphere.rs@@omega - 0.5 * once@@omega + 0.5 * once
-newton-ends-early@@validation/src/subject/sphere.rs@@if change.norm() <= NEWTON_TOLERANCE {@@if change.norm() <= 1e-3 {
-newton-not-damped@@validation/src/subject/sphere.rs@@if next.norm() < miss.norm() {@@if next.norm().is_finite() {
-short-from-shape@@validation/src/subject/problem.rs@@short: 1.0 / (1.0 + square),@@short: 0.5 - 0.5 * (square - 1.0) / (square + 1.0),
-southern-half@@validation/src/subject/exact.rs@@let p = if start.z < 0.0 { -*start } else { *start };@@let p = *start;
-slope-of-p2@@validation/src/subject/problem.rs@@p * Vector3::new(shape * p.y, shape * p.x, 0.0).transpose()@@p * Vector3::new(shape * p.y, 0.0 * shape * p.x, 0.0).transpose()
-loose-tolerance@@validation/src/subject/adaptive.rs@@start.into_inner(), tolerance, tolerance);@@start.into_inner(), 1e3 * tolerance, 1e3 * tolerance);
+rk4-weights@@validation/src/integrators/fixed.rs@@y + (k1 + (k2 + k3) * 2.0 + k4) * (h / 6.0)@@y + (k1 + k2 * 3.0 + k3 + k4) * (h / 6.0)
+projection-left-out@@validation/src/integrators/fixed.rs@@rk4(|y| problem.rate(&y), p, h).normalize()@@rk4(|y| problem.rate(&y), p, h)
+dexp-sign@@validation/src/integrators/sphere.rs@@omega - 0.5 * once@@omega + 0.5 * once
+newton-ends-early@@validation/src/integrators/sphere.rs@@if change.norm() <= NEWTON_TOLERANCE {@@if change.norm() <= 1e-3 {
+newton-not-damped@@validation/src/integrators/sphere.rs@@if next.norm() < miss.norm() {@@if next.norm().is_finite() {
+short-from-shape@@validation/src/integrators/problem.rs@@short: 1.0 / (1.0 + square),@@short: 0.5 - 0.5 * (square - 1.0) / (square + 1.0),
+southern-half@@validation/src/integrators/exact.rs@@let p = if start.z < 0.0 { -*start } else { *start };@@let p = *start;
+slope-of-p2@@validation/src/integrators/problem.rs@@p * Vector3::new(shape * p.y, shape * p.x, 0.0).transpose()@@p * Vector3::new(shape * p.y, 0.0 * shape * p.x, 0.0).transpose()
+loose-tolerance@@validation/src/integrators/adaptive.rs@@start.into_inner(), tolerance, tolerance);@@start.into_inner(), 1e3 * tolerance, 1e3 * tolerance);
 LIST
 )
 missed=0

@@ -1,7 +1,7 @@
 //! Your own integrator, graded as those of the project are: `cargo run --release --example bring_your_own`.
 
 use nalgebra::Vector3;
-use validation::subject::{FixedStep, Problem, Setting, grade};
+use validation::integrators::{FixedStep, Problem, Setting, grade};
 use validation::work_precision::{Budget, curve, order};
 
 /// Heun's method: one step of length h (in 1/G) from p.

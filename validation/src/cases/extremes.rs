@@ -1,10 +1,10 @@
 //! The core where it is stiff or extreme: no NaN, no panic, |p| = 1 to 4 ulp, C to its bound.
 
 use crate::case::{Case, Effort, Evidence};
+use crate::integrators::{ClosedForm, Integrator, Problem, Setting};
 use crate::stability::core;
 use crate::stability::map::{ASPECT_RATIOS, STEPS};
 use crate::statistics::larger;
-use crate::subject::{ClosedForm, Problem, Setting, Subject};
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use shearbed::flow::VelocityGradient;
 use shearbed::orientation;

@@ -1,11 +1,11 @@
 //! What `docs/integrators.md` says of the problem and of the subjects, beyond orders and limits.
 
-use super::subjects::Subjects;
+use super::subjects::Integrators;
 use super::subjects::spoiled::in_p;
 use crate::case::{Case, Effort, Evidence};
+use crate::integrators::{self, *};
 use crate::stability::orbit::Place;
 use crate::statistics::larger;
-use crate::subject::{self, *};
 use crate::work_precision::order;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
@@ -71,7 +71,7 @@ pub fn cases() -> Vec<Case> {
             .claim("The subjects that are not said to keep |p| lose it: each by more than round-off.")
             .source("p·ṗ = 0 (A.1)")
             .equations(&["A.1"])
-            .subject(subject::own as Subjects)
+            .subject(integrators::own as Integrators)
             .mistake("projected RK4 not said to keep it", || {
                 in_p(4, false, |problem, p, h| {
                     rk4(|y| problem.rate(&y), p, h).normalize()
@@ -95,7 +95,7 @@ pub fn cases() -> Vec<Case> {
             )
             .source("A.4, A.5")
             .equations(&["A.4", "A.5"])
-            .subject(subject::own as Subjects)
+            .subject(integrators::own as Integrators)
             .mistake("explicit Euler said to be of order 3", || {
                 in_p(3, false, |problem, p, h| p + h * problem.tangent_rate(&p))
             })
@@ -211,10 +211,10 @@ fn eigenvalues(slope: &Slope, _: &Effort) -> Vec<Evidence> {
     ]
 }
 
-fn lose_length(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+fn lose_length(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     let (problem, start) = Problem::mid_flip(11.6);
     let steps = 1024;
-    let kept = |subject: &dyn Subject| {
+    let kept = |subject: &dyn Integrator| {
         let setting = match subject.theory() {
             Theory::Adaptive => Setting::Tolerance(1e-6),
             _ => Setting::Steps(steps),
@@ -236,7 +236,7 @@ fn coarse(strain: &f64, _: &Effort) -> Vec<Evidence> {
     let (problem, start) = Problem::mid_flip(11.6);
     let steps = Setting::Steps((problem.strain() / strain).round() as u64);
     let mut unlike = 0.0;
-    for subject in subject::own() {
+    for subject in integrators::own() {
         let found = grade(subject.as_ref(), &problem, &start, steps);
         let as_said = match (subject.name(), found) {
             ("RK4 in p", found) => found == Err(Failure::NotFinite),
@@ -249,7 +249,7 @@ fn coarse(strain: &f64, _: &Effort) -> Vec<Evidence> {
     vec![Evidence::exact("of the two, not as said", unlike)]
 }
 
-fn index_bounds(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+fn index_bounds(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     let (problem, start) = Problem::mid_flip(11.6);
     let mut worst = 0.0f64;
     for subject in subjects() {

@@ -2,10 +2,10 @@
 //! against A.4 and A.5.
 
 use crate::case::{Case, Effort, Evidence};
+use crate::integrators::apart_rad;
 use crate::lab::{self, Change};
 use crate::oracle::{closed_form, jeffery as printed};
 use crate::statistics::larger;
-use crate::subject::apart_rad;
 use nalgebra::{Matrix3, Vector3};
 use shearbed::jeffery::{couette_rate, shape_factor};
 use shearbed::orientation;

@@ -4,9 +4,9 @@
 
 use crate::accept::Rule;
 use crate::case::{Case, Effort, Evidence};
+use crate::integrators::rk4;
 use crate::lab;
 use crate::statistics::larger;
-use crate::subject::rk4;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use shearbed::flow::VelocityGradient;
 use shearbed::observable::{Block, Observable, Sum};

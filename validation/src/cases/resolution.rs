@@ -67,14 +67,14 @@ const SIZES: [Size; 2] = [
 ];
 
 /// Which of [`SIZES`] is run, and at which steps; by default those of the scene.
-struct Subject {
+struct Integrator {
     sizes: &'static [Size],
     coarse: bool,
 }
 
 /// The case of the default step.
 pub fn cases() -> Vec<Case> {
-    let control = |k: usize| Subject {
+    let control = |k: usize| Integrator {
         sizes: &SIZES[k..=k],
         coarse: true,
     };
@@ -86,7 +86,7 @@ pub fn cases() -> Vec<Case> {
             )
             .source("eq. 15, Fig. 7")
             .equations(&["15"])
-            .subject(Subject {
+            .subject(Integrator {
                 sizes: &SIZES,
                 coarse: false,
             })

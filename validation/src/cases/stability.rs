@@ -1,12 +1,12 @@
 //! Where integrators of a free rod leave their region of stability: what `docs/stability.md` says.
 
-use super::subjects::Subjects;
+use super::subjects::Integrators;
 use super::subjects::spoiled::{Refuses, WholeTurns, in_angles, in_p};
 use crate::case::{Case, Effort, Evidence};
+use crate::integrators::{self, *};
 use crate::stability::map::{self, ASPECT_RATIOS, Cell, Found, STEPS, TOLERANCES};
 use crate::stability::orbit::Place;
 use crate::statistics::larger;
-use crate::subject::{self, *};
 
 pub fn cases() -> Vec<Case> {
     vec![
@@ -18,7 +18,7 @@ pub fn cases() -> Vec<Case> {
             )
             .source("A.2 to A.5, eq. 13")
             .equations(&["13", "A.2", "A.3", "A.4", "A.5"])
-            .subject(subject::own as Subjects)
+            .subject(integrators::own as Integrators)
             .mistake("whole turns are left in the phase", || vec![Box::new(WholeTurns)])
             .mistake("RK4 in p said to keep |p|", || {
                 in_p(4, true, |problem, p, h| rk4(|y| problem.rate(&y), p, h))
@@ -39,7 +39,7 @@ struct Tried {
     strain_per_step: f64,
 }
 
-fn corners(subjects: &Subjects, effort: &Effort) -> Vec<Evidence> {
+fn corners(subjects: &Integrators, effort: &Effort) -> Vec<Evidence> {
     let most_steps = effort.pick(2_000, 20_000);
     let mut exact = 0.0f64;
     let mut angles = 0.0f64;
@@ -96,7 +96,7 @@ fn corners(subjects: &Subjects, effort: &Effort) -> Vec<Evidence> {
 }
 
 /// Every map's cells that a subject has within so many steps.
-fn tried(subject: &dyn Subject, most_steps: u64) -> Vec<Tried> {
+fn tried(subject: &dyn Integrator, most_steps: u64) -> Vec<Tried> {
     let theory = subject.theory();
     let mut all = Vec::new();
     let mut push = |run: map::Run| {

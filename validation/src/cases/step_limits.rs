@@ -3,19 +3,19 @@
 mod in_p;
 
 use self::in_p::{at_least, frozen, near_a_sphere};
-use super::subjects::Subjects;
+use super::subjects::Integrators;
 use super::subjects::spoiled::{in_angles, in_p};
 use crate::case::{Case, Effort, Evidence};
+use crate::integrators::{self, *};
 use crate::stability::limit_tables::{ONE_STEP, TEN_PERIODS};
 use crate::stability::limits::{Limit, Property, bisect, holds};
 use crate::stability::theory;
 use crate::statistics::larger;
-use crate::subject::{self, *};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Subjects that are to lose a property at a step given by theory.
+/// Integrators that are to lose a property at a step given by theory.
 struct Claimed {
-    subjects: Subjects,
+    subjects: Integrators,
     property: Property,
     theory: fn(f64) -> f64,
     /// How much too long the longest step is found, in δ², δ = π/1024: of 512 rods one is as near to the extreme one.
@@ -32,50 +32,50 @@ const HALF_A_STEP_AHEAD: f64 = 7.0;
 const OF_MIDPOINTS: f64 = 50.0;
 
 /// The project's subject of this name.
-fn own(name: &str) -> Vec<Box<dyn Subject>> {
-    let mut all = subject::own();
+fn own(name: &str) -> Vec<Box<dyn Integrator>> {
+    let mut all = integrators::own();
     all.retain(|subject| subject.name() == name);
     all
 }
 
-fn euler() -> Vec<Box<dyn Subject>> {
+fn euler() -> Vec<Box<dyn Integrator>> {
     own("explicit Euler in angles")
 }
 
-fn half_euler() -> Vec<Box<dyn Subject>> {
+fn half_euler() -> Vec<Box<dyn Integrator>> {
     in_angles(1, |problem, y, h| {
         explicit_euler(|y| 0.5 * problem.angle_rates(&y), y, h)
     })
 }
 
-fn rk4_in_angles() -> Vec<Box<dyn Subject>> {
+fn rk4_in_angles() -> Vec<Box<dyn Integrator>> {
     own("RK4 in angles")
 }
 
-fn implicit_midpoint() -> Vec<Box<dyn Subject>> {
+fn implicit_midpoint() -> Vec<Box<dyn Integrator>> {
     own("implicit midpoint in p")
 }
 
 pub fn cases() -> Vec<Case> {
-    let order = |subjects: Subjects| Claimed {
+    let order = |subjects: Integrators| Claimed {
         subjects,
         property: Property::Order,
         theory: theory::euler_order,
         found_late: OF_EULER,
     };
-    let turning = |subjects: Subjects| Claimed {
+    let turning = |subjects: Integrators| Claimed {
         subjects,
         property: Property::Turning,
         theory: theory::euler_turning,
         found_late: HALF_A_STEP_AHEAD,
     };
-    let side = |subjects: Subjects, theory| Claimed {
+    let side = |subjects: Integrators, theory| Claimed {
         subjects,
         property: Property::Side,
         theory,
         found_late: OF_MIDPOINTS,
     };
-    let folded = |subjects: Subjects, theory| Claimed {
+    let folded = |subjects: Integrators, theory| Claimed {
         subjects,
         property: Property::Order,
         theory,
@@ -112,9 +112,9 @@ pub fn cases() -> Vec<Case> {
                     rest where there is no rest; just below it none stops.")
             .source("A.2, A.3; A.14 is such a step")
             .equations(&["A.2"])
-            .subject(euler as Subjects)
-            .mistake("half of the rate", half_euler as Subjects)
-            .mistake("RK4", rk4_in_angles as Subjects)
+            .subject(euler as Integrators)
+            .mistake("half of the rate", half_euler as Integrators)
+            .mistake("RK4", rk4_in_angles as Integrators)
             .check(rest),
         Case::integrator("step-limit-side")
             .claim("Explicit Euler lets no rod cross the plane of shear up to GΔt = 2/Λ, and not beyond.")
@@ -162,7 +162,7 @@ pub fn cases() -> Vec<Case> {
                 .into_iter()
                 .flat_map(own)
                 .collect()
-            }) as Subjects)
+            }) as Integrators)
             .mistake("RK4 in steps of three times the length", || {
                     in_angles(4, |problem, y, h| rk4(|y| problem.angle_rates(&y), y, 3.0 * h))
                 })
@@ -178,8 +178,8 @@ pub fn cases() -> Vec<Case> {
                     its limit on the imaginary axis.")
             .source("A.2, A.3; A.14 is such a step")
             .equations(&["A.1"])
-            .subject((|| own("RK4 in p")) as Subjects)
-            .mistake("RK4 in angles", rk4_in_angles as Subjects)
+            .subject((|| own("RK4 in p")) as Integrators)
+            .mistake("RK4 in angles", rk4_in_angles as Integrators)
             .mistake("explicit Euler in p", || {
                     in_p(1, false, |problem, p, h| p + h * problem.rate(&p))
                 })
@@ -192,9 +192,9 @@ pub fn cases() -> Vec<Case> {
                     axis, GΔt = 2.785/Λ, for r_e from 1.5 to 100.")
             .source("A.2, A.3; A.14 is such a step")
             .equations(&["A.1"])
-            .subject((|| own("RK4 in p")) as Subjects)
+            .subject((|| own("RK4 in p")) as Integrators)
             .mistake("projected", || own("projected RK4 in p"))
-            .mistake("in angles", rk4_in_angles as Subjects)
+            .mistake("in angles", rk4_in_angles as Integrators)
             .mistake("steps of half the length", || {
                     in_p(4, false, |problem, p, h| {
                         let f = |y| problem.rate(&y);
@@ -206,7 +206,7 @@ pub fn cases() -> Vec<Case> {
 }
 
 /// The implicit midpoint rule given up too early.
-fn two_changes() -> Vec<Box<dyn Subject>> {
+fn two_changes() -> Vec<Box<dyn Integrator>> {
     in_p(2, true, |problem, p, h| {
         let mut m = p;
         for _ in 0..2 {
@@ -222,7 +222,7 @@ fn two_changes() -> Vec<Box<dyn Subject>> {
 const RATIOS: [f64; 9] = [0.1, 1.1, 1.5, 2.0, 2.5, 3.0, 11.6, 100.0, 1e4];
 
 fn agrees(claimed: &Claimed, _: &Effort) -> Vec<Evidence> {
-    let judged = |subject: Box<dyn Subject>| {
+    let judged = |subject: Box<dyn Integrator>| {
         let worst = RATIOS.map(|r| {
             let expected = (claimed.theory)(r);
             let found = bisect(ONE_STEP, |h| holds(subject.as_ref(), claimed.property, r, h));
@@ -246,7 +246,7 @@ fn agrees(claimed: &Claimed, _: &Effort) -> Vec<Evidence> {
     (claimed.subjects)().into_iter().map(judged).collect()
 }
 
-fn rest(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+fn rest(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     let mut moving = 0.0;
     let mut resting = 0.0;
     for subject in subjects() {

@@ -3,14 +3,14 @@
 pub(super) mod spoiled;
 
 use crate::case::{Case, Effort, Evidence};
+use crate::integrators::{self, *};
 use crate::statistics::larger;
-use crate::subject::{self, *};
 use crate::work_precision::order::{self, ORDER_TOLERANCE};
 use nalgebra::{Vector2, Vector3};
 use spoiled::{Spoiled, WholeTurns, in_angles, in_p};
 
 /// What is judged: made anew for each check.
-pub(super) type Subjects = fn() -> Vec<Box<dyn Subject>>;
+pub(super) type Integrators = fn() -> Vec<Box<dyn Integrator>>;
 
 pub fn cases() -> Vec<Case> {
     vec![
@@ -18,7 +18,7 @@ pub fn cases() -> Vec<Case> {
             .claim("The error of every fixed-step subject falls with the order of its theory.")
             .source("A.2 to A.5; Jeffery's equation in p")
             .equations(&["A.2", "A.3", "A.4", "A.5"])
-            .subject(subject::own as Subjects)
+            .subject(integrators::own as Integrators)
             .mistake("a stage of RK4 at the wrong place", || {
                 in_angles(4, |problem, y, h| {
                     let f = |y: Vector2<f64>| problem.angle_rates(&y);
@@ -45,10 +45,10 @@ pub fn cases() -> Vec<Case> {
             })
             .check(orders),
         Case::integrator("subject-lengths")
-            .claim("Subjects that are said to keep |p| = 1 keep it to round-off at any step.")
+            .claim("Integrators that are said to keep |p| = 1 keep it to round-off at any step.")
             .source("p·ṗ = 0 (A.1)")
             .equations(&["A.1"])
-            .subject(subject::own as Subjects)
+            .subject(integrators::own as Integrators)
             .mistake("RK4 in p, not projected", || {
                 in_p(4, true, |problem, p, h| rk4(|y| problem.rate(&y), p, h))
             })
@@ -66,7 +66,7 @@ pub fn cases() -> Vec<Case> {
             )
             .source("A.4, A.5, eq. 20")
             .equations(&["20", "A.4", "A.5"])
-            .subject((|| vec![Box::new(ExactPropagator) as Box<dyn Subject>]) as Subjects)
+            .subject((|| vec![Box::new(ExactPropagator) as Box<dyn Integrator>]) as Integrators)
             .mistake("whole turns are left in the phase", || vec![Box::new(WholeTurns)])
             .mistake("A.4 and A.5 in angles", || vec![Box::new(ClosedForm)])
             .check(round_off),
@@ -78,7 +78,8 @@ pub fn cases() -> Vec<Case> {
             .source("A.2 to A.5; Jeffery's equation in p")
             .equations(&["A.4", "A.5"])
             .subject(
-                (|| -> Vec<Box<dyn Subject>> { vec![Box::new(DormandPrince), Box::new(Radau)] }) as Subjects,
+                (|| -> Vec<Box<dyn Integrator>> { vec![Box::new(DormandPrince), Box::new(Radau)] })
+                    as Integrators,
             )
             .mistake("r_e 0.1 % too long", || {
                 vec![Box::new(Spoiled(|problem| {
@@ -97,7 +98,7 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-fn orders(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+fn orders(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     let mut evidence = Vec::new();
     for subject in subjects() {
         let mut worst = 0.0f64;
@@ -129,7 +130,7 @@ fn orders(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
     evidence
 }
 
-fn lengths(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+fn lengths(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     let (problem, start) = Problem::mid_flip(11.6);
     (subjects().into_iter())
         .filter(|subject| subject.keeps_length())
@@ -150,7 +151,7 @@ fn lengths(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
         .collect()
 }
 
-fn round_off(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+fn round_off(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     let mut worst = 0.0f64;
     for subject in subjects() {
         for r in [1.01, 2.0, 11.6, 100.0, 1e4, 1e6] {
@@ -174,7 +175,7 @@ fn round_off(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
 /// r_e, and the steps that Dormand–Prince and Radau take at a tolerance of 10⁻¹¹ (52, 78, 122 and 327, 458, 689), rounded up.
 const STEPS: [(f64, [f64; 2]); 3] = [(1.5, [60.0, 330.0]), (3.0, [80.0, 460.0]), (11.6, [130.0, 700.0])];
 
-fn adaptive(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+fn adaptive(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     let mut evidence = Vec::new();
     for subject in subjects() {
         for (r, steps) in STEPS {

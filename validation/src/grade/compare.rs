@@ -1,8 +1,8 @@
 //! How far an answer is from the certified one, and what it lost.
 
 use super::answer::Answer;
+use crate::integrators::apart_rad;
 use crate::problems::{LoadedProblem, Metric};
-use crate::subject::apart_rad;
 use nalgebra::{Matrix3, Vector3};
 use shearbed::flow::VelocityGradient;
 use shearbed::{jeffery, orientation};

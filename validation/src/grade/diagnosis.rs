@@ -4,8 +4,8 @@ use super::answer::Answer;
 use super::contact;
 use super::means;
 use super::mistakes::{self, Mistake, Setting};
+use crate::integrators::apart_rad;
 use crate::problems::{Kind, LoadedProblem};
-use crate::subject::apart_rad;
 use nalgebra::{Matrix3, Vector3};
 
 /// An answer is a mistake's curve where it is a thousand times nearer to it than to the truth: a chance coincidence of one

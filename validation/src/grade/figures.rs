@@ -1,9 +1,9 @@
 //! Pictures of what was found.
 
 use super::Graded;
+use crate::integrators::{self, Integrator, Problem, Setting, Theory};
 use crate::plot::{Curve, Figure};
 use crate::problems::{Kind, LoadedProblem};
-use crate::subject::{self, Problem, Setting, Subject, Theory};
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use shearbed::flow::VelocityGradient;
 use std::f64::consts::TAU;
@@ -34,7 +34,7 @@ pub fn steps(problems: &[LoadedProblem], graded: &[Graded]) -> Option<Figure> {
     let errors = drawn(graded);
     let counts: Vec<_> = errors.iter().map(|(steps, _)| *steps).collect();
     let mut curves = vec![curve(PROGRAM.to_owned(), &errors)];
-    for subject in subject::own() {
+    for subject in integrators::own() {
         if matches!(subject.theory(), Theory::Order(_)) {
             let errors = own_errors(subject.as_ref(), loaded, rate, &counts);
             curves.push(curve(subject.name().to_owned(), &errors));
@@ -78,14 +78,19 @@ fn couette_per_s(loaded: &LoadedProblem) -> Option<f64> {
 }
 
 /// The worst rod's error at the last time.
-fn own_errors(subject: &dyn Subject, loaded: &LoadedProblem, rate: f64, counts: &[u64]) -> Vec<(u64, f64)> {
+fn own_errors(
+    subject: &dyn Integrator,
+    loaded: &LoadedProblem,
+    rate: f64,
+    counts: &[u64],
+) -> Vec<(u64, f64)> {
     let r = loaded.problem.aspect_ratio;
     let end_s = loaded.problem.times_s.last().copied().unwrap_or_default();
     let problem = Problem::new(r, rate * end_s / (TAU * (r + 1.0 / r)));
     let error = |steps: u64| {
         let of_rod = |p: &[f64; 3]| {
             let start = UnitVector3::new_normalize(Vector3::from(*p));
-            let errors = subject::grade(subject, &problem, &start, Setting::Steps(steps)).ok()?;
+            let errors = integrators::grade(subject, &problem, &start, Setting::Steps(steps)).ok()?;
             Some(errors.orientation_rad)
         };
         let errors: Option<Vec<_>> = loaded.start.iter().map(of_rod).collect();

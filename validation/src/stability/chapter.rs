@@ -1,8 +1,8 @@
 //! The study of stability.
 
 use super::{core_table, ends, figures, limit_tables, maps};
+use crate::integrators;
 use crate::studies::{self, Exhibit, Extent, Found, Study};
-use crate::subject;
 
 /// Maps of what becomes of a rod, and the longest steps beside their theory.
 pub const STUDY: Study = Study {
@@ -29,7 +29,7 @@ pub const STUDY: Study = Study {
 };
 
 fn run(_: &Extent) -> Result<Option<Found>, String> {
-    let subjects = subject::all();
+    let subjects = integrators::all();
     let mut limits = limit_tables::limits(&subjects);
     let maps = maps::figures(&subjects);
     let answer = maps::answer(&maps);

@@ -2,7 +2,7 @@
 
 use super::map::{self, ASPECT_RATIOS, Cell, STEPS};
 use super::maps::{MOST_STEPS, of, ratio, tolerances_from_fine, with_tolerance};
-use crate::subject::{Subject, Theory};
+use crate::integrators::{Integrator, Theory};
 use crate::table::{ReportTable, of_words};
 
 /// The last setting before the first whose end is not right, and what comes then.
@@ -15,20 +15,20 @@ fn leaves(cells: &[Cell], setting: impl Fn(usize) -> String) -> String {
 }
 
 /// Where each subject leaves, by the step as a part of the period and by the tolerance: a row for each r_e.
-pub fn ends(subjects: &[Box<dyn Subject>]) -> [ReportTable; 2] {
-    let by_step = |subject: &dyn Subject, r: f64| {
+pub fn ends(subjects: &[Box<dyn Integrator>]) -> [ReportTable; 2] {
+    let by_step = |subject: &dyn Integrator, r: f64| {
         let run = |step| map::by_step(subject.theory(), r, step, MOST_STEPS).of(subject);
         leaves(&STEPS.map(run), |k| format!("{:.0e} T", STEPS[k]))
     };
-    let by_tolerance = |subject: &dyn Subject, r: f64| {
+    let by_tolerance = |subject: &dyn Integrator, r: f64| {
         let settings: Vec<f64> = tolerances_from_fine().collect();
         let cells: Vec<_> = settings.iter().map(|t| with_tolerance(subject, r, *t)).collect();
         leaves(&cells, |k| format!("{:.0e}", settings[k]))
     };
     let table = |words: [&str; 2],
                  caption: &str,
-                 which: Vec<&dyn Subject>,
-                 end: &dyn Fn(&dyn Subject, f64) -> String| {
+                 which: Vec<&dyn Integrator>,
+                 end: &dyn Fn(&dyn Integrator, f64) -> String| {
         let names = which.iter().map(|subject| subject.name().to_owned());
         let row = |r: f64| {
             let ends = which.iter().map(|subject| end(*subject, r));
@@ -70,12 +70,12 @@ mod tests {
     use super::super::map::Found;
     use super::super::orbit::Place;
     use super::*;
-    use crate::subject;
+    use crate::integrators;
 
     #[test]
     fn a_row_of_cells_says_where_it_leaves() {
         let (problem, end) = (map::by_step(Theory::Exact, 2.0, 1.0, 1), Place::mid_flip(2.0));
-        let right = problem.of(&subject::ExactPropagator);
+        let right = problem.of(&integrators::ExactPropagator);
         let wrong = map::Run {
             end: end.before(0.1),
             ..problem
@@ -85,9 +85,9 @@ mod tests {
             end,
             ..problem
         }
-        .of(&subject::ExactPropagator);
+        .of(&integrators::ExactPropagator);
         assert_eq!((right.found, late.found), (Found::RoundOff, Found::RoundOff));
-        assert!(wrong.of(&subject::ExactPropagator).found.is_right());
+        assert!(wrong.of(&integrators::ExactPropagator).found.is_right());
         let bad = Cell::not_run("many".into());
         let cells = [right.clone(), right.clone(), bad.clone(), right.clone()];
         assert_eq!(leaves(&cells, |k| k.to_string()), "to 1, then not run");

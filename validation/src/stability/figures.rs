@@ -2,12 +2,12 @@
 
 use super::limit_tables::{ONE_STEP, THEORIES};
 use super::limits::{Limit, Property, bisect, holds};
+use crate::integrators::{Integrator, Theory};
 use crate::plot;
 use crate::report::ReportFigure;
-use crate::subject::{Subject, Theory};
 
 /// A picture for each property of which there is a theory.
-pub fn figures(subjects: &[Box<dyn Subject>]) -> Vec<ReportFigure> {
+pub fn figures(subjects: &[Box<dyn Integrator>]) -> Vec<ReportFigure> {
     vec![
         figure(
             "step-limit-order",
@@ -38,7 +38,7 @@ fn figure(
     title: &str,
     case: &str,
     property: Property,
-    subjects: &[Box<dyn Subject>],
+    subjects: &[Box<dyn Integrator>],
 ) -> ReportFigure {
     let theories = THEORIES.iter().filter(|theory| theory.1 == property);
     let stepped = (subjects.iter()).filter(|subject| matches!(subject.theory(), Theory::Order(_)));
@@ -74,7 +74,7 @@ fn figure(
     }
 }
 
-fn measured(subject: &dyn Subject, property: Property) -> plot::Points {
+fn measured(subject: &dyn Integrator, property: Property) -> plot::Points {
     let x: Vec<f64> = vec![
         1.01, 1.05, 1.2, 1.5, 2.0, 2.5, 3.0, 5.0, 11.6, 30.0, 100.0, 1e3, 1e4,
     ];

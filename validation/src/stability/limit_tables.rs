@@ -3,7 +3,7 @@
 use super::limits::{Ladder, Limit, Property, bisect, holds};
 use super::maps::ratio;
 use super::theory;
-use crate::subject::{Subject, Theory};
+use crate::integrators::{Integrator, Theory};
 use crate::table::{ReportTable, of_words};
 
 /// The aspect ratios at which limits are sought.
@@ -49,7 +49,7 @@ pub const THEORIES: [LimitTheory; 6] = [
 ];
 
 /// A table for each property.
-pub fn limits(subjects: &[Box<dyn Subject>]) -> Vec<ReportTable> {
+pub fn limits(subjects: &[Box<dyn Integrator>]) -> Vec<ReportTable> {
     let one = |name, title, caption: &str, property| {
         limit_table(name, title, caption, property, &LIMIT_RATIOS, ONE_STEP, subjects)
     };
@@ -113,7 +113,7 @@ fn limit_table(
     property: Property,
     ratios: &[f64],
     ladder: Ladder,
-    subjects: &[Box<dyn Subject>],
+    subjects: &[Box<dyn Integrator>],
 ) -> ReportTable {
     let stepped = (subjects.iter()).filter(|subject| matches!(subject.theory(), Theory::Order(_)));
     let mut rows = Vec::new();

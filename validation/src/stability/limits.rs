@@ -1,6 +1,6 @@
 //! The longest step with which a fixed-step subject keeps a property, by bisection.
 
-use crate::subject::{Errors, Failure, Problem, Setting, Subject, Theory};
+use crate::integrators::{Errors, Failure, Integrator, Problem, Setting, Theory};
 use nalgebra::{UnitVector3, Vector3};
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -87,7 +87,7 @@ pub fn bisect(ladder: Ladder, holds: impl Fn(f64) -> bool) -> Limit {
 }
 
 /// Whether a subject has a property with steps of GΔt = `strain` at this aspect ratio.
-pub fn holds(subject: &dyn Subject, property: Property, aspect_ratio: f64, strain: f64) -> bool {
+pub fn holds(subject: &dyn Integrator, property: Property, aspect_ratio: f64, strain: f64) -> bool {
     let stepped = |p3: f64, more: u32| {
         let parts = (0..RODS).step_by(PART as usize);
         parts.map(move |first| near_plane(subject, aspect_ratio, strain, p3, first..first + PART + more))
@@ -133,7 +133,7 @@ fn forward(a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
 
 /// Rods before and after one step that start beside the plane of shear by `p3`; NaN where the step cannot be taken.
 fn near_plane(
-    subject: &dyn Subject,
+    subject: &dyn Integrator,
     aspect_ratio: f64,
     strain: f64,
     p3: f64,
@@ -154,7 +154,7 @@ fn one_step(aspect_ratio: f64, strain: f64) -> Problem {
     Problem::new(aspect_ratio, strain / Problem::new(aspect_ratio, 1.0).strain())
 }
 
-fn one(subject: &dyn Subject) -> Setting {
+fn one(subject: &dyn Integrator) -> Setting {
     match subject.theory() {
         Theory::Exact => Setting::Once,
         _ => Setting::Steps(1),
@@ -163,7 +163,7 @@ fn one(subject: &dyn Subject) -> Setting {
 
 /// Ten periods by steps of GΔt = `strain`, rounded up to whole steps.
 fn ten_periods(
-    subject: &dyn Subject,
+    subject: &dyn Integrator,
     aspect_ratio: f64,
     strain: f64,
     start: &UnitVector3<f64>,

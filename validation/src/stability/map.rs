@@ -1,7 +1,7 @@
 //! What becomes of a rod in every corner: aspect ratio by step, by start, by duration.
 
 use super::orbit::Place;
-use crate::subject::{Failure, Problem, Setting, Subject, Theory, apart_rad};
+use crate::integrators::{Failure, Integrator, Problem, Setting, Theory, apart_rad};
 use nalgebra::Vector3;
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -112,7 +112,7 @@ impl Run {
     }
 
     /// Runs a subject and says what was found.
-    pub fn of(&self, subject: &dyn Subject) -> Cell {
+    pub fn of(&self, subject: &dyn Integrator) -> Cell {
         let start = self.end.before(self.turns).direction(self.aspect_ratio);
         let problem = Problem::new(self.aspect_ratio, self.turns);
         match subject.advance(&problem, &start, self.setting) {

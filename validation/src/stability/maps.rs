@@ -5,9 +5,9 @@ use super::limits::Property;
 use super::map::{self, ASPECT_RATIOS, Cell, PERIODS, TOLERANCES};
 use super::orbit::Place;
 use super::panels::{Panel, Panels};
+use crate::integrators::{Integrator, Setting, Theory};
 use crate::plot::{Map, decade, power_of_ten};
 use crate::report::ReportFigure;
-use crate::subject::{Setting, Subject, Theory};
 use shearbed::jeffery::strain_per_period;
 
 /// Steps that a run of the maps over steps and over starts may take; ten times as many over durations.
@@ -64,7 +64,7 @@ pub fn answer(figures: &[ReportFigure]) -> String {
 }
 
 /// The maps as pictures.
-pub fn figures(subjects: &[Box<dyn Subject>]) -> Vec<ReportFigure> {
+pub fn figures(subjects: &[Box<dyn Integrator>]) -> Vec<ReportFigure> {
     [
         steps(subjects),
         tolerances(subjects),
@@ -75,15 +75,15 @@ pub fn figures(subjects: &[Box<dyn Subject>]) -> Vec<ReportFigure> {
     .into()
 }
 
-pub(super) fn of(subjects: &[Box<dyn Subject>], which: impl Fn(Theory) -> bool) -> Vec<&dyn Subject> {
+pub(super) fn of(subjects: &[Box<dyn Integrator>], which: impl Fn(Theory) -> bool) -> Vec<&dyn Integrator> {
     let subjects = subjects.iter().map(AsRef::as_ref);
     subjects
-        .filter(|subject: &&dyn Subject| which(subject.theory()))
+        .filter(|subject: &&dyn Integrator| which(subject.theory()))
         .collect()
 }
 
-fn steps(subjects: &[Box<dyn Subject>]) -> Panels<'static> {
-    let panel = |subject: &dyn Subject| Panel {
+fn steps(subjects: &[Box<dyn Integrator>]) -> Panels<'static> {
+    let panel = |subject: &dyn Integrator| Panel {
         title: subject.name().into(),
         cells: RODS
             .map(|r| {
@@ -123,14 +123,14 @@ pub(super) fn tolerances_from_fine() -> impl Iterator<Item = f64> {
     TOLERANCES.into_iter().rev()
 }
 
-pub(super) fn with_tolerance(subject: &dyn Subject, r: f64, tolerance: f64) -> Cell {
+pub(super) fn with_tolerance(subject: &dyn Integrator, r: f64, tolerance: f64) -> Cell {
     let run = map::by_duration(subject.theory(), r, 1.0, Place::mid_flip(r), MOST_STEPS);
     let setting = Setting::Tolerance(tolerance);
     run.map_or_else(Cell::not_run, |run| map::Run { setting, ..run }.of(subject))
 }
 
-fn tolerances(subjects: &[Box<dyn Subject>]) -> Panels<'static> {
-    let panel = |subject: &dyn Subject| Panel {
+fn tolerances(subjects: &[Box<dyn Integrator>]) -> Panels<'static> {
+    let panel = |subject: &dyn Integrator| Panel {
         title: subject.name().into(),
         cells: ASPECT_RATIOS
             .map(|r| {
@@ -159,16 +159,16 @@ fn power(value: f64) -> String {
     decade(value.log10().round() as i32)
 }
 
-fn cell(subject: &dyn Subject, r: f64, periods: f64, end: Place, most_steps: u64) -> Cell {
+fn cell(subject: &dyn Integrator, r: f64, periods: f64, end: Place, most_steps: u64) -> Cell {
     map::by_duration(subject.theory(), r, periods, end, most_steps)
         .map_or_else(Cell::not_run, |run| run.of(subject))
 }
 
-fn names(subjects: &[Box<dyn Subject>]) -> Vec<String> {
+fn names(subjects: &[Box<dyn Integrator>]) -> Vec<String> {
     subjects.iter().map(|subject| subject.name().to_owned()).collect()
 }
 
-fn starts(subjects: &[Box<dyn Subject>]) -> Panels<'static> {
+fn starts(subjects: &[Box<dyn Integrator>]) -> Panels<'static> {
     let panel = |r: f64| Panel {
         title: format!("r_e = {}", ratio(r)),
         cells: (subjects.iter())
@@ -209,9 +209,9 @@ fn starts(subjects: &[Box<dyn Subject>]) -> Panels<'static> {
     }
 }
 
-fn durations(subjects: &[Box<dyn Subject>]) -> Panels<'static> {
+fn durations(subjects: &[Box<dyn Integrator>]) -> Panels<'static> {
     let r = 11.6;
-    let row = |subject: &dyn Subject| {
+    let row = |subject: &dyn Integrator| {
         let found = |periods| cell(subject, r, periods, Place::mid_flip(r), 10 * MOST_STEPS);
         PERIODS.map(found).into()
     };

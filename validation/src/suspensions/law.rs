@@ -6,7 +6,7 @@ use super::fit::{Line, Means, Order};
 use super::job::{Job, PLACES, Trace};
 use super::{Estimate, correlation};
 use super::{mean_and_se, slope};
-use crate::subject::apart_rad;
+use crate::integrators::apart_rad;
 use nalgebra::Vector3;
 use serde::Serialize;
 use shearbed::Scene;

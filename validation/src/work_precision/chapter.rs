@@ -2,8 +2,8 @@
 
 use super::order::Found as OrderFound;
 use super::{ASPECT_RATIOS, Bench, Budget, export, figures, order, tables};
+use crate::integrators::{self, Theory};
 use crate::studies::{Exhibit, Extent, Found, Study};
-use crate::subject::{self, Theory};
 use crate::{build, work_precision};
 use serde::Serialize;
 
@@ -39,7 +39,7 @@ struct Benches<'a> {
 fn run(extent: &Extent) -> Result<Option<Found>, String> {
     let chosen = (ASPECT_RATIOS.into_iter()).filter(|r| (extent.wanted)(&work_precision::name(*r)));
     let budget = extent.effort.pick(Budget::QUICK, Budget::FULL);
-    let subjects = subject::all();
+    let subjects = integrators::all();
     let benches: Vec<_> = chosen
         .map(|r| work_precision::run(r, &subjects, budget))
         .collect();

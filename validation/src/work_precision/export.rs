@@ -2,7 +2,7 @@
 
 use super::order::{Halving, Study};
 use super::{Bench, Point};
-use crate::subject::Errors;
+use crate::integrators::Errors;
 use crate::table::{Column, ReportTable, field};
 
 /// The four errors of a run that ended, as columns.

@@ -2,9 +2,9 @@
 
 use super::order::Orders;
 use super::{Bench, Curve};
+use crate::integrators::Theory;
 use crate::plot;
 use crate::report::ReportFigure;
-use crate::subject::Theory;
 
 /// Where failed runs are drawn: above every error, which is π/2 at most.
 const FAILED: f64 = 10.0;

@@ -8,7 +8,7 @@ pub mod order;
 pub mod tables;
 mod time;
 
-use crate::subject::{self, Errors, Problem, Setting, Subject, Theory, grade};
+use crate::integrators::{self, Errors, Integrator, Problem, Setting, Theory, grade};
 use serde::Serialize;
 pub(crate) use time::measure;
 pub use time::{Budget, Seconds};
@@ -62,7 +62,7 @@ pub fn name(aspect_ratio: f64) -> String {
 }
 
 /// Runs every subject on a rod of this aspect ratio ([`Problem::mid_flip`]), on this thread alone.
-pub fn run(aspect_ratio: f64, subjects: &[Box<dyn Subject>], budget: Budget) -> Bench {
+pub fn run(aspect_ratio: f64, subjects: &[Box<dyn Integrator>], budget: Budget) -> Bench {
     let (problem, _) = Problem::mid_flip(aspect_ratio);
     Bench {
         name: name(aspect_ratio),
@@ -76,7 +76,7 @@ pub fn run(aspect_ratio: f64, subjects: &[Box<dyn Subject>], budget: Budget) -> 
 
 /// Runs every subject of the project at every aspect ratio of the benches.
 pub fn run_all(budget: Budget) -> Vec<Bench> {
-    let subjects = subject::all();
+    let subjects = integrators::all();
     (ASPECT_RATIOS.iter())
         .map(|aspect_ratio| run(*aspect_ratio, &subjects, budget))
         .collect()
@@ -84,7 +84,7 @@ pub fn run_all(budget: Budget) -> Vec<Bench> {
 
 /// One subject's curve: settings from coarse to fine until a run takes longer than half the budget, as the next would
 /// take twice as long.
-pub fn curve(subject: &dyn Subject, aspect_ratio: f64, budget: Budget) -> Curve {
+pub fn curve(subject: &dyn Integrator, aspect_ratio: f64, budget: Budget) -> Curve {
     let (problem, start) = Problem::mid_flip(aspect_ratio);
     let mut points = Vec::new();
     for setting in settings(subject.theory()) {
@@ -174,7 +174,7 @@ impl Bench {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::subject::{Failure, FixedStep};
+    use crate::integrators::{Failure, FixedStep};
     use nalgebra::{UnitVector3, Vector3};
 
     const QUICK: Budget = Budget {
@@ -236,7 +236,7 @@ mod tests {
         assert!(curve(&idle, 2.0, QUICK).points.len() < 26, "the budget ends it");
 
         struct Refuses;
-        impl Subject for Refuses {
+        impl Integrator for Refuses {
             fn name(&self) -> &str {
                 "synthetic"
             }
@@ -281,7 +281,7 @@ mod tests {
 
     #[test]
     fn every_subject_is_in_every_table() {
-        let subjects = subject::all();
+        let subjects = integrators::all();
         let bench = run(2.0, &subjects, QUICK);
         let table = tables::every_subject(&bench);
         let names: Vec<_> = table.rows.iter().map(|row| row[0].as_str()).collect();

@@ -1,7 +1,7 @@
 //! How the error of a fixed-step subject falls with the step: observed order with its sign, Richardson's value and
 //! Roache's grid convergence index.
 
-use crate::subject::{self, Errors, Problem, Setting, Subject, Theory, grade};
+use crate::integrators::{self, Errors, Integrator, Problem, Setting, Theory, grade};
 use nalgebra::UnitVector3;
 use serde::Serialize;
 use shearbed::Scene;
@@ -114,7 +114,7 @@ fn of_all(aspect_ratio: f64, phi: f64, theta: f64, turns: f64, whose: &str) -> O
              middle of a flip",
             problem.turns
         ),
-        studies: (subject::all().iter())
+        studies: (integrators::all().iter())
             .filter_map(|subject| study(subject.as_ref(), &problem, &start, doublings))
             .collect(),
     }
@@ -127,7 +127,7 @@ fn coarsest(problem: &Problem) -> u64 {
 
 /// Halves the step `doublings` times, from GΔt of about 1. `None` for a subject that takes no equal steps.
 pub fn study(
-    subject: &dyn Subject,
+    subject: &dyn Integrator,
     problem: &Problem,
     start: &UnitVector3<f64>,
     doublings: u32,

@@ -2,7 +2,7 @@
 
 use super::order::{Found, Orders, Study};
 use super::{Bench, Curve, Point, TARGETS_RAD};
-use crate::subject::Theory;
+use crate::integrators::Theory;
 use crate::table::{Column, NONE, ReportTable, number, words};
 
 /// A curve and one of its points, of a bench.

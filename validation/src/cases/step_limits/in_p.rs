@@ -2,7 +2,7 @@
 
 use super::*;
 
-pub(super) fn at_least(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+pub(super) fn at_least(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     let mut evidence = Vec::new();
     let mut classical: Vec<f64> = Vec::new();
     for subject in subjects() {
@@ -50,7 +50,7 @@ pub(super) fn at_least(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
     evidence
 }
 
-pub(super) fn near_a_sphere(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+pub(super) fn near_a_sphere(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     let r = 1.0 + 1e-5;
     let off = |limit: Limit, expected: f64| match limit {
         Limit::At(strain) => strain / expected - 1.0,
@@ -84,7 +84,7 @@ pub(super) fn near_a_sphere(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
     evidence
 }
 
-pub(super) fn frozen(subjects: &Subjects, _: &Effort) -> Vec<Evidence> {
+pub(super) fn frozen(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     let mut worst = 0.0f64;
     for subject in subjects() {
         for r in [1.5, 2.0, 3.0, 11.6, 100.0] {

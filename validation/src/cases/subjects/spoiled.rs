@@ -1,6 +1,6 @@
-//! Subjects with a mistake, and subjects made from a step alone.
+//! Integrators with a mistake, and subjects made from a step alone.
 
-use crate::subject::*;
+use crate::integrators::*;
 use nalgebra::{UnitVector3, Vector2, Vector3};
 use std::f64::consts::TAU;
 
@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 pub(in crate::cases) fn in_angles(
     order: u32,
     step: fn(&Problem, Vector2<f64>, f64) -> Vector2<f64>,
-) -> Vec<Box<dyn Subject>> {
+) -> Vec<Box<dyn Integrator>> {
     let name = "in angles";
     vec![Box::new(InAngles { name, order, step })]
 }
@@ -18,7 +18,7 @@ pub(in crate::cases) fn in_p(
     order: u32,
     keeps_length: bool,
     step: fn(&Problem, Vector3<f64>, f64) -> Vector3<f64>,
-) -> Vec<Box<dyn Subject>> {
+) -> Vec<Box<dyn Integrator>> {
     vec![Box::new(FixedStep {
         name: "in p",
         order,
@@ -30,7 +30,7 @@ pub(in crate::cases) fn in_p(
 /// The exact propagator with the phase as it comes.
 pub(in crate::cases) struct WholeTurns;
 
-impl Subject for WholeTurns {
+impl Integrator for WholeTurns {
     fn name(&self) -> &str {
         "whole turns"
     }
@@ -49,7 +49,7 @@ impl Subject for WholeTurns {
 /// Dormand–Prince on another problem, with another factor on its tolerance.
 pub(in crate::cases) struct Spoiled(pub(super) fn(Problem) -> (Problem, f64));
 
-impl Subject for Spoiled {
+impl Integrator for Spoiled {
     fn name(&self) -> &str {
         "spoiled"
     }
@@ -72,7 +72,7 @@ impl Subject for Spoiled {
 /// Gives an error, whatever it is asked.
 pub(in crate::cases) struct Refuses;
 
-impl Subject for Refuses {
+impl Integrator for Refuses {
     fn name(&self) -> &str {
         "refuses"
     }

@@ -2,9 +2,9 @@
 
 use super::program::{Program, Question};
 use crate::grade::figures::{LEAST, PROGRAM};
+use crate::integrators::{self, Setting, Theory};
 use crate::plot;
 use crate::report::ReportTable;
-use crate::subject::{self, Setting, Theory};
 use crate::table::of_words;
 use crate::work_precision::tables::{NOT_REACHED, time};
 use crate::work_precision::{Budget, Curve, TARGETS_RAD, curve};
@@ -69,7 +69,7 @@ pub fn bench(program: &Program, echo: &str) -> Bench {
         aspect_ratio: ASPECT_RATIO,
         program: curve(program, ASPECT_RATIO, budget),
         pipe_s: pipe_s(echo, program.timeout()),
-        ours: subject::all()
+        ours: integrators::all()
             .iter()
             .map(|subject| curve(subject.as_ref(), ASPECT_RATIO, Budget::QUICK))
             .collect(),

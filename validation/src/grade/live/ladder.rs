@@ -7,8 +7,8 @@ use crate::grade::compare::{Compared, compare};
 use crate::grade::diagnosis::diagnose;
 use crate::grade::files::{Claim, order_off};
 use crate::grade::{Graded, Verdict, orders};
+use crate::integrators::Setting;
 use crate::problems::LoadedProblem;
-use crate::subject::Setting;
 use std::time::{Duration, Instant};
 
 /// Doublings of the steps at most, from GΔt of about 1.

@@ -2,7 +2,7 @@
 
 use super::pipe::Pipe;
 use super::protocol::{self, Answer, Request};
-use crate::subject::{Failure, Problem, Setting, Subject, Theory};
+use crate::integrators::{Failure, Integrator, Problem, Setting, Theory};
 use nalgebra::{UnitVector3, Vector3};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -215,7 +215,7 @@ impl State {
 }
 
 /// One rod in plane Couette flow with G = 1/s: what the project's own integrators are judged by.
-impl Subject for Program {
+impl Integrator for Program {
     fn name(&self) -> &str {
         &self.name
     }

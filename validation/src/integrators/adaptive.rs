@@ -1,6 +1,6 @@
 //! Methods of other people's libraries that choose their own steps.
 
-use super::{Failure, Problem, Setting, Subject, Theory};
+use super::{Failure, Integrator, Problem, Setting, Theory};
 use differential_equations::linalg::Matrix;
 use differential_equations::prelude::{IVP, ImplicitRungeKutta, ODE};
 use nalgebra::{UnitVector3, Vector3};
@@ -19,7 +19,7 @@ impl System<f64, Vector3<f64>> for Problem {
     }
 }
 
-impl Subject for DormandPrince {
+impl Integrator for DormandPrince {
     fn name(&self) -> &str {
         "Dormand–Prince 8(5,3)"
     }
@@ -64,7 +64,7 @@ impl ODE<f64, [f64; 3]> for Problem {
     }
 }
 
-impl Subject for Radau {
+impl Integrator for Radau {
     fn name(&self) -> &str {
         "Radau IIA 5"
     }

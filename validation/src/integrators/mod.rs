@@ -22,7 +22,7 @@ pub use problem::Problem;
 pub use step::{FixedStep, InAngles};
 
 /// What is judged: something that turns a rod.
-pub trait Subject: Send + Sync {
+pub trait Integrator: Send + Sync {
     /// Its name, in a few words.
     fn name(&self) -> &str;
 
@@ -129,7 +129,7 @@ impl fmt::Display for Failure {
 
 /// The error of a subject on a problem; a direction that is not finite is a failure.
 pub fn grade(
-    subject: &dyn Subject,
+    subject: &dyn Integrator,
     problem: &Problem,
     start: &UnitVector3<f64>,
     setting: Setting,
@@ -142,8 +142,8 @@ pub fn grade(
 }
 
 /// Every subject of this project, in the order of the tables: what the cases judge.
-pub fn own() -> Vec<Box<dyn Subject>> {
-    let mut own: Vec<Box<dyn Subject>> = vec![Box::new(ExactPropagator), Box::new(ClosedForm)];
+pub fn own() -> Vec<Box<dyn Integrator>> {
+    let mut own: Vec<Box<dyn Integrator>> = vec![Box::new(ExactPropagator), Box::new(ClosedForm)];
     own.extend(fixed::all());
     own.extend(sphere::all());
     own.push(Box::new(DormandPrince));
@@ -152,7 +152,7 @@ pub fn own() -> Vec<Box<dyn Subject>> {
 }
 
 /// Every subject in the tables: the project's own, then guests.
-pub fn all() -> Vec<Box<dyn Subject>> {
+pub fn all() -> Vec<Box<dyn Integrator>> {
     own().into_iter().chain(guests::all()).collect()
 }
 

@@ -1,6 +1,6 @@
 //! Fixed-step methods from one function each: the step.
 
-use super::{Failure, Problem, Setting, Subject, Theory};
+use super::{Failure, Integrator, Problem, Setting, Theory};
 use nalgebra::{SVector, UnitVector3, Vector2, Vector3};
 
 /// A method that steps p with equal steps. A step that cannot be taken gives NaN.
@@ -15,7 +15,7 @@ pub struct FixedStep<F> {
     pub step: F,
 }
 
-impl<F> Subject for FixedStep<F>
+impl<F> Integrator for FixedStep<F>
 where
     F: Fn(&Problem, Vector3<f64>, f64) -> Vector3<f64> + Send + Sync,
 {
@@ -51,7 +51,7 @@ pub struct InAngles<F> {
     pub step: F,
 }
 
-impl<F> Subject for InAngles<F>
+impl<F> Integrator for InAngles<F>
 where
     F: Fn(&Problem, Vector2<f64>, f64) -> Vector2<f64> + Send + Sync,
 {

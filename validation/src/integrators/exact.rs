@@ -1,6 +1,6 @@
-//! Subjects that take no steps.
+//! Integrators that take no steps.
 
-use super::{Failure, Problem, Setting, Subject, Theory};
+use super::{Failure, Integrator, Problem, Setting, Theory};
 use nalgebra::{UnitVector3, Vector3};
 use shearbed::phase::Phase;
 use shearbed::propagator::couette;
@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 /// The core's propagator: p = q/|q| with q linear in p(0).
 pub struct ExactPropagator;
 
-impl Subject for ExactPropagator {
+impl Integrator for ExactPropagator {
     fn name(&self) -> &str {
         "exact propagator"
     }
@@ -36,7 +36,7 @@ impl Subject for ExactPropagator {
 /// A.4 for φ, then A.5 for θ, as the paper has them: what the exact propagator does without angles.
 pub struct ClosedForm;
 
-impl Subject for ClosedForm {
+impl Integrator for ClosedForm {
     fn name(&self) -> &str {
         "A.4 and A.5 in angles"
     }

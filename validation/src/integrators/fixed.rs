@@ -1,6 +1,6 @@
 //! Textbook steps in angles and in p (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.1).
 
-use super::{FixedStep, InAngles, Problem, Subject};
+use super::{FixedStep, InAngles, Integrator, Problem};
 use nalgebra::{Vector2, Vector3};
 use std::ops::{Add, Mul};
 
@@ -26,7 +26,7 @@ where
     y + (k1 + (k2 + k3) * 2.0 + k4) * (h / 6.0)
 }
 
-pub(super) fn all() -> Vec<Box<dyn Subject>> {
+pub(super) fn all() -> Vec<Box<dyn Integrator>> {
     vec![
         Box::new(InAngles {
             name: "explicit Euler in angles",

@@ -1,10 +1,10 @@
 //! Register yours here: it is graded in every table of `bench`, `converge` and the report beside the project's own, and no
 //! case judges it, so the gate stays green whatever it does.
 
-use super::Subject;
+use super::Integrator;
 
 /// The guests.
-pub(super) fn all() -> Vec<Box<dyn Subject>> {
+pub(super) fn all() -> Vec<Box<dyn Integrator>> {
     vec![
         // Box::new(Mine),
         #[cfg(test)]
