@@ -43,7 +43,7 @@ fn run(extent: &Extent) -> Result<Option<Found>, String> {
     let Some(rows) = measure(extent.effort) else {
         return Ok(None);
     };
-    let change = |row: &&Row| row.changes.as_ref().map_or(0.0, |changes| changes[0].value.abs());
+    let change = |row: &&ReadingRow| row.changes.as_ref().map_or(0.0, |changes| changes[0].value.abs());
     let largest = rows.iter().max_by(|a, b| change(a).total_cmp(&change(b)));
     let answer = largest.map_or(String::new(), |row| {
         format!(
@@ -71,7 +71,7 @@ pub type Trace = [f64; QUARTERS + 2];
 
 /// One reading, measured.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct ReadingRow {
     /// What is left open.
     pub open: &'static str,
     /// How it is read here.
@@ -144,7 +144,7 @@ pub fn paper(replica: u64) -> Problem {
 }
 
 /// The default and every alternative, run over all ranks; none but on the root.
-pub fn measure(effort: &Effort) -> Option<Vec<Row>> {
+pub fn measure(effort: &Effort) -> Option<Vec<ReadingRow>> {
     let replicas = effort.pick(200, 2000);
     let default: Change = |_| ();
     let changes: Vec<_> = once(default)
@@ -154,7 +154,7 @@ pub fn measure(effort: &Effort) -> Option<Vec<Row>> {
     let Ok(shared) = cluster::share(changes.len(), job, |_, _| Ok(()));
     let all = shared?;
     let (default, others) = all.split_first()?;
-    let row = |open, reading, values, changes| Row {
+    let row = |open, reading, values, changes| ReadingRow {
         open,
         reading,
         replicas,

@@ -24,7 +24,7 @@ struct Report {
     summary: Summary,
     cases: Vec<Case>,
     #[serde(default)]
-    studies: Vec<Study>,
+    studies: Vec<StudyTime>,
     origin: Origin,
 }
 
@@ -41,7 +41,7 @@ struct Origin {
 }
 
 #[derive(Deserialize)]
-struct Study {
+struct StudyTime {
     name: String,
     seconds: f64,
 }

@@ -4,7 +4,7 @@ use super::kept_cases::{Found, Kept};
 use super::{Failure, MAX_THREADS, agree, choice, on_threads, print, probe, progress, whole};
 use crate::accept::Verdict;
 use crate::case::{Case, Effort, GATE_SEED, Outcome};
-use crate::report::{self, ReportStudy, Row, Sections};
+use crate::report::{self, CaseRow, ReportStudy, Sections};
 use crate::studies::{self, Extent};
 use crate::text::command;
 use crate::{catalogue, cluster, dependencies, experiment, figures, output, tried};
@@ -106,7 +106,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     ];
     files.extend(pages.map(|(name, text)| (name.to_owned(), text)));
     output::write_all(&args.out, &files)?;
-    let red: String = report.cases.iter().map(Row::reasons).collect();
+    let red: String = report.cases.iter().map(CaseRow::reasons).collect();
     if !red.is_empty() && cluster::is_root() {
         // Also where nothing else is printed: what is red is an error. Where even this cannot be written, the exit code
         // has to say it.

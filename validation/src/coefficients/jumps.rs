@@ -7,7 +7,7 @@ mod tests;
 
 pub(super) use show::{figures, tables};
 
-use super::{Diffusing, Diffusion, Row, Setting, free, scene};
+use super::{Coefficients, Diffusing, Diffusion, Setting, free, scene};
 use crate::case::Effort;
 use crate::lab;
 use crate::statistics::{Estimate, worst};
@@ -222,11 +222,11 @@ pub struct Compared {
 }
 
 /// Compares the suspensions whose C_I is known to be above 0: there is no diffusion of another.
-pub fn compared(rows: &[&Row], effort: &Effort) -> Vec<Compared> {
+pub fn compared(rows: &[&Coefficients], effort: &Effort) -> Vec<Compared> {
     let diffusive = rows
         .iter()
         .filter(|row| row.c_i.readable() && row.c_i.value > 0.0);
-    let compare = |row: &&Row| {
+    let compare = |row: &&Coefficients| {
         let scene = scene(row.setting, effort);
         let watch = Watch::new(&scene, row.periods as f64, row.periods as f64);
         Compared {

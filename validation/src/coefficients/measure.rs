@@ -93,7 +93,7 @@ impl Amount {
 
 /// What was found of a suspension.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Row {
+pub struct Coefficients {
     /// The suspension.
     pub setting: Setting,
     /// φ r_p of cylinders as long, with r_p = r_e.
@@ -121,7 +121,7 @@ const OUTPUTS: usize = 100;
 const RODS: usize = 100;
 
 /// Measures one suspension after the other.
-pub fn rows(amount: Amount, effort: &Effort) -> Vec<Row> {
+pub fn rows(amount: Amount, effort: &Effort) -> Vec<Coefficients> {
     let settings = amount.settings.iter();
     settings
         .map(|setting| row(*setting, amount.replicas, effort))
@@ -169,7 +169,7 @@ pub(crate) fn windows(scene: &Scene, replicas: u64) -> Vec<(Means, [f64; 9])> {
     })
 }
 
-fn row(setting: Setting, replicas: u64, effort: &Effort) -> Row {
+fn row(setting: Setting, replicas: u64, effort: &Effort) -> Coefficients {
     let (means, quarters): (Vec<_>, Vec<_>) = windows(&scene(setting, effort), replicas).into_iter().unzip();
     let factor = shape_factor(setting.aspect_ratio);
     let of = |value: &dyn Fn(&Means) -> f64| {
@@ -179,7 +179,7 @@ fn row(setting: Setting, replicas: u64, effort: &Effort) -> Row {
         Estimate::jackknife(value(&Means::of(&means, None)), &without)
     };
     let own = |i: usize, j: usize| of(&|means| means.gain(factor)[(i, j)] / means.diffusion()[(i, j)]);
-    Row {
+    Coefficients {
         setting,
         phi_rp: std::f64::consts::FRAC_PI_4 * setting.n_a3 / setting.aspect_ratio,
         replicas,

@@ -13,7 +13,7 @@ mod measure;
 mod show;
 
 pub use diffusing::{Diffusing, Diffusion, free};
-pub use measure::{Amount, Row, Setting, rows};
+pub use measure::{Amount, Coefficients, Setting, rows};
 pub(crate) use measure::{scene, windows};
 
 use nalgebra::Matrix3;

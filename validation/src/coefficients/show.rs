@@ -1,26 +1,26 @@
 //! The coefficients as tables and pictures.
 
-use super::Row;
+use super::Coefficients;
 use crate::plot::{Figure, Points};
 use crate::published::folgar_tucker;
 use crate::report::ReportFigure;
 use crate::statistics::{Estimate, student};
 use crate::table::{Column, ReportTable, estimate, field, number};
 
-fn of<'a>(name: &str, value: impl Fn(&Row) -> Estimate + 'a) -> Column<'a, Row> {
+fn of<'a>(name: &str, value: impl Fn(&Coefficients) -> Estimate + 'a) -> Column<'a, Coefficients> {
     let digits = |x: f64, se: f64| {
         let places = (2.0 - se.log10()).floor().clamp(2.0, 6.0) as usize;
         format!("{x:.places$} ± {se:.places$}")
     };
-    estimate(name, digits, move |row: &Row| {
+    estimate(name, digits, move |row: &Coefficients| {
         let Estimate { value, se } = value(row);
         (value, se)
     })
 }
 
 /// The suspensions of r_e = 11.6 and α = 0.5 with so many times the steps that resolve the motion.
-pub(super) fn base(rows: &[Row], finer: u64) -> Vec<&Row> {
-    let base = |row: &&Row| {
+pub(super) fn base(rows: &[Coefficients], finer: u64) -> Vec<&Coefficients> {
+    let base = |row: &&Coefficients| {
         let setting = row.setting;
         setting.aspect_ratio == 11.6 && setting.alpha == 0.5 && setting.finer == finer
     };
@@ -28,29 +28,33 @@ pub(super) fn base(rows: &[Row], finer: u64) -> Vec<&Row> {
 }
 
 /// Those of them with this n a³, at every time step.
-pub(super) fn of_n(rows: &[Row], n_a3: f64) -> Vec<&Row> {
-    let same = |row: &&Row| {
+pub(super) fn of_n(rows: &[Coefficients], n_a3: f64) -> Vec<&Coefficients> {
+    let same = |row: &&Coefficients| {
         let setting = row.setting;
         (setting.n_a3, setting.aspect_ratio, setting.alpha) == (n_a3, 11.6, 0.5)
     };
     rows.iter().filter(same).collect()
 }
 
-fn settings<'a>() -> Vec<Column<'a, Row>> {
+fn settings<'a>() -> Vec<Column<'a, Coefficients>> {
     vec![
-        field("n a³", |row: &Row| row.setting.n_a3),
-        field("r_e", |row: &Row| row.setting.aspect_ratio),
-        field("α", |row: &Row| row.setting.alpha),
-        field("steps ×", |row: &Row| row.setting.finer),
-        field("periods", |row: &Row| row.periods),
+        field("n a³", |row: &Coefficients| row.setting.n_a3),
+        field("r_e", |row: &Coefficients| row.setting.aspect_ratio),
+        field("α", |row: &Coefficients| row.setting.alpha),
+        field("steps ×", |row: &Coefficients| row.setting.finer),
+        field("periods", |row: &Coefficients| row.periods),
     ]
 }
 
 /// C_I of each suspension, and how well one number does.
-pub(super) fn coefficients(rows: &[Row]) -> ReportTable {
+pub(super) fn coefficients(rows: &[Coefficients]) -> ReportTable {
     let replicas = rows.first().map_or(0, |row| row.replicas);
     let mut columns = settings();
-    columns.push(number("φ r_p", |x| format!("{x:.4}"), |row: &Row| row.phi_rp));
+    columns.push(number(
+        "φ r_p",
+        |x| format!("{x:.4}"),
+        |row: &Coefficients| row.phi_rp,
+    ));
     columns.push(of("C_I", |row| row.c_i));
     for (k, name) in ["of 11", "of 22", "of 33", "of 12"].into_iter().enumerate() {
         columns.push(of(name, move |row| row.own[k]));
@@ -59,7 +63,7 @@ pub(super) fn coefficients(rows: &[Row]) -> ReportTable {
     columns.push(estimate(
         "X̄₁'s decay per T",
         |x, se| format!("{x:.2} ± {se:.2}"),
-        |row: &Row| row.damping_per_period.map(|found| (found.value, found.se)),
+        |row: &Coefficients| row.damping_per_period.map(|found| (found.value, found.se)),
     ));
     ReportTable::new(
         ["folgar-tucker", "The effective Folgar–Tucker coefficient"],
@@ -76,7 +80,7 @@ pub(super) fn coefficients(rows: &[Row]) -> ReportTable {
 }
 
 /// The rods' steady stress.
-pub(super) fn stress(rows: &[Row]) -> ReportTable {
+pub(super) fn stress(rows: &[Coefficients]) -> ReportTable {
     let mut columns = settings();
     for (k, name) in ["σ_12/(μ_fiber G)", "N_1/(μ_fiber G)", "N_2/(μ_fiber G)"]
         .into_iter()
@@ -94,8 +98,8 @@ pub(super) fn stress(rows: &[Row]) -> ReportTable {
 }
 
 /// C_I of suspensions at these places, with 95 % intervals.
-fn points(label: String, rows: &[&Row], x: impl Fn(&Row) -> f64) -> Points {
-    let half = |row: &&Row| student(0.05, row.replicas) * row.c_i.se;
+fn points(label: String, rows: &[&Coefficients], x: impl Fn(&Coefficients) -> f64) -> Points {
+    let half = |row: &&Coefficients| student(0.05, row.replicas) * row.c_i.se;
     Points {
         label,
         x: rows.iter().map(|row| x(row)).collect(),
@@ -106,9 +110,9 @@ fn points(label: String, rows: &[&Row], x: impl Fn(&Row) -> f64) -> Points {
 }
 
 /// C_I against n a³, for every r_e and α.
-pub(super) fn against_concentration(rows: &[Row], finer: u64) -> ReportFigure {
+pub(super) fn against_concentration(rows: &[Coefficients], finer: u64) -> ReportFigure {
     let at_step: Vec<_> = rows.iter().filter(|row| row.setting.finer == finer).collect();
-    let kind = |row: &Row| (row.setting.aspect_ratio, row.setting.alpha);
+    let kind = |row: &Coefficients| (row.setting.aspect_ratio, row.setting.alpha);
     let mut kinds: Vec<_> = at_step.iter().map(|row| kind(row)).collect();
     kinds.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     kinds.dedup();
@@ -139,7 +143,7 @@ pub(super) fn against_concentration(rows: &[Row], finer: u64) -> ReportFigure {
 }
 
 /// C_I against φ r_p, beside measured values of far denser suspensions.
-pub(super) fn figure(rows: &[Row], finer: u64) -> ReportFigure {
+pub(super) fn figure(rows: &[Coefficients], finer: u64) -> ReportFigure {
     let model = points(
         "this model, r_e = 11.6, α = 0.5".into(),
         &base(rows, finer),

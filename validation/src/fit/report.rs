@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 
 /// A parameter as the points have it, in the unit of its key.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Estimate {
+pub struct Parameter {
     /// The best value.
     pub estimate: f64,
     /// The 68 % interval by profile likelihood.
@@ -38,7 +38,7 @@ pub struct Estimate {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
     /// By the key of the scene, `SET:KEY` where it is of one set alone.
-    pub parameters: BTreeMap<String, Estimate>,
+    pub parameters: BTreeMap<String, Parameter>,
     /// The least χ².
     pub chi2: f64,
     /// Points less parameters.
@@ -91,7 +91,7 @@ pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
     let parameters: BTreeMap<_, _> = (fit.ranges.iter().enumerate())
         .map(|(axis, range)| {
             let (inner, outer) = (fit.interval(axis, 0.68), fit.interval(axis, 0.95));
-            let estimate = Estimate {
+            let estimate = Parameter {
                 estimate: values[axis],
                 low_68: inner.low,
                 high_68: inner.high,
@@ -136,7 +136,7 @@ pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
 
 fn warnings(
     fit: &Fit,
-    parameters: &BTreeMap<String, Estimate>,
+    parameters: &BTreeMap<String, Parameter>,
     correlation: &DMatrix<f64>,
     p_value: f64,
 ) -> Vec<String> {

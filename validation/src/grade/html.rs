@@ -17,7 +17,7 @@ struct Page<'a> {
     shearbed: &'a str,
     headline: String,
     good: bool,
-    rows: Vec<Row<'a>>,
+    rows: Vec<ProblemRow<'a>>,
     pictures: Vec<&'a str>,
     tables: Vec<ReportTable>,
     remarks: &'a [String],
@@ -25,7 +25,7 @@ struct Page<'a> {
 
 /// A problem as text.
 #[derive(Serialize)]
-struct Row<'a> {
+struct ProblemRow<'a> {
     word: &'static str,
     class: &'static str,
     name: &'a str,
@@ -65,8 +65,8 @@ pub fn html(report: &Report, good: bool, pictures: &[&str]) -> Result<String, St
         .map_err(|error| format!("cannot write the report: {error}"))
 }
 
-fn row(graded: &Graded) -> Row<'_> {
-    Row {
+fn row(graded: &Graded) -> ProblemRow<'_> {
+    ProblemRow {
         word: graded.verdict.word(),
         class: match graded.verdict {
             Verdict::Pass => "pass",

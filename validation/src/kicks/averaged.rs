@@ -49,7 +49,7 @@ pub fn apart(scene: &Scene, steps: u64, change: fn(&mut Problem), replica: u64) 
 
 /// The model against the averaged motion at one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
+pub struct AveragedStep {
     /// Steps per period.
     pub steps_per_period: u64,
     /// `min_contact_arm` in rod lengths.
@@ -63,14 +63,14 @@ pub struct Row {
 }
 
 /// Runs `replicas` with this step and shortest arm.
-pub fn row(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> Row {
+pub fn row(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> AveragedStep {
     let scene = scene(effort, steps_per_period, min_contact_arm);
     let found: Vec<_> = (0..replicas)
         .into_par_iter()
         .map(|replica| apart(&scene, steps_per_period, |_| {}, replica))
         .collect();
     let sample = |value: fn(&Apart) -> f64| Sample::of(&found.iter().map(value).collect::<Vec<_>>());
-    Row {
+    AveragedStep {
         steps_per_period,
         min_contact_arm,
         x1: sample(|apart| apart.x1),

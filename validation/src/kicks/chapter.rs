@@ -1,6 +1,6 @@
 //! The study of the limit Δt → 0.
 
-use super::study::{self, Study as Limit};
+use super::study::{self, Limit};
 use super::tables;
 use crate::studies::{self, Exhibit, Extent, Found, Study};
 
@@ -42,9 +42,9 @@ fn answer(limit: &Limit) -> String {
     let (Some(coarse), Some(fine)) = (limit.steps.first(), limit.steps.last()) else {
         return "Nothing was measured.".into();
     };
-    let rate = |row: &super::Row| row.mean(|c| c.closing[1]);
+    let rate = |row: &super::StepCounts| row.mean(|c| c.closing[1]);
     let stay = rate(fine).mean > 2.0 * rate(fine).se;
-    let words = |row: &super::Row| format!("{:.3} ± {:.3}", rate(row).mean, rate(row).se);
+    let words = |row: &super::StepCounts| format!("{:.3} ± {:.3}", rate(row).mean, rate(row).se);
     format!(
         "{}: closing pairs kick a rod by more than 0.1 rad {} times a period at {} steps, {} times at {} steps.",
         if stay {

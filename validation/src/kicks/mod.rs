@@ -183,7 +183,7 @@ impl Counts {
 
 /// The counts of many replicas of a scene with a step of its own.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct StepCounts {
     /// Steps per period.
     pub steps_per_period: u64,
     /// The window.
@@ -192,7 +192,7 @@ pub struct Row {
     pub counts: Vec<Counts>,
 }
 
-impl Row {
+impl StepCounts {
     /// The mean over replicas of a number per replica.
     pub fn mean(&self, value: impl Fn(&Counts) -> f64) -> Sample {
         Sample::of(&self.counts.iter().map(value).collect::<Vec<_>>())
@@ -206,12 +206,12 @@ pub fn rates(
     periods: Range<u64>,
     replicas: u64,
     counted: Counted,
-) -> Row {
+) -> StepCounts {
     let mut scene = scene.clone();
     scene.time.steps_per_period = Some(steps_per_period);
     scene.time.outputs_per_period = Some(1);
     scene.time.periods = Some(periods.end as f64);
-    Row {
+    StepCounts {
         steps_per_period,
         counts: (0..replicas)
             .into_par_iter()

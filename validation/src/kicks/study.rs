@@ -1,7 +1,7 @@
 //! What is measured of the limit Δt → 0 for the report and the documents.
 
 use super::tail::{self, Exponent};
-use super::{KICKS, Row, averaged, kicks_rad, rates, updates};
+use super::{KICKS, StepCounts, averaged, kicks_rad, rates, updates};
 use crate::case::Effort;
 use crate::lab;
 use crate::scenes;
@@ -9,19 +9,19 @@ use shearbed::scene::Scene;
 
 /// Everything that was measured.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Study {
+pub struct Limit {
     /// Kicks in the first two periods of Fig. 4's suspension against the step.
-    pub steps: Vec<Row>,
+    pub steps: Vec<StepCounts>,
     /// Kicks in the first period of a suspension where rods collide often, against the step.
-    pub dense: Vec<Row>,
+    pub dense: Vec<StepCounts>,
     /// Kicks in each period at one step.
-    pub periods: Vec<Row>,
+    pub periods: Vec<StepCounts>,
     /// Exponents of the tail, and of what.
     pub tails: Vec<(String, Exponent)>,
     /// The model against the averaged motion.
-    pub averaged: Vec<averaged::Row>,
+    pub averaged: Vec<averaged::AveragedStep>,
     /// `angles` against `rotation`.
-    pub updates: Vec<updates::Row>,
+    pub updates: Vec<updates::BothUpdates>,
     /// Replicas behind the counts and behind the averaged motion.
     pub replicas: [u64; 2],
 }
@@ -33,7 +33,7 @@ pub const SCENE: &str = "fig4-n50";
 pub const PERIODS_AT: u64 = 400;
 
 /// Measures everything: a few replicas for the report of a quick run, enough for the documents in a full one.
-pub fn measure(effort: &Effort) -> Result<Study, String> {
+pub fn measure(effort: &Effort) -> Result<Limit, String> {
     let built_in = scenes::find(SCENE).ok_or("no such scene")?;
     let scene = built_in.scene().map_err(|error| error.to_string())?;
     let replicas = effort.pick([30, 20], [200, 100]);
@@ -52,7 +52,7 @@ pub fn measure(effort: &Effort) -> Result<Study, String> {
     let dense_steps = (dense_steps.into_iter()).filter(|steps| *steps <= 2 * finest);
     // The second is the rods' radius.
     let arms = [0.25, 0.5 / 11.6, 0.0];
-    Ok(Study {
+    Ok(Limit {
         steps: steps
             .map(|steps| rates(&scene, steps, 0..2, replicas[0], KICKS))
             .collect(),

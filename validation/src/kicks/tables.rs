@@ -1,8 +1,8 @@
 //! The studies of the limit Δt → 0 as tables and a picture.
 
-use super::study::{PERIODS_AT, SCENE, Study};
+use super::study::{Limit, PERIODS_AT, SCENE};
 use super::tail::Exponent;
-use super::{Counts, Row, averaged, updates};
+use super::{Counts, StepCounts, averaged, updates};
 use crate::plot;
 use crate::report::ReportFigure;
 use crate::statistics::Sample;
@@ -22,12 +22,12 @@ fn pair(sample: Sample) -> (f64, f64) {
     (sample.mean, sample.se)
 }
 
-fn mean<'a>(name: &str, of: fn(&Counts) -> f64) -> Column<'a, &'a Row> {
-    estimate(name, value, move |row: &&Row| pair(row.mean(of)))
+fn mean<'a>(name: &str, of: fn(&Counts) -> f64) -> Column<'a, &'a StepCounts> {
+    estimate(name, value, move |row: &&StepCounts| pair(row.mean(of)))
 }
 
 /// What the liquid does to the gap.
-fn sides<'a>() -> [Column<'a, &'a Row>; 5] {
+fn sides<'a>() -> [Column<'a, &'a StepCounts>; 5] {
     [
         mean("> 0.1, closing", |c| c.closing[1]),
         mean("formula", |c| c.fresh_closing[1]),
@@ -38,7 +38,7 @@ fn sides<'a>() -> [Column<'a, &'a Row>; 5] {
 }
 
 /// The study in words.
-pub fn tables(study: &Study) -> Vec<ReportTable> {
+pub fn tables(study: &Limit) -> Vec<ReportTable> {
     vec![
         steps(study),
         dense(study),
@@ -49,9 +49,9 @@ pub fn tables(study: &Study) -> Vec<ReportTable> {
     ]
 }
 
-fn steps(study: &Study) -> ReportTable {
+fn steps(study: &Limit) -> ReportTable {
     let mut columns = vec![
-        field("steps per period", |row: &&Row| row.steps_per_period),
+        field("steps per period", |row: &&StepCounts| row.steps_per_period),
         mean("> 0.01 rad", |c| c.all(0)),
         mean("> 0.1 rad", |c| c.all(1)),
         mean("> 1 rad", |c| c.all(2)),
@@ -72,8 +72,10 @@ fn steps(study: &Study) -> ReportTable {
     )
 }
 
-fn dense(study: &Study) -> ReportTable {
-    let mut columns = vec![field("steps per period", |row: &&Row| row.steps_per_period)];
+fn dense(study: &Limit) -> ReportTable {
+    let mut columns = vec![field("steps per period", |row: &&StepCounts| {
+        row.steps_per_period
+    })];
     columns.extend(sides());
     ReportTable::new(
         ["kick-rates-dense", "Kicks where rods collide often"],
@@ -87,9 +89,9 @@ fn dense(study: &Study) -> ReportTable {
     )
 }
 
-fn periods(study: &Study) -> ReportTable {
+fn periods(study: &Limit) -> ReportTable {
     let mut columns = vec![
-        words("t/T", |row: &&Row| {
+        words("t/T", |row: &&StepCounts| {
             format!("{} to {}", row.periods.start, row.periods.end)
         }),
         mean("> 0.1 rad", |c| c.all(1)),
@@ -108,7 +110,7 @@ fn periods(study: &Study) -> ReportTable {
     )
 }
 
-fn exponents(study: &Study) -> ReportTable {
+fn exponents(study: &Limit) -> ReportTable {
     type Tail = (String, Exponent);
     ReportTable::new(
         ["kick-tail", "The exponent of the kicks' tail, by Hill's estimate"],
@@ -132,8 +134,8 @@ fn four(number: f64) -> String {
     format!("{number:.4}")
 }
 
-fn averages(study: &Study) -> ReportTable {
-    type Of<'a> = &'a averaged::Row;
+fn averages(study: &Limit) -> ReportTable {
+    type Of<'a> = &'a averaged::AveragedStep;
     ReportTable::new(
         ["averaged-motion", "The model against the averaged motion"],
         format!(
@@ -153,8 +155,8 @@ fn averages(study: &Study) -> ReportTable {
     )
 }
 
-fn update(study: &Study) -> ReportTable {
-    type Of<'a> = &'a updates::Row;
+fn update(study: &Limit) -> ReportTable {
+    type Of<'a> = &'a updates::BothUpdates;
     ReportTable::new(
         ["updates", "The update `angles` against `rotation`"],
         format!(
@@ -174,8 +176,8 @@ fn update(study: &Study) -> ReportTable {
 }
 
 /// The rates against the step.
-pub fn figure(study: &Study) -> ReportFigure {
-    let points = |label: &str, value: &dyn Fn(&Row) -> Sample| {
+pub fn figure(study: &Limit) -> ReportFigure {
+    let points = |label: &str, value: &dyn Fn(&StepCounts) -> Sample| {
         let samples: Vec<_> = study.steps.iter().map(value).collect();
         plot::Points {
             label: label.into(),

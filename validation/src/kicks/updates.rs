@@ -9,7 +9,7 @@ use shearbed::scene::Update;
 
 /// Both updates at one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
+pub struct BothUpdates {
     /// Steps per period.
     pub steps_per_period: u64,
     /// `min_contact_arm` in rod lengths.
@@ -21,7 +21,7 @@ pub struct Row {
 }
 
 /// Runs `replicas` of the scene of the averaged motion by both updates for a period.
-pub fn row(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> Row {
+pub fn row(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> BothUpdates {
     let x1 = |update| {
         let mut scene = averaged::scene(effort, steps_per_period, min_contact_arm);
         lab::interaction(&mut scene).update = update;
@@ -29,7 +29,7 @@ pub fn row(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replica
     };
     let (rotation, angles) = (x1(Update::Rotation), x1(Update::Angles));
     let change: Vec<_> = angles.iter().zip(&rotation).map(|(a, r)| a - r).collect();
-    Row {
+    BothUpdates {
         steps_per_period,
         min_contact_arm,
         rotation_x1: Sample::of(&rotation),

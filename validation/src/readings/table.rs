@@ -1,23 +1,23 @@
 //! The measured readings in words.
 
-use super::{QUANTITIES, Row, SEED};
+use super::{QUANTITIES, ReadingRow, SEED};
 use crate::table::{ReportTable, estimate, words};
 
 /// The rows in words.
-pub fn table(rows: &[Row]) -> ReportTable {
+pub fn table(rows: &[ReadingRow]) -> ReportTable {
     let replicas = rows.iter().map(|row| row.replicas).min().unwrap_or(0);
     let mut columns = vec![
-        words("left open", |row: &&Row| row.open),
-        words("read as", |row: &&Row| row.reading),
+        words("left open", |row: &&ReadingRow| row.open),
+        words("read as", |row: &&ReadingRow| row.reading),
     ];
     for (k, (name, _)) in QUANTITIES.iter().enumerate() {
         columns.push(estimate(
             *name,
             |x, se| format!("{x:.4} ± {se:.4}"),
-            move |row: &&Row| (row.values[k].value, row.values[k].se),
+            move |row: &&ReadingRow| (row.values[k].value, row.values[k].se),
         ));
         let signed = |x: f64, se: f64| format!("{x:+.4} ± {se:.4}").replace('-', "−");
-        columns.push(estimate("change", signed, move |row: &&Row| {
+        columns.push(estimate("change", signed, move |row: &&ReadingRow| {
             row.changes
                 .as_ref()
                 .map(|changes| (changes[k].value, changes[k].se))
@@ -45,7 +45,7 @@ mod tests {
     #[test]
     fn a_table_has_a_cell_for_every_column() {
         let estimate = Estimate { value: 0.5, se: 0.01 };
-        let row = |changes| Row {
+        let row = |changes| ReadingRow {
             open: "a",
             reading: "b",
             replicas: 7,

@@ -6,7 +6,7 @@ use super::page::{
 };
 use super::prose::Anchors;
 use super::words::{bounds, detail, number, seconds, share, verdict};
-use super::{Line, Report, ReportFigure, ReportTable, Row};
+use super::{CaseRow, Line, Report, ReportFigure, ReportTable};
 use crate::accept::Verdict;
 use crate::case::Judges;
 use crate::plot;
@@ -66,7 +66,7 @@ fn groups(report: &Report) -> Vec<Group<'_>> {
     groups.filter(|group| !group.cases.is_empty()).collect()
 }
 
-fn case<'a>(report: &'a Report, row: &'a Row) -> CaseView<'a> {
+fn case<'a>(report: &'a Report, row: &'a CaseRow) -> CaseView<'a> {
     let (symbol, word) = verdict(row.verdict);
     let equations = (report.sections.equations.iter())
         .filter(|equation| equation.cases.contains(&row.name))
@@ -214,7 +214,7 @@ fn case_links<'a>(report: &'a Report, names: &[String]) -> Vec<Link<'a>> {
     cases.map(case_link).collect()
 }
 
-fn case_link(row: &Row) -> Link<'_> {
+fn case_link(row: &CaseRow) -> Link<'_> {
     Link {
         anchor: format!("case-{}", row.name),
         text: &row.name,

@@ -1,6 +1,6 @@
 //! report.json.
 
-use super::{Origin, Report, ReportEquation, ReportFigure, ReportTable, Row, ScenePlan, Summary};
+use super::{CaseRow, Origin, Report, ReportEquation, ReportFigure, ReportTable, ScenePlan, Summary};
 use serde::Serialize;
 
 /// The number of this form; `schemas/report.schema.json` describes it.
@@ -10,8 +10,8 @@ const FORMAT: u32 = 2;
 struct Written<'a> {
     format: u32,
     summary: &'a Summary,
-    cases: &'a [Row],
-    studies: Vec<Study<'a>>,
+    cases: &'a [CaseRow],
+    studies: Vec<StudyRecord<'a>>,
     figures: Vec<&'a ReportFigure>,
     tables: Vec<&'a ReportTable>,
     equations: &'a [ReportEquation],
@@ -21,7 +21,7 @@ struct Written<'a> {
 
 /// A study, with its pictures and tables by name.
 #[derive(Serialize)]
-struct Study<'a> {
+struct StudyRecord<'a> {
     name: &'a str,
     title: &'a str,
     question: &'a str,
@@ -40,7 +40,7 @@ struct Exhibit<'a> {
 
 pub(super) fn write(report: &Report) -> String {
     let sections = &report.sections;
-    let studies = sections.studies.iter().map(|study| Study {
+    let studies = sections.studies.iter().map(|study| StudyRecord {
         name: &study.name,
         title: &study.title,
         question: &study.question,

@@ -1,6 +1,6 @@
 //! junit.xml: a test case for each case. A case without data is skipped.
 
-use super::{Report, Row};
+use super::{CaseRow, Report};
 use crate::accept::Verdict;
 use crate::text::escaped;
 
@@ -28,7 +28,7 @@ pub(super) fn write(report: &Report) -> String {
 }
 
 /// What is wrong with a case, or why it was not judged.
-fn ended(row: &Row) -> String {
+fn ended(row: &CaseRow) -> String {
     let words = escaped(&row.reasons());
     match row.verdict {
         Verdict::Pass => String::new(),

@@ -1,7 +1,7 @@
 //! The report as Markdown.
 
 use super::words::{bounds, seconds, verdict};
-use super::{Report, ReportEquation, ReportStudy, Row};
+use super::{CaseRow, Report, ReportEquation, ReportStudy};
 use crate::markup::{Piece, pieces, unicode};
 use crate::table::{ReportTable, of_words};
 use crate::text::readable;
@@ -38,7 +38,7 @@ pub(super) fn write(report: &Report) -> String {
     readable(&text).into_owned()
 }
 
-fn row(case: &Row) -> String {
+fn row(case: &CaseRow) -> String {
     let (symbol, word) = verdict(case.verdict);
     let (error, tolerance) = case.worst().map_or(("–".into(), "–".into()), bounds);
     let because = case.worst().map_or("no evidence", |line| &line.because);

@@ -22,7 +22,7 @@ use crate::case::{Effort, Judges, Outcome};
 use crate::output::Output;
 pub use crate::table::ReportTable;
 pub use origin::Origin;
-pub use row::{Line, Row};
+pub use row::{CaseRow, Line};
 pub use sections::{ReportEquation, ReportFigure, ReportStudy, ScenePlan, Sections};
 use serde::Serialize;
 
@@ -91,7 +91,7 @@ pub struct Report {
     /// How many cases ended how.
     pub summary: Summary,
     /// The cases, in the order of the registry.
-    pub cases: Vec<Row>,
+    pub cases: Vec<CaseRow>,
     /// What is shown beside them.
     pub sections: Sections,
     /// Where, when and from what.
@@ -117,7 +117,7 @@ pub fn build(outcomes: Vec<Outcome>, sections: Sections, effort: &Effort, comman
             seconds: outcomes.iter().map(|o| o.seconds).sum(),
         },
         cases: (outcomes.into_iter())
-            .map(|outcome| Row::new(outcome, effort))
+            .map(|outcome| CaseRow::new(outcome, effort))
             .collect(),
         origin: Origin::here(command, &sections.plans),
         sections,

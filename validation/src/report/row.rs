@@ -79,7 +79,7 @@ fn severity(verdict: Verdict) -> u8 {
 
 /// One case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Row {
+pub struct CaseRow {
     /// Its name.
     pub name: String,
     /// What it judges.
@@ -106,7 +106,7 @@ pub struct Row {
     pub command: String,
 }
 
-impl Row {
+impl CaseRow {
     /// The outcome of a case that was run with this effort.
     pub(super) fn new(outcome: Outcome, effort: &Effort) -> Self {
         let evidence: Vec<_> = (outcome.evidence.iter()).map(Line::new).collect();

@@ -229,7 +229,7 @@ fn a_command_repeats_the_run() {
         seed: GATE_SEED,
         data: Some("my data".into()),
     };
-    let row = Row::new(outcome("synthetic", Verdict::Pass, vec![], &[]), &effort);
+    let row = CaseRow::new(outcome("synthetic", Verdict::Pass, vec![], &[]), &effort);
     let command = "cargo run --release -- validate --case synthetic --full --data 'my data'";
     assert_eq!(row.command, command);
 }
@@ -293,7 +293,7 @@ fn a_one_sided_rule_uses_less_of_its_bound_the_farther_it_is() {
             effect: 0.2,
             because: "synthetic".into(),
         };
-        let row = Row::new(outcome("synthetic", Verdict::Pass, vec![rule], &[]), &EFFORT);
+        let row = CaseRow::new(outcome("synthetic", Verdict::Pass, vec![rule], &[]), &EFFORT);
         row.evidence[0].used
     };
     assert_eq!(used(0.4), 0.25);

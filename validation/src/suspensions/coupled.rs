@@ -25,7 +25,7 @@ pub const OTHER_ALPHA: f64 = 0.8;
 
 /// What sharing saves at one time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Row {
+pub struct Saving {
     /// t/T.
     pub turns: f64,
     /// The correlation with the same run at half the time step.
@@ -44,10 +44,10 @@ pub struct Coupled {
     /// Replicas of each.
     pub replicas: u64,
     /// One for each quarter of a period.
-    pub rows: Vec<Row>,
+    pub rows: Vec<Saving>,
 }
 
-impl Row {
+impl Saving {
     /// The most that levels in Δt save in the cost of a mean, where coarse runs cost nothing: one over the share of
     /// the variance that is left to the fine ones, 1 − ρ².
     pub fn multilevel_at_best(&self) -> f64 {
@@ -79,7 +79,7 @@ pub fn measure(scene: &Scene, replicas: u64) -> Result<Coupled, String> {
     let finer = interacting(scene, 2 * steps, 1.0, QUARTERS, replicas)?;
     let other = interacting(scene, steps, OTHER_ALPHA, QUARTERS, replicas)?;
     let free = free(scene, QUARTERS, replicas)?;
-    let row = |k: usize| Row {
+    let row = |k: usize| Saving {
         turns: (k + 1) as f64 / 4.0,
         finer: correlation(&at(&own, k), &at(&finer, k)),
         other_alpha: correlation(&at(&own, k), &at(&other, k)),

@@ -1,14 +1,14 @@
 //! The records of the studies as files.
 
-use super::free::{Bench, Curve, Point};
-use super::law::{Change, Law, Sample};
+use super::free::{Bench, Point, StartCurve};
+use super::law::{Change, JobMean, Law};
 use super::split::{Realised, Scope};
-use super::study::{Answer, Study};
+use super::study::{Answer, Interacting};
 use crate::table::{Datum, ReportTable, field};
 
 /// suspensions.csv: free ones.
 pub fn free_csv(benches: &[Bench]) -> Result<String, String> {
-    type Row<'a> = (&'a Bench, &'a Curve, &'a Point);
+    type Row<'a> = (&'a Bench, &'a StartCurve, &'a Point);
     let points = benches.iter().flat_map(|bench| {
         let curves = bench.curves.iter();
         curves.flat_map(move |curve| curve.points.iter().map(move |point| (bench, curve, point)))
@@ -28,7 +28,7 @@ pub fn free_csv(benches: &[Bench]) -> Result<String, String> {
 }
 
 /// splits.csv: the cheapest splits of an interacting scene.
-pub fn splits_csv(study: &Study) -> Result<String, String> {
+pub fn splits_csv(study: &Interacting) -> Result<String, String> {
     let realised =
         |of: fn(&Realised) -> Datum| move |a: &&Answer| a.realised.as_ref().map_or(Datum::Nothing, of);
     let columns = vec![
@@ -56,7 +56,7 @@ pub fn splits_csv(study: &Study) -> Result<String, String> {
 
 /// converge.csv of an interacting scene.
 pub fn law_csv(law: &Law) -> Result<String, String> {
-    type Row<'a> = (&'static str, &'a Sample, Option<&'a Change>);
+    type Row<'a> = (&'static str, &'a JobMean, Option<&'a Change>);
     let steps = (law.steps.iter().enumerate()).map(|(k, s)| ("steps_per_period", s, law.changes.get(k)));
     let rods = law.rods.iter().map(|sample| ("rods", sample, None));
     let change = |of: fn(&Change) -> f64| move |r: &Row| r.2.map(of);

@@ -3,7 +3,7 @@
 use super::free::Bench;
 use super::law::Law;
 use super::split::Scope;
-use super::study::Study;
+use super::study::Interacting;
 use crate::plot::{Curve, Figure, Points};
 use crate::report::ReportFigure;
 
@@ -42,7 +42,7 @@ pub fn free(bench: &Bench) -> ReportFigure {
 }
 
 /// An interacting suspension: what the rule says, a fixed step, and what was realised.
-pub fn interacting(study: &Study) -> ReportFigure {
+pub fn interacting(study: &Interacting) -> ReportFigure {
     let constants = &study.constants;
     let errors = || (0..=40).map(|k| 0.03 * 10f64.powf(-0.05 * f64::from(k)));
     let own = study.answers.first().map(|answer| answer.split.scope);

@@ -59,7 +59,7 @@ pub struct Point {
 
 /// A start's error against its run time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Curve {
+pub struct StartCurve {
     /// The start's name.
     pub start: &'static str,
     /// The exponent by theory.
@@ -81,7 +81,7 @@ pub struct Bench {
     /// X̄₁ by the closed form.
     pub exact: f64,
     /// One for each start.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<StartCurve>,
 }
 
 /// How far to go.
@@ -163,7 +163,7 @@ impl Free {
         }
     }
 
-    fn curve(&self, start: &Start, extent: Extent, budget: Budget) -> Curve {
+    fn curve(&self, start: &Start, extent: Extent, budget: Budget) -> StartCurve {
         let counts = (4..=extent.half_decades).map(|half| 10f64.powf(0.5 * f64::from(half)).round() as usize);
         let mut points = Vec::new();
         let mut tried = Vec::new();
@@ -187,7 +187,7 @@ impl Free {
         tried.retain(|(rods, _)| *rods >= 1000);
         let exponents = exponents(&tried, GROUPS);
         let (exponent, exponent_se) = super::mean_and_se(&exponents);
-        Curve {
+        StartCurve {
             start: start.name,
             theory: start.exponents[usize::from(self.unequal())],
             exponent,
@@ -197,7 +197,7 @@ impl Free {
     }
 }
 
-impl Curve {
+impl StartCurve {
     /// The point with the fewest rods whose error is at most this.
     pub fn cheapest(&self, error: f64) -> Option<&Point> {
         self.points.iter().find(|point| point.error <= error)

@@ -57,7 +57,7 @@ impl Replicas {
 
 /// What one job found of X̄₁ at t/T = 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Sample {
+pub struct JobMean {
     /// Steps per period.
     pub steps_per_period: u64,
     /// Rods in the control volume.
@@ -102,7 +102,7 @@ pub struct Block {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Law {
     /// Against the steps per period, coarse to fine.
-    pub steps: Vec<Sample>,
+    pub steps: Vec<JobMean>,
     /// Each to the next finer.
     pub changes: Vec<Change>,
     /// The first of the levels with GΔt ≤ 1, which resolve a flip: where an order may be read.
@@ -114,7 +114,7 @@ pub struct Law {
     /// The level from which that line is.
     pub line_from: usize,
     /// Against the rods.
-    pub rods: Vec<Sample>,
+    pub rods: Vec<JobMean>,
     /// X̄₁ against N^(−1/3), and against 1/N.
     pub rods_lines: [Option<Line>; 2],
     /// Blocks of replicas of the scene as it stands.
@@ -220,9 +220,9 @@ pub fn read(scene: &Scene, jobs: &[Job], found: &[Vec<Trace>]) -> Law {
     }
 }
 
-fn sample(job: &Job, x1: &[f64]) -> Sample {
+fn sample(job: &Job, x1: &[f64]) -> JobMean {
     let (mean, se) = mean_and_se(x1);
-    Sample {
+    JobMean {
         steps_per_period: job.scene.steps_per_period(),
         rods: job.scene.particles.count,
         replicas: job.replicas,

@@ -1,7 +1,7 @@
 //! Convergence in law as tables.
 
 use super::Estimate;
-use super::law::{Block, Change, Law, Sample};
+use super::law::{Block, Change, JobMean, Law};
 use crate::table::{ReportTable, estimate, field, number, words};
 
 /// Against steps, rods and replicas; `strain` is that of a period.
@@ -54,7 +54,7 @@ pub fn order_in_words(law: &Law) -> String {
 }
 
 fn steps(law: &Law, strain: f64) -> ReportTable {
-    type Row<'a> = (&'a Sample, Option<&'a Change>);
+    type Row<'a> = (&'a JobMean, Option<&'a Change>);
     let rows = (law.steps.iter().enumerate()).map(|(k, sample)| (sample, law.changes.get(k)));
     let change = |of: fn(&Change) -> Estimate| move |r: &Row| r.1.map(|change| pair(&of(change)));
     let readable = |r: &Row| match r.1.map(|change| change.x1.readable()) {
@@ -93,7 +93,7 @@ fn steps(law: &Law, strain: f64) -> ReportTable {
 }
 
 fn paths(law: &Law) -> ReportTable {
-    type Row<'a> = (&'a [Sample], &'a Change);
+    type Row<'a> = (&'a [JobMean], &'a Change);
     let three = |x: f64| format!("{x:.3}");
     ReportTable::new(
         [
@@ -128,7 +128,7 @@ fn paths(law: &Law) -> ReportTable {
 
 fn rods(law: &Law) -> ReportTable {
     let last = law.rods.last().copied();
-    let less = move |sample: &&Sample| {
+    let less = move |sample: &&JobMean| {
         let last = last.filter(|last| last != *sample)?;
         Some((sample.x1 - last.x1, sample.se.hypot(last.se)))
     };
@@ -154,10 +154,10 @@ fn rods(law: &Law) -> ReportTable {
         ),
         &law.rods,
         vec![
-            field("rods", |s: &&Sample| s.rods),
-            field("replicas", |s: &&Sample| s.replicas),
-            number("X̄₁", five, |s: &&Sample| s.x1),
-            number("± se", five, |s: &&Sample| s.se),
+            field("rods", |s: &&JobMean| s.rods),
+            field("replicas", |s: &&JobMean| s.replicas),
+            number("X̄₁", five, |s: &&JobMean| s.x1),
+            number("± se", five, |s: &&JobMean| s.se),
             estimate("less the most", signed, less),
         ],
     )

@@ -7,7 +7,7 @@
 use super::Estimate;
 use super::coupled;
 use super::job::Job;
-use super::law::{FACES, Law, Sample};
+use super::law::{FACES, JobMean, Law};
 use super::mean_and_se;
 use serde::Serialize;
 use shearbed::Scene;
@@ -204,7 +204,7 @@ impl Split {
 
 /// X̄₁ of a scene at steps and rods much finer than a split's, with seeds of its own; of many replicas with the free
 /// rods as control variate.
-pub fn reference(scene: &Scene, steps: u64, rods: usize, replicas: u64) -> Result<Sample, String> {
+pub fn reference(scene: &Scene, steps: u64, rods: usize, replicas: u64) -> Result<JobMean, String> {
     let mut job = Job::new(scene, steps, rods, replicas, 1);
     job.scene.ensemble.seed = scene.ensemble.seed + 1_000_000;
     let x1: Vec<_> = (job.run(&|| ())?.iter()).map(|trace| trace.looks[0].x1).collect();
@@ -217,7 +217,7 @@ pub fn reference(scene: &Scene, steps: u64, rods: usize, replicas: u64) -> Resul
             coupled::controlled(&x1, &free, coupled::free_mean(scene, 1.0))
         }
     };
-    Ok(Sample {
+    Ok(JobMean {
         steps_per_period: steps,
         rods,
         replicas,

@@ -3,7 +3,7 @@
 use super::Estimate;
 use super::coupled::{self, Coupled};
 use super::job::Job;
-use super::law::{self, Law, Replicas, Sample};
+use super::law::{self, JobMean, Law, Replicas};
 use super::split::{self, Constants, Realised, Scope, Split, TARGETS};
 use crate::scenes;
 use crate::work_precision::{Budget, measure};
@@ -66,7 +66,7 @@ pub struct Answer {
 
 /// Everything.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Study {
+pub struct Interacting {
     /// The scene's name.
     pub scene: String,
     /// G T: the strain of a period.
@@ -80,13 +80,13 @@ pub struct Study {
     /// For each of [`TARGETS`]: with the scene's own rods, and without faces.
     pub answers: Vec<Answer>,
     /// What the realised errors are counted from: the scene's own rods, and without faces.
-    pub references: Vec<Sample>,
+    pub references: Vec<JobMean>,
     /// What shared random numbers save.
     pub coupled: Coupled,
 }
 
 /// Studies [`SCENE`] on the threads of the current pool; the time of a rod's step is of one core.
-pub fn run(extent: Extent, budget: Budget) -> Result<Study, String> {
+pub fn run(extent: Extent, budget: Budget) -> Result<Interacting, String> {
     let built_in = scenes::find(SCENE).ok_or("no such scene")?;
     let scene = built_in.scene().map_err(|error| error.to_string())?;
     let own = Scope::OwnRods(scene.particles.count);
@@ -122,7 +122,7 @@ pub fn run(extent: Extent, budget: Budget) -> Result<Study, String> {
             });
         }
     }
-    Ok(Study {
+    Ok(Interacting {
         scene: SCENE.to_owned(),
         strain_per_period: strain_per_period(scene.particles.aspect_ratio),
         coupled: coupled::measure(&scene, extent.coupled)?,
@@ -135,7 +135,7 @@ pub fn run(extent: Extent, budget: Budget) -> Result<Study, String> {
 }
 
 /// What a reference may itself be off: its bias at most, and two standard errors.
-fn off_at_most(constants: &Constants, scope: Scope, reference: &Sample) -> f64 {
+fn off_at_most(constants: &Constants, scope: Scope, reference: &JobMean) -> f64 {
     let bias = constants.bias(scope, reference.steps_per_period as f64, reference.rods as f64);
     bias.hypot(2.0 * reference.se)
 }

@@ -1,15 +1,15 @@
 //! The studies as tables: free suspensions, cheapest splits, coupled estimates.
 
-use super::coupled::{Coupled, Row};
-use super::free::{Bench, Curve, TARGETS};
+use super::coupled::{Coupled, Saving};
+use super::free::{Bench, StartCurve, TARGETS};
 use super::split::{Constants, Scope, Split};
-use super::study::{Answer, Study};
+use super::study::{Answer, Interacting};
 use crate::table::{Column, ReportTable, estimate, field, number, words};
 use crate::work_precision::tables::{NOT_REACHED, time};
 
 /// Free suspensions: what each start reaches, and when.
 pub fn free(benches: &[Bench]) -> ReportTable {
-    type Of<'a> = (&'a Bench, &'a Curve);
+    type Of<'a> = (&'a Bench, &'a StartCurve);
     let rows = benches
         .iter()
         .flat_map(|bench| bench.curves.iter().map(move |c| (bench, c)));
@@ -85,7 +85,7 @@ pub fn splits(constants: &Constants, splits: &[Split]) -> ReportTable {
 }
 
 /// The same with times, and what was realised.
-pub fn answers(study: &Study) -> ReportTable {
+pub fn answers(study: &Interacting) -> ReportTable {
     let realised = |answer: &&Answer| match &answer.realised {
         Some(realised) => format!(
             "{:.1e} (bias {:+.1e} ± {:.0e}, scatter {:.1e} ± {:.0e})",
@@ -148,14 +148,14 @@ pub fn coupled(coupled: &Coupled) -> ReportTable {
         ),
         &coupled.rows,
         vec![
-            number("t/T", |t| t.to_string(), |r: &&Row| r.turns),
-            number("ρ, half the step", two, |r: &&Row| r.finer),
-            number("gain, levels", two, |r: &&Row| r.multilevel()),
-            number("at best", two, |r: &&Row| r.multilevel_at_best()),
-            number("ρ, free rods", two, |r: &&Row| r.free),
-            number("gain, control variate", two, |r: &&Row| r.control_variate()),
-            number("ρ, other α", two, |r: &&Row| r.other_alpha),
-            number("gain for the difference", two, |r: &&Row| r.common_numbers()),
+            number("t/T", |t| t.to_string(), |r: &&Saving| r.turns),
+            number("ρ, half the step", two, |r: &&Saving| r.finer),
+            number("gain, levels", two, |r: &&Saving| r.multilevel()),
+            number("at best", two, |r: &&Saving| r.multilevel_at_best()),
+            number("ρ, free rods", two, |r: &&Saving| r.free),
+            number("gain, control variate", two, |r: &&Saving| r.control_variate()),
+            number("ρ, other α", two, |r: &&Saving| r.other_alpha),
+            number("gain for the difference", two, |r: &&Saving| r.common_numbers()),
         ],
     )
 }

@@ -1,6 +1,6 @@
 //! The records of the studies as files.
 
-use super::order::{Halving, Study};
+use super::order::{Convergence, Halving};
 use super::{Bench, Point};
 use crate::integrators::Errors;
 use crate::table::{Column, ReportTable, field};
@@ -42,8 +42,8 @@ pub fn bench_csv(benches: &[Bench]) -> Result<String, String> {
 }
 
 /// converge.csv of a free scene.
-pub fn orders_csv(studies: &[Study]) -> Result<String, String> {
-    type Row<'a> = (&'a Study, &'a Halving);
+pub fn orders_csv(studies: &[Convergence]) -> Result<String, String> {
+    type Row<'a> = (&'a Convergence, &'a Halving);
     let halvings = (studies.iter()).flat_map(|study| study.halvings.iter().map(move |h| (study, h)));
     let mut columns: Vec<Column<Row>> = vec![
         field("subject", |r: &Row| r.0.subject.as_str()),

@@ -1,7 +1,7 @@
 //! Error against run time as pictures.
 
 use super::order::Orders;
-use super::{Bench, Curve};
+use super::{Bench, IntegratorCurve};
 use crate::integrators::Theory;
 use crate::plot;
 use crate::report::ReportFigure;
@@ -51,7 +51,7 @@ fn figure(bench: &Bench) -> ReportFigure {
 
 /// The error of every method with steps against the step.
 pub fn orders(orders: &Orders) -> ReportFigure {
-    let curve = |study: &super::order::Study| plot::Curve {
+    let curve = |study: &super::order::Convergence| plot::Curve {
         label: study.subject.clone(),
         x: study.halvings.iter().map(|h| h.steps as f64).collect(),
         y: (study.halvings.iter())
@@ -79,7 +79,7 @@ pub fn orders(orders: &Orders) -> ReportFigure {
     }
 }
 
-fn line(curve: &Curve) -> plot::Curve {
+fn line(curve: &IntegratorCurve) -> plot::Curve {
     plot::Curve {
         label: curve.subject.clone(),
         x: curve.points.iter().map(|point| point.seconds.least).collect(),
@@ -94,7 +94,7 @@ fn line(curve: &Curve) -> plot::Curve {
     }
 }
 
-fn single(curve: &Curve) -> plot::Points {
+fn single(curve: &IntegratorCurve) -> plot::Points {
     let line = line(curve);
     plot::Points {
         label: line.label,
@@ -104,7 +104,7 @@ fn single(curve: &Curve) -> plot::Points {
     }
 }
 
-fn failed(curves: &[Curve]) -> plot::Points {
+fn failed(curves: &[IntegratorCurve]) -> plot::Points {
     let points = curves.iter().flat_map(|curve| &curve.points);
     let x: Vec<_> = (points.filter(|point| point.errors.is_none()))
         .map(|point| point.seconds.least)

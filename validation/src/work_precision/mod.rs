@@ -34,7 +34,7 @@ pub struct Point {
 
 /// A subject's error against its run time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Curve {
+pub struct IntegratorCurve {
     /// The subject's name.
     pub subject: String,
     /// How its error is said to fall.
@@ -53,7 +53,7 @@ pub struct Bench {
     /// t/T at the end.
     pub turns: f64,
     /// One for each subject.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<IntegratorCurve>,
 }
 
 /// The name of the bench at an aspect ratio.
@@ -84,7 +84,7 @@ pub fn run_all(budget: Budget) -> Vec<Bench> {
 
 /// One subject's curve: settings from coarse to fine until a run takes longer than half the budget, as the next would
 /// take twice as long.
-pub fn curve(subject: &dyn Integrator, aspect_ratio: f64, budget: Budget) -> Curve {
+pub fn curve(subject: &dyn Integrator, aspect_ratio: f64, budget: Budget) -> IntegratorCurve {
     let (problem, start) = Problem::mid_flip(aspect_ratio);
     let mut points = Vec::new();
     for setting in settings(subject.theory()) {
@@ -104,7 +104,7 @@ pub fn curve(subject: &dyn Integrator, aspect_ratio: f64, budget: Budget) -> Cur
             break;
         }
     }
-    Curve {
+    IntegratorCurve {
         subject: subject.name().into(),
         theory: subject.theory(),
         points,
@@ -129,7 +129,7 @@ impl Point {
     }
 }
 
-impl Curve {
+impl IntegratorCurve {
     /// The cheapest point with at most this error. The next finer one must have it too, lest a chance crossing count.
     pub fn cheapest(&self, error_rad: f64) -> Option<&Point> {
         let reaches = |k: usize| {
@@ -156,7 +156,11 @@ impl Curve {
 
 impl Bench {
     /// The cheapest curve and point with at most this error, of the curves that `which` lets in.
-    pub fn cheapest(&self, error_rad: f64, which: impl Fn(Theory) -> bool) -> Option<(&Curve, &Point)> {
+    pub fn cheapest(
+        &self,
+        error_rad: f64,
+        which: impl Fn(Theory) -> bool,
+    ) -> Option<(&IntegratorCurve, &Point)> {
         (self.curves.iter())
             .filter(|curve| which(curve.theory))
             .filter_map(|curve| Some((curve, curve.cheapest(error_rad)?)))
@@ -199,7 +203,7 @@ mod tests {
 
     #[test]
     fn a_chance_crossing_does_not_count() {
-        let curve = Curve {
+        let curve = IntegratorCurve {
             subject: "synthetic".into(),
             theory: Theory::Order(1),
             points: vec![

@@ -57,7 +57,7 @@ pub struct Richardson {
 
 /// A fixed-step subject's convergence.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Study {
+pub struct Convergence {
     /// The subject's name.
     pub subject: String,
     /// Its order by theory.
@@ -78,7 +78,7 @@ pub struct Orders {
     /// The rod, its start and its end.
     pub problem: String,
     /// One for each subject.
-    pub studies: Vec<Study>,
+    pub studies: Vec<Convergence>,
 }
 
 /// A rod of this aspect ratio ([`Problem::mid_flip`]).
@@ -131,7 +131,7 @@ pub fn study(
     problem: &Problem,
     start: &UnitVector3<f64>,
     doublings: u32,
-) -> Option<Study> {
+) -> Option<Convergence> {
     let Theory::Order(theory) = subject.theory() else {
         return None;
     };
@@ -154,7 +154,7 @@ pub fn study(
     }
     let floor = round_off(problem);
     let judged = judged(&halvings, floor);
-    Some(Study {
+    Some(Convergence {
         subject: subject.name().into(),
         theory,
         found: compare(&judged, theory),

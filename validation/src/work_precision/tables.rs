@@ -1,12 +1,12 @@
 //! The studies as tables.
 
-use super::order::{Found, Orders, Study};
-use super::{Bench, Curve, Point, TARGETS_RAD};
+use super::order::{Convergence, Found, Orders};
+use super::{Bench, IntegratorCurve, Point, TARGETS_RAD};
 use crate::integrators::Theory;
 use crate::table::{Column, NONE, ReportTable, number, words};
 
 /// A curve and one of its points, of a bench.
-type Chosen<'a> = Option<(&'a Curve, &'a Point)>;
+type Chosen<'a> = Option<(&'a IntegratorCurve, &'a Point)>;
 
 fn named(chosen: Chosen) -> String {
     chosen.map_or(NOT_REACHED.into(), |(curve, _)| curve.subject.clone())
@@ -88,29 +88,34 @@ pub(super) fn ratio(benches: &[Bench]) -> ReportTable {
 
 /// Every subject of a bench: the time for each error, then the best it can do.
 pub(super) fn every_subject(bench: &Bench) -> ReportTable {
-    let best = |curve: &Curve| Some((curve.best()?.clone(), curve.best()?.errors?));
+    let best = |curve: &IntegratorCurve| Some((curve.best()?.clone(), curve.best()?.errors?));
     let e = |error: f64| format!("{error:.1e}");
-    let mut columns: Vec<Column<&Curve>> = vec![words("subject", |c: &&Curve| c.subject.as_str())];
+    let mut columns: Vec<Column<&IntegratorCurve>> =
+        vec![words("subject", |c: &&IntegratorCurve| c.subject.as_str())];
     columns.extend(TARGETS_RAD.map(|target| {
-        number(format!("{target:.0e} rad"), time, move |c: &&Curve| {
+        number(format!("{target:.0e} rad"), time, move |c: &&IntegratorCurve| {
             c.cheapest(target).map(|point| point.seconds.least)
         })
         .or(NOT_REACHED)
     }));
     columns.extend([
-        number("best (rad)", e, move |c: &&Curve| {
+        number("best (rad)", e, move |c: &&IntegratorCurve| {
             best(c).map(|b| b.1.orientation_rad)
         }),
-        number("C_b", e, move |c: &&Curve| best(c).map(|b| b.1.orbit_constant)),
-        number("t/T", e, move |c: &&Curve| best(c).map(|b| b.1.phase_turns)),
-        words("setting", move |c: &&Curve| {
+        number("C_b", e, move |c: &&IntegratorCurve| {
+            best(c).map(|b| b.1.orbit_constant)
+        }),
+        number("t/T", e, move |c: &&IntegratorCurve| {
+            best(c).map(|b| b.1.phase_turns)
+        }),
+        words("setting", move |c: &&IntegratorCurve| {
             best(c).map_or("failed".into(), |b| b.0.setting.to_string())
         }),
-        words("time", move |c: &&Curve| {
+        words("time", move |c: &&IntegratorCurve| {
             let seconds = best(c).map(|b| b.0.seconds);
             seconds.map_or(NONE.into(), |s| format!("{} to {}", time(s.least), time(s.most)))
         }),
-        words("failed", |c: &&Curve| {
+        words("failed", |c: &&IntegratorCurve| {
             format!("{} of {}", c.failures(), c.points.len())
         }),
     ]);
@@ -127,12 +132,12 @@ pub(super) fn every_subject(bench: &Bench) -> ReportTable {
 
 /// Observed orders.
 pub fn orders(orders: &Orders) -> ReportTable {
-    let found = |study: &&Study| match study.found {
+    let found = |study: &&Convergence| match study.found {
         Found::AsTheory => "as theory",
         Found::Not => "NOT as theory",
         Found::RoundOff => "at round-off",
     };
-    let judged = |study: &&Study| {
+    let judged = |study: &&Convergence| {
         let judged: Vec<_> = study.judged.iter().map(|order| format!("{order:+.3}")).collect();
         judged.join(" ")
     };
@@ -150,28 +155,28 @@ pub fn orders(orders: &Orders) -> ReportTable {
         ),
         &orders.studies,
         vec![
-            words("subject", |s: &&Study| s.subject.as_str()),
-            words("theory", |s: &&Study| s.theory.to_string()),
+            words("subject", |s: &&Convergence| s.subject.as_str()),
+            words("theory", |s: &&Convergence| s.theory.to_string()),
             words("observed", judged),
             words("verdict", found),
             number(
                 "steps",
                 |steps| steps.to_string(),
-                |s: &&Study| s.richardson.map(|r| r.steps as f64),
+                |s: &&Convergence| s.richardson.map(|r| r.steps as f64),
             ),
             number(
                 "order of |p_1|",
                 |o| format!("{o:+.3}"),
-                |s: &&Study| s.richardson.map(|r| r.order),
+                |s: &&Convergence| s.richardson.map(|r| r.order),
             ),
             number(
                 "at Δt = 0",
                 |v| format!("{v:.12}"),
-                |s: &&Study| s.richardson.map(|r| r.value),
+                |s: &&Convergence| s.richardson.map(|r| r.value),
             ),
-            number("off by", e, |s: &&Study| s.richardson.map(|r| r.error)),
-            number("index", e, |s: &&Study| s.richardson.map(|r| r.index)),
-            number("error", e, |s: &&Study| s.richardson.map(|r| r.true_error)),
+            number("off by", e, |s: &&Convergence| s.richardson.map(|r| r.error)),
+            number("index", e, |s: &&Convergence| s.richardson.map(|r| r.index)),
+            number("error", e, |s: &&Convergence| s.richardson.map(|r| r.true_error)),
         ],
     )
 }

@@ -7,7 +7,7 @@ use crate::plot;
 use crate::report::ReportTable;
 use crate::table::of_words;
 use crate::work_precision::tables::{NOT_REACHED, time};
-use crate::work_precision::{Budget, Curve, TARGETS_RAD, curve};
+use crate::work_precision::{Budget, IntegratorCurve, TARGETS_RAD, curve};
 use serde::Serialize;
 use std::io::{BufRead, Write};
 use std::time::Duration;
@@ -24,11 +24,11 @@ pub struct Bench {
     /// r_e.
     pub aspect_ratio: f64,
     /// The program's curve; its times have the pipe's cost in them.
-    pub program: Curve,
+    pub program: IntegratorCurve,
     /// The least time in s of a request to a program that does nothing, which is taken off in tables and pictures.
     pub pipe_s: Option<f64>,
     /// The project's own integrators, without a pipe.
-    pub ours: Vec<Curve>,
+    pub ours: Vec<IntegratorCurve>,
 }
 
 /// Answers every request with its start, until the input ends: what the pipe and its JSON cost without any work.
@@ -78,7 +78,7 @@ pub fn bench(program: &Program, echo: &str) -> Bench {
 
 impl Bench {
     /// The program's curve without the pipe's cost; what is not longer than that is left at a tenth of it.
-    pub fn without_pipe(&self) -> Curve {
+    pub fn without_pipe(&self) -> IntegratorCurve {
         let pipe = self.pipe_s.unwrap_or(0.0);
         let mut program = self.program.clone();
         for point in &mut program.points {
@@ -93,7 +93,7 @@ impl Bench {
     pub fn picture(&self) -> Result<String, String> {
         let mut program = self.without_pipe();
         program.subject = PROGRAM.to_owned();
-        let line = |curve: &Curve| {
+        let line = |curve: &IntegratorCurve| {
             let points = || curve.points.iter().filter(|point| point.errors.is_some());
             let mut x: Vec<_> = points().map(|point| point.seconds.least).collect();
             let mut y: Vec<_> = points().map(|point| point.error_rad().max(LEAST)).collect();
@@ -123,7 +123,7 @@ impl Bench {
 
     /// For each error the time of the program and of ours.
     pub fn table(&self) -> ReportTable {
-        let row = |curve: &Curve, name: String| {
+        let row = |curve: &IntegratorCurve, name: String| {
             let mut row = vec![name];
             row.extend(TARGETS_RAD.map(|target| match curve.cheapest(target) {
                 Some(point) => time(point.seconds.least),

@@ -17,7 +17,7 @@ pub struct Studies {
     /// The longest steps.
     pub limits: Option<Vec<Longest>>,
     /// What becomes of a rod by aspect ratio and step.
-    pub map: Option<Vec<Row>>,
+    pub map: Option<Vec<MapRow>>,
 }
 
 /// The longest step with which a program keeps a property.
@@ -33,7 +33,7 @@ pub struct Longest {
 
 /// A row of the map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Row {
+pub struct MapRow {
     /// r_e.
     pub aspect_ratio: f64,
     /// One for each of [`STEPS`] or [`TOLERANCES`].
@@ -86,7 +86,7 @@ fn limits(program: &Program) -> Vec<Longest> {
         .collect()
 }
 
-fn rows(program: &Program) -> Vec<Row> {
+fn rows(program: &Program) -> Vec<MapRow> {
     let cell = |aspect_ratio: f64, k: usize| {
         let mut run = map::by_step(program.theory(), aspect_ratio, STEPS[k], MOST_STEPS);
         if program.theory() == Theory::Adaptive {
@@ -95,7 +95,7 @@ fn rows(program: &Program) -> Vec<Row> {
         }
         run.of(program).found
     };
-    let row = |aspect_ratio: f64| Row {
+    let row = |aspect_ratio: f64| MapRow {
         aspect_ratio,
         found: (0..STEPS.len()).map(|k| cell(aspect_ratio, k)).collect(),
     };
@@ -133,7 +133,7 @@ impl Studies {
             .collect()
     }
 
-    fn map_table(&self, rows: &[Row]) -> ReportTable {
+    fn map_table(&self, rows: &[MapRow]) -> ReportTable {
         let adaptive =
             (self.work_precision.as_ref()).is_some_and(|bench| bench.program.theory == Theory::Adaptive);
         let heads: Vec<_> = match adaptive {
@@ -143,7 +143,7 @@ impl Studies {
                 .collect(),
             false => STEPS.iter().map(|step| format!("Δt = {step} T")).collect(),
         };
-        let row = |row: &Row| {
+        let row = |row: &MapRow| {
             let signs = row.found.iter().map(|found| found.sign().to_owned());
             std::iter::once(row.aspect_ratio.to_string())
                 .chain(signs)
