@@ -2,7 +2,7 @@
 
 use crate::case::{Case, Effort, Evidence};
 use crate::integrators::{ClosedForm, Integrator, Problem, Setting};
-use crate::stability::core;
+use crate::stability::corners;
 use crate::stability::map::{ASPECT_RATIOS, STEPS};
 use crate::statistics::larger;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
@@ -27,7 +27,7 @@ pub fn cases() -> Vec<Case> {
             )
             .source("eqs 13, 15, A.4, A.5")
             .equations(&["13", "15"])
-            .subject(core::exact as Motion)
+            .subject(corners::exact as Motion)
             .mistake("q not rescaled", |r, g, p, turns| {
                 let Phase { cos, sin } = Phase::of_turns(g.signum() * turns);
                 Vector3::new(p.x * cos - p.y / r * sin, r * p.x * sin + p.y * cos, p.z)
@@ -37,7 +37,7 @@ pub fn cases() -> Vec<Case> {
                 Vector3::new(p.x * cos - p.y / r * sin, r * p.x * sin + p.y * cos, p.z).normalize()
             })
             .mistake("G t for G t/T", |r, g, p, turns| {
-                core::exact(r, g, p, turns * shearbed::jeffery::strain_per_period(r))
+                corners::exact(r, g, p, turns * shearbed::jeffery::strain_per_period(r))
             })
             .mistake("through tan θ and φ (A.4, A.5)", |r, _, p, turns| {
                 let end = ClosedForm.advance(&Problem::new(r, turns), p, Setting::Once);
@@ -76,7 +76,7 @@ pub(super) fn off_length(p: &Vector3<f64>) -> f64 {
 fn extreme_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
     let (mut length, mut orbit, mut angle) = (0.0f64, 0.0f64, 0.0f64);
     for r in ASPECT_RATIOS.into_iter().chain([1.0]) {
-        let found = core::worst(r, motion);
+        let found = corners::worst(r, motion);
         length = larger(length, found.length);
         orbit = larger(orbit, found.orbit);
         angle = larger(angle, found.angle);

@@ -10,7 +10,7 @@ use crate::fit::emulator::Model;
 use crate::fit::report::{self, Report};
 use crate::fit::scenes::{AS_WRITTEN, Variant};
 use crate::fit::search::{Fit, Problem, Watch, search};
-use crate::fit::{Range, pictures, words};
+use crate::fit::{Range, pictures, terminal};
 use crate::output::{self, Output};
 use crate::plot;
 use crate::sweep::Setting;
@@ -128,12 +128,12 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
         return Ok(());
     }
     let design = (done.report.design.as_ref()).map_or(String::new(), |steps| {
-        words::design(&done.fit, steps, &times) + "\n"
+        terminal::design(&done.fit, steps, &times) + "\n"
     });
     print(&format!(
         "{}\n\n{}\n{design}in {}: {names}\n",
-        words::sentence(&done.fit, &done.report),
-        words::table(&done.fit, &done.report),
+        terminal::sentence(&done.fit, &done.report),
+        terminal::table(&done.fit, &done.report),
         out.display(),
     ))
 }

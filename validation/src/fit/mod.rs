@@ -17,8 +17,8 @@ mod range;
 pub mod report;
 pub mod scenes;
 pub mod search;
+pub mod terminal;
 #[cfg(test)]
 mod tests;
-pub mod words;
 
 pub use range::Range;

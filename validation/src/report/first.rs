@@ -1,6 +1,6 @@
 //! What the first screen shows: the verdict in parts, three pictures, and where to look first.
 
-use super::words::share;
+use super::formats::share;
 use super::{Part, Report};
 use crate::accept::Verdict;
 use crate::case::Judges;

@@ -1,11 +1,11 @@
 //! The report as one HTML file.
 
 use super::first::{cards, closest, thumbnails};
+use super::formats::{bounds, detail, number, seconds, share, verdict};
 use super::page::{
     CaseView, EquationView, ExhibitView, FigureView, Group, LineView, Link, Page, StudyView, TableView,
 };
 use super::prose::Anchors;
-use super::words::{bounds, detail, number, seconds, share, verdict};
 use super::{CaseRow, Line, Report, ReportFigure, ReportTable};
 use crate::accept::Verdict;
 use crate::case::Judges;

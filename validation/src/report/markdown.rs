@@ -1,6 +1,6 @@
 //! The report as Markdown.
 
-use super::words::{bounds, seconds, verdict};
+use super::formats::{bounds, seconds, verdict};
 use super::{CaseRow, Report, ReportEquation, ReportStudy};
 use crate::markup::{Piece, pieces, unicode};
 use crate::table::{ReportTable, of_words};

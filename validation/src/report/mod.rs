@@ -2,6 +2,7 @@
 
 mod curves;
 mod first;
+mod formats;
 mod html;
 mod json;
 mod junit;
@@ -13,7 +14,6 @@ mod row;
 mod sections;
 #[cfg(test)]
 mod tests;
-mod words;
 
 pub(crate) use markdown::{equation_table, markdown_table};
 
@@ -165,7 +165,7 @@ impl Report {
         let summary = &self.summary;
         let parts: Vec<_> = summary.parts.iter().map(Part::to_string).collect();
         let over = match summary.false_alarm > FALSE_ALARM_BUDGET {
-            true => format!(", over the budget of {}", words::number(FALSE_ALARM_BUDGET)),
+            true => format!(", over the budget of {}", formats::number(FALSE_ALARM_BUDGET)),
             false => String::new(),
         };
         format!(
@@ -174,7 +174,7 @@ impl Report {
             parts.join("; "),
             summary.fail,
             summary.underpowered,
-            words::number(summary.false_alarm),
+            formats::number(summary.false_alarm),
         )
     }
 }

@@ -1,7 +1,7 @@
 //! Where, when and from what a report was made.
 
 use super::ScenePlan;
-use super::words::utc;
+use super::formats::utc;
 use crate::build::BUILD;
 use serde::Serialize;
 use std::collections::BTreeMap;

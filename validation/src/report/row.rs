@@ -1,6 +1,6 @@
 //! A case as a row of the report: every number with the bound it was judged by.
 
-use super::words::{bounds, detail};
+use super::formats::{bounds, detail};
 use crate::accept::{Rule, Verdict};
 use crate::case::{Control, Effort, GATE_SEED, Judged, Judges, Outcome};
 use crate::text;

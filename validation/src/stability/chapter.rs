@@ -1,6 +1,6 @@
 //! The study of stability.
 
-use super::{core_table, ends, figures, limit_tables, maps};
+use super::{corners_table, ends, figures, limit_tables, maps};
 use crate::integrators;
 use crate::studies::{self, Exhibit, Extent, Found, Study};
 
@@ -46,7 +46,7 @@ fn run(_: &Extent) -> Result<Option<Found>, String> {
         });
     }
     exhibits.extend(limits.into_iter().map(Exhibit::from));
-    exhibits.push(core_table::table().into());
+    exhibits.push(corners_table::table().into());
     Ok(Some(Found {
         answer,
         exhibits,

@@ -2,8 +2,8 @@
 //! longest steps by bisection beside theory. Derived in `docs/stability.md`.
 
 pub mod chapter;
-pub mod core;
-pub mod core_table;
+pub mod corners;
+pub mod corners_table;
 pub mod ends;
 pub mod figures;
 pub mod limit_tables;
