@@ -15,8 +15,10 @@ use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 use std::sync::Arc;
 
-/// Times of a scene at which a point could be measured, evenly.
+/// Times of a scene at which a point could be measured, evenly, and of all sets, columns and concentrations together: their
+/// values at all places take a quarter of a gigabyte at most.
 const TIMES: usize = 300;
+const MOST_CANDIDATES: usize = 1800;
 /// Concentrations, in multiples of the scene's.
 const CONCENTRATIONS: [f64; 3] = [0.5, 1.0, 2.0];
 /// How many of the best points are named.
@@ -24,7 +26,7 @@ const CHOSEN: usize = 6;
 /// The most replicas behind a point's values.
 const MOST_REPLICAS: u64 = 100;
 /// Places along each side of the box, for one, two and three parameters.
-const PLACES: [usize; 3] = [401, 101, 41];
+const PLACES: [usize; 3] = [401, 101, 25];
 /// Places whose likelihood is below this share of the largest do not count.
 const SMALL: f64 = 1e-7;
 
@@ -155,7 +157,11 @@ pub fn design(fit: &Fit, scenes: &Scenes, data: &[Datum], watch: &Watch<'_>) -> 
 /// Where points of each set and column could be measured.
 fn places(scenes: &Scenes, best: &[f64], data: &[Datum]) -> Result<Vec<Datum>, String> {
     let mut all = Vec::new();
-    for (set, column) in super::pictures::kinds(data) {
+    let kinds = super::pictures::kinds(data);
+    let times = TIMES
+        .min(MOST_CANDIDATES / (kinds.len() * CONCENTRATIONS.len()))
+        .max(1);
+    for (set, column) in kinds {
         let end = scenes.end(set, best)?;
         let here = || {
             data.iter()
@@ -166,11 +172,11 @@ fn places(scenes: &Scenes, best: &[f64], data: &[Datum]) -> Result<Vec<Datum>, S
             all.sort_by(f64::total_cmp);
             all[all.len() / 2]
         };
-        all.extend((1..=TIMES).map(|k| Datum {
+        all.extend((1..=times).map(|k| Datum {
             set,
             line: 0,
             column: column.clone(),
-            time: end * k as f64 / TIMES as f64,
+            time: end * k as f64 / times as f64,
             value: f64::NAN,
             u_time: middle(|datum| datum.u_time),
             u: middle(|datum| datum.u),

@@ -203,6 +203,7 @@ fn a_design_lists_what_each_further_point_would_leave() {
     let mut csv = csv::Reader::from_path(dir.path().join("own/design.csv")).unwrap();
     let head = csv.headers().unwrap().clone();
     let (mut best, mut concentrations, mut rows) = ((f64::INFINITY, 0.0), Vec::new(), 0);
+    let mut spreads = Vec::new();
     for row in csv.records() {
         let row = row.unwrap();
         let cell = |name: &str| &row[head.iter().position(|own| own == name).unwrap()];
@@ -218,9 +219,13 @@ fn a_design_lists_what_each_further_point_would_leave() {
             best = (left, number("time"));
         }
         concentrations.push(cell("concentration_per_cm3").to_owned());
+        spreads.push(spread);
         rows += 1;
     }
     assert_eq!(rows, 3 * 300);
+    // What collisions do is the more uncertain the more there are.
+    let of_third = |k: usize| spreads[300 * k..300 * (k + 1)].iter().sum::<f64>();
+    assert!(of_third(0) < of_third(1) && of_third(1) < of_third(2));
     concentrations.dedup();
     assert_eq!(concentrations, ["25", "50", "100"]);
     assert_eq!(steps.len(), 1 + 3 + 6);
