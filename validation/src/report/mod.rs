@@ -169,8 +169,8 @@ impl Report {
             false => String::new(),
         };
         format!(
-            "Passed: {}. {} fail, {} under-powered. By chance alone correct code turns red with a probability of at most \
-             {}{over}.",
+            "Passed: {}. {} fail, {} under-powered. By chance alone statistical checks turn correct code red with a probability of \
+             at most {}{over}.",
             parts.join("; "),
             summary.fail,
             summary.underpowered,
