@@ -255,7 +255,12 @@ fn rods_that_start_as_a_file_says_are_fitted() {
     }
     fs::write(dir.path().join("start.csv"), &rows).unwrap();
     points(dir.path());
-    let fit = "fit small.toml --data points.csv --over interaction.alpha=0.1:5 --replicas 60";
+    // The file is beside the scene, wherever the program is started.
+    fs::create_dir(dir.path().join("scenes")).unwrap();
+    for name in ["small.toml", "start.csv"] {
+        fs::rename(dir.path().join(name), dir.path().join("scenes").join(name)).unwrap();
+    }
+    let fit = "fit scenes/small.toml --data points.csv --over interaction.alpha=0.1:5 --replicas 60";
     let done = shearbed(dir.path(), &format!("{fit} --out own"));
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     let record = json(&dir.path().join("own/fit.json"));
@@ -270,13 +275,17 @@ fn rods_that_start_as_a_file_says_are_fitted() {
     assert_eq!(record["shifts"].as_array().unwrap().len(), 1);
 
     // Another file of starts is another fit.
-    fs::write(dir.path().join("start.csv"), rows.replace("p1,p2,p3", "p2,p1,p3")).unwrap();
+    fs::write(
+        dir.path().join("scenes/start.csv"),
+        rows.replace("p1,p2,p3", "p2,p1,p3"),
+    )
+    .unwrap();
     let other = shearbed(dir.path(), &format!("{fit} --out own"));
     assert_eq!(other.code, Some(2));
     assert!(other.stderr.contains("start"), "{}", other.stderr);
     // A file that is not as the scene needs it, with what is wrong.
     fs::write(
-        dir.path().join("start.csv"),
+        dir.path().join("scenes/start.csv"),
         rows.lines().take(count).collect::<Vec<_>>().join("\n"),
     )
     .unwrap();
