@@ -24,16 +24,6 @@ const OTHERS: [&str; 9] = [
 /// How far a length may be from 1: a direction in five decimals or more. It is divided out.
 const LENGTH: f64 = 1e-5;
 
-/// Reads the file of a scene whose rods start as one says; others are left as they are. `beside` is the folder that the
-/// scene's file is in.
-///
-/// # Errors
-///
-/// The file, line, column and value, and what is allowed.
-pub fn fill(scene: &mut Scene, beside: &Path) -> Result<(), String> {
-    Starts::beside(beside).fill(scene)
-}
-
 /// The files that were read for scenes of one folder: each is read once, and its directions are held once.
 #[derive(Clone, Debug, Default)]
 pub struct Starts {
@@ -50,7 +40,7 @@ struct Start {
 }
 
 impl Starts {
-    /// For scenes of this folder; nothing is read yet.
+    /// For scenes whose files are in this folder; nothing is read yet.
     pub fn beside(folder: &Path) -> Self {
         Self {
             folder: folder.to_owned(),
@@ -65,11 +55,11 @@ impl Starts {
             .collect()
     }
 
-    /// As [`fill`], for one scene after the other.
+    /// Gives a scene whose rods start as a file says the directions of that file; others are left as they are.
     ///
     /// # Errors
     ///
-    /// As [`fill`].
+    /// The file, line, column and value, and what is allowed.
     pub fn fill(&mut self, scene: &mut Scene) -> Result<(), String> {
         let (count, aspect_ratio) = (scene.particles.count, scene.particles.aspect_ratio);
         let Orientation::Each { file, crc32, p } = &mut scene.particles.orientation else {

@@ -30,7 +30,9 @@ fn plan(name: &str, text: &str, replicas: Option<u64>, seed: Option<u64>) -> PyR
     let refused = |error: &dyn std::fmt::Display| SceneError::new_err(error.to_string());
     let mut scene = scene_file::parse(name, text).map_err(|error| refused(&error))?;
     let folder = Path::new(name).parent().unwrap_or(Path::new(""));
-    validation::start::fill(&mut scene, folder).map_err(|error| refused(&format!("{name}: {error}")))?;
+    validation::start::Starts::beside(folder)
+        .fill(&mut scene)
+        .map_err(|error| refused(&format!("{name}: {error}")))?;
     scene.ensemble.replicas = replicas.unwrap_or(scene.ensemble.replicas);
     scene.ensemble.seed = seed.unwrap_or(scene.ensemble.seed);
     Plan::new(&scene).map_err(|error| SceneError::new_err(format!("{name}: {error}")))

@@ -206,8 +206,10 @@ fn not_slender(scene: &Scene) -> Option<String> {
 fn shifts(input: &Input, fit: &Fit, own: &Model<'_>, watch: &Watch<'_>) -> Result<Vec<Shift>, String> {
     let values = fit.values(&fit.best.place);
     let scenes = &input.scenes;
-    let interact = (0..scenes.sets.len()).map(|set| Ok(scenes.scene(set, &values)?.interaction.is_some()));
-    if !interact.collect::<Result<Vec<bool>, String>>()?.contains(&true) {
+    let best: Vec<Scene> = (0..scenes.sets.len())
+        .map(|set| scenes.scene(set, &values))
+        .collect::<Result<_, _>>()?;
+    if best.iter().all(|scene| scene.interaction.is_none()) {
         return Ok(Vec::new());
     }
     let variants = [
@@ -215,16 +217,9 @@ fn shifts(input: &Input, fit: &Fit, own: &Model<'_>, watch: &Watch<'_>) -> Resul
         ("twice the rods", Variant { steps: 1, rods: 2 }),
     ];
     // As many rods as a file of starts has rows, no more.
-    let from_a_file = |set| {
-        let scene = scenes.scene(set, &values)?;
-        Ok(matches!(scene.particles.orientation, Orientation::Each { .. }))
-    };
-    let fixed = (0..scenes.sets.len())
-        .map(from_a_file)
-        .collect::<Result<Vec<bool>, String>>()?;
-    let variants = variants
-        .into_iter()
-        .filter(|(_, variant)| variant.rods == 1 || !fixed.contains(&true));
+    let from_a_file = |scene: &Scene| matches!(scene.particles.orientation, Orientation::Each { .. });
+    let fixed = best.iter().any(from_a_file);
+    let variants = (variants.into_iter()).filter(|(_, variant)| variant.rods == 1 || !fixed);
     let shift = |(change, variant): (&'static str, Variant)| {
         let changed = |values: &[f64]| scenes.model(&input.data, variant, values);
         budget::shift(fit, change, own, &changed, watch)

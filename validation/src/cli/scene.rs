@@ -1,13 +1,14 @@
 //! Finding the scene that the command line names.
 
 use super::Failure;
+use crate::start::Starts;
 use crate::sweep::{self, Setting};
 use crate::text::line;
-use crate::{cluster, scenes, start};
+use crate::{cluster, scenes};
 use shearbed::{Scene, scene_file};
 use std::ffi::OsStr;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A scene with the name of what is made from it.
 pub(super) struct Named {
@@ -16,8 +17,8 @@ pub(super) struct Named {
     pub(super) text: String,
     /// The file as given, or the built-in scene's name: for messages.
     pub(super) source: String,
-    /// The folder of the file: what it names lies there.
-    pub(super) folder: PathBuf,
+    /// What was read of files of starts beside it.
+    pub(super) starts: Starts,
     /// The stem of the file's name, or the built-in scene's name.
     pub(super) stem: String,
 }
@@ -41,7 +42,9 @@ impl Named {
                 .map(|setting| format!(" --set {}={}", setting.key, sweep::shown(&setting.value)));
             Failure::Input(format!("{}{}: {error}", self.source, said.collect::<String>()))
         })?;
-        start::fill(&mut self.scene, &self.folder).map_err(|error| refused(&self.source, &error))?;
+        self.starts
+            .fill(&mut self.scene)
+            .map_err(|error| refused(&self.source, &error))?;
         Ok(self)
     }
 }
@@ -65,20 +68,22 @@ pub(super) fn load(given: &OsStr) -> Result<Named, Failure> {
             scene,
             text,
             source,
-            folder: PathBuf::new(),
+            starts: Starts::default(),
             stem,
         });
     }
     let text = read(path)?;
     let mut scene = scene_file::parse(&source, &text).map_err(|error| Failure::Input(error.to_string()))?;
-    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    start::fill(&mut scene, &folder).map_err(|error| refused(&source, &error))?;
+    let mut starts = Starts::beside(path.parent().unwrap_or(Path::new("")));
+    starts
+        .fill(&mut scene)
+        .map_err(|error| refused(&source, &error))?;
     let stem = path.file_stem().unwrap_or(given).to_string_lossy().into_owned();
     Ok(Named {
         scene,
         text,
         source,
-        folder,
+        starts,
         stem,
     })
 }

@@ -78,7 +78,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
             named.source
         )));
     }
-    let points = sweep::points(&named.text, &named.folder, &settings, &args.over)
+    let points = sweep::points(&named.text, &named.starts, &settings, &args.over)
         .map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
     for point in &points {
         let at = format!(

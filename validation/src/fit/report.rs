@@ -158,8 +158,8 @@ fn warnings(
         for j in 0..i {
             if correlation[(i, j)].abs() > ALIKE {
                 all.push(format!(
-                    "{} and {}: these points hardly tell them apart (correlation {:.3}); --design lists \
-                     points that would",
+                    "{} and {}: these points hardly tell them apart (correlation {:.3}); --design shows \
+                     what further points would do",
                     fit.ranges[j].label(),
                     fit.ranges[i].label(),
                     correlation[(i, j)]

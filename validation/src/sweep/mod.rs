@@ -9,7 +9,6 @@ pub use folder::{Folder, Identity, Points, Refused};
 
 use crate::start::Starts;
 use shearbed::{Plan, Scene, scene_file};
-use std::path::Path;
 use toml::{Table, Value};
 
 /// A point of the grid.
@@ -21,10 +20,10 @@ pub struct Point {
 }
 
 /// Every point, the last axis varying fastest, checked as a scene file is. `fixed` are keys that all points have in
-/// place of the scene's own; `beside` is the folder of the scene's file. On error, which point and why.
+/// place of the scene's own; `starts` are of the scene's folder. On error, which point and why.
 pub fn points(
     text: &str,
-    beside: &Path,
+    starts: &Starts,
     fixed: &[(&str, Value)],
     axes: &[Axis],
 ) -> Result<Vec<Point>, String> {
@@ -33,7 +32,7 @@ pub fn points(
         .try_fold(1_usize, |count, axis| count.checked_mul(axis.values.len()))
         .filter(|count| *count <= MAX_POINTS)
         .ok_or_else(|| format!("--over: more than {MAX_POINTS} points; at most so many are allowed"))?;
-    let mut starts = Starts::beside(beside);
+    let mut starts = starts.clone();
     let point = |k| {
         let values = at(axes, k);
         let keys = axes.iter().map(|axis| axis.key.as_str());
@@ -152,7 +151,7 @@ mod tests {
 
     fn refused(over: &[&str]) -> String {
         let axes: Vec<_> = over.iter().map(|text| Axis::parse(text).unwrap()).collect();
-        points(text(), Path::new(""), &[], &axes).err().unwrap()
+        points(text(), &Starts::default(), &[], &axes).err().unwrap()
     }
 
     #[test]
@@ -161,7 +160,7 @@ mod tests {
         let axes = over.map(|text| Axis::parse(text).unwrap());
         let found = points(
             text(),
-            Path::new(""),
+            &Starts::default(),
             &[("ensemble.replicas", Value::Integer(3))],
             &axes,
         )

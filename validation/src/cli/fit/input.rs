@@ -6,7 +6,6 @@ use crate::fit::Range;
 use crate::fit::basis::MOST_PARAMETERS;
 use crate::fit::data::{self, Datum, MOST_POINTS, TimeColumn};
 use crate::fit::scenes::{AS_WRITTEN, Scenes, Set};
-use crate::start::Starts;
 use crate::sweep;
 use crate::text::line;
 use shearbed::Plan;
@@ -62,11 +61,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
         let (scene, path) = scene_and_file(&args.scene, given);
         let named = scene::load(scene)?;
         let points = data::read(path, k).map_err(|error| Failure::Input(error.to_string()))?;
-        let mut starts = Starts::beside(&named.folder);
-        starts
-            .fill(&mut named.scene.clone())
-            .map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
-        within_scene(&named, &starts, args, points.time, &points.points, path)?;
+        within_scene(&named, args, points.time, &points.points, path)?;
         if k == 0 {
             stem.clone_from(&named.stem);
         }
@@ -77,7 +72,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
             seed: args.seed.unwrap_or(named.scene.ensemble.seed),
             source: named.source,
             text: named.text,
-            starts,
+            starts: named.starts,
             settings: args.settings.clone(),
             time: points.time,
         });
@@ -135,7 +130,6 @@ fn scene_and_file<'a>(scene: &'a OsStr, given: &'a OsStr) -> (&'a OsStr, &'a Pat
 /// Refuses points later than the scene runs: they would make it run for long, and are mostly of another unit.
 fn within_scene(
     named: &scene::Named,
-    starts: &Starts,
     args: &Args,
     time: TimeColumn,
     points: &[Datum],
@@ -143,7 +137,7 @@ fn within_scene(
 ) -> Result<(), Failure> {
     let refused = |error: String| Failure::Input(format!("{}: {error}", named.source));
     let mut scene = sweep::scene_with(&named.text, &args.settings).map_err(refused)?;
-    starts.clone().fill(&mut scene).map_err(refused)?;
+    named.starts.clone().fill(&mut scene).map_err(refused)?;
     let plan = Plan::new(&scene).map_err(|error| refused(error.to_string()))?;
     let end = time.end_of(&plan).ok_or_else(|| {
         Failure::Input(format!(
