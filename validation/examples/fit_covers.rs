@@ -10,7 +10,7 @@ use validation::fit::Range;
 use validation::fit::data::{Datum, TimeColumn};
 use validation::fit::likelihood::{EMULATOR, REPLICAS};
 use validation::fit::scenes::{AS_WRITTEN, Scenes, Set};
-use validation::fit::search::{Problem, Watch, search};
+use validation::fit::search::{Measured, Problem, Watch, search};
 use validation::scenes;
 use validation::start::Starts;
 use validation::sweep::Setting;
@@ -23,13 +23,9 @@ const TRUTH: u64 = 4000;
 
 fn points(value: impl Fn(usize) -> f64) -> Vec<Datum> {
     let point = |k: usize| Datum {
-        set: 0,
-        line: 0,
-        column: "x1".into(),
-        time: (k + 1) as f64 / POINTS as f64,
         value: value(k),
-        u_time: 0.0,
         u: NOISE,
+        ..Datum::place(0, "x1", (k + 1) as f64 / POINTS as f64)
     };
     (0..POINTS).map(point).collect()
 }
@@ -74,9 +70,11 @@ fn main() -> Result<(), String> {
         let scenes = scenes(2000 + k, &over)?;
         let model = |values: &[f64]| scenes.model(&data, AS_WRITTEN, values);
         let problem = Problem {
-            data: &data,
-            ranges: std::slice::from_ref(&over),
-            rods_over_measured: &[0.0],
+            measured: Measured {
+                data: &data,
+                ranges: std::slice::from_ref(&over),
+                rods_over_measured: &[0.0],
+            },
             model: &model,
             most_replicas: 1000,
         };

@@ -161,7 +161,12 @@ pub fn sweep() -> Target {
             if axis.values.len() > 64 {
                 return Ok(Taken::Accepted);
             }
-            match points(text, &validation::start::Starts::default(), &[], std::slice::from_ref(&axis)) {
+            match points(
+                text,
+                &validation::start::Starts::default(),
+                &[],
+                std::slice::from_ref(&axis),
+            ) {
                 Ok(found) if found.len() != axis.values.len() => Err(format!("{} points", found.len())),
                 Ok(found) if found.len() == 1 && set.as_ref().ok() != Some(found[0].plan.scene()) => {
                     Err(format!("--set and --over make different scenes: {set:?}"))

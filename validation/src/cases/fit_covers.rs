@@ -15,7 +15,7 @@ use crate::fit::basis::Basis;
 use crate::fit::data::{Datum, TimeColumn};
 use crate::fit::emulator::{Coefficients, Emulator, coefficients};
 use crate::fit::scenes::{AS_WRITTEN, Scenes, Set};
-use crate::fit::search::{Fit, Problem, fitted};
+use crate::fit::search::{Fit, Measured, fitted};
 use crate::lab::{self, Shared};
 use crate::start::Starts;
 use crate::statistics::Sample;
@@ -88,13 +88,9 @@ struct Pool {
 
 fn data(values: impl Fn(usize) -> f64) -> Vec<Datum> {
     let point = |k: usize| Datum {
-        set: 0,
-        line: 0,
-        column: "x1".into(),
-        time: 1.5 * (k + 1) as f64 / POINTS as f64,
         value: values(k),
-        u_time: 0.0,
         u: NOISE,
+        ..Datum::place(0, "x1", 1.5 * (k + 1) as f64 / POINTS as f64)
     };
     (0..POINTS).map(point).collect()
 }
@@ -161,15 +157,13 @@ fn repeat(pool: &Pool, way: Way, seed: u64, k: u64) -> Result<Fit, String> {
         drawn = vec![mean; DRAWN];
     }
     let data = data(|k| pool.truth[k] + NOISE * noise[k]);
-    let problem = Problem {
+    let measured = Measured {
         data: &data,
         ranges: std::slice::from_ref(&pool.range),
         rods_over_measured: &[0.0],
-        model: &|_| Err("nothing is run anew".into()),
-        most_replicas: DRAWN as u64,
     };
     fitted(
-        &problem,
+        &measured,
         &pool.basis,
         &vec![(pool.range.from, pool.range.to)],
         &drawn,

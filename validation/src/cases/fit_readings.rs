@@ -11,10 +11,11 @@ use crate::fit::basis::Basis;
 use crate::fit::data::{Datum, TimeColumn};
 use crate::fit::emulator::{Coefficients, coefficients};
 use crate::fit::scenes::{AS_WRITTEN, Scenes, Set};
-use crate::fit::search::{Problem, fitted};
+use crate::fit::search::{Fit, Measured, fitted};
 use crate::lab::problem;
 use crate::lab::{self, Shared};
 use crate::oracle::naive::{Lines, Naive, mean_projections};
+use crate::readings::Change;
 use crate::start::Starts;
 use rand::{RngExt, SeedableRng};
 use rand_distr::StandardNormal;
@@ -40,7 +41,7 @@ const STEPS_PER_PERIOD: u64 = 100;
 /// 307 with a standard deviation of √(2·59 + 4·248) = 33, 5.5 of these above.
 const REPLICAS: u64 = 600;
 
-pub fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Case> {
     vec![
         Case::program("fit-tells-cut-lines")
             .claim(
@@ -49,8 +50,10 @@ pub fn cases() -> Vec<Case> {
             )
             .source("eq. 5; docs/fit.md")
             .equations(&["5"])
-            .subject(Lines::Infinite)
-            .mistake("contact lines cut at the rods' ends", Lines::CutAtEnds)
+            .subject((|_| ()) as Change)
+            .mistake("contact lines cut at the rods' ends", |problem| {
+                problem.reading.lines = Lines::CutAtEnds;
+            })
             .check(accepted),
     ]
 }
@@ -65,14 +68,14 @@ fn scene(effort: &Effort, concentration_per_cm3: f64) -> Scene {
 }
 
 /// One replica of both suspensions by the naive reference, in the order of [`data`].
-fn curve(lines: Lines, effort: &Effort, replica: u64) -> Vec<f64> {
+fn curve(change: Change, effort: &Effort, replica: u64) -> Vec<f64> {
     let mut values = Vec::new();
     for (k, concentration) in CONCENTRATIONS.into_iter().enumerate() {
         let mut scene = scene(effort, concentration);
         lab::interaction(&mut scene).alpha = PLANTED;
         scene.ensemble.seed = effort.seed(80 + k as u64);
         let mut problem = problem(&scene, replica, None);
-        problem.reading.lines = lines;
+        change(&mut problem);
         let mut naive = Naive::new(problem);
         for _ in 0..TIMES {
             (0..STEPS).for_each(|_| naive.step());
@@ -82,15 +85,26 @@ fn curve(lines: Lines, effort: &Effort, replica: u64) -> Vec<f64> {
     values
 }
 
-fn data(value: impl Fn(usize) -> f64) -> Vec<Datum> {
-    let point = |k: usize| Datum {
-        set: k / (TIMES * COLUMNS.len()),
-        line: 0,
-        column: COLUMNS[k % COLUMNS.len()].into(),
-        time: ((k / COLUMNS.len() % TIMES + 1) * STEPS) as f64 / STEPS_PER_PERIOD as f64,
-        value: value(k),
-        u_time: 0.0,
-        u: NOISE,
+/// Means over replicas of X̄₁ to X̄₃ of both suspensions, under a reading of the paper.
+pub fn points(change: Change, effort: &Effort, replicas: u64) -> Vec<f64> {
+    let rows: Vec<Vec<f64>> = (0..replicas)
+        .into_par_iter()
+        .map(|replica| curve(change, effort, replica))
+        .collect();
+    let mean = |k: usize| rows.iter().map(|row| row[k]).sum::<f64>() / replicas as f64;
+    (0..rows[0].len()).map(mean).collect()
+}
+
+/// The points' places, with their values and one standard deviation of noise.
+fn data(value: impl Fn(usize) -> f64, u: f64) -> Vec<Datum> {
+    let point = |k: usize| {
+        let (set, column) = (k / (TIMES * COLUMNS.len()), COLUMNS[k % COLUMNS.len()]);
+        let step = (k / COLUMNS.len() % TIMES + 1) * STEPS;
+        Datum {
+            value: value(k),
+            u,
+            ..Datum::place(set, column, step as f64 / STEPS_PER_PERIOD as f64)
+        }
     };
     (0..CONCENTRATIONS.len() * TIMES * COLUMNS.len())
         .map(point)
@@ -104,7 +118,8 @@ fn range() -> Result<Range, String> {
     Range::parse("interaction.alpha=0.4:1.2")
 }
 
-fn model(effort: &Effort, replicas: u64) -> Result<Vec<Coefficients>, String> {
+/// So many replicas of the model at the nodes of its α.
+pub fn model(effort: &Effort, replicas: u64) -> Result<Vec<Coefficients>, String> {
     let set = |(k, concentration): (usize, f64)| {
         Ok(Set {
             source: "a case".into(),
@@ -117,37 +132,33 @@ fn model(effort: &Effort, replicas: u64) -> Result<Vec<Coefficients>, String> {
     };
     let sets = CONCENTRATIONS.into_iter().enumerate().map(set);
     let scenes = Scenes::new(sets.collect::<Result<_, String>>()?, vec![range()?])?;
-    let places = data(|_| f64::NAN);
+    let places = data(|_| f64::NAN, f64::NAN);
     let model = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values);
     let value = |node: &[f64]| vec![0.8 + 0.4 * node[0]];
     coefficients(&Basis::new(1), &model, value, 0..replicas, &|| ())
 }
 
-fn accepted(lines: &Lines, effort: &Effort) -> Result<Vec<Evidence>, String> {
+/// One α of both suspensions for points that are means of so many replicas.
+pub fn one_alpha(points: &[f64], u: f64, replicas: u64, model: &[Coefficients]) -> Result<Fit, String> {
+    let range = range()?;
+    let measured = Measured {
+        data: &data(|k| points[k], u),
+        ranges: std::slice::from_ref(&range),
+        rods_over_measured: &[1.0 / replicas as f64; CONCENTRATIONS.len()],
+    };
+    fitted(&measured, &Basis::new(1), &vec![(range.from, range.to)], model)
+}
+
+fn accepted(change: &Change, effort: &Effort) -> Result<Vec<Evidence>, String> {
     let replicas = effort.pick(REPLICAS, 4 * REPLICAS);
     let model = MODEL.get(effort, (), || model(effort, replicas));
     let model = model.as_ref().as_ref().map_err(Clone::clone)?;
-    let rows: Vec<Vec<f64>> = (0..replicas)
-        .into_par_iter()
-        .map(|replica| curve(*lines, effort, replica))
-        .collect();
     let mut rng = Pcg64Dxsm::seed_from_u64(effort.seed(84));
-    let noise: Vec<f64> = rows[0]
-        .iter()
-        .map(|_| NOISE * rng.sample::<f64, _>(StandardNormal))
+    let points: Vec<f64> = (points(*change, effort, replicas).iter())
+        .map(|mean| mean + NOISE * rng.sample::<f64, _>(StandardNormal))
         .collect();
-    let mean = |k: usize| rows.iter().map(|row| row[k]).sum::<f64>() / replicas as f64;
-    let data = data(|k| mean(k) + noise[k]);
-    let range = range()?;
-    let problem = Problem {
-        data: &data,
-        ranges: std::slice::from_ref(&range),
-        rods_over_measured: &[1.0 / replicas as f64; CONCENTRATIONS.len()],
-        model: &|_| Err("nothing is run anew".into()),
-        most_replicas: replicas,
-    };
-    let fit = fitted(&problem, &Basis::new(1), &vec![(range.from, range.to)], model)?;
-    let law = ChiSquared::new((data.len() - 1) as f64).map_err(|error| error.to_string())?;
+    let fit = one_alpha(&points, NOISE, replicas, model)?;
+    let law = ChiSquared::new((points.len() - 1) as f64).map_err(|error| error.to_string())?;
     Ok(vec![Evidence::new(
         "p-value of χ² of one α for both suspensions",
         Rule::PValue {

@@ -11,7 +11,7 @@ mod experiments;
 mod extreme_scenes;
 mod extremes;
 mod fit_covers;
-mod fit_readings;
+pub mod fit_readings;
 mod folgar_tucker;
 mod free_suspension;
 mod general_flows;

@@ -9,7 +9,7 @@ use crate::fit::design::{Candidate, design};
 use crate::fit::emulator::Model;
 use crate::fit::report::{self, Report};
 use crate::fit::scenes::{AS_WRITTEN, Variant};
-use crate::fit::search::{Fit, Problem, Watch, search};
+use crate::fit::search::{Fit, Measured, Problem, Watch, search};
 use crate::fit::{Range, pictures, terminal};
 use crate::output::{self, Output};
 use crate::plot;
@@ -152,9 +152,11 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
         })
         .collect();
     let problem = Problem {
-        data,
-        ranges: &args.over,
-        rods_over_measured: &rods,
+        measured: Measured {
+            data,
+            ranges: &args.over,
+            rods_over_measured: &rods,
+        },
         model: &model,
         most_replicas: args.replicas,
     };

@@ -28,6 +28,21 @@ pub struct Datum {
     pub u: f64,
 }
 
+impl Datum {
+    /// A place where a point could be: without a line, a value and uncertainties.
+    pub fn place(set: usize, column: &str, time: f64) -> Self {
+        Self {
+            set,
+            line: 0,
+            column: column.into(),
+            time,
+            value: f64::NAN,
+            u_time: 0.0,
+            u: f64::NAN,
+        }
+    }
+}
+
 /// The unit of a file's times: the name of its first column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum TimeColumn {

@@ -9,6 +9,7 @@
 use super::basis::Basis;
 use super::data::Datum;
 use super::emulator::{Emulator, coefficients};
+use super::likelihood::correlation_of;
 use super::scenes::{AS_WRITTEN, Scenes};
 use super::search::{Fit, Watch, values};
 use nalgebra::{DMatrix, DVector};
@@ -173,13 +174,9 @@ fn places(scenes: &Scenes, best: &[f64], data: &[Datum]) -> Result<Vec<Datum>, S
             all[all.len() / 2]
         };
         all.extend((1..=times).map(|k| Datum {
-            set,
-            line: 0,
-            column: column.clone(),
-            time: end * k as f64 / times as f64,
-            value: f64::NAN,
             u_time: middle(|datum| datum.u_time),
             u: middle(|datum| datum.u),
+            ..Datum::place(set, &column, end * k as f64 / times as f64)
         }));
     }
     Ok(all)
@@ -339,16 +336,12 @@ pub(super) fn steps(known: &Known, candidates: &[Candidate], data: &[Datum]) -> 
 
 impl Step {
     fn of(added: Added, known: &Known) -> Self {
-        let (u, covariance) = (deviations(&known.parameters), &known.parameters);
-        let mut correlation: Option<f64> = None;
-        for i in 0..u.len() {
-            for j in 0..i {
-                let own = covariance[(i, j)] / (u[i] * u[j]);
-                if correlation.is_none_or(|largest| own.abs() > largest.abs()) {
-                    correlation = Some(own);
-                }
-            }
-        }
+        let correlations = correlation_of(&known.parameters);
+        let pairs = (0..correlations.nrows()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        let correlation = pairs
+            .map(|pair| correlations[pair])
+            .max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let u = deviations(&known.parameters);
         Self {
             added,
             u,

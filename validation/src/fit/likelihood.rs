@@ -143,6 +143,13 @@ pub fn best(data: &[Datum], emulator: &Emulator, rods_over_measured: &[f64]) -> 
     })
 }
 
+/// The correlations that belong to a covariance.
+pub(super) fn correlation_of(covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    DMatrix::from_fn(covariance.nrows(), covariance.ncols(), |i, j| {
+        covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt()
+    })
+}
+
 impl Best {
     /// The covariance of the parameters, on the box's scale.
     pub fn covariance(&self) -> DMatrix<f64> {

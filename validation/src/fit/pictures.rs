@@ -25,15 +25,7 @@ pub fn places(data: &[Datum]) -> Vec<Datum> {
             .iter()
             .filter(|datum| (datum.set, &datum.column) == (set, &column));
         let last = here.map(|datum| datum.time).fold(0.0, f64::max);
-        all.extend((0..=TIMES).map(|k| Datum {
-            set,
-            line: 0,
-            column: column.clone(),
-            time: last * k as f64 / TIMES as f64,
-            value: f64::NAN,
-            u_time: 0.0,
-            u: f64::NAN,
-        }));
+        all.extend((0..=TIMES).map(|k| Datum::place(set, &column, last * k as f64 / TIMES as f64)));
     }
     all
 }

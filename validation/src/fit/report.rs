@@ -3,7 +3,7 @@
 use super::budget::{self, Part, Residual, Shift};
 use super::data::Datum;
 use super::design::{Candidate, Step};
-use super::likelihood::{EMULATOR, REPLICAS};
+use super::likelihood::{EMULATOR, REPLICAS, correlation_of};
 use super::profile::rise_of;
 use super::range::Range;
 use super::search::{Fit, MOST_SHARE};
@@ -83,11 +83,8 @@ pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
     let freedom = data.len() - fit.ranges.len();
     let p_value = ChiSquared::new(freedom as f64).map_or(f64::NAN, |law| law.sf(fit.best.chi_square));
     let values = fit.values(&fit.best.place);
-    let spread = fit.best.covariance();
     let covariance = fit.covariance();
-    let correlation = DMatrix::from_fn(values.len(), values.len(), |i, j| {
-        spread[(i, j)] / (spread[(i, i)] * spread[(j, j)]).sqrt()
-    });
+    let correlation = correlation_of(&fit.best.covariance());
     let parameters: BTreeMap<_, _> = (fit.ranges.iter().enumerate())
         .map(|(axis, range)| {
             let (inner, outer) = (fit.interval(axis, 0.68), fit.interval(axis, 0.95));

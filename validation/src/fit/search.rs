@@ -25,14 +25,21 @@ const FAR: f64 = 16.0;
 /// A box is made smaller only when a side shrinks below this share of it: runs anew cost more than that gains.
 const WORTH: f64 = 0.6;
 
-/// What is to be fitted.
-pub struct Problem<'a> {
+/// What was measured, and the parameters that it is to tell.
+#[derive(Clone, Copy, Debug)]
+pub struct Measured<'a> {
     /// The measured points.
     pub data: &'a [Datum],
     /// The parameters.
     pub ranges: &'a [Range],
     /// For each data set: rods of a replica over rods that each point is a mean of; 0 where that is not known.
     pub rods_over_measured: &'a [f64],
+}
+
+/// What is to be fitted.
+pub struct Problem<'a> {
+    /// The points and the parameters.
+    pub measured: Measured<'a>,
     /// What predicts the points.
     pub model: &'a Model<'a>,
     /// The most replicas at each parameter value.
@@ -68,8 +75,9 @@ pub struct Fit {
 
 /// Fits the parameters. On error, why a run could not be or was not finished.
 pub fn search(problem: &Problem<'_>, watch: &Watch<'_>) -> Result<Fit, String> {
-    let basis = Basis::new(problem.ranges.len());
-    let whole: Sides = (problem.ranges.iter())
+    let ranges = problem.measured.ranges;
+    let basis = Basis::new(ranges.len());
+    let whole: Sides = (ranges.iter())
         .map(|range| (range.scaled(range.from), range.scaled(range.to)))
         .collect();
     let mut sides = whole.clone();
@@ -81,9 +89,9 @@ pub fn search(problem: &Problem<'_>, watch: &Watch<'_>) -> Result<Fit, String> {
         let planned = (wanted - new.start) * basis.nodes.len() as u64;
         (watch.planned)(planned);
         runs += planned;
-        let value = |node: &[f64]| values(problem.ranges, &sides, node);
+        let value = |node: &[f64]| values(ranges, &sides, node);
         found.extend(coefficients(&basis, problem.model, value, new, watch.done)?);
-        let fit = fitted(problem, &basis, &sides, &found)?;
+        let fit = fitted(&problem.measured, &basis, &sides, &found)?;
         if rounds < MOST_ROUNDS
             && let Some(other) = other_sides(&fit, &whole)
         {
@@ -116,16 +124,16 @@ pub fn values(ranges: &[Range], sides: &Sides, place: &[f64]) -> Vec<f64> {
 
 /// The fit of some replicas over a box.
 pub fn fitted(
-    problem: &Problem<'_>,
+    measured: &Measured<'_>,
     basis: &Basis,
     sides: &Sides,
     found: &[Coefficients],
 ) -> Result<Fit, String> {
     let emulator = Emulator::new(basis, found);
-    let best = best(problem.data, &emulator, problem.rods_over_measured)
+    let best = best(measured.data, &emulator, measured.rods_over_measured)
         .ok_or("the points say nothing about a parameter: no model value changes with it")?;
     Ok(Fit {
-        ranges: problem.ranges.to_vec(),
+        ranges: measured.ranges.to_vec(),
         sides: sides.clone(),
         profiles: (0..sides.len()).map(|axis| profile(&best, axis)).collect(),
         best,

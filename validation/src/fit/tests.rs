@@ -4,7 +4,7 @@ use super::data::Datum;
 use super::design::{Added, Candidate, Known, Step, steps};
 use super::emulator::{Prediction, Replica};
 use super::range::Range;
-use super::search::{Fit, Problem, Watch, search};
+use super::search::{Fit, Measured, Problem, Watch, search};
 use crate::accept::{Design, Rule, Verdict, judge};
 use nalgebra::{DMatrix, DVector};
 use rand::SeedableRng;
@@ -47,13 +47,9 @@ fn model(seed: u64, scatter: f64) -> impl Fn(&[f64]) -> Result<Replica, String> 
 fn points(rate: f64, frequency: f64, u: f64, seed: u64) -> Vec<Datum> {
     let mut rng = Pcg64Dxsm::seed_from_u64(seed);
     let point = |time: f64| Datum {
-        set: 0,
-        line: 0,
-        column: "x1".into(),
-        time,
         value: curve(rate, frequency, time) + u * normal(&mut rng),
-        u_time: 0.0,
         u,
+        ..Datum::place(0, "x1", time)
     };
     times().map(point).collect()
 }
@@ -65,9 +61,11 @@ fn ranges(over: &[&str]) -> Vec<Range> {
 fn fit(data: &[Datum], over: &[&str], seed: u64, scatter: f64, most_replicas: u64) -> Fit {
     let model = model(seed, scatter);
     let problem = Problem {
-        data,
-        ranges: &ranges(over),
-        rods_over_measured: &[0.0],
+        measured: Measured {
+            data,
+            ranges: &ranges(over),
+            rods_over_measured: &[0.0],
+        },
         model: &model,
         most_replicas,
     };
@@ -198,9 +196,11 @@ fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
     }
     // One range is linear, the other logarithmic; a and b are strongly correlated, as t starts at 1.
     let problem = Problem {
-        data: &data,
-        ranges: &ranges(&["line.a=-3:5", "line.b=0.1:4"]),
-        rods_over_measured: &[0.0],
+        measured: Measured {
+            data: &data,
+            ranges: &ranges(&["line.a=-3:5", "line.b=0.1:4"]),
+            rods_over_measured: &[0.0],
+        },
         model: &line,
         most_replicas: 50,
     };
