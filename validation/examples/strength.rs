@@ -1,7 +1,7 @@
 //! Tries the probabilities that the gate promises: the cases at many seeds, and how often each turned red, and why.
 //!
 //! `cargo run --release -p shearbed-suite --example strength -- SEEDS [full] [CASE...]` prints the tables of
-//! `docs/strength.md`. A case whose evidence is the same at the first two seeds draws nothing, and is not run again.
+//! `docs/strength.md`, after every 20 seeds those until then. A case whose evidence is the same at the first two seeds draws nothing, and is not run again.
 
 use std::collections::BTreeMap;
 use validation::accept::{Rule, Verdict};
@@ -33,11 +33,18 @@ fn main() {
         });
         red_runs += u32::from(red);
         eprintln!("seed {seed}: {}", if red { "RED" } else { "green" });
+        if seed % 20 == 0 || seed == seeds {
+            println!(
+                "{red_runs} of {seed} runs red; {} of {still} cases draw random numbers",
+                cases.len()
+            );
+            print(&records, &mut scores);
+        }
     }
-    println!(
-        "{red_runs} of {seeds} runs red; {} of {still} cases draw random numbers",
-        cases.len()
-    );
+}
+
+/// The tables of all seeds until now: a run of an hour that is stopped keeps its last ones.
+fn print(records: &BTreeMap<&str, Record>, scores: &mut [f64]) {
     scores.sort_by(f64::total_cmp);
     let count = scores.len() as f64;
     let square = scores.iter().map(|z| z * z).sum::<f64>() / count;
@@ -54,6 +61,7 @@ fn main() {
     for (name, record) in records.iter().filter(|(_, record)| record.draws) {
         println!("| `{name}` | {} |", record.row());
     }
+    println!();
 }
 
 /// What a case said at all seeds.
