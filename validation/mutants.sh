@@ -60,7 +60,7 @@ projector-left-out@@src/propagator/modes.rs@@sinh - rest * middle.scaled(2.0),@@
 reach-not-asked@@src/propagator/general.rs@@reached[i] || (0..3).any(@@true || (0..3).any(
 kick-overflows@@src/collision.rs@@largest * (v / largest).norm()@@v.norm()
 non-finite-goes-on@@src/suspension.rs@@if !end.iter().all(|component| component.is_finite()) {@@if end.iter().all(|component| component.is_infinite()) {
-seconds-overflow@@src/scene/check.rs@@if duration_s.is_finite() {@@if !duration_s.is_nan() {
+seconds-overflow@@src/scene/check/time.rs@@if duration_s.is_finite() {@@if !duration_s.is_nan() {
 rate-overflows@@src/flow.rs@@largest * Self(self.0 / largest).strain_rate().norm()@@self.strain_rate().norm()
 rk4-weights@@validation/src/integrators/fixed.rs@@y + (k1 + (k2 + k3) * 2.0 + k4) * (h / 6.0)@@y + (k1 + k2 * 3.0 + k3 + k4) * (h / 6.0)
 projection-left-out@@validation/src/integrators/fixed.rs@@rk4(|y| problem.rate(&y), p, h).normalize()@@rk4(|y| problem.rate(&y), p, h)

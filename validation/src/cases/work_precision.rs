@@ -6,8 +6,8 @@ use crate::lab;
 use crate::oracle::naive::collision_probability;
 use crate::statistics::Sample;
 use crate::suspensions::free::{Free, exponents};
-use crate::suspensions::law;
 use crate::suspensions::starts::{self, Start};
+use crate::suspensions::{blocks, law};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
@@ -128,7 +128,7 @@ fn replicas(number: &Number, effort: &Effort) -> Vec<Evidence> {
     let x1: Vec<_> = (0..replicas).into_par_iter().map(x1).collect();
     vec![Evidence::new(
         "exponent of M in the standard deviation of block means",
-        Sample::of(&law::replicas_exponents(&x1, GROUP as usize)).is(
+        Sample::of(&blocks::replicas_exponents(&x1, GROUP as usize)).is(
             -0.5,
             0.0,
             design.effect,

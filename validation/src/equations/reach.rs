@@ -1,11 +1,15 @@
 //! Which items of the core a run reaches, read off its source: names that are called, passed, matched or held, from the
 //! functions that a run starts with. Names are told apart by their type or module, so a test alone reaches nothing.
 
+mod names;
+#[cfg(test)]
+mod tests;
+
+use names::Names;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-use syn::punctuated::Punctuated;
-use syn::visit::{self, Visit};
-use syn::{Attribute, Expr, ExprMethodCall, Item, ItemImpl, Member, Pat, PatIdent, Token, Type};
+use syn::visit::Visit;
+use syn::{Attribute, Item, ItemImpl, Type};
 
 /// Where a run starts: `module::name` or `Type::name`.
 pub const ROOTS: [&str; 4] = [
@@ -199,171 +203,4 @@ fn of_tests(attributes: &[Attribute]) -> bool {
                 .parse_args::<syn::Path>()
                 .is_ok_and(|path| path.is_ident("test"))
     })
-}
-
-/// The names in a function's body or a type's definition, but for its own variables.
-#[derive(Default)]
-struct Names {
-    owner: Option<String>,
-    bound: BTreeSet<String>,
-    /// Of these, parameters and closures: a call of theirs is no call of a function of that name.
-    callable: BTreeSet<String>,
-    calls: Vec<String>,
-    found: Vec<Mention>,
-}
-
-impl Names {
-    fn of(owner: Option<String>, visit: impl Fn(&mut Self)) -> Self {
-        let mut names = Self {
-            owner,
-            ..Self::default()
-        };
-        visit(&mut names);
-        let bound = std::mem::take(&mut names.bound);
-        let callable = std::mem::take(&mut names.callable);
-        names
-            .found
-            .retain(|mention| !matches!(mention, Mention::Path(None, name) if bound.contains(name)));
-        let calls = std::mem::take(&mut names.calls).into_iter();
-        let others = calls.filter(|name| !callable.contains(name));
-        names.found.extend(others.map(|name| Mention::Path(None, name)));
-        names
-    }
-}
-
-impl<'a> Visit<'a> for Names {
-    fn visit_path(&mut self, path: &'a syn::Path) {
-        let mut names = path
-            .segments
-            .iter()
-            .rev()
-            .map(|segment| segment.ident.to_string());
-        if let Some(last) = names.next() {
-            let before = names.next().map(|name| match &self.owner {
-                Some(owner) if name == "Self" => owner.clone(),
-                _ => name,
-            });
-            // A path through a type mentions the type too.
-            self.found
-                .extend(before.clone().map(|before| Mention::Path(None, before)));
-            self.found.push(Mention::Path(before, last));
-        }
-        visit::visit_path(self, path);
-    }
-
-    fn visit_pat_ident(&mut self, pattern: &'a PatIdent) {
-        self.bound.insert(pattern.ident.to_string());
-        visit::visit_pat_ident(self, pattern);
-    }
-
-    fn visit_local(&mut self, local: &'a syn::Local) {
-        if let (Pat::Ident(pattern), Some(init)) = (&local.pat, &local.init)
-            && matches!(init.expr.as_ref(), Expr::Closure(_))
-        {
-            self.callable.insert(pattern.ident.to_string());
-        }
-        visit::visit_local(self, local);
-    }
-
-    fn visit_pat_type(&mut self, parameter: &'a syn::PatType) {
-        if let Pat::Ident(pattern) = parameter.pat.as_ref() {
-            self.callable.insert(pattern.ident.to_string());
-        }
-        visit::visit_pat_type(self, parameter);
-    }
-
-    fn visit_expr_call(&mut self, call: &'a syn::ExprCall) {
-        match call.func.as_ref() {
-            Expr::Path(function) if function.path.segments.len() == 1 => {
-                self.calls.push(function.path.segments[0].ident.to_string());
-                call.args.iter().for_each(|argument| self.visit_expr(argument));
-            }
-            _ => visit::visit_expr_call(self, call),
-        }
-    }
-
-    fn visit_expr_method_call(&mut self, call: &'a ExprMethodCall) {
-        self.found.push(Mention::Member(call.method.to_string()));
-        visit::visit_expr_method_call(self, call);
-    }
-
-    fn visit_member(&mut self, member: &'a Member) {
-        if let Member::Named(name) = member {
-            self.found.push(Mention::Member(name.to_string()));
-        }
-    }
-
-    /// A macro's arguments, where they are expressions.
-    fn visit_macro(&mut self, call: &'a syn::Macro) {
-        if let Ok(arguments) = call.parse_body_with(Punctuated::<Expr, Token![,]>::parse_terminated) {
-            let inner = Self::of(self.owner.clone(), |names| {
-                for argument in &arguments {
-                    names.visit_expr(argument);
-                }
-            });
-            self.found.extend(inner.found);
-        }
-    }
-
-    /// `#[serde(default = "name")]` calls a function by its name in a string.
-    fn visit_attribute(&mut self, attribute: &'a Attribute) {
-        let _ = attribute.parse_nested_meta(|meta| {
-            if meta.input.peek(Token![=]) {
-                let name: syn::LitStr = meta.value()?.parse()?;
-                self.found.push(Mention::Path(None, name.value()));
-            }
-            Ok(())
-        });
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_tests_alone_call_is_not_reached() {
-        let mut source = Source::default();
-        source.add(
-            "scene_file",
-            "pub fn parse() -> Scene { toml::from_str::<Scene>() }",
-        );
-        source.add("scene", "pub struct Scene { #[serde(default = \"three\")] m: f64 } fn three() -> f64 { 3.0 } fn four() {}");
-        source.add(
-            "run",
-            "pub fn run_replica(p: &Plan) { let idle = 1; used(idle); let used = used(1.0); let x = p.turned(); other::passed; vec![in_macro(1)];
-             let rate = |k| k; rate(1); }
-             pub fn used(rate: f64) -> f64 { rate }
-             pub fn idle() {}
-             fn in_macro(n: u8) {}
-             pub struct Plan; impl Plan { pub fn turned(&self) {} pub fn probability(&self) { idle() } }
-             #[cfg(test)] mod tests { fn of_tests() { super::idle(); } }",
-        );
-        source.add(
-            "other",
-            "pub fn passed() {} pub fn rate() { hidden() } fn hidden() {}",
-        );
-        for (module, name) in [
-            ("scene", "three"),
-            ("run", "used"),
-            ("run", "turned"),
-            ("run", "in_macro"),
-            ("other", "passed"),
-        ] {
-            assert_eq!(source.runs(module, name), Some(true), "{name}");
-        }
-        // A variable and a parameter of that name are no calls; what is idle calls in vain.
-        for (module, name) in [
-            ("scene", "four"),
-            ("run", "idle"),
-            ("run", "probability"),
-            ("other", "rate"),
-            ("other", "hidden"),
-        ] {
-            assert_eq!(source.runs(module, name), Some(false), "{name}");
-        }
-        assert_eq!(source.runs("run", "of_tests"), None);
-        assert_eq!(source.runs("other", "used"), None);
-        assert_eq!(source.idle("run"), ["idle", "probability"]);
-    }
 }

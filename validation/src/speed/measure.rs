@@ -1,9 +1,14 @@
 //! The measurements: each is the least of several, after one to warm up.
 
+mod naive;
+#[cfg(test)]
+mod tests;
+
 use super::{Amount, Check, Speed, Step, Target};
 use crate::lab;
 use crate::oracle::naive::{Naive, Problem};
 use crate::readings::paper;
+use naive::against_naive;
 use rayon::prelude::*;
 use shearbed::run::run_replica;
 use shearbed::scene::Scene;
@@ -199,47 +204,6 @@ fn lane_sum(values: &[f64]) -> f64 {
     lanes.iter().sum::<f64>() + values.chunks_exact(8).remainder().iter().sum::<f64>()
 }
 
-fn against_naive(by_rods: &[Step]) -> Vec<Check> {
-    let at = |rods: usize| by_rods.iter().find(|step| step.rods == rods);
-    let ratio = |what, rods, target| {
-        let step = at(rods)?;
-        let naive = step.naive_ns?;
-        Some(Check {
-            what,
-            measured: naive / step.core_ns,
-            target: Target::AtLeast(target),
-            unit: "×",
-            behind: format!(
-                "{:.1} ns and {naive:.0} ns per rod and step, one core",
-                step.core_ns
-            ),
-        })
-    };
-    let growth = at(100).zip(at(1_000_000)).map(|(few, many)| Check {
-        what: "the cost per rod and step at 10⁶ rods over that at 10²",
-        measured: many.core_ns / few.core_ns,
-        target: Target::AtMost(3.0),
-        unit: "×",
-        behind: format!("{:.1} ns and {:.1} ns, one core", few.core_ns, many.core_ns),
-    });
-    [
-        ratio(
-            "a step of 100 rods: the naive reference's time over the core's",
-            100,
-            8.0,
-        ),
-        ratio(
-            "a step of 10⁴ rods: the naive reference's time over the core's",
-            10_000,
-            300.0,
-        ),
-        growth,
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
-}
-
 /// The same replicas on one thread and on all.
 fn replicas(
     one: &rayon::ThreadPool,
@@ -302,39 +266,4 @@ fn whole_runs(scene: &Scene, pools: [&rayon::ThreadPool; 2], amount: Amount) -> 
             pool.install(|| seconds(|| ensemble::run(&plan, || ())))
         })
     }))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const TINY: Amount = Amount {
-        repeats: 1,
-        free_rods: 1000,
-        seconds: 1e-5,
-    };
-
-    #[test]
-    fn a_step_is_measured_of_both() {
-        let step = step(50, 50.0, TINY).unwrap();
-        assert!(step.core_ns > 0.0 && step.naive_ns.unwrap() > 0.0);
-        assert_eq!(super::step(50, 5.0, TINY).unwrap().naive_ns, None);
-    }
-
-    #[test]
-    fn ratios_are_of_the_same_number_of_rods() {
-        let step = |rods, core_ns, naive_ns| Step {
-            rods,
-            concentration_per_cm3: 50.0,
-            core_ns,
-            naive_ns,
-        };
-        let steps = [
-            step(100, 20.0, Some(300.0)),
-            step(10_000, 40.0, Some(30_000.0)),
-            step(1_000_000, 50.0, None),
-        ];
-        let measured: Vec<_> = against_naive(&steps).iter().map(|check| check.measured).collect();
-        assert_eq!(measured, [15.0, 750.0, 2.5]);
-    }
 }

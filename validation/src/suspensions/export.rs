@@ -83,9 +83,9 @@ pub fn law_csv(law: &Law) -> Result<String, String> {
 /// replicas.csv of an interacting scene.
 pub fn replicas_csv(law: &Law) -> Result<String, String> {
     let columns = vec![
-        field("replicas", |b: &&super::law::Block| b.replicas),
-        field("blocks", |b: &&super::law::Block| b.blocks),
-        field("deviation", |b: &&super::law::Block| b.deviation),
+        field("replicas", |b: &&super::blocks::Block| b.replicas),
+        field("blocks", |b: &&super::blocks::Block| b.blocks),
+        field("deviation", |b: &&super::blocks::Block| b.deviation),
     ];
     ReportTable::new(["replicas", ""], "", &law.blocks, columns).csv()
 }

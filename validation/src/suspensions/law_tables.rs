@@ -1,7 +1,8 @@
 //! Convergence in law as tables.
 
 use super::Estimate;
-use super::law::{Block, Change, JobMean, Law};
+use super::blocks::Block;
+use super::law::{Change, JobMean, Law};
 use crate::table::{ReportTable, estimate, field, number, words};
 
 /// Against steps, rods and replicas; `strain` is that of a period.

@@ -2,6 +2,7 @@
 //! replicas, what a given error costs, and which coupled estimates pay. Plain data; writers are in [`tables`],
 //! [`figures`] and [`export`].
 
+pub mod blocks;
 pub mod chapter;
 pub mod coupled;
 pub mod export;

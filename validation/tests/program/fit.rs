@@ -1,5 +1,7 @@
 //! `shearbed fit` as a user meets it: synthetic points, files, refusals. No point here is measured.
 
+mod design;
+
 use crate::common::{files, folder, shearbed};
 use serde_json::Value;
 use std::fs;
@@ -177,122 +179,6 @@ fn two_sets_have_values_of_their_own() {
     ] {
         assert!(dir.path().join("own").join(file).is_file(), "{file}");
     }
-}
-
-#[test]
-fn a_design_lists_what_each_further_point_would_leave() {
-    let dir = folder();
-    points(dir.path());
-    let fit = "fit small.toml --data points.csv --over interaction.alpha=0.05:5 --replicas 60 --out own";
-    let done = shearbed(dir.path(), &format!("{fit} --design"));
-    assert_eq!(done.code, Some(0), "{}", done.stderr);
-    assert!(
-        done.stdout.contains("the best next point: x1 at t_over_T = "),
-        "{}",
-        done.stdout
-    );
-    let record = json(&dir.path().join("own/fit.json"));
-    let steps = record["design"].as_array().unwrap();
-    let u = |step: &Value| step["u"][0].as_f64().unwrap();
-    // One standard deviation of the likelihood, near that of the linear theory.
-    let now = u(&steps[0]);
-    let linear = record["parameters"]["interaction.alpha"]["standard_uncertainty"]
-        .as_f64()
-        .unwrap();
-    assert!((now / linear - 1.0).abs() < 0.2, "{now} {linear}");
-    let mut csv = csv::Reader::from_path(dir.path().join("own/design.csv")).unwrap();
-    let head = csv.headers().unwrap().clone();
-    let (mut best, mut concentrations, mut rows) = ((f64::INFINITY, 0.0), Vec::new(), 0);
-    let mut spreads = Vec::new();
-    for row in csv.records() {
-        let row = row.unwrap();
-        let cell = |name: &str| &row[head.iter().position(|own| own == name).unwrap()];
-        let number = |name: &str| cell(name).parse::<f64>().unwrap();
-        let (left, spread) = (number("u_alpha_with_it"), number("spread"));
-        // Never more than before, and never less than by a point that follows α alone.
-        let least = now * (1.0 - spread.powi(2) / (spread.powi(2) + number("u").powi(2))).sqrt();
-        assert!(
-            left <= now && left >= least * (1.0 - 1e-9),
-            "{row:?} {now} {least}"
-        );
-        if left < best.0 {
-            best = (left, number("time"));
-        }
-        concentrations.push(cell("concentration_per_cm3").to_owned());
-        spreads.push(spread);
-        rows += 1;
-    }
-    assert_eq!(rows, 3 * 300);
-    // What collisions do is the more uncertain the more there are.
-    let of_third = |k: usize| spreads[300 * k..300 * (k + 1)].iter().sum::<f64>();
-    assert!(of_third(0) < of_third(1) && of_third(1) < of_third(2));
-    concentrations.dedup();
-    assert_eq!(concentrations, ["25", "50", "100"]);
-    assert_eq!(steps.len(), 1 + 3 + 6);
-    assert_eq!((u(&steps[4]), steps[4]["added"]["time"].as_f64().unwrap()), best);
-    // The same fit without a list of points takes it away.
-    assert_eq!(shearbed(dir.path(), fit).code, Some(0));
-    assert!(!dir.path().join("own/design.csv").exists());
-}
-
-#[test]
-fn rods_that_start_as_a_file_says_are_fitted() {
-    let dir = folder();
-    let scene = fs::read_to_string(dir.path().join("small.toml")).unwrap();
-    let count: usize = 20;
-    assert!(scene.contains("orientation = \"isotropic\""), "{scene}");
-    let scene = scene.replace(
-        "orientation = \"isotropic\"",
-        "orientation = { file = \"start.csv\" }",
-    );
-    fs::write(dir.path().join("small.toml"), &scene).unwrap();
-    let mut rows = "p1,p2,p3\n".to_owned();
-    for k in 0..count {
-        // Evenly over the sphere, by the golden angle.
-        let (z, angle) = (1.0 - (2 * k + 1) as f64 / count as f64, 2.399_963 * k as f64);
-        let r = (1.0 - z * z).sqrt();
-        rows += &format!("{},{},{z}\n", r * angle.cos(), r * angle.sin());
-    }
-    fs::write(dir.path().join("start.csv"), &rows).unwrap();
-    points(dir.path());
-    // The file is beside the scene, wherever the program is started.
-    fs::create_dir(dir.path().join("scenes")).unwrap();
-    for name in ["small.toml", "start.csv"] {
-        fs::rename(dir.path().join(name), dir.path().join("scenes").join(name)).unwrap();
-    }
-    let fit = "fit scenes/small.toml --data points.csv --over interaction.alpha=0.1:5 --replicas 60";
-    let done = shearbed(dir.path(), &format!("{fit} --out own"));
-    assert_eq!(done.code, Some(0), "{}", done.stderr);
-    let record = json(&dir.path().join("own/fit.json"));
-    let alpha = &record["parameters"]["interaction.alpha"];
-    let number = |key: &str| alpha[key].as_f64().unwrap();
-    // Correct code is outside four standard uncertainties at one seed in 16 000.
-    assert!(
-        (number("estimate") - 0.8).abs() < 4.0 * number("standard_uncertainty"),
-        "{alpha}"
-    );
-    // Twice the rods would need twice the rows.
-    assert_eq!(record["shifts"].as_array().unwrap().len(), 1);
-
-    // Another file of starts is another fit.
-    fs::write(
-        dir.path().join("scenes/start.csv"),
-        rows.replace("p1,p2,p3", "p2,p1,p3"),
-    )
-    .unwrap();
-    let other = shearbed(dir.path(), &format!("{fit} --out own"));
-    assert_eq!(other.code, Some(2));
-    assert!(other.stderr.contains("start"), "{}", other.stderr);
-    // A file that is not as the scene needs it, with what is wrong.
-    fs::write(
-        dir.path().join("scenes/start.csv"),
-        rows.lines().take(count).collect::<Vec<_>>().join("\n"),
-    )
-    .unwrap();
-    let short = shearbed(dir.path(), &format!("{fit} --out other"));
-    assert_eq!(short.code, Some(2));
-    assert!(short.stderr.contains("has 19 rows"), "{}", short.stderr);
-    assert!(!dir.path().join("other").exists());
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! Folders of results: nothing torn, nothing mixed, nothing damaged passed on.
 
-use crate::common::{SMALL, command, files, folder, limited, shearbed};
+mod stopped;
+
+use crate::common::{command, files, folder, shearbed};
 use std::fs;
 use std::path::Path;
 use std::process::Stdio;
@@ -186,114 +188,6 @@ fn every_key_has_one_owner() {
 
 /// A limit on the size of files, which meets a writer as a full disk does.
 #[cfg(target_os = "linux")]
-#[test]
-fn a_full_disk_is_found_before_the_work() {
-    let dir = folder();
-    // Hours of work.
-    let long = SMALL
-        .replace("replicas = 3", "replicas = 1000000")
-        .replace("steps_per_period = 20", "steps_per_period = 2000");
-    fs::write(dir.path().join("long.toml"), long).unwrap();
-    for arguments in [
-        "run long.toml --out x",
-        "sweep long.toml --over interaction.alpha=1,2 --out x",
-        "converge long.toml --out x",
-        "validate --out x",
-        "bench --out x",
-    ] {
-        let ended = limited(dir.path(), "trap '' XFSZ; ulimit -f 100", arguments);
-        let message = ended.stderr;
-        assert_eq!(ended.code, Some(2), "{arguments}: {message}");
-        assert!(
-            message.contains("x: cannot be written: File too large"),
-            "{message}"
-        );
-        assert!(message.contains("MB are to be written there"), "{message}");
-        assert!(!dir.path().join("x").exists(), "{arguments}");
-    }
-}
-
-#[test]
-fn what_a_killed_run_left_is_put_right_by_the_next() {
-    let dir = folder();
-    let run = "run small.toml --quiet --out x";
-    assert_eq!(shearbed(dir.path(), run).code, Some(0));
-    let x = dir.path().join("x");
-    let whole = files(&x);
-    // Killed as it wrote: half a set under a hidden name, and the temporary files of an older version.
-    for name in ["x/.shearbed-part/curves", ".y.shearbed-part"] {
-        fs::create_dir_all(dir.path().join(name)).unwrap();
-        fs::write(dir.path().join(name).join("half.csv"), "half a ta").unwrap();
-    }
-    fs::write(x.join(".shearbed-Ab3dE6"), "half a ta").unwrap();
-    fs::write(x.join("notes.txt"), "the user's own").unwrap();
-    assert_eq!(shearbed(dir.path(), run).code, Some(0));
-    let mut found = files(&x);
-    assert_eq!(found.remove("notes.txt").unwrap(), b"the user's own");
-    assert_eq!(found.keys().collect::<Vec<_>>(), whole.keys().collect::<Vec<_>>());
-    assert_eq!(shearbed(dir.path(), &run.replace("out x", "out y")).code, Some(0));
-    assert!(!dir.path().join(".y.shearbed-part").exists());
-    assert_eq!(files(&dir.path().join("y")).len(), whole.len());
-
-    // Killed between two moves: the set is whole under its hidden name. It is moved before anything else happens, even
-    // by a command that then fails.
-    let ready = x.join(".shearbed-ready");
-    fs::create_dir(&ready).unwrap();
-    for name in ["projections.csv", "run.json"] {
-        fs::rename(x.join(name), ready.join(name)).unwrap();
-    }
-    let limited = shearbed(
-        dir.path(),
-        "sweep small.toml --over interaction.alpha=1,2 --out x/points/no",
-    );
-    assert_eq!(limited.code, Some(0), "{}", limited.stderr);
-    fs::remove_dir_all(x.join("points")).unwrap();
-    assert!(ready.exists());
-    fs::write(x.join("sweep.json"), "no record").unwrap();
-    assert_eq!(
-        shearbed(
-            dir.path(),
-            "sweep small.toml --over interaction.alpha=1,2 --out x"
-        )
-        .code,
-        Some(2)
-    );
-    assert!(!ready.exists());
-    assert_eq!(
-        fs::read(x.join("projections.csv")).unwrap(),
-        whole["projections.csv"]
-    );
-    assert!(x.join("run.json").exists());
-}
-
-#[test]
-fn a_run_killed_at_any_moment_leaves_a_whole_set_or_none() {
-    let dir = folder();
-    let run = |seed: u32| format!("run small.toml --quiet --threads 1 --seed {seed} --out x");
-    let start = std::time::Instant::now();
-    assert_eq!(shearbed(dir.path(), &run(0)).code, Some(0));
-    let took = start.elapsed();
-    let names: Vec<_> = files(&dir.path().join("x")).into_keys().collect();
-    fs::remove_dir_all(dir.path().join("x")).unwrap();
-    let rounds = 60;
-    for round in 0..rounds {
-        let mut child = command(dir.path(), &run(round)).spawn().unwrap();
-        // Moments spread evenly over a run, and a little past its end.
-        std::thread::sleep(took * (round * 12) / (rounds * 10));
-        let _ = child.kill();
-        child.wait().unwrap();
-        let x = dir.path().join("x");
-        if x.exists() {
-            let found: Vec<_> = files(&x)
-                .into_keys()
-                .filter(|name| !name.starts_with('.'))
-                .collect();
-            assert_eq!(found, names, "round {round}");
-            fs::remove_dir_all(x).unwrap();
-        }
-    }
-}
-
 /// What a folder holds besides records of which each writing differs.
 fn unchanged(dir: &Path, arguments: &str, holds: &str, said: &str) {
     let before = files(&dir.join(holds));

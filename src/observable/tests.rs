@@ -1,0 +1,79 @@
+use super::*;
+use approx::assert_relative_eq;
+
+/// One rod, worked by hand: p = (2, −3, 6)/7 and r_e = 2.
+fn observe(observable: Observable) -> Vec<f64> {
+    let mut block = Block {
+        len: 1,
+        ..Block::default()
+    };
+    for (p, value) in block.p.iter_mut().zip([2.0, -3.0, 6.0]) {
+        p[0] = value / 7.0;
+    }
+    block.aspect_ratio[0] = 2.0;
+    let mut sums = vec![Sum::default(); observable.width()];
+    observable.add(&block, &mut sums);
+    sums.iter().map(|sum| sum.value).collect()
+}
+
+#[test]
+fn one_rod_by_hand() {
+    let sevenths = |v: &[f64]| v.iter().map(|x| x / 7.0).collect::<Vec<_>>();
+    let close = |found: Vec<f64>, expected: Vec<f64>| {
+        assert_eq!(found.len(), expected.len());
+        for (a, b) in found.iter().zip(&expected) {
+            assert_relative_eq!(a, b, max_relative = 1e-15);
+        }
+    };
+    close(observe(Observable::Projections), sevenths(&[2.0, 3.0, 6.0]));
+    let roots = [13f64, 45.0, 40.0].map(f64::sqrt);
+    close(observe(Observable::PlanarProjections), sevenths(&roots));
+    close(observe(Observable::MeanAngle), vec![1.5f64.atan()]);
+    let tensor = [4.0, 9.0, 36.0, -6.0, 12.0, -18.0].map(|x| x / 49.0);
+    close(observe(Observable::OrientationTensor), tensor.to_vec());
+    // By exponents of 2/7, −3/7 and 6/7: 1111, 1112, 1113, 1122, 1123, 1133, 1222, 1223, 1233, 1333, 2222, …
+    let quads = [
+        16.0, -24.0, 48.0, 36.0, -72.0, 144.0, -54.0, 108.0, -216.0, 432.0, 81.0, -162.0, 324.0, -648.0,
+        1296.0,
+    ];
+    close(
+        observe(Observable::OrientationTensor4),
+        quads.map(|x| x / 2401.0).to_vec(),
+    );
+    // p₁p₂ = −6/49; p₂² − p₁² = 5/49; p₁² − p₃² = −32/49.
+    close(
+        observe(Observable::ParticleStress),
+        [36.0, -30.0, 192.0].map(|x| x / 2401.0).to_vec(),
+    );
+    // C = (4·4 + 9)^½/(2·6) = 5/12, so C_b = 5/17 = 0.294.
+    let orbit = observe(Observable::OrbitConstant);
+    assert_relative_eq!(orbit[0], 5.0 / 17.0, max_relative = 1e-15);
+    let filled: Vec<_> = orbit[1..]
+        .iter()
+        .enumerate()
+        .filter(|(_, d)| **d != 0.0)
+        .collect();
+    assert_eq!(filled, [(5, &20.0)]);
+}
+
+#[test]
+fn the_columns_are_as_many_as_the_sums() {
+    for observable in Observable::ALL {
+        for channel in observable.channels() {
+            assert_eq!(Channel::named(&channel.name()), Some(channel));
+        }
+    }
+}
+
+#[test]
+fn lanes_sum_every_rod_once() {
+    for len in [0, 1, 7, 8, 9, 100, BLOCK] {
+        assert_eq!(lane_sum(len, |i| (i + 1) as f64), (len * (len + 1) / 2) as f64);
+    }
+    let mut sum = Sum {
+        value: 1.0,
+        square: Some(10.0),
+    };
+    sum.add_each(3, |i| i as f64);
+    assert_eq!((sum.value, sum.square), (4.0, Some(15.0)));
+}

@@ -1,0 +1,164 @@
+//! What is wrong with a file as a whole: what it lacks, several mistakes at once, unknown keys, cuts and nesting.
+
+use super::{EXTENSION, INTERACTING, KEYS, refusal, set};
+use shearbed::scene_file;
+
+#[test]
+fn an_empty_file_lacks_all_that_must_be_there() {
+    for text in ["", "\n\n", "# nothing\n"] {
+        let lines: Vec<_> = refusal(text).lines().map(|line| line[..32].to_owned()).collect();
+        assert_eq!(
+            lines,
+            [
+                "dir/s.toml:1: flow is missing: a",
+                "dir/s.toml:1: particles is missi",
+                "dir/s.toml:1: time is missing: a",
+                "dir/s.toml:1: title is missing: ",
+            ]
+        );
+    }
+}
+
+/// One mistake of each kind, in the order of lines; the last column is the line.
+#[rustfmt::skip]
+const MANY: &[(&str, &str, &str)] = &[
+    ("shear_rate_per_s = 0.5", "shear_rate_per_s = -0.5", "3: flow.shear_rate_per_s = -0.5 is not allowed: a finite number > 0"),
+    ("length_mm = 0.72", "lenght_mm = 0.72", "6: lenght_mm = 0.72: unknown key `lenght_mm`, expected one of"),
+    ("aspect_ratio = 11.6", "aspect_ratio = \"long\"", "7: particles.aspect_ratio = \"long\" is not allowed: a number from"),
+    ("alpha = 0.5\n", "", "10: interaction.alpha is missing: a finite number ≥ 0"),
+    ("update = \"rotation\"", "update = \"turn\"", "13: interaction.update = \"turn\" is not allowed: \"rotation\" or \"angles\""),
+    ("[ensemble]\nreplicas = 2", "[ensemble]\nreplicas = 0", "20: ensemble.replicas = 0 is not allowed: a whole number from 1 to"),
+    ("[\"projections\"]", "[\"projection\"]", "23: output.observables = [\"projection\"] is not allowed: a list of"),
+];
+
+#[test]
+fn all_problems_are_told_at_once() {
+    let spoil = |text: String, (old, new, _): &(&str, &str, &str)| {
+        assert!(text.contains(old), "{old}");
+        text.replacen(old, new, 1)
+    };
+    // All, and each half alone: a mistake that cannot be read hides none that can.
+    for chosen in [MANY, &MANY[..2], &MANY[4..]] {
+        let refusal = refusal(&chosen.iter().fold(INTERACTING.to_owned(), spoil));
+        assert_eq!(refusal.lines().count(), chosen.len(), "{refusal}");
+        for (line, (_, _, message)) in refusal.lines().zip(chosen) {
+            let message = message.split_once(": ").unwrap().1;
+            assert!(
+                line.starts_with("dir/s.toml:") && line.contains(message),
+                "{message}\n{line}"
+            );
+        }
+    }
+    let all = refusal(&MANY.iter().fold(INTERACTING.to_owned(), spoil));
+    for (line, (_, _, message)) in all.lines().zip(MANY) {
+        assert!(
+            line.starts_with(&format!("dir/s.toml:{message}")),
+            "{message}\n{line}"
+        );
+    }
+    // What does not go together, in two tables.
+    let text = INTERACTING
+        .replace("= 3.6", "= 40")
+        .replace("outputs_per_period = 10", "outputs_per_period = 7");
+    let refusal = refusal(&text);
+    assert_eq!(refusal.lines().count(), 2, "{refusal}");
+    assert!(
+        refusal.contains("s.toml:8: particles.aspect_ratio_sd_percent = 40")
+            && refusal.contains("\ndir/s.toml:19: time.outputs_per_period = 7"),
+        "{refusal}"
+    );
+}
+
+#[test]
+fn an_unknown_key_is_told_what_it_may_have_meant() {
+    for (part, replacement, meant) in [
+        ("count", "cuont", Some("particles.count")),
+        ("[particles]", "[particle]", Some("particles")),
+        ("title =", "alpha = 1\ntitle =", Some("interaction.alpha")),
+        ("seed", "sead", Some("ensemble.seed")),
+        (
+            "steps_per_period",
+            "step_per_period",
+            Some("time.steps_per_period"),
+        ),
+        ("m = 3", "m = 3\nxyzzy = 3", None),
+    ] {
+        let refusal = refusal(&INTERACTING.replacen(part, replacement, 1));
+        assert_eq!(refusal.lines().count(), 1, "{refusal}");
+        match meant {
+            Some(key) => assert!(refusal.ends_with(&format!("; did you mean {key}?")), "{refusal}"),
+            None => assert!(!refusal.contains("did you mean"), "{refusal}"),
+        }
+    }
+}
+
+#[test]
+fn every_key_has_words_for_what_it_allows() {
+    // A key with a value that no key allows is refused with them, and not as unknown.
+    for (key, ..) in KEYS {
+        let spoiled = set(INTERACTING, key, "{ x = 1 }").or_else(|| set(EXTENSION, key, "{ x = 1 }"));
+        let refusal = refusal(&spoiled.expect("one of the two scenes has the key").0);
+        let start = format!("{key} = {{ x = 1 }} is not allowed: ");
+        let allowed = refusal.split_once(&start).map(|(_, allowed)| allowed);
+        assert!(allowed.is_some_and(|allowed| !allowed.is_empty()), "{refusal}");
+    }
+}
+
+#[test]
+fn no_part_of_a_file_makes_the_reader_panic() {
+    for text in [INTERACTING, EXTENSION] {
+        for end in 0..=text.len() {
+            // A file cut short, and one that starts in the middle.
+            let _ = scene_file::parse("s.toml", &text[..end]);
+            let _ = scene_file::parse("s.toml", &text[end..]);
+        }
+    }
+}
+
+#[test]
+fn a_table_may_have_a_header_of_its_own() {
+    let text = |orientation: &str| {
+        format!(
+            "title = \"t\"\n[flow]\nshear_rate_per_s = 1\n[particles]\ncount = 1\nlength_mm = 1\naspect_ratio = 2\n\
+             {orientation}\n[time]\nperiods = 1\n"
+        )
+    };
+    let inline = text("orientation = { phi_deg = -30, theta_deg = 60 }");
+    let header = text("[particles.orientation]\nphi_deg = -30\ntheta_deg = 60.0");
+    let scene = |text: &str| shearbed::scene_file::parse("f.toml", text).unwrap();
+    assert_eq!(scene(&inline), scene(&header));
+    let wrong = text("[particles.orientation]\nphi_deg = -30\ntheta_deg = 600");
+    assert!(shearbed::scene_file::parse("f.toml", &wrong).is_err());
+}
+
+/// The reader goes 80 deep; of keys it does not say where it stopped.
+#[test]
+fn what_is_nested_too_deep_is_refused_with_its_line() {
+    let nested = |open: &str, close: &str| format!("x = {}1{}", open.repeat(100), close.repeat(100));
+    let key = format!("{}z", "a.".repeat(100));
+    for deep in [
+        nested("[", "]"),
+        nested("{ a = ", " }"),
+        nested("[{ a = ", " }]"),
+        format!("{key} = 1"),
+        format!("[{key}]"),
+        format!("[[{key}]]"),
+        format!("x = [\n1,\n{{ {key} = 1 }},\n2\n]"),
+    ] {
+        for before in ["", "title = \"a.b.c\"\n[flow]\n", INTERACTING] {
+            for after in ["", "\n", "\n[particles]\ncount = 0\n"] {
+                let text = format!("{before}\n{deep}{after}");
+                let line = 1 + text
+                    .lines()
+                    .position(|line| line.contains(&deep[deep.len() / 2..][..20]))
+                    .unwrap();
+                let refusal = refusal(&text);
+                assert!(
+                    refusal.starts_with(&format!("dir/s.toml:{line}: ")),
+                    "{line}: {refusal}"
+                );
+                assert_eq!(refusal.lines().count(), 1);
+            }
+        }
+    }
+}

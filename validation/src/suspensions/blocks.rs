@@ -1,0 +1,60 @@
+//! How the standard deviation of a mean falls with its replicas.
+
+use super::{Estimate, covariance, mean_and_se, slope};
+use serde::Serialize;
+use statrs::function::gamma::digamma;
+
+/// The standard deviation of means over blocks of replicas.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Block {
+    /// Replicas in a block.
+    pub replicas: u64,
+    /// Blocks.
+    pub blocks: u64,
+    /// The standard deviation of their means.
+    pub deviation: f64,
+}
+
+/// Block means of 1, 2, 4, … replicas, as long as there are eight blocks.
+pub fn blocks(x1: &[f64]) -> Vec<Block> {
+    let sizes = (0..).map(|power| 1usize << power);
+    (sizes.take_while(|size| x1.len() / size >= 8))
+        .map(|size| {
+            let means: Vec<_> = (x1.chunks_exact(size))
+                .map(|block| block.iter().sum::<f64>() / size as f64)
+                .collect();
+            Block {
+                replicas: size as u64,
+                blocks: means.len() as u64,
+                deviation: covariance(&means, &means).sqrt(),
+            }
+        })
+        .collect()
+}
+
+/// The exponent of M in the standard deviation of a mean over M replicas: the mean and standard error over sixteen
+/// groups of the replicas. By theory −½, as replicas have nothing in common.
+pub fn replicas_exponent(x1: &[f64]) -> Option<Estimate> {
+    let size = x1.len() / 16;
+    if size < 64 {
+        return None;
+    }
+    let (value, se) = mean_and_se(&replicas_exponents(x1, size));
+    Some(Estimate { value, se })
+}
+
+/// The same exponent, one for each group of `size` replicas.
+pub fn replicas_exponents(x1: &[f64], size: usize) -> Vec<f64> {
+    let of_group = |group: &[f64]| {
+        let points: Vec<_> = (blocks(group).iter())
+            .map(|block| {
+                // The logarithm of a deviation from few blocks is low in the mean, by this much for normal means.
+                let half = 0.5 * (block.blocks - 1) as f64;
+                let low = 0.5 * (digamma(half) - half.ln());
+                ((block.replicas as f64).ln(), block.deviation.ln() - low)
+            })
+            .collect();
+        slope(&points)
+    };
+    x1.chunks_exact(size).map(of_group).collect()
+}
