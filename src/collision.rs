@@ -179,6 +179,48 @@ mod tests {
     }
 
     #[test]
+    fn a_length_is_known_from_nothing_to_infinity() {
+        assert_eq!(norm(&Vector3::zeros()), 0.0);
+        assert_eq!(norm(&Vector3::new(0.0, f64::INFINITY, 1.0)), f64::INFINITY);
+        assert_relative_eq!(
+            norm(&Vector3::new(3e300, -4e300, 0.0)),
+            5e300,
+            max_relative = 1e-15
+        );
+        // A rod that nothing turns stays where it is.
+        assert_eq!(
+            turn(&Vector3::x_axis(), &Vector3::zeros(), 1.0),
+            (Vector3::x_axis(), 0.0)
+        );
+    }
+
+    #[test]
+    fn a_step_of_the_angles_is_by_their_rates_but_at_the_pole() {
+        let rate = Vector3::new(0.6, 0.0, 0.0);
+        assert_eq!(
+            step_angles(&Vector3::z_axis(), &rate, 0.5),
+            turn(&Vector3::z_axis(), &rate, 0.5)
+        );
+        // By hand, where one of p_1 and p_2 is 0 and θ̇ = 0: φ̇ = −ṗ_1/sin θ at φ = 90°, ṗ_2/sin θ at φ = 0.
+        for (phi, rate, phi_rate) in [
+            (
+                std::f64::consts::FRAC_PI_2,
+                Vector3::new(0.6, 0.0, 0.0),
+                -0.6 / 0.4f64.sin(),
+            ),
+            (0.0, Vector3::new(0.0, 0.6, 0.0), 0.6 / 0.4f64.sin()),
+        ] {
+            let mut p = from_angles(phi, 0.4).into_inner();
+            // To the last digit in the plane.
+            p.iter_mut().filter(|x| x.abs() < 1e-15).for_each(|x| *x = 0.0);
+            let (stepped, angle) = step_angles(&UnitVector3::new_unchecked(p), &rate, 0.5);
+            let expected = from_angles(phi + 0.5 * phi_rate, 0.4);
+            assert_relative_eq!(stepped.into_inner(), expected.into_inner(), max_relative = 1e-14);
+            assert_relative_eq!(angle, 0.3, max_relative = 1e-15);
+        }
+    }
+
+    #[test]
     fn both_updates_agree_over_a_short_step() {
         let p = from_angles(0.4, 1.1);
         let rate = Vector3::new(0.3, -0.8, 0.5).cross(&p);

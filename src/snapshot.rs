@@ -1,5 +1,8 @@
 //! The rods of one replica as they are at one output, where a scene asks for them.
 
+#[cfg(test)]
+mod tests;
+
 use crate::observable::{BLOCK, Block};
 use crate::plan::Plan;
 use crate::rods::Rods;

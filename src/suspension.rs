@@ -1,6 +1,8 @@
 //! Interacting rods in the control volume, step by step (the paper's method of solution).
 
 mod state;
+#[cfg(test)]
+mod tests;
 
 use crate::collision::{Reach, norm, share_velocity, step_angles, turn};
 use crate::contact::contact;

@@ -81,6 +81,12 @@ fn an_unknown_key_is_told_what_it_may_have_meant() {
             "step_per_period",
             Some("time.steps_per_period"),
         ),
+        // As like one as the other: the first.
+        (
+            "steps_per_period",
+            "outputs_per_x",
+            Some("time.outputs_per_period"),
+        ),
         ("m = 3", "m = 3\nxyzzy = 3", None),
     ] {
         let refusal = refusal(&INTERACTING.replacen(part, replacement, 1));

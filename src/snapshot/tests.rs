@@ -1,0 +1,68 @@
+//! Rods that are read from a checkpoint or another rank are those of the plan, or are refused.
+
+use super::*;
+
+const SCENE: &str = r#"
+title = "t"
+[flow]
+shear_rate_per_s = 0.5
+[particles]
+count = 20
+length_mm = 0.72
+aspect_ratio = 11.6
+orientation = "isotropic"
+[time]
+periods = 1
+outputs_per_period = 4
+[output]
+rods_at = [0.5, 1]
+"#;
+
+fn plan(more: &str) -> Plan {
+    Plan::new(&crate::scene_file::parse("s.toml", &format!("{SCENE}{more}")).unwrap()).unwrap()
+}
+
+type Damage = fn(&mut Snapshot);
+
+#[test]
+fn rods_that_are_not_the_plan_s_are_refused() {
+    let damages: [(&str, Damage); 10] = [
+        ("a direction less", |s| _ = s.p[1].pop()),
+        ("a direction that is no number", |s| s.p[2][3] = f64::NAN),
+        ("an aspect ratio less", |s| _ = s.aspect_ratio.pop()),
+        ("an aspect ratio that is infinite", |s| {
+            s.aspect_ratio[0] = f64::INFINITY;
+        }),
+        ("a collision less", |s| _ = s.collided.pop()),
+        ("a collision more", |s| s.collided.push(false)),
+        ("an output that is not asked for", |s| s.output = 1),
+        ("a replica that is not asked for", |s| s.replica = 1),
+        ("a place less, or places of free rods", |s| {
+            match &mut s.place_in_lengths {
+                Some(places) => _ = places[0].pop(),
+                None => s.place_in_lengths = Some([(); 3].map(|()| vec![0.0; 20])),
+            }
+        }),
+        (
+            "a place that is no number, or none of free rods",
+            |s| match &mut s.place_in_lengths {
+                Some(places) => places[2][7] = f64::NAN,
+                None => s.place_in_lengths = Some(Default::default()),
+            },
+        ),
+    ];
+    for more in ["", "[interaction]\nconcentration_per_cm3 = 200\nalpha = 0.5\n"] {
+        let plan = plan(more);
+        let whole = crate::run::run_replica(&plan, 0).unwrap().snapshots;
+        assert!(Snapshot::all_fit(&whole, 2, &plan));
+        assert!(!Snapshot::all_fit(&whole, 3, &plan) && !Snapshot::all_fit(&whole[..1], 2, &plan));
+        for (what, damage) in &damages {
+            let mut damaged = whole.clone();
+            damage(&mut damaged[1]);
+            assert!(!Snapshot::all_fit(&damaged, 2, &plan), "{what}");
+        }
+        let mut without = whole.clone();
+        without[0].place_in_lengths = None;
+        assert_eq!(Snapshot::all_fit(&without, 2, &plan), more.is_empty());
+    }
+}
