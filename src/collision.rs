@@ -12,6 +12,11 @@ pub fn reach(r: f64, alpha: f64, m: f64) -> f64 {
 }
 
 /// The reach of eqs 8 and 9 for given α and m, with a bound on it that costs no logarithm.
+///
+/// ```
+/// let reach = shearbed::collision::Reach::new(0.5, 3.0);
+/// assert!((reach.of(0.125) - 0.5).abs() < 1e-15); // P_c = 1/8 at s = α
+/// ```
 #[derive(Clone, Debug)]
 pub struct Reach {
     alpha: f64,

@@ -3,6 +3,12 @@
 use nalgebra::{UnitVector3, Vector3};
 
 /// Where the lines through two rods A and B come closest.
+///
+/// ```
+/// use shearbed::{contact::contact, nalgebra::Vector3};
+/// let met = contact(&Vector3::new(2.0, 3.0, 5.0), &Vector3::x(), &Vector3::y(), 0.0).expect("not parallel");
+/// assert_eq!((met.line, met.arms), (Vector3::z_axis(), [2.0, -3.0]));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     /// The unit vector ℓ along the contact line, ∝ p_A × p_B.

@@ -10,6 +10,14 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// A channel of an observable against time: a column of its table.
+///
+/// ```
+/// let plan = shearbed::Plan::new(&shearbed::Scene::default())?;
+/// let results = shearbed::ensemble::run(&plan)?;
+/// let x1 = results.column("x1").expect("projections are the default");
+/// assert!((x1.mean[0] - 0.5).abs() < 4.0 * x1.se[0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     /// Its name.
@@ -22,6 +30,14 @@ pub struct Column {
 }
 
 /// An observable against time.
+///
+/// ```
+/// let plan = shearbed::Plan::new(&shearbed::Scene::default())?;
+/// let results = shearbed::ensemble::run(&plan)?;
+/// let names: Vec<_> = results.series[0].columns.iter().map(|column| &column.name[..]).collect();
+/// assert_eq!(names, ["x1", "x2", "x3"]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     /// Which observable.
@@ -31,6 +47,13 @@ pub struct Series {
 }
 
 /// The results of a scene.
+///
+/// ```
+/// let plan = shearbed::Plan::new(&shearbed::Scene::default())?;
+/// let results = shearbed::ensemble::run(&plan)?;
+/// assert_eq!((results.time_name, results.times.len()), ("t_over_T", 51));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Results {
     /// `t_over_T` or `strain`.
@@ -55,14 +78,14 @@ impl Results {
     }
 }
 
-/// Runs every replica of the plan on the threads of the current rayon pool; `finished` is called after each
-/// replica. The results are the same bits for any number of threads.
+/// Runs every replica of the plan on the threads of the current rayon pool. The results are the same bits for any number of
+/// threads. To be told of each replica, or to run them elsewhere: [`fold`] and [`replicas_of`].
 ///
 /// # Errors
 ///
 /// The first replica that stopped, or had a result that is none.
-pub fn run(plan: &Plan, finished: impl Fn() + Sync) -> Result<Results, RunError> {
-    fold(plan, |replicas| replicas_of(plan, replicas, &finished))
+pub fn run(plan: &Plan) -> Result<Results, RunError> {
+    fold(plan, |replicas| replicas_of(plan, replicas, &|| ()))
 }
 
 /// Runs some replicas of the plan on the threads of the current rayon pool, and returns them in order; `finished`
@@ -120,6 +143,15 @@ pub(crate) fn batch(plan: &Plan) -> u64 {
 }
 
 /// Replicas added up, one after the other: running means and squared deviations (Welford 1962).
+///
+/// ```
+/// use shearbed::{Plan, Scene, ensemble::Tally, run::run_replica};
+/// let plan = Plan::new(&Scene::default())?;
+/// let mut tally = Tally::new(&plan);
+/// tally.add(run_replica(&plan, 0)?);
+/// assert_eq!(tally.results(&plan), shearbed::ensemble::run(&plan)?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Tally {
     replicas: u64,
@@ -135,7 +167,11 @@ pub struct Tally {
 impl Tally {
     /// Of no replica of the plan.
     pub fn new(plan: &Plan) -> Self {
-        let len = plan.outputs() * width(plan);
+        Self::of(plan.outputs() * width(plan))
+    }
+
+    /// Of so many sums of no replica.
+    pub(crate) fn of(len: usize) -> Self {
         Self {
             replicas: 0,
             counters: Counters::default(),
@@ -176,11 +212,17 @@ impl Tally {
 
     /// Adds the next replica.
     pub fn add(&mut self, replica: Replica) {
-        let n = replica.rods as f64;
         self.counters.add(&replica.counters);
+        self.add_sums(replica.rods, &replica.sums);
+        self.snapshots.extend(replica.snapshots);
+    }
+
+    /// Adds the sums of the next replica over so many rods.
+    pub(crate) fn add_sums(&mut self, rods: usize, sums: &[Sum]) {
+        let n = rods as f64;
         self.replicas += 1;
         let replicas = self.replicas as f64;
-        for (k, sum) in replica.sums.iter().enumerate() {
+        for (k, sum) in sums.iter().enumerate() {
             let value = sum.value / n;
             let change = value - self.mean[k];
             self.mean[k] += change / replicas;
@@ -190,7 +232,6 @@ impl Tally {
                 self.over_rods[k] = (variance / (n - 1.0)).sqrt();
             }
         }
-        self.snapshots.extend(replica.snapshots);
     }
 
     fn se(&self, k: usize) -> f64 {
@@ -202,20 +243,25 @@ impl Tally {
         }
     }
 
+    /// The sums at a place of every output, of which each has `width`.
+    pub(crate) fn column(&self, name: String, place: usize, width: usize) -> Column {
+        let all = || (place..self.mean.len()).step_by(width);
+        Column {
+            name,
+            mean: all().map(|k| self.mean[k]).collect(),
+            se: all().map(|k| self.se(k)).collect(),
+        }
+    }
+
     /// What the replicas in it come to.
     pub fn results(self, plan: &Plan) -> Results {
         let width = width(plan);
         let mut start = 0;
         let series = (plan.observables().into_iter())
             .map(|observable| {
-                let columns = observable.channels().enumerate().map(|(place, channel)| {
-                    let at = |output: usize| output * width + start + place;
-                    Column {
-                        name: channel.name(),
-                        mean: (0..plan.outputs()).map(|k| self.mean[at(k)]).collect(),
-                        se: (0..plan.outputs()).map(|k| self.se(at(k))).collect(),
-                    }
-                });
+                let channels = observable.channels().enumerate();
+                let columns =
+                    channels.map(|(place, channel)| self.column(channel.name(), start + place, width));
                 let columns = columns.collect();
                 start += observable.width();
                 Series { observable, columns }

@@ -15,7 +15,7 @@
 //! rods take Jeffery's exact motion ([`suspension`]).
 //!
 //! What comes out are means over rods against time ([`observable`]): projections (eqs 4 and 21), the mean
-//! angle (eq. 18), the orbit constant (eq. 13), ⟨pp⟩.
+//! angle (eq. 18), the orbit constant (eq. 13), ⟨pp⟩; or one's own ([`own`]).
 //!
 //! # Data goes one way
 //!
@@ -38,7 +38,7 @@
 //! "#;
 //! let scene = shearbed::scene_file::parse("free.toml", text)?;
 //! let plan = shearbed::Plan::new(&scene)?;
-//! let results = shearbed::ensemble::run(&plan, || ())?;
+//! let results = shearbed::ensemble::run(&plan)?;
 //! // Free rods of one aspect ratio are back after half a period, because p ≡ −p.
 //! let x1 = &results.column("x1").expect("projections are the default").mean;
 //! assert!((x1[2] - x1[0]).abs() < 1e-12);
@@ -60,6 +60,7 @@ pub mod memory;
 pub mod neighbours;
 pub mod observable;
 pub mod orientation;
+pub mod own;
 pub mod phase;
 pub mod plan;
 pub mod propagator;

@@ -9,6 +9,12 @@ use grid::Grid;
 use pairs::Pairs;
 
 /// A rod and its nearest neighbour within its reach.
+///
+/// ```
+/// use shearbed::neighbours::Nearest;
+/// let found = Nearest { rod: 0, other: 7, square: 0.25 };
+/// assert_eq!(found.square.sqrt(), 0.5);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
     /// The rod that looks.
@@ -20,6 +26,15 @@ pub struct Nearest {
 }
 
 /// The search for nearest neighbours in a cubic volume [0, side)³. Nothing is allocated after the first step.
+///
+/// ```
+/// use shearbed::{neighbours::Neighbours, work::Counters};
+/// let positions = [vec![0.1, 0.2, 0.9], vec![0.5; 3], vec![0.5; 3]];
+/// let (mut work, mut pairs) = (Counters::default(), Vec::new());
+/// let reach = |_rod: usize| 0.3;
+/// Neighbours::new(1.0, 3).each_nearest(&positions, reach, &mut work, |near| pairs.push((near.rod, near.other)));
+/// assert_eq!(pairs, [(0, 1), (1, 0)]);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Neighbours(Search);
 

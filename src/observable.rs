@@ -13,6 +13,13 @@ use serde::{Deserialize, Serialize};
 pub const BLOCK: usize = 128;
 
 /// Directions and aspect ratios of up to [`BLOCK`] rods, as structure of arrays.
+///
+/// ```
+/// use shearbed::observable::Block;
+/// let mut block = Block { len: 1, ..Block::default() };
+/// block.p[2][0] = 1.0; // along the vorticity axis
+/// assert_eq!(block.aspect_ratio[0], 1.0);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Block {
     /// p₁, p₂ and p₃.
@@ -48,6 +55,12 @@ impl Block {
 }
 
 /// What can be observed. Each has a file of its own, named as its key.
+///
+/// ```
+/// use shearbed::Observable;
+/// let names: Vec<_> = Observable::Projections.channels().map(|channel| channel.name()).collect();
+/// assert_eq!(names, ["x1", "x2", "x3"]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Observable {
@@ -186,6 +199,15 @@ impl Observable {
 }
 
 /// The sum of a value over rods, and of its square where standard errors over rods are wanted.
+///
+/// ```
+/// use shearbed::observable::{Block, Observable, Sum};
+/// let mut block = Block { len: 1, ..Block::default() };
+/// block.p.iter_mut().zip([0.6, -0.8, 0.0]).for_each(|(axis, p)| axis[0] = p);
+/// let mut sums = [Sum::default(); 3];
+/// Observable::Projections.add(&block, &mut sums);
+/// assert_eq!(sums.map(|sum| sum.value), [0.6, 0.8, 0.0]);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Sum {
     /// Σ f.

@@ -24,6 +24,12 @@ pub(crate) enum Clock {
 }
 
 /// What a unit of time is.
+///
+/// ```
+/// let unit = shearbed::Plan::new(&shearbed::Scene::default())?.unit();
+/// assert_eq!(unit.strain, shearbed::jeffery::strain_per_period(11.6));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
     /// In s.
@@ -33,6 +39,12 @@ pub struct Unit {
 }
 
 /// What will run for a scene: the scene, checked, and its stages.
+///
+/// ```
+/// let plan = shearbed::Plan::new(&shearbed::Scene::default())?;
+/// assert_eq!((plan.steps(), plan.outputs()), (0, 51)); // free rods take no steps
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Plan {
     scene: Scene,

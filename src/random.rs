@@ -6,6 +6,13 @@ use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 
 /// What a stream is drawn for. Each purpose has its own stream, which exists only where it is drawn from.
+///
+/// ```
+/// use shearbed::random::{Purpose, stream};
+/// // The same stream for the same seed, replica and purpose.
+/// assert_eq!(stream(1, 0, Purpose::Positions), stream(1, 0, Purpose::Positions));
+/// assert_ne!(stream(1, 0, Purpose::Positions), stream(1, 0, Purpose::Collisions));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// Gaussian aspect ratios (eq. 11).

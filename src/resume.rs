@@ -13,6 +13,16 @@ use crate::work::Counters;
 use serde::{Deserialize, Serialize};
 
 /// A replica in the middle of its work.
+///
+/// ```
+/// use shearbed::scene::{Interaction, Scene};
+/// let scene = Scene { interaction: Some(Interaction::default()), ..Scene::default() };
+/// let plan = shearbed::Plan::new(&scene)?;
+/// let mut kept = None;
+/// let whole = shearbed::run::go_on(&plan, 0, None, |state| kept = Some(state()))?;
+/// assert_eq!(shearbed::run::go_on(&plan, 0, kept, |_| ())?, whole);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Halfway {
     /// Sums of the outputs that are done.

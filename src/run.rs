@@ -16,6 +16,13 @@ use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// The sums of one replica.
+///
+/// ```
+/// use shearbed::{Plan, Scene, observable::Channel};
+/// let replica = shearbed::run::run_replica(&Plan::new(&Scene::default())?, 0)?;
+/// assert!((0.0..=1.0).contains(&replica.mean(Channel::X[0], 0).expect("an output")));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Replica {
     observables: Vec<Observable>,
@@ -270,16 +277,49 @@ impl<'a> Recorder<'a> {
         Ok(())
     }
 
-    /// The error of a fault in a block whose first rod is `first`.
     fn refused(&self, first: usize, output: usize, fault: Fault) -> RunError {
-        RunError::NoResult {
-            rod: fault.rod.map(|rod| first + rod),
-            output,
-            time_name: self.plan.time_name(),
-            time: self.plan.times()[output],
-            seed: self.plan.scene().ensemble.seed,
-            replica: self.replica,
-            cause: fault.cause,
+        refused(self.plan, self.replica, first, output, fault)
+    }
+}
+
+/// The error of a fault in a block whose first rod is `first`.
+pub(crate) fn refused(plan: &Plan, replica: u64, first: usize, output: usize, fault: Fault) -> RunError {
+    RunError::NoResult {
+        rod: fault.rod.map(|rod| first + rod),
+        output,
+        time_name: plan.time_name(),
+        time: plan.times()[output],
+        seed: plan.scene().ensemble.seed,
+        replica,
+        cause: fault.cause,
+    }
+}
+
+/// Hands every rod of a replica at every output to `look`: output by output, the rods in blocks, with the first one's number.
+pub(crate) fn each_block(
+    plan: &Plan,
+    replica: u64,
+    mut look: impl FnMut(usize, usize, &Block) -> Result<(), RunError>,
+) -> Result<(), RunError> {
+    let mut block = Block::default();
+    let mut blocks = |output: usize, rods: &Rods, tick: u64| {
+        (0..rods.count()).step_by(BLOCK).try_for_each(|first| {
+            rods.orient(first, tick, &mut block);
+            border::directions(&block).map_err(|fault| refused(plan, replica, first, output, fault))?;
+            look(output, first, &block)
+        })
+    };
+    let mut outputs = 0..plan.outputs();
+    match Suspension::new(plan, replica) {
+        Some(mut suspension) => outputs.try_for_each(|output| {
+            while suspension.tick() < output as u64 * plan.ticks_per_output() {
+                suspension.step()?;
+            }
+            blocks(output, &suspension.rods, suspension.tick())
+        }),
+        None => {
+            let (rods, _) = Rods::draw(plan, replica);
+            outputs.try_for_each(|output| blocks(output, &rods, output as u64))
         }
     }
 }

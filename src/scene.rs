@@ -53,6 +53,15 @@ pub struct Scene {
 }
 
 /// `[flow]`: one of the two keys.
+///
+/// ```
+/// use shearbed::scene::{Flow, Scene};
+/// // Planar extension in place of shear: it has no period, so its time is given in strain.
+/// let flow = Flow { shear_rate_per_s: None, gradient_per_s: Some([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]]) };
+/// let mut scene = Scene { flow, ..Scene::default() };
+/// (scene.time.periods, scene.time.strain) = (None, Some(3.0));
+/// assert!(shearbed::Plan::new(&scene).is_ok());
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Flow {
@@ -79,6 +88,12 @@ fn three_by_three<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[
 }
 
 /// `[interaction]`.
+///
+/// ```
+/// use shearbed::scene::Interaction;
+/// let crowded = Interaction { concentration_per_cm3: 2000.0, ..Interaction::default() };
+/// assert_eq!((crowded.alpha, crowded.m), (0.5, 3.0));
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Interaction {
@@ -98,6 +113,12 @@ pub struct Interaction {
 }
 
 /// How a colliding rod takes its step.
+///
+/// ```
+/// use shearbed::scene::{Interaction, Update};
+/// let to_the_letter = Interaction { update: Update::Angles, ..Interaction::default() };
+/// assert_ne!(to_the_letter, Interaction::default());
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Update {
@@ -109,6 +130,12 @@ pub enum Update {
 }
 
 /// `[time]`: `periods` of the mean aspect ratio, or `strain`.
+///
+/// ```
+/// use shearbed::scene::Time;
+/// let two_periods = Time { periods: Some(2.0), outputs_per_period: Some(100), ..Time::default() };
+/// assert_eq!(two_periods.strain, None);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Time {
@@ -130,6 +157,12 @@ pub struct Time {
 }
 
 /// `[ensemble]`.
+///
+/// ```
+/// use shearbed::scene::{Ensemble, Scene};
+/// let scene = Scene { ensemble: Ensemble { replicas: 4, seed: 2 }, ..Scene::default() };
+/// assert!(shearbed::Plan::new(&scene).is_ok());
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Ensemble {
@@ -187,6 +220,12 @@ impl Default for Ensemble {
 }
 
 /// `[output]`.
+///
+/// ```
+/// use shearbed::{Observable, scene::Output};
+/// let output = Output { observables: vec![Observable::OrientationTensor], ..Output::default() };
+/// assert!(output.rods_at.is_empty());
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {

@@ -10,6 +10,11 @@ use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 
 /// Why a scene file was refused. Printed, each problem has a line.
+///
+/// ```
+/// let refused = shearbed::scene_file::parse("mine.toml", "title = 1").unwrap_err();
+/// assert!(refused.to_string().contains("mine.toml:1: title = 1 is not allowed: a text in quotes"));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 #[error("{}", self.lines())]
@@ -21,6 +26,11 @@ pub struct SceneError {
 }
 
 /// One thing that is wrong with a scene file.
+///
+/// ```
+/// let refused = shearbed::scene_file::parse("mine.toml", "\n\nseed = 1").unwrap_err();
+/// assert!(refused.problems.iter().any(|problem| problem.line == 3 && problem.message.contains("seed")));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Problem {

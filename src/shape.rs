@@ -4,6 +4,11 @@
 use serde::{Deserialize, Serialize};
 
 /// Which of [`FORMULAS`], by the name that a scene gives.
+///
+/// ```
+/// use shearbed::shape::Correlation;
+/// assert_eq!(Correlation::Cox.formula().formula, "1.24 r/√(ln r)");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Correlation {
@@ -33,6 +38,11 @@ impl Correlation {
 }
 
 /// A published formula for r_e of a cylinder.
+///
+/// ```
+/// let cylinder = shearbed::shape::FORMULAS.map(|formula| formula.equivalent(20.0));
+/// assert!(cylinder.iter().flatten().all(|r_e| (14.0..14.4).contains(r_e)));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Formula {
     /// Who gave it, and when.

@@ -7,6 +7,11 @@ use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 
 /// The volume [0, side)³ in plane Couette flow u_2 = ±x_1, with lengths in rod lengths and time in 1/|G|.
+///
+/// ```
+/// use shearbed::volume::ControlVolume;
+/// assert_eq!(ControlVolume::holding(100, 12.5).side(), 2.0); // rod lengths
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ControlVolume {
     /// H/a.

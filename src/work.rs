@@ -3,6 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 /// Why a run stopped.
+///
+/// ```
+/// use shearbed::work::RunError;
+/// let stopped = RunError::Misfit { replica: 3, cause: "it has another number of rods" };
+/// assert!(stopped.to_string().starts_with("replica 3 cannot go on"));
+/// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RunError {
@@ -52,6 +58,15 @@ pub enum RunError {
 }
 
 /// What was done: counts of work, the same on every machine.
+///
+/// ```
+/// use shearbed::scene::{Interaction, Scene};
+/// let scene = Scene { interaction: Some(Interaction::default()), ..Scene::default() };
+/// let results = shearbed::ensemble::run(&shearbed::Plan::new(&scene)?)?;
+/// let done = results.counters;
+/// assert!(done.collisions <= done.candidates && done.draws == 100 * done.steps);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counters {
     /// Time steps.

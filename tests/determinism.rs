@@ -48,7 +48,7 @@ fn run_on(threads: usize, plan: &Plan) -> Results {
         .num_threads(threads)
         .build()
         .unwrap();
-    pool.install(|| ensemble::run(plan, || ()).unwrap())
+    pool.install(|| ensemble::run(plan).unwrap())
 }
 
 #[test]
@@ -102,7 +102,7 @@ fn a_large_run_sums_over_all_rods() {
     scene.interaction = None;
     scene.particles.count = 150_000;
     scene.output.observables = vec![Observable::OrientationTensor];
-    let results = ensemble::run(&Plan::new(&scene).unwrap(), || ()).unwrap();
+    let results = ensemble::run(&Plan::new(&scene).unwrap()).unwrap();
     let column = |name| results.column(name).unwrap();
     for output in 0..results.times.len() {
         let squares: f64 = ["a11", "a22", "a33"]
@@ -119,7 +119,7 @@ fn a_large_run_sums_over_all_rods() {
 #[test]
 fn a_replica_run_alone_is_its_part_of_the_ensemble() {
     let plan = plan(4, 1);
-    let whole = ensemble::run(&plan, || ()).unwrap();
+    let whole = ensemble::run(&plan).unwrap();
     // Backwards, so that nothing can lean on an earlier replica.
     let mut alone: Vec<_> = (0..4).rev().map(|k| run_replica(&plan, k).unwrap()).collect();
     alone.reverse();

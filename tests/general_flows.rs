@@ -32,7 +32,7 @@ fn ends_or_is_refused(text: &str) {
     };
     let plan = Plan::new(&scene).unwrap();
     assert!(plan.error_rad().is_none_or(|error| error <= 1e-6), "{text}");
-    let results = ensemble::run(&plan, || ()).unwrap();
+    let results = ensemble::run(&plan).unwrap();
     let mean = |name: &str, k: usize| results.column(name).unwrap().mean[k];
     for k in 0..results.times.len() {
         let trace = mean("a11", k) + mean("a22", k) + mean("a33", k);
@@ -109,7 +109,7 @@ fn a_start_on_a_dividing_plane_is_refused_however_it_is_given() {
         assert!(told(sd, start, 5.0).is_ok(), "{sd}");
         // Random starts are the doubles that were drawn.
         let random = Plan::new(&told(sd, "\"isotropic\"", 100.0).unwrap()).unwrap();
-        assert!(ensemble::run(&random, || ()).is_ok(), "{sd}");
+        assert!(ensemble::run(&random).is_ok(), "{sd}");
 
         let mut given = told(sd, "\"isotropic\"", 100.0).unwrap();
         let (sine, cosine) = (135f64.to_radians().sin(), 135f64.to_radians().cos());
@@ -118,7 +118,7 @@ fn a_start_on_a_dividing_plane_is_refused_however_it_is_given() {
             crc32: None,
             p: Some(Arc::new([vec![cosine; 3], vec![sine; 3], vec![0.0; 3]])),
         };
-        let refused = Plan::new(&given).map(|plan| ensemble::run(&plan, || ()));
+        let refused = Plan::new(&given).map(|plan| ensemble::run(&plan));
         assert!(!matches!(refused, Ok(Ok(_))), "{sd}");
     }
 }
@@ -142,7 +142,7 @@ fn a_rounded_start_of_extreme_rods_is_answered_as_far_as_it_is_known() {
             p: Some(Arc::new([vec![0.6; 3], vec![0.0; 3], vec![0.8; 3]])),
         };
         let plan = Plan::new(&scene).unwrap();
-        assert_eq!(ensemble::run(&plan, || ()).is_ok(), known, "{r:e}");
+        assert_eq!(ensemble::run(&plan).is_ok(), known, "{r:e}");
     }
 }
 

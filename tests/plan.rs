@@ -100,7 +100,7 @@ fn assert_same_bits(part: &Results, whole: &Results, what: &str) {
 }
 
 fn run(plan: &Plan) -> Results {
-    ensemble::run(plan, || ()).unwrap()
+    ensemble::run(plan).unwrap()
 }
 
 fn stages() -> impl Iterator<Item = Stage> {

@@ -28,7 +28,7 @@ fn scene(text: &str) -> Scene {
 }
 
 fn run(scene: &Scene) -> Results {
-    ensemble::run(&Plan::new(scene).unwrap(), || ()).unwrap()
+    ensemble::run(&Plan::new(scene).unwrap()).unwrap()
 }
 
 #[test]

@@ -6,6 +6,13 @@ use serde::Serialize;
 use std::fmt;
 
 /// A part of a run that can be left out.
+///
+/// ```
+/// use shearbed::{Plan, Scene, plan::Stage};
+/// // Free rods need no neighbours.
+/// assert!(!Plan::new(&Scene::default())?.keeps(Stage::Neighbours));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -51,6 +58,14 @@ impl fmt::Display for Stage {
 }
 
 /// One line of a plan.
+///
+/// ```
+/// let plan = shearbed::Plan::new(&shearbed::Scene::default())?;
+/// for entry in plan.entries().iter().filter(|entry| !entry.kept) {
+///     println!("left out: {}, as {}", entry.stage, entry.reason);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Entry {
     /// The stage.

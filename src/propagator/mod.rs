@@ -37,6 +37,13 @@ fn turned(p: [f64; 3], aspect_ratio: f64, phase: Phase) -> [f64; 3] {
 }
 
 /// How long a rod moves: a number ≥ 0 over another, in some unit.
+///
+/// ```
+/// use shearbed::propagator::Span;
+/// // A third of a period, without rounding the third.
+/// let third = Span::Periods(1.0, 3.0);
+/// assert_ne!(third, Span::Periods(1.0 / 3.0, 1.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Span {
     /// Seconds.
@@ -48,6 +55,16 @@ pub enum Span {
 }
 
 /// Where a rod went.
+///
+/// ```
+/// use shearbed::{flow::VelocityGradient, nalgebra::{Matrix3, Vector3}, propagator::{Propagator, Span}};
+/// // Planar extension along axis 1 draws a rod there, and the error is known.
+/// let gradient = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, 0.0));
+/// let flow = VelocityGradient::new(gradient).expect("finite");
+/// let start = shearbed::orientation::from_degrees(45.0, 90.0);
+/// let moved = Propagator::new(&flow, 20.0).moved(&start, Span::Strain(8.0, 1.0)).expect("no period is asked for");
+/// assert!(moved.p.x > 0.999 && moved.error < 1e-15);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moved {
     /// Its direction.
@@ -61,6 +78,14 @@ pub struct Moved {
 }
 
 /// The exact motion of rods of one aspect ratio in one flow.
+///
+/// ```
+/// use shearbed::{flow::VelocityGradient, nalgebra::Vector3, propagator::{Propagator, Span}};
+/// let flow = VelocityGradient::plane_couette(0.5).expect("finite");
+/// let rods = Propagator::new(&flow, 11.6);
+/// let half = rods.moved(&Vector3::x_axis(), Span::Periods(1.0, 2.0)).expect("this flow has a period");
+/// assert!((half.p.x + 1.0).abs() < 1e-15); // p ≡ −p
+/// ```
 #[derive(Clone, Debug)]
 pub struct Propagator(Motion);
 

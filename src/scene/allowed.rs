@@ -3,6 +3,13 @@
 use super::keys::{Holds, find};
 
 /// What is wrong with a scene: the key, its value, and what is allowed.
+///
+/// ```
+/// use shearbed::scene::{Particles, Scene};
+/// let scene = Scene { particles: Particles { count: 0, ..Particles::default() }, ..Scene::default() };
+/// let refused = shearbed::Plan::new(&scene).unwrap_err();
+/// assert_eq!((refused.key, refused.value.as_deref()), ("particles.count", Some("0")));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Invalid {

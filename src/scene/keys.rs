@@ -24,6 +24,12 @@ pub struct Key {
 }
 
 /// What a key is where it is not given.
+///
+/// ```
+/// use shearbed::scene::{Absent, KEYS};
+/// let m = KEYS.iter().find(|key| key.path == "interaction.m").unwrap();
+/// assert_eq!(m.absent, Absent::Default("3"));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Absent {
     /// It must be given: in every scene, or in a table that is there.
@@ -35,6 +41,12 @@ pub enum Absent {
 }
 
 /// What a key may hold.
+///
+/// ```
+/// use shearbed::scene::{Holds, KEYS};
+/// let length = KEYS.iter().find(|key| key.path == "particles.length_mm").unwrap();
+/// assert_eq!(length.holds, Holds::Positive);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Holds {

@@ -5,6 +5,12 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// `[particles]`.
+///
+/// ```
+/// use shearbed::scene::{Particles, Scene};
+/// let particles = Particles { count: 1000, aspect_ratio: 20.0, ..Particles::default() };
+/// assert!(shearbed::Plan::new(&Scene { particles, ..Scene::default() }).is_ok());
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "Written", into = "Written")]
 pub struct Particles {
@@ -94,6 +100,13 @@ impl Default for Particles {
 }
 
 /// The directions at t = 0.
+///
+/// ```
+/// use shearbed::scene::{Orientation, Particles};
+/// let along_the_flow = Orientation::Given { phi_deg: 90.0, theta_deg: 90.0 };
+/// let particles = Particles { orientation: along_the_flow, ..Particles::default() };
+/// assert_ne!(particles, Particles::default());
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     untagged,
@@ -124,6 +137,11 @@ pub enum Orientation {
 }
 
 /// The word `"isotropic"`.
+///
+/// ```
+/// use shearbed::scene::{Isotropic, Orientation, Particles};
+/// assert_eq!(Particles::default().orientation, Orientation::Random(Isotropic::Isotropic));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Isotropic {

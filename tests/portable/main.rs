@@ -93,7 +93,7 @@ fn digest(results: &Results) -> u64 {
 
 fn run(name: &str, text: &str) -> Results {
     let scene = scene_file::parse(name, &format!("title = \"{name}\"\n{text}")).unwrap();
-    ensemble::run(&Plan::new(&scene).unwrap(), || ()).unwrap()
+    ensemble::run(&Plan::new(&scene).unwrap()).unwrap()
 }
 
 #[test]

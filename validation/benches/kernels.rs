@@ -41,7 +41,7 @@ fn free(c: &mut Criterion) {
         scene.particles.aspect_ratio_sd_percent = sd;
         let plan = lab::plan(&scene);
         group.throughput(Throughput::Elements(10_000 * plan.outputs() as u64));
-        group.bench_function(format!("sd {sd} %"), |b| b.iter(|| ensemble::run(&plan, || ())));
+        group.bench_function(format!("sd {sd} %"), |b| b.iter(|| ensemble::run(&plan)));
     }
     group.finish();
 }

@@ -84,7 +84,7 @@ mod tests {
             let mut scene = built_in.scene().unwrap();
             scene.ensemble.replicas = 2;
             scene.particles.count = scene.particles.count.min(100);
-            let results = shearbed::ensemble::run(&Plan::new(&scene).unwrap(), || ()).unwrap();
+            let results = shearbed::ensemble::run(&Plan::new(&scene).unwrap()).unwrap();
             let means = results
                 .series
                 .iter()

@@ -139,3 +139,105 @@ fn every_dependency_has_a_line_and_the_crates_are_counted() {
         .collect();
     assert_eq!(dependencies::crates(), Some(crates.len() - 2));
 }
+
+/// The Rust files of a folder and those below it.
+fn sources(folder: &Path) -> Vec<std::path::PathBuf> {
+    let entries = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    let (folders, files): (Vec<_>, Vec<_>) = entries.partition(|path| path.is_dir());
+    let mut all: Vec<_> = folders.iter().flat_map(|folder| sources(folder)).collect();
+    all.extend(
+        files
+            .into_iter()
+            .filter(|file| file.extension().is_some_and(|e| e == "rs")),
+    );
+    all
+}
+
+/// Public types without an example in their documentation. A type in a module of its own file counts where the module, or the
+/// type by its name, is handed on.
+fn without_example(sources: &[(String, String)]) -> Vec<String> {
+    let handed_on = |name: &str, module: &str| {
+        let module = format!("pub mod {module};");
+        let by_name = |text: &str| {
+            let uses = text
+                .split("pub use ")
+                .skip(1)
+                .filter_map(|rest| rest.split(';').next());
+            uses.flat_map(|list| list.split(|c: char| !c.is_alphanumeric()))
+                .any(|word| word == name)
+        };
+        sources
+            .iter()
+            .any(|(_, text)| text.contains(&module) || by_name(text))
+    };
+    let mut missing = Vec::new();
+    for (module, text) in sources {
+        for item in syn::parse_file(text).unwrap().items {
+            let (attributes, visibility, name) = match &item {
+                syn::Item::Struct(item) => (&item.attrs, &item.vis, &item.ident),
+                syn::Item::Enum(item) => (&item.attrs, &item.vis, &item.ident),
+                _ => continue,
+            };
+            let is_public = matches!(visibility, syn::Visibility::Public(_));
+            let documentation = attributes
+                .iter()
+                .filter(|attribute| attribute.path().is_ident("doc"));
+            let has_example = documentation.into_iter().any(|attribute| match &attribute.meta {
+                syn::Meta::NameValue(doc) => match &doc.value {
+                    syn::Expr::Lit(syn::ExprLit {
+                        lit: syn::Lit::Str(text),
+                        ..
+                    }) => text.value().contains("```"),
+                    // `include_str!`: a whole page.
+                    _ => true,
+                },
+                _ => false,
+            });
+            if is_public && !has_example && handed_on(&name.to_string(), module) {
+                missing.push(format!("{module}::{name}"));
+            }
+        }
+    }
+    missing
+}
+
+#[test]
+fn every_public_type_of_the_core_has_an_example() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../src");
+    let module = |file: &Path| match file.file_stem().unwrap().to_str().unwrap() {
+        "mod" => file
+            .parent()
+            .unwrap()
+            .file_name()
+            .unwrap()
+            .to_str()
+            .unwrap()
+            .to_owned(),
+        name => name.to_owned(),
+    };
+    let read = |file: &std::path::PathBuf| (module(file), std::fs::read_to_string(file).unwrap());
+    let sources: Vec<_> = sources(&root).iter().map(read).collect();
+    assert!(sources.len() > 30);
+    assert_eq!(without_example(&sources), Vec::<String>::new());
+    // One whose example is taken away is found.
+    let mut spoiled = sources.clone();
+    for (_, text) in &mut spoiled {
+        *text = text.replace("/// ```", "/// ");
+    }
+    let missing = without_example(&spoiled);
+    assert!(missing.len() > 40, "{missing:?}");
+    for name in [
+        "scene::Scene",
+        "keys::Holds",
+        "channel::Channel",
+        "propagator::Propagator",
+    ] {
+        assert!(missing.iter().any(|found| found == name), "{name}: {missing:?}");
+    }
+    assert!(
+        !missing.iter().any(|found| found.ends_with("::Ball")),
+        "{missing:?}"
+    );
+}

@@ -227,7 +227,7 @@ fn plateau(change: &Change, effort: &Effort) -> Vec<Evidence> {
         0.01 * scene.particles.aspect_ratio_sd_percent,
     );
     change(&mut scene);
-    let results = ensemble::run(&lab::plan(&scene), || ());
+    let results = ensemble::run(&lab::plan(&scene));
     // The mean over a Gaussian r_e by Hermite's three nodes, exact to σ⁴.
     let node = |k: f64| isotropic::plateau_projections(r * (1.0 + k * sd * f64::sqrt(3.0)));
     let (below, middle, above) = (node(-1.0), node(0.0), node(1.0));

@@ -126,8 +126,7 @@ fn meetings(model: &Model, effort: &Effort) -> f64 {
         scene.particles.count = 20;
         change(&mut scene);
         (model.meeting)(&mut scene);
-        ensemble::run(&lab::plan(&scene), || ())
-            .map_or(f64::NAN, |results| results.counters.collisions as f64)
+        ensemble::run(&lab::plan(&scene)).map_or(f64::NAN, |results| results.counters.collisions as f64)
     };
     let thin = met(|scene| lab::interaction(scene).concentration_per_cm3 = 1e-30);
     let reaching = met(|scene| lab::interaction(scene).alpha = 1e300);

@@ -104,7 +104,7 @@ fn compare(
         scene.particles.aspect_ratio_sd_percent,
     );
     change(&mut scene);
-    let results = ensemble::run(&lab::plan(&scene), || ());
+    let results = ensemble::run(&lab::plan(&scene));
     let mut evidence = Vec::new();
     for &output in sevenths {
         for (axis, reference) in expected(output as f64 / 7.0).into_iter().enumerate() {
@@ -137,7 +137,7 @@ fn half_period(change: &Change, effort: &Effort) -> Vec<Evidence> {
     scene.time.outputs_per_period = Some(20);
     change(&mut scene);
     let mut worst = 0.0f64;
-    match ensemble::run(&lab::plan(&scene), || ()) {
+    match ensemble::run(&lab::plan(&scene)) {
         Ok(results) => {
             for channel in results.series.iter().flat_map(|series| &series.columns) {
                 for (k, later) in channel.mean.iter().enumerate().skip(10) {

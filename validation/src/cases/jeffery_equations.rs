@@ -207,7 +207,7 @@ struct Rod {
 
 /// Runs a scene of one rod as the program does; head or tail is not told.
 fn run(scene: &Scene) -> Vec<Rod> {
-    let results = ensemble::run(&lab::plan(scene), || ()).expect("free rods do not stop");
+    let results = ensemble::run(&lab::plan(scene)).expect("free rods do not stop");
     let at = |name: &str, output: usize| {
         let channel = results.column(name);
         channel.map_or(f64::NAN, |channel| channel.mean[output])

@@ -84,7 +84,7 @@ pub fn cases() -> Vec<Case> {
 }
 
 fn run(scene: &Scene) -> Option<Results> {
-    ensemble::run(&lab::plan(scene), || ()).ok()
+    ensemble::run(&lab::plan(scene)).ok()
 }
 
 /// The largest difference of any channel at any output.

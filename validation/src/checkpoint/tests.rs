@@ -160,7 +160,7 @@ fn nothing_that_is_done_is_run_again() {
         done: [(2, run_replica(&plan, 2).unwrap())].into(),
         halfway: [(3, halfway.remove(0))].into(),
     };
-    let expected = shearbed::ensemble::run(&plan, || ()).unwrap();
+    let expected = shearbed::ensemble::run(&plan).unwrap();
     for threads in [1, 2, 4, 9] {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("kept");

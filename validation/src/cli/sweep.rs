@@ -202,7 +202,7 @@ fn jobs(finished: &[usize], points: usize) -> (Option<usize>, Vec<usize>) {
 
 /// A table of each observable of a point.
 fn tables_of(point: &Point) -> Result<Vec<Output>, String> {
-    let results = ensemble::run(&point.plan, || ()).map_err(|error| error.to_string())?;
+    let results = ensemble::run(&point.plan).map_err(|error| error.to_string())?;
     let table = |series: &ensemble::Series| {
         let name = format!("{}.csv", series.observable.name());
         Ok((name, tables::csv(&results, series)?))

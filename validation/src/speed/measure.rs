@@ -260,10 +260,6 @@ fn held() -> Check {
 
 fn whole_runs(scene: &Scene, pools: [&rayon::ThreadPool; 2], amount: Amount) -> Result<[f64; 2], String> {
     let plan = lab::plan(scene);
-    ensemble::run(&plan, || ()).map_err(|error| error.to_string())?;
-    Ok(pools.map(|pool| {
-        least(amount, || {
-            pool.install(|| seconds(|| ensemble::run(&plan, || ())))
-        })
-    }))
+    ensemble::run(&plan).map_err(|error| error.to_string())?;
+    Ok(pools.map(|pool| least(amount, || pool.install(|| seconds(|| ensemble::run(&plan))))))
 }

@@ -31,7 +31,7 @@ fn synthesise(data: &Path, folder: &str, scene_name: &str, observables: &[&str],
     scene.time.outputs_per_period = Some(200);
     scene.ensemble.replicas = RODS / scene.particles.count as u64;
     scene.ensemble.seed = 1982;
-    let results = ensemble::run(&Plan::new(&scene).unwrap(), || ()).unwrap();
+    let results = ensemble::run(&Plan::new(&scene).unwrap()).unwrap();
     let mut stream = Pcg64Dxsm::seed_from_u64(4);
     let mut noise = |u: f64| -> f64 {
         let unit: f64 = StandardNormal.sample(&mut stream);

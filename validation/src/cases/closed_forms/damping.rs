@@ -67,7 +67,7 @@ pub(super) fn in_plane_start(change: &Change, effort: &Effort) -> Vec<Evidence> 
     scene.time.periods = Some(2.0);
     let r = scene.particles.aspect_ratio;
     change(&mut scene);
-    let results = ensemble::run(&lab::plan(&scene), || ());
+    let results = ensemble::run(&lab::plan(&scene));
     let channel = |name: &str| {
         let found = results.as_ref().ok().and_then(|results| results.column(name));
         found.map_or_else(|| vec![f64::NAN; 101], |channel| channel.mean.clone())

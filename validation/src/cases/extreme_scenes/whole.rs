@@ -31,7 +31,7 @@ impl Ended {
 pub(super) fn whole_run(scene: &Scene) -> Ended {
     let mut scene = scene.clone();
     scene.ensemble.replicas = 2;
-    let Ok(results) = ensemble::run(&lab::plan(&scene), || ()) else {
+    let Ok(results) = ensemble::run(&lab::plan(&scene)) else {
         return Ended::LOST;
     };
     let mut channels = results.series.iter().flat_map(|series| &series.columns);

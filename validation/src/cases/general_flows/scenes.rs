@@ -114,7 +114,7 @@ fn scene(&(gradient, r, [phi_deg, theta_deg], time): &Listed) -> Scene {
 /// As the program does.
 pub fn program(scene: &Scene) -> Option<([f64; 3], f64)> {
     let plan = Plan::new(scene).ok()?;
-    let results = ensemble::run(&plan, || ()).ok()?;
+    let results = ensemble::run(&plan).ok()?;
     let last = results.times.len() - 1;
     let end = ["x1", "x2", "x3"].map(|name| results.column(name).map_or(f64::NAN, |x| x.mean[last]));
     Some((end, plan.error_rad()?))
