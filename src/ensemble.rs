@@ -1,5 +1,8 @@
 //! Replicas over all cores, and the means and standard errors over them.
 
+#[cfg(test)]
+mod tests;
+
 use crate::observable::{Observable, Sum};
 use crate::plan::{Plan, Unit};
 use crate::run::{self, Replica, run_replica};

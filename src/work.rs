@@ -1,5 +1,8 @@
 //! What a run did, counted, and why one stopped.
 
+#[cfg(test)]
+mod tests;
+
 use serde::{Deserialize, Serialize};
 
 /// Why a run stopped.

@@ -38,3 +38,57 @@ periods = 1
     assert_eq!(suspension.place(places(3), &directions(3)), Some(()));
     assert_eq!(suspension.positions_in_lengths(), &places(3));
 }
+
+/// Two rods that are sure to collide, in a flow of either sign.
+#[test]
+fn a_collision_gives_both_contact_points_the_mean_velocity_along_the_line() {
+    for rate in ["0.5", "-0.5"] {
+        let scene = format!(
+            r#"
+title = "t"
+[flow]
+gradient_per_s = [[0, 0, 0], [{rate}, 0, 0], [0, 0, 0]]
+[particles]
+count = 2
+length_mm = 0.72
+aspect_ratio = 11.6
+orientation = "isotropic"
+[interaction]
+concentration_per_cm3 = 1
+alpha = 1e12
+[time]
+periods = 1
+steps_per_period = 100000
+outputs_per_period = 1
+"#
+        );
+        let plan = Plan::new(&crate::scene_file::parse("s.toml", &scene).unwrap()).unwrap();
+        let mut suspension = Suspension::new(&plan, 0).unwrap();
+        let side = suspension.side_in_lengths();
+        let centres = [[0.4, 0.5, 0.5], [0.55, 0.45, 0.6]].map(|x| x.map(|x| x * side));
+        let places = [0, 1, 2].map(|axis| vec![centres[0][axis], centres[1][axis]]);
+        let start = [(0.3, 1.0), (2.0, 0.7)].map(|(phi, theta)| crate::orientation::from_angles(phi, theta));
+        suspension.place(places, &start).unwrap();
+        assert_eq!(suspension.step().unwrap().len(), 1);
+
+        // By the paper's words: u at each contact point's centre plus r ṗ, along the line.
+        let sign = if rate == "0.5" { 1.0 } else { -1.0 };
+        let [a, b] = centres.map(Vector3::from);
+        let met = contact(&(b - a), &start[0], &start[1], 0.0).unwrap();
+        let liquid = |x: &Vector3<f64>| Vector3::new(0.0, sign * x.x, 0.0);
+        let free = start.map(|p| couette_rate(&p, shape_factor(11.6), sign));
+        let strain = strain_per_period(11.6) / 1e5;
+        let after = suspension.directions();
+        let rates = [0, 1].map(|k| (after[k] - start[k].into_inner()) / strain);
+        let along = |rates: &[Vector3<f64>; 2]| {
+            [(a, 0), (b, 1)].map(|(x, k)| met.line.dot(&(liquid(&x) + rates[k] * met.arms[k])))
+        };
+        let [before_a, before_b] = along(&free);
+        assert!((before_a - before_b).abs() > 0.1, "they would part");
+        let mean = 0.5 * (before_a + before_b);
+        for velocity in along(&rates) {
+            // A step of 7e-4 bends the path by about as much.
+            assert!((velocity - mean).abs() < 5e-3, "{rate}: {velocity} {mean}");
+        }
+    }
+}

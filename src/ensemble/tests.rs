@@ -1,0 +1,41 @@
+//! Means and standard errors, worked by hand.
+
+use super::*;
+
+fn sum(value: f64, square: Option<f64>) -> Sum {
+    Sum { value, square }
+}
+
+#[test]
+fn over_replicas_the_error_is_that_of_their_mean() {
+    // Two columns at one output; the second is the first turned round.
+    let mut tally = Tally::of(2);
+    for value in [1.0, 2.0, 6.0] {
+        tally.add_sums(4, &[sum(4.0 * value, None), sum(-4.0 * value, None)]);
+    }
+    // Mean 3, squared deviations 4 + 1 + 9, divided by 3 − 1 and by 3.
+    let se = (14.0f64 / 6.0).sqrt();
+    for (place, sign) in [(0, 1.0), (1, -1.0)] {
+        let column = tally.column("x".to_owned(), place, 2);
+        assert_eq!(column.mean.len(), 1);
+        assert!((column.mean[0] - 3.0 * sign).abs() < 1e-15, "{column:?}");
+        assert!((column.se[0] - se).abs() < 1e-15, "{column:?}");
+    }
+    assert_eq!(tally.replicas(), 3);
+}
+
+#[test]
+fn of_one_replica_the_error_is_over_its_rods() {
+    // Rods with 1, 1, 1 and 5: mean 2, squares 28, variance 28/4 − 4 = 3, over 4 − 1.
+    let mut tally = Tally::of(1);
+    tally.add_sums(4, &[sum(8.0, Some(28.0))]);
+    let column = tally.column("x".to_owned(), 0, 1);
+    assert_eq!((column.mean[0], column.se[0]), (2.0, 1.0));
+}
+
+#[test]
+fn of_one_rod_there_is_no_error() {
+    let mut tally = Tally::of(1);
+    tally.add_sums(1, &[sum(0.5, Some(0.25))]);
+    assert!(tally.column("x".to_owned(), 0, 1).se[0].is_nan());
+}
