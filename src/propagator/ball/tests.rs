@@ -141,3 +141,27 @@ fn the_constants_are_those_of_300_bits() {
     assert!(off(Ball::TAU, &(big(1.0).atan() * big(8.0))) <= ONE);
     assert!(off(Ball::LN_2, &big(2.0).ln()) <= ONE);
 }
+
+#[test]
+fn the_root_of_what_may_be_nothing_is_as_wide_as_it_must_be() {
+    for (middle, error) in [(0.0, 1e-20), (0.0, 1.0), (0.0, 1e10), (1e-3, 2e-3)] {
+        let root = Ball::exact(middle).widened(error).sqrt();
+        let most = (middle + error).sqrt();
+        assert_eq!((root.hi, root.lo), (0.0, 0.0));
+        assert!(root.error >= most && root.error < 1.5 * most, "{root:?} {most}");
+    }
+}
+
+#[test]
+fn what_is_as_good_as_nothing_is_known_to_be_that_small() {
+    let small = exp(Ball::exact(-601.0).widened(5.0));
+    assert!(
+        small.hi == 0.0 && small.error >= (-596.0f64).exp() && small.error <= 1e-250,
+        "{small:?}"
+    );
+    let wide = exp(Ball::exact(-601.0).widened(50.0));
+    assert!(wide.hi == 0.0 && wide.error >= (-551.0f64).exp(), "{wide:?}");
+    let known = exp(Ball::exact(-599.0));
+    // The argument has lost the digits of 600, and eight times as much by the doublings.
+    assert!(known.hi > 0.0 && known.error < 1e-27 * known.hi, "{known:?}");
+}
