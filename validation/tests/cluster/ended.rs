@@ -83,7 +83,7 @@ fn shearbed(dir: &Path, arguments: &str) -> (Option<i32>, String) {
 }
 
 /// Waits for a job's end, up to the bound.
-fn end_of(job: &mut Child) -> std::process::ExitStatus {
+pub fn end_of(job: &mut Child) -> std::process::ExitStatus {
     let start = Instant::now();
     loop {
         if let Some(status) = job.try_wait().unwrap() {
@@ -98,7 +98,7 @@ fn end_of(job: &mut Child) -> std::process::ExitStatus {
 }
 
 /// The processes that a process has started, in order.
-fn children(id: u32) -> Vec<u32> {
+pub fn children(id: u32) -> Vec<u32> {
     let list = fs::read_to_string(format!("/proc/{id}/task/{id}/children")).unwrap_or_default();
     list.split_whitespace().map(|id| id.parse().unwrap()).collect()
 }

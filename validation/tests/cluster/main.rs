@@ -8,6 +8,7 @@ mod common;
 mod ended;
 
 use common::{UNEQUAL, files, kill, wait_for};
+use ended::{children, end_of};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
