@@ -53,6 +53,36 @@ proptest! {
         prop_assert!(((moved - p.into_inner()) / dt - rate).norm() < 1e-5);
     }
 
+    /// Also where seconds are tiny or huge, with a trace, and by the map. Rounded times move a rod by 1e-11 here at most.
+    #[test]
+    fn a_time_is_the_same_in_seconds_strain_and_periods(
+        l in prop::array::uniform9(-1.0f64..1.0), phi in 0.0f64..6.2, theta in 0.0f64..3.1,
+        r in 0.05f64..20.0, power in -150i32..150, trace in -3.0f64..3.0
+    ) {
+        let scale = 10f64.powi(power);
+        let per_s = scale * Matrix3::from_row_slice(&l);
+        let flow = VelocityGradient::new(per_s).unwrap();
+        let rods = Propagator::general(&flow, r);
+        let p = orientation::from_angles(phi, theta);
+        let time_s = 3.0 / scale;
+        let moved = rods.moved(&p, Span::Seconds(time_s)).unwrap();
+        prop_assert!(moved.error < 1e-15, "{}", moved.error);
+        let by_strain = rods.moved(&p, Span::Strain(flow.magnitude_per_s() * time_s, 1.0)).unwrap();
+        prop_assert!(apart(&moved.p, &by_strain.p) < 1e-9);
+        if let Some(period_s) = rods.period_s() {
+            let by_periods = rods.moved(&p, Span::Periods(time_s / period_s, 1.0)).unwrap();
+            prop_assert!(apart(&moved.p, &by_periods.p) < 1e-9);
+        }
+        let swelling = VelocityGradient::new(per_s + trace * scale * Matrix3::identity()).unwrap();
+        let in_swelling = Propagator::general(&swelling, r).moved(&p, Span::Seconds(time_s)).unwrap();
+        prop_assert!(apart(&moved.p, &in_swelling.p) < 1e-9);
+        let (map, error) = rods.map(Span::Seconds(time_s)).unwrap();
+        let by_map = UnitVector3::new_normalize(map * p.as_ref());
+        prop_assert!(apart(&moved.p, &by_map) < 1e-9);
+        // Its largest component is about 1, and its error is that of 106 bits.
+        prop_assert!((0.5..=2.0).contains(&map.amax()) && error < 1e-24, "{} {error}", map.amax());
+    }
+
     #[test]
     fn plane_couette_flow_by_either_way(phi in 0.0f64..6.2, theta in 0.0f64..3.1, r in 0.05f64..50.0, turns in 0.0f64..3.0) {
         let p = orientation::from_angles(phi, theta);
