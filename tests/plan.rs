@@ -278,3 +278,38 @@ fn long_rods_need_more_steps_than_there_may_be_and_say_what_to_set() {
         "{refusal}"
     );
 }
+
+#[test]
+fn a_stage_that_is_kept_brings_what_it_needs() {
+    let all = [
+        Stage::Positions,
+        Stage::Translation,
+        Stage::Neighbours,
+        Stage::CollisionDraws,
+        Stage::Contacts,
+    ];
+    let plan = plan(&format!("{FREE}{ALPHA_0}"));
+    assert!(!all.iter().any(|stage| plan.keeps(*stage)));
+    for (stage, brought) in all.into_iter().zip([1, 2, 3, 3, 5]) {
+        let with = plan.keeping(stage).unwrap();
+        assert!(with.keeps(stage), "{stage}");
+        let kept = all.iter().filter(|other| with.keeps(**other)).count();
+        assert_eq!(kept, brought, "{stage}");
+        // Who moves with the liquid has a place.
+        assert!(with.keeps(Stage::Positions), "{stage}");
+    }
+}
+
+#[test]
+fn the_error_of_free_rods_is_known_and_small_but_where_the_form_is_closed() {
+    assert_eq!(plan(FREE).error_rad(), None);
+    let error = plan(EXTENSION).error_rad().unwrap();
+    // Some roundings to double.
+    assert!(error > 0.0 && error < 16.0 * f64::EPSILON, "{error}");
+    let unit = plan(EXTENSION).unit();
+    // 2 D:D = 4 in this flow.
+    assert!(
+        (unit.seconds - 0.5).abs() < 2.0 * f64::EPSILON && unit.strain == 1.0,
+        "{unit:?}"
+    );
+}
