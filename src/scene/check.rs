@@ -20,15 +20,6 @@ const MAX_OUTPUTS: f64 = 1e6;
 const MAX_DRIFT: f64 = 1e-6;
 
 impl Scene {
-    /// Checks every value and every combination of values.
-    ///
-    /// # Errors
-    ///
-    /// The first that is not allowed.
-    pub fn check(&self) -> Result<(), Invalid> {
-        self.problems().into_iter().next().map_or(Ok(()), Err)
-    }
-
     /// Every value that its key does not allow; where there is none, what does not go together.
     pub fn problems(&self) -> Vec<Invalid> {
         match self.out_of_range() {

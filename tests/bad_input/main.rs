@@ -232,6 +232,8 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
      "11: time.steps_per_period = 5 is not allowed: goes with periods"),
     (EXTENSION, "[[-0.5, 0, 0], [0, 1, 0], [0, 0, -0.5]]", "[[0, -1, 0], [1, 0, 0], [0, 0, 0]]",
      "10: time.strain = 2 is not allowed: this flow has no strain rate: give periods"),
+    (EXTENSION, "outputs_per_strain = 10", "outputs_per_strain = 10\n[output]\nobservables = [\"particle_stress\"]",
+     "13: output.observables = [\"particle_stress\"] is not allowed: particle_stress needs plane Couette flow"),
     // What is no TOML.
     (INTERACTING, "alpha = 0.5", "alpha =", "12: alpha =: "),
     (INTERACTING, "alpha = 0.5", "alpha = 0.5.1", "12: alpha = 0.5.1: "),
