@@ -2,7 +2,6 @@
 
 use crate::tree::Tree;
 use rayon::prelude::*;
-use serde_json::Value;
 use std::collections::BTreeSet;
 use std::error::Error;
 use std::fs;
@@ -69,16 +68,12 @@ impl Test {
 
 /// All tests of the workspace that pass without a mutant, the quickest first, with what each reaches.
 pub fn tests(tree: &Tree) -> Result<Vec<Test>, Box<dyn Error>> {
-    let out = tree
-        .cargo()
-        .args(["test", "--no-run", "--locked", "--message-format=json"])
-        .stderr(Stdio::inherit())
-        .output()?;
+    let (messages, failed) = tree.cargo(&["test", "--no-run"])?;
+    if let Some(why) = failed {
+        return Err(why.into());
+    }
     let mut tests = Vec::new();
-    for message in String::from_utf8(out.stdout)?
-        .lines()
-        .flat_map(serde_json::from_str::<Value>)
-    {
+    for message in &messages {
         let (Some(executable), Some(true)) = (
             message["executable"].as_str(),
             message["profile"]["test"].as_bool(),

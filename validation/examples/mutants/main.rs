@@ -1,13 +1,12 @@
 //! Mutation testing of thousands of mutants in one build: all are put into a copy of the sources, each behind a switch that the
 //! environment turns on, and each is judged by the tests that reach its place, the quickest first. `validation/mutation.sh` calls it:
 //!
-//!     cargo mutants --list --json --package shearbed > target/mutants.json
-//!     cargo run -p shearbed-suite --example mutants -- target/mutants.json [--seconds S] [--resume] [--cases]
+//!     cargo mutants --list --json --package shearbed > list.json
+//!     cargo run -p shearbed-suite --example mutants -- list.json [--seconds S] [--resume] [--cases]
 //!
 //! What became of each mutant is a line of `target/mutants/results.csv`, with which `--resume` goes on. What a switch cannot reach,
-//! constants and `const fn`, is left to `cargo mutants` by its name in `left.txt`. A mutant that no test catches and that
-//! `docs/strength.md` does not explain ends it with 2. `--cases` runs each case of the gate that reaches a mutant, and writes into
-//! `cases.csv` which catch it.
+//! constants and `const fn`, is left to `cargo mutants` by its name in `left.txt`; `open.txt` has the names of those that no test caught.
+//! `--cases` runs each case of the gate that reaches a mutant instead, and writes into `cases.csv` which catch it.
 
 mod judge;
 mod switches;
@@ -19,7 +18,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 use std::fs;
 use std::io::Write;
-use std::process::ExitCode;
+use std::path::Path;
 use std::sync::Mutex;
 use switches::Mutant;
 use tree::Tree;
@@ -52,33 +51,19 @@ fn args() -> Result<Args, Box<dyn Error>> {
     Ok(args)
 }
 
-fn main() -> Result<ExitCode, Box<dyn Error>> {
+fn main() -> Result<(), Box<dyn Error>> {
     let args = args()?;
     let mut mutants: Vec<Mutant> = serde_json::from_str(&fs::read_to_string(&args.list)?)?;
     for (before, mutant) in mutants.iter_mut().enumerate() {
         mutant.id = before + 1;
     }
-    let Some(first) = mutants.first() else {
-        println!("no mutants");
-        return Ok(ExitCode::SUCCESS);
-    };
+    if mutants.is_empty() {
+        return Err("no mutants in the list".into());
+    }
     let here = std::env::current_dir()?;
     let out = here.join("target/mutants");
     fs::create_dir_all(&out)?;
-    let refused = out.join("refused.txt");
-    let known = match args.resume {
-        true => fs::read_to_string(&refused).unwrap_or_default(),
-        false => String::new(),
-    };
-    let known: BTreeSet<&str> = known.lines().collect();
-    let known = mutants
-        .iter()
-        .filter(|mutant| known.contains(mutant.name.as_str()));
-    let known = known.map(|mutant| mutant.id).collect();
-    let tree = Tree::new(&here, out.join("tree"), &first.package, &mutants, known)?;
-    let names = mutants.iter().filter(|mutant| tree.refused.contains(&mutant.id));
-    let names: String = names.map(|mutant| format!("{}\n", mutant.name)).collect();
-    fs::write(refused, names)?;
+    let tree = Tree::new(&here, &out, &mutants)?;
     let mut tests = judge::tests(&tree)?;
     if args.cases {
         tests.retain(|test| test.name.starts_with("gate "));
@@ -91,20 +76,14 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         tests.iter().map(|test| test.seconds).sum::<f64>()
     );
     let path = out.join(if args.cases { "cases.csv" } else { "results.csv" });
-    if !args.resume {
-        let _ = fs::remove_file(&path);
+    if !args.resume && path.exists() {
+        fs::remove_file(&path)?;
     }
     work(&args, &mutants, &tree, &tests, &path)?;
-    let results = fs::read_to_string(&path)?;
-    let left: String = results
-        .lines()
-        .filter_map(|line| Some(line.strip_suffix("\tleft")?.to_owned() + "\n"))
-        .collect();
-    fs::write(out.join("left.txt"), left)?;
-    Ok(summary(
-        &results,
-        &fs::read_to_string(here.join("docs/strength.md"))?,
-    ))
+    if !args.cases {
+        summary(&fs::read_to_string(&path)?, &out)?;
+    }
+    Ok(())
 }
 
 /// Judges all mutants that the file does not have yet, on all cores.
@@ -113,7 +92,7 @@ fn work(
     mutants: &[Mutant],
     tree: &Tree,
     tests: &[Test],
-    path: &std::path::Path,
+    path: &Path,
 ) -> Result<(), Box<dyn Error>> {
     let known: BTreeSet<String> = fs::read_to_string(path)
         .unwrap_or_default()
@@ -140,24 +119,24 @@ fn work(
     Ok(())
 }
 
-/// How many had which outcome, and the names of those that no test caught and the page does not explain.
-fn summary(results: &str, page: &str) -> ExitCode {
-    let mut counts = BTreeMap::new();
-    let mut code = ExitCode::SUCCESS;
+/// Prints how many had which outcome, and writes the names of those that are left and of those that no test caught.
+fn summary(results: &str, out: &Path) -> Result<(), Box<dyn Error>> {
+    let mut of: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for line in results.lines() {
-        let (name, said) = line.split_once('\t').unwrap_or((line, ""));
-        let outcome = said.split('\t').next().unwrap_or("");
-        *counts.entry(outcome).or_insert(0) += 1;
-        // A place moves with the lines above it; the file, what is replaced and the function do not.
-        let (file, what) = name.split_once(": ").unwrap_or((name, ""));
-        let explained = format!("- `{}: {what}`: ", file.split(':').next().unwrap_or(""));
-        if matches!(outcome, "missed" | "not reached" | "unfinished") && !page.contains(&explained) {
-            println!("{outcome}: {name}");
-            code = ExitCode::from(2);
-        }
+        let (name, said) = line.split_once('\t').ok_or("a line without an outcome")?;
+        let outcome = said.split('\t').next().unwrap_or(said);
+        of.entry(outcome).or_default().push(name);
     }
-    for (outcome, count) in counts {
-        println!("{count} {outcome}");
+    for (outcome, names) in &of {
+        println!("{} {outcome}", names.len());
     }
-    code
+    let lines = |outcomes: &[&str]| -> String {
+        let names = outcomes.iter().filter_map(|outcome| of.get(outcome)).flatten();
+        names.map(|name| format!("{name}\n")).collect()
+    };
+    fs::write(out.join("left.txt"), lines(&["left"]))?;
+    Ok(fs::write(
+        out.join("open.txt"),
+        lines(&["missed", "not reached", "unfinished"]),
+    )?)
 }

@@ -148,10 +148,10 @@ impl Finder<'_> {
         &self.source[span.byte_range()]
     }
 
-    /// The mutants of a genre that begin at a place, with what they put there.
-    fn of(&self, genre: Genre, at: usize, text: impl Fn(&str) -> String) -> Vec<(usize, String)> {
+    /// The mutants of a genre that begin where a span does, with what they put there.
+    fn of(&self, genre: Genre, from: Span, text: impl Fn(&str) -> String) -> Vec<(usize, String)> {
         self.wanted
-            .get(&at)
+            .get(&from.byte_range().start)
             .into_iter()
             .flatten()
             .filter(|mutant| mutant.genre == genre && self.constant == 0)
@@ -179,7 +179,7 @@ impl Finder<'_> {
             matches!(&sig.output, syn::ReturnType::Type(_, of) if matches!(**of, syn::Type::ImplTrait(_)));
         if let Some(first) = block.stmts.first().filter(|_| !opaque) {
             let at = first.span().byte_range().start;
-            let mutants = self.of(Genre::FnValue, at, str::to_string);
+            let mutants = self.of(Genre::FnValue, first.span(), str::to_string);
             self.add(at..at, mutants, Kind::Return);
         }
     }

@@ -10,9 +10,8 @@ use std::process::Command;
 
 pub struct Tree {
     pub root: PathBuf,
-    /// The library file of the package, which has the switches.
-    library: String,
-    pub target: PathBuf,
+    /// Where it is built: cargo takes the copy's crates for those that it was copied from, if it finds these.
+    target: PathBuf,
     /// The place of each mutant that can be switched on.
     pub places: BTreeMap<usize, usize>,
     /// The mutants that do not compile.
@@ -20,42 +19,32 @@ pub struct Tree {
 }
 
 impl Tree {
-    /// Copies what is under version control to `root`, and puts the mutants of one package in but for those that are known not to
-    /// compile.
-    pub fn new(
-        from: &Path,
-        root: PathBuf,
-        package: &str,
-        mutants: &[Mutant],
-        refused: BTreeSet<usize>,
-    ) -> Result<Tree, Box<dyn Error>> {
+    /// Copies what is under version control to `out/tree`, which is built in `out/target`, and puts the mutants of one package in.
+    pub fn new(from: &Path, out: &Path, mutants: &[Mutant]) -> Result<Tree, Box<dyn Error>> {
+        let mut tree = Tree {
+            root: out.join("tree"),
+            target: out.join("target"),
+            places: BTreeMap::new(),
+            refused: BTreeSet::new(),
+        };
+        if tree.root.exists() {
+            fs::remove_dir_all(&tree.root)?;
+        }
         let listed = Command::new("git")
             .arg("-C")
             .arg(from)
             .args(["ls-files", "-z"])
             .output()?;
-        let file = &mutants.first().ok_or("no mutants")?.file;
-        let folder = &file[..file.rfind("src/").ok_or("a mutant beside src")?];
-        let library = format!("{folder}src/lib.rs");
-        let is_switched = |file: &str| file == library || mutants.iter().any(|mutant| mutant.file == file);
         for file in String::from_utf8(listed.stdout)?.split_terminator('\0') {
-            if !is_switched(file) {
-                put(&root.join(file), &fs::read(from.join(file))?)?;
-            }
+            let to = tree.root.join(file);
+            fs::create_dir_all(to.parent().ok_or("a file in no folder")?)?;
+            fs::copy(from.join(file), to)?;
         }
-        let mut tree = Tree {
-            // One of its own: cargo takes the copy's crates for those that it was copied from.
-            target: root.join("target"),
-            root,
-            library,
-            places: BTreeMap::new(),
-            refused,
-        };
         // Some complaints are of code generation only.
         for command in ["check", "build"] {
             loop {
                 tree.write(from, mutants)?;
-                let complaints = tree.complaints(command, package)?;
+                let complaints = tree.complaints(command, &mutants[0].package)?;
                 if complaints.is_empty() {
                     break;
                 }
@@ -66,42 +55,31 @@ impl Tree {
     }
 
     fn write(&mut self, from: &Path, mutants: &[Mutant]) -> Result<(), Box<dyn Error>> {
-        let library = self.library.clone();
+        let file = &mutants[0].file;
+        let folder = &file[..file.rfind("src/").ok_or("a mutant beside src")?];
+        // The library has the switches.
+        let library = format!("{folder}src/lib.rs");
         let mut of: BTreeMap<&str, Vec<&Mutant>> = BTreeMap::from([(library.as_str(), Vec::new())]);
         for mutant in mutants.iter().filter(|mutant| !self.refused.contains(&mutant.id)) {
             of.entry(&mutant.file).or_default().push(mutant);
         }
-        let mut all = BTreeMap::new();
+        self.places.clear();
         for (file, of_file) in &of {
             let (mut text, places) = switches::switch(&fs::read_to_string(from.join(file))?, of_file)?;
-            all.extend(places);
+            self.places.extend(places);
             if *file == library {
                 text += &switches::module(mutants.len() + 1);
             }
-            put(&self.root.join(file), text.as_bytes())?;
+            fs::write(self.root.join(file), text)?;
         }
-        self.places = all;
         Ok(())
     }
 
     /// The mutants that the compiler refuses: each complaint lies in the text of one.
     fn complaints(&self, command: &str, package: &str) -> Result<BTreeSet<usize>, Box<dyn Error>> {
-        let out = self
-            .cargo()
-            .args([
-                command,
-                "--lib",
-                "--locked",
-                "--message-format=json",
-                "--package",
-                package,
-            ])
-            .output()?;
+        let (messages, failed) = self.cargo(&[command, "--lib", "--package", package])?;
         let mut refused = BTreeSet::new();
-        for message in String::from_utf8(out.stdout)?
-            .lines()
-            .flat_map(serde_json::from_str::<Value>)
-        {
+        for message in &messages {
             let message = &message["message"];
             if message["level"] != "error" {
                 continue;
@@ -118,10 +96,10 @@ impl Tree {
                 }
             }
         }
-        if refused.is_empty() && !out.status.success() {
-            return Err(String::from_utf8_lossy(&out.stderr).into_owned().into());
+        match failed {
+            Some(why) if refused.is_empty() => Err(why.into()),
+            _ => Ok(refused),
         }
-        Ok(refused)
     }
 
     /// The mutant whose text a complaint is about, or the macro that it is about.
@@ -137,20 +115,17 @@ impl Tree {
         (at <= end).then(|| id.parse().ok())?
     }
 
-    pub fn cargo(&self) -> Command {
-        let mut cargo = Command::new("cargo");
-        cargo
+    /// What a cargo command says in JSON, and why it failed where it did.
+    pub fn cargo(&self, arguments: &[&str]) -> Result<(Vec<Value>, Option<String>), Box<dyn Error>> {
+        let out = Command::new("cargo")
             .current_dir(&self.root)
-            .env("CARGO_TARGET_DIR", &self.target);
-        cargo
+            .env("CARGO_TARGET_DIR", &self.target)
+            .args(arguments)
+            .args(["--locked", "--message-format=json"])
+            .output()?;
+        let text = String::from_utf8(out.stdout)?;
+        let messages = text.lines().flat_map(serde_json::from_str).collect();
+        let failed = (!out.status.success()).then(|| String::from_utf8_lossy(&out.stderr).into_owned());
+        Ok((messages, failed))
     }
-}
-
-/// Writes a file where it is not so already: what has not changed is not built again.
-fn put(path: &Path, bytes: &[u8]) -> Result<(), Box<dyn Error>> {
-    if fs::read(path).ok().as_deref() != Some(bytes) {
-        fs::create_dir_all(path.parent().ok_or("a file in no folder")?)?;
-        fs::write(path, bytes)?;
-    }
-    Ok(())
 }

@@ -5,11 +5,9 @@ use super::*;
 impl<'ast> Visit<'ast> for Finder<'_> {
     fn visit_expr_binary(&mut self, node: &'ast syn::ExprBinary) {
         let (left, right) = (self.text(node.left.span()), self.text(node.right.span()));
-        let mutants = self.of(
-            Genre::BinaryOperator,
-            node.op.span().byte_range().start,
-            |operator| format!("{left} {operator} {right}"),
-        );
+        let mutants = self.of(Genre::BinaryOperator, node.op.span(), |operator| {
+            format!("{left} {operator} {right}")
+        });
         if !has_let(&node.left) && !has_let(&node.right) {
             self.expression(node.span(), mutants);
         }
@@ -18,24 +16,16 @@ impl<'ast> Visit<'ast> for Finder<'_> {
 
     fn visit_expr_unary(&mut self, node: &'ast syn::ExprUnary) {
         let operand = self.text(node.expr.span());
-        let mutants = self.of(Genre::UnaryOperator, node.span().byte_range().start, |_| {
-            operand.to_string()
-        });
+        let mutants = self.of(Genre::UnaryOperator, node.span(), |_| operand.to_string());
         self.expression(node.span(), mutants);
         visit::visit_expr_unary(self, node);
     }
 
     fn visit_arm(&mut self, node: &'ast syn::Arm) {
-        let mut mutants = self.of(Genre::MatchArm, node.span().byte_range().start, |_| {
-            "false".to_string()
-        });
+        let mut mutants = self.of(Genre::MatchArm, node.span(), |_| "false".to_string());
         match &node.guard {
             Some((_, guard)) => {
-                mutants.extend(self.of(
-                    Genre::MatchArmGuard,
-                    guard.span().byte_range().start,
-                    str::to_string,
-                ));
+                mutants.extend(self.of(Genre::MatchArmGuard, guard.span(), str::to_string));
                 self.expression(guard.span(), mutants);
             }
             None => {
@@ -52,7 +42,7 @@ impl<'ast> Visit<'ast> for Finder<'_> {
             let mut found = Vec::new();
             for field in &node.fields {
                 let name = self.text(field.member.span());
-                let mutants = self.of(Genre::StructField, field.span().byte_range().start, |_| {
+                let mutants = self.of(Genre::StructField, field.span(), |_| {
                     format!("let rest: {path} = {rest}; rest.{name}")
                 });
                 let shorthand = field.colon_token.is_none();
