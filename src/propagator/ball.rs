@@ -48,7 +48,7 @@ impl Ball {
     }
 
     /// The same with `error` more of error.
-    pub const fn widened(self, error: f64) -> Self {
+    pub fn widened(self, error: f64) -> Self {
         Self {
             error: self.error + error,
             ..self
@@ -56,32 +56,32 @@ impl Ball {
     }
 
     /// Whether it is 0 and known to be.
-    pub const fn is_zero(self) -> bool {
+    pub fn is_zero(self) -> bool {
         self.hi == 0.0 && self.error == 0.0
     }
 
-    const fn is_double(self) -> bool {
+    fn is_double(self) -> bool {
         self.lo == 0.0 && self.error == 0.0
     }
 
     /// The most that its size can be.
-    pub const fn most(self) -> f64 {
+    pub fn most(self) -> f64 {
         (self.hi.abs() + self.error) * (1.0 + 2.0 * f64::EPSILON)
     }
 
     /// The least that its size can be, 0 where it may be 0.
-    pub const fn least(self) -> f64 {
+    pub fn least(self) -> f64 {
         let least = (self.hi.abs() - self.error) * (1.0 - 2.0 * f64::EPSILON);
         if least > 0.0 { least } else { 0.0 }
     }
 
     /// Without its error: as if it were exact.
-    pub const fn middle(self) -> Self {
+    pub fn middle(self) -> Self {
         Self { error: 0.0, ..self }
     }
 
     /// Times a power of two.
-    pub const fn scaled(self, power: f64) -> Self {
+    pub fn scaled(self, power: f64) -> Self {
         let scaled = Self {
             hi: self.hi * power,
             lo: self.lo * power,
@@ -94,7 +94,7 @@ impl Ball {
         }
     }
 
-    pub const fn plus(self, other: Self) -> Self {
+    pub fn plus(self, other: Self) -> Self {
         if self.is_zero() {
             return other;
         }
@@ -120,7 +120,7 @@ impl Ball {
         }
     }
 
-    pub const fn times(self, other: Self) -> Self {
+    pub fn times(self, other: Self) -> Self {
         if self.is_zero() || other.is_zero() {
             return Self::ZERO;
         }
@@ -144,7 +144,7 @@ impl Ball {
     }
 
     /// The quotient; not known where the divisor may be 0.
-    pub const fn over(self, other: Self) -> Self {
+    pub fn over(self, other: Self) -> Self {
         if self.is_zero() && other.least() > 0.0 {
             return Self::ZERO;
         }
@@ -180,20 +180,20 @@ impl Ball {
     }
 }
 
-const fn two_sum(a: f64, b: f64) -> (f64, f64) {
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let of_b = sum - a;
     (sum, (a - (sum - of_b)) + (b - of_b))
 }
 
 /// For |a| ≥ |b|.
-const fn quick_two_sum(a: f64, b: f64) -> (f64, f64) {
+fn quick_two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     (sum, b - (sum - a))
 }
 
 /// Dekker's product: no fused multiply-add, which is a call where the machine's is not known to be there.
-const fn two_product(a: f64, b: f64) -> (f64, f64) {
+fn two_product(a: f64, b: f64) -> (f64, f64) {
     let (a_high, a_low) = halves(a);
     let (b_high, b_low) = halves(b);
     let product = a * b;
@@ -201,7 +201,7 @@ const fn two_product(a: f64, b: f64) -> (f64, f64) {
     (product, rest)
 }
 
-const fn halves(a: f64) -> (f64, f64) {
+fn halves(a: f64) -> (f64, f64) {
     const SPLIT: f64 = (1u64 << 27) as f64 + 1.0;
     let shifted = SPLIT * a;
     let high = shifted - (shifted - a);

@@ -1,17 +1,16 @@
 //! Exponential, sine and cosine of numbers that know their error.
 
 use super::ball::Ball;
+use std::sync::LazyLock;
 
 /// 1/n!.
-pub(super) const INVERSE_FACTORIALS: [Ball; 34] = {
+pub(super) static INVERSE_FACTORIALS: LazyLock<[Ball; 34]> = LazyLock::new(|| {
     let mut all = [Ball::ONE; 34];
-    let mut n = 1;
-    while n < all.len() {
+    for n in 1..all.len() {
         all[n] = all[n - 1].over(Ball::exact(n as f64));
-        n += 1;
     }
     all
-};
+});
 
 /// More than what is left of every series here: the next term, twice.
 const LEFT_OUT: f64 = 1e-33;
