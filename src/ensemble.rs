@@ -120,18 +120,28 @@ pub fn fold<E>(
     plan: &Plan,
     mut run: impl FnMut(Range<u64>) -> Result<Vec<Replica>, E>,
 ) -> Result<Results, E> {
-    let replicas = plan.scene().ensemble.replicas;
     let mut tally = Tally::new(plan);
+    in_batches(plan, width(plan), |replicas| {
+        // Elsewhere than on the root of a job none comes back.
+        run(replicas).map(|replicas| replicas.into_iter().for_each(|replica| tally.add(replica)))
+    })?;
+    Ok(tally.results(plan))
+}
+
+/// All replicas of a plan, as many at a time as may wait to be added where each output has `width` sums.
+pub(crate) fn in_batches<E>(
+    plan: &Plan,
+    width: usize,
+    mut each: impl FnMut(Range<u64>) -> Result<(), E>,
+) -> Result<(), E> {
+    let replicas = plan.scene().ensemble.replicas;
     let mut first = 0;
     while first < replicas {
-        let last = replicas.min(first + batch(plan));
-        // Elsewhere than on the root of a job none comes back.
-        for replica in run(first..last)? {
-            tally.add(replica);
-        }
+        let last = replicas.min(first + batch(plan, width));
+        each(first..last)?;
         first = last;
     }
-    Ok(tally.results(plan))
+    Ok(())
 }
 
 /// Sums per output.
@@ -139,9 +149,9 @@ pub(crate) fn width(plan: &Plan) -> usize {
     run::width(&plan.observables())
 }
 
-/// Replicas held in memory at a time: about 256 MB of sums.
-pub(crate) fn batch(plan: &Plan) -> u64 {
-    let bytes = plan.outputs() * width(plan) * size_of::<Sum>();
+/// Replicas held in memory at a time: about 256 MB of sums, of which each output has `width`.
+pub(crate) fn batch(plan: &Plan, width: usize) -> u64 {
+    let bytes = plan.outputs() * width * size_of::<Sum>();
     ((256 << 20) / bytes.max(1)).clamp(1, 4096) as u64
 }
 

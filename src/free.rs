@@ -115,7 +115,8 @@ fn at_each<T: Send>(
     spans: &[Span],
     motion: impl Fn(Span) -> Option<(T, f64, f64)> + Sync,
 ) -> Result<(Vec<T>, f64), Invalid> {
-    let all: Option<Vec<_>> = spans.par_iter().map(|&span| motion(span)).collect();
+    let all: Vec<_> = spans.par_iter().map(|&span| motion(span)).collect();
+    let all: Option<Vec<_>> = all.into_iter().collect();
     // A scene in periods has been checked to have one.
     let all = all.unwrap_or_default();
     let worst = all.iter().map(|(_, error, of_start)| (*error, *of_start));
@@ -130,7 +131,10 @@ fn at_each<T: Send>(
     if error.is_nan() || error > MAX_ERROR_RAD {
         return Err(unknown(scene, error, of_start));
     }
-    Ok((all.into_iter().map(|(value, ..)| value).collect(), error))
+    let mut values: Vec<_> = all.into_iter().map(|(value, ..)| value).collect();
+    // They are collected where the errors were, and would keep that room.
+    values.shrink_to_fit();
+    Ok((values, error))
 }
 
 fn unknown(scene: &Scene, error: f64, of_start: f64) -> Invalid {

@@ -42,13 +42,14 @@ pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
         + kept(Stage::Contacts, 4);
     let width = width(plan);
     let per_output = width * size_of::<Sum>();
-    let waiting = scene.ensemble.replicas.min(batch(plan));
+    let waiting = scene.ensemble.replicas.min(batch(plan, width));
     let lists = BYTES_OF_A_CANDIDATE as f64 * candidates(plan) * scene.particles.count as f64;
     let rods = replicas * (lists as u64 + (scene.particles.count * per_rod) as u64) + maps[1] as u64;
     // Sums of replicas that wait to be added in order, and three running moments of 8 bytes.
     let sums = plan.outputs() as u64 * (waiting * per_output as u64 + 3 * 8 * width as u64);
     // Every rod that is wanted is held to the end.
-    (rods + sums).saturating_add(plan.rods_out().saturating_mul(Snapshot::BYTES_PER_ROD as u64))
+    let of_rod = Snapshot::bytes_per_rod(plan) as u64;
+    (rods + sums).saturating_add(plan.rods_out().saturating_mul(of_rod))
 }
 
 /// The share of rods that make a candidate in a step: s* is farther than the nearest of rods scattered at random,

@@ -4,7 +4,7 @@
 mod tests;
 
 use crate::border::Fault;
-use crate::ensemble::{Column, Tally};
+use crate::ensemble::{Column, Tally, in_batches};
 use crate::observable::Sum;
 use crate::plan::Plan;
 use crate::run::{each_block, refused};
@@ -49,15 +49,16 @@ pub trait OwnObservable: Sync {
 /// As [`crate::ensemble::run`], and a value that is not finite.
 pub fn observe(plan: &Plan, own: &impl OwnObservable) -> Result<Vec<Column>, RunError> {
     let names = own.columns();
-    let replicas = (0..plan.scene().ensemble.replicas)
-        .into_par_iter()
-        .map(|replica| one(plan, own, &names, replica))
-        .collect::<Result<Vec<_>, _>>()?;
-    let mut tally = Tally::of(plan.outputs() * names.len());
-    for sums in replicas {
-        tally.add_sums(plan.scene().particles.count, &sums);
-    }
     let width = names.len();
+    let mut tally = Tally::of(plan.outputs() * width);
+    in_batches(plan, width, |replicas| {
+        let run = replicas.into_par_iter();
+        let run = run.map(|replica| one(plan, own, &names, replica));
+        for sums in run.collect::<Result<Vec<_>, _>>()? {
+            tally.add_sums(plan.scene().particles.count, &sums);
+        }
+        Ok(())
+    })?;
     Ok(names
         .into_iter()
         .enumerate()

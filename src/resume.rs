@@ -51,12 +51,12 @@ impl Halfway {
     /// Bytes that one of the plan holds at most.
     pub fn bytes(plan: &Plan) -> u64 {
         let sums = plan.outputs() * width(&plan.observables()) * size_of::<Sum>();
-        let rods = match plan.keeps(Stage::Translation) {
-            true => plan.scene().particles.count * (48 + 4),
+        // Of free rods it holds neither directions nor snapshots.
+        let of_rod = match plan.keeps(Stage::Translation) {
+            true => 48 + 4 + plan.rods_outputs().len() * Snapshot::bytes_per_rod(plan),
             false => 0,
         };
-        let snapshots = plan.rods_outputs().len() * plan.scene().particles.count * Snapshot::BYTES_PER_ROD;
-        (sums + rods + snapshots) as u64
+        (sums + plan.scene().particles.count * of_rod) as u64
     }
 
     /// Outputs that are done.

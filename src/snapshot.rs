@@ -4,7 +4,7 @@
 mod tests;
 
 use crate::observable::{BLOCK, Block};
-use crate::plan::Plan;
+use crate::plan::{Plan, Stage};
 use crate::rods::Rods;
 use crate::suspension::Suspension;
 use serde::{Deserialize, Serialize};
@@ -36,8 +36,12 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
-    /// Bytes that it holds of each rod: its direction, aspect ratio, place, and whether it collided.
-    pub(crate) const BYTES_PER_ROD: usize = 7 * size_of::<f64>() + 1;
+    /// Bytes that one of the plan holds of each rod: its direction, aspect ratio, whether it collided, and where rods interact its
+    /// place.
+    pub(crate) fn bytes_per_rod(plan: &Plan) -> usize {
+        let numbers = if plan.keeps(Stage::Positions) { 7 } else { 4 };
+        numbers * size_of::<f64>() + 1
+    }
 
     /// Whether these can be of the plan, and are so many.
     pub(crate) fn all_fit(snapshots: &[Self], count: u64, plan: &Plan) -> bool {
@@ -49,7 +53,7 @@ impl Snapshot {
         let places = self.place_in_lengths.iter().flatten();
         let mut axes = self.p.iter().chain(places).chain([&self.aspect_ratio]);
         let whole = |axis: &Vec<f64>| axis.len() == count && axis.iter().all(|x| x.is_finite());
-        self.place_in_lengths.is_some() == plan.scene().interaction.is_some()
+        self.place_in_lengths.is_some() == plan.keeps(Stage::Positions)
             && axes.all(whole)
             && self.collided.len() == count
             && plan.rods_outputs().contains(&self.output)

@@ -1,44 +1,41 @@
 //! What a run holds in memory, counted by the allocator.
 
 use peak_alloc::PeakAlloc;
-use shearbed::run::run_replica;
-use shearbed::{Plan, Suspension, memory, scene_file};
+use shearbed::resume::Halfway;
+use shearbed::run::{self, run_replica};
+use shearbed::scene::{Interaction, Isotropic, Orientation, Scene};
+use shearbed::{Plan, Suspension, ensemble, memory};
 
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;
 
-fn plan(count: usize, tables: &str) -> Plan {
-    let text = format!(
-        r#"
-title = "many rods"
-[flow]
-shear_rate_per_s = 0.5
-[particles]
-count = {count}
-length_mm = 0.72
-aspect_ratio = 11.6
-aspect_ratio_sd_percent = 3.6
-orientation = "isotropic"
-[time]
-periods = 0.05
-outputs_per_period = 20
-{tables}
-"#
-    );
-    Plan::new(&scene_file::parse("scene.toml", &text).unwrap()).unwrap()
-}
-
-/// Bytes held at most while one replica runs.
-fn peak(plan: &Plan) -> f64 {
+/// The bytes held at most while something is done.
+fn peak<T>(done: impl FnOnce() -> T) -> f64 {
     let before = ALLOCATOR.current_usage();
     ALLOCATOR.reset_peak_usage();
-    run_replica(plan, 0).unwrap();
+    let _ = done();
     (ALLOCATOR.peak_usage() - before) as f64
+}
+
+/// Unequal rods at few outputs, so that the rods are what is held.
+fn many_rods(count: usize, concentration_per_cm3: Option<f64>) -> Plan {
+    let mut scene = Scene {
+        interaction: concentration_per_cm3.map(|concentration_per_cm3| Interaction {
+            concentration_per_cm3,
+            ..Interaction::default()
+        }),
+        ..Scene::default()
+    };
+    scene.particles.count = count;
+    scene.particles.aspect_ratio_sd_percent = 3.6;
+    scene.time.periods = Some(0.05);
+    scene.time.outputs_per_period = Some(20);
+    Plan::new(&scene).unwrap()
 }
 
 /// What is allocated in 100 steps, once the first 400 have set up the buffers.
 fn allocated_in_steps(count: usize) -> usize {
-    let plan = plan(count, &interaction(50.0));
+    let plan = many_rods(count, Some(50.0));
     let mut suspension = Suspension::new(&plan, 0).unwrap();
     let mut steps = |count| (0..count).for_each(|_| assert!(suspension.step().is_ok()));
     steps(400);
@@ -48,33 +45,119 @@ fn allocated_in_steps(count: usize) -> usize {
     ALLOCATOR.peak_usage() - before
 }
 
-fn interaction(concentration_per_cm3: f64) -> String {
-    format!("[interaction]\nconcentration_per_cm3 = {concentration_per_cm3}\nalpha = 0.5")
-}
-
 /// One test, so that no other allocates beside it.
 #[test]
 fn a_run_holds_what_it_says_and_its_steps_allocate_nothing() {
     assert_eq!(allocated_in_steps(100), 0);
     assert_eq!(allocated_in_steps(2000), 0);
+    let agree = |held: f64, said: u64, what: &str| {
+        let said = said as f64;
+        assert!(
+            held <= 1.02 * said && said <= 1.05 * held,
+            "{what}: {held} bytes, said {said}"
+        );
+    };
     let count = 200_000;
-    for (tables, most_per_rod) in [
-        (interaction(50.0), 120.0),
-        (interaction(1e-3), 120.0),
+    for (concentration_per_cm3, most_per_rod) in [
+        (Some(50.0), 120.0),
+        (Some(1e-3), 120.0),
         // So dense that nearly every rod is on every list.
-        (interaction(1e6), 270.0),
-        (String::new(), 33.0),
+        (Some(1e6), 270.0),
+        (None, 33.0),
     ] {
-        let plan = plan(count, &tables);
-        let (held, said) = (peak(&plan), memory::bytes(&plan, 1) as f64);
+        let plan = many_rods(count, concentration_per_cm3);
+        let held = peak(|| run_replica(&plan, 0).unwrap());
+        let what = format!("{concentration_per_cm3:?} per cm3");
         assert!(
             held <= most_per_rod * count as f64,
-            "{} bytes a rod: {tables}",
+            "{what}: {} bytes a rod",
             held / count as f64
         );
-        assert!(
-            held <= 1.02 * said && said <= 1.25 * held,
-            "{held} bytes, said {said}: {tables}"
-        );
+        agree(held, memory::bytes(&plan, 1), &what);
     }
+    for (what, scene) in others() {
+        let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let mut said = 0;
+        let held = peak(|| {
+            let plan = Plan::new(&scene).unwrap();
+            said = memory::bytes(&plan, 1);
+            threads.install(|| ensemble::run(&plan).unwrap())
+        });
+        agree(held, said, what);
+    }
+    for rods_at in [vec![], vec![0.0, 0.025]] {
+        let mut scene = many_rods(1000, Some(50.0)).scene().clone();
+        scene.time.outputs_per_period = Some(40);
+        scene.output.rods_at = rods_at;
+        let plan = Plan::new(&scene).unwrap();
+        let mut held = 0.0f64;
+        run::go_on(&plan, 0, None, |state| held = held.max(peak(state))).unwrap();
+        agree(held, Halfway::bytes(&plan), "what a run can be gone on from");
+    }
+}
+
+/// Scenes of which something else than the rods is what is held.
+fn others() -> [(&'static str, Scene); 6] {
+    let scene = |change: fn(&mut Scene)| {
+        let mut scene = Scene::default();
+        scene.particles.count = 2;
+        change(&mut scene);
+        scene
+    };
+    [
+        (
+            "sums",
+            scene(|scene| scene.time.outputs_per_period = Some(50_000)),
+        ),
+        (
+            "sums of replicas that wait",
+            scene(|scene| {
+                scene.time.outputs_per_period = Some(2000);
+                scene.ensemble.replicas = 100;
+            }),
+        ),
+        (
+            "every rod at many outputs",
+            scene(|scene| {
+                scene.particles.count = 1000;
+                scene.time.outputs_per_period = Some(100);
+                scene.output.rods_at = (0..=100).map(|k| f64::from(k) / 100.0).collect();
+                scene.ensemble.replicas = 2;
+            }),
+        ),
+        (
+            "maps",
+            scene(|scene| {
+                in_extension(scene);
+                scene.particles.orientation = Orientation::Random(Isotropic::Isotropic);
+            }),
+        ),
+        (
+            "ends",
+            scene(|scene| {
+                in_extension(scene);
+                scene.particles.orientation = Orientation::Given {
+                    phi_deg: 20.0,
+                    theta_deg: 80.0,
+                };
+            }),
+        ),
+        (
+            "propagators",
+            scene(|scene| {
+                in_extension(scene);
+                scene.time.outputs_per_strain = Some(5);
+                scene.particles.count = 20_000;
+                scene.particles.aspect_ratio_sd_percent = 3.6;
+            }),
+        ),
+    ]
+}
+
+/// Planar extension with 50 000 outputs.
+fn in_extension(scene: &mut Scene) {
+    scene.flow.shear_rate_per_s = None;
+    scene.flow.gradient_per_s = Some([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]]);
+    (scene.time.periods, scene.time.strain) = (None, Some(1.0));
+    scene.time.outputs_per_strain = Some(50_000);
 }

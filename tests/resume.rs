@@ -138,30 +138,6 @@ fn what_is_of_no_replica_of_the_plan_is_refused() {
     }
 }
 
-/// Numbers in a record.
-fn numbers(value: &Value) -> usize {
-    match value {
-        Value::Number(_) => 1,
-        Value::Array(all) => all.iter().map(numbers).sum(),
-        Value::Object(all) => all.values().map(numbers).sum(),
-        _ => 0,
-    }
-}
-
-#[test]
-fn what_a_state_holds_is_known_before() {
-    let steps = "periods = 0.5\nsteps_per_period = 100\noutputs_per_period = 10";
-    let mut scene = plan(40, COUETTE, DENSE, steps, 3).scene().clone();
-    for rods_at in [vec![], vec![0.0, 0.2, 0.4]] {
-        scene.output.rods_at = rods_at;
-        let plan = Plan::new(&scene).unwrap();
-        let (states, _) = watched(&plan, None);
-        let held = 8 * numbers(&serde_json::to_value(states.last().unwrap()).unwrap()) as u64;
-        let said = Halfway::bytes(&plan);
-        assert!(10 * said > 8 * held && said < 3 * held, "{said} {held}");
-    }
-}
-
 #[test]
 fn replicas_and_tallies_of_other_scenes_are_refused() {
     let steps = "periods = 0.5\nsteps_per_period = 100\noutputs_per_period = 10";

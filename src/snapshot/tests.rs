@@ -1,25 +1,17 @@
 //! Rods that are read from a checkpoint or another rank are those of the plan, or are refused.
 
 use super::*;
+use crate::scene::{Interaction, Scene};
 
-const SCENE: &str = r#"
-title = "t"
-[flow]
-shear_rate_per_s = 0.5
-[particles]
-count = 20
-length_mm = 0.72
-aspect_ratio = 11.6
-orientation = "isotropic"
-[time]
-periods = 1
-outputs_per_period = 4
-[output]
-rods_at = [0.5, 1]
-"#;
-
-fn plan(more: &str) -> Plan {
-    Plan::new(&crate::scene_file::parse("s.toml", &format!("{SCENE}{more}")).unwrap()).unwrap()
+fn plan(interaction: Option<Interaction>, count: usize) -> Plan {
+    let mut scene = Scene {
+        interaction,
+        ..Scene::default()
+    };
+    scene.particles.count = count;
+    scene.time.outputs_per_period = Some(4);
+    scene.output.rods_at = vec![0.5, 1.0];
+    Plan::new(&scene).unwrap()
 }
 
 type Damage = fn(&mut Snapshot);
@@ -51,8 +43,8 @@ fn rods_that_are_not_the_plan_s_are_refused() {
             },
         ),
     ];
-    for more in ["", "[interaction]\nconcentration_per_cm3 = 200\nalpha = 0.5\n"] {
-        let plan = plan(more);
+    for interaction in [None, Some(Interaction::default())] {
+        let plan = plan(interaction.clone(), 20);
         let whole = crate::run::run_replica(&plan, 0).unwrap().snapshots;
         assert!(Snapshot::all_fit(&whole, 2, &plan));
         assert!(!Snapshot::all_fit(&whole, 3, &plan) && !Snapshot::all_fit(&whole[..1], 2, &plan));
@@ -63,6 +55,14 @@ fn rods_that_are_not_the_plan_s_are_refused() {
         }
         let mut without = whole.clone();
         without[0].place_in_lengths = None;
-        assert_eq!(Snapshot::all_fit(&without, 2, &plan), more.is_empty());
+        assert_eq!(Snapshot::all_fit(&without, 2, &plan), interaction.is_none());
     }
+}
+
+#[test]
+fn a_rod_that_meets_none_has_no_place() {
+    let plan = plan(Some(Interaction::default()), 1);
+    let whole = crate::run::run_replica(&plan, 0).unwrap().snapshots;
+    assert_eq!(whole[0].place_in_lengths, None);
+    assert!(Snapshot::all_fit(&whole, 2, &plan));
 }
