@@ -1,25 +1,16 @@
 //! States of one's own.
 
 use super::*;
+use crate::scene::{Interaction, Scene};
 
 #[test]
 fn a_state_of_other_counts_is_refused_and_changes_nothing() {
-    let scene = r#"
-title = "t"
-[flow]
-shear_rate_per_s = 0.5
-[particles]
-count = 3
-length_mm = 0.72
-aspect_ratio = 11.6
-orientation = "isotropic"
-[interaction]
-concentration_per_cm3 = 200
-alpha = 0.5
-[time]
-periods = 1
-"#;
-    let plan = Plan::new(&crate::scene_file::parse("s.toml", scene).unwrap()).unwrap();
+    let mut scene = Scene {
+        interaction: Some(Interaction::default()),
+        ..Scene::default()
+    };
+    scene.particles.count = 3;
+    let plan = Plan::new(&scene).unwrap();
     let mut suspension = Suspension::new(&plan, 0).unwrap();
     let before = suspension.positions_in_lengths().clone();
     let places = |count| [(); 3].map(|()| vec![0.1; count]);
@@ -42,27 +33,20 @@ periods = 1
 /// Two rods that are sure to collide, in a flow of either sign.
 #[test]
 fn a_collision_gives_both_contact_points_the_mean_velocity_along_the_line() {
-    for rate in ["0.5", "-0.5"] {
-        let scene = format!(
-            r#"
-title = "t"
-[flow]
-gradient_per_s = [[0, 0, 0], [{rate}, 0, 0], [0, 0, 0]]
-[particles]
-count = 2
-length_mm = 0.72
-aspect_ratio = 11.6
-orientation = "isotropic"
-[interaction]
-concentration_per_cm3 = 1
-alpha = 1e12
-[time]
-periods = 1
-steps_per_period = 100000
-outputs_per_period = 1
-"#
-        );
-        let plan = Plan::new(&crate::scene_file::parse("s.toml", &scene).unwrap()).unwrap();
+    for sign in [1.0, -1.0] {
+        let mut scene = Scene {
+            interaction: Some(Interaction {
+                concentration_per_cm3: 1.0,
+                alpha: 1e12,
+                ..Interaction::default()
+            }),
+            ..Scene::default()
+        };
+        scene.flow.shear_rate_per_s = None;
+        scene.flow.gradient_per_s = Some([[0.0; 3], [0.5 * sign, 0.0, 0.0], [0.0; 3]]);
+        scene.particles.count = 2;
+        (scene.time.steps_per_period, scene.time.outputs_per_period) = (Some(100_000), Some(1));
+        let plan = Plan::new(&scene).unwrap();
         let mut suspension = Suspension::new(&plan, 0).unwrap();
         let side = suspension.side_in_lengths();
         let centres = [[0.4, 0.5, 0.5], [0.55, 0.45, 0.6]].map(|x| x.map(|x| x * side));
@@ -72,7 +56,6 @@ outputs_per_period = 1
         assert_eq!(suspension.step().unwrap().len(), 1);
 
         // By the paper's words: u at each contact point's centre plus r ṗ, along the line.
-        let sign = if rate == "0.5" { 1.0 } else { -1.0 };
         let [a, b] = centres.map(Vector3::from);
         let met = contact(&(b - a), &start[0], &start[1], 0.0).unwrap();
         let liquid = |x: &Vector3<f64>| Vector3::new(0.0, sign * x.x, 0.0);
@@ -88,7 +71,7 @@ outputs_per_period = 1
         let mean = 0.5 * (before_a + before_b);
         for velocity in along(&rates) {
             // A step of 7e-4 bends the path by about as much.
-            assert!((velocity - mean).abs() < 5e-3, "{rate}: {velocity} {mean}");
+            assert!((velocity - mean).abs() < 5e-3, "{sign}: {velocity} {mean}");
         }
     }
 }

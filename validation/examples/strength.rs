@@ -1,7 +1,8 @@
 //! Tries the probabilities that the gate promises: the cases at many seeds, and how often each turned red, and why.
 //!
 //! `cargo run --release -p shearbed-suite --example strength -- SEEDS [full] [CASE...]` prints the tables of
-//! `docs/strength.md`, after every 20 seeds those until then. A case whose evidence is the same at the first two seeds draws nothing, and is not run again.
+//! `docs/strength.md`, after every 20 seeds those until then. A case whose evidence is the same at the first two seeds draws
+//! nothing, and is not run again.
 
 use std::collections::BTreeMap;
 use validation::accept::{Rule, Verdict};
