@@ -1,8 +1,5 @@
 //! The paper's equations, and the code by which a run has them: with the registry of cases this makes the traceability table.
 
-#[cfg(test)]
-mod reach;
-
 /// One numbered equation of the paper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Equation {
@@ -135,11 +132,10 @@ const fn eq(number: &'static str, says: &'static str, code: &'static [&'static s
 
 #[cfg(test)]
 mod tests {
-    use super::reach::Source;
     use super::*;
     use crate::cases;
+    use crate::source::{self, reach::Source};
     use std::collections::BTreeSet;
-    use std::path::Path;
 
     #[test]
     fn the_paper_s_equations_are_all_there_once() {
@@ -178,7 +174,7 @@ mod tests {
 
     #[test]
     fn the_code_it_points_to_is_what_a_run_executes() {
-        let source = Source::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../src"));
+        let source = Source::read(&source::core());
         for equation in ALL {
             for place in equation.code {
                 let (module, item) = place.split_once(".rs: ").expect("file.rs: item");

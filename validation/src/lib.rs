@@ -31,6 +31,8 @@ pub mod reference;
 pub mod report;
 pub mod scene_keys;
 pub mod scenes;
+#[cfg(test)]
+mod source;
 pub mod speed;
 pub mod stability;
 pub mod start;

@@ -46,21 +46,16 @@ impl Source {
     /// Every file below a folder.
     pub fn read(folder: &Path) -> Self {
         let mut found = Self::default();
-        found.read_folder(folder, None);
+        for file in super::files(folder) {
+            found.add(&file.room, &file.text);
+        }
         found
     }
 
-    fn read_folder(&mut self, folder: &Path, module: Option<&str>) {
-        for entry in std::fs::read_dir(folder).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            let stem = path.file_stem().expect("a name").to_string_lossy().into_owned();
-            let module = module.unwrap_or(&stem);
-            if path.is_dir() {
-                self.read_folder(&path, Some(module));
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
-                self.add(module, &std::fs::read_to_string(&path).expect("text"));
-            }
-        }
+    /// Whether there is an item of that name in a module, or of a type.
+    pub fn has(&self, before: &str, name: &str) -> bool {
+        let is_it = |node: &Node| node.module == before || node.owner.as_deref() == Some(before);
+        self.0.iter().any(|node| node.name == name && is_it(node))
     }
 
     /// The items of one file of a module.
