@@ -258,17 +258,11 @@ fn nearest(path: &str) -> Option<&'static str> {
         return None;
     }
     let tables = paths(&TABLES).filter(|_| table(path).is_empty());
-    let likeness = |key: &&'static str| {
-        (
-            strsim::jaro_winkler(last(path), last(key)),
-            table(path) == table(key),
-        )
-    };
-    let all = paths(&KEYS).chain(tables).map(|key| (likeness(&key), key));
-    // Of equals the one in the same table, or the first.
+    let likeness = |key| strsim::jaro_winkler(last(path), last(key));
+    let all = paths(&KEYS).chain(tables).map(|key| (likeness(key), key));
     let (best, key) = all.reduce(|a, b| if b.0 > a.0 { b } else { a })?;
     // A letter too many, too few or exchanged leaves more than this in words of five letters.
-    (best.0 > 0.85).then_some(key)
+    (best > 0.85).then_some(key)
 }
 
 fn paths(keys: &'static [scene::Key]) -> impl Iterator<Item = &'static str> {

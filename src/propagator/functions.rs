@@ -49,7 +49,7 @@ pub(super) fn sin_cos(turns: Ball) -> (Ball, Ball) {
     for _ in 0..2 {
         let nearest = (4.0 * rest.hi).round();
         rest = rest - Ball::exact(0.25 * nearest);
-        quarters = (quarters + nearest % 4.0) % 4.0;
+        quarters += nearest % 4.0;
     }
     let angle = Ball::TAU * rest;
     let z = -(angle * angle);
