@@ -66,7 +66,8 @@ impl Test {
     }
 }
 
-/// All tests of the workspace that pass without a mutant, the quickest first, with what each reaches.
+/// All tests of the workspace that pass without a mutant, with what each reaches: those of the package that has the mutants, and the
+/// others, the quickest first.
 pub fn tests(tree: &Tree) -> Result<Vec<Test>, Box<dyn Error>> {
     let (messages, failed) = tree.cargo(&["test", "--no-run"])?;
     if let Some(why) = failed {
@@ -114,6 +115,7 @@ pub fn tests(tree: &Tree) -> Result<Vec<Test>, Box<dyn Error>> {
     });
     tests.retain(|test| !test.reached.is_empty());
     tests.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
+    tests.sort_by_key(|test| !tree.is_package(&test.folder));
     Ok(tests)
 }
 

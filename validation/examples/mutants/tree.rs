@@ -10,6 +10,8 @@ use std::process::Command;
 
 pub struct Tree {
     pub root: PathBuf,
+    /// The folder of the package that has the mutants, below the root.
+    package: String,
     /// Where it is built: cargo takes the copy's crates for those that it was copied from, if it finds these.
     target: PathBuf,
     /// The place of each mutant that can be switched on.
@@ -21,8 +23,10 @@ pub struct Tree {
 impl Tree {
     /// Copies what is under version control to `out/tree`, which is built in `out/target`, and puts the mutants of one package in.
     pub fn new(from: &Path, out: &Path, mutants: &[Mutant]) -> Result<Tree, Box<dyn Error>> {
+        let file = &mutants[0].file;
         let mut tree = Tree {
             root: out.join("tree"),
+            package: file[..file.rfind("src/").ok_or("a mutant beside src")?].to_owned(),
             target: out.join("target"),
             places: BTreeMap::new(),
             refused: BTreeSet::new(),
@@ -55,10 +59,8 @@ impl Tree {
     }
 
     fn write(&mut self, from: &Path, mutants: &[Mutant]) -> Result<(), Box<dyn Error>> {
-        let file = &mutants[0].file;
-        let folder = &file[..file.rfind("src/").ok_or("a mutant beside src")?];
         // The library has the switches.
-        let library = format!("{folder}src/lib.rs");
+        let library = format!("{}src/lib.rs", self.package);
         let mut of: BTreeMap<&str, Vec<&Mutant>> = BTreeMap::from([(library.as_str(), Vec::new())]);
         for mutant in mutants.iter().filter(|mutant| !self.refused.contains(&mutant.id)) {
             of.entry(&mutant.file).or_default().push(mutant);
@@ -113,6 +115,11 @@ impl Tree {
         let (id, _) = text.get(..at)?.rsplit_once("/*<")?.1.split_once("*/")?;
         let end = text.find(&format!("/*{id}>*/"))?;
         (at <= end).then(|| id.parse().ok())?
+    }
+
+    /// Whether a folder is the package's.
+    pub fn is_package(&self, folder: &Path) -> bool {
+        folder == self.root.join(self.package.trim_end_matches('/'))
     }
 
     /// What a cargo command says in JSON, and why it failed where it did.
