@@ -1,5 +1,8 @@
 //! Checking how the rods are shaped and where they start: what goes together.
 
+#[cfg(test)]
+mod tests;
+
 use super::allowed::Invalid;
 use super::particles::equivalent;
 use super::{Orientation, Scene, find};

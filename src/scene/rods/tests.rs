@@ -1,0 +1,69 @@
+//! What goes together of shapes and starts, at both sides of each limit.
+
+use crate::scene::{Invalid, Orientation, Scene};
+use crate::shape::Correlation;
+
+fn refusal(scene: &Scene) -> String {
+    scene.checked().expect_err("it is refused").to_string()
+}
+
+/// 3σ reaches 1, or 0 of discs.
+#[test]
+fn the_widest_spread_is_told_and_a_little_less_is_taken() {
+    for (mean, widest) in [
+        (4.0, 25.0),
+        (1.5, 100.0 / 9.0),
+        (0.25, 100.0 / 3.0),
+        (0.8, 25.0 / 3.0),
+    ] {
+        let mut scene = Scene::default();
+        scene.particles.aspect_ratio = mean;
+        for (share, taken) in [(0.999, true), (1.001, false)] {
+            scene.particles.aspect_ratio_sd_percent = widest * share;
+            assert_eq!(scene.checked().is_ok(), taken, "{mean}: {share}");
+        }
+        let told = format!("with mean {mean} below {widest:.4}, three standard deviations");
+        assert!(refusal(&scene).contains(&told), "{}", refusal(&scene));
+    }
+    let mut scene = Scene::default();
+    scene.particles.aspect_ratio = 4.0;
+    scene.particles.aspect_ratio_sd_percent = 25.0;
+    assert!(scene.checked().is_err(), "the limit itself");
+}
+
+#[test]
+fn an_aspect_ratio_beside_a_cylinder_is_the_one_that_its_formula_makes() {
+    let mut scene = Scene::default();
+    scene.particles.physical_aspect_ratio = Some(20.0);
+    scene.particles.shape_correlation = Some(Correlation::Cox);
+    let made = Correlation::Cox.formula().equivalent(20.0).unwrap();
+    scene.particles.aspect_ratio = made;
+    assert!(scene.checked().is_ok());
+    scene.particles.aspect_ratio = made.next_up();
+    assert!(
+        refusal(&scene).contains(&format!("Cox 1971 makes {made}")),
+        "{}",
+        refusal(&scene)
+    );
+}
+
+#[test]
+fn a_start_has_length_1_to_a_few_roundings() {
+    let start = |length: f64| -> Result<(), Invalid> {
+        let mut scene = Scene::default();
+        scene.particles.count = 2;
+        scene.particles.orientation = Orientation::Each {
+            file: "start.csv".into(),
+            crc32: None,
+            p: Some([vec![1.0, 0.0], vec![0.0, length], vec![0.0; 2]].into()),
+        };
+        scene.checked().map(|_| ())
+    };
+    for length in [1.0, 1.0 + 4.0 * f64::EPSILON, 1.0 - 4.0 * f64::EPSILON] {
+        assert_eq!(start(length), Ok(()), "{length}");
+    }
+    for length in [1.0 + 1e-14, 1.0 - 1e-14, 0.0, 2.0, f64::NAN] {
+        let refusal = start(length).unwrap_err().to_string();
+        assert!(refusal.contains("that of rod 1 is not"), "{length}: {refusal}");
+    }
+}
