@@ -55,8 +55,8 @@ fn share() -> impl Strategy<Value = f64> {
     prop_oneof![Just(-1.0), Just(1.0), -1.0f64..1.0]
 }
 
-/// Large enough that an exact result of 300 bits counts as exact.
-const ONE: f64 = 1.0 + 1e-9;
+/// The error itself is rounded up.
+const ONE: f64 = 1.0;
 
 proptest! {
     #![proptest_config(crate::fixed_seed(1000))]
@@ -79,6 +79,15 @@ proptest! {
     fn quotients_hold_the_exact_ones(a in ball(), b in ball(), s in share(), t in share()) {
         prop_assume!(b.least() > 0.0);
         prop_assert!(off(a.over(b), &(within(a, s) / within(b, t))) <= ONE, "{a:?} / {b:?}");
+    }
+
+    /// Down to where doubles end, and in their usual range without any rounding.
+    #[test]
+    fn scaled_ones_hold_the_exact_ones(a in ball_of(-20..20), s in share(), power in -1060i32..900) {
+        let scaled = a.scaled(libm::scalbn(1.0, power));
+        let exact = within(a, s) * big(2.0).powi(power.into());
+        prop_assert!(scaled.is_zero() && a.is_zero() || off(scaled, &exact) <= ONE, "{a:?} {scaled:?}");
+        prop_assert!(power < -800 || scaled.error == a.error * libm::scalbn(1.0, power));
     }
 
     #[test]
