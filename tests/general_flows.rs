@@ -103,9 +103,12 @@ fn a_start_on_a_dividing_plane_is_refused_however_it_is_given() {
     };
     let start = "{ phi_deg = 135, theta_deg = 90 }";
     for sd in [0.0, 1.0] {
-        let error = told(sd, start, 100.0).unwrap_err().to_string();
-        let cause = "the start is a double, and this flow tells apart what a double cannot";
-        assert!(error.contains(cause), "{sd}: {error}");
+        // Far beyond the limit, and a little.
+        for strain in [100.0, 27.0] {
+            let error = told(sd, start, strain).unwrap_err().to_string();
+            let cause = "the start is a double, and this flow tells apart what a double cannot";
+            assert!(error.contains(cause), "{sd}: {error}");
+        }
         assert!(told(sd, start, 5.0).is_ok(), "{sd}");
         // Random starts are the doubles that were drawn.
         let random = Plan::new(&told(sd, "\"isotropic\"", 100.0).unwrap()).unwrap();

@@ -61,6 +61,7 @@ fn a_run_holds_what_it_says_and_its_steps_allocate_nothing() {
     for (concentration_per_cm3, most_per_rod) in [
         (Some(50.0), 120.0),
         (Some(1e-3), 120.0),
+        (Some(2e3), 200.0),
         // So dense that nearly every rod is on every list.
         (Some(1e6), 270.0),
         (None, 33.0),
@@ -74,6 +75,10 @@ fn a_run_holds_what_it_says_and_its_steps_allocate_nothing() {
             held / count as f64
         );
         agree(held, memory::bytes(&plan, 1), &what);
+        let mut twice = plan.scene().clone();
+        twice.ensemble.replicas = 2;
+        let twice = Plan::new(&twice).unwrap();
+        agree(2.0 * held, memory::bytes(&twice, 2), "two at a time");
     }
     for (what, scene) in others() {
         let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
