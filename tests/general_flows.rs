@@ -228,3 +228,27 @@ fn a_rod_on_an_axis_of_the_flow_stays_there() {
         assert!(moved.p == start && moved.error < 1e-14, "{moved:?}");
     }
 }
+
+/// Of rods that come back, one period is worked out; the next are the same bits.
+#[test]
+fn what_comes_back_is_the_same_in_every_period() {
+    let turned = [[0.0; 3], [0.0; 3], [0.0, 0.5, 0.0]];
+    for orientation in ["\"isotropic\"", "{ phi_deg = 20, theta_deg = 70 }"] {
+        let text = scene(
+            turned,
+            5.0,
+            0.0,
+            orientation,
+            "periods = 3\noutputs_per_period = 8",
+        );
+        let plan = Plan::new(&scene_file::parse("s.toml", &text).unwrap()).unwrap();
+        let results = ensemble::run(&plan).unwrap();
+        let x2 = &results.column("x2").unwrap().mean;
+        assert_eq!(x2.len(), 25);
+        assert_eq!((&x2[..8], &x2[..8]), (&x2[8..16], &x2[16..24]));
+        // Half a period turns a rod round; within it no two are alike.
+        let mut half = x2[..4].to_vec();
+        half.sort_by(f64::total_cmp);
+        assert!(half.windows(2).all(|pair| pair[1] - pair[0] > 1e-6), "{x2:?}");
+    }
+}

@@ -90,9 +90,10 @@ fn a_run_holds_what_it_says_and_its_steps_allocate_nothing() {
         });
         agree(held, said, what);
     }
-    for rods_at in [vec![], vec![0.0, 0.025]] {
-        let mut scene = many_rods(1000, Some(50.0)).scene().clone();
-        scene.time.outputs_per_period = Some(40);
+    // Rods, rods that are wanted, and sums are what is held.
+    for (count, rods_at) in [(1000, vec![]), (1000, vec![0.0, 0.025]), (2, vec![])] {
+        let mut scene = many_rods(count, Some(50.0).filter(|_| count > 2)).scene().clone();
+        scene.time.outputs_per_period = Some(if count > 2 { 40 } else { 40_000 });
         scene.output.rods_at = rods_at;
         let plan = Plan::new(&scene).unwrap();
         let mut held = 0.0f64;

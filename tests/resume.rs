@@ -21,6 +21,13 @@ const COUETTE: &str = "gradient_per_s = [[0,0,0],[-0.5,0,0],[0,0,0]]";
 const DENSE: &str = "[interaction]\nconcentration_per_cm3 = 500\nalpha = 0.5";
 const ANGLES: &str = "[interaction]\nconcentration_per_cm3 = 500\nalpha = 0.5\nupdate = \"angles\"";
 
+/// The same with every rod at some times.
+fn with_rods(plan: Plan, rods_at: Vec<f64>) -> Plan {
+    let mut scene = plan.scene().clone();
+    scene.output.rods_at = rods_at;
+    Plan::new(&scene).unwrap()
+}
+
 /// Scenes that keep something different each, and how often they are looked at in one replica.
 fn scenes() -> Vec<(Plan, usize)> {
     let steps = "periods = 0.5\nsteps_per_period = 100\noutputs_per_period = 10";
@@ -40,6 +47,15 @@ fn scenes() -> Vec<(Plan, usize)> {
                 3,
             ),
             6,
+        ),
+        // Every rod at some outputs.
+        (
+            with_rods(plan(40, COUETTE, DENSE, steps, 3), vec![0.1, 0.3, 0.5]),
+            50,
+        ),
+        (
+            with_rods(plan(40, COUETTE, "", "periods = 3", 3), vec![0.0, 2.0]),
+            3,
         ),
         // Free rods, more outputs than are made at once.
         (plan(40, COUETTE, "", "periods = 3", 3), 3),

@@ -77,3 +77,19 @@ fn lanes_sum_every_rod_once() {
     sum.add_each(3, |i| i as f64);
     assert_eq!((sum.value, sum.square), (4.0, Some(15.0)));
 }
+
+/// C/(C + 1) from 0 to 1 in 20 bins, both ends included.
+#[test]
+fn the_ends_of_the_orbits_are_in_the_first_and_the_last_bin() {
+    for (p, bin) in [([0.0, 1.0, 0.0], 19), ([0.0, 0.0, 1.0], 0)] {
+        let mut block = Block {
+            len: 1,
+            ..Block::default()
+        };
+        block.p.iter_mut().zip(p).for_each(|(axis, x)| axis[0] = x);
+        let mut sums = vec![Sum::default(); Observable::OrbitConstant.width()];
+        Observable::OrbitConstant.add(&block, &mut sums);
+        let filled: Vec<_> = (0..20).filter(|k| sums[k + 1].value != 0.0).collect();
+        assert_eq!((filled, sums[bin + 1].value), (vec![bin], 20.0));
+    }
+}

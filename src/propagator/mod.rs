@@ -226,11 +226,6 @@ impl Propagator {
         Some((Phase::of_turns(turns * shear_rate_per_s.signum()), error))
     }
 
-    /// The linear map q = M p over `turns` periods of this propagator; `None` where it has no period.
-    pub fn map_over_turns(&self, turns: f64) -> Option<Matrix3<f64>> {
-        self.map(Span::Periods(turns, 1.0)).map(|(map, _)| map)
-    }
-
     /// The direction of a rod `time_s` ≥ 0 seconds after it pointed along `p`.
     pub fn after(&self, p: &UnitVector3<f64>, time_s: f64) -> UnitVector3<f64> {
         self.moved(p, Span::Seconds(time_s)).map_or(*p, |moved| moved.p)

@@ -87,12 +87,99 @@ proptest! {
     fn plane_couette_flow_by_either_way(phi in 0.0f64..6.2, theta in 0.0f64..3.1, r in 0.05f64..50.0, turns in 0.0f64..3.0) {
         let p = orientation::from_angles(phi, theta);
         let flow = VelocityGradient::plane_couette(-0.5).unwrap();
-        let span = Span::Periods(turns, 1.0);
-        let closed = Propagator::new(&flow, r).moved(&p, span).unwrap();
-        let general = Propagator::general(&flow, r).moved(&p, span).unwrap();
-        prop_assert!(apart(&closed.p, &general.p) <= closed.error + general.error);
-        prop_assert!(general.error < 1e-14);
+        let (closed, general) = (Propagator::new(&flow, r), Propagator::general(&flow, r));
+        let strain = turns * jeffery::strain_per_period(r);
+        for span in [
+            Span::Periods(turns, 1.0),
+            Span::Periods(7.0 * turns, 7.0),
+            Span::Strain(3.0 * strain, 3.0),
+            Span::Seconds(strain / 0.5),
+        ] {
+            let by_form = closed.moved(&p, span).unwrap();
+            let by_modes = general.moved(&p, span).unwrap();
+            prop_assert!(apart(&by_form.p, &by_modes.p) <= by_form.error + by_modes.error, "{span:?}");
+            prop_assert!(by_modes.error < 1e-14);
+            // The longer of r_e and 1/r_e is by how much a direction can be turned more than its start, and a phase's error.
+            let longer = r.max(1.0 / r);
+            prop_assert_eq!(by_form.condition, longer);
+            let (_, of_phase) = closed.map(span).unwrap();
+            prop_assert_eq!(by_form.error, of_phase * longer);
+        }
     }
+
+    /// Rods of another aspect ratio are looked at when the mean's have turned.
+    #[test]
+    fn periods_are_those_of_the_mean(phi in 0.0f64..6.2, theta in 0.0f64..3.1, r in 2.0f64..30.0, turns in 0.0f64..5.0) {
+        let p = orientation::from_angles(phi, theta);
+        // Shear u_3 = x_2/2, and with it an extension that keeps the turning.
+        for rows in [
+            [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.5, 0.0]],
+            [[-0.2, 0.0, 0.0], [0.0, 0.1, -0.5], [0.0, 0.5, 0.1]],
+        ] {
+            let [mean, rods] = [11.6, r].map(|r| Propagator::new(&flow(rows), r));
+            let (span, seconds) = (Span::Periods(turns * 4.0, 4.0), Span::Seconds(turns * mean.period_s().unwrap()));
+            let moved = rods.moved_beside(&mean, &p, span).unwrap();
+            prop_assert!(apart(&moved.p, &rods.moved(&p, seconds).unwrap().p) < 1e-9);
+            let (direction, _) = rods.direction_beside(&mean, (*p).into(), span).unwrap();
+            prop_assert!(apart(&moved.p, &UnitVector3::new_normalize(direction.into())) < 1e-9);
+            for (rods, mean) in [(&rods, &mean), (&rods, &rods)] {
+                let (map, _) = rods.map_beside(mean, span).unwrap();
+                let seconds = Span::Seconds(turns * mean.period_s().unwrap());
+                let by_map = UnitVector3::new_normalize(map * p.as_ref());
+                prop_assert!(apart(&rods.moved(&p, seconds).unwrap().p, &by_map) < 1e-9);
+            }
+            let (own, _) = rods.map(Span::Periods(turns, 1.0)).unwrap();
+            let by_map = UnitVector3::new_normalize(own * p.as_ref());
+            prop_assert!(apart(&rods.after_turns(&p, turns).unwrap(), &by_map) < 1e-9);
+        }
+    }
+}
+
+/// A turn is rounded, and of turns that come from seconds or strain four numbers are.
+#[test]
+fn the_error_of_a_phase_grows_with_its_turns() {
+    let flow = VelocityGradient::plane_couette(0.5).unwrap();
+    let propagator = Propagator::new(&flow, 11.6);
+    let strain = 1e6 * jeffery::strain_per_period(11.6);
+    for (span, roundings) in [
+        (Span::Periods(1e6, 1.0), 1.0),
+        (Span::Strain(strain, 1.0), 4.0),
+        (Span::Seconds(2.0 * strain), 4.0),
+    ] {
+        let (_, error) = propagator.map(span).unwrap();
+        let expected = roundings * TAU * 1e6 * f64::EPSILON;
+        assert!((error / expected - 1.0).abs() < 1e-5, "{error} {expected}");
+    }
+    let (_, of_nothing) = propagator.map(Span::Seconds(0.0)).unwrap();
+    assert_eq!(of_nothing, 16.0 * f64::EPSILON);
+}
+
+#[test]
+fn a_direction_and_a_map_have_no_size() {
+    let ball = |hi: f64, error: f64| Ball { hi, lo: 0.0, error };
+    for size in [1e-5, 1.0, 3e7] {
+        let q = [
+            ball(3.0 * size, 3e-6 * size),
+            ball(-4.0 * size, 4e-6 * size),
+            Ball::ZERO,
+        ];
+        let (p, error) = normalized(&q);
+        let expected = [0.6, -0.8, 0.0];
+        assert!((0..3).all(|k| (p[k] - expected[k]).abs() < 1e-15), "{p:?}");
+        // Its error has a length of 5e-6 · size, and it has one of 5 · size.
+        assert!((error / 1.01e-6 - 1.0).abs() < 1e-9, "{error}");
+
+        let map =
+            [0, 1, 2].map(|i| [0, 1, 2].map(|j| ball(if i == j { 4.0 * size } else { 0.0 }, 4e-20 * size)));
+        let (_, error) = general::rounded(&map);
+        // Nine components with that error, three of that size.
+        assert!((error / (3f64.sqrt() * 1e-20) - 1.0).abs() < 1e-12, "{error}");
+        let moved = moved(&map, &q, [0.6, -0.8, 0.0]);
+        // Here the map is of 4 where the rod has grown to 5.
+        assert!((moved.condition - 0.8).abs() < 1e-12, "{}", moved.condition);
+    }
+    let exact = [3.0, 4.0, 0.0].map(Ball::exact);
+    assert_eq!(normalized(&exact).1, 4.0 * f64::EPSILON);
 }
 
 #[test]
@@ -111,7 +198,10 @@ fn a_spiral_keeps_its_phase_over_many_turns() {
     // Rotation about axis 3 with compression along it: p falls into the plane and turns there at ½.
     let spiral = flow([[0.1, -0.5, 0.0], [0.5, 0.1, 0.0], [0.0, 0.0, -0.2]]);
     let propagator = Propagator::new(&spiral, 5.0);
-    assert!(propagator.drift_per_period().unwrap() > 1.0);
+    // Λ times growth at 0.1 against −0.2, while it turns once at ½.
+    let drift = propagator.drift_per_period().unwrap();
+    let expected = 0.3 * jeffery::shape_factor(5.0) * 2.0 * TAU;
+    assert!((drift / expected - 1.0).abs() < 1e-12, "{drift}");
     let p = orientation::from_angles(0.3, 1.0);
     let turns = 1e6;
     let end = propagator.after(&p, turns * 2.0 * TAU);
