@@ -225,11 +225,7 @@ fn draw_shapes(plan: &Plan, replica: u64) -> (Shapes, u64) {
     let mut redrawn = 0;
     // A rod stays a rod and a disc a disc; a draw across r_e = 1 (or below 0) is drawn again (eq. 11).
     let allowed = |r: f64| {
-        if mean > 1.0 {
-            r > 1.0
-        } else {
-            r > 0.0 && (r < 1.0 || mean == 1.0)
-        }
+        if mean > 1.0 { r > 1.0 } else { r > 0.0 && r < 1.0 }
     };
     let aspect_ratio: Vec<f64> = (0..particles.count)
         .map(|_| {

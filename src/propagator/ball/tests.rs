@@ -75,8 +75,10 @@ proptest! {
         prop_assert!(off(a + b, &(within(a, s) + within(b, t))) <= ONE, "{a:?} + {b:?}");
     }
 
+    /// Down to where doubles end.
     #[test]
-    fn quotients_hold_the_exact_ones(a in ball(), b in ball(), s in share(), t in share()) {
+    fn quotients_hold_the_exact_ones(a in ball(), b in ball(), s in share(), t in share(), power in prop_oneof![Just(0i32), 0i32..900]) {
+        let b = b.scaled(libm::scalbn(1.0, power));
         prop_assume!(b.least() > 0.0);
         prop_assert!(off(a.over(b), &(within(a, s) / within(b, t))) <= ONE, "{a:?} / {b:?}");
     }
@@ -177,7 +179,16 @@ fn what_is_exact_stays_exact() {
     assert_eq!((half + half, half * half), (Ball::ONE, Ball::exact(0.25)));
     assert!((half - half).is_zero() && (half * Ball::ZERO).is_zero() && Ball::ZERO.over(half).is_zero());
     assert_eq!(Ball::ONE.over(half), Ball::exact(2.0));
-    assert!(Ball::ONE.over(Ball::ZERO).error.is_infinite() || Ball::ONE.over(Ball::ZERO).error.is_nan());
+    assert!(Ball::ZERO.over(third).is_zero());
+    for dividend in [Ball::ONE, Ball::ZERO] {
+        for divisor in [Ball::ZERO, Ball::exact(1e-9).widened(1e-9)] {
+            let most = dividend.over(divisor).most();
+            assert!(most.is_infinite() || most.is_nan(), "{dividend:?} {divisor:?}");
+        }
+    }
+    // A quotient of doubles that is one, of which one is not known well.
+    let six = Ball::exact(6.0);
+    assert!(six.widened(1e-3).over(half).error > 1e-3 && six.over(half.widened(1e-3)).error > 1e-2);
 }
 
 #[test]

@@ -167,3 +167,35 @@ fn the_build_script_knows_its_own_checkout_alone() {
     project(&other.join("untracked"));
     assert_eq!(commit(&other.join("untracked")), "unknown");
 }
+
+#[test]
+fn a_record_says_which_stages_ran_and_why_as_the_plan_does() {
+    let dir = folder();
+    for (scene, out, moved) in [("small.toml", "a", true), ("free.toml", "b", false)] {
+        fs::write(dir.path().join("free.toml"), FREE).unwrap();
+        let run = shearbed(dir.path(), &format!("run {scene} --out {out}"));
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let text = fs::read_to_string(dir.path().join(out).join("run.json")).unwrap();
+        let record: Value = serde_json::from_str(&text).unwrap();
+        let stages = record["plan"].as_array().unwrap();
+        let kept = |name: &str| stages.iter().find(|stage| stage["stage"] == name).unwrap()["kept"] == moved;
+        assert!(
+            kept("translation") && kept("neighbours") && kept("contacts"),
+            "{text}"
+        );
+        // One line each, as `shearbed plan` prints it.
+        let lines = record["plan_text"].as_str().unwrap().lines();
+        let lines: Vec<_> = lines
+            .filter(|line| line.starts_with("keep ") || line.starts_with("drop "))
+            .collect();
+        for (stage, line) in stages.iter().zip(&lines) {
+            let reason = stage["reason"].as_str().unwrap();
+            let word = if stage["kept"] == true { "keep " } else { "drop " };
+            assert!(
+                line.starts_with(word) && line.ends_with(reason),
+                "{line}: {stage}"
+            );
+        }
+        assert!(stages.len() > 10 && lines.len() == stages.len());
+    }
+}
