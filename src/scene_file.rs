@@ -243,7 +243,6 @@ fn unknown(path: &str) -> String {
         .filter(|key| table(key) == table(path));
     let known: Vec<_> = known.map(|key| format!("`{}`", last(key))).collect();
     let expected = match known.as_slice() {
-        [one] => one.clone(),
         [one, other] => format!("{one} or {other}"),
         _ => format!("one of {}", known.join(", ")),
     };

@@ -331,3 +331,15 @@ fn the_unit_of_a_period_is_the_same_in_any_axes() {
         "{of_turned:?}"
     );
 }
+
+/// A flow so slow that one period is a number of seconds, and many are not.
+#[test]
+fn a_duration_is_a_number_of_seconds() {
+    let mut scene = plan(FREE).scene().clone();
+    scene.flow.shear_rate_per_s = Some(1e-304);
+    (scene.time.periods, scene.time.outputs_per_period) = (Some(1.0), Some(1));
+    assert!(Plan::new(&scene).is_ok());
+    scene.time.periods = Some(1e5);
+    let refused = Plan::new(&scene).unwrap_err().to_string();
+    assert!(refused.contains("finite number of seconds"), "{refused}");
+}

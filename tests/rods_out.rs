@@ -138,3 +138,27 @@ fn times_that_are_no_outputs_are_refused_with_what_is() {
     let asked = scene(&format!("{text}[output]\nrods_at = [0.333333, 0.66666667]\n"));
     assert_eq!(Plan::new(&asked).unwrap().rods_outputs(), [1, 2]);
 }
+
+/// At the widest spread that is allowed one draw in 750 crosses 1, or of discs 0, and is drawn again.
+#[test]
+fn rods_stay_rods_and_discs_discs() {
+    for (mean, widest, side) in [
+        (4.0, 25.0, 1.0..f64::MAX),
+        (0.25, 100.0 / 3.0, 0.0..1.0),
+        (0.8, 25.0 / 3.0, 0.0..1.0),
+    ] {
+        let mut scene = scene(SCENE);
+        scene.particles.count = 100_000;
+        scene.particles.aspect_ratio = mean;
+        scene.particles.aspect_ratio_sd_percent = 0.999 * widest;
+        scene.ensemble.replicas = 1;
+        scene.time.outputs_per_period = Some(1);
+        scene.output.rods_at = vec![0.0];
+        let results = run(&scene);
+        let drawn = &results.snapshots[0].aspect_ratio;
+        assert!(drawn.iter().all(|r| *r > side.start && *r < side.end), "{mean}");
+        // 0.00134 of 10⁵, within five standard deviations.
+        let again = results.counters.aspect_ratios_redrawn;
+        assert!((76..192).contains(&again), "{mean}: {again}");
+    }
+}

@@ -92,7 +92,7 @@ impl Pair {
     fn at(&self, time: Time) -> (Ball, Ball, Ball) {
         let tau = time.span;
         let z = self.square * tau * tau;
-        if z.most() <= 1.0 && (time.turns.is_none() || !self.turns()) {
+        if z.most() <= 1.0 {
             let (cosh, sinh) = cosh_sinh_over(z);
             (Ball::ZERO, cosh, tau * sinh)
         } else if self.turns() {
@@ -192,7 +192,7 @@ const TERMS: usize = 30;
 
 /// The real root farthest from 0 of x³ − tx² + cx − d, |c|, |d| ≤ 1 and t next to 0.
 fn largest_root([t, c, d]: [Ball; 3]) -> Ball {
-    if d.is_zero() && t.is_zero() && c.hi >= 0.0 && c.least() > 0.0 || (c.is_zero() && d.is_zero()) {
+    if c.is_zero() && d.is_zero() {
         return Ball::ZERO;
     }
     let sign = if d.hi < 0.0 { -1.0 } else { 1.0 };

@@ -168,3 +168,39 @@ fn what_is_nested_too_deep_is_refused_with_its_line() {
         }
     }
 }
+
+#[test]
+fn r_e_is_given_once_and_a_misspelt_one_is_told_once() {
+    let told = |old: &str, new: &str| refusal(&EXTENSION.replace(old, new));
+    let both = told(
+        "aspect_ratio = 11.6",
+        "aspect_ratio = 11.6\nphysical_aspect_ratio = 20\nshape_correlation = \"cox\"",
+    );
+    let not_both = "particles.aspect_ratio = 11.6 is not allowed: either aspect_ratio or physical_aspect_ratio, not both";
+    assert_eq!(both, format!("dir/s.toml:7: {not_both}"));
+    let misspelt = told("aspect_ratio", "aspect_ration");
+    assert!(
+        misspelt.contains("did you mean particles.aspect_ratio?"),
+        "{misspelt}"
+    );
+    assert_eq!(misspelt.lines().count(), 1, "{misspelt}");
+    let none = told("aspect_ratio = 11.6\n", "");
+    assert!(
+        none.starts_with("dir/s.toml:4: particles.aspect_ratio is missing: "),
+        "{none}"
+    );
+}
+
+#[test]
+fn a_gradient_that_is_no_number_is_told_beside_other_mistakes() {
+    let text = EXTENSION
+        .replace("[-0.5, 0, 0]", "[nan, 0, 0]")
+        .replace("count = 10", "count = 0");
+    let refusal = refusal(&text);
+    let lines: Vec<_> = refusal.lines().collect();
+    assert_eq!(lines.len(), 2, "{refusal}");
+    assert!(
+        lines[0].starts_with("dir/s.toml:3: flow.gradient_per_s")
+            && lines[1].starts_with("dir/s.toml:5: particles.count")
+    );
+}

@@ -61,8 +61,11 @@ const ONE: f64 = 1.0;
 proptest! {
     #![proptest_config(crate::fixed_seed(1000))]
 
+    /// Products down to where doubles end.
     #[test]
-    fn sums_and_products_hold_the_exact_ones(a in ball(), b in ball(), s in share(), t in share()) {
+    fn sums_and_products_hold_the_exact_ones(a in ball(), b in ball(), s in share(), t in share(), power in prop_oneof![Just(0i32), -900i32..0]) {
+        let small = b.scaled(libm::scalbn(1.0, power));
+        prop_assert!(off(a * small, &(within(a, s) * within(small, t))) <= ONE, "{a:?} * {small:?}");
         let (x, y) = (within(a, s), within(b, t));
         prop_assert!(off(a + b, &(&x + &y)) <= ONE, "{a:?} + {b:?}");
         prop_assert!(off(a - b, &(&x - &y)) <= ONE, "{a:?} - {b:?}");
