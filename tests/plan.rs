@@ -343,3 +343,15 @@ fn a_duration_is_a_number_of_seconds() {
     let refused = Plan::new(&scene).unwrap_err().to_string();
     assert!(refused.contains("finite number of seconds"), "{refused}");
 }
+
+#[test]
+fn a_control_volume_has_a_side() {
+    for (length_mm, concentration_per_cm3) in [(1e100, 1e100), (1e-100, 1e-100)] {
+        let mut scene = plan(&format!("{FREE}{ALPHA_0}")).scene().clone();
+        scene.particles.length_mm = length_mm;
+        let interaction = scene.interaction.as_mut().unwrap();
+        interaction.concentration_per_cm3 = concentration_per_cm3;
+        let refused = Plan::new(&scene).unwrap_err();
+        assert_eq!(refused.key, "interaction.concentration_per_cm3", "{refused}");
+    }
+}
