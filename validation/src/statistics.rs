@@ -131,6 +131,36 @@ mod tests {
     }
 
     #[test]
+    fn small_samples_by_hand() {
+        // Squared deviations from 3: 4 + 1 + 9, over 3 − 1.
+        let values = [1.0, 2.0, 6.0];
+        assert_eq!(covariance(&values, &values), 7.0);
+        assert_eq!(mean_and_se(&values), (3.0, (7f64 / 3.0).sqrt()));
+        // Against −1, 0, 4 less 1: −2·−2 − 1·−1 + 3·3; a value more on one side has no pair.
+        let others = [-1.0, 0.0, 4.0, 100.0];
+        assert_eq!(covariance(&values, &others), 7.0);
+        assert_eq!(correlation(&values, &[2.0, 1.0, -3.0]), -1.0);
+        assert_eq!(slope(&[(0.0, 1.0), (1.0, 3.0), (2.0, 5.0)]), 2.0);
+        let sample = Sample::of_differences(&[2.0, 4.0, 9.0], &[1.0, 2.0, 3.0]);
+        assert_eq!((sample.mean, sample.samples), (3.0, 3));
+        assert!((sample.se - (7f64 / 3.0).sqrt()).abs() < 1e-15);
+        // Of two degrees of freedom t is 4.3027 at 5 %.
+        assert!((sample.half_width() / sample.se - 4.3027).abs() < 1e-4);
+        assert_eq!([1, 2, 10].map(freedom), [1.0, 1.0, 9.0]);
+        assert!(Estimate { value: -2.0, se: 1.0 }.readable() && !Estimate { value: 1.9, se: 1.0 }.readable());
+    }
+
+    /// The jackknife of a mean is the mean's own standard error.
+    #[test]
+    fn the_jackknife_of_a_mean_by_hand() {
+        let values = [1.0, 2.0, 6.0];
+        let without = values.map(|value| (9.0 - value) / 2.0);
+        let estimate = Estimate::jackknife(3.0, &without);
+        assert_eq!(estimate.value, 3.0);
+        assert!((estimate.se - mean_and_se(&values).1).abs() < 1e-15);
+    }
+
+    #[test]
     fn the_critical_value_is_students() {
         // Tables: t at 0.9995 with 10 degrees of freedom is 4.587, and 3.291 for the normal limit.
         assert!((student(1e-3, 11) - 4.587).abs() < 1e-3);

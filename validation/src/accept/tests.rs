@@ -86,3 +86,88 @@ fn a_p_value_needs_samples() {
     assert_eq!(p(0.5, 99), Verdict::Underpowered);
     assert_eq!(p(1e-7, 1000), Verdict::Fail);
 }
+
+fn distance(distance: Option<f64>, samples: u64) -> Rule {
+    Rule::PValue {
+        p: 0.0,
+        samples,
+        enough: 1,
+        distance,
+        because: "".into(),
+    }
+}
+
+fn of_a_million(mean: f64, reference: f64) -> Rule {
+    Rule::Mean {
+        mean,
+        se: 0.5,
+        samples: 1_000_000,
+        reference,
+        allowance: 1.0,
+        effect: 100.0,
+        because: "".into(),
+    }
+}
+
+/// Which rules draw, and what each adds to the budget.
+#[test]
+fn the_false_alarms_of_each_rule_by_hand() {
+    for (rule, expected) in [
+        // That the mean is far, or its scatter.
+        (of_a_million(1.0, 1.0), 4e-6),
+        // That the effect is missed, or its scatter is too large.
+        (above_zero(1.0, 0.1), 6e-6),
+        (distance(None, 10), 2e-6),
+        (Rule::exact(0.0), 0.0),
+    ] {
+        assert!((rule.false_alarm() - expected).abs() < 1e-18, "{rule:?}");
+        assert_eq!(rule.is_statistical(), expected > 0.0, "{rule:?}");
+    }
+}
+
+/// Of many values the noncentral t distribution is a Gaussian one: by how much a statistic is beyond its critical value.
+#[test]
+fn margins_by_hand() {
+    let critical = student(LEVEL, 1_000_000);
+    let near = |margin: Option<f64>, expected: f64| {
+        let margin = margin.unwrap();
+        assert!((margin - expected).abs() < 1e-3, "{margin} {expected}");
+    };
+    // Seven off, of which one is allowed, at errors of ½.
+    near(of_a_million(10.0, 3.0).margin(), 12.0 - critical);
+    near(of_a_million(-4.0, 3.0).margin(), 12.0 - critical);
+    let below = Rule::Above {
+        mean: 1.0,
+        se: 0.5,
+        samples: 1_000_000,
+        bound: 3.0,
+        effect: 100.0,
+        because: "".into(),
+    };
+    near(below.margin(), critical + 4.0);
+    // Massart's bound: twice √n d beyond that of the level.
+    let margin = |samples| distance(Some(0.5), samples).margin().unwrap();
+    assert!((margin(400) - margin(100) - 10.0).abs() < 1e-12);
+    let at_the_level = distance(Some(massart(LEVEL) / 10.0), 100);
+    assert!(at_the_level.margin().unwrap().abs() < 1e-12);
+    assert_eq!(
+        (distance(None, 10).margin(), Rule::exact(1.0).margin()),
+        (None, None)
+    );
+}
+
+/// What a sample is sized for, and what its rule then misses, are one number.
+#[test]
+fn a_size_is_that_of_its_miss() {
+    for (level, miss) in [(LEVEL, MISS), (0.05, 0.02)] {
+        for samples in [16, 100, 1_000_000] {
+            let needed = needed_noncentrality(level, miss, samples);
+            let missed = upper_tail(-noncentral(student(level, samples), needed, samples));
+            assert!((missed / miss - 1.0).abs() < 1e-6, "{samples}: {missed}");
+        }
+    }
+    // Of many values the deviates add up: 4.7534 for 10⁻⁶ on each side, and 4.4652 for 4·10⁻⁶.
+    assert!((needed_noncentrality(LEVEL, MISS, 1_000_000) - 9.2186).abs() < 1e-3);
+    // (½ ln 10⁶)^½ + (½ ln 5·10⁵)^½ = 5.18974 over 0.1, squared.
+    assert_eq!(kolmogorov_samples(0.1), 2694);
+}
