@@ -25,6 +25,7 @@ fn within(ball: Ball, share: f64) -> Big {
 
 /// How far `exact` is from the middle, over the error; 0 where there is none.
 fn off(ball: Ball, exact: &Big) -> f64 {
+    assert!(ball.error >= 0.0, "{ball:?}");
     let apart = middle(ball) - exact;
     let apart = if apart < big(0.0) { -apart } else { apart };
     if apart == big(0.0) {
