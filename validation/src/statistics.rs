@@ -147,7 +147,8 @@ mod tests {
         // Of two degrees of freedom t is 4.3027 at 5 %.
         assert!((sample.half_width() / sample.se - 4.3027).abs() < 1e-4);
         assert_eq!([1, 2, 10].map(freedom), [1.0, 1.0, 9.0]);
-        assert!(Estimate { value: -2.0, se: 1.0 }.readable() && !Estimate { value: 1.9, se: 1.0 }.readable());
+        let readable = |value| Estimate { value, se: 2.0 }.readable();
+        assert!(readable(-4.0) && !readable(3.9));
     }
 
     /// The jackknife of a mean is the mean's own standard error.
