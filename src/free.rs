@@ -115,6 +115,7 @@ fn at_each<T: Send>(
     spans: &[Span],
     motion: impl Fn(Span) -> Option<(T, f64, f64)> + Sync,
 ) -> Result<(Vec<T>, f64), Invalid> {
+    // Not into an option at once, which holds all of it twice.
     let all: Vec<_> = spans.par_iter().map(|&span| motion(span)).collect();
     let all: Option<Vec<_>> = all.into_iter().collect();
     // A scene in periods has been checked to have one.

@@ -39,7 +39,7 @@ impl Snapshot {
     /// Bytes that one of the plan holds of each rod: its direction, aspect ratio, whether it collided, and where rods interact its
     /// place.
     pub(crate) fn bytes_per_rod(plan: &Plan) -> usize {
-        let numbers = if plan.keeps(Stage::Positions) { 7 } else { 4 };
+        let numbers = if plan.keeps(Stage::Translation) { 7 } else { 4 };
         numbers * size_of::<f64>() + 1
     }
 
@@ -53,7 +53,7 @@ impl Snapshot {
         let places = self.place_in_lengths.iter().flatten();
         let mut axes = self.p.iter().chain(places).chain([&self.aspect_ratio]);
         let whole = |axis: &Vec<f64>| axis.len() == count && axis.iter().all(|x| x.is_finite());
-        self.place_in_lengths.is_some() == plan.keeps(Stage::Positions)
+        self.place_in_lengths.is_some() == plan.keeps(Stage::Translation)
             && axes.all(whole)
             && self.collided.len() == count
             && plan.rods_outputs().contains(&self.output)

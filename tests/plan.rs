@@ -317,11 +317,11 @@ fn the_error_of_free_rods_is_known_and_small_but_where_the_form_is_closed() {
 /// Shear is shear, whichever axes it has: a general flow's period in seconds and strain.
 #[test]
 fn the_unit_of_a_period_is_the_same_in_any_axes() {
-    let text = plan(FREE);
-    let mut turned = text.scene().clone();
+    let straight = plan(FREE);
+    let mut turned = straight.scene().clone();
     let shear_rate_per_s = turned.flow.shear_rate_per_s.take().unwrap();
     turned.flow.gradient_per_s = Some([[0.0; 3], [0.0; 3], [0.0, shear_rate_per_s, 0.0]]);
-    let (unit, of_turned) = (text.unit(), Plan::new(&turned).unwrap().unit());
+    let (unit, of_turned) = (straight.unit(), Plan::new(&turned).unwrap().unit());
     assert!(
         (of_turned.seconds / unit.seconds - 1.0).abs() < 1e-14,
         "{of_turned:?}"

@@ -3,13 +3,16 @@ use approx::assert_relative_eq;
 
 /// One rod, worked by hand: p = (2, −3, 6)/7 and r_e = 2.
 fn observe(observable: Observable) -> Vec<f64> {
+    observe_rod(observable, [2.0, -3.0, 6.0].map(|x| x / 7.0))
+}
+
+/// One rod along p, with r_e = 2.
+fn observe_rod(observable: Observable, p: [f64; 3]) -> Vec<f64> {
     let mut block = Block {
         len: 1,
         ..Block::default()
     };
-    for (p, value) in block.p.iter_mut().zip([2.0, -3.0, 6.0]) {
-        p[0] = value / 7.0;
-    }
+    block.p.iter_mut().zip(p).for_each(|(axis, x)| axis[0] = x);
     block.aspect_ratio[0] = 2.0;
     let mut sums = vec![Sum::default(); observable.width()];
     observable.add(&block, &mut sums);
@@ -82,14 +85,8 @@ fn lanes_sum_every_rod_once() {
 #[test]
 fn the_ends_of_the_orbits_are_in_the_first_and_the_last_bin() {
     for (p, bin) in [([0.0, 1.0, 0.0], 19), ([0.0, 0.0, 1.0], 0)] {
-        let mut block = Block {
-            len: 1,
-            ..Block::default()
-        };
-        block.p.iter_mut().zip(p).for_each(|(axis, x)| axis[0] = x);
-        let mut sums = vec![Sum::default(); Observable::OrbitConstant.width()];
-        Observable::OrbitConstant.add(&block, &mut sums);
-        let filled: Vec<_> = (0..20).filter(|k| sums[k + 1].value != 0.0).collect();
-        assert_eq!((filled, sums[bin + 1].value), (vec![bin], 20.0));
+        let bins = &observe_rod(Observable::OrbitConstant, p)[1..];
+        let filled: Vec<_> = (0..20).filter(|k| bins[*k] != 0.0).collect();
+        assert_eq!((filled, bins[bin]), (vec![bin], 20.0));
     }
 }

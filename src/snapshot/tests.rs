@@ -61,8 +61,11 @@ fn rods_that_are_not_the_plan_s_are_refused() {
 
 #[test]
 fn a_rod_that_meets_none_has_no_place() {
-    let plan = plan(Some(Interaction::default()), 1);
-    let whole = crate::run::run_replica(&plan, 0).unwrap().snapshots;
-    assert_eq!(whole[0].place_in_lengths, None);
-    assert!(Snapshot::all_fit(&whole, 2, &plan));
+    let alone = plan(Some(Interaction::default()), 1);
+    // Neither has one whose positions alone are kept by request.
+    for plan in [&alone, &alone.keeping(Stage::Positions).unwrap()] {
+        let whole = crate::run::run_replica(plan, 0).unwrap().snapshots;
+        assert_eq!(whole[0].place_in_lengths, None);
+        assert!(Snapshot::all_fit(&whole, 2, plan));
+    }
 }
