@@ -11,7 +11,7 @@ cd "$(dirname "$0")/.."
 out=target/mutants
 mkdir -p "$out"
 cargo mutants --list --json "$@" >"$out/list.json"
-if [ ! -s "$out/list.json" ]; then
+if ! grep -q '"name"' "$out/list.json"; then
   echo "mutation: nothing to change there"
   exit 0
 fi

@@ -174,7 +174,7 @@ mod tests {
 
     #[test]
     fn the_code_it_points_to_is_what_a_run_executes() {
-        let source = Source::read(&source::core());
+        let source = Source::of(&source::files(&source::core()));
         for equation in ALL {
             for place in equation.code {
                 let (module, item) = place.split_once(".rs: ").expect("file.rs: item");

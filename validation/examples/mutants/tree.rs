@@ -119,7 +119,7 @@ impl Tree {
 
     /// Whether a folder is the package's.
     pub fn is_package(&self, folder: &Path) -> bool {
-        folder == self.root.join(self.package.trim_end_matches('/'))
+        folder == self.root.join(&self.package)
     }
 
     /// What a cargo command says in JSON, and why it failed where it did.

@@ -1,7 +1,7 @@
 //! `docs/architecture.md` is a map of these sources.
 
 use super::reach::Source;
-use super::{core, files, suite};
+use super::{File, core, files, suite};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -16,7 +16,7 @@ fn map() -> String {
 }
 
 /// Rooms that no name in the texts is: `lib.rs`, and what a row calls `name.rs` or `name/`.
-fn missing(folder: &Path, text: &str) -> BTreeSet<String> {
+fn missing<'a>(files: &'a [File], text: &str) -> BTreeSet<&'a str> {
     let named: BTreeSet<&str> = quoted(text)
         .into_iter()
         .map(|name| {
@@ -25,9 +25,9 @@ fn missing(folder: &Path, text: &str) -> BTreeSet<String> {
                 .trim_end_matches(".rs")
         })
         .collect();
-    let rooms = files(folder).into_iter().map(|file| file.room);
+    let rooms = files.iter().map(|file| &file.room[..]);
     rooms
-        .filter(|room| room != "lib" && !named.contains(&room[..]))
+        .filter(|room| *room != "lib" && !named.contains(room))
         .collect()
 }
 
@@ -47,13 +47,14 @@ fn unknown<'a>(sources: &[Source], text: &'a str) -> Vec<&'a str> {
 fn every_room_is_on_the_map_and_every_name_on_it_is_there() {
     let text = map();
     let (of_core, of_suite) = text.split_once("## The suite").unwrap();
-    assert_eq!(missing(&core(), of_core), BTreeSet::new());
-    assert_eq!(missing(&suite(), of_suite), BTreeSet::new());
-    let sources = [Source::read(&core()), Source::read(&suite())];
+    let [core, suite] = [core(), suite()].map(|folder| files(&folder));
+    assert_eq!(missing(&core, of_core), BTreeSet::new());
+    assert_eq!(missing(&suite, of_suite), BTreeSet::new());
+    let sources = [&core, &suite].map(|files| Source::of(files));
     assert_eq!(unknown(&sources, &text), [""; 0]);
     // A room or a name that is taken away is found.
     let without = of_core.replace("`border.rs`", "");
-    assert_eq!(missing(&core(), &without), BTreeSet::from(["border".to_owned()]));
+    assert_eq!(missing(&core, &without), BTreeSet::from(["border"]));
     assert_eq!(
         unknown(&sources, "`Plan::new` and `Scene::check`"),
         ["Scene::check"]

@@ -5,11 +5,11 @@ mod names;
 #[cfg(test)]
 mod tests;
 
+use super::File;
 use names::Names;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 use syn::visit::Visit;
-use syn::{Attribute, Item, ItemImpl, Type};
+use syn::{Attribute, Ident, Item, ItemImpl, Type};
 
 /// Where a run starts: `module::name` or `Type::name`.
 pub const ROOTS: [&str; 4] = [
@@ -43,10 +43,10 @@ enum Mention {
 pub struct Source(Vec<Node>);
 
 impl Source {
-    /// Every file below a folder.
-    pub fn read(folder: &Path) -> Self {
+    /// Those of files.
+    pub fn of(files: &[File]) -> Self {
         let mut found = Self::default();
-        for file in super::files(folder) {
+        for file in files {
             found.add(&file.room, &file.text);
         }
         found
@@ -83,36 +83,14 @@ impl Source {
                 self.node(module, None, f.sig.ident.to_string(), is_public(&f.vis), names);
             }
             Item::Struct(s) => {
-                let name = s.ident.to_string();
-                self.node(
-                    module,
-                    None,
-                    name.clone(),
-                    is_public(&s.vis),
-                    Names::of(None, |names| names.visit_item_struct(s)),
-                );
-                for field in s.fields.iter().filter_map(|field| field.ident.as_ref()) {
-                    self.node(module, Some(&name), field.to_string(), false, Names::default());
-                }
+                let names = Names::of(None, |names| names.visit_item_struct(s));
+                let fields = s.fields.iter().filter_map(|field| field.ident.as_ref());
+                self.add_type(module, &s.ident, is_public(&s.vis), names, fields);
             }
             Item::Enum(e) => {
-                let name = e.ident.to_string();
-                self.node(
-                    module,
-                    None,
-                    name.clone(),
-                    is_public(&e.vis),
-                    Names::of(None, |names| names.visit_item_enum(e)),
-                );
-                for variant in &e.variants {
-                    self.node(
-                        module,
-                        Some(&name),
-                        variant.ident.to_string(),
-                        false,
-                        Names::default(),
-                    );
-                }
+                let names = Names::of(None, |names| names.visit_item_enum(e));
+                let variants = e.variants.iter().map(|variant| &variant.ident);
+                self.add_type(module, &e.ident, is_public(&e.vis), names, variants);
             }
             Item::Impl(implementation) => self.add_impl(module, implementation),
             Item::Mod(inner) if !of_tests(&inner.attrs) => {
@@ -121,6 +99,22 @@ impl Source {
                 }
             }
             _ => {}
+        }
+    }
+
+    /// A type, and its fields or variants.
+    fn add_type<'a>(
+        &mut self,
+        module: &str,
+        name: &Ident,
+        public: bool,
+        names: Names,
+        members: impl Iterator<Item = &'a Ident>,
+    ) {
+        let name = name.to_string();
+        self.node(module, None, name.clone(), public, names);
+        for member in members {
+            self.node(module, Some(&name), member.to_string(), false, Names::default());
         }
     }
 

@@ -171,8 +171,8 @@ fn the_build_script_knows_its_own_checkout_alone() {
 #[test]
 fn a_record_says_which_stages_ran_and_why_as_the_plan_does() {
     let dir = folder();
+    fs::write(dir.path().join("free.toml"), FREE).unwrap();
     for (scene, out, moved) in [("small.toml", "a", true), ("free.toml", "b", false)] {
-        fs::write(dir.path().join("free.toml"), FREE).unwrap();
         let run = shearbed(dir.path(), &format!("run {scene} --out {out}"));
         assert_eq!(run.code, Some(0), "{}", run.stderr);
         let text = fs::read_to_string(dir.path().join(out).join("run.json")).unwrap();
