@@ -16,8 +16,7 @@ use shearbed::volume::ControlVolume;
 use shearbed::work::Counters;
 use std::hint::black_box;
 use validation::lab;
-use validation::oracle::naive::Naive;
-use validation::readings::paper;
+use validation::oracle::naive::{Naive, Problem};
 use validation::scenes;
 
 /// One exact step of a rod, and the phase it takes where aspect ratios differ.
@@ -121,7 +120,7 @@ fn steps(c: &mut Criterion) {
     }
     group.throughput(Throughput::Elements(100));
     group.bench_function("naive, 100 rods", |b| {
-        let mut naive = Naive::new(paper(0));
+        let mut naive = Naive::new(Problem::paper(1, 0));
         b.iter(|| naive.step());
     });
     group.finish();

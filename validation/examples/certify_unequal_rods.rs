@@ -3,9 +3,9 @@
 //!
 //!     cargo run --release -p shearbed-suite --example certify_unequal_rods > unequal-rods.csv
 
+use validation::oracle::reference::big::digits;
+use validation::oracle::reference::unequal::means_to_22_digits;
 use validation::problems;
-use validation::reference::big::digits;
-use validation::reference::unequal::means_to_22_digits;
 
 fn main() {
     let problem = problems::build("unequal-rods").expect("it is there").problem;

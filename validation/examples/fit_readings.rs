@@ -14,8 +14,8 @@ use validation::fit::Range;
 use validation::fit::data::Datum;
 use validation::fit::emulator::{Prediction, Replica};
 use validation::fit::search::{Measured, Problem, Watch, search};
-use validation::oracle::naive::{Naive, mean_projections};
-use validation::readings::{ALTERNATIVES, Change, paper};
+use validation::oracle::naive::{self, Naive, mean_projections};
+use validation::readings::{ALTERNATIVES, Change, SEED};
 
 const PLANTED: f64 = 0.8;
 const NOISE: f64 = 0.01;
@@ -28,7 +28,7 @@ const REPLICAS: u64 = 10_000;
 
 /// X̄₁ at every twentieth of a period, up to one period.
 fn curve(change: Change, alpha: f64, seed: u64, replica: u64) -> Vec<Prediction> {
-    let mut problem = paper(replica);
+    let mut problem = naive::Problem::paper(SEED, replica);
     change(&mut problem);
     (problem.alpha, problem.seed) = (alpha, seed);
     let steps = problem.steps_per_period / POINTS;

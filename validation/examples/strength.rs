@@ -1,8 +1,8 @@
 //! Tries the probabilities that the gate promises: the cases at many seeds, and how often each turned red, and why.
 //!
 //! `cargo run --release -p shearbed-suite --example strength -- SEEDS [full] [CASE...]` prints the tables of
-//! `docs/strength.md`, after every 20 seeds those until then. A case whose evidence is the same at the first two seeds draws
-//! nothing, and is not run again.
+//! `docs/strength.md`, after every 20 seeds those until then. SEEDS is the last one, or the first and the last as `61..200`. A
+//! case whose evidence is the same at the first two seeds draws nothing, and is not run again.
 
 use std::collections::BTreeMap;
 use validation::accept::{Rule, Verdict};
@@ -11,7 +11,9 @@ use validation::cases;
 
 fn main() {
     let mut words = std::env::args().skip(1);
-    let seeds: u64 = words.next().and_then(|word| word.parse().ok()).unwrap_or(3);
+    let seeds = words.next().unwrap_or_else(|| "3".into());
+    let (first, last) = seeds.split_once("..").unwrap_or(("1", &seeds));
+    let [first, last]: [u64; 2] = [first, last].map(|seed| seed.parse().expect("SEEDS is 200, or 61..200"));
     let (full, names): (Vec<_>, Vec<_>) = words.partition(|word| word == "full");
     let full = !full.is_empty();
     let mut cases: Vec<Case> = cases::all();
@@ -19,7 +21,7 @@ fn main() {
     let still = cases.len();
     let mut records: BTreeMap<&str, Record> = BTreeMap::new();
     let (mut red_runs, mut scores) = (0, Vec::new());
-    for seed in 1..=seeds {
+    for seed in first..=last {
         let effort = Effort {
             full,
             seed,
@@ -29,14 +31,15 @@ fn main() {
         cases.retain(|case| {
             let outcome = case.run(&effort);
             let record = records.entry(case.about.name).or_default();
-            red |= record.add(&outcome, seed, &mut scores);
+            red |= record.add(&outcome, &mut scores);
             record.draws
         });
         red_runs += u32::from(red);
         eprintln!("seed {seed}: {}", if red { "RED" } else { "green" });
-        if seed % 20 == 0 || seed == seeds {
+        if seed % 20 == 0 || seed == last {
             println!(
-                "{red_runs} of {seed} runs red; {} of {still} cases draw random numbers",
+                "{red_runs} of {} runs red; {} of {still} cases draw random numbers",
+                seed - first + 1,
                 cases.len()
             );
             print(&records, &mut scores);
@@ -81,7 +84,7 @@ struct Record {
 
 impl Record {
     /// Whether the case was red.
-    fn add(&mut self, outcome: &Outcome, seed: u64, scores: &mut Vec<f64>) -> bool {
+    fn add(&mut self, outcome: &Outcome, scores: &mut Vec<f64>) -> bool {
         self.judges = outcome.about.judges.name();
         self.runs += 1;
         self.seconds += outcome.seconds;
@@ -89,7 +92,7 @@ impl Record {
         let said = format!("{:?}{:?}", outcome.evidence, outcome.controls);
         match &self.first {
             None => (self.first, self.draws) = (Some(said), true),
-            Some(first) if seed == 2 => self.draws = *first != said,
+            Some(first) if self.runs == 2 => self.draws = *first != said,
             Some(_) => {}
         }
         for judged in &outcome.evidence {

@@ -21,13 +21,11 @@ pub mod integrators;
 pub mod kicks;
 pub mod lab;
 mod markup;
-pub mod oracle;
 pub mod output;
 pub mod plot;
 pub mod problems;
 pub mod published;
 pub mod readings;
-pub mod reference;
 pub mod report;
 pub mod scene_keys;
 pub mod scenes;
@@ -46,3 +44,5 @@ pub mod tried;
 pub mod work_precision;
 #[cfg(test)]
 mod xml;
+
+pub use shearbed_oracle as oracle;

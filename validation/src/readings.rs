@@ -13,9 +13,7 @@ pub use table::table;
 
 use crate::case::Effort;
 use crate::cluster;
-use crate::oracle::naive::{
-    Images, Lines, Naive, Problem, Reading, Replacement, Start, Update, Who, mean_projections,
-};
+use crate::oracle::naive::{Images, Lines, Naive, Problem, Replacement, Update, Who, mean_projections};
 use crate::statistics::Estimate;
 use crate::studies::{self, Extent, Found, Study};
 use rayon::prelude::*;
@@ -123,28 +121,6 @@ pub const ALTERNATIVES: [(&str, &str, Change); 13] = [
     }),
 ];
 
-/// Fig. 7 at 50 per cm³ with rods of one size, as the project reads the paper.
-pub fn paper(replica: u64) -> Problem {
-    Problem {
-        count: 100,
-        shear_rate_per_s: 0.5,
-        length_mm: 0.72,
-        aspect_ratio: 11.6,
-        aspect_ratio_sd_percent: 0.0,
-        orientation: Start::Isotropic,
-        concentration_per_cm3: 50.0,
-        alpha: 0.5,
-        m: 3.0,
-        min_contact_arm: 0.0,
-        update: Update::Rotation,
-        reading: Reading::default(),
-        steps_per_period: 200,
-        seed: SEED,
-        replica,
-        mistake: None,
-    }
-}
-
 /// The default and every alternative, run over all ranks; none but on the root.
 pub fn measure(effort: &Effort) -> Option<Vec<ReadingRow>> {
     let replicas = effort.pick(200, 2000);
@@ -176,7 +152,7 @@ pub fn measure(effort: &Effort) -> Option<Vec<ReadingRow>> {
 /// The trace of each of the first `replicas` replicas of a changed problem.
 pub fn traces(change: Change, replicas: u64) -> Vec<Trace> {
     let run = |replica| {
-        let mut problem = paper(replica);
+        let mut problem = Problem::paper(SEED, replica);
         change(&mut problem);
         trace(problem)
     };

@@ -26,6 +26,11 @@ pub fn suite() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
 }
 
+/// Where the oracles' are.
+pub fn oracle() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("oracle/src")
+}
+
 /// Every Rust file below a folder.
 pub fn files(folder: &Path) -> Vec<File> {
     let mut open = vec![folder.to_owned()];

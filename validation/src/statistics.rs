@@ -51,11 +51,17 @@ impl Estimate {
         self.value.abs() >= 2.0 * self.se
     }
 
+    /// The mean of independent values.
+    pub fn mean_of(values: &[f64]) -> Self {
+        let Sample { mean, se, .. } = Sample::of(values);
+        Self { value: mean, se }
+    }
+
     /// A statistic with the standard error of the delete-one jackknife, se² = (n−1)/n Σ(s_k − s̄)², s_k being the
     /// statistic without the k-th value (Efron & Stein 1981).
     pub fn jackknife(value: f64, without: &[f64]) -> Self {
         let n = without.len() as f64;
-        let mean = mean(without);
+        let mean = without.mean();
         let square: f64 = without.iter().map(|s| (s - mean).powi(2)).sum();
         Self {
             value,
@@ -78,21 +84,11 @@ pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
     errors.into_iter().fold(0.0, larger)
 }
 
-/// The mean of independent values and its standard error.
-pub fn mean_and_se(values: &[f64]) -> (f64, f64) {
-    let count = values.len() as f64;
-    (mean(values), (covariance(values, values) / count).sqrt())
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
-}
-
 /// The covariance of as many pairs as both have.
 pub fn covariance(a: &[f64], b: &[f64]) -> f64 {
     let count = a.len().min(b.len());
     let (a, b) = (&a[..count], &b[..count]);
-    let (mean_a, mean_b) = (mean(a), mean(b));
+    let (mean_a, mean_b) = (a.mean(), b.mean());
     let products = a.iter().zip(b).map(|(a, b)| (a - mean_a) * (b - mean_b));
     products.sum::<f64>() / (count as f64 - 1.0)
 }
@@ -135,7 +131,9 @@ mod tests {
         // Squared deviations from 3: 4 + 1 + 9, over 3 − 1.
         let values = [1.0, 2.0, 6.0];
         assert_eq!(covariance(&values, &values), 7.0);
-        assert_eq!(mean_and_se(&values), (3.0, (7f64 / 3.0).sqrt()));
+        let mean = Estimate::mean_of(&values);
+        assert_eq!(mean.value, 3.0);
+        assert!((mean.se - (7f64 / 3.0).sqrt()).abs() < 1e-15);
         // Against −1, 0, 4 less 1: −2·−2 − 1·−1 + 3·3; a value more on one side has no pair.
         let others = [-1.0, 0.0, 4.0, 100.0];
         assert_eq!(covariance(&values, &others), 7.0);
@@ -158,7 +156,7 @@ mod tests {
         let without = values.map(|value| (9.0 - value) / 2.0);
         let estimate = Estimate::jackknife(3.0, &without);
         assert_eq!(estimate.value, 3.0);
-        assert!((estimate.se - mean_and_se(&values).1).abs() < 1e-15);
+        assert!((estimate.se - Sample::of(&values).se).abs() < 1e-15);
     }
 
     #[test]

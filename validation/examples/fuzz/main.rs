@@ -17,6 +17,7 @@ use peak_alloc::PeakAlloc;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -68,6 +69,9 @@ fn feed(target: &Target, count: u64, seed: u64) -> Result<(u64, BTreeMap<String,
     let mut reasons = BTreeMap::new();
     for k in 0..count {
         let files = mutator.of(&target.corpus);
+        if let Ok(mut at_work) = AT_WORK.lock() {
+            at_work.clone_from(&files);
+        }
         BEGUN.store(k + 1, Ordering::Relaxed);
         let before = ALLOCATOR.current_usage();
         ALLOCATOR.reset_peak_usage();
@@ -87,12 +91,7 @@ fn feed(target: &Target, count: u64, seed: u64) -> Result<(u64, BTreeMap<String,
             }
         };
         if let Some(fault) = fault {
-            for (name, bytes) in &files {
-                let path = Path::new("fuzz-fault").join(name);
-                let written =
-                    std::fs::create_dir_all("fuzz-fault").and_then(|()| std::fs::write(path, bytes));
-                written.map_err(|error| error.to_string())?;
-            }
+            keep(&files).map_err(|error| error.to_string())?;
             return Err(format!(
                 "{}: input {k} of seed {seed}: {fault}; it is in fuzz-fault/",
                 target.name
@@ -101,6 +100,12 @@ fn feed(target: &Target, count: u64, seed: u64) -> Result<(u64, BTreeMap<String,
     }
     BEGUN.store(0, Ordering::Relaxed);
     Ok((accepted, reasons))
+}
+
+/// Writes an input at fault.
+fn keep(files: &Files) -> std::io::Result<()> {
+    std::fs::create_dir_all("fuzz-fault")?;
+    (files.iter()).try_for_each(|(name, bytes)| std::fs::write(Path::new("fuzz-fault").join(name), bytes))
 }
 
 /// A reason without what is different in each: letters and blanks.
@@ -115,6 +120,8 @@ fn kind(why: &str) -> String {
 
 /// The input at work, from 1; 0 where none is.
 static BEGUN: AtomicU64 = AtomicU64::new(0);
+/// The input itself.
+static AT_WORK: Mutex<Vec<(&str, Vec<u8>)>> = Mutex::new(Vec::new());
 
 /// Ends the process where one input takes too long.
 fn watch() {
@@ -126,7 +133,9 @@ fn watch() {
             if begun != last.0 {
                 last = (begun, Instant::now());
             } else if begun > 0 && last.1.elapsed().as_secs() > HANG_S {
-                eprintln!("input {} hangs", begun - 1);
+                let kept = AT_WORK.lock().is_ok_and(|files| keep(&files).is_ok());
+                let place = if kept { "; it is in fuzz-fault/" } else { "" };
+                eprintln!("input {} hangs{place}", begun - 1);
                 std::process::exit(3);
             }
         }

@@ -4,7 +4,7 @@ use super::work_precision_coupled::first;
 use crate::case::{Case, Effort, Evidence};
 use crate::lab;
 use crate::lab::Shared;
-use crate::statistics::{Estimate, Sample, covariance, mean_and_se};
+use crate::statistics::{Estimate, Sample, covariance};
 use crate::suspensions::coupled::interacting;
 use crate::suspensions::split::{Constants, Scope, Split};
 use shearbed::Scene;
@@ -49,9 +49,11 @@ fn study(scene: &Scene) -> Known {
     let differences: Vec<_> = (coarse.iter().zip(&fine))
         .map(|(coarse, fine)| coarse - fine)
         .collect();
-    let (difference, se) = mean_and_se(&differences);
+    let Estimate {
+        value: difference,
+        se,
+    } = Estimate::mean_of(&differences);
     let [coarse_step, fine_step] = steps.map(|steps| 1.0 / steps as f64);
-    let (value, reference_se) = mean_and_se(&fine);
     Known {
         constants: Constants {
             steps_bias: (difference.abs() + 2.0 * se) / (coarse_step - fine_step),
@@ -60,10 +62,7 @@ fn study(scene: &Scene) -> Known {
             rods_bias: 0.0,
             variance_per_rod: covariance(&coarse, &coarse) * RODS as f64,
         },
-        reference: Estimate {
-            value,
-            se: reference_se,
-        },
+        reference: Estimate::mean_of(&fine),
     }
 }
 

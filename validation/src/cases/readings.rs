@@ -4,7 +4,7 @@ use crate::accept::Design;
 use crate::case::{Case, Effort, Evidence};
 use crate::lab::{self, per_replica};
 use crate::oracle::naive::{Lines, Naive, Problem, Who, mean_projections};
-use crate::readings::{Change, paper};
+use crate::readings::Change;
 use crate::statistics::Sample;
 use rayon::prelude::*;
 use shearbed::observable::Channel;
@@ -180,7 +180,7 @@ fn by_reference(change: Change, effort: &Effort, replicas: u64) -> Vec<f64> {
             count: 25,
             concentration_per_cm3: CONCENTRATION_PER_CM3,
             seed: effort.seed(0),
-            ..paper(replica)
+            ..Problem::paper(1, replica)
         };
         change(&mut problem);
         let steps = problem.steps_per_period / 2;

@@ -1,13 +1,13 @@
 //! `shearbed reference`.
 
 use super::{Failure, print};
+use crate::oracle::reference::big::{Bits, decimal, digits, double};
+use crate::oracle::reference::constants::{self, Constant};
+use crate::oracle::reference::motion::{LARGEST_STRAIN, Motion, Unit};
+use crate::oracle::reference::rod::Direction;
+use crate::oracle::reference::table::{self, NoValue, Start};
+use crate::oracle::reference::unequal::LONGEST_TURNS;
 use crate::output;
-use crate::reference::big::{Bits, decimal, digits, double};
-use crate::reference::constants::{self, Constant};
-use crate::reference::motion::{LARGEST_STRAIN, Motion, Unit};
-use crate::reference::rod::Direction;
-use crate::reference::table::{self, NoValue, Start};
-use crate::reference::unequal::LONGEST_TURNS;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `reference`.

@@ -3,7 +3,7 @@
 use super::rods::{AXES, COUETTE, period_s};
 use super::tolerance::rounded_up;
 use super::{Built, FORMAT, Kind, Metric, Problem, ProblemDef};
-use crate::reference::big::{Big, Bits, digits, double, length};
+use crate::oracle::reference::big::{Big, Bits, digits, double, length};
 use nalgebra::Matrix3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;

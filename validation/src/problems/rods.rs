@@ -2,9 +2,9 @@
 
 use super::flows::{extension, mirrored, spiral, turned};
 use super::{Built, FORMAT, Kind, Metric, Problem, ProblemDef, tolerance};
-use crate::reference::big::{Bits, digits};
-use crate::reference::motion::{Motion, Unit};
-use crate::reference::rod::{self, Direction};
+use crate::oracle::reference::big::{Bits, digits};
+use crate::oracle::reference::motion::{Motion, Unit};
+use crate::oracle::reference::rod::{self, Direction};
 use std::f64::consts::{PI, TAU};
 
 /// Significant digits of a certified number: eight more than a double holds.

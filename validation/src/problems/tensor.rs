@@ -2,9 +2,9 @@
 
 use super::rods::{AXES, COUETTE, direction, period_s};
 use super::{Built, FORMAT, Kind, Metric, Problem, ProblemDef, tolerance};
-use crate::reference::big::{Bits, digits};
-use crate::reference::isotropic::Covariance;
-use crate::reference::motion::{Motion, Unit};
+use crate::oracle::reference::big::{Bits, digits};
+use crate::oracle::reference::isotropic::Covariance;
+use crate::oracle::reference::motion::{Motion, Unit};
 
 /// Significant digits of a certified number: the quadrature is good to 24.
 const DIGITS: usize = 22;
@@ -157,7 +157,7 @@ fn all_round() -> Vec<[f64; 3]> {
 mod tests {
     use super::*;
     use crate::oracle::isotropic::mean_projections_polydisperse;
-    use crate::reference::unequal::means_to_22_digits;
+    use crate::oracle::reference::unequal::means_to_22_digits;
 
     #[test]
     fn the_table_of_unequal_rods_is_computed_anew_and_by_a_quadrature_in_doubles() {

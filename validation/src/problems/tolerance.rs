@@ -7,8 +7,8 @@
 //!   ∫ κ (2ε + 10 ε^{4/5} |dp/ds|) ds,
 //! with 2 for two such roundings and 10 for what separates methods of one order.
 
-use crate::reference::big::{Bits, double};
-use crate::reference::motion::{Matrix, Motion, Unit, matrix, product};
+use crate::oracle::reference::big::{Bits, double};
+use crate::oracle::reference::motion::{Matrix, Motion, Unit, matrix, product};
 
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 

@@ -36,7 +36,7 @@ fn the_problem_is_that_of_fig_7() {
         .expect("built in")
         .scene()
         .expect("valid");
-    let (ours, rods) = (paper(0), &scene.particles);
+    let (ours, rods) = (Problem::paper(SEED, 0), &scene.particles);
     let theirs = scene.interaction.as_ref().expect("interacting");
     assert_eq!(
         [

@@ -1,7 +1,7 @@
 //! `docs/architecture.md` is a map of these sources.
 
 use super::reach::Source;
-use super::{File, core, files, suite};
+use super::{File, core, files, oracle, suite};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -31,7 +31,7 @@ fn missing<'a>(files: &'a [File], text: &str) -> BTreeSet<&'a str> {
         .collect()
 }
 
-/// Names `before::name` in backquotes that neither crate has.
+/// Names `before::name` in backquotes that no crate has.
 fn unknown<'a>(sources: &[Source], text: &'a str) -> Vec<&'a str> {
     let names = quoted(text).into_iter().filter(|name| name.contains("::"));
     names
@@ -46,11 +46,13 @@ fn unknown<'a>(sources: &[Source], text: &'a str) -> Vec<&'a str> {
 #[test]
 fn every_room_is_on_the_map_and_every_name_on_it_is_there() {
     let text = map();
-    let (of_core, of_suite) = text.split_once("## The suite").unwrap();
-    let [core, suite] = [core(), suite()].map(|folder| files(&folder));
+    let (of_core, rest) = text.split_once("## The oracles").unwrap();
+    let (of_oracle, of_suite) = rest.split_once("## The suite").unwrap();
+    let [core, oracle, suite] = [core(), oracle(), suite()].map(|folder| files(&folder));
     assert_eq!(missing(&core, of_core), BTreeSet::new());
+    assert_eq!(missing(&oracle, of_oracle), BTreeSet::new());
     assert_eq!(missing(&suite, of_suite), BTreeSet::new());
-    let sources = [&core, &suite].map(|files| Source::of(files));
+    let sources = [&core, &oracle, &suite].map(|files| Source::of(files));
     assert_eq!(unknown(&sources, &text), [""; 0]);
     // A room or a name that is taken away is found.
     let without = of_core.replace("`border.rs`", "");

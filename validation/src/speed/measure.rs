@@ -7,7 +7,6 @@ mod tests;
 use super::{Amount, Check, Speed, Step, Target};
 use crate::lab;
 use crate::oracle::naive::{Naive, Problem};
-use crate::readings::paper;
 use naive::against_naive;
 use rayon::prelude::*;
 use shearbed::run::run_replica;
@@ -111,7 +110,7 @@ fn step(rods: usize, concentration_per_cm3: f64, amount: Amount) -> Result<Step,
     let naive_ns = (rods <= NAIVE_RODS && concentration_per_cm3 == 50.0).then(|| {
         let mut naive = Naive::new(Problem {
             count: rods,
-            ..paper(0)
+            ..Problem::paper(1, 0)
         });
         let once = seconds(|| naive.step());
         let count = (amount.seconds / once).clamp(1.0, 1e6) as u64;

@@ -1,6 +1,6 @@
 //! How the standard deviation of a mean falls with its replicas.
 
-use super::{Estimate, covariance, mean_and_se, slope};
+use super::{Estimate, covariance, slope};
 use serde::Serialize;
 use statrs::function::gamma::digamma;
 
@@ -39,8 +39,7 @@ pub fn replicas_exponent(x1: &[f64]) -> Option<Estimate> {
     if size < 64 {
         return None;
     }
-    let (value, se) = mean_and_se(&replicas_exponents(x1, size));
-    Some(Estimate { value, se })
+    Some(Estimate::mean_of(&replicas_exponents(x1, size)))
 }
 
 /// The same exponent, one for each group of `size` replicas.

@@ -4,9 +4,9 @@
 //! - *Common random numbers*: the same scene at two values of α, to know their difference.
 //! - *Control variate*: the same rods without collisions, whose mean has a closed form, to correct the mean.
 
+use super::covariance;
 use super::job::Job;
 use super::{Estimate, correlation};
-use super::{covariance, mean_and_se};
 use crate::oracle::isotropic;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -148,8 +148,7 @@ pub fn controlled(x1: &[f64], free: &[f64], free_mean: f64) -> Estimate {
     let corrected: Vec<_> = (x1.iter().zip(free))
         .map(|(x1, free)| x1 - share * (free - free_mean))
         .collect();
-    let (value, se) = mean_and_se(&corrected);
-    Estimate { value, se }
+    Estimate::mean_of(&corrected)
 }
 
 /// One mark of all replicas.

@@ -159,6 +159,7 @@ impl Means {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Estimate;
     use super::*;
     use rand::SeedableRng;
     use rand_distr::{Distribution, StandardNormal};
@@ -199,7 +200,7 @@ mod tests {
             .map(|seed| Means::of(&samples(1.0, 0.05, seed)).line(&H).unwrap())
             .collect();
         let slopes: Vec<_> = lines.iter().map(|line| line.slope).collect();
-        let (mean, se) = super::super::mean_and_se(&slopes);
+        let Estimate { value: mean, se } = Estimate::mean_of(&slopes);
         assert!((mean - 1.0).abs() < 4.0 * se, "{mean} {se}");
         let (spread, said) = (se * 300f64.sqrt(), lines[0].slope_se);
         // 300 repeats know their spread to 4 %, and a single run its own error to some 5 %.

@@ -186,12 +186,12 @@ impl Free {
         }
         tried.retain(|(rods, _)| *rods >= 1000);
         let exponents = exponents(&tried, GROUPS);
-        let (exponent, exponent_se) = super::mean_and_se(&exponents);
+        let exponent = super::Estimate::mean_of(&exponents);
         StartCurve {
             start: start.name,
             theory: start.exponents[usize::from(self.unequal())],
-            exponent,
-            exponent_se,
+            exponent: exponent.value,
+            exponent_se: exponent.se,
             points,
         }
     }

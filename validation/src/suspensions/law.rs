@@ -5,7 +5,6 @@
 use super::blocks::{Block, blocks, replicas_exponent};
 use super::fit::{Line, Means, Order};
 use super::job::{Job, PLACES, Trace};
-use super::mean_and_se;
 use super::{Estimate, correlation};
 use crate::integrators::apart_rad;
 use nalgebra::Vector3;
@@ -210,13 +209,13 @@ pub fn read(scene: &Scene, jobs: &[Job], found: &[Vec<Trace>]) -> Law {
 }
 
 fn sample(job: &Job, x1: &[f64]) -> JobMean {
-    let (mean, se) = mean_and_se(x1);
+    let mean = Estimate::mean_of(x1);
     JobMean {
         steps_per_period: job.scene.steps_per_period(),
         rods: job.scene.particles.count,
         replicas: job.replicas,
-        x1: mean,
-        se,
+        x1: mean.value,
+        se: mean.se,
     }
 }
 

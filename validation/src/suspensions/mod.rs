@@ -17,4 +17,4 @@ pub mod starts;
 pub mod study;
 pub mod tables;
 
-use crate::statistics::{Estimate, correlation, covariance, mean_and_se, slope};
+use crate::statistics::{Estimate, correlation, covariance, slope};

@@ -8,7 +8,6 @@ use super::Estimate;
 use super::coupled;
 use super::job::Job;
 use super::law::{FACES, JobMean, Law};
-use super::mean_and_se;
 use serde::Serialize;
 use shearbed::Scene;
 
@@ -182,7 +181,7 @@ impl Split {
             Ok::<_, String>(sum / traces.len() as f64)
         };
         let values = (0..repeats).map(run).collect::<Result<Vec<_>, _>>()?;
-        let (mean, se) = mean_and_se(&values);
+        let Estimate { value: mean, se } = Estimate::mean_of(&values);
         let off = mean - reference.value;
         let deviation = se * (repeats as f64).sqrt();
         let mean_square = values.iter().map(|x| (x - reference.value).powi(2)).sum::<f64>() / repeats as f64;
@@ -208,10 +207,8 @@ pub fn reference(scene: &Scene, steps: u64, rods: usize, replicas: u64) -> Resul
     let mut job = Job::new(scene, steps, rods, replicas, 1);
     job.scene.ensemble.seed = scene.ensemble.seed + 1_000_000;
     let x1: Vec<_> = (job.run(&|| ())?.iter()).map(|trace| trace.looks[0].x1).collect();
-    let (mean, se) = mean_and_se(&x1);
-    let plain = Estimate { value: mean, se };
     let found = match replicas < 100 {
-        true => plain,
+        true => Estimate::mean_of(&x1),
         false => {
             let free = coupled::at(&coupled::free(&job.scene, 4, replicas)?, 3);
             coupled::controlled(&x1, &free, coupled::free_mean(scene, 1.0))

@@ -95,9 +95,9 @@ fn a_diagnosis_is_given_on_a_curve_and_not_near_it() {
 
 /// a₁₁ of isotropic rods at t/T.
 fn a11(r: f64, turns: f64) -> f64 {
-    use validation::reference::big::{Bits, double};
-    use validation::reference::isotropic::Covariance;
-    use validation::reference::motion::{Motion, Unit};
+    use validation::oracle::reference::big::{Bits, double};
+    use validation::oracle::reference::isotropic::Covariance;
+    use validation::oracle::reference::motion::{Motion, Unit};
     let motion = Motion {
         gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]],
         aspect_ratio: r,

@@ -50,14 +50,18 @@ fn what_is_built_in_several_versions_is_said() {
 }
 
 #[test]
-fn unsafe_is_forbidden_in_both_crates() {
+fn unsafe_is_forbidden_in_every_crate_and_the_oracles_know_nothing_of_the_others() {
     let table = |path: &str| text(path).parse::<toml::Table>().unwrap();
     let root = table("../Cargo.toml");
     assert_eq!(
         root["workspace"]["lints"]["rust"]["unsafe_code"].as_str(),
         Some("forbid")
     );
-    for manifest in [root, table("Cargo.toml")] {
+    let oracle = table("oracle/Cargo.toml");
+    for manifest in [&root, &oracle, &table("Cargo.toml")] {
         assert_eq!(manifest["lints"]["workspace"].as_bool(), Some(true));
     }
+    let asked_for = oracle["dependencies"].as_table().unwrap();
+    assert!(asked_for.len() > 5 && !asked_for.keys().any(|name| name.starts_with("shearbed")));
+    assert!(!oracle.contains_key("dev-dependencies"));
 }

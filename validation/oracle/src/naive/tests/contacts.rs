@@ -1,8 +1,8 @@
 //! Contacts and the rates that they give.
 
 use super::*;
-use crate::oracle::naive::contact::Rod;
-use crate::oracle::naive::motion::angle_rates_per_s;
+use crate::naive::contact::Rod;
+use crate::naive::motion::angle_rates_per_s;
 
 #[test]
 fn a_contact_worked_by_hand() {

@@ -5,7 +5,7 @@
 
 use super::motion::{jeffery, turned, vector};
 use super::{Naive, collision_probability};
-use crate::oracle::pairing::nearest_pairs;
+use crate::pairing::nearest_pairs;
 use nalgebra::Vector3;
 
 impl Naive {
@@ -43,7 +43,7 @@ impl Naive {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::readings::paper;
+    use crate::naive::Problem;
 
     fn apart(a: &Naive, b: &Naive) -> f64 {
         let rods = a.orientations.iter().zip(&b.orientations);
@@ -57,7 +57,7 @@ mod tests {
     fn one_step_of_two_rods_is_the_mean_of_the_model_s() {
         let mut turned = 0;
         for replica in 0..50 {
-            let mut problem = paper(replica);
+            let mut problem = Problem::paper(1, replica);
             (problem.count, problem.concentration_per_cm3) = (2, 500.0);
             (problem.steps_per_period, problem.min_contact_arm) = (100_000, 0.1);
             let with = |alpha: f64| {
@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn without_collisions_it_is_the_free_motion() {
-        let mut problem = paper(0);
+        let mut problem = Problem::paper(1, 0);
         (problem.count, problem.alpha) = (10, 0.0);
         let (mut free, mut averaged) = (Naive::new(problem.clone()), Naive::new(problem.clone()));
         problem.alpha = 0.5;

@@ -115,6 +115,28 @@ pub struct Problem {
 }
 
 impl Problem {
+    /// Fig. 7 at 50 per cm^3 with rods of one size, as the project reads the paper.
+    pub fn paper(seed: u64, replica: u64) -> Self {
+        Self {
+            count: 100,
+            shear_rate_per_s: 0.5,
+            length_mm: 0.72,
+            aspect_ratio: 11.6,
+            aspect_ratio_sd_percent: 0.0,
+            orientation: Start::Isotropic,
+            concentration_per_cm3: 50.0,
+            alpha: 0.5,
+            m: 3.0,
+            min_contact_arm: 0.0,
+            update: Update::Rotation,
+            reading: Reading::default(),
+            steps_per_period: 200,
+            seed,
+            replica,
+            mistake: None,
+        }
+    }
+
     /// T of the mean aspect ratio, s (eq. 15).
     pub fn period_s(&self) -> f64 {
         let factor = either(self.mistake, Mistake::PeriodHalved, 0.5, 1.0);

@@ -111,8 +111,7 @@ pub fn phase_means_by_quadrature(orbit_constant: f64, aspect_ratio: f64) -> [f64
 }
 
 /// `count` points that fill the unit square evenly (additive recurrence of the plastic number): the parameters of tests.
-#[cfg(test)]
-pub(crate) fn spread(count: u32) -> impl Iterator<Item = (f64, f64)> {
+pub fn spread(count: u32) -> impl Iterator<Item = (f64, f64)> {
     let g = 1.324_717_957_244_746;
     (1..=count).map(move |i| {
         let i = f64::from(i);

@@ -139,8 +139,8 @@ impl Covariance {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oracle::isotropic::mean_projections;
-    use crate::oracle::quadrature::{integrate, spread};
+    use crate::isotropic::mean_projections;
+    use crate::quadrature::{integrate, spread};
     use std::f64::consts::TAU;
 
     const COUETTE: [[f64; 3]; 3] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]];

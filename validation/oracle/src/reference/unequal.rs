@@ -1,6 +1,6 @@
 //! Free rods of unequal aspect ratios (eq. 11) that were isotropic at t = 0, in plane Couette flow.
 
-use crate::oracle::isotropic::{mean_over_aspect_ratios, mean_projections};
+use crate::isotropic::{mean_over_aspect_ratios, mean_projections};
 use crate::reference::big::{Big, Bits, double};
 use crate::reference::isotropic::Covariance;
 use crate::reference::motion::{Motion, Unit};

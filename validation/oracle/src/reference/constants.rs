@@ -213,9 +213,9 @@ fn complete(k: &Big, a: &Big, b: &Big) -> Big {
 mod tests {
     use super::super::big::double;
     use super::*;
-    use crate::oracle::closed_form;
-    use crate::oracle::isotropic::plateau_projections;
-    use crate::oracle::quadrature::{mean_angle_by_quadrature, phase_means_by_quadrature, spread};
+    use crate::closed_form;
+    use crate::isotropic::plateau_projections;
+    use crate::quadrature::{mean_angle_by_quadrature, phase_means_by_quadrature, spread};
 
     fn apart(found: &Big, expected: f64) -> f64 {
         (double(found) - expected).abs()

@@ -110,8 +110,8 @@ impl Start {
 mod tests {
     use super::super::big::double;
     use super::*;
-    use crate::oracle::closed_form::{angles_at, orbit_constant_from_angles};
-    use crate::oracle::quadrature::spread;
+    use crate::closed_form::{angles_at, orbit_constant_from_angles};
+    use crate::quadrature::spread;
     use std::f64::consts::TAU;
 
     fn couette(aspect_ratio: f64) -> Motion {

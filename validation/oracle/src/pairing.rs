@@ -79,7 +79,7 @@ fn nearest(places: &[[f64; 3]], i: usize) -> Option<(usize, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oracle::naive::stream;
+    use crate::naive::stream;
     use rand::RngExt;
 
     /// How likely each two rods collide, by trying every outcome of the draws and the rule in its own words.

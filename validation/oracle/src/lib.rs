@@ -1,0 +1,19 @@
+//! What judges the simulator `shearbed`: closed forms, quadratures, values in any precision and a naive reference.
+//!
+//! Nothing here uses the simulator: the crate does not depend on it, so that the compiler holds it to that.
+
+pub mod closed_form;
+pub mod exponential;
+pub mod isotropic;
+pub mod jeffery;
+pub mod kicks;
+pub mod moments;
+pub mod naive;
+pub mod pairing;
+pub mod quadrature;
+pub mod reference;
+
+/// The README's example, as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
