@@ -3,9 +3,9 @@
 #[cfg(test)]
 mod tests;
 
-use crate::observable::{Observable, Sum};
+use crate::observable::{self, Observable, Sum};
 use crate::plan::{Plan, Unit};
-use crate::run::{self, Replica, run_replica};
+use crate::run::{Replica, run_replica};
 use crate::snapshot::Snapshot;
 use crate::work::{Counters, RunError};
 use rayon::prelude::*;
@@ -146,7 +146,7 @@ pub(crate) fn in_batches<E>(
 
 /// Sums per output.
 pub(crate) fn width(plan: &Plan) -> usize {
-    run::width(&plan.observables())
+    observable::width(&plan.observables())
 }
 
 /// Replicas held in memory at a time: about 256 MB of sums, of which each output has `width`.

@@ -108,6 +108,11 @@ pub(crate) const TRACES: [(usize, f64); 6] = [(0, 1.0), (10, 1.0), (14, 1.0), (3
 /// The bins of the density of C_b over [0, 1].
 const BINS: usize = 20;
 
+/// Sums per output.
+pub(crate) fn width(observables: &[Observable]) -> usize {
+    observables.iter().map(|observable| observable.width()).sum()
+}
+
 impl Observable {
     /// Every observable.
     pub const ALL: [Self; 7] = [

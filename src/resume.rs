@@ -4,9 +4,9 @@
 //! directions, positions and counts of work. Random streams are not: how many numbers were drawn is among the counts.
 
 use crate::observable::Sum;
+use crate::observable::width;
 use crate::plan::{Plan, Stage};
 use crate::random::{Purpose, ahead, stream};
-use crate::run::width;
 use crate::snapshot::Snapshot;
 use crate::suspension::Suspension;
 use crate::work::Counters;

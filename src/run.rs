@@ -5,7 +5,7 @@ mod tests;
 
 use crate::border::{self, Fault};
 use crate::chunks::{CHUNK, of_chunks};
-use crate::observable::{BLOCK, Block, Channel, Observable, Sum};
+use crate::observable::{BLOCK, Block, Channel, Observable, Sum, width};
 use crate::plan::{Plan, Stage};
 use crate::resume::{Halfway, Placed};
 use crate::rods::Rods;
@@ -61,11 +61,6 @@ impl Replica {
         let sum = self.sums.get(output * width(&self.observables) + place)?;
         Some(sum.value / self.rods as f64)
     }
-}
-
-/// Sums per output.
-pub(crate) fn width(observables: &[Observable]) -> usize {
-    observables.iter().map(|observable| observable.width()).sum()
 }
 
 /// Runs one replica. Its bits depend on the scene, the seed and `replica` only.

@@ -1,7 +1,9 @@
 //! Small loops whose outcome cannot be foretold, without branches.
 
-use super::grid::BLOCK;
 use std::ops::Range;
+
+/// Rods that are looked at together.
+pub(super) const BLOCK: usize = 128;
 
 /// Calls `found` with every rod whose cell is in `range`, in the order of rods.
 pub(super) fn each_rod_in(cells: &[u32], range: Range<usize>, mut found: impl FnMut(usize)) {

@@ -1,7 +1,7 @@
 //! Nearest neighbours of many rods, by a grid of cells.
 
 use super::Nearest;
-use super::branchless::{each_rod_in, greater, lesser};
+use super::branchless::{BLOCK, each_rod_in, greater, lesser};
 use crate::chunks::{CHUNK, of_chunks};
 use crate::work::Counters;
 use rayon::prelude::*;
@@ -290,8 +290,6 @@ impl Grid {
     }
 }
 
-/// Rods that are looked at together.
-pub(super) const BLOCK: usize = 128;
 /// How many rods before and behind, in the order of cells, are looked at first.
 const WINDOW: usize = 4;
 const MARGIN: usize = WINDOW + 1;

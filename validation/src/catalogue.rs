@@ -2,7 +2,7 @@
 
 use crate::case::About;
 use crate::markup::cites_figure;
-use crate::report::{ReportEquation, Sections, equation_table, markdown_table};
+use crate::report::{ReportEquation, Sections, equation_table};
 use crate::table::{ReportTable, words};
 use crate::{cases, equations};
 use std::ops::RangeInclusive;
@@ -25,9 +25,9 @@ pub fn markdown() -> String {
         "# The catalogue\n\nMade from the registry; `UPDATE_DOCS=1 cargo test -p shearbed-suite --test docs` makes \
          it anew.\n\n## Cases\n\n{}\n{} cases; `docs/strength.md` has their probabilities of a false alarm and of a miss.\n\n\
          ## Equations\n\n{}",
-        markdown_table(&table),
+        table.cells_as_markdown(),
         about.len(),
-        markdown_table(&equation_table(&equations())),
+        equation_table(&equations()).cells_as_markdown(),
     )
 }
 

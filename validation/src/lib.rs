@@ -36,6 +36,7 @@ pub mod stability;
 pub mod start;
 pub mod statistics;
 pub mod studies;
+pub mod study;
 pub mod suspensions;
 pub mod sweep;
 pub mod table;

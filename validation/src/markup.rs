@@ -168,6 +168,26 @@ fn subscript(c: char) -> Option<char> {
     FROM.find(c).and_then(|at| TO.chars().nth(at))
 }
 
+/// For Markdown: a text that stays in its cell and is no markup, but for what stands in backticks.
+pub(crate) fn markdown(text: &str) -> String {
+    let mut escaped = String::new();
+    for piece in pieces(text) {
+        match piece {
+            Piece::Code(code) => escaped += &format!("`{}`", code.replace('\n', " ").replace('|', "\\|")),
+            Piece::Text(text) | Piece::Equation(text) | Piece::Figure(text) => {
+                unicode(text).chars().for_each(|c| match c {
+                    '\n' => escaped.push(' '),
+                    '<' => escaped.push_str("&lt;"),
+                    '&' => escaped.push_str("&amp;"),
+                    '|' | '*' | '_' | '\\' | '[' => escaped.extend(['\\', c]),
+                    _ => escaped.push(c),
+                });
+            }
+        }
+    }
+    escaped
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

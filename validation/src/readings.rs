@@ -15,7 +15,7 @@ use crate::case::Effort;
 use crate::cluster;
 use crate::oracle::naive::{Images, Lines, Naive, Problem, Replacement, Update, Who, mean_projections};
 use crate::statistics::Estimate;
-use crate::studies::{self, Extent, Found, Study};
+use crate::study::{Extent, Found, Study};
 use rayon::prelude::*;
 use std::convert::Infallible;
 use std::iter::once;
@@ -34,7 +34,7 @@ pub const STUDY: Study = Study {
         "faces-cost-collisions",
     ],
     command: "cargo run --release -p shearbed-suite --example readings",
-    benches: studies::none,
+    benches: Study::no_parts,
     shared: true,
     run,
 };

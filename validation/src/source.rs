@@ -2,6 +2,7 @@
 
 mod examples;
 mod map;
+mod order;
 pub mod reach;
 
 use std::path::{Path, PathBuf};
@@ -13,6 +14,8 @@ pub struct File {
     pub module: String,
     /// The file or folder beside `lib.rs` that it belongs to.
     pub room: String,
+    /// Whether it is a file of tests, or lies below one.
+    pub of_tests: bool,
     pub text: String,
 }
 
@@ -48,6 +51,7 @@ pub fn files(folder: &Path) -> Vec<File> {
             };
             found.push(File {
                 module,
+                of_tests: place.iter().any(|name| name == "tests" || name == "tests.rs"),
                 room: stem(Path::new(place.iter().next().expect("a name"))),
                 text: std::fs::read_to_string(&path).expect("text"),
             });

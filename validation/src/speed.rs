@@ -6,7 +6,7 @@ mod measure;
 pub mod tables;
 
 use crate::build;
-use crate::studies::{Exhibit, Extent, Found, Study};
+use crate::study::{Exhibit, Extent, Found, Study};
 pub use measure::measure;
 use serde::Serialize;
 

@@ -3,7 +3,7 @@
 #[cfg(test)]
 mod tests;
 
-use crate::report::markdown_table;
+use crate::markup;
 use crate::text::cell;
 use serde::Serialize;
 
@@ -269,6 +269,20 @@ impl ReportTable {
 
     /// Its caption and its cells as Markdown.
     pub fn markdown(&self) -> String {
-        format!("{}\n\n{}", self.caption, markdown_table(self))
+        format!("{}\n\n{}", self.caption, self.cells_as_markdown())
+    }
+
+    /// Its cells alone.
+    pub(crate) fn cells_as_markdown(&self) -> String {
+        let line = |cells: &[String]| {
+            let cells: Vec<_> = cells.iter().map(|cell| markup::markdown(cell)).collect();
+            format!("| {} |\n", cells.join(" | "))
+        };
+        let rows: String = self.rows.iter().map(|row| line(row)).collect();
+        format!(
+            "{}|{}\n{rows}",
+            line(&self.columns),
+            " --- |".repeat(self.columns.len())
+        )
     }
 }

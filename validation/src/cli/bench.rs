@@ -2,7 +2,8 @@
 
 use super::{Failure, on_threads, print, probe};
 use crate::case::Effort;
-use crate::studies::{self, Extent};
+use crate::studies;
+use crate::study::Extent;
 use crate::{output, plot};
 use std::path::PathBuf;
 

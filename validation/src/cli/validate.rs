@@ -5,7 +5,8 @@ use super::{Failure, MAX_THREADS, agree, choice, on_threads, print, probe, progr
 use crate::accept::Verdict;
 use crate::case::{Case, Effort, GATE_SEED, Outcome};
 use crate::report::{self, CaseRow, ReportStudy, Sections};
-use crate::studies::{self, Extent};
+use crate::studies;
+use crate::study::Extent;
 use crate::text::command;
 use crate::{catalogue, cluster, dependencies, experiment, figures, output, tried};
 use serde_json::json;

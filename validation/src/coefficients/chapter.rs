@@ -4,7 +4,7 @@ use super::jumps::{self, Compared, Quantity, above};
 use super::{Amount, rows, show};
 use crate::build;
 use crate::statistics::{Sample, slope};
-use crate::studies::{Exhibit, Extent, Found, Study};
+use crate::study::{Exhibit, Extent, Found, Study};
 
 /// C_I, and the rods' stress.
 pub const STUDY: Study = Study {

@@ -3,8 +3,8 @@
 use super::Coefficients;
 use crate::plot::{Figure, Points};
 use crate::published::folgar_tucker;
-use crate::report::ReportFigure;
 use crate::statistics::{Estimate, student};
+use crate::study::ReportFigure;
 use crate::table::{Column, ReportTable, estimate, field, number};
 
 fn of<'a>(name: &str, value: impl Fn(&Coefficients) -> Estimate + 'a) -> Column<'a, Coefficients> {

@@ -1,7 +1,7 @@
 //! The numbers beside a figure: its own curves and points at a few abscissas.
 
 use crate::plot::{Curve, Figure};
-use crate::report::ReportFigure;
+use crate::study::ReportFigure;
 use crate::table::{Column, ReportTable, estimate, number};
 
 /// Abscissas against time. Rods are where they were every half period, so whole and half periods alone would show free

@@ -7,8 +7,8 @@ mod paper;
 mod run;
 
 use crate::case::Effort;
-use crate::report::ReportFigure;
-use crate::studies::{self, Exhibit, Extent, Found, Study};
+use crate::study::ReportFigure;
+use crate::study::{Exhibit, Extent, Found, Study};
 use run::Runs;
 
 /// How many replicas of a scene are run.
@@ -53,7 +53,7 @@ pub const STUDY: Study = Study {
         "in-plane-rods",
     ],
     command: "cargo run --release -- validate",
-    benches: studies::none,
+    benches: Study::no_parts,
     shared: true,
     run,
 };

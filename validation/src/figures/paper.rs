@@ -6,7 +6,7 @@ use super::run::{Run, Runs};
 use crate::case::Effort;
 use crate::oracle::closed_form;
 use crate::plot::{Curve, Figure, Points};
-use crate::report::ReportFigure;
+use crate::study::ReportFigure;
 
 const TIME: &str = "time t/T (periods)";
 const PROJECTION: &str = "mean projection (rod lengths)";

@@ -2,9 +2,9 @@
 
 use crate::cluster;
 use crate::plot::Curve;
-use crate::report::ScenePlan;
 use crate::scenes::{self, BuiltIn};
 use crate::statistics::Sample;
+use crate::study::ScenePlan;
 use shearbed::observable::Channel;
 use shearbed::run::Replica;
 use shearbed::{Plan, Scene, ensemble};

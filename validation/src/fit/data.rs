@@ -212,6 +212,17 @@ fn check(file: &str, points: &[Datum]) -> Result<(), DataError> {
     Ok(())
 }
 
+/// Every data set and column, in order.
+pub(super) fn kinds(data: &[Datum]) -> Vec<(usize, String)> {
+    let mut kinds: Vec<_> = data
+        .iter()
+        .map(|datum| (datum.set, datum.column.clone()))
+        .collect();
+    kinds.sort();
+    kinds.dedup();
+    kinds
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

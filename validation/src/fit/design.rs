@@ -162,7 +162,7 @@ pub fn design(fit: &Fit, scenes: &Scenes, data: &[Datum], watch: &Watch<'_>) -> 
 /// Where points of each set and column could be measured.
 fn places(scenes: &Scenes, best: &[f64], data: &[Datum]) -> Result<Vec<Datum>, String> {
     let mut all = Vec::new();
-    let kinds = super::pictures::kinds(data);
+    let kinds = super::data::kinds(data);
     let times = TIMES
         .min(MOST_CANDIDATES / (kinds.len() * CONCENTRATIONS.len()))
         .max(1);

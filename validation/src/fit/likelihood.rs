@@ -3,7 +3,6 @@
 use super::basis::Basis;
 use super::data::Datum;
 use super::emulator::Emulator;
-use super::minimise::minimise;
 use nalgebra::{DMatrix, DVector};
 
 /// The causes of a difference between model and measurement, in the order of [`Causes`]; for tables.
@@ -56,7 +55,12 @@ pub struct ChiSquare {
 }
 
 impl ChiSquare {
-    fn new(data: &[Datum], emulator: &Emulator, covariance: &DMatrix<f64>, near: &[f64]) -> Option<Self> {
+    pub(super) fn new(
+        data: &[Datum],
+        emulator: &Emulator,
+        covariance: &DMatrix<f64>,
+        near: &[f64],
+    ) -> Option<Self> {
         let terms = emulator.mean();
         let measured = DVector::from_iterator(data.len(), data.iter().map(|datum| datum.value));
         let error = measured - emulator.at(near);
@@ -85,81 +89,9 @@ impl ChiSquare {
     }
 }
 
-/// The place that fits best in a box, by generalised least squares: V is that at the best place, found by turns.
-#[derive(Clone, Debug)]
-pub struct Best {
-    /// In the box, from −1 to 1.
-    pub place: Vec<f64>,
-    /// χ² there.
-    pub chi_square: f64,
-    /// χ² over the box with V held.
-    pub surface: ChiSquare,
-    /// V by its causes.
-    pub causes: Causes,
-    /// The covariance of the parameters by cause, on the box's scale: A V_cause Aᵀ, A = (JᵀV⁻¹J)⁻¹JᵀV⁻¹.
-    pub spread: Vec<DMatrix<f64>>,
-    /// A: parameters × points, by how much an estimate follows each point.
-    pub influence: DMatrix<f64>,
-}
-
-/// The most rounds in which V follows the best place, and the move of that, in half boxes, below which it stays.
-const ROUNDS: usize = 6;
-const STAYS: f64 = 1e-3;
-
-/// The best place; `None` where V or the information is not positive.
-pub fn best(data: &[Datum], emulator: &Emulator, rods_over_measured: &[f64]) -> Option<Best> {
-    let parameters = emulator.basis.nodes[0].len();
-    let mut place = vec![0.0; parameters];
-    let total = |causes: &Causes| {
-        causes
-            .iter()
-            .fold(DMatrix::zeros(data.len(), data.len()), |sum, one| sum + one)
-    };
-    for _ in 0..ROUNDS {
-        let causes = causes(data, emulator, &place, rods_over_measured);
-        let surface = ChiSquare::new(data, emulator, &total(&causes), &place)?;
-        let before = std::mem::replace(&mut place, minimise(&surface, &vec![None; parameters], None).0);
-        if before.iter().zip(&place).all(|(a, b)| (a - b).abs() < STAYS) {
-            break;
-        }
-    }
-    let causes = causes(data, emulator, &place, rods_over_measured);
-    let covariance = total(&causes);
-    let surface = ChiSquare::new(data, emulator, &covariance, &place)?;
-    let (place, chi_square) = minimise(&surface, &vec![None; parameters], Some(&place));
-    let slopes = emulator.slopes(&place);
-    let weighted = covariance.cholesky()?.solve(&slopes);
-    let influence = slopes.tr_mul(&weighted).cholesky()?.solve(&weighted.transpose());
-    let spread = (causes.iter())
-        .map(|cause| &influence * cause * influence.transpose())
-        .collect();
-    Some(Best {
-        place,
-        chi_square,
-        surface,
-        causes,
-        spread,
-        influence,
-    })
-}
-
 /// The correlations that belong to a covariance.
 pub(super) fn correlation_of(covariance: &DMatrix<f64>) -> DMatrix<f64> {
     DMatrix::from_fn(covariance.nrows(), covariance.ncols(), |i, j| {
         covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt()
     })
-}
-
-impl Best {
-    /// The covariance of the parameters, on the box's scale.
-    pub fn covariance(&self) -> DMatrix<f64> {
-        let zero = DMatrix::zeros(self.place.len(), self.place.len());
-        self.spread.iter().fold(zero, |sum, one| sum + one)
-    }
-
-    /// The largest share that a cause has in the variance of a parameter.
-    pub fn share(&self, cause: usize) -> f64 {
-        let (own, all) = (self.spread[cause].diagonal(), self.covariance().diagonal());
-        own.component_div(&all).max()
-    }
 }

@@ -5,6 +5,7 @@
 //! the measured rods, the model's replicas and the polynomials' lack of fit. `docs/fit.md` has the formulas.
 
 pub mod basis;
+mod best;
 pub mod budget;
 pub mod data;
 pub mod design;

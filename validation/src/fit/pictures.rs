@@ -1,6 +1,6 @@
 //! A fit as pictures: points with the best curve and its band, residuals, profiles, and the region of two parameters.
 
-use super::data::Datum;
+use super::data::{Datum, kinds};
 use super::emulator::Model;
 use super::profile::{contour, rise_of_several};
 use super::report::{Report, levels};
@@ -28,17 +28,6 @@ pub fn places(data: &[Datum]) -> Vec<Datum> {
         all.extend((0..=TIMES).map(|k| Datum::place(set, &column, last * k as f64 / TIMES as f64)));
     }
     all
-}
-
-/// Every data set and column, in order.
-pub(super) fn kinds(data: &[Datum]) -> Vec<(usize, String)> {
-    let mut kinds: Vec<_> = data
-        .iter()
-        .map(|datum| (datum.set, datum.column.clone()))
-        .collect();
-    kinds.sort();
-    kinds.dedup();
-    kinds
 }
 
 /// Means over replicas at every place, and the square of their standard error.

@@ -1,6 +1,6 @@
 //! Intervals by profile likelihood: how far a parameter can go while the others follow it.
 
-use super::likelihood::Best;
+use super::best::Best;
 use super::minimise::minimise;
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};

@@ -2,9 +2,10 @@
 //! small beside the data's.
 
 use super::basis::Basis;
+use super::best::{Best, best};
 use super::data::Datum;
 use super::emulator::{Coefficients, Emulator, Model, Sides, coefficients};
-use super::likelihood::{Best, REPLICAS, best};
+use super::likelihood::REPLICAS;
 use super::profile::{Interval, Profile, interval, profile, rise_of};
 use super::range::Range;
 use nalgebra::{DMatrix, DVector};

@@ -1,7 +1,6 @@
 //! Which known mistake about two rods in contact (A.7 to A.14) an answer has.
 
 use super::answer::Answer;
-use super::diagnosis::said;
 use crate::problems::LoadedProblem;
 use crate::problems::contact::{Variant, answers};
 use nalgebra::Matrix3;
@@ -23,9 +22,11 @@ const fn kicked(kick: f64) -> Variant {
     Variant { kick, printed: false }
 }
 
-/// Which mistake's answer it is.
-pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Option<String> {
-    let inputs = loaded.inputs.as_ref()?;
+/// The mistakes whose answers are near, and how near.
+pub(super) fn near(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Vec<(f64, String)> {
+    let Some(inputs) = &loaded.inputs else {
+        return Vec::new();
+    };
     let (l, step_s) = (&loaded.problem.gradient_per_s, loaded.problem.time_step_s);
     let gradient = Matrix3::from_fn(|i, j| l[i][j]);
     let of_mistake = |(name, variant): &(&str, Variant)| {
@@ -47,8 +48,5 @@ pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64
     // A.13 makes angles; ṗ′ does not need it.
     let applies = |(_, variant): &&(&str, Variant)| !variant.printed || step_s.is_some();
     let near = MISTAKES.iter().filter(applies).filter_map(of_mistake);
-    said(
-        near.filter(|(distance, _)| *distance <= nearer_than).collect(),
-        loaded.problem.tolerance,
-    )
+    near.filter(|(distance, _)| *distance <= nearer_than).collect()
 }

@@ -26,7 +26,8 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Option<S
         aspect_ratio: loaded.problem.aspect_ratio,
     };
     if loaded.problem.kind == Kind::Contact {
-        return contact::diagnose(loaded, answer, NEARER * error);
+        let near = contact::near(loaded, answer, NEARER * error);
+        return said(near, loaded.problem.tolerance);
     }
     if loaded.problem.kind == Kind::Ensemble {
         return means::ensemble(loaded, answer);

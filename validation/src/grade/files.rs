@@ -1,10 +1,11 @@
 //! Verdicts on answers in files.
 
-use super::answer::{self, Answer};
+use super::answer::Answer;
 use super::compare::compare;
 use super::diagnosis::diagnose;
 use super::lammps;
 use super::layout::Told;
+use super::read::read;
 use super::{Graded, ORDER_TOLERANCE, Verdict, orders};
 use crate::problems::{LoadedProblem, Metric, ReadError};
 use std::fs;
@@ -108,7 +109,7 @@ fn find(dir: &Path) -> Result<Found, ReadError> {
 fn one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, ReadError> {
     let problem = &loaded.problem;
     let found = find(dir)?;
-    let read = |path: &PathBuf| answer::read(path, loaded, &options.told, &options.dump);
+    let read = |path: &PathBuf| read(path, loaded, &options.told, &options.dump);
     let mut errors = Vec::new();
     let mut finest = None;
     for (steps, path) in &found.steps {

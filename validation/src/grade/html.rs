@@ -2,7 +2,7 @@
 
 use super::report::{number, tables, words};
 use super::{Graded, Report, Verdict};
-use crate::report::ReportTable;
+use crate::table::ReportTable;
 use crate::text::readable;
 use minijinja::value::Serde;
 use minijinja::{Environment, UndefinedBehavior};

@@ -15,6 +15,7 @@ mod lines;
 pub mod live;
 mod means;
 mod mistakes;
+mod read;
 mod report;
 
 pub use axes::Axes;

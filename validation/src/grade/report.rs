@@ -2,7 +2,7 @@
 
 use super::live::Studies;
 use super::{Graded, Verdict};
-use crate::report::{ReportTable, markdown_table};
+use crate::table::ReportTable;
 use crate::table::of_words;
 use crate::text::escaped;
 use serde::Serialize;
@@ -140,7 +140,7 @@ pub fn markdown(report: &Report) -> String {
             "\n## {}\n\n{}\n\n{}",
             table.title,
             table.caption,
-            markdown_table(table)
+            table.cells_as_markdown()
         );
         if k == 0 {
             text += "\n";

@@ -2,7 +2,7 @@
 
 use super::study::{self, Limit};
 use super::tables;
-use crate::studies::{self, Exhibit, Extent, Found, Study};
+use crate::study::{Exhibit, Extent, Found, Study};
 
 /// Kicks against the step, their tail, the averaged motion, the two updates.
 pub const STUDY: Study = Study {
@@ -20,7 +20,7 @@ pub const STUDY: Study = Study {
         "paths-do-not-converge",
     ],
     command: "cargo run --release -p shearbed-suite --example time_step",
-    benches: studies::none,
+    benches: Study::no_parts,
     shared: false,
     run,
 };

@@ -4,8 +4,8 @@ use super::study::{Limit, PERIODS_AT, SCENE};
 use super::tail::Exponent;
 use super::{Counts, StepCounts, averaged, updates};
 use crate::plot;
-use crate::report::ReportFigure;
 use crate::statistics::Sample;
+use crate::study::ReportFigure;
 use crate::table::{Column, ReportTable, estimate, field, number, words};
 
 /// A value with two digits of its error.

@@ -4,7 +4,7 @@
 //! on every machine. `shearbed run fig7-n50 --replicas 20000 --seed 1982` wrote `data/fig7-n50.csv`, and
 //! `shearbed run fig4-n50 --replicas 20000 --seed 1982` wrote `data/fig4-n50.csv`; rows of other times are left out.
 
-use super::rods::{AXES, COUETTE, period_s};
+use super::asked::{AXES, COUETTE, period_s};
 use super::{Built, Ensemble, FORMAT, Kind, Metric, Problem, ProblemDef};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 

@@ -1,6 +1,6 @@
 //! Problems of free rods in flows other than u₂ = G x₁.
 
-use super::rods::{ANY_FLOW, Asked, COUETTE, SHEAR_RATE_PER_S, direction, period_s};
+use super::asked::{ANY_FLOW, Asked, COUETTE, SHEAR_RATE_PER_S, direction, period_s};
 
 pub(super) fn extension(rates_per_s: [f64; 3], name: &str) -> Asked {
     let diagonal = |i: usize| {

@@ -4,6 +4,7 @@
 //! given, `inputs.csv` where pairs in contact are given, `certified.csv`, `README.md`. `read` reads such folders back and
 //! refuses whatever is not as `export` writes it.
 
+mod asked;
 pub(crate) mod contact;
 mod ensemble;
 mod export;

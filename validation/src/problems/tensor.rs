@@ -1,6 +1,6 @@
 //! Problems of means over infinitely many free rods that are isotropic at t = 0.
 
-use super::rods::{AXES, COUETTE, direction, period_s};
+use super::asked::{AXES, COUETTE, direction, period_s};
 use super::{Built, FORMAT, Kind, Metric, Problem, ProblemDef, tolerance};
 use crate::oracle::reference::big::{Bits, digits};
 use crate::oracle::reference::isotropic::Covariance;

@@ -10,7 +10,7 @@ use super::{CaseRow, Line, Report, ReportFigure, ReportTable};
 use crate::accept::Verdict;
 use crate::case::Judges;
 use crate::plot;
-use crate::studies::Exhibit;
+use crate::study::Exhibit;
 use crate::text::readable;
 use minijinja::value::{Serde, Value};
 use minijinja::{Environment, UndefinedBehavior};

@@ -2,7 +2,7 @@
 
 use super::formats::{bounds, seconds, verdict};
 use super::{CaseRow, Report, ReportEquation, ReportStudy};
-use crate::markup::{Piece, pieces, unicode};
+use crate::markup::markdown;
 use crate::table::{ReportTable, of_words};
 use crate::text::readable;
 
@@ -28,12 +28,12 @@ pub(super) fn write(report: &Report) -> String {
         code(&origin.command),
         origin.version,
         origin.commit,
-        escape(&origin.rustc),
+        markdown(&origin.rustc),
         origin.build,
-        escape(&origin.processor),
+        markdown(&origin.processor),
         origin.threads,
         origin.system,
-        escape(&origin.seeds)
+        markdown(&origin.seeds)
     );
     readable(&text).into_owned()
 }
@@ -46,9 +46,9 @@ fn row(case: &CaseRow) -> String {
         "| {symbol} {word} | `{}` | {} | {} | {} | {error} | {tolerance} | {} | {} of {} | {} |\n",
         case.name,
         case.judges.name(),
-        escape(&case.claim),
-        escape(&case.source),
-        escape(because),
+        markdown(&case.claim),
+        markdown(&case.source),
+        markdown(because),
         case.caught,
         case.controls.len(),
         seconds(case.seconds)
@@ -59,22 +59,22 @@ fn row(case: &CaseRow) -> String {
 fn study(study: &ReportStudy) -> String {
     let mut text = format!(
         "## {}\n\n*{}* {}\n\nRepeat: {}\n\n",
-        escape(&study.title),
-        escape(&study.question),
-        escape(&study.answer),
+        markdown(&study.title),
+        markdown(&study.question),
+        markdown(&study.answer),
         code(&study.command)
     );
     for exhibit in &study.exhibits {
         if let Some(figure) = &exhibit.figure {
-            let (title, caption) = (escape(&figure.figure.title), escape(&figure.caption));
+            let (title, caption) = (markdown(&figure.figure.title), markdown(&figure.caption));
             text += &format!("**{title}** (`curves/{}.csv`): {caption}\n\n", figure.name);
         }
         if let Some(table) = &exhibit.table {
             text += &format!(
                 "### {}\n\n{}\n\n{}\n",
-                escape(&table.title),
-                escape(&table.caption),
-                markdown_table(table)
+                markdown(&table.title),
+                markdown(&table.caption),
+                table.cells_as_markdown()
             );
         }
     }
@@ -84,23 +84,9 @@ fn study(study: &ReportStudy) -> String {
 fn section(table: &ReportTable) -> String {
     format!(
         "## {}\n\n{}\n\n{}\n",
-        escape(&table.title),
-        escape(&table.caption),
-        markdown_table(table)
-    )
-}
-
-/// The columns and rows of a table as Markdown.
-pub(crate) fn markdown_table(table: &ReportTable) -> String {
-    let line = |cells: &[String]| {
-        let cells: Vec<_> = cells.iter().map(|cell| escape(cell)).collect();
-        format!("| {} |\n", cells.join(" | "))
-    };
-    let rows: String = table.rows.iter().map(|row| line(row)).collect();
-    format!(
-        "{}|{}\n{rows}",
-        line(&table.columns),
-        " --- |".repeat(table.columns.len())
+        markdown(&table.title),
+        markdown(&table.caption),
+        table.cells_as_markdown()
     )
 }
 
@@ -134,24 +120,4 @@ fn code(text: &str) -> String {
         true => format!("{fence} {text} {fence}"),
         false => format!("{fence}{text}{fence}"),
     }
-}
-
-/// A text that stays in its cell and is no markup, but for what stands in backticks.
-fn escape(text: &str) -> String {
-    let mut escaped = String::new();
-    for piece in pieces(text) {
-        match piece {
-            Piece::Code(code) => escaped += &format!("`{}`", code.replace('\n', " ").replace('|', "\\|")),
-            Piece::Text(text) | Piece::Equation(text) | Piece::Figure(text) => {
-                unicode(text).chars().for_each(|c| match c {
-                    '\n' => escaped.push(' '),
-                    '<' => escaped.push_str("&lt;"),
-                    '&' => escaped.push_str("&amp;"),
-                    '|' | '*' | '_' | '\\' | '[' => escaped.extend(['\\', c]),
-                    _ => escaped.push(c),
-                });
-            }
-        }
-    }
-    escaped
 }

@@ -15,15 +15,16 @@ mod sections;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use markdown::{equation_table, markdown_table};
+pub(crate) use markdown::equation_table;
 
 use crate::accept::{FALSE_ALARM_BUDGET, Verdict};
 use crate::case::{Effort, Judges, Outcome};
 use crate::output::Output;
-pub use crate::table::ReportTable;
+use crate::study::{ReportFigure, ScenePlan};
+use crate::table::ReportTable;
 pub use origin::Origin;
 pub use row::{CaseRow, Line};
-pub use sections::{ReportEquation, ReportFigure, ReportStudy, ScenePlan, Sections};
+pub use sections::{ReportEquation, ReportStudy, Sections};
 use serde::Serialize;
 
 /// How many cases ended how.

@@ -1,24 +1,8 @@
 //! What a report shows beside its cases, as plain data.
 
-use crate::plot::Figure;
-use crate::studies::{Exhibit, Found, Study};
+use crate::study::{Exhibit, Found, ReportFigure, ScenePlan, Study};
 use crate::table::ReportTable;
 use serde::Serialize;
-
-/// A picture with what to see in it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct ReportFigure {
-    /// Its name, in words joined by `-`; its anchor is `figure-NAME`.
-    pub name: String,
-    /// The picture.
-    pub figure: Figure,
-    /// What to see.
-    pub caption: String,
-    /// Equations and figures of the paper.
-    pub source: String,
-    /// The cases that judge what is shown, which link here.
-    pub cases: Vec<String>,
-}
 
 /// An equation of the paper, the code that is made from it and the cases that test it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -31,21 +15,6 @@ pub struct ReportEquation {
     pub code: Vec<String>,
     /// The names of the cases.
     pub cases: Vec<String>,
-}
-
-/// How a scene behind a figure was run.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct ScenePlan {
-    /// The built-in scene's name.
-    pub scene: String,
-    /// Its title.
-    pub title: String,
-    /// The seed of its random numbers.
-    pub seed: u64,
-    /// The command that repeats it.
-    pub command: String,
-    /// What ran and what was left out, as `shearbed plan` prints it.
-    pub text: String,
 }
 
 /// A study with what it found.

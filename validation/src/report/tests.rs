@@ -7,7 +7,7 @@ use super::*;
 use crate::accept::{Rule, judge};
 use crate::case::{About, Control, Evidence, GATE_SEED, Judged, Judges};
 use crate::plot::{Curve, Figure};
-use crate::studies::Exhibit;
+use crate::study::Exhibit;
 use crate::table::{number, words};
 use crate::xml::is_well_formed;
 use synthetic::synthetic;

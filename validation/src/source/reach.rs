@@ -185,7 +185,8 @@ impl Source {
     }
 }
 
-fn of_tests(attributes: &[Attribute]) -> bool {
+/// Whether an item is for tests alone.
+pub fn of_tests(attributes: &[Attribute]) -> bool {
     attributes.iter().any(|attribute| {
         attribute.path().is_ident("cfg")
             && attribute

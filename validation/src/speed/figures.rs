@@ -2,7 +2,7 @@
 
 use super::{Speed, Step};
 use crate::plot::{Curve, Figure};
-use crate::report::ReportFigure;
+use crate::study::ReportFigure;
 
 /// Both pictures.
 pub fn figures(speed: &Speed) -> Vec<ReportFigure> {

@@ -2,7 +2,7 @@
 
 use super::{corners_table, ends, figures, limit_tables, maps};
 use crate::integrators;
-use crate::studies::{self, Exhibit, Extent, Found, Study};
+use crate::study::{Exhibit, Extent, Found, Study};
 
 /// Maps of what becomes of a rod, and the longest steps beside their theory.
 pub const STUDY: Study = Study {
@@ -23,7 +23,7 @@ pub const STUDY: Study = Study {
         "extreme-motion",
     ],
     command: "cargo run --release -- validate",
-    benches: studies::none,
+    benches: Study::no_parts,
     shared: false,
     run,
 };

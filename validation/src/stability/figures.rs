@@ -1,10 +1,11 @@
 //! The limits of a step against theory, as pictures.
 
-use super::limit_tables::{ONE_STEP, THEORIES};
+use super::limit_tables::ONE_STEP;
 use super::limits::{Limit, Property, bisect, holds};
+use super::theory::THEORIES;
 use crate::integrators::{Integrator, Theory};
 use crate::plot;
-use crate::report::ReportFigure;
+use crate::study::ReportFigure;
 
 /// A picture for each property of which there is a theory.
 pub fn figures(subjects: &[Box<dyn Integrator>]) -> Vec<ReportFigure> {

@@ -2,7 +2,7 @@
 
 use super::limits::{Ladder, Limit, Property, bisect, holds};
 use super::maps::ratio;
-use super::theory;
+use super::theory::THEORIES;
 use crate::integrators::{Integrator, Theory};
 use crate::table::{ReportTable, of_words};
 
@@ -22,31 +22,6 @@ pub const TEN_PERIODS: Ladder = Ladder {
     most: 20.0,
     factor: 1.25,
 };
-
-/// A theory of a limit: which subject, its property, and GΔt against r_e.
-pub type LimitTheory = (&'static str, Property, fn(f64) -> f64);
-
-/// Every limit of which there is a theory at all r_e.
-pub const THEORIES: [LimitTheory; 6] = [
-    ("explicit Euler in angles", Property::Order, theory::euler_order),
-    (
-        "implicit midpoint in p",
-        Property::Order,
-        theory::implicit_midpoint_order,
-    ),
-    (
-        "explicit Euler in angles",
-        Property::Turning,
-        theory::euler_turning,
-    ),
-    ("Lie-group midpoint", Property::Turning, theory::euler_turning),
-    ("explicit Euler in angles", Property::Side, theory::euler_side),
-    (
-        "implicit midpoint in p",
-        Property::Side,
-        theory::implicit_midpoint_one_solution,
-    ),
-];
 
 /// A table for each property.
 pub fn limits(subjects: &[Box<dyn Integrator>]) -> Vec<ReportTable> {

@@ -1,13 +1,13 @@
 //! The maps: what was found in every corner, as pictures.
 
-use super::limit_tables::THEORIES;
 use super::limits::Property;
 use super::map::{self, ASPECT_RATIOS, Cell, PERIODS, TOLERANCES};
 use super::orbit::Place;
 use super::panels::{Panel, Panels};
+use super::theory::THEORIES;
 use crate::integrators::{Integrator, Setting, Theory};
 use crate::plot::{Map, decade, power_of_ten};
-use crate::report::ReportFigure;
+use crate::study::ReportFigure;
 use shearbed::jeffery::strain_per_period;
 
 /// Steps that a run of the maps over steps and over starts may take; ten times as many over durations.

@@ -2,7 +2,7 @@
 
 use super::map::{Cell, Found};
 use crate::plot::{Figure, Grid, Map};
-use crate::report::ReportFigure;
+use crate::study::ReportFigure;
 
 /// What was found of one subject, or at one aspect ratio: a row and a column for each cell.
 pub(super) struct Panel {

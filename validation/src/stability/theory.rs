@@ -1,6 +1,24 @@
 //! Longest steps GΔt by theory, where there is one; derived in `docs/stability.md`.
 
+use super::limits::Property;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
+
+/// A theory of a limit: which subject, its property, and GΔt against r_e.
+pub type LimitTheory = (&'static str, Property, fn(f64) -> f64);
+
+/// Every limit of which there is a theory at all r_e.
+pub const THEORIES: [LimitTheory; 6] = [
+    ("explicit Euler in angles", Property::Order, euler_order),
+    ("implicit midpoint in p", Property::Order, implicit_midpoint_order),
+    ("explicit Euler in angles", Property::Turning, euler_turning),
+    ("Lie-group midpoint", Property::Turning, euler_turning),
+    ("explicit Euler in angles", Property::Side, euler_side),
+    (
+        "implicit midpoint in p",
+        Property::Side,
+        implicit_midpoint_one_solution,
+    ),
+];
 
 /// |Λ| = |r_e² − 1|/(r_e² + 1).
 fn shape(aspect_ratio: f64) -> f64 {

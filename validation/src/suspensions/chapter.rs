@@ -3,7 +3,7 @@
 use super::free::{self, Bench};
 use super::{export, figures, law_tables, starts, study, tables};
 use crate::build;
-use crate::studies::{Exhibit, Extent, Found, Study};
+use crate::study::{Exhibit, Extent, Found, Study};
 use crate::work_precision::Budget;
 use crate::work_precision::tables::time;
 use serde::Serialize;

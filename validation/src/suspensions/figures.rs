@@ -5,7 +5,7 @@ use super::law::Law;
 use super::split::Scope;
 use super::study::Interacting;
 use crate::plot::{Curve, Figure, Points};
-use crate::report::ReportFigure;
+use crate::study::ReportFigure;
 
 /// A free suspension: a curve for each start.
 pub fn free(bench: &Bench) -> ReportFigure {

@@ -3,7 +3,7 @@
 use super::order::Found as OrderFound;
 use super::{ASPECT_RATIOS, Bench, Budget, export, figures, order, tables};
 use crate::integrators::{self, Theory};
-use crate::studies::{Exhibit, Extent, Found, Study};
+use crate::study::{Exhibit, Extent, Found, Study};
 use crate::{build, work_precision};
 use serde::Serialize;
 

@@ -4,7 +4,7 @@ use super::order::Orders;
 use super::{Bench, IntegratorCurve};
 use crate::integrators::Theory;
 use crate::plot;
-use crate::report::ReportFigure;
+use crate::study::ReportFigure;
 
 /// Where failed runs are drawn: above every error, which is π/2 at most.
 const FAILED: f64 = 10.0;

@@ -8,7 +8,7 @@ use std::path::Path;
 use validation::accept::Verdict;
 use validation::case::Effort;
 use validation::plot;
-use validation::studies::Extent;
+use validation::study::Extent;
 use validation::table::Datum;
 
 #[test]

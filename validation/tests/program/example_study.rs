@@ -1,8 +1,7 @@
 use validation::lab::{changed, free_scene, per_replica};
 use validation::plot::{Curve, Figure};
-use validation::report::ReportFigure;
 use validation::statistics::covariance;
-use validation::studies::{Exhibit, Extent, Found, Study};
+use validation::study::{Exhibit, Extent, Found, ReportFigure, Study};
 use validation::table::{ReportTable, field, number};
 
 pub const STUDY: Study = Study {

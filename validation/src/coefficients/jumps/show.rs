@@ -3,8 +3,8 @@
 use super::{Apart, Compared, Quantity, Shares, above, apart};
 use crate::case::Effort;
 use crate::plot::{Curve, Figure};
-use crate::report::ReportFigure;
 use crate::statistics::Sample;
+use crate::study::ReportFigure;
 use crate::table::{Column, ReportTable, estimate, field, number, words};
 
 /// One of the two samples of a comparison.

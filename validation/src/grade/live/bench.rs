@@ -4,7 +4,7 @@ use super::program::{Program, Question};
 use crate::grade::figures::{LEAST, PROGRAM};
 use crate::integrators::{self, Setting, Theory};
 use crate::plot;
-use crate::report::ReportTable;
+use crate::table::ReportTable;
 use crate::table::of_words;
 use crate::work_precision::tables::{NOT_REACHED, time};
 use crate::work_precision::{Budget, IntegratorCurve, TARGETS_RAD, curve};

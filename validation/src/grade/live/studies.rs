@@ -3,9 +3,9 @@
 use super::bench::{self, Bench};
 use super::program::Program;
 use crate::integrators::{Integrator, Setting, Theory};
-use crate::report::ReportTable;
 use crate::stability::limits::{Ladder, Limit, Property, bisect, holds};
 use crate::stability::map;
+use crate::table::ReportTable;
 use crate::table::of_words;
 use serde::Serialize;
 
