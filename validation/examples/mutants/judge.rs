@@ -66,10 +66,19 @@ impl Test {
     }
 }
 
-/// All tests of the workspace that pass without a mutant, with what each reaches: those of the package that has the mutants, and the
-/// others, the quickest first.
-pub fn tests(tree: &Tree) -> Result<Vec<Test>, Box<dyn Error>> {
-    let (messages, failed) = tree.cargo(&["test", "--no-run"])?;
+/// All tests of the workspace, or the cases of the gate, that pass without a mutant, with what each reaches: those of the package that
+/// has the mutants, and the others, the quickest first.
+pub fn tests(tree: &Tree, cases: bool) -> Result<Vec<Test>, Box<dyn Error>> {
+    let all = ["test", "--no-run"];
+    let gate = [
+        "test",
+        "--no-run",
+        "--package",
+        "shearbed-suite",
+        "--test",
+        "gate",
+    ];
+    let (messages, failed) = tree.cargo(if cases { &gate } else { &all })?;
     if let Some(why) = failed {
         return Err(why.into());
     }

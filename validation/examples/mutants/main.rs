@@ -64,10 +64,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let out = here.join("target/mutants");
     fs::create_dir_all(&out)?;
     let tree = Tree::new(&here, &out, &mutants)?;
-    let mut tests = judge::tests(&tree)?;
-    if args.cases {
-        tests.retain(|test| test.name.starts_with("gate "));
-    }
+    let tests = judge::tests(&tree, args.cases)?;
     eprintln!(
         "{} of {} mutants behind switches; {} tests of {:.0} s reach them",
         tree.places.len(),
