@@ -95,3 +95,23 @@ impl Integrator for Radau {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Radau would find its way with another slope too, in more steps.
+    #[test]
+    fn the_slope_that_radau_is_given_is_the_problems() {
+        let (problem, start) = Problem::mid_flip(5.0);
+        let mut slope = Matrix::full(3, 3);
+        problem.jacobian(0.0, &start.into_inner().into(), &mut slope);
+        let expected = problem.rate_slope(&start);
+        for i in 0..3 {
+            for j in 0..3 {
+                assert_eq!(slope[(i, j)], expected[(i, j)]);
+            }
+        }
+        assert!(expected.norm() > 0.1);
+    }
+}

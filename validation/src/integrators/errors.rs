@@ -64,6 +64,22 @@ mod tests {
         }
     }
 
+    /// The other end of a rod, and a rod that is three tenths of a turn ahead, which is two tenths behind its other end.
+    #[test]
+    fn a_phase_is_told_head_or_tail_alike() {
+        let r = 4.0;
+        let (problem, start) = Problem::mid_flip(r);
+        let end = problem.reference(&start).into_inner();
+        assert!(Errors::of(&-end, &problem, &start).phase_turns < 1e-15);
+        for (turns, seen) in [(0.1, 0.1), (0.3, 0.2), (-0.3, 0.2), (0.7, 0.2)] {
+            let ahead = phase(&end, r) + turns * TAU;
+            let length = end.x.hypot(end.y / r);
+            let moved = Vector3::new(length * ahead.cos(), r * length * ahead.sin(), end.z);
+            let errors = Errors::of(&moved, &problem, &start);
+            assert!((errors.phase_turns - seen).abs() < 1e-14, "{turns}: {errors:?}");
+        }
+    }
+
     #[test]
     fn each_error_sees_its_own_mistake() {
         let (problem, start) = Problem::mid_flip(11.6);

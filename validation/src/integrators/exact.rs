@@ -90,6 +90,14 @@ mod tests {
         assert!((last - 2.0 * TAU).abs() < 1e-12);
     }
 
+    /// Whole turns are taken off before they are multiplied by π: a long rod flips so fast that their rounding would show.
+    #[test]
+    fn many_turns_cost_the_phase_no_digits() {
+        let (k, x) = (f64::from(1 << 20), 1.0 / f64::from(1 << 20));
+        let (many, few) = (phi_rad(1000.0, k + x), phi_rad(1000.0, x));
+        assert!((many - TAU * k - few).abs() < 1e-8, "{}", many - TAU * k - few);
+    }
+
     #[test]
     fn the_closed_form_in_angles_is_the_reference() {
         for r in [0.3, 2.0, 11.6] {

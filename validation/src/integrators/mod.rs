@@ -161,6 +161,53 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_setting_says_what_it_is_and_none_is_zero() {
+        let said =
+            [Setting::Once, Setting::Steps(20), Setting::Tolerance(1e-8)].map(|setting| setting.to_string());
+        assert_eq!(said, ["–", "20 steps", "tolerance 1e-8"]);
+        assert_eq!(Setting::Steps(1).steps(), Ok(1));
+        assert_eq!(Setting::Tolerance(1e-300).tolerance(), Ok(1e-300));
+        for setting in [
+            Setting::Once,
+            Setting::Steps(0),
+            Setting::Tolerance(0.0),
+            Setting::Tolerance(f64::NAN),
+        ] {
+            assert_eq!(setting.steps(), Err(Failure::Setting));
+            assert_eq!(setting.tolerance(), Err(Failure::Setting));
+        }
+    }
+
+    /// Tables and pictures know them by these.
+    #[test]
+    fn subjects_have_their_names_and_some_keep_the_length() {
+        let said: Vec<_> = own()
+            .iter()
+            .map(|subject| {
+                format!(
+                    "{}{}",
+                    subject.name(),
+                    if subject.keeps_length() { " |p| = 1" } else { "" }
+                )
+            })
+            .collect();
+        let expected = [
+            "exact propagator |p| = 1",
+            "A.4 and A.5 in angles |p| = 1",
+            "explicit Euler in angles |p| = 1",
+            "RK4 in angles |p| = 1",
+            "RK4 in p",
+            "projected RK4 in p |p| = 1",
+            "implicit midpoint in p |p| = 1",
+            "Lie-group midpoint |p| = 1",
+            "Lie-group RKMK4 |p| = 1",
+            "Dormand–Prince 8(5,3)",
+            "Radau IIA 5",
+        ];
+        assert_eq!(said, expected);
+    }
+
+    #[test]
     fn every_subject_comes_close_and_refuses_the_settings_of_others() {
         let (problem, start) = Problem::mid_flip(3.0);
         for subject in all() {
