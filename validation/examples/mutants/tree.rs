@@ -52,6 +52,12 @@ impl Tree {
                 if complaints.is_empty() {
                     break;
                 }
+                if complaints.is_subset(&tree.refused) {
+                    return Err(
+                        "mutants within mutants come out of order: the list must have cargo-mutants' own"
+                            .into(),
+                    );
+                }
                 tree.refused.extend(complaints);
             }
         }
@@ -62,8 +68,12 @@ impl Tree {
         // The library has the switches.
         let library = format!("{}src/lib.rs", self.package);
         let mut of: BTreeMap<&str, Vec<&Mutant>> = BTreeMap::from([(library.as_str(), Vec::new())]);
-        for mutant in mutants.iter().filter(|mutant| !self.refused.contains(&mutant.id)) {
-            of.entry(&mutant.file).or_default().push(mutant);
+        for mutant in mutants {
+            // A file of which all are refused is written without them.
+            let of_file = of.entry(&mutant.file).or_default();
+            if !self.refused.contains(&mutant.id) {
+                of_file.push(mutant);
+            }
         }
         self.places.clear();
         for (file, of_file) in &of {
