@@ -3,8 +3,7 @@
 //! Kept is what the plan, the seed and the replica's number do not give: the sums so far and, where rods interact, their
 //! directions, positions and counts of work. Random streams are not: how many numbers were drawn is among the counts.
 
-use crate::observable::Sum;
-use crate::observable::width;
+use crate::observable::{Sum, width};
 use crate::plan::{Plan, Stage};
 use crate::random::{Purpose, ahead, stream};
 use crate::snapshot::Snapshot;
