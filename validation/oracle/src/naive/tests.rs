@@ -13,21 +13,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 fn fibres(count: usize, alpha: f64, change: impl FnOnce(&mut Problem)) -> Problem {
     let mut problem = Problem {
         count,
-        shear_rate_per_s: 0.5,
-        length_mm: 0.72,
-        aspect_ratio: 11.6,
-        aspect_ratio_sd_percent: 0.0,
-        orientation: Start::Isotropic,
-        concentration_per_cm3: 50.0,
         alpha,
-        m: 3.0,
-        min_contact_arm: 0.0,
-        update: Update::Rotation,
-        reading: Reading::default(),
-        steps_per_period: 200,
-        seed: 1,
-        replica: 0,
-        mistake: None,
+        ..Problem::paper(1, 0)
     };
     change(&mut problem);
     problem

@@ -93,6 +93,21 @@ pub fn length([x, y, z]: &[Big; 3]) -> Big {
     (x.sqr() + y.sqr() + z.sqr()).sqrt()
 }
 
+/// Calls `each` with the powers of `base` from 0 to `right`, then from −1 to −`left`: the places of the trapezoid rule in ln x.
+pub(super) fn each_power(one: &Big, base: &Big, left: usize, right: usize, mut each: impl FnMut(&Big)) {
+    let inverse = one / base;
+    let mut x = one.clone();
+    for _ in 0..=right {
+        each(&x);
+        x *= base;
+    }
+    x = one.clone();
+    for _ in 0..left {
+        x *= &inverse;
+        each(&x);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

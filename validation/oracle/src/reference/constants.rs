@@ -1,6 +1,6 @@
 //! What does not change with time in plane Couette flow: T, ⟨φ⟩, orbits, and what is left when phases have mixed.
 
-use super::big::{Big, Bits};
+use super::big::{Big, Bits, each_power};
 use super::motion::Motion;
 use super::rod::{self, Direction};
 
@@ -159,7 +159,7 @@ fn plateaus(r: &Big) -> [Big; 6] {
     let knee = -super::big::double(&r.ln());
     let (left, right) = (steps(62.0 - knee.min(0.0)), steps(62.0 + knee.max(0.0)));
     let mut sums = [0; 6].map(|_| BITS.of(0.0));
-    let mut add = |c: &Big| {
+    let add = |c: &Big| {
         let square = c.sqr();
         let (whole, long) = (&one + &square, &one + (r * c).sqr());
         let k = (&long / &whole).sqrt();
@@ -171,17 +171,8 @@ fn plateaus(r: &Big) -> [Big; 6] {
             *sum += mean * &weight;
         }
     };
-    let (up, down) = (BITS.of(1.125), &one / BITS.of(1.125));
-    let mut c = one.clone();
-    for _ in 0..=right {
-        add(&c);
-        c *= &up;
-    }
-    c = one.clone();
-    for _ in 0..left {
-        c *= &down;
-        add(&c);
-    }
+    let up = BITS.of(1.125);
+    each_power(&one, &up, left, right, add);
     let factor = BITS.of(2.0) * r / BITS.pi() * up.ln();
     sums.map(|sum| sum * &factor)
 }

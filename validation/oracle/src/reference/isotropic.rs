@@ -9,7 +9,7 @@
 //! complete and incomplete elliptic integrals in plane Couette flow. adj M = x² + x(tr B − B) + Σ and
 //! det M = x³ + x² tr B + x tr Σ + 1 have no negative coefficient on their diagonals: nothing cancels.
 
-use super::big::{Big, Bits, double};
+use super::big::{Big, Bits, double, each_power};
 use super::motion::{Matrix, Motion, Unit, matrix, product};
 
 /// The six different entries of a symmetric matrix, in the order of the columns `a11,a22,a33,a12,a13,a23`.
@@ -108,7 +108,7 @@ impl Covariance {
             &self.inverse[j][j] + &self.inverse[k][k]
         });
         let mut sums = [0; N].map(|_| KEPT.of(0.0));
-        let mut add = |x: &Big| {
+        let add = |x: &Big| {
             let determinant = ((x + &trace_inverse) * x + &trace_sigma) * x + &one;
             let adjugate = |i: usize, j: usize| {
                 let linear = match i == j {
@@ -121,17 +121,7 @@ impl Covariance {
                 *sum += value;
             }
         };
-        let (up, down) = (KEPT.of(1.25), KEPT.of(1.0) / KEPT.of(1.25));
-        let mut x = one.clone();
-        for _ in 0..=right {
-            add(&x);
-            x *= &up;
-        }
-        x = one.clone();
-        for _ in 0..left {
-            x *= &down;
-            add(&x);
-        }
+        each_power(&one, &KEPT.of(1.25), left, right, add);
         sums.map(|sum| sum * &step)
     }
 }
