@@ -144,14 +144,20 @@ impl Record {
             .map(|(why, times)| format!("{why} ({times})"))
             .collect();
         let controls = self.controls.iter().map(|(mistake, margins)| {
-            let n = margins.len() as f64;
-            let mean = margins.iter().sum::<f64>() / n;
-            let sd = (margins.iter().map(|m| (m - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0)).sqrt();
-            let least = margins.iter().copied().fold(f64::INFINITY, f64::min);
-            format!(
-                "{mistake}: {least:.1}, {mean:.1} ± {sd:.1}, {:.0e}",
-                validation::accept::upper_tail(mean / sd.max(1.0))
-            )
+            let (drawn, still): (Vec<f64>, Vec<_>) = margins.iter().partition(|m| m.is_finite());
+            let still = match still.len() {
+                0 => String::new(),
+                seeds => format!(", without scatter at {seeds} seeds"),
+            };
+            let n = drawn.len() as f64;
+            if drawn.is_empty() {
+                return format!("{mistake}{still}");
+            }
+            let mean = drawn.iter().sum::<f64>() / n;
+            let sd = (drawn.iter().map(|m| (m - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0)).sqrt();
+            let least = drawn.iter().copied().fold(f64::INFINITY, f64::min);
+            let miss = validation::accept::upper_tail(mean / sd.max(1.0));
+            format!("{mistake}: {least:.1}, {mean:.1} ± {sd:.1}, {miss:.0e}{still}")
         });
         format!(
             "{} | {} | {} | {} | {:.0e} | {:.2} | {}",

@@ -53,10 +53,7 @@ impl Tree {
                     break;
                 }
                 if complaints.is_subset(&tree.refused) {
-                    return Err(
-                        "mutants within mutants come out of order: the list must have cargo-mutants' own"
-                            .into(),
-                    );
+                    return Err("the compiler complains of mutants that are no longer there".into());
                 }
                 tree.refused.extend(complaints);
             }

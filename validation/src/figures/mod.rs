@@ -7,8 +7,7 @@ mod paper;
 mod run;
 
 use crate::case::Effort;
-use crate::study::ReportFigure;
-use crate::study::{Exhibit, Extent, Found, Study};
+use crate::study::{Exhibit, Extent, Found, ReportFigure, Study};
 use run::Runs;
 
 /// How many replicas of a scene are run.

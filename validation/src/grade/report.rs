@@ -2,8 +2,7 @@
 
 use super::live::Studies;
 use super::{Graded, Verdict};
-use crate::table::ReportTable;
-use crate::table::of_words;
+use crate::table::{ReportTable, of_words};
 use crate::text::escaped;
 use serde::Serialize;
 

@@ -1,6 +1,6 @@
 //! What problems of free rods are made of.
 
-use std::f64::consts::TAU;
+use crate::oracle::closed_form;
 
 /// The paper's shear rate, 1/s: not 1, so that a forgotten G shows.
 pub(super) const SHEAR_RATE_PER_S: f64 = 0.5;
@@ -33,5 +33,5 @@ pub(super) fn direction(phi: f64, theta: f64) -> [f64; 3] {
 
 /// T, s.
 pub(super) fn period_s(aspect_ratio: f64) -> f64 {
-    TAU * (aspect_ratio + aspect_ratio.recip()) / SHEAR_RATE_PER_S
+    closed_form::period_s(SHEAR_RATE_PER_S, aspect_ratio)
 }

@@ -1,6 +1,6 @@
 //! Problems of the contact rule (A.7 to A.14).
 
-use super::asked::{AXES, COUETTE, period_s};
+use super::asked::{AXES, COUETTE, direction, period_s};
 use super::tolerance::rounded_up;
 use super::{Built, FORMAT, Kind, Metric, Problem, ProblemDef};
 use crate::oracle::reference::big::{Big, Bits, digits, double, length};
@@ -150,7 +150,7 @@ fn pairs() -> Vec<Pair> {
                 pair[at + axis] = uniform(-0.5, 0.5) * LENGTH_MM + if axis == 0 { 1.5 } else { 0.0 };
             }
             let (phi, cosine) = (uniform(0.0, TAU), uniform(-1.0, 1.0));
-            let p = super::asked::direction(phi, cosine.acos());
+            let p = direction(phi, cosine.acos());
             pair[at + 3..at + 6].copy_from_slice(&p);
             pair[at + 6] = uniform(5.0, 20.0);
         }

@@ -15,7 +15,8 @@ impl Needs {
             UseTree::Path(path) => _ = self.0.insert(path.ident.to_string()),
             UseTree::Name(name) => _ = self.0.insert(name.ident.to_string()),
             UseTree::Group(group) => group.items.iter().for_each(|tree| self.of_tree(tree)),
-            UseTree::Rename(_) | UseTree::Glob(_) => {}
+            UseTree::Rename(name) => _ = self.0.insert(name.ident.to_string()),
+            UseTree::Glob(_) => {}
         }
     }
 }

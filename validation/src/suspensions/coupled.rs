@@ -4,9 +4,8 @@
 //! - *Common random numbers*: the same scene at two values of α, to know their difference.
 //! - *Control variate*: the same rods without collisions, whose mean has a closed form, to correct the mean.
 
-use super::covariance;
 use super::job::Job;
-use super::{Estimate, correlation};
+use super::{Estimate, correlation, covariance};
 use crate::oracle::isotropic;
 use rayon::prelude::*;
 use serde::Serialize;

@@ -5,8 +5,7 @@ use super::program::Program;
 use crate::integrators::{Integrator, Setting, Theory};
 use crate::stability::limits::{Ladder, Limit, Property, bisect, holds};
 use crate::stability::map;
-use crate::table::ReportTable;
-use crate::table::of_words;
+use crate::table::{ReportTable, of_words};
 use serde::Serialize;
 
 /// Everything that was measured; `None` where there was not enough time for it (`--timeout`).
