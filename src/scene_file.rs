@@ -246,7 +246,10 @@ fn unknown(path: &str) -> String {
         [one, other] => format!("{one} or {other}"),
         _ => format!("one of {}", known.join(", ")),
     };
-    let meant = nearest(path).map_or(String::new(), |key| format!("; did you mean {key}?"));
+    let meant = nearest(path).map_or(String::new(), |key| match table(key) == table(path) {
+        false if table(key).is_empty() => format!("; did you mean {key}, which comes before all tables?"),
+        _ => format!("; did you mean {key}?"),
+    });
     format!("unknown key `{}`, expected {expected}{meant}", last(path))
 }
 

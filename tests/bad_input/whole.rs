@@ -87,6 +87,11 @@ fn an_unknown_key_is_told_what_it_may_have_meant() {
             "outputs_per_x",
             Some("time.outputs_per_period"),
         ),
+        (
+            "m = 3",
+            "m = 3\ntitle = \"x\"",
+            Some("title, which comes before all tables"),
+        ),
         ("m = 3", "m = 3\nxyzzy = 3", None),
     ] {
         let refusal = refusal(&INTERACTING.replacen(part, replacement, 1));

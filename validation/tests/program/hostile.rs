@@ -141,8 +141,15 @@ fn a_limit_on_memory_is_heeded_before_the_work() {
     let dir = folder();
     let big = SMALL.replace("count = 20", "count = 20000000");
     fs::write(dir.path().join("big.toml"), big).unwrap();
-    for arguments in ["run big.toml", "converge big.toml"] {
+    for arguments in ["run big.toml", "converge big.toml", "plan big.toml"] {
         let ended = limited(dir.path(), "ulimit -v 1000000", arguments);
+        let shown = ended.stdout.contains("\n20000000 rods, ");
+        assert_eq!(
+            shown,
+            arguments.starts_with("plan"),
+            "{arguments}: {}",
+            ended.stdout
+        );
         let message = ended.stderr;
         assert_eq!(ended.code, Some(2), "{arguments}: {message}");
         assert!(message.contains("particles.count = 20000000"), "{message}");
