@@ -105,9 +105,9 @@ impl Program {
         self.state().during = what.to_owned();
     }
 
-    /// Every breach of the protocol so far, and what was asked then.
+    /// Every breach of the protocol so far, and what was asked then; the same one after the other in one line.
     pub fn breaches(&self) -> Vec<String> {
-        self.state().log.clone()
+        in_a_row(&self.state().log)
     }
 
     /// Why the program is not asked again, where it is not.
@@ -214,6 +214,15 @@ impl State {
     }
 }
 
+/// Lines, those that come again at once in one.
+fn in_a_row(lines: &[String]) -> Vec<String> {
+    let one = |same: &[String]| match same.len() {
+        1 => same[0].clone(),
+        times => format!("{} ({times} times)", same[0]),
+    };
+    lines.chunk_by(PartialEq::eq).map(one).collect()
+}
+
 /// One rod in plane Couette flow with G = 1/s: what the project's own integrators are judged by.
 impl Integrator for Program {
     fn name(&self) -> &str {
@@ -251,4 +260,10 @@ impl Integrator for Program {
             Err(asked) => Err(Failure::Gave(asked.to_string())),
         }
     }
+}
+
+#[test]
+fn lines_that_come_again_are_counted_and_none_is_lost() {
+    let told = in_a_row(&["a", "a", "b", "a"].map(String::from));
+    assert_eq!(told, ["a (2 times)", "b", "a"]);
 }
