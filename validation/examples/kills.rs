@@ -1,12 +1,14 @@
-//! Kills a run with a checkpoint at random moments, so often as asked, and lets it end: how much each kill cost, whether the file
+//! Kills runs with a checkpoint at random moments, so often as asked, and lets them end: how much each kill cost, whether the file
 //! was whole after each, and whether the results are those of a run that was not killed.
 //!
 //!     cargo build --release && cargo run --release -p shearbed-suite --example kills -- target/release/shearbed 100
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
+use serde_json::Value;
 use std::error::Error;
 use std::fs;
+use std::iter::once;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread::sleep;
@@ -14,9 +16,6 @@ use std::time::{Duration, SystemTime};
 
 /// Seconds between checkpoints.
 const EVERY_S: f64 = 0.05;
-/// A run lives so long at most before it is killed, in ms.
-const LIFE_MS: u64 = 400;
-
 /// About ten seconds of work: one replica, or many.
 fn scene(count: usize, periods: usize, replicas: usize) -> String {
     format!(
@@ -26,53 +25,123 @@ fn scene(count: usize, periods: usize, replicas: usize) -> String {
     )
 }
 
+/// Cases that take less than a second each, with what they are run by.
+const CASES: [&str; 8] = [
+    "kick-bound",
+    "kick-formula",
+    "mirrored-flow",
+    "other-axes-decay",
+    "particle-stress",
+    "period-unaffected",
+    "replacement",
+    "spread-damping",
+];
+
+/// A command that is killed.
+struct Work {
+    name: &'static str,
+    words: Vec<String>,
+    /// How often it keeps its state.
+    every: Vec<String>,
+    /// It lives so long at most before it is killed, in ms.
+    life_ms: u64,
+    results: fn(&Path) -> Result<Vec<u8>, Box<dyn Error>>,
+}
+
+impl Work {
+    fn of_run(name: &'static str) -> Self {
+        Self {
+            name,
+            words: ["run", "scene.toml", "--force"].map(String::from).into(),
+            every: vec!["--every".into(), EVERY_S.to_string()],
+            life_ms: 400,
+            results: |out| Ok(fs::read(out.join("projections.csv"))?),
+        }
+    }
+
+    /// Each case is kept when it is finished.
+    fn of_cases() -> Self {
+        let cases = CASES.iter().flat_map(|case| ["--case", case]);
+        Self {
+            name: "cases",
+            words: once("validate").chain(cases).map(String::from).collect(),
+            every: Vec::new(),
+            life_ms: 3000,
+            results: |out| {
+                let mut report: Value = serde_json::from_slice(&fs::read(out.join("report.json"))?)?;
+                let cases = report["cases"].as_array_mut().ok_or("no cases")?;
+                cases.iter_mut().for_each(|case| case["seconds"] = 0.into());
+                Ok(report["cases"].to_string().into())
+            },
+        }
+    }
+
+    fn command(&self, program: &Path, dir: &Path, out: &str) -> Command {
+        let mut command = Command::new(program);
+        command
+            .args(&self.words)
+            .args(["--quiet", "--out", out])
+            .current_dir(dir)
+            .stderr(Stdio::piped());
+        command
+    }
+
+    fn kept(&self, program: &Path, dir: &Path) -> Command {
+        let mut command = self.command(program, dir, "killed");
+        command.args(["--checkpoint", "kept"]).args(&self.every);
+        command
+    }
+
+    /// That the run which was killed ended as the other.
+    fn compare(&self, dir: &Path) -> Result<(), Box<dyn Error>> {
+        let read = |out: &str| (self.results)(&dir.join(out));
+        match read("whole")? == read("killed")? {
+            true => Ok(()),
+            false => Err("the results are others".into()),
+        }
+    }
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let [program, kills] = words.as_slice() else {
         return Err("kills PROGRAM NUMBER".into());
     };
     let (program, kills) = (fs::canonicalize(program)?, kills.parse::<u32>()?);
-    for (name, text) in [
-        ("one replica", scene(1000, 100, 1)),
-        ("many replicas", scene(100, 20, 200)),
+    for (work, text) in [
+        (Work::of_run("one replica"), scene(1000, 100, 1)),
+        (Work::of_run("many replicas"), scene(100, 20, 200)),
+        (Work::of_cases(), String::new()),
     ] {
         let dir = tempfile::tempdir()?;
         fs::write(dir.path().join("scene.toml"), text)?;
-        let (most, mean, lives) = killed(&program, dir.path(), kills)?;
+        let (most, mean, lives) = killed(&work, &program, dir.path(), kills)?;
+        let due = match work.every.as_slice() {
+            [] => "each case is kept at its end".to_owned(),
+            _ => format!("it is due every {EVERY_S} s"),
+        };
         println!(
-            "{name}: {kills} kills in {lives} runs, every checkpoint whole, results equal; lost since the last checkpoint, which is \
-             due every {EVERY_S} s: {mean:.3} s on average, {most:.3} s at most"
+            "{}: {kills} kills in {lives} runs, every checkpoint whole, results equal; lost since the last checkpoint ({due}): \
+             {mean:.3} s on average, {most:.3} s at most",
+            work.name
         );
     }
     Ok(())
 }
 
 /// The largest and the mean loss in s, and the runs that were begun anew after they had ended.
-fn killed(program: &Path, dir: &Path, kills: u32) -> Result<(f64, f64, u32), Box<dyn Error>> {
-    let run = |out: &str| {
-        let mut command = Command::new(program);
-        command
-            .args(["run", "scene.toml", "--quiet", "--force", "--out", out])
-            .current_dir(dir)
-            .stderr(Stdio::piped());
-        command
-    };
-    let kept = |command: &mut Command| {
-        command.args(["--checkpoint", "kept", "--every", &EVERY_S.to_string()]);
-    };
-    if !run("whole").status()?.success() {
+fn killed(work: &Work, program: &Path, dir: &Path, kills: u32) -> Result<(f64, f64, u32), Box<dyn Error>> {
+    if !work.command(program, dir, "whole").status()?.success() {
         return Err("the whole run failed".into());
     }
     let mut random = Pcg64Dxsm::seed_from_u64(u64::from(kills));
     let (mut most, mut sum, mut done, mut lives) = (0.0_f64, 0.0, 0, 1);
     while done < kills {
-        let mut command = run("killed");
-        kept(&mut command);
         let begun = SystemTime::now();
-        let mut child = command.spawn()?;
-        sleep(Duration::from_millis(random.random_range(1..LIFE_MS)));
+        let mut child = work.kept(program, dir).spawn()?;
+        sleep(Duration::from_millis(random.random_range(1..work.life_ms)));
         if child.try_wait()?.is_some_and(|status| status.success()) {
-            compare(dir)?;
+            work.compare(dir)?;
             fs::remove_file(dir.join("kept"))?;
             lives += 1;
             continue;
@@ -95,20 +164,10 @@ fn killed(program: &Path, dir: &Path, kills: u32) -> Result<(f64, f64, u32), Box
             sum += lost;
         }
     }
-    let mut last = run("killed");
-    kept(&mut last);
-    let output = last.output()?;
+    let output = work.kept(program, dir).output()?;
     match output.status.success() {
-        true => compare(dir)?,
+        true => work.compare(dir)?,
         false => return Err(String::from_utf8_lossy(&output.stderr).into_owned().into()),
     }
     Ok((most, sum / f64::from(done.max(1)), lives))
-}
-
-fn compare(dir: &Path) -> Result<(), Box<dyn Error>> {
-    let read = |out: &str| fs::read(dir.join(out).join("projections.csv"));
-    match read("whole")? == read("killed")? {
-        true => Ok(()),
-        false => Err("the results are others".into()),
-    }
 }

@@ -5,7 +5,7 @@ use crate::cluster;
 use crate::output::Output;
 use crate::plot::Figure;
 use crate::table::ReportTable;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A study, declared once.
 pub struct Study {
@@ -53,7 +53,7 @@ pub struct Extent<'a> {
 }
 
 /// What a study found.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Found {
     /// The answer to its question, in a sentence.
     pub answer: String,
@@ -66,7 +66,7 @@ pub struct Found {
 }
 
 /// A picture beside its table, or one of them alone.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Exhibit {
     /// The picture.
     pub figure: Option<ReportFigure>,
@@ -103,7 +103,7 @@ impl From<ReportTable> for Exhibit {
 }
 
 /// A picture with what to see in it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ReportFigure {
     /// Its name, in words joined by `-`; its anchor is `figure-NAME`.
     pub name: String,
@@ -118,7 +118,7 @@ pub struct ReportFigure {
 }
 
 /// How a scene behind a figure was run.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ScenePlan {
     /// The built-in scene's name.
     pub scene: String,

@@ -5,10 +5,10 @@ mod tests;
 
 use crate::markup;
 use crate::text::cell;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// What a cell holds as data.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Datum {
     /// Nothing is there.
@@ -59,7 +59,7 @@ impl<T: Into<Datum>> From<Option<T>> for Datum {
 }
 
 /// A table in plain text. A text in backticks is code, and a link where it is a case's name.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ReportTable {
     /// Its name, in words joined by `-`; its anchor is `table-NAME`.
     pub name: String,

@@ -6,11 +6,11 @@ mod cite;
 mod compare;
 mod converge;
 mod facts;
+mod finished;
 mod fit;
 mod grade;
 mod interrupt;
 mod kept;
-mod kept_cases;
 mod memory;
 mod pictures;
 mod plot;
@@ -86,6 +86,7 @@ enum Command {
 }
 
 /// Why a command did not end well.
+#[derive(Debug)]
 enum Failure {
     /// Bad input or usage, a scene that cannot be computed, or a file that cannot be read or written.
     Input(String),

@@ -1,6 +1,6 @@
 //! `shearbed validate`.
 
-use super::kept_cases::{Found, Kept};
+use super::finished::{Ended, Finished};
 use super::{Failure, MAX_THREADS, agree, choice, on_threads, print, probe, progress, whole};
 use crate::accept::Verdict;
 use crate::case::{Case, Effort, GATE_SEED, Outcome};
@@ -33,7 +33,7 @@ pub(super) struct Args {
     /// The seed from which every case takes its random numbers [default: that of the gate]
     #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), default_value_t = GATE_SEED, allow_negative_numbers = true)]
     seed: u64,
-    /// Keep finished cases in this file, and do not run again those that it has
+    /// Keep finished cases and studies in this file, and do not run again those that it has
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
     /// A folder with measured points, for the cases that compare with experiments
@@ -78,7 +78,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     agree("validate", agreed)?;
     probe(&args.out, 0)?;
     let kept = match &args.checkpoint {
-        Some(path) => Some(Kept::open(path, input, args.quiet)?),
+        Some(path) => Some(Finished::open(path, input, args.quiet)?),
         None => None,
     };
     let effort = Effort {
@@ -89,7 +89,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let (outcomes, sections) = on_threads(args.threads, || {
         let outcomes = outcomes(&chosen, &effort, kept.as_ref(), args.quiet)?;
         let sections = match args.cases.is_empty() && args.tags.is_empty() {
-            true => gather(&effort, args.quiet)?,
+            true => gather(&effort, kept.as_ref(), args.quiet)?,
             false => Some(Sections::default()),
         };
         Ok::<_, Failure>((outcomes, sections))
@@ -127,13 +127,17 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
 }
 
 /// Runs every study and gathers what the report shows beside its cases on the root; nothing elsewhere.
-fn gather(effort: &Effort, quiet: bool) -> Result<Option<Sections>, Failure> {
+fn gather(effort: &Effort, kept: Option<&Finished>, quiet: bool) -> Result<Option<Sections>, Failure> {
     let mut sections = Sections {
         equations: catalogue::equations(),
         tables: vec![tried::table(), dependencies::table()],
         ..Default::default()
     };
     for study in studies::ALL {
+        if let Some((found, seconds)) = kept.and_then(|kept| kept.study(study.name)) {
+            sections.add(ReportStudy::new(&study, found, seconds));
+            continue;
+        }
         if !quiet {
             print(&format!("study: {}\n", study.title))?;
         }
@@ -151,7 +155,9 @@ fn gather(effort: &Effort, quiet: bool) -> Result<Option<Sections>, Failure> {
         });
         bar.finish_and_clear();
         if let Some(found) = found.map_err(Failure::Failed)? {
-            sections.add(ReportStudy::new(&study, found, start.elapsed().as_secs_f64()));
+            let measured = (found, start.elapsed().as_secs_f64());
+            kept.map_or(Ok(()), |kept| kept.keep_study(study.name, &measured))?;
+            sections.add(ReportStudy::new(&study, measured.0, measured.1));
         }
     }
     catalogue::name_judges(&mut sections);
@@ -163,14 +169,14 @@ fn gather(effort: &Effort, quiet: bool) -> Result<Option<Sections>, Failure> {
 fn outcomes(
     chosen: &[Case],
     effort: &Effort,
-    kept: Option<&Kept>,
+    kept: Option<&Finished>,
     quiet: bool,
 ) -> Result<Option<Vec<Outcome>>, Failure> {
     let bar = progress(chosen.len() as u64, "cases", quiet);
     // What a case says of itself every rank knows.
     let run = |k: usize| {
         let case: &Case = &chosen[k];
-        if let Some(found) = kept.and_then(|kept| kept.found(case.about.name)) {
+        if let Some(found) = kept.and_then(|kept| kept.case(case.about.name)) {
             return Ok(found);
         }
         bar.set_message(case.about.name);
@@ -182,16 +188,16 @@ fn outcomes(
             outcome.seconds,
         ))
     };
-    let arrived = |k: usize, found: &Found| {
+    let arrived = |k: usize, found: &Ended| {
         if !quiet {
             bar.suspend(|| print(&line(chosen[k].about.name, found.0, found.3)))?;
         }
         bar.inc(1);
-        kept.map_or(Ok(()), |kept| kept.keep(chosen[k].about.name, found))
+        kept.map_or(Ok(()), |kept| kept.keep_case(chosen[k].about.name, found))
     };
     let found = cluster::share(chosen.len(), run, arrived)?;
     bar.finish_and_clear();
-    let outcome = |(case, (verdict, evidence, controls, seconds)): (&Case, Found)| Outcome {
+    let outcome = |(case, (verdict, evidence, controls, seconds)): (&Case, Ended)| Outcome {
         about: case.about,
         verdict,
         evidence,

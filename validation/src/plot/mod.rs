@@ -22,12 +22,12 @@ pub(crate) use grid::decade;
 use legend::Legend;
 use plotters::prelude::*;
 pub use png::{Png, png};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::error::Error;
 use style::{AXES_HEIGHT, FINE, MARGIN, ROW, TITLE, WIDTH};
 
 /// A curve with, perhaps, its 95 % band.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Curve {
     /// Its name in the legend.
     pub label: String,
@@ -48,7 +48,7 @@ impl Curve {
 }
 
 /// Single points with, perhaps, error bars.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Points {
     /// Their name in the legend.
     pub label: String,
@@ -63,7 +63,7 @@ pub struct Points {
 }
 
 /// A map: which class of what was found in each row and column.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Map {
     /// What it is of.
     pub title: String,
@@ -74,7 +74,7 @@ pub struct Map {
 }
 
 /// Maps with the same rows and columns, side by side.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Grid {
     /// What the classes are called.
     pub classes: Vec<String>,
@@ -91,7 +91,7 @@ pub struct Grid {
 }
 
 /// A picture.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Figure {
     /// What is shown.
     pub title: String,

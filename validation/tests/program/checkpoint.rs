@@ -235,7 +235,8 @@ fn finished_cases_are_not_run_again() {
     assert_eq!(first.code, Some(0), "{}", first.stderr);
     let more = shearbed(dir.path(), &format!("{two} --case kick-bound --out more"));
     assert!(
-        more.stdout.contains("goes on from kept: 2 cases are finished"),
+        more.stdout
+            .contains("goes on from kept: 2 cases and 0 studies are finished"),
         "{}",
         more.stdout
     );
