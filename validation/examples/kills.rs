@@ -37,6 +37,9 @@ const CASES: [&str; 8] = [
     "spread-damping",
 ];
 
+/// What a folder of results holds.
+type Bytes = Result<Vec<u8>, Box<dyn Error>>;
+
 /// A command that is killed.
 struct Work {
     name: &'static str,
@@ -45,7 +48,7 @@ struct Work {
     every: Vec<String>,
     /// It lives so long at most before it is killed, in ms.
     life_ms: u64,
-    results: fn(&Path) -> Result<Vec<u8>, Box<dyn Error>>,
+    results: fn(&Path) -> Bytes,
 }
 
 impl Work {
