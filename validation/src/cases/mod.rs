@@ -33,6 +33,7 @@ mod steady;
 mod step_limits;
 mod subjects;
 mod symmetries;
+mod times;
 mod work_precision;
 mod work_precision_coupled;
 
@@ -42,6 +43,7 @@ use crate::case::Case;
 pub fn all() -> Vec<Case> {
     [
         motion::cases(),
+        times::cases(),
         jeffery_equations::cases(),
         contact_rule::cases(),
         misprints::cases(),
