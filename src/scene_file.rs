@@ -246,9 +246,14 @@ fn unknown(path: &str) -> String {
         [one, other] => format!("{one} or {other}"),
         _ => format!("one of {}", known.join(", ")),
     };
-    let meant = nearest(path).map_or(String::new(), |key| match table(key) == table(path) {
-        false if table(key).is_empty() => format!("; did you mean {key}, which comes before all tables?"),
-        _ => format!("; did you mean {key}?"),
+    let meant = nearest(path).map_or(String::new(), |key| {
+        let misplaced = table(key).is_empty() && !table(path).is_empty();
+        let place = if misplaced {
+            ", which comes before all tables"
+        } else {
+            ""
+        };
+        format!("; did you mean {key}{place}?")
     });
     format!("unknown key `{}`, expected {expected}{meant}", last(path))
 }

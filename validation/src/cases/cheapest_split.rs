@@ -22,9 +22,7 @@ pub fn cases() -> Vec<Case> {
             .source("eqs 4, 8, 12")
             .equations(&["4"])
             .subject((|_| {}) as Respell)
-            .mistake("a quarter of the replicas", |split| {
-                split.replicas = split.replicas.div_ceil(4)
-            })
+            .mistake("a quarter of the replicas, or less", |split| split.replicas /= 4)
             .mistake("two steps a period", |split| split.steps_per_period = 2)
             .check(realised),
     ]
@@ -76,7 +74,8 @@ fn realised(respell: &Respell, effort: &Effort) -> Vec<Evidence> {
     let mut run = said;
     respell(&mut run);
     scene.ensemble.seed = effort.seed(1);
-    let repeats = effort.pick(1, 4) * 140;
+    // ∛4 of the mistake scatters by ∛4 of what 1 does, and both errors' quantiles leave 0.049 for that; 200 have 0.041.
+    let repeats = effort.pick(1, 4) * 200;
     let Ok(found) = run.realise(&scene, repeats, known.reference) else {
         return vec![Evidence::exact("runs that stopped", 1.0)];
     };
@@ -109,7 +108,7 @@ fn realised(respell: &Respell, effort: &Effort) -> Vec<Evidence> {
                 1.0 - of_repeats + of_study,
                 0.0,
                 0.5,
-                "both variances are estimates; a quarter of the replicas bring ∛4, 0.59 more",
+                "both variances are estimates; a quarter of the replicas or less bring ∛4, 0.59 more, at least",
             ),
         ),
     ]
