@@ -5,6 +5,7 @@ mod common;
 
 mod certified;
 mod checkpoint;
+mod columns;
 mod contributing;
 mod ending;
 #[rustfmt::skip]
