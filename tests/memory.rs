@@ -50,13 +50,16 @@ fn allocated_in_steps(count: usize) -> usize {
 fn a_run_holds_what_it_says_and_its_steps_allocate_nothing() {
     assert_eq!(allocated_in_steps(100), 0);
     assert_eq!(allocated_in_steps(2000), 0);
-    let agree = |held: f64, said: u64, what: &str| {
-        let said = said as f64;
-        assert!(
-            held <= 1.02 * said && said <= 1.05 * held,
-            "{what}: {held} bytes, said {said}"
-        );
+    let within = |room: f64| {
+        move |held: f64, said: u64, what: &str| {
+            let said = said as f64;
+            assert!(
+                held <= 1.02 * said && said <= room * held,
+                "{what}: {held} bytes, said {said}"
+            );
+        }
     };
+    let agree = within(1.05);
     let count = 200_000;
     for (concentration_per_cm3, most_per_rod) in [
         (Some(50.0), 120.0),
@@ -85,11 +88,7 @@ fn a_run_holds_what_it_says_and_its_steps_allocate_nothing() {
     for (count, concentration_per_cm3, room) in [(160_000, 2e3, 1.05), (194_000, 1e6, 1.25)] {
         let plan = many_rods(count, Some(concentration_per_cm3));
         let held = peak(|| run_replica(&plan, 0).unwrap());
-        let said = memory::bytes(&plan, 1) as f64;
-        assert!(
-            held <= 1.02 * said && said <= room * held,
-            "{count} rods: {held} bytes, said {said}"
-        );
+        within(room)(held, memory::bytes(&plan, 1), &format!("{count} rods"));
     }
     for (what, scene) in others() {
         let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();

@@ -226,8 +226,8 @@ const EFFECT: [f64; 2] = [0.1, 0.07];
 
 const CONFIDENCES: [f64; 2] = [0.68, 0.95];
 
-/// Repeats that show [`EFFECT`] in the first share: the other is the surer of the two. A share scatters by 0.5 at most; that
-/// of a mistake by more than the right one.
+/// Repeats that show [`EFFECT`] in the first share; that one of the two shows it is enough. A share scatters by 0.5 at most;
+/// that of a mistake by more than the right one.
 fn shares(effort: &Effort) -> u64 {
     effort.samples(Design::new(EFFECT[0], 0.5))
 }

@@ -1,50 +1,80 @@
 //! Every number of a run's tables, found by the heading of its column and compared with the closed form of one free rod
 //! (Jeffery 1922; A.4 and A.5 of Lee & Springer 1982).
 
-use crate::common::shearbed;
+use crate::common::{names, read, shearbed};
 use std::collections::BTreeMap;
-use std::f64::consts::FRAC_PI_2;
 use std::fs;
-use std::path::Path;
 use validation::oracle::closed_form::{angles_at, orbit_constant_from_angles, period_s};
 
 const R: f64 = 11.6;
 const RATE_PER_S: f64 = 0.5;
 const START_DEG: [f64; 2] = [31.0, 67.0];
 
-/// Three rods alike, in plane Couette flow.
-const COUETTE: &str = r#"title = "Rods alike"
-[flow]
-shear_rate_per_s = 0.5
+/// Three rods alike.
+const RODS: &str = r#"title = "Rods alike"
 [particles]
 count = 3
 length_mm = 0.72
 aspect_ratio = 11.6
 orientation = { phi_deg = 31, theta_deg = 67 }
+"#;
+
+/// A flow of [`RODS`], and what its run writes.
+struct Run {
+    scene: &'static str,
+    /// Tables, the rows of each but rods.csv, and the fewest numbers of a row.
+    tables: usize,
+    rows: usize,
+    numbers: usize,
+    /// Between two rows.
+    step_s: f64,
+    /// When rods.csv has the rods.
+    rods_at_s: Vec<f64>,
+    state: fn(f64) -> State,
+}
+
+/// Plane Couette flow.
+fn of_couette() -> Run {
+    let period_s = period_s(RATE_PER_S, R);
+    Run {
+        scene: r#"[flow]
+shear_rate_per_s = 0.5
 [time]
 periods = 1.5
 outputs_per_period = 12
 [output]
 observables = ["projections", "planar_projections", "mean_angle", "orbit_constant", "orientation_tensor", "orientation_tensor_4", "particle_stress"]
 rods_at = [0.25, 1]
-"#;
+"#,
+        tables: 8,
+        rows: 19,
+        numbers: 5,
+        step_s: period_s / 12.0,
+        rods_at_s: vec![0.25 * period_s, period_s],
+        state: couette,
+    }
+}
 
 /// A shear of the same rate in which axis 1 is along the vorticity and axis 3 along the gradient, told in strain.
-const OTHER_AXES: &str = r#"title = "Rods alike, other axes"
-[flow]
+fn of_other_axes() -> Run {
+    Run {
+        scene: r#"[flow]
 gradient_per_s = [[0, 0, 0], [0, 0, 0.5], [0, 0, 0]]
-[particles]
-count = 3
-length_mm = 0.72
-aspect_ratio = 11.6
-orientation = { phi_deg = 31, theta_deg = 67 }
 [time]
 strain = 100
 outputs_per_strain = 1
 [output]
 observables = ["projections", "planar_projections", "mean_angle", "orientation_tensor", "orientation_tensor_4"]
 rods_at = [40]
-"#;
+"#,
+        tables: 6,
+        rows: 101,
+        numbers: 4,
+        step_s: 1.0 / RATE_PER_S,
+        rods_at_s: vec![40.0 / RATE_PER_S],
+        state: other_axes,
+    }
+}
 
 /// Where the rods are, and how long it took.
 struct State {
@@ -109,24 +139,23 @@ fn expected(heading: &str, state: &State) -> Option<f64> {
         "x2x3" => p2.hypot(p3),
         "x1x3" => p1.hypot(p3),
         // Folded into [0, π/2].
-        "phi" => FRAC_PI_2 - p1.abs().atan2(p2.abs()),
+        "phi" => p2.abs().atan2(p1.abs()),
         "c_b" => state.c_b,
         "s12_per_mu_fiber_g" => p1 * p1 * p2 * p2,
         "n1_per_mu_fiber_g" => p1 * p2 * (p2 * p2 - p1 * p1),
         "n2_per_mu_fiber_g" => p1 * p2 * (p1 * p1 - p3 * p3),
-        _ => match heading.split_at_checked(1)? {
-            // Rods are alike: nothing scatters but the last digits.
-            _ if heading.ends_with("_se") => 0.0,
-            ("a", axes) => product(axes)?,
-            _ => {
-                let from: f64 = heading.strip_prefix("density_from_")?.parse().ok()?;
-                let bin = (20.0 * from).round() / 20.0;
+        // Rods are alike: nothing scatters but the last digits.
+        _ if heading.ends_with("_se") => 0.0,
+        _ => match heading.strip_prefix("density_from_") {
+            Some(from) => {
+                let bin = (20.0 * from.parse::<f64>().ok()?).round() / 20.0;
                 if (bin..bin + 0.05).contains(&state.c_b) {
                     20.0
                 } else {
                     0.0
                 }
             }
+            None => product(heading.strip_prefix('a')?)?,
         },
     })
 }
@@ -136,97 +165,85 @@ const ALLOWED: f64 = 4.0 * 2.0 * R * (2e-15 + 4.0 * f64::EPSILON);
 /// Standard errors of equal rods: the root of what rounding leaves of a difference of squares.
 const SCATTER: f64 = 1e-7;
 
-/// What is off, and how many numbers there are. `time_s` is the time of each row.
-fn wrong(table: &str, time_s: impl Fn(usize) -> f64, state: fn(f64) -> State) -> (Vec<String>, usize) {
-    let mut reader = csv::Reader::from_reader(table.as_bytes());
-    let headings: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
-    let (mut wrong, mut numbers) = (Vec::new(), 0);
-    for (k, row) in reader.records().enumerate() {
-        let state = state(time_s(k));
-        for (heading, cell) in headings.iter().zip(&row.unwrap()) {
-            // Free rods have no place; which replica and rod it is, is for the tests of rods.csv.
-            if ["replica", "rod", "x1_mm", "x2_mm", "x3_mm"].contains(&heading.as_str()) {
-                continue;
-            }
-            let expected = expected(heading, &state).unwrap_or_else(|| panic!("{heading}: unknown"));
-            let off = (cell.parse::<f64>().unwrap() - expected).abs();
-            let allowed = if heading.ends_with("_se") {
-                SCATTER
-            } else {
-                ALLOWED * expected.abs().max(1.0)
-            };
-            numbers += 1;
-            // A number that is none is off.
-            if off.is_nan() || off > allowed {
-                wrong.push(format!("{heading} in row {k}: {cell}, expected {expected}"));
+impl Run {
+    /// The tables, by their names.
+    fn written(&self) -> BTreeMap<String, String> {
+        let dir = tempfile::tempdir().unwrap();
+        fs::write(dir.path().join("alike.toml"), RODS.to_owned() + self.scene).unwrap();
+        let ended = shearbed(dir.path(), "run alike.toml --out out --quiet");
+        assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+        let out = dir.path().join("out");
+        let tables = names(&out).into_iter().filter(|name| name.ends_with(".csv"));
+        tables.map(|name| (name.clone(), read(&out.join(name)))).collect()
+    }
+
+    /// What is off in a table, and how many numbers there are.
+    fn wrong(&self, name: &str, table: &str) -> (Vec<String>, usize) {
+        let mut reader = csv::Reader::from_reader(table.as_bytes());
+        let headings: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
+        let (mut wrong, mut numbers) = (Vec::new(), 0);
+        for (k, row) in reader.records().enumerate() {
+            // Of rods.csv three rows are of one time.
+            let state = (self.state)(match name {
+                "rods.csv" => self.rods_at_s[k / 3],
+                _ => k as f64 * self.step_s,
+            });
+            for (heading, cell) in headings.iter().zip(&row.unwrap()) {
+                // Free rods have no place; which replica and rod it is, is for the tests of rods.csv.
+                if ["replica", "rod", "x1_mm", "x2_mm", "x3_mm"].contains(&heading.as_str()) {
+                    continue;
+                }
+                let expected = expected(heading, &state).unwrap_or_else(|| panic!("{heading}: unknown"));
+                let off = (cell.parse::<f64>().unwrap() - expected).abs();
+                let allowed = if heading.ends_with("_se") {
+                    SCATTER
+                } else {
+                    ALLOWED * expected.abs().max(1.0)
+                };
+                numbers += 1;
+                // A number that is none is off.
+                if off.is_nan() || off > allowed {
+                    wrong.push(format!("{heading} in row {k}: {cell}, expected {expected}"));
+                }
             }
         }
+        (wrong, numbers)
     }
-    (wrong, numbers)
-}
 
-/// The tables that a scene's run writes.
-fn tables(scene: &str) -> BTreeMap<String, String> {
-    let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("alike.toml"), scene).unwrap();
-    let ended = shearbed(dir.path(), "run alike.toml --out out --quiet");
-    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
-    let files = fs::read_dir(dir.path().join("out"))
-        .unwrap()
-        .map(|file| file.unwrap().path());
-    let stem = |path: &Path| path.file_stem().unwrap().to_str().unwrap().to_owned();
-    files
-        .filter(|path| path.extension().is_some_and(|end| end == "csv"))
-        .map(|path| (stem(&path), fs::read_to_string(&path).unwrap()))
-        .collect()
+    fn check(&self) {
+        let tables = self.written();
+        assert_eq!(tables.len(), self.tables);
+        for (name, table) in &tables {
+            let (wrong, numbers) = self.wrong(name, table);
+            assert!(wrong.is_empty(), "{name}: {wrong:?}");
+            let rows = match name.as_str() {
+                "rods.csv" => 3 * self.rods_at_s.len(),
+                _ => self.rows,
+            };
+            assert!(
+                numbers >= self.numbers * rows && numbers.is_multiple_of(rows),
+                "{name}: {numbers}"
+            );
+        }
+    }
 }
 
 #[test]
 fn every_number_of_plane_couette_flow_is_that_of_the_closed_form() {
-    let tables = tables(COUETTE);
-    assert_eq!(tables.len(), 8);
-    let period_s = period_s(RATE_PER_S, R);
-    for (name, table) in &tables {
-        // Of rods.csv three rows are of one time.
-        let at = |k: usize| match name.as_str() {
-            "rods" => [0.25, 1.0][k / 3] * period_s,
-            _ => k as f64 / 12.0 * period_s,
-        };
-        let (wrong, numbers) = wrong(table, at, couette);
-        assert!(wrong.is_empty(), "{name}: {wrong:?}");
-        let rows = if name == "rods" { 6 } else { 19 };
-        assert!(
-            numbers >= 5 * rows && numbers.is_multiple_of(rows),
-            "{name}: {numbers}"
-        );
-    }
+    of_couette().check();
 }
 
 #[test]
 fn every_number_of_a_shear_of_other_axes_is_that_of_the_closed_form() {
-    let tables = tables(OTHER_AXES);
-    assert_eq!(tables.len(), 6);
-    for (name, table) in &tables {
-        let at = |k: usize| match name.as_str() {
-            "rods" => 40.0 / RATE_PER_S,
-            _ => k as f64 / RATE_PER_S,
-        };
-        let (wrong, numbers) = wrong(table, at, other_axes);
-        assert!(wrong.is_empty(), "{name}: {wrong:?}");
-        let rows = if name == "rods" { 3 } else { 101 };
-        assert!(
-            numbers >= 4 * rows && numbers.is_multiple_of(rows),
-            "{name}: {numbers}"
-        );
-    }
+    of_other_axes().check();
 }
 
 #[test]
 fn a_table_with_a_mistake_does_not_pass() {
-    let tables = tables(COUETTE);
-    let table = &tables["orientation_tensor"];
-    let period_s = period_s(RATE_PER_S, R);
-    let seen = |table: &str| !wrong(table, |k| k as f64 / 12.0 * period_s, couette).0.is_empty();
+    let run = of_couette();
+    let tables = run.written();
+    let table = &tables["orientation_tensor.csv"];
+    let seen = |table: &str| !run.wrong("orientation_tensor.csv", table).0.is_empty();
     let renamed = |from: &str, to: &str| {
         let (head, rows) = table.split_once('\n').unwrap();
         format!(
@@ -251,12 +268,8 @@ fn a_table_with_a_mistake_does_not_pass() {
     lines.swap(2, 3);
     lines.remove(5);
     assert!(seen(&lines.join("\n")), "a row left out");
-    let rods = &tables["rods"];
-    let seen = |table: &str| {
-        !wrong(table, |k| [0.25, 1.0][k / 3] * period_s, couette)
-            .0
-            .is_empty()
-    };
+    let rods = &tables["rods.csv"];
+    let seen = |table: &str| !run.wrong("rods.csv", table).0.is_empty();
     assert!(!seen(rods));
     assert!(seen(&rods.replacen("p1,p2", "p2,p1", 1)));
     assert!(seen(&rods.replacen("time_s,strain", "strain,time_s", 1)));
