@@ -49,7 +49,7 @@ pub struct Formula {
     pub name: &'static str,
     /// As it is written.
     pub formula: &'static str,
-    /// Of which bodies it is said to hold.
+    /// Its range of validity, as stated.
     pub range: &'static str,
     /// Where it was first published.
     pub source: &'static str,
@@ -66,7 +66,7 @@ pub const FORMULAS: [Formula; 4] = [
     Formula {
         name: "Goldsmith & Mason 1967",
         formula: "0.742 r - 0.0017 r²",
-        range: "called a coarse approximation; none given",
+        range: "not stated (called a coarse approximation)",
         source: "H. L. Goldsmith & S. G. Mason, in: Rheology, Theory and Applications 4 (1967)",
         read_in: "nilsmeyerkit/pysph, commit 8d54b3c",
         value: |r| 0.742 * r - 0.0017 * r * r,
@@ -82,15 +82,15 @@ pub const FORMULAS: [Formula; 4] = [
     Formula {
         name: "Harris & Pittman 1975",
         formula: "1.14 r^0.844",
-        range: "none given",
+        range: "not stated",
         source: "J. B. Harris & J. F. T. Pittman, J. Colloid Interface Sci. 50 (1975)",
-        read_in: "a third party's digest only: UNCHECKED",
+        read_in: "a third party's digest only (UNCHECKED)",
         value: |r| 1.14 * libm::pow(r, 0.844),
     },
     Formula {
         name: "Zhang et al. 2011",
         formula: "0.000035 r³ - 0.00467 r² + 0.764 r + 0.404",
-        range: "none given",
+        range: "not stated",
         source: "D. Zhang et al., J. Manuf. Sci. Eng. 133 (2011) 051002",
         read_in: "meyer-nils/fiberoripy, aspect_ratios.py",
         value: |r| ((0.000_035 * r - 0.004_67) * r + 0.764) * r + 0.404,

@@ -1,5 +1,6 @@
 //! `shearbed converge`.
 
+use super::scene::{Chosen, Ensemble};
 use super::{Failure, MAX_THREADS, agree, memory, on_threads, print, probe, progress, scene, whole};
 use crate::output::{self, Output};
 use crate::suspensions::law::{self, Law, Replicas};
@@ -15,14 +16,13 @@ use shearbed::jeffery::strain_per_period;
 use shearbed::plan::Stage;
 use shearbed::scene::{MAX_REPLICAS, resolved_strain};
 use shearbed::{Plan, Scene};
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `converge`.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// A scene file, or the name of a built-in scene
-    scene: OsString,
+    #[command(flatten)]
+    chosen: Chosen,
     /// The folder for the tables and converge.json [default: out/converge-<scene>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -40,7 +40,7 @@ pub(super) struct Args {
 
 /// Studies a scene: where rods meet by the law of its mean and directions, else by every fixed-step subject.
 pub(super) fn converge(args: &Args) -> Result<(), Failure> {
-    let named = scene::load(&args.scene)?;
+    let named = args.chosen.load(&Ensemble::default(), &[])?;
     let at = |message: String| format!("{}: {message}", named.source);
     let plan = Plan::new(&named.scene).map_err(|error| Failure::Input(at(error.to_string())))?;
     let stem = format!("converge-{}", named.stem);

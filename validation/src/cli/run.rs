@@ -1,21 +1,19 @@
 //! `shearbed run`.
 
 use super::record::Seconds;
+use super::scene::{Chosen, Ensemble};
 use super::{
     Failure, MAX_THREADS, agree, alone, facts, kept, memory, on_threads, pictures, print, probe, progress,
     record, rods, scene, tables, threads, whole,
 };
 use crate::checkpoint::Replicas;
 use crate::output::{self, Output};
-use crate::sweep::Setting;
 use crate::text::line;
 use crate::{cluster, plot};
 use serde_json::json;
 use shearbed::resume::Halfway;
-use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shearbed::work::RunError;
 use shearbed::{Plan, Results};
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -23,23 +21,16 @@ use std::time::{Duration, Instant};
 /// Arguments of `run`.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// A scene file, or the name of a built-in scene (`shearbed scenes` lists them)
-    scene: OsString,
+    #[command(flatten)]
+    chosen: Chosen,
+    #[command(flatten)]
+    ensemble: Ensemble,
     /// The folder for tables, pictures and run.json [default: out/<scene>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Independent runs of the scene, in place of the scene's own number
-    #[arg(long, value_name = "N", value_parser = whole(1, MAX_REPLICAS), allow_negative_numbers = true)]
-    replicas: Option<u64>,
-    /// The seed of all random numbers, in place of the scene's own
-    #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), allow_negative_numbers = true)]
-    seed: Option<u64>,
     /// Threads to run on; the results do not depend on it [default: one for each core]
     #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
     threads: Option<u64>,
-    /// A key of the scene and the value to give it, as `sweep --over` takes them; can be given more than once
-    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Setting::parse)]
-    settings: Vec<Setting>,
     /// Write the rods of output.rods_at for ParaView too: rods.pvd, and a .vtp file for each time
     #[arg(long)]
     vtk: bool,
@@ -87,20 +78,8 @@ fn checkpoint(args: &Args, plan: &Plan) -> Result<Option<Arc<Replicas>>, Failure
 /// Runs a scene and writes its results.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let start = Instant::now();
-    for (flag, key, given) in [
-        ("replicas", "ensemble.replicas", args.replicas),
-        ("seed", "ensemble.seed", args.seed),
-    ] {
-        if let Some(value) = given.filter(|_| args.settings.iter().any(|setting| setting.key == key)) {
-            return Err(Failure::Input(format!(
-                "--{flag} {value}: --set {key} says it too; one of the two is allowed"
-            )));
-        }
-    }
-    let named = scene::load(&args.scene)?.with(&args.settings)?;
-    let mut scene = named.scene;
-    scene.ensemble.replicas = args.replicas.unwrap_or(scene.ensemble.replicas);
-    scene.ensemble.seed = args.seed.unwrap_or(scene.ensemble.seed);
+    let named = args.chosen.load(&args.ensemble, &[])?;
+    let scene = named.scene;
     let plan = Plan::new(&scene).map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
     if args.vtk && plan.rods_outputs().is_empty() {
         return Err(Failure::Input(format!(

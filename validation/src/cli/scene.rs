@@ -1,20 +1,71 @@
-//! Finding the scene that the command line names.
+//! Finding the scene that the command line names, with the keys that it sets.
 
-use super::Failure;
+use super::{Failure, whole};
 use crate::start::Starts;
-use crate::sweep::{self, Setting};
+use crate::sweep::{self, Axis, Setting};
 use crate::text::line;
 use crate::{cluster, scenes};
+use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shearbed::{Scene, scene_file};
-use std::ffi::OsStr;
+use std::ffi::{OsStr, OsString};
 use std::io::Write;
 use std::path::Path;
+use toml::Value;
+
+/// Which scene, and with which keys set.
+#[derive(clap::Args)]
+pub(super) struct Chosen {
+    /// A scene file, or the name of a built-in scene (`shearbed scenes` lists them)
+    scene: OsString,
+    /// A key of the scene and the value to give it, as interaction.alpha=0.3; can be given more than once
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Setting::parse)]
+    settings: Vec<Setting>,
+}
+
+/// Keys that have flags of their own.
+#[derive(clap::Args, Default)]
+pub(super) struct Ensemble {
+    /// Replicas, independent runs of the scene, in place of the scene's own number
+    #[arg(long, value_name = "N", value_parser = whole(1, MAX_REPLICAS), allow_negative_numbers = true)]
+    replicas: Option<u64>,
+    /// The seed of all random numbers, in place of the scene's own
+    #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), allow_negative_numbers = true)]
+    seed: Option<u64>,
+}
+
+impl Ensemble {
+    fn settings(&self) -> impl Iterator<Item = (&'static str, Setting)> {
+        let given = [
+            ("--replicas", "ensemble.replicas", self.replicas),
+            ("--seed", "ensemble.seed", self.seed),
+        ];
+        given.into_iter().filter_map(|(flag, key, value)| {
+            let value = Value::Integer(value? as i64);
+            let key = key.to_owned();
+            Some((flag, Setting { key, value }))
+        })
+    }
+}
+
+impl Chosen {
+    /// The scene with its keys set, each by one flag. `over` are the keys that a sweep sets.
+    pub(super) fn load(&self, ensemble: &Ensemble, over: &[Axis]) -> Result<Named, Failure> {
+        let set = self.settings.iter().map(|setting| ("--set", setting.clone()));
+        let given: Vec<_> = set.chain(ensemble.settings()).collect();
+        let swept = over.iter().map(|axis| ("--over", axis.key.as_str()));
+        let others = given.iter().map(|(flag, setting)| (*flag, setting.key.as_str()));
+        sweep::one_owner(&swept.chain(others).collect::<Vec<_>>()).map_err(Failure::Input)?;
+        load(&self.scene)?.with(given.into_iter().map(|(_, setting)| setting).collect())
+    }
+}
 
 /// A scene with the name of what is made from it.
 pub(super) struct Named {
     pub(super) scene: Scene,
     /// The text it was read from.
     pub(super) text: String,
+    /// The keys set in place of the text's.
+    pub(super) settings: Vec<Setting>,
     /// The file as given, or the built-in scene's name: for messages.
     pub(super) source: String,
     /// What was read of files of starts beside it.
@@ -24,19 +75,11 @@ pub(super) struct Named {
 }
 
 impl Named {
-    /// The same with some keys set.
-    pub(super) fn with(mut self, settings: &[Setting]) -> Result<Self, Failure> {
+    fn with(mut self, settings: Vec<Setting>) -> Result<Self, Failure> {
         if settings.is_empty() {
             return Ok(self);
         }
-        for (k, Setting { key, .. }) in settings.iter().enumerate() {
-            if settings[..k].iter().any(|other| other.key == *key) {
-                return Err(Failure::Input(format!(
-                    "--set {key}: given twice; each key once is allowed"
-                )));
-            }
-        }
-        self.scene = sweep::scene_with(&self.text, settings).map_err(|error| {
+        self.scene = sweep::scene_with(&self.text, &settings).map_err(|error| {
             let said = settings
                 .iter()
                 .map(|setting| format!(" --set {}={}", setting.key, sweep::shown(&setting.value)));
@@ -45,6 +88,7 @@ impl Named {
         self.starts
             .fill(&mut self.scene)
             .map_err(|error| refused(&self.source, &error))?;
+        self.settings = settings;
         Ok(self)
     }
 }
@@ -67,6 +111,7 @@ pub(super) fn load(given: &OsStr) -> Result<Named, Failure> {
         return Ok(Named {
             scene,
             text,
+            settings: Vec::new(),
             source,
             starts: Starts::default(),
             stem,
@@ -82,6 +127,7 @@ pub(super) fn load(given: &OsStr) -> Result<Named, Failure> {
     Ok(Named {
         scene,
         text,
+        settings: Vec::new(),
         source,
         starts,
         stem,

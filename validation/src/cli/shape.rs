@@ -35,12 +35,14 @@ pub(super) fn shape(args: &Args) -> Result<(), Failure> {
             None => "none".into(),
         };
         text += &format!(
-            "{value:>9}  {} ({key}): r_e = {}\n           of {}; {}\n           read in {}\n",
+            "{value:>9}  {} ({key}): r_e = {}\n           valid for: {}\n           source: {}\n           quoted from: {}\n",
             formula.name, formula.formula, formula.range, formula.source, formula.read_in
         );
     }
-    text += "\nNone of the sources themselves was at hand. \"none\": there the formula gives an r_e above r, or one that falls as r \
-             grows.\nIn a scene, particles.aspect_ratio is r_e; or give r as \
-             physical_aspect_ratio and a name in brackets as shape_correlation.\n";
+    text += &format!(
+        "\nNo source was at hand: every formula is as another work quotes it.\n\
+         \"none\": there the formula gives an r_e above r, or one that falls as r grows.\n\
+         In a scene: aspect_ratio = r_e, or physical_aspect_ratio = {r} with shape_correlation = a name in brackets.\n"
+    );
     print(&text)
 }

@@ -1,20 +1,16 @@
 //! `shearbed plan` and `shearbed scenes`.
 
 use super::facts::{self, Facts};
-use super::{Failure, memory, print, scene};
-use crate::sweep::Setting;
+use super::scene::{Chosen, Ensemble};
+use super::{Failure, memory, print};
 use crate::{scene_keys, scenes};
 use shearbed::Plan;
-use std::ffi::OsString;
 
 /// Arguments of `plan`.
 #[derive(clap::Args)]
 pub(super) struct PlanArgs {
-    /// A scene file, or the name of a built-in scene
-    scene: OsString,
-    /// A key of the scene and the value to give it, as `run` takes them
-    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Setting::parse)]
-    settings: Vec<Setting>,
+    #[command(flatten)]
+    chosen: Chosen,
 }
 
 /// Arguments of `scenes`.
@@ -31,7 +27,7 @@ pub(super) struct ScenesArgs {
 
 /// Prints a scene's plan. Fails where `run` would for want of memory.
 pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
-    let named = scene::load(&args.scene)?.with(&args.settings)?;
+    let named = args.chosen.load(&Ensemble::default(), &[])?;
     let plan =
         Plan::new(&named.scene).map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
     // The plan ends with its own warnings, and all of them come last.

@@ -1,5 +1,6 @@
 //! `shearbed sweep`.
 
+use super::scene::{Chosen, Ensemble};
 use super::{
     Failure, MAX_THREADS, agree, kept, memory, on_threads, print, probe, progress, scene, tables, whole,
 };
@@ -8,10 +9,7 @@ use crate::output::Output;
 use crate::sweep::{self, Axis, Folder, Identity, Point, Points, Refused};
 use crate::text;
 use shearbed::ensemble;
-use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
-use toml::Value;
 
 /// Arguments of `sweep`.
 #[derive(clap::Args)]
@@ -21,8 +19,10 @@ Examples:
   shearbed sweep fig4-n50 --over interaction.alpha=0.1:1:10 --replicas 100
   shearbed sweep mine.toml --over interaction.update=rotation,angles --over time.steps_per_period=100,200,400")]
 pub(super) struct Args {
-    /// A scene file, or the name of a built-in scene
-    scene: OsString,
+    #[command(flatten)]
+    chosen: Chosen,
+    #[command(flatten)]
+    ensemble: Ensemble,
     /// A key of the scene and its values: FROM:TO:COUNT evenly with both ends, or a list; given more than once, every
     /// combination is a point
     #[arg(long, value_name = "KEY=VALUES", required = true, value_parser = Axis::parse)]
@@ -30,12 +30,6 @@ pub(super) struct Args {
     /// The folder for sweep.csv, sweep.json and points/ [default: out/sweep-<scene>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Independent runs of each point, in place of the scene's own number
-    #[arg(long, value_name = "N", value_parser = whole(1, MAX_REPLICAS), allow_negative_numbers = true)]
-    replicas: Option<u64>,
-    /// The seed of all random numbers, in place of the scene's own
-    #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), allow_negative_numbers = true)]
-    seed: Option<u64>,
     /// Threads to run on; the results do not depend on it [default: one for each core]
     #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
     threads: Option<u64>,
@@ -46,31 +40,7 @@ pub(super) struct Args {
 
 /// Runs the points of a sweep that are not finished, and writes one row a point.
 pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
-    let mut named = scene::load(&args.scene)?;
-    let ensemble = &mut named.scene.ensemble;
-    let fixed = [
-        (
-            "--replicas",
-            "ensemble.replicas",
-            args.replicas,
-            &mut ensemble.replicas,
-        ),
-        ("--seed", "ensemble.seed", args.seed, &mut ensemble.seed),
-    ];
-    let mut settings = Vec::new();
-    let mut owners: Vec<_> = args
-        .over
-        .iter()
-        .map(|axis| ("--over", axis.key.as_str()))
-        .collect();
-    for (flag, key, given, own) in fixed {
-        if let Some(value) = given {
-            owners.push((flag, key));
-            settings.push((key, Value::Integer(value as i64)));
-            *own = value;
-        }
-    }
-    sweep::one_owner(&owners).map_err(Failure::Input)?;
+    let named = args.chosen.load(&args.ensemble, &args.over)?;
     check(&args.over)?;
     if !named.scene.output.rods_at.is_empty() {
         return Err(Failure::Input(format!(
@@ -78,7 +48,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
             named.source
         )));
     }
-    let points = sweep::points(&named.text, &named.starts, &settings, &args.over)
+    let points = sweep::points(&named.text, &named.starts, &named.settings, &args.over)
         .map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
     for point in &points {
         let at = format!(

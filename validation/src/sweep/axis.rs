@@ -51,6 +51,11 @@ impl Setting {
             value: value(text)?,
         })
     }
+
+    /// The key with its value.
+    pub(super) fn pair(&self) -> (&str, Value) {
+        (&self.key, self.value.clone())
+    }
 }
 
 /// The most parts of a key, as `particles.orientation.phi_deg` has: more would be tables without end.

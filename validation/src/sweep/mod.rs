@@ -21,12 +21,7 @@ pub struct Point {
 
 /// Every point, the last axis varying fastest, checked as a scene file is. `fixed` are keys that all points have in
 /// place of the scene's own; `starts` are of the scene's folder. On error, which point and why.
-pub fn points(
-    text: &str,
-    starts: &Starts,
-    fixed: &[(&str, Value)],
-    axes: &[Axis],
-) -> Result<Vec<Point>, String> {
+pub fn points(text: &str, starts: &Starts, fixed: &[Setting], axes: &[Axis]) -> Result<Vec<Point>, String> {
     let base: Table = text.parse().map_err(|error: toml::de::Error| error.to_string())?;
     let count = (axes.iter())
         .try_fold(1_usize, |count, axis| count.checked_mul(axis.values.len()))
@@ -37,7 +32,8 @@ pub fn points(
         let values = at(axes, k);
         let keys = axes.iter().map(|axis| axis.key.as_str());
         let own = keys.zip(values.iter().cloned());
-        let plan = plan(&base, &mut starts, fixed.iter().cloned().chain(own)).map_err(|error| {
+        let settings = fixed.iter().map(Setting::pair).chain(own);
+        let plan = plan(&base, &mut starts, settings).map_err(|error| {
             let point = described(axes, &values);
             format!("--over {point} (point {} of {count}): {error}", k + 1)
         })?;
@@ -101,11 +97,7 @@ fn plan<'a>(
 /// The scene of a file's text with some keys set, checked as the file is.
 pub fn scene_with(text: &str, settings: &[Setting]) -> Result<Scene, String> {
     let base: Table = text.parse().map_err(|error: toml::de::Error| error.to_string())?;
-    let settings = settings.iter();
-    with(
-        &base,
-        settings.map(|setting| (setting.key.as_str(), setting.value.clone())),
-    )
+    with(&base, settings.iter().map(Setting::pair))
 }
 
 fn with<'a>(base: &Table, settings: impl Iterator<Item = (&'a str, Value)>) -> Result<Scene, String> {
@@ -161,7 +153,7 @@ mod tests {
         let found = points(
             text(),
             &Starts::default(),
-            &[("ensemble.replicas", Value::Integer(3))],
+            &[Setting::parse("ensemble.replicas=3").unwrap()],
             &axes,
         )
         .unwrap();

@@ -50,15 +50,23 @@ fn keys_are_set_on_the_command_line_as_a_file_would() {
         ("--set particles.count", "KEY=VALUE is allowed"),
         (
             "--set particles.count=1 --set particles.count=2",
-            "--set particles.count: given twice",
+            "--set particles.count and --set particles.count: both set it; one of the two is allowed",
         ),
         (
             "--set ensemble.seed=1 --seed 2",
-            "--seed 2: --set ensemble.seed says it too",
+            "--seed ensemble.seed and --set ensemble.seed: both set it; one of the two is allowed",
         ),
         (
             "--set ensemble.replicas=1 --replicas 2",
-            "--replicas 2: --set ensemble.replicas says it too",
+            "--replicas ensemble.replicas and --set ensemble.replicas: both set it",
+        ),
+        (
+            "--replicas 2 --set ensemble={replicas=5}",
+            "--replicas ensemble.replicas and --set ensemble: both set ensemble.replicas; one of the two is allowed",
+        ),
+        (
+            "--set particles.count=1 --set particles={count=7,length_mm=1,aspect_ratio=5,orientation=\"isotropic\"}",
+            "--set particles and --set particles.count: both set particles.count",
         ),
         ("--set title.x=1", "is no table"),
     ] {
@@ -67,4 +75,52 @@ fn keys_are_set_on_the_command_line_as_a_file_would() {
         assert!(ended.stderr.contains(message), "{set}: {}", ended.stderr);
     }
     assert!(!dir.path().join("c").exists());
+}
+
+#[test]
+fn a_sweep_and_a_study_set_keys_as_a_run_does() {
+    let dir = unequal();
+    fs::write(
+        dir.path().join("other.toml"),
+        UNEQUAL.replace("count = 20", "count = 7"),
+    )
+    .unwrap();
+    let succeeds = |arguments: &str| {
+        let ended = shearbed(dir.path(), arguments);
+        assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""), "{arguments}");
+    };
+    let over = "--over interaction.alpha=0.25,0.5 --quiet";
+    succeeds(&format!(
+        "sweep small.toml {over} --set particles.count=7 --out a"
+    ));
+    succeeds(&format!("sweep other.toml {over} --out b"));
+    succeeds(&format!("sweep small.toml {over} --out c"));
+    let rows = |out: &str| read(&dir.path().join(out).join("sweep.csv"));
+    assert_eq!(rows("a"), rows("b"));
+    assert_ne!(rows("a"), rows("c"));
+    // The folder of one is not gone on with by the other.
+    let ended = shearbed(dir.path(), &format!("sweep small.toml {over} --out a"));
+    assert_eq!(ended.code, Some(2));
+    assert!(ended.stderr.contains("particles.count"), "{}", ended.stderr);
+    let ended = shearbed(
+        dir.path(),
+        &format!("sweep small.toml {over} --set interaction.alpha=1 --out d"),
+    );
+    assert_eq!(ended.code, Some(2));
+    let said = "--set interaction.alpha and --over interaction.alpha: both set it";
+    assert!(ended.stderr.contains(said), "{}", ended.stderr);
+
+    succeeds("converge fig6-uniform --set particles.aspect_ratio=5 --quiet --out e");
+    fs::write(
+        dir.path().join("five.toml"),
+        validation::scenes::find("fig6-uniform")
+            .unwrap()
+            .text
+            .replace("aspect_ratio = 11.6", "aspect_ratio = 5"),
+    )
+    .unwrap();
+    succeeds("converge five.toml --quiet --out f");
+    let studied = |out: &str| read(&dir.path().join(out).join("converge.csv"));
+    assert_eq!(studied("e"), studied("f"));
+    assert!(!dir.path().join("d").exists());
 }
