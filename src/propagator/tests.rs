@@ -210,6 +210,34 @@ fn a_spiral_keeps_its_phase_over_many_turns() {
     assert!(apart(&end, &expected) < 1e-8, "{end:?}");
 }
 
+/// A rod that is drawn into the plane of axes 1 and 2 and turns in it by 1.5 rad, ever more slowly: cancellation hides the turning in the
+/// eigenvalues, until it is not known any more.
+#[test]
+fn the_bound_on_a_slow_spiral_is_kept() {
+    let p = UnitVector3::new_normalize(Vector3::new(0.6, 0.0, 0.8));
+    let expected = UnitVector3::new_normalize(Vector3::new(libm::cos(1.5), libm::sin(1.5), 0.0));
+    let spirals: Vec<_> = (6..56)
+        .map(|k| {
+            let turning = 0.3 * libm::exp2(-f64::from(k));
+            let flow = flow([[0.7, -turning, 0.0], [turning, 0.7, 0.0], [0.0, 0.0, -1.4]]);
+            let moved = Propagator::new(&flow, 3.3)
+                .moved(&p, Span::Seconds(1.5 / turning))
+                .unwrap();
+            let off = apart(&moved.p, &expected);
+            assert!(
+                off <= moved.error + 4.0 * f64::EPSILON,
+                "{k}: {off:e} beyond {:e}",
+                moved.error
+            );
+            moved.error
+        })
+        .collect();
+    assert!(
+        spirals[0] < 1e-15 && spirals.last().unwrap() > &1e-3,
+        "{spirals:?}"
+    );
+}
+
 #[test]
 fn a_pure_rotation_has_the_period_of_its_vorticity() {
     let rotation = flow([[0.0, -0.5, 0.0], [0.5, 0.0, 0.0], [0.0, 0.0, 0.0]]);

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release -p shearbed-suite --example strength -- SEEDS [full] [CASE...]` prints the tables of
 //! `docs/strength.md`, after every 20 seeds those until then. SEEDS is the last one, or the first and the last as `61..200`. A
-//! case whose evidence is the same at the first two seeds draws nothing, and is not run again.
+//! case whose evidence is the same at the first five seeds draws nothing, and is not run again.
 
 use std::collections::BTreeMap;
 use validation::accept::{Rule, Verdict};
@@ -32,7 +32,7 @@ fn main() {
             let outcome = case.run(&effort);
             let record = records.entry(case.about.name).or_default();
             red |= record.add(&outcome, &mut scores);
-            record.draws
+            record.draws() || record.runs < 5
         });
         red_runs += u32::from(red);
         eprintln!("seed {seed}: {}", if red { "RED" } else { "green" });
@@ -40,7 +40,7 @@ fn main() {
             println!(
                 "{red_runs} of {} runs red; {} of {still} cases draw random numbers",
                 seed - first + 1,
-                cases.len()
+                records.values().filter(|record| record.draws()).count()
             );
             print(&records, &mut scores);
         }
@@ -62,7 +62,7 @@ fn print(records: &BTreeMap<&str, Record>, scores: &mut [f64]) {
         "\n| case | judges | seeds | red | why | false alarm ≤ | s | controls: the least margin, its mean and deviation, miss |"
     );
     println!("| --- | --- | ---: | ---: | --- | ---: | ---: | --- |");
-    for (name, record) in records.iter().filter(|(_, record)| record.draws) {
+    for (name, record) in records.iter().filter(|(_, record)| record.draws()) {
         println!("| `{name}` | {} |", record.row());
     }
     println!();
@@ -78,11 +78,16 @@ struct Record {
     false_alarm: f64,
     seconds: f64,
     first: Option<String>,
-    draws: bool,
+    differs: bool,
     controls: BTreeMap<String, Vec<f64>>,
 }
 
 impl Record {
+    /// Whether its evidence was seen to differ between seeds, or there was one seed alone.
+    fn draws(&self) -> bool {
+        self.differs || self.runs == 1
+    }
+
     /// Whether the case was red.
     fn add(&mut self, outcome: &Outcome, scores: &mut Vec<f64>) -> bool {
         self.judges = outcome.about.judges.name();
@@ -91,9 +96,8 @@ impl Record {
         self.false_alarm = self.false_alarm.max(outcome.false_alarm());
         let said = format!("{:?}{:?}", outcome.evidence, outcome.controls);
         match &self.first {
-            None => (self.first, self.draws) = (Some(said), true),
-            Some(first) if self.runs == 2 => self.draws = *first != said,
-            Some(_) => {}
+            None => self.first = Some(said),
+            Some(first) => self.differs |= *first != said,
         }
         for judged in &outcome.evidence {
             let what = match judged.verdict {

@@ -24,7 +24,7 @@ pub fn markdown() -> String {
     format!(
         "# The catalogue\n\nMade from the registry; `UPDATE_DOCS=1 cargo test -p shearbed-suite --test docs` makes \
          it anew.\n\n## Cases\n\n{}\n{} cases; `docs/strength.md` has their probabilities of a false alarm and of a miss.\n\n\
-         ## Equations\n\n{}",
+         ## Equations\n\nCode: a file of `src/`, or the folder of that name, and the item in it.\n\n{}",
         table.cells_as_markdown(),
         about.len(),
         equation_table(&equations()).cells_as_markdown(),

@@ -46,7 +46,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("arm-pushed")
             .claim(
                 "A collision pushes a short arm away from 0 where the gap opens, and towards 0 where it \
-                 closes: dr/dt = h² ℓ·D·ℓ/(2 r sin²).",
+                 closes: dr/dt = h² ℓ·D·ℓ/(2 r sin²χ).",
             )
             .source("A.7–A.14; docs/time-step.md")
             .equations(&["A.13", "A.14"])
@@ -238,7 +238,7 @@ fn pushed(kick: &Kick, _: &Effort) -> Vec<Evidence> {
     }
     vec![
         Evidence::within(
-            "dr/dt while colliding over h² ℓ·D·ℓ/(2 r sin²), less 1",
+            "dr/dt while colliding over h² ℓ·D·ℓ/(2 r sin²χ), less 1",
             worst,
             1e-5,
             "left out: terms in 1 − Λ = 2·10⁻⁸ over h ℓ·D·ℓ ≥ 0.02, and the square of the turn, 10⁻⁸",

@@ -62,7 +62,7 @@ pub fn cases() -> Vec<Case> {
         Case::integrator("exact-propagator-round-off")
             .claim(
                 "The exact propagator's error is round-off for r_e from 1.01 to 10⁶ and up to 10⁶ periods, \
-                 in the middle of a flip.",
+                 during a flip.",
             )
             .source("A.4, A.5, eq. 20")
             .equations(&["20", "A.4", "A.5"])

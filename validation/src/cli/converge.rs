@@ -26,8 +26,8 @@ pub(super) struct Args {
     /// The folder for the tables and converge.json [default: out/converge-<scene>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Replicas at every step and number of rods of an interacting scene [default: as many as two minutes on four
-    /// cores allow, fewer at fine steps]
+    /// Replicas at every step and number of rods of an interacting scene [default: as many as some three minutes
+    /// of one core allow, fewer at fine steps]
     #[arg(long, value_name = "N", value_parser = whole(2, MAX_REPLICAS), allow_negative_numbers = true)]
     replicas: Option<u64>,
     /// Threads to run on; the results do not depend on it [default: one for each core]

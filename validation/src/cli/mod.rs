@@ -61,7 +61,7 @@ enum Command {
     Scenes(show::ScenesArgs),
     /// Run the verification and validation cases and write the report
     Validate(validate::Args),
-    /// Measure every integrator's error against its run time for one free rod
+    /// Measure error against run time: integrators of one free rod, suspensions, and the speed of the core
     Bench(bench::Args),
     /// Run a scene at every point of a grid of its keys' values: one row a point
     Sweep(sweep::Args),

@@ -195,7 +195,7 @@ fn flip(aspect_ratio: f64) -> f64 {
     (phase(1.0) - phase(0.2)) / TAU
 }
 
-/// A run into the middle of a flip by steps of `step` periods, at most `most_steps` of them, or at once. At least twenty
+/// A run into a flip by steps of `step` periods, at most `most_steps` of them, or at once. At least twenty
 /// steps are taken, so at long steps it lasts for many periods; at short ones it stops before one is over.
 pub fn by_step(theory: Theory, aspect_ratio: f64, step: f64, most_steps: u64) -> Run {
     let (turns, setting) = match theory {

@@ -100,7 +100,7 @@ fn steps(subjects: &[Box<dyn Integrator>]) -> Panels<'static> {
     Panels {
         words: ["stability-steps", "Stability by step and aspect ratio"],
         caption: format!(
-            "Runs end in the middle of a flip, after one period or twenty steps, whichever is more; at short steps after \
+            "Runs end during a flip, at φ = 1 rad, after one period or twenty steps, whichever is more; at short steps after \
              {MOST_STEPS} of them. Right: within 10⁻² rad of the closed form. The black line is theory's longest step \
              without overtaking, where there is one: a step is inaccurate long before. The exact propagator takes no steps \
              and is right everywhere."
@@ -143,7 +143,7 @@ fn tolerances(subjects: &[Box<dyn Integrator>]) -> Panels<'static> {
     };
     Panels {
         words: ["stability-tolerances", "Stability by tolerance and aspect ratio"],
-        caption: "Integrators that choose their step: one period, into the middle of a flip.".into(),
+        caption: "Integrators that choose their step: one period, into a flip.".into(),
         axes: ["tolerance", "aspect ratio r_e"],
         columns: tolerances_from_fine().map(power).collect(),
         values: tolerances_from_fine().map(|t| format!("{t:e}")).collect(),

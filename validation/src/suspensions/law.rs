@@ -40,7 +40,7 @@ pub enum Replicas {
 }
 
 impl Replicas {
-    /// For `shearbed converge`: about two minutes on four cores.
+    /// For `shearbed converge`: about three minutes of one core.
     pub const CONVERGE: Self = Self::Within {
         rod_steps: 400_000_000,
         most: 20_000,

@@ -148,8 +148,8 @@ fn rods(law: &Law) -> ReportTable {
         ["rods", "X̄₁ at t/T = 1 against the rods"],
         format!(
             "Rods near a face of the volume lack neighbours, and the share of the volume near faces is ∝ N^(−1/3) \
-             (`faces-cost-collisions`). Fits: {}; {}. A line with p below 0.001 is refuted; \
-             N^(−1/2) is not told from N^(−1/3) by this.",
+             (`faces-cost-collisions`). Fits: {}; {}. p is the probability that chance alone makes \
+             a right line fit no better. N^(−1/2) is not told from N^(−1/3) by this.",
             line(0, "N^(−1/3)"),
             line(1, "/N")
         ),

@@ -40,7 +40,7 @@ fn figure(bench: &Bench) -> ReportFigure {
             grid: None,
         },
         caption: format!(
-            "One rod over {:.5} periods, into the middle of a flip; the least of repeated runs, on one core. \
+            "One rod over {:.5} periods, into a flip; the least of repeated runs, on one core. \
              An error of 0 is drawn at {LEAST:.0e}, a run that failed at {FAILED}.",
             bench.turns
         ),

@@ -110,8 +110,8 @@ fn of_all(aspect_ratio: f64, phi: f64, theta: f64, turns: f64, whose: &str) -> O
     let doublings = 22u32.saturating_sub(coarsest(&problem).ilog2()).clamp(4, 12);
     Orders {
         problem: format!(
-            "One rod of r_e = {aspect_ratio} from φ = {phi:.4} and θ = {theta:.4} rad ({whose}) over {:.5} periods, into the \
-             middle of a flip",
+            "One rod of r_e = {aspect_ratio} from φ = {phi:.4} and θ = {theta:.4} rad ({whose}) over {:.5} periods, into a flip, \
+             to φ = 1 rad",
             problem.turns
         ),
         studies: (integrators::all().iter())

@@ -57,7 +57,7 @@ pub(crate) struct Args {
     /// LAMMPS dumps: the rod's axis in the body's frame, where shapex, shapey, shapez do not tell
     #[arg(long, value_name = "x|y|z", value_parser = body_axis)]
     pub(super) rod_axis: Option<usize>,
-    /// With --command: seconds that an answer may take
+    /// With --command: the most seconds for one answer, and for the answers to one problem together
     #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true, default_value = "10")]
     pub(super) timeout: f64,
     /// With --command: verdicts only, without work–precision, longest steps and the stability map
