@@ -77,10 +77,50 @@ pub fn probe(dir: &Path, bytes: u64) -> Result<(), OutputError> {
 /// that exists the files of two sets never stand side by side (see [`Claim::write_all`]). On any error before the last
 /// moment nothing that was there has changed.
 pub fn write_all<C: AsRef<[u8]>>(dir: &Path, files: &[(String, C)]) -> Result<(), OutputError> {
+    write_all_where(dir, files, || Ok(()))
+}
+
+/// The same where `allowed` says so of a folder that is there at that moment, under the lock of this process: another one may have made or filled
+/// it since this one looked first.
+pub fn write_all_where<C: AsRef<[u8]>, E: From<OutputError>>(
+    dir: &Path,
+    files: &[(String, C)],
+    allowed: impl FnOnce() -> Result<(), E>,
+) -> Result<(), E> {
     if !dir.exists() && appear(dir, files)? {
         return Ok(());
     }
-    Claim::new(dir, PATIENCE)?.write_all(files)
+    let claim = Claim::new(dir, PATIENCE)?;
+    allowed()?;
+    Ok(claim.write_all(files)?)
+}
+
+/// Writes one file, at once or not at all. A link is followed; what is no regular file, as a device or a pipe, is written into.
+pub fn write_one(path: &Path, contents: &[u8]) -> Result<(), OutputError> {
+    let special = |found: fs::Metadata| !found.is_file() && !found.is_dir();
+    let system = ["/dev", "/proc"].iter().any(|folder| path.starts_with(folder));
+    if system || fs::metadata(path).is_ok_and(special) {
+        let mut file = File::options().write(true).open(path).map_err(at(path))?;
+        return file.write_all(contents).map_err(at(path));
+    }
+    let target = followed(path);
+    let name = target.file_name().map(|name| name.to_string_lossy().into_owned());
+    let name = name.ok_or_else(|| at(path)(io::ErrorKind::InvalidFilename.into()))?;
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty());
+    write_all(folder.unwrap_or(Path::new(".")), &[(name, contents)]).map_err(|error| at(path)(error.reason))
+}
+
+/// The file that links lead to, whether it is there or not.
+pub fn followed(path: &Path) -> PathBuf {
+    let mut path = path.to_owned();
+    // Links in a circle lead nowhere; as many are followed as Linux does.
+    for _ in 0..40 {
+        let Ok(next) = fs::read_link(&path) else {
+            break;
+        };
+        path = path.parent().unwrap_or(Path::new("")).join(next);
+    }
+    path
 }
 
 /// Writes a new folder beside its place, under a hidden name, and moves it there; false where somebody else made one in

@@ -2,6 +2,9 @@
 
 use std::borrow::Cow;
 use std::ffi::OsStr;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
 
 /// Whether a character commands a terminal, turns the direction of writing, or is not allowed in HTML and SVG. Line feeds
 /// and tabulators are none.
@@ -61,6 +64,19 @@ pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
     Cow::Owned(format!(
         "{head} … ({left_out} characters are left out here) … {tail}"
     ))
+}
+
+/// A file of at most so many bytes; a longer one is refused before it fills the memory.
+pub(crate) fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
+    match bytes.len() as u64 <= most {
+        true => Ok(bytes),
+        false => Err(io::Error::other(format!(
+            "longer than the {} MB that are allowed",
+            most >> 20
+        ))),
+    }
 }
 
 /// A cell of a table in CSV that no spreadsheet takes for a formula: a text that begins as one has an apostrophe before it.

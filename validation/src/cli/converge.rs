@@ -1,7 +1,7 @@
 //! `shearbed converge`.
 
 use super::scene::{Chosen, Ensemble};
-use super::{Failure, MAX_THREADS, agree, memory, on_threads, print, probe, progress, scene, whole};
+use super::{Failure, MAX_THREADS, agree, kept, memory, on_threads, print, probe, progress, scene, whole};
 use crate::output::{self, Output};
 use crate::suspensions::law::{self, Law, Replicas};
 use crate::suspensions::split::{Constants, Scope, Split, TARGETS};
@@ -50,6 +50,7 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
         json!({ "scene": named.scene.resolved(), "replicas": args.replicas }),
     )?;
     probe(&out, 0)?;
+    kept::check_study(&out)?;
     let replicas = args.replicas.map_or(Replicas::CONVERGE, Replicas::Each);
     let done = match plan.keeps(Stage::Contacts) {
         true => {
@@ -70,7 +71,15 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let Some(done) = done else {
         return Ok(());
     };
-    output::write_all(&out, &done.files)?;
+    output::write_all_where(&out, &done.files, || kept::check_study(&out))?;
+    // An earlier study, of interacting rods, may have left more.
+    let replaced = |name: &&str| !done.files.iter().any(|(file, _)| file == name);
+    let left_over: Vec<_> = ["replicas.csv"]
+        .into_iter()
+        .filter(replaced)
+        .map(str::to_owned)
+        .collect();
+    output::remove(&out, &left_over)?;
     if !args.quiet {
         let names: Vec<_> = done.files.iter().map(|(name, _)| name.as_str()).collect();
         let text: String = done.tables.iter().map(ReportTable::text).collect();

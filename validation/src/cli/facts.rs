@@ -103,6 +103,7 @@ fn regime(n_a3: f64, aspect_ratio: f64) -> &'static str {
 /// What to know before trusting the results.
 pub(super) fn warnings(plan: &Plan) -> Vec<String> {
     let mut warnings = plan.warnings();
+    warnings.extend(cut_short(plan));
     let facts = Facts::of(plan);
     if let Some((n_a3, regime)) = facts.n_a3.zip(facts.regime).filter(|(n_a3, _)| *n_a3 >= 1.0) {
         let shown = match n_a3 < 1e4 {
@@ -117,10 +118,45 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
     warnings
 }
 
+/// That the scene ends between two outputs, after the last of them nothing is run.
+fn cut_short(plan: &Plan) -> Option<String> {
+    let time = &plan.scene().time;
+    let (key, end) = match (time.strain, time.periods) {
+        (Some(strain), _) => ("strain", strain),
+        (None, periods) => ("periods", periods?),
+    };
+    let times = plan.times();
+    let last = *times.last()?;
+    // A product that was rounded is no end between outputs.
+    (last < end * (1.0 - 1e-12)).then(|| {
+        format!(
+            "time.{key} = {end} ends between two outputs: the last one is at {last}; outputs of which {end} is a multiple reach it"
+        )
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scenes;
+
+    #[test]
+    fn a_scene_that_ends_between_outputs_says_so() {
+        let mut scene = scenes::find("fig4-n50").unwrap().scene().unwrap();
+        let told = |scene: &shearbed::Scene| cut_short(&Plan::new(scene).unwrap());
+        for (periods, last) in [
+            (6.0, None),
+            (0.3, None),
+            (0.0, None),
+            (0.35, Some("0.34")),
+            (0.005, Some("at 0;")),
+        ] {
+            scene.time.periods = Some(periods);
+            let told = told(&scene);
+            assert_eq!(told.is_some(), last.is_some(), "{periods}: {told:?}");
+            assert!(told.is_none_or(|told| told.contains(last.unwrap())));
+        }
+    }
 
     fn facts(n: f64) -> (Facts, Vec<String>) {
         let mut scene = scenes::find("fig4-n50").unwrap().scene().unwrap();

@@ -6,6 +6,7 @@ use super::{Failure, MAX_THREADS, kept, on_threads, print, probe, progress, scen
 use crate::build::BUILD;
 use crate::fit::budget::{self, Shift};
 use crate::fit::design::{Candidate, design};
+use crate::fit::elsewhere::look_elsewhere;
 use crate::fit::emulator::Model;
 use crate::fit::report::{self, Report};
 use crate::fit::scenes::{AS_WRITTEN, Variant};
@@ -121,7 +122,10 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     let left_over = kept::left_over(&out, &names);
     let names = names.join(", ");
     files.push((kept::FIT.into(), record));
-    output::write_all(&out, &files)?;
+    output::write_all_where(&out, &files, || match args.force {
+        true => Ok(()),
+        false => kept::check_fit(&out, &asked),
+    })?;
     output::remove(&out, &left_over)?;
     scene::warn(&input.stem, &done.report.warnings);
     if args.quiet {
@@ -161,8 +165,10 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
         most_replicas: args.replicas,
     };
     let fit = search(&problem, watch).map_err(stopped)?;
+    let unsearched = look_elsewhere(&problem, &fit, watch).map_err(stopped)?;
     let shifts = shifts(input, &fit, &model, watch).map_err(stopped)?;
     let mut report = report::report(&fit, data, shifts);
+    report.warnings.extend(unsearched);
     let mut candidates = Vec::new();
     if args.design {
         let found = design(&fit, scenes, data, watch).map_err(stopped)?;

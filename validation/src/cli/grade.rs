@@ -14,6 +14,9 @@ use std::io;
 use std::path::Path;
 use std::time::Duration;
 
+/// Beside the report: error against steps, and error against run time.
+const PICTURES: [&str; 2] = ["steps.svg", "work-precision.svg"];
+
 /// Grades answers in files, or a program.
 pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     if args.echo {
@@ -41,7 +44,13 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
         ("junit.xml".to_owned(), grade::junit(&report)),
     ];
     written.extend(pictures);
+    let left_over = PICTURES
+        .into_iter()
+        .filter(|name| !written.iter().any(|(file, _)| file == name));
+    let left_over: Vec<_> = left_over.map(str::to_owned).collect();
     output::write_all(&args.out, &written)?;
+    // A picture of an earlier grading is none of these answers.
+    output::remove(&args.out, &left_over)?;
     if !args.quiet {
         let place = args.out.join("grade.html");
         print(&format!(
@@ -63,10 +72,10 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
 fn pictures(report: &Report, problems: &[LoadedProblem]) -> Result<Vec<output::Output>, String> {
     let mut pictures = Vec::new();
     if let Some(steps) = grade::figures::steps(problems, &report.problems) {
-        pictures.push(("steps.svg".to_owned(), plot::svg_of_one(&steps)?));
+        pictures.push((PICTURES[0].to_owned(), plot::svg_of_one(&steps)?));
     }
     if let Some(bench) = report.live.as_ref().and_then(|live| live.work_precision.as_ref()) {
-        pictures.push(("work-precision.svg".to_owned(), bench.picture()?));
+        pictures.push((PICTURES[1].to_owned(), bench.picture()?));
     }
     Ok(pictures)
 }

@@ -23,7 +23,7 @@ pub(super) fn watch() {
         };
         let code = 128 + signal;
         let kept = checkpoint::last_words().unwrap_or_else(|| {
-            "the finished points of a sweep are kept, and the same command goes on from them".to_owned()
+            "a sweep keeps its finished points, and the same command goes on from them; nothing else is kept".to_owned()
         });
         let message = format!("stopped by {name}: files that were not complete were not written; {kept}");
         cluster::failed(&message, code as u8);

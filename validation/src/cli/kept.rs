@@ -9,12 +9,13 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// The records of the commands that keep results in a folder, and what they are of.
-const RECORDS: [(&str, &str); 5] = [
+const RECORDS: [(&str, &str); 6] = [
     (RUN, "a run"),
     (FIT, "a fit"),
     (SWEEP, "a sweep"),
-    ("converge.json", "a study of convergence"),
+    (STUDY, "a study of convergence"),
     ("report.json", "a report"),
+    ("point.json", "a point of a sweep"),
 ];
 
 /// The record of `run`.
@@ -23,6 +24,8 @@ pub(super) const RUN: &str = "run.json";
 pub(super) const FIT: &str = "fit.json";
 /// The record of `sweep`.
 const SWEEP: &str = "sweep.json";
+/// The record of `converge`.
+const STUDY: &str = "converge.json";
 
 /// Refuses a folder that holds another scene's results, or those of another seed, number of replicas or version of the
 /// program. One without a record holds nothing that is known.
@@ -44,7 +47,16 @@ pub(super) fn check_fit(out: &Path, asked: &Value) -> Result<(), Failure> {
 
 /// Refuses a folder that holds the record of another command. Of another sweep the sweep itself knows.
 pub(super) fn check_sweep(out: &Path) -> Result<(), Failure> {
-    match foreign(out, SWEEP) {
+    check_alone(out, SWEEP)
+}
+
+/// The same for a study of convergence, which replaces an earlier one.
+pub(super) fn check_study(out: &Path) -> Result<(), Failure> {
+    check_alone(out, STUDY)
+}
+
+fn check_alone(out: &Path, record: &str) -> Result<(), Failure> {
+    match foreign(out, record) {
         None => Ok(()),
         Some((path, whose)) => Err(Failure::Input(format!(
             "{}: {whose} is kept here; another --out leaves it; nothing was changed",

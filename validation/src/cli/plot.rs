@@ -90,9 +90,7 @@ pub(super) fn plot(args: &Args) -> Result<(), Failure> {
 }
 
 fn write(out: &Path, figure: &Figure) -> Result<(), Failure> {
-    let dir = out.parent().filter(|dir| !dir.as_os_str().is_empty());
-    let dir = dir.unwrap_or(Path::new("."));
-    let name = out.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let name = out.to_string_lossy();
     let contents = match name.ends_with(".png") {
         false => plot::svg(figure).map_err(Failure::Failed)?.into_bytes(),
         true => {
@@ -107,7 +105,7 @@ fn write(out: &Path, figure: &Figure) -> Result<(), Failure> {
             bytes
         }
     };
-    Ok(output::write_all(dir, &[(name, contents)])?)
+    Ok(output::write_one(out, &contents)?)
 }
 
 /// The runs that a folder holds: itself, or the points of a sweep.

@@ -137,13 +137,13 @@ fn explained(start: Start) -> String {
 }
 
 fn write(path: &Path, text: String) -> Result<(), Failure> {
-    let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
-    let name = name.ok_or_else(|| Failure::Input(format!("--out {}: is no file name", path.display())))?;
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    Ok(output::write_all(
-        folder.unwrap_or(Path::new(".")),
-        &[(name, text)],
-    )?)
+    if path.file_name().is_none() {
+        return Err(Failure::Input(format!(
+            "--out {}: is no file name",
+            path.display()
+        )));
+    }
+    Ok(output::write_one(path, text.as_bytes())?)
 }
 
 fn no_couette(flag: &str) -> Failure {

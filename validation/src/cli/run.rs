@@ -56,11 +56,24 @@ fn seconds(text: &str) -> Result<Duration, String> {
 }
 
 /// The run's checkpoint, and how far it has come, where one is asked for.
-fn checkpoint(args: &Args, plan: &Plan) -> Result<Option<Arc<Replicas>>, Failure> {
+fn checkpoint(args: &Args, plan: &Plan, out: &Path) -> Result<Option<Arc<Replicas>>, Failure> {
     let Some(path) = &args.checkpoint else {
         return Ok(None);
     };
+    let path = &output::followed(path);
     alone(path)?;
+    let folder = |path: &Path| path.canonicalize().ok();
+    let beside = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+    let inside = folder(beside.unwrap_or(Path::new("."))).is_some_and(|parent| Some(parent) == folder(out));
+    let of_results = ["csv", "svg", "json", "pvd", "vtp"]
+        .iter()
+        .any(|end| path.extension().is_some_and(|own| own == *end));
+    if inside && of_results {
+        return Err(Failure::Input(format!(
+            "--checkpoint {}: the results may take that name; another folder than theirs, or another ending than .csv, .svg and .json, is allowed",
+            path.display()
+        )));
+    }
     let every = args.every.unwrap_or(Duration::from_secs(60));
     let replicas = Replicas::open(plan, path, every)?;
     if replicas.done() > 0 || replicas.halfway() > 0 {
@@ -105,7 +118,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         ..Seconds::default()
     };
 
-    let checkpoint = checkpoint(args, &plan)?;
+    let checkpoint = checkpoint(args, &plan, &out)?;
     let bar = progress(scene.ensemble.replicas, "replicas", args.quiet);
     bar.inc(checkpoint.as_ref().map_or(0, |kept| kept.done()));
     let start = Instant::now();
@@ -138,7 +151,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     files.push((kept::RUN.to_owned(), record));
     let names: Vec<_> = files.iter().map(|(name, _)| name.as_str()).collect();
     let left_over = kept::left_over(&out, &names);
-    output::write_all(&out, &files)?;
+    output::write_all_where(&out, &files, || match args.force {
+        true => Ok(()),
+        false => kept::check_run(&out, &plan),
+    })?;
     output::remove(&out, &left_over)?;
     if args.quiet {
         return Ok(());

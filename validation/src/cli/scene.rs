@@ -3,7 +3,7 @@
 use super::{Failure, whole};
 use crate::start::Starts;
 use crate::sweep::{self, Axis, Setting};
-use crate::text::line;
+use crate::text::{self, line};
 use crate::{cluster, scenes};
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shearbed::{Scene, scene_file};
@@ -146,9 +146,12 @@ pub(super) fn warn<'a>(source: &str, warnings: impl IntoIterator<Item = &'a Stri
     }
 }
 
+/// The longest scene file.
+const MOST_BYTES: u64 = 16 << 20;
+
 fn read(path: &Path) -> Result<String, Failure> {
     let source = path.display();
-    let bytes = std::fs::read(path).map_err(|error| {
+    let bytes = text::read(path, MOST_BYTES).map_err(|error| {
         let known = if path.exists() {
             String::new()
         } else {

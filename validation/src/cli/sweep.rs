@@ -2,7 +2,8 @@
 
 use super::scene::{Chosen, Ensemble};
 use super::{
-    Failure, MAX_THREADS, agree, kept, memory, on_threads, print, probe, progress, scene, tables, whole,
+    Failure, MAX_THREADS, agree, facts, kept, memory, on_threads, print, probe, progress, scene, tables,
+    whole,
 };
 use crate::cluster;
 use crate::output::Output;
@@ -51,6 +52,15 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let points = sweep::points(&named.text, &named.starts, &named.settings, &args.over)
         .map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
     for point in &points {
+        if point.plan.time_name() != points[0].plan.time_name() {
+            return Err(Failure::Input(format!(
+                "{}: --over {}: its time is {}, that of the first point {}; all points have the same columns",
+                named.source,
+                sweep::described(&args.over, &point.values),
+                point.plan.time_name(),
+                points[0].plan.time_name()
+            )));
+        }
         let at = format!(
             "{}: --over {}",
             named.source,
@@ -61,7 +71,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("sweep-{}", named.stem)));
     let total = points.len();
     let warned = warnings(&points, &args.over);
-    let identity = Identity::new(&named.scene, &args.over, &warned);
+    let identity = Identity::new(&named.scene, &args.over, &points, &warned);
     agree("sweep", identity.value().clone())?;
 
     // Only the root may see the folder.
@@ -141,7 +151,7 @@ const MOST_WARNINGS: usize = 10;
 fn warnings(points: &[Point], over: &[Axis]) -> Vec<String> {
     let of_point = |point: &Point| {
         let at = sweep::described(over, &point.values);
-        let warnings = point.plan.warnings().into_iter();
+        let warnings = facts::warnings(&point.plan).into_iter();
         warnings
             .map(|warning| format!("--over {at}: {warning}"))
             .collect::<Vec<_>>()

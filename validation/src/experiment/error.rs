@@ -1,5 +1,6 @@
 //! Why measured points were refused.
 
+use crate::text;
 use std::fmt;
 use std::path::Path;
 
@@ -45,10 +46,13 @@ impl fmt::Display for DataError {
 
 impl std::error::Error for DataError {}
 
+/// The longest file of measured points.
+const MOST_BYTES: u64 = 64 << 20;
+
 /// The text of a file in UTF-8, without a byte-order mark.
 pub(crate) fn read_text(path: &Path) -> Result<String, DataError> {
-    let bytes =
-        std::fs::read(path).map_err(|error| DataError::whole(path, format!("cannot be read: {error}")))?;
+    let bytes = text::read(path, MOST_BYTES)
+        .map_err(|error| DataError::whole(path, format!("cannot be read: {error}")))?;
     let text = String::from_utf8(bytes).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();

@@ -9,6 +9,7 @@ mod best;
 pub mod budget;
 pub mod data;
 pub mod design;
+pub mod elsewhere;
 pub mod emulator;
 pub mod likelihood;
 mod minimise;

@@ -144,6 +144,15 @@ fn warnings(
             (found.ends_at_edge[0], "lower", range.from),
             (found.ends_at_edge[1], "upper", range.to),
         ];
+        if found.ends_at_edge == [true, true] {
+            all.push(format!(
+                "{}: its 95 % interval is its whole range, {} to {}: the points say nothing of it there",
+                range.label(),
+                range.from,
+                range.to
+            ));
+            continue;
+        }
         for (_, side, edge) in ends.into_iter().filter(|(open, ..)| *open) {
             all.push(format!(
                 "{}: its 95 % interval reaches the {side} end of its range, {edge}: the points do not say where it ends",

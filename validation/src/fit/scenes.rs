@@ -72,6 +72,10 @@ const OUTER: f64 = 1.732_050_807_568_877_2;
 /// Outputs per unit of strain, where time is no period.
 const PER_STRAIN: u64 = 40;
 
+/// Outputs per period of free rods that start alike: |p_i| has a kink where p_i changes its sign, all of them at once, which a cubic
+/// between outputs rounds off by a share of their distance.
+const KINKED: u64 = 5000;
+
 impl Scenes {
     /// Checks every scene at all corners of the ranges. On error, which scene, which values, and why.
     pub fn new(sets: Vec<Set>, ranges: Vec<Range>) -> Result<Self, String> {
@@ -200,12 +204,20 @@ impl Scenes {
             .map(|datum| (datum.time + OUTER * datum.u_time) / per_unit)
             .fold(0.0, f64::max);
         // One output more than the last point needs, for the cubic.
+        let kinked =
+            scene.interaction.is_none() && matches!(scene.particles.orientation, Orientation::Given { .. });
         if scene.time.strain.is_some() {
-            let outputs = scene.outputs_per_strain().max(PER_STRAIN);
+            let outputs = scene
+                .outputs_per_strain()
+                .max(if kinked { KINKED / 10 } else { PER_STRAIN });
             scene.time.strain = Some(((last * outputs as f64).ceil() + 1.0) / outputs as f64);
             scene.time.outputs_per_strain = Some(outputs);
         } else {
-            let outputs = self.steps[set];
+            let outputs = if kinked {
+                self.steps[set].max(KINKED)
+            } else {
+                self.steps[set]
+            };
             scene.time.periods = Some(((last * outputs as f64).ceil() + 1.0) / outputs as f64);
             scene.time.outputs_per_period = Some(outputs);
             scene.time.steps_per_period = Some(outputs * variant.steps);

@@ -103,6 +103,14 @@ pub fn search(problem: &Problem<'_>, watch: &Watch<'_>) -> Result<Fit, String> {
         }
         let share = fit.best.share(REPLICAS);
         if share <= MOST_SHARE || wanted >= problem.most_replicas {
+            if let Some(axis) = fit.untold() {
+                return Err(format!(
+                    "--over {}: the points say nothing about it between {} and {}",
+                    ranges[axis].label(),
+                    ranges[axis].from,
+                    ranges[axis].to
+                ));
+            }
             return match enclosed(&fit, &whole) {
                 true => Ok(Fit { runs, rounds, ..fit }),
                 false => Err(format!(
@@ -189,7 +197,22 @@ fn enclosed(fit: &Fit, whole: &Sides) -> bool {
     })
 }
 
+/// Standard uncertainties beyond so many ranges say that no model value changes with a parameter.
+const UNTOLD: f64 = 10.0;
+
 impl Fit {
+    /// A parameter of which the points tell nothing.
+    fn untold(&self) -> Option<usize> {
+        let covariance = self.best.covariance();
+        (0..self.ranges.len()).find(|&axis| {
+            // A box is 2 wide.
+            let (low, high) = self.sides[axis];
+            let uncertainty = 0.5 * (high - low) * covariance[(axis, axis)].sqrt();
+            let range = &self.ranges[axis];
+            uncertainty > UNTOLD * (range.scaled(range.to) - range.scaled(range.from))
+        })
+    }
+
     /// The values of the parameters at a place of the box.
     pub fn values(&self, place: &[f64]) -> Vec<f64> {
         values(&self.ranges, &self.sides, place)

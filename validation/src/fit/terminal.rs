@@ -8,8 +8,8 @@ use super::search::Fit;
 pub fn sentence(fit: &Fit, report: &Report) -> String {
     let parameter = |range: &super::Range| {
         let found = &report.parameters[&range.label()];
-        // Two digits of the uncertainty.
-        let digits = decimals(found.standard_uncertainty);
+        // Two digits of the uncertainty, which where the points tell little is no more than the range.
+        let digits = decimals(found.standard_uncertainty.min(range.to - range.from));
         format!(
             "{} = {:.digits$}, 95 % from {:.digits$} to {:.digits$}",
             range.name(),

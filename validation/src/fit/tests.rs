@@ -1,6 +1,7 @@
 //! The whole fit on a model of one line, whose replicas cost nothing: planted values, coverage, χ², controls.
 
 use super::data::Datum;
+use super::elsewhere::look_elsewhere;
 use super::emulator::{Prediction, Replica};
 use super::range::Range;
 use super::search::{Fit, Measured, Problem, Watch, search};
@@ -104,6 +105,45 @@ fn without_noise_the_planted_values_are_found() {
             "{value} {interval:?}"
         );
     }
+}
+
+/// Points at every tenth of a period do not tell a frequency of 1 from one of 9 or 11.
+#[test]
+fn another_minimum_of_the_range_is_seen() {
+    let (data, model) = (points(0.3, 1.0, 0.01, 1), model(1, 1e-9));
+    let look = |fit: &Fit| {
+        let problem = Problem {
+            measured: Measured {
+                data: &data,
+                ranges: &fit.ranges,
+                rods_over_measured: &[0.0],
+            },
+            model: &model,
+            most_replicas: 20,
+        };
+        let watch = Watch {
+            planned: &|_| (),
+            done: &|| (),
+        };
+        look_elsewhere(&problem, fit, &watch)
+    };
+    let found = fit(&data, &TWO, 1, 1e-9, 20);
+    assert_eq!(look(&found), Ok(Vec::new()));
+    let over = |over: [&str; 2]| Fit {
+        ranges: ranges(&over),
+        ..found.clone()
+    };
+    let said = look(&over(["a.rate=0.05:5", "a.frequency=0.95:9.4"])).unwrap_err();
+    assert!(
+        said.contains("a.frequency") && said.contains("as well by 8.99"),
+        "{said}"
+    );
+    let unsearched = look(&over(["a.rate=0.05:5", "a.frequency=-900:1.25"]));
+    assert!(unsearched.is_err() || unsearched.is_ok_and(|warnings| warnings[0].contains("too fast")));
+    let mut off = found;
+    off.best.place[1] += 3.0;
+    let said = look(&off).unwrap_err();
+    assert!(said.contains("do not follow"), "{said}");
 }
 
 /// What repeats of a fit with fresh data and a fresh seed have in common.

@@ -208,7 +208,8 @@ fn poles() -> Asked {
         gradient_per_s: COUETTE,
         aspect_ratio,
         start,
-        times_s: vec![0.1 * t, 0.25 * t, 0.6 * t, t],
+        // At whole periods every rod is back, one that never moved too; a program that runs is asked at the last time.
+        times_s: vec![0.1 * t, 0.25 * t, 0.6 * t, 1.1 * t],
         summary: "Eight free rods of r_e = 11.6 in plane Couette flow: one at each pole θ = 0 and θ = π of the angles, and three \
                   10⁻⁶ rad beside each. Those at a pole stay, the others go round it on small ellipses. A code in φ and θ divides \
                   by sin θ here; nothing is singular in p."

@@ -2,6 +2,7 @@
 //! is finished, with a `point.json` that says which point it is and has the tables' checksums, `sweep.csv` one row a
 //! point. Every file and every point's folder appears whole or not at all.
 
+use super::Point;
 use super::axis::{Axis, shown};
 use crate::build;
 use crate::difference::difference;
@@ -9,6 +10,8 @@ use crate::output::{self, Claim, Output, OutputError};
 use crate::text::cell;
 use serde_json::{Map, Value, json};
 use shearbed::Scene;
+use shearbed::scene::Orientation;
+use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -19,8 +22,8 @@ pub struct Identity(Value);
 
 impl Identity {
     /// A sweep of `scene`, as it is without the swept keys, by this build of the program, with what its points' plans
-    /// warn of.
-    pub fn new(scene: &Scene, axes: &[Axis], warnings: &[String]) -> Self {
+    /// warn of and the checksums of the files that their rods start from.
+    pub fn new(scene: &Scene, axes: &[Axis], points: &[Point], warnings: &[String]) -> Self {
         let over = axes.iter().map(|axis| {
             let values: Vec<_> = axis.values.iter().map(shown).collect();
             format!("{}={}", axis.key, values.join(","))
@@ -29,6 +32,18 @@ impl Identity {
         identity["scene"] = json!(scene.resolved());
         identity["over"] = over.collect();
         identity["warnings"] = json!(warnings);
+        let starts = points
+            .iter()
+            .map(|point| &point.plan.scene().particles.orientation);
+        let starts: BTreeMap<_, _> = starts
+            .filter_map(|orientation| match orientation {
+                Orientation::Each { file, crc32, .. } => Some((file, crc32)),
+                _ => None,
+            })
+            .collect();
+        if !starts.is_empty() {
+            identity["starts_crc32"] = json!(starts);
+        }
         Self(identity)
     }
 

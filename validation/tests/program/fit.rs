@@ -6,6 +6,7 @@ use crate::common::{files, folder, shearbed};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
+use validation::oracle::closed_form::{angles_at, period_s};
 
 /// The mean curve of `small.toml` at this α, another seed than the fit's, with noise of 0.01 that is fixed: each point is
 /// off by a Gaussian quantile, in an order without a pattern.
@@ -133,7 +134,8 @@ fn what_the_points_do_not_say_is_warned_of() {
 fn two_sets_share_their_parameters() {
     let dir = folder();
     points(dir.path());
-    let args = "fit small.toml --data points.csv --data small.toml=points.csv --over interaction.alpha=0.2:2 --replicas 50 --out both";
+    points_of(dir.path(), 0.9, "others.csv");
+    let args = "fit small.toml --data points.csv --data small.toml=others.csv --over interaction.alpha=0.2:2 --replicas 50 --out both";
     let done = shearbed(dir.path(), args);
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     let record = json(&dir.path().join("both/fit.json"));
@@ -181,9 +183,98 @@ fn two_sets_have_values_of_their_own() {
     }
 }
 
+/// r_e by points in seconds: the phase at 120 s fits r_e = 10.3 and, by half a turn more, 5. Made up, with noise.
+#[test]
+fn a_second_minimum_of_the_range_is_no_answer() {
+    let dir = folder();
+    fs::write(
+        dir.path().join("free.toml"),
+        "title = \"free\"\n[flow]\nshear_rate_per_s = 0.5\n[particles]\ncount = 100\nlength_mm = 0.72\naspect_ratio = 11.6\n\
+         orientation = \"isotropic\"\n[time]\nperiods = 12\n",
+    )
+    .unwrap();
+    fs::write(
+        dir.path().join("two.csv"),
+        "t_s,x1,x1_u\n18.0,0.0687,0.02\n45.7,0.1019,0.02\n45.9,0.1046,0.02\n50.1,0.1130,0.02\n119.7,0.1411,0.02\n\
+         125.7,0.3413,0.02\n",
+    )
+    .unwrap();
+    fs::write(
+        dir.path().join("three.csv"),
+        "t_s,x1,x1_u\n14,0.2,0.02\n70,0.45,0.02\n146,0.35,0.02\n",
+    )
+    .unwrap();
+    let fit = |data: &str, over: &str| {
+        let arguments =
+            format!("fit free.toml --data {data}.csv --over particles.{over} --out out --quiet --force");
+        shearbed(dir.path(), &arguments)
+    };
+    let ended = fit("two", "aspect_ratio=2:20");
+    assert_eq!(ended.code, Some(2));
+    assert!(
+        ended.stderr.contains("--over particles.aspect_ratio: ") && ended.stderr.contains("minima"),
+        "{}",
+        ended.stderr
+    );
+    // The polynomials of the whole range do not follow the model.
+    let ended = fit(
+        "three",
+        "aspect_ratio=0.5:20 --set particles.count=20 --set time.periods=1 --set time.outputs_per_period=10",
+    );
+    assert_eq!(ended.code, Some(2));
+    assert!(ended.stderr.contains("a narrower one"), "{}", ended.stderr);
+    // The length of free rods changes nothing.
+    let ended = fit("three", "length_mm=0.5:1");
+    assert_eq!(ended.code, Some(2));
+    assert!(ended.stderr.contains("say nothing about"), "{}", ended.stderr);
+    assert!(!dir.path().join("out").exists());
+    let ended = fit("two", "aspect_ratio=4.5:5.5");
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+}
+
+/// All rods at once pass p_1 = 0, where |p_1| has a kink. Exact points: A.4 of r_e = 1.1.
+#[test]
+fn rods_that_start_alike_are_fitted_through_the_kinks_of_their_projections() {
+    let dir = folder();
+    fs::write(
+        dir.path().join("alike.toml"),
+        "title = \"alike\"\n[flow]\nshear_rate_per_s = 0.5\n[particles]\ncount = 1\nlength_mm = 0.72\naspect_ratio = 1.1\n\
+         orientation = { phi_deg = 20, theta_deg = 60 }\n[time]\nperiods = 4\n",
+    )
+    .unwrap();
+    let mut text = "t_s,x1,x1_u\n".to_owned();
+    for k in 0..41 {
+        let time_s = 48.979 / 40.0 * f64::from(k);
+        let turns = time_s / period_s(0.5, 1.1);
+        let (phi, theta) = angles_at(20f64.to_radians(), 60f64.to_radians(), 1.1, turns);
+        text += &format!("{time_s},{},0.001\n", (theta.sin() * phi.cos()).abs());
+    }
+    fs::write(dir.path().join("exact.csv"), text).unwrap();
+    let done = shearbed(
+        dir.path(),
+        "fit alike.toml --data exact.csv --over particles.aspect_ratio=1.05:1.2 --out out --quiet",
+    );
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    let record = json(&dir.path().join("out/fit.json"));
+    let estimate = record["parameters"]["particles.aspect_ratio"]["estimate"].as_f64();
+    assert!((estimate.unwrap() - 1.1).abs() < 3e-4, "{record:#}");
+    // A tenth of the points' uncertainty at most: χ² below 40/100.
+    assert!(record["chi2"].as_f64().unwrap() < 0.4, "{record:#}");
+}
+
 #[test]
 fn bad_input_ends_with_two_and_leaves_nothing() {
     let dir = folder();
+    fs::write(
+        dir.path().join("copy.csv"),
+        "t_over_T,x1,x1_u\n0.1,0.4,0.01\n0.5,0.3,0.01\n",
+    )
+    .unwrap();
+    fs::write(
+        dir.path().join("vague.csv"),
+        "t_over_T,t_over_T_u,x1,x1_u\n0.2,0.1,0.3,0.01\n0.5,0.3,0.3,0.01\n",
+    )
+    .unwrap();
     fs::write(
         dir.path().join("good.csv"),
         "t_over_T,x1,x1_u\n0.2,0.3,0.01\n0.5,0.3,0.01\n0.8,0.3,0.01\n",
@@ -213,6 +304,26 @@ fn bad_input_ends_with_two_and_leaves_nothing() {
         (
             "--data late.csv --over interaction.alpha=0.1:1".into(),
             "late.csv:3: column t_over_T: `1.5` is not allowed",
+        ),
+        (
+            "--data vague.csv --over interaction.alpha=0.1:1".into(),
+            "vague.csv:3: column t_over_T_u: `0.3` is not allowed: one standard deviation of at most a quarter of a period, 0.25",
+        ),
+        (
+            format!("{good} --data small.toml=./good.csv --over interaction.alpha=0.1:1"),
+            "--data ./good.csv: given twice",
+        ),
+        (
+            format!("{good} --data small.toml=copy.csv --over interaction.alpha=0.1:1"),
+            "copy.csv:3: x1 = 0.3 at 0.5 is in good.csv:3 already",
+        ),
+        (
+            "--data /dev/zero --over interaction.alpha=0.1:1".into(),
+            "/dev/zero: cannot be read: longer than the 64 MB",
+        ),
+        (
+            format!("{good} --over interaction.alpha=0.1:1 --set ensemble.replicas=7"),
+            "--set ensemble.replicas: a fit takes its own ensemble",
         ),
         (
             "--data one.csv --over interaction.alpha=0.1:1".into(),

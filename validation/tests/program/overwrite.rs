@@ -129,3 +129,113 @@ fn another_run_is_overwritten_only_by_force() {
     fs::write(dir.path().join("a/sweep.json"), "{}").unwrap();
     assert!(run("").stderr.contains("a/sweep.json: a sweep is kept here"));
 }
+
+/// Two runs that begin while the folder is not there yet: the later one finds the other's results when it is done.
+#[test]
+fn of_two_runs_into_one_new_folder_one_is_refused() {
+    let dir = unequal();
+    let run = |seed: u64| {
+        let arguments = format!("run small.toml --quiet --out a --replicas 60 --seed {seed}");
+        shearbed(dir.path(), &arguments)
+    };
+    let ended = std::thread::scope(|scope| {
+        let runs = [1, 2].map(|seed| scope.spawn(move || run(seed)));
+        runs.map(|run| run.join().unwrap())
+    });
+    let codes = ended.each_ref().map(|ended| ended.code);
+    assert!(
+        codes == [Some(0), Some(2)] || codes == [Some(2), Some(0)],
+        "{codes:?}"
+    );
+    let refused = ended.iter().find(|ended| ended.code == Some(2)).unwrap();
+    assert!(
+        refused.stderr.contains("another run is kept here"),
+        "{}",
+        refused.stderr
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_is_written_where_a_link_leads_and_a_pipe_stays_a_pipe() {
+    let dir = unequal();
+    let reference = |out: &str| format!("reference --aspect-ratio 2 --times 0:1:3 --out {out}");
+    assert_eq!(shearbed(dir.path(), &reference("plain.csv")).code, Some(0));
+    let expected = read(&dir.path().join("plain.csv"));
+    fs::write(dir.path().join("target.csv"), "old").unwrap();
+    for (link, target) in [("link.csv", "target.csv"), ("dangling.csv", "new.csv")] {
+        std::os::unix::fs::symlink(target, dir.path().join(link)).unwrap();
+        assert_eq!(shearbed(dir.path(), &reference(link)).code, Some(0));
+        assert!(dir.path().join(link).is_symlink());
+        assert_eq!(read(&dir.path().join(target)), expected);
+    }
+    let pipe = dir.path().join("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status().unwrap();
+    assert!(made.success());
+    let reader = std::thread::spawn({
+        let pipe = pipe.clone();
+        move || fs::read_to_string(pipe).unwrap()
+    });
+    assert_eq!(shearbed(dir.path(), &reference("pipe")).code, Some(0));
+    assert_eq!(reader.join().unwrap(), expected);
+    assert!(!fs::metadata(&pipe).unwrap().is_file());
+}
+
+#[test]
+fn a_study_leaves_no_file_of_an_earlier_one_and_spares_a_run() {
+    let dir = unequal();
+    let out = dir.path().join("a");
+    let converge = |scene: &str, out: &str| {
+        shearbed(
+            dir.path(),
+            &format!("converge {scene} --quiet --replicas 2 --out {out}"),
+        )
+    };
+    fs::create_dir(&out).unwrap();
+    fs::write(out.join("replicas.csv"), "of an earlier study").unwrap();
+    assert_eq!(converge("fig6-uniform", "a").code, Some(0));
+    assert_eq!(names(&out), ["converge.csv", "converge.json"]);
+    assert_eq!(
+        shearbed(dir.path(), "run small.toml --quiet --out b").code,
+        Some(0)
+    );
+    let before = names(&dir.path().join("b"));
+    let ended = converge("fig6-uniform", "b");
+    assert_eq!(ended.code, Some(2));
+    assert!(
+        ended.stderr.contains("b/run.json: a run is kept here"),
+        "{}",
+        ended.stderr
+    );
+    assert_eq!(names(&dir.path().join("b")), before);
+}
+
+#[test]
+fn a_point_of_a_sweep_and_a_checkpoint_are_no_place_for_a_run() {
+    let dir = unequal();
+    let ended = |arguments: &str| {
+        let ended = shearbed(dir.path(), arguments);
+        (ended.code, ended.stderr)
+    };
+    assert_eq!(
+        ended("sweep small.toml --over interaction.alpha=0.1,0.2 --out w --quiet").0,
+        Some(0)
+    );
+    let before = read(&dir.path().join("w/points/1/projections.csv"));
+    let (code, said) = ended("run small.toml --quiet --out w/points/1 --seed 77");
+    assert!(
+        code == Some(2) && said.contains("a point of a sweep is kept here"),
+        "{said}"
+    );
+    assert_eq!(read(&dir.path().join("w/points/1/projections.csv")), before);
+    fs::create_dir(dir.path().join("d")).unwrap();
+    let (code, said) = ended("run small.toml --quiet --out d --checkpoint d/projections.csv");
+    assert!(
+        code == Some(2) && said.contains("the results may take that name"),
+        "{said}"
+    );
+    assert_eq!(
+        ended("run small.toml --quiet --out d --checkpoint d/kept").0,
+        Some(0)
+    );
+}

@@ -195,9 +195,38 @@ fn another_sweep_in_the_folder_is_refused_and_left_as_it_is() {
 }
 
 #[test]
+fn a_start_that_has_changed_is_another_sweep() {
+    let dir = folder();
+    let scene = SMALL.replace(
+        "orientation = \"isotropic\"",
+        "orientation = { file = \"a.csv\" }",
+    );
+    assert_ne!(scene, SMALL);
+    fs::write(dir.path().join("small.toml"), scene).unwrap();
+    let start = |name: &str, row: &str| {
+        fs::write(dir.path().join(name), "p1,p2,p3\n".to_owned() + &row.repeat(20)).unwrap();
+    };
+    start("a.csv", "1,0,0\n");
+    start("b.csv", "0.6,0,0.8\n");
+    let sweep =
+        "sweep small.toml --over particles.orientation={file=\"a.csv\"},{file=\"b.csv\"} --out here --quiet";
+    succeeds(dir.path(), sweep);
+    succeeds(dir.path(), sweep);
+    let kept = files(&dir.path().join("here"));
+    start("b.csv", "0.6,0.8,0\n");
+    let message = refused(dir.path(), sweep);
+    assert!(message.contains("starts_crc32.b.csv was"), "{message}");
+    assert_eq!(files(&dir.path().join("here")), kept);
+}
+
+#[test]
 fn bad_input_is_refused_before_anything_runs() {
     let dir = folder();
     for (over, named) in [
+        (
+            "time={periods=1,steps_per_period=200},{periods=1,steps_per_period=100} --over time.periods=1,2",
+            "both set time.periods",
+        ),
         (
             "particles.count=10:20:4",
             "small.toml: --over particles.count=13.333333333333334 (point 2 of 4): particles.count = 13.333333333333334 is not allowed: a whole number from 1 to 100000000",

@@ -10,6 +10,7 @@ use crate::sweep;
 use crate::text::line;
 use shearbed::Plan;
 use std::ffi::OsStr;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Tables of a scene that hold no property of rods, liquid or interaction.
@@ -36,6 +37,15 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
     for set in 0..args.data.len() {
         one_owner(args, set)?;
     }
+    for setting in &args.settings {
+        let table = setting.key.split('.').next().unwrap_or_default();
+        if ["ensemble", "output"].contains(&table) {
+            return Err(Failure::Input(format!(
+                "--set {}: a fit takes its own {table}; --replicas and --seed are allowed",
+                setting.key
+            )));
+        }
+    }
     for range in &args.over {
         if let Some(none) = range.set.filter(|set| *set > args.data.len()) {
             return Err(Failure::Input(format!(
@@ -60,6 +70,13 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
     for (k, given) in args.data.iter().enumerate() {
         let (scene, path) = scene_and_file(&args.scene, given);
         let named = scene::load(scene)?;
+        let same = |other: &PathBuf| fs::canonicalize(other).ok() == fs::canonicalize(path).ok();
+        if files.iter().any(same) {
+            return Err(Failure::Input(format!(
+                "--data {}: given twice, and its points would count twice; each file once is allowed",
+                path.display()
+            )));
+        }
         let points = data::read(path, k).map_err(|error| Failure::Input(error.to_string()))?;
         within_scene(&named, args, points.time, &points.points, path)?;
         if k == 0 {
@@ -89,6 +106,26 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
             data.len(),
             args.over.len()
         )));
+    }
+    for (k, point) in data.iter().enumerate() {
+        let measured = |datum: &Datum| (datum.time.to_bits(), datum.value.to_bits());
+        let same = |other: &&Datum| {
+            other.set != point.set
+                && sets[other.set].source == sets[point.set].source
+                && (measured(other), &other.column) == (measured(point), &point.column)
+        };
+        if let Some(first) = data[..k].iter().find(same) {
+            return Err(Failure::Input(format!(
+                "{}:{}: {} = {} at {} is in {}:{} already: each point of a scene once is allowed",
+                files[point.set].display(),
+                point.line,
+                point.column,
+                point.value,
+                point.time,
+                files[first.set].display(),
+                first.line
+            )));
+        }
     }
     let scenes = Scenes::new(sets, args.over.clone()).map_err(Failure::Input)?;
     let ends = [|range: &Range| range.from, |range: &Range| range.to];
@@ -151,6 +188,19 @@ fn within_scene(
     } else {
         "periods"
     };
+    let (most, what) = match (scene.time.strain, time.per_unit(&plan)) {
+        (None, Some(period)) => (0.25 * period, "a quarter of a period"),
+        _ => (end, "the scene's length"),
+    };
+    if let Some(point) = points.iter().find(|point| point.u_time > most * (1.0 + 1e-12)) {
+        return Err(Failure::Input(format!(
+            "{}:{}: column {}_u: `{}` is not allowed: one standard deviation of at most {what}, {most}",
+            path.display(),
+            point.line,
+            time.name(),
+            point.u_time
+        )));
+    }
     // A point at the very end may be rounded beyond it.
     match points.iter().find(|point| point.time > end * (1.0 + 1e-12)) {
         None => Ok(()),

@@ -58,10 +58,11 @@ pub(crate) struct Args {
     #[arg(long, value_name = "x|y|z", value_parser = body_axis)]
     pub(super) rod_axis: Option<usize>,
     /// With --command: the most seconds for one answer, and for the answers to one problem together
-    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true, default_value = "10")]
+    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true, default_value = "10",
+          requires = "command")]
     pub(super) timeout: f64,
     /// With --command: verdicts only, without work–precision, longest steps and the stability map
-    #[arg(long)]
+    #[arg(long, requires = "command")]
     pub(super) brief: bool,
     /// Answer requests with their own start: what the pipe itself costs
     #[arg(long, conflicts_with_all = ["reference", "command"])]

@@ -1,0 +1,245 @@
+//! Whether the model itself, run along each range without polynomials, finds another place that describes the points as well. Where
+//! the curves oscillate with a parameter, χ² has several minima, and the search sees one of them.
+
+use super::data::Datum;
+use super::emulator::Prediction;
+use super::profile::rise_of;
+use super::range::Range;
+use super::search::{FIRST_REPLICAS, Fit, Problem, Watch};
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+/// Parts of each range at first; a part is halved where the curves change too much over it.
+const PARTS: usize = 16;
+
+/// How often a part is halved at most.
+const HALVED: u32 = 4;
+
+/// The lowest minima that are looked into.
+const MINIMA: usize = 8;
+
+/// A part is short enough where no prediction changes by more than this share of how much it changes over the range, or by more
+/// than the point's uncertainty.
+const SHARE: f64 = 0.25;
+
+/// Differences of χ² that the noise of some replicas may make.
+const NOISE: f64 = 16.0;
+
+/// Steps of the golden section towards a minimum: each leaves 0.62 of the way.
+const STEPS: usize = 12;
+
+/// A place on the scale of its range, with every prediction and χ² there.
+#[derive(Clone)]
+struct Tried {
+    at: f64,
+    mean: DVector<f64>,
+    chi_square: f64,
+}
+
+/// Looks along each range, the other parameters at their best values, and returns what of it could not be searched.
+///
+/// # Errors
+///
+/// Another place describes the points as well, or better than the fit does.
+pub fn look_elsewhere(problem: &Problem<'_>, fit: &Fit, watch: &Watch<'_>) -> Result<Vec<String>, String> {
+    let values = fit.values(&fit.best.place);
+    let mut warnings = Vec::new();
+    for (axis, range) in fit.ranges.iter().enumerate() {
+        let line = Line {
+            problem,
+            watch,
+            values: &values,
+            axis,
+            range,
+            replicas: fit.emulator.replicas() as u64,
+        };
+        let best = range.scaled(values[axis]);
+        let own = line.run(best, line.replicas)?;
+        let told = fit.best.chi_square;
+        if own.chi_square > told + told.max(NOISE) {
+            return Err(format!(
+                "--over {}: at the best values, {:.4} for it, the model has χ² = {:.1} where the polynomials between its runs have {told:.1}: \
+                 they do not follow it over this range; a narrower one may do",
+                range.label(),
+                values[axis],
+                own.chi_square
+            ));
+        }
+        let few = line.run(best, line.few())?.chi_square;
+        let (tried, searched) = line.scan()?;
+        if !searched {
+            warnings.push(format!(
+                "{}: the model changes too fast along its range for another minimum to be ruled out; a narrower range is surer",
+                range.label()
+            ));
+        }
+        let (low, high) = fit.sides[axis];
+        let is_minimum = |k: &usize| {
+            let no_less =
+                |other: Option<&Tried>| other.is_none_or(|other| other.chi_square >= tried[*k].chi_square);
+            no_less(k.checked_sub(1).map(|k| &tried[k])) && no_less(tried.get(k + 1))
+        };
+        let mut minima: Vec<usize> = (0..tried.len()).filter(is_minimum).collect();
+        minima.sort_by(|a, b| tried[*a].chi_square.total_cmp(&tried[*b].chi_square));
+        for k in minima.into_iter().take(MINIMA) {
+            let ends = [k.saturating_sub(1), (k + 1).min(tried.len() - 1)].map(|k| tried[k].at);
+            let found = line.least(tried[k].clone(), ends)?;
+            if found.chi_square > few + NOISE {
+                continue;
+            }
+            // In the box the polynomials' minimum and the model's differ by the noise of runs at different values; what lies beyond it is
+            // in no interval.
+            let allowed = match found.at < low || found.at > high {
+                true => own.chi_square + rise_of(0.95),
+                false => own.chi_square - NOISE.max(0.5 * own.chi_square),
+            };
+            let found = line.run(found.at, line.replicas)?;
+            if found.chi_square < allowed {
+                return Err(format!(
+                    "--over {}: the points are described as well by {:.4} (χ² = {:.1}) as by {:.4} (χ² = {:.1}): this range has several \
+                     minima; a narrower one, which leaves out what cannot be, tells them apart",
+                    range.label(),
+                    range.value(found.at),
+                    found.chi_square,
+                    values[axis],
+                    own.chi_square
+                ));
+            }
+        }
+    }
+    Ok(warnings)
+}
+
+/// A range along which the model is run.
+struct Line<'a> {
+    problem: &'a Problem<'a>,
+    watch: &'a Watch<'a>,
+    /// The best ones.
+    values: &'a [f64],
+    axis: usize,
+    range: &'a Range,
+    /// Of the fit.
+    replicas: u64,
+}
+
+impl Line<'_> {
+    /// Replicas that say where to look closer.
+    fn few(&self) -> u64 {
+        FIRST_REPLICAS.min(self.problem.most_replicas)
+    }
+
+    fn run(&self, at: f64, replicas: u64) -> Result<Tried, String> {
+        let mut values = self.values.to_vec();
+        values[self.axis] = self.range.value(at);
+        let replica = (self.problem.model)(&values)?;
+
+        (self.watch.planned)(replicas);
+        let one = |k: u64| {
+            let found = replica(k);
+            (self.watch.done)();
+            found
+        };
+        let rows: Vec<Vec<Prediction>> = (0..replicas).into_par_iter().map(one).collect::<Result<_, _>>()?;
+        let (mean, covariance) = self.covariance(&rows);
+        let data = self.problem.measured.data;
+        let error = DVector::from_fn(data.len(), |i, _| data[i].value) - &mean;
+        let solver = covariance
+            .cholesky()
+            .ok_or("the covariance of the points is not positive")?;
+        Ok(Tried {
+            at,
+            chi_square: error.dot(&solver.solve(&error)),
+            mean,
+        })
+    }
+
+    /// Means over replicas, and the covariance of what was measured less those: as that of a fit, but for the polynomials.
+    fn covariance(&self, rows: &[Vec<Prediction>]) -> (DVector<f64>, DMatrix<f64>) {
+        let measured = &self.problem.measured;
+        let (points, n) = (measured.data.len(), rows.len() as f64);
+        let mean = |which: usize| {
+            DVector::from_fn(points, |point, _| {
+                rows.iter().map(|row| row[point][which]).sum::<f64>() / n
+            })
+        };
+        let [at, before, after] = [0, 1, 2].map(mean);
+        let away = DMatrix::from_fn(rows.len(), points, |row, point| rows[row][point][0] - at[point]);
+        let of_replica = away.tr_mul(&away) / (n - 1.0);
+        let set = |point: usize| measured.data[point].set;
+        let covariance = DMatrix::from_fn(points, points, |i, j| {
+            let rods = if set(i) == set(j) {
+                measured.rods_over_measured[set(i)]
+            } else {
+                0.0
+            };
+            let own: &Datum = &measured.data[i];
+            let reading = own.u.powi(2) + ((before[i] - at[i]).powi(2) + (after[i] - at[i]).powi(2)) / 6.0;
+            of_replica[(i, j)] * (rods + 1.0 / n) + if i == j { reading } else { 0.0 }
+        });
+        (at, covariance)
+    }
+
+    /// Places along the range, close enough that none of the curves is missed in between; whether they are.
+    fn scan(&self) -> Result<(Vec<Tried>, bool), String> {
+        let (from, to) = (
+            self.range.scaled(self.range.from),
+            self.range.scaled(self.range.to),
+        );
+        let place = |k: usize| from + (to - from) * k as f64 / PARTS as f64;
+        let mut tried: Vec<Tried> = (0..=PARTS)
+            .map(|k| self.run(place(k), self.few()))
+            .collect::<Result<_, _>>()?;
+        let data = self.problem.measured.data;
+        for _ in 0..HALVED {
+            let enough: Vec<f64> = (0..data.len())
+                .map(|point| {
+                    let all = tried.iter().map(|tried| tried.mean[point]);
+                    let (least, most) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), x| {
+                        (l.min(x), m.max(x))
+                    });
+                    data[point].u.max(SHARE * (most - least))
+                })
+                .collect();
+            let far = |pair: &[Tried]| {
+                let change = &pair[1].mean - &pair[0].mean;
+                change
+                    .iter()
+                    .zip(&enough)
+                    .any(|(change, enough)| change.abs() > *enough)
+            };
+            let between: Vec<f64> = (tried.windows(2).filter(|pair| far(pair)))
+                .map(|pair| 0.5 * (pair[0].at + pair[1].at))
+                .collect();
+            if between.is_empty() {
+                return Ok((tried, true));
+            }
+            for at in between {
+                tried.push(self.run(at, self.few())?);
+            }
+            tried.sort_by(|a, b| a.at.total_cmp(&b.at));
+        }
+        Ok((tried, false))
+    }
+
+    /// The least χ² between `ends`, from a place between them where it is less.
+    fn least(&self, mut best: Tried, [mut low, mut high]: [f64; 2]) -> Result<Tried, String> {
+        for _ in 0..STEPS {
+            let golden = 0.5 * (3.0 - 5f64.sqrt());
+            let at = match high - best.at > best.at - low {
+                true => best.at + golden * (high - best.at),
+                false => best.at - golden * (best.at - low),
+            };
+            let new = self.run(at, self.few())?;
+            let worse = match new.chi_square < best.chi_square {
+                true => std::mem::replace(&mut best, new),
+                false => new,
+            };
+            // What is worse is an end from now on.
+            match worse.at > best.at {
+                true => high = worse.at,
+                false => low = worse.at,
+            }
+        }
+        Ok(best)
+    }
+}
