@@ -15,6 +15,9 @@ const PARTS: usize = 16;
 /// How often a part is halved at most.
 const HALVED: u32 = 4;
 
+/// A change is one of the model, and no noise of its replicas, beyond so many standard errors.
+const CERTAIN: f64 = 5.0;
+
 /// The lowest minima that are looked into.
 const MINIMA: usize = 8;
 
@@ -33,6 +36,8 @@ const STEPS: usize = 12;
 struct Tried {
     at: f64,
     mean: DVector<f64>,
+    /// Its standard errors.
+    se: DVector<f64>,
     chi_square: f64,
 }
 
@@ -140,7 +145,7 @@ impl Line<'_> {
             found
         };
         let rows: Vec<Vec<Prediction>> = (0..replicas).into_par_iter().map(one).collect::<Result<_, _>>()?;
-        let (mean, covariance) = self.covariance(&rows);
+        let (mean, se, covariance) = self.covariance(&rows);
         let data = self.problem.measured.data;
         let error = DVector::from_fn(data.len(), |i, _| data[i].value) - &mean;
         let solver = covariance
@@ -150,11 +155,12 @@ impl Line<'_> {
             at,
             chi_square: error.dot(&solver.solve(&error)),
             mean,
+            se,
         })
     }
 
-    /// Means over replicas, and the covariance of what was measured less those: as that of a fit, but for the polynomials.
-    fn covariance(&self, rows: &[Vec<Prediction>]) -> (DVector<f64>, DMatrix<f64>) {
+    /// Means over replicas with their standard errors, and the covariance of what was measured less those: as that of a fit, but for the polynomials.
+    fn covariance(&self, rows: &[Vec<Prediction>]) -> (DVector<f64>, DVector<f64>, DMatrix<f64>) {
         let measured = &self.problem.measured;
         let (points, n) = (measured.data.len(), rows.len() as f64);
         let mean = |which: usize| {
@@ -176,7 +182,7 @@ impl Line<'_> {
             let reading = own.u.powi(2) + ((before[i] - at[i]).powi(2) + (after[i] - at[i]).powi(2)) / 6.0;
             of_replica[(i, j)] * (rods + 1.0 / n) + if i == j { reading } else { 0.0 }
         });
-        (at, covariance)
+        (at, (of_replica.diagonal() / n).map(f64::sqrt), covariance)
     }
 
     /// Places along the range, close enough that none of the curves is missed in between; whether they are.
@@ -201,11 +207,11 @@ impl Line<'_> {
                 })
                 .collect();
             let far = |pair: &[Tried]| {
-                let change = &pair[1].mean - &pair[0].mean;
-                change
-                    .iter()
-                    .zip(&enough)
-                    .any(|(change, enough)| change.abs() > *enough)
+                (0..data.len()).any(|point| {
+                    let change = (pair[1].mean[point] - pair[0].mean[point]).abs();
+                    let noise = pair[0].se[point].hypot(pair[1].se[point]);
+                    change > enough[point].max(CERTAIN * noise)
+                })
             };
             let between: Vec<f64> = (tried.windows(2).filter(|pair| far(pair)))
                 .map(|pair| 0.5 * (pair[0].at + pair[1].at))
