@@ -1,6 +1,6 @@
 //! `shearbed bench`: the studies that have named parts, alone and measured longer.
 
-use super::{Failure, on_threads, print, probe};
+use super::{Failure, kept, on_threads, print, probe};
 use crate::case::Effort;
 use crate::studies;
 use crate::study::Extent;
@@ -27,6 +27,8 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     check(&args.cases)?;
     let wanted = |name: &str| args.cases.is_empty() || args.cases.iter().any(|case| case == name);
     probe(&args.out, 0)?;
+    // It has tables, and no record of its own.
+    kept::check_alone(&args.out, "")?;
     let effort = Effort {
         full: true,
         ..Effort::gate()

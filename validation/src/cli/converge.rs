@@ -50,7 +50,7 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
         json!({ "scene": named.scene.resolved(), "replicas": args.replicas }),
     )?;
     probe(&out, 0)?;
-    kept::check_study(&out)?;
+    kept::check_alone(&out, kept::STUDY)?;
     let replicas = args.replicas.map_or(Replicas::CONVERGE, Replicas::Each);
     let done = match plan.keeps(Stage::Contacts) {
         true => {
@@ -71,7 +71,7 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let Some(done) = done else {
         return Ok(());
     };
-    output::write_all_where(&out, &done.files, || kept::check_study(&out))?;
+    output::write_all_where(&out, &done.files, || kept::check_alone(&out, kept::STUDY))?;
     // An earlier study, of interacting rods, may have left more.
     let replaced = |name: &&str| !done.files.iter().any(|(file, _)| file == name);
     let left_over: Vec<_> = ["replicas.csv"]

@@ -4,7 +4,7 @@ mod args;
 
 pub(super) use args::Args;
 
-use super::{Failure, print};
+use super::{Failure, kept, print};
 use crate::grade::live::{self, Mode, Program};
 use crate::grade::{self, Claim, Dump, Graded, LineEnds, Options, Report, Told};
 use crate::output;
@@ -48,7 +48,7 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
         .into_iter()
         .filter(|name| !written.iter().any(|(file, _)| file == name));
     let left_over: Vec<_> = left_over.map(str::to_owned).collect();
-    output::write_all(&args.out, &written)?;
+    output::write_all_where(&args.out, &written, || kept::check_alone(&args.out, kept::GRADE))?;
     // A picture of an earlier grading is none of these answers.
     output::remove(&args.out, &left_over)?;
     if !args.quiet {
@@ -145,6 +145,7 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<(Report, Vec<Load
         )));
     }
     output::probe(&args.out, 0)?;
+    kept::check_alone(&args.out, kept::GRADE)?;
     let problems = grade::grade(&wanted, mine, &options(args)).map_err(|errors| {
         let lines: Vec<_> = errors.iter().map(ToString::to_string).collect();
         Failure::Input(lines.join("\n"))
@@ -229,6 +230,7 @@ fn program(
 ) -> Result<(Report, Vec<LoadedProblem>), Failure> {
     let wanted = about_rods(args, reference)?;
     output::probe(&args.out, 0)?;
+    kept::check_alone(&args.out, kept::GRADE)?;
     let timeout = Duration::from_secs_f64(args.timeout);
     let program = Program::start(command, timeout).map_err(Failure::Input)?;
     let mode = live::mode(&program);

@@ -9,12 +9,13 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// The records of the commands that keep results in a folder, and what they are of.
-const RECORDS: [(&str, &str); 6] = [
+const RECORDS: [(&str, &str); 7] = [
     (RUN, "a run"),
     (FIT, "a fit"),
     (SWEEP, "a sweep"),
     (STUDY, "a study of convergence"),
-    ("report.json", "a report"),
+    (REPORT, "a report"),
+    (GRADE, "a grading"),
     ("point.json", "a point of a sweep"),
 ];
 
@@ -23,9 +24,13 @@ pub(super) const RUN: &str = "run.json";
 /// The record of `fit`.
 pub(super) const FIT: &str = "fit.json";
 /// The record of `sweep`.
-const SWEEP: &str = "sweep.json";
+pub(super) const SWEEP: &str = "sweep.json";
 /// The record of `converge`.
-const STUDY: &str = "converge.json";
+pub(super) const STUDY: &str = "converge.json";
+/// The record of `validate`.
+pub(super) const REPORT: &str = "report.json";
+/// The record of `grade`.
+pub(super) const GRADE: &str = "grade.json";
 
 /// Refuses a folder that holds another scene's results, or those of another seed, number of replicas or version of the
 /// program. One without a record holds nothing that is known.
@@ -45,17 +50,9 @@ pub(super) fn check_fit(out: &Path, asked: &Value) -> Result<(), Failure> {
     check(out, FIT, asked, |_| "another fit is kept here".into())
 }
 
-/// Refuses a folder that holds the record of another command. Of another sweep the sweep itself knows.
-pub(super) fn check_sweep(out: &Path) -> Result<(), Failure> {
-    check_alone(out, SWEEP)
-}
-
-/// The same for a study of convergence, which replaces an earlier one.
-pub(super) fn check_study(out: &Path) -> Result<(), Failure> {
-    check_alone(out, STUDY)
-}
-
-fn check_alone(out: &Path, record: &str) -> Result<(), Failure> {
+/// Refuses a folder that holds the record of another command than the one whose `record` is named; an earlier one of its own is
+/// replaced. Of another sweep the sweep itself knows.
+pub(super) fn check_alone(out: &Path, record: &str) -> Result<(), Failure> {
     match foreign(out, record) {
         None => Ok(()),
         Some((path, whose)) => Err(Failure::Input(format!(

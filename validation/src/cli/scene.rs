@@ -147,7 +147,7 @@ pub(super) fn warn<'a>(source: &str, warnings: impl IntoIterator<Item = &'a Stri
 }
 
 /// The longest scene file.
-const MOST_BYTES: u64 = 16 << 20;
+const MOST_BYTES: u64 = 64 << 20;
 
 fn read(path: &Path) -> Result<String, Failure> {
     let source = path.display();

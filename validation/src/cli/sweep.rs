@@ -79,7 +79,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let open = || {
         let bytes = (points.iter()).map(|point| tables::most_bytes(&point.plan)).sum();
         probe(&out, bytes)?;
-        kept::check_sweep(&out)?;
+        kept::check_alone(&out, kept::SWEEP)?;
         let points = Points {
             described: (points.iter())
                 .map(|point| sweep::described(&args.over, &point.values))

@@ -1,7 +1,7 @@
 //! `shearbed validate`.
 
 use super::finished::{Ended, Finished};
-use super::{Failure, MAX_THREADS, agree, choice, on_threads, print, probe, progress, whole};
+use super::{Failure, MAX_THREADS, agree, choice, kept, on_threads, print, probe, progress, whole};
 use crate::accept::Verdict;
 use crate::case::{Case, Effort, GATE_SEED, Outcome};
 use crate::report::{self, CaseRow, ReportStudy, Sections};
@@ -77,6 +77,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     agreed["cases"] = json!(names);
     agree("validate", agreed)?;
     probe(&args.out, 0)?;
+    kept::check_alone(&args.out, kept::REPORT)?;
     let kept = match &args.checkpoint {
         Some(path) => Some(Finished::open(path, input, args.quiet)?),
         None => None,
@@ -106,7 +107,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
         ("junit.xml", report.junit()),
     ];
     files.extend(pages.map(|(name, text)| (name.to_owned(), text)));
-    output::write_all(&args.out, &files)?;
+    output::write_all_where(&args.out, &files, || kept::check_alone(&args.out, kept::REPORT))?;
     let red: String = report.cases.iter().map(CaseRow::reasons).collect();
     if !red.is_empty() && cluster::is_root() {
         // Also where nothing else is printed: what is red is an error. Where even this cannot be written, the exit code
