@@ -56,8 +56,7 @@ fn farthest(block: &Block, square: impl Fn(usize) -> f64) -> Fault {
 /// Refuses sums of an observable, to which this block was the last to be added, that are not finite.
 #[inline]
 pub(crate) fn sums(observable: Observable, block: &Block, sums: &[Sum]) -> Result<(), Fault> {
-    let finite = |sum: &Sum| sum.value.is_finite() && sum.square.is_none_or(f64::is_finite);
-    if sums.iter().all(finite) {
+    if sums.iter().all(Sum::is_finite) {
         return Ok(());
     }
     let name = |k: usize| {

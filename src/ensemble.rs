@@ -240,9 +240,8 @@ impl Tally {
             let change = value - self.mean[k];
             self.mean[k] += change / replicas;
             self.deviation[k] += change * (value - self.mean[k]);
-            if let Some(square) = sum.square {
-                let variance = (square / n - value * value).max(0.0);
-                self.over_rods[k] = (variance / (n - 1.0)).sqrt();
+            if let Some(spread) = &sum.spread {
+                self.over_rods[k] = spread.standard_error();
             }
         }
     }

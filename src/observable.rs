@@ -1,10 +1,12 @@
 //! What is observed of the rods: means over rods of a value per rod.
 
 mod channel;
+mod sum;
 #[cfg(test)]
 mod tests;
 
 pub use channel::Channel;
+pub use sum::{Spread, Sum};
 
 use crate::orientation::{bounded_orbit_constant, folded_phi};
 use serde::{Deserialize, Serialize};
@@ -203,47 +205,8 @@ impl Observable {
     }
 }
 
-/// The sum of a value over rods, and of its square where standard errors over rods are wanted.
-///
-/// ```
-/// use shearbed::observable::{Block, Observable, Sum};
-/// let mut block = Block { len: 1, ..Block::default() };
-/// block.p.iter_mut().zip([0.6, -0.8, 0.0]).for_each(|(axis, p)| axis[0] = p);
-/// let mut sums = [Sum::default(); 3];
-/// Observable::Projections.add(&block, &mut sums);
-/// assert_eq!(sums.map(|sum| sum.value), [0.6, 0.8, 0.0]);
-/// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Sum {
-    /// Σ f.
-    pub value: f64,
-    /// Σ f², or `None` where replicas give the standard errors.
-    pub square: Option<f64>,
-}
-
 /// Independent partial sums, so that the compiler may keep them side by side in a register.
 const LANES: usize = 8;
-
-impl Sum {
-    /// Whether it is a number, and its square one where there is to be one.
-    pub(crate) fn is_finite(&self, square: bool) -> bool {
-        self.value.is_finite() && self.square.map_or(!square, |sum| square && sum.is_finite())
-    }
-
-    /// Adds what was summed over other rods.
-    pub(crate) fn merge(&mut self, other: &Self) {
-        self.value += other.value;
-        self.square = self.square.zip(other.square).map(|(a, b)| a + b);
-    }
-
-    #[inline]
-    fn add_each(&mut self, len: usize, f: impl Fn(usize) -> f64) {
-        self.value += lane_sum(len, &f);
-        if let Some(square) = &mut self.square {
-            *square += lane_sum(len, |i| f(i) * f(i));
-        }
-    }
-}
 
 #[inline]
 pub(crate) fn lane_sum(len: usize, f: impl Fn(usize) -> f64) -> f64 {

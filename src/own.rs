@@ -68,11 +68,7 @@ pub fn observe(plan: &Plan, own: &impl OwnObservable) -> Result<Vec<Column>, Run
 
 /// The sums of one replica, output by output.
 fn one(plan: &Plan, own: &impl OwnObservable, names: &[String], replica: u64) -> Result<Vec<Sum>, RunError> {
-    let empty = Sum {
-        value: 0.0,
-        square: Some(0.0),
-    };
-    let mut sums = vec![empty; plan.outputs() * names.len()];
+    let mut sums = vec![Sum::none(true); plan.outputs() * names.len()];
     let mut values = vec![0.0; names.len()];
     each_block(plan, replica, |output, first, block| {
         let here = &mut sums[output * names.len()..][..names.len()];
@@ -88,8 +84,7 @@ fn one(plan: &Plan, own: &impl OwnObservable, names: &[String], replica: u64) ->
                     };
                     return Err(refused(plan, replica, first, output, fault));
                 }
-                sum.value += value;
-                sum.square = sum.square.map(|square| square + value * value);
+                sum.add_one(*value);
             }
         }
         Ok(())

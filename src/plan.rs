@@ -9,7 +9,7 @@ use crate::free::FreeMotion;
 use crate::jeffery::{period_s, strain_per_period};
 use crate::observable::Observable;
 use crate::propagator::Propagator;
-use crate::scene::{Invalid, Scene, resolved_strain};
+use crate::scene::{Invalid, Orientation, Scene, resolved_strain};
 use stages::entries;
 use std::fmt;
 use std::sync::Arc;
@@ -22,6 +22,10 @@ pub(crate) enum Clock {
     /// Ticks per unit of strain: outputs.
     Strain { ticks: u64 },
 }
+
+/// The aspect ratio below which the slender limit of the rods' stress comes with a warning: a rule of thumb, for what the limit
+/// leaves out falls slowly with r_e, and there is no r_e at which it becomes right.
+const SLENDER: f64 = 30.0;
 
 /// What a unit of time is.
 ///
@@ -158,16 +162,51 @@ impl Plan {
 
     /// What the reader of the results should know before trusting them.
     pub fn warnings(&self) -> Vec<String> {
+        [
+            self.unresolved_steps(),
+            self.unrelated_aspect_ratios(),
+            self.not_slender(),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
+    /// Steps that are too long for the motion.
+    fn unresolved_steps(&self) -> Option<String> {
         let (steps, strain) = (self.scene.steps_per_period(), self.scene.strain_per_step());
         let resolved = resolved_strain(self.scene.particles.aspect_ratio);
-        if self.steps() == 0 || strain <= resolved {
-            return Vec::new();
+        (self.steps() > 0 && strain > resolved).then(|| {
+            format!(
+                "time.steps_per_period = {steps} does not resolve the motion: the strain per step is {strain:.3}, above \
+                 {resolved:.3}; {} steps a period resolve it (the default)",
+                self.scene.resolving_steps_per_period()
+            )
+        })
+    }
+
+    /// Directions from a file for rods whose aspect ratios are drawn anew.
+    fn unrelated_aspect_ratios(&self) -> Option<String> {
+        let particles = &self.scene.particles;
+        match &particles.orientation {
+            Orientation::Each { file, .. } if particles.aspect_ratio_sd_percent > 0.0 => Some(format!(
+                "particles.aspect_ratio_sd_percent = {} draws each rod's aspect ratio anew, unrelated to its direction in \
+                 {file}: a suspension of unequal rods is not continued; 0 is exact for rods of one aspect ratio",
+                particles.aspect_ratio_sd_percent
+            )),
+            _ => None,
         }
-        vec![format!(
-            "time.steps_per_period = {steps} does not resolve the motion: the strain per step is {strain:.3}, above \
-             {resolved:.3}; {} steps a period resolve it (the default)",
-            self.scene.resolving_steps_per_period()
-        )]
+    }
+
+    /// A stress of slender rods for rods that are not.
+    fn not_slender(&self) -> Option<String> {
+        let r = self.scene.particles.aspect_ratio;
+        (self.keeps(Stage::Observe(Observable::ParticleStress)) && r < SLENDER).then(|| {
+            format!(
+                "particle_stress is the limit of slender rods, r_e ≫ 1: at aspect_ratio = {r} the terms that it leaves out \
+                 are not small (docs/coefficients.md)"
+            )
+        })
     }
 
     /// The name of the time column: `t_over_T`, or `strain` where the scene's time is a strain.

@@ -70,9 +70,9 @@ impl Halfway {
     /// What of it cannot be.
     pub fn check(&self, plan: &Plan) -> Result<(), &'static str> {
         let width = width(&plan.observables());
-        let squares = plan.keeps(Stage::RodErrors);
+        let (rods, spread) = (plan.scene().particles.count, plan.keeps(Stage::RodErrors));
         let whole = self.sums.len().is_multiple_of(width.max(1)) && self.outputs(plan) <= plan.outputs();
-        if !whole || !self.sums.iter().all(|sum| sum.is_finite(squares)) {
+        if !whole || !self.sums.iter().all(|sum| sum.is_over(rods, spread)) {
             return Err("its sums are not those of this scene");
         }
         let reached = |output: &&usize| plan.keeps(Stage::Translation) && **output < self.outputs(plan);

@@ -45,8 +45,8 @@ impl Replica {
         let own = self.observables == plan.observables()
             && self.rods == plan.scene().particles.count
             && self.sums.len() == plan.outputs() * width(&self.observables);
-        let squares = plan.keeps(Stage::RodErrors);
-        if !own || !self.sums.iter().all(|sum| sum.is_finite(squares)) {
+        let spread = plan.keeps(Stage::RodErrors);
+        if !own || !self.sums.iter().all(|sum| sum.is_over(self.rods, spread)) {
             return Err("its sums are not those of this scene");
         }
         if !Snapshot::all_fit(&self.snapshots, plan.rods_outputs().len() as u64, plan) {
@@ -190,10 +190,7 @@ impl<'a> Recorder<'a> {
                 (observable, start)
             })
             .collect();
-        let empty = Sum {
-            value: 0.0,
-            square: plan.keeps(Stage::RodErrors).then_some(0.0),
-        };
+        let empty = Sum::none(plan.keeps(Stage::RodErrors));
         Self {
             plan,
             replica,

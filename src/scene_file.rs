@@ -2,9 +2,11 @@
 //! told at once, not the first alone.
 
 mod places;
+#[cfg(test)]
+mod tests;
 
 use crate::scene::{self, Invalid, KEYS, Scene, TABLES, find, required};
-use places::{line_at, line_of, stopped_at};
+use places::{Lines, shortened, stopped_at};
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
@@ -23,6 +25,8 @@ pub struct SceneError {
     pub file: String,
     /// What is wrong, in the order of lines; at least one.
     pub problems: Vec<Problem>,
+    /// How many unknown keys there are beside those among the problems.
+    pub more: usize,
 }
 
 /// One thing that is wrong with a scene file.
@@ -43,7 +47,12 @@ pub struct Problem {
 impl SceneError {
     fn lines(&self) -> String {
         let line = |problem: &Problem| format!("{}:{}: {}", self.file, problem.line, problem.message);
-        self.problems.iter().map(line).collect::<Vec<_>>().join("\n")
+        let more = match self.more {
+            0 => None,
+            more => Some(format!("{}: … and {more} more unknown keys", self.file)),
+        };
+        let lines: Vec<_> = self.problems.iter().map(line).chain(more).collect();
+        lines.join("\n")
     }
 }
 
@@ -56,27 +65,45 @@ type Found = (usize, String);
 ///
 /// Everything that can be told to be wrong at once, each with its line.
 pub fn parse(file: &str, text: &str) -> Result<Scene, SceneError> {
-    read(text).map_err(|mut found| {
+    let lines = Lines::of(text);
+    let mut more = 0;
+    read(&lines, text, &mut more).map_err(|mut found| {
         found.sort();
         let problem = |(offset, message)| Problem {
-            line: line_of(text, offset),
+            line: lines.number(offset),
             message,
         };
         SceneError {
             file: file.to_owned(),
             problems: found.into_iter().map(problem).collect(),
+            more,
         }
     })
 }
 
-fn read(text: &str) -> Result<Scene, Vec<Found>> {
-    let reported = |error: toml::de::Error| vec![as_reported(text, &error)];
+/// The most unknown keys of which each has a line; the rest are counted, in `more`.
+const MOST_UNKNOWN: usize = 20;
+
+fn read(lines: &Lines<'_>, text: &str, more: &mut usize) -> Result<Scene, Vec<Found>> {
+    let reported = |error: toml::de::Error| vec![as_reported(lines, text, &error)];
     let document = DeTable::parse(text).map_err(reported)?;
     let keys = keys(text, "", document.get_ref());
     // A number that no float holds spoils the whole text.
     let values: Table = text.parse().unwrap_or_default();
-    let mut found = missing(&keys);
-    found.extend(one_shape(&keys));
+    let (keys, mut unknown): (Vec<_>, Vec<_>) = keys.into_iter().partition(|key| find(&key.path).is_some());
+    unknown.sort_by_key(|key| key.span.start);
+    *more = unknown.len().saturating_sub(MOST_UNKNOWN);
+    unknown.truncate(MOST_UNKNOWN);
+    let meant: Vec<_> = unknown.iter().filter_map(|key| nearest(&key.path)).collect();
+    let mut found = missing(&keys, &meant);
+    found.extend(one_shape(&keys, &meant));
+    found.extend(unknown.iter().map(|key| {
+        let start = key.span.start;
+        (
+            start,
+            format!("{}: {}", lines.line(start), self::unknown(&key.path)),
+        )
+    }));
     let (mut scene, mut known) = (example(), Vec::new());
     for key in &keys {
         match key.put_into(&mut scene, &values) {
@@ -102,8 +129,7 @@ fn read(text: &str) -> Result<Scene, Vec<Found>> {
 struct Key {
     path: String,
     span: Range<usize>,
-    /// The line it stands in, and its value as written.
-    line: String,
+    /// Its value as written.
     text: String,
     is_table: bool,
 }
@@ -116,7 +142,6 @@ fn keys(text: &str, above: &str, table: &DeTable<'_>) -> Vec<Key> {
         found.push(Key {
             path: path.clone(),
             span: name.span(),
-            line: line_at(text, name.span().start),
             text: text.get(value.span()).unwrap_or_default().to_owned(),
             is_table: value.get_ref().is_table(),
         });
@@ -130,16 +155,16 @@ fn keys(text: &str, above: &str, table: &DeTable<'_>) -> Vec<Key> {
 }
 
 impl Key {
-    /// The value as written, on one line.
+    /// The value as written, on one line; the start of a long one.
     fn value(&self) -> String {
-        self.text.split_whitespace().collect::<Vec<_>>().join(" ")
+        shortened(&self.text.split_whitespace().collect::<Vec<_>>().join(" "))
     }
 
     /// Gives the scene this key's value, where it can have it; or says why not.
     fn put_into(&self, scene: &mut Table, values: &Table) -> Result<(), String> {
         let path = self.path.as_str();
         let Some(allowed) = find(path).map(|key| key.holds) else {
-            return Err(format!("{}: {}", self.line, unknown(path)));
+            return Ok(());
         };
         let refused = || format!("{path} = {} is not allowed: {allowed}", self.value());
         if is_table(path) {
@@ -184,8 +209,8 @@ fn example() -> Table {
     text.parse().unwrap_or_default()
 }
 
-/// Tables and keys that must be there and are not; a misspelt one is told of as such.
-fn missing(keys: &[Key]) -> Vec<Found> {
+/// Tables and keys that must be there and are not; one that is `meant` by an unknown key is told of there.
+fn missing(keys: &[Key], meant: &[&str]) -> Vec<Found> {
     let has = |path: &str| keys.iter().find(|key| key.path == path);
     let mut found = Vec::new();
     for table in ["", "particles", "interaction"] {
@@ -193,7 +218,7 @@ fn missing(keys: &[Key]) -> Vec<Found> {
             "" => Some(0),
             _ => has(table).filter(|key| key.is_table).map(|key| key.span.start),
         };
-        let lacks = |key: &&scene::Key| has(key.path).is_none() && !misspelt(keys, key.path);
+        let lacks = |key: &&scene::Key| has(key.path).is_none() && !meant.contains(&key.path);
         for (at, key) in at
             .into_iter()
             .flat_map(|at| required(table).filter(lacks).map(move |key| (at, key)))
@@ -205,7 +230,7 @@ fn missing(keys: &[Key]) -> Vec<Found> {
 }
 
 /// r_e is given once.
-fn one_shape(keys: &[Key]) -> Option<Found> {
+fn one_shape(keys: &[Key], meant: &[&str]) -> Option<Found> {
     let has = |path: &str| keys.iter().find(|key| key.path == path);
     let particles = has("particles").filter(|key| key.is_table)?;
     match (
@@ -219,7 +244,7 @@ fn one_shape(keys: &[Key]) -> Option<Found> {
             );
             Some((given.span.start, message))
         }
-        (None, None) if !misspelt(keys, "particles.aspect_ratio") => {
+        (None, None) if !meant.contains(&"particles.aspect_ratio") => {
             let allowed = find("particles.aspect_ratio")?.holds;
             let message = format!(
                 "particles.aspect_ratio is missing: {allowed}; or physical_aspect_ratio and shape_correlation"
@@ -228,12 +253,6 @@ fn one_shape(keys: &[Key]) -> Option<Found> {
         }
         _ => None,
     }
-}
-
-/// Whether an unknown key may stand for this one.
-fn misspelt(keys: &[Key], path: &str) -> bool {
-    let mut unknown = keys.iter().filter(|key| find(&key.path).is_none());
-    unknown.any(|key| nearest(&key.path) == Some(path))
 }
 
 /// What is known in place of an unknown key.
@@ -255,7 +274,10 @@ fn unknown(path: &str) -> String {
         };
         format!("; did you mean {key}{place}?")
     });
-    format!("unknown key `{}`, expected {expected}{meant}", last(path))
+    format!(
+        "unknown key `{}`, expected {expected}{meant}",
+        shortened(last(path))
+    )
 }
 
 /// The key or table that an unknown one may stand for, by its last word.
@@ -289,11 +311,10 @@ fn last(path: &str) -> &str {
 }
 
 /// The reader's own words after the line as written, which holds the key and the value.
-fn as_reported(text: &str, error: &toml::de::Error) -> Found {
+fn as_reported(lines: &Lines<'_>, text: &str, error: &toml::de::Error) -> Found {
     let offset = stopped_at(text, error);
-    let line = line_at(text, offset);
     let message = error.message().trim_end().replace('\n', "; ");
-    (offset, format!("{line}: {message}"))
+    (offset, format!("{}: {}", lines.line(offset), shortened(&message)))
 }
 
 /// Where a checked scene is wrong: the key, or where it is missing its table.

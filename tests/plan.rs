@@ -258,6 +258,28 @@ fn a_coarse_step_is_warned_of_and_a_finer_one_is_not() {
 }
 
 #[test]
+fn the_stress_of_rods_that_are_not_slender_is_warned_of() {
+    let stress = "[output]\nobservables = [\"particle_stress\"]\n";
+    for (r, warns) in [
+        (0.5, true),
+        (3.0, true),
+        (29.9, true),
+        (30.0, false),
+        (1e3, false),
+    ] {
+        let free = FREE.replace("= 11.6", &format!("= {r:?}"));
+        assert_eq!(plan(&free).warnings(), Vec::<String>::new());
+        let plan = plan(&(free + stress));
+        assert_eq!(plan.warnings().len(), usize::from(warns), "{r}");
+        assert_eq!(
+            plan.to_string()
+                .contains("\nwarning: particle_stress is the limit"),
+            warns
+        );
+    }
+}
+
+#[test]
 fn long_rods_need_more_steps_than_there_may_be_and_say_what_to_set() {
     let refusal = |text: &str| scene_file::parse("s.toml", text).unwrap_err().to_string();
     assert_eq!(

@@ -122,12 +122,16 @@ fn what_is_of_no_replica_of_the_plan_is_refused() {
     assert!(refused(&plans[0], without).contains("has rods"));
     assert!(refused(&plans[0], free).contains("sums"));
     type Spoil = fn(&mut Value);
-    let spoilt: [(&str, Spoil); 14] = [
+    // Three replicas: none keeps standard errors over its rods.
+    let spread = json!({ "rods": 40, "first": 0.5, "differences": 0.0, "squares": 0.0 });
+    let mut with_errors = interacting.clone();
+    with_errors["sums"][0]["spread"] = spread;
+    assert!(refused(&plans[0], with_errors).contains("sums"));
+    let spoilt: [(&str, Spoil); 13] = [
         ("sums", |s| drop(s["sums"].as_array_mut().unwrap().pop())),
         ("sums", |s| {
-            s["sums"] = json!(vec![json!({ "value": 0.0, "square": null }); 10_000])
+            s["sums"] = json!(vec![json!({ "value": 0.0, "spread": null }); 10_000])
         }),
-        ("sums", |s| s["sums"][0]["square"] = json!(1.0)),
         ("outputs", |s| s["rods"]["counters"]["steps"] = json!(5)),
         ("outputs", |s| s["rods"]["counters"]["steps"] = json!(u64::MAX)),
         ("numbers", |s| s["rods"]["counters"]["draws"] = json!(7)),
@@ -151,6 +155,25 @@ fn what_is_of_no_replica_of_the_plan_is_refused() {
         spoil(&mut state);
         let cause = refused(&plans[0], state);
         assert!(cause.contains(word), "{word}: {cause}");
+    }
+}
+
+/// Of one replica, the sums say over how many rods they are.
+#[test]
+fn sums_over_another_number_of_rods_are_refused() {
+    let plan = plan(40, COUETTE, "", "periods = 3", 1);
+    let replica = serde_json::to_value(run_replica(&plan, 0).unwrap()).unwrap();
+    let check = |replica: Value| serde_json::from_value::<Replica>(replica).unwrap().check(&plan);
+    assert_eq!(check(replica.clone()), Ok(()));
+    type Spoil = fn(&mut Value);
+    let spoilt: [Spoil; 2] = [
+        |sum| sum["spread"]["rods"] = json!(41),
+        |sum| sum["spread"] = Value::Null,
+    ];
+    for spoil in spoilt {
+        let mut other = replica.clone();
+        spoil(&mut other["sums"][7]);
+        assert_eq!(check(other), Err("its sums are not those of this scene"));
     }
 }
 

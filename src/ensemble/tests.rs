@@ -2,8 +2,16 @@
 
 use super::*;
 
-fn sum(value: f64, square: Option<f64>) -> Sum {
-    Sum { value, square }
+/// Without errors over rods.
+fn sum(value: f64) -> Sum {
+    Sum { value, spread: None }
+}
+
+/// With errors over these rods.
+fn over(rods: &[f64]) -> Sum {
+    let mut sum = Sum::none(true);
+    rods.iter().for_each(|value| sum.add_one(*value));
+    sum
 }
 
 #[test]
@@ -11,7 +19,7 @@ fn over_replicas_the_error_is_that_of_their_mean() {
     // Two columns at one output; the second is the first turned round.
     let mut tally = Tally::of(2);
     for value in [1.0, 2.0, 6.0] {
-        tally.add_sums(4, &[sum(4.0 * value, None), sum(-4.0 * value, None)]);
+        tally.add_sums(4, &[sum(4.0 * value), sum(-4.0 * value)]);
     }
     // Mean 3, squared deviations 4 + 1 + 9, divided by 3 − 1 and by 3.
     let se = (14.0f64 / 6.0).sqrt();
@@ -26,9 +34,9 @@ fn over_replicas_the_error_is_that_of_their_mean() {
 
 #[test]
 fn of_one_replica_the_error_is_over_its_rods() {
-    // Rods with 1, 1, 1 and 5: mean 2, squares 28, variance 28/4 − 4 = 3, over 4 − 1.
+    // Mean 2, squared deviations 1 + 1 + 1 + 9, over 4 − 1 and over 4.
     let mut tally = Tally::of(1);
-    tally.add_sums(4, &[sum(8.0, Some(28.0))]);
+    tally.add_sums(4, &[over(&[1.0, 1.0, 1.0, 5.0])]);
     let column = tally.column("x".to_owned(), 0, 1);
     assert_eq!((column.mean[0], column.se[0]), (2.0, 1.0));
 }
@@ -36,6 +44,6 @@ fn of_one_replica_the_error_is_over_its_rods() {
 #[test]
 fn of_one_rod_there_is_no_error() {
     let mut tally = Tally::of(1);
-    tally.add_sums(1, &[sum(0.5, Some(0.25))]);
+    tally.add_sums(1, &[over(&[0.5])]);
     assert!(tally.column("x".to_owned(), 0, 1).se[0].is_nan());
 }

@@ -73,12 +73,12 @@ fn lanes_sum_every_rod_once() {
     for len in [0, 1, 7, 8, 9, 100, BLOCK] {
         assert_eq!(lane_sum(len, |i| (i + 1) as f64), (len * (len + 1) / 2) as f64);
     }
-    let mut sum = Sum {
-        value: 1.0,
-        square: Some(10.0),
-    };
+    let mut sum = Sum::none(true);
+    sum.add_one(1.0);
     sum.add_each(3, |i| i as f64);
-    assert_eq!((sum.value, sum.square), (4.0, Some(15.0)));
+    // 1, 0, 1 and 2: squared deviations 0 + 1 + 0 + 1 from their mean of 1, over 4 − 1 and over 4.
+    let error = sum.spread.map(|spread| spread.standard_error());
+    assert_eq!((sum.value, error), (4.0, Some((2.0f64 / 12.0).sqrt())));
 }
 
 /// C/(C + 1) from 0 to 1 in 20 bins, both ends included.
@@ -88,5 +88,50 @@ fn the_ends_of_the_orbits_are_in_the_first_and_the_last_bin() {
         let bins = &observe_rod(Observable::OrbitConstant, p)[1..];
         let filled: Vec<_> = (0..20).filter(|k| bins[*k] != 0.0).collect();
         assert_eq!((filled, bins[bin]), (vec![bin], 20.0));
+    }
+}
+
+/// A standard error by two passes over all values, the second corrected for the rounding of the mean.
+fn by_two_passes(values: &[f64]) -> f64 {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let (mut sum, mut squares) = (0.0, 0.0);
+    for off in values.iter().map(|value| value - mean) {
+        sum += off;
+        squares += off * off;
+    }
+    ((squares - sum * sum / n) / n / (n - 1.0)).sqrt()
+}
+
+/// In parts of any lengths, wherever the first of a part lies: also where it is the only one off.
+#[test]
+fn parts_come_to_the_error_of_all() {
+    let near = |k: usize| 1.0 + 1e-13 * libm::sin(k as f64);
+    let outlier = |at: usize| move |k: usize| if k == at { 0.25 } else { near(k) };
+    let check = |values: &dyn Fn(usize) -> f64, lengths: &[usize]| {
+        let all: Vec<f64> = (0..lengths.iter().sum()).map(values).collect();
+        let mut whole = Spread::default();
+        let mut rest = &all[..];
+        for &length in lengths {
+            let (part, after) = rest.split_at(length);
+            let mut spread = Spread::default();
+            part.chunks(BLOCK).for_each(|block| spread.add(block));
+            whole.merge(&spread);
+            rest = after;
+        }
+        let (found, expected) = (whole.standard_error(), by_two_passes(&all));
+        // n ε, with room for the rounding of both.
+        let allowed = 4.0 * all.len() as f64 * f64::EPSILON;
+        assert!(
+            (found / expected - 1.0).abs() < allowed,
+            "{found:e}, expected {expected:e}"
+        );
+    };
+    for lengths in [&[300][..], &[0, 300], &[1, 299], &[128, 128, 44], &[200, 0, 100]] {
+        check(&near, lengths);
+        // The first of all, the first of a part, the last.
+        for at in [0, 1, 128, 200, 299] {
+            check(&outlier(at), lengths);
+        }
     }
 }

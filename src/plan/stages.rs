@@ -35,7 +35,7 @@ pub enum Stage {
     Observe(Observable),
     /// Keep every rod at some outputs.
     Rods,
-    /// Sum squares for standard errors over rods.
+    /// Sum how far rods differ, for standard errors over rods.
     RodErrors,
 }
 

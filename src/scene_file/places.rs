@@ -20,14 +20,66 @@ pub(super) fn stopped_at(text: &str, error: &toml::de::Error) -> usize {
     }
 }
 
-/// The line of the byte `offset`, without the space around it.
-pub(super) fn line_at(text: &str, offset: usize) -> String {
-    let line = text.lines().nth(line_of(text, offset) - 1);
-    line.map_or("(end of file)", str::trim).to_owned()
+/// The lines of a text: where each starts.
+pub(super) struct Lines<'a> {
+    text: &'a str,
+    starts: Vec<usize>,
 }
 
-/// The number of the line of the byte `offset`, from 1.
-pub(super) fn line_of(text: &str, offset: usize) -> usize {
-    let before = &text.as_bytes()[..offset.min(text.len())];
-    1 + before.iter().filter(|byte| **byte == b'\n').count()
+impl<'a> Lines<'a> {
+    pub fn of(text: &'a str) -> Self {
+        count(text.len());
+        let after = text.match_indices('\n').map(|(at, _)| at + 1);
+        Self {
+            text,
+            starts: std::iter::once(0).chain(after).collect(),
+        }
+    }
+
+    /// The number of the line of the byte `offset`, from 1.
+    pub fn number(&self, offset: usize) -> usize {
+        self.starts.partition_point(|start| *start <= offset)
+    }
+
+    /// The line of the byte `offset`, without the space around it; the start of a long one.
+    pub fn line(&self, offset: usize) -> String {
+        let start = self.starts[self.number(offset) - 1];
+        if start == self.text.len() {
+            return "(end of file)".to_owned();
+        }
+        // No further than is shown: many keys may stand in one line.
+        let rest = self.text[start..].char_indices();
+        let end = |(at, c): &(usize, char)| *c == '\n' || *at > 4 * SHOWN;
+        let end = rest
+            .clone()
+            .find(end)
+            .map_or(self.text.len(), |(at, _)| start + at);
+        count(end - start);
+        shortened(self.text[start..end].trim())
+    }
 }
+
+/// The most characters that are shown of a line or a value.
+const SHOWN: usize = 160;
+
+/// The start of a long text, with a mark that there is more.
+pub(super) fn shortened(text: &str) -> String {
+    match text.char_indices().nth(SHOWN) {
+        Some((end, _)) => format!("{} …", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
+#[cfg(test)]
+thread_local! {
+    /// Bytes of texts that were looked through on this thread.
+    pub(super) static LOOKED_THROUGH: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
+}
+
+#[cfg(test)]
+fn count(bytes: usize) {
+    LOOKED_THROUGH.set(LOOKED_THROUGH.get() + bytes);
+}
+
+#[cfg(not(test))]
+fn count(_: usize) {}

@@ -234,6 +234,11 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
      "10: time.strain = 2 is not allowed: this flow has no strain rate: give periods"),
     (EXTENSION, "outputs_per_strain = 10", "outputs_per_strain = 10\n[output]\nobservables = [\"particle_stress\"]",
      "13: output.observables = [\"particle_stress\"] is not allowed: particle_stress needs plane Couette flow"),
+    (EXTENSION, "outputs_per_strain = 10", "outputs_per_strain = 10\n[output]\nobservables = [\"orbit_constant\"]",
+     "13: output.observables = [\"orbit_constant\"] is not allowed: orbit_constant needs plane Couette flow"),
+    // The same shear in other axes, in which eq. 13 holds no more.
+    (EXTENSION, "[[-0.5, 0, 0], [0, 1, 0], [0, 0, -0.5]]", "[[0, 1, 0], [0, 0, 0], [0, 0, 0]]\n[output]\nobservables = [\"orbit_constant\"]",
+     "5: output.observables = [\"orbit_constant\"] is not allowed: orbit_constant needs plane Couette flow"),
     // What is no TOML.
     (INTERACTING, "alpha = 0.5", "alpha =", "12: alpha =: "),
     (INTERACTING, "alpha = 0.5", "alpha = 0.5.1", "12: alpha = 0.5.1: "),

@@ -8,7 +8,7 @@ use validation::oracle::reference::unequal::means_to_22_digits;
 use validation::problems;
 
 fn main() {
-    let problem = problems::build("unequal-rods").expect("it is there").problem;
+    let problem = &problems::named("unequal-rods").expect("it is there").problem;
     let end_s = problem.times_s.last().copied().unwrap_or_default();
     println!("{}", problem.columns.join(","));
     for time_s in &problem.times_s {

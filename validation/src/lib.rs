@@ -1,5 +1,6 @@
 //! The validation suite of shearbed: cases with tolerances and controls, the oracles that judge the core,
 //! the report, and the program's commands.
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 pub mod accept;
 pub mod build;
@@ -17,6 +18,7 @@ pub mod experiment;
 pub mod figures;
 pub mod fit;
 pub mod grade;
+pub mod input;
 pub mod integrators;
 pub mod kicks;
 pub mod lab;

@@ -1,13 +1,19 @@
 //! Writing files so that a set of them appears together or not at all, and that two processes do not mix theirs.
 
 mod claim;
+mod record;
 mod replaced;
 #[cfg(test)]
 mod tests;
 
 pub use claim::Claim;
 pub(crate) use claim::stop;
+pub(crate) use record::left_over;
+pub use record::{Author, RECORD, Record, Refused, Sum, sums};
 pub use replaced::{Part, Replaced};
+
+use crate::input;
+use crate::text::Shown;
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -28,7 +34,7 @@ pub struct OutputError {
 
 impl std::fmt::Display for OutputError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}: cannot be written: {}", self.path.display(), self.reason)
+        write!(f, "{}: cannot be written: {}", self.path.shown(), self.reason)
     }
 }
 
@@ -77,37 +83,47 @@ pub fn probe(dir: &Path, bytes: u64) -> Result<(), OutputError> {
 /// that exists the files of two sets never stand side by side (see [`Claim::write_all`]). On any error before the last
 /// moment nothing that was there has changed.
 pub fn write_all<C: AsRef<[u8]>>(dir: &Path, files: &[(String, C)]) -> Result<(), OutputError> {
-    write_all_where(dir, files, || Ok(()))
-}
-
-/// The same where `allowed` says so of a folder that is there at that moment, under the lock of this process: another one may have made or filled
-/// it since this one looked first.
-pub fn write_all_where<C: AsRef<[u8]>, E: From<OutputError>>(
-    dir: &Path,
-    files: &[(String, C)],
-    allowed: impl FnOnce() -> Result<(), E>,
-) -> Result<(), E> {
     if !dir.exists() && appear(dir, files)? {
         return Ok(());
     }
-    let claim = Claim::new(dir, PATIENCE)?;
-    allowed()?;
-    Ok(claim.write_all(files)?)
+    Claim::new(dir, PATIENCE)?.write_all(files, &[])
 }
 
-/// Writes one file, at once or not at all. A link is followed; what is no regular file, as a device or a pipe, is written into.
-pub fn write_one(path: &Path, contents: &[u8]) -> Result<(), OutputError> {
-    let special = |found: fs::Metadata| !found.is_file() && !found.is_dir();
-    let system = ["/dev", "/proc"].iter().any(|folder| path.starts_with(folder));
-    if system || fs::metadata(path).is_ok_and(special) {
-        let mut file = File::options().write(true).open(path).map_err(at(path))?;
-        return file.write_all(contents).map_err(at(path));
-    }
+/// Writes one file, at once or not at all. A link is followed. A file that is there already is replaced by `force` alone; one
+/// with these contents is left.
+///
+/// # Errors
+///
+/// A file with other contents, or what is no regular file, which is named; or what cannot be written.
+pub fn write_one(path: &Path, contents: &[u8], force: bool) -> Result<(), Refused> {
     let target = followed(path);
     let name = target.file_name().map(|name| name.to_string_lossy().into_owned());
     let name = name.ok_or_else(|| at(path)(io::ErrorKind::InvalidFilename.into()))?;
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty());
-    write_all(folder.unwrap_or(Path::new(".")), &[(name, contents)]).map_err(|error| at(path)(error.reason))
+    let folder = folder.unwrap_or(Path::new("."));
+    let at_file = |error: OutputError| at(path)(error.reason);
+    let files = [(name, contents)];
+    if !folder.exists() && appear(folder, &files).map_err(at_file)? {
+        return Ok(());
+    }
+    // Before the claim: in a folder that nobody writes in, as /dev, the reason is what the file is.
+    holds(&target, contents).map_err(at(path))?;
+    let claim = Claim::new(folder, PATIENCE).map_err(at_file)?;
+    match holds(&target, contents).map_err(at(path))? {
+        Some(true) => Ok(()),
+        Some(false) if !force => Err(record::kept(path, "is here already, with other contents")),
+        _ => Ok(claim.write_all(&files, &[]).map_err(at_file)?),
+    }
+}
+
+/// Whether a regular file has these contents; none where there is no file.
+fn holds(path: &Path, contents: &[u8]) -> io::Result<Option<bool>> {
+    match input::length_and_crc32(path, contents.len() as u64) {
+        Ok((bytes, crc32)) => Ok(Some(Sum::from_parts(bytes, crc32) == Sum::of(contents))),
+        Err(error) if error.kind() == io::ErrorKind::FileTooLarge => Ok(Some(false)),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error),
+    }
 }
 
 /// The file that links lead to, whether it is there or not.
@@ -184,19 +200,6 @@ fn refill<C: AsRef<[u8]>>(part: &Path, dir: &Path, files: &[(String, C)]) -> Res
             file.sync_all()
         };
         write().map_err(at(&dir.join(name)))?;
-    }
-    Ok(())
-}
-
-/// Removes files of `dir` that are there.
-pub fn remove(dir: &Path, names: &[String]) -> Result<(), OutputError> {
-    for path in names.iter().map(|name| dir.join(name)) {
-        match fs::remove_file(&path) {
-            Err(reason) if reason.kind() != io::ErrorKind::NotFound => {
-                return Err(OutputError { path, reason });
-            }
-            _ => (),
-        }
     }
     Ok(())
 }

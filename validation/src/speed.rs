@@ -27,18 +27,23 @@ fn run(extent: &Extent) -> Result<Option<Found>, String> {
         return Ok(None);
     }
     let speed = measure(extent.effort.pick(Amount::QUICK, Amount::FULL))?;
-    let met = speed.checks.iter().filter(|check| check.met()).count();
     let mut exhibits: Vec<Exhibit> = figures::figures(&speed).into_iter().map(Exhibit::from).collect();
     exhibits[0].table = Some(tables::table(&speed));
     Ok(Some(Found {
-        answer: format!(
-            "{met} of {} targets are met on this machine; times depend on what else runs on it.",
-            speed.checks.len()
-        ),
+        answer: answer(&speed.checks),
         exhibits,
         files: vec![("speed.json".into(), build::json(&speed)?)],
         ..Default::default()
     }))
+}
+
+/// The study's answer: how many of the checks that have a target meet it.
+fn answer(checks: &[Check]) -> String {
+    let judged = checks.iter().filter(|check| check.target != Target::None);
+    let (met, all) = judged.fold((0, 0), |(met, all), check| {
+        (met + usize::from(check.met()), all + 1)
+    });
+    format!("{met} of {all} targets are met on this machine; times depend on what else runs on it.")
 }
 
 /// How much is measured.
@@ -143,15 +148,29 @@ pub struct Step {
 mod tests {
     use super::*;
 
-    #[test]
-    fn targets_are_bounds_from_their_own_side() {
-        let check = |measured, target| Check {
+    fn check(measured: f64, target: Target) -> Check {
+        Check {
             what: "",
             measured,
             target,
             unit: "",
             behind: String::new(),
-        };
+        }
+    }
+
+    #[test]
+    fn the_answer_counts_the_checks_that_have_a_target() {
+        let checks = [
+            check(3.0, Target::AtMost(3.0)),
+            check(1.0, Target::None),
+            check(3.1, Target::AtMost(3.0)),
+            check(9.0, Target::AtLeast(8.0)),
+        ];
+        assert!(answer(&checks).starts_with("2 of 3 targets are met "));
+    }
+
+    #[test]
+    fn targets_are_bounds_from_their_own_side() {
         assert!(check(3.0, Target::AtMost(3.0)).met() && !check(3.1, Target::AtMost(3.0)).met());
         assert!(check(8.0, Target::AtLeast(8.0)).met() && !check(7.9, Target::AtLeast(8.0)).met());
         assert!(!check(f64::NAN, Target::AtMost(3.0)).met() && check(0.0, Target::None).met());

@@ -8,11 +8,17 @@ use std::sync::Arc;
 /// The columns that are read.
 const P: [&str; 3] = ["p1", "p2", "p3"];
 
+/// The column that numbers the rods: ascending, each number once.
+const ROD: &str = "rod";
+
+/// The columns that say of which replica and time a row is: one value each in all rows.
+const ONE_VALUE: [&str; 2] = ["replica", "time_s"];
+
 /// What else may stand in the file, as in `rods.csv`; none of it is a start, but an r_e must be the scene's.
 const OTHERS: [&str; 9] = [
-    "replica",
-    "rod",
-    "time_s",
+    ROD,
+    ONE_VALUE[0],
+    ONE_VALUE[1],
     "strain",
     "aspect_ratio",
     "x1_mm",
@@ -80,8 +86,8 @@ impl Starts {
                 start.clone()
             }
             None => {
-                let bytes =
-                    std::fs::read(&path).map_err(|error| refused(format!(": cannot be read: {error}")))?;
+                let bytes = crate::input::bytes(&path, 1 << 31)
+                    .map_err(|error| refused(format!(": cannot be read: {error}")))?;
                 let found = format!("{:08x}", crc32fast::hash(&bytes));
                 asked_for(&found)?;
                 let (directions, shaped) =
@@ -116,6 +122,7 @@ fn read(bytes: &[u8], aspect_ratio: f64) -> Result<([Vec<f64>; 3], bool), String
     let head = reader.headers().map_err(in_words)?.clone();
     for (k, name) in head.iter().enumerate() {
         if !P.contains(&name) && !OTHERS.contains(&name) {
+            let name = snippet(name);
             return Err(format!(
                 "1: unknown column {name:?}; allowed: p1, p2, p3, and those of rods.csv"
             ));
@@ -130,6 +137,7 @@ fn read(bytes: &[u8], aspect_ratio: f64) -> Result<([Vec<f64>; 3], bool), String
         *own = place(name).ok_or_else(|| format!("1: column {name} is missing; p1, p2 and p3 are needed"))?;
     }
     let shape = place("aspect_ratio");
+    let mut order = Order::new(place);
     let mut p = [(); 3].map(|()| Vec::new());
     for record in reader.records() {
         let record = record.map_err(in_words)?;
@@ -138,12 +146,14 @@ fn read(bytes: &[u8], aspect_ratio: f64) -> Result<([Vec<f64>; 3], bool), String
             let cell = record.get(place).unwrap_or_default();
             let parsed = cell.parse().ok().filter(|value: &f64| value.is_finite());
             parsed.ok_or_else(|| {
+                let cell = snippet(cell);
                 format!(
                     "{line}: {} = {cell} is not allowed: a finite number",
                     &head[place]
                 )
             })
         };
+        order.next(&head, line, number)?;
         let direction = [number(places[0])?, number(places[1])?, number(places[2])?];
         // Exact operations only, for the same bits on every machine.
         let length = direction.map(|x| x * x).iter().sum::<f64>().sqrt();
@@ -168,6 +178,74 @@ fn read(bytes: &[u8], aspect_ratio: f64) -> Result<([Vec<f64>; 3], bool), String
     Ok((p, shape.is_some()))
 }
 
+/// The rows of one replica at one time, in the order of their rods' numbers.
+///
+/// Directions are taken row by row: rows in another order, or of two times or replicas, would be another suspension.
+struct Order {
+    rod: Option<usize>,
+    one_value: [Option<usize>; 2],
+    /// The last rod, and the line and the values of the first row.
+    last: Option<f64>,
+    first: Option<(u64, [Option<f64>; 2])>,
+}
+
+impl Order {
+    fn new(place: impl Fn(&str) -> Option<usize>) -> Self {
+        Self {
+            rod: place(ROD),
+            one_value: ONE_VALUE.map(place),
+            last: None,
+            first: None,
+        }
+    }
+
+    /// Takes the next row; `number` reads a column of it.
+    fn next(
+        &mut self,
+        head: &csv::StringRecord,
+        line: u64,
+        number: impl Fn(usize) -> Result<f64, String>,
+    ) -> Result<(), String> {
+        let read = |place: Option<usize>| place.map(&number).transpose();
+        let values = [read(self.one_value[0])?, read(self.one_value[1])?];
+        let (first_line, first) = *self.first.get_or_insert((line, values));
+        for ((column, value), first) in self.one_value.iter().zip(values).zip(first) {
+            if let (Some(column), Some(value), Some(first)) = (column, value, first)
+                && value != first
+            {
+                return Err(format!(
+                    "{line}: {} = {value} is not allowed: line {first_line} has {first}, and a start has the rods of one \
+                     replica at one time; keep the rows of one",
+                    &head[*column]
+                ));
+            }
+        }
+        let Some(rod) = read(self.rod)? else {
+            return Ok(());
+        };
+        if !(rod >= 0.0 && rod.fract() == 0.0) {
+            return Err(format!(
+                "{line}: rod = {rod} is not allowed: a whole number from 0 on"
+            ));
+        }
+        match self.last.replace(rod) {
+            Some(last) if rod <= last => Err(format!(
+                "{line}: rod = {rod} is not allowed after rod {last}: each rod has one row; sort the rows by rod"
+            )),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The start of a cell, for a message: a file that is no start is not shown.
+fn snippet(cell: &str) -> String {
+    const MOST: usize = 20;
+    match cell.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{}…", &cell[..end]),
+        None => cell.to_owned(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -178,7 +256,7 @@ mod tests {
 
     #[test]
     fn rows_are_directions_in_any_order_of_columns() {
-        let text = "rod,p3,p1,p2\n0,0.8,0.6,0\n7, -0.70711 ,0,0.70711\n";
+        let text = "rod,p3,p1,p2,time_s,replica\n0,0.8,0.6,0,2.5,1\n7, -0.70711 ,0,0.70711,2.5,1\n";
         let ([p1, p2, p3], shaped) = read(text.as_bytes(), 11.6).unwrap();
         assert!(!shaped);
         assert_eq!((p1, p3[0]), (vec![0.6, 0.0], 0.8));
@@ -239,6 +317,33 @@ mod tests {
             ),
             ("p1,p2,p3\n0,0,0\n", "2: p = (0, 0, 0) has length 0"),
             ("p1,p2,p3\n1,0\n", "2: not a table in CSV"),
+            (
+                "rod,p1,p2,p3\n2,1,0,0\n1,0,1,0\n",
+                "3: rod = 1 is not allowed after rod 2: each rod has one row; sort the rows by rod",
+            ),
+            (
+                "rod,p1,p2,p3\n1,1,0,0\n1,0,1,0\n",
+                "3: rod = 1 is not allowed after rod 1",
+            ),
+            (
+                "rod,p1,p2,p3\n0.5,1,0,0\n",
+                "2: rod = 0.5 is not allowed: a whole number from 0 on",
+            ),
+            ("rod,p1,p2,p3\n-1,1,0,0\n", "2: rod = -1 is not allowed"),
+            (
+                "replica,p1,p2,p3\n0,1,0,0\n0,1,0,0\n1,0,1,0\n",
+                "4: replica = 1 is not allowed: line 2 has 0",
+            ),
+            (
+                "time_s,p1,p2,p3\n0,1,0,0\n73.7,0,1,0\n",
+                "3: time_s = 73.7 is not allowed: line 2 has 0, and a start has the rods of one replica at one time",
+            ),
+            ("time_s,p1,p2,p3\nnow,1,0,0\n", "2: time_s = now is not allowed"),
+            // Of a file that is no start at most the first letters are shown.
+            (
+                "-----BEGIN PRIVATE KEY OF SOMEBODY-----\nMIIE\n",
+                "1: unknown column \"-----BEGIN PRIVATE K…\"; allowed",
+            ),
             (
                 "aspect_ratio,p1,p2,p3\n11.5,1,0,0\n",
                 "2: aspect_ratio = 11.5 is not allowed",

@@ -2,16 +2,27 @@
 
 use std::borrow::Cow;
 use std::ffi::OsStr;
-use std::fs::File;
-use std::io::{self, Read};
 use std::path::Path;
 
-/// Whether a character commands a terminal, turns the direction of writing, or is not allowed in HTML and SVG. Line feeds
-/// and tabulators are none.
+/// Whether a character commands a terminal, turns the direction of writing, is invisible, or is not allowed in HTML and SVG.
+/// Line feeds and tabulators are none.
 fn commands(c: char) -> bool {
     (c.is_control() && !matches!(c, '\n' | '\t'))
-        || matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
-        || matches!(c, '\u{2028}' | '\u{2029}' | '\u{fffe}' | '\u{ffff}')
+        || matches!(
+            c,
+            '\u{2028}' | '\u{2029}' | '\u{fff9}'..='\u{fffb}' | '\u{fffe}' | '\u{ffff}'
+        )
+        || invisible(c)
+}
+
+/// Whether a character is drawn as nothing where a font does as it should (Unicode's Default_Ignorable_Code_Point), as the
+/// zero-width space and those that turn the direction of writing: names that differ by one look the same.
+fn invisible(c: char) -> bool {
+    matches!(c,
+        '\u{ad}' | '\u{34f}' | '\u{61c}' | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}' | '\u{180b}'..='\u{180f}'
+        | '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{3164}' | '\u{fe00}'..='\u{fe0f}'
+        | '\u{feff}' | '\u{ffa0}' | '\u{fff0}'..='\u{fff8}' | '\u{1bca0}'..='\u{1bca3}' | '\u{1d173}'..='\u{1d17a}'
+        | '\u{e0000}'..='\u{e0fff}')
 }
 
 /// A text in which every character that is not for reading is written out, as `\u{1b}`.
@@ -48,8 +59,30 @@ pub(crate) fn line(text: &str) -> String {
     readable(text).replace('\n', "\\n").replace('\t', " ")
 }
 
+/// A path in a message.
+pub(crate) trait Shown {
+    /// The path on one line, as [`line`] writes it.
+    fn shown(&self) -> String;
+}
+
+impl Shown for Path {
+    fn shown(&self) -> String {
+        line(&self.to_string_lossy())
+    }
+}
+
 /// The most characters of a message for the terminal.
 const MOST: usize = 8192;
+
+/// The most characters of a value of somebody else's file in a message.
+const SNIPPET: usize = 40;
+
+/// The start of a value in quotes, for a message: enough to find it in its file, and no more of what may be private.
+pub(crate) fn snippet(value: &str) -> String {
+    let start: String = value.chars().take(SNIPPET).collect();
+    let more = if start.len() < value.len() { "…" } else { "" };
+    format!("\"{}{more}\"", line(&start).replace('"', "\\\""))
+}
 
 /// A text of which the middle is left out where it is too long to be read: what is at fault stands at the start, and what is
 /// allowed at the end.
@@ -66,23 +99,21 @@ pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
     ))
 }
 
-/// A file of at most so many bytes; a longer one is refused before it fills the memory.
-pub(crate) fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
-    match bytes.len() as u64 <= most {
-        true => Ok(bytes),
-        false => Err(io::Error::other(format!(
-            "longer than the {} MB that are allowed",
-            most >> 20
-        ))),
+/// A number with four decimals, or as a power of ten where it would have hundreds of digits.
+pub(crate) fn four_decimals(x: f64) -> String {
+    match x.abs() < 1e12 {
+        true => format!("{x:.4}"),
+        false => format!("{x:.4e}"),
     }
 }
 
 /// A cell of a table in CSV that no spreadsheet takes for a formula: a text that begins as one has an apostrophe before it.
 /// Numbers stay as they are.
 pub(crate) fn cell(text: &str) -> String {
-    let formula = text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '|', '%']);
+    // The wide forms too, which spreadsheets in East Asia take for the narrow ones.
+    let formula = text.starts_with([
+        '=', '+', '-', '@', '\t', '\r', '\n', '|', '%', '＝', '＋', '－', '＠',
+    ]);
     let number = text.parse::<f64>().is_ok();
     let mark = if formula && !number { "'" } else { "" };
     format!("{mark}{}", readable(text))
@@ -127,6 +158,23 @@ mod tests {
             r"a\u{1b}]0;x\u{7}\u{9b}2J\u{d}b\u{202e}c\u{7f}"
         );
         assert_eq!(line("a\nerror: b\tc"), r"a\nerror: b c");
+        let unseen = "a\u{200b}b\u{ad}c\u{feff}d\u{2060}e\u{e0041}";
+        assert_eq!(readable(unseen), r"a\u{200b}b\u{ad}c\u{feff}d\u{2060}e\u{e0041}");
+        assert_eq!(readable("X̄₁, é, 中文, العربية"), "X̄₁, é, 中文, العربية");
+    }
+
+    #[test]
+    fn a_path_stays_on_its_line() {
+        let path = Path::new("a\nerror: \u{200b}b.toml");
+        assert_eq!(path.shown(), r"a\nerror: \u{200b}b.toml");
+    }
+
+    #[test]
+    fn of_a_value_only_the_start_is_repeated() {
+        assert_eq!(snippet("zero"), "\"zero\"");
+        assert_eq!(snippet("a\nb\u{1b}\"c"), r#""a\nb\u{1b}\"c""#);
+        let secret = "x".repeat(40) + "the rest";
+        assert_eq!(snippet(&secret), format!("\"{}…\"", "x".repeat(40)));
     }
 
     #[test]
@@ -158,6 +206,10 @@ mod tests {
             ("+1+2", "'+1+2"),
             ("-2+3", "'-2+3"),
             ("\t=1", "'\t=1"),
+            ("＝1+1", "'＝1+1"),
+            ("＋1", "'＋1"),
+            ("－1", "'－1"),
+            ("＠SUM(1)", "'＠SUM(1)"),
             ("-1e-300", "-1e-300"),
             ("+5", "+5"),
             ("-inf", "-inf"),
@@ -193,5 +245,20 @@ mod tests {
         let found: Vec<_> = output.stdout.split(|byte| *byte == 0).collect();
         assert_eq!(found[..words.len()], words);
         assert!(!line.contains('\u{1b}'));
+    }
+
+    #[test]
+    fn no_number_has_hundreds_of_digits() {
+        let shown = [0.0, -2.5, 1e11, 1e12, -1e300].map(four_decimals);
+        assert_eq!(
+            shown,
+            [
+                "0.0000",
+                "-2.5000",
+                "100000000000.0000",
+                "1.0000e12",
+                "-1.0000e300"
+            ]
+        );
     }
 }

@@ -107,8 +107,8 @@ pub fn data() -> Target {
 
 /// The files of a problem that are read.
 fn files_of(name: &str) -> Vec<(&'static str, Vec<u8>)> {
-    let built = problems::build(name).expect("its name is in the registry");
-    let mut files = problems::files(&built);
+    let built = problems::named(name).expect("its name is in the registry");
+    let mut files = problems::files(built);
     files.retain(|(name, _)| !name.ends_with(".md"));
     let known = ["problem.json", "start.csv", "inputs.csv", "certified.csv"];
     let named = |(name, text): (String, String)| {
@@ -121,13 +121,43 @@ fn files_of(name: &str) -> Vec<(&'static str, Vec<u8>)> {
 /// Small problems of two kinds.
 const PROBLEMS: [&str; 2] = ["mid-flip-2", "mid-flip-11.6"];
 
+/// A problem of somebody else.
+const FOREIGN: &str = "my-own";
+
+fn foreign() -> Vec<(&'static str, Vec<u8>)> {
+    let mut files = files_of(PROBLEMS[0]);
+    let renamed = |bytes: &[u8]| {
+        String::from_utf8_lossy(bytes)
+            .replace(PROBLEMS[0], FOREIGN)
+            .into_bytes()
+    };
+    files.iter_mut().for_each(|(_, bytes)| *bytes = renamed(bytes));
+    files
+}
+
 /// Exported problems.
 pub fn problems() -> Target {
     Target {
         name: "problems",
-        corpus: PROBLEMS.map(files_of).to_vec(),
+        corpus: PROBLEMS
+            .iter()
+            .map(|name| files_of(name))
+            .chain([foreign()])
+            .collect(),
         take: Box::new(|folder, files| {
-            put(&folder.join("one"), files)?;
+            let called = |name: &&str| {
+                let name = format!("\"name\": \"{name}\"");
+                let text = files.iter().find(|(file, _)| *file == "problem.json");
+                text.is_some_and(|(_, bytes)| String::from_utf8_lossy(bytes).contains(&name))
+            };
+            let names = [PROBLEMS[0], PROBLEMS[1], FOREIGN];
+            for name in names {
+                let _ = fs::remove_dir_all(folder.join(name));
+            }
+            put(
+                &folder.join(names.iter().find(|name| called(name)).unwrap_or(&FOREIGN)),
+                files,
+            )?;
             match problems::read(folder) {
                 Ok(found) => match found.iter().all(finite) {
                     true => Ok(Taken::Accepted),

@@ -26,10 +26,10 @@ fn corpus() -> Vec<String> {
         lines.join("\n") + "\n"
     };
     let mut all: Vec<_> = scenes::ALL.iter().map(|scene| small(scene.text)).collect();
-    for gradient in [
-        "[[0,0,0],[0.5,0,0],[0,0,0]]",
-        "[[1,0,0],[0,-0.5,0.25],[0,0.5,-0.5]]",
-        "[[-1,-1,0],[-2,2,-1],[0,-2,-1]]",
+    for (gradient, orbits) in [
+        ("[[0,0,0],[0.5,0,0],[0,0,0]]", "\"orbit_constant\", "),
+        ("[[1,0,0],[0,-0.5,0.25],[0,0.5,-0.5]]", ""),
+        ("[[-1,-1,0],[-2,2,-1],[0,-2,-1]]", ""),
     ] {
         for time in [
             "periods = 1\noutputs_per_period = 8",
@@ -38,7 +38,7 @@ fn corpus() -> Vec<String> {
             all.push(format!(
                 "title = \"t\"\n[flow]\ngradient_per_s = {gradient}\n[particles]\ncount = 9\nlength_mm = 0.7\naspect_ratio = 2\n\
                  aspect_ratio_sd_percent = 1\norientation = {{ phi_deg = 10, theta_deg = 80 }}\n[time]\n{time}\n[output]\n\
-                 observables = [\"projections\", \"orbit_constant\", \"orientation_tensor\", \"mean_angle\"]\n"
+                 observables = [\"projections\", {orbits}\"orientation_tensor\", \"mean_angle\"]\n"
             ));
         }
     }

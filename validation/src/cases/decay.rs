@@ -158,14 +158,19 @@ pub fn cases() -> Vec<Case> {
         Case::statement("dies-out")
             .claim(
                 "\"The oscillations die out … after a few rotations, in contrast to the undamped \
-                 oscillations\": to less than 1/e in four rotations with collisions and σ = 3.6 %; with \
-                 collisions alone they are smaller after one, two and four rotations each time.",
+                 oscillations\": with collisions and σ = 3.6 % to less than 1/e in four rotations, where less is left \
+                 than with σ = 3.6 % alone; with collisions alone they are smaller after one, two and four \
+                 rotations each time.",
             )
             .source("Results, after Fig. 6")
             .equations(&["4", "16"])
             .subject((|_| {}) as Change)
-            .mistake("collisions without effect and uniform rods", |scene| {
-                lab::interaction(scene).alpha = 0.0;
+            .mistake("collisions without effect", |scene| {
+                if let Some(interaction) = &mut scene.interaction {
+                    interaction.alpha = 0.0;
+                }
+            })
+            .mistake("rods of one aspect ratio", |scene| {
                 scene.particles.aspect_ratio_sd_percent = 0.0;
             })
             .check(dies_out),

@@ -8,12 +8,14 @@ mod stop;
 #[cfg(test)]
 mod tests;
 
-pub use replicas::Replicas;
-pub(crate) use stop::{last_words, on_stop};
+pub use replicas::{Progress, Replicas};
+pub(crate) use stop::{last_words, on_stop, stays};
 
 use crate::build;
 use crate::difference::difference;
+use crate::input;
 use crate::output::{OutputError, Part, Replaced};
+use crate::text::Shown;
 use crc32fast::Hasher;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -25,7 +27,7 @@ use std::path::Path;
 /// How every checkpoint begins, before the number of its format.
 const HEAD: &str = "shearbed checkpoint ";
 /// The format that is written and read.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 /// The checksum at the end.
 const SUM: u64 = 4;
 /// The longest first line, and the longest second one.
@@ -67,7 +69,7 @@ impl Checkpoint {
 
     /// The state that is kept, where there is one.
     pub fn read<T: DeserializeOwned>(&self) -> Result<Option<T>, Refused> {
-        match File::open(self.path()) {
+        match input::open(self.path()) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             Err(error) => Err(self.refused(&format!("cannot be read: {error}"))),
             Ok(file) => {
@@ -87,7 +89,7 @@ impl Checkpoint {
         self.file.write(|file| {
             let mut file = Summed(file, Hasher::new());
             writeln!(file, "{HEAD}{FORMAT}\n{}", self.identity)?;
-            rmp_serde::encode::write_named(&mut file, state).map_err(io::Error::other)?;
+            rmp_serde::encode::write_named(&mut file, state).map_err(cause)?;
             let sum = file.1.finalize();
             file.0.write_all(&sum.to_be_bytes())
         })
@@ -97,18 +99,15 @@ impl Checkpoint {
     pub fn refused(&self, why: &str) -> Refused {
         Refused(format!(
             "--checkpoint {}: {why}; give another name, or remove it to start anew; nothing was changed",
-            self.path().display()
+            self.path().shown()
         ))
     }
 
     fn state<T: DeserializeOwned>(&self, file: File) -> Result<T, String> {
         let unread = |error: io::Error| format!("cannot be read: {error}");
-        let metadata = file.metadata().map_err(unread)?;
+        let length = file.metadata().map_err(unread)?.len().saturating_sub(SUM);
         let mut file = BufReader::new(file);
-        let first = match metadata.is_file() {
-            true => line(&mut file, LINES[0]).map_err(unread)?,
-            false => String::new(),
-        };
+        let first = line(&mut file, LINES[0]).map_err(unread)?;
         let format = first.strip_prefix(HEAD).ok_or("is no checkpoint of shearbed")?;
         if format != FORMAT.to_string() {
             return Err(format!(
@@ -116,7 +115,6 @@ impl Checkpoint {
             ));
         }
         file.rewind().map_err(unread)?;
-        let length = metadata.len().saturating_sub(SUM);
         let mut sum = Summed(io::sink(), Hasher::new());
         io::copy(&mut file.by_ref().take(length), &mut sum).map_err(unread)?;
         let mut kept = [0; SUM as usize];
@@ -142,6 +140,21 @@ impl Checkpoint {
             _ => Err(broken(&"bytes follow its state")),
         }
     }
+}
+
+/// The system's reason below an error of the encoder, as a full disk; the encoder's own words where there is none.
+fn cause(error: rmp_serde::encode::Error) -> io::Error {
+    let mut below: Option<&(dyn std::error::Error + 'static)> = Some(&error);
+    while let Some(found) = below {
+        if let Some(system) = found.downcast_ref::<io::Error>() {
+            return match system.raw_os_error() {
+                Some(code) => io::Error::from_raw_os_error(code),
+                None => io::Error::new(system.kind(), system.to_string()),
+            };
+        }
+        below = found.source();
+    }
+    io::Error::other(error)
 }
 
 /// The next line of at most so many bytes, without its end.

@@ -3,7 +3,7 @@
 //! Replicas are begun in order, each in a pool of threads of its own: so few wait to be added up, and none waits in the
 //! middle of a step for another one, as it might in one pool for all.
 
-use super::{Checkpoint, Refused, on_stop};
+use super::{Checkpoint, Refused, on_stop, stays};
 use crate::output::OutputError;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -13,6 +13,7 @@ use shearbed::run::{Replica, go_on};
 use shearbed::work::RunError;
 use shearbed::{Plan, Results};
 use std::collections::BTreeMap;
+use std::fmt;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -33,8 +34,28 @@ struct Kept {
     halfway: BTreeMap<u64, Halfway>,
 }
 
+/// How far a run has come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Replicas that are done.
+    pub done: u64,
+    /// Replicas that were left in the middle.
+    pub halfway: usize,
+    /// Replicas of the whole run.
+    pub all: u64,
+}
+
+impl fmt::Display for Progress {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { done, halfway, all } = self;
+        write!(f, "{done} of {all} replicas are done, {halfway} halfway")
+    }
+}
+
 struct State {
     kept: Kept,
+    /// Something of it is not in the file.
+    new: bool,
     /// The next replica to begin.
     next: u64,
     /// The replicas in work, and in which round of questions each has answered last.
@@ -94,6 +115,7 @@ impl Replicas {
             state: Mutex::new(State {
                 next: kept.tally.replicas(),
                 kept,
+                new: false,
                 in_work: BTreeMap::new(),
                 stopped: None,
                 ended: false,
@@ -102,31 +124,43 @@ impl Replicas {
             file,
         });
         // Weak: the file is let go of when the run is over.
-        let last = Arc::downgrade(&replicas);
-        on_stop(move || Some(last.upgrade()?.last_words()));
+        let (last, path) = (Arc::downgrade(&replicas), path.to_owned());
+        on_stop(move || match last.upgrade() {
+            Some(replicas) => Some(replicas.last_words()),
+            None => stays(&path),
+        });
         Ok(replicas)
     }
 
-    /// Replicas that are done.
-    pub fn done(&self) -> u64 {
-        let state = self.state();
-        state.kept.tally.replicas() + state.kept.done.len() as u64
+    /// Its file.
+    pub fn path(&self) -> &Path {
+        self.file.path()
     }
 
-    /// Whether a replica was left in the middle.
-    pub fn halfway(&self) -> usize {
-        self.state().kept.halfway.len()
+    /// How far the run has come.
+    pub fn progress(&self) -> Progress {
+        self.progress_of(&self.state().kept)
     }
 
-    /// Runs what is left; `finished` is called after each replica. `warn` is told what could not be written meanwhile. The
-    /// results are the bits of [`shearbed::ensemble::run`].
+    fn progress_of(&self, kept: &Kept) -> Progress {
+        Progress {
+            done: kept.tally.replicas() + kept.done.len() as u64,
+            halfway: kept.halfway.len(),
+            all: self.plan.scene().ensemble.replicas,
+        }
+    }
+
+    /// Runs what is left. `finished` is called after each replica; `saved` after each checkpoint with something new, the last
+    /// one at the end of the run, or with the reason why it could not be written: the run ends after that call. The results are
+    /// the bits of [`shearbed::ensemble::run`].
     pub fn run(
         &self,
         threads: usize,
         finished: impl Fn() + Sync,
-        warn: impl Fn(OutputError) + Sync,
+        saved: impl Fn(Result<Progress, OutputError>) + Sync,
     ) -> Result<Results, RunError> {
-        let left = self.plan.scene().ensemble.replicas - self.done();
+        let Progress { done, all, .. } = self.progress();
+        let left = all - done;
         let at_once = (threads as u64).min(left) as usize;
         thread::scope(|scope| {
             let workers: Vec<_> = (0..at_once)
@@ -142,7 +176,7 @@ impl Replicas {
                     })
                 })
                 .collect();
-            let keeper = scope.spawn(|| self.keep(&warn));
+            let keeper = scope.spawn(|| self.keep(&saved));
             let ends: Vec<_> = workers.into_iter().map(|worker| worker.join()).collect();
             self.state().ended = true;
             self.told.notify_all();
@@ -151,9 +185,7 @@ impl Replicas {
                 std::panic::resume_unwind(panic);
             }
         });
-        if let Err(error) = self.save(None) {
-            warn(error);
-        }
+        self.save_and_tell(&saved);
         let mut state = self.state();
         match state.stopped.take() {
             Some((_, error)) => Err(error),
@@ -199,6 +231,7 @@ impl Replicas {
         // First the old one: there is memory for one.
         state.kept.halfway.remove(&replica);
         state.kept.halfway.insert(replica, halfway());
+        state.new = true;
         state.in_work.insert(replica, round);
         self.told.notify_all();
     }
@@ -210,6 +243,7 @@ impl Replicas {
             Ok(end) => {
                 state.kept.halfway.remove(&replica);
                 state.kept.done.insert(replica, end);
+                state.new = true;
             }
             Err(error) => {
                 let first = state.stopped.as_ref().is_none_or(|(first, _)| replica < *first);
@@ -226,7 +260,7 @@ impl Replicas {
     }
 
     /// Saves again and again until the run has ended.
-    fn keep(&self, warn: &impl Fn(OutputError)) {
+    fn keep(&self, saved: &impl Fn(Result<Progress, OutputError>)) {
         loop {
             let wait = self
                 .told
@@ -234,14 +268,21 @@ impl Replicas {
             if wait.unwrap_or_else(PoisonError::into_inner).0.ended {
                 return;
             }
-            if let Err(error) = self.save(None) {
-                warn(error);
-            }
+            self.save_and_tell(saved);
         }
     }
 
-    /// Asks every replica in work where it is, waits for the answers, at most so long, and writes all down.
-    fn save(&self, patience: Option<Duration>) -> Result<(), OutputError> {
+    fn save_and_tell(&self, saved: &impl Fn(Result<Progress, OutputError>)) {
+        match self.save(None) {
+            Ok((_, false)) => (),
+            Ok((progress, true)) => saved(Ok(progress)),
+            Err(error) => saved(Err(error)),
+        }
+    }
+
+    /// Asks every replica in work where it is, waits for the answers, at most so long, and writes all down where something is
+    /// new. What the file holds then, and whether it was written.
+    fn save(&self, patience: Option<Duration>) -> Result<(Progress, bool), OutputError> {
         let mut state = self.state();
         let round = self.round.fetch_add(1, Ordering::Relaxed) + 1;
         let silent =
@@ -256,22 +297,28 @@ impl Replicas {
                 wait.unwrap_or_else(PoisonError::into_inner).0
             }
         };
+        let progress = self.progress_of(&state.kept);
+        if !state.new {
+            return Ok((progress, false));
+        }
         let part = self.file.begin(&state.kept)?;
+        state.new = false;
         // The disk may be slow: replicas need not wait for it.
         drop(state);
-        part.finish()
+        if let Err(error) = part.finish() {
+            self.state().new = true;
+            return Err(error);
+        }
+        Ok((progress, true))
     }
 
     /// Saves before the program ends, and says how to go on.
     fn last_words(&self) -> String {
         let path = self.file.path().display();
         match self.save(Some(PATIENCE)) {
-            Ok(()) => format!(
-                "{} of {} replicas are done and {} halfway; the run is kept in {path}, and the same command goes on from there",
-                self.done(),
-                self.plan.scene().ensemble.replicas,
-                self.halfway(),
-            ),
+            Ok((progress, _)) => {
+                format!("{progress}; the run is kept in {path}, and the same command goes on from there")
+            }
             Err(error) => {
                 format!("{error}; what {path} has from before stays, and the same command goes on from there")
             }

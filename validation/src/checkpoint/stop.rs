@@ -1,5 +1,7 @@
 //! What is still to be done when a signal ends the program.
 
+use crate::text::Shown;
+use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
 type Last = Box<dyn FnOnce() -> Option<String> + Send>;
@@ -16,4 +18,14 @@ pub(crate) fn on_stop(last: impl FnOnce() -> Option<String> + Send + 'static) {
 pub(crate) fn last_words() -> Option<String> {
     let last = LAST.lock().unwrap_or_else(PoisonError::into_inner).take();
     last.and_then(|last| last())
+}
+
+/// That a checkpoint stays, where there is one.
+pub(crate) fn stays(path: &Path) -> Option<String> {
+    path.exists().then(|| {
+        format!(
+            "{} stays as it is, and the same command goes on from there",
+            path.shown()
+        )
+    })
 }

@@ -80,10 +80,10 @@ fn other_work_and_other_formats_are_refused_by_name() {
     let whole = fs::read(&path).unwrap();
     assert!(refused(&path, &whole, 2).contains("is of other work: scene.seed was 1 and is 2 now"));
     let text = String::from_utf8_lossy(&whole[..24]).into_owned();
-    assert!(text.starts_with("shearbed checkpoint 1\n"), "{text}");
+    assert!(text.starts_with("shearbed checkpoint 2\n"), "{text}");
     let mut other = whole.clone();
-    other[HEAD.len()] = b'2';
-    assert!(refused(&path, &summed(other), 1).contains("has the format 2, of another version"));
+    other[HEAD.len()] = b'1';
+    assert!(refused(&path, &summed(other), 1).contains("has the format 1, of another version"));
     for build in ["version", "commit"] {
         let own = json!(crate::build::record()[build]).to_string();
         let at = whole
@@ -118,7 +118,7 @@ fn one_process_at_a_time_and_files_alone() {
     );
     drop(held);
     let Refused(why) = opened(dir.path(), 1).read::<Vec<f64>>().unwrap_err();
-    assert!(why.contains("is no checkpoint"), "{why}");
+    assert!(why.contains("it is a folder; a regular file is needed"), "{why}");
     let Refused(why) = Checkpoint::open(Path::new(".."), "test", json!({}))
         .err()
         .unwrap();
@@ -168,16 +168,72 @@ fn nothing_that_is_done_is_run_again() {
         file.write(&kept).unwrap();
         drop(file);
         let run = Replicas::open(&plan, &path, std::time::Duration::from_millis(10)).unwrap();
-        assert_eq!((run.done(), run.halfway()), (2, 1));
+        let of_run = |done, halfway| Progress {
+            done,
+            halfway,
+            all: 6,
+        };
+        assert_eq!(run.progress(), of_run(2, 1));
         let finished = AtomicU64::new(0);
+        let last = std::sync::Mutex::new(None);
         let count = || {
             finished.fetch_add(1, Ordering::Relaxed);
         };
         assert_eq!(
-            run.run(threads, count, |error| panic!("{error}")).unwrap(),
+            run.run(threads, count, |saved| *last.lock().unwrap() =
+                Some(saved.unwrap()))
+                .unwrap(),
             expected,
             "{threads}"
         );
-        assert_eq!((finished.into_inner(), run.done(), run.halfway()), (4, 6, 0));
+        assert_eq!((finished.into_inner(), run.progress()), (4, of_run(6, 0)));
+        // What was told last is what the file has.
+        assert_eq!(last.into_inner().unwrap(), Some(of_run(6, 0)));
     }
+}
+
+/// A disk that is full after so many bytes.
+struct Full(usize);
+
+impl Write for Full {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0 = self
+            .0
+            .checked_sub(bytes.len())
+            .ok_or(io::ErrorKind::StorageFull)?;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Wherever the disk is full, in a length, a name or a number: the reason is the disk's.
+#[test]
+fn a_full_disk_is_told_in_the_systems_words() {
+    let state =
+        std::collections::BTreeMap::from([("a".to_owned(), state()), ("text".to_owned(), Vec::new())]);
+    let whole = rmp_serde::to_vec_named(&state).unwrap().len();
+    for room in 0..whole {
+        let error = rmp_serde::encode::write_named(&mut Full(room), &state).unwrap_err();
+        assert_eq!(cause(error).kind(), io::ErrorKind::StorageFull, "{room}");
+    }
+    assert!(rmp_serde::encode::write_named(&mut Full(whole), &state).is_ok());
+    let own = rmp_serde::encode::Error::UnknownLength;
+    assert_eq!(cause(own).kind(), io::ErrorKind::Other);
+}
+
+/// A signal that comes before anything was done does not say that nothing is kept where the file is there.
+#[test]
+fn a_signal_tells_of_the_file_that_is_there() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("kept");
+    assert_eq!(super::stays(&path), None);
+    std::fs::write(&path, "").unwrap();
+    let said = super::stays(&path).unwrap();
+    assert!(
+        said.ends_with("kept stays as it is, and the same command goes on from there"),
+        "{said}"
+    );
 }

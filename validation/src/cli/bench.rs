@@ -1,10 +1,13 @@
 //! `shearbed bench`: the studies that have named parts, alone and measured longer.
 
-use super::{Failure, kept, on_threads, print, probe};
+use super::{Failure, on_threads, print, probe};
 use crate::case::Effort;
+use crate::output::Author;
+use crate::plot;
 use crate::studies;
 use crate::study::Extent;
-use crate::{output, plot};
+use crate::text::Shown;
+use serde_json::json;
 use std::path::PathBuf;
 
 /// Arguments of `bench`.
@@ -16,6 +19,9 @@ pub(super) struct Args {
     /// The folder for the tables, their data and the pictures
     #[arg(long, value_name = "DIR", default_value = "out/bench")]
     out: PathBuf,
+    /// Overwrite what this command did not write in the folder, or wrote from other input
+    #[arg(long)]
+    force: bool,
     /// Print nothing but errors
     #[arg(long)]
     quiet: bool,
@@ -27,8 +33,8 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     check(&args.cases)?;
     let wanted = |name: &str| args.cases.is_empty() || args.cases.iter().any(|case| case == name);
     probe(&args.out, 0)?;
-    // It has tables, and no record of its own.
-    kept::check_alone(&args.out, "")?;
+    let author = Author::new("bench", json!({ "cases": args.cases }), args.force);
+    author.check(&args.out, &[""; 0])?;
     let effort = Effort {
         full: true,
         ..Effort::gate()
@@ -57,14 +63,14 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
             tables.extend(exhibit.table.map(|table| table.text()));
         }
     }
-    output::write_all(&args.out, &files)?;
+    let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
+    author.write(&args.out, files)?;
     if args.quiet {
         return Ok(());
     }
-    let names: Vec<_> = files.iter().map(|(name, _)| name.as_str()).collect();
     print(&format!(
         "{tables}in {}: {}\n",
-        args.out.display(),
+        args.out.shown(),
         names.join(", ")
     ))
 }

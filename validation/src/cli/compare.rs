@@ -1,10 +1,14 @@
 //! `shearbed compare`: what changed between two reports.
 
 use super::{Failure, print};
+use crate::input;
+use crate::report::FORMAT;
 use crate::table::{ReportTable, number, words};
+use crate::text::Shown;
+use crate::text::snippet;
 use crate::work_precision::tables::time;
 use serde::Deserialize;
-use std::fs;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `compare`.
@@ -21,6 +25,7 @@ pub(super) struct Args {
 /// What is read of a report.
 #[derive(Deserialize)]
 struct Report {
+    format: u32,
     summary: Summary,
     cases: Vec<Case>,
     #[serde(default)]
@@ -90,9 +95,9 @@ pub(super) fn compare(args: &Args) -> Result<(), Failure> {
     let (a, b) = (read(&args.before)?, read(&args.after)?);
     let mut text = format!(
         "A: {}, commit {}\nB: {}, commit {}\n",
-        args.before.display(),
+        args.before.shown(),
         a.origin.commit,
-        args.after.display(),
+        args.after.shown(),
         b.origin.commit
     );
     if (a.summary.full, a.summary.seed) != (b.summary.full, b.summary.seed) {
@@ -116,14 +121,37 @@ pub(super) fn compare(args: &Args) -> Result<(), Failure> {
     print(&text)
 }
 
+/// The longest report.
+const MOST_BYTES: u64 = 256 << 20;
+
 fn read(path: &Path) -> Result<Report, Failure> {
-    let at = |what: String| Failure::Input(format!("{}: {what}", path.display()));
-    let text = fs::read_to_string(path).map_err(|error| at(format!("cannot be read: {error}")))?;
-    serde_json::from_str(&text).map_err(|error| {
-        at(format!(
-            "is no report.json that `shearbed validate` wrote: {error}"
-        ))
-    })
+    let at = |what: String| Failure::Input(format!("{}: {what}", path.shown()));
+    let text = input::text(path, MOST_BYTES).map_err(|error| at(format!("cannot be read: {error}")))?;
+    parse(&text).map_err(at)
+}
+
+/// A report of this version's format, in which every case and every study stands once.
+fn parse(text: &str) -> Result<Report, String> {
+    let report: Report = serde_json::from_str(text)
+        .map_err(|error| format!("is no report.json that `shearbed validate` wrote: {error}"))?;
+    if report.format != FORMAT {
+        return Err(format!(
+            "format = {} is not allowed: {FORMAT}, of this version of shearbed",
+            report.format
+        ));
+    }
+    let cases: Vec<_> = report.cases.iter().map(|case| case.name.as_str()).collect();
+    let studies: Vec<_> = (report.studies.iter()).map(|study| study.name.as_str()).collect();
+    for (what, names) in [("case", cases), ("study", studies)] {
+        let mut seen = BTreeSet::new();
+        if let Some(twice) = names.into_iter().find(|name| !seen.insert(*name)) {
+            return Err(format!(
+                "the {what} {} is there twice; once is allowed",
+                snippet(twice)
+            ));
+        }
+    }
+    Ok(report)
 }
 
 /// Cases that ended otherwise, and those that only one report has.
@@ -256,6 +284,25 @@ fn speeds(a: &Report, b: &Report) -> ReportTable {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn another_format_and_doubled_cases_are_refused() {
+        let report = |format: u32, names: [&str; 2]| {
+            let cases = names.map(
+                |name| serde_json::json!({ "name": name, "verdict": "pass", "seconds": 0.1, "evidence": [] }),
+            );
+            let report = serde_json::json!({
+                "format": format, "summary": { "full": false, "seed": 1 }, "cases": cases,
+                "origin": { "commit": "a", "processor": "b" },
+            });
+            parse(&report.to_string()).map(|report| report.cases.len())
+        };
+        assert_eq!(report(2, ["a", "b"]), Ok(2));
+        let other = report(99, ["a", "b"]).unwrap_err();
+        assert!(other.starts_with("format = 99 is not allowed: 2"), "{other}");
+        let twice = report(2, ["a", "a"]).unwrap_err();
+        assert_eq!(twice, "the case \"a\" is there twice; once is allowed");
+    }
 
     fn line(json: serde_json::Value) -> Line {
         serde_json::from_value(json).unwrap()

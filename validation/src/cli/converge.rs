@@ -1,12 +1,13 @@
 //! `shearbed converge`.
 
 use super::scene::{Chosen, Ensemble};
-use super::{Failure, MAX_THREADS, agree, kept, memory, on_threads, print, probe, progress, scene, whole};
-use crate::output::{self, Output};
+use super::{Failure, MAX_THREADS, agree, memory, on_threads, print, probe, progress, scene, whole};
+use crate::output::{Author, Output};
 use crate::suspensions::law::{self, Law, Replicas};
 use crate::suspensions::split::{Constants, Scope, Split, TARGETS};
 use crate::suspensions::{self, law_tables};
 use crate::table::ReportTable;
+use crate::text::Shown;
 use crate::work_precision::order::{self, Found};
 use crate::work_precision::{export, tables};
 use crate::{build, cluster};
@@ -33,6 +34,9 @@ pub(super) struct Args {
     /// Threads to run on; the results do not depend on it [default: one for each core]
     #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
     threads: Option<u64>,
+    /// Overwrite what this command did not write in the folder, or wrote from other input
+    #[arg(long)]
+    force: bool,
     /// Print nothing but errors
     #[arg(long)]
     quiet: bool,
@@ -45,12 +49,13 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let plan = Plan::new(&named.scene).map_err(|error| Failure::Input(at(error.to_string())))?;
     let stem = format!("converge-{}", named.stem);
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(stem));
-    agree(
-        "converge",
-        json!({ "scene": named.scene.resolved(), "replicas": args.replicas }),
-    )?;
+    let input = json!({ "scene": named.scene.resolved(), "replicas": args.replicas });
+    agree("converge", input.clone())?;
     probe(&out, 0)?;
-    kept::check_alone(&out, kept::STUDY)?;
+    let author = Author::new("converge", input, args.force);
+    if cluster::is_root() {
+        author.check(&out, &["converge.csv", "converge.json", "replicas.csv"])?;
+    }
     let replicas = args.replicas.map_or(Replicas::CONVERGE, Replicas::Each);
     let done = match plan.keeps(Stage::Contacts) {
         true => {
@@ -71,19 +76,11 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let Some(done) = done else {
         return Ok(());
     };
-    output::write_all_where(&out, &done.files, || kept::check_alone(&out, kept::STUDY))?;
-    // An earlier study, of interacting rods, may have left more.
-    let replaced = |name: &&str| !done.files.iter().any(|(file, _)| file == name);
-    let left_over: Vec<_> = ["replicas.csv"]
-        .into_iter()
-        .filter(replaced)
-        .map(str::to_owned)
-        .collect();
-    output::remove(&out, &left_over)?;
+    let names: Vec<_> = done.files.iter().map(|(name, _)| name.clone()).collect();
+    author.write(&out, done.files)?;
     if !args.quiet {
-        let names: Vec<_> = done.files.iter().map(|(name, _)| name.as_str()).collect();
         let text: String = done.tables.iter().map(ReportTable::text).collect();
-        print(&format!("{text}in {}: {}\n", out.display(), names.join(", ")))?;
+        print(&format!("{text}in {}: {}\n", out.shown(), names.join(", ")))?;
     }
     match done.wrong {
         None => Ok(()),

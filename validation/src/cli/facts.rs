@@ -1,6 +1,7 @@
 //! What follows from a scene before anything runs: its period, its step, its shape factor, and how dilute it is.
 
 use super::rods;
+use crate::text::four_decimals;
 use serde::Serialize;
 use shearbed::Plan;
 
@@ -69,8 +70,14 @@ impl Facts {
     /// In a line.
     pub(super) fn text(&self) -> String {
         let mut parts = Vec::new();
-        parts.extend(self.period_s.map(|period| format!("T = {period:.4} s")));
-        parts.extend(self.strain_per_step.map(|strain| format!("GΔt = {strain:.4}")));
+        parts.extend(
+            self.period_s
+                .map(|period| format!("T = {} s", four_decimals(period))),
+        );
+        parts.extend(
+            self.strain_per_step
+                .map(|strain| format!("GΔt = {}", four_decimals(strain))),
+        );
         parts.push(format!("Λ = {:.6}", self.shape_factor));
         let dilute = self.n_a3.zip(self.regime);
         parts.extend(dilute.map(|(n_a3, regime)| format!("n a³ = {n_a3:.3e} ({regime})")));
@@ -80,7 +87,7 @@ impl Facts {
                 formula,
                 by,
             } = found;
-            format!("r_e = {aspect_ratio:.4} ({by}: {formula})")
+            format!("r_e = {} ({by}: {formula})", four_decimals(*aspect_ratio))
         }));
         let rods = self.rods.as_ref().map(|rods| {
             let megabytes = 1e-6 * rods.most_bytes as f64;

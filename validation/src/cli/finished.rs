@@ -1,6 +1,6 @@
 //! What `validate` has finished, kept so that it need not run again.
 
-use super::{Failure, alone, print};
+use super::{Failure, print};
 use crate::accept::Verdict;
 use crate::case::{Control, Judged};
 use crate::checkpoint::{Checkpoint, on_stop};
@@ -33,7 +33,6 @@ pub(super) struct Finished {
 impl Finished {
     /// Goes on from `file` where it is of the same input and build.
     pub(super) fn open(path: &Path, input: Value, quiet: bool) -> Result<Self, Failure> {
-        alone(path)?;
         let file = Checkpoint::open(path, "validate", input)?;
         let state: State = file.read()?.unwrap_or_default();
         file.write(&state)?;

@@ -2,8 +2,9 @@
 
 mod input;
 
-use super::{Failure, MAX_THREADS, kept, on_threads, print, probe, progress, scene, whole};
+use super::{Failure, MAX_THREADS, on_threads, print, probe, progress, scene, whole};
 use crate::build::BUILD;
+use crate::experiment::MOST_BYTES;
 use crate::fit::budget::{self, Shift};
 use crate::fit::design::{Candidate, design};
 use crate::fit::elsewhere::look_elsewhere;
@@ -12,7 +13,7 @@ use crate::fit::report::{self, Report};
 use crate::fit::scenes::{AS_WRITTEN, Variant};
 use crate::fit::search::{Fit, Measured, Problem, Watch, search};
 use crate::fit::{Range, pictures, terminal};
-use crate::output::{self, Output};
+use crate::output::{Author, Output};
 use crate::plot;
 use crate::sweep::Setting;
 use crate::text::command;
@@ -64,13 +65,16 @@ pub(super) struct Args {
     /// List further points, at all times and at half and twice the concentration, with what each would leave of the uncertainties
     #[arg(long)]
     design: bool,
-    /// Overwrite a folder that holds another fit, or what another command wrote
+    /// Overwrite what this command did not write in the folder, or wrote from other input
     #[arg(long)]
     force: bool,
     /// Print nothing but errors and warnings
     #[arg(long)]
     quiet: bool,
 }
+
+/// The record of a fit.
+const FIT: &str = "fit.json";
 
 /// What a fit leaves.
 struct Done {
@@ -86,9 +90,8 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("fit-{}", input.stem)));
     probe(&out, 0)?;
     let asked = asked(args, &input)?;
-    if !args.force {
-        kept::check_fit(&out, &asked)?;
-    }
+    let author = Author::new("fit", asked.clone(), args.force);
+    author.check(&out, &[FIT, "residuals.csv", "profiles.csv", "design.csv"])?;
     let bar = progress(0, "runs", args.quiet);
     let watch = Watch {
         planned: &|runs| bar.inc_length(runs),
@@ -115,18 +118,13 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     for (stem, figure) in &done.figures {
         files.push((format!("{stem}.svg"), plot::svg(figure).map_err(Failure::Failed)?));
     }
-    let names: Vec<&str> = std::iter::once(kept::FIT)
+    let names: Vec<&str> = std::iter::once(FIT)
         .chain(files.iter().map(|(name, _)| name.as_str()))
         .collect();
     let record = record(&asked, &done, &names)?;
-    let left_over = kept::left_over(&out, &names);
     let names = names.join(", ");
-    files.push((kept::FIT.into(), record));
-    output::write_all_where(&out, &files, || match args.force {
-        true => Ok(()),
-        false => kept::check_fit(&out, &asked),
-    })?;
-    output::remove(&out, &left_over)?;
+    files.push((FIT.into(), record));
+    author.write(&out, files)?;
     scene::warn(&input.stem, &done.report.warnings);
     if args.quiet {
         return Ok(());
@@ -239,16 +237,15 @@ fn shifts(input: &Input, fit: &Fit, own: &Model<'_>, watch: &Watch<'_>) -> Resul
 fn asked(args: &Args, input: &Input) -> Result<Value, Failure> {
     let mut data = Vec::new();
     for (set, path) in input.scenes.sets.iter().zip(&input.files) {
-        let points = std::fs::read(path)
+        let (_, crc32) = crate::input::length_and_crc32(path, MOST_BYTES)
             .map_err(|error| Failure::Input(format!("{}: cannot be read: {error}", path.display())))?;
         data.push(json!({
-            "scene": set.source, "file": path.display().to_string(), "crc32": crc32fast::hash(&points), "time": set.time,
+            "scene": set.source, "file": path.display().to_string(), "crc32": crc32, "time": set.time,
             "seed": set.seed, "scene_text": set.text, "starts": set.starts.checksums()
         }));
     }
     let set = |setting: &Setting| format!("{}={}", setting.key, setting.value);
     Ok(json!({
-        "version": BUILD.version,
         "data": data,
         "over": args.over,
         "set": args.settings.iter().map(set).collect::<Vec<_>>(),

@@ -1,15 +1,18 @@
 //! `shearbed grade`.
 
 mod args;
+mod inputs;
 
 pub(super) use args::Args;
 
-use super::{Failure, kept, print};
+use super::{Failure, print};
 use crate::grade::live::{self, Mode, Program};
 use crate::grade::{self, Claim, Dump, Graded, LineEnds, Options, Report, Told};
-use crate::output;
+use crate::output::{self, Author};
 use crate::plot;
 use crate::problems::{self, Kind, LoadedProblem};
+use crate::text::Shown;
+use serde_json::Value;
 use std::io;
 use std::path::Path;
 use std::time::Duration;
@@ -17,12 +20,15 @@ use std::time::Duration;
 /// Beside the report: error against steps, and error against run time.
 const PICTURES: [&str; 2] = ["steps.svg", "work-precision.svg"];
 
+/// The report.
+const PAGES: [&str; 4] = ["grade.json", "grade.html", "grade.md", "junit.xml"];
+
 /// Grades answers in files, or a program.
 pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     if args.echo {
         return live::echo(io::stdin().lock(), io::stdout().lock()).map_err(Failure::Input);
     }
-    let (report, wanted) = match (&args.command, &args.reference, &args.mine) {
+    let (report, wanted, inputs) = match (&args.command, &args.reference, &args.mine) {
         (Some(command), reference, _) => program(args, command, reference.as_deref())?,
         (None, Some(reference), Some(mine)) => files(args, reference, mine)?,
         _ => {
@@ -34,29 +40,21 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     let pictures = pictures(&report, &wanted).map_err(Failure::Failed)?;
     let inside: Vec<_> = pictures.iter().map(|(_, svg)| svg.as_str()).collect();
     let html = grade::html(&report, report.passes(args.all), &inside).map_err(Failure::Failed)?;
-    let mut written = vec![
-        (
-            "grade.json".to_owned(),
-            grade::json(&report).map_err(Failure::Failed)?,
-        ),
-        ("grade.html".to_owned(), html),
-        ("grade.md".to_owned(), grade::markdown(&report)),
-        ("junit.xml".to_owned(), grade::junit(&report)),
+    let pages = [
+        grade::json(&report).map_err(Failure::Failed)?,
+        html,
+        grade::markdown(&report),
+        grade::junit(&report),
     ];
-    written.extend(pictures);
-    let left_over = PICTURES
-        .into_iter()
-        .filter(|name| !written.iter().any(|(file, _)| file == name));
-    let left_over: Vec<_> = left_over.map(str::to_owned).collect();
-    output::write_all_where(&args.out, &written, || kept::check_alone(&args.out, kept::GRADE))?;
-    // A picture of an earlier grading is none of these answers.
-    output::remove(&args.out, &left_over)?;
+    let mut files: Vec<_> = PAGES.map(str::to_owned).into_iter().zip(pages).collect();
+    files.extend(pictures);
+    Author::new("grade", inputs, args.force).write(&args.out, files)?;
     if !args.quiet {
         let place = args.out.join("grade.html");
         print(&format!(
             "{}\nreport: {}\n",
             grade::terminal(&report),
-            place.display()
+            place.shown()
         ))?;
     }
     match report.passes(args.all) {
@@ -133,30 +131,33 @@ fn names(all: &[LoadedProblem]) -> Vec<String> {
     all.iter().map(|loaded| loaded.problem.name.clone()).collect()
 }
 
-fn files(args: &Args, reference: &Path, mine: &Path) -> Result<(Report, Vec<LoadedProblem>), Failure> {
+/// A report, the problems it is about, and what it depends on.
+type Done = (Report, Vec<LoadedProblem>, Value);
+
+fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
     let all = problems::read(reference).map_err(|error| Failure::Input(error.to_string()))?;
     let names = names(&all);
     check_names(args, &names)?;
     let wanted = chosen(args, all)?;
     if !mine.is_dir() {
         return Err(Failure::Input(format!(
-            "{}: no folder; answers are asked for in MINE/NAME",
-            mine.display()
+            "{}: no such folder; answers are asked for in MINE/NAME",
+            mine.shown()
         )));
     }
     output::probe(&args.out, 0)?;
-    kept::check_alone(&args.out, kept::GRADE)?;
     let problems = grade::grade(&wanted, mine, &options(args)).map_err(|errors| {
         let lines: Vec<_> = errors.iter().map(ToString::to_string).collect();
         Failure::Input(lines.join("\n"))
     })?;
     let report = report(
-        reference.display().to_string(),
-        mine.display().to_string(),
+        reference.shown(),
+        mine.shown(),
         problems,
         unknown_folders(mine, &names),
     );
-    Ok((report, wanted))
+    let inputs = inputs::of_files(args, reference, mine, &wanted)?;
+    Ok((report, wanted, inputs))
 }
 
 /// Folders of answers to problems that there are not.
@@ -171,7 +172,7 @@ fn unknown_folders(mine: &Path, names: &[String]) -> Vec<String> {
     let remark = |name: String| {
         format!(
             "{}: no problem has this name; it was not read",
-            mine.join(name).display()
+            mine.join(name).shown()
         )
     };
     unknown.into_iter().map(remark).collect()
@@ -194,7 +195,7 @@ fn check_rods_alone(args: &Args) -> Result<(), Failure> {
     const INSTEAD: &str =
         "a program that runs is asked about single rods only; other answers go into files (grade REF MINE)";
     let other = |name: &&String| {
-        let of_rods = problems::free_rods().iter().any(|def| def.name == **name);
+        let of_rods = problems::free_rods().contains(&name.as_str());
         !of_rods && problems::all().iter().any(|def| def.name == **name)
     };
     if let Some(name) = args.problems.iter().find(other) {
@@ -210,12 +211,9 @@ fn check_rods_alone(args: &Args) -> Result<(), Failure> {
 fn about_rods(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Failure> {
     check_rods_alone(args)?;
     let Some(dir) = reference else {
-        let all: Vec<_> = problems::free_rods()
-            .iter()
-            .map(|def| def.name.to_owned())
-            .collect();
+        let all: Vec<_> = problems::free_rods().into_iter().map(str::to_owned).collect();
         check_names(args, &all)?;
-        return live::built_in(|name| asked_for(args, name)).map_err(Failure::Failed);
+        return Ok(live::built_in(|name| asked_for(args, name)));
     };
     let mut rods = problems::read(dir).map_err(|error| Failure::Input(error.to_string()))?;
     rods.retain(|loaded| loaded.problem.kind == Kind::Rods);
@@ -223,14 +221,11 @@ fn about_rods(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem
     chosen(args, rods)
 }
 
-fn program(
-    args: &Args,
-    command: &str,
-    reference: Option<&Path>,
-) -> Result<(Report, Vec<LoadedProblem>), Failure> {
+fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done, Failure> {
     let wanted = about_rods(args, reference)?;
     output::probe(&args.out, 0)?;
-    kept::check_alone(&args.out, kept::GRADE)?;
+    let inputs = inputs::of_program(args, reference, &wanted)?;
+    Author::new("grade", inputs.clone(), args.force).check(&args.out, &[&PAGES[..], &PICTURES].concat())?;
     let timeout = Duration::from_secs_f64(args.timeout);
     let program = Program::start(command, timeout).map_err(Failure::Input)?;
     let mode = live::mode(&program);
@@ -258,10 +253,10 @@ fn program(
     if let Err(end) = program.close() {
         remarks.push(format!("the program's end: {end}"));
     }
-    let reference = reference.map_or("built-in problems".to_owned(), |dir| dir.display().to_string());
+    let reference = reference.map_or("built-in problems".to_owned(), |dir| dir.shown());
     let mut report = report(reference, command.to_owned(), problems, remarks);
     report.live = studies;
-    Ok((report, wanted))
+    Ok((report, wanted, inputs))
 }
 
 /// This program as an echo.

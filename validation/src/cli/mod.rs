@@ -1,6 +1,7 @@
 //! The commands of the program `shearbed`.
 
 mod bench;
+mod checkpoint;
 mod choice;
 mod cite;
 mod compare;
@@ -10,7 +11,6 @@ mod finished;
 mod fit;
 mod grade;
 mod interrupt;
-mod kept;
 mod memory;
 mod pictures;
 mod plot;
@@ -37,7 +37,7 @@ use std::ffi::OsString;
 use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
-use terminal::{print, progress};
+use terminal::{log, print, progress};
 use threads::{MAX_THREADS, on_threads};
 
 /// Rigid slender rods in a sheared viscous liquid, after Lee & Springer (1982).
@@ -231,17 +231,6 @@ fn agree(command: &str, input: Value) -> Result<(), Failure> {
     cluster::agree(command, input).map_err(Failure::Input)
 }
 
-/// Refuses a checkpoint of more than one rank.
-fn alone(checkpoint: &Path) -> Result<(), Failure> {
-    match cluster::size() {
-        1 => Ok(()),
-        ranks => Err(Failure::Input(format!(
-            "--checkpoint {}: {ranks} ranks; one process alone is allowed",
-            checkpoint.display()
-        ))),
-    }
-}
-
 /// A parser of whole numbers whose error says what is allowed.
 fn whole(least: u64, most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone + Send + Sync + 'static {
     move |text| match text.parse() {
@@ -253,6 +242,15 @@ fn whole(least: u64, most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone 
 impl From<crate::checkpoint::Refused> for Failure {
     fn from(refused: crate::checkpoint::Refused) -> Self {
         Self::Input(refused.0)
+    }
+}
+
+impl From<output::Refused> for Failure {
+    fn from(refused: output::Refused) -> Self {
+        match refused {
+            output::Refused::Other(message) => Self::Input(message),
+            output::Refused::Output(error) => error.into(),
+        }
     }
 }
 

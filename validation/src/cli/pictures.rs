@@ -5,6 +5,15 @@ use shearbed::ensemble::{Column, Series};
 use shearbed::{Observable, Results, Scene};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
+/// The stems of the names of an observable's pictures.
+pub(super) fn stems(observable: Observable) -> Vec<String> {
+    let stem = observable.name().to_owned();
+    match observable {
+        Observable::OrbitConstant => vec![stem.clone(), format!("{stem}_density")],
+        _ => vec![stem],
+    }
+}
+
 /// The pictures of an observable, each with the stem of its file's name.
 pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<(String, Figure)> {
     let stem = series.observable.name();

@@ -2,6 +2,7 @@
 
 use super::{Failure, print};
 use crate::problems::{self, ExportError};
+use crate::text::Shown;
 use std::path::PathBuf;
 
 /// Arguments of `problems`.
@@ -38,7 +39,7 @@ pub(super) fn problems(args: &Args) -> Result<(), Failure> {
             if *quiet {
                 return Ok(());
             }
-            print(&format!("in {}: {}\n", dir.display(), names.join(", ")))
+            print(&format!("in {}: {}\n", dir.shown(), names.join(", ")))
         }
     }
 }

@@ -8,6 +8,7 @@ use crate::oracle::reference::rod::Direction;
 use crate::oracle::reference::table::{self, NoValue, Start};
 use crate::oracle::reference::unequal::LONGEST_TURNS;
 use crate::output;
+use crate::text::Shown;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `reference`.
@@ -46,6 +47,9 @@ pub(super) struct Args {
     /// A file for the CSV, in place of standard output
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// Overwrite the file where it is there with other contents
+    #[arg(long, requires = "out")]
+    force: bool,
 }
 
 /// What `--start` says.
@@ -82,7 +86,7 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
         }
     };
     match &args.out {
-        Some(path) => write(path, text),
+        Some(path) => write(path, text, args.force),
         None => print(&text),
     }
 }
@@ -136,14 +140,11 @@ fn explained(start: Start) -> String {
            the unit of --unit; the other times are rounded. With --aspect-ratio-sd-percent they are rounded to eleven decimals.\n"
 }
 
-fn write(path: &Path, text: String) -> Result<(), Failure> {
+fn write(path: &Path, text: String, force: bool) -> Result<(), Failure> {
     if path.file_name().is_none() {
-        return Err(Failure::Input(format!(
-            "--out {}: is no file name",
-            path.display()
-        )));
+        return Err(Failure::Input(format!("--out {}: is no file name", path.shown())));
     }
-    Ok(output::write_one(path, text.as_bytes())?)
+    Ok(output::write_one(path, text.as_bytes(), force)?)
 }
 
 fn no_couette(flag: &str) -> Failure {

@@ -3,11 +3,12 @@
 use super::record::Seconds;
 use super::scene::{Chosen, Ensemble};
 use super::{
-    Failure, MAX_THREADS, agree, alone, facts, kept, memory, on_threads, pictures, print, probe, progress,
-    record, rods, scene, tables, threads, whole,
+    Failure, MAX_THREADS, agree, checkpoint, facts, log, memory, on_threads, pictures, print, probe,
+    progress, record, rods, scene, tables, threads, whole,
 };
 use crate::checkpoint::Replicas;
-use crate::output::{self, Output};
+use crate::output::{Author, Output};
+use crate::text::Shown;
 use crate::text::line;
 use crate::{cluster, plot};
 use serde_json::json;
@@ -40,7 +41,7 @@ pub(super) struct Args {
     /// Seconds between two checkpoints [default: 60]
     #[arg(long, value_name = "S", value_parser = seconds, requires = "checkpoint", allow_negative_numbers = true)]
     every: Option<Duration>,
-    /// Overwrite a folder that holds another run, or what another command wrote
+    /// Overwrite what this command did not write in the folder, or wrote from other input
     #[arg(long)]
     force: bool,
     /// Print nothing but errors and warnings
@@ -56,33 +57,15 @@ fn seconds(text: &str) -> Result<Duration, String> {
 }
 
 /// The run's checkpoint, and how far it has come, where one is asked for.
-fn checkpoint(args: &Args, plan: &Plan, out: &Path) -> Result<Option<Arc<Replicas>>, Failure> {
-    let Some(path) = &args.checkpoint else {
+fn kept(args: &Args, plan: &Plan, path: Option<&Path>) -> Result<Option<Arc<Replicas>>, Failure> {
+    let Some(path) = path else {
         return Ok(None);
     };
-    let path = &output::followed(path);
-    alone(path)?;
-    let folder = |path: &Path| path.canonicalize().ok();
-    let beside = path.parent().filter(|parent| !parent.as_os_str().is_empty());
-    let inside = folder(beside.unwrap_or(Path::new("."))).is_some_and(|parent| Some(parent) == folder(out));
-    let of_results = ["csv", "svg", "json", "pvd", "vtp"]
-        .iter()
-        .any(|end| path.extension().is_some_and(|own| own == *end));
-    if inside && of_results {
-        return Err(Failure::Input(format!(
-            "--checkpoint {}: the results may take that name; another folder than theirs, or another ending than .csv, .svg and .json, is allowed",
-            path.display()
-        )));
-    }
     let every = args.every.unwrap_or(Duration::from_secs(60));
     let replicas = Replicas::open(plan, path, every)?;
-    if replicas.done() > 0 || replicas.halfway() > 0 {
-        let (done, all) = (replicas.done(), plan.scene().ensemble.replicas);
-        let told = format!(
-            "goes on from {}: {done} of {all} replicas are done, {} halfway\n",
-            path.display(),
-            replicas.halfway()
-        );
+    let progress = replicas.progress();
+    if progress.done > 0 || progress.halfway > 0 {
+        let told = format!("goes on from {}: {progress}\n", path.shown());
         print(if args.quiet { "" } else { &told })?;
     }
     Ok(Some(replicas))
@@ -107,10 +90,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         .clone()
         .unwrap_or_else(|| Path::new("out").join(&named.stem));
     agree("run", json!({ "scene": plan.scene().resolved() }))?;
+    let path = args.checkpoint.as_deref();
+    let path = path.map(|path| checkpoint::check(path, &out)).transpose()?;
     let bytes = tables::most_bytes(&plan).saturating_add(rods::most_bytes(&plan, args.vtk));
     probe(&out, bytes)?;
-    if !args.force && cluster::is_root() {
-        kept::check_run(&out, &plan)?;
+    let author = Author::new("run", json!({ "scene": plan.scene().resolved() }), args.force);
+    if cluster::is_root() {
+        author.check(&out, &names(&plan, args.vtk))?;
     }
     scene::warn(&named.source, &facts::warnings(&plan));
     let mut seconds = Seconds {
@@ -118,9 +104,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         ..Seconds::default()
     };
 
-    let checkpoint = checkpoint(args, &plan, &out)?;
+    let checkpoint = kept(args, &plan, path.as_deref())?;
     let bar = progress(scene.ensemble.replicas, "replicas", args.quiet);
-    bar.inc(checkpoint.as_ref().map_or(0, |kept| kept.done()));
+    bar.inc(checkpoint.as_ref().map_or(0, |kept| kept.progress().done));
     let start = Instant::now();
     let threads = threads::count(args.threads)? as usize;
     let results = match &checkpoint {
@@ -128,9 +114,15 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             .run(
                 threads,
                 || bar.inc(1),
-                |error| {
-                    let lost = format!("{error}; the run goes on, and what comes is not kept");
-                    scene::warn("--checkpoint", [&lost]);
+                |saved| match saved {
+                    Ok(progress) => log(
+                        &format!("kept in {}: {progress}", kept.path().display()),
+                        args.quiet,
+                    ),
+                    Err(error) => {
+                        let lost = format!("{error}; the run goes on, and what comes is not kept");
+                        scene::warn("--checkpoint", [&lost]);
+                    }
                 },
             )
             .map(Some),
@@ -148,14 +140,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     seconds.tables_and_pictures = start.elapsed().as_secs_f64();
     let names = files.iter().map(|(name, _)| name.as_str()).collect();
     let record = record::json(&plan, &results, threads, seconds, names).map_err(Failure::Failed)?;
-    files.push((kept::RUN.to_owned(), record));
-    let names: Vec<_> = files.iter().map(|(name, _)| name.as_str()).collect();
-    let left_over = kept::left_over(&out, &names);
-    output::write_all_where(&out, &files, || match args.force {
-        true => Ok(()),
-        false => kept::check_run(&out, &plan),
-    })?;
-    output::remove(&out, &left_over)?;
+    files.push((RUN.to_owned(), record));
+    let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
+    author.write(&out, files)?;
     if args.quiet {
         return Ok(());
     }
@@ -165,7 +152,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         scene.particles.count,
         scene.ensemble.replicas,
         tables::summary(&results),
-        out.display(),
+        out.shown(),
         names.join(", ")
     ))
 }
@@ -174,6 +161,22 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 /// then, and what an earlier run left stays.
 fn ended<T>(source: &str, results: Result<T, RunError>) -> Result<T, Failure> {
     results.map_err(|error| Failure::Input(format!("{source}: {error}")))
+}
+
+/// The record of a run.
+const RUN: &str = "run.json";
+
+/// The names of the files of a run, but for those of single times of its rods.
+fn names(plan: &Plan, vtk: bool) -> Vec<String> {
+    let of_each = plan.observables().into_iter().flat_map(|observable| {
+        let stems = pictures::stems(observable).into_iter();
+        let pictures = stems.map(|stem| format!("{stem}.svg"));
+        pictures.chain([format!("{}.csv", observable.name())])
+    });
+    let rods = (!plan.rods_outputs().is_empty()).then_some("rods.csv");
+    let vtk = vtk.then_some("rods.pvd");
+    let others = [Some(RUN), rods, vtk].into_iter().flatten();
+    of_each.chain(others.map(str::to_owned)).collect()
 }
 
 /// A table and the pictures of each observable.

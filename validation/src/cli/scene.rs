@@ -1,9 +1,11 @@
 //! Finding the scene that the command line names, with the keys that it sets.
 
 use super::{Failure, whole};
+use crate::input;
 use crate::start::Starts;
 use crate::sweep::{self, Axis, Setting};
-use crate::text::{self, line};
+use crate::text::Shown;
+use crate::text::line;
 use crate::{cluster, scenes};
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shearbed::{Scene, scene_file};
@@ -100,7 +102,7 @@ fn refused(source: &str, error: &str) -> Failure {
 /// Reads the file `given`, or where there is none the built-in scene of that name.
 pub(super) fn load(given: &OsStr) -> Result<Named, Failure> {
     let path = Path::new(given);
-    let source = path.display().to_string();
+    let source = path.shown();
     let built_in = scenes::find(&source).filter(|_| !path.exists() || path.is_dir());
     if let Some(built_in) = built_in {
         let scene = built_in
@@ -150,21 +152,14 @@ pub(super) fn warn<'a>(source: &str, warnings: impl IntoIterator<Item = &'a Stri
 const MOST_BYTES: u64 = 64 << 20;
 
 fn read(path: &Path) -> Result<String, Failure> {
-    let source = path.display();
-    let bytes = text::read(path, MOST_BYTES).map_err(|error| {
+    let source = path.shown();
+    input::text(path, MOST_BYTES).map_err(|error| {
         let known = if path.exists() {
             String::new()
         } else {
             built_in_names(&source.to_string())
         };
         Failure::Input(format!("{source}: cannot be read: {error}{known}"))
-    })?;
-    String::from_utf8(bytes).map_err(|error| {
-        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
-        Failure::Input(format!(
-            "{source}:{line}: not a text in UTF-8, as a scene file must be"
-        ))
     })
 }
 

@@ -2,13 +2,13 @@
 
 use super::scene::{Chosen, Ensemble};
 use super::{
-    Failure, MAX_THREADS, agree, facts, kept, memory, on_threads, print, probe, progress, scene, tables,
-    whole,
+    Failure, MAX_THREADS, agree, facts, log, memory, on_threads, print, probe, progress, scene, tables, whole,
 };
 use crate::cluster;
-use crate::output::Output;
-use crate::sweep::{self, Axis, Folder, Identity, Point, Points, Refused};
+use crate::output::{Author, Output};
+use crate::sweep::{self, Axis, Folder, Identity, Point, Points};
 use crate::text;
+use crate::text::Shown;
 use shearbed::ensemble;
 use std::path::{Path, PathBuf};
 
@@ -34,6 +34,9 @@ pub(super) struct Args {
     /// Threads to run on; the results do not depend on it [default: one for each core]
     #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
     threads: Option<u64>,
+    /// Overwrite what this command did not write in the folder, or wrote from other input
+    #[arg(long)]
+    force: bool,
     /// Print nothing but errors
     #[arg(long)]
     quiet: bool,
@@ -74,12 +77,13 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let identity = Identity::new(&named.scene, &args.over, &points, &warned);
     agree("sweep", identity.value().clone())?;
 
+    let author = Author::new("sweep", identity.value().clone(), args.force);
+
     // Only the root may see the folder.
     let mut folder = None;
     let open = || {
         let bytes = (points.iter()).map(|point| tables::most_bytes(&point.plan)).sum();
         probe(&out, bytes)?;
-        kept::check_alone(&out, kept::SWEEP)?;
         let points = Points {
             described: (points.iter())
                 .map(|point| sweep::described(&args.over, &point.values))
@@ -88,7 +92,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
                 .map(|observable| format!("{}.csv", observable.name()))
                 .collect(),
         };
-        let opened = folder.insert(Folder::open(&out, &identity, points)?);
+        let opened = folder.insert(Folder::open(&out, &author, &identity, points)?);
         Ok::<_, Failure>(self::jobs(&opened.finished(), total))
     };
     let (checked, jobs): (Option<usize>, Vec<usize>) = cluster::from_root(open)?;
@@ -100,6 +104,15 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
             .then(|| format!("and {more} more points with warnings: sweep.json has them all"))
             .iter(),
     );
+    let new = jobs.len() - usize::from(checked.is_some());
+    let finished = total - new;
+    if finished > 0 && !args.quiet {
+        print(&format!(
+            "goes on from {}: {finished} of {total} points are finished\n",
+            out.display()
+        ))?;
+    }
+    let mut ended = finished;
     let bar = progress(jobs.len() as u64, "points", args.quiet);
     let job = |job: usize| {
         let k = jobs[job];
@@ -120,7 +133,16 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
                 true => Ok(()),
                 false => Err(other_numbers(&folder.point(k))),
             },
-            _ => Ok(folder.keep(k, tables)?),
+            _ => {
+                folder.keep(k, tables)?;
+                ended += 1;
+                let line = format!(
+                    "kept in {}: {ended} of {total} points are finished",
+                    out.display()
+                );
+                log(&line, args.quiet);
+                Ok(())
+            }
         }
     };
     let shared = on_threads(args.threads, || cluster::share(jobs.len(), job, arrived))??;
@@ -133,14 +155,11 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     if args.quiet {
         return Ok(());
     }
-    let new = jobs.len() - usize::from(checked.is_some());
     print(&format!(
-        "{}\npoints: {}, of which {} were finished before\n\n{}\nin {}: sweep.csv, sweep.json, points\n",
+        "{}\npoints: {total}, of which {finished} were finished before\n\n{}\nin {}: sweep.csv, sweep.json, points\n",
         text::line(&named.scene.title),
-        points.len(),
-        points.len() - new,
         table(&rows, args.over.len()),
-        out.display(),
+        out.shown(),
     ))
 }
 
@@ -194,7 +213,7 @@ fn other_numbers(point: &Path) -> Failure {
     Failure::Input(format!(
         "{}: run again, this point has other numbers: another build of the program made it; give another --out, or \
          remove the folder; nothing of it was changed",
-        point.display()
+        point.shown()
     ))
 }
 
@@ -208,7 +227,7 @@ fn table(rows: &[Vec<String>], swept: usize) -> String {
     }
     let columns = rows[0].len().min(swept + MOST.1);
     let short = |column: usize, text: &String| match text.parse::<f64>() {
-        Ok(number) if column >= swept => format!("{number:.4}"),
+        Ok(number) if column >= swept => text::four_decimals(number),
         _ => text.clone(),
     };
     let cells: Vec<Vec<_>> = (rows.iter())
@@ -223,13 +242,4 @@ fn table(rows: &[Vec<String>], swept: usize) -> String {
         cells.join("  ") + "\n"
     };
     cells.iter().map(line).collect()
-}
-
-impl From<Refused> for Failure {
-    fn from(refused: Refused) -> Self {
-        match refused {
-            Refused::Other(message) => Self::Input(message),
-            Refused::Output(error) => error.into(),
-        }
-    }
 }

@@ -25,6 +25,15 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
+/// Prints a line about progress to standard error where no bar shows it: in the log of a job.
+pub(super) fn log(line: &str, quiet: bool) {
+    if quiet || !cluster::is_root() || io::stderr().is_terminal() {
+        return;
+    }
+    // A log that cannot be written is no reason to end.
+    let _ = writeln!(io::stderr().lock(), "{}", readable(line));
+}
+
 /// A bar over the steps of a slow part on a terminal, and nothing elsewhere. The time left is told once a step is done, and
 /// then from the rate of all; of a single step only the time that it has taken.
 pub(super) fn progress(steps: u64, what: &str, quiet: bool) -> ProgressBar {

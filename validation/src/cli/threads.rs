@@ -1,6 +1,7 @@
 //! How many threads a command runs on.
 
 use super::Failure;
+use std::ffi::OsString;
 
 /// The most threads that can be asked for.
 pub(super) const MAX_THREADS: u64 = 1024;
@@ -10,26 +11,23 @@ const VARIABLE: &str = "RAYON_NUM_THREADS";
 
 /// Refuses more threads in the environment than can be asked for.
 pub(super) fn check() -> Result<(), Failure> {
-    of_environment(std::env::var(VARIABLE).ok()).map(drop)
+    of_environment(std::env::var_os(VARIABLE)).map(drop)
 }
 
 /// Threads for a command: as given, or as the environment says, or one for each core.
 pub(super) fn count(given: Option<u64>) -> Result<u64, Failure> {
     let cores = || std::thread::available_parallelism().map_or(1, |cores| cores.get() as u64);
-    let set = of_environment(std::env::var(VARIABLE).ok())?;
+    let set = of_environment(std::env::var_os(VARIABLE))?;
     Ok(given.or(set).unwrap_or_else(|| cores().min(MAX_THREADS)))
 }
 
-/// 0 and what is no number rayon does not heed.
-fn of_environment(value: Option<String>) -> Result<Option<u64>, Failure> {
-    let Some(text) = value else {
-        return Ok(None);
-    };
-    let digits = !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+/// 0 and nothing stand for one for each core, as rayon has it.
+fn of_environment(value: Option<OsString>) -> Result<Option<u64>, Failure> {
+    let text = value.unwrap_or_default().to_string_lossy().into_owned();
     match text.parse() {
+        _ if text.is_empty() => Ok(None),
         Ok(0) => Ok(None),
         Ok(count) if count <= MAX_THREADS => Ok(Some(count)),
-        Err(_) if !digits => Ok(None),
         _ => Err(Failure::Input(format!(
             "{VARIABLE} = {text} is not allowed: a whole number from 1 to {MAX_THREADS}"
         ))),
@@ -53,17 +51,19 @@ mod tests {
 
     #[test]
     fn the_environment_has_the_limit_of_the_option() {
-        let of = |text: &str| of_environment(Some(text.to_owned()));
-        for (text, count) in [
-            ("1024", Some(1024)),
-            ("3", Some(3)),
-            ("0", None),
-            ("", None),
-            ("many", None),
-        ] {
+        let of = |text: &str| of_environment(Some(text.into()));
+        for (text, count) in [("1024", Some(1024)), ("3", Some(3)), ("0", None), ("", None)] {
             assert!(of(text).is_ok_and(|found| found == count), "{text}");
         }
-        for text in ["1025", "100000", "99999999999999999999999"] {
+        for text in [
+            "1025",
+            "100000",
+            "99999999999999999999999",
+            "many",
+            "-1",
+            "1.5",
+            " 3",
+        ] {
             let (message, code) = of(text).err().unwrap().message_and_code();
             assert!(
                 message.starts_with(&format!("RAYON_NUM_THREADS = {text} is not allowed")),

@@ -1,14 +1,16 @@
 //! `shearbed validate`.
 
 use super::finished::{Ended, Finished};
-use super::{Failure, MAX_THREADS, agree, choice, kept, on_threads, print, probe, progress, whole};
+use super::{Failure, MAX_THREADS, agree, checkpoint, choice, on_threads, print, probe, progress, whole};
 use crate::accept::Verdict;
 use crate::case::{Case, Effort, GATE_SEED, Outcome};
+use crate::output::Author;
 use crate::report::{self, CaseRow, ReportStudy, Sections};
 use crate::studies;
 use crate::study::Extent;
+use crate::text::Shown;
 use crate::text::command;
-use crate::{catalogue, cluster, dependencies, experiment, figures, output, tried};
+use crate::{catalogue, cluster, dependencies, experiment, figures, tried};
 use serde_json::json;
 use shearbed::scene::MAX_SEED;
 use std::io::Write;
@@ -45,6 +47,9 @@ pub(super) struct Args {
     /// Threads to run on [default: one for each core]
     #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
     threads: Option<u64>,
+    /// Overwrite what this command did not write in the folder, or wrote from other input
+    #[arg(long)]
+    force: bool,
     /// Print nothing but errors
     #[arg(long)]
     quiet: bool,
@@ -58,6 +63,9 @@ fn folder(text: &str) -> Result<PathBuf, String> {
         Err(error) => Err(format!("{error}; an existing folder is allowed")),
     }
 }
+
+/// What a report has beside its curves and tables.
+const PAGES: [&str; 4] = ["report.html", "report.json", "report.md", "junit.xml"];
 
 /// Runs the cases and writes the report. Where cases are chosen, the report holds them alone.
 pub(super) fn validate(args: Args) -> Result<(), Failure> {
@@ -75,10 +83,15 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let input = json!({ "full": args.full, "seed": args.seed, "data": data });
     let mut agreed = input.clone();
     agreed["cases"] = json!(names);
-    agree("validate", agreed)?;
+    agree("validate", agreed.clone())?;
+    let path = args.checkpoint.as_deref();
+    let path = path.map(|path| checkpoint::check(path, &args.out)).transpose()?;
     probe(&args.out, 0)?;
-    kept::check_alone(&args.out, kept::REPORT)?;
-    let kept = match &args.checkpoint {
+    let author = Author::new("validate", agreed, args.force);
+    if cluster::is_root() {
+        author.check(&args.out, &PAGES)?;
+    }
+    let kept = match &path {
         Some(path) => Some(Finished::open(path, input, args.quiet)?),
         None => None,
     };
@@ -101,13 +114,13 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let report = report::build(outcomes, sections, &effort, command(super::program::words()));
     let mut files = report.data().map_err(Failure::Failed)?;
     let pages = [
-        ("report.html", report.html().map_err(Failure::Failed)?),
-        ("report.json", report.json()),
-        ("report.md", report.markdown()),
-        ("junit.xml", report.junit()),
+        report.html().map_err(Failure::Failed)?,
+        report.json(),
+        report.markdown(),
+        report.junit(),
     ];
-    files.extend(pages.map(|(name, text)| (name.to_owned(), text)));
-    output::write_all_where(&args.out, &files, || kept::check_alone(&args.out, kept::REPORT))?;
+    files.extend(PAGES.map(str::to_owned).into_iter().zip(pages));
+    author.write(&args.out, files)?;
     let red: String = report.cases.iter().map(CaseRow::reasons).collect();
     if !red.is_empty() && cluster::is_root() {
         // Also where nothing else is printed: what is red is an error. Where even this cannot be written, the exit code
@@ -116,7 +129,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     }
     if !args.quiet {
         let page = args.out.join("report.html");
-        print(&format!("\n{}\nreport: {}\n", report.headline(), page.display()))?;
+        print(&format!("\n{}\nreport: {}\n", report.headline(), page.shown()))?;
     }
     match report.exit_code() {
         0 => Ok(()),

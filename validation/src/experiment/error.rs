@@ -1,7 +1,9 @@
 //! Why measured points were refused.
 
-use crate::text;
+use crate::input;
+use crate::text::Shown;
 use std::fmt;
+use std::io;
 use std::path::Path;
 
 /// A file that was refused: where, what is there, and what is allowed.
@@ -19,7 +21,7 @@ impl DataError {
     /// An error about a whole file or folder.
     pub(crate) fn whole(file: &Path, message: impl Into<String>) -> Self {
         Self {
-            file: file.display().to_string(),
+            file: file.shown(),
             line: None,
             message: message.into(),
         }
@@ -46,22 +48,20 @@ impl fmt::Display for DataError {
 
 impl std::error::Error for DataError {}
 
+/// The error that a file cannot be read.
+pub(super) fn unreadable(file: &Path, error: &io::Error) -> DataError {
+    DataError::whole(file, format!("cannot be read: {error}"))
+}
+
 /// The longest file of measured points.
-const MOST_BYTES: u64 = 64 << 20;
+pub(crate) const MOST_BYTES: u64 = 64 << 20;
 
 /// The text of a file in UTF-8, without a byte-order mark.
 pub(crate) fn read_text(path: &Path) -> Result<String, DataError> {
-    let bytes = text::read(path, MOST_BYTES)
-        .map_err(|error| DataError::whole(path, format!("cannot be read: {error}")))?;
-    let text = String::from_utf8(bytes).map_err(|error| {
-        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
-        let message = "not a text in UTF-8, as a data file must be";
-        DataError::at(&path.display().to_string(), line, message)
-    })?;
+    let text = input::text(path, MOST_BYTES).map_err(|error| unreadable(path, &error))?;
     let text = text.strip_prefix('\u{feff}').map_or(text.clone(), str::to_owned);
     if text.trim().is_empty() {
-        return Err(DataError::at(&path.display().to_string(), 1, "the file is empty"));
+        return Err(DataError::at(&path.shown(), 1, "the file is empty"));
     }
     Ok(text)
 }

@@ -21,10 +21,12 @@ pub use bias::{Bias, bias};
 pub use compare::{Runs, alpha, compare};
 pub use comparison::{AlphaFit, Comparison, Point};
 pub use error::DataError;
-pub(crate) use error::read_text;
+use error::unreadable;
+pub(crate) use error::{MOST_BYTES, read_text};
 pub(crate) use model::interpolate;
 pub use provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance, Time};
 
+use crate::input;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -162,10 +164,10 @@ pub fn digest(data: &Path) -> Result<BTreeMap<String, u32>, DataError> {
             continue;
         }
         for path in files(&folder)?.iter().filter(|path| path.is_file()) {
-            let bytes = std::fs::read(path)
-                .map_err(|error| DataError::whole(path, format!("cannot be read: {error}")))?;
+            let (_, crc32) =
+                input::length_and_crc32(path, MOST_BYTES).map_err(|error| unreadable(path, &error))?;
             let name = path.strip_prefix(data).unwrap_or(path).display().to_string();
-            sums.insert(name, crc32fast::hash(&bytes));
+            sums.insert(name, crc32);
         }
     }
     Ok(sums)
@@ -187,7 +189,7 @@ pub fn points_for(data: Option<&Path>, scene_name: &str) -> Result<Vec<Measured>
 
 /// What is in a folder, by name.
 fn files(folder: &Path) -> Result<Vec<PathBuf>, DataError> {
-    let refused = |error: std::io::Error| DataError::whole(folder, format!("cannot be read: {error}"));
+    let refused = |error: std::io::Error| unreadable(folder, &error);
     let entries = std::fs::read_dir(folder).map_err(refused)?;
     let mut paths = entries
         .map(|entry| Ok(entry.map_err(refused)?.path()))

@@ -67,14 +67,28 @@ pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenanc
 fn date(all: &Table<'_>) -> Result<String, DataError> {
     let allowed = "the day of reading off, as \"YYYY-MM-DD\"";
     let date = all.text("date", allowed)?;
-    let shape: String = date
-        .chars()
-        .map(|c| if c.is_ascii_digit() { '0' } else { c })
-        .collect();
-    match shape.as_str() {
-        "0000-00-00" => Ok(date),
-        _ => Err(all.refused("date", allowed)),
+    match is_day(&date) {
+        true => Ok(date),
+        false => Err(all.refused("date", allowed)),
     }
+}
+
+/// Whether a text is a day of the calendar, as YYYY-MM-DD.
+fn is_day(text: &str) -> bool {
+    let shape = text.chars().map(|c| if c.is_ascii_digit() { '0' } else { c });
+    if !shape.eq("0000-00-00".chars()) {
+        return false;
+    }
+    let number = |from: usize, to: usize| text[from..to].parse::<u32>().unwrap_or_default();
+    let (year, month, day) = (number(0, 4), number(5, 7), number(8, 10));
+    let leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    let days = match month {
+        1 | 3 | 5 | 7 | 8 | 10 | 12 => 31,
+        4 | 6 | 9 | 11 => 30,
+        2 => 28 + u32::from(leap),
+        _ => 0,
+    };
+    (1..=days).contains(&day)
 }
 
 fn axis<Q>(
@@ -207,4 +221,29 @@ fn inputs(all: &Table<'_>) -> Result<Vec<(usize, f64)>, DataError> {
             Ok((index, table.number(name, allowed, |u| u > 0.0)?))
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_day;
+
+    #[test]
+    fn a_date_is_a_day_of_the_calendar() {
+        for day in ["1973-01-31", "2024-02-29", "2000-02-29", "2026-12-31"] {
+            assert!(is_day(day), "{day}");
+        }
+        for none in [
+            "2026-13-45",
+            "2026-00-01",
+            "2026-04-31",
+            "2023-02-29",
+            "1900-02-29",
+            "2026-01-00",
+            "26-01-01",
+            "2026-1-1",
+            "2026-01-0１",
+        ] {
+            assert!(!is_day(none), "{none}");
+        }
+    }
 }

@@ -41,7 +41,7 @@ impl Best {
 const ROUNDS: usize = 6;
 const STAYS: f64 = 1e-3;
 
-/// The best place; `None` where V or the information is not positive.
+/// The best place; `None` where V or the information is not positive, or χ² is not finite.
 pub fn best(data: &[Datum], emulator: &Emulator, rods_over_measured: &[f64]) -> Option<Best> {
     let parameters = emulator.basis.nodes[0].len();
     let mut place = vec![0.0; parameters];
@@ -53,7 +53,7 @@ pub fn best(data: &[Datum], emulator: &Emulator, rods_over_measured: &[f64]) -> 
     for _ in 0..ROUNDS {
         let causes = causes(data, emulator, &place, rods_over_measured);
         let surface = ChiSquare::new(data, emulator, &total(&causes), &place)?;
-        let before = std::mem::replace(&mut place, minimise(&surface, &vec![None; parameters], None).0);
+        let before = std::mem::replace(&mut place, minimise(&surface, &vec![None; parameters], &[]).0);
         if before.iter().zip(&place).all(|(a, b)| (a - b).abs() < STAYS) {
             break;
         }
@@ -61,7 +61,10 @@ pub fn best(data: &[Datum], emulator: &Emulator, rods_over_measured: &[f64]) -> 
     let causes = causes(data, emulator, &place, rods_over_measured);
     let covariance = total(&causes);
     let surface = ChiSquare::new(data, emulator, &covariance, &place)?;
-    let (place, chi_square) = minimise(&surface, &vec![None; parameters], Some(&place));
+    let (place, chi_square) = minimise(&surface, &vec![None; parameters], &[&place]);
+    if !chi_square.is_finite() {
+        return None;
+    }
     let slopes = emulator.slopes(&place);
     let weighted = covariance.cholesky()?.solve(&slopes);
     let influence = slopes.tr_mul(&weighted).cholesky()?.solve(&weighted.transpose());

@@ -174,6 +174,22 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
                     row.x
                 )));
             }
+            let (least, most) = allowed(&dataset.name);
+            if !(least..=most).contains(&row.y) {
+                return Err(refused(format!(
+                    "column {}: `{:?}` is not allowed: a value from {least} to {most}",
+                    dataset.name, row.y
+                )));
+            }
+            // A smaller one is lost in the rounding of the model, a larger one says nothing.
+            if !(LEAST_U..=most - least).contains(&u) {
+                return Err(refused(format!(
+                    "column {}_u: `{u:?}` is not allowed: one standard deviation from {LEAST_U:?} to {}, the width of what {} can be",
+                    dataset.name,
+                    most - least,
+                    dataset.name
+                )));
+            }
             points.push(Datum {
                 set,
                 line: row.line,
@@ -187,6 +203,47 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
     }
     check(&file, &points)?;
     Ok(Points { time, points })
+}
+
+/// The smallest standard deviation of a point.
+const LEAST_U: f64 = 1e-12;
+
+/// The largest size of a column whose values have no bound of their own: stresses, in units of μ_fiber G.
+const MOST_STRESS: f64 = 1e6;
+
+/// Equal parts of [0, 1] in which the density of C_b is counted: all of it in one is this density.
+const DENSITY_BINS: f64 = 20.0;
+
+/// The least and the most that a column of `shearbed run` can be, by its name.
+fn allowed(column: &str) -> (f64, f64) {
+    if column == "phi" {
+        return (0.0, std::f64::consts::FRAC_PI_2);
+    }
+    if column.starts_with("density") {
+        return (0.0, DENSITY_BINS);
+    }
+    if column.contains("_per_mu_") {
+        return (-MOST_STRESS, MOST_STRESS);
+    }
+    match column.strip_prefix('a') {
+        Some(axes) => allowed_moment(axes),
+        None => (0.0, 1.0),
+    }
+}
+
+/// The bounds of a mean of products of direction components, as of `1123` for p₁²p₂p₃: with exponents e of sum d the size
+/// of a product is at most Π (e/d)^(e/2).
+fn allowed_moment(axes: &str) -> (f64, f64) {
+    let exponents = ['1', '2', '3'].map(|axis| axes.matches(axis).count() as i32);
+    let all = axes.len() as f64;
+    let square: f64 = (exponents.iter())
+        .map(|e| (f64::from(*e) / all).powi(*e))
+        .product();
+    let most = square.sqrt();
+    match exponents.iter().all(|e| e % 2 == 0) {
+        true => (0.0, most),
+        false => (-most, most),
+    }
 }
 
 fn check(file: &str, points: &[Datum]) -> Result<(), DataError> {
@@ -257,6 +314,47 @@ mod tests {
         );
     }
 
+    /// Against the largest products of a fine grid of directions.
+    #[test]
+    fn every_column_has_the_bounds_of_its_formula() {
+        for (axes, exponents) in [
+            ("11", [2, 0, 0]),
+            ("12", [1, 1, 0]),
+            ("1112", [3, 1, 0]),
+            ("1123", [2, 1, 1]),
+            ("2233", [0, 2, 2]),
+        ] {
+            let (least, most) = allowed(&format!("a{axes}"));
+            let (mut low, mut high) = (0.0_f64, 0.0_f64);
+            for (i, j) in (0..400).flat_map(|i| (0..400).map(move |j| (i, j))) {
+                let (theta, phi) = (
+                    std::f64::consts::PI * f64::from(i) / 400.0,
+                    std::f64::consts::TAU * f64::from(j) / 400.0,
+                );
+                let p = [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()];
+                let product: f64 = p.iter().zip(exponents).map(|(p, e)| p.powi(e)).product();
+                (low, high) = (low.min(product), high.max(product));
+            }
+            // The grid misses a maximum by half a step at most: (π/400)², times the curvature.
+            assert!(
+                (least - low).abs() < 1e-3 && (most - high).abs() < 1e-3,
+                "{axes}: {least} {most}, {low} {high}"
+            );
+        }
+        for name in measurable() {
+            let (least, most) = allowed(&name);
+            assert!(least < most && least.is_finite() && most.is_finite(), "{name}");
+        }
+        let bins = measurable()
+            .iter()
+            .filter(|name| name.starts_with("density"))
+            .count();
+        assert_eq!(bins as f64, DENSITY_BINS);
+        assert_eq!(allowed("x3"), (0.0, 1.0));
+        assert_eq!(allowed("x1x2"), (0.0, 1.0));
+        assert_eq!(allowed("c_b"), (0.0, 1.0));
+    }
+
     #[test]
     fn what_cannot_be_is_refused_with_line_and_what_is_allowed() {
         for (text, line, named) in [
@@ -274,6 +372,18 @@ mod tests {
             ("t_s,x1,x1_u\n1,0.5,0.1\n\n1,0.5,0.2\n", 4, "in line 2 already"),
             ("t_s,x1,x1_u,x1\n1,0.5,0.1,2\n", 1, "twice"),
             ("t_s,x1,x1_u\n1,0.5\n", 2, "2 cells"),
+            (
+                "t_s,x1,x1_u\n1,1e300,0.1\n",
+                2,
+                "column x1: `1e300` is not allowed",
+            ),
+            ("t_s,x1,x1_u\n1,1e153,0.1\n", 2, "a value from 0 to 1"),
+            ("t_s,x1,x1_u\n1,1.01,0.1\n", 2, "column x1: `1.01` is not allowed"),
+            ("t_s,x1,x1_u\n1,0.5,0.1\n2,-0.01,0.1\n", 3, "a value from 0 to 1"),
+            ("t_s,phi,phi_u\n1,1.6,0.1\n", 2, "from 0 to 1.57"),
+            ("t_s,a12,a12_u\n1,-0.51,0.1\n", 2, "from -0.5 to 0.5"),
+            ("t_s,x1,x1_u\n1,0.5,1e200\n", 2, "column x1_u: `1e200`"),
+            ("t_s,x1,x1_u\n1,0.5,1e-200\n", 2, "1e-12 to 1"),
         ] {
             let error = read_of(text).unwrap_err();
             assert!(

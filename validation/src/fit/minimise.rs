@@ -9,15 +9,23 @@ const STARTS: [usize; 4] = [1, 33, 13, 9];
 /// Steps of Levenberg and Marquardt: a few suffice, more are for flat valleys.
 const STEPS: usize = 100;
 
-/// The place with the least χ² in the box [−1, 1]^p, and that χ². Parameters that `fixed` gives a place stay there. With a
-/// `start` the search is from there alone; else from the best place of a grid, so that of several valleys the deepest is
-/// found.
-pub fn minimise(surface: &ChiSquare, fixed: &[Option<f64>], start: Option<&[f64]>) -> (Vec<f64>, f64) {
+/// The place with the least χ² in the box [−1, 1]^p, and that χ². Parameters that `fixed` gives a place stay there. The
+/// search goes down from the best place of a grid and from each of `starts`, so that of several valleys the deepest is found.
+pub fn minimise(surface: &ChiSquare, fixed: &[Option<f64>], starts: &[&[f64]]) -> (Vec<f64>, f64) {
     let free: Vec<usize> = (0..fixed.len()).filter(|k| fixed[*k].is_none()).collect();
-    let mut place = match start {
-        Some(start) => start.to_vec(),
-        None => best_of_grid(surface, fixed, &free),
-    };
+    let mut best = descend(surface, fixed, &free, best_of_grid(surface, fixed, &free));
+    for start in starts.iter().filter(|_| !free.is_empty()) {
+        let found = descend(surface, fixed, &free, start.to_vec());
+        if found.1 < best.1 {
+            best = found;
+        }
+    }
+    best
+}
+
+/// Down into the valley of one place.
+fn descend(surface: &ChiSquare, fixed: &[Option<f64>], free: &[usize], start: Vec<f64>) -> (Vec<f64>, f64) {
+    let mut place = start;
     for (place, fixed) in place.iter_mut().zip(fixed) {
         *place = fixed.unwrap_or(*place);
     }

@@ -22,5 +22,7 @@ pub mod search;
 pub mod terminal;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod valleys;
 
 pub use range::Range;

@@ -20,6 +20,9 @@ pub struct Interval {
     pub high: f64,
     /// Whether the profile has not risen to the level before the box ends, below and above.
     pub open: [bool; 2],
+    /// Whether the profile jumps over the level at an end: the inner minima of its two sides belong to different valleys.
+    #[serde(skip)]
+    pub jumps: [bool; 2],
 }
 
 /// χ² less its least value along one parameter, the others at their best.
@@ -29,6 +32,8 @@ pub struct Profile {
     pub place: Vec<f64>,
     /// χ² − χ²_min.
     pub rise: Vec<f64>,
+    /// Where all parameters are there.
+    pub at: Vec<Vec<f64>>,
 }
 
 /// By how much χ² rises at the ends of an interval of this confidence for one parameter.
@@ -41,24 +46,40 @@ pub fn rise_of_several(confidence: f64, parameters: usize) -> f64 {
     ChiSquared::new(parameters as f64).map_or(f64::NAN, |law| law.inverse_cdf(confidence))
 }
 
-/// χ² − χ²_min where parameter `axis` has this place and the others their best ones.
-fn rise(best: &Best, axis: usize, place: f64) -> f64 {
+/// The best places of all parameters where `axis` has this place, and χ² − χ²_min there.
+fn rise(best: &Best, axis: usize, place: f64, starts: &[&[f64]]) -> (Vec<f64>, f64) {
     let mut fixed = vec![None; best.place.len()];
     fixed[axis] = Some(place);
-    minimise(&best.surface, &fixed, Some(&best.place)).1 - best.chi_square
+    let (at, chi_square) = minimise(&best.surface, &fixed, starts);
+    (at, chi_square - best.chi_square)
 }
 
-/// The profile of one parameter over the box, its best place among the places.
+/// The profile of one parameter over the box, its best place among the places. The inner minima are sought from a grid,
+/// from the best place, and from those of the neighbours on both sides.
 pub fn profile(best: &Best, axis: usize) -> Profile {
     let even = (0..PLACES).map(|k| -1.0 + 2.0 * k as f64 / (PLACES - 1) as f64);
     let mut place: Vec<f64> = even.chain([best.place[axis]]).collect();
     place.sort_by(f64::total_cmp);
-    let rise = place
-        .iter()
-        .map(|place| rise(best, axis, *place).max(0.0))
+    let mut found: Vec<_> = (place.iter())
+        .map(|place| rise(best, axis, *place, &[&best.place]))
         .collect();
-    Profile { place, rise }
+    let last = place.len() - 1;
+    let pairs = (0..last)
+        .map(|k| (k, k + 1))
+        .chain((0..last).rev().map(|k| (k + 1, k)));
+    for (from, to) in pairs.filter(|_| best.place.len() > 1) {
+        let next = rise(best, axis, place[to], &[&found[from].0]);
+        if next.1 < found[to].1 {
+            found[to] = next;
+        }
+    }
+    let (at, rise) = found.into_iter().map(|(at, rise)| (at, rise.max(0.0))).unzip();
+    Profile { place, rise, at }
 }
+
+/// Two sides of an end that is found to 3e-8 of half a box differ by less than this in χ² unless the profile jumps there:
+/// it would rise by 1e5 over half a box otherwise, where four standard deviations, 16, are a box's end.
+const JUMP: f64 = 0.01;
 
 /// Where a profile is below `level`: from its outermost crossing on either side, so that a second valley is inside.
 pub fn interval(best: &Best, axis: usize, profile: &Profile, level: f64) -> Interval {
@@ -70,28 +91,35 @@ pub fn interval(best: &Best, axis: usize, profile: &Profile, level: f64) -> Inte
         (Some(first), Some(last)) => (*first, *last),
         _ => (0, last),
     };
-    let crossing = |mut inner: f64, mut outer: f64| {
+    // The end between a place inside and one outside, and whether the profile jumps there.
+    let crossing = |inside: usize, outside: usize| {
+        let (mut inner, mut outer) = (profile.place[inside], profile.place[outside]);
+        let starts = [&best.place[..], &profile.at[inside], &profile.at[outside]];
+        let mut rises = [profile.rise[inside], profile.rise[outside]];
         for _ in 0..HALVINGS {
             let middle = 0.5 * (inner + outer);
-            *(if rise(best, axis, middle) <= level {
-                &mut inner
-            } else {
-                &mut outer
-            }) = middle;
+            let found = rise(best, axis, middle, &starts).1;
+            match found <= level {
+                true => (inner, rises[0]) = (middle, found),
+                false => (outer, rises[1]) = (middle, found),
+            }
         }
-        0.5 * (inner + outer)
+        (0.5 * (inner + outer), rises[1] - rises[0] > JUMP)
     };
     let open = [first_in == 0, last_in == last];
+    let (low, low_jumps) = match open[0] {
+        true => (-1.0, false),
+        false => crossing(first_in, first_in - 1),
+    };
+    let (high, high_jumps) = match open[1] {
+        true => (1.0, false),
+        false => crossing(last_in, last_in + 1),
+    };
     Interval {
-        low: match open[0] {
-            true => -1.0,
-            false => crossing(profile.place[first_in], profile.place[first_in - 1]),
-        },
-        high: match open[1] {
-            true => 1.0,
-            false => crossing(profile.place[last_in], profile.place[last_in + 1]),
-        },
+        low,
+        high,
         open,
+        jumps: [low_jumps, high_jumps],
     }
 }
 
@@ -104,7 +132,7 @@ pub fn contour(best: &Best, axes: [usize; 2], level: f64) -> Vec<[f64; 2]> {
     let rise = |point: [f64; 2]| {
         let mut fixed = vec![None; best.place.len()];
         (fixed[a], fixed[b]) = (Some(point[0]), Some(point[1]));
-        minimise(&best.surface, &fixed, Some(&best.place)).1 - best.chi_square
+        minimise(&best.surface, &fixed, &[&best.place]).1 - best.chi_square
     };
     let spread = best.covariance();
     let (along_a, shared) = (spread[(a, a)].sqrt(), spread[(a, b)] / spread[(a, a)].sqrt());

@@ -78,9 +78,7 @@ pub struct Fit {
 pub fn search(problem: &Problem<'_>, watch: &Watch<'_>) -> Result<Fit, String> {
     let ranges = problem.measured.ranges;
     let basis = Basis::new(ranges.len());
-    let whole: Sides = (ranges.iter())
-        .map(|range| (range.scaled(range.from), range.scaled(range.to)))
-        .collect();
+    let whole = whole(ranges);
     let mut sides = whole.clone();
     let mut wanted = FIRST_REPLICAS.min(problem.most_replicas);
     let (mut runs, mut rounds) = (0, 1);
@@ -111,16 +109,23 @@ pub fn search(problem: &Problem<'_>, watch: &Watch<'_>) -> Result<Fit, String> {
                     ranges[axis].to
                 ));
             }
-            return match enclosed(&fit, &whole) {
-                true => Ok(Fit { runs, rounds, ..fit }),
-                false => Err(format!(
+            if !enclosed(&fit, &whole) {
+                return Err(format!(
                     "--over: the best values were not enclosed in {rounds} boxes; a narrower range near {:?} may do",
                     fit.values(&fit.best.place)
-                )),
-            };
+                ));
+            }
+            fit.is_smooth()?;
+            return Ok(Fit { runs, rounds, ..fit });
         }
         wanted = enough(wanted, share).min(problem.most_replicas);
     }
+}
+
+fn whole(ranges: &[Range]) -> Sides {
+    (ranges.iter())
+        .map(|range| (range.scaled(range.from), range.scaled(range.to)))
+        .collect()
 }
 
 /// The values of the parameters at a place of a box.
@@ -200,6 +205,9 @@ fn enclosed(fit: &Fit, whole: &Sides) -> bool {
 /// Standard uncertainties beyond so many ranges say that no model value changes with a parameter.
 const UNTOLD: f64 = 10.0;
 
+/// Ends of 68 and 95 % closer than this share of the distance from the best place are one end: those of a parabola are half of it apart.
+const SAME: f64 = 0.02;
+
 impl Fit {
     /// A parameter of which the points tell nothing.
     fn untold(&self) -> Option<usize> {
@@ -247,7 +255,35 @@ impl Fit {
         Interval {
             low: self.value(axis, found.low),
             high: self.value(axis, found.high),
-            open: found.open,
+            ..found
         }
+    }
+
+    /// Whether every profile rises through the ends of its intervals without a jump, and those of 68 % lie inside those of 95 %.
+    ///
+    /// # Errors
+    ///
+    /// The parameter whose intervals cannot be told, and what to do.
+    pub(super) fn is_smooth(&self) -> Result<(), String> {
+        for (axis, range) in self.ranges.iter().enumerate() {
+            let [inner, outer] = [0.68, 0.95]
+                .map(|confidence| interval(&self.best, axis, &self.profiles[axis], rise_of(confidence)));
+            let centre = self.best.place[axis];
+            let same = |inner: f64, outer: f64, open: bool| {
+                !open && (outer - inner).abs() < SAME * (outer - centre).abs()
+            };
+            if inner.jumps != [false; 2]
+                || outer.jumps != [false; 2]
+                || same(inner.low, outer.low, outer.open[0])
+                || same(inner.high, outer.high, outer.open[1])
+            {
+                return Err(format!(
+                    "--over {}: χ² jumps along it where the other parameters change to another minimum, so that its intervals have no end \
+                     there; a narrower range, or one parameter less, may do",
+                    range.label()
+                ));
+            }
+        }
+        Ok(())
     }
 }

@@ -130,12 +130,26 @@ pub(super) fn standard_errors(names: &[String], values: &[f64], certified: &[f64
     }))
 }
 
-/// NaN where one is negative: that is no standard error.
+/// NaN where one is not above 0: the mean of a random sample has an error.
 fn largest_standard_error(names: &[String], answer: &Answer) -> f64 {
     let of_row = |row: &Vec<f64>| {
-        largest(with_errors(names).map(|(_, se)| if row[se] >= 0.0 { row[se] } else { f64::NAN }))
+        largest(with_errors(names).map(|(_, se)| if row[se] > 0.0 { row[se] } else { f64::NAN }))
     };
     largest(answer.rows.iter().map(of_row))
+}
+
+/// A standard error that is not above 0.
+fn without_error(loaded: &LoadedProblem, answer: &Answer) -> Option<String> {
+    let names = &loaded.problem.columns[loaded.problem.kind.keys().len()..];
+    let none = |(row, values): (usize, &Vec<f64>)| {
+        let (_, se) = with_errors(names).find(|(_, se)| values[*se] <= 0.0)?;
+        let place = format!("{}:{}", answer.path.display(), answer.lines[row]);
+        let (name, found) = (&names[se], values[se]);
+        Some(format!(
+            "{place}: {name} = {found}; the mean of a random sample has a standard error above 0"
+        ))
+    };
+    answer.rows.iter().enumerate().find_map(none)
 }
 
 fn remark(
@@ -148,6 +162,9 @@ fn remark(
     let place = || format!("{}:{}", answer.path.display(), answer.lines[row]);
     if error.is_nan() {
         return Some(format!("{}: a value is not finite", place()));
+    }
+    if let Some(none) = without_error(loaded, answer) {
+        return Some(none);
     }
     if let Some(ensemble) = &loaded.problem.ensemble
         && (largest_se.is_nan() || largest_se > ensemble.largest_standard_error)

@@ -121,7 +121,7 @@ fn one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, 
     if let Some(path) = &found.answer {
         finest = Some((None, read(path)?));
     }
-    let mut graded = Graded::without_answer(&problem.name, problem.kind, problem.tolerance, &problem.because);
+    let mut graded = Graded::without_answer(loaded);
     let Some((steps, answer)) = finest else {
         graded.note = Some(format!("no answer.csv and no steps-N.csv in {}", dir.display()));
         return Ok(graded);

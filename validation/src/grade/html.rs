@@ -1,6 +1,6 @@
 //! The report as one HTML file with its pictures, which needs nothing else.
 
-use super::report::{number, tables, words};
+use super::report::{number, origin, tables, words};
 use super::{Graded, Report, Verdict};
 use crate::table::ReportTable;
 use crate::text::readable;
@@ -29,6 +29,7 @@ struct ProblemRow<'a> {
     word: &'static str,
     class: &'static str,
     name: &'a str,
+    origin: &'static str,
     error: String,
     tolerance: String,
     because: &'a str,
@@ -72,8 +73,10 @@ fn row(graded: &Graded) -> ProblemRow<'_> {
             Verdict::Pass => "pass",
             Verdict::Fail => "fail",
             Verdict::Missing => "nodata",
+            Verdict::NotReached => "underpowered",
         },
         name: &graded.name,
+        origin: origin(graded),
         error: number(graded.error),
         tolerance: number(Some(graded.tolerance)),
         because: &graded.because,

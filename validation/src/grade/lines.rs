@@ -1,5 +1,6 @@
 //! Lines of a text file, read one by one in bounded memory, with their numbers.
 
+use crate::input;
 use crate::problems::ReadError;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
@@ -34,7 +35,7 @@ impl Lines {
         let failed = |error: std::io::Error| ReadError::whole(path, format!("cannot be read: {error}"));
         Ok(Self {
             path: path.to_owned(),
-            reader: BufReader::new(File::open(path).map_err(failed)?),
+            reader: BufReader::new(input::open(path).map_err(failed)?),
             number: 0,
             ends,
         })

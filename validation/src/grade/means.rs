@@ -183,7 +183,7 @@ mod tests {
     use crate::problems;
 
     fn problem() -> Problem {
-        problems::build("unequal-rods").unwrap().problem
+        problems::named("unequal-rods").unwrap().problem.clone()
     }
 
     #[test]

@@ -26,7 +26,7 @@ pub use layout::{Foreign, Told};
 pub use lines::LineEnds;
 pub use report::{Report, json, junit, markdown, terminal};
 
-use crate::problems::Kind;
+use crate::problems::{Kind, LoadedProblem, Origin};
 use serde::Serialize;
 
 /// How a problem ended.
@@ -39,6 +39,9 @@ pub enum Verdict {
     Fail,
     /// There is no answer.
     Missing,
+    /// Time ran out before the answers came within the tolerance, or showed that they would not: no pass, and no failure.
+    #[serde(rename = "NOT REACHED")]
+    NotReached,
 }
 
 impl Verdict {
@@ -48,6 +51,7 @@ impl Verdict {
             Self::Pass => "PASS",
             Self::Fail => "FAIL",
             Self::Missing => "MISSING",
+            Self::NotReached => "NOT REACHED",
         }
     }
 }
@@ -57,6 +61,8 @@ impl Verdict {
 pub struct Graded {
     /// The problem.
     pub name: String,
+    /// Whose problem it is.
+    pub reference: Origin,
     /// What it asks for.
     pub kind: Kind,
     /// The verdict.
@@ -91,14 +97,16 @@ pub struct Graded {
 
 impl Graded {
     /// A problem without an answer.
-    pub fn without_answer(name: &str, kind: Kind, tolerance: f64, because: &str) -> Self {
+    pub fn without_answer(loaded: &LoadedProblem) -> Self {
+        let problem = &loaded.problem;
         Self {
-            name: name.to_owned(),
-            kind,
+            name: problem.name.clone(),
+            reference: loaded.origin,
+            kind: problem.kind,
             verdict: Verdict::Missing,
             error: None,
-            tolerance,
-            because: because.to_owned(),
+            tolerance: problem.tolerance,
+            because: problem.because.clone(),
             observed_order: None,
             diagnosis: None,
             note: None,

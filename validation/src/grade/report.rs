@@ -2,6 +2,7 @@
 
 use super::live::Studies;
 use super::{Graded, Verdict};
+use crate::problems::Origin;
 use crate::table::{ReportTable, of_words};
 use crate::text::escaped;
 use serde::Serialize;
@@ -33,22 +34,44 @@ impl Report {
             .count()
     }
 
-    /// Whether a problem passes and none fails. A missing answer is neither, as a case without data is in `validate`, but
-    /// where `all` are wanted.
+    /// Whether a problem passes, and none fails or was not reached. A missing answer is neither, as a case without data is
+    /// in `validate`, but where `all` are wanted.
     pub fn passes(&self, all: bool) -> bool {
+        let not = self.count(Verdict::Fail) + self.count(Verdict::NotReached);
         let missing = self.count(Verdict::Missing);
-        self.count(Verdict::Pass) > 0 && self.count(Verdict::Fail) == 0 && !(all && missing > 0)
+        self.count(Verdict::Pass) > 0 && not == 0 && !(all && missing > 0)
     }
 
     /// The counts in words.
     pub fn headline(&self) -> String {
-        let [pass, fail, missing] = [Verdict::Pass, Verdict::Fail, Verdict::Missing].map(|v| self.count(v));
+        let [pass, fail, missing, late] = [
+            Verdict::Pass,
+            Verdict::Fail,
+            Verdict::Missing,
+            Verdict::NotReached,
+        ]
+        .map(|v| self.count(v));
         let mut words = format!("{pass} of {} problems pass", self.problems.len());
         if fail > 0 {
             words += &format!(", {fail} FAIL");
         }
         if missing > 0 {
             words += &format!(", {missing} MISSING (no answer: neither passed nor failed)");
+        }
+        if late > 0 {
+            words += &format!(", {late} NOT REACHED (time ran out: not passed)");
+        }
+        let foreign = self
+            .problems
+            .iter()
+            .filter(|graded| graded.reference == Origin::Foreign);
+        match foreign.count() {
+            0 => {}
+            count => {
+                words += &format!(
+                    "; {count} FOREIGN (no problem of this program: its certified answer is unchecked)"
+                );
+            }
         }
         words
     }
@@ -64,12 +87,21 @@ pub(super) fn number(value: Option<f64>) -> String {
     value.map_or("–".into(), |value| format!("{value:.1e}"))
 }
 
+/// Whose problem it is, in a word.
+pub(super) fn origin(graded: &Graded) -> &'static str {
+    match graded.reference {
+        Origin::BuiltIn => "built-in",
+        Origin::Foreign => "FOREIGN",
+    }
+}
+
 /// The verdicts as a table.
 fn verdicts(report: &Report) -> ReportTable {
     let row = |graded: &Graded| {
         vec![
             graded.verdict.word().to_owned(),
             graded.name.clone(),
+            origin(graded).to_owned(),
             number(graded.error),
             number(Some(graded.tolerance)),
             graded.order_text(),
@@ -86,6 +118,7 @@ fn verdicts(report: &Report) -> ReportTable {
         &[
             "verdict",
             "problem",
+            "reference",
             "error",
             "tolerance",
             "order",
@@ -152,9 +185,10 @@ pub fn markdown(report: &Report) -> String {
     text
 }
 
-/// junit.xml: a test case for each problem. A missing answer is skipped.
+/// junit.xml: a test case for each problem. A missing answer is skipped; one that was not reached is a failure.
 pub fn junit(report: &Report) -> String {
-    let (failed, skipped) = (report.count(Verdict::Fail), report.count(Verdict::Missing));
+    let failed = report.count(Verdict::Fail) + report.count(Verdict::NotReached);
+    let skipped = report.count(Verdict::Missing);
     let mut xml = format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"shearbed grade\" tests=\"{}\" \
          failures=\"{failed}\" errors=\"0\" skipped=\"{skipped}\">\n",
@@ -165,7 +199,8 @@ pub fn junit(report: &Report) -> String {
         xml += &format!("<testcase classname=\"shearbed\" name=\"{name}\">");
         if graded.verdict != Verdict::Pass {
             let message = format!(
-                "error {}, tolerance {}; {}",
+                "{}: error {}, tolerance {}; {}",
+                graded.verdict.word(),
                 number(graded.error),
                 number(Some(graded.tolerance)),
                 words(graded).join("; ")
@@ -185,14 +220,16 @@ pub fn junit(report: &Report) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::problems::Kind;
+    use crate::problems;
     use crate::xml::is_well_formed;
 
     fn report() -> Report {
+        let sphere = problems::named("sphere").unwrap().loaded("sphere".into());
         let graded = |name: &str, verdict, error| Graded {
+            name: name.to_owned(),
             verdict,
             error,
-            ..Graded::without_answer(name, Kind::Rods, 1e-9, "why")
+            ..Graded::without_answer(&sphere)
         };
         let mut bad = graded("b", Verdict::Fail, Some(0.5));
         bad.diagnosis = Some("this is the curve of \"x\" & <y>\u{1}, to 1e-9".into());
@@ -205,6 +242,10 @@ mod tests {
                 graded("a", Verdict::Pass, Some(1e-10)),
                 bad,
                 graded("c", Verdict::Missing, None),
+                Graded {
+                    reference: Origin::Foreign,
+                    ..graded("d", Verdict::NotReached, Some(1e-3))
+                },
             ],
             live: None,
             remarks: vec!["a remark".into()],
@@ -216,11 +257,14 @@ mod tests {
         let report = report();
         let xml = junit(&report);
         assert!(is_well_formed(xml.split_once("?>\n").unwrap().1), "{xml}");
-        assert!(xml.contains("tests=\"3\" failures=\"1\"") && xml.contains("<skipped"));
+        assert!(xml.contains("tests=\"4\" failures=\"2\"") && xml.contains("<skipped"));
         assert!(xml.contains("&quot;x&quot; &amp; &lt;y&gt;\\u{1}"));
         let json: serde_json::Value = serde_json::from_str(&json(&report).unwrap()).unwrap();
         assert_eq!(json["problems"][1]["verdict"], "FAIL");
         assert_eq!(json["problems"][2]["error"], serde_json::Value::Null);
+        assert_eq!(json["problems"][3]["verdict"], "NOT REACHED");
+        let origins = [2, 3].map(|k| json["problems"][k]["reference"].clone());
+        assert_eq!(origins, ["built-in", "foreign"]);
         for text in [terminal(&report), markdown(&report)] {
             for word in [
                 "PASS",
@@ -228,7 +272,9 @@ mod tests {
                 "MISSING",
                 "curve of",
                 "a remark",
-                "1 of 3 problems pass",
+                "1 of 4 problems pass",
+                "1 NOT REACHED",
+                "FOREIGN",
             ] {
                 assert!(text.contains(word), "{word}: {text}");
             }
@@ -240,6 +286,8 @@ mod tests {
         let mut report = report();
         assert!(!report.passes(false));
         report.problems.remove(1);
+        assert!(!report.passes(false), "one is not reached");
+        report.problems.pop();
         assert!(report.passes(false) && !report.passes(true), "one is missing");
         report.problems.remove(0);
         assert!(!report.passes(false), "none passes");

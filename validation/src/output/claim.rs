@@ -1,6 +1,7 @@
 //! The right to write in a folder, held by one process at a time.
 
-use super::{OutputError, at, refill};
+use super::{OutputError, RECORD, at, refill};
+use crate::input;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -85,9 +86,14 @@ impl Claim {
     }
 
     /// Writes all files. They are written to the disk under a hidden name; then the old files of these names are removed,
-    /// and the new ones moved into place, JSON last. So files of two sets never stand side by side, and a process
-    /// that is killed in between leaves a set without its JSON, which the next claim makes whole.
-    pub fn write_all<C: AsRef<[u8]>>(&self, files: &[(String, C)]) -> Result<(), OutputError> {
+    /// and the new ones moved into place, JSON last and the folder's record after it. So files of two sets never stand side by
+    /// side, and a process that is killed in between leaves a set without its record, which the next claim makes whole. Then
+    /// the files `left_over` of an earlier set are removed.
+    pub fn write_all<C: AsRef<[u8]>>(
+        &self,
+        files: &[(String, C)],
+        left_over: &[String],
+    ) -> Result<(), OutputError> {
         let _writing = writing();
         let part = self.dir.join(PART);
         fs::create_dir_all(&part).map_err(at(&self.dir))?;
@@ -99,7 +105,16 @@ impl Claim {
             let _ = fs::remove_dir_all(&part);
             return ready;
         }
-        self.move_into_place()
+        self.move_into_place()?;
+        left_over.iter().try_for_each(|name| self.remove(name))
+    }
+
+    fn remove(&self, name: impl AsRef<Path>) -> Result<(), OutputError> {
+        let path = self.dir.join(name);
+        match fs::remove_file(&path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(at(&path)(error)),
+            _ => Ok(()),
+        }
     }
 
     fn no_folder_in_the_way<C>(&self, files: &[(String, C)]) -> Result<(), OutputError> {
@@ -114,19 +129,10 @@ impl Claim {
         let ready = self.dir.join(READY);
         let mut names = names(&ready).map_err(at(&self.dir))?;
         names.sort_by_key(|name| {
-            (
-                name.extension().is_some_and(|ending| ending == "json"),
-                name.clone(),
-            )
+            let json = name.extension().is_some_and(|ending| ending == "json");
+            (name == Path::new(RECORD), json, name.clone())
         });
-        for name in names.iter().rev() {
-            match fs::remove_file(self.dir.join(name)) {
-                Err(error) if error.kind() != io::ErrorKind::NotFound => {
-                    return Err(at(&self.dir.join(name))(error));
-                }
-                _ => (),
-            }
-        }
+        names.iter().rev().try_for_each(|name| self.remove(name))?;
         for name in names {
             let target = self.dir.join(&name);
             let folder = target.parent().unwrap_or(&self.dir);
@@ -189,9 +195,14 @@ impl Lock {
         let file = loop {
             fs::create_dir_all(dir).map_err(&at)?;
             let mut options = OpenOptions::new();
-            let file = match options.write(true).create(true).truncate(false).open(&path) {
+            options.write(true).create(true).truncate(false);
+            let file = match input::open_with(&path, &mut options) {
                 // The folder was removed just now.
                 Err(error) if error.kind() == io::ErrorKind::NotFound && !dir.exists() => continue,
+                Err(error) if error.kind() == io::ErrorKind::InvalidInput => {
+                    let why = format!("{name}: {error}, or none; remove it");
+                    return Err(at(io::Error::new(error.kind(), why)));
+                }
                 file => file.map_err(&at)?,
             };
             match file.try_lock() {

@@ -58,8 +58,10 @@ impl Replaced {
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<Part<'_>, OutputError> {
         let writing = writing();
+        // What is in the way of it stays.
+        let part = anew(&self.part).map_err(at(&self.path))?;
         let written = || {
-            let mut file = BufWriter::new(File::create(&self.part)?);
+            let mut file = BufWriter::new(part);
             write(&mut file)?;
             file.into_inner().map_err(io::IntoInnerError::into_error)
         };
@@ -80,6 +82,20 @@ impl Replaced {
     }
 }
 
+/// A new file in place of what a killed process left of one; what is no regular file, as a link or a pipe, is refused.
+fn anew(path: &Path) -> io::Result<File> {
+    match fs::symlink_metadata(path) {
+        Ok(found) if found.is_file() => fs::remove_file(path)?,
+        Ok(_) => {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let why = format!("{name} beside it is in the way: it is no regular file; remove it");
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
+        }
+        Err(_) => {}
+    }
+    File::create_new(path)
+}
+
 /// What was written and is not yet in its place. Nothing else is written meanwhile.
 pub struct Part<'a> {
     of: &'a Replaced,
@@ -94,10 +110,16 @@ impl Part<'_> {
         let moved = self.file.sync_all().and_then(|()| fs::rename(part, path));
         moved.map_err(|error| self.of.given_up(error))?;
         // Where a folder cannot be synchronised, the name comes to the disk when the system likes.
-        let dir = part.parent().map(File::open);
-        let _ = dir
-            .transpose()
-            .and_then(|dir| dir.map_or(Ok(()), |dir| dir.sync_all()));
+        let _ = part.parent().map(synchronise);
         Ok(())
     }
+}
+
+/// Brings the names in a folder to the disk.
+#[expect(
+    clippy::disallowed_methods,
+    reason = "a folder, which input::open refuses, and which nothing waits for"
+)]
+fn synchronise(dir: &Path) -> io::Result<()> {
+    File::open(dir)?.sync_all()
 }

@@ -1,14 +1,16 @@
 //! Reference problems for any program: what is asked, from which start, and the certified answer, as folders of files.
 //!
 //! `all` is the registry. `export` writes a folder a problem: `problem.json` ([`Problem`]), `start.csv` where rods are
-//! given, `inputs.csv` where pairs in contact are given, `certified.csv`, `README.md`. `read` reads such folders back and
-//! refuses whatever is not as `export` writes it.
+//! given, `inputs.csv` where pairs in contact are given, `certified.csv`, `README.md`. `read` reads such folders back. A folder
+//! with the name of a built-in problem is refused where it differs from it; one of another name is [`Origin::Foreign`].
 
 mod asked;
+mod check;
 pub(crate) mod contact;
 mod ensemble;
 mod export;
 mod flows;
+mod origin;
 mod page;
 mod read;
 mod rods;
@@ -23,7 +25,7 @@ pub use table::{ReadError, Table};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
-use std::sync::LazyLock;
+use std::sync::{LazyLock, OnceLock};
 
 /// The version of the files' format that is written and read.
 pub const FORMAT: u32 = 1;
@@ -65,6 +67,16 @@ pub enum Metric {
     Relative,
     /// |answer − certified| / (se² + certified se²)^½, the largest of a row; column `x` has its error in `x_se`.
     StandardErrors,
+}
+
+/// Whose problem it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Origin {
+    /// A problem of this program, unchanged.
+    BuiltIn,
+    /// Somebody else's: what it certifies has not been checked.
+    Foreign,
 }
 
 /// One problem, as in `problem.json`. Numbers are exact: an answer belongs to these doubles.
@@ -137,6 +149,8 @@ pub struct Ensemble {
 pub struct LoadedProblem {
     /// Its folder.
     pub dir: PathBuf,
+    /// Whose problem it is.
+    pub origin: Origin,
     /// `problem.json`.
     pub problem: Problem,
     /// `start.csv`: p of each rod at t = 0, in order of `rod` from 0; empty where none are given.
@@ -175,6 +189,7 @@ pub struct ProblemDef {
     /// One line.
     pub title: &'static str,
     build: Build,
+    built: OnceLock<Built>,
 }
 
 type Build = Box<dyn Fn(&ProblemDef) -> Built + Send + Sync>;
@@ -185,13 +200,49 @@ impl ProblemDef {
         title: &'static str,
         build: impl Fn(&Self) -> Built + Send + Sync + 'static,
     ) -> Self {
-        let build = Box::new(build);
-        Self { name, title, build }
+        Self {
+            name,
+            title,
+            build: Box::new(build),
+            built: OnceLock::new(),
+        }
     }
 
-    /// Computes its certified answer.
-    pub fn build(&self) -> Built {
-        (self.build)(self)
+    /// The problem with its certified answer, which is computed once.
+    pub fn built(&self) -> &Built {
+        if let Some(built) = self.built.get() {
+            return built;
+        }
+        // Not under the lock: a thread that waits for parts of it may take up another task that needs it.
+        let built = (self.build)(self);
+        self.built.get_or_init(|| built)
+    }
+}
+
+impl Built {
+    /// The problem as it is read from a folder to which it was exported.
+    ///
+    /// # Panics
+    ///
+    /// Where a certified number is no number: the tests of the problems hold that none is.
+    pub fn loaded(&self, dir: PathBuf) -> LoadedProblem {
+        let number = |text: &String| text.parse::<f64>().expect("a certified number");
+        let rows = self.certified.iter().map(|row| row.iter().map(number).collect());
+        let numbered = |(at, row): (usize, &Vec<f64>)| [&[at as f64], &row[..]].concat();
+        LoadedProblem {
+            dir,
+            origin: Origin::BuiltIn,
+            problem: self.problem.clone(),
+            start: self.start.clone(),
+            inputs: (!self.inputs.is_empty()).then(|| Table {
+                columns: INPUT_COLUMNS.map(String::from).into(),
+                rows: self.inputs.iter().enumerate().map(numbered).collect(),
+            }),
+            certified: Table {
+                columns: self.problem.columns.clone(),
+                rows: rows.collect(),
+            },
+        }
     }
 }
 
@@ -209,18 +260,17 @@ pub fn all() -> &'static [ProblemDef] {
     &ALL
 }
 
-/// Every problem with its certified answer, computed once.
-pub fn built() -> &'static [Built] {
-    static BUILT: LazyLock<Vec<Built>> = LazyLock::new(|| all().par_iter().map(ProblemDef::build).collect());
-    &BUILT
+/// Every problem with its certified answer.
+pub fn built() -> Vec<&'static Built> {
+    all().par_iter().map(ProblemDef::built).collect()
 }
 
-/// Those about given free rods, which are built in moments.
-pub fn free_rods() -> Vec<ProblemDef> {
-    rods::problems()
+/// The names of those about given free rods.
+pub fn free_rods() -> Vec<&'static str> {
+    rods::problems().iter().map(|def| def.name).collect()
 }
 
 /// The problem of this name with its certified answer, or none.
-pub fn build(name: &str) -> Option<Built> {
-    all().iter().find(|def| def.name == name).map(ProblemDef::build)
+pub fn named(name: &str) -> Option<&'static Built> {
+    all().iter().find(|def| def.name == name).map(ProblemDef::built)
 }

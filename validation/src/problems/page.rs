@@ -84,7 +84,7 @@ fn model(problem: &Problem, ensemble: &Ensemble) -> String {
          others take Jeffery's exact step. Then x_2 grows by G x_1 Δt; a rod that leaves at x_2 ≥ H comes back at x_2 − H with \
          x_1 = H√R, x_3 = H R′ (eq. 14), its axis and r_e kept.\n\n\
          x_1, x_2, x_3 in the columns are the means over rods and replicas of |p_1|, |p_2|, |p_3|; `x1_se` is the standard error \
-         over replicas of x1. Take at least 100 replicas, and enough for a standard error of {} or less. The certified means are \
+         over replicas of x1. Take at least 1000 replicas, and enough for a standard error of {} or less. The certified means are \
          from {} replicas.",
         ensemble.count,
         ensemble.length_mm,

@@ -1,14 +1,19 @@
 //! Reading exported problems back.
 
+use super::check;
+use super::origin::origin;
 use super::table::{self, ReadError, Table};
-use super::{FORMAT, Kind, LoadedProblem, Problem};
+use super::{FORMAT, Kind, LoadedProblem, Origin, Problem};
 use std::fs;
 use std::path::Path;
 
 /// The problems in the folders of `dir`, by name. Folders without `problem.json` are not looked at.
 ///
-/// Refused, with file, line and column: another format version, an unknown key, a table with other columns, fields or
-/// keys than the problem has, a number that is not finite, and a folder without any problem.
+/// # Errors
+///
+/// File, line and column of: another format version, an unknown key, keys that do not belong together or are out of range,
+/// a table with other columns, fields or keys than the problem has, a number that is not finite, a folder with the name of
+/// a built-in problem that differs from it, and a folder without any problem.
 pub fn read(dir: &Path) -> Result<Vec<LoadedProblem>, ReadError> {
     let failed = |error: std::io::Error| ReadError::whole(dir, format!("cannot be read: {error}"));
     let mut folders = Vec::new();
@@ -29,7 +34,12 @@ pub fn read(dir: &Path) -> Result<Vec<LoadedProblem>, ReadError> {
 
 fn read_one(dir: &Path) -> Result<LoadedProblem, ReadError> {
     let path = dir.join("problem.json");
-    let problem = problem(&path)?;
+    let json = table::text(&path)?;
+    let problem = problem(&path, &json)?;
+    let refused = |(key, message): check::Refused| {
+        ReadError::at(&path, line_of(&json, key), 0, format!("{key} = {message}"))
+    };
+    check::check(dir, &problem).map_err(refused)?;
     let start = match problem.kind {
         Kind::Rods => start(&dir.join("start.csv"))?,
         _ => Vec::new(),
@@ -41,85 +51,55 @@ fn read_one(dir: &Path) -> Result<LoadedProblem, ReadError> {
     let columns: Vec<_> = problem.columns.iter().map(String::as_str).collect();
     let certified_path = dir.join("certified.csv");
     let certified = table::read(&certified_path, &columns)?;
-    let loaded = LoadedProblem {
+    let mut loaded = LoadedProblem {
         dir: dir.to_owned(),
+        origin: Origin::Foreign,
         problem,
         start,
         inputs,
         certified,
     };
     check_keys(&certified_path, &loaded)?;
+    check::tables(&loaded)?;
+    loaded.origin = origin(&loaded, &json)?;
     Ok(loaded)
 }
 
-fn problem(path: &Path) -> Result<Problem, ReadError> {
-    let text = table::text(path)?;
+/// The line of a key in a text of JSON, 0 where it is not there.
+pub(super) fn line_of(json: &str, key: &str) -> u64 {
+    let key = format!("\"{key}\"");
+    let lines = json.lines().position(|line| line.contains(&key));
+    lines.map_or(0, |at| at as u64 + 1)
+}
+
+fn problem(path: &Path, text: &str) -> Result<Problem, ReadError> {
     let wrong = |error: serde_json::Error| {
         ReadError::at(
             path,
             error.line() as u64,
             error.column() as u64,
-            error.to_string(),
+            check::cut(&error.to_string()),
         )
     };
     // The version first: another format may have other keys.
-    let value: serde_json::Value = serde_json::from_str(&text).map_err(wrong)?;
+    let value: serde_json::Value = serde_json::from_str(text).map_err(wrong)?;
     if value["format"] != FORMAT {
-        let message = format!("format = {}; this program reads {FORMAT}", value["format"]);
-        let line = (text.lines().position(|line| line.contains("\"format\""))).map_or(0, |at| at as u64 + 1);
-        return Err(ReadError::at(path, line, 0, message));
+        let found = check::cut(&value["format"].to_string());
+        let message = format!("format = {found}; this program reads {FORMAT}");
+        return Err(ReadError::at(path, line_of(text, "format"), 0, message));
     }
-    let problem: Problem = serde_json::from_str(&text).map_err(wrong)?;
-    check(path, &problem)?;
-    Ok(problem)
-}
-
-fn check(path: &Path, problem: &Problem) -> Result<(), ReadError> {
-    let refuse = |message: String| Err(ReadError::whole(path, message));
-    let keys = problem.kind.keys();
-    if !(problem.columns.len() > keys.len() && problem.columns.iter().zip(keys).all(|(a, b)| a == b)) {
-        return refuse(format!(
-            "columns: they must begin with {}, and have more",
-            keys.join(",")
-        ));
-    }
-    if !(problem.tolerance > 0.0 && problem.tolerance.is_finite()) {
-        return refuse(format!("tolerance = {}: must be positive", problem.tolerance));
-    }
-    let ascending = problem.times_s.windows(2).all(|pair| pair[0] < pair[1]);
-    if !ascending || problem.times_s.is_empty() != (problem.kind == Kind::Contact) {
-        return refuse("times_s: must ascend, and be empty for contacts only".into());
-    }
-    if (problem.kind == Kind::Ensemble) != problem.ensemble.is_some() {
-        return refuse("ensemble: must be there for the kind \"ensemble\", and for no other".into());
-    }
-    Ok(())
+    serde_json::from_str(text).map_err(wrong)
 }
 
 fn start(path: &Path) -> Result<Vec<[f64; 3]>, ReadError> {
     let table = table::read(path, &["rod", "p1", "p2", "p3"])?;
     let direction = |(rod, row): (usize, &Vec<f64>)| {
-        let line = rod as u64 + 2;
+        let wrong = |column: u64, message: String| ReadError::at(path, rod as u64 + 2, column, message);
         if row[0] != rod as f64 {
-            return Err(ReadError::at(
-                path,
-                line,
-                1,
-                format!("rod {}; rod {rod} is next", row[0]),
-            ));
+            return Err(wrong(1, format!("rod {}; rod {rod} is next", row[0])));
         }
-        let p = [row[1], row[2], row[3]];
-        let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
-        // The rounding of three numbers near 1.
-        if (length - 1.0).abs() > 4.0 * f64::EPSILON {
-            return Err(ReadError::at(
-                path,
-                line,
-                2,
-                format!("|p| = {length}; it must be 1"),
-            ));
-        }
-        Ok(p)
+        check::unit(&row[1..]).map_err(|message| wrong(2, message))?;
+        Ok([row[1], row[2], row[3]])
     };
     table.rows.iter().enumerate().map(direction).collect()
 }

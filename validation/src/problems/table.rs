@@ -1,7 +1,9 @@
 //! CSV tables of numbers, read strictly: an error names file, line and column.
 
+use super::check::cut;
+use crate::input;
+use crate::text::Shown;
 use std::fmt;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A table of finite numbers.
@@ -52,7 +54,7 @@ impl ReadError {
 
 impl fmt::Display for ReadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.path.display())?;
+        write!(f, "{}", self.path.shown())?;
         for place in [self.line, self.column].iter().take_while(|place| **place > 0) {
             write!(f, ":{place}")?;
         }
@@ -62,16 +64,10 @@ impl fmt::Display for ReadError {
 
 impl std::error::Error for ReadError {}
 
-/// A file's text. `u64::MAX` bytes are no file of a problem: at most 100 MB are read.
+/// A file's text, of at most 100 MB.
 pub(super) fn text(path: &Path) -> Result<String, ReadError> {
     const MOST: u64 = 100_000_000;
-    let failed = |error: std::io::Error| ReadError::whole(path, format!("cannot be read: {error}"));
-    let bytes = fs::metadata(path).map_err(failed)?.len();
-    if bytes > MOST {
-        let message = format!("{bytes} bytes; at most {MOST} are allowed");
-        return Err(ReadError::whole(path, message));
-    }
-    fs::read_to_string(path).map_err(failed)
+    input::text(path, MOST).map_err(|error| ReadError::whole(path, format!("cannot be read: {error}")))
 }
 
 /// The table of a file with exactly these columns, at least one row, and finite numbers only.
@@ -83,7 +79,11 @@ fn parse(path: &Path, text: &str, columns: &[&str]) -> Result<Table, ReadError> 
     let mut lines = (1..).zip(text.lines());
     let header = lines.next().map_or("", |(_, header)| header);
     if header != columns.join(",") {
-        let message = format!("the header is {header:?}; it must be {:?}", columns.join(","));
+        let message = format!(
+            "the header is {:?}; it must be {:?}",
+            cut(header),
+            columns.join(",")
+        );
         return Err(ReadError::at(path, 1, 0, message));
     }
     let row = |(line, text): (u64, &str)| {
@@ -98,7 +98,7 @@ fn parse(path: &Path, text: &str, columns: &[&str]) -> Result<Table, ReadError> 
                 path,
                 line,
                 column,
-                format!("{field:?} is no finite number"),
+                format!("{:?} is no finite number", cut(field)),
             )),
         };
         (1..).zip(&fields).map(number).collect()

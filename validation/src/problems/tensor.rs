@@ -161,7 +161,7 @@ mod tests {
 
     #[test]
     fn the_table_of_unequal_rods_is_computed_anew_and_by_a_quadrature_in_doubles() {
-        let built = crate::problems::build("unequal-rods").unwrap();
+        let built = crate::problems::named("unequal-rods").unwrap();
         let (r, sd_percent) = (built.problem.aspect_ratio, built.problem.aspect_ratio_sd_percent);
         let rate = built.problem.gradient_per_s[1][0];
         // A quarter of a period: d = 2/π, and steps of 1/16 are d/10.

@@ -4,7 +4,7 @@ use super::{CaseRow, Origin, Report, ReportEquation, ReportFigure, ReportTable, 
 use serde::Serialize;
 
 /// The number of this form; `schemas/report.schema.json` describes it.
-const FORMAT: u32 = 2;
+pub(crate) const FORMAT: u32 = 2;
 
 #[derive(Serialize)]
 struct Written<'a> {

@@ -15,6 +15,7 @@ mod sections;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use json::FORMAT;
 pub(crate) use markdown::equation_table;
 
 use crate::accept::{FALSE_ALARM_BUDGET, Verdict};

@@ -3,8 +3,10 @@
 use super::ScenePlan;
 use super::formats::utc;
 use crate::build::BUILD;
+use crate::input;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -69,8 +71,11 @@ fn unknown() -> String {
     "unknown".into()
 }
 
+/// The longest description of processors: some kB for each.
+const MOST_BYTES: u64 = 64 << 20;
+
 fn processor() -> Option<String> {
-    if let Ok(text) = std::fs::read_to_string("/proc/cpuinfo") {
+    if let Ok(text) = input::text(Path::new("/proc/cpuinfo"), MOST_BYTES) {
         let line = text.lines().find(|line| line.starts_with("model name"))?;
         return line.split_once(':').map(|(_, name)| name.trim().to_string());
     }

@@ -6,9 +6,11 @@ use super::Point;
 use super::axis::{Axis, shown};
 use crate::build;
 use crate::difference::difference;
-use crate::output::{self, Claim, Output, OutputError};
+use crate::input;
+use crate::output::{self, Author, Claim, Output, OutputError, RECORD, Refused};
+use crate::text::Shown;
 use crate::text::cell;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use shearbed::Scene;
 use shearbed::scene::Orientation;
 use std::collections::BTreeMap;
@@ -57,20 +59,8 @@ impl Identity {
     }
 }
 
-/// Why a folder was left as it is.
-#[derive(Debug)]
-pub enum Refused {
-    /// It holds something else.
-    Other(String),
-    /// It cannot be written.
-    Output(OutputError),
-}
-
-impl From<OutputError> for Refused {
-    fn from(error: OutputError) -> Self {
-        Self::Output(error)
-    }
-}
+/// The longest table of a point, and the longest record.
+const MOST_BYTES: u64 = 1 << 30;
 
 /// The points of a sweep, as its folder knows them.
 pub struct Points {
@@ -81,57 +71,69 @@ pub struct Points {
 }
 
 /// The folder of one sweep, in which no other process writes while this lives.
-pub struct Folder {
+pub struct Folder<'a> {
     dir: PathBuf,
+    author: &'a Author,
+    /// What `sweep.json` says.
+    identity: String,
     points: Points,
     claim: Claim,
 }
 
-impl Folder {
+impl<'a> Folder<'a> {
     /// Opens the folder, or makes it. One that holds another sweep, files of unknown origin under the names of a
-    /// sweep's, or a point that is not as it was written is refused and left as it is; so is one in which another process
-    /// is at work.
-    pub fn open(dir: &Path, identity: &Identity, points: Points) -> Result<Self, Refused> {
-        let path = dir.join("sweep.json");
-        let at = |what: String| {
-            let path = path.display();
-            Refused::Other(format!(
-                "{path}: {what}; give another --out, or remove the folder; nothing was changed"
-            ))
-        };
+    /// sweep's, or a point that is not as it was written is refused and left as it is, but by the author's force, which
+    /// empties it of what stood there of a sweep; so is one in which another process is at work.
+    pub fn open(
+        dir: &Path,
+        author: &'a Author,
+        identity: &Identity,
+        points: Points,
+    ) -> Result<Self, Refused> {
         let claim = Claim::new(dir, Duration::ZERO)?;
-        match fs::read_to_string(&path) {
-            Ok(text) => {
-                let found: Value = serde_json::from_str(&text)
-                    .map_err(|error| at(format!("is no record of a sweep: {error}")))?;
-                // As text: what was written and read again is compared with the same.
-                let own: Value = serde_json::from_str(&identity.text()).unwrap_or_default();
-                if let Some((key, kept, own)) = difference(&found, &own) {
-                    let what = format!("another sweep is kept here: {key} was {kept} and is {own} now");
-                    return Err(at(what));
-                }
-            }
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                for name in ["points", "sweep.csv"] {
-                    if dir.join(name).exists() {
-                        return Err(at(format!("is missing beside {name}, whose origin nobody knows")));
-                    }
-                }
-                claim.write_all(&[("sweep.json".to_owned(), identity.text())])?;
-            }
-            Err(error) => return Err(at(format!("cannot be read: {error}"))),
+        let own = author.has_written(dir);
+        // Without a record, points are of unknown origin too.
+        let names = ["sweep.json", "sweep.csv", "points"];
+        author.check(dir, if own { &names[..2] } else { &names })?;
+        let folder = Self {
+            dir: dir.to_owned(),
+            author,
+            identity: identity.text(),
+            points,
+            claim,
+        };
+        if !own {
+            folder.begin()?;
         }
-        let dir = dir.to_owned();
-        let folder = Self { dir, points, claim };
         (folder.finished().into_iter()).try_for_each(|k| folder.kept(k).map(drop))?;
         Ok(folder)
     }
 
+    /// Makes the folder this sweep's: what another one left in it goes.
+    fn begin(&self) -> Result<(), OutputError> {
+        let points = self.dir.join("points");
+        let failed = |reason| OutputError {
+            path: points.clone(),
+            reason,
+        };
+        for entry in fs::read_dir(&points).into_iter().flatten() {
+            let path = entry.map_err(failed)?.path();
+            if path.join(POINT).is_file() {
+                fs::remove_dir_all(&path).map_err(failed)?;
+            }
+        }
+        let files = vec![("sweep.json".to_owned(), self.identity.clone())];
+        let mut left_over = output::left_over(&self.dir, &["sweep.json".to_owned()]);
+        left_over.push("sweep.csv".to_owned());
+        let record = (RECORD.to_owned(), self.author.record(&files));
+        self.claim.write_all(&[files, vec![record]].concat(), &left_over)
+    }
+
     /// The folder of point k, from 0; its name counts from 1.
     pub fn point(&self, k: usize) -> PathBuf {
-        let count = self.points.described.len();
-        let width = count.to_string().len();
-        self.dir.join("points").join(format!("{:0width$}", k + 1))
+        let mut path = self.dir.join(name_of(self.points.described.len(), k));
+        path.pop();
+        path
     }
 
     /// The finished points, in order.
@@ -143,7 +145,7 @@ impl Folder {
     /// Keeps the tables of a point.
     pub fn keep(&self, k: usize, tables: &[Output]) -> Result<(), OutputError> {
         let mut files = tables.to_vec();
-        files.push(("point.json".to_owned(), self.record(k, tables)));
+        files.push((POINT.to_owned(), self.record(k, tables)));
         self.is_there()?;
         // Where it went meanwhile, that is the reason.
         output::write_folder(&self.point(k), &files).map_err(|error| self.is_there().err().unwrap_or(error))
@@ -151,7 +153,7 @@ impl Folder {
 
     /// Whether nobody has removed or moved the folder.
     fn is_there(&self) -> Result<(), OutputError> {
-        if self.dir.join("sweep.json").is_file() {
+        if self.dir.join(RECORD).is_file() {
             return Ok(());
         }
         let gone = "the folder of the sweep has gone";
@@ -163,15 +165,8 @@ impl Folder {
 
     /// Which point it is, and the lengths and checksums of its tables.
     fn record(&self, k: usize, tables: &[Output]) -> String {
-        let sums = tables.iter().map(|(name, text)| {
-            let crc32 = format!("{:08x}", crc32fast::hash(text.as_bytes()));
-            (name.clone(), json!({ "bytes": text.len(), "crc32": crc32 }))
-        });
-        let files: Map<_, _> = sums.collect();
-        format!(
-            "{:#}\n",
-            json!({ "point": self.points.described[k], "files": files })
-        )
+        let point = &self.points.described[k];
+        format!("{:#}\n", json!({ "point": point, "files": output::sums(tables) }))
     }
 
     /// The tables of a finished point, where they are as they were written.
@@ -179,10 +174,10 @@ impl Folder {
         let dir = self.point(k);
         let read = |name: &str| {
             let path = dir.join(name);
-            let why = |error| format!("{}: cannot be read: {error}", path.display());
-            fs::read_to_string(&path).map_err(|error| self.damaged(k, &why(error)))
+            let why = |error| format!("{}: cannot be read: {error}", path.shown());
+            input::text(&path, MOST_BYTES).map_err(|error| self.damaged(k, &why(error)))
         };
-        let record = read("point.json")?;
+        let record = read(POINT)?;
         let table = |name: &String| Ok((name.clone(), read(name)?));
         let tables = (self.points.tables.iter())
             .map(table)
@@ -196,9 +191,9 @@ impl Folder {
         let why = match difference(&found, &own) {
             Some((key, kept, own)) => format!(
                 "{}: not as it was written: {key} was {kept} and is {own} now",
-                dir.display()
+                dir.shown()
             ),
-            None => format!("{}: not as it was written", dir.join("point.json").display()),
+            None => format!("{}: not as it was written", dir.join(POINT).shown()),
         };
         Err(self.damaged(k, &why))
     }
@@ -207,21 +202,23 @@ impl Folder {
         let dir = self.point(k);
         Refused::Other(format!(
             "{why}; remove {} to have this point run again; nothing was changed",
-            dir.display()
+            dir.shown()
         ))
     }
 
     /// Writes `sweep.csv` from the tables of all points, which must all be there: the swept values, then the last
-    /// row of each of the tables. Numbers are the tables' own texts. Returns the header and the rows.
+    /// row of each of the tables; and the record of all. Numbers are the tables' own texts. Returns the header and the rows.
     pub fn gather(&self, axes: &[Axis], values: &[Vec<toml::Value>]) -> Result<Rows, Refused> {
         let mut rows = Vec::new();
+        let mut sums = Vec::new();
         for (k, values) in values.iter().enumerate() {
             let mut head: Vec<_> = axes.iter().map(|axis| axis.key.clone()).collect();
             let mut row: Vec<_> = values.iter().map(|value| cell(&shown(value))).collect();
-            for (name, text) in self.kept(k)? {
-                let (columns, last) = last_row(&text).map_err(|why| {
-                    Refused::Other(format!("{}: {why}", self.point(k).join(&name).display()))
-                })?;
+            let tables = self.kept(k)?;
+            sums.push((name_of(self.points.described.len(), k), self.record(k, &tables)));
+            for (name, text) in tables {
+                let (columns, last) = last_row(&text)
+                    .map_err(|why| Refused::Other(format!("{}: {why}", self.point(k).join(&name).shown())))?;
                 for (column, value) in columns.into_iter().zip(last) {
                     // Every table has the time.
                     if !head.contains(&column) {
@@ -236,16 +233,30 @@ impl Folder {
                 Some(_) => {
                     return Err(Refused::Other(format!(
                         "{}: its tables have other columns than those of the first point",
-                        self.point(k).display()
+                        self.point(k).shown()
                     )));
                 }
             }
         }
         let path = self.dir.join("sweep.csv");
-        let text = csv(&rows).map_err(|error| Refused::Other(format!("{}: {error}", path.display())))?;
-        self.claim.write_all(&[("sweep.csv".to_owned(), text)])?;
+        let text = csv(&rows).map_err(|error| Refused::Other(format!("{}: {error}", path.shown())))?;
+        let table = ("sweep.csv".to_owned(), text);
+        let identity = ("sweep.json".to_owned(), self.identity.clone());
+        let record = self
+            .author
+            .record(&[vec![table.clone(), identity], sums].concat());
+        self.claim.write_all(&[table, (RECORD.to_owned(), record)], &[])?;
         Ok(rows)
     }
+}
+
+/// The record of a point, in its folder.
+pub const POINT: &str = "point.json";
+
+/// The record of point k, from 0, of so many; its folder's name counts from 1.
+fn name_of(count: usize, k: usize) -> String {
+    let width = count.to_string().len();
+    format!("points/{:0width$}/{POINT}", k + 1)
 }
 
 /// A header and rows.

@@ -5,7 +5,7 @@ mod folder;
 
 pub(crate) use axis::key_and_text;
 pub use axis::{Axis, MAX_POINTS, Setting, shown};
-pub use folder::{Folder, Identity, Points, Refused};
+pub use folder::{Folder, Identity, POINT, Points};
 
 use crate::start::Starts;
 use shearbed::{Plan, Scene, scene_file};

@@ -2,6 +2,9 @@
 
 #![allow(dead_code)] // Each test uses a part.
 
+#[cfg(unix)]
+pub mod running;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -9,6 +12,10 @@ use std::process::Command;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
+
+/// How long a test waits for the program. It is no measure of the program: a machine that needs longer is at fault, and the
+/// message says so.
+pub const PATIENCE: Duration = Duration::from_secs(600);
 
 /// A scene of milliseconds.
 pub const SMALL: &str = r#"title = "A small scene"
@@ -103,14 +110,21 @@ pub fn shearbed(dir: &Path, arguments: &str) -> Ended {
     told(&mut command(dir, arguments))
 }
 
-/// The same for at most a minute under the limits that a shell sets first.
+/// The same under the limits that a shell sets first. What should be refused might work for hours: it is ended then.
 pub fn limited(dir: &Path, limits: &str, arguments: &str) -> Ended {
     let script = format!("{limits}; exec {} {arguments}", env!("CARGO_BIN_EXE_shearbed"));
-    told(
+    let seconds = PATIENCE.as_secs();
+    let ended = told(
         Command::new("timeout")
-            .args(["60", "bash", "-c", &script])
+            .args([&seconds.to_string(), "bash", "-c", &script])
             .current_dir(dir),
-    )
+    );
+    let in_time = ended.code != Some(124);
+    assert!(
+        in_time,
+        "this machine did not end `{arguments}` within {seconds} s, or it was not refused"
+    );
+    ended
 }
 
 fn told(command: &mut Command) -> Ended {
@@ -128,13 +142,14 @@ pub fn kill(id: u32, signal: &str) {
     sent.unwrap();
 }
 
-/// Waits until something holds, for a minute at most.
-pub fn wait_for(holds: impl Fn() -> bool) {
+/// Waits until something has come about.
+pub fn wait_for(what: &str, mut holds: impl FnMut() -> bool) {
     let start = Instant::now();
     while !holds() {
+        let seconds = PATIENCE.as_secs();
         assert!(
-            start.elapsed() < Duration::from_secs(60),
-            "nothing has come within a minute"
+            start.elapsed() < PATIENCE,
+            "this machine did not see within {seconds} s that {what}"
         );
         sleep(Duration::from_millis(5));
     }

@@ -57,7 +57,15 @@ fn numpy_rk4_passes_with_order_4_and_euler_fails_with_order_1() {
         }
     }
     let live = format!("'{python}' '{}' --live", script.display());
-    let live = graded(&["--command", &live, "--brief", "--order", "4", "--timeout", "60"]);
+    let live = graded(&[
+        "--command",
+        &live,
+        "--brief",
+        "--order",
+        "4",
+        "--timeout",
+        "100000",
+    ]);
     assert_eq!(live.code, Some(0), "{}", live.words);
 }
 
@@ -80,7 +88,7 @@ fn c_compiled_with_cc_passes_with_order_4() {
     );
     let command = format!("'{}'", program.display());
     let some = ["mid-flip-11.6", "poles", "spiral"].map(|name| ["--problem", name]);
-    let asked = ["--command", &command, "--order", "4", "--timeout", "60"];
+    let asked = ["--command", &command, "--order", "4", "--timeout", "100000"];
     let found = graded(&[&asked[..], some.as_flattened()].concat());
     assert_eq!(found.code, Some(0), "{}", found.words);
     assert!((found.order("mid-flip-11.6") - 4.0).abs() < 0.2);
@@ -234,7 +242,13 @@ fn fiberoripy_is_right_until_rods_are_fibres_and_its_closure_is_no_solution() {
     judge_fiberoripy(&files(REFERENCE.path(), &mine, &[]));
     let command = format!("'{python}' '{}' --live", script.display());
     let of = ["--problem", "mid-flip-2", "--problem", "mid-flip-10000"];
-    let live = graded(&[&["--command", &command, "--brief", "--timeout", "60"][..], &of].concat());
+    let live = graded(
+        &[
+            &["--command", &command, "--brief", "--timeout", "100000"][..],
+            &of,
+        ]
+        .concat(),
+    );
     assert_eq!(live.verdict("mid-flip-2"), "PASS", "{}", live.words);
     assert_eq!(live.verdict("mid-flip-10000"), "FAIL", "{}", live.words);
     let note = live.of("mid-flip-10000")["note"].as_str().unwrap();

@@ -169,7 +169,7 @@ fn another_format_and_wrong_folders_are_refused() {
         ended.words
     );
     for (reference, mine, more, reason) in [
-        (REFERENCE.path(), Path::new("/no/such"), &[][..], "no folder"),
+        (REFERENCE.path(), Path::new("/no/such"), &[][..], "no such folder"),
         (Path::new("/no/such"), &mine, &[], "/no/such"),
         (
             REFERENCE.path(),

@@ -109,26 +109,69 @@ fn orders_are_read_from_steps_and_judged_against_a_claim() {
     assert!((order + 4.0).abs() < 1e-3, "{order}");
 }
 
+/// The certified means, with a standard error of an answer, and one mean off by so much.
+fn off_in_a_mean(standard_error: f64, off: f64) -> Vec<Vec<String>> {
+    let (_, mut rows) = problem("lee-springer");
+    for row in rows.iter_mut().skip(1) {
+        for k in [2, 4, 6] {
+            row[k] = standard_error.to_string();
+        }
+    }
+    let mean: f64 = rows[3][1].parse().unwrap();
+    rows[3][1] = (mean + off).to_string();
+    rows
+}
+
 #[test]
-fn too_little_data_does_not_pass() {
+fn too_little_data_and_errors_that_are_none_do_not_pass() {
     let dir = tempfile::tempdir().unwrap();
-    let (problem, mut rows) = problem("lee-springer");
+    let (problem, _) = problem("lee-springer");
     let allowed = problem["ensemble"]["largest_standard_error"].as_f64().unwrap();
-    for (se, verdict) in [
-        (0.9 * allowed, "PASS"),
-        (1.1 * allowed, "FAIL"),
-        (-0.5 * allowed, "FAIL"),
+    for (se, words) in [
+        (0.9 * allowed, ""),
+        (1.1 * allowed, "too little data"),
+        (-0.5 * allowed, "a standard error above 0"),
+        (0.0, "a standard error above 0"),
     ] {
-        rows[3][2] = se.to_string();
-        write(dir.path(), "lee-springer", "answer.csv", text(&rows));
+        write(
+            dir.path(),
+            "lee-springer",
+            "answer.csv",
+            text(&off_in_a_mean(se, 0.0)),
+        );
         let ended = files(REFERENCE.path(), dir.path(), &[]);
         let found = ended.of("lee-springer");
+        let verdict = if words.is_empty() { "PASS" } else { "FAIL" };
         assert_eq!(found["verdict"], verdict, "{found:#}");
+        let note = found["note"].as_str().unwrap_or_default();
+        assert!(note.contains(words), "{found:#}");
+    }
+}
+
+#[test]
+fn a_mean_that_is_off_by_four_of_its_errors_fails() {
+    let dir = tempfile::tempdir().unwrap();
+    let (problem, _) = problem("lee-springer");
+    let allowed = problem["ensemble"]["largest_standard_error"].as_f64().unwrap();
+    // Of the certified means the errors are up to 2.3e-4.
+    let sigma = |parts: f64| parts * (0.9 * allowed).hypot(2.3e-4);
+    for (se, off, verdict) in [
+        (0.002, 0.008, "FAIL"),
+        (0.9 * allowed, sigma(4.0), "FAIL"),
+        (0.9 * allowed, sigma(3.0), "PASS"),
+    ] {
+        write(
+            dir.path(),
+            "lee-springer",
+            "answer.csv",
+            text(&off_in_a_mean(se, off)),
+        );
+        let ended = files(REFERENCE.path(), dir.path(), &[]);
         assert_eq!(
-            found["note"]
-                .as_str()
-                .is_some_and(|note| note.contains("too little data")),
-            verdict == "FAIL"
+            ended.verdict("lee-springer"),
+            verdict,
+            "{se} {off}: {}",
+            ended.words
         );
     }
 }

@@ -7,7 +7,7 @@ use std::io::{BufRead, Write};
 use std::process::{Command, ExitCode, Stdio};
 use std::time::Duration;
 
-/// Acts as a program that is to be graded. From its third answer on it does what its name says.
+/// Acts as a program that is to be graded. Where its name does not say when, it does what that says from its third answer on.
 pub fn program(name: &str, pids: Option<&str>) -> ExitCode {
     let note = |pid: u32| {
         let file = fs::OpenOptions::new()
@@ -28,12 +28,13 @@ pub fn program(name: &str, pids: Option<&str>) -> ExitCode {
     let mut out = std::io::stdout();
     for (k, line) in std::io::stdin().lock().lines().enumerate() {
         let request: Value = serde_json::from_str(&line.unwrap()).unwrap();
-        let answer = answer(name, &request);
+        let answer = answer(name, &request, k as u64 + 1);
         match (name, k) {
             ("is_right_on_one_line_of_stderr_each", _) => eprintln!("working"),
             ("floods_stderr", 2) => (0..20_000).for_each(|_| eprintln!("{}", "x".repeat(1000))),
             ("hangs", 2) => forever(),
-            ("hangs_with_a_child", 2) => {
+            ("hangs_at_once", _) => forever(),
+            ("hangs_with_a_child", _) => {
                 let child = Command::new("sleep").arg("1000").stderr(Stdio::null()).spawn();
                 note(child.unwrap().id());
                 forever();
@@ -48,6 +49,20 @@ pub fn program(name: &str, pids: Option<&str>) -> ExitCode {
             ("floods_stdout_with_lines", 1) => while writeln!(out, "flood").is_ok() {},
             ("floods_stdout_without_lines", 2) => while write!(out, "flood").is_ok() {},
             ("answers_twice", 0) => writeln!(out, "{answer}").unwrap(),
+            ("answers_the_next_in_advance", 2) => {
+                // Both lines at once: which of them is read when is the system's to say.
+                let mut next = answer.clone();
+                next["id"] = json!(request["id"].as_u64().unwrap() + 1);
+                write!(out, "{answer}\n{next}\n").unwrap();
+                out.flush().unwrap();
+                continue;
+            }
+            ("has_an_id_twice", 2) => {
+                let line = answer.to_string().replacen('{', "{\"id\":0,", 1);
+                writeln!(out, "{line}").unwrap();
+                out.flush().unwrap();
+                continue;
+            }
             #[cfg(unix)]
             ("closes_its_output", 2) => {
                 // Another program in its place, without the pipe.
@@ -69,7 +84,8 @@ pub fn program(name: &str, pids: Option<&str>) -> ExitCode {
     ExitCode::SUCCESS
 }
 
-fn answer(name: &str, request: &Value) -> Value {
+/// The answer to the `count`-th request.
+fn answer(name: &str, request: &Value, count: u64) -> Value {
     let id = request["id"].as_u64().unwrap();
     if name == "only_has_errors" {
         return json!({"id": id, "error": "not today"});
@@ -89,7 +105,12 @@ fn answer(name: &str, request: &Value) -> Value {
     let steps = finer * request["steps"].as_u64().unwrap();
     let h = number(&request["end_s"]) / steps as f64;
     let rate = |p: Vector3<f64>| a * p - p * p.dot(&(a * p));
+    let (order, normalised) = method(name);
     let rk4 = |p: Vector3<f64>| {
+        if let Some(order) = order {
+            let p = extrapolated(order, rate, p, h);
+            return if normalised { p.normalize() } else { p };
+        }
         let k1 = rate(p);
         let k2 = rate(p + k1 * (0.5 * h));
         let k3 = rate(p + k2 * (0.5 * h));
@@ -109,12 +130,44 @@ fn answer(name: &str, request: &Value) -> Value {
         .map(|p| json!([p.x, p.y, p.z]))
         .collect();
     match name {
-        "answers_nan" if id > 2 => p[0][0] = Value::Null,
-        "forgets_a_rod" if id > 2 => drop(p.pop()),
-        "answers_out_of_order" if id == 3 => return json!({"id": 2, "p": p}),
+        "is_garbage_every_third_time" if count.is_multiple_of(3) => p.fill(json!([0.6, 0.0, 0.8])),
+        "is_garbage_below_256_steps" if steps < 256 => p.fill(json!([0.6, 0.0, 0.8])),
+        "answers_nan" if count > 2 => p[0][0] = Value::Null,
+        "forgets_a_rod" if count > 2 => drop(p.pop()),
+        "answers_out_of_order" if count == 3 => return json!({"id": id - 1, "p": p}),
         _ => {}
     }
     json!({"id": id, "p": p})
+}
+
+/// The order of a Runge–Kutta method by its name, `rk_P` or `rk_P_normalised`, and whether it takes |p| back to 1.
+fn method(name: &str) -> (Option<usize>, bool) {
+    let words: Vec<_> = name.split('_').collect();
+    match words[..] {
+        ["rk", order] => (order.parse().ok(), false),
+        ["rk", order, "normalised"] => (order.parse().ok(), true),
+        _ => (None, false),
+    }
+}
+
+/// A step of this order: Euler's method with 1, 2, … steps in it, extrapolated (Aitken & Neville; Hairer, Nørsett & Wanner,
+/// Solving Ordinary Differential Equations I, II.9).
+fn extrapolated(
+    order: usize,
+    rate: impl Fn(Vector3<f64>) -> Vector3<f64>,
+    p: Vector3<f64>,
+    h: f64,
+) -> Vector3<f64> {
+    let mut before: Vec<Vector3<f64>> = Vec::new();
+    for parts in 1..=order {
+        let mut row = vec![(0..parts).fold(p, |p, _| p + rate(p) * (h / parts as f64))];
+        for k in 1..parts {
+            let ratio = parts as f64 / (parts - k) as f64;
+            row.push(row[k - 1] + (row[k - 1] - before[k - 1]) / (ratio - 1.0));
+        }
+        before = row;
+    }
+    before[order - 1]
 }
 
 /// Turned by so many rad.

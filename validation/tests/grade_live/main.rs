@@ -31,13 +31,7 @@ fn main() -> ExitCode {
 /// Problems of which the first is seen in the same direction at all its times, and others are not.
 const PROBLEMS: [&str; 3] = ["mid-flip-2", "sphere", "spiral"];
 
-fn shearbed(
-    command: &str,
-    out: &Path,
-    timeout_s: &str,
-    problems: &[&str],
-) -> (Option<i32>, String, Duration) {
-    let begun = Instant::now();
+fn shearbed(command: &str, out: &Path, timeout_s: &str, problems: &[&str]) -> (Option<i32>, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_shearbed"))
         .args([
             "grade",
@@ -53,7 +47,7 @@ fn shearbed(
         .output()
         .unwrap();
     let words = [output.stdout, output.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
-    (output.status.code(), words.concat(), begun.elapsed())
+    (output.status.code(), words.concat())
 }
 
 fn judge(case: &Case) -> Result<(), Failed> {
@@ -66,22 +60,18 @@ fn judge(case: &Case) -> Result<(), Failed> {
         case.program,
         pids.display()
     );
-    // Those that answer have time to, on a busy machine too.
-    let soon = case.program.starts_with("is_off")
-        || case
-            .words
-            .iter()
-            .any(|words| words.contains("no answer within 1 s"));
+    // Those that answer have time to, however busy the machine is; the others must run out of it.
+    let runs_out = case.verdict == "NOT REACHED";
     // One problem shows what is wrong; several that all is right, and that a program is given up.
-    let several = case.verdict == "PASS" || case.program == "hangs";
+    let several = case.verdict == "PASS" || case.program.starts_with("hangs");
     let problems = if several { &PROBLEMS[..] } else { &PROBLEMS[..1] };
-    let timeout_s = if soon { "1" } else { "60" };
-    let (code, words, took) = shearbed(&command, dir.path(), timeout_s, problems);
+    let timeout_s = if runs_out { "1" } else { "100000" };
+    let (code, words) = shearbed(&command, dir.path(), timeout_s, problems);
     let grade: Value = serde_json::from_str(&fs::read_to_string(dir.path().join("grade.json"))?)?;
     let found = &grade["problems"][0];
     let check = |holds: bool, what: &str| match holds {
         true => Ok(()),
-        false => Err(Failed::from(format!("{what} after {took:?}: {grade:#}\n{words}"))),
+        false => Err(Failed::from(format!("{what}: {grade:#}\n{words}"))),
     };
     check(found["name"] == "mid-flip-2", "the name")?;
     check(found["verdict"] == case.verdict, "the verdict")?;
@@ -93,11 +83,8 @@ fn judge(case: &Case) -> Result<(), Failed> {
             let errors = found["errors"].as_array().unwrap().iter().rev().take(4);
             let errors: Vec<_> = errors.map(|error| error[1].as_f64().unwrap()).collect();
             let within = |k: usize| errors[k] <= found["tolerance"].as_f64().unwrap();
-            let steady = || {
-                errors
-                    .windows(2)
-                    .all(|pair| ((pair[1] / pair[0]).log2() - 4.0).abs() < 0.1)
-            };
+            let order = |k: usize| (errors[k + 1] / errors[k]).log2();
+            let steady = || (1..3).all(|k| (order(k) - order(0)).abs() < 0.1);
             check(
                 within(0) && (within(1) || errors.len() == 4 && steady()),
                 "the last ones",
@@ -109,14 +96,27 @@ fn judge(case: &Case) -> Result<(), Failed> {
         check(said.contains(words), words)?;
     }
     check(!words.contains("panicked"), "no panic")?;
-    // A second for an answer, seconds of grace, and a busy machine's own pace: it does not hang.
-    check(took < Duration::from_secs(120), "the time")?;
     let pids = fs::read_to_string(pids)?;
     check(!pids.is_empty(), "it ran")?;
     for pid in pids.split_whitespace() {
         check(gone(pid.parse()?), &format!("process {pid} is left"))?;
     }
     Ok(())
+}
+
+/// The longest that a test waits for the system: what is not there by then is missing, or the machine is broken.
+const BOUND: Duration = Duration::from_secs(600);
+
+/// Waits until something is so. False when it is not within [`BOUND`].
+fn comes(is: impl Fn() -> bool) -> bool {
+    let begun = Instant::now();
+    while !is() {
+        if begun.elapsed() > BOUND {
+            return false;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    true
 }
 
 /// Whether no process with this number runs. A grandchild that was killed is the system's to reap, in its own time; a
@@ -127,10 +127,7 @@ fn gone(pid: i32) -> bool {
         let stat = fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
         rustix::process::test_kill_process(id).is_err() || stat.contains(") Z ")
     };
-    (0..300).any(|_| {
-        std::thread::sleep(Duration::from_millis(10));
-        dead()
-    })
+    comes(dead)
 }
 
 fn cannot_be_started() -> Result<(), Failed> {
@@ -141,7 +138,7 @@ fn cannot_be_started() -> Result<(), Failed> {
         ("a 'b", "a quote is not closed"),
     ] {
         let out = dir.path().join("out");
-        let (code, words, _) = shearbed(command, &out, "1", &PROBLEMS[..1]);
+        let (code, words) = shearbed(command, &out, "1", &PROBLEMS[..1]);
         if code != Some(2) || !words.contains(expected) || out.exists() {
             return Err(format!("{command}: {code:?} {words}").into());
         }
@@ -178,8 +175,9 @@ fn ends_with_shearbed() -> Result<(), Failed> {
             .count()
             == 2
     };
-    while !started() {
-        std::thread::sleep(Duration::from_millis(20));
+    if !comes(started) {
+        shearbed.kill()?;
+        return Err("the program's child has not started".into());
     }
     let id = rustix::process::Pid::from_child(&shearbed);
     rustix::process::kill_process(id, rustix::process::Signal::TERM)?;

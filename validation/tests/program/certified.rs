@@ -177,11 +177,12 @@ fn the_naive_reference_agrees_with_certified_ensembles_and_wrong_ones_do_not() {
             loaded.problem.tolerance,
             loaded.problem.ensemble.as_ref().unwrap(),
         );
-        let (error, se) = standard_errors(loaded, 160, None);
-        assert!(
-            error <= tolerance && se <= ensemble.largest_standard_error,
-            "{error} {se}"
-        );
+        const REPLICAS: u64 = 160;
+        let (error, se) = standard_errors(loaded, REPLICAS, None);
+        assert!(error <= tolerance, "{error}");
+        // An answer needs 1000 replicas. A standard deviation of 160 values is known to 5.6 %: four of these.
+        let of_answer = se * (REPLICAS as f64 / 1000.0).sqrt();
+        assert!(of_answer <= 1.22 * ensemble.largest_standard_error, "{se}");
         let (error, _) = standard_errors(loaded, 24, Some(mistake));
         assert!(error > 2.0 * tolerance, "{mistake:?}: {error}");
     }

@@ -1,16 +1,13 @@
 //! Runs that are stopped and gone on from: bit for bit those that are not.
 #![cfg(unix)]
 
-use crate::common::{SMALL, command, files, folder, kill, shearbed, wait_for};
+use crate::common::running::Running;
+use crate::common::{SMALL, command, files, folder, shearbed};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
 use std::collections::BTreeMap;
 use std::fs;
-use std::os::unix::fs::MetadataExt;
 use std::path::Path;
-use std::process::Stdio;
-use std::thread::sleep;
-use std::time::Duration;
 
 /// About a second: of many replicas, of one, and of free rods.
 fn scenes(dir: &Path) -> [&'static str; 3] {
@@ -33,15 +30,12 @@ fn scenes(dir: &Path) -> [&'static str; 3] {
     ["many", "one", "free"]
 }
 
-/// Which file stands there: another one after each replacement.
-fn inode(path: &Path) -> Option<u64> {
-    fs::metadata(path).ok().map(|found| found.ino())
-}
-
 /// What a run leaves but times, threads and the words it was called by.
 fn results(dir: &Path) -> (BTreeMap<String, Vec<u8>>, serde_json::Value) {
     let mut all = files(dir);
     let record = all.remove("run.json").unwrap();
+    // It has the checksum of run.json.
+    all.remove("shearbed.json").unwrap();
     let record: serde_json::Value = serde_json::from_slice(&record).unwrap();
     (
         all,
@@ -54,51 +48,62 @@ fn results(dir: &Path) -> (BTreeMap<String, Vec<u8>>, serde_json::Value) {
     )
 }
 
-/// Kills a run at random moments until it has been killed so often, and lets it end then: the same files.
+/// Kills a run again and again and lets it end then: the same files. Each life is held where it first says that more of the run is
+/// kept, at its end at the latest: it cannot end before it is killed, however fast or loaded the machine is, unless all was kept before.
 #[test]
 fn a_run_that_is_killed_goes_on_to_the_same_bits() {
-    const KILLS: usize = 6;
+    const LIVES: usize = 6;
     let dir = folder();
     let mut random = Pcg64Dxsm::seed_from_u64(1982);
     for name in scenes(dir.path()) {
         let whole = format!("run {name}.toml --quiet --out {name}-whole");
         assert_eq!(shearbed(dir.path(), &whole).code, Some(0));
-        let mut killed = 0;
-        let run =
-            format!("run {name}.toml --quiet --out {name} --checkpoint kept/{name} --every 0.02 --threads 2");
-        for life in 0..KILLS {
-            let threads = format!("--threads {}", 1 + life % 3);
-            let mut child = command(dir.path(), &run.replace("--threads 2", &threads))
-                .spawn()
-                .unwrap();
-            let file = dir.path().join("kept").join(name);
-            // Once or twice kept, and then at any moment.
-            for _ in 0..random.random_range(1..3) {
-                let before = inode(&file);
-                while inode(&file) == before && child.try_wait().unwrap().is_none() {
-                    sleep(Duration::from_micros(200));
-                }
+        let run = format!("run {name}.toml --out {name} --checkpoint kept/{name}");
+        let (file, out) = (dir.path().join("kept").join(name), dir.path().join(name));
+        for life in 0..LIVES {
+            let every = random.random_range(0.01..0.05);
+            let life_of = format!("{run} --every {every} --threads {}", 1 + life % 3);
+            let before = fs::read(&file).ok();
+            let mut running = Running::held_at_its_first_message(command(dir.path(), &life_of));
+            // The first life is killed before anything is done. In each other one the file changes when more of the run is kept.
+            let held = running.reaches("more of the run is kept", || {
+                fs::read(&file).is_ok_and(|found| before.as_ref() != Some(&found))
+            });
+            if !held {
+                // The life before was killed when all was kept.
+                assert!(life > 0, "{name}: it has ended before more of the run was kept");
+                assert_eq!(running.end().code, Some(0));
+                fs::remove_dir_all(&out).unwrap();
+                break;
             }
-            sleep(Duration::from_micros(random.random_range(0..15_000)));
+            assert!(!out.exists(), "{name}: it has ended before it was let go");
             let signal = ["-KILL", "-KILL", "-TERM"][life % 3];
-            kill(child.id(), signal);
-            let code = child.wait().unwrap().code();
-            assert!([None, Some(143), Some(0)].contains(&code), "{name}: {code:?}");
-            killed += usize::from(code != Some(0));
-            // The folder of results appears whole or not at all.
-            let out = dir.path().join(name);
-            assert!(!out.exists() || out.join("run.json").exists());
+            running.signal(signal);
+            // Let go, a run that was done but for its results may write them before the signal ends it: the whole set or none.
+            let ended = running.end();
+            match ended.code {
+                None if signal == "-KILL" => assert!(!out.exists()),
+                Some(0 | 143) if signal == "-TERM" => {
+                    assert!(ended.code == Some(143) || out.exists());
+                    if out.exists() {
+                        assert!(out.join("run.json").exists());
+                        fs::remove_dir_all(&out).unwrap();
+                    }
+                }
+                code => panic!("{name}, {signal}: {code:?}, {}", ended.stderr),
+            }
         }
-        assert!(killed > 2, "{name}: it has ended too soon");
+        let goes_on = format!("goes on from kept/{name}: ");
         let last = shearbed(dir.path(), &run);
         assert_eq!(last.code, Some(0), "{name}: {}", last.stderr);
+        assert!(last.stdout.starts_with(&goes_on), "{}", last.stdout);
         assert_eq!(
             results(&dir.path().join(name)),
             results(&dir.path().join(format!("{name}-whole"))),
             "{name}"
         );
         // What is done is kept: it need not run again.
-        let again = shearbed(dir.path(), &run.replace("--quiet", "--force"));
+        let again = shearbed(dir.path(), &format!("{run} --force"));
         let replicas = ["700 of 700", "1 of 1", "2 of 2"];
         assert!(
             replicas.iter().any(|done| again
@@ -124,23 +129,39 @@ fn a_run_that_is_killed_goes_on_to_the_same_bits() {
 fn a_signal_keeps_the_run_and_says_how_to_go_on() {
     let dir = folder();
     scenes(dir.path());
-    // So long that only the signal keeps it.
-    let run = "run many.toml --replicas 100000 --quiet --checkpoint kept --every 3600";
+    // Hours of work, of which the signal comes when some is done.
+    let run = "run many.toml --replicas 10000000 --checkpoint kept --every 0.01";
+    let done = |progress: &str| -> u64 { progress.split_once(" of 10000000 ").unwrap().0.parse().unwrap() };
+    let mut kept = String::new();
     for (signal, code) in [("-INT", 130), ("-TERM", 143)] {
-        let child = command(dir.path(), run).stderr(Stdio::piped()).spawn();
-        let child = child.unwrap();
-        wait_for(|| dir.path().join("kept").exists());
-        sleep(Duration::from_millis(300));
-        kill(child.id(), signal);
-        let output = child.wait_with_output().unwrap();
-        let told = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(code), "{told}");
-        assert!(told.contains("of 100000 replicas are done and"), "{told}");
+        let mut running = Running::start(command(dir.path(), run));
+        // What the last signal said is gone on from, or more: a checkpoint that was due may follow the message.
+        if !kept.is_empty() {
+            let line = running.line();
+            let from = line.strip_prefix("goes on from kept: ").unwrap();
+            assert!(done(from) >= done(&kept), "{from} {kept}");
+        }
+        let first = running.message();
+        assert!(first.starts_with("kept in kept: "), "{first}");
+        running.signal(signal);
+        let ended = running.end();
+        let last = ended
+            .stderr
+            .lines()
+            .find(|line| line.starts_with("error: "))
+            .unwrap();
+        assert_eq!(ended.code, Some(code), "{last}");
+        let (_, how) = last
+            .split_once("files that were not complete were not written; ")
+            .unwrap();
+        let way = "; the run is kept in kept, and the same command goes on from there";
+        let progress = how.strip_suffix(way).unwrap_or_else(|| panic!("{last}"));
+        assert!(progress.contains(" of 10000000 replicas are done, "), "{last}");
         assert!(
-            told.contains("is kept in kept, and the same command goes on from there"),
-            "{told}"
+            !progress.starts_with("0 of") || !progress.ends_with(" 0 halfway"),
+            "{last}"
         );
-        assert!(!told.contains(" 0 of 100000"), "{told}");
+        kept = progress.to_owned();
     }
     let found = files(dir.path());
     assert!(
@@ -207,7 +228,10 @@ fn a_checkpoint_of_other_work_is_refused() {
         ),
         ("--every 5", "--checkpoint <FILE>"),
         ("--checkpoint /proc/k", "/proc/k: cannot be written"),
-        ("--checkpoint .", "the name of a file is allowed"),
+        ("--checkpoint .", "is --out x2, or a folder above it"),
+        ("--checkpoint x2", "is --out x2, or a folder above it"),
+        ("--checkpoint x2/run.json", "the results may take that name"),
+        ("--checkpoint no/../x2/a.csv", "the results may take that name"),
         (
             "--checkpoint small.toml",
             "small.toml: is no checkpoint of shearbed",

@@ -1,22 +1,18 @@
 //! How the program ends when it is told to, or when what it writes to has gone.
 #![cfg(unix)]
 
-use crate::common::{SMALL, command, files, folder, kill, shearbed, wait_for};
+use crate::common::running::Running;
+use crate::common::{SMALL, command, files, folder, shearbed};
 use std::fs;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
-use std::thread::sleep;
-use std::time::Duration;
+use std::process::Command;
 
-/// Points of a third of a second.
+/// Hours of work, with a warning before it begins.
 fn long(dir: &Path) {
-    let scene = SMALL.replace("replicas = 3", "replicas = 100");
+    let scene = SMALL
+        .replace("replicas = 3", "replicas = 10000000")
+        .replace("concentration_per_cm3 = 50", "concentration_per_cm3 = 5000");
     fs::write(dir.join("long.toml"), scene).unwrap();
-}
-
-fn told(child: Child) -> (Option<i32>, String) {
-    let output = child.wait_with_output().unwrap();
-    (output.status.code(), String::from_utf8(output.stderr).unwrap())
 }
 
 #[test]
@@ -28,12 +24,13 @@ fn a_signal_ends_a_run_with_a_message_and_leaves_nothing() {
         ("-TERM", 143, "SIGTERM"),
         ("-HUP", 129, "SIGHUP"),
     ] {
-        let mut run = command(dir.path(), "run long.toml --replicas 1000000 --threads 1 --out x");
-        let child = run.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-        sleep(Duration::from_millis(300));
-        kill(child.id(), signal);
-        let (found, message) = told(child);
-        assert_eq!(found, Some(code), "{message}");
+        let mut running = Running::start(command(dir.path(), "run long.toml --threads 1 --out x"));
+        let first = running.message();
+        assert!(first.starts_with("warning: long.toml: "), "{first}");
+        running.signal(signal);
+        let ended = running.end();
+        let message = ended.stderr;
+        assert_eq!(ended.code, Some(code), "{message}");
         assert!(
             message.starts_with(&format!("error: stopped by {name}:")),
             "{message}"
@@ -46,32 +43,34 @@ fn a_signal_ends_a_run_with_a_message_and_leaves_nothing() {
     }
 }
 
+/// Its first point is finished soon, its second one never.
+const SWEEP: &str = "sweep small.toml --over ensemble.replicas=3,10000000 --threads 1 --out x";
+
 #[test]
 fn a_sweep_that_was_told_to_end_goes_on() {
     let dir = folder();
-    long(dir.path());
-    let sweep = "sweep long.toml --over interaction.alpha=0.1:2:12 --quiet --threads 1 --out x";
-    let child = command(dir.path(), sweep).stderr(Stdio::piped()).spawn().unwrap();
-    let points = dir.path().join("x/points");
-    wait_for(|| fs::read_dir(&points).is_ok_and(|found| found.count() >= 2));
-    kill(child.id(), "-TERM");
-    let (code, message) = told(child);
-    assert_eq!(code, Some(143));
-    assert!(message.contains("the same command goes on"), "{message}");
-    let left = files(&dir.path().join("x"));
-    assert!(
-        left.keys()
-            .all(|name| !name.contains("/.") && !name.starts_with('.')),
-        "{:?}",
-        left.keys()
-    );
-    let go_on = shearbed(dir.path(), &sweep.replace("--quiet ", ""));
-    assert_eq!(go_on.code, Some(0), "{}", go_on.stderr);
-    assert!(
-        !go_on.stdout.contains("of which 0 were finished before"),
-        "{}",
-        go_on.stdout
-    );
+    for life in 0..2 {
+        let mut running = Running::start(command(dir.path(), SWEEP));
+        match life {
+            0 => assert_eq!(running.message(), "kept in x: 1 of 2 points are finished\n"),
+            _ => assert_eq!(running.line(), "goes on from x: 1 of 2 points are finished\n"),
+        }
+        running.signal("-TERM");
+        let ended = running.end();
+        assert_eq!(ended.code, Some(143));
+        assert!(
+            ended.stderr.contains("the same command goes on"),
+            "{}",
+            ended.stderr
+        );
+        let left = files(&dir.path().join("x"));
+        assert!(
+            left.keys()
+                .all(|name| !name.contains("/.") && !name.starts_with('.')),
+            "{:?}",
+            left.keys()
+        );
+    }
 }
 
 #[test]
@@ -132,14 +131,15 @@ fn what_cannot_be_written_is_told() {
 #[test]
 fn a_folder_that_vanishes_ends_a_sweep() {
     let dir = folder();
-    long(dir.path());
-    let sweep = "sweep long.toml --over interaction.alpha=0.1:2:12 --quiet --threads 1 --out x";
-    let child = command(dir.path(), sweep).stderr(Stdio::piped()).spawn().unwrap();
+    let sweep = "sweep small.toml --over interaction.alpha=0.1:2:12 --threads 1 --out x";
+    // It waits where it says that its first point is finished.
+    let mut running = Running::held_at_its_first_message(command(dir.path(), sweep));
     let points = dir.path().join("x/points");
-    wait_for(|| points.join("01").exists());
+    running.wait_for("the first point is finished", || points.join("01").exists());
     fs::rename(dir.path().join("x"), dir.path().join("away")).unwrap();
-    let (code, message) = told(child);
-    assert_eq!(code, Some(2), "{message}");
+    let ended = running.end();
+    let message = ended.stderr;
+    assert_eq!(ended.code, Some(2), "{message}");
     assert!(
         message.contains("x: cannot be written: the folder of the sweep has gone"),
         "{message}"

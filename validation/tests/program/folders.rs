@@ -121,7 +121,7 @@ fn two_sweeps_started_together_do_not_mix() {
             .concat();
         let reasons = [
             "another shearbed is at work in this folder",
-            "another sweep is kept here",
+            "results of `shearbed sweep` from other input are kept here",
         ];
         assert!(reasons.iter().any(|reason| told.contains(reason)), "{told}");
     }
@@ -194,11 +194,7 @@ fn unchanged(dir: &Path, arguments: &str, holds: &str, said: &str) {
     let done = shearbed(dir, arguments);
     assert_eq!(done.code, Some(2), "{arguments}: {}", done.stderr);
     assert!(done.stderr.contains(said), "{arguments}: {}", done.stderr);
-    // A sweep has no --force.
-    let way = match arguments.starts_with("sweep") {
-        true => "here; another --out leaves it; nothing was changed",
-        false => "--force overwrites it, another --out leaves it; nothing was changed",
-    };
+    let way = "--force overwrites it, another --out leaves it; nothing was changed";
     assert!(done.stderr.contains(way), "{}", done.stderr);
     assert_eq!(files(&dir.join(holds)), before, "{arguments}");
 }
@@ -218,30 +214,30 @@ fn runs_and_fits_leave_each_others_folders_alone() {
         dir.path(),
         &format!("{run} --out fit"),
         "fit",
-        "fit/fit.json: a fit is kept here",
+        "fit/shearbed.json: results of `shearbed fit` are kept here",
     );
     unchanged(
         dir.path(),
         &format!("{fit} --out run"),
         "run",
-        "run/run.json: a run is kept here",
+        "run/shearbed.json: results of `shearbed run` are kept here",
     );
     let sweep = "sweep small.toml --over interaction.alpha=0.1,0.2 --quiet --out";
     unchanged(
         dir.path(),
         &format!("{sweep} run"),
         "run",
-        "run/run.json: a run is kept here",
+        "run/shearbed.json: results of `shearbed run` are kept here",
     );
     unchanged(
         dir.path(),
         &format!("{sweep} fit"),
         "fit",
-        "fit/fit.json: a fit is kept here",
+        "fit/shearbed.json: results of `shearbed fit` are kept here",
     );
     // The same fit again is no other one; another one is.
     assert_eq!(shearbed(dir.path(), &format!("{fit} --out fit")).code, Some(0));
-    let another = "fit/fit.json: another fit is kept here; ";
+    let another = "fit/shearbed.json: results of `shearbed fit` from other input are kept here: ";
     let wider = fit.replace("0.05:5", "0.05:6");
     unchanged(
         dir.path(),

@@ -1,6 +1,6 @@
 //! What lies in a folder already, and what is left where a run cannot be.
 
-use crate::common::{UNEQUAL, names, read, shearbed, unequal};
+use crate::common::{UNEQUAL, limited, names, read, shearbed, unequal};
 use std::fs;
 
 #[test]
@@ -51,7 +51,7 @@ fn a_file_that_cannot_be_replaced_leaves_all_as_it_was() {
     let out = dir.path().join("out");
     fs::create_dir_all(out.join("run.json")).unwrap();
     fs::write(out.join("projections.csv"), "old").unwrap();
-    let ended = shearbed(dir.path(), "run small.toml --out out");
+    let ended = shearbed(dir.path(), "run small.toml --out out --force");
     assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""));
     assert_eq!(
         ended.stderr,
@@ -76,7 +76,7 @@ fn another_run_is_overwritten_only_by_force() {
     let tables = || -> Vec<_> {
         kept()
             .into_iter()
-            .filter(|(_, name)| name != "run.json")
+            .filter(|(_, name)| name.ends_with(".csv") || name.ends_with(".svg"))
             .collect()
     };
     let (before, before_tables) = (kept(), tables());
@@ -91,7 +91,7 @@ fn another_run_is_overwritten_only_by_force() {
         let ended = run(arguments);
         assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""));
         for part in [
-            "error: a/run.json: another run is kept here: \"A small scene\", 3 replicas, seed 1, version \"0.1.0\"",
+            "error: a/shearbed.json: results of `shearbed run` from other input are kept here: ",
             what,
             "--force overwrites it",
         ] {
@@ -107,27 +107,85 @@ fn another_run_is_overwritten_only_by_force() {
     assert_eq!(run(fewer).code, Some(0));
     assert_eq!(
         names(&dir.path().join("a")),
-        ["mean_angle.csv", "mean_angle.svg", "run.json"]
+        ["mean_angle.csv", "mean_angle.svg", "run.json", "shearbed.json"]
     );
 
-    let put = |text: &str| fs::write(dir.path().join("a/run.json"), text).unwrap();
+    // Another version, what is no record, and what was changed since.
+    let path = |name: &str| dir.path().join("a").join(name);
+    let (_, record) = before
+        .iter()
+        .map(|(text, name)| (name, text))
+        .find(|(name, _)| *name == "shearbed.json")
+        .unwrap();
+    let put = |text: &str| fs::write(path("shearbed.json"), text).unwrap();
     put("{");
-    assert!(run("").stderr.contains("a/run.json: is no record of a run: "));
-    // Another version, and a record that names a file which is not this folder's.
-    let record = before.iter().find(|(_, name)| name == "run.json").unwrap();
-    put(&record
-        .0
-        .replace("\"version\": \"0.1.0\"", "\"version\": \"0.0.9\""));
     assert!(
         run("")
             .stderr
-            .contains("version was \"0.0.9\" and is \"0.1.0\" now")
+            .contains("a/shearbed.json: is no record of results")
     );
-    put(&record.0.replace("\"mean_angle.csv\"", "\"../small.toml\""));
-    assert_eq!(run("--force --seed 3").code, Some(0));
-    assert_eq!(read(&dir.path().join("small.toml")), UNEQUAL);
-    fs::write(dir.path().join("a/sweep.json"), "{}").unwrap();
-    assert!(run("").stderr.contains("a/sweep.json: a sweep is kept here"));
+    put(&record.replace("\"version\": \"0.1.0\"", "\"version\": \"0.0.9\""));
+    let said = run("").stderr;
+    assert!(
+        said.contains("version was \"0.0.9\" and is \"0.1.0\" now"),
+        "{said}"
+    );
+    assert_eq!(run("--force").code, Some(0));
+    fs::write(path("projections.csv"), "edited").unwrap();
+    let said = run("").stderr;
+    assert!(
+        said.contains("a/projections.csv: was changed after `shearbed run` wrote it"),
+        "{said}"
+    );
+    assert_eq!(read(&path("projections.csv")), "edited");
+}
+
+/// One rule for all commands: what a command did not write itself, or wrote from other input, stays.
+#[test]
+fn what_a_command_did_not_write_stays() {
+    let dir = unequal();
+    let ended = |arguments: &str| {
+        let ended = shearbed(dir.path(), arguments);
+        (ended.code, ended.stderr)
+    };
+    let put = |name: &str| {
+        fs::create_dir_all(dir.path().join(name).parent().unwrap()).unwrap();
+        fs::write(dir.path().join(name), "mine").unwrap();
+    };
+    for (command, mine) in [
+        ("run small.toml --out r", "r/projections.csv"),
+        ("run small.toml --out q", "q/mean_angle.svg"),
+        ("validate --case jeffery-period --out v", "v/report.md"),
+        (
+            "sweep small.toml --over interaction.alpha=1,2 --out s",
+            "s/sweep.csv",
+        ),
+        ("reference --aspect-ratio 2 --times 0:1:3 --out x.csv", "x.csv"),
+    ] {
+        put(mine);
+        let (code, said) = ended(command);
+        assert_eq!(code, Some(2), "{command}: {said}");
+        assert!(
+            said.contains(&format!("{mine}: is here already")),
+            "{command}: {said}"
+        );
+        assert_eq!(read(&dir.path().join(mine)), "mine");
+        assert_eq!(ended(&format!("{command} --force")).0, Some(0), "{command}");
+        assert_ne!(read(&dir.path().join(mine)), "mine", "{command}");
+        // The same again is its own.
+        let (code, said) = ended(command);
+        assert_eq!(code, Some(0), "{command}: {said}");
+    }
+    for other in [
+        "validate --case kick-bound --out v",
+        "run small.toml --seed 5 --out r",
+        "reference --aspect-ratio 3 --times 0:1:3 --out x.csv",
+        "plot r --out r/projections.svg",
+    ] {
+        let (code, said) = ended(other);
+        assert_eq!(code, Some(2), "{other}: {said}");
+        assert!(said.contains("--force overwrites it"), "{other}: {said}");
+    }
 }
 
 /// Two runs that begin while the folder is not there yet: the later one finds the other's results when it is done.
@@ -149,7 +207,7 @@ fn of_two_runs_into_one_new_folder_one_is_refused() {
     );
     let refused = ended.iter().find(|ended| ended.code == Some(2)).unwrap();
     assert!(
-        refused.stderr.contains("another run is kept here"),
+        refused.stderr.contains("from other input are kept here"),
         "{}",
         refused.stderr
     );
@@ -157,7 +215,7 @@ fn of_two_runs_into_one_new_folder_one_is_refused() {
 
 #[cfg(unix)]
 #[test]
-fn a_file_is_written_where_a_link_leads_and_a_pipe_stays_a_pipe() {
+fn a_file_is_written_where_a_link_leads_and_a_pipe_keeps_nobody_waiting() {
     let dir = unequal();
     let reference = |out: &str| format!("reference --aspect-ratio 2 --times 0:1:3 --out {out}");
     assert_eq!(shearbed(dir.path(), &reference("plain.csv")).code, Some(0));
@@ -165,24 +223,67 @@ fn a_file_is_written_where_a_link_leads_and_a_pipe_stays_a_pipe() {
     fs::write(dir.path().join("target.csv"), "old").unwrap();
     for (link, target) in [("link.csv", "target.csv"), ("dangling.csv", "new.csv")] {
         std::os::unix::fs::symlink(target, dir.path().join(link)).unwrap();
-        assert_eq!(shearbed(dir.path(), &reference(link)).code, Some(0));
+        assert_eq!(
+            shearbed(dir.path(), &format!("{} --force", reference(link))).code,
+            Some(0)
+        );
         assert!(dir.path().join(link).is_symlink());
         assert_eq!(read(&dir.path().join(target)), expected);
     }
-    let pipe = dir.path().join("pipe");
-    let made = std::process::Command::new("mkfifo").arg(&pipe).status().unwrap();
-    assert!(made.success());
-    let reader = std::thread::spawn({
-        let pipe = pipe.clone();
-        move || fs::read_to_string(pipe).unwrap()
-    });
-    assert_eq!(shearbed(dir.path(), &reference("pipe")).code, Some(0));
-    assert_eq!(reader.join().unwrap(), expected);
-    assert!(!fs::metadata(&pipe).unwrap().is_file());
+    let mkfifo = |name: &str| {
+        let pipe = dir.path().join(name);
+        fs::create_dir_all(pipe.parent().unwrap()).unwrap();
+        assert!(
+            std::process::Command::new("mkfifo")
+                .arg(&pipe)
+                .status()
+                .unwrap()
+                .success()
+        );
+    };
+    // A pipe that nobody reads or writes keeps no command waiting, wherever it lies.
+    for (pipe, arguments) in [
+        (
+            "pipe",
+            "reference --aspect-ratio 2 --times 0:1:3 --force --out pipe",
+        ),
+        ("p.svg", "plot a --out p.svg"),
+        ("lock/.shearbed-lock", "run small.toml --out lock"),
+        (".new.shearbed-part/.shearbed-lock", "run small.toml --out new"),
+        ("kept", "run small.toml --out k --checkpoint kept"),
+        (".checkpoint-k2.lock", "run small.toml --out k --checkpoint k2"),
+        (".checkpoint-k3.part", "run small.toml --out k --checkpoint k3"),
+        ("scene.toml", "run scene.toml --out k"),
+        ("r/report.json", "compare r/report.json r/report.json"),
+        (
+            "s/shearbed.json",
+            "sweep small.toml --over interaction.alpha=1,2 --out s",
+        ),
+        (
+            "d/d.csv",
+            "fit small.toml --data d/d.csv --over interaction.alpha=0.1:1",
+        ),
+    ] {
+        assert_eq!(
+            shearbed(dir.path(), "run small.toml --quiet --out a").code,
+            Some(0)
+        );
+        mkfifo(pipe);
+        let ended = limited(dir.path(), "true", arguments);
+        assert_eq!(ended.code, Some(2), "{arguments}: {}", ended.stderr);
+        assert!(
+            ended.stderr.contains("a regular file is needed")
+                || ended.stderr.contains("it is no regular file"),
+            "{arguments}: {}",
+            ended.stderr
+        );
+        assert!(!fs::metadata(dir.path().join(pipe)).unwrap().is_file());
+    }
+    assert!(!dir.path().join("k/run.json").exists());
 }
 
 #[test]
-fn a_study_leaves_no_file_of_an_earlier_one_and_spares_a_run() {
+fn a_study_spares_what_it_did_not_write_and_a_run() {
     let dir = unequal();
     let out = dir.path().join("a");
     let converge = |scene: &str, out: &str| {
@@ -192,9 +293,17 @@ fn a_study_leaves_no_file_of_an_earlier_one_and_spares_a_run() {
         )
     };
     fs::create_dir(&out).unwrap();
-    fs::write(out.join("replicas.csv"), "of an earlier study").unwrap();
+    fs::write(out.join("replicas.csv"), "mine").unwrap();
+    let ended = converge("fig6-uniform", "a");
+    assert_eq!(ended.code, Some(2));
+    assert!(
+        ended.stderr.contains("a/replicas.csv: is here already"),
+        "{}",
+        ended.stderr
+    );
+    fs::remove_file(out.join("replicas.csv")).unwrap();
     assert_eq!(converge("fig6-uniform", "a").code, Some(0));
-    assert_eq!(names(&out), ["converge.csv", "converge.json"]);
+    assert_eq!(names(&out), ["converge.csv", "converge.json", "shearbed.json"]);
     assert_eq!(
         shearbed(dir.path(), "run small.toml --quiet --out b").code,
         Some(0)
@@ -203,7 +312,9 @@ fn a_study_leaves_no_file_of_an_earlier_one_and_spares_a_run() {
     let ended = converge("fig6-uniform", "b");
     assert_eq!(ended.code, Some(2));
     assert!(
-        ended.stderr.contains("b/run.json: a run is kept here"),
+        ended
+            .stderr
+            .contains("b/shearbed.json: results of `shearbed run` are kept here"),
         "{}",
         ended.stderr
     );
@@ -224,7 +335,7 @@ fn a_point_of_a_sweep_and_a_checkpoint_are_no_place_for_a_run() {
     let before = read(&dir.path().join("w/points/1/projections.csv"));
     let (code, said) = ended("run small.toml --quiet --out w/points/1 --seed 77");
     assert!(
-        code == Some(2) && said.contains("a point of a sweep is kept here"),
+        code == Some(2) && said.contains("w/points/1/point.json: is here already"),
         "{said}"
     );
     assert_eq!(read(&dir.path().join("w/points/1/projections.csv")), before);

@@ -1,6 +1,6 @@
 //! `shearbed plot`: one picture of several runs.
 
-use crate::common::{read, shearbed, unequal};
+use crate::common::{limited, read, shearbed, unequal};
 
 #[test]
 fn one_picture_is_drawn_from_several_runs_and_from_a_sweep() {
@@ -68,4 +68,102 @@ fn one_picture_is_drawn_from_several_runs_and_from_a_sweep() {
         assert!(ended.stderr.contains(words), "{arguments}: {}", ended.stderr);
     }
     assert!(!dir.path().join("out/plot.svg").exists());
+}
+
+/// Every fault of a table, a record or a folder is refused by name; the same folder before it is drawn.
+#[test]
+fn what_was_not_written_so_is_not_drawn() {
+    let dir = unequal();
+    let run = "run small.toml --quiet --out a";
+    assert_eq!(shearbed(dir.path(), run).code, Some(0));
+    let sweep = "sweep small.toml --over interaction.alpha=0.1:0.7:7 --quiet --out s";
+    assert_eq!(shearbed(dir.path(), sweep).code, Some(0));
+    let table = read(&dir.path().join("a/projections.csv"));
+    let cells: Vec<&str> = table.lines().nth(2).unwrap().split(',').collect();
+    let row = |cells: &[&str]| table.replace(table.lines().nth(2).unwrap(), &cells.join(","));
+    let with = |place: usize, cell: &str| {
+        let mut cells = cells.clone();
+        cells[place] = cell;
+        row(&cells)
+    };
+    let first = table.lines().next().unwrap();
+    let edited = cells[3].replace(|c: char| c.is_ascii_digit(), "1");
+    for (text, said) in [
+        (
+            with(3, "NaN"),
+            "a/projections.csv:3: x1 = \"NaN\" is not allowed: a finite number",
+        ),
+        (
+            with(3, "-inf"),
+            "a/projections.csv:3: x1 = \"-inf\" is not allowed",
+        ),
+        (
+            with(0, "-1"),
+            "a/projections.csv:3: t_over_T = \"-1\" is not allowed",
+        ),
+        (
+            table.replacen("x2,", "x1,", 1),
+            "a/projections.csv:1: column \"x1\" is there twice",
+        ),
+        (format!("{first}\n"), "a/projections.csv:1: has a header alone"),
+        (String::new(), "a/projections.csv:1: is empty"),
+        (
+            with(3, &edited),
+            "a/projections.csv: was changed after it was written",
+        ),
+    ] {
+        std::fs::write(dir.path().join("a/projections.csv"), text).unwrap();
+        let ended = shearbed(dir.path(), "plot a --out a.svg");
+        assert_eq!(ended.code, Some(2), "{said}");
+        assert!(ended.stderr.contains(said), "{said}: {}", ended.stderr);
+    }
+    assert_eq!(shearbed(dir.path(), "plot s --out s.svg").code, Some(0));
+    let point = dir.path().join("s/points/3/projections.csv");
+    let whole = read(&point);
+    let at = whole.rfind(|c: char| c.is_ascii_digit()).unwrap();
+    let other = if whole[at..].starts_with('1') { "2" } else { "1" };
+    std::fs::write(&point, format!("{}{other}{}", &whole[..at], &whole[at + 1..])).unwrap();
+    let ended = shearbed(dir.path(), "plot s --out t.svg");
+    assert!(
+        ended.stderr.contains("s/points/3/projections.csv: was changed"),
+        "{}",
+        ended.stderr
+    );
+    std::fs::remove_dir_all(dir.path().join("s/points/3")).unwrap();
+    let ended = shearbed(dir.path(), "plot s --out t.svg");
+    assert!(
+        ended.stderr.contains("s/points/3/point.json: cannot be read"),
+        "{}",
+        ended.stderr
+    );
+    assert!(!dir.path().join("t.svg").exists());
+}
+
+/// A table of a million rows, with or without a record that has its checksum, is refused in the memory of a small one.
+#[test]
+fn a_table_too_long_to_draw_is_refused_in_bounded_memory() {
+    let dir = unequal();
+    let run = "run small.toml --quiet --out a";
+    assert_eq!(shearbed(dir.path(), run).code, Some(0));
+    let at = |name: &str| dir.path().join("a").join(name);
+    // As much as the program itself needs: a short table is drawn.
+    let plot = || limited(dir.path(), "ulimit -v 200000", "plot a --out a.svg --force");
+    let ended = plot();
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+
+    let mut table = read(&at("projections.csv")).lines().next().unwrap().to_owned() + "\n";
+    let cells = ",0.5".repeat(table.split(',').count() - 1);
+    table.extend((0..1_000_000).map(|row| format!("{row}{cells}\n")));
+    std::fs::write(at("projections.csv"), &table).unwrap();
+    let ended = plot();
+    assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+    assert!(ended.stderr.contains("a/projections.csv"), "{}", ended.stderr);
+
+    let mut record: serde_json::Value = serde_json::from_str(&read(&at("shearbed.json"))).unwrap();
+    record["files"]["projections.csv"] = serde_json::json!({ "bytes": table.len(), "crc32": format!("{:08x}", crc32fast::hash(table.as_bytes())) });
+    std::fs::write(at("shearbed.json"), record.to_string()).unwrap();
+    let ended = plot();
+    assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+    let said = "a/projections.csv:200002: more than 200000 rows for one picture";
+    assert!(ended.stderr.contains(said), "{}", ended.stderr);
 }

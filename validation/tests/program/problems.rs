@@ -10,7 +10,7 @@ use validation::problems;
 
 /// The files of every problem, by `NAME/FILE`: built once.
 static FILES: LazyLock<BTreeMap<String, String>> = LazyLock::new(|| {
-    let files = problems::built().iter().flat_map(|built| {
+    let files = problems::built().into_iter().flat_map(|built| {
         let files = problems::files(built).into_iter();
         files.map(move |(file, text)| (format!("{}/{file}", built.problem.name), text))
     });

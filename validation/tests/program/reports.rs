@@ -26,7 +26,13 @@ fn chosen_cases_are_run_and_reported() {
     let report = dir.path().join("report");
     assert_eq!(
         names(&report),
-        ["junit.xml", "report.html", "report.json", "report.md"]
+        [
+            "junit.xml",
+            "report.html",
+            "report.json",
+            "report.md",
+            "shearbed.json"
+        ]
     );
     let json: Value = serde_json::from_str(&read(&report.join("report.json"))).unwrap();
     assert_eq!(json["cases"].as_array().map(Vec::len), Some(1));

@@ -40,7 +40,8 @@ fn a_run_writes_a_table_and_a_picture_of_each_observable_and_a_record() {
         .map(|name| name.as_str().unwrap())
         .collect();
     assert!(files.iter().all(|name| out.join(name).is_file()));
-    assert_eq!(files.len() + 1, names(&out).len());
+    // And run.json and shearbed.json.
+    assert_eq!(files.len() + 2, names(&out).len());
 }
 
 #[test]
@@ -122,6 +123,7 @@ const EXTREMES: &[&[(&str, &str)]] = &[
     &[("periods = 1", "periods = 1e-5"), ("steps_per_period = 200", "steps_per_period = 10000000"),
       ("outputs_per_period = 4", "outputs_per_period = 100000")],
     &[("shear_rate_per_s = 0.5", "gradient_per_s = [[1e30, 0, 0], [0, -1e30, 0], [0, 0, 0]]"), ("= 11.6", "= 1e8"),
+      ("\"orbit_constant\", ", ""),
       ("[interaction]\nconcentration_per_cm3 = 50\nalpha = 0.5\n", ""),
       ("periods = 1\nsteps_per_period = 200\noutputs_per_period = 4", "strain = 1e4\noutputs_per_strain = 1")],
 ];

@@ -23,7 +23,7 @@ fn keys_are_set_on_the_command_line_as_a_file_would() {
     );
     assert_eq!(
         names(&dir.path().join("a")),
-        ["mean_angle.csv", "mean_angle.svg", "run.json"]
+        ["mean_angle.csv", "mean_angle.svg", "run.json", "shearbed.json"]
     );
     assert_eq!(
         read(&dir.path().join("a/mean_angle.csv")),

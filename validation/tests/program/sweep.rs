@@ -1,10 +1,8 @@
 //! `shearbed sweep` as a user meets it: rows, going on after a kill, refusals.
 
-use crate::common::{SMALL, command, files, folder, shearbed};
+use crate::common::{SMALL, files, folder, shearbed};
 use std::fs;
 use std::path::Path;
-use std::thread::sleep;
-use std::time::{Duration, Instant};
 
 /// Exit code 2, and the message.
 fn refused(dir: &Path, arguments: &str) -> String {
@@ -65,53 +63,44 @@ fn a_row_is_the_last_output_of_a_run_with_these_keys() {
     }
 }
 
-/// Heavy enough to be killed on the way: some seconds in all.
-const LONG: &str =
-    "sweep small.toml --over interaction.alpha=0.1:1.2:12 --replicas 250 --out killed --quiet --threads 1";
-
+#[cfg(unix)]
 #[test]
 fn a_killed_sweep_goes_on_to_the_same_bytes() {
+    use crate::common::{command, running::Running};
+
+    let sweep = "sweep small.toml --over interaction.alpha=0.1:1.2:12 --out killed --threads";
     let dir = folder();
-    let scene = SMALL
-        .replace("count = 20", "count = 60")
-        .replace("steps_per_period = 200", "steps_per_period = 100");
-    fs::write(dir.path().join("small.toml"), scene).unwrap();
     let killed = dir.path().join("killed");
-    let finished =
-        || fs::read_dir(killed.join("points")).map_or(0, |all| all.flatten().filter(visible).count());
-    let visible_points = finished;
-    let mut child = command(dir.path(), LONG).spawn().unwrap();
-    let start = Instant::now();
-    while visible_points() < 2 && start.elapsed() < Duration::from_secs(60) {
-        sleep(Duration::from_millis(1));
+    // Each life waits where it says that one more point is finished, until it is killed.
+    for life in 1..4 {
+        let mut running = Running::held_at_its_first_message(command(dir.path(), &format!("{sweep} 1")));
+        let point = killed.join(format!("points/{life:02}"));
+        running.wait_for("one more point is finished", || point.exists());
+        running.signal("-KILL");
+        assert_eq!(running.end().code, None);
+        let names = fs::read_dir(killed.join("points")).unwrap();
+        assert_eq!(names.count(), life);
     }
-    child.kill().unwrap();
-    child.wait().unwrap();
-    let before = finished();
-    assert!(
-        (2..12).contains(&before),
-        "{before} points were finished when it was killed"
-    );
     assert!(!killed.join("sweep.csv").exists());
     // What a kill in the middle of a point leaves.
     fs::create_dir_all(killed.join("points/.12.part")).unwrap();
     fs::write(killed.join("points/.12.part/projections.csv"), "half a ta").unwrap();
 
-    let text = succeeds(dir.path(), &LONG.replace("--quiet --threads 1", "--threads 2"));
+    let text = succeeds(dir.path(), &format!("{sweep} 2"));
     assert!(
-        text.contains(&format!("points: 12, of which {before} were finished before")),
+        text.starts_with("goes on from killed: 3 of 12 points are finished\n"),
         "{text}"
     );
-    succeeds(dir.path(), &LONG.replace("killed", "whole"));
+    assert!(
+        text.contains("points: 12, of which 3 were finished before"),
+        "{text}"
+    );
+    succeeds(dir.path(), &format!("{sweep} 1").replace("killed", "whole"));
     assert_eq!(files(&killed), files(&dir.path().join("whole")));
     // Once more: nothing is left to do, and nothing changes.
     let whole = files(&killed);
-    succeeds(dir.path(), LONG);
+    succeeds(dir.path(), &format!("{sweep} 1"));
     assert_eq!(files(&killed), whole);
-}
-
-fn visible(entry: &fs::DirEntry) -> bool {
-    !entry.file_name().to_string_lossy().starts_with('.')
 }
 
 #[test]
@@ -122,6 +111,7 @@ fn another_sweep_in_the_folder_is_refused_and_left_as_it_is() {
     succeeds(dir.path(), &first);
     let here = dir.path().join("here");
     let kept = files(&here);
+    let kept_before = kept.clone();
     for (arguments, named) in [
         (sweep("--over interaction.alpha=0.1:0.3:3"), "over was"),
         (
@@ -135,7 +125,9 @@ fn another_sweep_in_the_folder_is_refused_and_left_as_it_is() {
     ] {
         let message = refused(dir.path(), &arguments);
         assert!(
-            message.contains(&format!("here/sweep.json: another sweep is kept here: {named}")),
+            message.contains(&format!(
+                "here/shearbed.json: results of `shearbed sweep` from other input are kept here: {named}"
+            )),
             "{message}"
         );
         assert!(message.contains("nothing was changed"), "{message}");
@@ -154,16 +146,16 @@ fn another_sweep_in_the_folder_is_refused_and_left_as_it_is() {
     assert_eq!(files(&here), kept);
 
     // A version whose number has changed, and one whose results have without it.
-    let record = fs::read_to_string(here.join("sweep.json")).unwrap();
+    let record = fs::read_to_string(here.join("shearbed.json")).unwrap();
     let version = format!("\"version\": \"{}\"", env!("CARGO_PKG_VERSION"));
     assert!(record.contains(&version));
     fs::write(
-        here.join("sweep.json"),
+        here.join("shearbed.json"),
         record.replace(&version, "\"version\": \"0.0.1\""),
     )
     .unwrap();
     assert!(refused(dir.path(), &first).contains("version was \"0.0.1\" and is"));
-    fs::write(here.join("sweep.json"), record).unwrap();
+    fs::write(here.join("shearbed.json"), record).unwrap();
     fs::remove_dir_all(here.join("points/6")).unwrap();
     let point = here.join("points/1/projections.csv");
     let table = fs::read_to_string(&point).unwrap();
@@ -189,9 +181,17 @@ fn another_sweep_in_the_folder_is_refused_and_left_as_it_is() {
     assert!(!here.join("points/6").exists());
 
     // Files of unknown origin.
-    fs::remove_file(here.join("sweep.json")).unwrap();
-    let message = refused(dir.path(), &first);
-    assert!(message.contains("is missing beside points"), "{message}");
+    for name in ["shearbed.json", "sweep.json", "sweep.csv"] {
+        fs::remove_file(here.join(name)).unwrap();
+        let message = refused(dir.path(), &first);
+        assert!(
+            message.contains("is here already, and no shearbed.json says that this command wrote it"),
+            "{message}"
+        );
+    }
+    // By force all is new, and nothing of before is left.
+    succeeds(dir.path(), &format!("{first} --force"));
+    assert_eq!(files(&here), kept_before);
 }
 
 #[test]

@@ -86,15 +86,15 @@ def _problem(folder: Path) -> Problem:
 
 
 class Report:
-    """What was found: a verdict for each problem. True where a problem passes and none fails."""
+    """What was found: a verdict for each problem. True where a problem passes, and none fails or was not reached."""
 
     def __init__(self, told: dict[str, Any]) -> None:
         self.problems: list[dict[str, Any]] = told["problems"]
-        """name, verdict, error, tolerance, observed_order, diagnosis, raised, ... of each problem."""
+        """name, verdict, reference, error, tolerance, observed_order, diagnosis, raised, ... of each problem."""
 
     def __bool__(self) -> bool:
         verdicts = [problem["verdict"] for problem in self.problems]
-        return "PASS" in verdicts and "FAIL" not in verdicts
+        return "PASS" in verdicts and set(verdicts) <= {"PASS", "MISSING"}
 
     def __getitem__(self, name: str) -> dict[str, Any]:
         for problem in self.problems:
@@ -103,12 +103,13 @@ class Report:
         raise KeyError(name)
 
     def __str__(self) -> str:
-        lines = [f"{'problem':<22} {'verdict':<8} {'error':>9} {'tolerance':>9} {'order':>6}  diagnosis"]
+        lines = [f"{'problem':<22} {'verdict':<11} {'error':>9} {'tolerance':>9} {'order':>6}  diagnosis"]
         for problem in self.problems:
             error, order = problem["error"], problem["observed_order"]
+            foreign = "" if problem["reference"] == "built-in" else "FOREIGN "
             lines.append(
-                f"{problem['name']:<22} {problem['verdict']:<8} {_short(error):>9} {problem['tolerance']:>9.1e} "
-                f"{'–' if order is None else f'{order:.2f}':>6}  {problem['diagnosis'] or problem['raised'] or ''}".rstrip()
+                f"{problem['name']:<22} {problem['verdict']:<11} {_short(error):>9} {problem['tolerance']:>9.1e} "
+                f"{'–' if order is None else f'{order:.2f}':>6}  {foreign}{problem['diagnosis'] or problem['raised'] or ''}".rstrip()
             )
         return "\n".join(lines)
 

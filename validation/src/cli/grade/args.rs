@@ -70,6 +70,9 @@ pub(crate) struct Args {
     /// A missing answer is a failure
     #[arg(long)]
     pub(super) all: bool,
+    /// Overwrite what this command did not write in the folder, or wrote from other input
+    #[arg(long)]
+    pub(super) force: bool,
     /// Print nothing but errors
     #[arg(long)]
     pub(super) quiet: bool,

@@ -1,17 +1,22 @@
 //! How much memory this process can still have.
 
-use std::fs::read_to_string;
+use crate::input;
 use std::path::Path;
 
 /// Bytes that can still be had: of the machine, of the control groups that the process is in, and of what a shell's
 /// `ulimit -v` and `-d` leave. None where the system does not say.
 pub(super) fn available() -> Option<u64> {
-    let read = |file: &str| read_to_string(file).unwrap_or_default();
+    let read = |file: &str| text(Path::new(file)).unwrap_or_default();
     let machine = number_of(&read("/proc/meminfo"), "MemAvailable:")?;
     let (limits, status) = (read("/proc/self/limits"), read("/proc/self/status"));
     let groups = of_groups(Path::new("/sys/fs/cgroup"), &read("/proc/self/cgroup"));
     let others = [of_limits(&limits, &status), groups].into_iter().flatten();
     others.chain([machine]).min()
+}
+
+/// A short file of the system.
+fn text(path: &Path) -> Option<String> {
+    input::text(path, 1 << 20).ok()
 }
 
 /// A line as `MemAvailable:  17 kB`, in bytes.
@@ -55,7 +60,7 @@ fn of_groups(root: &Path, groups: &str) -> Option<u64> {
         // In a container the path is often that of the host, and only the top is there.
         let own = top.join(path.trim_start_matches('/'));
         for group in own.ancestors().take_while(|group| group.starts_with(&top)) {
-            let text = |file: &str| read_to_string(group.join(file)).ok();
+            let text = |file: &str| text(&group.join(file));
             let number = |file: &str| text(file)?.trim().parse::<u64>().ok();
             let Some((most, used)) = number(most).zip(number(used)) else {
                 continue;

@@ -62,7 +62,10 @@ fn bad_points_are_refused_with_their_line() {
         assert!(found.starts_with(expected), "{points:?}: {found}");
     }
     let found = refusal(PROVENANCE, b"t_over_T,x1\n0.5,0.4\n0.6,\xff\n");
-    assert!(found.starts_with("a.csv:3: not a text in UTF-8"), "{found}");
+    assert!(
+        found.starts_with("a.csv: cannot be read: it is not UTF-8 text (line 3)"),
+        "{found}"
+    );
 }
 
 #[test]

@@ -14,34 +14,17 @@ pub use program::{Asked, Program, Question};
 pub use signals::end_all;
 pub use studies::{Studies, studies};
 
-use crate::problems::{self, LoadedProblem, ProblemDef, Table};
+use crate::problems::{self, LoadedProblem};
 use rayon::prelude::*;
-use std::path::PathBuf;
 
 /// Problems about free rods that this build has, as they would be exported: those of the names that are wanted.
-pub fn built_in(wanted: impl Fn(&str) -> bool) -> Result<Vec<LoadedProblem>, String> {
+pub fn built_in(wanted: impl Fn(&str) -> bool) -> Vec<LoadedProblem> {
     let mut rods = problems::free_rods();
-    rods.retain(|def| wanted(def.name));
-    rods.par_iter().map(ProblemDef::build).map(loaded).collect()
-}
-
-fn loaded(built: problems::Built) -> Result<LoadedProblem, String> {
-    let number = |text: &String| text.parse::<f64>().map_err(|error| format!("{text}: {error}"));
-    let rows: Result<_, _> = built
-        .certified
-        .iter()
-        .map(|row| row.iter().map(number).collect())
-        .collect();
-    Ok(LoadedProblem {
-        dir: PathBuf::from(&built.problem.name),
-        certified: Table {
-            columns: built.problem.columns.clone(),
-            rows: rows?,
-        },
-        problem: built.problem,
-        start: built.start,
-        inputs: None,
-    })
+    rods.retain(|name| wanted(name));
+    (rods.into_par_iter())
+        .filter_map(problems::named)
+        .map(|built| built.loaded(built.problem.name.clone().into()))
+        .collect()
 }
 
 /// The problem with its last time alone: what a request asks for.

@@ -17,8 +17,9 @@ const LINES_HELD: usize = 4;
 /// How much is kept of the end of what the program writes to standard error, in bytes.
 const LAST_WORDS: usize = 2048;
 
-/// How long a program may take to end once its input or its output is closed. No verdict hangs on it, a remark alone.
-const GRACE: Duration = Duration::from_secs(1);
+/// How long a program may take to end once its input or its output is closed: thousands of times what that takes, as the
+/// machine may be busy. No verdict hangs on it, a remark alone.
+const GRACE: Duration = Duration::from_secs(10);
 
 /// Why there is no next line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -186,7 +187,10 @@ impl Pipe {
                 Some(status) => status.to_string(),
                 None => "nobody knows how".to_owned(),
             },
-            false => "it closed its standard output and went on; it was stopped".to_owned(),
+            false => {
+                self.stop();
+                "it closed its standard output and went on; it was stopped".to_owned()
+            }
         };
         // What it wrote last may still be on its way; a child may hold standard error open.
         let _ = self.all_said.recv_timeout(GRACE);

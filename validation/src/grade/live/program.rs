@@ -4,6 +4,7 @@ use super::pipe::Pipe;
 use super::protocol::{self, Answer, Request};
 use crate::integrators::{Failure, Integrator, Problem, Setting, Theory};
 use nalgebra::{UnitVector3, Vector3};
+use std::hash::{BuildHasher, RandomState};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -38,6 +39,7 @@ pub struct Program {
 #[derive(Default)]
 struct State {
     pipe: Option<Pipe>,
+    /// The last request's id.
     asked: u64,
     hangs: u32,
     breaches: u32,
@@ -56,18 +58,17 @@ struct State {
 pub enum Asked {
     /// The program's own error.
     Says(String),
-    /// It broke the protocol.
+    /// It broke the protocol, now or so often that it is not asked again.
     Breach(String),
-    /// It was not asked, and why.
-    Not(String),
+    /// No answer came in time, or it is not asked again because of that.
+    Late(String),
 }
 
 impl std::fmt::Display for Asked {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Says(words) => write!(f, "the program says: {words}"),
-            Self::Breach(words) => write!(f, "{words}"),
-            Self::Not(words) => write!(f, "not asked: {words}"),
+            Self::Breach(words) | Self::Late(words) => write!(f, "{words}"),
         }
     }
 }
@@ -119,15 +120,20 @@ impl Program {
     pub fn ask(&self, question: &Question, setting: Setting) -> Result<(Vec<[f64; 3]>, Duration), Asked> {
         let mut state = self.state();
         if let Some(reason) = &state.given_up {
-            return Err(Asked::Not(reason.clone()));
+            let words = format!("not asked: {reason}");
+            return Err(match state.hangs >= MOST_HANGS {
+                true => Asked::Late(words),
+                false => Asked::Breach(words),
+            });
         }
         if state.deadline.is_some_and(|deadline| Instant::now() > deadline) {
-            return Err(Asked::Not("out of time".to_owned()));
+            return Err(Asked::Late("not asked: out of time".to_owned()));
         }
         let asked = Instant::now();
         match state.ask(&self.words, question, setting, self.timeout) {
             Ok(Answer::Directions(p)) => Ok((p, asked.elapsed())),
             Ok(Answer::Error(reason)) => Err(Asked::Says(reason)),
+            Err(breach) if breach.hung => Err(Asked::Late(state.breached(breach))),
             Err(breach) => Err(Asked::Breach(state.breached(breach))),
         }
     }
@@ -179,7 +185,7 @@ impl State {
         let Some(pipe) = &mut self.pipe else {
             return Err(wrong("it does not run".to_owned()));
         };
-        self.asked += 1;
+        self.asked = next_id(self.asked);
         let request = Request {
             id: self.asked,
             gradient_per_s: &question.gradient_per_s,
@@ -212,6 +218,12 @@ impl State {
         }
         breach.what
     }
+}
+
+/// Ascending ids with gaps that nobody can foretell: an answer that is written before its request has the wrong one.
+fn next_id(last: u64) -> u64 {
+    const LARGEST_GAP: u64 = 1000;
+    last + 1 + RandomState::new().hash_one(last) % LARGEST_GAP
 }
 
 /// Lines, those that come again at once in one.
@@ -260,6 +272,19 @@ impl Integrator for Program {
             Err(asked) => Err(Failure::Gave(asked.to_string())),
         }
     }
+}
+
+#[test]
+fn ids_ascend_and_their_gaps_are_not_all_alike() {
+    let ids: Vec<_> = std::iter::successors(Some(0), |id| Some(next_id(*id)))
+        .take(100)
+        .collect();
+    let gaps = ids.windows(2).map(|pair| pair[1] - pair[0]);
+    let gaps: std::collections::BTreeSet<_> = gaps.collect();
+    assert!(
+        gaps.len() > 50 && gaps.iter().all(|gap| (1..=1000).contains(gap)),
+        "{gaps:?}"
+    );
 }
 
 #[test]

@@ -1,13 +1,13 @@
 //! Requests and answers as lines of JSON (`docs/grading.md`).
 
 use super::pipe::excerpt;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 /// A request: one line to the program.
 #[derive(Clone, Debug, Serialize)]
 pub struct Request<'a> {
-    /// Counts the requests; the answer repeats it.
+    /// Ascends from request to request; the answer repeats it.
     pub id: u64,
     /// L in 1/s, row i and column j holding ∂u_i/∂x_j.
     pub gradient_per_s: &'a [[f64; 3]; 3],
@@ -36,21 +36,27 @@ pub enum Answer {
 
 /// Reads the answer to the request `id` about so many rods. `Err` says what is wrong with the line.
 pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
-    let value = parse(line)?;
-    let Value::Object(mut answer) = value else {
-        return Err(format!("no JSON object: {}", excerpt(line)));
-    };
-    match answer.get("id").map(|found| (found, found.as_u64())) {
+    let answer = parse(line)?;
+    match answer.id.as_ref().map(|found| (found, found.as_u64())) {
         Some((_, Some(found))) if found == id => {}
-        Some((found, _)) => return Err(format!("it answers id {found} where {id} was asked")),
+        Some((found, _)) => {
+            let found: String = found.to_string().chars().take(60).collect();
+            return Err(format!("it answers id {found} where {id} was asked"));
+        }
         None => return Err(format!("it has no \"id\": {}", excerpt(line))),
     }
-    match answer.remove("error") {
-        Some(Value::String(reason)) => return Ok(Answer::Error(reason)),
-        Some(Value::Null) | None => {}
-        Some(other) => return Err(format!("\"error\" is {other}; a text is allowed")),
+    match (answer.error, &answer.p) {
+        (Some(Value::String(_)), Some(_)) => {
+            return Err(format!("both \"p\" and \"error\": {}", excerpt(line)));
+        }
+        (Some(Value::String(reason)), None) => return Ok(Answer::Error(reason)),
+        (Some(Value::Null) | None, _) => {}
+        (Some(other), _) => {
+            let other = excerpt(&other.to_string());
+            return Err(format!("\"error\" is {other}; a text is allowed"));
+        }
     }
-    match answer.remove("p") {
+    match answer.p {
         Some(Value::Array(found)) if found.len() == rods => {
             let all: Result<_, _> = found.iter().enumerate().map(|(k, p)| direction(k, p)).collect();
             all.map(Answer::Directions)
@@ -85,8 +91,25 @@ fn direction(rod: usize, value: &Value) -> Result<[f64; 3], String> {
     Ok(p)
 }
 
+/// The keys of an answer, once each; others are passed over.
+#[derive(Deserialize)]
+struct Line {
+    #[serde(default)]
+    id: Option<Value>,
+    #[serde(default)]
+    error: Option<Value>,
+    #[serde(default)]
+    p: Option<Value>,
+}
+
 /// JSON, and what Python and JavaScript print for numbers that are none.
-fn parse(line: &str) -> Result<Value, String> {
+fn parse(line: &str) -> Result<Line, String> {
+    if !line.trim_start().starts_with('{') {
+        return match serde_json::from_str::<Value>(line) {
+            Ok(_) => Err(format!("no JSON object: {}", excerpt(line))),
+            Err(error) => Err(format!("no JSON ({error}): {}", excerpt(line))),
+        };
+    }
     let strict = serde_json::from_str(line);
     let error = match strict {
         Ok(value) => return Ok(value),
@@ -172,6 +195,12 @@ mod tests {
             (r#"{"id": 3, "p": [["1",0,0]]}"#, "three numbers"),
             (r#"{"id": 3, "p": [[1e400,0,0]]}"#, "no JSON"),
             (r#"{"id": 3, "error": 5}"#, "a text is allowed"),
+            (r#"{"id": 4, "p": [[0,0,1]], "id": 3}"#, "duplicate field `id`"),
+            (
+                r#"{"id": 3, "p": [[0,0,1]], "p": [[1,0,0]]}"#,
+                "duplicate field `p`",
+            ),
+            (r#"{"id": 3, "error": "x", "p": [[1,0,0]]}"#, "both"),
         ] {
             let found = read(line, 3, 1).unwrap_err();
             assert!(found.contains(reason), "{line}: {found}");

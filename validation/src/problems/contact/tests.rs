@@ -38,7 +38,7 @@ fn worst(pairs: &[Pair], sign: f64) -> f64 {
 #[test]
 fn the_naive_reference_passes_and_a_wrong_one_fails() {
     let pairs = pairs();
-    let tolerance = crate::problems::build("contact-rule").unwrap().problem.tolerance;
+    let tolerance = crate::problems::named("contact-rule").unwrap().problem.tolerance;
     assert_eq!(pairs.len(), SNAPSHOTS);
     let error = worst(&pairs, 1.0);
     assert!(error < tolerance, "{error:e} {tolerance:e}");

@@ -80,7 +80,10 @@ fn rods_that_were_written_go_on_as_they_would_have() {
         fs::write(at("rest.toml"), &rest).unwrap();
         let done = shearbed(dir.path(), "run rest.toml --out rest --quiet");
         assert!(
-            done.code == Some(2) && done.stderr.contains("another run is kept here"),
+            done.code == Some(2)
+                && done
+                    .stderr
+                    .contains("results of `shearbed run` from other input are kept here"),
             "{}",
             done.stderr
         );

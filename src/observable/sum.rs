@@ -1,0 +1,141 @@
+//! Sums over rods, and how far the rods' values differ.
+
+use super::{BLOCK, lane_sum};
+use serde::{Deserialize, Serialize};
+
+/// The sum of a value over rods, and how far the rods' values differ where standard errors over rods are wanted.
+///
+/// ```
+/// use shearbed::observable::{Block, Observable, Sum};
+/// let mut block = Block { len: 1, ..Block::default() };
+/// block.p.iter_mut().zip([0.6, -0.8, 0.0]).for_each(|(axis, p)| axis[0] = p);
+/// let mut sums = [Sum::default(); 3];
+/// Observable::Projections.add(&block, &mut sums);
+/// assert_eq!(sums.map(|sum| sum.value), [0.6, 0.8, 0.0]);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Sum {
+    /// Σ f.
+    pub value: f64,
+    /// How far f differs between rods, or `None` where replicas give the standard errors.
+    pub spread: Option<Spread>,
+}
+
+/// Sums of differences from the value of the first rod. Where rods are nearly alike, differences keep the digits that
+/// Σf² − (Σf)²/n loses: however far the first rod is from the mean, the squared error is off by a relative n ε or so at most,
+/// for (f₁ − ⟨f⟩)² is one of the squares in it.
+///
+/// ```
+/// use shearbed::observable::Spread;
+/// let mut spread = Spread::default();
+/// [1.0, 1.0, 1.0, 5.0].into_iter().for_each(|value| spread.add(&[value]));
+/// // Mean 2, squared deviations 1 + 1 + 1 + 9, over 4 − 1 and over 4.
+/// assert_eq!(spread.standard_error(), 1.0);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Spread {
+    /// How many rods.
+    rods: u64,
+    /// f₁, of the first rod.
+    first: f64,
+    /// Σ (f − f₁).
+    differences: f64,
+    /// Σ (f − f₁)².
+    squares: f64,
+}
+
+impl Sum {
+    /// Of no rods; `spread` says whether standard errors over rods are wanted.
+    pub(crate) fn none(spread: bool) -> Self {
+        Self {
+            value: 0.0,
+            spread: spread.then(Spread::default),
+        }
+    }
+
+    /// Whether it is finite.
+    pub(crate) fn is_finite(&self) -> bool {
+        self.value.is_finite() && self.spread.is_none_or(|spread| spread.is_finite())
+    }
+
+    /// Whether it can be a sum over so many rods; `spread` says whether it has standard errors over them.
+    pub(crate) fn is_over(&self, rods: usize, spread: bool) -> bool {
+        let own = match self.spread {
+            Some(found) => spread && found.rods == rods as u64,
+            None => !spread,
+        };
+        own && self.is_finite()
+    }
+
+    /// Adds what was summed over other rods.
+    pub(crate) fn merge(&mut self, other: &Self) {
+        self.value += other.value;
+        if let (Some(spread), Some(other)) = (&mut self.spread, &other.spread) {
+            spread.merge(other);
+        }
+    }
+
+    /// Adds the value of one rod.
+    pub(crate) fn add_one(&mut self, value: f64) {
+        self.value += value;
+        if let Some(spread) = &mut self.spread {
+            spread.add(&[value]);
+        }
+    }
+
+    /// Adds the values f(0), …, f(len − 1) of a block's rods.
+    #[inline]
+    pub(super) fn add_each(&mut self, len: usize, f: impl Fn(usize) -> f64) {
+        let Some(spread) = &mut self.spread else {
+            self.value += lane_sum(len, f);
+            return;
+        };
+        let mut values = [0.0; BLOCK];
+        let values = &mut values[..len];
+        values.iter_mut().enumerate().for_each(|(i, value)| *value = f(i));
+        self.value += lane_sum(len, |i| values[i]);
+        spread.add(values);
+    }
+}
+
+impl Spread {
+    /// Adds the values of up to [`BLOCK`] rods.
+    #[inline]
+    pub fn add(&mut self, values: &[f64]) {
+        if self.rods == 0
+            && let Some(first) = values.first()
+        {
+            self.first = *first;
+        }
+        let difference = |i: usize| values[i] - self.first;
+        self.differences += lane_sum(values.len(), difference);
+        self.squares += lane_sum(values.len(), |i| difference(i) * difference(i));
+        self.rods += values.len() as u64;
+    }
+
+    /// Adds other rods.
+    pub fn merge(&mut self, other: &Self) {
+        if self.rods == 0 {
+            *self = *other;
+            return;
+        }
+        // The other's differences, from this first rod.
+        let (n, apart) = (other.rods as f64, other.first - self.first);
+        self.differences += other.differences + n * apart;
+        self.squares += other.squares + apart * (2.0 * other.differences + n * apart);
+        self.rods += other.rods;
+    }
+
+    /// The standard error of the mean over its rods; NaN of one rod.
+    pub fn standard_error(&self) -> f64 {
+        let n = self.rods as f64;
+        let squared_deviations = self.squares - self.differences * self.differences / n;
+        (squared_deviations.max(0.0) / n / (n - 1.0)).sqrt()
+    }
+
+    fn is_finite(&self) -> bool {
+        [self.first, self.differences, self.squares]
+            .iter()
+            .all(|x| x.is_finite())
+    }
+}

@@ -1,0 +1,78 @@
+//! How much of a text is looked through, and shown.
+
+use super::places::LOOKED_THROUGH;
+use super::*;
+
+const SCENE: &str = "title = \"t\"\nflow = { shear_rate_per_s = 1 }\ntime = { periods = 1 }\n[particles]\ncount = 10\n\
+    length_mm = 1\naspect_ratio = 5\norientation = \"isotropic\"\n";
+
+/// What is said of a text, and how many bytes were looked through for it.
+fn refused(text: &str) -> (SceneError, usize) {
+    LOOKED_THROUGH.set(0);
+    let error = parse("s.toml", text).unwrap_err();
+    (error, LOOKED_THROUGH.get())
+}
+
+/// In lines of their own, and all in one line.
+#[test]
+fn of_many_unknown_keys_the_first_are_told_and_the_rest_counted() {
+    let keys: Vec<_> = (0..40_000).map(|k| format!("k{k} = 1")).collect();
+    let in_lines = format!("{SCENE}{}\n", keys.join("\n"));
+    let in_one = SCENE.replace(
+        "shear_rate_per_s = 1",
+        &format!("shear_rate_per_s = 1, {}", keys.join(", ")),
+    );
+    for (text, first) in [(in_lines, 9), (in_one, 2)] {
+        let (error, looked_through) = refused(&text);
+        assert_eq!(
+            (error.problems.len(), error.more),
+            (MOST_UNKNOWN, 40_000 - MOST_UNKNOWN)
+        );
+        assert_eq!(error.problems[0].line, first);
+        assert!(error.problems[0].message.contains("unknown key `k0`"), "{error}");
+        assert!(
+            error
+                .to_string()
+                .ends_with("\ns.toml: … and 39980 more unknown keys"),
+            "{error}"
+        );
+        // Once for the lines, and some of each line that is shown.
+        assert!(
+            looked_through < text.len() + 1000 * MOST_UNKNOWN,
+            "{looked_through}"
+        );
+    }
+    // As many as have a line of their own.
+    let few = keys[..MOST_UNKNOWN].join("\n");
+    let (error, _) = refused(&format!("{SCENE}{few}"));
+    assert_eq!((error.problems.len(), error.more), (MOST_UNKNOWN, 0));
+    assert!(!error.to_string().contains("more unknown"), "{error}");
+}
+
+#[test]
+fn of_a_long_line_or_value_the_start_is_shown() {
+    let long = "x".repeat(5000);
+    for spoilt in [
+        SCENE.replace("count = 10", &format!("count = \"{long}\"")),
+        SCENE.replace("count = 10", &format!("count = {long}")),
+        SCENE.replace("count = 10", &format!("count = 10\n{long} = 1")),
+        SCENE.replace("count = 10", &format!("count = 10 10 # {long}")),
+        SCENE.replace("\"isotropic\"", &format!("{{ file = \"{long}\", phi_deg = 1 }}")),
+        format!("{SCENE}# é{}\n[particles]", "é".repeat(5000)),
+        SCENE.replace("title = \"t\"", &format!("title = [\"{long}\"]")),
+    ] {
+        let (error, _) = refused(&spoilt);
+        for problem in &error.problems {
+            assert!(problem.message.chars().count() < 1500, "{}", problem.message);
+            assert!(!problem.message.contains(&long[..500]), "{}", problem.message);
+        }
+    }
+    // What is not long is shown whole.
+    let (error, _) = refused(&SCENE.replace("count = 10", "count = \"x\""));
+    assert!(
+        error
+            .to_string()
+            .contains("particles.count = \"x\" is not allowed"),
+        "{error}"
+    );
+}

@@ -1,0 +1,72 @@
+//! Profiles of a model with several valleys.
+
+use super::basis::Basis;
+use super::data::Datum;
+use super::emulator::{Replica, coefficients};
+use super::range::Range;
+use super::search::{Fit, Measured, fitted};
+
+fn ranges(over: [&str; 2]) -> Vec<Range> {
+    over.map(|text| Range::parse(text).unwrap()).to_vec()
+}
+
+fn points(values: &[(f64, f64)]) -> Vec<Datum> {
+    (values.iter().enumerate())
+        .map(|(k, (value, u))| Datum {
+            value: *value,
+            u: *u,
+            ..Datum::place(0, "x1", k as f64)
+        })
+        .collect()
+}
+
+/// b² tells the size of b, a b its sign given that of a, and a is hardly told: as a passes 0, b changes its sign.
+fn two_signs(values: &[f64]) -> Result<Replica, String> {
+    let (a, b) = (values[0], values[1]);
+    Ok(Box::new(move |_| {
+        Ok([b * b, a * b, a].map(|value| [value; 3]).to_vec())
+    }))
+}
+
+fn of_two_signs() -> Fit {
+    let (ranges, basis) = (ranges(["a.a=-1:1", "a.b=-1:1"]), Basis::new(2));
+    let found = coefficients(&basis, &two_signs, |node| node.to_vec(), 0..2, &|| ()).unwrap();
+    let data = points(&[(0.49, 0.01), (-0.35, 0.05), (-0.5, 0.6)]);
+    let measured = Measured {
+        data: &data,
+        ranges: &ranges,
+        rods_over_measured: &[0.0],
+    };
+    fitted(&measured, &basis, &vec![(-1.0, 1.0); 2], &found).unwrap()
+}
+
+#[test]
+fn a_profile_changes_to_the_valley_that_is_lower() {
+    let fit = of_two_signs();
+    let profile = &fit.profiles[0];
+    assert!((fit.best.place[0] + 0.5).abs() < 1e-3, "{:?}", fit.best.place);
+    for (place, rise) in profile.place.iter().zip(&profile.rise) {
+        let inner = (0..=4000).map(|k| fit.best.surface.at(&[*place, f64::from(k) / 2000.0 - 1.0]));
+        let least = inner.fold(f64::INFINITY, f64::min) - fit.best.chi_square;
+        // A step of 5e-4 in b beside 0.01/(2b) = 0.007: χ² is less by 0.0013 at most in between.
+        assert!((rise - least).abs() < 0.002, "{place}: {rise}, {least}");
+    }
+    // a = 0.5 with b = −0.7 is 1/0.6 standard deviations from the best place.
+    let ends = fit.interval(0, 0.95);
+    assert!(ends.low < -0.5 && ends.high > 0.5, "{ends:?}");
+}
+
+/// The control: as if the inner minima beyond −0.4 had stayed in the valley of the best place.
+#[test]
+fn a_profile_that_jumps_is_no_answer() {
+    let mut fit = of_two_signs();
+    assert_eq!(fit.is_smooth(), Ok(()));
+    let profile = &mut fit.profiles[0];
+    for (place, rise) in profile.place.iter().zip(&mut profile.rise) {
+        if *place > -0.4 {
+            *rise = 152.0;
+        }
+    }
+    let said = fit.is_smooth().unwrap_err();
+    assert!(said.contains("--over a.a") && said.contains("jumps"), "{said}");
+}

@@ -1,0 +1,204 @@
+//! The one way in which files are read: regular files alone, never waiting, and never more than a limit.
+//!
+//! A file may be a link to an endless device, a pipe that nobody writes to, or grow while it is read, and may have been
+//! written by a stranger or edited since this program wrote it. Nothing else in this crate opens a file for reading:
+//! clippy refuses it (`clippy.toml`).
+
+use std::fs::{File, FileType, OpenOptions};
+use std::io::{self, Read};
+use std::path::Path;
+
+/// Opens a regular file for reading, following links, without waiting for a writer of a pipe.
+///
+/// # Errors
+///
+/// The system's, and `InvalidInput` for anything that is not a regular file, which is named: a pipe, a device, a socket
+/// or a folder.
+pub fn open(path: &Path) -> io::Result<File> {
+    open_with(path, OpenOptions::new().read(true))
+}
+
+/// Opens a regular file as `options` say, for writing too, following links, without waiting for the other end of a pipe.
+///
+/// # Errors
+///
+/// The system's, and `InvalidInput` for anything that is not a regular file, which is named.
+#[expect(
+    clippy::disallowed_methods,
+    reason = "every other function of this crate opens files by this one"
+)]
+pub fn open_with(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
+    without_waiting(options);
+    match options.open(path) {
+        Ok(file) => {
+            regular(&file)?;
+            Ok(file)
+        }
+        // The system's words for a pipe without a reader, or a socket, are "No such device or address".
+        Err(error) => match std::fs::metadata(path).map(|found| found.file_type()) {
+            Ok(kind) if !kind.is_file() && !kind.is_dir() => Err(not_regular(kind)),
+            _ => Err(error),
+        },
+    }
+}
+
+/// Refuses an open file that is not a regular one.
+///
+/// # Errors
+///
+/// `InvalidInput`, with what the file is.
+pub fn regular(file: &File) -> io::Result<()> {
+    let kind = file.metadata()?.file_type();
+    match kind.is_file() {
+        true => Ok(()),
+        false => Err(not_regular(kind)),
+    }
+}
+
+fn not_regular(kind: FileType) -> io::Error {
+    let message = format!("it is {}; a regular file is needed", name(kind));
+    io::Error::new(io::ErrorKind::InvalidInput, message)
+}
+
+/// Reads a regular file of at most `most` bytes, counted while they are read.
+///
+/// # Errors
+///
+/// Those of [`open`], and `FileTooLarge` for a longer file, of which at most `most` + 1 bytes are ever in memory.
+pub fn bytes(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let mut file = open(path)?.take(most.saturating_add(1));
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes)?;
+    match bytes.len() as u64 <= most {
+        true => Ok(bytes),
+        false => Err(too_long(most)),
+    }
+}
+
+fn too_long(most: u64) -> io::Error {
+    let message = format!("it is longer than the {} that are allowed", size(most));
+    io::Error::new(io::ErrorKind::FileTooLarge, message)
+}
+
+/// Reads a regular file of at most `most` bytes to its end and keeps only its length and its checksum (CRC-32).
+///
+/// # Errors
+///
+/// Those of [`bytes`].
+pub fn length_and_crc32(path: &Path, most: u64) -> io::Result<(u64, u32)> {
+    let (mut length, mut sum) = (0, crc32fast::Hasher::new());
+    let mut file = open(path)?;
+    let mut block = vec![0; 1 << 16];
+    loop {
+        let read = match file.read(&mut block) {
+            Ok(0) => return Ok((length, sum.finalize())),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+            read => read?,
+        };
+        length += read as u64;
+        if length > most {
+            return Err(too_long(most));
+        }
+        sum.update(&block[..read]);
+    }
+}
+
+/// Reads a regular file of at most `most` bytes as UTF-8 text.
+///
+/// # Errors
+///
+/// Those of [`bytes`], and `InvalidData` with the line of the first byte that is not UTF-8.
+pub fn text(path: &Path, most: u64) -> io::Result<String> {
+    String::from_utf8(bytes(path, most)?).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + valid.iter().filter(|byte| **byte == b'\n').count();
+        let message = format!("it is not UTF-8 text (line {line})");
+        io::Error::new(io::ErrorKind::InvalidData, message)
+    })
+}
+
+/// Sets options so that opening a pipe or a device returns at once.
+#[cfg(unix)]
+fn without_waiting(options: &mut OpenOptions) {
+    use std::os::unix::fs::OpenOptionsExt;
+    options.custom_flags(rustix::fs::OFlags::NONBLOCK.bits() as i32);
+}
+
+/// Sets options so that opening a pipe or a device returns at once.
+#[cfg(not(unix))]
+fn without_waiting(_: &mut OpenOptions) {}
+
+fn size(bytes: u64) -> String {
+    match bytes {
+        bytes if bytes >= 1_000_000 => format!("{} MB", bytes / 1_000_000),
+        bytes => format!("{bytes} bytes"),
+    }
+}
+
+#[cfg(unix)]
+fn name(kind: FileType) -> &'static str {
+    use std::os::unix::fs::FileTypeExt;
+    match () {
+        () if kind.is_dir() => "a folder",
+        () if kind.is_fifo() => "a pipe",
+        () if kind.is_socket() => "a socket",
+        () => "a device",
+    }
+}
+
+#[cfg(not(unix))]
+fn name(kind: FileType) -> &'static str {
+    match kind.is_dir() {
+        true => "a folder",
+        false => "a device",
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::fs;
+    use std::process::Command;
+
+    #[test]
+    fn a_file_is_read_up_to_its_limit_and_no_further() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("file");
+        fs::write(&path, "12345").unwrap();
+        assert_eq!(bytes(&path, 5).unwrap(), b"12345");
+        assert_eq!(text(&path, u64::MAX).unwrap(), "12345");
+        assert_eq!(
+            length_and_crc32(&path, 5).unwrap(),
+            (5, crc32fast::hash(b"12345"))
+        );
+        for error in [
+            bytes(&path, 4).unwrap_err(),
+            length_and_crc32(&path, 4).unwrap_err(),
+        ] {
+            assert_eq!(
+                error.to_string(),
+                "it is longer than the 4 bytes that are allowed"
+            );
+        }
+        fs::write(&path, b"a\nb\xff").unwrap();
+        assert_eq!(
+            text(&path, 9).unwrap_err().to_string(),
+            "it is not UTF-8 text (line 2)"
+        );
+    }
+
+    #[test]
+    fn what_is_no_regular_file_is_refused_at_once_also_behind_a_link() {
+        let dir = tempfile::tempdir().unwrap();
+        let (pipe, link) = (dir.path().join("pipe"), dir.path().join("link"));
+        assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        std::os::unix::fs::symlink("/dev/zero", &link).unwrap();
+        for (path, what) in [(&*pipe, "a pipe"), (&*link, "a device"), (dir.path(), "a folder")] {
+            let error = bytes(path, u64::MAX).unwrap_err().to_string();
+            assert_eq!(error, format!("it is {what}; a regular file is needed"));
+        }
+        // For writing too, where the system would say "No such device or address" of a pipe without a reader.
+        let error = open_with(&pipe, OpenOptions::new().write(true)).unwrap_err();
+        assert_eq!(error.to_string(), "it is a pipe; a regular file is needed");
+    }
+}

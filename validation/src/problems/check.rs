@@ -1,0 +1,323 @@
+//! What a problem must be before anything is compared with it: kind, metric and columns belong together, and every number is
+//! in its range. The JSON Schema (`schemas/problem.schema.json`) says the same.
+
+use super::table::ReadError;
+use super::{Ensemble, Kind, LoadedProblem, Metric, Problem};
+use std::path::Path;
+
+/// The columns of a kind of problem after its keys: one of these lists.
+type Columns = &'static [&'static [&'static str]];
+
+/// What belongs to a kind: its metric, the tolerances that are allowed, and its columns.
+///
+/// Directions are at most π/2 apart, means and relative errors are about 1 where an answer is wrong: a larger tolerance
+/// would let anything pass.
+fn form(kind: Kind) -> (Metric, [f64; 2], Columns) {
+    const LEAST: f64 = 1e-300;
+    match kind {
+        Kind::Rods => (Metric::Angle, [LEAST, 0.1], &[&["p1", "p2", "p3"]]),
+        Kind::Tensor => (
+            Metric::Absolute,
+            [LEAST, 0.1],
+            &[&["a11", "a22", "a33", "a12", "a13", "a23"], &["x1", "x2", "x3"]],
+        ),
+        Kind::Contact => (Metric::Relative, [LEAST, 0.1], &[&RATES, &ANGLES]),
+        Kind::Ensemble => (
+            Metric::StandardErrors,
+            [1.0, 10.0],
+            &[&["x1", "x1_se", "x2", "x2_se", "x3", "x3_se"]],
+        ),
+    }
+}
+
+const RATES: [&str; 6] = [
+    "a_pdot1_per_s",
+    "a_pdot2_per_s",
+    "a_pdot3_per_s",
+    "b_pdot1_per_s",
+    "b_pdot2_per_s",
+    "b_pdot3_per_s",
+];
+const ANGLES: [&str; 8] = [
+    "a_phi_rate_per_s",
+    "a_theta_rate_per_s",
+    "a_phi_rad",
+    "a_theta_rad",
+    "b_phi_rate_per_s",
+    "b_theta_rate_per_s",
+    "b_phi_rad",
+    "b_theta_rad",
+];
+
+/// The largest |L_ij| in 1/s, length in mm, and the like.
+const MOST: f64 = 1e9;
+/// The largest strain |L| t: a ladder of 24 doublings from a step of about 1/|L| must have numbers of steps.
+const MOST_STRAIN: f64 = 1e9;
+/// r_e of scenes.
+const RATIOS: [f64; 2] = [1e-100, 1e100];
+/// σ of r_e in percent: six of them leave r_e positive.
+const MOST_SPREAD: f64 = 15.0;
+/// The most characters of a text.
+const LONGEST: usize = 10_000;
+
+/// A key that is refused: its name, and what is wrong.
+pub(super) type Refused = (&'static str, String);
+
+/// Refuses a problem whose keys do not belong together or are out of range.
+///
+/// # Errors
+///
+/// The key, with what was found and what is allowed.
+pub(super) fn check(folder: &Path, problem: &Problem) -> Result<(), Refused> {
+    name(folder, problem)?;
+    texts(problem)?;
+    let (metric, [least, most], lists) = form(problem.kind);
+    let kind = word(&problem.kind);
+    if problem.metric != metric {
+        let (found, due) = (word(&problem.metric), word(&metric));
+        return Err((
+            "metric",
+            format!("{found}: a problem of the kind {kind} has the metric {due}"),
+        ));
+    }
+    between("tolerance", problem.tolerance, [least, most])?;
+    columns(problem, lists)?;
+    problem
+        .gradient_per_s
+        .iter()
+        .flatten()
+        .try_for_each(|x| between("gradient_per_s", *x, [-MOST, MOST]))?;
+    between("aspect_ratio", problem.aspect_ratio, RATIOS)?;
+    spread(problem)?;
+    times(problem)?;
+    ensemble(problem)
+}
+
+fn word<T: serde::Serialize>(value: &T) -> String {
+    serde_json::to_string(value).unwrap_or_default()
+}
+
+fn between(key: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), Refused> {
+    match (least..=most).contains(&found) {
+        true => Ok(()),
+        false => Err((
+            key,
+            format!("{found:e}: a number from {least:e} to {most:e} is allowed"),
+        )),
+    }
+}
+
+/// Answers are looked for in the folder of this name.
+fn name(folder: &Path, problem: &Problem) -> Result<(), Refused> {
+    let folder = folder.file_name().unwrap_or_default().to_string_lossy();
+    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || matches!(c, '.' | '-');
+    let good = problem.name.chars().all(plain) && !problem.name.starts_with(['.', '-']);
+    match good && problem.name == folder {
+        true => Ok(()),
+        false => Err((
+            "name",
+            format!(
+                "{:?}: it must be the folder's, {folder:?}, in small letters, digits, - and .",
+                cut(&problem.name)
+            ),
+        )),
+    }
+}
+
+fn texts(problem: &Problem) -> Result<(), Refused> {
+    let texts = [
+        ("title", &problem.title),
+        ("summary", &problem.summary),
+        ("because", &problem.because),
+        ("axes", &problem.axes),
+    ];
+    let equations = problem.equations.iter().map(|text| ("equations", text));
+    for (key, text) in texts.into_iter().chain(equations) {
+        if text.trim().is_empty() || text.chars().count() > LONGEST {
+            return Err((key, format!("a text of 1 to {LONGEST} characters is allowed")));
+        }
+    }
+    match problem.equations.is_empty() {
+        true => Err(("equations", "there must be one at least".to_owned())),
+        false => Ok(()),
+    }
+}
+
+fn columns(problem: &Problem, lists: Columns) -> Result<(), Refused> {
+    let keys = problem.kind.keys();
+    let is = |list: &&&[&str]| problem.columns.iter().eq(keys.iter().chain(list.iter()));
+    let Some(found) = lists.iter().find(is) else {
+        let allowed: Vec<_> = lists.iter().map(|list| [keys, list].concat().join(",")).collect();
+        let kind = word(&problem.kind);
+        return Err((
+            "columns",
+            format!(
+                "{:?}: a problem of the kind {kind} has {}",
+                cut(&problem.columns.join(",")),
+                allowed.join(" or ")
+            ),
+        ));
+    };
+    // Angles are asked for after a step, rates without one.
+    match (problem.time_step_s, *found == &ANGLES[..]) {
+        (Some(step), true) => between("time_step_s", step, [1e-300, MOST]),
+        (None, false) => Ok(()),
+        _ => Err((
+            "time_step_s",
+            "it must be there where angles after a step are asked for, and nowhere else".to_owned(),
+        )),
+    }
+}
+
+fn spread(problem: &Problem) -> Result<(), Refused> {
+    let found = problem.aspect_ratio_sd_percent;
+    let unequal = problem.columns.iter().any(|column| column == "x1");
+    match unequal {
+        true => between("aspect_ratio_sd_percent", found, [0.0, MOST_SPREAD]),
+        false => between("aspect_ratio_sd_percent", found, [0.0, 0.0]),
+    }
+}
+
+fn times(problem: &Problem) -> Result<(), Refused> {
+    let times = &problem.times_s;
+    let ascending = times.windows(2).all(|pair| pair[0] < pair[1]);
+    let positive = times.first().is_none_or(|first| *first > 0.0);
+    if !ascending || !positive || times.is_empty() != (problem.kind == Kind::Contact) {
+        return Err((
+            "times_s",
+            "they must be above 0 and ascend, and there must be one at least, but of contacts none"
+                .to_owned(),
+        ));
+    }
+    let rate = problem
+        .gradient_per_s
+        .iter()
+        .flatten()
+        .fold(0.0, |a: f64, b| a.max(b.abs()));
+    match times
+        .iter()
+        .all(|time| *time <= 1e300 && time * rate <= MOST_STRAIN)
+    {
+        true => Ok(()),
+        false => Err((
+            "times_s",
+            format!("a strain of at most {MOST_STRAIN:e} is allowed"),
+        )),
+    }
+}
+
+fn ensemble(problem: &Problem) -> Result<(), Refused> {
+    const KEY: &str = "ensemble";
+    let Some(of) = &problem.ensemble else {
+        return match problem.kind {
+            Kind::Ensemble => Err((KEY, "it must be there for the kind \"ensemble\"".to_owned())),
+            _ => Ok(()),
+        };
+    };
+    if problem.kind != Kind::Ensemble {
+        return Err((KEY, "it belongs to the kind \"ensemble\" alone".to_owned()));
+    }
+    let Ensemble {
+        count,
+        length_mm,
+        concentration_per_cm3,
+        alpha,
+        m,
+        steps_per_period,
+        certified_replicas,
+        largest_standard_error,
+    } = of;
+    let numbers = [
+        ("count", *count as f64, [1.0, MOST]),
+        ("length_mm", *length_mm, [1.0 / MOST, MOST]),
+        (
+            "concentration_per_cm3",
+            *concentration_per_cm3,
+            [1.0 / MOST, 1e300],
+        ),
+        ("alpha", *alpha, [1.0 / MOST, MOST]),
+        ("m", *m, [1.0 / MOST, MOST]),
+        ("steps_per_period", *steps_per_period as f64, [1.0, MOST]),
+        ("certified_replicas", *certified_replicas as f64, [2.0, 1e15]),
+        // Means of |p_i| are between 0 and 1.
+        (
+            "largest_standard_error",
+            *largest_standard_error,
+            [1.0 / MOST, 0.1],
+        ),
+    ];
+    numbers.into_iter().try_for_each(|(name, found, range)| {
+        between(KEY, found, range).map_err(|(key, message)| (key, format!("{name} = {message}")))
+    })
+}
+
+/// Refuses tables whose numbers cannot be what their columns say: directions that are not of length 1, means out of range.
+pub(super) fn tables(loaded: &LoadedProblem) -> Result<(), ReadError> {
+    let dir = &loaded.dir;
+    if let Some(inputs) = &loaded.inputs {
+        let path = dir.join("inputs.csv");
+        for (row, pair) in inputs.rows.iter().enumerate() {
+            let wrong = |column: usize, message: String| {
+                ReadError::at(&path, row as u64 + 2, column as u64 + 1, message)
+            };
+            if pair[0] != row as f64 {
+                return Err(wrong(0, format!("snapshot = {}; {row} is next", pair[0])));
+            }
+            for at in [4, 11] {
+                unit(&pair[at..at + 3]).map_err(|message| wrong(at, message))?;
+            }
+            for at in [7, 14] {
+                between("aspect_ratio", pair[at], RATIOS).map_err(|(_, message)| wrong(at, message))?;
+            }
+        }
+    }
+    let path = dir.join("certified.csv");
+    let keys = loaded.problem.kind.keys().len();
+    for (row, values) in loaded.certified.rows.iter().enumerate() {
+        let wrong = |message: String| ReadError::at(&path, row as u64 + 2, keys as u64 + 1, message);
+        certified(&loaded.problem, &values[keys..]).map_err(wrong)?;
+    }
+    Ok(())
+}
+
+/// The values of a certified row.
+fn certified(problem: &Problem, values: &[f64]) -> Result<(), String> {
+    let within = |values: &[f64]| match values.iter().all(|x| (0.0..=1.0).contains(x)) {
+        true => Ok(()),
+        false => Err("means of |p_i| and their errors are from 0 to 1".to_owned()),
+    };
+    match problem.kind {
+        Kind::Rods => unit(values),
+        Kind::Contact => match values
+            .chunks(values.len() / 2)
+            .all(|rod| rod.iter().any(|x| *x != 0.0))
+        {
+            true => Ok(()),
+            false => Err("all values of a rod are 0: there is no relative error".to_owned()),
+        },
+        Kind::Tensor if values.len() == 6 => match (values[..3].iter().sum::<f64>() - 1.0).abs() < 1e-9 {
+            true => Ok(()),
+            false => Err("a11 + a22 + a33 must be 1".to_owned()),
+        },
+        Kind::Tensor | Kind::Ensemble => within(values),
+    }
+}
+
+/// Refuses a direction that is not of length 1 but for the rounding of three numbers near 1.
+pub(super) fn unit(p: &[f64]) -> Result<(), String> {
+    let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+    match (length - 1.0).abs() <= 4.0 * f64::EPSILON {
+        true => Ok(()),
+        false => Err(format!("|p| = {length}; it must be 1")),
+    }
+}
+
+/// The start of a text of somebody else, for messages.
+pub(super) fn cut(text: &str) -> String {
+    const MOST: usize = 300;
+    let start: String = text.chars().take(MOST).collect();
+    match start.len() < text.len() {
+        true => start + "…",
+        false => start,
+    }
+}
