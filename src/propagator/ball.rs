@@ -94,6 +94,17 @@ impl Ball {
         }
     }
 
+    /// Times 2 to a power that need not be a double.
+    pub fn shifted(self, power: i32) -> Self {
+        let [hi, lo, error] = [self.hi, self.lo, self.error].map(|x| libm::scalbn(x, power));
+        let shifted = Self { hi, lo, error };
+        if !self.is_zero() && hi.abs() < IN_DANGER {
+            shifted.widened(UNDERFLOW)
+        } else {
+            shifted
+        }
+    }
+
     pub fn plus(self, other: Self) -> Self {
         if self.is_zero() {
             return other;

@@ -26,6 +26,22 @@ pub(super) fn exp(x: Ball) -> Ball {
     if x.hi < -600.0 {
         return Ball::ZERO.widened(if x.hi + x.error < -590.0 { 1e-250 } else { 1.0 });
     }
+    let (value, power) = exp_and_power(x);
+    value.scaled(libm::scalbn(1.0, power))
+}
+
+/// eˣ for x ≤ 0 as a number between ½ and 2 times 2 to a power: e^{−1000} underflows, and 2^{1000} times it does not.
+pub(super) fn exp_and_power(x: Ball) -> (Ball, i32) {
+    if x.is_zero() {
+        return (Ball::ONE, 0);
+    }
+    // Below e⁻³⁰⁰⁰ < 2⁻⁴³²⁸ it is 0 beside any quotient of two doubles.
+    if x.hi < -3000.0 {
+        return match x.hi + x.error < -3000.0 {
+            true => (Ball::ZERO.widened(1.0), -4328),
+            false => (Ball::ZERO.widened(1.0 + libm::exp(x.hi + x.error)), 0),
+        };
+    }
     let powers_of_two = (x.hi / std::f64::consts::LN_2).round();
     let rest = x.middle() - Ball::exact(powers_of_two) * Ball::LN_2;
     // |rest| ≤ 0.35, an eighth of it 0.044: 0.044¹⁷/17! < 10⁻³⁷.
@@ -37,8 +53,9 @@ pub(super) fn exp(x: Ball) -> Ball {
     for _ in 0..3 {
         less_one = less_one.scaled(2.0) + less_one * less_one;
     }
-    let value = (Ball::ONE + less_one).scaled(libm::scalbn(1.0, powers_of_two as i32));
-    value.widened(value.hi * (LEFT_OUT + libm::expm1(x.error) * (1.0 + 8.0 * f64::EPSILON)))
+    let value = Ball::ONE + less_one;
+    let value = value.widened(value.hi * (LEFT_OUT + libm::expm1(x.error) * (1.0 + 8.0 * f64::EPSILON)));
+    (value, powers_of_two as i32)
 }
 
 /// The sine and cosine of 2π·turns: quarter turns are exact.

@@ -3,9 +3,13 @@
 //! With Λ = (r_e² − 1)/(r_e² + 1), A = W + ΛD = (L − ρLᵀ)/(1 + ρ) for rods, ρ = 1/r_e²; a disc is the rod of 1/r_e in the
 //! flow −Lᵀ. Nothing cancels in N = L − ρLᵀ for long rods, and its invariants are polynomials in ρ whose coefficients come
 //! from L alone. A multiple of 1 in L changes |q| only and is taken out.
+//!
+//! Coordinates that N does not couple are blocks, each with an exponential of its own. One of them all would lose the digits of a
+//! block that the start has little of, beside the rounding of another, and those of blocks whose rates nearly meet.
 
 use super::ball::Ball;
-use super::modes::{Modes, Time};
+use super::functions::exp_and_power;
+use super::modes::{Cubic, Pair, Time};
 use crate::flow::VelocityGradient;
 use nalgebra::Matrix3;
 use std::array::from_fn;
@@ -23,8 +27,18 @@ pub(super) struct General {
     slower: Ball,
     /// (2 D:D)^½ of L as it was scaled.
     magnitude: Ball,
-    /// All three coordinates.
-    modes: Modes,
+    /// The roots of all three coordinates.
+    cubic: Cubic,
+    /// Δ of the roots m ± √Δ of the two coordinates that are left without the first, second or third.
+    squares: [Ball; 3],
+}
+
+/// exp(Nτ) by rows, up to a factor, of the coordinates that a start reaches.
+pub(super) struct Rows {
+    /// a₀, a₁ and a₂ of each row's block.
+    coefficients: Square,
+    /// The power of two that is left out of each row.
+    powers: [i32; 3],
 }
 
 impl General {
@@ -72,14 +86,15 @@ impl General {
             power,
             slower: Ball::ONE.over(Ball::ONE + rho),
             magnitude,
-            modes: Modes::of_three(t, c, d),
+            cubic: Cubic::new(t, c, d),
+            squares: from_fn(|left_out| square_of_pair(&l, others(left_out), rho, rest)),
         }
     }
 
     /// The period in units in which L is about 1, where there is one, and by how much the rest of the motion grows
     /// against the turning in it: |ln| of the ratio.
     pub fn period(&self) -> Option<(Ball, f64)> {
-        let (period, drift) = self.modes.period()?;
+        let (period, drift) = self.cubic.period()?;
         Some((period.over(self.slower), drift))
     }
 
@@ -112,7 +127,7 @@ impl General {
 
     /// The time of `turns` periods, where there is a period.
     pub fn time_of_periods(&self, turns: Ball) -> Option<Time> {
-        let (period, _) = self.modes.period()?;
+        let (period, _) = self.cubic.period()?;
         Some(Time {
             span: turns * period,
             turns: Some(turns),
@@ -130,13 +145,16 @@ impl General {
 
     /// The map q = M p, up to a factor.
     pub fn map(&self, time: Time) -> Square {
-        self.map_of(&self.modes, time)
+        let rows = self.rows([true; 3], time);
+        let most = rows.powers.into_iter().fold(i32::MIN, i32::max);
+        let map = self.map_of(&rows);
+        from_fn(|i| map[i].map(|component| component.shifted(rows.powers[i] - most)))
     }
 
-    /// The map of the coordinates that `modes` stands for; its other columns mean nothing.
-    pub fn map_of(&self, modes: &Modes, time: Time) -> Square {
-        let [a0, a1, a2] = modes.coefficients(time);
+    /// The map of the coordinates that `rows` reach, without the powers of two; its other columns mean nothing.
+    pub fn map_of(&self, rows: &Rows) -> Square {
         from_fn(|i| {
+            let [a0, a1, a2] = rows.coefficients[i];
             from_fn(|j| {
                 let one = if i == j { a0 } else { Ball::ZERO };
                 one + a1 * self.n[i][j] + a2 * self.n_squared[i][j]
@@ -144,33 +162,101 @@ impl General {
         })
     }
 
-    /// What moves a rod that starts along `p`: of the coordinates only those that it can reach, so that a rod on an axis
-    /// that is one of the flow's stays there.
-    pub fn modes_from(&self, p: [f64; 3]) -> Modes {
+    /// What moves a rod that starts along `p`, and that start times the rows' powers of two, the largest component about 1.
+    pub fn rows_from(&self, p: [f64; 3], time: Time) -> (Rows, [Ball; 3]) {
+        let rows = self.rows(self.reached(p), time);
+        let most = (0..3)
+            .filter(|&i| p[i] != 0.0)
+            .map(|i| rows.powers[i] + exponent(p[i]))
+            .fold(i32::MIN, i32::max);
+        let start = from_fn(|i| match p[i] {
+            0.0 => Ball::ZERO,
+            component => Ball::exact(component).shifted(rows.powers[i] - most),
+        });
+        (rows, start)
+    }
+
+    /// Where a start of [`Self::rows_from`] goes, up to a factor.
+    pub fn moved(&self, rows: &Rows, start: [Ball; 3]) -> [Ball; 3] {
+        let once = times(&self.n, start);
+        let twice = times(&self.n_squared, start);
+        from_fn(|i| {
+            let [a0, a1, a2] = rows.coefficients[i];
+            a0 * start[i] + a1 * once[i] + a2 * twice[i]
+        })
+    }
+
+    /// The coordinates that a rod along `p` can reach: one on an axis that is one of the flow's stays there.
+    fn reached(&self, p: [f64; 3]) -> [bool; 3] {
         let mut reached = p.map(|component| component != 0.0);
         for _ in 0..2 {
             reached = from_fn(|i| reached[i] || (0..3).any(|j| reached[j] && !self.n[i][j].is_zero()));
         }
-        let axes: Vec<usize> = (0..3).filter(|axis| reached[*axis]).collect();
-        match axes[..] {
-            [i, j] => {
-                let (a, b) = (self.n[i][i], self.n[j][j]);
-                let half = (a - b).scaled(0.5);
-                Modes::of_two((a + b).scaled(0.5), half * half + self.n[i][j] * self.n[j][i])
+        reached
+    }
+
+    /// exp(Nτ) of the reached coordinates, block by block.
+    fn rows(&self, reached: [bool; 3], time: Time) -> Rows {
+        let mut couplings = (0..3).filter(|&left_out| {
+            let [i, j] = others(left_out);
+            reached[i] && reached[j] && !(self.n[i][j].is_zero() && self.n[j][i].is_zero())
+        });
+        let alone = match (couplings.next(), couplings.next()) {
+            (alone, None) => alone,
+            _ => {
+                return Rows {
+                    coefficients: [self.cubic.coefficients(time); 3],
+                    powers: [0; 3],
+                };
             }
-            [_, _, _] => self.modes,
-            _ => Modes::None,
+        };
+        // The first coordinate of each one's block, and by that a block's coefficients and rate.
+        let first: [usize; 3] = from_fn(|i| match alone {
+            Some(alone) if i != alone => others(alone)[0],
+            _ => i,
+        });
+        let blocks: [Option<([Ball; 3], Ball)>; 3] = from_fn(|i| {
+            (first[i] == i && reached[i]).then(|| match alone {
+                Some(alone) if i != alone => self.pair(alone).coefficients(time),
+                _ => ([Ball::ONE, Ball::ZERO, Ball::ZERO], self.n[i][i]),
+            })
+        });
+        let rate = |i: usize| blocks[i].map_or(f64::NEG_INFINITY, |(_, rate)| rate.hi);
+        let fastest = (1..3).fold(0, |a, b| if rate(b) > rate(a) { b } else { a });
+        let scaled: [([Ball; 3], i32); 3] = from_fn(|i| match (blocks[i], blocks[fastest]) {
+            (Some((coefficients, rate)), Some((_, largest))) if i != fastest => {
+                let (factor, power) = exp_and_power((rate - largest) * time.span);
+                (coefficients.map(|a| a * factor), power)
+            }
+            (block, _) => (block.map_or([Ball::ZERO; 3], |(coefficients, _)| coefficients), 0),
+        });
+        Rows {
+            coefficients: first.map(|i| scaled[i].0),
+            powers: first.map(|i| scaled[i].1),
         }
     }
 
-    /// Where `p` goes, up to a factor, under `modes` of [`Self::modes_from`].
-    pub fn moved(&self, modes: &Modes, p: [f64; 3], time: Time) -> [Ball; 3] {
-        let coefficients = modes.coefficients(time);
-        let p = p.map(Ball::exact);
-        let once = times(&self.n, p);
-        let twice = times(&self.n_squared, p);
-        from_fn(|i| coefficients[0] * p[i] + coefficients[1] * once[i] + coefficients[2] * twice[i])
+    /// The roots of the two coordinates that are left without one.
+    fn pair(&self, left_out: usize) -> Pair {
+        let [i, j] = others(left_out);
+        Pair {
+            middle: (self.n[i][i] + self.n[j][j]).scaled(0.5),
+            square: self.squares[left_out],
+        }
     }
+}
+
+/// The two coordinates beside one.
+fn others(left_out: usize) -> [usize; 2] {
+    [[1, 2], [0, 2], [0, 1]][left_out]
+}
+
+/// Δ of two coordinates: with h = (L_ii − L_jj)/2, (1 − ρ)²(h² + L_ij L_ji) − ρ(L_ij − L_ji)², which cancels neither for long rods nor
+/// near spheres.
+fn square_of_pair(l: &Square, [i, j]: [usize; 2], rho: Ball, rest: Ball) -> Ball {
+    let half = (l[i][i] - l[j][j]).scaled(0.5);
+    let turning = l[i][j] - l[j][i];
+    rest * rest * (half * half + l[i][j] * l[j][i]) - rho * turning * turning
 }
 
 fn times(matrix: &Square, p: [Ball; 3]) -> [Ball; 3] {

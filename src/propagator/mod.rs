@@ -175,10 +175,13 @@ impl Propagator {
             Motion::General(general) => {
                 let start = [p.x, p.y, p.z];
                 let time = time_beside(general, mean, span)?;
-                let modes = general.modes_from(start);
-                let map = general.map_of(&modes, time);
-                let q = general.moved(&modes, start, time);
-                Some(moved(&map, &q, start))
+                let (rows, start) = general.rows_from(start, time);
+                let q = general.moved(&rows, start);
+                Some(moved(
+                    &general.map_of(&rows),
+                    &q,
+                    start.map(|component| component.hi),
+                ))
             }
         }
     }
@@ -189,7 +192,8 @@ impl Propagator {
         match &self.0 {
             Motion::General(general) => {
                 let time = time_beside(general, mean, span)?;
-                Some(normalized(&general.moved(&general.modes_from(p), p, time)))
+                let (rows, start) = general.rows_from(p, time);
+                Some(normalized(&general.moved(&rows, start)))
             }
             Motion::Couette { aspect_ratio, .. } => {
                 let (phase, error) = self.phase(span)?;

@@ -20,20 +20,11 @@ pub(super) struct Time {
     pub turns: Option<Ball>,
 }
 
-/// The roots of a characteristic equation.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Modes {
-    /// Nothing moves.
-    None,
-    Two(Pair),
-    Three(Cubic),
-}
-
 /// m ± √Δ.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair {
-    middle: Ball,
-    square: Ball,
+    pub middle: Ball,
+    pub square: Ball,
 }
 
 /// λ³ − tλ² + cλ − d.
@@ -47,48 +38,20 @@ pub(super) struct Cubic {
     pair: Pair,
 }
 
-impl Modes {
-    pub fn of_two(middle: Ball, square: Ball) -> Self {
-        Self::Two(Pair { middle, square })
-    }
-
-    pub fn of_three(t: Ball, c: Ball, d: Ball) -> Self {
-        Self::Three(Cubic::new(t, c, d))
-    }
-
-    /// 2π/ω of a pair that is certainly complex, and |λ − m|·2π/ω.
-    pub fn period(&self) -> Option<(Ball, f64)> {
-        let Self::Three(cubic) = self else {
-            return None;
-        };
-        if !cubic.pair.turns() {
-            return None;
-        }
-        let period = Ball::TAU.over((-cubic.pair.square).sqrt());
-        let drift = (cubic.root - cubic.pair.middle) * period;
-        Some((period, drift.most()))
-    }
-
-    /// a₀, a₁ and a₂, all times one and the same factor > 0.
-    pub fn coefficients(&self, time: Time) -> [Ball; 3] {
-        match self {
-            Self::None => [Ball::ONE, Ball::ZERO, Ball::ZERO],
-            Self::Two(pair) => {
-                let (_, cosh, sinh) = pair.at(time);
-                [cosh - pair.middle * sinh, sinh, Ball::ZERO]
-            }
-            Self::Three(cubic) => cubic.coefficients(time),
-        }
-    }
-}
-
 impl Pair {
+    /// a₀, a₁ and a₂ of two coordinates without a factor e^{gτ}, and the rate g.
+    pub fn coefficients(&self, time: Time) -> ([Ball; 3], Ball) {
+        let (rate, cosh, sinh) = self.at(time);
+        let coefficients = [cosh - self.middle * sinh, sinh, Ball::ZERO];
+        (coefficients, self.middle + rate)
+    }
+
     /// Whether it is certainly complex.
     fn turns(&self) -> bool {
         -self.square.hi > 2.0 * self.square.error
     }
 
-    /// √Δτ where the pair is real and the time is long, else 0; cosh √Δτ and sinh √Δτ/√Δ over e to that.
+    /// √Δ where the pair is real and the time is long, else 0; cosh √Δτ and sinh √Δτ/√Δ over e to that times τ.
     fn at(&self, time: Time) -> (Ball, Ball, Ball) {
         let tau = time.span;
         let z = self.square * tau * tau;
@@ -106,16 +69,15 @@ impl Pair {
                 true => self.square.sqrt(),
                 false => Ball::ONE.widened(f64::INFINITY),
             };
-            let growth = root * tau;
-            let other = exp(growth.scaled(-2.0));
+            let other = exp((root * tau).scaled(-2.0));
             let sinh = (Ball::ONE - other).over(root).scaled(0.5);
-            (growth, (Ball::ONE + other).scaled(0.5), sinh)
+            (root, (Ball::ONE + other).scaled(0.5), sinh)
         }
     }
 }
 
 impl Cubic {
-    fn new(t: Ball, c: Ball, d: Ball) -> Self {
+    pub fn new(t: Ball, c: Ball, d: Ball) -> Self {
         let size = c.most().sqrt().max(libm::cbrt(d.most())).max(t.most());
         // The cube of this is still a normal number.
         let size = libm::scalbn(1.0, (libm::log2(size).ceil() as i32).max(-330));
@@ -137,15 +99,26 @@ impl Cubic {
         }
     }
 
-    fn coefficients(&self, time: Time) -> [Ball; 3] {
+    /// 2π/ω of a pair that is certainly complex, and |λ − m|·2π/ω.
+    pub fn period(&self) -> Option<(Ball, f64)> {
+        if !self.pair.turns() {
+            return None;
+        }
+        let period = Ball::TAU.over((-self.pair.square).sqrt());
+        let drift = (self.root - self.pair.middle) * period;
+        Some((period, drift.most()))
+    }
+
+    /// a₀, a₁ and a₂, all times one and the same factor > 0.
+    pub fn coefficients(&self, time: Time) -> [Ball; 3] {
         let tau = time.span;
         if self.size * tau.most() <= SHORT {
             return self.series(tau);
         }
         let Pair { middle, square } = self.pair;
-        let (growth, cosh, sinh) = self.pair.at(time);
+        let (rate, cosh, sinh) = self.pair.at(time);
         // The larger of both factors is taken out.
-        let lead = (self.root - middle) * tau - growth;
+        let lead = (self.root - middle) * tau - rate * tau;
         let (of_root, of_pair) = if lead.hi > 0.0 {
             (Ball::ONE, exp(-lead))
         } else {

@@ -191,6 +191,23 @@ fn no_strain_overflows() {
         let end = Propagator::new(&flow, 11.6).after(&p, 1e6);
         assert!((end.x - 1.0).abs() < 1e-15 && end.y.abs() < 1e-15, "{end:?}");
     }
+    // All three coupled: rates of 2, −1 and −1, the first along (1, 1, 1).
+    let coupled = flow([[0.0, 1.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 0.0]]);
+    let end = Propagator::new(&coupled, 11.6).after(&p, 1e6);
+    assert!(
+        apart(&end, &UnitVector3::new_normalize(Vector3::repeat(1.0))) < 1e-15,
+        "{end:?}"
+    );
+}
+
+/// Of an axis that the flow leads nowhere else, though it leads other axes there: L_21 = ρL_12, to the bit at r_e = 2.
+#[test]
+fn a_rod_stays_on_an_axis_that_other_axes_lead_to() {
+    let flow = flow([[-1.0, 1.0, 0.0], [0.25, 0.5, 0.3], [0.0, -0.2, 0.5]]);
+    let moved = Propagator::new(&flow, 2.0)
+        .moved(&Vector3::x_axis(), Span::Seconds(1e3))
+        .unwrap();
+    assert!(moved.p == Vector3::x_axis() && moved.error < 1e-15, "{moved:?}");
 }
 
 #[test]
@@ -210,8 +227,8 @@ fn a_spiral_keeps_its_phase_over_many_turns() {
     assert!(apart(&end, &expected) < 1e-8, "{end:?}");
 }
 
-/// A rod that is drawn into the plane of axes 1 and 2 and turns in it by 1.5 rad, ever more slowly: cancellation hides the turning in the
-/// eigenvalues, until it is not known any more.
+/// A rod that is drawn into the plane of axes 1 and 2 and turns in it by 1.5 rad, ever more slowly. Where all axes are coupled, by
+/// however little, cancellation hides the turning in the eigenvalues, until it is not known any more.
 #[test]
 fn the_bound_on_a_slow_spiral_is_kept() {
     let p = UnitVector3::new_normalize(Vector3::new(0.6, 0.0, 0.8));
@@ -219,10 +236,20 @@ fn the_bound_on_a_slow_spiral_is_kept() {
     let spirals: Vec<_> = (6..56)
         .map(|k| {
             let turning = 0.3 * libm::exp2(-f64::from(k));
-            let flow = flow([[0.7, -turning, 0.0], [turning, 0.7, 0.0], [0.0, 0.0, -1.4]]);
-            let moved = Propagator::new(&flow, 3.3)
-                .moved(&p, Span::Seconds(1.5 / turning))
-                .unwrap();
+            let moved = |coupling: f64| {
+                let flow = flow([[0.7, -turning, coupling], [turning, 0.7, 0.0], [0.0, 0.0, -1.4]]);
+                let rods = Propagator::new(&flow, 3.3);
+                rods.moved(&p, Span::Seconds(1.5 / turning)).unwrap()
+            };
+            // A hundred roundings, of 2⁻¹⁰², of the exponent are room for all on the way; a bound as wide as double's would fail.
+            let exponent = 1.05 / turning;
+            let uncoupled = moved(0.0);
+            assert!(
+                apart(&uncoupled.p, &expected) <= uncoupled.error + 4.0 * f64::EPSILON
+                    && uncoupled.error <= 4.0 * f64::EPSILON + 100.0 * libm::exp2(-102.0) * exponent,
+                "{k}: {uncoupled:?}"
+            );
+            let moved = moved(1e-290);
             let off = apart(&moved.p, &expected);
             assert!(
                 off <= moved.error + 4.0 * f64::EPSILON,

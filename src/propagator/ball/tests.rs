@@ -1,6 +1,6 @@
 //! Every operation against the same one in 300 bits: the exact result lies within the error that comes with the ball's.
 
-use super::super::functions::{cosh_sinh_over, exp, sin_cos};
+use super::super::functions::{cosh_sinh_over, exp, exp_and_power, sin_cos};
 use super::*;
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
@@ -94,6 +94,10 @@ proptest! {
         let exact = within(a, s) * big(2.0).powi(power.into());
         prop_assert!(scaled.is_zero() && a.is_zero() || off(scaled, &exact) <= ONE, "{a:?} {scaled:?}");
         prop_assert!(power < -800 || scaled.error == a.error * libm::scalbn(1.0, power));
+        prop_assert_eq!(a.shifted(power), scaled);
+        // A power of two that is no double.
+        let far = a.shifted(-3000 - power);
+        prop_assert!(far.hi == 0.0 && far.error == if a.is_zero() { 0.0 } else { UNDERFLOW }, "{far:?}");
     }
 
     #[test]
@@ -105,9 +109,14 @@ proptest! {
     }
 
     #[test]
-    fn exponentials_hold_the_exact_ones(a in ball_of(-20..3), s in share()) {
+    fn exponentials_hold_the_exact_ones(a in ball_of(-20..5), s in share()) {
         let a = Ball { hi: -a.hi.abs(), lo: if a.hi < 0.0 { a.lo } else { -a.lo }, error: a.error };
-        prop_assert!(off(exp(a), &within(a, s).exp()) <= ONE, "e to {a:?}");
+        let exact = within(a, s).exp();
+        prop_assert!(off(exp(a), &exact) <= ONE, "e to {a:?}");
+        let (value, power) = exp_and_power(a);
+        let exact = exact * big(2.0).powi((-power).into());
+        prop_assert!(off(value, &exact) <= ONE, "e to {a:?}: {value:?} and {power}");
+        prop_assert!(a.hi < -3000.0 || (0.5..=2.0).contains(&value.hi));
     }
 
     #[test]
