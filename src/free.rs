@@ -143,11 +143,7 @@ fn unknown(scene: &Scene, error: f64, of_start: f64) -> Invalid {
         Some(strain) => ("time.strain", strain),
         None => ("time.periods", scene.time.periods.unwrap_or(0.0)),
     };
-    let cause = if of_start > 0.5 * error {
-        "the start is a double, and this flow tells apart what a double cannot"
-    } else {
-        "the flow's rates cancel, or grow apart, beyond the 32 digits that they are worked out in"
-    };
+    let cause = cause(error, of_start);
     Invalid::new(
         key,
         value,
@@ -156,6 +152,29 @@ fn unknown(scene: &Scene, error: f64, of_start: f64) -> Invalid {
              {MAX_ERROR_RAD:e}: {cause}; give a shorter time, another start or other rods",
             scene.particles.aspect_ratio
         ),
+    )
+}
+
+/// Why a direction is not known: the part of the start's rounding in the error, or that of the rates.
+fn cause(error: f64, of_start: f64) -> &'static str {
+    if of_start > 0.5 * error {
+        "this flow amplifies the rounding of the start beyond 1e-6 rad"
+    } else {
+        "the flow's rates cancel, or grow apart, beyond the 32 digits that they are worked out in"
+    }
+}
+
+/// What is wrong with a rod of aspect ratio `r` whose bound on the error of its direction is `error` rad, `of_start` of it from the
+/// rounding of the start.
+pub(crate) fn refused_direction(r: f64, error: f64, of_start: f64) -> String {
+    let bound = match error.is_finite() {
+        true => format!("{error:.2e} rad"),
+        false => "infinite".into(),
+    };
+    format!(
+        "the bound on the error of its direction is {bound}, more than the {MAX_ERROR_RAD:e} rad allowed, at r_e = {r}: {}; \
+         give a shorter time, another start or other rods",
+        cause(error, of_start)
     )
 }
 

@@ -1,8 +1,9 @@
 //! The rods' directions: each rod keeps the direction it had after its last collision, and the exact
 //! motion takes it from there to whatever time is asked for. A free rod is never stepped.
 
+use crate::border::Fault;
 use crate::chunks::over_chunks;
-use crate::free::{FreeMotion, MAX_ERROR_RAD, Way, directed};
+use crate::free::{FreeMotion, MAX_ERROR_RAD, Way, directed, refused_direction};
 use crate::gaussian;
 use crate::jeffery::strain_per_period;
 use crate::observable::{BLOCK, Block};
@@ -14,6 +15,7 @@ use crate::random::{Purpose, ahead, stream};
 use crate::scene::Orientation;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use rand::RngExt;
+use std::cell::Cell;
 use std::sync::Arc;
 
 /// Directions and aspect ratios of one replica's rods, as structure of arrays.
@@ -110,7 +112,11 @@ impl Rods {
 
     /// Fills `block` with the directions at `tick` (for flows other than plane Couette flow: at that
     /// output) of up to [`BLOCK`] rods from `first` on.
-    pub fn orient(&self, first: usize, tick: u64, block: &mut Block) {
+    ///
+    /// # Errors
+    ///
+    /// The first rod of the block whose direction is not known to [`MAX_ERROR_RAD`].
+    pub fn orient(&self, first: usize, tick: u64, block: &mut Block) -> Result<(), Fault> {
         block.len = BLOCK.min(self.count() - first);
         let rods = first..first + block.len;
         match &self.shapes {
@@ -153,23 +159,33 @@ impl Rods {
                         [all] => all,
                         each => &each[rod],
                     };
-                    block.turn(from, |k, p, _| {
+                    let unknown = Cell::new(None);
+                    block.turn(from, |k, p, r| {
                         let propagator = of_rod(first + k);
                         let found = if *rounded {
                             let start = UnitVector3::new_unchecked(p.into());
-                            directed(propagator, mean, &start, span).map(|(end, error, _)| (end, error))
+                            directed(propagator, mean, &start, span)
                         } else {
-                            propagator.direction_beside(mean, p, span)
+                            let found = propagator.direction_beside(mean, p, span);
+                            found.map(|(end, error)| (end, error, 0.0))
                         };
-                        // No direction rather than one that is not known: a run with one is refused.
-                        match found {
-                            Some((end, error)) if error <= MAX_ERROR_RAD => end,
-                            _ => [f64::NAN; 3],
+                        let (end, error, of_start) = found.unwrap_or(([f64::NAN; 3], f64::INFINITY, 0.0));
+                        if error <= MAX_ERROR_RAD {
+                            return end;
                         }
+                        unknown.set(unknown.get().or(Some((k, r, error, of_start))));
+                        [f64::NAN; 3]
                     });
+                    if let Some((rod, r, error, of_start)) = unknown.get() {
+                        return Err(Fault {
+                            rod: Some(rod),
+                            cause: refused_direction(r, error, of_start),
+                        });
+                    }
                 }
             },
         }
+        Ok(())
     }
 
     /// Ticks since the rod's last collision.

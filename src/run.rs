@@ -130,8 +130,11 @@ fn straight(
     }
     let asked = plan.rods_outputs().into_iter();
     recorder.snapshots = asked
-        .map(|output| Snapshot::of_free(&rods, replica, output))
-        .collect();
+        .map(|output| {
+            Snapshot::of_free(&rods, replica, output)
+                .map_err(|fault| refused(plan, replica, 0, output, fault))
+        })
+        .collect::<Result<_, _>>()?;
     Ok(Counters {
         aspect_ratios_redrawn,
         ..Counters::default()
@@ -160,6 +163,7 @@ fn stepped(
         })?;
         if asked.contains(&output) {
             let snapshot = Snapshot::of_suspension(&suspension, recorder.replica, output);
+            let snapshot = snapshot.map_err(|fault| recorder.refused(0, output, fault))?;
             recorder.snapshots.push(snapshot);
         }
     }
@@ -213,11 +217,11 @@ impl<'a> Recorder<'a> {
     }
 
     /// Sums the observables of all rods at these outputs; `orient(first, output, block)` fills a block with the
-    /// directions of the rods from `first` on. Large runs: sums over chunks, and then their sum in order.
+    /// directions of the rods from `first` on, or says which is not known. Large runs: sums over chunks, and then their sum in order.
     fn record(
         &mut self,
         outputs: Range<usize>,
-        orient: impl Fn(usize, usize, &mut Block) + Sync,
+        orient: impl Fn(usize, usize, &mut Block) -> Result<(), Fault> + Sync,
     ) -> Result<(), RunError> {
         let count = self.plan.scene().particles.count;
         let done = outputs.end;
@@ -250,14 +254,14 @@ impl<'a> Recorder<'a> {
         &self,
         part: Range<usize>,
         outputs: Range<usize>,
-        orient: impl Fn(usize, usize, &mut Block),
+        orient: impl Fn(usize, usize, &mut Block) -> Result<(), Fault>,
         sums: &mut [Sum],
     ) -> Result<(), RunError> {
         let mut block = Block::default();
         for first in part.step_by(BLOCK) {
             for (output, sums) in outputs.clone().zip(sums.chunks_mut(self.width)) {
-                orient(first, output, &mut block);
                 let refused = |fault| self.refused(first, output, fault);
+                orient(first, output, &mut block).map_err(refused)?;
                 border::directions(&block).map_err(refused)?;
                 for (observable, start) in &self.observables {
                     let sums = &mut sums[*start..][..observable.width()];
@@ -296,8 +300,9 @@ pub(crate) fn each_block(
     let mut block = Block::default();
     let mut blocks = |output: usize, rods: &Rods, tick: u64| {
         (0..rods.count()).step_by(BLOCK).try_for_each(|first| {
-            rods.orient(first, tick, &mut block);
-            border::directions(&block).map_err(|fault| refused(plan, replica, first, output, fault))?;
+            rods.orient(first, tick, &mut block)
+                .and_then(|()| border::directions(&block))
+                .map_err(|fault| refused(plan, replica, first, output, fault))?;
             look(output, first, &block)
         })
     };

@@ -3,6 +3,7 @@
 #[cfg(test)]
 mod tests;
 
+use crate::border::Fault;
 use crate::observable::{BLOCK, Block};
 use crate::plan::{Plan, Stage};
 use crate::rods::Rods;
@@ -60,39 +61,42 @@ impl Snapshot {
             && self.replica < plan.scene().ensemble.replicas
     }
 
-    /// Free rods at an output.
-    pub(crate) fn of_free(rods: &Rods, replica: u64, output: usize) -> Self {
+    /// Free rods at an output; a rod whose direction is not known is an error.
+    pub(crate) fn of_free(rods: &Rods, replica: u64, output: usize) -> Result<Self, Fault> {
         Self::of(rods, replica, output, output as u64)
     }
 
     /// The rods of a suspension at an output, which is now.
-    pub(crate) fn of_suspension(suspension: &Suspension, replica: u64, output: usize) -> Self {
+    pub(crate) fn of_suspension(suspension: &Suspension, replica: u64, output: usize) -> Result<Self, Fault> {
         let (rods, tick) = (&suspension.rods, suspension.tick());
         let collided = |rod| tick > 0 && rods.turned_after(rod, tick - 1);
-        Self {
+        Ok(Self {
             place_in_lengths: Some(suspension.positions_in_lengths().clone()),
             collided: (0..rods.count()).map(collided).collect(),
-            ..Self::of(rods, replica, output, tick)
-        }
+            ..Self::of(rods, replica, output, tick)?
+        })
     }
 
-    fn of(rods: &Rods, replica: u64, output: usize, tick: u64) -> Self {
+    fn of(rods: &Rods, replica: u64, output: usize, tick: u64) -> Result<Self, Fault> {
         let count = rods.count();
         let mut p = [(); 3].map(|()| Vec::with_capacity(count));
         let mut block = Block::default();
         for first in (0..count).step_by(BLOCK) {
-            rods.orient(first, tick, &mut block);
+            rods.orient(first, tick, &mut block).map_err(|fault| Fault {
+                rod: fault.rod.map(|rod| first + rod),
+                ..fault
+            })?;
             for (axis, from) in p.iter_mut().zip(&block.p) {
                 axis.extend_from_slice(&from[..block.len]);
             }
         }
-        Self {
+        Ok(Self {
             replica,
             output,
             p,
             aspect_ratio: (0..count).map(|rod| rods.aspect_ratio(rod)).collect(),
             place_in_lengths: None,
             collided: vec![false; count],
-        }
+        })
     }
 }

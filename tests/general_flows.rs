@@ -106,7 +106,7 @@ fn a_start_on_a_dividing_plane_is_refused_however_it_is_given() {
         // Far beyond the limit, and a little.
         for strain in [100.0, 27.0] {
             let error = told(sd, start, strain).unwrap_err().to_string();
-            let cause = "the start is a double, and this flow tells apart what a double cannot";
+            let cause = "this flow amplifies the rounding of the start beyond 1e-6 rad";
             assert!(error.contains(cause), "{sd}: {error}");
         }
         assert!(told(sd, start, 5.0).is_ok(), "{sd}");
@@ -413,4 +413,39 @@ fn a_scene_of_rates_that_nearly_meet_ends() {
             "{name}: {last}"
         );
     }
+}
+
+/// On a dividing plane to a rounding: the bound first exceeds 1e-6 rad at some output on the way.
+#[test]
+fn a_refused_rod_is_named_with_its_bound_and_the_time() {
+    let rows = [[0.25, 0.75, 0.0], [0.75, 0.25, 0.0], [0.0, 0.0, -0.5]];
+    let (sine, cosine) = (135f64.to_radians().sin(), 135f64.to_radians().cos());
+    let mut scene = from_file(rows, 11.6, 100.0, [cosine, sine, 0.0]);
+    // The first rod lies on the flow's axis.
+    let p = [
+        vec![0.5f64.sqrt(), cosine],
+        vec![0.5f64.sqrt(), sine],
+        vec![0.0; 2],
+    ];
+    scene.particles.count = 2;
+    let Orientation::Each { p: starts, .. } = &mut scene.particles.orientation else {
+        unreachable!("from a file");
+    };
+    *starts = Some(Arc::new(p));
+    let error = ensemble::run(&Plan::new(&scene).unwrap())
+        .unwrap_err()
+        .to_string();
+    // The start's rounding, 4 ε, grows by e^{1.5Λ strain/√3}, which is 1e-6/4 ε = 1.1e9 at a strain of 24.4.
+    assert!(
+        error.starts_with("rod 1, output 25 (strain = 25) of replica 0, seed "),
+        "{error}"
+    );
+    for part in [
+        " rad, more than the 1e-6 rad allowed",
+        "r_e = 11.6",
+        "this flow amplifies the rounding of the start",
+    ] {
+        assert!(error.contains(part), "{part}: {error}");
+    }
+    assert!(!error.contains("NaN"), "{error}");
 }

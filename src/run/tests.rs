@@ -16,10 +16,11 @@ fn broken(count: usize, rod: usize, at: usize, wrong: [f64; 3]) -> Result<(), Ru
     let plan = plan(count, 2);
     let (rods, _) = Rods::draw(&plan, 1);
     Recorder::new(&plan, 1).record(0..plan.outputs(), |first, output, block| {
-        rods.orient(first, output as u64, block);
+        rods.orient(first, output as u64, block)?;
         if output == at && (first..first + block.len).contains(&rod) {
             (0..3).for_each(|axis| block.p[axis][rod - first] = wrong[axis]);
         }
+        Ok(())
     })
 }
 
@@ -42,7 +43,10 @@ fn of_several_wrong_rods_the_first_is_named_whatever_the_threads() {
     let plan = plan(3 * CHUNK, 1);
     let recorder = |_| {
         Recorder::new(&plan, 0)
-            .record(0..1, |_, _, block| block.len = BLOCK)
+            .record(0..1, |_, _, block| {
+                block.len = BLOCK;
+                Ok(())
+            })
             .unwrap_err()
     };
     let errors: Vec<_> = (0..4).map(recorder).collect();
