@@ -5,8 +5,9 @@ use crate::integrators::{ClosedForm, Integrator, Problem, Setting};
 use crate::stability::corners;
 use crate::stability::map::{ASPECT_RATIOS, STEPS};
 use crate::statistics::larger;
-use nalgebra::{Matrix3, UnitVector3, Vector3};
+use nalgebra::{Matrix3, Rotation3, UnitVector3, Vector3};
 use shearbed::flow::VelocityGradient;
+use shearbed::jeffery::shape_factor;
 use shearbed::orientation;
 use shearbed::phase::Phase;
 use shearbed::propagator::Propagator;
@@ -47,7 +48,8 @@ pub fn cases() -> Vec<Case> {
         Case::core("extreme-flows")
             .claim(
                 "In other flows rods keep |p| = 1 to 4 ulp up to a strain of 10⁶ and beyond, and end where \
-                 the flow leads.",
+                 the flow leads, to 4 ulp too where its two fastest rates are equal or next to each other \
+                 and the start is 5·10⁻¹⁵ rad from the third axis.",
             )
             .source("eq. 3, A.1")
             .equations(&["3", "A.1"])
@@ -55,12 +57,32 @@ pub fn cases() -> Vec<Case> {
                 (|flow, r, p, time_s| Propagator::new(flow, r).after(p, time_s).into_inner()) as FlowMotion,
             )
             .mistake("the plain exponential", |flow, r, p, time_s| {
-                let a = flow.vorticity() + shearbed::jeffery::shape_factor(r) * flow.strain_rate();
+                let a = flow.vorticity() + shape_factor(r) * flow.strain_rate();
                 ((a * time_s).exp() * p.as_ref()).normalize()
             })
             .mistake("a millionth of the strain", |flow, r, p, time_s| {
                 Propagator::new(flow, r).after(p, 1e-6 * time_s).into_inner()
             })
+            .mistake("nearly equal rates taken as equal", |flow, r, p, time_s| {
+                let mut l = *flow.per_s();
+                for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+                    if (l[(i, i)] - l[(j, j)]).abs() < 1e-12 * l.amax() {
+                        l[(j, j)] = l[(i, i)];
+                    }
+                }
+                let flow = VelocityGradient::new(l).expect("finite");
+                Propagator::new(&flow, r).after(p, time_s).into_inner()
+            })
+            .mistake(
+                "in turned axes, where all coordinates are coupled",
+                |flow, r, p, time_s| {
+                    let turn = Rotation3::from_euler_angles(0.3, 0.5, 0.7);
+                    let l = turn * flow.per_s() * turn.transpose();
+                    let flow = VelocityGradient::new(l).expect("finite");
+                    let start = UnitVector3::new_normalize(turn * p.as_ref());
+                    turn.transpose() * Propagator::new(&flow, r).after(&start, time_s).into_inner()
+                },
+            )
             .check(extreme_flows),
     ]
 }
@@ -166,5 +188,44 @@ fn extreme_flows(motion: &FlowMotion, _: &Effort) -> Vec<Evidence> {
             "e^{−Λ·10⁶} is 0; the map is known to some ε, which a start near the dividing plane grows \
              by 1/|p_1|",
         ),
+        Evidence::within(
+            "largest angle to p_i e^{ΛL_ii t} where two rates nearly meet, at a strain of 10² or more",
+            apart_where_rates_meet(motion),
+            LENGTH,
+            "the motion of uncoupled axes amplifies nothing: a component of the core's direction is rounded \
+             twice (ε), one of the closed form three times (2 ε), which turns either by half of that, and \
+             their cross product is rounded to ε",
+        ),
     ]
+}
+
+/// The largest angle to the closed form of uncoupled axes, two of which lengthen equally fast, or nearly so, and the third
+/// shrinks. Nearly all of the start lies along that.
+fn apart_where_rates_meet(motion: &FlowMotion) -> f64 {
+    let next = 1.0 + f64::EPSILON;
+    let (near, beside) = (5.4e-15, 7.06e-16);
+    let mut worst = 0.0f64;
+    for (l, p) in [
+        ([1.0, -2.0, next], [beside, 1.0, -near]),
+        ([1.0, -2.0, 1.0], [beside, 1.0, -near]),
+        ([-2.0, next, 1.0], [1.0, -near, beside]),
+        ([next, 1.0, -2.0], [near, beside, -1.0]),
+    ] {
+        for rate in [1e-30, 1.0, 1e30] {
+            let l = Vector3::from(l) * rate;
+            let flow = VelocityGradient::new(Matrix3::from_diagonal(&l)).expect("finite");
+            let start = UnitVector3::new_unchecked(Vector3::from(p));
+            for r in [1.5, 11.6, 1e8] {
+                for strain in [1e2, 1861.0, 2550.0, 1e6, 1e12] {
+                    let time_s = strain / rate;
+                    // Differences of rates that nearly meet are exact, and the third axis comes to 0.
+                    let grown = l.map(|l_ii| (shape_factor(r) * (l_ii - l.max()) * time_s).exp());
+                    let expected = start.component_mul(&grown).normalize();
+                    let end = motion(&flow, r, &start, time_s);
+                    worst = larger(worst, end.cross(&expected).norm());
+                }
+            }
+        }
+    }
+    worst
 }
