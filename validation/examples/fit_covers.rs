@@ -1,117 +1,196 @@
-//! Repeats whole fits of synthetic points with a planted α, each with a seed and noise of its own, and counts how often the
-//! intervals hold it: `cargo run --release -p shearbed-suite --example fit_covers -- 200`.
+//! Repeats whole fits of synthetic points of two thin suspensions, each with a seed and noise of its own, and counts how often the
+//! intervals hold the planted values:
+//!
+//!     cargo run --release -p shearbed-suite --example fit_covers -- 200 interaction.alpha=0.2:3 interaction.m=1.2:6
+//!
+//! Keys are `interaction.alpha`, `interaction.m`, `particles.aspect_ratio`, `particles.aspect_ratio_sd_percent` and
+//! `interaction.concentration_per_cm3` (of the second suspension).
 
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
+use std::collections::BTreeMap;
 use validation::fit::Range;
 use validation::fit::data::{Datum, TimeColumn};
+use validation::fit::elsewhere::look_elsewhere;
 use validation::fit::likelihood::{EMULATOR, REPLICAS};
 use validation::fit::scenes::{AS_WRITTEN, Scenes, Set};
-use validation::fit::search::{Measured, Problem, Watch, search};
+use validation::fit::search::{Fit, Measured, Problem, Watch, search};
 use validation::scenes;
 use validation::start::Starts;
 use validation::sweep::Setting;
 
-const PLANTED: f64 = 0.8;
+/// The values behind the points.
+const PLANTED: [(&str, f64); 5] = [
+    ("interaction.alpha", 0.8),
+    ("interaction.m", 3.0),
+    ("particles.aspect_ratio", 18.5),
+    ("particles.aspect_ratio_sd_percent", 3.6),
+    ("interaction.concentration_per_cm3", 2000.0),
+];
 const NOISE: f64 = 0.01;
-const POINTS: usize = 22;
-/// Replicas of the curve behind the points: its own error is a tenth of what 22 points of this noise leave in α.
-const TRUTH: u64 = 4000;
+/// Times of each column, evenly up to one period.
+const TIMES: usize = 10;
+/// Replicas of the curve behind the points.
+const TRUTH: u64 = 20_000;
 
 fn points(value: impl Fn(usize) -> f64) -> Vec<Datum> {
-    let point = |k: usize| Datum {
+    let place = |set| {
+        ["x1", "x3"].into_iter().flat_map(move |column| {
+            // Half a period of r_e = 18.5 is a strain of 58.
+            (0..TIMES).map(move |k| Datum::place(set, column, 116.0 * (k + 1) as f64 / TIMES as f64))
+        })
+    };
+    let places = place(0).chain(place(1)).enumerate();
+    let point = |(k, place): (usize, Datum)| Datum {
         value: value(k),
         u: NOISE,
-        ..Datum::place(0, "x1", (k + 1) as f64 / POINTS as f64)
+        ..place
     };
-    (0..POINTS).map(point).collect()
+    places.map(point).collect()
 }
 
-/// Fig. 4 at 50 per cm³, one period in a hundred steps: the model judges itself.
-fn scenes(seed: u64, over: &Range) -> Result<Scenes, String> {
-    let settings = ["time.periods=1", "time.steps_per_period=100"].map(Setting::parse);
-    let set = Set {
-        source: "fig4-n50".into(),
-        text: scenes::find("fig4-n50").ok_or("no scene")?.text.into(),
-        starts: Starts::default(),
-        settings: settings.into_iter().collect::<Result<_, _>>()?,
-        seed,
-        time: TimeColumn::Periods,
+/// Fig. 4 at 50 and 2000 per cm³ with 20 rods in fifty steps: the model judges itself.
+fn scenes(seed: u64, over: &[Range]) -> Result<Scenes, String> {
+    let text = scenes::find("fig4-n50").ok_or("no scene")?.text;
+    let set = |concentration: f64| -> Result<Set, String> {
+        let settings = [
+            "time.periods=1.2".into(),
+            "time.steps_per_period=50".into(),
+            "time.outputs_per_period=50".into(),
+            "particles.count=20".into(),
+            format!("interaction.concentration_per_cm3={concentration}"),
+        ];
+        Ok(Set {
+            source: "fig4".into(),
+            text: text.into(),
+            starts: Starts::default(),
+            settings: settings
+                .iter()
+                .map(|text: &String| Setting::parse(text))
+                .collect::<Result<_, _>>()?,
+            seed,
+            time: TimeColumn::Strain,
+        })
     };
-    Scenes::new(vec![set], vec![over.clone()])
+    Scenes::new(vec![set(50.0)?, set(2000.0)?], over.to_vec())
+}
+
+fn planted(range: &Range) -> Result<f64, String> {
+    let found = PLANTED.iter().find(|(key, _)| *key == range.key);
+    found
+        .map(|(_, value)| *value)
+        .ok_or_else(|| format!("{}: no planted value", range.key))
+}
+
+/// One fit as `shearbed fit` makes it, or why it is refused.
+fn whole_fit(k: u64, truth: &[f64], over: &[Range]) -> Result<Fit, String> {
+    let mut rng = Pcg64Dxsm::seed_from_u64(1000 + k);
+    let noise: Vec<f64> = (truth.iter()).map(|_| StandardNormal.sample(&mut rng)).collect();
+    let data = points(|k| truth[k] + NOISE * noise[k]);
+    let scenes = scenes(2000 + k, over)?;
+    let model = |values: &[f64]| scenes.model(&data, AS_WRITTEN, values);
+    let problem = Problem {
+        measured: Measured {
+            data: &data,
+            ranges: over,
+            rods_over_measured: &[0.0, 0.0],
+        },
+        model: &model,
+        most_replicas: 1000,
+    };
+    let watch = Watch {
+        planned: &|_| (),
+        done: &|| (),
+    };
+    let fit = search(&problem, &watch)?;
+    look_elsewhere(&problem, &fit, &watch)?;
+    Ok(fit)
 }
 
 fn main() -> Result<(), String> {
-    let repeats: u64 = std::env::args()
-        .nth(1)
-        .map_or(Ok(20), |text| text.parse())
-        .map_err(|error| format!("{error}"))?;
-    let over = Range::parse("interaction.alpha=0.1:5")?;
-    let places = points(|_| f64::NAN);
-    let planted = scenes(1, &over)?.model(&places, AS_WRITTEN, &[PLANTED])?;
-    let rows: Vec<_> = (0..TRUTH)
-        .into_par_iter()
-        .map(planted)
-        .collect::<Result<_, _>>()?;
-    let truth = |k: usize| rows.iter().map(|row| row[k][0]).sum::<f64>() / TRUTH as f64;
-    let truth: Vec<f64> = (0..POINTS).map(truth).collect();
-    let law = ChiSquared::new((POINTS - 1) as f64).map_err(|error| error.to_string())?;
-    println!(
-        "repeat,alpha,u,share_of_replicas,share_of_emulator,low_68,high_68,low_95,high_95,p,replicas,runs"
-    );
-    let (mut inside, mut low_p) = ([0, 0], 0);
-    for k in 0..repeats {
-        let mut rng = Pcg64Dxsm::seed_from_u64(1000 + k);
-        let noise: Vec<f64> = (0..POINTS).map(|_| StandardNormal.sample(&mut rng)).collect();
-        let data = points(|k| truth[k] + NOISE * noise[k]);
-        let scenes = scenes(2000 + k, &over)?;
-        let model = |values: &[f64]| scenes.model(&data, AS_WRITTEN, values);
-        let problem = Problem {
-            measured: Measured {
-                data: &data,
-                ranges: std::slice::from_ref(&over),
-                rods_over_measured: &[0.0],
-            },
-            model: &model,
-            most_replicas: 1000,
-        };
-        let fit = search(
-            &problem,
-            &Watch {
-                planned: &|_| (),
-                done: &|| (),
-            },
-        )?;
-        let ends = [0.68, 0.95].map(|confidence| fit.interval(0, confidence));
-        for (count, ends) in inside.iter_mut().zip(ends) {
-            *count += u64::from((ends.low..=ends.high).contains(&PLANTED));
+    let mut args = std::env::args().skip(1);
+    let repeats: u64 =
+        (args.next().map_or(Ok(20), |text| text.parse())).map_err(|error| format!("{error}"))?;
+    let mut over: Vec<Range> = args.map(|text| Range::parse(&text)).collect::<Result<_, _>>()?;
+    if over.is_empty() {
+        over.push(Range::parse("interaction.alpha=0.2:3")?);
+    }
+    for range in &mut over {
+        if range.key == "interaction.concentration_per_cm3" {
+            range.set = Some(2);
         }
+    }
+    let behind: Vec<f64> = over.iter().map(planted).collect::<Result<_, _>>()?;
+    let model = scenes(1, &over)?.model(&points(|_| f64::NAN), AS_WRITTEN, &behind)?;
+    let rows: Vec<_> = (0..TRUTH).into_par_iter().map(model).collect::<Result<_, _>>()?;
+    let truth: Vec<f64> = (0..rows[0].len())
+        .map(|k| rows.iter().map(|row| row[k][0]).sum::<f64>() / TRUTH as f64)
+        .collect();
+    let freedom = (truth.len() - over.len()) as f64;
+    let law = ChiSquared::new(freedom).map_err(|error| error.to_string())?;
+
+    let mut inside = vec![[0_u32; 2]; over.len()];
+    let (mut answered, mut low_p, mut high_p, mut chi_square) = (0, 0, 0, 0.0);
+    let mut refused: BTreeMap<String, u32> = BTreeMap::new();
+    println!(
+        "repeat,chi2,p,replicas,runs,share_of_replicas,share_of_emulator,feigned,key,estimate,low_68,high_68,low_95,high_95"
+    );
+    for k in 0..repeats {
+        let fit = match whole_fit(k, &truth, &over) {
+            Ok(fit) => fit,
+            Err(why) => {
+                println!("# {k}: {why}");
+                let kind: String = why.chars().filter(|c| !c.is_ascii_digit()).take(90).collect();
+                *refused.entry(kind).or_default() += 1;
+                continue;
+            }
+        };
         let p = law.sf(fit.best.chi_square);
-        low_p += u64::from(p < 0.05);
-        let u = fit.best.covariance()[(0, 0)].sqrt() * fit.scale(0);
-        let alpha = fit.values(&fit.best.place)[0];
-        let [inner, outer] = ends;
+        (answered, chi_square) = (answered + 1, chi_square + fit.best.chi_square);
+        (low_p, high_p) = (low_p + u32::from(p < 0.05), high_p + u32::from(p > 0.95));
+        for (axis, range) in over.iter().enumerate() {
+            let ends = [0.68, 0.95].map(|confidence| fit.interval(axis, confidence));
+            for (count, ends) in inside[axis].iter_mut().zip(&ends) {
+                *count += u32::from((ends.low..=ends.high).contains(&behind[axis]));
+            }
+            let [inner, outer] = ends;
+            println!(
+                "{k},{:.2},{p:.3},{},{},{:.3},{:.3},{:.3},{},{:.4},{:.4},{:.4},{:.4},{:.4}",
+                fit.best.chi_square,
+                fit.emulator.replicas(),
+                fit.runs,
+                fit.best.share(REPLICAS),
+                fit.best.share(EMULATOR),
+                fit.feigned(),
+                range.name(),
+                fit.values(&fit.best.place)[axis],
+                inner.low,
+                inner.high,
+                outer.low,
+                outer.high,
+            );
+        }
+    }
+    let share = |count: u32| 100.0 * f64::from(count) / f64::from(answered);
+    println!(
+        "# answered {answered} of {repeats}; χ² per degree of freedom {:.3}; p below 0.05 in {:.1} %, above 0.95 in {:.1} %",
+        chi_square / f64::from(answered) / freedom,
+        share(low_p),
+        share(high_p)
+    );
+    for (range, [inner, outer]) in over.iter().zip(&inside) {
         println!(
-            "{k},{alpha:.4},{u:.4},{:.3},{:.3},{:.4},{:.4},{:.4},{:.4},{p:.3},{},{}",
-            fit.best.share(REPLICAS),
-            fit.best.share(EMULATOR),
-            inner.low,
-            inner.high,
-            outer.low,
-            outer.high,
-            fit.emulator.replicas(),
-            fit.runs
+            "# {}: in the 68 % interval {:.1} %, in the 95 % interval {:.1} %",
+            range.name(),
+            share(*inner),
+            share(*outer)
         );
     }
-    let share = |count: u64| 100.0 * count as f64 / repeats as f64;
-    println!(
-        "# of {repeats}: in the 68 % interval {:.1} %, in the 95 % interval {:.1} %, p below 0.05 {:.1} %",
-        share(inside[0]),
-        share(inside[1]),
-        share(low_p)
-    );
+    for (why, count) in refused {
+        println!("# {count} refused: {why}");
+    }
     Ok(())
 }

@@ -1,5 +1,5 @@
 //! Feeds the program's readers what people and machines might: mutated and generated scene files, folders of measured points,
-//! arguments of `sweep`, problems, answers, checkpoints. None may panic, hang, take memory without bound or let a number pass
+//! arguments of `sweep`, problems, answers, points to fit, folders of results, checkpoints. None may panic, hang, take memory without bound or let a number pass
 //! that is not finite, and whoever is refused is told where and why.
 //!
 //!     cargo run --release -p shearbed-suite --example fuzz -- TARGET COUNT [SEED]
@@ -10,6 +10,7 @@
 mod checkpoints;
 mod mutate;
 mod readers;
+mod results;
 mod scenes;
 
 use mutate::Mutator;
@@ -57,6 +58,8 @@ fn targets() -> Vec<Target> {
         readers::data(),
         readers::problems(),
         readers::answers(),
+        results::fits(),
+        results::plots(),
         checkpoints::checkpoint(),
     ]
 }

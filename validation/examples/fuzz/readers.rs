@@ -31,7 +31,7 @@ alpha = 0.1
 "#;
 
 /// Puts files into a folder that is made empty first.
-fn put(folder: &Path, files: &Files) -> Result<(), String> {
+pub fn put(folder: &Path, files: &Files) -> Result<(), String> {
     let failed = |error: std::io::Error| format!("the harness: {error}");
     match fs::remove_dir_all(folder) {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(failed(error)),
@@ -43,7 +43,7 @@ fn put(folder: &Path, files: &Files) -> Result<(), String> {
 }
 
 /// A refusal names the file, and a line that it has.
-fn named(why: &str, line: Option<usize>, files: &Files, file: &str) -> Result<Taken, String> {
+pub fn named(why: &str, line: Option<usize>, files: &Files, file: &str) -> Result<Taken, String> {
     let lines = files
         .iter()
         .map(|(_, bytes)| 1 + bytes.iter().filter(|byte| **byte == b'\n').count())

@@ -221,8 +221,9 @@ fn apart_where_rates_meet(motion: &FlowMotion) -> f64 {
                     // Differences of rates that nearly meet are exact, and the third axis comes to 0.
                     let grown = l.map(|l_ii| (shape_factor(r) * (l_ii - l.max()) * time_s).exp());
                     let expected = start.component_mul(&grown).normalize();
-                    let end = motion(&flow, r, &start, time_s);
-                    worst = larger(worst, end.cross(&expected).norm());
+                    let off = motion(&flow, r, &start, time_s).cross(&expected).norm();
+                    // What is no direction is as wrong as a right angle.
+                    worst = worst.max(if off.is_finite() { off } else { 1.0 });
                 }
             }
         }

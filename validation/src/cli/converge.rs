@@ -1,7 +1,9 @@
 //! `shearbed converge`.
 
 use super::scene::{Chosen, Ensemble};
-use super::{Failure, MAX_THREADS, agree, memory, on_threads, print, probe, progress, scene, whole};
+use super::{
+    Failure, MAX_THREADS, agree, duration, memory, on_threads, print, probe, progress, scene, whole,
+};
 use crate::output::{Author, Output};
 use crate::suspensions::law::{self, Law, Replicas};
 use crate::suspensions::split::{Constants, Scope, Split, TARGETS};
@@ -164,6 +166,9 @@ fn interacting(
 ) -> Result<Option<Done>, Failure> {
     let jobs = law::jobs(scene, replicas);
     memory::check_jobs(&jobs, args.threads)?;
+    if !args.quiet && cluster::is_root() {
+        eprintln!("{}; nothing is kept before it ends", duration::of_jobs(&jobs));
+    }
     let bar = progress(jobs.iter().map(|job| job.replicas).sum(), "replicas", args.quiet);
     let found = cluster::share(jobs.len(), |k| jobs[k].run(&|| bar.inc(1)), |_, _| Ok(()));
     bar.finish_and_clear();

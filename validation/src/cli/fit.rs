@@ -1,16 +1,15 @@
 //! `shearbed fit`.
 
 mod input;
+mod shifts;
 
 use super::{Failure, MAX_THREADS, on_threads, print, probe, progress, scene, whole};
 use crate::build::BUILD;
 use crate::experiment::MOST_BYTES;
-use crate::fit::budget::{self, Shift};
 use crate::fit::design::{Candidate, design};
 use crate::fit::elsewhere::look_elsewhere;
-use crate::fit::emulator::Model;
 use crate::fit::report::{self, Report};
-use crate::fit::scenes::{AS_WRITTEN, Variant};
+use crate::fit::scenes::AS_WRITTEN;
 use crate::fit::search::{Fit, Measured, Problem, Watch, search};
 use crate::fit::{Range, pictures, terminal};
 use crate::output::{Author, Output};
@@ -20,7 +19,8 @@ use crate::text::command;
 use input::{Input, input};
 use serde_json::{Value, json};
 use shearbed::Plan;
-use shearbed::scene::{MAX_REPLICAS, MAX_SEED, Orientation, Scene};
+use shearbed::scene::{MAX_REPLICAS, MAX_SEED, Scene};
+use shifts::{shifts, taken_as_known};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -167,6 +167,8 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let shifts = shifts(input, &fit, &model, watch).map_err(stopped)?;
     let mut report = report::report(&fit, data, shifts);
     report.warnings.extend(unsearched);
+    let known = taken_as_known(&report);
+    report.warnings.extend(known);
     let mut candidates = Vec::new();
     if args.design {
         let found = design(&fit, scenes, data, watch).map_err(stopped)?;
@@ -206,31 +208,6 @@ fn not_slender(scene: &Scene) -> Option<String> {
              (Results, after Fig. 5)"
         )
     })
-}
-
-/// What half the step, and twice the rods, would change: of rods that interact.
-fn shifts(input: &Input, fit: &Fit, own: &Model<'_>, watch: &Watch<'_>) -> Result<Vec<Shift>, String> {
-    let values = fit.values(&fit.best.place);
-    let scenes = &input.scenes;
-    let best: Vec<Scene> = (0..scenes.sets.len())
-        .map(|set| scenes.scene(set, &values))
-        .collect::<Result<_, _>>()?;
-    if best.iter().all(|scene| scene.interaction.is_none()) {
-        return Ok(Vec::new());
-    }
-    let variants = [
-        ("half the time step", Variant { steps: 2, rods: 1 }),
-        ("twice the rods", Variant { steps: 1, rods: 2 }),
-    ];
-    // As many rods as a file of starts has rows, no more.
-    let from_a_file = |scene: &Scene| matches!(scene.particles.orientation, Orientation::Each { .. });
-    let fixed = best.iter().any(from_a_file);
-    let variants = (variants.into_iter()).filter(|(_, variant)| variant.rods == 1 || !fixed);
-    let shift = |(change, variant): (&'static str, Variant)| {
-        let changed = |values: &[f64]| scenes.model(&input.data, variant, values);
-        budget::shift(fit, change, own, &changed, watch)
-    };
-    variants.map(shift).collect()
 }
 
 /// What a fit is of: everything that its results depend on.

@@ -6,6 +6,7 @@ mod choice;
 mod cite;
 mod compare;
 mod converge;
+mod duration;
 mod facts;
 mod finished;
 mod fit;
@@ -29,13 +30,14 @@ mod terminal;
 mod threads;
 mod validate;
 
+use crate::plot::Figure;
 use crate::text::readable;
 use crate::{cluster, output, text};
 use clap::{Parser, Subcommand};
 use serde_json::{Value, json};
 use std::ffi::OsString;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use terminal::{log, print, progress};
 use threads::{MAX_THREADS, on_threads};
@@ -154,6 +156,14 @@ pub fn call(arguments: Vec<OsString>) -> Result<(), (String, u8)> {
     let cli = Cli::try_parse_from(with_name(arguments))
         .map_err(|error| (error.to_string(), error.exit_code() as u8))?;
     command(cli.command).map_err(Failure::message_and_code)
+}
+
+/// What `shearbed plot` draws of these folders; on error, why not.
+pub fn figure(dirs: &[PathBuf], channel: Option<&str>) -> Result<Figure, String> {
+    let drawn = plot::figure(dirs, channel);
+    drawn
+        .map(|(figure, _)| figure)
+        .map_err(|failure| failure.message_and_code().0)
 }
 
 fn with_name(arguments: Vec<OsString>) -> Vec<OsString> {

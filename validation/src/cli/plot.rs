@@ -9,7 +9,7 @@ use crate::plot::{self, Figure};
 use crate::text::Shown;
 use folders::runs_in;
 use std::path::{Path, PathBuf};
-use table::{MOST_ROWS, channel};
+use table::MOST_ROWS;
 
 /// Arguments of `plot`.
 #[derive(clap::Args)]
@@ -38,15 +38,26 @@ fn picture(text: &str) -> Result<PathBuf, String> {
 
 /// Draws a channel of every folder.
 pub(super) fn plot(args: &Args) -> Result<(), Failure> {
+    let (figure, runs) = figure(&args.dirs, args.channel.as_deref())?;
+    write(&args.out, &figure, args.force)?;
+    print(&format!(
+        "{} of {runs} runs in {}\n",
+        figure.y_name,
+        args.out.shown()
+    ))
+}
+
+/// A channel of every folder, the first that there is where none is asked for, and how many runs that is of.
+pub(super) fn figure(dirs: &[PathBuf], channel: Option<&str>) -> Result<(Figure, usize), Failure> {
     let mut runs = Vec::new();
-    for dir in &args.dirs {
+    for dir in dirs {
         runs.extend(runs_in(dir)?);
     }
-    let mut wanted = args.channel.clone();
+    let mut wanted = channel.map(str::to_owned);
     let mut found = Vec::new();
     let mut rows = MOST_ROWS;
     for run in &runs {
-        let of_run = channel(run, wanted.as_deref(), &mut rows)?;
+        let of_run = table::channel(run, wanted.as_deref(), &mut rows)?;
         // What the first has is asked of the others.
         wanted.get_or_insert_with(|| of_run.channel.clone());
         found.push(of_run);
@@ -73,13 +84,7 @@ pub(super) fn plot(args: &Args) -> Result<(), Failure> {
         curves: found.into_iter().map(|found| found.curve).collect(),
         ..Figure::default()
     };
-    write(&args.out, &figure, args.force)?;
-    print(&format!(
-        "{} of {} runs in {}\n",
-        figure.y_name,
-        runs.len(),
-        args.out.shown()
-    ))
+    Ok((figure, runs.len()))
 }
 
 fn write(out: &Path, figure: &Figure, force: bool) -> Result<(), Failure> {

@@ -1,5 +1,6 @@
 //! `shearbed plan` and `shearbed scenes`.
 
+use super::duration;
 use super::facts::{self, Facts};
 use super::scene::{Chosen, Ensemble};
 use super::{Failure, memory, print};
@@ -38,8 +39,9 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
     let text = plan.to_string();
     let stages = text.strip_suffix(&said(plan.warnings())).unwrap_or(&text);
     print(&format!(
-        "{stages}{}{}",
+        "{stages}{}{}{}",
         Facts::of(&plan).text(),
+        duration::of_scene(&plan),
         said(facts::warnings(&plan))
     ))?;
     // What `run` would refuse here is still shown: it may fit on another machine.

@@ -7,7 +7,7 @@ pub const MOST_PARAMETERS: usize = 3;
 
 /// Chebyshev–Lobatto nodes along each axis, and the total degree of the polynomials, by the number of parameters: fewer
 /// coefficients than nodes, so that the polynomials smooth the noise of the runs instead of following it.
-const DESIGNS: [(usize, usize); MOST_PARAMETERS] = [(7, 4), (5, 4), (4, 3)];
+const DESIGNS: [(usize, usize); MOST_PARAMETERS] = [(7, 4), (7, 6), (5, 4)];
 
 /// Chebyshev polynomials over the box [−1, 1]^p and the nodes by which they are fitted (least squares).
 #[derive(Clone, Debug)]
@@ -103,8 +103,8 @@ fn terms(degrees: &[Vec<usize>], place: &[f64]) -> DVector<f64> {
 }
 
 /// T_k(x) and its derivative for every degree that is used.
-fn chebyshev(x: f64) -> [(f64, f64); 5] {
-    let mut all = [(1.0, 0.0); 5];
+fn chebyshev(x: f64) -> [(f64, f64); 7] {
+    let mut all = [(1.0, 0.0); 7];
     all[1] = (x, 1.0);
     for k in 2..all.len() {
         let ((before, slope_before), (last, slope)) = (all[k - 2], all[k - 1]);

@@ -17,7 +17,7 @@ pub struct Best {
     pub surface: ChiSquare,
     /// V by its causes.
     pub causes: Causes,
-    /// The covariance of the parameters by cause, on the box's scale: A V_cause Aᵀ, A = (JᵀV⁻¹J)⁻¹JᵀV⁻¹.
+    /// The covariance of the parameters by cause, on the box's scale: A V_cause Aᵀ, A = (JᵀV⁻¹J)⁻¹JᵀV⁻¹, the replicas' noise subtracted from the first.
     pub spread: Vec<DMatrix<f64>>,
     /// A: parameters × points, by how much an estimate follows each point.
     pub influence: DMatrix<f64>,
@@ -28,6 +28,19 @@ impl Best {
     pub fn covariance(&self) -> DMatrix<f64> {
         let zero = DMatrix::zeros(self.place.len(), self.place.len());
         self.spread.iter().fold(zero, |sum, one| sum + one)
+    }
+
+    /// The best place where the replicas' noise is not subtracted: for a control.
+    #[cfg(test)]
+    pub(super) fn with_noise(&self) -> Self {
+        let surface = self.surface.with_noise();
+        let (place, chi_square) = minimise(&surface, &vec![None; self.place.len()], &[&self.place]);
+        Self {
+            place,
+            chi_square,
+            surface,
+            ..self.clone()
+        }
     }
 
     /// The largest share that a cause has in the variance of a parameter.
@@ -67,7 +80,11 @@ pub fn best(data: &[Datum], emulator: &Emulator, rods_over_measured: &[f64]) -> 
     }
     let slopes = emulator.slopes(&place);
     let weighted = covariance.cholesky()?.solve(&slopes);
-    let influence = slopes.tr_mul(&weighted).cholesky()?.solve(&weighted.transpose());
+    let told = slopes.tr_mul(&weighted);
+    // Without the noise, unless nothing is left then.
+    let own = (&told - surface.noise(&place)).cholesky();
+    let solver = own.or_else(|| told.cholesky())?;
+    let influence = solver.solve(&weighted.transpose());
     let spread = (causes.iter())
         .map(|cause| &influence * cause * influence.transpose())
         .collect();

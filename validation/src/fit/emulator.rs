@@ -16,6 +16,9 @@ pub type Model<'a> = dyn Fn(&[f64]) -> Result<Replica, String> + Sync + 'a;
 /// A place of the box on the scale of the ranges: both ends of each side.
 pub type Sides = Vec<(f64, f64)>;
 
+/// Standard errors beyond which a polynomial is off by more than the noise of the replicas.
+const CERTAIN: f64 = 2.0;
+
 /// The runs of a model at every node of a box. Polynomials are linear in what they run through, so that each replica has
 /// polynomials of its own: their mean is the model, their scatter its error, and what replicas share between parameter
 /// values cancels as it should.
@@ -28,6 +31,8 @@ pub struct Emulator {
     lack: DMatrix<f64>,
     /// Each replica's coefficients less the mean's, at.
     deviations: Vec<DMatrix<f64>>,
+    /// Each replica's lack less the mean's.
+    lack_deviations: Vec<DMatrix<f64>>,
 }
 
 /// The coefficients of one replica: at, before, after, and what a degree less misses of "at".
@@ -74,11 +79,12 @@ impl Emulator {
             let zero = DMatrix::zeros(first.nrows(), first.ncols());
             replicas.iter().fold(zero, |sum, one| sum + &one[which]) * share
         };
-        let at = mean(0);
+        let (at, lack) = (mean(0), mean(3));
         Self {
             basis: basis.clone(),
             deviations: replicas.iter().map(|one| &one[0] - &at).collect(),
-            lack: mean(3),
+            lack_deviations: replicas.iter().map(|one| &one[3] - &lack).collect(),
+            lack,
             mean: [at, mean(1), mean(2)],
         }
     }
@@ -111,9 +117,35 @@ impl Emulator {
         ((before - &at).map(|d| d * d) + (after - &at).map(|d| d * d)) / 6.0
     }
 
-    /// How far polynomials of a degree less are from these.
+    /// How far polynomials of a degree less are from these, without what the replicas' noise adds to its square: that has its
+    /// place in [`Emulator::covariance`].
     pub fn lack_of_fit(&self, place: &[f64]) -> DVector<f64> {
-        self.lack.tr_mul(&self.basis.terms(place))
+        let terms = self.basis.terms(place);
+        let n = self.replicas() as f64;
+        let zero = DVector::zeros(self.points());
+        let squares = (self.lack_deviations.iter()).fold(zero, |sum, one| {
+            sum + one.tr_mul(&terms).map(|deviation| deviation * deviation)
+        });
+        let own = |lack: f64, squares: f64| {
+            lack.signum()
+                * (lack * lack - CERTAIN.powi(2) * squares / (n * (n - 1.0)))
+                    .max(0.0)
+                    .sqrt()
+        };
+        self.lack.tr_mul(&terms).zip_map(&squares, own)
+    }
+
+    /// What the noise of the replicas adds on average to C V⁻¹ Cᵀ, where C are the mean's coefficients (a row for each term) and
+    /// `inverse` is V⁻¹: terms × terms.
+    pub fn noise(&self, inverse: &DMatrix<f64>) -> DMatrix<f64> {
+        let n = self.replicas() as f64;
+        let terms = self.lack.nrows();
+        let one = |deviation: &DMatrix<f64>| deviation * inverse * deviation.transpose();
+        let all: Vec<DMatrix<f64>> = self.deviations.par_iter().map(one).collect();
+        let sum = all
+            .iter()
+            .fold(DMatrix::zeros(terms, terms), |sum, one| sum + one);
+        sum / (n * (n - 1.0))
     }
 
     /// The covariance of one replica's predictions, points × points.

@@ -37,12 +37,16 @@ pub fn causes(data: &[Datum], emulator: &Emulator, place: &[f64], rods_over_meas
         DMatrix::from_diagonal(&emulator.time_variance(place)),
         rods,
         of_replica / emulator.replicas() as f64,
-        // A polynomial that does not fit may move points together or each by itself.
-        &lack * lack.transpose() + DMatrix::from_diagonal(&lack.map(|lack| lack * lack)),
+        // A polynomial that does not fit may move points together or each by itself: half of either.
+        (&lack * lack.transpose() + DMatrix::from_diagonal(&lack.map(|lack| lack * lack))) / 2.0,
     ]
 }
 
 /// χ² over the box at a fixed covariance V: a polynomial form, so that its cost does not grow with the points.
+///
+/// The replicas' noise makes the curves of different parameters differ more than they do, and so χ² rise where the points tell
+/// nothing. What it adds on average is subtracted (the correction of a regression whose regressors are noisy: W. A. Fuller,
+/// Measurement Error Models, 1987, ch. 2).
 #[derive(Clone, Debug)]
 pub struct ChiSquare {
     basis: Basis,
@@ -52,6 +56,8 @@ pub struct ChiSquare {
     constant: f64,
     linear: DVector<f64>,
     square: DMatrix<f64>,
+    /// What the replicas' noise adds to the square on average.
+    noise: DMatrix<f64>,
 }
 
 impl ChiSquare {
@@ -66,11 +72,13 @@ impl ChiSquare {
         let error = measured - emulator.at(near);
         let solver = covariance.clone().cholesky()?;
         let weighted = solver.solve(&error);
+        let (origin, noise) = (emulator.basis.terms(near), emulator.noise(&solver.inverse()));
         Some(Self {
-            origin: emulator.basis.terms(near),
             constant: error.dot(&weighted),
-            linear: terms * weighted,
+            linear: terms * weighted + &noise * &origin,
             square: terms * solver.solve(&terms.transpose()),
+            noise,
+            origin,
             basis: emulator.basis.clone(),
         })
     }
@@ -78,14 +86,37 @@ impl ChiSquare {
     /// χ² at a place.
     pub fn at(&self, place: &[f64]) -> f64 {
         let away = self.basis.terms(place) - &self.origin;
-        self.constant - 2.0 * self.linear.dot(&away) + away.dot(&(&self.square * &away))
+        let square = away.dot(&(&self.square * &away)) - away.dot(&(&self.noise * &away));
+        self.constant - 2.0 * self.linear.dot(&away) + square
     }
 
-    /// Half its gradient, and half its second derivatives without those of the model (Gauss–Newton).
+    /// Half its gradient, and half its second derivatives without those of the model (Gauss–Newton), the noise in them.
     pub fn slopes(&self, place: &[f64]) -> (DVector<f64>, DMatrix<f64>) {
         let (away, slopes) = (self.basis.terms(place) - &self.origin, self.basis.slopes(place));
-        let gradient = slopes.tr_mul(&(&self.square * away - &self.linear));
+        let gradient = slopes.tr_mul(&(&self.square * &away - &self.noise * &away - &self.linear));
         (gradient, slopes.tr_mul(&(&self.square * &slopes)))
+    }
+
+    /// As if the noise were the model: for a control.
+    #[cfg(test)]
+    pub(super) fn with_noise(&self) -> Self {
+        Self {
+            linear: &self.linear - &self.noise * &self.origin,
+            noise: DMatrix::zeros(self.noise.nrows(), self.noise.ncols()),
+            ..self.clone()
+        }
+    }
+
+    /// What the replicas' noise adds on average to χ² at a place, beside another.
+    pub(super) fn noise_between(&self, place: &[f64], other: &[f64]) -> f64 {
+        let away = self.basis.terms(place) - self.basis.terms(other);
+        away.dot(&(&self.noise * &away))
+    }
+
+    /// What the replicas' noise adds to those second derivatives on average.
+    pub(super) fn noise(&self, place: &[f64]) -> DMatrix<f64> {
+        let slopes = self.basis.slopes(place);
+        slopes.tr_mul(&(&self.noise * &slopes))
     }
 }
 

@@ -11,6 +11,8 @@ pub mod data;
 pub mod design;
 pub mod elsewhere;
 pub mod emulator;
+#[cfg(test)]
+mod feigned;
 pub mod likelihood;
 mod minimise;
 pub mod pictures;

@@ -25,13 +25,15 @@ pub struct Interval {
     pub jumps: [bool; 2],
 }
 
-/// χ² less its least value along one parameter, the others at their best.
+/// How far χ² rises along one parameter, the others at their best.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
     /// The parameter's places in the box, rising.
     pub place: Vec<f64>,
-    /// χ² − χ²_min.
+    /// [`Rise::beside_noise`].
     pub rise: Vec<f64>,
+    /// [`Rise::noise`].
+    pub noise: Vec<f64>,
     /// Where all parameters are there.
     pub at: Vec<Vec<f64>>,
 }
@@ -46,12 +48,42 @@ pub fn rise_of_several(confidence: f64, parameters: usize) -> f64 {
     ChiSquared::new(parameters as f64).map_or(f64::NAN, |law| law.inverse_cdf(confidence))
 }
 
-/// The best places of all parameters where `axis` has this place, and χ² − χ²_min there.
-fn rise(best: &Best, axis: usize, place: f64, starts: &[&[f64]]) -> (Vec<f64>, f64) {
-    let mut fixed = vec![None; best.place.len()];
-    fixed[axis] = Some(place);
-    let (at, chi_square) = minimise(&best.surface, &fixed, starts);
-    (at, chi_square - best.chi_square)
+/// How far χ² rises from the best place to another.
+struct Rise {
+    /// Where all parameters are there.
+    at: Vec<f64>,
+    /// χ² − χ²_min.
+    own: f64,
+    /// What the replicas' noise would have added, and is subtracted.
+    noise: f64,
+}
+
+impl Rise {
+    /// From the best place to the least χ² where some parameters are fixed.
+    fn to(best: &Best, fixed: &[Option<f64>], starts: &[&[f64]]) -> Self {
+        let (at, chi_square) = minimise(&best.surface, fixed, starts);
+        Self {
+            own: (chi_square - best.chi_square).max(0.0),
+            noise: best.surface.noise_between(&at, &best.place),
+            at,
+        }
+    }
+
+    /// The same where one parameter is fixed.
+    fn along(best: &Best, axis: usize, place: f64, starts: &[&[f64]]) -> Self {
+        let mut fixed = vec![None; best.place.len()];
+        fixed[axis] = Some(place);
+        Self::to(best, &fixed, starts)
+    }
+
+    /// What counts for an interval. Noise in the slopes makes the variance of an estimate larger than the curvature of χ² says,
+    /// by the factor (own + noise) / own: χ² has to rise that much further.
+    fn beside_noise(&self) -> f64 {
+        match self.own > 0.0 {
+            true => self.own * (self.own / (self.own + self.noise)),
+            false => 0.0,
+        }
+    }
 }
 
 /// The profile of one parameter over the box, its best place among the places. The inner minima are sought from a grid,
@@ -60,21 +92,45 @@ pub fn profile(best: &Best, axis: usize) -> Profile {
     let even = (0..PLACES).map(|k| -1.0 + 2.0 * k as f64 / (PLACES - 1) as f64);
     let mut place: Vec<f64> = even.chain([best.place[axis]]).collect();
     place.sort_by(f64::total_cmp);
-    let mut found: Vec<_> = (place.iter())
-        .map(|place| rise(best, axis, *place, &[&best.place]))
+    let mut found: Vec<Rise> = (place.iter())
+        .map(|place| Rise::along(best, axis, *place, &[&best.place]))
         .collect();
     let last = place.len() - 1;
     let pairs = (0..last)
         .map(|k| (k, k + 1))
         .chain((0..last).rev().map(|k| (k + 1, k)));
     for (from, to) in pairs.filter(|_| best.place.len() > 1) {
-        let next = rise(best, axis, place[to], &[&found[from].0]);
-        if next.1 < found[to].1 {
+        let next = Rise::along(best, axis, place[to], &[&found[from].at]);
+        if next.own < found[to].own {
             found[to] = next;
         }
     }
-    let (at, rise) = found.into_iter().map(|(at, rise)| (at, rise.max(0.0))).unzip();
-    Profile { place, rise, at }
+    Profile {
+        place,
+        rise: found.iter().map(Rise::beside_noise).collect(),
+        noise: found.iter().map(|rise| rise.noise).collect(),
+        at: found.into_iter().map(|rise| rise.at).collect(),
+    }
+}
+
+impl Profile {
+    /// The share that the replicas' noise would have in the rise at the ends of an interval, where it is larger; 0 where the profile does
+    /// not rise to this level.
+    pub fn feigned(&self, level: f64) -> f64 {
+        let outside = |k: &usize| self.rise[*k] > level;
+        let inside: Vec<usize> = (0..self.place.len()).filter(|k| !outside(k)).collect();
+        let next = [
+            inside.first().and_then(|k| k.checked_sub(1)),
+            inside.last().map(|k| k + 1).filter(|k| *k < self.place.len()),
+        ];
+        let share = |k: usize| {
+            let (rise, noise) = (self.rise[k], self.noise[k]);
+            // rise = own² / (own + noise).
+            let own = 0.5 * (rise + (rise * (rise + 4.0 * noise)).sqrt());
+            noise / (own + noise)
+        };
+        next.into_iter().flatten().map(share).fold(0.0, f64::max)
+    }
 }
 
 /// Two sides of an end that is found to 3e-8 of half a box differ by less than this in χ² unless the profile jumps there:
@@ -98,7 +154,7 @@ pub fn interval(best: &Best, axis: usize, profile: &Profile, level: f64) -> Inte
         let mut rises = [profile.rise[inside], profile.rise[outside]];
         for _ in 0..HALVINGS {
             let middle = 0.5 * (inner + outer);
-            let found = rise(best, axis, middle, &starts).1;
+            let found = Rise::along(best, axis, middle, &starts).beside_noise();
             match found <= level {
                 true => (inner, rises[0]) = (middle, found),
                 false => (outer, rises[1]) = (middle, found),
@@ -132,7 +188,7 @@ pub fn contour(best: &Best, axes: [usize; 2], level: f64) -> Vec<[f64; 2]> {
     let rise = |point: [f64; 2]| {
         let mut fixed = vec![None; best.place.len()];
         (fixed[a], fixed[b]) = (Some(point[0]), Some(point[1]));
-        minimise(&best.surface, &fixed, &[&best.place]).1 - best.chi_square
+        Rise::to(best, &fixed, &[&best.place]).beside_noise()
     };
     let spread = best.covariance();
     let (along_a, shared) = (spread[(a, a)].sqrt(), spread[(a, b)] / spread[(a, a)].sqrt());

@@ -183,7 +183,11 @@ fn warnings(
         (REPLICAS, "more --replicas make"),
         (EMULATOR, "a narrower --over range makes"),
     ] {
-        let share = fit.best.share(cause);
+        // Noise of the replicas is in the curves and in their slopes.
+        let share = match cause {
+            REPLICAS => fit.best.share(cause).max(fit.feigned()),
+            _ => fit.best.share(cause),
+        };
         if share > 1.5 * MOST_SHARE {
             all.push(format!(
                 "{:.0} % of a parameter's variance is the model's own error ({}): {what} the interval shorter",
@@ -224,7 +228,7 @@ pub fn residuals_csv(report: &Report, times: &[&str]) -> Result<String, String> 
     csv_of(&rows)
 }
 
-/// `profiles.csv`: χ² − χ²_min along each parameter.
+/// `profiles.csv`: χ² − χ²_min along each parameter, as it counts beside the noise of the replicas.
 pub fn profiles_csv(fit: &Fit) -> Result<String, String> {
     let mut rows = vec![["parameter", "value", "rise_of_chi2"].map(String::from).to_vec()];
     for (axis, profile) in fit.profiles.iter().enumerate() {

@@ -36,10 +36,16 @@ pub struct Variant {
     pub steps: u64,
     /// Rods, in multiples of the scene's.
     pub rods: usize,
+    /// Whether all rods have the mean r_e.
+    pub one_aspect_ratio: bool,
 }
 
 /// The scene as it is written.
-pub const AS_WRITTEN: Variant = Variant { steps: 1, rods: 1 };
+pub const AS_WRITTEN: Variant = Variant {
+    steps: 1,
+    rods: 1,
+    one_aspect_ratio: false,
+};
 
 /// Several scenes with parameters that they share or have each for itself.
 #[derive(Clone, Debug)]
@@ -223,6 +229,9 @@ impl Scenes {
             scene.time.steps_per_period = Some(outputs * variant.steps);
         }
         scene.particles.count *= variant.rods;
+        if variant.one_aspect_ratio {
+            scene.particles.aspect_ratio_sd_percent = 0.0;
+        }
         let needed = |observable: &Observable| {
             let mut channels = observable.channels();
             channels.any(|channel| {

@@ -17,6 +17,12 @@ pub const FIRST_REPLICAS: u64 = 50;
 /// makes the interval 5 % longer.
 pub const MOST_SHARE: f64 = 0.1;
 
+/// The share that the replicas' noise may have in what the points seem to tell, before the box is drawn closer.
+const CLEAR: f64 = 0.2;
+
+/// From this share on there is no answer.
+const NOTHING_ELSE: f64 = 0.7;
+
 /// The most times that the box changes.
 const MOST_ROUNDS: u64 = 12;
 
@@ -91,6 +97,12 @@ pub fn search(problem: &Problem<'_>, watch: &Watch<'_>) -> Result<Fit, String> {
         let value = |node: &[f64]| values(ranges, &sides, node);
         found.extend(coefficients(&basis, problem.model, value, new, watch.done)?);
         let fit = fitted(&problem.measured, &basis, &sides, &found)?;
+        let more = wanted < problem.most_replicas;
+        // Where to look closer is for the points to tell, and not for the replicas' noise.
+        if more && fit.feigned() > CLEAR {
+            wanted = enough(wanted, fit.feigned(), CLEAR).min(problem.most_replicas);
+            continue;
+        }
         if rounds < MOST_ROUNDS
             && let Some(other) = other_sides(&fit, &whole)
         {
@@ -99,8 +111,15 @@ pub fn search(problem: &Problem<'_>, watch: &Watch<'_>) -> Result<Fit, String> {
             rounds += 1;
             continue;
         }
-        let share = fit.best.share(REPLICAS);
-        if share <= MOST_SHARE || wanted >= problem.most_replicas {
+        let share = fit.best.share(REPLICAS).max(fit.feigned());
+        if share <= MOST_SHARE || !more {
+            if fit.feigned() > NOTHING_ELSE {
+                return Err(format!(
+                    "--over: {:.0} % of what the points seem to tell is the noise of {wanted} replicas at each value; more --replicas, more \
+                     rods in the scene, or one parameter less may do",
+                    100.0 * fit.feigned()
+                ));
+            }
             if let Some(axis) = fit.untold() {
                 return Err(format!(
                     "--over {}: the points say nothing about it between {} and {}",
@@ -118,7 +137,7 @@ pub fn search(problem: &Problem<'_>, watch: &Watch<'_>) -> Result<Fit, String> {
             fit.is_smooth()?;
             return Ok(Fit { runs, rounds, ..fit });
         }
-        wanted = enough(wanted, share).min(problem.most_replicas);
+        wanted = enough(wanted, share, MOST_SHARE).min(problem.most_replicas);
     }
 }
 
@@ -158,11 +177,11 @@ pub fn fitted(
 }
 
 /// The replicas that bring the share of the sampling variance, which falls as one over their number, to what is allowed;
-/// some more, as the share is known no better than the variance itself.
-fn enough(replicas: u64, share: f64) -> u64 {
-    let others = 1.0 - share;
-    let needed = replicas as f64 * (share / others) * (1.0 - MOST_SHARE) / MOST_SHARE;
-    (1.1 * needed).ceil() as u64 + 1
+/// some more, as the share is known no better than the variance itself. At most ten times as many at once.
+fn enough(replicas: u64, share: f64, allowed: f64) -> u64 {
+    let others = (1.0 - share).max(0.05);
+    let needed = replicas as f64 * (share / others) * (1.0 - allowed) / allowed;
+    (1.1 * needed).ceil().min(10.0 * replicas as f64) as u64 + 1
 }
 
 /// The box in which to look next; none where this one will do. Each side is to end some five standard deviations from the
@@ -202,7 +221,7 @@ fn enclosed(fit: &Fit, whole: &Sides) -> bool {
     })
 }
 
-/// Standard uncertainties beyond so many ranges say that no model value changes with a parameter.
+/// Standard uncertainties beyond so many ranges, and intervals that are all of it, say that no model value changes with a parameter.
 const UNTOLD: f64 = 10.0;
 
 /// Ends of 68 and 95 % closer than this share of the distance from the best place are one end: those of a parabola are half of it apart.
@@ -217,8 +236,15 @@ impl Fit {
             let (low, high) = self.sides[axis];
             let uncertainty = 0.5 * (high - low) * covariance[(axis, axis)].sqrt();
             let range = &self.ranges[axis];
-            uncertainty > UNTOLD * (range.scaled(range.to) - range.scaled(range.from))
+            let all = interval(&self.best, axis, &self.profiles[axis], rise_of(0.95)).open == [true; 2];
+            all && uncertainty > UNTOLD * (range.scaled(range.to) - range.scaled(range.from))
         })
+    }
+
+    /// The share that the replicas' noise would have in the rise of χ² at the ends of the 95 % intervals, where it is largest.
+    pub fn feigned(&self) -> f64 {
+        let all = self.profiles.iter().map(|profile| profile.feigned(rise_of(0.95)));
+        all.fold(0.0, f64::max)
     }
 
     /// The values of the parameters at a place of the box.
