@@ -30,9 +30,9 @@ pub struct Interval {
 pub struct Profile {
     /// The parameter's places in the box, rising.
     pub place: Vec<f64>,
-    /// [`Rise::beside_noise`].
+    /// How far χ² has risen, as it counts beside the noise of the replicas.
     pub rise: Vec<f64>,
-    /// [`Rise::noise`].
+    /// What that noise would have added on average, and is subtracted.
     pub noise: Vec<f64>,
     /// Where all parameters are there.
     pub at: Vec<Vec<f64>>,
