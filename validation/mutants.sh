@@ -52,7 +52,7 @@ reach-rounded-down@@src/neighbours/grid.rs@@(reach(rod) as f32).next_up()@@0.9 *
 chunks-share-numbers@@src/random.rs@@let mut rng = ahead(rng, k * CHUNK);@@let mut rng = ahead(rng, 0 * k * CHUNK);
 replaced-share-numbers@@src/volume.rs@@self.replace(axes, &mut ahead(rng, 2 * before));@@self.replace(axes, &mut ahead(rng, before));
 mirrored-free-phase@@src/rods.rs@@clock.phase(tick as f64, clock.sign)@@clock.phase(tick as f64, 1.0)
-chunks-not-added@@src/observable.rs@@self.value += other.value;@@self.value = other.value;
+chunks-not-added@@src/observable/sum.rs@@self.value += other.value;@@self.value = other.value;
 whole-turns-late@@src/phase.rs@@Self::of_part(turns.fract())@@Self::of_part((TAU * turns).sin().atan2((TAU * turns).cos()) / TAU)
 larger-factor-kept@@src/propagator/modes.rs@@(Ball::ONE, exp(-lead))@@(exp(lead), Ball::ONE)
 pair-error-lost@@src/propagator/modes.rs@@let omega = (-self.square).sqrt();@@let omega = (-self.square.middle()).sqrt();
