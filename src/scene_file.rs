@@ -25,8 +25,6 @@ pub struct SceneError {
     pub file: String,
     /// What is wrong, in the order of lines; at least one.
     pub problems: Vec<Problem>,
-    /// How many unknown keys there are beside those among the problems.
-    pub more: usize,
 }
 
 /// One thing that is wrong with a scene file.
@@ -47,11 +45,7 @@ pub struct Problem {
 impl SceneError {
     fn lines(&self) -> String {
         let line = |problem: &Problem| format!("{}:{}: {}", self.file, problem.line, problem.message);
-        let more = match self.more {
-            0 => None,
-            more => Some(format!("{}: … and {more} more unknown keys", self.file)),
-        };
-        let lines: Vec<_> = self.problems.iter().map(line).chain(more).collect();
+        let lines: Vec<_> = self.problems.iter().map(line).collect();
         lines.join("\n")
     }
 }
@@ -66,8 +60,7 @@ type Found = (usize, String);
 /// Everything that can be told to be wrong at once, each with its line.
 pub fn parse(file: &str, text: &str) -> Result<Scene, SceneError> {
     let lines = Lines::of(text);
-    let mut more = 0;
-    read(&lines, text, &mut more).map_err(|mut found| {
+    read(&lines, text).map_err(|mut found| {
         found.sort();
         let problem = |(offset, message)| Problem {
             line: lines.number(offset),
@@ -76,34 +69,31 @@ pub fn parse(file: &str, text: &str) -> Result<Scene, SceneError> {
         SceneError {
             file: file.to_owned(),
             problems: found.into_iter().map(problem).collect(),
-            more,
         }
     })
 }
 
-/// The most unknown keys of which each has a line; the rest are counted, in `more`.
+/// The most unknown keys of which each has a line; the rest have one together.
 const MOST_UNKNOWN: usize = 20;
 
-fn read(lines: &Lines<'_>, text: &str, more: &mut usize) -> Result<Scene, Vec<Found>> {
+fn read(lines: &Lines<'_>, text: &str) -> Result<Scene, Vec<Found>> {
     let reported = |error: toml::de::Error| vec![as_reported(lines, text, &error)];
     let document = DeTable::parse(text).map_err(reported)?;
-    let keys = keys(text, "", document.get_ref());
+    let mut unknown = Vec::new();
+    let keys = keys(text, "", document.get_ref(), &mut unknown);
     // A number that no float holds spoils the whole text.
     let values: Table = text.parse().unwrap_or_default();
-    let (keys, mut unknown): (Vec<_>, Vec<_>) = keys.into_iter().partition(|key| find(&key.path).is_some());
-    unknown.sort_by_key(|key| key.span.start);
-    *more = unknown.len().saturating_sub(MOST_UNKNOWN);
-    unknown.truncate(MOST_UNKNOWN);
-    let meant: Vec<_> = unknown.iter().filter_map(|key| nearest(&key.path)).collect();
+    unknown.sort();
+    let more = unknown.split_off(unknown.len().min(MOST_UNKNOWN));
+    let meant: Vec<_> = unknown.iter().filter_map(|(_, path)| nearest(path)).collect();
     let mut found = missing(&keys, &meant);
     found.extend(one_shape(&keys, &meant));
-    found.extend(unknown.iter().map(|key| {
-        let start = key.span.start;
-        (
-            start,
-            format!("{}: {}", lines.line(start), self::unknown(&key.path)),
-        )
-    }));
+    let line = |(start, path): &Found| (*start, format!("{}: {}", lines.line(*start), self::unknown(path)));
+    found.extend(unknown.iter().map(line));
+    let count = more.len();
+    found.extend(
+        (more.first()).map(|(start, _)| (*start, format!("{count} unknown keys more, from here on"))),
+    );
     let (mut scene, mut known) = (example(), Vec::new());
     for key in &keys {
         match key.put_into(&mut scene, &values) {
@@ -125,22 +115,28 @@ fn read(lines: &Lines<'_>, text: &str, more: &mut usize) -> Result<Scene, Vec<Fo
     Err(found)
 }
 
-/// A key of the document, as `particles.count`.
+/// A known key of the document, as `particles.count`.
 struct Key {
     path: String,
+    known: &'static scene::Key,
     span: Range<usize>,
     /// Its value as written.
     text: String,
     is_table: bool,
 }
 
-/// Every key of the document, a table of a scene before the keys in it.
-fn keys(text: &str, above: &str, table: &DeTable<'_>) -> Vec<Key> {
+/// Every known key of the document, a table of a scene before the keys in it; the others' places and names go to `unknown`.
+fn keys(text: &str, above: &str, table: &DeTable<'_>, unknown: &mut Vec<Found>) -> Vec<Key> {
     let mut found = Vec::new();
     for (name, value) in table {
         let path = format!("{above}{}", name.get_ref());
+        let Some(known) = find(&path) else {
+            unknown.push((name.span().start, path));
+            continue;
+        };
         found.push(Key {
             path: path.clone(),
+            known,
             span: name.span(),
             text: text.get(value.span()).unwrap_or_default().to_owned(),
             is_table: value.get_ref().is_table(),
@@ -148,7 +144,7 @@ fn keys(text: &str, above: &str, table: &DeTable<'_>) -> Vec<Key> {
         if let DeValue::Table(inner) = value.get_ref()
             && is_table(&path)
         {
-            found.extend(keys(text, &format!("{path}."), inner));
+            found.extend(keys(text, &format!("{path}."), inner, unknown));
         }
     }
     found
@@ -163,10 +159,7 @@ impl Key {
     /// Gives the scene this key's value, where it can have it; or says why not.
     fn put_into(&self, scene: &mut Table, values: &Table) -> Result<(), String> {
         let path = self.path.as_str();
-        let Some(allowed) = find(path).map(|key| key.holds) else {
-            return Ok(());
-        };
-        let refused = || format!("{path} = {} is not allowed: {allowed}", self.value());
+        let refused = || format!("{path} = {} is not allowed: {}", self.value(), self.known.holds);
         if is_table(path) {
             return if self.is_table { Ok(()) } else { Err(refused()) };
         }
