@@ -101,12 +101,8 @@ fn whole_fit(k: u64, truth: &[f64], over: &[Range]) -> Result<Fit, String> {
         model: &model,
         most_replicas: 1000,
     };
-    let watch = Watch {
-        planned: &|_| (),
-        done: &|| (),
-    };
-    let fit = search(&problem, &watch)?;
-    look_elsewhere(&problem, &fit, &watch)?;
+    let fit = search(&problem, &Watch::SILENT)?;
+    look_elsewhere(&problem, &fit, &Watch::SILENT)?;
     Ok(fit)
 }
 

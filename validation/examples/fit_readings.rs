@@ -105,13 +105,7 @@ fn main() -> Result<(), String> {
             model: &model,
             most_replicas: most,
         };
-        let fit = search(
-            &problem,
-            &Watch {
-                planned: &|_| (),
-                done: &|| (),
-            },
-        )?;
+        let fit = search(&problem, &Watch::SILENT)?;
         let ends = fit.interval(0, 0.95);
         println!(
             "| {open} | {reading} | {:.3} | {:.3} to {:.3} | {:.1} | {:.2} |",

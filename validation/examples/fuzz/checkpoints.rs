@@ -12,7 +12,8 @@ use std::fs;
 use std::time::Duration;
 use validation::checkpoint::{Checkpoint, Refused, Replicas};
 
-const RODS: &str = r#"title = "rods"
+/// A scene that is soon run.
+pub const RODS: &str = r#"title = "rods"
 [flow]
 shear_rate_per_s = 0.5
 [particles]

@@ -1,5 +1,6 @@
 //! Points to fit, and folders of results that are drawn.
 
+use crate::checkpoints::RODS;
 use crate::readers::{named, put};
 use crate::{Files, Taken, Target};
 use serde_json::{Value, json};
@@ -33,28 +34,13 @@ pub fn fits() -> Target {
     }
 }
 
-const SCENE: &str = r#"title = "rods"
-[flow]
-shear_rate_per_s = 0.5
-[particles]
-count = 5
-length_mm = 0.72
-aspect_ratio = 11.6
-orientation = "isotropic"
-[time]
-periods = 1
-outputs_per_period = 4
-[output]
-observables = ["projections", "mean_angle"]
-"#;
-
-const WRITTEN: [&str; 4] = ["projections.csv", "mean_angle.csv", "run.json", RECORD];
+const WRITTEN: [&str; 3] = ["projections.csv", "run.json", RECORD];
 
 /// A folder of `shearbed run`.
 fn folder_of_a_run() -> Vec<(&'static str, Vec<u8>)> {
     let dir = tempfile::tempdir().expect("the harness has a folder");
     let scene = dir.path().join("s.toml");
-    fs::write(&scene, SCENE).expect("the harness writes");
+    fs::write(&scene, RODS).expect("the harness writes");
     let out = dir.path().join("out");
     let words = [
         "run".into(),

@@ -4,8 +4,10 @@
 //! The points are made here and are nobody's measurement. Simulated curves are run once, at every node of the emulator;
 //! each repeat draws its replicas from these with replacement and its noise anew. The curve behind the points is the
 //! emulator's of all replicas at the planted α: what a repeat's emulator of some of them would be on average. Repeats are
-//! then independent, at a thousandth of the cost of runs. What the emulator misses between its nodes they cannot see: one set is
-//! simulated at the planted α itself. The example `fit_covers` repeats whole fits.
+//! then independent, at a thousandth of the cost of runs. What the emulator misses between its nodes they cannot see:
+//! `outright.rs` has a set that is simulated between them. The example `fit_covers` repeats whole fits.
+
+mod outright;
 
 use crate::accept::{Design, kolmogorov_samples};
 use crate::case::{Case, Effort, Evidence};
@@ -18,12 +20,11 @@ use crate::fit::search::{Fit, Measured, fitted};
 use crate::lab::{self, Shared};
 use crate::start::Starts;
 use crate::statistics::Sample;
-use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
-use shearbed::jeffery::strain_per_period;
+use shearbed::Scene;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::sync::Arc;
 
@@ -99,6 +100,19 @@ fn data(values: impl Fn(usize) -> f64) -> Vec<Datum> {
     (0..POINTS).map(point).collect()
 }
 
+/// The simulations behind one set of points.
+fn one_set(scene: &Scene, range: &Range, seed: u64, time: TimeColumn) -> Result<Scenes, String> {
+    let set = Set {
+        source: "a case".into(),
+        text: toml::to_string(scene).map_err(|error| error.to_string())?,
+        starts: Starts::default(),
+        settings: Vec::new(),
+        seed,
+        time,
+    };
+    Scenes::new(vec![set], vec![range.clone()])
+}
+
 fn pool(effort: &Effort) -> Result<Pool, String> {
     let range = Range::parse("interaction.alpha=0.4:1.6")?;
     let places = data(|_| f64::NAN);
@@ -108,15 +122,7 @@ fn pool(effort: &Effort) -> Result<Pool, String> {
         scene.particles.count = RODS;
         scene.time.periods = Some(1.5);
         scene.time.steps_per_period = Some(STEPS_PER_PERIOD);
-        let set = Set {
-            source: "a case".into(),
-            text: toml::to_string(&scene).map_err(|error| error.to_string())?,
-            starts: Starts::default(),
-            settings: Vec::new(),
-            seed: effort.seed(70),
-            time: TimeColumn::Periods,
-        };
-        Scenes::new(vec![set], vec![range.clone()])
+        one_set(&scene, &range, effort.seed(70), TimeColumn::Periods)
     };
     let basis = Basis::new(1);
     let at_nodes = |sd_percent: f64| {
@@ -263,90 +269,12 @@ fn covers(way: &Way, effort: &Effort) -> Vec<Evidence> {
             Sample::of(&shares).is(CONFIDENCES[k], ALLOWANCE[k], EFFECT[k], because),
         )
     };
-    let outright = match outright(way, effort) {
+    let outright = match outright::off(*way == Way::StraightLines, effort) {
         Ok(outright) => outright,
         Err(why) => return failed(why),
     };
     vec![rule(0), rule(1), outright]
 }
-
-/// The r_e of points that are simulated at that r_e itself, away from the nodes: by how much a fit of them is off, in its standard
-/// uncertainties. Free rods start alike in every replica, so that hardly any noise of them is left.
-fn outright(way: &Way, effort: &Effort) -> Result<Evidence, String> {
-    const RANGE: &str = "particles.aspect_ratio=11.1:11.6";
-    const OWN: f64 = 11.43;
-    let place = [4.0 * (OWN - 11.1) - 1.0];
-    let range = Range::parse(RANGE)?;
-    let mut scene = lab::interacting_scene(effort);
-    scene.interaction = None;
-    scene.time.periods = Some(1.6);
-    scene.time.steps_per_period = None;
-    let set = Set {
-        source: "a case".into(),
-        text: toml::to_string(&scene).map_err(|error| error.to_string())?,
-        starts: Starts::default(),
-        settings: Vec::new(),
-        seed: effort.seed(72),
-        time: TimeColumn::Strain,
-    };
-    let scenes = Scenes::new(vec![set], vec![range.clone()])?;
-    let per_period = strain_per_period(OWN);
-    let with = |values: &[f64]| {
-        let mut points = data(|k| values.get(k).copied().unwrap_or(f64::NAN));
-        for point in &mut points {
-            point.time *= per_period;
-        }
-        points
-    };
-    let places = with(&[]);
-    let basis = Basis::new(1);
-    let model = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values);
-    let value = |node: &[f64]| vec![11.35 + 0.25 * node[0]];
-    let at_nodes = coefficients(&basis, &model, value, 0..FREE, &|| ())?;
-    let simulated = model(&[OWN])?;
-    let curve: Vec<f64> = Emulator::new(&basis, &at_nodes)
-        .at(&place)
-        .iter()
-        .copied()
-        .collect();
-    let points = with(&curve);
-    let measured = Measured {
-        data: &points,
-        ranges: std::slice::from_ref(&range),
-        rods_over_measured: &[0.0],
-    };
-    let fit = fitted(&measured, &basis, &vec![(range.from, range.to)], &at_nodes)?;
-    let mut terms = basis.terms(&place);
-    if *way == Way::StraightLines {
-        terms.rows_mut(2, 3).fill(0.0);
-    }
-    let uncertainty = fit.best.covariance()[(0, 0)].sqrt();
-    let shift = |(replica, at_nodes): (u64, &Coefficients)| {
-        let curve = simulated(replica)?;
-        let away =
-            DVector::from_iterator(POINTS, curve.iter().map(|point| point[0])) - at_nodes[0].tr_mul(&terms);
-        Ok((&fit.best.influence * away)[0] / uncertainty)
-    };
-    let shifts: Vec<f64> = (0..FREE)
-        .zip(&at_nodes)
-        .map(shift)
-        .collect::<Result<_, String>>()?;
-    Ok(Evidence::new(
-        "r_e of points simulated at that r_e itself, less it, in standard uncertainties",
-        Sample::of(&shifts).is(
-            0.0,
-            OFF,
-            OFF_EFFECT,
-            "a tenth costs a 68 % interval 0.3 % of its share; straight lines between the nodes are off by more than the effect",
-        ),
-    ))
-}
-
-/// Replicas of free rods.
-const FREE: u64 = 120;
-/// What the polynomials may be off, in standard uncertainties, and what must be seen beyond that.
-const OFF: f64 = 0.1;
-const OFF_EFFECT: f64 = 0.3;
 
 /// The distance from the law of χ² that must be seen.
 const DISTANCE: f64 = 0.15;

@@ -18,8 +18,9 @@ pub struct Basis {
     pub nodes: Vec<Vec<f64>>,
     /// A row for each coefficient and a column for each node: from values at the nodes to coefficients.
     pub project: DMatrix<f64>,
-    /// The same for polynomials of a degree less, the highest terms 0: what the two differ by tells how good they are.
-    pub project_lower: DMatrix<f64>,
+    /// From coefficients to those of what polynomials of a degree less miss at the nodes: terms × terms. It tells how good the
+    /// polynomials are.
+    pub missed: DMatrix<f64>,
 }
 
 impl Basis {
@@ -36,24 +37,16 @@ impl Basis {
         let project = projection(&degrees, &nodes);
         let highest = |degrees: &Vec<usize>| degrees.iter().sum::<usize>() == degree;
         let lower: Vec<_> = degrees.iter().filter(|d| !highest(d)).cloned().collect();
-        let mut rows = projection(&lower, &nodes)
-            .row_iter()
-            .map(|row| row.into_owned())
-            .collect::<Vec<_>>()
-            .into_iter();
-        let zero = DMatrix::zeros(1, nodes.len());
-        let padded: Vec<_> = degrees
-            .iter()
-            .map(|d| {
-                if highest(d) {
-                    zero.row(0).into_owned()
-                } else {
-                    rows.next().unwrap_or_else(|| zero.row(0).into_owned())
-                }
-            })
-            .collect();
+        // What has no part of the highest degree is not missed; for the rest, the lower terms that come nearest are taken away.
+        let nearest = projection(&lower, &nodes) * design(&degrees, &nodes);
+        let mut missed = DMatrix::identity(degrees.len(), degrees.len());
+        let kept = (0..degrees.len()).filter(|k| !highest(&degrees[*k]));
+        for (row, term) in kept.enumerate() {
+            let less = missed.row(term) - nearest.row(row);
+            missed.set_row(term, &less);
+        }
         Self {
-            project_lower: DMatrix::from_rows(&padded),
+            missed,
             project,
             degrees,
             nodes,
@@ -116,13 +109,18 @@ fn chebyshev(x: f64) -> [(f64, f64); 7] {
     all
 }
 
-/// The pseudo-inverse of the terms at the nodes.
-fn projection(degrees: &[Vec<usize>], nodes: &[Vec<f64>]) -> DMatrix<f64> {
+/// The terms at the nodes, a row for each node.
+fn design(degrees: &[Vec<usize>], nodes: &[Vec<f64>]) -> DMatrix<f64> {
     let rows: Vec<_> = nodes
         .iter()
         .map(|node| terms(degrees, node).transpose())
         .collect();
-    let design = DMatrix::from_rows(&rows);
+    DMatrix::from_rows(&rows)
+}
+
+/// Their pseudo-inverse.
+fn projection(degrees: &[Vec<usize>], nodes: &[Vec<f64>]) -> DMatrix<f64> {
+    let design = design(degrees, nodes);
     let normal = design.tr_mul(&design).cholesky();
     normal.map_or_else(
         || DMatrix::from_element(degrees.len(), nodes.len(), f64::NAN),
@@ -177,10 +175,10 @@ mod tests {
                 .iter()
                 .map(|node| 8.0 * node[0].powi(4) - 8.0 * node[0].powi(2) + 1.0),
         );
-        let missed = (&basis.project - &basis.project_lower) * &quartic;
+        let missed = &basis.missed * &basis.project * &quartic;
         assert!((missed[4] - 1.0).abs() < 1e-14, "{missed}");
         let cubic = DVector::from_iterator(7, basis.nodes.iter().map(|node| cubic(node).0));
-        let missed = (&basis.project - &basis.project_lower) * &cubic;
+        let missed = &basis.missed * &basis.project * &cubic;
         assert!(missed.amax() < 1e-14, "{missed}");
     }
 

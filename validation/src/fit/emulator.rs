@@ -27,16 +27,12 @@ pub struct Emulator {
     pub(super) basis: Basis,
     /// A row for each coefficient, a column for each point: of the mean over replicas, at, before and after.
     mean: [DMatrix<f64>; 3],
-    /// How far the mean's polynomials are from those of a degree less.
-    lack: DMatrix<f64>,
     /// Each replica's coefficients less the mean's, at.
     deviations: Vec<DMatrix<f64>>,
-    /// Each replica's lack less the mean's.
-    lack_deviations: Vec<DMatrix<f64>>,
 }
 
-/// The coefficients of one replica: at, before, after, and what a degree less misses of "at".
-pub type Coefficients = [DMatrix<f64>; 4];
+/// The coefficients of one replica: at, before and after.
+pub type Coefficients = [DMatrix<f64>; 3];
 
 /// Runs some replicas at every node of a box; `value` turns a node's coordinates into parameters. The order of the result
 /// is that of the replicas, on any number of threads.
@@ -58,14 +54,7 @@ pub fn coefficients(
         let of = |which: usize| {
             DMatrix::from_fn(rows.len(), rows[0].len(), |node, point| rows[node][point][which])
         };
-        let [at, before, after] = [0, 1, 2].map(of);
-        let lack = (&basis.project - &basis.project_lower) * &at;
-        Ok([
-            &basis.project * at,
-            &basis.project * before,
-            &basis.project * after,
-            lack,
-        ])
+        Ok([0, 1, 2].map(|which| &basis.project * of(which)))
     };
     replicas.into_par_iter().map(one).collect()
 }
@@ -79,12 +68,10 @@ impl Emulator {
             let zero = DMatrix::zeros(first.nrows(), first.ncols());
             replicas.iter().fold(zero, |sum, one| sum + &one[which]) * share
         };
-        let (at, lack) = (mean(0), mean(3));
+        let at = mean(0);
         Self {
             basis: basis.clone(),
             deviations: replicas.iter().map(|one| &one[0] - &at).collect(),
-            lack_deviations: replicas.iter().map(|one| &one[3] - &lack).collect(),
-            lack,
             mean: [at, mean(1), mean(2)],
         }
     }
@@ -96,7 +83,7 @@ impl Emulator {
 
     /// Measured points.
     pub fn points(&self) -> usize {
-        self.lack.ncols()
+        self.mean().ncols()
     }
 
     /// Coefficients of the mean, a row for each term and a column for each point.
@@ -120,10 +107,10 @@ impl Emulator {
     /// How far polynomials of a degree less are from these, without what the replicas' noise adds to its square: that has its
     /// place in [`Emulator::covariance`].
     pub fn lack_of_fit(&self, place: &[f64]) -> DVector<f64> {
-        let terms = self.basis.terms(place);
+        let terms = self.basis.missed.tr_mul(&self.basis.terms(place));
         let n = self.replicas() as f64;
         let zero = DVector::zeros(self.points());
-        let squares = (self.lack_deviations.iter()).fold(zero, |sum, one| {
+        let squares = (self.deviations.iter()).fold(zero, |sum, one| {
             sum + one.tr_mul(&terms).map(|deviation| deviation * deviation)
         });
         let own = |lack: f64, squares: f64| {
@@ -132,14 +119,14 @@ impl Emulator {
                     .max(0.0)
                     .sqrt()
         };
-        self.lack.tr_mul(&terms).zip_map(&squares, own)
+        self.mean().tr_mul(&terms).zip_map(&squares, own)
     }
 
     /// What the noise of the replicas adds on average to C V⁻¹ Cᵀ, where C are the mean's coefficients (a row for each term) and
     /// `inverse` is V⁻¹: terms × terms.
     pub fn noise(&self, inverse: &DMatrix<f64>) -> DMatrix<f64> {
         let n = self.replicas() as f64;
-        let terms = self.lack.nrows();
+        let terms = self.mean().nrows();
         let one = |deviation: &DMatrix<f64>| deviation * inverse * deviation.transpose();
         let all: Vec<DMatrix<f64>> = self.deviations.par_iter().map(one).collect();
         let sum = all

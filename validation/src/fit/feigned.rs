@@ -7,10 +7,10 @@ use super::emulator::{Replica, coefficients};
 use super::profile::profile;
 use super::range::Range;
 use super::search::{Fit, Measured, fitted};
-use crate::accept::{Design, Rule, Verdict, judge};
+use super::tests::{normal, share};
+use crate::accept::{Design, Verdict, judge};
 use crate::statistics::Sample;
 use rand::SeedableRng;
-use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -43,10 +43,6 @@ fn model(slope: f64, seed: u64) -> impl Fn(&[f64]) -> Result<Replica, String> + 
             Ok(mean.iter().map(one).collect())
         }))
     }
-}
-
-fn normal(rng: &mut Pcg64Dxsm) -> f64 {
-    StandardNormal.sample(rng)
 }
 
 fn ranges() -> Vec<Range> {
@@ -103,21 +99,8 @@ fn asked(fit: &Fit) -> ([bool; 2], f64) {
 /// Where 0.4 of what the points seem to tell is noise, intervals would be √0.6 as long and hold the truth in 56 and 87 %.
 const EFFECT: f64 = 0.1;
 
-fn share(inside: impl Iterator<Item = bool>, confidence: f64) -> Rule {
-    let all: Vec<bool> = inside.collect();
-    let n = all.len() as f64;
-    Rule::Mean {
-        mean: all.iter().filter(|inside| **inside).count() as f64 / n,
-        se: (confidence * (1.0 - confidence) / n).sqrt(),
-        samples: all.len() as u64,
-        reference: confidence,
-        // The covariance of a replica, half of V, is estimated itself: from [`REPLICAS`] of them.
-        allowance: 0.02,
-        effect: EFFECT,
-        because: "".into(),
-    }
-}
-
+/// The covariance of a replica, half of V, is estimated itself: from [`REPLICAS`] of them.
+const ALLOWANCE: f64 = 0.02;
 const REPLICAS: u64 = 100;
 
 #[test]
@@ -135,14 +118,29 @@ fn the_noise_of_replicas_makes_no_interval_short() {
     let feigned = all.iter().map(|(_, _, feigned)| feigned).sum::<f64>() / count as f64;
     assert!((0.33..0.5).contains(&feigned), "{feigned}");
     for (which, confidence) in [0.68, 0.95].into_iter().enumerate() {
-        let own = share(all.iter().map(|(own, ..)| own.0[which]), confidence);
+        let own = share(
+            all.iter().map(|(own, ..)| own.0[which]),
+            confidence,
+            ALLOWANCE,
+            EFFECT,
+        );
         assert_eq!(judge(&own), Verdict::Pass, "{own:?}");
     }
-    let believed = share(all.iter().map(|(_, believed, _)| believed.0[0]), 0.68);
+    let believed = share(
+        all.iter().map(|(_, believed, _)| believed.0[0]),
+        0.68,
+        ALLOWANCE,
+        EFFECT,
+    );
     assert_eq!(judge(&believed), Verdict::Fail, "{believed:?}");
     // χ² is neither too large nor too kind.
     for above in [0.05, 0.95] {
-        let own = share(all.iter().map(|(own, ..)| own.1 > above), 1.0 - above);
+        let own = share(
+            all.iter().map(|(own, ..)| own.1 > above),
+            1.0 - above,
+            ALLOWANCE,
+            EFFECT,
+        );
         assert_eq!(judge(&own), Verdict::Pass, "{own:?}");
     }
 }

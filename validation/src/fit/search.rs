@@ -61,6 +61,14 @@ pub struct Watch<'a> {
     pub done: &'a (dyn Fn() + Sync),
 }
 
+impl Watch<'_> {
+    /// Nobody is told.
+    pub const SILENT: Self = Self {
+        planned: &|_| (),
+        done: &|| (),
+    };
+}
+
 /// A fit.
 #[derive(Clone, Debug)]
 pub struct Fit {

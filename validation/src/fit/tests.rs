@@ -23,7 +23,7 @@ fn times() -> impl Iterator<Item = f64> {
     (0..TIMES).map(|k| 0.1 * k as f64)
 }
 
-fn normal(rng: &mut Pcg64Dxsm) -> f64 {
+pub(super) fn normal(rng: &mut Pcg64Dxsm) -> f64 {
     StandardNormal.sample(rng)
 }
 
@@ -69,11 +69,7 @@ fn fit(data: &[Datum], over: &[&str], seed: u64, scatter: f64, most_replicas: u6
         model: &model,
         most_replicas,
     };
-    let watch = Watch {
-        planned: &|_| (),
-        done: &|| (),
-    };
-    search(&problem, &watch).unwrap()
+    search(&problem, &Watch::SILENT).unwrap()
 }
 
 const ONE: [&str; 1] = ["a.rate=0.05:5"];
@@ -121,11 +117,7 @@ fn another_minimum_of_the_range_is_seen() {
             model: &model,
             most_replicas: 20,
         };
-        let watch = Watch {
-            planned: &|_| (),
-            done: &|| (),
-        };
-        look_elsewhere(&problem, fit, &watch)
+        look_elsewhere(&problem, fit, &Watch::SILENT)
     };
     let found = fit(&data, &TWO, 1, 1e-9, 20);
     assert_eq!(look(&found), Ok(Vec::new()));
@@ -177,22 +169,24 @@ fn repeats(count: u64, over: &[&str], scatter: f64, most_replicas: u64) -> Vec<R
     (0..count).into_par_iter().map(one).collect()
 }
 
-/// The share of repeats whose interval holds the planted value, against its confidence. An interval half as long holds it
-/// in 0.38 and 0.67 of the repeats, 0.30 and 0.28 fewer.
-fn share(of: &[Repeat], inside: impl Fn(&Repeat) -> bool, confidence: f64) -> Rule {
-    let n = of.len() as f64;
+/// The share of repeats of which something holds, against what it should be. `allowance`: what the share may be off by.
+pub(super) fn share(inside: impl Iterator<Item = bool>, reference: f64, allowance: f64, effect: f64) -> Rule {
+    let all: Vec<bool> = inside.collect();
+    let n = all.len() as f64;
     Rule::Mean {
-        mean: of.iter().filter(|repeat| inside(repeat)).count() as f64 / n,
-        se: (confidence * (1.0 - confidence) / n).sqrt(),
-        samples: of.len() as u64,
-        reference: confidence,
-        // Profile intervals are exact for models that are straight in their parameters; this one bends.
-        allowance: 0.01,
-        effect: EFFECT,
+        mean: all.iter().filter(|inside| **inside).count() as f64 / n,
+        se: (reference * (1.0 - reference) / n).sqrt(),
+        samples: all.len() as u64,
+        reference,
+        allowance,
+        effect,
         because: "".into(),
     }
 }
 
+/// Profile intervals are exact for models that are straight in their parameters; this one bends.
+const ALLOWANCE: f64 = 0.01;
+/// An interval half as long holds the planted value in 0.38 and 0.67 of the repeats, 0.30 and 0.28 fewer.
 const EFFECT: f64 = 0.27;
 
 #[test]
@@ -205,12 +199,27 @@ fn intervals_hold_the_planted_value_as_often_as_they_say() {
     // Sampling noise that replicas do not quite outgrow, so that leaving it out would show. The case `fit-covers` has one key.
     let found = repeats(enough, &TWO, 0.02, 40);
     for (which, confidence) in [(0, 0.68), (1, 0.95)] {
-        let rule = share(&found, |repeat| repeat.inside[which], confidence);
+        let rule = share(
+            found.iter().map(|repeat| repeat.inside[which]),
+            confidence,
+            ALLOWANCE,
+            EFFECT,
+        );
         assert_eq!(judge(&rule), Verdict::Pass, "{rule:?}");
-        let half = share(&found, |repeat| repeat.inside_half[which], confidence);
+        let half = share(
+            found.iter().map(|repeat| repeat.inside_half[which]),
+            confidence,
+            ALLOWANCE,
+            EFFECT,
+        );
         assert_eq!(judge(&half), Verdict::Fail, "{half:?}");
     }
-    let rule = share(&found, |repeat| repeat.p >= 0.05, 0.95);
+    let rule = share(
+        found.iter().map(|repeat| repeat.p >= 0.05),
+        0.95,
+        ALLOWANCE,
+        EFFECT,
+    );
     assert_eq!(judge(&rule), Verdict::Pass, "{rule:?}");
 }
 
@@ -243,11 +252,7 @@ fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
         model: &line,
         most_replicas: 50,
     };
-    let watch = Watch {
-        planned: &|_| (),
-        done: &|| (),
-    };
-    let fit = search(&problem, &watch).unwrap();
+    let fit = search(&problem, &Watch::SILENT).unwrap();
 
     // Generalised least squares in closed form.
     let replicas = fit.emulator.replicas();
