@@ -117,6 +117,7 @@ fn alone(block: &Block, rod: usize) -> Block {
         axis[0] = from[rod];
     }
     one.aspect_ratio[0] = block.aspect_ratio[rod];
+    one.weight[0] = block.weight[rod];
     one
 }
 

@@ -6,7 +6,7 @@ use nalgebra::{UnitVector3, Vector3};
 ///
 /// ```
 /// use shearbed::{contact::contact, nalgebra::Vector3};
-/// let met = contact(&Vector3::new(2.0, 3.0, 5.0), &Vector3::x(), &Vector3::y(), 0.0).expect("not parallel");
+/// let met = contact(&Vector3::new(2.0, 3.0, 5.0), &Vector3::x(), &Vector3::y(), [0.0; 2]).expect("not parallel");
 /// assert_eq!((met.line, met.arms), (Vector3::z_axis(), [2.0, -3.0]));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,12 +21,12 @@ pub struct Contact {
 /// The contact of two rods with directions `p_a`, `p_b` and `separation` = x_B − x_A.
 ///
 /// `None` where there is no unique contact line (parallel rods), or where an arm is shorter than
-/// `min_arm` or exactly 0, so that no turn of that rod could move its contact point.
+/// `min_arms` or exactly 0, so that no turn of that rod could move its contact point.
 pub fn contact(
     separation: &Vector3<f64>,
     p_a: &Vector3<f64>,
     p_b: &Vector3<f64>,
-    min_arm: f64,
+    min_arms: [f64; 2],
 ) -> Option<Contact> {
     let normal = p_a.cross(p_b);
     let square = normal.norm_squared();
@@ -37,8 +37,9 @@ pub fn contact(
         separation.dot(&p_a.cross(&normal)) / square,
     ];
     let line = UnitVector3::try_new(normal, 0.0)?;
-    let usable = |r: f64| r.is_finite() && r != 0.0 && r.abs() >= min_arm;
-    arms.into_iter().all(usable).then_some(Contact { line, arms })
+    let usable = |(r, min): (f64, f64)| r.is_finite() && r != 0.0 && r.abs() >= min;
+    let all_usable = arms.into_iter().zip(min_arms).all(usable);
+    all_usable.then_some(Contact { line, arms })
 }
 
 #[cfg(test)]
@@ -56,7 +57,7 @@ mod tests {
         ) {
             let (d, p_a, p_b) = (Vector3::from(d), from_angles(a[0], a[1]), from_angles(2.0 + b[0], b[1]));
             prop_assume!(p_a.cross(&p_b).norm() > 0.05);
-            let found = contact(&d, &p_a, &p_b, 0.0).unwrap();
+            let found = contact(&d, &p_a, &p_b, [0.0; 2]).unwrap();
             let between = d + found.arms[1] * p_b.into_inner() - found.arms[0] * p_a.into_inner();
             prop_assert!(between.dot(&p_a).abs() < 1e-11 && between.dot(&p_b).abs() < 1e-11);
             prop_assert!(between.cross(&found.line).norm() < 1e-11);
@@ -66,7 +67,13 @@ mod tests {
     #[test]
     fn a_contact_worked_by_hand() {
         // A along axis 1 through (0,0,0), B along axis 2 through (2,3,1): they pass at (2,0,·).
-        let found = contact(&Vector3::new(2.0, 3.0, 1.0), &Vector3::x(), &Vector3::y(), 0.0).unwrap();
+        let found = contact(
+            &Vector3::new(2.0, 3.0, 1.0),
+            &Vector3::x(),
+            &Vector3::y(),
+            [0.0; 2],
+        )
+        .unwrap();
         assert_eq!(found.line, Vector3::z_axis());
         assert_eq!(found.arms, [2.0, -3.0]);
     }
@@ -75,7 +82,7 @@ mod tests {
     fn no_contact_for_parallel_rods_or_too_short_an_arm() {
         let (x, y) = (Vector3::x(), Vector3::y());
         let minus_x = -x;
-        let none = |d: [f64; 3], a, b, min| contact(&Vector3::from(d), a, b, min).is_none();
+        let none = |d: [f64; 3], a, b, min| contact(&Vector3::from(d), a, b, [min; 2]).is_none();
         assert!(none([2.0, 3.0, 1.0], &x, &x, 0.0));
         assert!(none([2.0, 3.0, 1.0], &x, &minus_x, 0.0));
         assert!(none([0.0, 3.0, 1.0], &x, &y, 0.0), "arm of A is 0");

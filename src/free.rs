@@ -4,7 +4,7 @@
 use crate::flow::VelocityGradient;
 use crate::orientation::from_degrees;
 use crate::propagator::{Propagator, Span};
-use crate::scene::{Invalid, Orientation, Scene};
+use crate::scene::{Invalid, Scene};
 use nalgebra::{Matrix3, UnitVector3};
 use rayon::prelude::*;
 
@@ -48,16 +48,22 @@ impl FreeMotion {
             // What comes back exactly is worked out once.
             spans.truncate(scene.outputs_per_period() as usize);
         }
-        let start = match particles.orientation {
-            Orientation::Given { phi_deg, theta_deg } => Some(from_degrees(phi_deg, theta_deg)),
-            Orientation::Random(_) | Orientation::Each { .. } => None,
-        };
-        // Each start has an error of its own, which a map does not tell.
-        let each = matches!(particles.orientation, Orientation::Each { .. });
-        if each || particles.aspect_ratio_sd_percent > 0.0 {
-            let spread = 3.0 * particles.aspect_ratio_sd_percent / 100.0;
+        // Each start of a file has an error of its own, which a map does not tell.
+        let each = particles.own().is_some_and(|own| own.p.is_some());
+        let start = particles.common_start_deg();
+        let start = start.map(|[phi_deg, theta_deg]| from_degrees(phi_deg, theta_deg));
+        if each || particles.of_several_shapes() {
+            let spread = match particles.own_aspect_ratios() {
+                Some(own) => own
+                    .iter()
+                    .fold([r; 2], |[least, most], r| [r.min(least), r.max(most)]),
+                None => {
+                    let deviation = 3.0 * particles.aspect_ratio_sd_percent / 100.0;
+                    [r * (1.0 - deviation), r * (1.0 + deviation)]
+                }
+            };
             let mut error_rad = 0.0f64;
-            for r in [r * (1.0 - spread), r, r * (1.0 + spread)] {
+            for r in [spread[0], r, spread[1]] {
                 let propagator = Propagator::general(flow, r);
                 let errors = at_each(scene, &self::spans(scene), |span| {
                     let (error, of_start) = match start {
@@ -73,7 +79,7 @@ impl FreeMotion {
             }
             let mean = Box::new(Propagator::new(flow, r));
             let spans = self::spans(scene);
-            let rounded = !matches!(particles.orientation, Orientation::Random(_));
+            let rounded = each || start.is_some();
             return Ok(Self {
                 way: Way::Each { mean, spans, rounded },
                 error_rad,

@@ -36,6 +36,7 @@ pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
     let per_rod = 24
         + maps[0]
         + kept(Stage::AspectRatios, 8)
+        + kept(Stage::Lengths, 8)
         + kept(Stage::Positions, 24)
         + kept(Stage::CollisionDraws, 8)
         + kept(Stage::Neighbours, 44)
@@ -60,7 +61,7 @@ fn candidates(plan: &Plan) -> f64 {
     let Some(interaction) = (scene.interaction.as_ref()).filter(|_| plan.keeps(Stage::Contacts)) else {
         return 0.0;
     };
-    let n = scene.concentration(interaction);
+    let n = scene.concentration().unwrap_or(0.0) * scene.particles.mean_cube();
     let hit = |r: f64| {
         let reach = reach(r, interaction.alpha, interaction.m);
         -libm::expm1(-4.0 / 3.0 * PI * n * reach.powi(3))

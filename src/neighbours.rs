@@ -25,14 +25,14 @@ pub struct Nearest {
     pub square: f64,
 }
 
-/// The search for nearest neighbours in a cubic volume [0, side)³. Nothing is allocated after the first step.
+/// The search for nearest neighbours in a volume [0, H₁) × [0, H₂) × [0, H₃). Nothing is allocated after the first step.
 ///
 /// ```
 /// use shearbed::{neighbours::Neighbours, work::Counters};
 /// let positions = [vec![0.1, 0.2, 0.9], vec![0.5; 3], vec![0.5; 3]];
 /// let (mut work, mut pairs) = (Counters::default(), Vec::new());
 /// let reach = |_rod: usize| 0.3;
-/// Neighbours::new(1.0, 3).each_nearest(&positions, reach, &mut work, |near| pairs.push((near.rod, near.other)));
+/// Neighbours::new([1.0; 3], 3).each_nearest(&positions, reach, &mut work, |near| pairs.push((near.rod, near.other)));
 /// assert_eq!(pairs, [(0, 1), (1, 0)]);
 /// ```
 #[derive(Clone, Debug)]
@@ -48,12 +48,12 @@ enum Search {
 const FEW: usize = 256;
 
 impl Neighbours {
-    /// The search for `count` rods in a volume of the given side.
-    pub fn new(side: f64, count: usize) -> Self {
+    /// The search for `count` rods in a volume of the given sides.
+    pub fn new(sides: [f64; 3], count: usize) -> Self {
         Self(if count <= FEW {
-            Search::Pairs(Pairs::new(side))
+            Search::Pairs(Pairs::new(sides))
         } else {
-            Search::Grid(Grid::new(side, count))
+            Search::Grid(Grid::new(sides, count))
         })
     }
 
@@ -107,10 +107,10 @@ mod tests {
         all
     }
 
-    fn searches(side: f64, count: usize) -> [Search; 2] {
+    fn searches(sides: [f64; 3], count: usize) -> [Search; 2] {
         [
-            Search::Pairs(Pairs::new(side)),
-            Search::Grid(Grid::new(side, count)),
+            Search::Pairs(Pairs::new(sides)),
+            Search::Grid(Grid::new(sides, count)),
         ]
     }
 
@@ -125,11 +125,12 @@ mod tests {
             ], 300),
             side in prop_oneof![Just(4.0), Just(1e-3), Just(3e5)],
             fine in prop_oneof![Just(0.0), 0.0f64..1.0],
+            shape in prop::sample::select(vec![[1.0, 1.0, 1.0], [4.0, 0.5, 0.5], [0.5, 1.0, 2.0], [1.0, 1e-4, 1.0], [1e-3, 1.0, 1e-3]]),
         ) {
             // Coordinates on a coarse lattice, so that ties and coincident rods occur; or drawn off it.
             let place = |k: usize, i: usize, x: u8| {
                 let off = fine * ((i * 3 + k) as f64 * 0.618_033_988_749).fract();
-                (f64::from(x) + off) * side / 40.0
+                (f64::from(x) + off) * shape[k] * side / 40.0
             };
             let positions: [Vec<f64>; 3] = std::array::from_fn(|k| {
                 points.iter().enumerate().map(|(i, p)| place(k, i, p[k])).collect()
@@ -137,7 +138,7 @@ mod tests {
             let reach: Vec<f64> = reaches.iter().map(|reach| reach * side / 4.0).collect();
             let expected: Vec<_> =
                 (0..points.len()).filter_map(|rod| brute(&positions, rod, reach[rod])).collect();
-            for search in searches(side, points.len()) {
+            for search in searches(shape.map(|share: f64| share * side), points.len()) {
                 prop_assert_eq!(&found(search, &positions, &reach), &expected);
             }
         }
@@ -159,7 +160,7 @@ mod tests {
                 .num_threads(threads)
                 .build()
                 .unwrap();
-            pool.install(|| found(Search::Grid(Grid::new(volume.side(), count)), &positions, &reach))
+            pool.install(|| found(Search::Grid(Grid::new(volume.sides(), count)), &positions, &reach))
         };
         let all = on(3);
         assert_eq!(all, on(1));
@@ -196,7 +197,7 @@ mod tests {
                 .iter()
                 .map(|p| if p[0] == 0.5 { 0.2 } else { 0.0 })
                 .collect::<Vec<_>>();
-            let all = found(Search::Grid(Grid::new(10.0, 1000)), &positions, &reach);
+            let all = found(Search::Grid(Grid::new([10.0; 3], 1000)), &positions, &reach);
             let pairs: Vec<_> = all.iter().map(|nearest| (nearest.rod, nearest.other)).collect();
             assert_eq!(pairs, [(0, 6), (6, 0)]);
         }
@@ -218,7 +219,7 @@ mod tests {
                 partner
             }));
             let positions: [Vec<f64>; 3] = std::array::from_fn(|k| points.iter().map(|p| p[k]).collect());
-            for search in searches(side, 1000) {
+            for search in searches([side; 3], 1000) {
                 let all = found(search, &positions, &[0.2; 16]);
                 assert_eq!(all.len(), 16);
                 assert!(all.iter().all(|nearest| nearest.rod.abs_diff(nearest.other) == 8));
@@ -234,7 +235,7 @@ mod tests {
                 .map(|i| ((i as f64 + 0.5) * [0.618_033_99, 0.754_877_67, 0.569_840_29][k]).fract() * 10.0)
                 .collect()
         });
-        for search in searches(10.0, n) {
+        for search in searches([10.0; 3], n) {
             let mut work = Counters::default();
             Neighbours(search).each_nearest(&positions, |_| 0.1, &mut work, |_| ());
             assert!(work.distances < n as u64, "{work:?} for {n} rods");

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 /// Rods handled at a time: their directions stay in the first cache while every observable reads them.
 pub const BLOCK: usize = 128;
 
-/// Directions and aspect ratios of up to [`BLOCK`] rods, as structure of arrays.
+/// Directions, aspect ratios and weights of up to [`BLOCK`] rods, as structure of arrays.
 ///
 /// ```
 /// use shearbed::observable::Block;
@@ -28,6 +28,8 @@ pub struct Block {
     pub p: [[f64; BLOCK]; 3],
     /// r_e.
     pub aspect_ratio: [f64; BLOCK],
+    /// Of each rod in a stress: its cubed length over the mean cubed length of the suspension's rods.
+    pub weight: [f64; BLOCK],
     /// How many rods are in the block.
     pub len: usize,
 }
@@ -37,6 +39,7 @@ impl Default for Block {
         Self {
             p: [[0.0; BLOCK]; 3],
             aspect_ratio: [1.0; BLOCK],
+            weight: [1.0; BLOCK],
             len: 0,
         }
     }
@@ -81,7 +84,7 @@ pub enum Observable {
     OrientationTensor4,
     /// What dilute slender rods add to the stress in plane Couette flow, over μ_fiber G: shear stress σ₁₂ and normal stress
     /// differences N₁ = σ₂₂ − σ₁₁ (flow less gradient) and N₂ = σ₁₁ − σ₃₃ of σ_ij = μ_fiber ⟨p_i p_j p_k p_l⟩ D_kl, which is
-    /// μ_fiber G ⟨p_i p_j p₁p₂⟩ (Batchelor 1970; docs/coefficients.md).
+    /// μ_fiber G ⟨p_i p_j p₁p₂⟩ (Batchelor 1970; docs/coefficients.md). μ_fiber ∝ n⟨a³⟩, and rods count by their cubed length.
     ParticleStress,
 }
 
@@ -197,9 +200,14 @@ impl Observable {
                 }
             }
             Self::ParticleStress => {
-                sums[0].add_each(block.len, |i| (p1[i] * p2[i]).powi(2));
-                sums[1].add_each(block.len, |i| p1[i] * p2[i] * (p2[i] * p2[i] - p1[i] * p1[i]));
-                sums[2].add_each(block.len, |i| p1[i] * p2[i] * (p1[i] * p1[i] - p3[i] * p3[i]));
+                let weight = &block.weight;
+                sums[0].add_each(block.len, |i| weight[i] * (p1[i] * p2[i]).powi(2));
+                sums[1].add_each(block.len, |i| {
+                    weight[i] * (p1[i] * p2[i] * (p2[i] * p2[i] - p1[i] * p1[i]))
+                });
+                sums[2].add_each(block.len, |i| {
+                    weight[i] * (p1[i] * p2[i] * (p1[i] * p1[i] - p3[i] * p3[i]))
+                });
             }
         }
     }

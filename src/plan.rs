@@ -9,7 +9,7 @@ use crate::free::FreeMotion;
 use crate::jeffery::{period_s, strain_per_period};
 use crate::observable::Observable;
 use crate::propagator::Propagator;
-use crate::scene::{Invalid, Orientation, Scene, resolved_strain};
+use crate::scene::{Invalid, Scene, resolved_strain};
 use stages::entries;
 use std::fmt;
 use std::sync::Arc;
@@ -26,6 +26,9 @@ pub(crate) enum Clock {
 /// The aspect ratio below which the slender limit of the rods' stress comes with a warning: a rule of thumb, for what the limit
 /// leaves out falls slowly with r_e, and there is no r_e at which it becomes right.
 const SLENDER: f64 = 30.0;
+
+/// How far the mean of a file's rods may be from the scene's without a word: three standard errors of a few rods.
+const OWN_MEAN: f64 = 0.1;
 
 /// What a unit of time is.
 ///
@@ -164,7 +167,8 @@ impl Plan {
     pub fn warnings(&self) -> Vec<String> {
         [
             self.unresolved_steps(),
-            self.unrelated_aspect_ratios(),
+            self.unrelated_sizes(),
+            self.other_means(),
             self.not_slender(),
         ]
         .into_iter()
@@ -185,17 +189,45 @@ impl Plan {
         })
     }
 
-    /// Directions from a file for rods whose aspect ratios are drawn anew.
-    fn unrelated_aspect_ratios(&self) -> Option<String> {
+    /// Directions from a file for rods whose aspect ratios or lengths are drawn anew.
+    fn unrelated_sizes(&self) -> Option<String> {
         let particles = &self.scene.particles;
-        match &particles.orientation {
-            Orientation::Each { file, .. } if particles.aspect_ratio_sd_percent > 0.0 => Some(format!(
-                "particles.aspect_ratio_sd_percent = {} draws each rod's aspect ratio anew, unrelated to its direction in \
-                 {file}: a suspension of unequal rods is not continued; 0 is exact for rods of one aspect ratio",
-                particles.aspect_ratio_sd_percent
-            )),
-            _ => None,
-        }
+        let (file, own) = (&particles.rods.as_ref()?.file, particles.own()?);
+        let drawn = [
+            (
+                "aspect_ratio",
+                own.aspect_ratio.is_none(),
+                particles.aspect_ratio_sd_percent,
+            ),
+            ("length", own.length_mm.is_none(), particles.length_sd_percent),
+        ];
+        let (name, _, sd) =
+            (drawn.into_iter()).find(|(_, lacks, sd)| own.p.is_some() && *lacks && *sd > 0.0)?;
+        Some(format!(
+            "particles.{name}_sd_percent = {sd} draws each rod's {} anew, unrelated to its direction in {file}: a \
+             suspension of unequal rods goes on where the file has them too, as rods.csv does",
+            name.replace('_', " ")
+        ))
+    }
+
+    /// A mean of the rods of a file that is far from the scene's, which is then a unit alone.
+    fn other_means(&self) -> Option<String> {
+        let particles = &self.scene.particles;
+        let (file, own) = (&particles.rods.as_ref()?.file, particles.own()?);
+        let of = [
+            ("aspect_ratio", "T", &own.aspect_ratio, particles.aspect_ratio),
+            ("length_mm", "n a³", &own.length_mm, particles.length_mm),
+        ];
+        of.into_iter().find_map(|(key, unit, own, given)| {
+            let own = own.as_ref()?;
+            let mean = own.iter().sum::<f64>() / own.len() as f64;
+            let near = (mean / given - 1.0).abs() <= OWN_MEAN;
+            (!near).then(|| {
+                format!(
+                    "particles.{key} = {given} sets {unit} alone: the rods are those of {file}, whose mean is {mean:.4}"
+                )
+            })
+        })
     }
 
     /// A stress of slender rods for rods that are not.

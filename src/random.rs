@@ -25,6 +25,8 @@ pub enum Purpose {
     Collisions = 3,
     /// New positions of rods that left the control volume (eq. 14).
     Replacements = 4,
+    /// Gaussian lengths.
+    Lengths = 5,
 }
 
 /// The PCG64-DXSM stream of one replica and purpose.

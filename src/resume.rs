@@ -141,13 +141,12 @@ impl Placed {
         if self.since.iter().any(|since| u64::from(*since) > tick) {
             return Err("a collision in it has yet to come");
         }
-        let side = match &plan.scene().interaction {
-            Some(interaction) => {
-                crate::volume::ControlVolume::holding(count, plan.scene().concentration(interaction)).side()
-            }
-            None => f64::INFINITY,
-        };
-        if !self.positions.iter().flatten().all(|x| (0.0..=side).contains(x)) {
+        let sides = plan
+            .scene()
+            .volume()
+            .map_or([f64::INFINITY; 3], |volume| volume.sides());
+        let within = |(axis, side): (&Vec<f64>, f64)| axis.iter().all(|x| (0.0..=side).contains(x));
+        if !self.positions.iter().zip(sides).all(within) {
             return Err("a position in it is outside the control volume");
         }
         Ok(())

@@ -13,8 +13,10 @@ use crate::plan::{Clock, Plan, Stage};
 use crate::propagator::{Propagator, couette};
 use crate::random::{Purpose, ahead, stream};
 use crate::scene::Orientation;
+use crate::work::Counters;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use rand::RngExt;
+use rand_pcg::Pcg64Dxsm;
 use std::cell::Cell;
 use std::sync::Arc;
 
@@ -26,6 +28,10 @@ pub(crate) struct Rods {
     /// Empty where no rod can collide: every rod then counts from tick 0.
     since: Vec<u32>,
     shapes: Shapes,
+    /// Over the mean; empty where all rods have the same, or nothing asks.
+    lengths: Vec<f64>,
+    /// One over the mean of their cubes.
+    per_cube: f64,
     motion: Motion,
 }
 
@@ -47,9 +53,10 @@ enum Motion {
 }
 
 impl Rods {
-    /// Draws the rods of a replica; also returns how many aspect ratios were drawn again.
-    pub fn draw(plan: &Plan, replica: u64) -> (Self, u64) {
-        let (shapes, redrawn) = draw_shapes(plan, replica);
+    /// Draws the rods of a replica; also counts what was drawn again.
+    pub fn draw(plan: &Plan, replica: u64) -> (Self, Counters) {
+        let (shapes, aspect_ratios_redrawn) = draw_shapes(plan, replica);
+        let (lengths, lengths_redrawn) = draw_lengths(plan, replica);
         let motion = choose_motion(plan, &shapes);
         let since = if plan.keeps(Stage::Contacts) {
             vec![0; plan.scene().particles.count]
@@ -60,9 +67,16 @@ impl Rods {
             p: draw_directions(plan, replica),
             since,
             shapes,
+            per_cube: lengths.len() as f64 / lengths.iter().map(|length| length.powi(3)).sum::<f64>(),
+            lengths,
             motion,
         };
-        (rods, redrawn)
+        let counters = Counters {
+            aspect_ratios_redrawn,
+            lengths_redrawn,
+            ..Counters::default()
+        };
+        (rods, counters)
     }
 
     pub fn count(&self) -> usize {
@@ -74,6 +88,17 @@ impl Rods {
             Shapes::Shared(r) => *r,
             Shapes::Each(r) => r[rod],
         }
+    }
+
+    /// The rod's length over the mean.
+    #[inline]
+    pub fn length(&self, rod: usize) -> f64 {
+        self.lengths.get(rod).copied().unwrap_or(1.0)
+    }
+
+    /// Every rod's length over the mean; none where all have the same.
+    pub fn lengths(&self) -> &[f64] {
+        &self.lengths
     }
 
     /// Whether the rod was turned by a collision in the step that ends after `tick`.
@@ -122,6 +147,11 @@ impl Rods {
         match &self.shapes {
             Shapes::Shared(r) => block.aspect_ratio[..block.len].fill(*r),
             Shapes::Each(r) => block.aspect_ratio[..block.len].copy_from_slice(&r[rods.clone()]),
+        }
+        if let Some(lengths) = self.lengths.get(rods.clone()) {
+            for (weight, length) in block.weight.iter_mut().zip(lengths) {
+                *weight = self.per_cube * length.powi(3);
+            }
         }
         let from = self.p.each_ref().map(|axis| &axis[rods.clone()]);
         match (&self.motion, &self.shapes) {
@@ -236,31 +266,58 @@ fn draw_shapes(plan: &Plan, replica: u64) -> (Shapes, u64) {
     if !plan.keeps(Stage::AspectRatios) {
         return (Shapes::Shared(mean), 0);
     }
-    let deviation = mean * particles.aspect_ratio_sd_percent / 100.0;
-    let mut rng = stream(plan.scene().ensemble.seed, replica, Purpose::AspectRatios);
-    let mut redrawn = 0;
+    if let Some(own) = particles.own_aspect_ratios() {
+        return (Shapes::Each(own.to_vec()), 0);
+    }
+    let rng = stream(plan.scene().ensemble.seed, replica, Purpose::AspectRatios);
     // A rod stays a rod and a disc a disc; a draw across r_e = 1 (or below 0) is drawn again (eq. 11).
     let allowed = |r: f64| {
         if mean > 1.0 { r > 1.0 } else { r > 0.0 && r < 1.0 }
     };
-    let aspect_ratio: Vec<f64> = (0..particles.count)
-        .map(|_| {
-            loop {
-                let r = mean + deviation * gaussian::standard(&mut rng);
-                if allowed(r) {
-                    return r;
-                }
-                redrawn += 1;
+    let deviation = mean * particles.aspect_ratio_sd_percent / 100.0;
+    let (aspect_ratios, redrawn) = draw_gaussian(rng, particles.count, [mean, deviation], allowed);
+    (Shapes::Each(aspect_ratios), redrawn)
+}
+
+/// Lengths over their mean, of a file over the scene's length.
+fn draw_lengths(plan: &Plan, replica: u64) -> (Vec<f64>, u64) {
+    let particles = &plan.scene().particles;
+    if !plan.keeps(Stage::Lengths) {
+        return (Vec::new(), 0);
+    }
+    if let Some(own) = particles.own_lengths_mm() {
+        return (own.iter().map(|length| length / particles.length_mm).collect(), 0);
+    }
+    let rng = stream(plan.scene().ensemble.seed, replica, Purpose::Lengths);
+    let deviation = particles.length_sd_percent / 100.0;
+    draw_gaussian(rng, particles.count, [1.0, deviation], |length| length > 0.0)
+}
+
+/// Numbers of this mean and standard deviation, drawn again where they are not allowed, and how many were.
+fn draw_gaussian(
+    mut rng: Pcg64Dxsm,
+    count: usize,
+    [mean, deviation]: [f64; 2],
+    allowed: impl Fn(f64) -> bool,
+) -> (Vec<f64>, u64) {
+    let mut redrawn = 0;
+    let mut one = || {
+        loop {
+            let value = mean + deviation * gaussian::standard(&mut rng);
+            if allowed(value) {
+                return value;
             }
-        })
-        .collect();
-    (Shapes::Each(aspect_ratio), redrawn)
+            redrawn += 1;
+        }
+    };
+    let all = (0..count).map(|_| one()).collect();
+    (all, redrawn)
 }
 
 fn draw_directions(plan: &Plan, replica: u64) -> [Vec<f64>; 3] {
     let particles = &plan.scene().particles;
-    if let Orientation::Each { p: Some(p), .. } = &particles.orientation {
-        return (**p).clone();
+    if let Some(p) = particles.own().and_then(|own| own.p.as_ref()) {
+        return p.clone();
     }
     let count = particles.count;
     let mut p = [(); 3].map(|()| vec![0.0; count]);
@@ -274,7 +331,7 @@ fn draw_directions(plan: &Plan, replica: u64) -> [Vec<f64>; 3] {
             let direction = match (&particles.orientation, drawn) {
                 (Orientation::Random(_), Some(drawn)) => drawn,
                 (Orientation::Given { phi_deg, theta_deg }, _) => from_degrees(*phi_deg, *theta_deg),
-                _ => unreachable!("a plan keeps the draws of random directions, and has those of a file"),
+                _ => unreachable!("a plan keeps the draws of random directions"),
             };
             [*p1, *p2, *p3] = direction.into_inner().into();
         }

@@ -120,7 +120,7 @@ fn straight(
     recorder: &mut Recorder,
     look: &mut impl FnMut(&dyn Fn() -> Halfway),
 ) -> Result<Counters, RunError> {
-    let (rods, aspect_ratios_redrawn) = Rods::draw(plan, replica);
+    let (rods, counters) = Rods::draw(plan, replica);
     for first in (recorder.done..plan.outputs()).step_by(OUTPUTS) {
         let outputs = first..plan.outputs().min(first + OUTPUTS);
         recorder.record(outputs, |first, output, block| {
@@ -135,10 +135,7 @@ fn straight(
                 .map_err(|fault| refused(plan, replica, 0, output, fault))
         })
         .collect::<Result<_, _>>()?;
-    Ok(Counters {
-        aspect_ratios_redrawn,
-        ..Counters::default()
-    })
+    Ok(counters)
 }
 
 /// Outputs for which a block of rods is read once.

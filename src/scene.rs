@@ -1,6 +1,7 @@
 //! A scene: what a scene file says, checked. Units stand in the names of the keys.
 
 use crate::observable::Observable;
+use crate::volume::ControlVolume;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -14,7 +15,7 @@ mod steps;
 pub use allowed::Invalid;
 pub use keys::{Absent, Holds, KEYS, Key, MAX_COUNT, MAX_PER_UNIT, MAX_REPLICAS, MAX_SEED, TABLES};
 pub(crate) use keys::{find, required};
-pub use particles::{Isotropic, Orientation, Particles};
+pub use particles::{Isotropic, Orientation, OwnRods, Particles, RodsFile};
 pub use steps::resolved_strain;
 
 /// A whole scene. The tables and keys are those of the scene file ([`KEYS`]). In code, start from the default and say
@@ -87,18 +88,33 @@ fn three_by_three<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[
         .map_err(|_| D::Error::custom("three rows of three numbers are allowed"))
 }
 
-/// `[interaction]`.
+/// Reads three numbers. Reading into an array would stop after three and let what follows pass.
+fn three_numbers<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[f64; 3]>, D::Error> {
+    let numbers = Vec::<f64>::deserialize(deserializer)?;
+    let three = <[f64; 3]>::try_from(numbers).map(Some);
+    three.map_err(|_| D::Error::custom("three numbers are allowed"))
+}
+
+/// `[interaction]`: with `concentration_per_cm3` or `box_mm`.
 ///
 /// ```
 /// use shearbed::scene::Interaction;
-/// let crowded = Interaction { concentration_per_cm3: 2000.0, ..Interaction::default() };
+/// let crowded = Interaction { concentration_per_cm3: Some(2000.0), ..Interaction::default() };
 /// assert_eq!((crowded.alpha, crowded.m), (0.5, 3.0));
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Interaction {
-    /// n, rods per volume.
-    pub concentration_per_cm3: f64,
+    /// n, rods per volume; without it the box gives it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub concentration_per_cm3: Option<f64>,
+    /// H₁, H₂ and H₃, the sides of the control volume (eqs 12 and 14); without them it is a cube.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "three_numbers"
+    )]
+    pub box_mm: Option<[f64; 3]>,
     /// α of eq. 7; 0 means that no rods collide.
     pub alpha: f64,
     /// m of eq. 7, any positive number.
@@ -107,7 +123,7 @@ pub struct Interaction {
     /// How a colliding rod takes its step.
     #[serde(default)]
     pub update: Update,
-    /// A contact arm |r| below this many rod lengths is no contact.
+    /// A contact arm |r| below this many lengths of its own rod is no contact.
     #[serde(default)]
     pub min_contact_arm: f64,
 }
@@ -204,7 +220,8 @@ impl Default for Flow {
 impl Default for Interaction {
     fn default() -> Self {
         Self {
-            concentration_per_cm3: 50.0,
+            concentration_per_cm3: Some(50.0),
+            box_mm: None,
             alpha: 0.5,
             m: three(),
             update: Update::default(),
@@ -263,9 +280,38 @@ impl Scene {
         scene
     }
 
-    /// n a³, rods per cubed rod length.
-    pub(crate) fn concentration(&self, interaction: &Interaction) -> f64 {
-        interaction.concentration_per_cm3 * (self.particles.length_mm / 10.0).powi(3)
+    /// n, rods per cm³ of the control volume: as given, or what count and box make it.
+    pub fn concentration_per_cm3(&self) -> Option<f64> {
+        let interaction = self.interaction.as_ref()?;
+        let of_box =
+            |sides: [f64; 3]| self.particles.count as f64 / sides.map(|mm| mm / 10.0).iter().product::<f64>();
+        interaction
+            .box_mm
+            .map(of_box)
+            .or(interaction.concentration_per_cm3)
+    }
+
+    /// n a³, rods per cubed mean rod length.
+    pub(crate) fn concentration(&self) -> Option<f64> {
+        Some(self.concentration_per_cm3()? * (self.particles.length_mm / 10.0).powi(3))
+    }
+
+    /// H₁, H₂ and H₃ of interacting rods' control volume.
+    pub fn sides_mm(&self) -> Option<[f64; 3]> {
+        let given = self.interaction.as_ref()?.box_mm;
+        given.or_else(|| Some(self.volume()?.sides().map(|side| side * self.particles.length_mm)))
+    }
+
+    /// The control volume of interacting rods, in mean rod lengths.
+    pub(crate) fn volume(&self) -> Option<ControlVolume> {
+        let interaction = self.interaction.as_ref()?;
+        match interaction.box_mm {
+            Some(sides) => Some(ControlVolume::of(sides.map(|mm| mm / self.particles.length_mm))),
+            None => Some(ControlVolume::holding(
+                self.particles.count,
+                self.concentration()?,
+            )),
+        }
     }
 
     /// Outputs per period, given or by default: 50, or where rods interact the largest divisor of the

@@ -88,6 +88,7 @@ fn read(lines: &Lines<'_>, text: &str) -> Result<Scene, Vec<Found>> {
     let meant: Vec<_> = unknown.iter().filter_map(|(_, path)| nearest(path)).collect();
     let mut found = missing(&keys, &meant);
     found.extend(one_shape(&keys, &meant));
+    found.extend(one_start(&keys, &meant));
     let line = |(start, path): &Found| (*start, format!("{}: {}", lines.line(*start), self::unknown(path)));
     found.extend(unknown.iter().map(line));
     let count = more.len();
@@ -246,6 +247,23 @@ fn one_shape(keys: &[Key], meant: &[&str]) -> Option<Found> {
         }
         _ => None,
     }
+}
+
+/// Directions are given, or a file that has them or leaves them to chance.
+fn one_start(keys: &[Key], meant: &[&str]) -> Option<Found> {
+    const START: [&str; 2] = ["particles.orientation", "particles.rods"];
+    let has = |path: &str| keys.iter().find(|key| key.path == path);
+    let particles = has("particles").filter(|key| key.is_table)?;
+    let given = START
+        .iter()
+        .any(|path| has(path).is_some() || meant.contains(path));
+    let allowed = find(START[0])?.holds;
+    (!given).then(|| {
+        (
+            particles.span.start,
+            format!("{} is missing: {allowed}", START[0]),
+        )
+    })
 }
 
 /// What is known in place of an unknown key.

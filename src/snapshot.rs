@@ -30,17 +30,20 @@ pub struct Snapshot {
     pub p: [Vec<f64>; 3],
     /// r_e.
     pub aspect_ratio: Vec<f64>,
-    /// Where the rods' centres are in the control volume, in rod lengths; `None` for free rods, which have no place.
+    /// Lengths over the mean; `None` where all are equal.
+    pub length: Option<Vec<f64>>,
+    /// Where the rods' centres are in the control volume, in mean rod lengths; `None` for free rods, which have no place.
     pub place_in_lengths: Option<[Vec<f64>; 3]>,
     /// Whether the rod collided in the step that ended at this output; free rods never do.
     pub collided: Vec<bool>,
 }
 
 impl Snapshot {
-    /// Bytes that one of the plan holds of each rod: its direction, aspect ratio, whether it collided, and where rods interact its
-    /// place.
+    /// Bytes that one of the plan holds of each rod: its direction, aspect ratio, whether it collided, where rods interact its
+    /// place, and where they differ its length.
     pub(crate) fn bytes_per_rod(plan: &Plan) -> usize {
-        let numbers = if plan.keeps(Stage::Translation) { 7 } else { 4 };
+        let placed = if plan.keeps(Stage::Translation) { 3 } else { 0 };
+        let numbers = 4 + placed + usize::from(plan.keeps(Stage::Lengths));
         numbers * size_of::<f64>() + 1
     }
 
@@ -52,9 +55,10 @@ impl Snapshot {
     fn fits(&self, plan: &Plan) -> bool {
         let count = plan.scene().particles.count;
         let places = self.place_in_lengths.iter().flatten();
-        let mut axes = self.p.iter().chain(places).chain([&self.aspect_ratio]);
+        let mut axes = (self.p.iter().chain(places).chain(&self.length)).chain([&self.aspect_ratio]);
         let whole = |axis: &Vec<f64>| axis.len() == count && axis.iter().all(|x| x.is_finite());
         self.place_in_lengths.is_some() == plan.keeps(Stage::Translation)
+            && self.length.is_some() == plan.keeps(Stage::Lengths)
             && axes.all(whole)
             && self.collided.len() == count
             && plan.rods_outputs().contains(&self.output)
@@ -95,6 +99,7 @@ impl Snapshot {
             output,
             p,
             aspect_ratio: (0..count).map(|rod| rods.aspect_ratio(rod)).collect(),
+            length: (!rods.lengths().is_empty()).then(|| rods.lengths().to_vec()),
             place_in_lengths: None,
             collided: vec![false; count],
         })

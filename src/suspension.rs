@@ -40,7 +40,7 @@ pub struct Collision {
     pub kicks_rad: [f64; 2],
 }
 
-/// One replica of an interacting scene: lengths in rod lengths, time in 1/|G|.
+/// One replica of an interacting scene: lengths in mean rod lengths, time in 1/|G|.
 ///
 /// Inside a step: neighbours, draws and contacts from the state at its start; then every orientation
 /// moves; then every position, with replacements.
@@ -115,22 +115,22 @@ impl Suspension {
             .interaction
             .as_ref()
             .filter(|_| plan.keeps(Stage::Translation))?;
-        let (rods, aspect_ratios_redrawn) = Rods::draw(plan, replica);
+        let (rods, counters) = Rods::draw(plan, replica);
         let count = rods.count();
-        let volume = ControlVolume::holding(count, scene.concentration(interaction));
+        let volume = scene.volume()?;
         let seed = scene.ensemble.seed;
         let rng = |purpose| stream(seed, replica, purpose);
         Some(Self {
             rods,
-            counters: Counters {
-                aspect_ratios_redrawn,
-                ..Counters::default()
+            counters,
+            positions: match scene.particles.own().and_then(|own| own.place_mm.as_ref()) {
+                Some(places) => volume.within(places, scene.particles.length_mm),
+                None => volume.draw_positions(count, &rng(Purpose::Positions)),
             },
-            positions: volume.draw_positions(count, &rng(Purpose::Positions)),
             volume,
             neighbours: plan
                 .keeps(Stage::Neighbours)
-                .then(|| Neighbours::new(volume.side(), count)),
+                .then(|| Neighbours::new(volume.sides(), count)),
             draws: plan
                 .keeps(Stage::CollisionDraws)
                 .then(|| rng(Purpose::Collisions)),
@@ -197,10 +197,12 @@ impl Suspension {
             return;
         };
         // The bound first: most rods have no neighbour that near, and need no logarithm.
-        let bound = |rod: usize| self.reach.bound(self.drawn[rod]);
+        let rods = &self.rods;
+        let bound = |rod: usize| self.reach.bound(self.drawn[rod]) * rods.length(rod);
         let mut work = self.counters;
         neighbours.each_nearest(&self.positions, bound, &mut work, |nearest| {
-            if nearest.square < self.reach.of(self.drawn[nearest.rod as usize]).powi(2) {
+            let rod = nearest.rod as usize;
+            if nearest.square < (self.reach.of(self.drawn[rod]) * rods.length(rod)).powi(2) {
                 self.candidates.push((nearest.square, nearest.rod, nearest.other));
             }
         });
@@ -252,7 +254,8 @@ impl Suspension {
         let pair = [a as usize, b as usize];
         let p = pair.map(|rod| self.rods.direction(rod, self.tick));
         let separation = self.position(pair[1]) - self.position(pair[0]);
-        let contact = contact(&separation, &p[0], &p[1], self.rule.min_arm)?;
+        let min_arms = pair.map(|rod| self.rule.min_arm * self.rods.length(rod));
+        let contact = contact(&separation, &p[0], &p[1], min_arms)?;
         let rate = |k: usize| {
             let factor = shape_factor(self.rods.aspect_ratio(pair[k]));
             couette_rate(&p[k], factor, self.rule.sign)

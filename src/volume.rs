@@ -1,4 +1,4 @@
-//! The cubic control volume, its rods' positions, and the replacement of rods that leave it (Fig. 3, eq. 14).
+//! The control volume, its rods' positions, and the replacement of rods that leave it (Fig. 3, eq. 14).
 
 use crate::chunks::{CHUNK, over_chunks};
 use crate::random::ahead;
@@ -6,48 +6,62 @@ use rand::RngExt;
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 
-/// The volume [0, side)³ in plane Couette flow u_2 = ±x_1, with lengths in rod lengths and time in 1/|G|.
+/// The volume [0, H₁) × [0, H₂) × [0, H₃) in plane Couette flow u_2 = ±x_1, with lengths in rod lengths and time in 1/|G|.
 ///
 /// ```
 /// use shearbed::volume::ControlVolume;
-/// assert_eq!(ControlVolume::holding(100, 12.5).side(), 2.0); // rod lengths
+/// assert_eq!(ControlVolume::holding(100, 12.5).sides(), [2.0; 3]); // rod lengths
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ControlVolume {
-    /// H/a.
-    side: f64,
+    /// H₁/a, H₂/a and H₃/a.
+    sides: [f64; 3],
 }
 
 impl ControlVolume {
-    /// The volume that holds `count` rods at the concentration n a³ `per_cubed_length`:
+    /// The volume with these sides.
+    pub fn of(sides: [f64; 3]) -> Self {
+        Self { sides }
+    }
+
+    /// The cube that holds `count` rods at the concentration n a³ `per_cubed_length`:
     /// H/a = (N/(n a³))^{1/3}.
     pub fn holding(count: usize, per_cubed_length: f64) -> Self {
-        Self {
-            side: libm::cbrt(count as f64 / per_cubed_length),
-        }
+        Self::of([libm::cbrt(count as f64 / per_cubed_length); 3])
     }
 
-    /// H/a.
-    pub fn side(&self) -> f64 {
-        self.side
+    /// H₁/a, H₂/a and H₃/a.
+    pub fn sides(&self) -> [f64; 3] {
+        self.sides
     }
 
-    /// `count` uniform positions as three arrays: x_i = H R_i, drawn rod by rod (eq. 12).
+    /// `count` uniform positions as three arrays: x_i = H_i R_i, drawn rod by rod (eq. 12).
     pub fn draw_positions(&self, count: usize, rng: &Pcg64Dxsm) -> [Vec<f64>; 3] {
         let mut positions = [(); 3].map(|()| vec![0.0; count]);
         over_chunks(&mut positions, |first, [x1, x2, x3]| {
             let mut rng = ahead(rng, 3 * first);
             for ((x1, x2), x3) in x1.iter_mut().zip(x2).zip(x3) {
-                for x in [x1, x2, x3] {
-                    *x = self.side * rng.random::<f64>();
+                for (x, side) in [x1, x2, x3].into_iter().zip(self.sides) {
+                    *x = side * rng.random::<f64>();
                 }
             }
         });
         positions
     }
 
+    /// Positions of rods at these places, in units of `length`; what rounding puts beyond a face is at it.
+    pub fn within(&self, places: &[Vec<f64>; 3], length: f64) -> [Vec<f64>; 3] {
+        let axis = |axis: usize| {
+            places[axis]
+                .iter()
+                .map(move |x| (x / length).min(self.sides[axis]))
+                .collect()
+        };
+        std::array::from_fn(axis)
+    }
+
     /// Moves every rod with the liquid over `strain` ≥ 0 (`sign` of G), and replaces the rods that left
-    /// through the faces normal to axis 2: x_1 = H√R, x_3 = HR, x_2 by the overshoot modulo H (eq. 14 with
+    /// through the faces normal to axis 2: x_1 = H₁√R, x_3 = H₃R, x_2 by the overshoot modulo H₂ (eq. 14 with
     /// the text's second coordinate read as x_3). Returns how many were replaced.
     pub fn advance(&self, positions: &mut [Vec<f64>; 3], strain: f64, sign: f64, rng: &mut Pcg64Dxsm) -> u64 {
         let [x1, x2, _] = positions;
@@ -71,25 +85,27 @@ impl ControlVolume {
     /// Moves rods along axis 2, and counts those that are outside then.
     fn carry(&self, x1: &[f64], x2: &mut [f64], strain: f64) -> usize {
         let mut left = 0;
+        let side = self.sides[1];
         for (x1, x2) in x1.iter().zip(x2) {
             *x2 += x1 * strain;
-            left += usize::from(!(0.0..self.side).contains(x2));
+            left += usize::from(!(0.0..side).contains(x2));
         }
         left
     }
 
     /// Replaces the rods that are outside, each with the next two numbers of the stream.
     fn replace(&self, [x1, x2, x3]: [&mut [f64]; 3], rng: &mut Pcg64Dxsm) {
+        let [h1, h2, h3] = self.sides;
         for ((x1, x2), x3) in x1.iter_mut().zip(x2).zip(x3) {
-            if (0.0..self.side).contains(x2) {
+            if (0.0..h2).contains(x2) {
                 continue;
             }
             // The inflow through a face is proportional to u_2, that is to x_1: hence the root.
-            *x1 = self.side * rng.random::<f64>().sqrt();
-            let overshoot = x2.rem_euclid(self.side);
+            *x1 = h1 * rng.random::<f64>().sqrt();
+            let overshoot = x2.rem_euclid(h2);
             // Just below 0, the remainder rounds up to the side itself.
-            *x2 = if overshoot < self.side { overshoot } else { 0.0 };
-            *x3 = self.side * rng.random::<f64>();
+            *x2 = if overshoot < h2 { overshoot } else { 0.0 };
+            *x3 = h3 * rng.random::<f64>();
         }
     }
 }
@@ -103,7 +119,7 @@ mod tests {
     fn the_paper_s_volume() {
         // 100 rods of 0.72 mm at 50 per cm³ fill 2 cm³.
         let volume = ControlVolume::holding(100, 0.05 * 0.72f64.powi(3));
-        assert!((volume.side() * 0.72 - 2000.0f64.cbrt()).abs() < 1e-12);
+        assert!((volume.sides()[0] * 0.72 - 2000.0f64.cbrt()).abs() < 1e-12);
     }
 
     #[test]
@@ -130,8 +146,15 @@ mod tests {
 
     #[test]
     fn rods_that_leave_come_back_inside_and_the_others_only_move() {
-        for sign in [1.0, -1.0] {
-            let volume = ControlVolume::holding(1000, 1.0);
+        let volumes = [
+            ControlVolume::holding(1000, 1.0),
+            ControlVolume::of([20.0, 10.0, 5.0]),
+        ];
+        for (volume, sign) in volumes
+            .into_iter()
+            .flat_map(|volume| [(volume, 1.0), (volume, -1.0)])
+        {
+            let sides = volume.sides();
             let mut positions = volume.draw_positions(1000, &stream(3, 0, Purpose::Positions));
             let before = positions.clone();
             let replaced = volume.advance(
@@ -143,13 +166,13 @@ mod tests {
             let mut changed = 0;
             for rod in 0..1000 {
                 let moved = before[1][rod] + sign * 0.3 * before[0][rod];
-                if (0.0..volume.side()).contains(&moved) {
+                if (0.0..sides[1]).contains(&moved) {
                     assert_eq!((positions[0][rod], positions[1][rod]), (before[0][rod], moved));
                 } else {
                     changed += 1;
-                    assert!((positions[1][rod] - moved).abs() > 0.99 * volume.side());
+                    assert!((positions[1][rod] - moved).abs() > 0.99 * sides[1]);
                 }
-                assert!((0..3).all(|k| (0.0..volume.side()).contains(&positions[k][rod])));
+                assert!((0..3).all(|k| (0.0..sides[k]).contains(&positions[k][rod])));
             }
             assert_eq!(replaced, changed);
             assert!(changed > 50);

@@ -92,6 +92,8 @@ pub struct Counters {
     pub directions: u64,
     /// Aspect ratios drawn again because they fell on the wrong side of 1.
     pub aspect_ratios_redrawn: u64,
+    /// Lengths drawn again because they were not positive.
+    pub lengths_redrawn: u64,
 }
 
 impl Counters {
@@ -107,5 +109,6 @@ impl Counters {
         self.replacements += other.replacements;
         self.directions += other.directions;
         self.aspect_ratios_redrawn += other.aspect_ratios_redrawn;
+        self.lengths_redrawn += other.lengths_redrawn;
     }
 }

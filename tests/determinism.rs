@@ -175,7 +175,7 @@ fn the_work_of_many_rods_is_known() {
         scene.particles.count = 2000;
         scene.time.periods = Some(0.1);
         let interaction = scene.interaction.as_mut().unwrap();
-        interaction.concentration_per_cm3 = concentration_per_cm3;
+        interaction.concentration_per_cm3 = Some(concentration_per_cm3);
         let counters = run_on(2, &Plan::new(&scene).unwrap()).counters;
         insta::assert_debug_snapshot!(format!("work_at_{concentration_per_cm3}_per_cm3"), counters);
     }

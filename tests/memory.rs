@@ -21,7 +21,7 @@ fn peak<T>(done: impl FnOnce() -> T) -> f64 {
 fn many_rods(count: usize, concentration_per_cm3: Option<f64>) -> Plan {
     let mut scene = Scene {
         interaction: concentration_per_cm3.map(|concentration_per_cm3| Interaction {
-            concentration_per_cm3,
+            concentration_per_cm3: Some(concentration_per_cm3),
             ..Interaction::default()
         }),
         ..Scene::default()

@@ -372,7 +372,7 @@ fn a_control_volume_has_a_side() {
         let mut scene = plan(&format!("{FREE}{ALPHA_0}")).scene().clone();
         scene.particles.length_mm = length_mm;
         let interaction = scene.interaction.as_mut().unwrap();
-        interaction.concentration_per_cm3 = concentration_per_cm3;
+        interaction.concentration_per_cm3 = Some(concentration_per_cm3);
         let refused = Plan::new(&scene).unwrap_err();
         assert_eq!(refused.key, "interaction.concentration_per_cm3", "{refused}");
     }

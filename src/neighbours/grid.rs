@@ -17,16 +17,19 @@ struct Entry {
     rod: u32,
 }
 
-/// Rods sorted into the cells of a cubic volume [0, side)³, for one step, each with its reach.
+/// Rods sorted into the cells of a volume [0, H₁) × [0, H₂) × [0, H₃), for one step, each with its reach.
 ///
 /// Cells, and so the rods in memory, follow one another along axis 3, then 2, then 1: a search reads what lies
 /// together. The buffers are kept from step to step.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Grid {
-    side: f64,
-    cells_per_side: usize,
+    sides: [f64; 3],
+    /// The longest of them.
+    longest: f64,
+    /// Cells along each side.
+    along: [usize; 3],
     /// Cells per length.
-    per_length: f64,
+    per_length: [f64; 3],
     /// The cell of each rod.
     cells: Vec<u32>,
     /// Where each cell's rods start in `sorted`; one more entry ends the last cell.
@@ -37,13 +40,14 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// An empty grid for about `count` rods in a volume of the given side: about one rod a cell.
-    pub fn new(side: f64, count: usize) -> Self {
-        let cells_per_side = (libm::cbrt(count as f64).floor() as usize).clamp(1, 256);
+    /// An empty grid for about `count` rods in a volume of the given sides: about one rod a cell.
+    pub fn new(sides: [f64; 3], count: usize) -> Self {
+        let along = cells_along(sides, count);
         Self {
-            side,
-            cells_per_side,
-            per_length: cells_per_side as f64 / side,
+            sides,
+            longest: sides.into_iter().fold(0.0, f64::max),
+            along,
+            per_length: std::array::from_fn(|axis| along[axis] as f64 / sides[axis]),
             ..Self::default()
         }
     }
@@ -98,7 +102,7 @@ impl Grid {
 
     /// Sorts the rods by cell: each thread those of a range of cells, in the order of rods.
     fn sort(&mut self, positions: &[Vec<f64>; 3], reach: impl Fn(usize) -> f64 + Sync) {
-        let cells = self.cells_per_side.pow(3);
+        let cells = self.along.iter().product::<usize>();
         let rods = &self.cells;
         let threads = if rods.len() <= CHUNK {
             1
@@ -193,16 +197,16 @@ impl Grid {
         let before = places.start.saturating_sub(MARGIN);
         let end = self.sorted.len().min(places.end + MARGIN);
         let shift = before + MARGIN - places.start;
-        let side = self.cells_per_side as f32;
+        let [slabs, rows] = [self.along[0] as f32, self.along[1] as f32];
         // Beyond the first and the last rod: rows that do not exist.
         cell[0][..shift].fill(-1.0);
-        cell[0][shift + end - before..].fill(side);
+        cell[0][shift + end - before..].fill(slabs);
         // Single precision: what the rounding of a coordinate and of a cell's border can do is added to the reach.
-        let slack = 1e-6 * self.side as f32;
+        let slack = 1e-6 * self.longest as f32;
         for (k, entry) in self.sorted[before..end].iter().enumerate() {
             for axis in 0..3 {
                 x[axis][shift + k] = entry.position[axis] as f32;
-                cell[axis][shift + k] = self.index(entry.position[axis]) as f32;
+                cell[axis][shift + k] = self.index(axis, entry.position[axis]) as f32;
             }
             reach[shift + k] = entry.reach + slack;
         }
@@ -213,8 +217,9 @@ impl Grid {
                 squares[k] = d(0) * d(0) + d(1) * d(1) + d(2) * d(2);
             }
         }
-        let (width, inner) = (1.0 / self.per_length as f32, self.side as f32 - slack);
-        let row = |k: usize| cell[0][k] * side + cell[1][k];
+        let width = self.per_length.map(|per_length| 1.0 / per_length as f32);
+        let inner = self.sides.map(|side| side as f32 - slack);
+        let row = |k: usize| cell[0][k] * rows + cell[1][k];
         let mut flags = [false; BLOCK];
         for (k, flag) in (MARGIN..).zip(&mut flags) {
             let mut least = FAR;
@@ -225,12 +230,12 @@ impl Grid {
             // What reaches over a wall meets nobody there.
             let within = |axis: usize| {
                 let low = greater(x[axis][k] - reach[k], 0.0);
-                let high = lesser(x[axis][k] + reach[k], inner);
-                (low >= cell[axis][k] * width) & (high < (cell[axis][k] + 1.0) * width)
+                let high = lesser(x[axis][k] + reach[k], inner[axis]);
+                (low >= cell[axis][k] * width[axis]) & (high < (cell[axis][k] + 1.0) * width[axis])
             };
             let (low, high) = (k - MARGIN, k + MARGIN);
-            let all_before = (row(low) != row(k)) | ((cell[2][low] + 1.0) * width <= x[2][k] - reach[k]);
-            let all_behind = (row(high) != row(k)) | (cell[2][high] * width > x[2][k] + reach[k]);
+            let all_before = (row(low) != row(k)) | ((cell[2][low] + 1.0) * width[2] <= x[2][k] - reach[k]);
+            let all_behind = (row(high) != row(k)) | (cell[2][high] * width[2] > x[2][k] + reach[k]);
             *flag = near | !(within(0) & within(1) & all_before & all_behind);
         }
         let flagged = places.zip(flags).filter(|(_, flag)| *flag);
@@ -239,8 +244,9 @@ impl Grid {
 
     /// The nearest other rod closer than its reach to the rod of `entry`, with the square of its distance.
     fn nearest_within(&self, entry: &Entry, work: &mut Counters) -> Option<(u32, f64)> {
-        let reach = f64::from(entry.reach).min(2.0 * self.side);
-        let mut radius = reach.min(1.0 / self.per_length);
+        let reach = f64::from(entry.reach).min(2.0 * self.longest);
+        let widest = 1.0 / self.per_length.into_iter().fold(f64::INFINITY, f64::min);
+        let mut radius = reach.min(widest);
         loop {
             let found = self.nearest_in_ball(entry, radius, work);
             if found.is_some() || radius >= reach {
@@ -251,13 +257,13 @@ impl Grid {
     }
 
     fn nearest_in_ball(&self, entry: &Entry, radius: f64, work: &mut Counters) -> Option<(u32, f64)> {
-        let low = entry.position.map(|x| self.index(x - radius));
-        let high = entry.position.map(|x| self.index(x + radius));
+        let ends = |by: f64| std::array::from_fn(|axis| self.index(axis, entry.position[axis] + by));
+        let [low, high]: [[usize; 3]; 2] = [ends(-radius), ends(radius)];
         let mut best = None;
         let mut best_square = radius * radius;
         for i in low[0]..=high[0] {
             for j in low[1]..=high[1] {
-                let row = (i * self.cells_per_side + j) * self.cells_per_side;
+                let row = (i * self.along[1] + j) * self.along[2];
                 let range = self.starts[row + low[2]] as usize..self.starts[row + high[2] + 1] as usize;
                 work.cells += (high[2] + 1 - low[2]) as u64;
                 work.distances += range.len() as u64;
@@ -280,14 +286,41 @@ impl Grid {
     }
 
     /// The cell index along one axis; a negative coordinate counts to the first cell.
-    fn index(&self, x: f64) -> usize {
-        ((x * self.per_length) as i32).clamp(0, self.cells_per_side as i32 - 1) as usize
+    fn index(&self, axis: usize, x: f64) -> usize {
+        ((x * self.per_length[axis]) as i32).clamp(0, self.along[axis] as i32 - 1) as usize
     }
 
     fn cell(&self, position: [f64; 3]) -> u32 {
-        let [i, j, k] = position.map(|x| self.index(x));
-        ((i * self.cells_per_side + j) * self.cells_per_side + k) as u32
+        let [i, j, k] = std::array::from_fn(|axis| self.index(axis, position[axis]));
+        ((i * self.along[1] + j) * self.along[2] + k) as u32
     }
+}
+
+/// The most cells along a side.
+const MOST_ALONG: usize = 256;
+
+/// Cells along each side, as cubic as can be, for about `count` of them: a side thinner than a cell has one, and the others share
+/// what that leaves.
+fn cells_along(sides: [f64; 3], count: usize) -> [usize; 3] {
+    let count = count as f64;
+    let ratio = |axis: usize, other: usize| sides[axis] / sides[other];
+    let cubic: [f64; 3] = std::array::from_fn(|axis| {
+        libm::cbrt(count * ratio(axis, (axis + 1) % 3) * ratio(axis, (axis + 2) % 3))
+    });
+    let thin: Vec<usize> = (0..3).filter(|axis| cubic[*axis] < 1.0).collect();
+    let along: [f64; 3] = match thin[..] {
+        [] => cubic,
+        [thin] => {
+            let [a, b] = [(thin + 1) % 3, (thin + 2) % 3];
+            std::array::from_fn(|axis| match axis {
+                axis if axis == thin => 1.0,
+                axis => (count * ratio(axis, a + b - axis)).sqrt().min(count),
+            })
+        }
+        // Two thin ones at the most: their product is `count`.
+        _ => std::array::from_fn(|axis| if thin.contains(&axis) { 1.0 } else { count }),
+    };
+    along.map(|cells| (cells.floor() as usize).clamp(1, MOST_ALONG))
 }
 
 /// How many rods before and behind, in the order of cells, are looked at first.

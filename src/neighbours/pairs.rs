@@ -18,9 +18,9 @@ pub(super) struct Pairs {
 }
 
 impl Pairs {
-    pub fn new(side: f64) -> Self {
+    pub fn new(sides: [f64; 3]) -> Self {
         Self {
-            per_length: f64::from(i16::MAX) / side,
+            per_length: f64::from(i16::MAX) / sides.into_iter().fold(0.0, f64::max),
             units: [const { Vec::new() }; 3],
             ahead: Vec::new(),
             behind: Vec::new(),

@@ -19,6 +19,8 @@ use std::fmt;
 pub enum Stage {
     /// Draw Gaussian aspect ratios (eq. 11).
     AspectRatios,
+    /// Draw Gaussian lengths.
+    Lengths,
     /// Draw isotropic directions (eq. 12).
     Orientations,
     /// Draw positions in the control volume (eq. 12).
@@ -43,6 +45,7 @@ impl fmt::Display for Stage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let text = match self {
             Self::AspectRatios => "aspect ratios",
+            Self::Lengths => "lengths",
             Self::Orientations => "orientations",
             Self::Positions => "positions",
             Self::Translation => "translation",
@@ -95,23 +98,47 @@ pub(super) fn entries(scene: &Scene) -> Vec<Entry> {
             reason: reason.to_owned(),
         });
     };
-    if scene.particles.aspect_ratio_sd_percent > 0.0 {
-        add(Stage::AspectRatios, true, "Gaussian aspect ratios are drawn");
-    } else {
-        add(
+    let particles = &scene.particles;
+    let file = particles.rods.as_ref().map_or("", |rods| &rods.file);
+    match (particles.own_aspect_ratios(), particles.of_several_shapes()) {
+        (Some(_), _) => add(
+            Stage::AspectRatios,
+            true,
+            &format!("each rod has its own, of {file}"),
+        ),
+        (None, true) => add(Stage::AspectRatios, true, "Gaussian aspect ratios are drawn"),
+        (None, false) => add(
             Stage::AspectRatios,
             false,
             "standard deviation 0: all rods share the mean",
-        );
+        ),
     }
-    match &scene.particles.orientation {
-        Orientation::Random(_) => add(Stage::Orientations, true, "isotropic directions are drawn"),
-        Orientation::Given { .. } => add(Stage::Orientations, false, "every rod starts at the given angles"),
-        Orientation::Each { file, .. } => add(
+    if particles.of_several_lengths() {
+        let asked = [
+            (
+                no_interaction(scene).is_none(),
+                "P_c and contact arms go by each rod's own length",
+            ),
+            (
+                scene.output.observables.contains(&Observable::ParticleStress),
+                "a rod's stress is as its cubed length",
+            ),
+            (!scene.output.rods_at.is_empty(), "rods.csv has each rod's length"),
+        ];
+        match asked.into_iter().find(|(asked, _)| *asked) {
+            Some((_, why)) => add(Stage::Lengths, true, why),
+            None => add(Stage::Lengths, false, "free rods of any length turn alike"),
+        }
+    }
+    let of_file = particles.own().is_some_and(|own| own.p.is_some());
+    match &particles.orientation {
+        _ if of_file => add(
             Stage::Orientations,
             false,
             &format!("every rod starts as in {file}"),
         ),
+        Orientation::Random(_) => add(Stage::Orientations, true, "isotropic directions are drawn"),
+        Orientation::Given { .. } => add(Stage::Orientations, false, "every rod starts at the given angles"),
     }
     let free = no_interaction(scene);
     for (stage, why) in [

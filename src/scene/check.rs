@@ -9,13 +9,14 @@ use crate::flow::VelocityGradient;
 use crate::free::FreeMotion;
 use crate::jeffery::strain_per_period;
 use crate::propagator::Propagator;
-use crate::volume::ControlVolume;
 use nalgebra::Matrix3;
 
 /// The most steps and the most outputs of one scene.
 const MAX_STEPS: f64 = 1e9;
 /// 52 channels of 10⁶ outputs are 2.5 GB of sums.
 const MAX_OUTPUTS: f64 = 1e6;
+/// How far a concentration may be from that of count and box, for a side in five digits or so: the box counts.
+const AGREE: f64 = 1e-3;
 /// The growth over the whole time up to which what turns is called periodic: a rod misses its start by as many rad.
 const MAX_DRIFT: f64 = 1e-6;
 
@@ -46,7 +47,7 @@ impl Scene {
         self.out_of_range().into_iter().next().map_or(Ok(()), Err)?;
         self.check_shape()?;
         self.check_particles()?;
-        self.check_start()?;
+        self.check_own_rods()?;
         self.check_motion()
     }
 
@@ -147,13 +148,39 @@ impl Scene {
     }
 
     fn check_interaction(&self, interaction: &Interaction, flow: &VelocityGradient) -> Result<(), Invalid> {
-        let side = ControlVolume::holding(self.particles.count, self.concentration(interaction)).side();
-        if !(side.is_finite() && side > 0.0) {
+        let (given, of_box) = (interaction.concentration_per_cm3, interaction.box_mm);
+        let (Some(n), Some(volume)) = (self.concentration_per_cm3(), self.volume()) else {
+            return Err(Invalid::missing(
+                "interaction.concentration_per_cm3",
+                "concentration_per_cm3 or box_mm must be given",
+            ));
+        };
+        if let (Some(given), Some(sides)) = (given, of_box)
+            && (given / n - 1.0).abs() > AGREE
+        {
+            let count = self.particles.count;
             return Err(Invalid::new(
                 "interaction.concentration_per_cm3",
-                interaction.concentration_per_cm3,
-                "such that the control volume's side (N/(n a³))^⅓ is a finite number > 0",
+                given,
+                format!(
+                    "either it or box_mm, or both where they agree to 1e-3: {count} rods in {sides:?} mm are {n} per cm³"
+                ),
             ));
+        }
+        let known = |side: f64| side.is_finite() && side > 0.0;
+        if !(volume.sides().into_iter().all(known) && n.is_finite() && n > 0.0) {
+            return Err(match of_box {
+                Some(sides) => Invalid::new(
+                    "interaction.box_mm",
+                    format!("{sides:?}"),
+                    "such that the sides over the rods' length and the concentration are finite numbers > 0",
+                ),
+                None => Invalid::new(
+                    "interaction.concentration_per_cm3",
+                    n,
+                    "such that the control volume's side (N/(n a³))^⅓ is a finite number > 0",
+                ),
+            });
         }
         if flow.shear_rate_per_s().is_none() {
             return Err(Invalid::new(

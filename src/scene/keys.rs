@@ -74,8 +74,12 @@ pub enum Holds {
     },
     /// Three rows of three finite numbers.
     Gradient,
-    /// `"isotropic"`, two angles, or a file.
+    /// Three finite numbers > 0.
+    Sides,
+    /// `"isotropic"` or two angles.
     Orientation,
+    /// A file with a row for each rod.
+    Rods,
     /// One of these words.
     OneOf(&'static [&'static str]),
     /// Observables, each once.
@@ -108,9 +112,12 @@ impl std::fmt::Display for Holds {
             Self::NotNegative => f.write_str("a finite number ≥ 0"),
             Self::Between { least, most } => write!(f, "a number from {least:e} to {most:e}"),
             Self::Gradient => f.write_str("three rows of three finite numbers"),
+            Self::Sides => f.write_str("[H1, H2, H3], three finite numbers > 0"),
             Self::Orientation => f.write_str(
-                "\"isotropic\", { phi_deg = a finite number, theta_deg = a number from 0 to 180 } or { file = a text }",
+                "\"isotropic\" or { phi_deg = a finite number, theta_deg = a number from 0 to 180 }; rods of a file are \
+                 given by rods = { file = a text }",
             ),
+            Self::Rods => f.write_str("{ file = a text }, of which crc32 may be given too"),
             Self::OneOf(words) => {
                 let words: Vec<_> = words.iter().map(|word| format!("\"{word}\"")).collect();
                 match words.split_last() {
@@ -167,7 +174,7 @@ use Holds::{NotNegative, OneOf, Positive, Table, Text};
 pub const TABLES: [Key; 6] = [
     key("flow", "the imposed velocity gradient", "", Table("a table [flow] with shear_rate_per_s or gradient_per_s"), Refused),
     key("particles", "the rods", "", Table("a table [particles] with count, length_mm, aspect_ratio and orientation"), Refused),
-    key("interaction", "how rods meet", "", Table("a table [interaction] with concentration_per_cm3 and alpha, or none for free rods"), Other("free rods")),
+    key("interaction", "how rods meet", "", Table("a table [interaction] with concentration_per_cm3 or box_mm, and alpha, or none for free rods"), Other("free rods")),
     key("time", "how long, and how finely", "", Table("a table [time] with periods or strain"), Refused),
     key("ensemble", "replicas and seed", "", Table("a table [ensemble]"), Other("its keys' defaults")),
     key("output", "what is observed", "", Table("a table [output]"), Other("its keys' defaults")),
@@ -175,22 +182,25 @@ pub const TABLES: [Key; 6] = [
 
 /// The keys of a scene, in the order of the tables.
 #[rustfmt::skip]
-pub const KEYS: [Key; 24] = [
+pub const KEYS: [Key; 27] = [
     key("title", "a line that says what the scene is", "", Text, Refused),
     key("flow.shear_rate_per_s", "G of plane Couette flow u_2 = G x_1", "1/s", Positive, Other("gradient_per_s")),
     key("flow.gradient_per_s", "row i and column j hold ∂u_i/∂x_j", "1/s", Holds::Gradient, Other("shear_rate_per_s")),
     key("particles.count", "N, rods in the control volume", "", whole(1, MAX_COUNT as u64), Refused),
-    key("particles.length_mm", "a, the full length of a rod", "mm", Positive, Refused),
+    key("particles.length_mm", "a, the full length of a rod, or its mean", "mm", Positive, Refused),
+    key("particles.length_sd_percent", "standard deviation of a Gaussian length, in percent of its mean", "%", NotNegative, Default("0")),
     key("particles.aspect_ratio", "r_e, or its mean; below 1 a disc; interacting rods need more than 1", "", Holds::Between { least: 1e-100, most: 1e100 }, Other("physical_aspect_ratio")),
     key("particles.physical_aspect_ratio", "length over diameter of a cylinder, of which shape_correlation makes r_e", "", Holds::Between { least: ALLOWED.0, most: ALLOWED.1 }, Other("aspect_ratio")),
     key("particles.shape_correlation", "the formula for r_e of a cylinder, as `shearbed shape` lists them", "", OneOf(&Correlation::NAMES), Other("goes with physical_aspect_ratio")),
     key("particles.aspect_ratio_sd_percent", "σ of a Gaussian r_e, in percent of its mean (eq. 11)", "%", NotNegative, Default("0")),
-    key("particles.orientation", "the directions at t = 0; φ from axis 1 to axis 2, θ from axis 3; or a CSV file beside the scene with p1,p2,p3 of each rod", "degrees", Holds::Orientation, Refused),
-    key("interaction.concentration_per_cm3", "n, rods per volume", "1/cm³", Positive, Refused),
+    key("particles.orientation", "the directions at t = 0; φ from axis 1 to axis 2, θ from axis 3", "degrees", Holds::Orientation, Other("rods")),
+    key("particles.rods", "a CSV file beside the scene with a row for each rod, in columns of rods.csv; what it lacks is drawn", "", Holds::Rods, Other("all is drawn")),
+    key("interaction.concentration_per_cm3", "n, rods per volume", "1/cm³", Positive, Other("box_mm")),
+    key("interaction.box_mm", "sides of the control volume along the axes (eqs 12, 14): count and box give n", "mm", Holds::Sides, Other("a cube")),
     key("interaction.alpha", "α of P_c = (α/(s/a + α))^m (eq. 7); 0: no rods collide", "", NotNegative, Refused),
     key("interaction.m", "m of eq. 7", "", Positive, Default("3")),
     key("interaction.update", "how a colliding rod takes its step; angles: A.14 to the letter", "", OneOf(&["rotation", "angles"]), Default("\"rotation\"")),
-    key("interaction.min_contact_arm", "a shorter contact arm is no contact", "rod lengths", NotNegative, Default("0")),
+    key("interaction.min_contact_arm", "a shorter contact arm is no contact", "lengths of its own rod", NotNegative, Default("0")),
     key("time.periods", "how long, in periods T of the mean aspect ratio", "T", NotNegative, Other("strain")),
     key("time.strain", "how long, in shear strain ∫(2D:D)^½ dt: for flows without a period", "", NotNegative, Other("periods")),
     key("time.steps_per_period", "steps of interacting rods", "", PER_UNIT, Other("as many as resolve the motion")),

@@ -1,4 +1,4 @@
-//! `[particles]`: the rods, how they are shaped and where they point at the start.
+//! `[particles]`: the rods, how long and how slender they are, and where they point at the start.
 
 use crate::shape::Correlation;
 use serde::{Deserialize, Serialize};
@@ -16,8 +16,10 @@ use std::sync::Arc;
 pub struct Particles {
     /// N, the rods in the control volume.
     pub count: usize,
-    /// a, the full length of a rod.
+    /// a, the full length of a rod, or its mean.
     pub length_mm: f64,
+    /// The standard deviation of a Gaussian length in percent of its mean, independent of r_e.
+    pub length_sd_percent: f64,
     /// r_e, or its mean: as given, or what the correlation makes of the physical aspect ratio.
     pub aspect_ratio: f64,
     /// Length over diameter of a cylinder, given in place of r_e.
@@ -28,6 +30,8 @@ pub struct Particles {
     pub aspect_ratio_sd_percent: f64,
     /// The directions at t = 0.
     pub orientation: Orientation,
+    /// Rods of which a file says what each is: what it has is taken, what it lacks is drawn as the other keys say.
+    pub rods: Option<RodsFile>,
 }
 
 /// As it stands in a file: r_e, or what it is made of.
@@ -36,6 +40,8 @@ pub struct Particles {
 struct Written {
     count: usize,
     length_mm: f64,
+    #[serde(default, skip_serializing_if = "is_zero")]
+    length_sd_percent: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     aspect_ratio: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -44,7 +50,15 @@ struct Written {
     shape_correlation: Option<Correlation>,
     #[serde(default)]
     aspect_ratio_sd_percent: f64,
+    #[serde(default)]
     orientation: Orientation,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rods: Option<RodsFile>,
+}
+
+/// Rods of one length are written as before there were others.
+fn is_zero(percent: &f64) -> bool {
+    *percent == 0.0
 }
 
 /// Without any r_e it is NaN, which is refused.
@@ -54,6 +68,7 @@ impl From<Written> for Particles {
         Self {
             count: written.count,
             length_mm: written.length_mm,
+            length_sd_percent: written.length_sd_percent,
             aspect_ratio: (written.aspect_ratio)
                 .or(equivalent(physical, correlation))
                 .unwrap_or(f64::NAN),
@@ -61,6 +76,7 @@ impl From<Written> for Particles {
             shape_correlation: correlation,
             aspect_ratio_sd_percent: written.aspect_ratio_sd_percent,
             orientation: written.orientation,
+            rods: written.rods,
         }
     }
 }
@@ -70,11 +86,68 @@ impl From<Particles> for Written {
         Self {
             count: particles.count,
             length_mm: particles.length_mm,
+            length_sd_percent: particles.length_sd_percent,
             aspect_ratio: Some(particles.aspect_ratio).filter(|_| particles.physical_aspect_ratio.is_none()),
             physical_aspect_ratio: particles.physical_aspect_ratio,
             shape_correlation: particles.shape_correlation,
             aspect_ratio_sd_percent: particles.aspect_ratio_sd_percent,
             orientation: particles.orientation,
+            rods: particles.rods,
+        }
+    }
+}
+
+impl Particles {
+    /// ⟨a³⟩ over the cube of `length_mm`: of the rods of a file, or 1 + 3σ² of Gaussian lengths.
+    pub fn mean_cube(&self) -> f64 {
+        match self.own().and_then(|own| own.length_mm.as_ref()) {
+            Some(own) => {
+                let cubes = own.iter().map(|length| (length / self.length_mm).powi(3));
+                cubes.sum::<f64>() / own.len() as f64
+            }
+            None => 1.0 + 3.0 * (self.length_sd_percent / 100.0).powi(2),
+        }
+    }
+
+    /// What a file says of each rod.
+    pub(crate) fn own(&self) -> Option<&OwnRods> {
+        self.rods.as_ref()?.own.as_deref()
+    }
+
+    /// The r_e of each rod of a file, where they are not all `aspect_ratio`.
+    pub(crate) fn own_aspect_ratios(&self) -> Option<&[f64]> {
+        let own = self.own()?.aspect_ratio.as_deref()?;
+        own.iter().any(|r| *r != self.aspect_ratio).then_some(own)
+    }
+
+    /// The length of each rod of a file, where they are not all `length_mm`.
+    pub(crate) fn own_lengths_mm(&self) -> Option<&[f64]> {
+        let own = self.own()?.length_mm.as_deref()?;
+        own.iter().any(|length| *length != self.length_mm).then_some(own)
+    }
+
+    /// φ and θ in degrees of the direction in which all rods start, where they do.
+    pub fn common_start_deg(&self) -> Option<[f64; 2]> {
+        let of_file = self.own().is_some_and(|own| own.p.is_some());
+        match self.orientation {
+            Orientation::Given { phi_deg, theta_deg } if !of_file => Some([phi_deg, theta_deg]),
+            _ => None,
+        }
+    }
+
+    /// Whether rods differ in r_e.
+    pub fn of_several_shapes(&self) -> bool {
+        match self.own().and_then(|own| own.aspect_ratio.as_ref()) {
+            Some(_) => self.own_aspect_ratios().is_some(),
+            None => self.aspect_ratio_sd_percent > 0.0,
+        }
+    }
+
+    /// Whether rods differ in length.
+    pub(crate) fn of_several_lengths(&self) -> bool {
+        match self.own().and_then(|own| own.length_mm.as_ref()) {
+            Some(_) => self.own_lengths_mm().is_some(),
+            None => self.length_sd_percent > 0.0,
         }
     }
 }
@@ -90,11 +163,13 @@ impl Default for Particles {
         Self {
             count: 100,
             length_mm: 0.72,
+            length_sd_percent: 0.0,
             aspect_ratio: 11.6,
             physical_aspect_ratio: None,
             shape_correlation: None,
             aspect_ratio_sd_percent: 0.0,
-            orientation: Orientation::Random(Isotropic::Isotropic),
+            orientation: Orientation::default(),
+            rods: None,
         }
     }
 }
@@ -111,7 +186,7 @@ impl Default for Particles {
 #[serde(
     untagged,
     deny_unknown_fields,
-    expecting = "\"isotropic\", { phi_deg = number, theta_deg = number } or { file = text } is allowed"
+    expecting = "\"isotropic\" or { phi_deg = number, theta_deg = number } is allowed"
 )]
 pub enum Orientation {
     /// Drawn by eq. 12.
@@ -123,17 +198,56 @@ pub enum Orientation {
         /// θ from axis 3.
         theta_deg: f64,
     },
-    /// Each rod's own, the same in every replica.
-    Each {
-        /// The file that has them: a name, for the core reads no files.
-        file: String,
-        /// The CRC-32 of the file in hexadecimal digits: where it is given, the file must have it.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        crc32: Option<String>,
-        /// p₁, p₂ and p₃ of every rod, |p| = 1; `None` where nobody has read the file yet.
-        #[serde(skip)]
-        p: Option<Arc<[Vec<f64>; 3]>>,
-    },
+}
+
+impl Default for Orientation {
+    fn default() -> Self {
+        Self::Random(Isotropic::Isotropic)
+    }
+}
+
+/// A file that says what each rod is, the same in every replica.
+///
+/// ```
+/// use shearbed::scene::{OwnRods, Particles, RodsFile, Scene};
+/// // One along the flow, and one of twice the length along the vorticity axis.
+/// let own = OwnRods {
+///     p: Some([vec![0.0, 0.0], vec![1.0, 0.0], vec![0.0, 1.0]]),
+///     length_mm: Some(vec![0.72, 1.44]),
+///     ..OwnRods::default()
+/// };
+/// let rods = RodsFile { file: "two.csv".into(), crc32: None, own: Some(own.into()) };
+/// let particles = Particles { count: 2, rods: Some(rods), ..Particles::default() };
+/// assert!(shearbed::Plan::new(&Scene { particles, ..Scene::default() }).is_ok());
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RodsFile {
+    /// Its name: the core reads no files.
+    pub file: String,
+    /// The CRC-32 of the file in hexadecimal digits: where it is given, the file must have it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crc32: Option<String>,
+    /// What it has; `None` where nobody has read it yet.
+    #[serde(skip)]
+    pub own: Option<Arc<OwnRods>>,
+}
+
+/// What each rod is, as structure of arrays: as many numbers as there are rods, or `None` where that is drawn.
+///
+/// ```
+/// assert_eq!(shearbed::scene::OwnRods::default().p, None);
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct OwnRods {
+    /// p₁, p₂ and p₃, |p| = 1.
+    pub p: Option<[Vec<f64>; 3]>,
+    /// r_e.
+    pub aspect_ratio: Option<Vec<f64>>,
+    /// The full length a.
+    pub length_mm: Option<Vec<f64>>,
+    /// The place of the centre in the control volume of interacting rods.
+    pub place_mm: Option<[Vec<f64>; 3]>,
 }
 
 /// The word `"isotropic"`.

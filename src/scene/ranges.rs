@@ -15,6 +15,7 @@ impl Scene {
             self.check_gradient(),
             whole("particles.count", particles.count as u64),
             number("particles.length_mm", particles.length_mm),
+            number("particles.length_sd_percent", particles.length_sd_percent),
             self.check_aspect_ratio(),
             given("particles.physical_aspect_ratio", particles.physical_aspect_ratio),
             number(
@@ -24,8 +25,9 @@ impl Scene {
             self.check_orientation(),
             given(
                 "interaction.concentration_per_cm3",
-                of_interaction(|i| i.concentration_per_cm3),
+                interaction.and_then(|i| i.concentration_per_cm3),
             ),
+            self.check_box(),
             given("interaction.alpha", of_interaction(|i| i.alpha)),
             given("interaction.m", of_interaction(|i| i.m)),
             given(
@@ -59,6 +61,19 @@ impl Scene {
         match self.flow.gradient_per_s {
             Some(rows) if rows.iter().flatten().any(|value| !value.is_finite()) => {
                 Err(refused("flow.gradient_per_s", format!("{rows:?}")))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn check_box(&self) -> Result<(), Invalid> {
+        match self
+            .interaction
+            .as_ref()
+            .and_then(|interaction| interaction.box_mm)
+        {
+            Some(sides) if !sides.iter().all(|side| side.is_finite() && *side > 0.0) => {
+                Err(refused("interaction.box_mm", format!("{sides:?}")))
             }
             _ => Ok(()),
         }

@@ -5,7 +5,7 @@ mod tests;
 
 use super::allowed::Invalid;
 use super::particles::equivalent;
-use super::{Orientation, Scene, find};
+use super::{OwnRods, RodsFile, Scene, find};
 
 impl Scene {
     /// Checks that r_e is given once: by itself, or by a cylinder and a formula that gives one for it.
@@ -48,34 +48,68 @@ impl Scene {
         }
     }
 
-    /// Checks that the directions of a file are there, one for each rod.
-    pub(super) fn check_start(&self) -> Result<(), Invalid> {
-        let Orientation::Each { file, p, .. } = &self.particles.orientation else {
+    /// Checks that the rods of a file are there, and can be those of the scene.
+    pub(super) fn check_own_rods(&self) -> Result<(), Invalid> {
+        let Some(RodsFile { file, own, .. }) = &self.particles.rods else {
             return Ok(());
         };
         let refused = |allowed: String| {
             let value = format!("{{ file = {file:?} }}");
-            Err(Invalid::new("particles.orientation", value, allowed))
+            Err(Invalid::new("particles.rods", value, allowed))
         };
-        let Some(p) = p else {
+        let Some(own) = own else {
             return refused(
-                "a file's directions where something has read it, as `shearbed run`, `plan` and `sweep` do"
-                    .into(),
+                "a file's rods where something has read it, as `shearbed run`, `plan` and `sweep` do".into(),
             );
         };
-        let count = self.particles.count;
-        if p.iter().any(|axis| axis.len() != count) {
-            return refused(format!(
-                "a direction for each rod: it has {}, and particles.count is {count}",
-                p[0].len()
-            ));
-        }
-        let square = |rod: usize| p.iter().map(|axis| axis[rod] * axis[rod]).sum::<f64>();
-        let is_unit = |rod: usize| (square(rod) - 1.0).abs() <= 16.0 * f64::EPSILON;
-        match (0..count).find(|rod| !is_unit(*rod)) {
-            Some(rod) => refused(format!("directions of length 1, which that of rod {rod} is not")),
+        match self.own_rods_at_odds(own) {
+            Some(allowed) => refused(allowed),
             None => Ok(()),
         }
+    }
+
+    /// What is allowed of the rods of a file that have something else.
+    fn own_rods_at_odds(&self, own: &OwnRods) -> Option<String> {
+        let count = self.particles.count;
+        let axes = own.p.iter().chain(&own.place_mm).flatten();
+        let mut columns = axes.chain(&own.aspect_ratio).chain(&own.length_mm);
+        if let Some(column) = columns.find(|column| column.len() != count) {
+            let has = column.len();
+            return Some(format!(
+                "a row for each rod: it has {has}, and particles.count is {count}"
+            ));
+        }
+        let first = |wrong: &dyn Fn(usize) -> bool| (0..count).find(|rod| wrong(*rod));
+        if let Some(p) = &own.p {
+            let square = |rod: usize| p.iter().map(|axis| axis[rod] * axis[rod]).sum::<f64>();
+            // NaN is not within anything.
+            let is_unit = |rod: usize| (square(rod) - 1.0).abs() <= 16.0 * f64::EPSILON;
+            if let Some(rod) = first(&|rod| !is_unit(rod)) {
+                return Some(format!("directions of length 1, which that of rod {rod} is not"));
+            }
+        }
+        if let Some(all) = &own.aspect_ratio {
+            let least = if self.interaction.is_some() { 1.0 } else { 0.0 };
+            if let Some(rod) = first(&|rod| !(all[rod] > least && all[rod].is_finite())) {
+                return Some(format!(
+                    "aspect_ratio > {least}, which that of rod {rod}, {}, is not",
+                    all[rod]
+                ));
+            }
+        }
+        if let Some(all) = &own.length_mm
+            && let Some(rod) = first(&|rod| !(all[rod] > 0.0 && all[rod].is_finite()))
+        {
+            return Some(format!(
+                "length_mm > 0, which that of rod {rod}, {}, is not",
+                all[rod]
+            ));
+        }
+        let (place, sides) = (own.place_mm.as_ref()?, self.sides_mm()?);
+        let outside = |rod: usize| !(0..3).all(|axis| (0.0..=sides[axis]).contains(&place[axis][rod]));
+        first(&outside).map(|rod| {
+            format!("places in the control volume of {sides:?} mm, which that of rod {rod} is not")
+        })
     }
 
     /// Checks that r_e has the mean that its flow allows, and stays on its side of 1.
@@ -87,6 +121,11 @@ impl Scene {
         if self.interaction.is_some() && r <= 1.0 {
             let allowed = "interacting rods need a number > 1";
             return Err(Invalid::new("particles.aspect_ratio", r, allowed));
+        }
+        let length_sd = self.particles.length_sd_percent;
+        if length_sd >= 100.0 / 3.0 {
+            let allowed = "so wide that lengths ≤ 0 are likely; below 33.3333, three standard deviations";
+            return Err(Invalid::new("particles.length_sd_percent", length_sd, allowed));
         }
         // Three standard deviations: P(r_e ≤ 1) = 0.0013 per rod.
         let deviation = 3.0 * r * sd / 100.0;

@@ -15,9 +15,9 @@ impl Suspension {
         self.tick
     }
 
-    /// The side H/a of the control volume, in rod lengths.
-    pub fn side_in_lengths(&self) -> f64 {
-        self.volume.side()
+    /// The sides H₁, H₂ and H₃ of the control volume, in mean rod lengths.
+    pub fn sides_in_lengths(&self) -> [f64; 3] {
+        self.volume.sides()
     }
 
     /// The rods' positions in rod lengths: three arrays of coordinates.
@@ -30,6 +30,11 @@ impl Suspension {
         (0..self.rods.count())
             .map(|rod| self.rods.direction(rod, self.tick))
             .collect()
+    }
+
+    /// The length of every rod over the mean.
+    pub fn lengths(&self) -> Vec<f64> {
+        (0..self.rods.count()).map(|rod| self.rods.length(rod)).collect()
     }
 
     /// The aspect ratio of every rod.

@@ -36,7 +36,7 @@ fn a_collision_gives_both_contact_points_the_mean_velocity_along_the_line() {
     for sign in [1.0, -1.0] {
         let mut scene = Scene {
             interaction: Some(Interaction {
-                concentration_per_cm3: 1.0,
+                concentration_per_cm3: Some(1.0),
                 alpha: 1e12,
                 ..Interaction::default()
             }),
@@ -48,7 +48,7 @@ fn a_collision_gives_both_contact_points_the_mean_velocity_along_the_line() {
         (scene.time.steps_per_period, scene.time.outputs_per_period) = (Some(100_000), Some(1));
         let plan = Plan::new(&scene).unwrap();
         let mut suspension = Suspension::new(&plan, 0).unwrap();
-        let side = suspension.side_in_lengths();
+        let [side, ..] = suspension.sides_in_lengths();
         let centres = [[0.4, 0.5, 0.5], [0.55, 0.45, 0.6]].map(|x| x.map(|x| x * side));
         let places = [0, 1, 2].map(|axis| vec![centres[0][axis], centres[1][axis]]);
         let start = [(0.3, 1.0), (2.0, 0.7)].map(|(phi, theta)| crate::orientation::from_angles(phi, theta));
@@ -57,7 +57,7 @@ fn a_collision_gives_both_contact_points_the_mean_velocity_along_the_line() {
 
         // By the paper's words: u at each contact point's centre plus r ṗ, along the line.
         let [a, b] = centres.map(Vector3::from);
-        let met = contact(&(b - a), &start[0], &start[1], 0.0).unwrap();
+        let met = contact(&(b - a), &start[0], &start[1], [0.0; 2]).unwrap();
         let liquid = |x: &Vector3<f64>| Vector3::new(0.0, sign * x.x, 0.0);
         let free = start.map(|p| couette_rate(&p, shape_factor(11.6), sign));
         let strain = strain_per_period(11.6) / 1e5;

@@ -15,6 +15,7 @@ fn counts_of_two_runs_are_added_one_by_one() {
         replacements: 8,
         directions: 9,
         aspect_ratios_redrawn: 10,
+        lengths_redrawn: 11,
     };
     let mut sum = one;
     sum.add(&one);
@@ -30,6 +31,7 @@ fn counts_of_two_runs_are_added_one_by_one() {
         replacements: 24,
         directions: 27,
         aspect_ratios_redrawn: 30,
+        lengths_redrawn: 33,
     };
     assert_eq!(sum, thrice);
 }

@@ -85,7 +85,7 @@ const KEYS: &[(&str, &str, &[&str])] = &[
     ("particles.aspect_ratio", "interacting rods need a number > 1", &["1", "1.0", "0.5"]),
     ("particles.aspect_ratio_sd_percent", "a finite number ≥ 0", NEGATIVE),
     ("particles.aspect_ratio_sd_percent", "so wide that r_e ≤ 1", &["30.5", "100", "1e300"]),
-    ("particles.orientation", "\"isotropic\", { phi_deg = a finite number, theta_deg = ", NOT_A_DIRECTION),
+    ("particles.orientation", "\"isotropic\" or { phi_deg = a finite number, theta_deg = ", NOT_A_DIRECTION),
     ("interaction.concentration_per_cm3", "a finite number > 0", NOT_POSITIVE),
     ("interaction.alpha", "a finite number ≥ 0", NEGATIVE),
     ("interaction.m", "a finite number > 0", NOT_POSITIVE),

@@ -7,10 +7,9 @@ use proptest::test_runner::{Config, RngSeed, TestRunner};
 use shearbed::flow::VelocityGradient;
 use shearbed::orientation::from_degrees;
 use shearbed::propagator::{Propagator, Span};
-use shearbed::scene::Orientation;
+use shearbed::scene::{OwnRods, RodsFile};
 use shearbed::{Plan, ensemble, scene_file};
 use std::cell::Cell;
-use std::sync::Arc;
 
 fn scene(rows: [[f64; 3]; 3], r: f64, sd: f64, orientation: &str, time: &str) -> String {
     format!(
@@ -18,6 +17,19 @@ fn scene(rows: [[f64; 3]; 3], r: f64, sd: f64, orientation: &str, time: &str) ->
          aspect_ratio_sd_percent = {sd}\norientation = {orientation}\n[time]\n{time}\n[output]\n\
          observables = [\"projections\", \"orientation_tensor\"]\n"
     )
+}
+
+/// Rods that start along p.
+fn of_a_file(p: [Vec<f64>; 3]) -> RodsFile {
+    let own = OwnRods {
+        p: Some(p),
+        ..OwnRods::default()
+    };
+    RodsFile {
+        file: "start.csv".into(),
+        crc32: None,
+        own: Some(own.into()),
+    }
 }
 
 /// Finite means with ⟨pp⟩ of trace 1, or a refusal that says why; whether it was not refused.
@@ -134,11 +146,7 @@ fn a_start_on_a_dividing_plane_is_refused_however_it_is_given() {
 
         let mut given = parsed(sd, "\"isotropic\"", 100.0).unwrap();
         let (sine, cosine) = (135f64.to_radians().sin(), 135f64.to_radians().cos());
-        given.particles.orientation = Orientation::Each {
-            file: "start.csv".into(),
-            crc32: None,
-            p: Some(Arc::new([vec![cosine; 3], vec![sine; 3], vec![0.0; 3]])),
-        };
+        given.particles.rods = Some(of_a_file([vec![cosine; 3], vec![sine; 3], vec![0.0; 3]]));
         let refused = Plan::new(&given).map(|plan| ensemble::run(&plan));
         assert!(!matches!(refused, Ok(Ok(_))), "{sd}");
     }
@@ -157,11 +165,7 @@ fn a_rounded_start_of_extreme_rods_is_answered_as_far_as_it_is_known() {
             "strain = 2\noutputs_per_strain = 2",
         );
         let mut scene = scene_file::parse("s.toml", &text).unwrap();
-        scene.particles.orientation = Orientation::Each {
-            file: "start.csv".into(),
-            crc32: None,
-            p: Some(Arc::new([vec![0.6; 3], vec![0.0; 3], vec![0.8; 3]])),
-        };
+        scene.particles.rods = Some(of_a_file([vec![0.6; 3], vec![0.0; 3], vec![0.8; 3]]));
         let plan = Plan::new(&scene).unwrap();
         assert_eq!(ensemble::run(&plan).is_ok(), known, "{r:e}");
     }

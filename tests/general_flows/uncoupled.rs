@@ -1,11 +1,9 @@
 //! Flows whose axes do not couple, and a rod that is refused.
 
-use super::scene;
+use super::{of_a_file, scene};
 use shearbed::flow::VelocityGradient;
 use shearbed::propagator::{Propagator, Span};
-use shearbed::scene::Orientation;
 use shearbed::{Plan, ensemble, scene_file};
-use std::sync::Arc;
 
 /// ∂u_i/∂x_j, r_e, start, strain and the direction there.
 type Answered = ([[f64; 3]; 3], f64, [f64; 3], f64, [f64; 3]);
@@ -143,11 +141,7 @@ fn from_file(rows: [[f64; 3]; 3], r: f64, strain: f64, p: [f64; 3]) -> shearbed:
     let time = format!("strain = {strain}\noutputs_per_strain = 1");
     let text = scene(rows, r, 0.0, "\"isotropic\"", &time);
     let mut scene = scene_file::parse("s.toml", &text).unwrap();
-    scene.particles.orientation = Orientation::Each {
-        file: "start.csv".into(),
-        crc32: None,
-        p: Some(Arc::new(p.map(|component| vec![component; 3]))),
-    };
+    scene.particles.rods = Some(of_a_file(p.map(|component| vec![component; 3])));
     scene
 }
 
@@ -178,10 +172,7 @@ fn a_refused_rod_is_named_with_its_bound_and_the_time() {
         vec![0.0; 2],
     ];
     scene.particles.count = 2;
-    let Orientation::Each { p: starts, .. } = &mut scene.particles.orientation else {
-        unreachable!("from a file");
-    };
-    *starts = Some(Arc::new(p));
+    scene.particles.rods = Some(of_a_file(p));
     let error = ensemble::run(&Plan::new(&scene).unwrap())
         .unwrap_err()
         .to_string();

@@ -61,7 +61,7 @@ fn search(c: &mut Criterion) {
         let (volume, positions) = scattered(count);
         let mut draws = stream(1, 0, Purpose::Collisions);
         let drawn: Vec<f64> = (0..count).map(|_| draws.random()).collect();
-        let mut neighbours = Neighbours::new(volume.side(), count);
+        let mut neighbours = Neighbours::new(volume.sides(), count);
         group.throughput(Throughput::Elements(count as u64));
         group.bench_function(format!("{count} rods"), |b| {
             b.iter(|| {
@@ -91,7 +91,7 @@ fn parts_of_a_step(c: &mut Criterion) {
         group.bench_function(format!("a collision, {name}"), |b| {
             b.iter(|| {
                 let [a, b] = black_box(p);
-                let contact = contact(&separation, &a, &b, 0.0)?;
+                let contact = contact(&separation, &a, &b, [0.0; 2])?;
                 let rates = share_velocity(
                     &contact,
                     &Vector3::new(0.0, separation.x, 0.0),

@@ -13,7 +13,9 @@ pub use table::table;
 
 use crate::case::Effort;
 use crate::cluster;
-use crate::oracle::naive::{Images, Lines, Naive, Problem, Replacement, Update, Who, mean_projections};
+use crate::oracle::naive::{
+    Images, Length, Lines, Naive, Problem, Replacement, Update, Who, mean_projections,
+};
 use crate::statistics::Estimate;
 use crate::study::{Extent, Found, Study};
 use rayon::prelude::*;
@@ -101,7 +103,7 @@ pub type Change = fn(&mut Problem);
 /// The alternatives: what is left open, how it is read, and that as a change of the default. The last two are
 /// those whose effect depends on the time step.
 #[rustfmt::skip]
-pub const ALTERNATIVES: [(&str, &str, Change); 13] = [
+pub const ALTERNATIVES: [(&str, &str, Change); 17] = [
     ("who collides", "one draw per mutual pair", |p| p.reading.who = Who::PairDraws),
     ("who collides", "index order, not closest first", |p| p.reading.who = Who::IndexOrder),
     ("update", "angles: A.14 to the letter", |p| p.update = Update::Angles),
@@ -111,6 +113,10 @@ pub const ALTERNATIVES: [(&str, &str, Change); 13] = [
     ("images", "along x_2 and x_3", |p| p.reading.images = Images::FlowAndVorticity),
     ("images", "along all axes", |p| p.reading.images = Images::All),
     ("replacement", "overshoot times x_1(new)/x_1(old)", |p| p.reading.replacement = Replacement::ScaledOvershoot),
+    ("lengths", "scatter by 30 %", |p| p.length_sd_percent = 30.0),
+    ("lengths", "30 %, P_c by the partner's", |p| (p.length_sd_percent, p.reading.length) = (30.0, Length::Partners)),
+    ("lengths", "30 %, P_c by the mean of both", |p| (p.length_sd_percent, p.reading.length) = (30.0, Length::MeanOfBoth)),
+    ("box", "4 : ½ : ½ of the cube's sides", |p| p.box_mm = Some([4.0, 0.5, 0.5].map(|side| side * p.edges_mm()[0]))),
     ("time step", "halved: 400 steps a period", |p| p.steps_per_period *= 2),
     ("time step", "doubled: 100 steps a period", |p| p.steps_per_period /= 2),
     ("update and step", "angles, 400 steps a period", |p| {

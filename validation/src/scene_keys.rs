@@ -87,6 +87,9 @@ fn holds(holds: &Holds) -> Value {
         Holds::Positive => json!({ "type": "number", "exclusiveMinimum": 0 }),
         Holds::NotNegative => json!({ "type": "number", "minimum": 0 }),
         Holds::Between { least, most } => json!({ "type": "number", "minimum": least, "maximum": most }),
+        Holds::Sides => json!({
+            "type": "array", "minItems": 3, "maxItems": 3, "items": { "type": "number", "exclusiveMinimum": 0 }
+        }),
         Holds::Gradient => {
             let row = json!({ "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 });
             json!({ "type": "array", "items": row, "minItems": 3, "maxItems": 3 })
@@ -101,14 +104,14 @@ fn holds(holds: &Holds) -> Value {
                 },
                 "required": ["phi_deg", "theta_deg"],
                 "additionalProperties": false
-            },
-            {
-                "type": "object",
-                "properties": { "file": { "type": "string" }, "crc32": { "type": "string" } },
-                "required": ["file"],
-                "additionalProperties": false
             }
         ] }),
+        Holds::Rods => json!({
+            "type": "object",
+            "properties": { "file": { "type": "string" }, "crc32": { "type": "string" } },
+            "required": ["file"],
+            "additionalProperties": false
+        }),
         Holds::OneOf(words) => json!({ "enum": words }),
         Holds::Observables => {
             let names = Observable::ALL.map(Observable::name);

@@ -1,12 +1,15 @@
-//! The directions that rods start with, from a file beside the scene.
+//! Rods of which a file beside the scene says what each is: length, r_e, direction and place.
 
-use shearbed::scene::{Orientation, Scene};
+use shearbed::scene::{OwnRods, RodsFile, Scene};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The columns that are read.
+/// The columns that are read, in groups of which a file has all or none.
 const P: [&str; 3] = ["p1", "p2", "p3"];
+const PLACE: [&str; 3] = ["x1_mm", "x2_mm", "x3_mm"];
+const ASPECT_RATIO: [&str; 1] = ["aspect_ratio"];
+const LENGTH: [&str; 1] = ["length_mm"];
 
 /// The column that numbers the rods: ascending, each number once.
 const ROD: &str = "rod";
@@ -14,23 +17,13 @@ const ROD: &str = "rod";
 /// The columns that say of which replica and time a row is: one value each in all rows.
 const ONE_VALUE: [&str; 2] = ["replica", "time_s"];
 
-/// What else may stand in the file, as in `rods.csv`; none of it is a start, but an r_e must be the scene's.
-const OTHERS: [&str; 9] = [
-    ROD,
-    ONE_VALUE[0],
-    ONE_VALUE[1],
-    "strain",
-    "aspect_ratio",
-    "x1_mm",
-    "x2_mm",
-    "x3_mm",
-    "collided",
-];
+/// What else may stand in the file, as in `rods.csv`.
+const OTHERS: [&str; 2] = ["strain", "collided"];
 
-/// How far a length may be from 1: a direction in five decimals or more. It is divided out.
-const LENGTH: f64 = 1e-5;
+/// How far the length of p may be from 1: a direction in five decimals or more. It is divided out.
+const OFF_UNIT: f64 = 1e-5;
 
-/// The files that were read for scenes of one folder: each is read once, and its directions are held once.
+/// The files that were read for scenes of one folder: each is read once, and its rods are held once.
 #[derive(Clone, Debug, Default)]
 pub struct Starts {
     folder: PathBuf,
@@ -40,9 +33,9 @@ pub struct Starts {
 #[derive(Clone, Debug)]
 struct Start {
     crc32: String,
-    p: Arc<[Vec<f64>; 3]>,
-    /// The r_e of its rods, where it has them.
-    aspect_ratio: Option<f64>,
+    own: Arc<OwnRods>,
+    /// The line of each rod.
+    lines: Arc<Vec<u64>>,
 }
 
 impl Starts {
@@ -61,126 +54,203 @@ impl Starts {
             .collect()
     }
 
-    /// Gives a scene whose rods start as a file says the directions of that file; others are left as they are.
+    /// Gives a scene whose rods a file has what the file says of them; others are left as they are.
     ///
     /// # Errors
     ///
     /// The file, line, column and value, and what is allowed.
     pub fn fill(&mut self, scene: &mut Scene) -> Result<(), String> {
-        let (count, aspect_ratio) = (scene.particles.count, scene.particles.aspect_ratio);
-        let Orientation::Each { file, crc32, p } = &mut scene.particles.orientation else {
+        let Some(RodsFile { file, crc32, .. }) = &scene.particles.rods else {
             return Ok(());
         };
-        let path = self.folder.join(&*file);
-        let refused = |what: String| format!("particles.orientation: {}{what}", path.display());
-        let asked_for = |found: &str| match crc32.as_deref().filter(|expected| *expected != found) {
-            Some(expected) => Err(refused(format!(
-                ": has crc32 = {found}; {expected:?} is allowed, or no crc32"
-            ))),
-            None => Ok(()),
-        };
-        let own = |start: &&Start| start.aspect_ratio.is_none_or(|own| own == aspect_ratio);
-        let start = match self.read.get(file).filter(own) {
-            Some(start) => {
-                asked_for(&start.crc32)?;
-                start.clone()
-            }
+        let path = self.folder.join(file);
+        let refused = |what: String| format!("particles.rods: {}{what}", path.display());
+        let start = match self.read.get(file) {
+            Some(start) => start.clone(),
             None => {
                 let bytes = crate::input::bytes(&path, 1 << 31)
                     .map_err(|error| refused(format!(": cannot be read: {error}")))?;
-                let found = format!("{:08x}", crc32fast::hash(&bytes));
-                asked_for(&found)?;
-                let (directions, shaped) =
-                    read(&bytes, aspect_ratio).map_err(|error| refused(format!(":{error}")))?;
+                let (own, lines) = read(&bytes).map_err(|error| refused(format!(":{error}")))?;
                 let start = Start {
-                    crc32: found,
-                    p: Arc::new(directions),
-                    aspect_ratio: shaped.then_some(aspect_ratio),
+                    crc32: format!("{:08x}", crc32fast::hash(&bytes)),
+                    own: Arc::new(own),
+                    lines: Arc::new(lines),
                 };
                 self.read.insert(file.clone(), start.clone());
                 start
             }
         };
-        if start.p[0].len() != count {
+        if let Some(expected) = crc32.as_deref().filter(|expected| *expected != start.crc32) {
+            let found = &start.crc32;
             return Err(refused(format!(
-                ": has {} rows; as many as particles.count = {count} are allowed",
-                start.p[0].len()
+                ": has crc32 = {found}; {expected:?} is allowed, or no crc32"
             )));
         }
-        (*crc32, *p) = (Some(start.crc32), Some(start.p));
+        fits(scene, &start).map_err(refused)?;
+        if let Some(rods) = &mut scene.particles.rods {
+            (rods.crc32, rods.own) = (Some(start.crc32), Some(start.own));
+        }
         Ok(())
     }
 }
 
-/// The directions, row by row, and whether the rows have an r_e, which is then this one; of an error the line first.
-fn read(bytes: &[u8], aspect_ratio: f64) -> Result<([Vec<f64>; 3], bool), String> {
+/// Whether the rods of a file can be those of the scene, or the line of the first that cannot.
+fn fits(scene: &Scene, start: &Start) -> Result<(), String> {
+    let (count, rows, own) = (scene.particles.count, start.lines.len(), &start.own);
+    if rows != count {
+        return Err(format!(
+            ": has {rows} rows; as many as particles.count = {count} are allowed"
+        ));
+    }
+    let Some(sides) = scene.sides_mm() else {
+        return Ok(());
+    };
+    let line = |rod: usize| start.lines[rod];
+    let too_round = |r: &Vec<f64>| Some((r.iter().position(|r| *r <= 1.0)?, r.clone()));
+    if let Some((rod, r)) = own.aspect_ratio.as_ref().and_then(too_round) {
+        return Err(format!(
+            ":{}: aspect_ratio = {} is not allowed: interacting rods need a number > 1",
+            line(rod),
+            r[rod]
+        ));
+    }
+    let places = own.place_mm.iter().flatten().zip(PLACE).zip(sides);
+    for ((place, name), side) in places {
+        if let Some(rod) = place.iter().position(|x| !(0.0..=side).contains(x)) {
+            return Err(format!(
+                ":{}: {name} = {} is not allowed: the control volume reaches from 0 to {side} mm",
+                line(rod),
+                place[rod]
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The columns of a group that the file has.
+struct Group<const K: usize>(Option<[usize; K]>);
+
+impl<const K: usize> Group<K> {
+    fn new(names: [&str; K], place: impl Fn(&str) -> Option<usize>) -> Result<Self, String> {
+        let places = names.map(&place);
+        let missing = names.iter().zip(places).find(|(_, place)| place.is_none());
+        match missing {
+            None => Ok(Self(Some(places.map(Option::unwrap_or_default)))),
+            Some(_) if places.iter().all(Option::is_none) => Ok(Self(None)),
+            Some((name, _)) => Err(format!(
+                "1: column {name} is missing; {} go together",
+                names.join(", ")
+            )),
+        }
+    }
+
+    fn values(&self, number: impl Fn(usize) -> Result<f64, String>) -> Result<Option<[f64; K]>, String> {
+        let Some(places) = self.0 else {
+            return Ok(None);
+        };
+        let mut values = [0.0; K];
+        for (value, place) in values.iter_mut().zip(places) {
+            *value = number(place)?;
+        }
+        Ok(Some(values))
+    }
+}
+
+/// The rods, row by row, and the line of each; of an error the line first.
+fn read(bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), String> {
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
     let in_words = |error: csv::Error| {
         let line = error.position().map_or(1, csv::Position::line);
         format!("{line}: not a table in CSV: {error}")
     };
     let head = reader.headers().map_err(in_words)?.clone();
+    let known = || (P.iter().chain(&PLACE).chain(&ASPECT_RATIO).chain(&LENGTH)).chain([&ROD]);
     for (k, name) in head.iter().enumerate() {
-        if !P.contains(&name) && !OTHERS.contains(&name) {
+        if !known()
+            .chain(&ONE_VALUE)
+            .chain(&OTHERS)
+            .any(|known| *known == name)
+        {
             let name = snippet(name);
-            return Err(format!(
-                "1: unknown column {name:?}; allowed: p1, p2, p3, and those of rods.csv"
-            ));
+            return Err(format!("1: unknown column {name:?}; allowed: those of rods.csv"));
         }
         if head.iter().take(k).any(|other| other == name) {
             return Err(format!("1: column {name} is there twice; once is allowed"));
         }
     }
     let place = |name: &str| head.iter().position(|other| other == name);
-    let mut places = [0; 3];
-    for (own, name) in places.iter_mut().zip(P) {
-        *own = place(name).ok_or_else(|| format!("1: column {name} is missing; p1, p2 and p3 are needed"))?;
+    let (p, places) = (Group::new(P, place)?, Group::new(PLACE, place)?);
+    let (shape, length) = (Group::new(ASPECT_RATIO, place)?, Group::new(LENGTH, place)?);
+    if p.0.is_none() && places.0.is_none() && shape.0.is_none() && length.0.is_none() {
+        return Err("1: no column of what a rod is: p1, p2 and p3, aspect_ratio, length_mm, or x1_mm, x2_mm and x3_mm".into());
     }
-    let shape = place("aspect_ratio");
     let mut order = Order::new(place);
-    let mut p = [(); 3].map(|()| Vec::new());
+    let mut own = OwnRods::default();
+    let mut lines = Vec::new();
     for record in reader.records() {
         let record = record.map_err(in_words)?;
         let line = record.position().map_or(0, csv::Position::line);
+        let not_allowed = |place: usize, allowed: &str| {
+            let cell = snippet(record.get(place).unwrap_or_default());
+            format!("{line}: {} = {cell} is not allowed: {allowed}", &head[place])
+        };
         let number = |place: usize| {
-            let cell = record.get(place).unwrap_or_default();
-            let parsed = cell.parse().ok().filter(|value: &f64| value.is_finite());
-            parsed.ok_or_else(|| {
-                let cell = snippet(cell);
-                format!(
-                    "{line}: {} = {cell} is not allowed: a finite number",
-                    &head[place]
-                )
-            })
+            let parsed = record.get(place).unwrap_or_default().parse().ok();
+            let finite = parsed.filter(|value: &f64| value.is_finite());
+            finite.ok_or_else(|| not_allowed(place, "a finite number"))
+        };
+        let positive = |place: usize| match number(place)? {
+            value if value > 0.0 => Ok(value),
+            _ => Err(not_allowed(place, "a finite number > 0")),
         };
         order.next(&head, line, number)?;
-        let direction = [number(places[0])?, number(places[1])?, number(places[2])?];
-        // Exact operations only, for the same bits on every machine.
-        let length = direction.map(|x| x * x).iter().sum::<f64>().sqrt();
-        if (length - 1.0).abs() > LENGTH {
-            let [p1, p2, p3] = direction;
+        if let Some(direction) = p.values(number)? {
+            // Exact operations only, for the same bits on every machine.
+            let length = direction.map(|x| x * x).iter().sum::<f64>().sqrt();
+            if (length - 1.0).abs() > OFF_UNIT {
+                let [p1, p2, p3] = direction;
+                return Err(format!(
+                    "{line}: p = ({p1}, {p2}, {p3}) has length {length}: 1 within {OFF_UNIT:e} is allowed"
+                ));
+            }
+            push(&mut own.p, direction.map(|x| x / length));
+        }
+        // Free rods have no place, and rods.csv empty cells.
+        let empty = |places: &[usize; 3]| places.iter().all(|place| record.get(*place) == Some(""));
+        if !places.0.as_ref().is_some_and(empty) {
+            if own.place_mm.is_none() && !lines.is_empty() && places.0.is_some() {
+                return Err(format!(
+                    "{line}: the rods before have no place: all have one, or none"
+                ));
+            }
+            if let Some(x) = places.values(number)? {
+                push(&mut own.place_mm, x);
+            }
+        } else if own.place_mm.is_some() {
             return Err(format!(
-                "{line}: p = ({p1}, {p2}, {p3}) has length {length}: 1 within {LENGTH:e} is allowed"
+                "{line}: the rods before have a place: all have one, or none"
             ));
         }
-        if let Some(place) = shape
-            && number(place)? != aspect_ratio
-        {
-            return Err(format!(
-                "{line}: aspect_ratio = {} is not allowed: the rods have the scene's, {aspect_ratio}, or the column is left out",
-                &record[place]
-            ));
+        if let Some([r]) = shape.values(positive)? {
+            own.aspect_ratio.get_or_insert_default().push(r);
         }
-        for (axis, value) in p.iter_mut().zip(direction) {
-            axis.push(value / length);
+        if let Some([a]) = length.values(positive)? {
+            own.length_mm.get_or_insert_default().push(a);
         }
+        lines.push(line);
     }
-    Ok((p, shape.is_some()))
+    Ok((own, lines))
+}
+
+fn push(axes: &mut Option<[Vec<f64>; 3]>, values: [f64; 3]) {
+    for (axis, value) in axes.get_or_insert_default().iter_mut().zip(values) {
+        axis.push(value);
+    }
 }
 
 /// The rows of one replica at one time, in the order of their rods' numbers.
 ///
-/// Directions are taken row by row: rows in another order, or of two times or replicas, would be another suspension.
+/// Rods are taken row by row: rows in another order, or of two times or replicas, would be another suspension.
 struct Order {
     rod: Option<usize>,
     one_value: [Option<usize>; 2],
@@ -251,61 +321,129 @@ mod tests {
     use super::*;
 
     fn refused(text: &str) -> String {
-        read(text.as_bytes(), 11.6).unwrap_err()
+        read(text.as_bytes()).unwrap_err()
     }
 
     #[test]
-    fn rows_are_directions_in_any_order_of_columns() {
+    fn rows_are_rods_in_any_order_of_columns() {
         let text = "rod,p3,p1,p2,time_s,replica\n0,0.8,0.6,0,2.5,1\n7, -0.70711 ,0,0.70711,2.5,1\n";
-        let ([p1, p2, p3], shaped) = read(text.as_bytes(), 11.6).unwrap();
-        assert!(!shaped);
-        assert_eq!((p1, p3[0]), (vec![0.6, 0.0], 0.8));
+        let (own, lines) = read(text.as_bytes()).unwrap();
+        let [p1, p2, p3] = own.p.unwrap();
+        assert_eq!((p1, p3[0], lines), (vec![0.6, 0.0], 0.8, vec![2, 3]));
         // 0.70711² · 2 = 1.0000091 is divided out.
         assert!((p2[1] - 0.5f64.sqrt()).abs() < 1e-15 && (p3[1] + 0.5f64.sqrt()).abs() < 1e-15);
+        assert!(own.aspect_ratio.is_none() && own.length_mm.is_none() && own.place_mm.is_none());
+
+        let text = "length_mm,x2_mm,x1_mm,x3_mm,aspect_ratio\n0.5,2,1,3,11\n0.7,5,4,6,12\n";
+        let (own, lines) = read(text.as_bytes()).unwrap();
+        assert_eq!(
+            (own.length_mm, own.aspect_ratio),
+            (Some(vec![0.5, 0.7]), Some(vec![11.0, 12.0]))
+        );
+        let places = [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]].map(Vec::from);
+        assert_eq!((own.place_mm, own.p, lines), (Some(places), None, vec![2, 3]));
+        // As rods.csv has free rods.
+        let (own, _) = read(b"length_mm,x1_mm,x2_mm,x3_mm\n0.5,,,\n0.5,,,\n").unwrap();
+        assert_eq!((own.place_mm, own.length_mm), (None, Some(vec![0.5, 0.5])));
+    }
+
+    fn of_a_file(count: usize, interacting: bool) -> Scene {
+        let name = if interacting { "fig4-n50" } else { "extension" };
+        let text = crate::scenes::find(name).unwrap().text;
+        let mut scene = shearbed::scene_file::parse("s", text).unwrap();
+        scene.particles.count = count;
+        scene.particles.rods = Some(RodsFile {
+            file: "start.csv".into(),
+            crc32: None,
+            own: None,
+        });
+        scene
     }
 
     /// Removed after it was read: a file that is read again would be missed.
     #[test]
     fn a_file_is_read_and_held_once_for_all_scenes() {
-        let text = crate::scenes::find("extension").unwrap().text;
-        let mut first = shearbed::scene_file::parse("s", text).unwrap();
-        first.particles.count = 1;
-        first.particles.orientation = Orientation::Each {
-            file: "start.csv".into(),
-            crc32: None,
-            p: None,
-        };
-        let mut other = first.clone();
-        other.particles.aspect_ratio *= 2.0;
-        let of = |scene: &Scene| match &scene.particles.orientation {
-            Orientation::Each { p, .. } => p.clone().unwrap(),
-            _ => panic!("no file"),
-        };
+        let first = of_a_file(1, false);
+        let of = |scene: &Scene| scene.particles.rods.as_ref().unwrap().own.clone().unwrap();
         let dir = tempfile::tempdir().unwrap();
         let file = dir.path().join("start.csv");
-        for (rows, same) in [
-            ("p1,p2,p3\n1,0,0\n".to_owned(), true),
+        let mut starts = Starts::beside(dir.path());
+        let (mut a, mut b) = (first.clone(), first);
+        std::fs::write(&file, "p1,p2,p3\n1,0,0\n").unwrap();
+        starts.fill(&mut a).unwrap();
+        std::fs::remove_file(&file).unwrap();
+        starts.fill(&mut b).unwrap();
+        assert!(Arc::ptr_eq(&of(&a), &of(&b)));
+    }
+
+    /// Two rods at 50 per cm³: H = 3.42 mm.
+    #[test]
+    fn rods_that_the_scene_cannot_have_are_told_with_their_line() {
+        let dir = tempfile::tempdir().unwrap();
+        let fill = |text: &str, interacting: bool| {
+            std::fs::write(dir.path().join("start.csv"), text).unwrap();
+            Starts::beside(dir.path()).fill(&mut of_a_file(2, interacting))
+        };
+        for (text, said) in [
             (
-                format!("p1,p2,p3,aspect_ratio\n1,0,0,{}\n", first.particles.aspect_ratio),
-                false,
+                "length_mm\n1\n",
+                "start.csv: has 1 rows; as many as particles.count = 2",
+            ),
+            ("length_mm\n1\n1\n1\n", "start.csv: has 3 rows"),
+            (
+                "aspect_ratio\n2\n1\n",
+                "start.csv:3: aspect_ratio = 1 is not allowed: interacting rods need a number > 1",
+            ),
+            (
+                "x1_mm,x2_mm,x3_mm\n1,2,3\n3,4,1\n",
+                "start.csv:3: x2_mm = 4 is not allowed: the control volume reaches from 0 to 3.41",
+            ),
+            (
+                "x1_mm,x2_mm,x3_mm\n1,2,-3\n3,1,1\n",
+                "start.csv:2: x3_mm = -3 is not allowed",
             ),
         ] {
-            let mut starts = Starts::beside(dir.path());
-            let (mut a, mut b, mut c) = (first.clone(), first.clone(), other.clone());
-            std::fs::write(&file, rows).unwrap();
-            starts.fill(&mut a).unwrap();
-            std::fs::remove_file(&file).unwrap();
-            starts.fill(&mut b).unwrap();
-            assert!(Arc::ptr_eq(&of(&a), &of(&b)));
-            // Rods that have an r_e in the file are not another r_e's.
-            assert_eq!(starts.fill(&mut c).is_ok(), same);
+            let refused = fill(text, true).unwrap_err();
+            assert!(
+                refused.starts_with("particles.rods: ") && refused.contains(said),
+                "{refused}"
+            );
         }
+        // Free rods may be discs, and are nowhere.
+        assert_eq!(
+            fill("aspect_ratio,x1_mm,x2_mm,x3_mm\n2,1,2,3\n0.5,3,4,1\n", false),
+            Ok(())
+        );
     }
 
     #[test]
     fn what_is_wrong_is_told_with_its_line() {
         for (text, said) in [
-            ("p1,p2\n1,0\n", "1: column p3 is missing"),
+            ("p1,p2\n1,0\n", "1: column p3 is missing; p1, p2, p3 go together"),
+            ("x1_mm\n1\n", "1: column x2_mm is missing"),
+            ("rod,time_s\n0,0\n", "1: no column of what a rod is"),
+            (
+                "length_mm\n1\n0\n",
+                "3: length_mm = 0 is not allowed: a finite number > 0",
+            ),
+            ("length_mm\n-1\n", "2: length_mm = -1 is not allowed"),
+            (
+                "length_mm\nNaN\n",
+                "2: length_mm = NaN is not allowed: a finite number",
+            ),
+            ("aspect_ratio\n-2\n", "2: aspect_ratio = -2 is not allowed"),
+            (
+                "x1_mm,x2_mm,x3_mm\n1,2,3\n,,\n",
+                "3: the rods before have a place",
+            ),
+            (
+                "x1_mm,x2_mm,x3_mm\n,,\n1,2,3\n",
+                "3: the rods before have no place",
+            ),
+            (
+                "x1_mm,x2_mm,x3_mm\n1,,3\n",
+                "2: x2_mm =  is not allowed: a finite number",
+            ),
             ("p1,p2,p3,p1\n1,0,0,1\n", "1: column p1 is there twice"),
             ("p1,p2,p3,theta\n1,0,0,1\n", "1: unknown column \"theta\""),
             ("p1,p2,p3\n1,0,0\n1,zero,0\n", "3: p2 = zero is not allowed"),
@@ -343,10 +481,6 @@ mod tests {
             (
                 "-----BEGIN PRIVATE KEY OF SOMEBODY-----\nMIIE\n",
                 "1: unknown column \"-----BEGIN PRIVATE K…\"; allowed",
-            ),
-            (
-                "aspect_ratio,p1,p2,p3\n11.5,1,0,0\n",
-                "2: aspect_ratio = 11.5 is not allowed",
             ),
         ] {
             let found = refused(text);

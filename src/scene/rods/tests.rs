@@ -1,6 +1,6 @@
 //! What goes together of shapes and starts, at both sides of each limit.
 
-use crate::scene::{Invalid, Orientation, Scene};
+use crate::scene::{Interaction, Invalid, OwnRods, RodsFile, Scene};
 use crate::shape::Correlation;
 
 fn refusal(scene: &Scene) -> String {
@@ -47,16 +47,94 @@ fn an_aspect_ratio_beside_a_cylinder_is_the_one_that_its_formula_makes() {
     );
 }
 
+fn of_a_file(own: OwnRods) -> RodsFile {
+    RodsFile {
+        file: "two.csv".into(),
+        crc32: None,
+        own: Some(own.into()),
+    }
+}
+
+/// Two rods in 2 cm³: H = 12.6 mm.
+#[test]
+fn rods_that_cannot_be_are_refused_by_number() {
+    let sound = OwnRods {
+        p: Some([vec![1.0, 0.0], vec![0.0, 1.0], vec![0.0; 2]]),
+        aspect_ratio: Some(vec![2.0, 20.0]),
+        length_mm: Some(vec![0.5, 1.0]),
+        place_mm: Some([(); 3].map(|()| vec![0.0, 12.5])),
+    };
+    let mut scene = Scene {
+        interaction: Some(Interaction {
+            concentration_per_cm3: Some(1.0),
+            ..Interaction::default()
+        }),
+        ..Scene::default()
+    };
+    scene.particles.count = 2;
+    let mut judged = |own: OwnRods| {
+        scene.particles.rods = Some(of_a_file(own));
+        scene.checked().map(|_| ()).map_err(|invalid| invalid.to_string())
+    };
+    assert_eq!(judged(sound.clone()), Ok(()));
+    let with = |change: &dyn Fn(&mut OwnRods)| {
+        let mut own = sound.clone();
+        change(&mut own);
+        own
+    };
+    for (own, why) in [
+        (
+            with(&|own| own.aspect_ratio = Some(vec![2.0, 1.0])),
+            "aspect_ratio > 1, which that of rod 1, 1, is not",
+        ),
+        (
+            with(&|own| own.aspect_ratio = Some(vec![f64::NAN, 2.0])),
+            "that of rod 0, NaN, is not",
+        ),
+        (
+            with(&|own| own.length_mm = Some(vec![1.0, 0.0])),
+            "length_mm > 0, which that of rod 1, 0, is not",
+        ),
+        (
+            with(&|own| own.length_mm = Some(vec![f64::INFINITY, 1.0])),
+            "that of rod 0, inf, is not",
+        ),
+        (
+            with(&|own| own.length_mm = Some(vec![1.0; 3])),
+            "it has 3, and particles.count is 2",
+        ),
+        (
+            with(&|own| own.place_mm.as_mut().unwrap()[1][0] = 12.7),
+            "which that of rod 0 is not",
+        ),
+        (
+            with(&|own| own.place_mm.as_mut().unwrap()[2][1] = -1e-9),
+            "which that of rod 1 is not",
+        ),
+        (
+            with(&|own| own.place_mm.as_mut().unwrap()[0][1] = f64::NAN),
+            "which that of rod 1 is not",
+        ),
+    ] {
+        let refusal = judged(own).unwrap_err();
+        assert!(
+            refusal.starts_with("particles.rods = { file = \"two.csv\" } is not allowed: "),
+            "{refusal}"
+        );
+        assert!(refusal.contains(why), "{refusal}");
+    }
+}
+
 #[test]
 fn a_start_has_length_1_to_a_few_roundings() {
     let start = |length: f64| -> Result<(), Invalid> {
         let mut scene = Scene::default();
         scene.particles.count = 2;
-        scene.particles.orientation = Orientation::Each {
-            file: "start.csv".into(),
-            crc32: None,
-            p: Some([vec![1.0, 0.0], vec![0.0, length], vec![0.0; 2]].into()),
+        let own = OwnRods {
+            p: Some([vec![1.0, 0.0], vec![0.0, length], vec![0.0; 2]]),
+            ..OwnRods::default()
         };
+        scene.particles.rods = Some(of_a_file(own));
         scene.checked().map(|_| ())
     };
     for length in [1.0, 1.0 + 4.0 * f64::EPSILON, 1.0 - 4.0 * f64::EPSILON] {

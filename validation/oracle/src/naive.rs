@@ -20,7 +20,7 @@ pub use motion::{jeffery, mean_projections};
 pub use neighbour::{collision_probability, nearest};
 pub use problem::{Mistake, Problem, Start, Update};
 pub use random::stream;
-pub use reading::{Images, Lines, Reading, Replacement, Who};
+pub use reading::{Images, Length, Lines, Reading, Replacement, Who};
 
 use contact::contact;
 use motion::{
@@ -31,7 +31,7 @@ use neighbour::distance_mm;
 use problem::either;
 use rand_distr::{Distribution, Normal};
 use rand_pcg::Pcg64Dxsm;
-use random::{ASPECT_RATIOS, COLLISIONS, ORIENTATIONS, POSITIONS, REPLACEMENTS, uniform};
+use random::{ASPECT_RATIOS, COLLISIONS, LENGTHS, ORIENTATIONS, POSITIONS, REPLACEMENTS, uniform};
 use std::f64::consts::TAU;
 
 /// The suspension as it is now.
@@ -43,11 +43,13 @@ pub struct Naive {
     pub orientations: Vec<[f64; 3]>,
     /// r_e of every rod.
     pub aspect_ratios: Vec<f64>,
+    /// a of every rod, mm.
+    pub lengths_mm: Vec<f64>,
     /// Collisions so far.
     pub collisions: u64,
     /// Rods that have left the volume so far.
     pub replacements: u64,
-    /// Aspect ratios drawn again because they were 1 or less.
+    /// Aspect ratios drawn again because they were 1 or less, and lengths because they were not positive.
     pub redraws: u64,
     /// Rods (i, j) that collided in the last step, in the order taken; i is the one whose draw it was.
     pub last_collisions: Vec<(usize, usize)>,
@@ -64,19 +66,28 @@ impl Naive {
     pub fn new(problem: Problem) -> Self {
         let stream_for = |purpose| stream(problem.seed, problem.replica, purpose);
         let mut redraws = 0;
-        let mut aspect_ratios = vec![problem.aspect_ratio; problem.count];
-        if problem.aspect_ratio_sd_percent > 0.0 {
-            let sd = problem.aspect_ratio * problem.aspect_ratio_sd_percent / 100.0;
-            let normal = Normal::new(problem.aspect_ratio, sd).expect("the standard deviation is finite");
-            let mut draws = stream_for(ASPECT_RATIOS);
-            for aspect_ratio in &mut aspect_ratios {
-                *aspect_ratio = normal.sample(&mut draws);
-                while *aspect_ratio <= 1.0 {
-                    redraws += 1;
-                    *aspect_ratio = normal.sample(&mut draws);
+        let mut gaussian = |purpose, mean: f64, sd_percent: f64, least: f64| {
+            let mut values = vec![mean; problem.count];
+            if sd_percent > 0.0 {
+                let normal = Normal::new(mean, mean * sd_percent / 100.0).expect("the deviation is finite");
+                let mut draws = stream_for(purpose);
+                for value in &mut values {
+                    *value = normal.sample(&mut draws);
+                    while *value <= least {
+                        redraws += 1;
+                        *value = normal.sample(&mut draws);
+                    }
                 }
             }
-        }
+            values
+        };
+        let aspect_ratios = gaussian(
+            ASPECT_RATIOS,
+            problem.aspect_ratio,
+            problem.aspect_ratio_sd_percent,
+            1.0,
+        );
+        let lengths_mm = gaussian(LENGTHS, problem.length_mm, problem.length_sd_percent, 0.0);
         let mut draws = stream_for(ORIENTATIONS);
         let mut orientations = Vec::new();
         for _ in 0..problem.count {
@@ -91,7 +102,7 @@ impl Naive {
         let mut draws = stream_for(POSITIONS);
         let mut positions_mm = Vec::new();
         for _ in 0..problem.count {
-            positions_mm.push([0; 3].map(|_| problem.box_edge_mm() * uniform(&mut draws)));
+            positions_mm.push(problem.edges_mm().map(|edge_mm| edge_mm * uniform(&mut draws)));
         }
         let gradient = matrix(problem.gradient_per_s());
         let propagator = |&aspect_ratio: &f64| {
@@ -106,6 +117,7 @@ impl Naive {
             positions_mm,
             orientations,
             aspect_ratios,
+            lengths_mm,
             collisions: 0,
             replacements: 0,
             redraws,
@@ -170,8 +182,8 @@ impl Naive {
         let problem = &self.problem;
         let (n, m, made, who) = (problem.count, problem.m, problem.mistake, problem.reading.who);
         let m = either(made, Mistake::ProbabilityExponent, m + 1.0, m);
-        let (images, edge_mm) = (problem.reading.images, problem.box_edge_mm());
-        let neighbour = |i| nearest(&self.positions_mm, i, images, edge_mm);
+        let (images, edges_mm) = (problem.reading.images, problem.edges_mm());
+        let neighbour = |i| nearest(&self.positions_mm, i, images, edges_mm);
         let neighbours: Vec<_> = (0..n).map(neighbour).collect();
         // drawn whatever the distance, so that one rod's fate never shifts another's draw
         let draws: Vec<_> = (0..n).map(|_| uniform(&mut self.collision_stream)).collect();
@@ -186,7 +198,7 @@ impl Naive {
             }];
             let j = either(made, Mistake::AnyNeighbour, (i + 1) % n, j);
             let s_mm = distance_mm(self.positions_mm[i], self.seen_from(i, j));
-            let p_c = collision_probability(s_mm, problem.length_mm, problem.alpha, m);
+            let p_c = collision_probability(s_mm, self.length_mm(i, j), problem.alpha, m);
             if either(made, Mistake::ProbabilityComplement, p_c < draw, p_c > draw) {
                 candidates.push((i, j, s_mm));
             }
@@ -198,13 +210,24 @@ impl Naive {
         candidates.into_iter().map(|(i, j, _)| (i, j)).collect()
     }
 
+    /// What s is taken over where rod i draws, its neighbour being j.
+    fn length_mm(&self, i: usize, j: usize) -> f64 {
+        let [own, partners] = [i, j].map(|rod| self.lengths_mm[rod]);
+        match (self.problem.mistake, self.problem.reading.length) {
+            (Some(Mistake::PartnersLength), _) | (_, Length::Partners) => partners,
+            (Some(Mistake::MeanLength), _) => self.problem.length_mm,
+            (_, Length::Own) => own,
+            (_, Length::MeanOfBoth) => 0.5 * (own + partners),
+        }
+    }
+
     /// Where rod i sees rod j.
     fn seen_from(&self, i: usize, j: usize) -> [f64; 3] {
         let images = self.problem.reading.images;
         images.nearest_mm(
             self.positions_mm[j],
             self.positions_mm[i],
-            self.problem.box_edge_mm(),
+            self.problem.edges_mm(),
         )
     }
 
@@ -218,35 +241,45 @@ impl Naive {
         };
         let (a, b) = (rod(i, self.positions_mm[i]), rod(j, self.seen_from(i, j)));
         let contact = contact(a, b, matrix(gradient), problem.mistake)?;
-        let arms = [contact.arm_a_mm, contact.arm_b_mm].map(|arm_mm| arm_mm.abs() / problem.length_mm);
         let longest = match problem.reading.lines {
             Lines::Infinite => f64::INFINITY,
             Lines::CutAtEnds => 0.5,
         };
-        let reached = |&arm: &f64| arm >= problem.min_contact_arm && arm <= longest;
-        arms.iter().all(reached).then_some(contact)
+        let reached = |(k, arm_mm): (usize, f64)| {
+            let a_mm = self.lengths_mm[k];
+            let unit_mm = either(
+                problem.mistake,
+                Mistake::ArmsOverMeanLength,
+                problem.length_mm,
+                a_mm,
+            );
+            arm_mm.abs() >= problem.min_contact_arm * unit_mm && arm_mm.abs() <= longest * a_mm
+        };
+        let arms = [(i, contact.arm_a_mm), (j, contact.arm_b_mm)];
+        arms.into_iter().all(reached).then_some(contact)
     }
 
     /// x_2 grows by G x_1 dt; whoever leaves the volume comes back by eq. 14, orientation and r_e kept.
     fn translate(&mut self, dt_s: f64) {
-        let (edge_mm, made) = (self.problem.box_edge_mm(), self.problem.mistake);
+        let ([h1_mm, h2_mm, h3_mm], made) = (self.problem.edges_mm(), self.problem.mistake);
         for x in &mut self.positions_mm {
             x[1] += self.problem.shear_rate_per_s * x[0] * dt_s;
-            if (0.0..edge_mm).contains(&x[1]) {
+            if (0.0..h2_mm).contains(&x[1]) {
                 continue;
             }
             self.replacements += 1;
-            let (old_x1, beyond) = (x[0], if x[1] < 0.0 { x[1] } else { x[1] - edge_mm });
-            x[1] = x[1].rem_euclid(edge_mm);
+            let (old_x1, beyond) = (x[0], if x[1] < 0.0 { x[1] } else { x[1] - h2_mm });
+            x[1] = x[1].rem_euclid(h2_mm);
             if made == Some(Mistake::ReplacementNone) {
                 continue;
             }
             // inflow through the face is proportional to u_2, so to x_1: hence the root
             let draw = uniform(&mut self.replacement_stream);
-            x[0] = edge_mm * either(made, Mistake::ReplacementUniform, draw, draw.sqrt());
-            x[2] = edge_mm * uniform(&mut self.replacement_stream);
+            let h1_mm = either(made, Mistake::ReplacementAlongFlow, h2_mm, h1_mm);
+            x[0] = h1_mm * either(made, Mistake::ReplacementUniform, draw, draw.sqrt());
+            x[2] = h3_mm * uniform(&mut self.replacement_stream);
             if self.problem.reading.replacement == Replacement::ScaledOvershoot {
-                x[1] = (beyond * x[0] / old_x1).rem_euclid(edge_mm);
+                x[1] = (beyond * x[0] / old_x1).rem_euclid(h2_mm);
             }
         }
     }

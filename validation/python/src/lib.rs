@@ -9,7 +9,7 @@ use pyo3::types::PyDict;
 use pyo3::{create_exception, wrap_pyfunction};
 use rayon::prelude::*;
 use shearbed::run::{Replica, run_replica};
-use shearbed::scene::{KEYS, Orientation};
+use shearbed::scene::KEYS;
 use shearbed::work::RunError;
 use shearbed::{Plan, Results, Scene, ensemble, scene_file};
 use std::ffi::OsString;
@@ -53,10 +53,7 @@ fn keys() -> Vec<(&'static str, &'static str)> {
 #[pyfunction]
 fn describe(name: &str, text: &str) -> PyResult<(String, String, Vec<String>, Option<String>)> {
     let plan = plan(name, text, None, None)?;
-    let start = match &plan.scene().particles.orientation {
-        Orientation::Each { file, .. } => Some(file.clone()),
-        _ => None,
-    };
+    let start = plan.scene().particles.rods.as_ref().map(|rods| rods.file.clone());
     Ok((
         toml_of(&plan.scene().resolved())?,
         plan.to_string(),

@@ -30,6 +30,8 @@ pub fn columns<'py>(py: Python<'py>, plan: &Plan, results: &Results) -> PyResult
     all.set_item("time_s", each(&|shot, _| time(shot, results.unit.seconds)))?;
     all.set_item("strain", each(&|shot, _| time(shot, results.unit.strain)))?;
     all.set_item("aspect_ratio", each(&|shot, rod| shot.aspect_ratio[rod]))?;
+    let length = |shot: &Snapshot, rod: usize| shot.length.as_ref().map_or(1.0, |lengths| lengths[rod]);
+    all.set_item("length_mm", each(&|shot, rod| length_mm * length(shot, rod)))?;
     for (axis, name) in ["x1_mm", "x2_mm", "x3_mm"].into_iter().enumerate() {
         all.set_item(name, each(&|shot, rod| place(shot, axis, rod)))?;
     }

@@ -195,12 +195,12 @@ type Kick = fn([Vector3<f64>; 2]) -> Vector3<f64>;
 fn arm_rate(kick: Kick, p: [Vector3<f64>; 2], separation: &Vector3<f64>, time: f64) -> Option<f64> {
     let flow = shearbed::flow::VelocityGradient::plane_couette(1.0)?;
     let units = p.map(UnitVector3::new_unchecked);
-    let before = contact(separation, &p[0], &p[1], 0.0)?;
+    let before = contact(separation, &p[0], &p[1], [0.0; 2])?;
     let free = units.map(|p| direction_rate_per_s(flow.per_s(), LONG, &p));
     let after = share_velocity(&before, &(flow.per_s() * separation), free);
     let changes = [after[0] - free[0], after[1] - free[1]];
     let turned = turn(&units[0], &kick(changes), time).0;
-    let arm = contact(separation, &turned, &p[1], 0.0)?.arms[0];
+    let arm = contact(separation, &turned, &p[1], [0.0; 2])?.arms[0];
     Some((arm - before.arms[0]) / time)
 }
 

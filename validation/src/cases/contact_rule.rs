@@ -26,13 +26,13 @@ struct Pair {
 type ContactRule = fn(&Pair) -> Option<[Vector3<f64>; 2]>;
 
 fn core_rule(pair: &Pair) -> Option<[Vector3<f64>; 2]> {
-    let found = contact(&(pair.x[1] - pair.x[0]), &pair.p[0], &pair.p[1], 0.0)?;
+    let found = contact(&(pair.x[1] - pair.x[0]), &pair.p[0], &pair.p[1], [0.0; 2])?;
     Some(share_velocity(&found, &(pair.u[1] - pair.u[0]), pair.rate))
 }
 
 /// The core's rule with its contact spoilt.
 fn spoilt(pair: &Pair, arms: fn([f64; 2]) -> [f64; 2]) -> Option<[Vector3<f64>; 2]> {
-    let mut found = contact(&(pair.x[1] - pair.x[0]), &pair.p[0], &pair.p[1], 0.0)?;
+    let mut found = contact(&(pair.x[1] - pair.x[0]), &pair.p[0], &pair.p[1], [0.0; 2])?;
     found.arms = arms(found.arms);
     Some(share_velocity(&found, &(pair.u[1] - pair.u[0]), pair.rate))
 }

@@ -93,7 +93,7 @@ fn frequency(change: &Change, effort: &Effort) -> Vec<Evidence> {
             interaction.alpha,
             interaction.m,
             interaction.concentration_per_cm3,
-        ) = (alpha, m, concentration);
+        ) = (alpha, m, Some(concentration));
         let mut model = scene.clone();
         change(&mut model);
         let design = Design { effect: 0.12, sd };

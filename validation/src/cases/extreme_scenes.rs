@@ -128,7 +128,7 @@ fn meetings(model: &Model, effort: &Effort) -> f64 {
         (model.meeting)(&mut scene);
         ensemble::run(&lab::plan(&scene)).map_or(f64::NAN, |results| results.counters.collisions as f64)
     };
-    let thin = met(|scene| lab::interaction(scene).concentration_per_cm3 = 1e-30);
+    let thin = met(|scene| lab::interaction(scene).concentration_per_cm3 = Some(1e-30));
     let reaching = met(|scene| lab::interaction(scene).alpha = 1e300);
     f64::from(thin != 0.0) + f64::from(reaching.is_nan() || reaching < 1.0)
 }
@@ -146,8 +146,8 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
         scene
     };
     vec![
-        scene(|scene| lab::interaction(scene).concentration_per_cm3 = 1e30),
-        scene(|scene| lab::interaction(scene).concentration_per_cm3 = 1e-30),
+        scene(|scene| lab::interaction(scene).concentration_per_cm3 = Some(1e30)),
+        scene(|scene| lab::interaction(scene).concentration_per_cm3 = Some(1e-30)),
         scene(|scene| scene.particles.count = 1),
         scene(|scene| scene.particles.count = 2),
         scene(|scene| lab::interaction(scene).alpha = 0.0),

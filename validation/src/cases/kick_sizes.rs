@@ -39,7 +39,7 @@ fn heavy((angles, min_arm): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
     let mut run = lab::interacting_scene(effort);
     run.ensemble.seed = effort.seed(1);
     let interaction = lab::interaction(&mut run);
-    (interaction.concentration_per_cm3, interaction.alpha) = (400.0, 2.0);
+    (interaction.concentration_per_cm3, interaction.alpha) = (Some(400.0), 2.0);
     interaction.min_contact_arm = *min_arm;
     run.time.steps_per_period = Some(200);
     // By theory the deviation of one kick's share is α = 1; pilots at seeds 9001 to 9010 scattered by 1.07 and 0.97 of

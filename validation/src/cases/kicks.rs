@@ -140,7 +140,7 @@ pub(super) fn fresh_scene(effort: &Effort, count: usize, steps_per_period: u64) 
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = count;
     let interaction = lab::interaction(&mut scene);
-    (interaction.concentration_per_cm3, interaction.alpha) = (400.0, 2.0);
+    (interaction.concentration_per_cm3, interaction.alpha) = (Some(400.0), 2.0);
     scene.time.steps_per_period = Some(steps_per_period);
     scene.time.outputs_per_period = Some(1);
     scene
@@ -162,7 +162,7 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
         scene.ensemble.seed = effort.seed(stream);
         scene.particles.count = 25;
         let interaction = lab::interaction(&mut scene);
-        (interaction.concentration_per_cm3, interaction.alpha) = (400.0, alpha);
+        (interaction.concentration_per_cm3, interaction.alpha) = (Some(400.0), alpha);
         let counted = Counted {
             looks_per_period,
             ..*counted

@@ -1,6 +1,7 @@
 //! The registry: every case, declared once. `cargo test`, the report and the catalogue are made from it.
 
 mod averaged;
+mod begun_again;
 mod cheapest_split;
 mod closed_forms;
 mod coefficients;
@@ -56,6 +57,7 @@ pub fn all() -> Vec<Case> {
         closed_forms::cases(),
         reductions::cases(),
         symmetries::cases(),
+        begun_again::cases(),
         extremes::cases(),
         general_flows::cases(),
         extreme_scenes::cases(),

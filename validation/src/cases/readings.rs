@@ -169,7 +169,7 @@ fn by_core(change: fn(&mut Interaction), effort: &Effort, replicas: u64) -> Vec<
     scene.time.periods = Some(0.5);
     scene.time.outputs_per_period = Some(2);
     let interaction = lab::interaction(&mut scene);
-    interaction.concentration_per_cm3 = CONCENTRATION_PER_CM3;
+    interaction.concentration_per_cm3 = Some(CONCENTRATION_PER_CM3);
     change(interaction);
     per_replica(&scene, replicas, |mean| mean(Channel::X[0], 1))
 }

@@ -115,7 +115,8 @@ fn reductions(limits: &Limits, effort: &Effort) -> Vec<Evidence> {
         scene
     };
     let alpha = with(&|scene| lab::interaction(scene).alpha = limits.alpha);
-    let thin = with(&|scene| lab::interaction(scene).concentration_per_cm3 = limits.concentration_per_cm3);
+    let thin =
+        with(&|scene| lab::interaction(scene).concentration_per_cm3 = Some(limits.concentration_per_cm3));
     let steep = with(&|scene| lab::interaction(scene).m = limits.m);
     let one = with(&|scene| scene.particles.count = limits.count);
     let mut one_free = free.clone();

@@ -47,6 +47,11 @@ fn name(mistake: Mistake) -> &'static str {
         Mistake::IndexOrder => "candidates in the order of rods",
         Mistake::ReplacementUniform => "x_1 = HR for new rods",
         Mistake::ReplacementNone => "leaving rods keep x_1 and x_3",
+        Mistake::PartnersLength => "s over the partner's length",
+        Mistake::MeanLength => "s over the mean length",
+        Mistake::ArmsOverMeanLength => "shortest arms in mean lengths",
+        Mistake::CubeForBox => "a cube for the box",
+        Mistake::ReplacementAlongFlow => "x_1 = H₂√R for new rods",
     }
 }
 
@@ -146,8 +151,8 @@ fn against_reference(mistake: &Option<Mistake>, effort: &Effort) -> Vec<Evidence
              of its contacts",
             off.step,
             256.0 * f64::EPSILON,
-            "some hundred roundings of the reference's tensors and frames; places and directions off \
-             by ε move an arm r by ε(1 + |d|)/sin², and the angle turned, ∝ 1/r, by that over r",
+            "some hundred roundings of the reference's tensors and frames; directions off by ε and places x by ε|x| \
+             move an arm r by ε(1 + |x|)/sin², and the angle turned, ∝ 1/r, by that over r",
         ),
     ]
 }
@@ -184,7 +189,8 @@ fn compare(scene: &Scene, replica: u64, mistake: Option<Mistake>, off: &mut Off)
 
 /// By how much a collision that turns a rod by up to `turn` rad stretches a difference of ε in places and directions.
 fn condition(before: &State, (i, j): (usize, usize), turn: f64) -> f64 {
-    let d = Vector3::from(before.places[j]) - Vector3::from(before.places[i]);
+    let places = [i, j].map(|rod| Vector3::from(before.places[rod]));
+    let (d, farthest) = (places[1] - places[0], places[0].norm().max(places[1].norm()));
     let (a, b) = (
         Vector3::from(before.directions[i]),
         Vector3::from(before.directions[j]),
@@ -194,7 +200,7 @@ fn condition(before: &State, (i, j): (usize, usize), turn: f64) -> f64 {
     // The contact points on both rods, from the normal equations of the shortest line.
     let arms = [d.dot(&a) - cos * d.dot(&b), cos * d.dot(&a) - d.dot(&b)].map(|r| (r / square).abs());
     let shortest = arms[0].min(arms[1]);
-    (1.0 + turn) * (1.0 + (1.0 + d.norm()) / (square * shortest))
+    (1.0 + turn) * (1.0 + (1.0 + farthest) / (square * shortest))
 }
 
 /// The largest distance between two lists of vectors, up to the given signs.
@@ -211,12 +217,22 @@ fn apart<const K: usize>(a: &[[f64; 3]], b: &[[f64; 3]], signs: [f64; K]) -> f64
     a.iter().zip(b).map(nearest).fold(0.0, larger)
 }
 
+/// The same concentration in a box whose sides are so many times the cube's.
+fn in_a_box(scene: &mut Scene, sides: [f64; 3]) {
+    let per_mm3 = 1e-3 * scene.concentration_per_cm3().unwrap_or(f64::NAN);
+    let cube = (scene.particles.count as f64 / per_mm3).cbrt();
+    scene.particles.length_sd_percent = 20.0;
+    scene.time.steps_per_period = Some(50);
+    let interaction = lab::interaction(scene);
+    (interaction.concentration_per_cm3, interaction.box_mm) = (None, Some(sides.map(|side| side * cube)));
+}
+
 /// Scenes of 2 to 400 rods; the small ones are dense enough to collide.
 fn scenes(effort: &Effort) -> Vec<Scene> {
     let scene = |count: usize, per_cm3: f64, change: fn(&mut Scene)| {
         let mut scene = lab::interacting_scene(effort);
         scene.particles.count = count;
-        lab::interaction(&mut scene).concentration_per_cm3 = per_cm3;
+        lab::interaction(&mut scene).concentration_per_cm3 = Some(per_cm3);
         scene.ensemble.seed = effort.seed(1982 + count as u64);
         change(&mut scene);
         scene
@@ -244,5 +260,13 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
             lab::interaction(scene).min_contact_arm = 0.1;
             scene.time.steps_per_period = Some(50);
         }),
+        // Rods of unequal length, in a cube and in boxes: of pairs, of cells, and one that is a cell thick.
+        scene(100, 1000.0, |scene| {
+            scene.particles.length_sd_percent = 30.0;
+            lab::interaction(scene).min_contact_arm = 0.3;
+        }),
+        scene(60, 1000.0, |scene| in_a_box(scene, [2.0, 1.0, 0.5])),
+        scene(300, 1000.0, |scene| in_a_box(scene, [4.0, 0.5, 0.5])),
+        scene(400, 500.0, |scene| in_a_box(scene, [0.1, 10.0, 1.0])),
     ]
 }

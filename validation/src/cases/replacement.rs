@@ -146,7 +146,7 @@ fn follow(volume: &Volume, effort: &Effort, count: usize) -> Places {
     scene.time.steps_per_period = Some(STEPS_PER_PERIOD / step);
     let strain = strain_per_period(scene.particles.aspect_ratio) / scene.steps_per_period() as f64;
     let mut suspension = lab::suspension(&scene, 0);
-    let side = suspension.side_in_lengths();
+    let sides = suspension.sides_in_lengths();
     let mut draws = stream(scene.ensemble.seed, 0, 0);
     let mut rods: Vec<[f64; 3]> = (0..count)
         .map(|_| [(); 3].map(|()| draws.random::<f64>()))
@@ -154,13 +154,13 @@ fn follow(volume: &Volume, effort: &Effort, count: usize) -> Places {
     let mut places = Places::default();
     for _ in 0..STEPS / step {
         let before = match volume {
-            Volume::Core { .. } => in_sides(&suspension, side),
+            Volume::Core { .. } => in_sides(&suspension, sides),
             Volume::Wrong(_) => rods.clone(),
         };
         match volume {
             Volume::Core { .. } => {
                 places.outside += usize::from(suspension.step().is_err());
-                rods = in_sides(&suspension, side);
+                rods = in_sides(&suspension, sides);
             }
             Volume::Wrong(replace) => {
                 for x in &mut rods {
@@ -186,10 +186,10 @@ fn follow(volume: &Volume, effort: &Effort, count: usize) -> Places {
     places
 }
 
-fn in_sides(suspension: &Suspension, side: f64) -> Vec<[f64; 3]> {
+fn in_sides(suspension: &Suspension, [h1, h2, h3]: [f64; 3]) -> Vec<[f64; 3]> {
     let [x1, x2, x3] = suspension.positions_in_lengths();
     (0..x1.len())
-        .map(|rod| [x1[rod] / side, x2[rod] / side, x3[rod] / side])
+        .map(|rod| [x1[rod] / h1, x2[rod] / h2, x3[rod] / h3])
         .collect()
 }
 

@@ -13,7 +13,7 @@ use shearbed::scene::Scene;
 pub fn scene(effort: &Effort, aspect_ratio: f64, concentration_per_cm3: f64) -> Scene {
     let mut scene = lab::interacting_scene(effort);
     scene.particles.aspect_ratio = aspect_ratio;
-    lab::interaction(&mut scene).concentration_per_cm3 = concentration_per_cm3;
+    lab::interaction(&mut scene).concentration_per_cm3 = Some(concentration_per_cm3);
     scene.time.periods = Some(0.5);
     scene.time.outputs_per_period = Some(2);
     scene

@@ -172,7 +172,7 @@ type Periods = f64;
 /// X̄_i over one period less X̄_i over the period before, in a dense suspension.
 fn stays_put(from: &Periods, effort: &Effort) -> Vec<Evidence> {
     let mut scene = lab::interacting_scene(effort);
-    lab::interaction(&mut scene).concentration_per_cm3 = 1000.0;
+    lab::interaction(&mut scene).concentration_per_cm3 = Some(1000.0);
     scene.time.periods = Some(from + 2.0);
     scene.time.outputs_per_period = Some(10);
     let start = (*from as usize) * 10;
@@ -218,7 +218,7 @@ fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {
         };
         scene.particles.aspect_ratio = 3.96;
         scene.particles.aspect_ratio_sd_percent = 3.0;
-        lab::interaction(&mut scene).concentration_per_cm3 = 500.0;
+        lab::interaction(&mut scene).concentration_per_cm3 = Some(500.0);
         scene.time.steps_per_period = Some(steps_per_period);
         scene.time.outputs_per_period = Some(5);
         let mut free = scene.clone();

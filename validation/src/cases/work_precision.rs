@@ -161,7 +161,8 @@ fn faces(exponent: &Exponent, effort: &Effort) -> Vec<Evidence> {
     scene.time.steps_per_period = Some(100_000);
     let interaction = lab::interaction(&mut scene);
     (interaction.alpha, interaction.m) = (ALPHA_AND_M, ALPHA_AND_M);
-    let density = 1e-3 * interaction.concentration_per_cm3 * scene.particles.length_mm.powi(3);
+    let per_mm3 = 1e-3 * scene.concentration_per_cm3().unwrap_or(f64::NAN);
+    let density = per_mm3 * scene.particles.length_mm.powi(3);
     let unbounded = without_faces(density);
     // The share of candidates that is lost, over five draws.
     let lost = |count: usize, replica| {

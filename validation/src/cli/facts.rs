@@ -14,7 +14,7 @@ pub(super) struct Facts {
     strain_per_step: Option<f64>,
     /// Λ = (r_e² − 1)/(r_e² + 1) of the mean aspect ratio.
     shape_factor: f64,
-    /// n a³ with the full length a, where rods interact.
+    /// n⟨a³⟩ with the full length a, where rods interact.
     n_a3: Option<f64>,
     /// `dilute`, `semi-dilute` or `concentrated`.
     regime: Option<&'static str>,
@@ -45,8 +45,8 @@ impl Facts {
     pub(super) fn of(plan: &Plan) -> Self {
         let scene = plan.scene();
         let r = scene.particles.aspect_ratio;
-        let length_cm = 0.1 * scene.particles.length_mm;
-        let n_a3 = (scene.interaction.as_ref()).map(|i| i.concentration_per_cm3 * length_cm.powi(3));
+        let cube_cm3 = (0.1 * scene.particles.length_mm).powi(3) * scene.particles.mean_cube();
+        let n_a3 = scene.concentration_per_cm3().map(|n| n * cube_cm3);
         let period_s = plan.unit().seconds;
         Self {
             period_s: (plan.time_name() != "strain" && period_s.is_finite()).then_some(period_s),
@@ -167,7 +167,7 @@ mod tests {
 
     fn facts(n: f64) -> (Facts, Vec<String>) {
         let mut scene = scenes::find("fig4-n50").unwrap().scene().unwrap();
-        scene.interaction.as_mut().unwrap().concentration_per_cm3 = n;
+        scene.interaction.as_mut().unwrap().concentration_per_cm3 = Some(n);
         let plan = Plan::new(&scene).unwrap();
         (Facts::of(&plan), warnings(&plan))
     }

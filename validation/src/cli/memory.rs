@@ -167,7 +167,7 @@ mod tests {
         let plan = lab::plan(&scene);
         let (table, lines) = (needed(&plan, 1, false, 0), needed(&plan, 1, true, 0));
         // 300 rods: 57 bytes each, and the text of their rows twice.
-        assert_eq!(table - without, 300 * (57 + 2 * 237));
+        assert_eq!(table - without, 300 * (57 + 2 * 261));
         assert_eq!(fits(&plan, 1, true, lines, 0), Ok(()));
         let refused = fits(&plan, 1, true, lines - 1, 0).unwrap_err();
         let expected =

@@ -7,14 +7,15 @@ use shearbed::{Plan, Results};
 use std::fmt::Write;
 
 /// The columns of `rods.csv`.
-const COLUMNS: &str = "replica,rod,time_s,strain,aspect_ratio,x1_mm,x2_mm,x3_mm,p1,p2,p3,collided\n";
+const COLUMNS: &str =
+    "replica,rod,time_s,strain,aspect_ratio,length_mm,x1_mm,x2_mm,x3_mm,p1,p2,p3,collided\n";
 
-/// The most bytes of a row: nine numbers of 24 letters with their comma, replica and rod of 8 and 9 and a digit.
-const ROW: u64 = 9 * 24 + 9 + 10 + 2;
+/// The most bytes of a row: ten numbers of 24 letters with their comma, replica and rod of 8 and 9 and a digit.
+const ROW: u64 = 10 * 24 + 9 + 10 + 2;
 
-/// The most bytes of a rod in a `.vtp` file: two ends and a direction of three numbers, its r_e, whether it collided, its
+/// The most bytes of a rod in a `.vtp` file: two ends and a direction of three numbers, its r_e and length, whether it collided, its
 /// replica, and the four places at which its line's ends are counted.
-const LINE: u64 = 10 * 24 + 2 + 9 + 4 * 11;
+const LINE: u64 = 11 * 24 + 2 + 9 + 4 * 11;
 
 /// The most bytes of the files of every rod.
 pub(super) fn most_bytes(plan: &Plan, vtk: bool) -> u64 {
@@ -67,9 +68,10 @@ fn csv(results: &Results, length_mm: f64) -> String {
             // A String takes all that is written.
             let _ = writeln!(
                 text,
-                "{},{rod},{time_s:?},{strain:?},{:?},{place},{},{}",
+                "{},{rod},{time_s:?},{strain:?},{:?},{:?},{place},{},{}",
                 snapshot.replica,
                 snapshot.aspect_ratio[rod],
+                length_mm * length(snapshot, rod),
                 numbers(direction(snapshot, rod).into()),
                 u8::from(snapshot.collided[rod]),
             );
@@ -82,7 +84,12 @@ fn numbers([x1, x2, x3]: [f64; 3]) -> String {
     format!("{x1:?},{x2:?},{x3:?}")
 }
 
-/// The centre of a rod in rod lengths.
+/// The length of a rod over the scene's.
+fn length(snapshot: &Snapshot, rod: usize) -> f64 {
+    snapshot.length.as_ref().map_or(1.0, |lengths| lengths[rod])
+}
+
+/// The centre of a rod in the scene's rod lengths.
 fn place(snapshot: &Snapshot, rod: usize) -> Option<Vector3<f64>> {
     let places = snapshot.place_in_lengths.as_ref()?;
     Some(Vector3::from_fn(|axis, _| places[axis][rod]))
@@ -113,7 +120,7 @@ fn polydata(snapshots: &[&Snapshot], length_mm: f64) -> String {
     };
     let ends = of_each(&|snapshot, rod| {
         let centre = place(snapshot, rod).unwrap_or_default() * length_mm;
-        let half = direction(snapshot, rod) * (0.5 * length_mm);
+        let half = direction(snapshot, rod) * (0.5 * length_mm * length(snapshot, rod));
         vector(centre - half) + &vector(centre + half)
     });
     let ends_of_lines: String = (0..count).map(|k| format!("{} {}\n", 2 * k, 2 * k + 1)).collect();
@@ -121,7 +128,7 @@ fn polydata(snapshots: &[&Snapshot], length_mm: f64) -> String {
     format!(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>\n\
          <Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"{count}\" NumberOfStrips=\"0\" \
-         NumberOfPolys=\"0\">\n<CellData Vectors=\"p\">\n{}{}{}{}</CellData>\n<Points>\n{}</Points>\n<Lines>\n{}{}\
+         NumberOfPolys=\"0\">\n<CellData Vectors=\"p\">\n{}{}{}{}{}</CellData>\n<Points>\n{}</Points>\n<Lines>\n{}{}\
          </Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n",
         2 * count,
         array(
@@ -135,6 +142,12 @@ fn polydata(snapshots: &[&Snapshot], length_mm: f64) -> String {
             "aspect_ratio",
             1,
             of_each(&|snapshot, rod| format!("{:?}\n", snapshot.aspect_ratio[rod]))
+        ),
+        array(
+            "Float64",
+            "length_mm",
+            1,
+            of_each(&|snapshot, rod| format!("{:?}\n", length_mm * length(snapshot, rod)))
         ),
         array(
             "UInt8",

@@ -142,7 +142,7 @@ pub fn scene(setting: Setting, effort: &Effort) -> Scene {
     scene.particles.aspect_ratio = setting.aspect_ratio;
     let length_cm = 0.1 * scene.particles.length_mm;
     let interaction = lab::interaction(&mut scene);
-    interaction.concentration_per_cm3 = setting.n_a3 / length_cm.powi(3);
+    interaction.concentration_per_cm3 = Some(setting.n_a3 / length_cm.powi(3));
     interaction.alpha = setting.alpha;
     scene.time.periods = Some(2.0 * periods(setting) as f64);
     scene.time.outputs_per_period = Some(OUTPUTS as u64);

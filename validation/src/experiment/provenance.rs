@@ -100,7 +100,7 @@ type Input = (&'static str, fn(&mut Scene) -> Option<&mut f64>);
 pub(super) const INPUTS: [Input; 5] = [
     ("alpha", |scene| Some(&mut scene.interaction.as_mut()?.alpha)),
     ("concentration_per_cm3", |scene| {
-        Some(&mut scene.interaction.as_mut()?.concentration_per_cm3)
+        scene.interaction.as_mut()?.concentration_per_cm3.as_mut()
     }),
     ("length_mm", |scene| Some(&mut scene.particles.length_mm)),
     ("aspect_ratio", |scene| Some(&mut scene.particles.aspect_ratio)),

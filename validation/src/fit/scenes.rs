@@ -8,7 +8,6 @@ use crate::start::Starts;
 use crate::sweep::{self, Setting};
 use shearbed::observable::Channel;
 use shearbed::run::run_replica;
-use shearbed::scene::Orientation;
 use shearbed::{Observable, Plan, Scene};
 use toml::Value;
 
@@ -61,13 +60,11 @@ pub struct Scenes {
 /// Why rods that start in one direction do not disturb each other, where they do not: parallel ones have no contact line; in
 /// the shear plane it is along axis 3, along which nothing moves.
 fn apart(scene: &Scene) -> Option<&'static str> {
-    let Orientation::Given { theta_deg, .. } = scene.particles.orientation else {
-        return None;
-    };
+    let [_, theta_deg] = scene.particles.common_start_deg()?;
     match theta_deg.rem_euclid(180.0) {
         90.0 => Some("all rods start parallel in the shear plane"),
         0.0 => Some("all rods start along the vorticity axis"),
-        _ if scene.particles.aspect_ratio_sd_percent == 0.0 => Some("all rods start parallel with one r_e"),
+        _ if !scene.particles.of_several_shapes() => Some("all rods start parallel with one r_e"),
         _ => None,
     }
 }
@@ -125,15 +122,16 @@ impl Scenes {
         (self.sets[set].time.end_of(&plan)).ok_or_else(|| refused("has no period".into()))
     }
 
-    /// The same scenes at so many times their concentration, and that; none of rods that do not interact, or whose
-    /// concentration is fitted.
+    /// The same scenes at so many times their concentration, and that; none of rods that do not interact, whose
+    /// concentration is fitted or whose box is given.
     pub fn at_concentration(&self, factor: f64, values: &[f64]) -> Result<(Self, Vec<Option<f64>>), String> {
         const KEY: &str = "interaction.concentration_per_cm3";
         let (mut scenes, mut all) = (self.clone(), Vec::new());
         for set in 0..self.sets.len() {
             let fitted = (self.ranges.iter()).any(|range| range.is_of(set) && range.key == KEY);
             let own = self.scene(set, values)?.interaction.filter(|_| !fitted);
-            let concentration = own.map(|interaction| factor * interaction.concentration_per_cm3);
+            let own = own.and_then(|interaction| interaction.concentration_per_cm3);
+            let concentration = own.map(|own| factor * own);
             if let Some(value) = concentration {
                 let settings = &mut scenes.sets[set].settings;
                 settings.retain(|setting| setting.key != KEY);
@@ -210,8 +208,7 @@ impl Scenes {
             .map(|datum| (datum.time + OUTER * datum.u_time) / per_unit)
             .fold(0.0, f64::max);
         // One output more than the last point needs, for the cubic.
-        let kinked =
-            scene.interaction.is_none() && matches!(scene.particles.orientation, Orientation::Given { .. });
+        let kinked = scene.interaction.is_none() && scene.particles.common_start_deg().is_some();
         if scene.time.strain.is_some() {
             let outputs = scene
                 .outputs_per_strain()

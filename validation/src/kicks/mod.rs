@@ -249,7 +249,7 @@ mod tests {
     #[test]
     fn a_window_is_part_of_the_run() {
         let mut scene = lab::interacting_scene(&crate::case::Effort::gate());
-        lab::interaction(&mut scene).concentration_per_cm3 = 400.0;
+        lab::interaction(&mut scene).concentration_per_cm3 = Some(400.0);
         let turns = |periods| {
             rates(&scene, 50, periods, 2, KICKS)
                 .mean(|counts| counts.turns)

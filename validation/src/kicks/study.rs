@@ -47,7 +47,7 @@ pub fn measure(effort: &Effort) -> Result<Limit, String> {
         .filter(|steps| *steps <= averaged_finest);
     let mut dense = lab::interacting_scene(effort);
     let interaction = lab::interaction(&mut dense);
-    (interaction.concentration_per_cm3, interaction.alpha) = (400.0, 2.0);
+    (interaction.concentration_per_cm3, interaction.alpha) = (Some(400.0), 2.0);
     let dense_steps = [100, 400, 1600, 6400, 25_600];
     let dense_steps = (dense_steps.into_iter()).filter(|steps| *steps <= 2 * finest);
     // The second is the rods' radius.

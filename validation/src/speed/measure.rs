@@ -83,7 +83,7 @@ fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
 fn step(rods: usize, concentration_per_cm3: f64, amount: Amount) -> Result<Step, String> {
     let mut scene = lab::interacting_scene(&crate::case::Effort::gate());
     scene.particles.count = rods;
-    lab::interaction(&mut scene).concentration_per_cm3 = concentration_per_cm3;
+    lab::interaction(&mut scene).concentration_per_cm3 = Some(concentration_per_cm3);
     let mut suspension = lab::suspension(&scene, 0);
     let steps = |suspension: &mut Suspension, count: u64| {
         (0..count).try_for_each(|_| {

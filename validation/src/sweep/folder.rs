@@ -12,7 +12,6 @@ use crate::text::Shown;
 use crate::text::cell;
 use serde_json::{Value, json};
 use shearbed::Scene;
-use shearbed::scene::Orientation;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
@@ -36,13 +35,8 @@ impl Identity {
         identity["warnings"] = json!(warnings);
         let starts = points
             .iter()
-            .map(|point| &point.plan.scene().particles.orientation);
-        let starts: BTreeMap<_, _> = starts
-            .filter_map(|orientation| match orientation {
-                Orientation::Each { file, crc32, .. } => Some((file, crc32)),
-                _ => None,
-            })
-            .collect();
+            .filter_map(|point| point.plan.scene().particles.rods.as_ref());
+        let starts: BTreeMap<_, _> = starts.map(|rods| (&rods.file, &rods.crc32)).collect();
         if !starts.is_empty() {
             identity["starts_crc32"] = json!(starts);
         }

@@ -5,7 +5,6 @@ use crate::integrators::{self, Errors, Integrator, Problem, Setting, Theory, gra
 use nalgebra::UnitVector3;
 use serde::Serialize;
 use shearbed::Scene;
-use shearbed::scene::Orientation;
 
 /// How far an observed order may be from theory (DiffEqDevTools.jl's convergence tests). Its sign is kept.
 pub const ORDER_TOLERANCE: f64 = 0.2;
@@ -91,15 +90,15 @@ pub fn of_rod(aspect_ratio: f64) -> Orders {
 pub fn of_scene(scene: &Scene) -> Option<Orders> {
     let shear_rate = scene.flow.shear_rate_per_s?;
     let periods = scene.time.periods?;
-    let (phi, theta, whose) = match scene.particles.orientation {
+    let (phi, theta, whose) = match scene.particles.common_start_deg() {
         // The flow turned round is its own mirror image, φ ↔ −φ.
-        Orientation::Given { phi_deg, theta_deg } => (
+        Some([phi_deg, theta_deg]) => (
             shear_rate.signum() * phi_deg.to_radians(),
             theta_deg.to_radians(),
             "the scene's own start",
         ),
-        Orientation::Random(_) => (0.2, 1.0, "as the scene draws its starts at random"),
-        Orientation::Each { .. } => (0.2, 1.0, "as the scene's starts are many"),
+        None if scene.particles.rods.is_some() => (0.2, 1.0, "as the scene's starts are many"),
+        None => (0.2, 1.0, "as the scene draws its starts at random"),
     };
     Some(of_all(scene.particles.aspect_ratio, phi, theta, periods, whose))
 }

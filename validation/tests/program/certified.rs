@@ -118,6 +118,8 @@ fn suspension(loaded: &LoadedProblem, replica: u64, mistake: Option<Mistake>) ->
         count: ensemble.count as usize,
         shear_rate_per_s: problem.gradient_per_s[1][0],
         length_mm: ensemble.length_mm,
+        length_sd_percent: 0.0,
+        box_mm: None,
         aspect_ratio: problem.aspect_ratio,
         aspect_ratio_sd_percent: problem.aspect_ratio_sd_percent,
         orientation: Start::Isotropic,

@@ -128,6 +128,7 @@ fn expected(heading: &str, state: &State) -> Option<f64> {
         "time_s" => state.time_s,
         "strain" => RATE_PER_S * state.time_s,
         "aspect_ratio" => R,
+        "length_mm" => 0.72,
         "collided" => 0.0,
         "p1" => p1,
         "p2" => p2,

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-const COLUMNS: &str = "replica,rod,time_s,strain,aspect_ratio,x1_mm,x2_mm,x3_mm,p1,p2,p3,collided";
+const COLUMNS: &str = "replica,rod,time_s,strain,aspect_ratio,length_mm,x1_mm,x2_mm,x3_mm,p1,p2,p3,collided";
 
 /// The rows of a table, by the names of its columns.
 fn rows(path: &Path) -> Vec<BTreeMap<String, String>> {
@@ -55,7 +55,10 @@ fn every_rod_has_a_row_with_its_place_in_the_volume() {
         let time_s = 0.5 * time as f64 * period_s;
         assert!((number(row, "time_s") - time_s).abs() < 1e-12 * period_s);
         assert!((number(row, "strain") - 0.5 * time_s).abs() < 1e-12 * period_s);
-        assert_eq!(number(row, "aspect_ratio"), 11.6);
+        assert_eq!(
+            (number(row, "aspect_ratio"), number(row, "length_mm")),
+            (11.6, 0.72)
+        );
         for axis in ["x1_mm", "x2_mm", "x3_mm"] {
             assert!((0.0..=side_mm).contains(&number(row, axis)), "{row:?}");
         }

@@ -197,10 +197,7 @@ fn another_sweep_in_the_folder_is_refused_and_left_as_it_is() {
 #[test]
 fn a_start_that_has_changed_is_another_sweep() {
     let dir = folder();
-    let scene = SMALL.replace(
-        "orientation = \"isotropic\"",
-        "orientation = { file = \"a.csv\" }",
-    );
+    let scene = SMALL.replace("orientation = \"isotropic\"", "rods = { file = \"a.csv\" }");
     assert_ne!(scene, SMALL);
     fs::write(dir.path().join("small.toml"), scene).unwrap();
     let start = |name: &str, row: &str| {
@@ -208,8 +205,7 @@ fn a_start_that_has_changed_is_another_sweep() {
     };
     start("a.csv", "1,0,0\n");
     start("b.csv", "0.6,0,0.8\n");
-    let sweep =
-        "sweep small.toml --over particles.orientation={file=\"a.csv\"},{file=\"b.csv\"} --out here --quiet";
+    let sweep = "sweep small.toml --over particles.rods={file=\"a.csv\"},{file=\"b.csv\"} --out here --quiet";
     succeeds(dir.path(), sweep);
     succeeds(dir.path(), sweep);
     let kept = files(&dir.path().join("here"));

@@ -12,11 +12,11 @@ pub fn collision_probability(s_mm: f64, a_mm: f64, alpha: f64, m: f64) -> f64 {
 }
 
 /// Nearest other rod; the lower index where two are equally near.
-pub fn nearest(positions_mm: &[[f64; 3]], i: usize, images: Images, edge_mm: f64) -> Option<usize> {
+pub fn nearest(positions_mm: &[[f64; 3]], i: usize, images: Images, edges_mm: [f64; 3]) -> Option<usize> {
     let x = positions_mm[i];
     let (mut best, mut least_mm2) = (None, f64::INFINITY);
     for (j, &y) in positions_mm.iter().enumerate() {
-        let square_mm2 = square_mm2(x, images.nearest_mm(y, x, edge_mm));
+        let square_mm2 = square_mm2(x, images.nearest_mm(y, x, edges_mm));
         if j != i && square_mm2 < least_mm2 {
             (best, least_mm2) = (Some(j), square_mm2);
         }

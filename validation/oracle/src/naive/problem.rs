@@ -64,16 +64,27 @@ pub enum Mistake {
     ReplacementUniform,
     /// A leaving rod keeps its x_1 and x_3; nothing is drawn.
     ReplacementNone,
+    /// s over the partner's length in place of the own (eq. 7).
+    PartnersLength,
+    /// s over the mean length in place of the own (eq. 7).
+    MeanLength,
+    /// The shortest arm in units of the mean length in place of the own.
+    ArmsOverMeanLength,
+    /// A cube of the same volume in place of the box.
+    CubeForBox,
+    /// x_1 = H_2 sqrt(R) in place of H_1 sqrt(R) (eq. 14).
+    ReplacementAlongFlow,
 }
 
 impl Mistake {
     /// All of them, for checks that try each.
     #[rustfmt::skip]
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 21] = [
         Self::KickSign, Self::SumInsteadOfMean, Self::ArmsSwapped, Self::ArmUnsigned, Self::SpinIgnored,
         Self::TranslationKept, Self::PrintedA13, Self::LambdaOne, Self::PeriodHalved, Self::ConcentrationUnits,
         Self::ProbabilityComplement, Self::ProbabilityExponent, Self::AnyNeighbour, Self::IndexOrder,
-        Self::ReplacementUniform, Self::ReplacementNone,
+        Self::ReplacementUniform, Self::ReplacementNone, Self::PartnersLength, Self::MeanLength,
+        Self::ArmsOverMeanLength, Self::CubeForBox, Self::ReplacementAlongFlow,
     ];
 }
 
@@ -84,8 +95,10 @@ pub struct Problem {
     pub count: usize,
     /// G, 1/s, not zero.
     pub shear_rate_per_s: f64,
-    /// a, the full length of every rod, mm.
+    /// a, the full length of a rod, or its mean, mm.
     pub length_mm: f64,
+    /// Standard deviation of a, percent of the mean.
+    pub length_sd_percent: f64,
     /// Mean of r_e.
     pub aspect_ratio: f64,
     /// Standard deviation of r_e (eq. 11), percent of the mean.
@@ -94,11 +107,13 @@ pub struct Problem {
     pub orientation: Start,
     /// n, rods per cm^3.
     pub concentration_per_cm3: f64,
+    /// H_1, H_2 and H_3 (eqs. 12, 14), mm, in place of the cube that n makes.
+    pub box_mm: Option<[f64; 3]>,
     /// alpha of eq. 7; 0: no collision ever.
     pub alpha: f64,
     /// m of eq. 7.
     pub m: f64,
-    /// Arms shorter than this, in units of a, are no contact.
+    /// Arms shorter than this, in units of the rod's own length, are no contact.
     pub min_contact_arm: f64,
     /// How a colliding rod is moved.
     pub update: Update,
@@ -121,10 +136,12 @@ impl Problem {
             count: 100,
             shear_rate_per_s: 0.5,
             length_mm: 0.72,
+            length_sd_percent: 0.0,
             aspect_ratio: 11.6,
             aspect_ratio_sd_percent: 0.0,
             orientation: Start::Isotropic,
             concentration_per_cm3: 50.0,
+            box_mm: None,
             alpha: 0.5,
             m: 3.0,
             min_contact_arm: 0.0,
@@ -149,10 +166,16 @@ impl Problem {
         self.period_s() / self.steps_per_period as f64
     }
 
-    /// H = (N/n)^(1/3), mm.
-    pub fn box_edge_mm(&self) -> f64 {
+    /// H_1, H_2 and H_3, mm: as given, or the cube's (N/n)^(1/3).
+    pub fn edges_mm(&self) -> [f64; 3] {
         let cm3_per_mm3 = either(self.mistake, Mistake::ConcentrationUnits, 1e-2, 1e-3);
-        (self.count as f64 / (self.concentration_per_cm3 * cm3_per_mm3)).cbrt()
+        let volume_mm3 = self.count as f64 / (self.concentration_per_cm3 * cm3_per_mm3);
+        let cube = |volume_mm3: f64| [volume_mm3.cbrt(); 3];
+        match self.box_mm {
+            Some([a, b, c]) if self.mistake == Some(Mistake::CubeForBox) => cube(a * b * c),
+            Some(edges_mm) => edges_mm,
+            None => cube(volume_mm3),
+        }
     }
 
     /// L_ij = du_i/dx_j, 1/s.

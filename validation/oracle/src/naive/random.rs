@@ -12,6 +12,7 @@ pub(super) const ORIENTATIONS: u64 = 1;
 pub(super) const POSITIONS: u64 = 2;
 pub(super) const COLLISIONS: u64 = 3;
 pub(super) const REPLACEMENTS: u64 = 4;
+pub(super) const LENGTHS: u64 = 5;
 
 /// SplitMix64's finaliser.
 pub(super) fn mix(z: u64) -> u64 {

@@ -13,6 +13,8 @@ pub struct Reading {
     pub images: Images,
     /// Where a rod that left comes back.
     pub replacement: Replacement,
+    /// The length that distances are measured by.
+    pub length: Length,
 }
 
 /// Which candidates collide.
@@ -55,7 +57,7 @@ pub enum Images {
 
 impl Images {
     /// The image of `x` that is nearest to `to`, both in the volume.
-    pub fn nearest_mm(self, mut x: [f64; 3], to: [f64; 3], edge_mm: f64) -> [f64; 3] {
+    pub fn nearest_mm(self, mut x: [f64; 3], to: [f64; 3], edges_mm: [f64; 3]) -> [f64; 3] {
         let repeated = match self {
             Self::None => return x,
             Self::FlowAndVorticity => 1..3,
@@ -64,12 +66,24 @@ impl Images {
         for k in repeated {
             // places lie in one volume, so no image is nearer than those next to it
             let away = x[k] - to[k];
-            if away.abs() > edge_mm / 2.0 {
-                x[k] -= edge_mm * away.signum();
+            if away.abs() > edges_mm[k] / 2.0 {
+                x[k] -= edges_mm[k] * away.signum();
             }
         }
         x
     }
+}
+
+/// The length a that s is taken over in eq. 7, where rods are of unequal length.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Length {
+    /// That of the rod that draws.
+    #[default]
+    Own,
+    /// Its neighbour's.
+    Partners,
+    /// The mean of both.
+    MeanOfBoth,
 }
 
 /// Where a rod that left comes back.

@@ -110,14 +110,20 @@ fn a_free_rod_follows_a4_and_a5() {
     assert!(worst(Some(Mistake::LambdaOne)) > 1e-2);
 }
 
-/// The rods of the contact worked by hand, after one step in which they are candidates.
-fn hand_pair(change: impl FnOnce(&mut Problem)) -> Naive {
+/// The rods of the contact worked by hand, before a step in which they are candidates.
+fn hand_pair_at_rest(change: impl FnOnce(&mut Problem)) -> Naive {
     let mut naive = Naive::new(fibres(2, 1e30, |p| {
         (p.shear_rate_per_s, p.concentration_per_cm3) = (2.0, 0.002);
         change(p);
     }));
     naive.positions_mm = vec![[0.0; 3], [2.0, 5.0, 3.0]];
     naive.orientations = vec![[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    naive
+}
+
+/// The same after it.
+fn hand_pair(change: impl FnOnce(&mut Problem)) -> Naive {
+    let mut naive = hand_pair_at_rest(change);
     naive.step();
     naive
 }
@@ -174,6 +180,58 @@ fn only_an_arm_below_the_least_is_no_contact() {
     );
 }
 
+#[test]
+fn arms_are_in_units_of_their_own_rods() {
+    // arms of 2 mm of the first and 3 mm of the second
+    let collisions = |lengths_mm: [f64; 2]| {
+        let mut naive = hand_pair_at_rest(|p| p.min_contact_arm = 4.0);
+        naive.lengths_mm = lengths_mm.into();
+        naive.step();
+        naive.collisions
+    };
+    let found = [[0.5, 0.75], [0.500001, 0.75], [0.5, 0.750001], [0.1, 0.1]].map(collisions);
+    assert_eq!(found, [1, 0, 0, 1]);
+}
+
+#[test]
+fn a_rod_draws_by_its_own_length() {
+    let mut draws = stream(1, 0, 3);
+    let r = [0; 2].map(|_| uniform(&mut draws));
+    // each reaches its partner where s = a alpha (R^(-1/m) - 1), a its own
+    let needed = r.map(|r: f64| 1.0 / (0.5 * (r.powf(-1.0 / 3.0) - 1.0)));
+    let reached = |length, lengths_mm: [f64; 2]| {
+        let mut naive = Naive::new(fibres(2, 0.5, |p| p.reading.length = length));
+        naive.positions_mm = vec![[0.0; 3], [1.0, 0.0, 0.0]];
+        naive.lengths_mm = lengths_mm.into();
+        naive.step();
+        naive.last_collisions
+    };
+    let (least, most) = (1.0 - 1e-9, 1.0 + 1e-9);
+    for (factors, taken) in [
+        ([most, least], vec![(0, 1)]),
+        ([least, most], vec![(1, 0)]),
+        ([least, least], vec![]),
+    ] {
+        let [a, b] = [0, 1].map(|rod| factors[rod] * needed[rod]);
+        assert_eq!(reached(Length::Own, [a, b]), taken);
+        assert_eq!(reached(Length::Partners, [b, a]), taken);
+    }
+    // whoever needs less draws, however unequal the two are
+    let enough = f64::min(needed[0], needed[1]);
+    let both = |factor: f64| reached(Length::MeanOfBoth, [1.5 * factor * enough, 0.5 * factor * enough]);
+    assert_eq!([both(least).len(), both(most).len()], [0, 1]);
+}
+
+#[test]
+fn lengths_follow_the_protocol() {
+    let naive = Naive::new(fibres(50, 0.5, |p| p.length_sd_percent = 30.0));
+    let normal = Normal::new(0.72, 0.216).expect("0.216 is finite");
+    let drawn = normal.sample_iter(stream(1, 0, 5)).take(50);
+    assert_eq!((naive.redraws, naive.lengths_mm.len()), (0, 50));
+    // a rounding of the mean and of the deviation apart
+    assert!((naive.lengths_mm.iter().zip(drawn)).all(|(a, drawn): (&f64, f64)| (a - drawn).abs() < 1e-15));
+}
+
 /// Collisions of one step of rods on axis 1, all of them candidates unless changed.
 fn taken(x1_mm: &[f64], parallel: [usize; 2], change: impl FnOnce(&mut Problem)) -> Vec<(usize, usize)> {
     let mut naive = Naive::new(fibres(x1_mm.len(), 1e30, change));
@@ -202,7 +260,7 @@ fn who_collides_by_chance() {
 #[test]
 fn who_collides_by_order() {
     let line = [[0.0; 3], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]];
-    assert_eq!(nearest(&line, 0, Images::None, 10.0), Some(1));
+    assert_eq!(nearest(&line, 0, Images::None, [10.0; 3]), Some(1));
     assert_eq!(taken(&[0.0, 1.0, 3.0, 4.0], [0, 0], |_| ()), [(0, 1), (2, 3)]);
     let x1_mm = [0.0, 10.0, 11.0, 30.0];
     assert_eq!(taken(&x1_mm, [0, 0], |_| ()), [(1, 2)]);
@@ -214,7 +272,19 @@ fn who_collides_by_order() {
 
 #[test]
 fn replacement_keeps_count_volume_and_orientation() {
-    let mut naive = Naive::new(fibres(50, 0.0, |_| ()));
+    // the cube, and a box of the same volume
+    for (edges_mm, given) in [([10.0; 3], None), ([20.0, 5.0, 10.0], Some([20.0, 5.0, 10.0]))] {
+        replaced(edges_mm, given);
+    }
+}
+
+fn replaced([h1, h2, h3]: [f64; 3], box_mm: Option<[f64; 3]>) {
+    let mut naive = Naive::new(fibres(50, 0.0, |p| p.box_mm = box_mm));
+    let mut draws = stream(1, 0, 2);
+    for place in &naive.positions_mm {
+        let expected = [h1, h2, h3].map(|edge| edge * uniform(&mut draws));
+        assert!(far(&[*place], &[expected]) < 1e-12);
+    }
     let (start, mut draws) = (naive.orientations.clone(), stream(1, 0, 4));
     let strain = TAU * (11.6 + 1.0 / 11.6) / 200.0;
     let mut leavers = 0;
@@ -223,13 +293,17 @@ fn replacement_keeps_count_volume_and_orientation() {
         naive.step();
         for (old, new) in before.iter().zip(&naive.positions_mm) {
             let mut expected = [old[0], old[1] + strain * old[0], old[2]];
-            if expected[1] >= 10.0 {
+            if expected[1] >= h2 {
                 leavers += 1;
-                let x1 = 10.0 * uniform(&mut draws).sqrt();
-                expected = [x1, expected[1] - 10.0, 10.0 * uniform(&mut draws)];
+                let x1 = h1 * uniform(&mut draws).sqrt();
+                expected = [x1, expected[1].rem_euclid(h2), h3 * uniform(&mut draws)];
             }
             assert!(far(&[expected], &[*new]) < 1e-12);
-            assert!(new.iter().all(|x| (0.0..10.0).contains(x)));
+            assert!(
+                new.iter()
+                    .zip([h1, h2, h3])
+                    .all(|(x, edge)| (0.0..edge).contains(x))
+            );
         }
     }
     assert!(leavers > 100);
@@ -240,10 +314,16 @@ fn replacement_keeps_count_volume_and_orientation() {
 
 #[test]
 fn every_mistake_changes_a_run() {
+    // rods of unequal length, whose concentration is that of a cube or of a box
     let state = |mistake| {
-        let change = |p: &mut Problem| (p.update, p.mistake) = (Update::Angles, mistake);
-        let naive = run(fibres(50, 2.0, change), 30);
-        (naive.orientations, naive.positions_mm)
+        [None, Some([20.0, 5.0, 10.0])].map(|box_mm| {
+            let change = |p: &mut Problem| {
+                (p.update, p.mistake, p.box_mm) = (Update::Angles, mistake, box_mm);
+                (p.length_sd_percent, p.min_contact_arm) = (30.0, 1.0);
+            };
+            let naive = run(fibres(50, 2.0, change), 30);
+            (naive.orientations, naive.positions_mm)
+        })
     };
     let sound = state(None);
     assert_eq!(state(None), sound);

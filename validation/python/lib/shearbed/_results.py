@@ -80,7 +80,7 @@ class Results:
     def rods(self) -> dict[str, Array]:
         """Every rod at the times of ``rods_at``: the columns of ``rods.csv``, a number for each rod of each replica and time.
 
-        ``replica``, ``rod``, ``time_s``, ``strain``, ``aspect_ratio``, the place ``x1_mm`` to ``x3_mm`` (NaN for free rods,
+        ``replica``, ``rod``, ``time_s``, ``strain``, ``aspect_ratio``, ``length_mm``, the place ``x1_mm`` to ``x3_mm`` (NaN for free rods,
         which have none), the direction ``p1`` to ``p3``, and ``collided``, 1 where the rod collided in the step that ended then.
         """
         if self._rods is None:

@@ -35,7 +35,7 @@ fn first() -> UnitVector3<f64> {
 /// B beside A by `arm` along A's axis: A's arm is that, and ℓ has a part along the flow's difference.
 pub(super) fn step_of_the_core(scene: &Scene, placed: &Placed) -> Stepped {
     let mut suspension = lab::suspension(scene, 0);
-    let middle = 0.5 * suspension.side_in_lengths();
+    let middle = 0.5 * suspension.sides_in_lengths()[1];
     let along = placed.arm * first().into_inner();
     let at = [
         vec![0.0, along.x],
@@ -59,7 +59,7 @@ const BESIDE: f64 = 0.3;
 pub(super) fn step_with_squares(scene: &Scene, placed: &Placed) -> Stepped {
     let p = [first(), placed.second];
     let separation = placed.arm * p[0].into_inner() + Vector3::new(0.0, BESIDE, 0.0);
-    let Some(contact) = contact(&separation, &p[0], &p[1], 0.0) else {
+    let Some(contact) = contact(&separation, &p[0], &p[1], [0.0; 2]) else {
         return Stepped::Free;
     };
     let shape = shape_factor(scene.particles.aspect_ratio);

@@ -6,7 +6,7 @@ use crate::fit::emulator::Model;
 use crate::fit::report::Report;
 use crate::fit::scenes::{AS_WRITTEN, Variant};
 use crate::fit::search::{Fit, Watch};
-use shearbed::scene::{Orientation, Scene};
+use shearbed::scene::Scene;
 
 /// The key that tells how far r_e scatters.
 const SPREAD: &str = "particles.aspect_ratio_sd_percent";
@@ -49,8 +49,8 @@ pub(super) fn shifts(
     if !fitted && (best.iter()).any(|scene| scene.particles.aspect_ratio_sd_percent > 0.0) {
         variants.push((ONE_ASPECT_RATIO, one_aspect_ratio));
     }
-    // As many rods as a file of starts has rows, no more.
-    let from_a_file = |scene: &Scene| matches!(scene.particles.orientation, Orientation::Each { .. });
+    // As many rods as a file has rows, no more.
+    let from_a_file = |scene: &Scene| scene.particles.rods.is_some();
     let fixed = best.iter().any(from_a_file);
     let variants = (variants.into_iter()).filter(|(_, variant)| variant.rods == 1 || !fixed);
     let shift = |(change, variant): (&'static str, Variant)| {

@@ -67,10 +67,7 @@ fn rods_that_start_as_a_file_says_are_fitted() {
     let scene = fs::read_to_string(dir.path().join("small.toml")).unwrap();
     let count: usize = 20;
     assert!(scene.contains("orientation = \"isotropic\""), "{scene}");
-    let scene = scene.replace(
-        "orientation = \"isotropic\"",
-        "orientation = { file = \"start.csv\" }",
-    );
+    let scene = scene.replace("orientation = \"isotropic\"", "rods = { file = \"start.csv\" }");
     fs::write(dir.path().join("small.toml"), &scene).unwrap();
     let mut rows = "p1,p2,p3\n".to_owned();
     for k in 0..count {

@@ -7,7 +7,7 @@ use std::path::Path;
 
 /// Free rods of one replica, from `start` on.
 fn from(start: &str) -> String {
-    let text = free(&asked()).replace("orientation = \"isotropic\"", &format!("orientation = {start}"));
+    let text = free(&asked()).replace("orientation = \"isotropic\"", start);
     text.replace("replicas = 3", "replicas = 1")
         .replace("rods_at = [0, 0.5, 1]", "rods_at = [0.25, 0.75]")
 }
@@ -32,13 +32,13 @@ fn rods_that_were_written_go_on_as_they_would_have() {
         let dir = folder();
         let at = |name: &str| dir.path().join(name);
         let with = |text: String| text.replace("shear_rate_per_s = 0.5", flow);
-        fs::write(at("whole.toml"), with(from("\"isotropic\""))).unwrap();
+        fs::write(at("whole.toml"), with(from("orientation = \"isotropic\""))).unwrap();
         assert_eq!(
             shearbed(dir.path(), "run whole.toml --out whole --quiet").code,
             Some(0)
         );
         one_time(&at("whole/rods.csv"), &at("start.csv"), 0);
-        let rest = with(from("{ file = \"start.csv\" }")).replace("[0.25, 0.75]", "[0, 0.5]");
+        let rest = with(from("rods = { file = \"start.csv\" }")).replace("[0.25, 0.75]", "[0, 0.5]");
         fs::write(at("rest.toml"), &rest).unwrap();
         let done = shearbed(dir.path(), "run rest.toml --out rest --quiet");
         assert_eq!(done.code, Some(0), "{}", done.stderr);
@@ -55,9 +55,9 @@ fn rods_that_were_written_go_on_as_they_would_have() {
         // What was run can be run again: run.json has the file's digest, and another file is refused.
         let record: serde_json::Value =
             serde_json::from_str(&fs::read_to_string(at("rest/run.json")).unwrap()).unwrap();
-        let orientation = &record["scene"]["particles"]["orientation"];
-        assert_eq!(orientation["file"], "start.csv");
-        let digest = orientation["crc32"].as_str().unwrap();
+        let rods = &record["scene"]["particles"]["rods"];
+        assert_eq!(rods["file"], "start.csv");
+        let digest = rods["crc32"].as_str().unwrap();
         let pinned = rest.replace(
             "\"start.csv\" }",
             &format!("\"start.csv\", crc32 = \"{digest}\" }}"),
@@ -72,7 +72,7 @@ fn rods_that_were_written_go_on_as_they_would_have() {
         assert_eq!(done.code, Some(2));
         assert!(
             done.stderr
-                .contains("rest.toml: particles.orientation: start.csv: has crc32 = "),
+                .contains("rest.toml: particles.rods: start.csv: has crc32 = "),
             "{}",
             done.stderr
         );
@@ -101,17 +101,15 @@ fn a_sweep_starts_from_a_file_and_knows_it_again() {
         Some(0)
     );
     one_time(&at("all/rods.csv"), &at("below/start.csv"), 0);
-    let scene = from("{ file = \"start.csv\" }").replace("rods_at = [0.25, 0.75]\n", "");
+    let scene = from("rods = { file = \"start.csv\" }").replace("rods_at = [0.25, 0.75]\n", "");
     fs::write(at("below/s.toml"), &scene).unwrap();
-    let sweep = "sweep below/s.toml --over particles.aspect_ratio=11.6,5 --out x --quiet";
-    // The file has the first r_e in a column of its own.
-    let done = shearbed(dir.path(), sweep);
-    assert_eq!(done.code, Some(2));
+    // The file has the r_e of each rod.
+    let done = shearbed(dir.path(), "plan below/s.toml --set particles.aspect_ratio=5");
     let words =
-        "(point 2 of 2): particles.orientation: below/start.csv:2: aspect_ratio = 11.6 is not allowed";
-    assert!(done.stderr.contains(words), "{}", done.stderr);
-    let sweep = sweep.replace("particles.aspect_ratio=11.6,5", "flow.shear_rate_per_s=0.5,1");
-    assert_eq!(shearbed(dir.path(), &sweep).code, Some(0));
+        "particles.aspect_ratio = 5 sets T alone: the rods are those of start.csv, whose mean is 11.6000";
+    assert!(done.stdout.contains(words), "{}", done.stdout);
+    let sweep = "sweep below/s.toml --over flow.shear_rate_per_s=0.5,1 --out x --quiet";
+    assert_eq!(shearbed(dir.path(), sweep).code, Some(0));
     assert_eq!(
         shearbed(dir.path(), "run below/s.toml --out one --quiet").code,
         Some(0)
@@ -120,9 +118,9 @@ fn a_sweep_starts_from_a_file_and_knows_it_again() {
     assert_eq!(fs::read_to_string(at("x/points/1/projections.csv")).unwrap(), one);
     // Another start is another sweep.
     one_time(&at("all/rods.csv"), &at("below/start.csv"), 20);
-    let done = shearbed(dir.path(), &sweep);
+    let done = shearbed(dir.path(), sweep);
     assert!(
-        done.code == Some(2) && done.stderr.contains("orientation.crc32 was"),
+        done.code == Some(2) && done.stderr.contains("rods.crc32 was"),
         "{}",
         done.stderr
     );
@@ -133,7 +131,7 @@ fn a_start_that_does_not_fit_is_refused_with_file_and_line() {
     let dir = folder();
     let refused = |start: &str, said: &str| {
         fs::write(dir.path().join("start.csv"), start).unwrap();
-        fs::write(dir.path().join("s.toml"), from("{ file = \"start.csv\" }")).unwrap();
+        fs::write(dir.path().join("s.toml"), from("rods = { file = \"start.csv\" }")).unwrap();
         for command in [
             "run s.toml",
             "plan s.toml",
@@ -145,7 +143,7 @@ fn a_start_that_does_not_fit_is_refused_with_file_and_line() {
         }
         assert!(!dir.path().join("out").exists());
     };
-    let key = "s.toml: particles.orientation: start.csv";
+    let key = "s.toml: particles.rods: start.csv";
     refused(
         "p1,p2,p3\n1,0,0\n",
         &format!("{key}: has 1 rows; as many as particles.count = 20"),
@@ -154,7 +152,11 @@ fn a_start_that_does_not_fit_is_refused_with_file_and_line() {
         "p1,p2,p3\n1,0,0\n1,1,0\n",
         &format!("{key}:3: p = (1, 1, 0) has length 1.414"),
     );
-    fs::write(dir.path().join("gone.toml"), from("{ file = \"gone.csv\" }")).unwrap();
+    fs::write(
+        dir.path().join("gone.toml"),
+        from("rods = { file = \"gone.csv\" }"),
+    )
+    .unwrap();
     let done = shearbed(dir.path(), "plan gone.toml");
     assert!(
         done.code == Some(2) && done.stderr.contains("gone.csv: cannot be read"),
@@ -166,4 +168,85 @@ fn a_start_that_does_not_fit_is_refused_with_file_and_line() {
     fs::write(dir.path().join("start.csv"), format!("p1,p2,p3\n{rods}")).unwrap();
     let planned = shearbed(dir.path(), "plan s.toml").stdout;
     assert!(planned.contains("every rod starts as in start.csv"), "{planned}");
+}
+
+/// An interacting suspension of unequal rods in a box, written and begun again: every rod is what and where it was.
+#[test]
+fn a_suspension_of_unequal_rods_begins_again_from_its_own_table() {
+    let dir = folder();
+    let at = |name: &str| dir.path().join(name);
+    let unequal = asked()
+        .replace("length_mm = 0.72", "length_mm = 0.72\nlength_sd_percent = 20")
+        .replace("concentration_per_cm3 = 50", "box_mm = [10, 8, 5]")
+        .replace(
+            "aspect_ratio = 11.6",
+            "aspect_ratio = 11.6\naspect_ratio_sd_percent = 8.5",
+        )
+        .replace("replicas = 3", "replicas = 1");
+    fs::write(at("all.toml"), &unequal).unwrap();
+    let done = shearbed(dir.path(), "run all.toml --out all --quiet --vtk");
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    // The last of three times.
+    one_time(&at("all/rods.csv"), &at("start.csv"), 40);
+    let again = unequal.replace("orientation = \"isotropic\"", "rods = { file = \"start.csv\" }");
+    fs::write(at("again.toml"), &again).unwrap();
+    let done = shearbed(dir.path(), "run again.toml --out again --quiet");
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    let (all, again) = (rows(&at("all/rods.csv")), rows(&at("again/rods.csv")));
+    let (ended, begun) = (&all[40..], &again[..20]);
+    let mut lengths = Vec::new();
+    for (ended, begun) in ended.iter().zip(begun) {
+        for (name, room) in [
+            ("aspect_ratio", 0.0),
+            ("length_mm", 1e-15),
+            ("x1_mm", 1e-14),
+            ("x2_mm", 1e-14),
+            ("x3_mm", 1e-14),
+        ] {
+            let (a, b) = (number(ended, name), number(begun, name));
+            assert!((a - b).abs() <= room * a.abs(), "{name}: {a} {b}");
+        }
+        for p in ["p1", "p2", "p3"] {
+            assert!((number(ended, p) - number(begun, p)).abs() < 1e-14);
+        }
+        for (axis, side) in ["x1_mm", "x2_mm", "x3_mm"].iter().zip([10.0, 8.0, 5.0]) {
+            assert!((0.0..=side).contains(&number(begun, axis)), "{begun:?}");
+        }
+        lengths.push(number(begun, "length_mm"));
+    }
+    lengths.sort_by(f64::total_cmp);
+    lengths.dedup();
+    assert_eq!(lengths.len(), 20);
+    // Lines for ParaView are as long as their rods.
+    let vtp = fs::read_to_string(at("all/rods_0002.vtp")).unwrap();
+    let (ends, own) = (super::array(&vtp, "ends_mm"), super::array(&vtp, "length_mm"));
+    for (rod, length) in own.iter().enumerate() {
+        let [a, b] = [0, 3].map(|end| &ends[6 * rod + end..][..3]);
+        let apart = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+        assert!((apart / length - 1.0).abs() < 1e-12, "{apart} {length}");
+    }
+    // A place that the box does not have, and a concentration that it contradicts.
+    for (from, to, said) in [
+        (
+            "[10, 8, 5]",
+            "[10, 8, 1]",
+            "again.toml: particles.rods: start.csv:",
+        ),
+        (
+            "box_mm",
+            "concentration_per_cm3 = 60\nbox_mm",
+            "20 rods in [10.0, 8.0, 5.0] mm are 50 per cm³",
+        ),
+    ] {
+        let text = fs::read_to_string(at("again.toml")).unwrap();
+        fs::write(at("wrong.toml"), text.replace(from, to)).unwrap();
+        let done = shearbed(dir.path(), "run wrong.toml --out wrong --quiet");
+        let said = said.replace("again.toml", "wrong.toml");
+        assert!(
+            done.code == Some(2) && done.stderr.contains(&said),
+            "{}",
+            done.stderr
+        );
+        assert!(!at("wrong").exists());
+    }
 }

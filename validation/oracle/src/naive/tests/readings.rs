@@ -57,16 +57,16 @@ fn the_nearest_rod_may_be_an_image() {
             place
         };
         let positions_mm = [0.5, 9.5, 2.5].map(place);
-        let found = |images| nearest(&positions_mm, 0, images, 10.0);
+        let found = |images| nearest(&positions_mm, 0, images, [10.0; 3]);
         let two = if k == 0 { 2 } else { 1 };
         assert_eq!(found(Images::None), Some(2));
         assert_eq!(found(Images::FlowAndVorticity), Some(two));
         assert_eq!(found(Images::All), Some(1));
         // and seen from the other side
-        assert_eq!(nearest(&positions_mm, 1, Images::All, 10.0), Some(0));
+        assert_eq!(nearest(&positions_mm, 1, Images::All, [10.0; 3]), Some(0));
     }
     assert_eq!(
-        Images::All.nearest_mm([9.0, 1.0, 4.0], [1.0, 9.0, 6.0], 10.0),
+        Images::All.nearest_mm([9.0, 1.0, 4.0], [1.0, 9.0, 6.0], [10.0; 3]),
         [-1.0, 11.0, 4.0]
     );
 }
@@ -149,7 +149,7 @@ fn a_scaled_overshoot_keeps_the_filling_even() {
         let mut naive = Naive::new(fibres(20_000, 0.0, |p| {
             (p.steps_per_period, p.reading.replacement) = (100, replacement);
         }));
-        let (edge, dt) = (naive.problem.box_edge_mm(), naive.problem.time_step_s());
+        let ([edge, ..], dt) = (naive.problem.edges_mm(), naive.problem.time_step_s());
         (0..20).for_each(|_| naive.translate(dt));
         let distance = |k: usize| {
             let mut x: Vec<f64> = naive.positions_mm.iter().map(|x| x[k] / edge).collect();
