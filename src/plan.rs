@@ -9,7 +9,7 @@ use crate::free::FreeMotion;
 use crate::jeffery::{period_s, strain_per_period};
 use crate::observable::Observable;
 use crate::propagator::Propagator;
-use crate::scene::{Invalid, Scene, resolved_strain};
+use crate::scene::{Invalid, Orientation, Scene, resolved_strain};
 use stages::entries;
 use std::fmt;
 use std::sync::Arc;
@@ -168,7 +168,9 @@ impl Plan {
         [
             self.unresolved_steps(),
             self.unrelated_sizes(),
-            self.other_means(),
+            self.other_mean(),
+            self.drawn_for_nothing(),
+            self.half_empty(),
             self.not_slender(),
         ]
         .into_iter()
@@ -179,7 +181,7 @@ impl Plan {
     /// Steps that are too long for the motion.
     fn unresolved_steps(&self) -> Option<String> {
         let (steps, strain) = (self.scene.steps_per_period(), self.scene.strain_per_step());
-        let resolved = resolved_strain(self.scene.particles.aspect_ratio);
+        let resolved = resolved_strain(self.scene.particles.mean_aspect_ratio());
         (self.steps() > 0 && strain > resolved).then(|| {
             format!(
                 "time.steps_per_period = {steps} does not resolve the motion: the strain per step is {strain:.3}, above \
@@ -210,29 +212,70 @@ impl Plan {
         ))
     }
 
-    /// A mean of the rods of a file that is far from the scene's, which is then a unit alone.
-    fn other_means(&self) -> Option<String> {
+    /// A mean r_e of the rods of a file that is far from the scene's.
+    fn other_mean(&self) -> Option<String> {
         let particles = &self.scene.particles;
-        let (file, own) = (&particles.rods.as_ref()?.file, particles.own()?);
-        let of = [
-            ("aspect_ratio", "T", &own.aspect_ratio, particles.aspect_ratio),
-            ("length_mm", "n a³", &own.length_mm, particles.length_mm),
-        ];
-        of.into_iter().find_map(|(key, unit, own, given)| {
-            let own = own.as_ref()?;
-            let mean = own.iter().sum::<f64>() / own.len() as f64;
-            let near = (mean / given - 1.0).abs() <= OWN_MEAN;
-            (!near).then(|| {
-                format!(
-                    "particles.{key} = {given} sets {unit} alone: the rods are those of {file}, whose mean is {mean:.4}"
-                )
-            })
+        let mean = particles.mean_aspect_ratio();
+        let near = (mean / particles.aspect_ratio - 1.0).abs() <= OWN_MEAN;
+        (!near).then(|| {
+            format!(
+                "particles.aspect_ratio = {} gives the period T, and so the times of outputs, and no rod: those of particles.rods have a \
+                 mean of {mean:.4}",
+                particles.aspect_ratio
+            )
         })
+    }
+
+    /// Keys that say how to draw what a file has.
+    fn drawn_for_nothing(&self) -> Option<String> {
+        let particles = &self.scene.particles;
+        let own = particles.own()?;
+        let unused = [
+            (
+                "orientation",
+                own.p.is_some() && particles.orientation != Orientation::default(),
+            ),
+            (
+                "aspect_ratio_sd_percent",
+                own.aspect_ratio.is_some() && particles.aspect_ratio_sd_percent > 0.0,
+            ),
+            (
+                "length_sd_percent",
+                own.length_mm.is_some() && particles.length_sd_percent > 0.0,
+            ),
+        ];
+        let unused = unused.into_iter().filter(|(_, is)| *is);
+        let unused: Vec<_> = unused.map(|(key, _)| format!("particles.{key}")).collect();
+        (!unused.is_empty()).then(|| {
+            format!(
+                "{} changes nothing: particles.rods has it of each rod",
+                unused.join(", ")
+            )
+        })
+    }
+
+    /// Places that leave a part of the control volume empty, as those of another box do.
+    fn half_empty(&self) -> Option<String> {
+        let (places, sides) = (
+            self.scene.particles.own()?.place_mm.as_ref()?,
+            self.scene.sides_mm()?,
+        );
+        let farthest = |axis: &Vec<f64>| axis.iter().copied().fold(0.0, f64::max);
+        let short = places.iter().map(farthest).zip(sides);
+        // So far from all of n uniform places the farthest is by chance once in a million.
+        let rods = places[0].len() as f64;
+        let by_chance = |share: f64| libm::pow(share, rods) < 1e-6;
+        let (axis, (farthest, side)) =
+            (short.enumerate()).find(|(_, (farthest, side))| by_chance(farthest / side))?;
+        Some(format!(
+            "the places of particles.rods reach to {farthest} of {side} mm along axis {}: are they of another control volume?",
+            axis + 1
+        ))
     }
 
     /// A stress of slender rods for rods that are not.
     fn not_slender(&self) -> Option<String> {
-        let r = self.scene.particles.aspect_ratio;
+        let r = self.scene.particles.mean_aspect_ratio();
         (self.keeps(Stage::Observe(Observable::ParticleStress)) && r < SLENDER).then(|| {
             format!(
                 "particle_stress is the limit of slender rods, r_e ≫ 1: at aspect_ratio = {r} the terms that it leaves out \

@@ -16,6 +16,7 @@ pub use allowed::Invalid;
 pub use keys::{Absent, Holds, KEYS, Key, MAX_COUNT, MAX_PER_UNIT, MAX_REPLICAS, MAX_SEED, TABLES};
 pub(crate) use keys::{find, required};
 pub use particles::{Isotropic, Orientation, OwnRods, Particles, RodsFile};
+pub use rods::Misfit;
 pub use steps::resolved_strain;
 
 /// A whole scene. The tables and keys are those of the scene file ([`KEYS`]). In code, start from the default and say
@@ -289,6 +290,18 @@ impl Scene {
             .box_mm
             .map(of_box)
             .or(interaction.concentration_per_cm3)
+    }
+
+    /// Gives the control volume so many rods at the same concentration: a box grows or shrinks in proportion.
+    pub fn set_count(&mut self, count: usize) {
+        let grown = libm::cbrt(count as f64 / self.particles.count as f64);
+        if let Some(Interaction {
+            box_mm: Some(sides), ..
+        }) = &mut self.interaction
+        {
+            *sides = sides.map(|side| side * grown);
+        }
+        self.particles.count = count;
     }
 
     /// n a³, rods per cubed mean rod length.

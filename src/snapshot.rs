@@ -7,6 +7,7 @@ use crate::border::Fault;
 use crate::observable::{BLOCK, Block};
 use crate::plan::{Plan, Stage};
 use crate::rods::Rods;
+use crate::scene::Scene;
 use crate::suspension::Suspension;
 use serde::{Deserialize, Serialize};
 
@@ -39,6 +40,19 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
+    /// The length of a rod, whose scene this is.
+    pub fn length_mm(&self, scene: &Scene, rod: usize) -> f64 {
+        scene.particles.length_mm * self.length.as_ref().map_or(1.0, |lengths| lengths[rod])
+    }
+
+    /// Where the centre of a rod is in the control volume; `None` for free rods.
+    pub fn place_mm(&self, scene: &Scene, rod: usize) -> Option<[f64; 3]> {
+        let (places, sides) = (self.place_in_lengths.as_ref()?, scene.sides_mm()?);
+        // What is rounded stays inside.
+        let place = |axis: usize| (places[axis][rod] * scene.particles.length_mm).min(sides[axis]);
+        Some(std::array::from_fn(place))
+    }
+
     /// Bytes that one of the plan holds of each rod: its direction, aspect ratio, whether it collided, where rods interact its
     /// place, and where they differ its length.
     pub(crate) fn bytes_per_rod(plan: &Plan) -> usize {

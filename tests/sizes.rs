@@ -264,3 +264,23 @@ fn rods_of_a_file_are_those_that_it_has() {
     assert!(!plan.keeps(Stage::Lengths) && !plan.keeps(Stage::AspectRatios));
     assert_eq!(run(&given).series, run(&drawn).series);
 }
+
+/// Another number of rods in a volume of the same shape and concentration.
+#[test]
+fn a_box_grows_with_its_rods() {
+    for interaction in [
+        "box_mm = [12, 5, 5]",
+        "concentration_per_cm3 = 1000\nbox_mm = [12, 5, 5]",
+        DENSE,
+    ] {
+        let mut scene = scene("length_mm = 0.72", interaction);
+        for count in [25, 300, 2400] {
+            scene.set_count(count);
+            let (n, sides) = (scene.concentration_per_cm3().unwrap(), scene.sides_mm().unwrap());
+            assert!((n / 1000.0 - 1.0).abs() < 1e-14, "{interaction}: {n}");
+            let shape = if interaction == DENSE { 1.0 } else { 2.4 };
+            assert!((sides[0] / sides[1] - shape).abs() < 1e-14 && (sides[1] / sides[2] - 1.0).abs() < 1e-14);
+            assert!(Plan::new(&scene).is_ok());
+        }
+    }
+}

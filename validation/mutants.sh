@@ -23,7 +23,7 @@ printed-a13@@src/collision.rs@@(-rate.x * sin_phi + rate.y * cos_phi) / sin_thet
 reach-without-m@@src/collision.rs@@alpha * libm::expm1(-libm::log(r) / m)@@alpha * libm::expm1(-libm::log(r) / 3.0)
 next-nearest@@src/neighbours/pairs.rs@@if square < best_square && other != rod {@@if square < best_square && other != rod && (best.is_none() || other > 3) {
 next-nearest-of-many@@src/neighbours/grid.rs@@let closer = square < best_square;@@let closer = square < best_square && (best.is_none() || other.rod > 3);
-uniform-replacement@@src/volume.rs@@*x1 = self.side * rng.random::<f64>().sqrt();@@*x1 = self.side * rng.random::<f64>();
+uniform-replacement@@src/volume.rs@@*x1 = h1 * rng.random::<f64>().sqrt();@@*x1 = h1 * rng.random::<f64>();
 step-length@@src/suspension.rs@@strain_per_period(scene.particles.aspect_ratio) / scene@@1.01 * strain_per_period(scene.particles.aspect_ratio) / scene
 liquid-at-rest@@src/suspension.rs@@Vector3::new(0.0, self.rule.sign * separation.x, 0.0)@@Vector3::new(0.0, 0.0 * self.rule.sign * separation.x, 0.0)
 candidate-order@@src/suspension.rs@@a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))@@a.1.cmp(&b.1)
@@ -32,23 +32,30 @@ signed-projection@@src/observable.rs@@sum.add_each(block.len, |i| p[i].abs())@@s
 standard-error@@src/ensemble.rs@@(self.deviation[k] / (replicas - 1.0) / replicas).sqrt()@@(self.deviation[k] / (replicas - 1.0)).sqrt()
 flow-rate-of-a@@src/jeffery.rs@@half * (shape_factor - 1.0) * p.y@@half * (shape_factor + 1.0) * p.y
 folded-angle@@src/orientation.rs@@libm::atan2(p2.abs(), p1.abs())@@libm::atan2(p1.abs(), p2.abs())
-positions-half-full@@src/volume.rs@@*x = self.side * rng.random::<f64>();@@*x = 0.5 * self.side * rng.random::<f64>();
-overshoot@@src/volume.rs@@let overshoot = x2.rem_euclid(self.side);@@let overshoot = self.side * rng.random::<f64>();
+positions-half-full@@src/volume.rs@@*x = side * rng.random::<f64>();@@*x = 0.5 * side * rng.random::<f64>();
+overshoot@@src/volume.rs@@let overshoot = x2.rem_euclid(h2);@@let overshoot = h2 * rng.random::<f64>();
 volume-side@@src/volume.rs@@libm::cbrt(count as f64 / per_cubed_length)@@(count as f64 / per_cubed_length).sqrt()
 planar-projection@@src/observable.rs@@zip([(p1, p2), (p2, p3), (p1, p3)])@@zip([(p1, p2), (p1, p3), (p2, p3)])
 normal-part-changed@@src/collision.rs@@rates[0] + line * (0.5 * gap / arm_a)@@rates[0] * 0.9 + line * (0.5 * gap / arm_a)
 mean-over-one-rod-less@@src/ensemble.rs@@let value = sum.value / n;@@let value = sum.value / (n - 1.0);
 direction-not-rescaled@@src/propagator/mod.rs@@let scale = 1.0 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2]).sqrt();@@let scale = 1.0 + 0.0 * q[0];
 kick-whole-turn@@src/suspension.rs@@norm(&(rates[k] - free[k]))@@norm(&rates[k])
-short-arms-kept@@src/contact.rs@@r.abs() >= min_arm@@r.abs() >= 0.5 * min_arm
+short-arms-kept@@src/contact.rs@@r.abs() >= min;@@r.abs() >= 0.5 * min;
 gap-without-turn@@src/collision.rs@@+ arm_b * line.dot(&rates[1]) - arm_a * line.dot(&rates[0]);@@;
 rounded-rho@@src/propagator/general.rs@@(Ball::ONE.over(square), difference.over(square))@@(Ball::exact(1.0 / square.hi), difference.over(square))
 replicas-share-streams@@src/random.rs@@let key = [replica, purpose as u64]@@let key = [replica / 64, purpose as u64]
 kicks-bounded@@src/suspension.rs@@min_arm: interaction.min_contact_arm,@@min_arm: interaction.min_contact_arm.max(1.0),
 pairs-behind-unseen@@src/neighbours/pairs.rs@@                .min(self.behind[rod])@@
-rows-beside-unseen@@src/neighbours/grid.rs@@(low >= cell[axis][k] * width) &@@(low >= 0.0 * width) &
-window-too-short@@src/neighbours/grid.rs@@(cell[2][high] * width > x[2][k] + reach[k]);@@(cell[2][high] * width > x[2][k]);
+rows-beside-unseen@@src/neighbours/grid.rs@@(low >= cell[axis][k] * width[axis]) &@@(low >= 0.0 * width[axis]) &
+window-too-short@@src/neighbours/grid.rs@@(cell[2][high] * width[2] > x[2][k] + reach[k]);@@(cell[2][high] * width[2] > x[2][k]);
 reach-rounded-down@@src/neighbours/grid.rs@@(reach(rod) as f32).next_up()@@0.9 * (reach(rod) as f32)
+partners-length@@src/suspension.rs@@(self.reach.of(self.drawn[rod]) * rods.length(rod))@@(self.reach.of(self.drawn[rod]) * rods.length(nearest.other as usize))
+shortest-arms-in-means@@src/suspension.rs@@self.rule.min_arm * self.rods.length(rod)@@self.rule.min_arm + 0.0 * self.rods.length(rod)
+stress-by-squared-length@@src/rods.rs@@self.per_cube * length.powi(3)@@self.per_cube * length.powi(2)
+inflow-by-other-side@@src/volume.rs@@*x1 = h1 * rng@@*x1 = h2 * rng
+boxes-have-one-side@@src/scene.rs@@ControlVolume::of(sides.map(@@ControlVolume::of([sides[0]; 3].map(
+places-drawn-anew@@src/suspension.rs@@Some(places) => volume.within(places, scene.particles.length_mm),@@Some(_) => volume.draw_positions(count, &rng(Purpose::Positions)),
+lengths-of-a-file-lost@@src/rods.rs@@if let Some(own) = particles.own_lengths_mm() {@@if let Some(own) = particles.own_lengths_mm().filter(|_| false) {
 chunks-share-numbers@@src/random.rs@@let mut rng = ahead(rng, k * CHUNK);@@let mut rng = ahead(rng, 0 * k * CHUNK);
 replaced-share-numbers@@src/volume.rs@@self.replace(axes, &mut ahead(rng, 2 * before));@@self.replace(axes, &mut ahead(rng, before));
 mirrored-free-phase@@src/rods.rs@@clock.phase(tick as f64, clock.sign)@@clock.phase(tick as f64, 1.0)

@@ -125,8 +125,12 @@ pub(super) fn entries(scene: &Scene) -> Vec<Entry> {
             ),
             (!scene.output.rods_at.is_empty(), "rods.csv has each rod's length"),
         ];
+        let of_whom = match particles.own_lengths_mm() {
+            Some(_) => format!("each rod has its own, of {file}"),
+            None => "Gaussian lengths are drawn".to_owned(),
+        };
         match asked.into_iter().find(|(asked, _)| *asked) {
-            Some((_, why)) => add(Stage::Lengths, true, why),
+            Some((_, why)) => add(Stage::Lengths, true, &format!("{of_whom}: {why}")),
             None => add(Stage::Lengths, false, "free rods of any length turn alike"),
         }
     }

@@ -109,6 +109,14 @@ impl Particles {
         }
     }
 
+    /// The mean r_e: of the rods of a file, or `aspect_ratio`.
+    pub fn mean_aspect_ratio(&self) -> f64 {
+        match self.own_aspect_ratios() {
+            Some(own) => own.iter().sum::<f64>() / own.len() as f64,
+            None => self.aspect_ratio,
+        }
+    }
+
     /// What a file says of each rod.
     pub(crate) fn own(&self) -> Option<&OwnRods> {
         self.rods.as_ref()?.own.as_deref()

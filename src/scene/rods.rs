@@ -7,6 +7,29 @@ use super::allowed::Invalid;
 use super::particles::equivalent;
 use super::{OwnRods, RodsFile, Scene, find};
 
+/// A rod of a file that cannot be one of its scene.
+///
+/// ```
+/// use shearbed::scene::{OwnRods, Scene};
+/// let short = OwnRods { length_mm: Some(vec![0.0; 100]), ..OwnRods::default() };
+/// let misfit = Scene::default().misfit(&short).expect("no length");
+/// assert_eq!((misfit.rod, misfit.column), (0, "length_mm"));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Misfit {
+    /// The rod, from 0.
+    pub rod: usize,
+    /// The column that is at fault.
+    pub column: &'static str,
+    /// What it has.
+    pub value: f64,
+    /// What is allowed.
+    pub allowed: String,
+}
+
+/// Lengths of single rods over the scene's whose cubes, and the sums of these, are numbers.
+const OWN_LENGTHS: std::ops::RangeInclusive<f64> = 1e-50..=1e50;
+
 impl Scene {
     /// Checks that r_e is given once: by itself, or by a cylinder and a formula that gives one for it.
     pub(super) fn check_shape(&self) -> Result<(), Invalid> {
@@ -62,54 +85,74 @@ impl Scene {
                 "a file's rods where something has read it, as `shearbed run`, `plan` and `sweep` do".into(),
             );
         };
-        match self.own_rods_at_odds(own) {
-            Some(allowed) => refused(allowed),
-            None => Ok(()),
-        }
-    }
-
-    /// What is allowed of the rods of a file that have something else.
-    fn own_rods_at_odds(&self, own: &OwnRods) -> Option<String> {
         let count = self.particles.count;
         let axes = own.p.iter().chain(&own.place_mm).flatten();
         let mut columns = axes.chain(&own.aspect_ratio).chain(&own.length_mm);
         if let Some(column) = columns.find(|column| column.len() != count) {
             let has = column.len();
-            return Some(format!(
+            return refused(format!(
                 "a row for each rod: it has {has}, and particles.count is {count}"
             ));
         }
-        let first = |wrong: &dyn Fn(usize) -> bool| (0..count).find(|rod| wrong(*rod));
-        if let Some(p) = &own.p {
-            let square = |rod: usize| p.iter().map(|axis| axis[rod] * axis[rod]).sum::<f64>();
+        match self.misfit(own) {
+            Some(Misfit {
+                rod,
+                column,
+                value,
+                allowed,
+            }) => refused(format!(
+                "{allowed} as {column} of each rod; that of rod {rod} is {value:?}"
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// The first rod of a file, as many as the scene has, that cannot be one of it.
+    pub fn misfit(&self, own: &OwnRods) -> Option<Misfit> {
+        let key = |path| find(path).map(|key| key.holds);
+        let shape = key("particles.aspect_ratio");
+        let r_e =
+            |r: f64| shape.is_some_and(|holds| holds.allows(r)) && (self.interaction.is_none() || r > 1.0);
+        let r_e_allowed = match self.interaction {
+            Some(_) => "interacting rods need a number > 1, up to 1e100".to_owned(),
+            None => shape.map_or_else(String::new, |holds| holds.to_string()),
+        };
+        let unit = self.particles.length_mm;
+        let length = |length: f64| OWN_LENGTHS.contains(&(length / unit));
+        let length_allowed = "a number > 0 between 1e-50 and 1e50 times the scene's length_mm";
+        let first = |values: &[f64], allowed: &dyn Fn(f64) -> bool, column, words: &str| {
+            let rod = values.iter().position(|value| !allowed(*value))?;
+            let (value, allowed) = (values[rod], words.to_owned());
+            Some(Misfit {
+                rod,
+                column,
+                value,
+                allowed,
+            })
+        };
+        let directions = own.p.as_ref().and_then(|[p1, p2, p3]| {
+            let squares: Vec<f64> = p1
+                .iter()
+                .zip(p2)
+                .zip(p3)
+                .map(|((a, b), c)| a * a + b * b + c * c)
+                .collect();
             // NaN is not within anything.
-            let is_unit = |rod: usize| (square(rod) - 1.0).abs() <= 16.0 * f64::EPSILON;
-            if let Some(rod) = first(&|rod| !is_unit(rod)) {
-                return Some(format!("directions of length 1, which that of rod {rod} is not"));
-            }
-        }
-        if let Some(all) = &own.aspect_ratio {
-            let least = if self.interaction.is_some() { 1.0 } else { 0.0 };
-            if let Some(rod) = first(&|rod| !(all[rod] > least && all[rod].is_finite())) {
-                return Some(format!(
-                    "aspect_ratio > {least}, which that of rod {rod}, {}, is not",
-                    all[rod]
-                ));
-            }
-        }
-        if let Some(all) = &own.length_mm
-            && let Some(rod) = first(&|rod| !(all[rod] > 0.0 && all[rod].is_finite()))
-        {
-            return Some(format!(
-                "length_mm > 0, which that of rod {rod}, {}, is not",
-                all[rod]
-            ));
-        }
-        let (place, sides) = (own.place_mm.as_ref()?, self.sides_mm()?);
-        let outside = |rod: usize| !(0..3).all(|axis| (0.0..=sides[axis]).contains(&place[axis][rod]));
-        first(&outside).map(|rod| {
-            format!("places in the control volume of {sides:?} mm, which that of rod {rod} is not")
-        })
+            let is_unit = |square: f64| (square - 1.0).abs() <= 16.0 * f64::EPSILON;
+            first(&squares, &is_unit, "p1² + p2² + p3²", "1")
+        });
+        let shapes = || first(own.aspect_ratio.as_ref()?, &r_e, "aspect_ratio", &r_e_allowed);
+        let lengths = || first(own.length_mm.as_ref()?, &length, "length_mm", length_allowed);
+        let places = || {
+            let (places, sides) = (own.place_mm.as_ref()?, self.sides_mm()?);
+            let names = ["x1_mm", "x2_mm", "x3_mm"];
+            let axes = places.iter().zip(sides).zip(names);
+            axes.into_iter().find_map(|((place, side), name)| {
+                let words = format!("the control volume reaches from 0 to {side} mm");
+                first(place, &|x| (0.0..=side).contains(&x), name, &words)
+            })
+        };
+        directions.or_else(shapes).or_else(lengths).or_else(places)
     }
 
     /// Checks that r_e has the mean that its flow allows, and stays on its side of 1.

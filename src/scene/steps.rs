@@ -26,12 +26,12 @@ impl Scene {
     }
 
     /// The smallest multiple of 50 (and of the outputs per period, where they are given) with GΔt of at most
-    /// [`resolved_strain`]: 200 at r_e = 11.6. `u64::MAX` where there is no such number.
+    /// [`resolved_strain`] of the rods' mean r_e: 200 at r_e = 11.6. `u64::MAX` where there is no such number.
     pub fn resolving_steps_per_period(&self) -> u64 {
         let outputs = self.time.outputs_per_period.unwrap_or(1).max(1);
         let unit = (outputs / common_divisor(outputs, MULTIPLE)).saturating_mul(MULTIPLE);
         let strain = strain_per_period(self.particles.aspect_ratio);
-        let resolved = resolved_strain(self.particles.aspect_ratio);
+        let resolved = resolved_strain(self.particles.mean_aspect_ratio());
         let multiples = (strain / (resolved * unit as f64)).ceil().max(1.0) as u64;
         let steps = multiples.saturating_mul(unit);
         // The quotient above is rounded, and may have come out as a whole number that is just too small.

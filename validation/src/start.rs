@@ -54,6 +54,11 @@ impl Starts {
             .collect()
     }
 
+    /// The files that were read.
+    pub fn files(&self) -> impl Iterator<Item = PathBuf> {
+        self.read.keys().map(|file| self.folder.join(file))
+    }
+
     /// Gives a scene whose rods a file has what the file says of them; others are left as they are.
     ///
     /// # Errors
@@ -102,29 +107,13 @@ fn fits(scene: &Scene, start: &Start) -> Result<(), String> {
             ": has {rows} rows; as many as particles.count = {count} are allowed"
         ));
     }
-    let Some(sides) = scene.sides_mm() else {
-        return Ok(());
-    };
-    let line = |rod: usize| start.lines[rod];
-    let too_round = |r: &Vec<f64>| Some((r.iter().position(|r| *r <= 1.0)?, r.clone()));
-    if let Some((rod, r)) = own.aspect_ratio.as_ref().and_then(too_round) {
-        return Err(format!(
-            ":{}: aspect_ratio = {} is not allowed: interacting rods need a number > 1",
-            line(rod),
-            r[rod]
-        ));
+    match scene.misfit(own) {
+        Some(misfit) => Err(format!(
+            ":{}: {} = {:?} is not allowed: {}",
+            start.lines[misfit.rod], misfit.column, misfit.value, misfit.allowed
+        )),
+        None => Ok(()),
     }
-    let places = own.place_mm.iter().flatten().zip(PLACE).zip(sides);
-    for ((place, name), side) in places {
-        if let Some(rod) = place.iter().position(|x| !(0.0..=side).contains(x)) {
-            return Err(format!(
-                ":{}: {name} = {} is not allowed: the control volume reaches from 0 to {side} mm",
-                line(rod),
-                place[rod]
-            ));
-        }
-    }
-    Ok(())
 }
 
 /// The columns of a group that the file has.
@@ -172,7 +161,15 @@ fn read(bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), String> {
             .any(|known| *known == name)
         {
             let name = snippet(name);
-            return Err(format!("1: unknown column {name:?}; allowed: those of rods.csv"));
+            return Err(format!(
+                "1: unknown column {name:?}; allowed are those of rods.csv, apart by commas: {}",
+                known()
+                    .chain(&ONE_VALUE)
+                    .chain(&OTHERS)
+                    .copied()
+                    .collect::<Vec<_>>()
+                    .join(", ")
+            ));
         }
         if head.iter().take(k).any(|other| other == name) {
             return Err(format!("1: column {name} is there twice; once is allowed"));
@@ -186,13 +183,17 @@ fn read(bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), String> {
     }
     let mut order = Order::new(place);
     let mut own = OwnRods::default();
-    let mut lines = Vec::new();
+    let (mut lines, mut at) = (Vec::new(), Place::new(bytes));
     for record in reader.records() {
         let record = record.map_err(in_words)?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let not_allowed = |place: usize, allowed: &str| {
-            let cell = snippet(record.get(place).unwrap_or_default());
-            format!("{line}: {} = {cell} is not allowed: {allowed}", &head[place])
+        let line = record.position().map_or(0, |position| at.line(position.byte()));
+        let not_allowed = |place: usize, allowed: &str| match record.get(place).unwrap_or_default() {
+            "" => format!("{line}: {} is empty: {allowed} is allowed", &head[place]),
+            cell => format!(
+                "{line}: {} = {} is not allowed: {allowed}",
+                &head[place],
+                snippet(cell)
+            ),
         };
         let number = |place: usize| {
             let parsed = record.get(place).unwrap_or_default().parse().ok();
@@ -240,6 +241,36 @@ fn read(bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), String> {
         lines.push(line);
     }
     Ok((own, lines))
+}
+
+/// Lines of bytes from the first on. The reader of CSV counts blank lines, and the second half of CRLF, to the row after them.
+struct Place<'a> {
+    bytes: &'a [u8],
+    line: u64,
+    offset: usize,
+}
+
+impl<'a> Place<'a> {
+    fn new(bytes: &'a [u8]) -> Self {
+        Self {
+            bytes,
+            line: 1,
+            offset: 0,
+        }
+    }
+
+    /// The line of what stands at this place, or after line ends there; places must grow.
+    fn line(&mut self, byte: u64) -> u64 {
+        let start = (byte as usize).min(self.bytes.len());
+        let blank = self.bytes[start..]
+            .iter()
+            .take_while(|byte| matches!(byte, b'\r' | b'\n'))
+            .count();
+        let passed = &self.bytes[self.offset.min(start + blank)..start + blank];
+        self.line += passed.iter().filter(|byte| **byte == b'\n').count() as u64;
+        self.offset = start + blank;
+        self.line
+    }
 }
 
 fn push(axes: &mut Option<[Vec<f64>; 3]>, values: [f64; 3]) {
@@ -392,15 +423,15 @@ mod tests {
             ("length_mm\n1\n1\n1\n", "start.csv: has 3 rows"),
             (
                 "aspect_ratio\n2\n1\n",
-                "start.csv:3: aspect_ratio = 1 is not allowed: interacting rods need a number > 1",
+                "start.csv:3: aspect_ratio = 1.0 is not allowed: interacting rods need a number > 1",
             ),
             (
                 "x1_mm,x2_mm,x3_mm\n1,2,3\n3,4,1\n",
-                "start.csv:3: x2_mm = 4 is not allowed: the control volume reaches from 0 to 3.41",
+                "start.csv:3: x2_mm = 4.0 is not allowed: the control volume reaches from 0 to 3.41",
             ),
             (
                 "x1_mm,x2_mm,x3_mm\n1,2,-3\n3,1,1\n",
-                "start.csv:2: x3_mm = -3 is not allowed",
+                "start.csv:2: x3_mm = -3.0 is not allowed",
             ),
         ] {
             let refused = fill(text, true).unwrap_err();
@@ -414,6 +445,19 @@ mod tests {
             fill("aspect_ratio,x1_mm,x2_mm,x3_mm\n2,1,2,3\n0.5,3,4,1\n", false),
             Ok(())
         );
+    }
+
+    #[test]
+    fn lines_are_counted_as_an_editor_does() {
+        for (text, line) in [
+            ("length_mm\r\n1\r\n1\r\nx\r\n", 4),
+            ("length_mm\n1\n\n\n1\nx\n", 6),
+            ("length_mm\r\n\r\n1\r\nx", 4),
+            ("length_mm\nx\n", 2),
+        ] {
+            let said = format!("{line}: length_mm = x is not allowed");
+            assert!(refused(text).starts_with(&said), "{text:?}: {}", refused(text));
+        }
     }
 
     #[test]
@@ -442,7 +486,7 @@ mod tests {
             ),
             (
                 "x1_mm,x2_mm,x3_mm\n1,,3\n",
-                "2: x2_mm =  is not allowed: a finite number",
+                "2: x2_mm is empty: a finite number is allowed",
             ),
             ("p1,p2,p3,p1\n1,0,0,1\n", "1: column p1 is there twice"),
             ("p1,p2,p3,theta\n1,0,0,1\n", "1: unknown column \"theta\""),

@@ -71,7 +71,7 @@ impl Scene {
             return Ok(());
         }
         let r = self.particles.aspect_ratio;
-        let resolved = resolved_strain(r);
+        let resolved = resolved_strain(self.particles.mean_aspect_ratio());
         let needed = strain_per_period(r) / resolved;
         let allowed = format!(
             "at aspect_ratio = {r} some {needed:.1e} steps a period resolve the motion (GΔt ≤ {resolved}), and at \

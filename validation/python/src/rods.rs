@@ -20,18 +20,15 @@ pub fn columns<'py>(py: Python<'py>, plan: &Plan, results: &Results) -> PyResult
         PyArray1::from_vec(py, values)
     };
     let time = |shot: &Snapshot, unit: f64| results.times[shot.output] * unit;
-    let length_mm = plan.scene().particles.length_mm;
-    let place = |shot: &Snapshot, axis: usize, rod: usize| {
-        let places = shot.place_in_lengths.as_ref();
-        places.map_or(f64::NAN, |places| places[axis][rod] * length_mm)
-    };
+    let scene = plan.scene();
+    let place =
+        |shot: &Snapshot, axis: usize, rod: usize| shot.place_mm(scene, rod).map_or(f64::NAN, |place| place[axis]);
     all.set_item("replica", each(&|shot, _| shot.replica as f64))?;
     all.set_item("rod", each(&|_, rod| rod as f64))?;
     all.set_item("time_s", each(&|shot, _| time(shot, results.unit.seconds)))?;
     all.set_item("strain", each(&|shot, _| time(shot, results.unit.strain)))?;
     all.set_item("aspect_ratio", each(&|shot, rod| shot.aspect_ratio[rod]))?;
-    let length = |shot: &Snapshot, rod: usize| shot.length.as_ref().map_or(1.0, |lengths| lengths[rod]);
-    all.set_item("length_mm", each(&|shot, rod| length_mm * length(shot, rod)))?;
+    all.set_item("length_mm", each(&|shot, rod| shot.length_mm(scene, rod)))?;
     for (axis, name) in ["x1_mm", "x2_mm", "x3_mm"].into_iter().enumerate() {
         all.set_item(name, each(&|shot, rod| place(shot, axis, rod)))?;
     }

@@ -16,6 +16,9 @@ pub(super) struct Facts {
     shape_factor: f64,
     /// n⟨a³⟩ with the full length a, where rods interact.
     n_a3: Option<f64>,
+    /// n that count and box make, where a box is given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    concentration_per_cm3: Option<f64>,
     /// `dilute`, `semi-dilute` or `concentrated`.
     regime: Option<&'static str>,
     /// r_e, and the formula that made it of the physical aspect ratio, where one did.
@@ -54,6 +57,11 @@ impl Facts {
             // Divided through: r² is infinite for long rods.
             shape_factor: (r - 1.0 / r) / (r + 1.0 / r),
             n_a3,
+            concentration_per_cm3: (scene
+                .interaction
+                .as_ref()
+                .and_then(|interaction| interaction.box_mm))
+            .and_then(|_| scene.concentration_per_cm3()),
             regime: n_a3.map(|n_a3| regime(n_a3, r)),
             equivalent: scene.particles.shape_correlation.map(|correlation| Equivalent {
                 aspect_ratio: r,
@@ -79,6 +87,8 @@ impl Facts {
                 .map(|strain| format!("GΔt = {}", four_decimals(strain))),
         );
         parts.push(format!("Λ = {:.6}", self.shape_factor));
+        let of_box = self.concentration_per_cm3;
+        parts.extend(of_box.map(|n| format!("n = {} per cm³", four_decimals(n))));
         let dilute = self.n_a3.zip(self.regime);
         parts.extend(dilute.map(|(n_a3, regime)| format!("n a³ = {n_a3:.3e} ({regime})")));
         parts.extend(self.equivalent.as_ref().map(|found| {
@@ -117,12 +127,37 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
             true => format!("{n_a3:.3}"),
             false => format!("{n_a3:.3e}"),
         };
+        let scene = plan.scene();
+        let of_box = scene
+            .interaction
+            .as_ref()
+            .is_some_and(|interaction| interaction.box_mm.is_some());
+        let volume = if of_box { "box_mm" } else { "concentration_per_cm3" };
+        let lengths = if scene.particles.rods.is_some() {
+            "rods"
+        } else {
+            "length_mm"
+        };
         warnings.push(format!(
-            "interaction.concentration_per_cm3 and particles.length_mm give n a³ = {shown}: {regime}. The model is for \
+            "interaction.{volume} and particles.{lengths} give n a³ = {shown}: {regime}. The model is for \
              dilute suspensions, n a³ < 1, in which two rods meet at a time"
         ));
     }
+    warnings.extend(thin_box(plan));
     warnings
+}
+
+/// That the control volume is thinner than a rod is long.
+fn thin_box(plan: &Plan) -> Option<String> {
+    let scene = plan.scene();
+    let (sides, length) = (scene.interaction.as_ref()?.box_mm?, scene.particles.length_mm);
+    let thinnest = sides.into_iter().fold(f64::INFINITY, f64::min);
+    (thinnest < length).then(|| {
+        format!(
+            "interaction.box_mm = {sides:?}: {thinnest} mm is less than a rod's length, {length} mm; rods near a face lack neighbours, and \
+             here all are near one"
+        )
+    })
 }
 
 /// That the scene ends between two outputs, after the last of them nothing is run.

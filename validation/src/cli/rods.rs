@@ -3,7 +3,7 @@
 use crate::output::Output;
 use shearbed::nalgebra::Vector3;
 use shearbed::snapshot::Snapshot;
-use shearbed::{Plan, Results};
+use shearbed::{Plan, Results, Scene};
 use std::fmt::Write;
 
 /// The columns of `rods.csv`.
@@ -29,8 +29,8 @@ pub(super) fn files(plan: &Plan, results: &Results, vtk: bool) -> Vec<Output> {
     if outputs.is_empty() {
         return Vec::new();
     }
-    let length_mm = plan.scene().particles.length_mm;
-    let mut files = vec![("rods.csv".to_owned(), csv(results, length_mm))];
+    let scene = plan.scene();
+    let mut files = vec![("rods.csv".to_owned(), csv(results, scene))];
     if vtk {
         let at = |output: usize| {
             let all = results.snapshots.iter();
@@ -44,7 +44,7 @@ pub(super) fn files(plan: &Plan, results: &Results, vtk: bool) -> Vec<Output> {
                 (
                     format!("rods_{k:04}.vtp"),
                     time_s(output),
-                    polydata(&at(output), length_mm),
+                    polydata(&at(output), scene),
                 )
             })
             .collect();
@@ -55,23 +55,20 @@ pub(super) fn files(plan: &Plan, results: &Results, vtk: bool) -> Vec<Output> {
 }
 
 /// A row for each rod; free rods have no place, and its cells are empty. Numbers read back as the same bits.
-fn csv(results: &Results, length_mm: f64) -> String {
+fn csv(results: &Results, scene: &Scene) -> String {
     let mut text = COLUMNS.to_owned();
     for snapshot in &results.snapshots {
         let time = results.times[snapshot.output];
         let (time_s, strain) = (time * results.unit.seconds, time * results.unit.strain);
         for rod in 0..snapshot.aspect_ratio.len() {
-            let place = match place(snapshot, rod) {
-                Some(place) => numbers((place * length_mm).into()),
-                None => ",,".to_owned(),
-            };
+            let place = snapshot.place_mm(scene, rod).map_or(",,".to_owned(), numbers);
             // A String takes all that is written.
             let _ = writeln!(
                 text,
                 "{},{rod},{time_s:?},{strain:?},{:?},{:?},{place},{},{}",
                 snapshot.replica,
                 snapshot.aspect_ratio[rod],
-                length_mm * length(snapshot, rod),
+                snapshot.length_mm(scene, rod),
                 numbers(direction(snapshot, rod).into()),
                 u8::from(snapshot.collided[rod]),
             );
@@ -84,24 +81,13 @@ fn numbers([x1, x2, x3]: [f64; 3]) -> String {
     format!("{x1:?},{x2:?},{x3:?}")
 }
 
-/// The length of a rod over the scene's.
-fn length(snapshot: &Snapshot, rod: usize) -> f64 {
-    snapshot.length.as_ref().map_or(1.0, |lengths| lengths[rod])
-}
-
-/// The centre of a rod in the scene's rod lengths.
-fn place(snapshot: &Snapshot, rod: usize) -> Option<Vector3<f64>> {
-    let places = snapshot.place_in_lengths.as_ref()?;
-    Some(Vector3::from_fn(|axis, _| places[axis][rod]))
-}
-
 fn direction(snapshot: &Snapshot, rod: usize) -> Vector3<f64> {
     Vector3::from_fn(|axis, _| snapshot.p[axis][rod])
 }
 
 /// The rods of all replicas at one time as VTK's XML PolyData: a line for each rod from end to end, in mm. Free rods
 /// cross at the origin.
-fn polydata(snapshots: &[&Snapshot], length_mm: f64) -> String {
+fn polydata(snapshots: &[&Snapshot], scene: &Scene) -> String {
     let rods: Vec<(&Snapshot, usize)> = snapshots
         .iter()
         .flat_map(|&snapshot| (0..snapshot.aspect_ratio.len()).map(move |rod| (snapshot, rod)))
@@ -119,8 +105,8 @@ fn polydata(snapshots: &[&Snapshot], length_mm: f64) -> String {
         values.collect::<String>()
     };
     let ends = of_each(&|snapshot, rod| {
-        let centre = place(snapshot, rod).unwrap_or_default() * length_mm;
-        let half = direction(snapshot, rod) * (0.5 * length_mm * length(snapshot, rod));
+        let centre = Vector3::from(snapshot.place_mm(scene, rod).unwrap_or_default());
+        let half = direction(snapshot, rod) * (0.5 * snapshot.length_mm(scene, rod));
         vector(centre - half) + &vector(centre + half)
     });
     let ends_of_lines: String = (0..count).map(|k| format!("{} {}\n", 2 * k, 2 * k + 1)).collect();
@@ -147,7 +133,7 @@ fn polydata(snapshots: &[&Snapshot], length_mm: f64) -> String {
             "Float64",
             "length_mm",
             1,
-            of_each(&|snapshot, rod| format!("{:?}\n", length_mm * length(snapshot, rod)))
+            of_each(&|snapshot, rod| format!("{:?}\n", snapshot.length_mm(scene, rod)))
         ),
         array(
             "UInt8",

@@ -8,6 +8,7 @@ use super::{
 };
 use crate::checkpoint::Replicas;
 use crate::output::{Author, Output};
+use crate::start::Starts;
 use crate::text::Shown;
 use crate::text::line;
 use crate::{cluster, plot};
@@ -47,6 +48,23 @@ pub(super) struct Args {
     /// Print nothing but errors and warnings
     #[arg(long)]
     quiet: bool,
+}
+
+/// Refuses to write over a file that the scene's rods are read from, by force too.
+fn reads_no_result(starts: &Starts, out: &Path, names: &[impl AsRef<Path>]) -> Result<(), Failure> {
+    let there = |path: PathBuf| path.canonicalize().ok();
+    let results: Vec<_> = names.iter().filter_map(|name| there(out.join(name))).collect();
+    match starts
+        .files()
+        .find(|file| there(file.clone()).is_some_and(|file| results.contains(&file)))
+    {
+        Some(file) => Err(Failure::Input(format!(
+            "--out {}: {} is what particles.rods reads, and a result would be written there; another folder, or another name, is allowed",
+            out.display(),
+            file.display()
+        ))),
+        None => Ok(()),
+    }
 }
 
 /// A time between checkpoints.
@@ -96,7 +114,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     probe(&out, bytes)?;
     let author = Author::new("run", json!({ "scene": plan.scene().resolved() }), args.force);
     if cluster::is_root() {
-        author.check(&out, &names(&plan, args.vtk))?;
+        let names = names(&plan, args.vtk);
+        reads_no_result(&named.starts, &out, &names)?;
+        author.check(&out, &names)?;
     }
     scene::warn(&named.source, &facts::warnings(&plan));
     let mut seconds = Seconds {

@@ -122,23 +122,29 @@ impl Scenes {
         (self.sets[set].time.end_of(&plan)).ok_or_else(|| refused("has no period".into()))
     }
 
-    /// The same scenes at so many times their concentration, and that; none of rods that do not interact, whose
-    /// concentration is fitted or whose box is given.
+    /// The same scenes at so many times their concentration, and that; none of rods that do not interact, or whose
+    /// concentration is fitted. A box is changed in proportion.
     pub fn at_concentration(&self, factor: f64, values: &[f64]) -> Result<(Self, Vec<Option<f64>>), String> {
         const KEY: &str = "interaction.concentration_per_cm3";
+        const BOX: &str = "interaction.box_mm";
         let (mut scenes, mut all) = (self.clone(), Vec::new());
         for set in 0..self.sets.len() {
             let fitted = (self.ranges.iter()).any(|range| range.is_of(set) && range.key == KEY);
-            let own = self.scene(set, values)?.interaction.filter(|_| !fitted);
-            let own = own.and_then(|interaction| interaction.concentration_per_cm3);
+            let scene = self.scene(set, values)?;
+            let own = scene.concentration_per_cm3().filter(|_| !fitted);
             let concentration = own.map(|own| factor * own);
-            if let Some(value) = concentration {
+            if let (Some(value), Some(interaction)) = (concentration, scene.interaction) {
+                let side = |side: f64| Value::Float(side / factor.cbrt());
+                let sides = interaction
+                    .box_mm
+                    .map(|sides| Value::Array(sides.map(side).to_vec()));
+                let given = interaction.concentration_per_cm3.map(|_| Value::Float(value));
                 let settings = &mut scenes.sets[set].settings;
-                settings.retain(|setting| setting.key != KEY);
-                settings.push(Setting {
-                    key: KEY.into(),
-                    value: Value::Float(value),
-                });
+                for (key, value) in [(KEY, given), (BOX, sides)] {
+                    settings.retain(|setting| setting.key != key);
+                    let key = key.to_owned();
+                    settings.extend(value.map(|value| Setting { key, value }));
+                }
             }
             all.push(concentration);
         }
@@ -225,7 +231,7 @@ impl Scenes {
             scene.time.outputs_per_period = Some(outputs);
             scene.time.steps_per_period = Some(outputs * variant.steps);
         }
-        scene.particles.count *= variant.rods;
+        scene.set_count(scene.particles.count * variant.rods);
         if variant.one_aspect_ratio {
             scene.particles.aspect_ratio_sd_percent = 0.0;
         }

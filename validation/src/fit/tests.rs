@@ -3,6 +3,7 @@
 use super::data::Datum;
 use super::elsewhere::look_elsewhere;
 use super::emulator::{Prediction, Replica};
+use super::profile::{contour, rise_of_several};
 use super::range::Range;
 use super::search::{Fit, Measured, Problem, Watch, search};
 use crate::accept::{Design, Rule, Verdict, judge};
@@ -286,5 +287,29 @@ fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
             close(ends.high, expected[axis] + 1.959_964 * se),
             "{axis}: {ends:?} {se}"
         );
+    }
+
+    // The region of both is an ellipse, and closed.
+    let level = rise_of_several(0.68, 2);
+    let inverse = covariance.try_inverse().unwrap();
+    let ring = contour(&fit.best, [0, 1], level);
+    let [first, last] = [ring[0], ring[ring.len() - 1]];
+    assert!(
+        (first[0] - last[0]).abs().max((first[1] - last[1]).abs()) < 1e-12,
+        "{first:?} {last:?}"
+    );
+    for point in &ring {
+        let values = fit.values(point);
+        let away = DVector::from_fn(2, |k, _| values[k] - expected[k]);
+        let rise = (away.transpose() * &inverse * &away)[0];
+        // Ends are known to 0.02 of a standard uncertainty, as above, and this level is at 1.5 of them.
+        assert!(
+            (rise / level - 1.0).abs() < 2.0 * 0.02 / 1.5,
+            "{point:?}: {rise} {level}"
+        );
+    }
+    // A level beyond the box ends at its edges.
+    for [x, y] in contour(&fit.best, [0, 1], 1e6) {
+        assert!(x.abs().max(y.abs()) > 1.0 - 1e-12, "{x} {y}");
     }
 }

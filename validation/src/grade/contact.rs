@@ -50,3 +50,43 @@ pub(super) fn near(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) ->
     let near = MISTAKES.iter().filter(applies).filter_map(of_mistake);
     near.filter(|(distance, _)| *distance <= nearer_than).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problems;
+
+    /// Answers with a mistake have that one and no other; right answers have none.
+    #[test]
+    fn each_mistake_is_named_by_its_own_answers() {
+        for name in ["contact-rule", "contact-angles"] {
+            let built = problems::named(name).unwrap();
+            let loaded = built.loaded(name.into());
+            let (l, step_s) = (loaded.problem.gradient_per_s, loaded.problem.time_step_s);
+            let gradient = Matrix3::from_fn(|i, j| l[i][j]);
+            let named = |variant: Variant| {
+                let inputs = loaded.inputs.as_ref().unwrap();
+                let row = |pair: &Vec<f64>| answers(&gradient, &pair[1..], step_s, variant).concat();
+                let answer = Answer {
+                    path: name.into(),
+                    rows: inputs.rows.iter().map(row).collect(),
+                    lines: Vec::new(),
+                };
+                let near = near(&loaded, &answer, 1e-3);
+                near.into_iter()
+                    .map(|(distance, name)| {
+                        assert!(distance < 1e-14, "{name}: {distance}");
+                        name
+                    })
+                    .collect::<Vec<_>>()
+            };
+            for (mistake, variant) in MISTAKES {
+                // Without Δt there are no angles.
+                if !variant.printed || step_s.is_some() {
+                    assert_eq!(named(variant), [mistake], "{name}");
+                }
+            }
+            assert_eq!(named(kicked(1.0)), [""; 0], "{name}");
+        }
+    }
+}

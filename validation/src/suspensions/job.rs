@@ -51,7 +51,8 @@ impl Job {
         scene.time.outputs_per_strain = None;
         scene.time.steps_per_period = Some(steps_per_period);
         scene.time.outputs_per_period = Some(1);
-        scene.particles.count = rods;
+        scene.set_count(rods);
+        scene.output.rods_at.clear();
         Self {
             scene,
             replicas,

@@ -105,8 +105,7 @@ fn a_sweep_starts_from_a_file_and_knows_it_again() {
     fs::write(at("below/s.toml"), &scene).unwrap();
     // The file has the r_e of each rod.
     let done = shearbed(dir.path(), "plan below/s.toml --set particles.aspect_ratio=5");
-    let words =
-        "particles.aspect_ratio = 5 sets T alone: the rods are those of start.csv, whose mean is 11.6000";
+    let words = "those of particles.rods have a mean of 11.6000";
     assert!(done.stdout.contains(words), "{}", done.stdout);
     let sweep = "sweep below/s.toml --over flow.shear_rate_per_s=0.5,1 --out x --quiet";
     assert_eq!(shearbed(dir.path(), sweep).code, Some(0));
@@ -249,4 +248,99 @@ fn a_suspension_of_unequal_rods_begins_again_from_its_own_table() {
         );
         assert!(!at("wrong").exists());
     }
+}
+
+/// The concentration stays where the number of rods is changed: a box grows with it, as a cube does.
+#[test]
+fn other_numbers_of_rods_have_the_concentration_of_the_box() {
+    let dir = folder();
+    let at = |name: &str| dir.path().join(name);
+    // 20 rods in 10 × 8 × 5 mm³ are 50 per cm³.
+    let cube = asked().replace("rods_at = [0, 0.5, 1]", "rods_at = [0, 0.5]");
+    for (name, interaction) in [
+        (
+            "box",
+            "box_mm = [7.368062997280773, 7.368062997280773, 7.368062997280773]",
+        ),
+        (
+            "both",
+            "concentration_per_cm3 = 50\nbox_mm = [7.368062997280773, 7.368062997280773, 7.368062997280773]",
+        ),
+        ("cube", "concentration_per_cm3 = 50"),
+    ] {
+        fs::write(
+            at(&format!("{name}.toml")),
+            cube.replace("concentration_per_cm3 = 50", interaction),
+        )
+        .unwrap();
+        let done = shearbed(
+            dir.path(),
+            &format!("converge {name}.toml --replicas 2 --out {name} --quiet"),
+        );
+        assert_eq!(done.code, Some(0), "{name}: {}", done.stderr);
+    }
+    // X̄₁ of each row. Collisions magnify a rounding of the side; another concentration would be off by 0.05 and more.
+    let x1 = |name: &str| -> Vec<f64> {
+        let rows = rows(&at(name).join("converge.csv"));
+        rows.iter().map(|row| number(row, "x1")).collect()
+    };
+    for name in ["box", "both"] {
+        let (found, expected) = (x1(name), x1("cube"));
+        assert!(found.len() == expected.len() && found.len() > 8, "{found:?}");
+        for (a, b) in found.iter().zip(&expected) {
+            assert!((a - b).abs() < 0.03, "{name}: {found:?} {expected:?}");
+        }
+    }
+}
+
+#[test]
+fn rods_at_a_face_and_results_beside_their_input() {
+    let dir = folder();
+    let at = |name: &str| dir.path().join(name);
+    let scene = asked()
+        .replace("count = 20", "count = 3")
+        .replace("concentration_per_cm3 = 50", "box_mm = [3.1, 3.1, 3.1]")
+        .replace("replicas = 3", "replicas = 1")
+        .replace("orientation = \"isotropic\"", "rods = { file = \"rods.csv\" }");
+    fs::write(at("s.toml"), &scene).unwrap();
+    let first = "x1_mm,x2_mm,x3_mm\n3.1,1,1\n1,3.1,1\n2,2,3.1\n";
+    fs::write(at("rods.csv"), first).unwrap();
+    // 3.1/0.72 · 0.72 is more than 3.1.
+    assert_eq!(shearbed(dir.path(), "run s.toml --out a --quiet").code, Some(0));
+    let written = fs::read_to_string(at("a/rods.csv")).unwrap();
+    let begun: Vec<_> = written.lines().take(4).collect();
+    fs::write(at("rods.csv"), begun.join("\n")).unwrap();
+    let again = shearbed(dir.path(), "run s.toml --out b --quiet");
+    assert_eq!(again.code, Some(0), "{}", again.stderr);
+    // By force too, what is read stays.
+    let kept = fs::read(at("rods.csv")).unwrap();
+    let done = shearbed(dir.path(), "run s.toml --out . --force --quiet");
+    assert!(
+        done.code == Some(2) && done.stderr.contains("is what particles.rods reads"),
+        "{}",
+        done.stderr
+    );
+    assert_eq!(fs::read(at("rods.csv")).unwrap(), kept);
+    // Three rods in a corner of a large box; and keys that the file makes idle.
+    let plan = |words: &str| shearbed(dir.path(), &format!("plan s.toml {words}")).stdout;
+    fs::write(
+        at("rods.csv"),
+        "x1_mm,x2_mm,x3_mm,length_mm\n0.4,0.4,0.4,1\n".to_owned() + &"0.4,0.4,0.4,2\n".repeat(2),
+    )
+    .unwrap();
+    let told = plan("--set interaction.box_mm=[1000,10,10]");
+    assert!(
+        told.contains("reach to 0.4 of 1000 mm along axis 1: are they of another control volume?"),
+        "{told}"
+    );
+    let told = plan("--set particles.length_sd_percent=5");
+    assert!(
+        told.contains("particles.length_sd_percent changes nothing: particles.rods has it of each rod"),
+        "{told}"
+    );
+    let told = plan("--set interaction.box_mm=[100,100,0.5]");
+    assert!(
+        told.contains("0.5 mm is less than a rod's length, 0.72 mm"),
+        "{told}"
+    );
 }
