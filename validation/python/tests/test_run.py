@@ -36,6 +36,7 @@ SCENES = {
     "angles": SMALL | dict(update="angles", seed=7),
     "short arms": SMALL | dict(min_contact_arm=0.05, m=2.5),
     "dense": SMALL | dict(concentration_per_cm3=500, aspect_ratio=5),
+    "lengths in a box": FREE | dict(alpha=0.5, count=20, periods=0.5, length_sd_percent=20, box_mm=[10, 8, 5]),
 }
 
 
@@ -63,7 +64,7 @@ def test_the_bits_are_those_of_the_program(name: str, tmp_path: Path) -> None:
             assert same.all(), key
 
 
-@pytest.mark.parametrize("kind", ["free", "interacting"])
+@pytest.mark.parametrize("kind", ["free", "interacting", "lengths in a box"])
 def test_rods_are_those_of_the_programs_table(kind: str, tmp_path: Path) -> None:
     scene = shearbed.Scene(**(SCENES[kind] | dict(replicas=2, rods_at=[0, 0.2])))
     (tmp_path / "scene.toml").write_text(scene.toml)
@@ -79,17 +80,20 @@ def test_rods_are_those_of_the_programs_table(kind: str, tmp_path: Path) -> None
     last = [row for row in rows if row["replica"] == "0"][-SCENES[kind]["count"]:]
     (tmp_path / "below").mkdir()
     with open(tmp_path / "below" / "start.csv", "w", newline="") as out:
-        table = csv.DictWriter(out, ["p1", "p2", "p3"], extrasaction="ignore")
+        table = csv.DictWriter(out, list(rows[0]))
         table.writeheader()
         table.writerows(last)
     text = shearbed.Scene(**SCENES[kind]).toml
-    for old, new in (("\"isotropic\"", "{ file = \"below/start.csv\" }"), ("observables =", "rods_at = [0]\nobservables =")):
+    for old, new in (("orientation = \"isotropic\"", "rods = { file = \"below/start.csv\" }"), ("observables =", "rods_at = [0]\nobservables =")):
         assert old in text
         text = text.replace(old, new)
     (tmp_path / "on.toml").write_text(text)
     again = shearbed.run(tmp_path / "on.toml", replicas=1)
     # Read directions are divided by their length, which is 1 up to a rounding or two.
     assert np.allclose(again.rods["p2"], [float(row["p2"]) for row in last], rtol=0, atol=1e-15)
+    for name in ("length_mm", "aspect_ratio", "x2_mm"):
+        read = [float(row[name] or "nan") for row in last]
+        assert np.allclose(again.rods[name], read, rtol=1e-15, atol=0, equal_nan=True), name
     # A sweep keeps no rods, but starts from them.
     (tmp_path / "swept.toml").write_text(text.replace("rods_at = [0]\n", ""))
     swept = shearbed.sweep(tmp_path / "swept.toml", {"ensemble.seed": [1, 2]}, replicas=1)

@@ -321,3 +321,18 @@ impl Fit {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A share s of the variance at n replicas is s/(s + (1 − s) k) at k n of them.
+    #[test]
+    fn replicas_for_a_share_are_enough_and_a_tenth_more() {
+        // 0.2 to 0.1: k = 0.25 · 9 = 2.25.
+        assert_eq!(enough(100, 0.2, 0.1), 249);
+        // Ten times at most, and never of a share that is all.
+        assert_eq!(enough(100, 0.9, 0.1), 1001);
+        assert_eq!(enough(100, 1.0, 0.5), 1001);
+    }
+}
