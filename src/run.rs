@@ -148,9 +148,9 @@ fn stepped(
     recorder: &mut Recorder,
     look: &mut impl FnMut(&dyn Fn() -> Halfway),
 ) -> Result<Counters, RunError> {
-    let asked = plan.rods_outputs();
+    let (asked, per_output) = (plan.rods_outputs(), plan.ticks_per_output());
     for output in recorder.done..plan.outputs() {
-        while suspension.tick() < output as u64 * plan.ticks_per_output() {
+        while suspension.tick() < output as u64 * per_output {
             suspension.step()?;
             look(&|| recorder.halfway(Some(suspension.placed())));
         }
@@ -303,10 +303,10 @@ pub(crate) fn each_block(
             look(output, first, &block)
         })
     };
-    let mut outputs = 0..plan.outputs();
+    let (mut outputs, per_output) = (0..plan.outputs(), plan.ticks_per_output());
     match Suspension::new(plan, replica) {
         Some(mut suspension) => outputs.try_for_each(|output| {
-            while suspension.tick() < output as u64 * plan.ticks_per_output() {
+            while suspension.tick() < output as u64 * per_output {
                 suspension.step()?;
             }
             blocks(output, &suspension.rods, suspension.tick())

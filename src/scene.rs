@@ -79,21 +79,20 @@ pub struct Flow {
     pub gradient_per_s: Option<[[f64; 3]; 3]>,
 }
 
-/// Reads three rows of three. Reading into an array would stop after three and let what follows pass.
-fn three_by_three<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[[f64; 3]; 3]>, D::Error> {
-    let rows = Vec::<Vec<f64>>::deserialize(deserializer)?;
-    let rows: Result<Vec<[f64; 3]>, _> = rows.into_iter().map(TryInto::try_into).collect();
-    let gradient = rows.and_then(|rows| rows.try_into().map_err(|_| Vec::new()));
-    gradient
-        .map(Some)
-        .map_err(|_| D::Error::custom("three rows of three numbers are allowed"))
+/// Three of a list. Reading into an array would stop after three and let what follows pass.
+fn three_of<T, E: Error>(list: Vec<T>, allowed: &str) -> Result<[T; 3], E> {
+    list.try_into().map_err(|_| E::custom(allowed))
 }
 
-/// Reads three numbers. Reading into an array would stop after three and let what follows pass.
+fn three_by_three<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[[f64; 3]; 3]>, D::Error> {
+    let allowed = "three rows of three numbers are allowed";
+    let rows = Vec::<Vec<f64>>::deserialize(deserializer)?;
+    let rows: Result<Vec<_>, _> = rows.into_iter().map(|row| three_of(row, allowed)).collect();
+    three_of(rows?, allowed).map(Some)
+}
+
 fn three_numbers<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[f64; 3]>, D::Error> {
-    let numbers = Vec::<f64>::deserialize(deserializer)?;
-    let three = <[f64; 3]>::try_from(numbers).map(Some);
-    three.map_err(|_| D::Error::custom("three numbers are allowed"))
+    three_of(Vec::deserialize(deserializer)?, "three numbers are allowed").map(Some)
 }
 
 /// `[interaction]`: with `concentration_per_cm3` or `box_mm`.
@@ -281,15 +280,20 @@ impl Scene {
         scene
     }
 
+    /// H₁, H₂ and H₃ where they are given.
+    pub fn box_mm(&self) -> Option<[f64; 3]> {
+        self.interaction.as_ref()?.box_mm
+    }
+
     /// n, rods per cm³ of the control volume: as given, or what count and box make it.
     pub fn concentration_per_cm3(&self) -> Option<f64> {
-        let interaction = self.interaction.as_ref()?;
-        let of_box =
-            |sides: [f64; 3]| self.particles.count as f64 / sides.map(|mm| mm / 10.0).iter().product::<f64>();
-        interaction
-            .box_mm
-            .map(of_box)
-            .or(interaction.concentration_per_cm3)
+        match self.box_mm() {
+            Some(sides) => {
+                let cm3 = sides.map(|mm| mm / 10.0).iter().product::<f64>();
+                Some(self.particles.count as f64 / cm3)
+            }
+            None => self.interaction.as_ref()?.concentration_per_cm3,
+        }
     }
 
     /// Gives the control volume so many rods at the same concentration: a box grows or shrinks in proportion.
@@ -311,14 +315,13 @@ impl Scene {
 
     /// H₁, H₂ and H₃ of interacting rods' control volume.
     pub fn sides_mm(&self) -> Option<[f64; 3]> {
-        let given = self.interaction.as_ref()?.box_mm;
-        given.or_else(|| Some(self.volume()?.sides().map(|side| side * self.particles.length_mm)))
+        let cube = || Some(self.volume()?.sides().map(|side| side * self.particles.length_mm));
+        self.box_mm().or_else(cube)
     }
 
     /// The control volume of interacting rods, in mean rod lengths.
     pub(crate) fn volume(&self) -> Option<ControlVolume> {
-        let interaction = self.interaction.as_ref()?;
-        match interaction.box_mm {
+        match self.box_mm() {
             Some(sides) => Some(ControlVolume::of(sides.map(|mm| mm / self.particles.length_mm))),
             None => Some(ControlVolume::holding(
                 self.particles.count,

@@ -190,11 +190,7 @@ fn rods_of_a_file_are_those_that_it_has() {
     assert!(expected.counters.collisions > 50, "{:?}", expected.counters);
     let of_a_file = |own: OwnRods| {
         let mut scene = drawn.clone();
-        scene.particles.rods = Some(RodsFile {
-            file: "rods.csv".into(),
-            crc32: None,
-            own: Some(own.into()),
-        });
+        scene.particles.rods = Some(RodsFile::with("rods.csv", own));
         run(&scene).series
     };
     // Directions of a suspension have been through the motion of no time, which rounds: a collision magnifies that.
@@ -255,11 +251,7 @@ fn rods_of_a_file_are_those_that_it_has() {
         ..OwnRods::default()
     };
     let mut given = drawn.clone();
-    given.particles.rods = Some(RodsFile {
-        file: "rods.csv".into(),
-        crc32: None,
-        own: Some(equal.into()),
-    });
+    given.particles.rods = Some(RodsFile::with("rods.csv", equal));
     let plan = Plan::new(&given).unwrap();
     assert!(!plan.keeps(Stage::Lengths) && !plan.keeps(Stage::AspectRatios));
     assert_eq!(run(&given).series, run(&drawn).series);

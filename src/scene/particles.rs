@@ -224,8 +224,7 @@ impl Default for Orientation {
 ///     length_mm: Some(vec![0.72, 1.44]),
 ///     ..OwnRods::default()
 /// };
-/// let rods = RodsFile { file: "two.csv".into(), crc32: None, own: Some(own.into()) };
-/// let particles = Particles { count: 2, rods: Some(rods), ..Particles::default() };
+/// let particles = Particles { count: 2, rods: Some(RodsFile::with("two.csv", own)), ..Particles::default() };
 /// assert!(shearbed::Plan::new(&Scene { particles, ..Scene::default() }).is_ok());
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -239,6 +238,17 @@ pub struct RodsFile {
     /// What it has; `None` where nobody has read it yet.
     #[serde(skip)]
     pub own: Option<Arc<OwnRods>>,
+}
+
+impl RodsFile {
+    /// A file of this name that has been read.
+    pub fn with(file: &str, own: OwnRods) -> Self {
+        Self {
+            file: file.to_owned(),
+            crc32: None,
+            own: Some(own.into()),
+        }
+    }
 }
 
 /// What each rod is, as structure of arrays: as many numbers as there are rods, or `None` where that is drawn.

@@ -67,11 +67,7 @@ impl Scene {
     }
 
     fn check_box(&self) -> Result<(), Invalid> {
-        match self
-            .interaction
-            .as_ref()
-            .and_then(|interaction| interaction.box_mm)
-        {
+        match self.box_mm() {
             Some(sides) if !sides.iter().all(|side| side.is_finite() && *side > 0.0) => {
                 Err(refused("interaction.box_mm", format!("{sides:?}")))
             }

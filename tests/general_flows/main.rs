@@ -25,11 +25,7 @@ fn of_a_file(p: [Vec<f64>; 3]) -> RodsFile {
         p: Some(p),
         ..OwnRods::default()
     };
-    RodsFile {
-        file: "start.csv".into(),
-        crc32: None,
-        own: Some(own.into()),
-    }
+    RodsFile::with("start.csv", own)
 }
 
 /// Finite means with ⟨pp⟩ of trace 1, or a refusal that says why; whether it was not refused.

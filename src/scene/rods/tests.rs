@@ -47,14 +47,6 @@ fn an_aspect_ratio_beside_a_cylinder_is_the_one_that_its_formula_makes() {
     );
 }
 
-fn of_a_file(own: OwnRods) -> RodsFile {
-    RodsFile {
-        file: "two.csv".into(),
-        crc32: None,
-        own: Some(own.into()),
-    }
-}
-
 /// Two rods in 2 cm³: H = 12.6 mm.
 #[test]
 fn rods_that_cannot_be_are_refused_by_number() {
@@ -73,7 +65,7 @@ fn rods_that_cannot_be_are_refused_by_number() {
     };
     scene.particles.count = 2;
     let mut judged = |own: OwnRods| {
-        scene.particles.rods = Some(of_a_file(own));
+        scene.particles.rods = Some(RodsFile::with("two.csv", own));
         scene.checked().map(|_| ()).map_err(|invalid| invalid.to_string())
     };
     assert_eq!(judged(sound.clone()), Ok(()));
@@ -134,7 +126,7 @@ fn a_start_has_length_1_to_a_few_roundings() {
             p: Some([vec![1.0, 0.0], vec![0.0, length], vec![0.0; 2]]),
             ..OwnRods::default()
         };
-        scene.particles.rods = Some(of_a_file(own));
+        scene.particles.rods = Some(RodsFile::with("two.csv", own));
         scene.checked().map(|_| ())
     };
     for length in [1.0, 1.0 + 4.0 * f64::EPSILON, 1.0 - 4.0 * f64::EPSILON] {

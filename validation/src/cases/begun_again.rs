@@ -72,11 +72,7 @@ fn again_less_straight(scene: &Scene, way: Way, replica: u64) -> f64 {
     let mut own = written(&straight, scene.particles.length_mm);
     way(&mut own);
     let mut scene = scene.clone();
-    scene.particles.rods = Some(RodsFile {
-        file: "rods.csv".into(),
-        crc32: None,
-        own: Some(own.into()),
-    });
+    scene.particles.rods = Some(RodsFile::with("rods.csv", own));
     // Other random numbers than any straight run's.
     let mut again = lab::suspension(&scene, u64::MAX / 2 + replica);
     let x1 = |suspension: &mut Suspension| stepped(suspension, STEPS_PER_PERIOD / 2).unwrap_or(f64::NAN);

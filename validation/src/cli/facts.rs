@@ -57,11 +57,7 @@ impl Facts {
             // Divided through: r² is infinite for long rods.
             shape_factor: (r - 1.0 / r) / (r + 1.0 / r),
             n_a3,
-            concentration_per_cm3: (scene
-                .interaction
-                .as_ref()
-                .and_then(|interaction| interaction.box_mm))
-            .and_then(|_| scene.concentration_per_cm3()),
+            concentration_per_cm3: scene.box_mm().and(scene.concentration_per_cm3()),
             regime: n_a3.map(|n_a3| regime(n_a3, r)),
             equivalent: scene.particles.shape_correlation.map(|correlation| Equivalent {
                 aspect_ratio: r,
@@ -128,11 +124,10 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
             false => format!("{n_a3:.3e}"),
         };
         let scene = plan.scene();
-        let of_box = scene
-            .interaction
-            .as_ref()
-            .is_some_and(|interaction| interaction.box_mm.is_some());
-        let volume = if of_box { "box_mm" } else { "concentration_per_cm3" };
+        let volume = match scene.box_mm() {
+            Some(_) => "box_mm",
+            None => "concentration_per_cm3",
+        };
         let lengths = if scene.particles.rods.is_some() {
             "rods"
         } else {
@@ -150,7 +145,7 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
 /// That the control volume is thinner than a rod is long.
 fn thin_box(plan: &Plan) -> Option<String> {
     let scene = plan.scene();
-    let (sides, length) = (scene.interaction.as_ref()?.box_mm?, scene.particles.length_mm);
+    let (sides, length) = (scene.box_mm()?, scene.particles.length_mm);
     let thinnest = sides.into_iter().fold(f64::INFINITY, f64::min);
     (thinnest < length).then(|| {
         format!(

@@ -135,9 +135,8 @@ impl Scenes {
             let concentration = own.map(|own| factor * own);
             if let (Some(value), Some(interaction)) = (concentration, scene.interaction) {
                 let side = |side: f64| Value::Float(side / factor.cbrt());
-                let sides = interaction
-                    .box_mm
-                    .map(|sides| Value::Array(sides.map(side).to_vec()));
+                let sides = interaction.box_mm;
+                let sides = sides.map(|sides| Value::Array(sides.map(side).to_vec()));
                 let given = interaction.concentration_per_cm3.map(|_| Value::Float(value));
                 let settings = &mut scenes.sets[set].settings;
                 for (key, value) in [(KEY, given), (BOX, sides)] {

@@ -1,0 +1,369 @@
+//! A table of rods in CSV, in the columns of `rods.csv`.
+
+use shearbed::scene::OwnRods;
+
+/// The columns that are read, in groups of which a file has all or none.
+const P: [&str; 3] = ["p1", "p2", "p3"];
+const PLACE: [&str; 3] = ["x1_mm", "x2_mm", "x3_mm"];
+const ASPECT_RATIO: [&str; 1] = ["aspect_ratio"];
+const LENGTH: [&str; 1] = ["length_mm"];
+
+/// The column that numbers the rods: ascending, each number once.
+const ROD: &str = "rod";
+
+/// The columns that say of which replica and time a row is: one value each in all rows.
+const ONE_VALUE: [&str; 2] = ["replica", "time_s"];
+
+/// What else may stand in the file, as in `rods.csv`.
+const OTHERS: [&str; 2] = ["strain", "collided"];
+
+/// How far the length of p may be from 1: a direction in five decimals or more. It is divided out.
+const OFF_UNIT: f64 = 1e-5;
+
+/// The columns of a group that the file has.
+struct Group<const K: usize>(Option<[usize; K]>);
+
+impl<const K: usize> Group<K> {
+    fn new(names: [&str; K], place: impl Fn(&str) -> Option<usize>) -> Result<Self, String> {
+        let places = names.map(&place);
+        let missing = names.iter().zip(places).find(|(_, place)| place.is_none());
+        match missing {
+            None => Ok(Self(Some(places.map(Option::unwrap_or_default)))),
+            Some(_) if places.iter().all(Option::is_none) => Ok(Self(None)),
+            Some((name, _)) => Err(format!(
+                "1: column {name} is missing; {} go together",
+                names.join(", ")
+            )),
+        }
+    }
+
+    fn values(&self, number: impl Fn(usize) -> Result<f64, String>) -> Result<Option<[f64; K]>, String> {
+        let Some(places) = self.0 else {
+            return Ok(None);
+        };
+        let mut values = [0.0; K];
+        for (value, place) in values.iter_mut().zip(places) {
+            *value = number(place)?;
+        }
+        Ok(Some(values))
+    }
+}
+
+/// The rods, row by row, and the line of each; of an error the line first.
+pub(super) fn read(bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), String> {
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
+    let in_words = |error: csv::Error| {
+        let line = error.position().map_or(1, csv::Position::line);
+        format!("{line}: not a table in CSV: {error}")
+    };
+    let head = reader.headers().map_err(in_words)?.clone();
+    let known = || (P.iter().chain(&PLACE).chain(&ASPECT_RATIO).chain(&LENGTH)).chain([&ROD]);
+    for (k, name) in head.iter().enumerate() {
+        if !known()
+            .chain(&ONE_VALUE)
+            .chain(&OTHERS)
+            .any(|known| *known == name)
+        {
+            let name = snippet(name);
+            return Err(format!(
+                "1: unknown column {name:?}; allowed are those of rods.csv, apart by commas: {}",
+                known()
+                    .chain(&ONE_VALUE)
+                    .chain(&OTHERS)
+                    .copied()
+                    .collect::<Vec<_>>()
+                    .join(", ")
+            ));
+        }
+        if head.iter().take(k).any(|other| other == name) {
+            return Err(format!("1: column {name} is there twice; once is allowed"));
+        }
+    }
+    let place = |name: &str| head.iter().position(|other| other == name);
+    let (p, places) = (Group::new(P, place)?, Group::new(PLACE, place)?);
+    let (shape, length) = (Group::new(ASPECT_RATIO, place)?, Group::new(LENGTH, place)?);
+    if p.0.is_none() && places.0.is_none() && shape.0.is_none() && length.0.is_none() {
+        return Err("1: no column of what a rod is: p1, p2 and p3, aspect_ratio, length_mm, or x1_mm, x2_mm and x3_mm".into());
+    }
+    let mut order = Order::new(place);
+    let mut own = OwnRods::default();
+    let (mut lines, mut at) = (Vec::new(), Place::new(bytes));
+    for record in reader.records() {
+        let record = record.map_err(in_words)?;
+        let line = record.position().map_or(0, |position| at.line(position.byte()));
+        let not_allowed = |place: usize, allowed: &str| match record.get(place).unwrap_or_default() {
+            "" => format!("{line}: {} is empty: {allowed} is allowed", &head[place]),
+            cell => format!(
+                "{line}: {} = {} is not allowed: {allowed}",
+                &head[place],
+                snippet(cell)
+            ),
+        };
+        let number = |place: usize| {
+            let parsed = record.get(place).unwrap_or_default().parse().ok();
+            let finite = parsed.filter(|value: &f64| value.is_finite());
+            finite.ok_or_else(|| not_allowed(place, "a finite number"))
+        };
+        let positive = |place: usize| match number(place)? {
+            value if value > 0.0 => Ok(value),
+            _ => Err(not_allowed(place, "a finite number > 0")),
+        };
+        order.next(&head, line, number)?;
+        if let Some(direction) = p.values(number)? {
+            // Exact operations only, for the same bits on every machine.
+            let length = direction.map(|x| x * x).iter().sum::<f64>().sqrt();
+            if (length - 1.0).abs() > OFF_UNIT {
+                let [p1, p2, p3] = direction;
+                return Err(format!(
+                    "{line}: p = ({p1}, {p2}, {p3}) has length {length}: 1 within {OFF_UNIT:e} is allowed"
+                ));
+            }
+            push(&mut own.p, direction.map(|x| x / length));
+        }
+        // Free rods have no place, and rods.csv empty cells.
+        let empty = |places: &[usize; 3]| places.iter().all(|place| record.get(*place) == Some(""));
+        if !places.0.as_ref().is_some_and(empty) {
+            if own.place_mm.is_none() && !lines.is_empty() && places.0.is_some() {
+                return Err(format!(
+                    "{line}: the rods before have no place: all have one, or none"
+                ));
+            }
+            if let Some(x) = places.values(number)? {
+                push(&mut own.place_mm, x);
+            }
+        } else if own.place_mm.is_some() {
+            return Err(format!(
+                "{line}: the rods before have a place: all have one, or none"
+            ));
+        }
+        if let Some([r]) = shape.values(positive)? {
+            own.aspect_ratio.get_or_insert_default().push(r);
+        }
+        if let Some([a]) = length.values(positive)? {
+            own.length_mm.get_or_insert_default().push(a);
+        }
+        lines.push(line);
+    }
+    Ok((own, lines))
+}
+
+/// Lines of bytes from the first on. The reader of CSV counts blank lines, and the second half of CRLF, to the row after them.
+struct Place<'a> {
+    bytes: &'a [u8],
+    line: u64,
+    offset: usize,
+}
+
+impl<'a> Place<'a> {
+    fn new(bytes: &'a [u8]) -> Self {
+        Self {
+            bytes,
+            line: 1,
+            offset: 0,
+        }
+    }
+
+    /// The line of what stands at this place, or after line ends there; places must grow.
+    fn line(&mut self, byte: u64) -> u64 {
+        let start = (byte as usize).min(self.bytes.len());
+        let blank = self.bytes[start..]
+            .iter()
+            .take_while(|byte| matches!(byte, b'\r' | b'\n'))
+            .count();
+        let passed = &self.bytes[self.offset.min(start + blank)..start + blank];
+        self.line += passed.iter().filter(|byte| **byte == b'\n').count() as u64;
+        self.offset = start + blank;
+        self.line
+    }
+}
+
+fn push(axes: &mut Option<[Vec<f64>; 3]>, values: [f64; 3]) {
+    for (axis, value) in axes.get_or_insert_default().iter_mut().zip(values) {
+        axis.push(value);
+    }
+}
+
+/// The rows of one replica at one time, in the order of their rods' numbers.
+///
+/// Rods are taken row by row: rows in another order, or of two times or replicas, would be another suspension.
+struct Order {
+    rod: Option<usize>,
+    one_value: [Option<usize>; 2],
+    /// The last rod, and the line and the values of the first row.
+    last: Option<f64>,
+    first: Option<(u64, [Option<f64>; 2])>,
+}
+
+impl Order {
+    fn new(place: impl Fn(&str) -> Option<usize>) -> Self {
+        Self {
+            rod: place(ROD),
+            one_value: ONE_VALUE.map(place),
+            last: None,
+            first: None,
+        }
+    }
+
+    /// Takes the next row; `number` reads a column of it.
+    fn next(
+        &mut self,
+        head: &csv::StringRecord,
+        line: u64,
+        number: impl Fn(usize) -> Result<f64, String>,
+    ) -> Result<(), String> {
+        let read = |place: Option<usize>| place.map(&number).transpose();
+        let values = [read(self.one_value[0])?, read(self.one_value[1])?];
+        let (first_line, first) = *self.first.get_or_insert((line, values));
+        for ((column, value), first) in self.one_value.iter().zip(values).zip(first) {
+            if let (Some(column), Some(value), Some(first)) = (column, value, first)
+                && value != first
+            {
+                return Err(format!(
+                    "{line}: {} = {value} is not allowed: line {first_line} has {first}, and a start has the rods of one \
+                     replica at one time; keep the rows of one",
+                    &head[*column]
+                ));
+            }
+        }
+        let Some(rod) = read(self.rod)? else {
+            return Ok(());
+        };
+        if !(rod >= 0.0 && rod.fract() == 0.0) {
+            return Err(format!(
+                "{line}: rod = {rod} is not allowed: a whole number from 0 on"
+            ));
+        }
+        match self.last.replace(rod) {
+            Some(last) if rod <= last => Err(format!(
+                "{line}: rod = {rod} is not allowed after rod {last}: each rod has one row; sort the rows by rod"
+            )),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The start of a cell, for a message: a file that is no start is not shown.
+fn snippet(cell: &str) -> String {
+    const MOST: usize = 20;
+    match cell.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{}…", &cell[..end]),
+        None => cell.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(text: &str) -> String {
+        read(text.as_bytes()).unwrap_err()
+    }
+
+    #[test]
+    fn rows_are_rods_in_any_order_of_columns() {
+        let text = "rod,p3,p1,p2,time_s,replica\n0,0.8,0.6,0,2.5,1\n7, -0.70711 ,0,0.70711,2.5,1\n";
+        let (own, lines) = read(text.as_bytes()).unwrap();
+        let [p1, p2, p3] = own.p.unwrap();
+        assert_eq!((p1, p3[0], lines), (vec![0.6, 0.0], 0.8, vec![2, 3]));
+        // 0.70711² · 2 = 1.0000091 is divided out.
+        assert!((p2[1] - 0.5f64.sqrt()).abs() < 1e-15 && (p3[1] + 0.5f64.sqrt()).abs() < 1e-15);
+        assert!(own.aspect_ratio.is_none() && own.length_mm.is_none() && own.place_mm.is_none());
+
+        let text = "length_mm,x2_mm,x1_mm,x3_mm,aspect_ratio\n0.5,2,1,3,11\n0.7,5,4,6,12\n";
+        let (own, lines) = read(text.as_bytes()).unwrap();
+        assert_eq!(
+            (own.length_mm, own.aspect_ratio),
+            (Some(vec![0.5, 0.7]), Some(vec![11.0, 12.0]))
+        );
+        let places = [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]].map(Vec::from);
+        assert_eq!((own.place_mm, own.p, lines), (Some(places), None, vec![2, 3]));
+        // As rods.csv has free rods.
+        let (own, _) = read(b"length_mm,x1_mm,x2_mm,x3_mm\n0.5,,,\n0.5,,,\n").unwrap();
+        assert_eq!((own.place_mm, own.length_mm), (None, Some(vec![0.5, 0.5])));
+    }
+
+    #[test]
+    fn lines_are_counted_as_an_editor_does() {
+        for (text, line) in [
+            ("length_mm\r\n1\r\n1\r\nx\r\n", 4),
+            ("length_mm\n1\n\n\n1\nx\n", 6),
+            ("length_mm\r\n\r\n1\r\nx", 4),
+            ("length_mm\nx\n", 2),
+        ] {
+            let said = format!("{line}: length_mm = x is not allowed");
+            assert!(refused(text).starts_with(&said), "{text:?}: {}", refused(text));
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_is_told_with_its_line() {
+        for (text, said) in [
+            ("p1,p2\n1,0\n", "1: column p3 is missing; p1, p2, p3 go together"),
+            ("x1_mm\n1\n", "1: column x2_mm is missing"),
+            ("rod,time_s\n0,0\n", "1: no column of what a rod is"),
+            (
+                "length_mm\n1\n0\n",
+                "3: length_mm = 0 is not allowed: a finite number > 0",
+            ),
+            ("length_mm\n-1\n", "2: length_mm = -1 is not allowed"),
+            (
+                "length_mm\nNaN\n",
+                "2: length_mm = NaN is not allowed: a finite number",
+            ),
+            ("aspect_ratio\n-2\n", "2: aspect_ratio = -2 is not allowed"),
+            (
+                "x1_mm,x2_mm,x3_mm\n1,2,3\n,,\n",
+                "3: the rods before have a place",
+            ),
+            (
+                "x1_mm,x2_mm,x3_mm\n,,\n1,2,3\n",
+                "3: the rods before have no place",
+            ),
+            (
+                "x1_mm,x2_mm,x3_mm\n1,,3\n",
+                "2: x2_mm is empty: a finite number is allowed",
+            ),
+            ("p1,p2,p3,p1\n1,0,0,1\n", "1: column p1 is there twice"),
+            ("p1,p2,p3,theta\n1,0,0,1\n", "1: unknown column \"theta\""),
+            ("p1,p2,p3\n1,0,0\n1,zero,0\n", "3: p2 = zero is not allowed"),
+            ("p1,p2,p3\n1,0,nan\n", "2: p3 = nan is not allowed"),
+            ("p1,p2,p3\n1,0,1e999\n", "2: p3 = 1e999 is not allowed"),
+            (
+                "p1,p2,p3\n1,0,0\n0.6,0.8,0.1\n",
+                "3: p = (0.6, 0.8, 0.1) has length 1.00498",
+            ),
+            ("p1,p2,p3\n0,0,0\n", "2: p = (0, 0, 0) has length 0"),
+            ("p1,p2,p3\n1,0\n", "2: not a table in CSV"),
+            (
+                "rod,p1,p2,p3\n2,1,0,0\n1,0,1,0\n",
+                "3: rod = 1 is not allowed after rod 2: each rod has one row; sort the rows by rod",
+            ),
+            (
+                "rod,p1,p2,p3\n1,1,0,0\n1,0,1,0\n",
+                "3: rod = 1 is not allowed after rod 1",
+            ),
+            (
+                "rod,p1,p2,p3\n0.5,1,0,0\n",
+                "2: rod = 0.5 is not allowed: a whole number from 0 on",
+            ),
+            ("rod,p1,p2,p3\n-1,1,0,0\n", "2: rod = -1 is not allowed"),
+            (
+                "replica,p1,p2,p3\n0,1,0,0\n0,1,0,0\n1,0,1,0\n",
+                "4: replica = 1 is not allowed: line 2 has 0",
+            ),
+            (
+                "time_s,p1,p2,p3\n0,1,0,0\n73.7,0,1,0\n",
+                "3: time_s = 73.7 is not allowed: line 2 has 0, and a start has the rods of one replica at one time",
+            ),
+            ("time_s,p1,p2,p3\nnow,1,0,0\n", "2: time_s = now is not allowed"),
+            // Of a file that is no start at most the first letters are shown.
+            (
+                "-----BEGIN PRIVATE KEY OF SOMEBODY-----\nMIIE\n",
+                "1: unknown column \"-----BEGIN PRIVATE K…\"; allowed",
+            ),
+        ] {
+            let found = refused(text);
+            assert!(found.starts_with(said), "{found}");
+        }
+    }
+}
