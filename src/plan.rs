@@ -27,7 +27,7 @@ pub(crate) enum Clock {
 /// leaves out falls slowly with r_e, and there is no r_e at which it becomes right.
 const SLENDER: f64 = 30.0;
 
-/// How far the mean of a file's rods may be from the scene's without a word: three standard errors of a few rods.
+/// Relative difference between the mean r_e in a file and the scene's that triggers no warning: three standard errors of a few rods.
 const OWN_MEAN: f64 = 0.1;
 
 /// What a unit of time is.
@@ -206,8 +206,8 @@ impl Plan {
         let (name, _, sd) =
             (drawn.into_iter()).find(|(_, lacks, sd)| own.p.is_some() && *lacks && *sd > 0.0)?;
         Some(format!(
-            "particles.{name}_sd_percent = {sd} draws each rod's {} anew, unrelated to its direction in {file}: a \
-             suspension of unequal rods goes on where the file has them too, as rods.csv does",
+            "particles.{name}_sd_percent = {sd} draws each rod's {} anew, unrelated to its direction in {file}: to \
+             continue a suspension of unequal rods, give the file that column too, as rods.csv has it",
             name.replace('_', " ")
         ))
     }
@@ -219,14 +219,14 @@ impl Plan {
         let near = (mean / particles.aspect_ratio - 1.0).abs() <= OWN_MEAN;
         (!near).then(|| {
             format!(
-                "particles.aspect_ratio = {} gives the period T, and so the times of outputs, and no rod: those of particles.rods have a \
-                 mean of {mean:.4}",
+                "particles.aspect_ratio = {} sets only the period T and the output times: the rods in particles.rods have a mean of \
+                 {mean:.4}",
                 particles.aspect_ratio
             )
         })
     }
 
-    /// Keys that say how to draw what a file has.
+    /// Keys that have no effect because the file gives what they would draw.
     fn drawn_for_nothing(&self) -> Option<String> {
         let particles = &self.scene.particles;
         let own = particles.own()?;
@@ -248,13 +248,13 @@ impl Plan {
         let unused: Vec<_> = unused.map(|(key, _)| format!("particles.{key}")).collect();
         (!unused.is_empty()).then(|| {
             format!(
-                "{} changes nothing: particles.rods has it of each rod",
+                "{} has no effect: particles.rods gives it for each rod",
                 unused.join(", ")
             )
         })
     }
 
-    /// Places that leave a part of the control volume empty, as those of another box do.
+    /// Places that leave part of the control volume empty, as they would after a change of its size.
     fn half_empty(&self) -> Option<String> {
         let (places, sides) = (
             self.scene.particles.own()?.place_mm.as_ref()?,
@@ -262,13 +262,13 @@ impl Plan {
         );
         let farthest = |axis: &Vec<f64>| axis.iter().copied().fold(0.0, f64::max);
         let short = places.iter().map(farthest).zip(sides);
-        // So far from all of n uniform places the farthest is by chance once in a million.
+        // n uniform places all lie within this share of a side by chance once in a million.
         let rods = places[0].len() as f64;
         let by_chance = |share: f64| libm::pow(share, rods) < 1e-6;
         let (axis, (farthest, side)) =
             (short.enumerate()).find(|(_, (farthest, side))| by_chance(farthest / side))?;
         Some(format!(
-            "the places of particles.rods reach to {farthest} of {side} mm along axis {}: are they of another control volume?",
+            "the places in particles.rods reach only {farthest} of {side} mm along axis {}: check that they belong to this control volume",
             axis + 1
         ))
     }

@@ -92,9 +92,8 @@ fn read(lines: &Lines<'_>, text: &str) -> Result<Scene, Vec<Found>> {
     let line = |(start, path): &Found| (*start, format!("{}: {}", lines.line(*start), self::unknown(path)));
     found.extend(unknown.iter().map(line));
     let count = more.len();
-    found.extend(
-        (more.first()).map(|(start, _)| (*start, format!("{count} unknown keys more, from here on"))),
-    );
+    found
+        .extend((more.first()).map(|(start, _)| (*start, format!("{count} more unknown keys from here on"))));
     let (mut scene, mut known) = (example(), Vec::new());
     for key in &keys {
         match key.put_into(&mut scene, &values) {

@@ -7,7 +7,7 @@ use super::allowed::Invalid;
 use super::particles::equivalent;
 use super::{OwnRods, RodsFile, Scene, find};
 
-/// A rod of a file that cannot be one of its scene.
+/// A value of a rod in a file that the scene does not allow.
 ///
 /// ```
 /// use shearbed::scene::{OwnRods, Scene};
@@ -27,7 +27,7 @@ pub struct Misfit {
     pub allowed: String,
 }
 
-/// Lengths of single rods over the scene's whose cubes, and the sums of these, are numbers.
+/// Allowed lengths of single rods over the scene's: their cubes and the sums of these stay finite.
 const OWN_LENGTHS: std::ops::RangeInclusive<f64> = 1e-50..=1e50;
 
 impl Scene {
@@ -100,26 +100,24 @@ impl Scene {
                 column,
                 value,
                 allowed,
-            }) => refused(format!(
-                "{allowed} as {column} of each rod; that of rod {rod} is {value:?}"
-            )),
+            }) => refused(format!("rod {rod} has {column} = {value:?}; allowed: {allowed}")),
             None => Ok(()),
         }
     }
 
-    /// The first rod of a file, as many as the scene has, that cannot be one of it.
+    /// The first rod of a file that this scene cannot have; `None` if it can have all. The columns must be as long as `particles.count`.
     pub fn misfit(&self, own: &OwnRods) -> Option<Misfit> {
         let key = |path| find(path).map(|key| key.holds);
         let shape = key("particles.aspect_ratio");
         let r_e =
             |r: f64| shape.is_some_and(|holds| holds.allows(r)) && (self.interaction.is_none() || r > 1.0);
         let r_e_allowed = match self.interaction {
-            Some(_) => "interacting rods need a number > 1, up to 1e100".to_owned(),
+            Some(_) => "a number > 1, up to 1e100, for interacting rods".to_owned(),
             None => shape.map_or_else(String::new, |holds| holds.to_string()),
         };
         let unit = self.particles.length_mm;
         let length = |length: f64| OWN_LENGTHS.contains(&(length / unit));
-        let length_allowed = "a number > 0 between 1e-50 and 1e50 times the scene's length_mm";
+        let length_allowed = "a number between 1e-50 and 1e50 times the scene's length_mm";
         let first = |values: &[f64], allowed: &dyn Fn(f64) -> bool, column, words: &str| {
             let rod = values.iter().position(|value| !allowed(*value))?;
             let (value, allowed) = (values[rod], words.to_owned());
@@ -148,7 +146,7 @@ impl Scene {
             let names = ["x1_mm", "x2_mm", "x3_mm"];
             let axes = places.iter().zip(sides).zip(names);
             axes.into_iter().find_map(|((place, side), name)| {
-                let words = format!("the control volume reaches from 0 to {side} mm");
+                let words = format!("0 to {side} mm, the control volume");
                 first(place, &|x| (0.0..=side).contains(&x), name, &words)
             })
         };

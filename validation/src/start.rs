@@ -44,7 +44,7 @@ impl Starts {
         self.read.keys().map(|file| self.folder.join(file))
     }
 
-    /// Gives a scene whose rods a file has what the file says of them; others are left as they are.
+    /// Loads the file of `particles.rods` into the scene. A scene without one is left unchanged.
     ///
     /// # Errors
     ///
@@ -84,7 +84,7 @@ impl Starts {
     }
 }
 
-/// Whether the rods of a file can be those of the scene, or the line of the first that cannot.
+/// Checks that the scene can have the rods of a file; an error starts with the line.
 fn fits(scene: &Scene, start: &Start) -> Result<(), String> {
     let (count, rows, own) = (scene.particles.count, start.lines.len(), &start.own);
     if rows != count {
@@ -149,11 +149,11 @@ mod tests {
             ("length_mm\n1\n1\n1\n", "start.csv: has 3 rows"),
             (
                 "aspect_ratio\n2\n1\n",
-                "start.csv:3: aspect_ratio = 1.0 is not allowed: interacting rods need a number > 1",
+                "start.csv:3: aspect_ratio = 1.0 is not allowed: a number > 1, up to 1e100, for interacting rods",
             ),
             (
                 "x1_mm,x2_mm,x3_mm\n1,2,3\n3,4,1\n",
-                "start.csv:3: x2_mm = 4.0 is not allowed: the control volume reaches from 0 to 3.41",
+                "start.csv:3: x2_mm = 4.0 is not allowed: 0 to 3.41",
             ),
             (
                 "x1_mm,x2_mm,x3_mm\n1,2,-3\n3,1,1\n",

@@ -77,19 +77,19 @@ fn rods_that_cannot_be_are_refused_by_number() {
     for (own, why) in [
         (
             with(&|own| own.aspect_ratio = Some(vec![2.0, 1.0])),
-            "interacting rods need a number > 1, up to 1e100 as aspect_ratio of each rod; that of rod 1 is 1.0",
+            "rod 1 has aspect_ratio = 1.0; allowed: a number > 1, up to 1e100, for interacting rods",
         ),
         (
             with(&|own| own.aspect_ratio = Some(vec![f64::NAN, 2.0])),
-            "that of rod 0 is NaN",
+            "rod 0 has aspect_ratio = NaN; allowed: ",
         ),
         (
             with(&|own| own.length_mm = Some(vec![1.0, 0.0])),
-            "a number > 0 between 1e-50 and 1e50 times the scene's length_mm as length_mm of each rod; that of rod 1 is 0.0",
+            "rod 1 has length_mm = 0.0; allowed: a number between 1e-50 and 1e50 times the scene's length_mm",
         ),
         (
             with(&|own| own.length_mm = Some(vec![f64::INFINITY, 1.0])),
-            "that of rod 0 is inf",
+            "rod 0 has length_mm = inf; allowed: ",
         ),
         (
             with(&|own| own.length_mm = Some(vec![1.0; 3])),
@@ -97,15 +97,15 @@ fn rods_that_cannot_be_are_refused_by_number() {
         ),
         (
             with(&|own| own.place_mm.as_mut().unwrap()[1][0] = 12.7),
-            "mm as x2_mm of each rod; that of rod 0 is 12.7",
+            "rod 0 has x2_mm = 12.7; allowed: 0 to 12.599",
         ),
         (
             with(&|own| own.place_mm.as_mut().unwrap()[2][1] = -1e-9),
-            "the control volume reaches from 0 to 12.599",
+            "; allowed: 0 to 12.599",
         ),
         (
             with(&|own| own.place_mm.as_mut().unwrap()[0][1] = f64::NAN),
-            "the control volume reaches from 0 to 12.599",
+            "; allowed: 0 to 12.599",
         ),
     ] {
         let refusal = judged(own).unwrap_err();
@@ -134,6 +134,9 @@ fn a_start_has_length_1_to_a_few_roundings() {
     }
     for length in [1.0 + 1e-14, 1.0 - 1e-14, 0.0, 2.0, f64::NAN] {
         let refusal = start(length).unwrap_err().to_string();
-        assert!(refusal.contains("that of rod 1 is "), "{length}: {refusal}");
+        assert!(
+            refusal.contains("rod 1 has p1² + p2² + p3² = "),
+            "{length}: {refusal}"
+        );
     }
 }

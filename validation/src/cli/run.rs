@@ -50,7 +50,7 @@ pub(super) struct Args {
     quiet: bool,
 }
 
-/// Refuses to write over a file that the scene's rods are read from, by force too.
+/// Refuses a folder in which a result would replace a file that the scene's rods are read from, with --force too.
 fn reads_no_result(starts: &Starts, out: &Path, names: &[impl AsRef<Path>]) -> Result<(), Failure> {
     let there = |path: PathBuf| path.canonicalize().ok();
     let results: Vec<_> = names.iter().filter_map(|name| there(out.join(name))).collect();
@@ -59,7 +59,7 @@ fn reads_no_result(starts: &Starts, out: &Path, names: &[impl AsRef<Path>]) -> R
         .find(|file| there(file.clone()).is_some_and(|file| results.contains(&file)))
     {
         Some(file) => Err(Failure::Input(format!(
-            "--out {}: {} is what particles.rods reads, and a result would be written there; another folder, or another name, is allowed",
+            "--out {}: a result would replace {}, which particles.rods reads: choose another folder",
             out.display(),
             file.display()
         ))),

@@ -105,7 +105,7 @@ fn a_sweep_starts_from_a_file_and_knows_it_again() {
     fs::write(at("below/s.toml"), &scene).unwrap();
     // The file has the r_e of each rod.
     let done = shearbed(dir.path(), "plan below/s.toml --set particles.aspect_ratio=5");
-    let words = "those of particles.rods have a mean of 11.6000";
+    let words = "the rods in particles.rods have a mean of 11.6000";
     assert!(done.stdout.contains(words), "{}", done.stdout);
     let sweep = "sweep below/s.toml --over flow.shear_rate_per_s=0.5,1 --out x --quiet";
     assert_eq!(shearbed(dir.path(), sweep).code, Some(0));
@@ -316,7 +316,10 @@ fn rods_at_a_face_and_results_beside_their_input() {
     let kept = fs::read(at("rods.csv")).unwrap();
     let done = shearbed(dir.path(), "run s.toml --out . --force --quiet");
     assert!(
-        done.code == Some(2) && done.stderr.contains("is what particles.rods reads"),
+        done.code == Some(2)
+            && done
+                .stderr
+                .contains("rods.csv, which particles.rods reads: choose another folder"),
         "{}",
         done.stderr
     );
@@ -330,12 +333,14 @@ fn rods_at_a_face_and_results_beside_their_input() {
     .unwrap();
     let told = plan("--set interaction.box_mm=[1000,10,10]");
     assert!(
-        told.contains("reach to 0.4 of 1000 mm along axis 1: are they of another control volume?"),
+        told.contains(
+            "reach only 0.4 of 1000 mm along axis 1: check that they belong to this control volume"
+        ),
         "{told}"
     );
     let told = plan("--set particles.length_sd_percent=5");
     assert!(
-        told.contains("particles.length_sd_percent changes nothing: particles.rods has it of each rod"),
+        told.contains("particles.length_sd_percent has no effect: particles.rods gives it for each rod"),
         "{told}"
     );
     let told = plan("--set interaction.box_mm=[100,100,0.5]");
