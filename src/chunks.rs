@@ -7,18 +7,21 @@ use std::ops::Range;
 /// Rods that one thread takes on at a time. A run of so many or fewer stays on one thread: its replicas are shared.
 pub(crate) const CHUNK: usize = 1 << 16;
 
-/// Calls `each` with every chunk of three arrays of coordinates and the index of its first rod.
-pub(crate) fn over_chunks(axes: &mut [Vec<f64>; 3], each: impl Fn(usize, [&mut [f64]; 3]) + Sync) {
+/// What `each` makes of every chunk of three arrays of coordinates and its number, in the order of chunks.
+pub(crate) fn over_chunks<T: Send>(
+    axes: &mut [Vec<f64>; 3],
+    each: impl Fn(usize, [&mut [f64]; 3]) -> T + Sync,
+) -> Vec<T> {
     let [x1, x2, x3] = axes;
     if x1.len() <= CHUNK {
-        each(0, [x1, x2, x3]);
-        return;
+        return vec![each(0, [x1, x2, x3])];
     }
     (x1.par_chunks_mut(CHUNK)
         .zip(x2.par_chunks_mut(CHUNK))
         .zip(x3.par_chunks_mut(CHUNK)))
     .enumerate()
-    .for_each(|(k, ((x1, x2), x3))| each(k * CHUNK, [x1, x2, x3]));
+    .map(|(k, ((x1, x2), x3))| each(k, [x1, x2, x3]))
+    .collect()
 }
 
 /// What `each` makes of every chunk of `count` rods, in the order of chunks.

@@ -52,12 +52,22 @@ impl VelocityGradient {
 
     /// The magnitude (2 D:D)^½ of the strain rate in 1/s: |G| in plane Couette flow, 0 in a pure rotation.
     pub fn magnitude_per_s(&self) -> f64 {
+        self.scaled(Self::strain_rate)
+    }
+
+    /// The magnitude (2 W:W)^½ of the vorticity in 1/s, twice the rate at which the liquid turns: |G| in plane Couette flow.
+    pub fn turn_per_s(&self) -> f64 {
+        self.scaled(Self::vorticity)
+    }
+
+    /// √2 times the norm of a part of the gradient.
+    fn scaled(&self, part: impl Fn(&Self) -> Matrix3<f64>) -> f64 {
         let largest = self.0.amax();
         if largest == 0.0 {
             return 0.0;
         }
         // Scaled first, so that neither 10⁻³⁰⁰ nor 10³⁰⁸ is lost in the squares or the sums.
-        largest * Self(self.0 / largest).strain_rate().norm() * std::f64::consts::SQRT_2
+        largest * part(&Self(self.0 / largest)).norm() * std::f64::consts::SQRT_2
     }
 }
 
@@ -85,6 +95,7 @@ mod tests {
         for g in [1e-300, 0.5, 1e300] {
             let flow = VelocityGradient::plane_couette(g).unwrap();
             assert!((flow.magnitude_per_s() / g - 1.0).abs() < 4.0 * f64::EPSILON);
+            assert!((flow.turn_per_s() / g - 1.0).abs() < 4.0 * f64::EPSILON);
         }
         let extension = |e: f64| VelocityGradient::new(Matrix3::from_diagonal(&Vector3::new(e, -e, 0.0)));
         assert!((extension(8e307).unwrap().magnitude_per_s() / 1.6e308 - 1.0).abs() < 4.0 * f64::EPSILON);

@@ -53,17 +53,8 @@ impl FreeMotion {
         let start = particles.common_start_deg();
         let start = start.map(|[phi_deg, theta_deg]| from_degrees(phi_deg, theta_deg));
         if each || particles.of_several_shapes() {
-            let spread = match particles.own_aspect_ratios() {
-                Some(own) => own
-                    .iter()
-                    .fold([r; 2], |[least, most], r| [r.min(least), r.max(most)]),
-                None => {
-                    let deviation = 3.0 * particles.aspect_ratio_sd_percent / 100.0;
-                    [r * (1.0 - deviation), r * (1.0 + deviation)]
-                }
-            };
             let mut error_rad = 0.0f64;
-            for r in [spread[0], r, spread[1]] {
+            for r in particles.extreme_aspect_ratios() {
                 let propagator = Propagator::general(flow, r);
                 let errors = at_each(scene, &self::spans(scene), |span| {
                     let (error, of_start) = match start {

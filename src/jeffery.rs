@@ -3,7 +3,7 @@
 //! Jeffery (1922) as printed in the appendix of Lee & Springer (1982). Nothing here takes a step: the exact
 //! motion over a finite time is in [`crate::propagator`].
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::TAU;
 
 /// Λ = (r_e² − 1)/(r_e² + 1): 1 for a thread, 0 for a sphere, −1 for a disc.
@@ -34,15 +34,11 @@ pub fn couette_rate(p: &Vector3<f64>, shape_factor: f64, sign: f64) -> Vector3<f
     )
 }
 
-/// ṗ = W·p + Λ(D·p − p p·D·p) in 1/s in any gradient, for tests of what runs.
-#[cfg(test)]
-pub(crate) fn direction_rate_per_s(
-    flow: &crate::flow::VelocityGradient,
-    aspect_ratio: f64,
-    p: &Vector3<f64>,
-) -> Vector3<f64> {
-    let stretch = flow.strain_rate() * p;
-    flow.vorticity() * p + shape_factor(aspect_ratio) * (stretch - p * p.dot(&stretch))
+/// ṗ = W·p + Λ(D·p − p p·D·p) in a liquid with this gradient, in its unit of time.
+pub fn rate(gradient: &Matrix3<f64>, p: &Vector3<f64>, shape_factor: f64) -> Vector3<f64> {
+    let (along, across) = (gradient * p, gradient.tr_mul(p));
+    let stretch = 0.5 * shape_factor * (along + across);
+    0.5 * (along - across) + stretch - p * p.dot(&stretch)
 }
 
 #[cfg(test)]
@@ -56,13 +52,22 @@ mod tests {
         #![proptest_config(crate::fixed_seed(256))]
 
         #[test]
-        fn the_rate_is_that_of_the_tensors(phi in 0.0f64..6.2, theta in 0.1f64..3.0, r in 0.1f64..50.0) {
-            let p = orientation::from_angles(phi, theta);
-            for sign in [1.0, -1.0] {
-                let flow = VelocityGradient::plane_couette(sign).unwrap();
-                let rate = direction_rate_per_s(&flow, r, &p);
-                prop_assert!((couette_rate(&p, shape_factor(r), sign) - rate).norm() < 1e-15);
-                prop_assert!(rate.dot(&p).abs() < 1e-15);
+        fn the_rates_are_those_of_the_tensors(
+            phi in 0.0f64..6.2, theta in 0.1f64..3.0, r in 0.1f64..50.0, rows in prop::array::uniform9(-1.0f64..1.0)
+        ) {
+            let (p, factor) = (orientation::from_angles(phi, theta).into_inner(), shape_factor(r));
+            for flow in [
+                VelocityGradient::plane_couette(1.0).unwrap(),
+                VelocityGradient::plane_couette(-1.0).unwrap(),
+                VelocityGradient::new(Matrix3::from_row_slice(&rows)).unwrap(),
+            ] {
+                let stretch = flow.strain_rate() * p;
+                let expected = flow.vorticity() * p + factor * (stretch - p * p.dot(&stretch));
+                let found = rate(flow.per_s(), &p, factor);
+                prop_assert!((found - expected).norm() < 3e-15 && found.dot(&p).abs() < 3e-15);
+                if let Some(sign) = flow.shear_rate_per_s() {
+                    prop_assert!((couette_rate(&p, factor, sign) - expected).norm() < 1e-15);
+                }
             }
         }
     }

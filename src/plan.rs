@@ -11,6 +11,7 @@ use crate::observable::Observable;
 use crate::propagator::Propagator;
 use crate::scene::{Invalid, Orientation, Scene, resolved_strain};
 use stages::entries;
+pub(crate) use stages::no_interaction;
 use std::fmt;
 use std::sync::Arc;
 
@@ -56,7 +57,7 @@ pub struct Unit {
 pub struct Plan {
     scene: Scene,
     flow: VelocityGradient,
-    /// Where free rods are, but in plane Couette flow by periods.
+    /// Where rods that do not meet are, but in plane Couette flow by periods.
     free: Option<Arc<FreeMotion>>,
     entries: Vec<Entry>,
 }
@@ -79,7 +80,7 @@ impl Plan {
 
     /// The same plan with `stage`, and what it needs, kept although the scene does not need it: for tests
     /// that leaving it out changes nothing, and for measuring what it would cost. `None` where the scene
-    /// lacks what the stage works on (no `[interaction]` table, no period).
+    /// lacks what the stage works on: no `[interaction]` table, or free rods in other than plane Couette flow by periods.
     pub fn keeping(&self, stage: Stage) -> Option<Self> {
         let needs: &[Stage] = match stage {
             Stage::Translation => &[Stage::Positions],
@@ -94,7 +95,7 @@ impl Plan {
             _ => &[],
         };
         let in_volume = stage == Stage::Positions || !needs.is_empty();
-        if in_volume && self.scene.interaction.is_none() {
+        if in_volume && (self.scene.interaction.is_none() || self.free.is_some()) {
             return None;
         }
         let mut plan = self.clone();
@@ -180,13 +181,15 @@ impl Plan {
 
     /// Steps that are too long for the motion.
     fn unresolved_steps(&self) -> Option<String> {
-        let (steps, strain) = (self.scene.steps_per_period(), self.scene.strain_per_step());
+        let (steps, strain) = (self.scene.steps_per_unit(), self.scene.strain_per_step());
         let resolved = resolved_strain(self.scene.particles.mean_aspect_ratio());
         (self.steps() > 0 && strain > resolved).then(|| {
             format!(
-                "time.steps_per_period = {steps} does not resolve the motion: the strain per step is {strain:.3}, above \
-                 {resolved:.3}; {} steps a period resolve it (the default)",
-                self.scene.resolving_steps_per_period()
+                "{} = {steps} does not resolve the motion: the strain per step is {strain:.3}, above {resolved:.3}; {} \
+                 steps a {} resolve it (the default)",
+                self.scene.steps_key(),
+                self.scene.resolving_steps(),
+                self.scene.time_unit()
             )
         })
     }
@@ -348,7 +351,7 @@ impl Plan {
     /// Steps between outputs; 1 where no steps are taken.
     pub(crate) fn ticks_per_output(&self) -> u64 {
         if self.keeps(Stage::Translation) {
-            self.scene.steps_per_period() / self.scene.outputs_per_period()
+            self.scene.steps_per_unit() / self.scene.outputs_per_unit()
         } else {
             1
         }

@@ -54,16 +54,16 @@ pub(crate) fn fill_uniform(rng: &mut Pcg64Dxsm, out: &mut [f64]) {
         return;
     }
     out.par_chunks_mut(CHUNK).enumerate().for_each(|(k, chunk)| {
-        let mut rng = ahead(rng, k * CHUNK);
+        let mut rng = ahead(rng, (k * CHUNK) as u64);
         chunk.fill_with(|| rng.random());
     });
-    *rng = ahead(rng, out.len());
+    *rng = ahead(rng, out.len() as u64);
 }
 
 /// The stream after `count` more numbers.
-pub(crate) fn ahead(rng: &Pcg64Dxsm, count: usize) -> Pcg64Dxsm {
+pub(crate) fn ahead(rng: &Pcg64Dxsm, count: impl Into<u128>) -> Pcg64Dxsm {
     let mut rng = rng.clone();
-    rng.advance(count as u128);
+    rng.advance(count.into());
     rng
 }
 

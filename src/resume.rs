@@ -100,10 +100,8 @@ impl Placed {
             positions,
         } = self;
         if let Some(draws) = &mut suspension.draws {
-            *draws = rng(Purpose::Collisions, counters.draws as usize);
+            *draws = rng(Purpose::Collisions, counters.draws);
         }
-        // x_1 and x_3 of each.
-        suspension.replacements = rng(Purpose::Replacements, 2 * counters.replacements as usize);
         suspension.rods.restore(directions, since);
         suspension.positions = positions;
         suspension.tick = counters.steps;

@@ -2,7 +2,7 @@
 //! motion takes it from there to whatever time is asked for. A free rod is never stepped.
 
 use crate::border::Fault;
-use crate::chunks::over_chunks;
+use crate::chunks::{CHUNK, over_chunks};
 use crate::free::{FreeMotion, MAX_ERROR_RAD, Way, directed, refused_direction};
 use crate::gaussian;
 use crate::jeffery::strain_per_period;
@@ -12,7 +12,7 @@ use crate::phase::{Phase, nearest_whole};
 use crate::plan::{Clock, Plan, Stage};
 use crate::propagator::{Propagator, couette};
 use crate::random::{Purpose, ahead, stream};
-use crate::scene::Orientation;
+use crate::scene::{Orientation, step_maps};
 use crate::work::Counters;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use rand::RngExt;
@@ -23,7 +23,7 @@ use std::sync::Arc;
 /// Directions and aspect ratios of one replica's rods, as structure of arrays.
 #[derive(Clone, Debug)]
 pub(crate) struct Rods {
-    /// Each rod's direction at its tick `since`.
+    /// Each rod's direction at its tick `since`; now, where the motion goes by steps.
     p: [Vec<f64>; 3],
     /// Empty where no rod can collide: every rod then counts from tick 0.
     since: Vec<u32>,
@@ -45,6 +45,8 @@ enum Shapes {
 enum Motion {
     /// Plane Couette flow: phases from ticks.
     Couette(Ticks),
+    /// Anything else where rods meet: the map q = M p of one step, for each rod or one for all.
+    Steps(Vec<Matrix3<f64>>),
     /// Anything else as the plan has it; where rods are moved one by one with a propagator for each, or one for all.
     Free {
         motion: Arc<FreeMotion>,
@@ -125,14 +127,37 @@ impl Rods {
         self.since = since;
     }
 
-    /// The direction of one rod in plane Couette flow at `tick`.
+    /// The direction of one of the rods that meet at `tick`.
     pub fn direction(&self, rod: usize, tick: u64) -> Vector3<f64> {
+        let p = self.p.each_ref().map(|axis| axis[rod]);
         let Motion::Couette(clock) = &self.motion else {
-            unreachable!("only rods in plane Couette flow are asked for one by one");
+            return p.into();
         };
         let r = self.aspect_ratio(rod);
         let phase = clock.phase(self.elapsed(rod, tick), clock.periods(&self.shapes, r));
-        couette(self.p.each_ref().map(|axis| axis[rod]), r, phase).into()
+        couette(p, r, phase).into()
+    }
+
+    /// Moves the rods over the step from `tick` on that no collision has moved, where the motion goes by steps.
+    pub fn advance(&mut self, tick: u64) {
+        let Self {
+            p,
+            since,
+            motion: Motion::Steps(maps),
+            ..
+        } = self
+        else {
+            return;
+        };
+        over_chunks(p, |chunk, [p1, p2, p3]| {
+            let axes = p1.iter_mut().zip(p2).zip(p3);
+            for (rod, ((p1, p2), p3)) in (chunk * CHUNK..).zip(axes) {
+                if since.get(rod).is_none_or(|since| u64::from(*since) <= tick) {
+                    let map = maps.get(rod).unwrap_or(&maps[0]);
+                    [*p1, *p2, *p3] = mapped(map, [*p1, *p2, *p3]);
+                }
+            }
+        });
     }
 
     /// Fills `block` with the directions at `tick` (for flows other than plane Couette flow: at that
@@ -174,6 +199,7 @@ impl Rods {
                     couette(p, r, clock.phase(elapsed[k], clock.periods(shapes, r)))
                 });
             }
+            (Motion::Steps(_), _) => block.turn(from, |_, p, _| p),
             (Motion::Free { motion, propagators }, _) => match &motion.way {
                 Way::Alike(ends) => {
                     let end = ends[tick as usize % ends.len()];
@@ -324,8 +350,8 @@ fn draw_directions(plan: &Plan, replica: u64) -> [Vec<f64>; 3] {
     let rng = plan
         .keeps(Stage::Orientations)
         .then(|| stream(plan.scene().ensemble.seed, replica, Purpose::Orientations));
-    over_chunks(&mut p, |first, [p1, p2, p3]| {
-        let mut rng = rng.as_ref().map(|rng| ahead(rng, 2 * first));
+    over_chunks(&mut p, |chunk, [p1, p2, p3]| {
+        let mut rng = rng.as_ref().map(|rng| ahead(rng, 2 * (chunk * CHUNK) as u64));
         for ((p1, p2), p3) in p1.iter_mut().zip(p2).zip(p3) {
             let drawn = rng.as_mut().map(|rng| isotropic(rng.random(), rng.random()));
             let direction = match (&particles.orientation, drawn) {
@@ -350,7 +376,13 @@ fn choose_motion(plan: &Plan, shapes: &Shapes) -> Motion {
         });
     }
     let Some(motion) = plan.free().cloned() else {
-        unreachable!("a plan without the closed form has the motion of free rods");
+        let shapes = match shapes {
+            Shapes::Shared(r) => std::slice::from_ref(r),
+            Shapes::Each(all) => all,
+        };
+        // A plan has been checked to have them.
+        let maps = step_maps(plan.scene(), flow, shapes).flatten();
+        return Motion::Steps(maps.map(|(map, _)| map).collect());
     };
     let propagators = match (&motion.way, shapes) {
         (Way::Each { .. }, Shapes::Each(aspect_ratios)) => {

@@ -18,6 +18,7 @@ pub(crate) use keys::{find, required};
 pub use particles::{Isotropic, Orientation, OwnRods, Particles, RodsFile};
 pub use rods::Misfit;
 pub use steps::resolved_strain;
+pub(crate) use steps::step_maps;
 
 /// A whole scene. The tables and keys are those of the scene file ([`KEYS`]). In code, start from the default and say
 /// what differs; [`crate::Plan::new`] checks it.
@@ -164,6 +165,9 @@ pub struct Time {
     /// Steps per period of an interacting scene; by default as many as resolve the motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps_per_period: Option<u64>,
+    /// Steps per unit of strain of an interacting scene; by default as many as resolve the motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps_per_strain: Option<u64>,
     /// Outputs per period; 50 by default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub outputs_per_period: Option<u64>,
@@ -275,7 +279,7 @@ impl Scene {
             None => scene.time.outputs_per_period = Some(self.outputs_per_period()),
         }
         if scene.interaction.is_some() {
-            scene.time.steps_per_period = Some(self.steps_per_period());
+            scene.set_steps_per_unit(self.steps_per_unit());
         }
         scene
     }
@@ -333,15 +337,20 @@ impl Scene {
     /// Outputs per period, given or by default: 50, or where rods interact the largest divisor of the
     /// steps per period up to 50.
     pub fn outputs_per_period(&self) -> u64 {
-        let steps = self.steps_per_period().max(1);
+        let steps = self.steps_per_unit().max(1);
         self.time.outputs_per_period.unwrap_or_else(|| {
             let divides = |k: &u64| self.interaction.is_none() || steps.is_multiple_of(*k);
             (1..=50).rev().find(divides).unwrap_or(1)
         })
     }
 
-    /// Outputs per unit of strain, given or by default.
+    /// Outputs per unit of strain, given or by default: 10, or where rods interact the largest divisor of the steps per unit of
+    /// strain up to 10.
     pub fn outputs_per_strain(&self) -> u64 {
-        self.time.outputs_per_strain.unwrap_or(10)
+        self.time.outputs_per_strain.unwrap_or_else(|| {
+            let steps = self.time.steps_per_strain.filter(|_| self.interaction.is_some());
+            let divides = |k: &u64| steps.is_none_or(|steps| steps.is_multiple_of(*k));
+            (1..=10).rev().find(divides).unwrap_or(1)
+        })
     }
 }

@@ -1,19 +1,20 @@
 //! Interacting rods in the control volume, step by step (the paper's method of solution).
 
+mod liquid;
 mod state;
 #[cfg(test)]
 mod tests;
 
 use crate::collision::{Reach, norm, share_velocity, step_angles, turn};
 use crate::contact::contact;
-use crate::jeffery::{couette_rate, shape_factor, strain_per_period};
+use crate::jeffery::shape_factor;
 use crate::neighbours::{Nearest, Neighbours};
 use crate::plan::{Plan, Stage};
 use crate::random::{Purpose, fill_uniform, stream};
 use crate::rods::Rods;
 use crate::scene::Update;
-use crate::volume::ControlVolume;
 use crate::work::{Counters, RunError};
+use liquid::Liquid;
 use nalgebra::{UnitVector3, Vector3};
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
@@ -40,7 +41,7 @@ pub struct Collision {
     pub kicks_rad: [f64; 2],
 }
 
-/// One replica of an interacting scene: lengths in mean rod lengths, time in 1/|G|.
+/// One replica of an interacting scene: lengths in mean rod lengths.
 ///
 /// Inside a step: neighbours, draws and contacts from the state at its start; then every orientation
 /// moves; then every position, with replacements.
@@ -60,10 +61,11 @@ pub struct Suspension {
     pub(crate) counters: Counters,
     /// Empty arrays where the plan drops them.
     pub(crate) positions: [Vec<f64>; 3],
-    volume: ControlVolume,
+    sides: [f64; 3],
+    liquid: Liquid,
     neighbours: Option<Neighbours>,
     pub(crate) draws: Option<Pcg64Dxsm>,
-    pub(crate) replacements: Pcg64Dxsm,
+    replacements: Pcg64Dxsm,
     contacts: bool,
     reach: Reach,
     rule: Rule,
@@ -102,9 +104,8 @@ pub(crate) const BYTES_OF_A_CANDIDATE: usize = 2 * size_of::<Nearest>()
 struct Rule {
     update: Update,
     min_arm: f64,
-    /// |G|Δt.
-    strain: f64,
-    sign: f64,
+    /// Δt in the liquid's unit of time; |G|Δt in plane Couette flow.
+    step: f64,
 }
 
 impl Suspension {
@@ -118,6 +119,7 @@ impl Suspension {
         let (rods, counters) = Rods::draw(plan, replica);
         let count = rods.count();
         let volume = scene.volume()?;
+        let (liquid, step) = Liquid::of(plan, volume);
         let seed = scene.ensemble.seed;
         let rng = |purpose| stream(seed, replica, purpose);
         Some(Self {
@@ -127,7 +129,8 @@ impl Suspension {
                 Some(places) => volume.within(places, scene.particles.length_mm),
                 None => volume.draw_positions(count, &rng(Purpose::Positions)),
             },
-            volume,
+            sides: volume.sides(),
+            liquid,
             neighbours: plan
                 .keeps(Stage::Neighbours)
                 .then(|| Neighbours::new(volume.sides(), count)),
@@ -140,8 +143,7 @@ impl Suspension {
             rule: Rule {
                 update: interaction.update,
                 min_arm: interaction.min_contact_arm,
-                strain: strain_per_period(scene.particles.aspect_ratio) / scene.steps_per_period() as f64,
-                sign: plan.flow().shear_rate_per_s()?.signum(),
+                step,
             },
             tick: 0,
             drawn: Vec::new(),
@@ -174,14 +176,12 @@ impl Suspension {
     pub fn step(&mut self) -> Result<&[Collision], RunError> {
         self.find_candidates();
         self.collide()?;
+        self.rods.advance(self.tick);
         self.tick += 1;
         self.counters.steps += 1;
-        self.counters.replacements += self.volume.advance(
-            &mut self.positions,
-            self.rule.strain,
-            self.rule.sign,
-            &mut self.replacements,
-        );
+        let before = self.counters.replacements;
+        self.counters.replacements +=
+            (self.liquid).carry(&mut self.positions, self.rule.step, before, &self.replacements);
         Ok(&self.collisions)
     }
 
@@ -258,22 +258,22 @@ impl Suspension {
         let contact = contact(&separation, &p[0], &p[1], min_arms)?;
         let rate = |k: usize| {
             let factor = shape_factor(self.rods.aspect_ratio(pair[k]));
-            couette_rate(&p[k], factor, self.rule.sign)
+            self.liquid.rate(&p[k], factor)
         };
-        let relative_velocity = Vector3::new(0.0, self.rule.sign * separation.x, 0.0);
+        let relative_velocity = self.liquid.velocity(&separation);
         let free = [rate(0), rate(1)];
         let rates = share_velocity(&contact, &relative_velocity, free);
         let turned = [0, 1].map(|k| {
             let start = UnitVector3::new_unchecked(p[k]);
             match self.rule.update {
-                Update::Rotation => turn(&start, &rates[k], self.rule.strain),
-                Update::Angles => step_angles(&start, &rates[k], self.rule.strain),
+                Update::Rotation => turn(&start, &rates[k], self.rule.step),
+                Update::Angles => step_angles(&start, &rates[k], self.rule.step),
             }
         });
         Some(Turns {
             ends: turned.map(|(end, _)| end),
             angles_rad: turned.map(|(_, angle)| angle),
-            kicks_rad: [0, 1].map(|k| norm(&(rates[k] - free[k])) * self.rule.strain),
+            kicks_rad: [0, 1].map(|k| norm(&(rates[k] - free[k])) * self.rule.step),
             arms: contact.arms,
         })
     }

@@ -1,12 +1,15 @@
 //! The control volume, its rods' positions, and the replacement of rods that leave it (Fig. 3, eq. 14).
 
+mod inflow;
+
+pub use inflow::{Inflow, MAX_STEP};
+
 use crate::chunks::{CHUNK, over_chunks};
 use crate::random::ahead;
 use rand::RngExt;
 use rand_pcg::Pcg64Dxsm;
-use rayon::prelude::*;
 
-/// The volume [0, H₁) × [0, H₂) × [0, H₃) in plane Couette flow u_2 = ±x_1, with lengths in rod lengths and time in 1/|G|.
+/// The volume [0, H₁) × [0, H₂) × [0, H₃), with lengths in rod lengths.
 ///
 /// ```
 /// use shearbed::volume::ControlVolume;
@@ -38,8 +41,8 @@ impl ControlVolume {
     /// `count` uniform positions as three arrays: x_i = H_i R_i, drawn rod by rod (eq. 12).
     pub fn draw_positions(&self, count: usize, rng: &Pcg64Dxsm) -> [Vec<f64>; 3] {
         let mut positions = [(); 3].map(|()| vec![0.0; count]);
-        over_chunks(&mut positions, |first, [x1, x2, x3]| {
-            let mut rng = ahead(rng, 3 * first);
+        over_chunks(&mut positions, |chunk, [x1, x2, x3]| {
+            let mut rng = ahead(rng, 3 * (chunk * CHUNK) as u64);
             for ((x1, x2), x3) in x1.iter_mut().zip(x2).zip(x3) {
                 for (x, side) in [x1, x2, x3].into_iter().zip(self.sides) {
                     *x = side * rng.random::<f64>();
@@ -60,41 +63,37 @@ impl ControlVolume {
         std::array::from_fn(axis)
     }
 
-    /// Moves every rod with the liquid over `strain` ≥ 0 (`sign` of G), and replaces the rods that left
-    /// through the faces normal to axis 2: x_1 = H₁√R, x_3 = H₃R, x_2 by the overshoot modulo H₂ (eq. 14 with
-    /// the text's second coordinate read as x_3). Returns how many were replaced.
-    pub fn advance(&self, positions: &mut [Vec<f64>; 3], strain: f64, sign: f64, rng: &mut Pcg64Dxsm) -> u64 {
-        let [x1, x2, _] = positions;
-        if x1.len() <= CHUNK {
-            let left = self.carry(x1, x2, sign * strain);
-            self.replace(positions.each_mut().map(Vec::as_mut_slice), rng);
-            return left as u64;
-        }
-        let left: Vec<usize> = (x1.par_chunks(CHUNK).zip(x2.par_chunks_mut(CHUNK)))
-            .map(|(x1, x2)| self.carry(x1, x2, sign * strain))
-            .collect();
-        over_chunks(positions, |first, axes| {
-            let before: usize = left[..first / CHUNK].iter().sum();
-            self.replace(axes, &mut ahead(rng, 2 * before));
-        });
-        let left: usize = left.iter().sum();
-        *rng = ahead(rng, 2 * left);
-        left as u64
+    /// Moves every rod with the liquid of plane Couette flow u_2 = ±x_1 over `strain` ≥ 0 (`sign` of G), and replaces the rods
+    /// that left through the faces normal to axis 2: x_1 = H₁√R, x_3 = H₃R, x_2 by the overshoot modulo H₂ (eq. 14 with the
+    /// text's second coordinate read as x_3). Returns how many were replaced; `before` is how many have been in all steps
+    /// before, each with two numbers of `rng`.
+    pub fn advance(
+        &self,
+        positions: &mut [Vec<f64>; 3],
+        strain: f64,
+        sign: f64,
+        before: u64,
+        rng: &Pcg64Dxsm,
+    ) -> u64 {
+        let carry = |[x1, x2, _]: [&mut [f64]; 3]| self.carry(x1, x2, sign * strain);
+        advance(positions, before, carry, |axes, before| {
+            self.replace(axes, ahead(rng, 2 * u128::from(before)));
+        })
     }
 
     /// Moves rods along axis 2, and counts those that are outside then.
-    fn carry(&self, x1: &[f64], x2: &mut [f64], strain: f64) -> usize {
+    fn carry(&self, x1: &[f64], x2: &mut [f64], strain: f64) -> u64 {
         let mut left = 0;
         let side = self.sides[1];
         for (x1, x2) in x1.iter().zip(x2) {
             *x2 += x1 * strain;
-            left += usize::from(!(0.0..side).contains(x2));
+            left += u64::from(!(0.0..side).contains(x2));
         }
         left
     }
 
     /// Replaces the rods that are outside, each with the next two numbers of the stream.
-    fn replace(&self, [x1, x2, x3]: [&mut [f64]; 3], rng: &mut Pcg64Dxsm) {
+    fn replace(&self, [x1, x2, x3]: [&mut [f64]; 3], mut rng: Pcg64Dxsm) {
         let [h1, h2, h3] = self.sides;
         for ((x1, x2), x3) in x1.iter_mut().zip(x2).zip(x3) {
             if (0.0..h2).contains(x2) {
@@ -108,6 +107,26 @@ impl ControlVolume {
             *x3 = h3 * rng.random::<f64>();
         }
     }
+}
+
+/// Carries all rods, of which `carry` counts those that leave, and then replaces these: `replace` is told how many were
+/// replaced before its first, `before` of them in earlier steps. Returns how many are replaced.
+fn advance(
+    positions: &mut [Vec<f64>; 3],
+    before: u64,
+    carry: impl Fn([&mut [f64]; 3]) -> u64 + Sync,
+    replace: impl Fn([&mut [f64]; 3], u64) + Sync,
+) -> u64 {
+    if positions[0].len() <= CHUNK {
+        let left = carry(positions.each_mut().map(Vec::as_mut_slice));
+        replace(positions.each_mut().map(Vec::as_mut_slice), before);
+        return left;
+    }
+    let left = over_chunks(positions, |_, axes| carry(axes));
+    over_chunks(positions, |chunk, axes| {
+        replace(axes, before + left[..chunk].iter().sum::<u64>())
+    });
+    left.iter().sum()
 }
 
 #[cfg(test)]
@@ -127,17 +146,17 @@ mod tests {
         let count = 2 * CHUNK + 1000;
         let volume = ControlVolume::holding(count, 1.0);
         let mut all = volume.draw_positions(count, &stream(3, 0, Purpose::Positions));
-        let start = stream(3, 0, Purpose::Replacements);
+        let rng = stream(3, 0, Purpose::Replacements);
         let mut parts: Vec<[Vec<f64>; 3]> = [0..CHUNK, CHUNK..2 * CHUNK, 2 * CHUNK..count]
             .map(|part| all.each_ref().map(|axis| axis[part.clone()].to_vec()))
             .into();
-        let (mut one, mut many) = (start.clone(), start);
+        let (mut one, mut many) = (0, 0);
         for _ in 0..2 {
-            let replaced = volume.advance(&mut all, 0.3, 1.0, &mut many);
-            let each = parts
-                .iter_mut()
-                .map(|part| volume.advance(part, 0.3, 1.0, &mut one));
-            assert_eq!(replaced, each.sum::<u64>());
+            many += volume.advance(&mut all, 0.3, 1.0, many, &rng);
+            for part in &mut parts {
+                one += volume.advance(part, 0.3, 1.0, one, &rng);
+            }
+            assert_eq!(many, one);
         }
         for (axis, all) in all.iter().enumerate() {
             assert!(all.iter().eq(parts.iter().flat_map(|part| &part[axis])));
@@ -157,12 +176,7 @@ mod tests {
             let sides = volume.sides();
             let mut positions = volume.draw_positions(1000, &stream(3, 0, Purpose::Positions));
             let before = positions.clone();
-            let replaced = volume.advance(
-                &mut positions,
-                0.3,
-                sign,
-                &mut stream(3, 0, Purpose::Replacements),
-            );
+            let replaced = volume.advance(&mut positions, 0.3, sign, 0, &stream(3, 0, Purpose::Replacements));
             let mut changed = 0;
             for rod in 0..1000 {
                 let moved = before[1][rod] + sign * 0.3 * before[0][rod];

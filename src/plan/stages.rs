@@ -80,7 +80,7 @@ pub struct Entry {
 }
 
 /// Why no rods of this scene can meet, or `None` where they can.
-fn no_interaction(scene: &Scene) -> Option<&'static str> {
+pub(crate) fn no_interaction(scene: &Scene) -> Option<&'static str> {
     match &scene.interaction {
         None => Some("no [interaction] table: free rods"),
         Some(Interaction { alpha: 0.0, .. }) => Some("alpha = 0: the collision probability is 0"),

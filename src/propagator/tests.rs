@@ -49,7 +49,7 @@ proptest! {
         let p = orientation::from_angles(phi, theta);
         let dt = 1e-6;
         let moved = Propagator::new(&flow, r).after(&p, dt).into_inner();
-        let rate = jeffery::direction_rate_per_s(&flow, r, &p);
+        let rate = jeffery::rate(flow.per_s(), &p, jeffery::shape_factor(r));
         prop_assert!(((moved - p.into_inner()) / dt - rate).norm() < 1e-5);
     }
 

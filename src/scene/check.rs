@@ -3,12 +3,13 @@
 mod time;
 
 use super::allowed::{Invalid, refused};
-use super::{Interaction, MAX_PER_UNIT, Scene, resolved_strain};
+use super::{Interaction, MAX_PER_UNIT, Scene, resolved_strain, step_maps};
 use crate::Observable;
 use crate::flow::VelocityGradient;
-use crate::free::FreeMotion;
-use crate::jeffery::strain_per_period;
+use crate::free::{FreeMotion, MAX_ERROR_RAD};
+use crate::plan::no_interaction;
 use crate::propagator::Propagator;
+use crate::volume::MAX_STEP;
 use nalgebra::Matrix3;
 
 /// The most steps and the most outputs of one scene.
@@ -17,6 +18,8 @@ const MAX_STEPS: f64 = 1e9;
 const MAX_OUTPUTS: f64 = 1e6;
 /// How far a concentration may be from that of count and box, for a side in five digits or so: the box counts.
 const AGREE: f64 = 1e-3;
+/// The trace of a gradient over its largest component up to which a liquid is taken to keep its volume: some rounded decimals.
+const INCOMPRESSIBLE: f64 = 1e-6;
 /// The growth over the whole time up to which what turns is called periodic: a rod misses its start by as many rad.
 const MAX_DRIFT: f64 = 1e-6;
 
@@ -76,11 +79,14 @@ impl Scene {
         }
         self.check_time(&flow)?;
         self.check_rods_outputs()?;
-        let by_closed_form = flow.shear_rate_per_s().is_some() && self.time.strain.is_none();
-        let free = (!by_closed_form)
-            .then(|| FreeMotion::new(self, &flow))
-            .transpose()?;
-        Ok((flow, free))
+        if flow.shear_rate_per_s().is_some() && self.time.strain.is_none() {
+            return Ok((flow, None));
+        }
+        if no_interaction(self).is_none() {
+            self.check_steps(&flow)?;
+            return Ok((flow, None));
+        }
+        Ok((flow, Some(FreeMotion::new(self, &flow)?)))
     }
 
     /// The number of outputs, the one at t = 0 included.
@@ -128,7 +134,7 @@ impl Scene {
         Err(Invalid::new("output.rods_at", value, allowed))
     }
 
-    fn check_flow(&self) -> Result<VelocityGradient, Invalid> {
+    pub(super) fn check_flow(&self) -> Result<VelocityGradient, Invalid> {
         match (self.flow.shear_rate_per_s, self.flow.gradient_per_s) {
             (Some(g), None) => {
                 VelocityGradient::plane_couette(g).ok_or_else(|| refused("flow.shear_rate_per_s", g))
@@ -145,6 +151,11 @@ impl Scene {
                 "shear_rate_per_s or gradient_per_s must be given",
             )),
         }
+    }
+
+    fn refused_gradient(&self, allowed: &str) -> Invalid {
+        let rows = self.flow.gradient_per_s.unwrap_or_default();
+        Invalid::new("flow.gradient_per_s", format!("{rows:?}"), allowed)
     }
 
     fn check_interaction(&self, interaction: &Interaction, flow: &VelocityGradient) -> Result<(), Invalid> {
@@ -182,11 +193,11 @@ impl Scene {
                 ),
             });
         }
-        if flow.shear_rate_per_s().is_none() {
-            return Err(Invalid::new(
-                "flow.gradient_per_s",
-                format!("{:?}", self.flow.gradient_per_s.unwrap_or_default()),
-                "interacting rods need plane Couette flow: only ∂u_2/∂x_1 other than 0",
+        let (gradient, trace) = (flow.per_s(), flow.per_s().trace());
+        if trace.is_nan() || trace.abs() > INCOMPRESSIBLE * gradient.amax() {
+            return Err(self.refused_gradient(
+                "such that ∂u_1/∂x_1 + ∂u_2/∂x_2 + ∂u_3/∂x_3 is 0 where rods interact: else the liquid does not keep its volume, \
+                 nor rods their concentration",
             ));
         }
         Ok(())

@@ -182,7 +182,7 @@ pub const TABLES: [Key; 6] = [
 
 /// The keys of a scene, in the order of the tables.
 #[rustfmt::skip]
-pub const KEYS: [Key; 27] = [
+pub const KEYS: [Key; 28] = [
     key("title", "a line that says what the scene is", "", Text, Refused),
     key("flow.shear_rate_per_s", "G of plane Couette flow u_2 = G x_1", "1/s", Positive, Other("gradient_per_s")),
     key("flow.gradient_per_s", "row i and column j hold ∂u_i/∂x_j", "1/s", Holds::Gradient, Other("shear_rate_per_s")),
@@ -204,8 +204,9 @@ pub const KEYS: [Key; 27] = [
     key("time.periods", "how long, in periods T of the mean aspect ratio", "T", NotNegative, Other("strain")),
     key("time.strain", "how long, in shear strain ∫(2D:D)^½ dt: for flows without a period", "", NotNegative, Other("periods")),
     key("time.steps_per_period", "steps of interacting rods", "", PER_UNIT, Other("as many as resolve the motion")),
+    key("time.steps_per_strain", "steps of interacting rods per unit of strain", "", PER_UNIT, Other("as many as resolve the motion")),
     key("time.outputs_per_period", "outputs; of interacting rods a divisor of the steps", "", PER_UNIT, Other("50, or the largest divisor below")),
-    key("time.outputs_per_strain", "outputs per unit of strain", "", PER_UNIT, Default("10")),
+    key("time.outputs_per_strain", "outputs per unit of strain; of interacting rods a divisor of the steps", "", PER_UNIT, Other("10, or the largest divisor below")),
     key("ensemble.replicas", "independent runs of the scene", "", whole(1, MAX_REPLICAS), Default("1")),
     key("ensemble.seed", "the seed of all random numbers", "", whole(0, MAX_SEED), Default("1")),
     key("output.observables", "what is observed: each has a file of its own", "", Holds::Observables, Default("[\"projections\"]")),

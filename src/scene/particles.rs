@@ -117,6 +117,18 @@ impl Particles {
         }
     }
 
+    /// The least r_e, the scene's and the largest; of a Gaussian one those three standard deviations off.
+    pub(crate) fn extreme_aspect_ratios(&self) -> [f64; 3] {
+        let r = self.aspect_ratio;
+        let [least, most] = match self.own_aspect_ratios() {
+            Some(own) => (own.iter()).fold([r; 2], |[least, most], r| [r.min(least), r.max(most)]),
+            None => {
+                [-3.0, 3.0].map(|deviations| r * (1.0 + deviations * self.aspect_ratio_sd_percent / 100.0))
+            }
+        };
+        [least, r, most]
+    }
+
     /// What a file says of each rod.
     pub(crate) fn own(&self) -> Option<&OwnRods> {
         self.rods.as_ref()?.own.as_deref()

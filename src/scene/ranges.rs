@@ -37,6 +37,7 @@ impl Scene {
             given("time.periods", time.periods),
             given("time.strain", time.strain),
             whole("time.steps_per_period", time.steps_per_period.unwrap_or(1)),
+            whole("time.steps_per_strain", time.steps_per_strain.unwrap_or(1)),
             whole("time.outputs_per_period", time.outputs_per_period.unwrap_or(1)),
             whole("time.outputs_per_strain", time.outputs_per_strain.unwrap_or(1)),
             whole("ensemble.replicas", self.ensemble.replicas),

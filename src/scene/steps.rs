@@ -1,7 +1,10 @@
-//! How many steps a period takes by default, and which step is too long.
+//! The steps of interacting rods: how many by default, and which is too long.
 
 use super::Scene;
+use crate::flow::VelocityGradient;
 use crate::jeffery::strain_per_period;
+use crate::propagator::{Propagator, Span};
+use nalgebra::Matrix3;
 
 /// Steps per period come in multiples of this, so that the default outputs fall on steps.
 const MULTIPLE: u64 = 50;
@@ -13,33 +16,107 @@ pub fn resolved_strain(aspect_ratio: f64) -> f64 {
 }
 
 impl Scene {
-    /// Steps per period of the mean aspect ratio, given or by default [`Scene::resolving_steps_per_period`].
-    pub fn steps_per_period(&self) -> u64 {
-        self.time
-            .steps_per_period
-            .unwrap_or_else(|| self.resolving_steps_per_period())
+    /// Steps per period of the mean aspect ratio or per unit of strain, as the time is given; by default
+    /// [`Scene::resolving_steps`].
+    pub fn steps_per_unit(&self) -> u64 {
+        let given = match self.time.strain {
+            Some(_) => self.time.steps_per_strain,
+            None => self.time.steps_per_period,
+        };
+        given.unwrap_or_else(|| self.resolving_steps())
     }
 
-    /// The strain GΔt of one step.
+    /// Gives the steps per period or per unit of strain.
+    pub fn set_steps_per_unit(&mut self, steps: u64) {
+        match self.time.strain {
+            Some(_) => self.time.steps_per_strain = Some(steps),
+            None => self.time.steps_per_period = Some(steps),
+        }
+    }
+
+    /// The key that gives them.
+    pub fn steps_key(&self) -> &'static str {
+        match self.time.strain {
+            Some(_) => "time.steps_per_strain",
+            None => "time.steps_per_period",
+        }
+    }
+
+    /// What steps are counted in.
+    pub(crate) fn time_unit(&self) -> &'static str {
+        if self.time.strain.is_some() {
+            "unit of strain"
+        } else {
+            "period"
+        }
+    }
+
+    /// The strain of one step, or the angle in rad by which the liquid turns in it, doubled, where that is larger: GΔt in plane
+    /// Couette flow.
     pub fn strain_per_step(&self) -> f64 {
-        strain_per_period(self.particles.aspect_ratio) / self.steps_per_period() as f64
+        self.motion_per_unit() / self.steps_per_unit() as f64
     }
 
-    /// The smallest multiple of 50 (and of the outputs per period, where they are given) with GΔt of at most
-    /// [`resolved_strain`] of the rods' mean r_e: 200 at r_e = 11.6. `u64::MAX` where there is no such number.
-    pub fn resolving_steps_per_period(&self) -> u64 {
-        let outputs = self.time.outputs_per_period.unwrap_or(1).max(1);
-        let unit = (outputs / common_divisor(outputs, MULTIPLE)).saturating_mul(MULTIPLE);
-        let strain = strain_per_period(self.particles.aspect_ratio);
+    /// The smallest number of steps (a multiple of the outputs, where they are given, and for periods of 50) with a strain per
+    /// step of at most [`resolved_strain`] of the rods' mean r_e: 200 a period at r_e = 11.6. `u64::MAX` where there is none.
+    pub fn resolving_steps(&self) -> u64 {
+        let unit = match self.time.strain {
+            Some(_) => self.outputs_per_strain().max(1),
+            None => {
+                let outputs = self.time.outputs_per_period.unwrap_or(1).max(1);
+                (outputs / common_divisor(outputs, MULTIPLE)).saturating_mul(MULTIPLE)
+            }
+        };
+        let motion = self.motion_per_unit();
         let resolved = resolved_strain(self.particles.mean_aspect_ratio());
-        let multiples = (strain / (resolved * unit as f64)).ceil().max(1.0) as u64;
+        let multiples = (motion / (resolved * unit as f64)).ceil().max(1.0) as u64;
         let steps = multiples.saturating_mul(unit);
         // The quotient above is rounded, and may have come out as a whole number that is just too small.
-        match strain / steps as f64 <= resolved {
+        match motion / steps as f64 <= resolved {
             true => steps,
             false => steps.saturating_add(unit),
         }
     }
+
+    /// The larger of strain and turn of the liquid in a period or a unit of strain.
+    pub(super) fn motion_per_unit(&self) -> f64 {
+        let r = self.particles.aspect_ratio;
+        let Some(flow) = self
+            .check_flow()
+            .ok()
+            .filter(|flow| flow.shear_rate_per_s().is_none())
+        else {
+            return match self.time.strain {
+                Some(_) => 1.0,
+                None => strain_per_period(r),
+            };
+        };
+        let (strain_per_s, turn_per_s) = (flow.magnitude_per_s(), flow.turn_per_s());
+        match self.time.strain {
+            Some(_) => (turn_per_s / strain_per_s).max(1.0),
+            None => {
+                let period_s = Propagator::new(&flow, r).period_s().unwrap_or(f64::NAN);
+                strain_per_s.max(turn_per_s) * period_s
+            }
+        }
+    }
+}
+
+/// The map q = M p of one step of a scene's rods that have these aspect ratios, and a bound on its error against its size; `None`
+/// where the steps are of a period that there is not.
+pub(crate) fn step_maps<'a>(
+    scene: &Scene,
+    flow: &'a VelocityGradient,
+    aspect_ratios: &'a [f64],
+) -> impl Iterator<Item = Option<(Matrix3<f64>, f64)>> + 'a {
+    let steps = scene.steps_per_unit() as f64;
+    let span = match scene.time.strain {
+        Some(_) => Span::Strain(1.0, steps),
+        None => Span::Periods(1.0, steps),
+    };
+    let mean = Propagator::general(flow, scene.particles.aspect_ratio);
+    let of = move |r: &f64| Propagator::general(flow, *r).map_beside(&mean, span);
+    aspect_ratios.iter().map(of)
 }
 
 fn common_divisor(a: u64, b: u64) -> u64 {

@@ -17,7 +17,7 @@ impl Suspension {
 
     /// The sides H₁, H₂ and H₃ of the control volume, in mean rod lengths.
     pub fn sides_in_lengths(&self) -> [f64; 3] {
-        self.volume.sides()
+        self.sides
     }
 
     /// The rods' positions in rod lengths: three arrays of coordinates.

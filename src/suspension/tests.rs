@@ -1,7 +1,7 @@
 //! States of one's own.
 
 use super::*;
-use crate::scene::{Interaction, Scene};
+use crate::scene::{Interaction, Scene, Time};
 
 #[test]
 fn a_state_of_other_counts_is_refused_and_changes_nothing() {
@@ -30,10 +30,17 @@ fn a_state_of_other_counts_is_refused_and_changes_nothing() {
     assert_eq!(suspension.positions_in_lengths(), &places(3));
 }
 
-/// Two rods that are sure to collide, in a flow of either sign.
+/// Two rods that are sure to collide, in shear of either sign and in other flows.
 #[test]
 fn a_collision_gives_both_contact_points_the_mean_velocity_along_the_line() {
-    for sign in [1.0, -1.0] {
+    const STEPS: u64 = 100_000;
+    let general = [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]];
+    for gradient in [
+        [[0.0; 3], [0.5, 0.0, 0.0], [0.0; 3]],
+        [[0.0; 3], [-0.5, 0.0, 0.0], [0.0; 3]],
+        [[0.5, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0; 3]],
+        general,
+    ] {
         let mut scene = Scene {
             interaction: Some(Interaction {
                 concentration_per_cm3: Some(1.0),
@@ -43,9 +50,14 @@ fn a_collision_gives_both_contact_points_the_mean_velocity_along_the_line() {
             ..Scene::default()
         };
         scene.flow.shear_rate_per_s = None;
-        scene.flow.gradient_per_s = Some([[0.0; 3], [0.5 * sign, 0.0, 0.0], [0.0; 3]]);
+        scene.flow.gradient_per_s = Some(gradient);
         scene.particles.count = 2;
-        (scene.time.steps_per_period, scene.time.outputs_per_period) = (Some(100_000), Some(1));
+        scene.time = Time {
+            strain: Some(1.0),
+            steps_per_strain: Some(STEPS),
+            outputs_per_strain: Some(1),
+            ..Time::default()
+        };
         let plan = Plan::new(&scene).unwrap();
         let mut suspension = Suspension::new(&plan, 0).unwrap();
         let [side, ..] = suspension.sides_in_lengths();
@@ -55,23 +67,29 @@ fn a_collision_gives_both_contact_points_the_mean_velocity_along_the_line() {
         suspension.place(places, &start).unwrap();
         assert_eq!(suspension.step().unwrap().len(), 1);
 
-        // By the paper's words: u at each contact point's centre plus r ṗ, along the line.
+        // By the paper's words, in units of strain: u at each contact point's centre plus r ṗ, along the line.
+        let per_strain = plan.flow().per_s() / plan.flow().magnitude_per_s();
+        let (strain, spin) = (
+            0.5 * (per_strain + per_strain.transpose()),
+            0.5 * (per_strain - per_strain.transpose()),
+        );
         let [a, b] = centres.map(Vector3::from);
         let met = contact(&(b - a), &start[0], &start[1], [0.0; 2]).unwrap();
-        let liquid = |x: &Vector3<f64>| Vector3::new(0.0, sign * x.x, 0.0);
-        let free = start.map(|p| couette_rate(&p, shape_factor(11.6), sign));
-        let strain = strain_per_period(11.6) / 1e5;
+        let free = start.map(|p| {
+            let p = p.into_inner();
+            spin * p + shape_factor(11.6) * (strain * p - p * p.dot(&(strain * p)))
+        });
         let after = suspension.directions();
-        let rates = [0, 1].map(|k| (after[k] - start[k].into_inner()) / strain);
+        let rates = [0, 1].map(|k| (after[k] - start[k].into_inner()) * STEPS as f64);
         let along = |rates: &[Vector3<f64>; 2]| {
-            [(a, 0), (b, 1)].map(|(x, k)| met.line.dot(&(liquid(&x) + rates[k] * met.arms[k])))
+            [(a, 0), (b, 1)].map(|(x, k)| met.line.dot(&(per_strain * x + rates[k] * met.arms[k])))
         };
         let [before_a, before_b] = along(&free);
-        assert!((before_a - before_b).abs() > 0.1, "they would part");
+        assert!((before_a - before_b).abs() > 0.05, "they would part");
         let mean = 0.5 * (before_a + before_b);
         for velocity in along(&rates) {
-            // A step of 7e-4 bends the path by about as much.
-            assert!((velocity - mean).abs() < 5e-3, "{sign}: {velocity} {mean}");
+            // A step of 1e-5 bends the path by about as much.
+            assert!((velocity - mean).abs() < 1e-3, "{gradient:?}: {velocity} {mean}");
         }
     }
 }

@@ -35,50 +35,112 @@ impl Scene {
             );
             return Err(Invalid::new(key, periods, allowed));
         }
-        if let Some(outputs) = self.time.outputs_per_strain {
-            return Err(Invalid::new(
+        let time = &self.time;
+        for (key, value, own) in [
+            ("time.steps_per_strain", time.steps_per_strain, "steps_per_period"),
+            (
                 "time.outputs_per_strain",
-                outputs,
-                "goes with strain; periods take outputs_per_period",
-            ));
+                time.outputs_per_strain,
+                "outputs_per_period",
+            ),
+        ] {
+            if let Some(value) = value {
+                let allowed = format!("goes with strain; periods take {own}");
+                return Err(Invalid::new(key, value, allowed));
+            }
         }
         let outputs = self.outputs_per_period();
         bounded(key, periods, outputs, "outputs", MAX_OUTPUTS)?;
         self.check_seconds(periods * period_s)?;
-        if self.interaction.is_some() {
-            let steps = self.steps_per_period();
-            self.check_default_steps(steps)?;
-            bounded(key, periods, steps, "steps", MAX_STEPS).map_err(|mut refused| {
-                if self.time.steps_per_period.is_none() {
-                    refused.allowed += &format!(": {steps} a period by default, which steps_per_period sets");
-                }
-                refused
-            })?;
-            if !steps.is_multiple_of(outputs) {
-                return Err(Invalid::new(
-                    "time.outputs_per_period",
-                    outputs,
-                    format!("interacting rods need a divisor of steps_per_period = {steps}"),
-                ));
+        self.check_counted_steps(key, periods, ("time.outputs_per_period", outputs))
+    }
+
+    /// That interacting rods take a number of steps that can be taken, some for each output.
+    fn check_counted_steps(
+        &self,
+        key: &'static str,
+        duration: f64,
+        (outputs_key, outputs): (&'static str, u64),
+    ) -> Result<(), Invalid> {
+        if self.interaction.is_none() {
+            return Ok(());
+        }
+        let steps = self.steps_per_unit();
+        let steps_name = self.steps_key().trim_start_matches("time.");
+        self.check_default_steps(steps)?;
+        bounded(key, duration, steps, "steps", MAX_STEPS).map_err(|mut refused| {
+            if !self.gives_steps() {
+                let unit = self.time_unit();
+                refused.allowed += &format!(": {steps} a {unit} by default, which {steps_name} sets");
             }
+            refused
+        })?;
+        if !steps.is_multiple_of(outputs) {
+            let allowed = format!("interacting rods need a divisor of {steps_name} = {steps}");
+            return Err(Invalid::new(outputs_key, outputs, allowed));
         }
         Ok(())
     }
 
+    fn gives_steps(&self) -> bool {
+        self.time
+            .steps_per_period
+            .or(self.time.steps_per_strain)
+            .is_some()
+    }
+
+    /// That a step of interacting rods, other than in plane Couette flow by periods, is short enough to be known.
+    pub(super) fn check_steps(&self, flow: &VelocityGradient) -> Result<(), Invalid> {
+        let steps = self.steps_per_unit();
+        let refused = |allowed: String| Err(Invalid::new(self.steps_key(), steps, allowed));
+        let longest = flow.per_s().amax();
+        let seconds = match self.time.strain {
+            Some(_) => 1.0 / flow.magnitude_per_s(),
+            None => (Propagator::new(flow, self.particles.aspect_ratio).period_s()).unwrap_or(f64::NAN),
+        };
+        let needed = (flow.per_s() / longest).norm() * (longest * seconds) / MAX_STEP;
+        if !(steps as f64 >= needed) {
+            return refused(format!(
+                "at least {:.0}, in which the liquid's gradient is resolved",
+                needed.ceil()
+            ));
+        }
+        let error =
+            step_maps(self, flow, &self.particles.extreme_aspect_ratios()).fold(0.0, |worst: f64, map| {
+                map.map_or(f64::INFINITY, |(_, error)| {
+                    if error > worst || error.is_nan() {
+                        error
+                    } else {
+                        worst
+                    }
+                })
+            });
+        let all = error * steps as f64 * self.time.strain.or(self.time.periods).unwrap_or(0.0);
+        if all <= MAX_ERROR_RAD {
+            return Ok(());
+        }
+        refused(format!(
+            "the map of a step, known to {error:.1e}, leaves directions unknown by {all:.1e} rad in the end, more than \
+             {MAX_ERROR_RAD:e}: give a shorter time or other rods"
+        ))
+    }
+
     /// A default that would take too many steps is refused: whoever wants fewer has to say so.
     fn check_default_steps(&self, steps: u64) -> Result<(), Invalid> {
-        if self.time.steps_per_period.is_some() || steps <= MAX_PER_UNIT {
+        if self.gives_steps() || steps <= MAX_PER_UNIT {
             return Ok(());
         }
         let r = self.particles.aspect_ratio;
         let resolved = resolved_strain(self.particles.mean_aspect_ratio());
-        let needed = strain_per_period(r) / resolved;
+        let needed = self.motion_per_unit() / resolved;
+        let (unit, key) = (self.time_unit(), self.steps_key());
         let allowed = format!(
-            "at aspect_ratio = {r} some {needed:.1e} steps a period resolve the motion (GΔt ≤ {resolved}), and at \
-             most {MAX_PER_UNIT} are allowed; set steps_per_period to take fewer, which do not resolve it, or a smaller \
-             aspect_ratio"
+            "at aspect_ratio = {r} some {needed:.1e} steps a {unit} resolve the motion (GΔt ≤ {resolved}), and at \
+             most {MAX_PER_UNIT} are allowed; set {} to take fewer, which do not resolve it, or a smaller \
+             aspect_ratio",
+            key.trim_start_matches("time.")
         );
-        Err(Invalid::missing("time.steps_per_period", &allowed))
+        Err(Invalid::missing(key, &allowed))
     }
 
     fn check_strain(&self, strain: f64, flow: &VelocityGradient) -> Result<(), Invalid> {
@@ -90,26 +152,23 @@ impl Scene {
                 "this flow has no strain rate: give periods",
             ));
         }
-        if self.interaction.is_some() {
-            return Err(Invalid::new(
-                key,
-                strain,
-                "interacting rods take steps per period: give periods",
-            ));
-        }
-        for (key, value) in [
-            ("time.steps_per_period", self.time.steps_per_period),
-            ("time.outputs_per_period", self.time.outputs_per_period),
+        let time = &self.time;
+        for (key, value, own) in [
+            ("time.steps_per_period", time.steps_per_period, "steps_per_strain"),
+            (
+                "time.outputs_per_period",
+                time.outputs_per_period,
+                "outputs_per_strain",
+            ),
         ] {
             if let Some(value) = value {
-                return Err(Invalid::new(
-                    key,
-                    value,
-                    "goes with periods; strain takes outputs_per_strain",
-                ));
+                let allowed = format!("goes with periods; strain takes {own}");
+                return Err(Invalid::new(key, value, allowed));
             }
         }
-        bounded(key, strain, self.outputs_per_strain(), "outputs", MAX_OUTPUTS)?;
+        let outputs = self.outputs_per_strain();
+        bounded(key, strain, outputs, "outputs", MAX_OUTPUTS)?;
+        self.check_counted_steps(key, strain, ("time.outputs_per_strain", outputs))?;
         // A rate that overflows would take no time at all.
         let unit_s = 1.0 / flow.magnitude_per_s();
         self.check_seconds(if unit_s > 0.0 {
@@ -127,10 +186,7 @@ impl Scene {
         let allowed = "such that the run lasts a finite number of seconds > 0";
         Err(match self.flow.shear_rate_per_s {
             Some(g) => Invalid::new("flow.shear_rate_per_s", g, allowed),
-            None => {
-                let rows = format!("{:?}", self.flow.gradient_per_s.unwrap_or_default());
-                Invalid::new("flow.gradient_per_s", rows, allowed)
-            }
+            None => self.refused_gradient(allowed),
         })
     }
 }

@@ -7,6 +7,7 @@
 
 mod averaged;
 mod contact;
+mod inflow;
 mod motion;
 mod neighbour;
 mod problem;
@@ -16,6 +17,7 @@ mod reading;
 mod tests;
 
 pub use contact::{Contact, collide};
+pub use inflow::{OtherFlow, carry};
 pub use motion::{jeffery, mean_projections};
 pub use neighbour::{collision_probability, nearest};
 pub use problem::{Mistake, Problem, Start, Update};
@@ -259,8 +261,15 @@ impl Naive {
         arms.into_iter().all(reached).then_some(contact)
     }
 
-    /// x_2 grows by G x_1 dt; whoever leaves the volume comes back by eq. 14, orientation and r_e kept.
+    /// x_2 grows by G x_1 dt; whoever leaves the volume comes back by eq. 14, orientation and r_e kept. In other flows
+    /// x becomes exp(L dt) x, and whoever leaves comes back with the liquid that came in.
     fn translate(&mut self, dt_s: f64) {
+        if self.problem.other_flow.is_some() {
+            let (flow, edges_mm) = (self.problem.gradient_per_s(), self.problem.edges_mm());
+            let (places_mm, replaced) = (&mut self.positions_mm, &mut self.replacements);
+            let (draws, made) = (&self.replacement_stream, self.problem.mistake);
+            return carry(places_mm, flow, edges_mm, dt_s, draws, replaced, made);
+        }
         let ([h1_mm, h2_mm, h3_mm], made) = (self.problem.edges_mm(), self.problem.mistake);
         for x in &mut self.positions_mm {
             x[1] += self.problem.shear_rate_per_s * x[0] * dt_s;

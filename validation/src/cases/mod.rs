@@ -2,6 +2,7 @@
 
 mod averaged;
 mod begun_again;
+mod box_shapes;
 mod cheapest_split;
 mod closed_forms;
 mod coefficients;
@@ -16,6 +17,7 @@ pub mod fit_readings;
 mod folgar_tucker;
 mod free_suspension;
 mod general_flows;
+mod inflow;
 mod integrator_claims;
 mod jeffery_equations;
 mod kick_sizes;
@@ -50,6 +52,8 @@ pub fn all() -> Vec<Case> {
         misprints::cases(),
         encounters::cases(),
         replacement::cases(),
+        inflow::cases(),
+        box_shapes::cases(),
         kicks::cases(),
         kick_sizes::cases(),
         averaged::cases(),

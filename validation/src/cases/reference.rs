@@ -16,7 +16,7 @@ pub fn cases() -> Vec<Case> {
         Case::core("naive-reference")
             .claim(
                 "The core and a naive O(N²) reference with the same draws have the same collisions and, to \
-                 round-off, the same rods.",
+                 round-off, the same rods, in shear and in other flows.",
             )
             .source("method of solution, eqs 5–9, 11, 12, 14, A.7–A.14")
             .equations(&[
@@ -52,6 +52,10 @@ fn name(mistake: Mistake) -> &'static str {
         Mistake::ArmsOverMeanLength => "shortest arms in mean lengths",
         Mistake::CubeForBox => "a cube for the box",
         Mistake::ReplacementAlongFlow => "x_1 = H₂√R for new rods",
+        Mistake::GradientTransposed => "L transposed",
+        Mistake::InflowUniform => "rods come in anywhere on a face alike",
+        Mistake::FacesByArea => "faces chosen by their area alone",
+        Mistake::InflowAtOnce => "rods come in at the step's beginning, all of them",
     }
 }
 
@@ -161,7 +165,8 @@ fn compare(scene: &Scene, replica: u64, mistake: Option<Mistake>, off: &mut Off)
     let length_mm = scene.particles.length_mm;
     let mut model = Model::new(scene, replica, mistake);
     let mut reference = Naive::new(problem(scene, replica, None));
-    for _ in 0..scene.steps_per_period() {
+    let units = scene.time.strain.unwrap_or(1.0) as u64;
+    for _ in 0..units * scene.steps_per_unit() {
         let before = state(&reference, length_mm);
         reference.step();
         let expected = state(&reference, length_mm);
@@ -227,6 +232,16 @@ fn in_a_box(scene: &mut Scene, sides: [f64; 3]) {
     (interaction.concentration_per_cm3, interaction.box_mm) = (None, Some(sides.map(|side| side * cube)));
 }
 
+/// Two units of strain in a flow with this gradient.
+fn in_a_flow(scene: &mut Scene, gradient_per_s: [[f64; 3]; 3]) {
+    (scene.flow.shear_rate_per_s, scene.flow.gradient_per_s) = (None, Some(gradient_per_s));
+    scene.time = scene::Time {
+        strain: Some(2.0),
+        steps_per_strain: Some(10),
+        ..scene::Time::default()
+    };
+}
+
 /// Scenes of 2 to 400 rods; the small ones are dense enough to collide.
 fn scenes(effort: &Effort) -> Vec<Scene> {
     let scene = |count: usize, per_cm3: f64, change: fn(&mut Scene)| {
@@ -268,5 +283,18 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
         scene(60, 1000.0, |scene| in_a_box(scene, [2.0, 1.0, 0.5])),
         scene(300, 1000.0, |scene| in_a_box(scene, [4.0, 0.5, 0.5])),
         scene(400, 500.0, |scene| in_a_box(scene, [0.1, 10.0, 1.0])),
+        // Other flows: extension, oblique shear in a box, and one with all components.
+        scene(100, 1000.0, |scene| {
+            in_a_flow(scene, [[1.0, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, -0.5]]);
+        }),
+        scene(60, 1000.0, |scene| {
+            in_a_box(scene, [2.0, 1.0, 0.5]);
+            in_a_flow(scene, [[0.3, -0.3, 0.0], [0.3, -0.3, 0.0], [0.0; 3]]);
+        }),
+        scene(300, 1000.0, |scene| {
+            scene.particles.aspect_ratio_sd_percent = 3.6;
+            lab::interaction(scene).min_contact_arm = 0.1;
+            in_a_flow(scene, [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]]);
+        }),
     ]
 }

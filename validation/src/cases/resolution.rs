@@ -101,7 +101,7 @@ pub fn cases() -> Vec<Case> {
 
 fn coarser_step(size: &Size, coarse: bool, effort: &Effort) -> Evidence {
     let scene = scene(effort, size.aspect_ratio, 50.0);
-    let default = scene.steps_per_period();
+    let default = scene.steps_per_unit();
     let steps = if coarse { size.coarse } else { default / 2 };
     let replicas = effort.samples(size.design);
     // By far the longest of the runs.

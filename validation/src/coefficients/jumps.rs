@@ -76,7 +76,7 @@ impl Watch {
     /// Jumps over a strain of 1 or little else, in the steps of the scene, after so many periods and for so many.
     pub fn new(scene: &Scene, before: f64, periods: f64) -> Self {
         let period = strain_per_period(scene.particles.aspect_ratio);
-        let strain = period / scene.steps_per_period() as f64;
+        let strain = period / scene.steps_per_unit() as f64;
         let steps = (1.0 / strain).round().max(1.0);
         let jumps = |periods: f64| (periods * period / (steps * strain)).ceil() as u64;
         Self {

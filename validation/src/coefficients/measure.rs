@@ -146,7 +146,7 @@ pub fn scene(setting: Setting, effort: &Effort) -> Scene {
     interaction.alpha = setting.alpha;
     scene.time.periods = Some(2.0 * periods(setting) as f64);
     scene.time.outputs_per_period = Some(OUTPUTS as u64);
-    scene.time.steps_per_period = Some(setting.finer * scene.resolving_steps_per_period());
+    scene.time.steps_per_period = Some(setting.finer * scene.resolving_steps());
     scene.output.observables = vec![
         Observable::Projections,
         Observable::OrientationTensor,

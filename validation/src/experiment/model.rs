@@ -39,7 +39,7 @@ const EACH: usize = 4;
 /// than those outputs, by the factor `finer`.
 pub(super) fn run(scene: &Scene, places: &[MeasuredAt], replicas: u64, finer: u64) -> Result<Model, String> {
     let mut scene = scene.clone();
-    let per_period = scene.steps_per_period();
+    let per_period = scene.steps_per_unit();
     // Gauss–Hermite's outer nodes, ±√3 standard deviations.
     let nodes =
         |place: &MeasuredAt| [-1.0, 1.0].map(|side| place.turns + side * 3.0_f64.sqrt() * place.u_turns);

@@ -91,7 +91,7 @@ impl Scenes {
             for corner in scenes.corners() {
                 let scene = scenes.scene(set, &corner)?;
                 scenes.says_something(set, &scene)?;
-                scenes.steps[set] = scenes.steps[set].max(scene.steps_per_period());
+                scenes.steps[set] = scenes.steps[set].max(scene.steps_per_unit());
             }
         }
         Ok(scenes)
@@ -214,22 +214,19 @@ impl Scenes {
             .fold(0.0, f64::max);
         // One output more than the last point needs, for the cubic.
         let kinked = scene.interaction.is_none() && scene.particles.common_start_deg().is_some();
-        if scene.time.strain.is_some() {
-            let outputs = scene
-                .outputs_per_strain()
-                .max(if kinked { KINKED / 10 } else { PER_STRAIN });
-            scene.time.strain = Some(((last * outputs as f64).ceil() + 1.0) / outputs as f64);
-            scene.time.outputs_per_strain = Some(outputs);
+        let by_strain = scene.time.strain.is_some();
+        let outputs = match (&scene.interaction, by_strain) {
+            (Some(_), _) => self.steps[set],
+            (None, true) => (scene.outputs_per_strain()).max(if kinked { KINKED / 10 } else { PER_STRAIN }),
+            (None, false) => self.steps[set].max(if kinked { KINKED } else { 1 }),
+        };
+        let time = Some(((last * outputs as f64).ceil() + 1.0) / outputs as f64);
+        if by_strain {
+            (scene.time.strain, scene.time.outputs_per_strain) = (time, Some(outputs));
         } else {
-            let outputs = if kinked {
-                self.steps[set].max(KINKED)
-            } else {
-                self.steps[set]
-            };
-            scene.time.periods = Some(((last * outputs as f64).ceil() + 1.0) / outputs as f64);
-            scene.time.outputs_per_period = Some(outputs);
-            scene.time.steps_per_period = Some(outputs * variant.steps);
+            (scene.time.periods, scene.time.outputs_per_period) = (time, Some(outputs));
         }
+        scene.set_steps_per_unit(outputs * variant.steps);
         scene.set_count(scene.particles.count * variant.rods);
         if variant.one_aspect_ratio {
             scene.particles.aspect_ratio_sd_percent = 0.0;

@@ -53,7 +53,7 @@ pub const KICKS: Counted = Counted {
 
 /// GΔt of a scene in plane Couette flow.
 pub fn step_strain(scene: &Scene) -> f64 {
-    strain_per_period(scene.particles.aspect_ratio) / scene.steps_per_period() as f64
+    strain_per_period(scene.particles.aspect_ratio) / scene.steps_per_unit() as f64
 }
 
 /// The counts of one replica over a window, per rod and period.
@@ -74,7 +74,7 @@ pub struct Counts {
 /// Counts the kicks of one replica over whole periods. NaN where the run stopped.
 pub fn count(scene: &Scene, replica: u64, periods: Range<u64>, counted: Counted) -> Counts {
     let mut suspension = lab::suspension(scene, replica);
-    let (steps, strain) = (scene.steps_per_period(), step_strain(scene));
+    let (steps, strain) = (scene.steps_per_unit(), step_strain(scene));
     let aspect_ratios = suspension.aspect_ratios();
     let mut counts = Counts::default();
     let mut chances = [[0.0; 4]; 2];

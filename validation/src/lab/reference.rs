@@ -1,7 +1,7 @@
 //! A scene as the naive reference takes it.
 
 use super::interaction;
-use crate::oracle::naive::{self, Mistake, Problem, Reading, Start};
+use crate::oracle::naive::{self, Mistake, OtherFlow, Problem, Reading, Start};
 use shearbed::scene::{Orientation, Scene, Update};
 
 /// The scene as the naive reference takes it.
@@ -12,6 +12,10 @@ pub fn problem(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> Problem
     Problem {
         count: particles.count,
         shear_rate_per_s: scene.flow.shear_rate_per_s.unwrap_or(f64::NAN),
+        other_flow: scene.flow.gradient_per_s.map(|gradient_per_s| OtherFlow {
+            gradient_per_s,
+            steps_per_strain: scene.steps_per_unit() as usize,
+        }),
         length_mm: particles.length_mm,
         length_sd_percent: particles.length_sd_percent,
         aspect_ratio: particles.aspect_ratio,
@@ -33,7 +37,7 @@ pub fn problem(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> Problem
             Update::Angles => naive::Update::Angles,
         },
         reading: Reading::default(),
-        steps_per_period: scene.steps_per_period() as usize,
+        steps_per_period: scene.steps_per_unit() as usize,
         seed: scene.ensemble.seed,
         replica,
         mistake,

@@ -73,7 +73,7 @@ impl Saving {
 
 /// Measures all three on a scene.
 pub fn measure(scene: &Scene, replicas: u64) -> Result<Coupled, String> {
-    let steps = scene.steps_per_period().div_ceil(4) * 4;
+    let steps = scene.steps_per_unit().div_ceil(4) * 4;
     let own = interacting(scene, steps, 1.0, QUARTERS, replicas)?;
     let finer = interacting(scene, 2 * steps, 1.0, QUARTERS, replicas)?;
     let other = interacting(scene, steps, OTHER_ALPHA, QUARTERS, replicas)?;

@@ -117,7 +117,7 @@ pub struct Law {
 
 /// The jobs of a scene: every number of steps, then every number of rods, each once.
 pub fn jobs(scene: &Scene, replicas: Replicas) -> Vec<Job> {
-    let (own_steps, own_rods) = (scene.steps_per_period(), scene.particles.count);
+    let (own_steps, own_rods) = (scene.steps_per_unit(), scene.particles.count);
     let job = |steps, rods| Job::new(scene, steps, rods, replicas.of(steps, rods), 1);
     let with_own = |mut list: Vec<u64>, own: u64| {
         list.push(own);
@@ -144,25 +144,23 @@ pub fn run(jobs: &[Job], finished: &(dyn Fn() + Sync)) -> Result<Vec<Vec<Trace>>
 
 /// Reads what the jobs of [`jobs`] found.
 pub fn read(scene: &Scene, jobs: &[Job], found: &[Vec<Trace>]) -> Law {
-    let (own_steps, own_rods) = (scene.steps_per_period(), scene.particles.count);
+    let (own_steps, own_rods) = (scene.steps_per_unit(), scene.particles.count);
     let x1: Vec<Vec<f64>> = (found.iter())
         .map(|traces| traces.iter().map(|trace| trace.looks[0].x1).collect())
         .collect();
     let chosen = |which: &dyn Fn(&Job) -> bool| -> Vec<usize> {
         let mut chosen: Vec<_> = (0..jobs.len()).filter(|k| which(&jobs[*k])).collect();
-        chosen.sort_by_key(|k| (jobs[*k].scene.particles.count, jobs[*k].scene.steps_per_period()));
+        chosen.sort_by_key(|k| (jobs[*k].scene.particles.count, jobs[*k].scene.steps_per_unit()));
         chosen
     };
     let steps = chosen(&|job| job.scene.particles.count == own_rods);
-    let rods = chosen(&|job| job.scene.steps_per_period() == own_steps);
+    let rods = chosen(&|job| job.scene.steps_per_unit() == own_steps);
     let samples = |which: &[usize]| which.iter().map(|k| sample(&jobs[*k], &x1[*k])).collect();
     let of = |which: &[usize]| Means::of(&which.iter().map(|k| x1[*k].clone()).collect::<Vec<_>>());
 
     let (means, h) = (
         of(&steps),
-        steps
-            .iter()
-            .map(|k| 1.0 / jobs[*k].scene.steps_per_period() as f64),
+        steps.iter().map(|k| 1.0 / jobs[*k].scene.steps_per_unit() as f64),
     );
     let h: Vec<f64> = h.collect();
     let changes: Vec<_> = (steps.windows(2).enumerate())
@@ -190,7 +188,7 @@ pub fn read(scene: &Scene, jobs: &[Job], found: &[Vec<Trace>]) -> Law {
         let x: Vec<_> = counts.iter().map(|count| count.powf(exponent)).collect();
         of_rods.line(&x)
     };
-    let own = (steps.iter()).find(|k| jobs[**k].scene.steps_per_period() == own_steps);
+    let own = (steps.iter()).find(|k| jobs[**k].scene.steps_per_unit() == own_steps);
     let own = own.map_or(&[][..], |k| &x1[*k]);
     Law {
         steps: samples(&steps),
@@ -211,7 +209,7 @@ pub fn read(scene: &Scene, jobs: &[Job], found: &[Vec<Trace>]) -> Law {
 fn sample(job: &Job, x1: &[f64]) -> JobMean {
     let mean = Estimate::mean_of(x1);
     JobMean {
-        steps_per_period: job.scene.steps_per_period(),
+        steps_per_period: job.scene.steps_per_unit(),
         rods: job.scene.particles.count,
         replicas: job.replicas,
         x1: mean.value,

@@ -94,7 +94,7 @@ pub fn run(extent: Extent, budget: Budget) -> Result<Interacting, String> {
     let law = law::read(&scene, &jobs, &law::run(&jobs, &|| ())?);
     let constants = Constants::of(&law).ok_or("no straight line fits X̄₁ against the steps or the rods")?;
 
-    let single = Job::new(&scene, scene.steps_per_period(), scene.particles.count, 1, 1);
+    let single = Job::new(&scene, scene.steps_per_unit(), scene.particles.count, 1, 1);
     let rod_step_s = measure(budget, || single.run(&|| ())).least / single.rod_steps() as f64;
     let (steps, replicas) = extent.reference;
     let mut references = vec![split::reference(&scene, steps, scene.particles.count, replicas)?];

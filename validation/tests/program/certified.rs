@@ -117,6 +117,7 @@ fn suspension(loaded: &LoadedProblem, replica: u64, mistake: Option<Mistake>) ->
     naive::Problem {
         count: ensemble.count as usize,
         shear_rate_per_s: problem.gradient_per_s[1][0],
+        other_flow: None,
         length_mm: ensemble.length_mm,
         length_sd_percent: 0.0,
         box_mm: None,

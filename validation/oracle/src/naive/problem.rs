@@ -1,5 +1,6 @@
 //! What is run: the suspension, and the mistakes that can be made in it.
 
+use super::inflow::OtherFlow;
 use super::reading::Reading;
 use std::f64::consts::TAU;
 
@@ -74,27 +75,38 @@ pub enum Mistake {
     CubeForBox,
     /// x_1 = H_2 sqrt(R) in place of H_1 sqrt(R) (eq. 14).
     ReplacementAlongFlow,
+    /// In other flows: L transposed.
+    GradientTransposed,
+    /// In other flows: rods come in anywhere on a face with equal chance, not as the liquid does.
+    InflowUniform,
+    /// In other flows: a face is chosen by its area alone.
+    FacesByArea,
+    /// In other flows: rods come in at the beginning of the step, all of them.
+    InflowAtOnce,
 }
 
 impl Mistake {
     /// All of them, for checks that try each.
     #[rustfmt::skip]
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 25] = [
         Self::KickSign, Self::SumInsteadOfMean, Self::ArmsSwapped, Self::ArmUnsigned, Self::SpinIgnored,
         Self::TranslationKept, Self::PrintedA13, Self::LambdaOne, Self::PeriodHalved, Self::ConcentrationUnits,
         Self::ProbabilityComplement, Self::ProbabilityExponent, Self::AnyNeighbour, Self::IndexOrder,
         Self::ReplacementUniform, Self::ReplacementNone, Self::PartnersLength, Self::MeanLength,
-        Self::ArmsOverMeanLength, Self::CubeForBox, Self::ReplacementAlongFlow,
+        Self::ArmsOverMeanLength, Self::CubeForBox, Self::ReplacementAlongFlow, Self::GradientTransposed,
+        Self::InflowUniform, Self::FacesByArea, Self::InflowAtOnce,
     ];
 }
 
-/// One suspension in plane Couette flow, u_2 = G x_1.
+/// One suspension in plane Couette flow, u_2 = G x_1, or in another flow.
 #[derive(Clone, Debug)]
 pub struct Problem {
     /// N, rods in the control volume.
     pub count: usize,
     /// G, 1/s, not zero.
     pub shear_rate_per_s: f64,
+    /// In place of plane Couette flow.
+    pub other_flow: Option<OtherFlow>,
     /// a, the full length of a rod, or its mean, mm.
     pub length_mm: f64,
     /// Standard deviation of a, percent of the mean.
@@ -135,6 +147,7 @@ impl Problem {
         Self {
             count: 100,
             shear_rate_per_s: 0.5,
+            other_flow: None,
             length_mm: 0.72,
             length_sd_percent: 0.0,
             aspect_ratio: 11.6,
@@ -163,7 +176,10 @@ impl Problem {
 
     /// dt, s.
     pub fn time_step_s(&self) -> f64 {
-        self.period_s() / self.steps_per_period as f64
+        match self.other_flow {
+            Some(flow) => flow.time_step_s(),
+            None => self.period_s() / self.steps_per_period as f64,
+        }
     }
 
     /// H_1, H_2 and H_3, mm: as given, or the cube's (N/n)^(1/3).
@@ -180,7 +196,16 @@ impl Problem {
 
     /// L_ij = du_i/dx_j, 1/s.
     pub fn gradient_per_s(&self) -> [[f64; 3]; 3] {
-        [[0.0; 3], [self.shear_rate_per_s, 0.0, 0.0], [0.0; 3]]
+        let Some(OtherFlow { gradient_per_s, .. }) = self.other_flow else {
+            return [[0.0; 3], [self.shear_rate_per_s, 0.0, 0.0], [0.0; 3]];
+        };
+        let transposed = [0, 1, 2].map(|i| [0, 1, 2].map(|j| gradient_per_s[j][i]));
+        either(
+            self.mistake,
+            Mistake::GradientTransposed,
+            transposed,
+            gradient_per_s,
+        )
     }
 }
 

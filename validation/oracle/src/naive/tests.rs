@@ -1,6 +1,7 @@
 //! Tests of the naive reference itself.
 
 mod contacts;
+mod flows;
 mod readings;
 
 use super::motion::angles_rad;
@@ -314,11 +315,16 @@ fn replaced([h1, h2, h3]: [f64; 3], box_mm: Option<[f64; 3]>) {
 
 #[test]
 fn every_mistake_changes_a_run() {
-    // rods of unequal length, whose concentration is that of a cube or of a box
+    // rods of unequal length, whose concentration is that of a cube or of a box, and in another flow
     let state = |mistake| {
-        [None, Some([20.0, 5.0, 10.0])].map(|box_mm| {
+        let flow = OtherFlow {
+            gradient_per_s: [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]],
+            steps_per_strain: 10,
+        };
+        [(None, None), (Some([20.0, 5.0, 10.0]), None), (None, Some(flow))].map(|(box_mm, other_flow)| {
             let change = |p: &mut Problem| {
-                (p.update, p.mistake, p.box_mm) = (Update::Angles, mistake, box_mm);
+                (p.update, p.mistake) = (Update::Angles, mistake);
+                (p.box_mm, p.other_flow) = (box_mm, other_flow);
                 (p.length_sd_percent, p.min_contact_arm) = (30.0, 1.0);
             };
             let naive = run(fibres(50, 2.0, change), 30);

@@ -65,7 +65,7 @@ pub(super) fn step_with_squares(scene: &Scene, placed: &Placed) -> Stepped {
     let shape = shape_factor(scene.particles.aspect_ratio);
     let free = p.map(|p| couette_rate(&p, shape, 1.0));
     let rates = share_velocity(&contact, &Vector3::new(0.0, separation.x, 0.0), free);
-    let strain = strain_per_period(scene.particles.aspect_ratio) / scene.steps_per_period() as f64;
+    let strain = strain_per_period(scene.particles.aspect_ratio) / scene.steps_per_unit() as f64;
     let turned = [0, 1].map(|k| {
         let speed = rates[k].norm_squared().sqrt();
         let (sin, cos) = (speed * strain).sin_cos();

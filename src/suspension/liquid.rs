@@ -1,0 +1,57 @@
+//! How the liquid moves: rods' rates, velocities past one another, and places.
+
+use crate::jeffery::{couette_rate, rate};
+use crate::plan::Plan;
+use crate::volume::{ControlVolume, Inflow};
+use nalgebra::{Matrix3, Vector3};
+use rand_pcg::Pcg64Dxsm;
+
+#[derive(Clone, Debug)]
+pub(super) enum Liquid {
+    /// u_2 = ±x_1, with time in 1/|G| and rods that come back by eq. 14.
+    Couette { volume: ControlVolume, sign: f64 },
+    /// Any gradient of trace 0, with time in that over its largest component.
+    Any { gradient: Matrix3<f64>, inflow: Inflow },
+}
+
+impl Liquid {
+    /// The liquid of a scene, and the length of a step in its unit of time.
+    pub fn of(plan: &Plan, volume: ControlVolume) -> (Self, f64) {
+        let (flow, steps) = (plan.flow(), plan.scene().steps_per_unit() as f64);
+        if let Some(shear_rate_per_s) = flow.shear_rate_per_s() {
+            let sign = shear_rate_per_s.signum();
+            return (Self::Couette { volume, sign }, plan.unit().strain / steps);
+        }
+        let rate_per_s = flow.per_s().amax();
+        let (gradient, step) = (
+            flow.per_s() / rate_per_s,
+            plan.unit().seconds * rate_per_s / steps,
+        );
+        let inflow = Inflow::new(&volume, gradient, step);
+        (Self::Any { gradient, inflow }, step)
+    }
+
+    /// ṗ of a free rod.
+    pub fn rate(&self, p: &Vector3<f64>, shape_factor: f64) -> Vector3<f64> {
+        match self {
+            Self::Couette { sign, .. } => couette_rate(p, shape_factor, *sign),
+            Self::Any { gradient, .. } => rate(gradient, p, shape_factor),
+        }
+    }
+
+    /// The velocity of the liquid at one place relative to that at another.
+    pub fn velocity(&self, separation: &Vector3<f64>) -> Vector3<f64> {
+        match self {
+            Self::Couette { sign, .. } => Vector3::new(0.0, sign * separation.x, 0.0),
+            Self::Any { gradient, .. } => gradient * separation,
+        }
+    }
+
+    /// Moves every rod over a step and replaces those that leave, which are counted, `before` of them in earlier steps.
+    pub fn carry(&self, positions: &mut [Vec<f64>; 3], step: f64, before: u64, rng: &Pcg64Dxsm) -> u64 {
+        match self {
+            Self::Couette { volume, sign } => volume.advance(positions, step, *sign, before, rng),
+            Self::Any { inflow, .. } => inflow.advance(positions, before, rng),
+        }
+    }
+}

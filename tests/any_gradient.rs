@@ -1,0 +1,189 @@
+//! Rods that interact in other flows than plane Couette flow by periods.
+
+use shearbed::run::{go_on, run_replica};
+use shearbed::{Plan, Results, Scene, ensemble, scene_file};
+
+const SHEAR: &str = "[[0, 0, 0], [0.5, 0, 0], [0, 0, 0]]";
+const EXTENSION: &str = "[[0.5, 0, 0], [0, -0.5, 0], [0, 0, 0]]";
+const GENERAL: &str = "[[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]]";
+/// Rods turn in ellipses.
+const ELLIPTIC: &str = "[[0, -0.3, 0], [1, 0, 0], [0, 0, 0]]";
+
+fn text(gradient: &str, particles: &str, alpha: f64, time: &str) -> String {
+    format!(
+        "title = \"t\"\n[flow]\ngradient_per_s = {gradient}\n[particles]\nlength_mm = 0.72\norientation = \"isotropic\"\n\
+         {particles}\n[interaction]\nconcentration_per_cm3 = 1000\nalpha = {alpha}\n[time]\n{time}\n[output]\n\
+         observables = [\"projections\", \"orientation_tensor\"]\n"
+    )
+}
+
+fn scene(gradient: &str, particles: &str, alpha: f64, time: &str) -> Scene {
+    scene_file::parse("s.toml", &text(gradient, particles, alpha, time)).unwrap()
+}
+
+fn run(scene: &Scene) -> Results {
+    ensemble::run(&Plan::new(scene).unwrap()).unwrap()
+}
+
+/// The largest difference of a channel at any output.
+fn apart(one: &Results, other: &Results) -> f64 {
+    let columns = |results: &Results| -> Vec<f64> {
+        let columns = results.series.iter().flat_map(|series| &series.columns);
+        columns.flat_map(|column| column.mean.clone()).collect()
+    };
+    let (one, other) = (columns(one), columns(other));
+    assert_eq!(one.len(), other.len());
+    one.iter()
+        .zip(&other)
+        .map(|(one, other)| (one - other).abs())
+        .fold(0.0, f64::max)
+}
+
+/// Rods that could meet, and do not, are moved step by step to where free rods are at once.
+#[test]
+fn rods_that_do_not_meet_are_free() {
+    let rods = "count = 100\naspect_ratio = 5\naspect_ratio_sd_percent = 10";
+    for (gradient, time) in [
+        (SHEAR, "strain = 30"),
+        (EXTENSION, "strain = 6"),
+        (GENERAL, "strain = 6"),
+        (ELLIPTIC, "periods = 2"),
+    ] {
+        let [free, stepped] = [0.0, 1e-15].map(|alpha| run(&scene(gradient, rods, alpha, time)));
+        assert_eq!((free.counters.steps, stepped.counters.collisions), (0, 0));
+        assert!(stepped.counters.steps > 50 && stepped.counters.replacements > 100);
+        let apart = apart(&free, &stepped);
+        assert!(apart < 1e-12, "{gradient}: {apart:e}");
+    }
+}
+
+/// Shear counted in strain and in periods is the same suspension, collision by collision: a period of 40 units of strain.
+#[test]
+fn shear_by_strain_is_shear_by_periods() {
+    let r = (40.0 + (40.0f64.powi(2) - 4.0 * std::f64::consts::TAU.powi(2)).sqrt())
+        / (2.0 * std::f64::consts::TAU);
+    for rods in ["", "length_sd_percent = 20"] {
+        let rods = format!("count = 60\naspect_ratio = {r}\n{rods}");
+        let by_strain = "strain = 8\nsteps_per_strain = 10\noutputs_per_strain = 1";
+        let by_periods = "periods = 0.2\nsteps_per_period = 400\noutputs_per_period = 40";
+        let [strain, periods] = [by_strain, by_periods].map(|time| run(&scene(SHEAR, &rods, 0.5, time)));
+        assert!(strain.counters.collisions > 100, "{:?}", strain.counters);
+        assert_eq!(
+            (strain.counters.collisions, strain.counters.replacements),
+            (periods.counters.collisions, periods.counters.replacements)
+        );
+        let apart = apart(&strain, &periods);
+        assert!(apart < 1e-9, "{apart:e}");
+    }
+}
+
+/// From any step on, and on any number of threads.
+#[test]
+fn bits_do_not_depend_on_stops_or_threads() {
+    let rods = "count = 100\naspect_ratio = 11.6\nlength_sd_percent = 10";
+    let scene = scene(GENERAL, rods, 0.5, "strain = 2\nsteps_per_strain = 10");
+    let plan = Plan::new(&scene).unwrap();
+    let mut kept = Vec::new();
+    let whole = go_on(&plan, 0, None, |state| kept.push(state())).unwrap();
+    assert!(
+        whole.counters.collisions > 20 && kept.len() == 20,
+        "{:?}",
+        whole.counters
+    );
+    for state in kept {
+        assert_eq!(go_on(&plan, 0, Some(state), |_| ()).unwrap(), whole);
+    }
+    let many = self::scene(
+        EXTENSION,
+        "count = 150000\naspect_ratio = 11.6",
+        0.5,
+        "strain = 0.3",
+    );
+    let plan = Plan::new(&many).unwrap();
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| run_replica(&plan, 0).unwrap())
+    };
+    let all = on(3);
+    assert!(all.counters.collisions > 1000, "{:?}", all.counters);
+    assert_eq!(all, on(1));
+}
+
+/// A flow that is turned by 90° does the same to rods that are turned with it, in law.
+#[test]
+fn a_turned_flow_turns_the_result() {
+    let rods = "count = 100\naspect_ratio = 5\n";
+    let run = |gradient: &str| {
+        let mut scene = scene(gradient, rods, 0.5, "strain = 10\noutputs_per_strain = 1");
+        scene.ensemble.replicas = 200;
+        run(&scene)
+    };
+    // u_1 = x_2 and u_2 = x_3: gradient, flow, vorticity along the axes 2, 1, 3 and 3, 2, 1.
+    let one = run("[[0, 1, 0], [0, 0, 0], [0, 0, 0]]");
+    let other = run("[[0, 0, 0], [0, 0, 1], [0, 0, 0]]");
+    assert!(one.counters.collisions > 10_000);
+    let farthest = |names: [[&str; 2]; 3]| {
+        let columns =
+            names.map(|[of_one, of_other]| (one.column(of_one).unwrap(), other.column(of_other).unwrap()));
+        let differences = columns.into_iter().flat_map(|(a, b)| {
+            (0..a.mean.len()).map(|k| (a.mean[k] - b.mean[k]).abs() / f64::hypot(a.se[k], b.se[k]))
+        });
+        differences.fold(0.0, f64::max)
+    };
+    assert!(farthest([["x2", "x3"], ["x1", "x2"], ["x3", "x1"]]) < 5.0);
+    assert!(farthest([["x2", "x2"], ["x1", "x1"], ["x3", "x3"]]) > 20.0);
+}
+
+#[test]
+fn what_cannot_be_stepped_is_refused() {
+    let rods = "count = 100\naspect_ratio = 5";
+    for (gradient, time, why) in [
+        (
+            "[[1, 0, 0], [0, -1, 0], [0, 0, 1e-3]]",
+            "strain = 1",
+            "3: flow.gradient_per_s = [[1, 0, 0], [0, -1, 0], [0, 0, 1e-3]] is not allowed: such that ∂u_1/∂x_1 + ∂u_2/∂x_2 + \
+             ∂u_3/∂x_3 is 0",
+        ),
+        (EXTENSION, "strain = 1\nsteps_per_strain = 12", ""),
+        (
+            EXTENSION,
+            "strain = 1\nsteps_per_strain = 12\noutputs_per_strain = 5",
+            "time.outputs_per_strain = 5 is not allowed: interacting rods need a divisor of steps_per_strain = 12",
+        ),
+        (
+            EXTENSION,
+            "strain = 1\nsteps_per_period = 12",
+            "time.steps_per_period = 12 is not allowed: goes with periods; strain takes steps_per_strain",
+        ),
+        (
+            ELLIPTIC,
+            "periods = 1\nsteps_per_strain = 12",
+            "time.steps_per_strain = 12 is not allowed: goes with strain; periods take steps_per_period",
+        ),
+        (
+            "[[1, 1e3, 0], [-1e3, -1, 0], [0, 0, 0]]",
+            "strain = 1\nsteps_per_strain = 10",
+            "time.steps_per_strain = 10 is not allowed: at least 89, in which the liquid's gradient is resolved",
+        ),
+        (
+            ELLIPTIC,
+            "periods = 1\nsteps_per_period = 1",
+            "is not allowed: at least 2, in which",
+        ),
+        (
+            EXTENSION,
+            "strain = 1e4\nsteps_per_strain = 200000",
+            "time.strain = 1e4 is not allowed: at most 1e9 steps in all, not 2e9",
+        ),
+    ] {
+        let parsed = scene_file::parse("s.toml", &text(gradient, rods, 0.5, time));
+        match (parsed, why) {
+            (Ok(scene), "") => drop(run(&scene)),
+            (Err(refused), _) => assert!(!why.is_empty() && refused.to_string().contains(why), "{refused}"),
+            (Ok(_), _) => panic!("not refused: {why}"),
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! Rods in any flow that keeps the liquid's volume: it stays evenly filled.
+
+use crate::accept::kolmogorov_samples;
+use crate::case::{Case, Effort, Evidence};
+use crate::lab;
+use crate::oracle::naive::{Mistake, carry, stream};
+use rand::RngExt;
+use shearbed::scene::{Scene, Time};
+
+pub fn cases() -> Vec<Case> {
+    let mistake = |mistake| Subject::Wrong(Some(mistake));
+    vec![
+        Case::core("even-inflow")
+            .claim(
+                "In any flow without a trace, rods that leave come back inside, so that the volume stays evenly \
+                 filled.",
+            )
+            .source("eqs 2, 3, 12; a replacement rule for flows other than eq. 14's")
+            .equations(&["2", "3", "12"])
+            .subject(Subject::Core)
+            .mistake("rods come in anywhere on a face alike", mistake(Mistake::InflowUniform))
+            .mistake("faces chosen by their area alone", mistake(Mistake::FacesByArea))
+            .mistake("rods come in at the step's beginning, all of them", mistake(Mistake::InflowAtOnce))
+            .check(even),
+    ]
+}
+
+enum Subject {
+    Core,
+    /// The naive rule with a mistake, or with none.
+    Wrong(Option<Mistake>),
+}
+
+/// Shear that is oblique to the volume, extension, and a flow with all components, each with a volume that is no cube.
+const FLOWS: [(&str, [[f64; 3]; 3], [f64; 3]); 3] = [
+    (
+        "oblique shear",
+        [[0.5, -0.5, 0.0], [0.5, -0.5, 0.0], [0.0; 3]],
+        [10.0, 5.0, 5.0],
+    ),
+    (
+        "extension",
+        [[1.0, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, -0.5]],
+        [5.0, 5.0, 20.0],
+    ),
+    (
+        "all components",
+        [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]],
+        [5.0, 8.0, 10.0],
+    ),
+];
+
+/// Steps of a quarter of a unit of strain: what comes in twice within one is below a thousandth of the volume.
+const STEPS_PER_STRAIN: u64 = 4;
+const STEPS: u64 = 16;
+/// What is told of the distribution function of a coordinate.
+const DISTANCE: f64 = 0.02;
+
+fn even(subject: &Subject, effort: &Effort) -> Vec<Evidence> {
+    let count = effort.pick(1, 4) * kolmogorov_samples(DISTANCE);
+    let mut evidence = Vec::new();
+    let mut outside = 0;
+    for (name, gradient, box_mm) in FLOWS {
+        let ends = ends(subject, effort, count as usize, gradient, box_mm);
+        for (axis, places) in ends.into_iter().enumerate() {
+            let inside: Vec<f64> = places
+                .iter()
+                .copied()
+                .filter(|x| (0.0..1.0).contains(x))
+                .collect();
+            outside += places.len() - inside.len();
+            let title = format!(
+                "{name}: p of x_{k}/H_{k} being uniform after a strain of 4",
+                k = axis + 1
+            );
+            let because = "Kolmogorov–Smirnov; each mistake moves a coordinate by more in some flow";
+            evidence.push(Evidence::new(title, lab::uniform(inside, DISTANCE, because)));
+        }
+    }
+    evidence.push(Evidence::exact("rods outside the volume", outside as f64));
+    evidence
+}
+
+/// Where rods are in the end, over the sides.
+fn ends(
+    subject: &Subject,
+    effort: &Effort,
+    count: usize,
+    gradient: [[f64; 3]; 3],
+    box_mm: [f64; 3],
+) -> [Vec<f64>; 3] {
+    let scene = scene(effort, count, gradient, box_mm);
+    match subject {
+        Subject::Core => {
+            let mut suspension = lab::suspension(&scene, 0);
+            for _ in 0..STEPS {
+                if suspension.step().is_err() {
+                    return [const { Vec::new() }; 3];
+                }
+            }
+            let (places, sides) = (suspension.positions_in_lengths(), suspension.sides_in_lengths());
+            [0, 1, 2].map(|axis| places[axis].iter().map(|x| x / sides[axis]).collect())
+        }
+        Subject::Wrong(made) => {
+            let dt_s = lab::problem(&scene, 0, *made).time_step_s();
+            let mut draws = stream(effort.seed(31), 0, 0);
+            let mut places: Vec<[f64; 3]> = (0..count)
+                .map(|_| box_mm.map(|side| side * draws.random::<f64>()))
+                .collect();
+            let (replacements, mut replaced) = (stream(effort.seed(31), 0, 1), 0);
+            for _ in 0..STEPS {
+                carry(
+                    &mut places,
+                    gradient,
+                    box_mm,
+                    dt_s,
+                    &replacements,
+                    &mut replaced,
+                    *made,
+                );
+            }
+            [0, 1, 2].map(|axis| places.iter().map(|x| x[axis] / box_mm[axis]).collect())
+        }
+    }
+}
+
+fn scene(effort: &Effort, count: usize, gradient: [[f64; 3]; 3], box_mm: [f64; 3]) -> Scene {
+    let mut scene = lab::interacting_scene(effort);
+    scene.particles.count = count;
+    (scene.flow.shear_rate_per_s, scene.flow.gradient_per_s) = (None, Some(gradient));
+    let interaction = lab::interaction(&mut scene);
+    (interaction.concentration_per_cm3, interaction.box_mm) = (None, Some(box_mm));
+    scene.time = Time {
+        strain: Some(1.0),
+        steps_per_strain: Some(STEPS_PER_STRAIN),
+        outputs_per_strain: Some(1),
+        ..Time::default()
+    };
+    scene
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accept::{Verdict, judge};
+
+    #[test]
+    fn the_wrong_rules_are_wrong_by_their_mistakes_alone() {
+        for evidence in even(&Subject::Wrong(None), &Effort::gate()) {
+            assert_eq!(judge(&evidence.rule), Verdict::Pass, "{evidence:?}");
+        }
+    }
+}
