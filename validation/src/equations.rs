@@ -22,7 +22,7 @@ pub const ALL: [Equation; 35] = [
     eq(
         "3",
         "liquid velocity u_i = Σ G_ij x_j",
-        &["volume.rs: carry", "inflow.rs: carried", "liquid.rs: velocity"],
+        &["volume.rs: carry", "suspension.rs: velocity"],
     ),
     eq("4", "mean axial projections", &["observable.rs: Projections"]),
     eq(

@@ -2,7 +2,6 @@
 
 mod averaged;
 mod begun_again;
-mod box_shapes;
 mod cheapest_split;
 mod closed_forms;
 mod coefficients;
@@ -37,6 +36,7 @@ mod step_limits;
 mod subjects;
 mod symmetries;
 mod times;
+mod volume_shapes;
 mod work_precision;
 mod work_precision_coupled;
 
@@ -53,7 +53,7 @@ pub fn all() -> Vec<Case> {
         encounters::cases(),
         replacement::cases(),
         inflow::cases(),
-        box_shapes::cases(),
+        volume_shapes::cases(),
         kicks::cases(),
         kick_sizes::cases(),
         averaged::cases(),
