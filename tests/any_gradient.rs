@@ -57,6 +57,38 @@ fn rods_that_do_not_meet_are_free() {
     }
 }
 
+/// Each rod by its own map, in every chunk of a large run.
+#[test]
+fn many_unequal_rods_that_do_not_meet_are_free() {
+    let rods = "count = 70000\naspect_ratio = 5\naspect_ratio_sd_percent = 10";
+    let time = "strain = 0.4\nsteps_per_strain = 10\noutputs_per_strain = 5\n[output]\nrods_at = [0.4]";
+    let text =
+        |alpha: f64| text(EXTENSION, rods, alpha, time).replace("\n[output]\nobservables", "\nobservables");
+    let [free, stepped] = [0.0, 1e-300].map(|alpha| run(&scene_file::parse("s.toml", &text(alpha)).unwrap()));
+    assert_eq!((free.counters.steps, stepped.counters.collisions), (0, 0));
+    for (free, stepped) in free.snapshots[0].p.iter().zip(&stepped.snapshots[0].p) {
+        let off = free
+            .iter()
+            .zip(stepped)
+            .map(|(free, stepped)| (free - stepped).abs());
+        assert!(off.fold(0.0, f64::max) < 1e-13);
+    }
+}
+
+/// By hand: it turns by (2 W:W)^½ = 2 where it strains by (2 D:D)^½ = 0.1, so 20 for each unit of strain, 0.37 in a step at most:
+/// 55 steps, or 60 with ten outputs.
+#[test]
+fn a_flow_that_mostly_turns_takes_more_steps() {
+    let turning = "[[0.05, -1, 0], [1, 0, 0], [0, 0, -0.05]]";
+    let steps = |gradient: &str, time: &str| {
+        scene(gradient, "count = 10\naspect_ratio = 5", 0.5, time).steps_per_unit()
+    };
+    assert_eq!(steps(turning, "strain = 1\noutputs_per_strain = 1"), 55);
+    assert_eq!(steps(turning, "strain = 1"), 60);
+    assert_eq!(steps(EXTENSION, "strain = 1\noutputs_per_strain = 1"), 3);
+    assert_eq!(steps(SHEAR, "strain = 1"), 10);
+}
+
 /// Shear counted in strain and in periods is the same suspension, collision by collision: a period of 40 units of strain.
 #[test]
 fn shear_by_strain_is_shear_by_periods() {

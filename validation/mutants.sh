@@ -24,8 +24,8 @@ reach-without-m@@src/collision.rs@@alpha * libm::expm1(-libm::log(r) / m)@@alpha
 next-nearest@@src/neighbours/pairs.rs@@if square < best_square && other != rod {@@if square < best_square && other != rod && (best.is_none() || other > 3) {
 next-nearest-of-many@@src/neighbours/grid.rs@@let closer = square < best_square;@@let closer = square < best_square && (best.is_none() || other.rod > 3);
 uniform-replacement@@src/volume.rs@@*x1 = h1 * rng.random::<f64>().sqrt();@@*x1 = h1 * rng.random::<f64>();
-step-length@@src/suspension.rs@@strain_per_period(scene.particles.aspect_ratio) / scene@@1.01 * strain_per_period(scene.particles.aspect_ratio) / scene
-liquid-at-rest@@src/suspension.rs@@Vector3::new(0.0, self.rule.sign * separation.x, 0.0)@@Vector3::new(0.0, 0.0 * self.rule.sign * separation.x, 0.0)
+step-length@@src/suspension/liquid.rs@@plan.unit().strain / steps@@1.01 * plan.unit().strain / steps
+liquid-at-rest@@src/suspension/liquid.rs@@Vector3::new(0.0, sign * separation.x, 0.0)@@Vector3::new(0.0, 0.0 * sign * separation.x, 0.0)
 candidate-order@@src/suspension.rs@@a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))@@a.1.cmp(&b.1)
 deviation-not-percent@@src/rods.rs@@let deviation = mean * particles.aspect_ratio_sd_percent / 100.0;@@let deviation = particles.aspect_ratio_sd_percent / 100.0;
 signed-projection@@src/observable.rs@@sum.add_each(block.len, |i| p[i].abs())@@sum.add_each(block.len, |i| p[i])
@@ -56,8 +56,18 @@ inflow-by-other-side@@src/volume.rs@@*x1 = h1 * rng@@*x1 = h2 * rng
 boxes-have-one-side@@src/scene.rs@@ControlVolume::of(sides.map(@@ControlVolume::of([sides[0]; 3].map(
 places-drawn-anew@@src/suspension.rs@@Some(places) => volume.within(places, scene.particles.length_mm),@@Some(_) => volume.draw_positions(count, &rng(Purpose::Positions)),
 lengths-of-a-file-lost@@src/rods.rs@@if let Some(own) = particles.own_lengths_mm() {@@if let Some(own) = particles.own_lengths_mm().filter(|_| false) {
-chunks-share-numbers@@src/random.rs@@let mut rng = ahead(rng, k * CHUNK);@@let mut rng = ahead(rng, 0 * k * CHUNK);
-replaced-share-numbers@@src/volume.rs@@self.replace(axes, &mut ahead(rng, 2 * before));@@self.replace(axes, &mut ahead(rng, before));
+chunks-share-numbers@@src/random.rs@@ahead(rng, (k * CHUNK) as u64)@@ahead(rng, (0 * k * CHUNK) as u64)
+replaced-share-numbers@@src/volume.rs@@2 * u128::from(before)@@u128::from(before)
+inflow-anywhere@@src/volume/inflow.rs@@if accepted * face.most >= self.speed_in(face, &entry) {@@if 0.0 * accepted >= self.speed_in(face, &entry) {
+inflow-at-half-time@@src/volume/inflow.rs@@since * self.step@@(0.5 + 0.0 * since) * self.step
+inflow-of-what-was-inside@@src/volume/inflow.rs@@!self.holds(&(self.back * x))@@self.holds(&x)
+inflow-without-area@@src/volume/inflow.rs@@face.most * inflow.sides[j] * inflow.sides[k]@@face.most + 0.0 * inflow.sides[j] * inflow.sides[k]
+inflow-shares-numbers@@src/volume/inflow.rs@@NUMBERS * u128::from(rod)@@NUMBERS * u128::from(rod % 2)
+liquid-transposed@@src/suspension/liquid.rs@@gradient * separation@@gradient.transpose() * separation
+spin-reversed@@src/jeffery.rs@@0.5 * (along - across)@@0.5 * (across - along)
+collided-rods-move-too@@src/rods.rs@@u64::from(*since) <= tick)@@u64::from(*since) <= tick + 1)
+all-move-as-the-first@@src/rods.rs@@maps.get(rod).unwrap_or(&maps[0])@@maps.get(0 * rod).unwrap_or(&maps[0])
+any-trace@@src/scene/check.rs@@trace.abs() > INCOMPRESSIBLE@@trace.abs() > 1e300 + INCOMPRESSIBLE
 mirrored-free-phase@@src/rods.rs@@clock.phase(tick as f64, clock.sign)@@clock.phase(tick as f64, 1.0)
 chunks-not-added@@src/observable/sum.rs@@self.value += other.value;@@self.value = other.value;
 whole-turns-late@@src/phase.rs@@Self::of_part(turns.fract())@@Self::of_part((TAU * turns).sin().atan2((TAU * turns).cos()) / TAU)
@@ -68,7 +78,7 @@ reach-not-asked@@src/propagator/general.rs@@reached[i] || (0..3).any(@@true || (
 kick-overflows@@src/collision.rs@@largest * (v / largest).norm()@@v.norm()
 non-finite-goes-on@@src/suspension.rs@@if !end.iter().all(|component| component.is_finite()) {@@if end.iter().all(|component| component.is_infinite()) {
 seconds-overflow@@src/scene/check/time.rs@@if duration_s.is_finite() {@@if !duration_s.is_nan() {
-rate-overflows@@src/flow.rs@@largest * Self(self.0 / largest).strain_rate().norm()@@self.strain_rate().norm()
+rate-overflows@@src/flow.rs@@largest * part(&Self(self.0 / largest)).norm() * std::f64::consts::SQRT_2@@part(self).norm() * std::f64::consts::SQRT_2
 rk4-weights@@validation/src/integrators/fixed.rs@@y + (k1 + (k2 + k3) * 2.0 + k4) * (h / 6.0)@@y + (k1 + k2 * 3.0 + k3 + k4) * (h / 6.0)
 projection-left-out@@validation/src/integrators/fixed.rs@@rk4(|y| problem.rate(&y), p, h).normalize()@@rk4(|y| problem.rate(&y), p, h)
 dexp-sign@@validation/src/integrators/sphere.rs@@omega - 0.5 * once@@omega + 0.5 * once

@@ -100,6 +100,18 @@ fn an_even_suspension_stays_even() {
     }
 }
 
+/// What comes in was outside when the step began, in a flow that takes liquid out and back in through one face within a long step.
+#[test]
+fn what_comes_in_was_outside() {
+    let (gradient, sides) = flows().pop().unwrap();
+    let inflow = Inflow::new(&ControlVolume::of(sides), gradient, 2.0);
+    let rng = stream(6, 0, Purpose::Replacements);
+    for rod in 0..30_000u64 {
+        let x = inflow.come_in(ahead(&rng, NUMBERS * u128::from(rod)));
+        assert!(inflow.holds(&x) && !inflow.holds(&(inflow.back * x)), "{x}");
+    }
+}
+
 #[test]
 fn many_rods_are_carried_as_one_after_the_other() {
     let count = 2 * CHUNK + 1000;

@@ -1,10 +1,13 @@
 //! The whole fit on a model of one line, whose replicas cost nothing: planted values, coverage, χ², controls.
 
+use super::budget::residuals;
 use super::data::Datum;
 use super::elsewhere::look_elsewhere;
 use super::emulator::{Prediction, Replica};
+use super::pictures::best_curves;
 use super::profile::{contour, rise_of_several};
 use super::range::Range;
+use super::report::levels;
 use super::search::{Fit, Measured, Problem, Watch, search};
 use crate::accept::{Design, Rule, Verdict, judge};
 use nalgebra::{DMatrix, DVector};
@@ -105,6 +108,17 @@ fn without_noise_the_planted_values_are_found() {
 }
 
 /// Points at every tenth of a period do not tell a frequency of 1 from one of 9 or 11.
+/// χ² of one degree of freedom reaches 0.99 with a probability of 68 % and 3.84 with one of 95 %.
+#[test]
+fn the_levels_of_a_profile_are_those_of_its_intervals() {
+    let [(inner, low), (outer, high)] = levels();
+    assert_eq!((inner, outer), (0.68, 0.95));
+    assert!(
+        (low - 0.988_946).abs() < 1e-5 && (high - 3.841_459).abs() < 1e-5,
+        "{low} {high}"
+    );
+}
+
 #[test]
 fn another_minimum_of_the_range_is_seen() {
     let (data, model) = (points(0.3, 1.0, 0.01, 1), model(1, 1e-9));
@@ -286,6 +300,30 @@ fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
         assert!(
             close(ends.high, expected[axis] + 1.959_964 * se),
             "{axis}: {ends:?} {se}"
+        );
+    }
+
+    // The band of the best curve is what the covariance leaves of a + b (1 + t), beside the replicas' own.
+    let curves = best_curves(&fit, &data, &line, &Watch::SILENT).unwrap();
+    for (k, (value, half_band)) in curves.iter().enumerate() {
+        let row = x.row(k);
+        let variance = shared + (row * &covariance * row.transpose())[(0, 0)];
+        let expected = 1.959_964 * variance.sqrt();
+        assert!(
+            (half_band / expected - 1.0).abs() < 0.03,
+            "{k}: {half_band} {expected}"
+        );
+        let simulated = fit.emulator.at(&fit.best.place)[k];
+        assert!((value - simulated).abs() < 1e-3, "{k}: {value} {simulated}");
+    }
+    for (k, row) in residuals(&fit, &data).iter().enumerate() {
+        assert_eq!(
+            (row.measured, row.residual),
+            (data[k].value, data[k].value - row.simulated)
+        );
+        assert!(
+            (row.simulated - curves[k].0).abs() < 1e-3 && row.u >= 0.05,
+            "{row:?}"
         );
     }
 

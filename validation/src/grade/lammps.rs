@@ -194,3 +194,16 @@ fn direction([w, i, j, k]: [f64; 4], axis: usize) -> Vector3<f64> {
     body[axis] = 1.0;
     UnitQuaternion::new_normalize(Quaternion::new(w, i, j, k)) * body
 }
+
+#[cfg(test)]
+mod tests {
+    use super::odd_one;
+
+    #[test]
+    fn the_axis_of_a_body_is_the_one_whose_diameter_differs() {
+        assert_eq!(odd_one([3.0, 1.0, 1.0]), Some(0));
+        assert_eq!(odd_one([1.0, 3.0, 1.0]), Some(1));
+        assert_eq!(odd_one([1.0, 1.0, 3.0]), Some(2));
+        assert_eq!([[1.0, 1.0, 1.0], [1.0, 2.0, 3.0]].map(odd_one), [None; 2]);
+    }
+}

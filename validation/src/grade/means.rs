@@ -186,6 +186,20 @@ mod tests {
         problems::named("unequal-rods").unwrap().problem.clone()
     }
 
+    /// Isotropic rods have ⟨|p_i|⟩ = ½, with their length or without it.
+    #[test]
+    fn every_mistake_starts_from_isotropic_rods() {
+        let problem = problem();
+        let mistakes = crate::grade::mistakes::all();
+        assert!(mistakes.iter().any(|mistake| mistake.has_length));
+        for mistake in &mistakes {
+            if let Some(means) = by_mistake(&problem, mistake, 0.0) {
+                let off = means.iter().map(|mean| (mean - 0.5).abs()).fold(0.0, f64::max);
+                assert!(off < 1e-9, "{}: {means}", mistake.name);
+            }
+        }
+    }
+
     #[test]
     fn means_of_free_rods_are_carlsons_integrals() {
         let mut problem = problem();

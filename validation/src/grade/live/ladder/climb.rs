@@ -89,7 +89,7 @@ fn affordable(spent: Duration, took: Duration, timeout: Duration, confirms: bool
     }
 }
 
-fn within(rungs: &[Rung], tolerance: f64) -> bool {
+pub(super) fn within(rungs: &[Rung], tolerance: f64) -> bool {
     rungs.last().is_some_and(|rung| rung.error() <= tolerance)
 }
 

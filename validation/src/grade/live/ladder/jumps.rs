@@ -90,7 +90,7 @@ fn far(rung: &Rung, foretold: f64) -> bool {
 }
 
 /// The median order between settings that follow the motion and are above the tolerance.
-fn falling_order(rungs: &[Rung], tolerance: f64) -> f64 {
+pub(super) fn falling_order(rungs: &[Rung], tolerance: f64) -> f64 {
     let follows = |rung: &Rung| rung.error() > tolerance && rung.error() < 0.1;
     let order = |pair: &[Rung]| {
         let steps = [&pair[0], &pair[1]].map(|rung| rung.setting.steps().ok());

@@ -1,4 +1,5 @@
-use super::climb::{hopeless, reached};
+use super::climb::{hopeless, reached, within};
+use super::jumps::falling_order;
 use super::*;
 use crate::grade::live::program::Asked;
 use std::cell::Cell;
@@ -72,6 +73,33 @@ fn a_steady_order_or_a_second_rung_tells_an_answer_from_a_chance_crossing() {
     };
     assert_eq!(asked(&crossing), None);
     assert_eq!(asked(&|_| f64::NAN), None);
+}
+
+#[test]
+fn the_finest_setting_says_whether_an_answer_is_within_the_tolerance() {
+    let all = ladder(|k| (0.3 * 4f64.powi(-k), 1.0));
+    assert!(within(&all, TOLERANCE) && !within(&all[..5], TOLERANCE) && !within(&[], TOLERANCE));
+}
+
+#[test]
+fn the_order_by_which_errors_fall_is_that_of_those_above_the_tolerance() {
+    for order in [1, 2, 4] {
+        let all = ladder(|k| ((0.3 * 2f64.powi(-k * order)).max(1e-9), 1.0));
+        let found = falling_order(&all, TOLERANCE);
+        assert!((found - f64::from(order)).abs() < 1e-9, "{order}: {found}");
+    }
+}
+
+#[test]
+fn settings_that_are_not_finite_are_named() {
+    let all = ladder(|k| (if k < 2 { f64::NAN } else { 1e-9 }, 1.0));
+    assert_eq!(not_finite(&all[2..]), None);
+    let words = not_finite(&all).unwrap();
+    assert!(
+        words.starts_with("with ") && words.contains('8') && words.contains("16"),
+        "{words}"
+    );
+    assert!(!words.contains("32"), "{words}");
 }
 
 #[test]
