@@ -111,6 +111,21 @@ pub fn step_angles(p: &UnitVector3<f64>, rate: &Vector3<f64>, time: f64) -> (Uni
     (stepped, norm(rate) * time)
 }
 
+/// Where a rod is that moved freely from `p` to `end` in the step and is turned besides by the `change` of its rate: about p × change
+/// by |change|·time.
+pub fn kick(end: &Vector3<f64>, p: &Vector3<f64>, change: &Vector3<f64>, time: f64) -> UnitVector3<f64> {
+    let speed = norm(change);
+    if speed == 0.0 {
+        return UnitVector3::new_normalize(*end);
+    }
+    let (sin, cos) = libm::sincos(speed * time);
+    // A change of rate is normal to p, so this has length 1 to round-off.
+    let axis = p.cross(&(change / speed)).normalize();
+    // Rodrigues' formula.
+    let turned = end * cos + axis.cross(end) * sin + axis * (axis.dot(end) * (1.0 - cos));
+    UnitVector3::new_normalize(turned)
+}
+
 /// |v| without overflow in the squares: a kick ∝ 1/r has no bound.
 pub(crate) fn norm(v: &Vector3<f64>) -> f64 {
     let largest = v.amax();
@@ -181,6 +196,21 @@ mod tests {
         );
         let (p, angle) = turn(&Vector3::x_axis(), &Vector3::new(0.0, 1e300, 0.0), 1.0);
         assert!((p.norm() - 1.0).abs() < 1e-15 && angle == 1e300);
+    }
+
+    #[test]
+    fn a_kick_turns_the_end_of_a_free_step() {
+        let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
+        // About x × y = z by 0.5: x goes towards y, and z stays.
+        let of = |end: Vector3<f64>| kick(&end, &x, &(2.0 * y), 0.25).into_inner();
+        let (sin, cos) = 0.5f64.sin_cos();
+        assert_relative_eq!(of(x), Vector3::new(cos, sin, 0.0), max_relative = 1e-15);
+        assert_relative_eq!(of(y), Vector3::new(-sin, cos, 0.0), max_relative = 1e-15);
+        assert_relative_eq!(of(z), z);
+        assert_eq!(kick(&y, &x, &Vector3::zeros(), 0.25), Vector3::y_axis());
+        // A rod that did not move by itself turns as by its whole rate.
+        let (turned, _) = turn(&Vector3::x_axis(), &(2.0 * y), 0.25);
+        assert_relative_eq!(of(x), turned.into_inner(), max_relative = 1e-15);
     }
 
     #[test]

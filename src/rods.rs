@@ -138,6 +138,17 @@ impl Rods {
         couette(p, r, phase).into()
     }
 
+    /// Where one of the rods that meet at `tick` is a step later by itself.
+    pub fn after_step(&self, rod: usize, tick: u64) -> Vector3<f64> {
+        match &self.motion {
+            Motion::Steps(maps) => {
+                let map = maps.get(rod).unwrap_or(&maps[0]);
+                mapped(map, self.p.each_ref().map(|axis| axis[rod])).into()
+            }
+            _ => self.direction(rod, tick + 1),
+        }
+    }
+
     /// Moves the rods over the step from `tick` on that no collision has moved, where the motion goes by steps.
     pub fn advance(&mut self, tick: u64) {
         let Self {

@@ -144,6 +144,8 @@ pub enum Update {
     Rotation,
     /// A.14 to the letter, in φ and θ.
     Angles,
+    /// Jeffery's exact step, then a turn about p × (ṗ′ − ṗ) by |ṗ′ − ṗ|Δt: a collision that changes nothing moves nothing.
+    Kick,
 }
 
 /// `[time]`: `periods` of the mean aspect ratio, or `strain`.
@@ -266,6 +268,9 @@ impl Default for Output {
     }
 }
 
+/// Outputs per unit of strain by default.
+const OUTPUTS_PER_STRAIN: u64 = 10;
+
 fn three() -> f64 {
     3.0
 }
@@ -350,7 +355,7 @@ impl Scene {
         self.time.outputs_per_strain.unwrap_or_else(|| {
             let steps = self.time.steps_per_strain.filter(|_| self.interaction.is_some());
             let divides = |k: &u64| steps.is_none_or(|steps| steps.is_multiple_of(*k));
-            (1..=10).rev().find(divides).unwrap_or(1)
+            (1..=OUTPUTS_PER_STRAIN).rev().find(divides).unwrap_or(1)
         })
     }
 }

@@ -5,7 +5,7 @@ mod state;
 #[cfg(test)]
 mod tests;
 
-use crate::collision::{Reach, norm, share_velocity, step_angles, turn};
+use crate::collision::{Reach, kick, norm, share_velocity, step_angles, turn};
 use crate::contact::contact;
 use crate::jeffery::shape_factor;
 use crate::neighbours::{Nearest, Neighbours};
@@ -268,6 +268,12 @@ impl Suspension {
             match self.rule.update {
                 Update::Rotation => turn(&start, &rates[k], self.rule.step),
                 Update::Angles => step_angles(&start, &rates[k], self.rule.step),
+                Update::Kick => {
+                    let end = self.rods.after_step(pair[k], self.tick);
+                    let change = rates[k] - free[k];
+                    let end = kick(&end, &p[k], &change, self.rule.step);
+                    (end, norm(&rates[k]) * self.rule.step)
+                }
             }
         });
         Some(Turns {

@@ -6,6 +6,7 @@ pub use inflow::{Inflow, MAX_STEP};
 
 use crate::chunks::{CHUNK, over_chunks};
 use crate::random::ahead;
+use nalgebra::Matrix3;
 use rand::RngExt;
 use rand_pcg::Pcg64Dxsm;
 
@@ -36,6 +37,22 @@ impl ControlVolume {
     /// H₁/a, H₂/a and H₃/a.
     pub fn sides(&self) -> [f64; 3] {
         self.sides
+    }
+
+    /// How often the liquid would cross the volume in a unit of time, along the axis where that is most often.
+    pub(crate) fn crossings(&self, gradient: &Matrix3<f64>) -> f64 {
+        let along = |k: usize| {
+            (0..3)
+                .map(|j| gradient[(k, j)].abs() * (self.sides[j] / self.sides[k]))
+                .sum()
+        };
+        (0..3).map(along).fold(0.0, f64::max)
+    }
+
+    /// Whether its content in cubed rod lengths is a number, and one over it.
+    pub(crate) fn is_known(&self) -> bool {
+        let content: f64 = self.sides.iter().product();
+        content.is_normal() && content.recip().is_normal()
     }
 
     /// `count` uniform positions as three arrays: x_i = H_i R_i, drawn rod by rod (eq. 12).

@@ -1,6 +1,7 @@
 //! Rods that interact in other flows than plane Couette flow by periods.
 
 use shearbed::run::{go_on, run_replica};
+use shearbed::scene::Update;
 use shearbed::{Plan, Results, Scene, ensemble, scene_file};
 
 const SHEAR: &str = "[[0, 0, 0], [0.5, 0, 0], [0, 0, 0]]";
@@ -89,6 +90,24 @@ fn a_flow_that_mostly_turns_takes_more_steps() {
     assert_eq!(steps(SHEAR, "strain = 1"), 10);
 }
 
+/// Rods and liquid that turn as one body have no velocity along a contact line: collisions change nothing, if they are kicks.
+#[test]
+fn in_a_rotation_kicks_do_nothing() {
+    let rotation = "[[0, -0.5, 0], [0.5, 0, 0], [0, 0, 0]]";
+    let rods = "count = 100\naspect_ratio = 11.6";
+    let of = |alpha: f64, update| {
+        let mut scene = scene(rotation, rods, alpha, "periods = 10");
+        scene.interaction.as_mut().unwrap().update = update;
+        let plan = Plan::new(&scene).unwrap();
+        (plan.warnings().len(), ensemble::run(&plan).unwrap())
+    };
+    let ((_, free), (quiet, kicked)) = (of(0.0, Update::Kick), of(0.5, Update::Kick));
+    assert!(kicked.counters.collisions > 1000 && quiet == 0);
+    assert!(apart(&free, &kicked) < 1e-11);
+    let (warned, straight) = of(0.5, Update::Rotation);
+    assert!(apart(&free, &straight) > 0.01 && warned == 1);
+}
+
 /// Shear counted in strain and in periods is the same suspension, collision by collision: a period of 40 units of strain.
 #[test]
 fn shear_by_strain_is_shear_by_periods() {
@@ -172,6 +191,22 @@ fn a_turned_flow_turns_the_result() {
 #[test]
 fn what_cannot_be_stepped_is_refused() {
     let rods = "count = 100\naspect_ratio = 5";
+    // What comes in would be drawn without end.
+    let in_box = |sides: &str| {
+        let text = text(GENERAL, rods, 0.5, "strain = 1")
+            .replace("concentration_per_cm3 = 1000", &format!("box_mm = {sides}"));
+        scene_file::parse("s.toml", &text)
+            .map(|_| ())
+            .map_err(|refused| refused.to_string())
+    };
+    let refused = in_box("[1e103, 1e103, 1e103]").unwrap_err();
+    assert!(
+        refused.contains("interaction.box_mm = [1e103") && refused.contains("their product"),
+        "{refused}"
+    );
+    let refused = in_box("[1e-4, 1e3, 1]").unwrap_err();
+    assert!(refused.contains("cross the control volume 30 times"), "{refused}");
+    assert_eq!(in_box("[20, 5, 5]"), Ok(()));
     for (gradient, time, why) in [
         (
             "[[1, 0, 0], [0, -1, 0], [0, 0, 1e-3]]",

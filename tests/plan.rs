@@ -231,7 +231,7 @@ fn the_default_is_the_fewest_steps_that_will_do() {
     for k in 1..3900 {
         let r = 1.0 + (0.003 * f64::from(k)).exp_m1();
         let scene = scene(&turning(r, ""));
-        let (steps, strain) = (scene.steps_per_unit(), scene.strain_per_step());
+        let (steps, strain) = (scene.steps_per_unit(), scene.motion_per_step());
         assert!(strain <= resolved_strain(r) && steps.is_multiple_of(50), "{r}");
         let fewer = strain * steps as f64 / (steps - 50) as f64;
         assert!(steps == 50 || fewer > resolved_strain(r), "{r}");

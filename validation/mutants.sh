@@ -66,7 +66,7 @@ inflow-shares-numbers@@src/volume/inflow.rs@@NUMBERS * u128::from(rod)@@NUMBERS 
 liquid-transposed@@src/suspension/liquid.rs@@gradient * separation@@gradient.transpose() * separation
 spin-reversed@@src/jeffery.rs@@0.5 * (along - across)@@0.5 * (across - along)
 collided-rods-move-too@@src/rods.rs@@u64::from(*since) <= tick)@@u64::from(*since) <= tick + 1)
-all-move-as-the-first@@src/rods.rs@@maps.get(rod).unwrap_or(&maps[0])@@maps.get(0 * rod).unwrap_or(&maps[0])
+all-move-as-the-first@@src/rods.rs@@mapped(map, [*p1, *p2, *p3])@@mapped(&maps[0], [*p1, *p2, *p3])
 any-trace@@src/scene/check.rs@@trace.abs() > INCOMPRESSIBLE@@trace.abs() > 1e300 + INCOMPRESSIBLE
 mirrored-free-phase@@src/rods.rs@@clock.phase(tick as f64, clock.sign)@@clock.phase(tick as f64, 1.0)
 chunks-not-added@@src/observable/sum.rs@@self.value += other.value;@@self.value = other.value;

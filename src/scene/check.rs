@@ -20,6 +20,8 @@ const MAX_OUTPUTS: f64 = 1e6;
 const AGREE: f64 = 1e-3;
 /// The trace of a gradient over its largest component up to which a liquid is taken to keep its volume: some rounded decimals.
 const INCOMPRESSIBLE: f64 = 1e-6;
+/// How often the liquid may cross the control volume in a step: places are drawn for a rod until one is inside.
+const MAX_CROSSINGS: f64 = 30.0;
 /// The growth over the whole time up to which what turns is called periodic: a rod misses its start by as many rad.
 const MAX_DRIFT: f64 = 1e-6;
 
@@ -179,12 +181,15 @@ impl Scene {
             ));
         }
         let known = |side: f64| side.is_finite() && side > 0.0;
-        if !(volume.sides().into_iter().all(known) && n.is_finite() && n > 0.0) {
+        let other_flow = flow.shear_rate_per_s().is_none();
+        if !(volume.sides().into_iter().all(known) && n.is_finite() && n > 0.0)
+            || other_flow && !volume.is_known()
+        {
             return Err(match of_box {
                 Some(sides) => Invalid::new(
                     "interaction.box_mm",
                     format!("{sides:?}"),
-                    "such that the sides over the rods' length and the concentration are finite numbers > 0",
+                    "such that the sides over the rods' length, their product and the concentration are finite numbers > 0",
                 ),
                 None => Invalid::new(
                     "interaction.concentration_per_cm3",

@@ -199,7 +199,7 @@ pub const KEYS: [Key; 28] = [
     key("interaction.box_mm", "sides of the control volume along the axes (eqs 12, 14): count and box give n; where it is given too, it agrees to 1e-3", "mm", Holds::Sides, Other("a cube")),
     key("interaction.alpha", "α of P_c = (α/(s/a + α))^m (eq. 7); 0: no rods collide", "", NotNegative, Refused),
     key("interaction.m", "m of eq. 7", "", Positive, Default("3")),
-    key("interaction.update", "how a colliding rod takes its step; angles: A.14 to the letter", "", OneOf(&["rotation", "angles"]), Default("\"rotation\"")),
+    key("interaction.update", "how a colliding rod takes its step; angles: A.14 to the letter; kick: as a free rod, then the change", "", OneOf(&["rotation", "angles", "kick"]), Default("\"rotation\"")),
     key("interaction.min_contact_arm", "a shorter contact arm is no contact", "lengths of its own rod", NotNegative, Default("0")),
     key("time.periods", "how long, in periods T of the mean aspect ratio", "T", NotNegative, Other("strain")),
     key("time.strain", "how long, in shear strain ∫(2D:D)^½ dt: for flows without a period", "", NotNegative, Other("periods")),

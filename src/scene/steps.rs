@@ -1,6 +1,6 @@
 //! The steps of interacting rods: how many by default, and which is too long.
 
-use super::Scene;
+use super::{OUTPUTS_PER_STRAIN, Scene};
 use crate::flow::VelocityGradient;
 use crate::jeffery::strain_per_period;
 use crate::propagator::{Propagator, Span};
@@ -51,9 +51,9 @@ impl Scene {
         }
     }
 
-    /// The strain of one step, or the angle in rad by which the liquid turns in it, doubled, where that is larger: GΔt in plane
+    /// The strain of one step, or twice the angle in rad by which the liquid turns in it where that is larger: GΔt in plane
     /// Couette flow.
-    pub fn strain_per_step(&self) -> f64 {
+    pub fn motion_per_step(&self) -> f64 {
         self.motion_per_unit() / self.steps_per_unit() as f64
     }
 
@@ -61,7 +61,7 @@ impl Scene {
     /// step of at most [`resolved_strain`] of the rods' mean r_e: 200 a period at r_e = 11.6. `u64::MAX` where there is none.
     pub fn resolving_steps(&self) -> u64 {
         let unit = match self.time.strain {
-            Some(_) => self.outputs_per_strain().max(1),
+            Some(_) => self.time.outputs_per_strain.unwrap_or(OUTPUTS_PER_STRAIN).max(1),
             None => {
                 let outputs = self.time.outputs_per_period.unwrap_or(1).max(1);
                 (outputs / common_divisor(outputs, MULTIPLE)).saturating_mul(MULTIPLE)

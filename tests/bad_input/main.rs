@@ -89,7 +89,7 @@ const KEYS: &[(&str, &str, &[&str])] = &[
     ("interaction.concentration_per_cm3", "a finite number > 0", NOT_POSITIVE),
     ("interaction.alpha", "a finite number ≥ 0", NEGATIVE),
     ("interaction.m", "a finite number > 0", NOT_POSITIVE),
-    ("interaction.update", "\"rotation\" or \"angles\"", &["\"Angles\"", "\"\"", "1", "true"]),
+    ("interaction.update", "\"rotation\", \"angles\" or \"kick\"", &["\"Angles\"", "\"\"", "1", "true"]),
     ("interaction.min_contact_arm", "a finite number ≥ 0", NEGATIVE),
     ("time.periods", "a finite number ≥ 0", NEGATIVE),
     ("time.periods", "at most 1e6 outputs in all", &["1e9", "1e308"]),

@@ -26,7 +26,7 @@ const MANY: &[(&str, &str, &str)] = &[
     ("length_mm = 0.72", "lenght_mm = 0.72", "6: lenght_mm = 0.72: unknown key `lenght_mm`, expected one of"),
     ("aspect_ratio = 11.6", "aspect_ratio = \"long\"", "7: particles.aspect_ratio = \"long\" is not allowed: a number from"),
     ("alpha = 0.5\n", "", "10: interaction.alpha is missing: a finite number ≥ 0"),
-    ("update = \"rotation\"", "update = \"turn\"", "13: interaction.update = \"turn\" is not allowed: \"rotation\" or \"angles\""),
+    ("update = \"rotation\"", "update = \"turn\"", "13: interaction.update = \"turn\" is not allowed: \"rotation\", \"angles\" or \"kick\""),
     ("[ensemble]\nreplicas = 2", "[ensemble]\nreplicas = 0", "20: ensemble.replicas = 0 is not allowed: a whole number from 1 to"),
     ("[\"projections\"]", "[\"projection\"]", "23: output.observables = [\"projection\"] is not allowed: a list of"),
 ];

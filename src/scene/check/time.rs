@@ -98,11 +98,21 @@ impl Scene {
             Some(_) => 1.0 / flow.magnitude_per_s(),
             None => (Propagator::new(flow, self.particles.aspect_ratio).period_s()).unwrap_or(f64::NAN),
         };
-        let needed = (flow.per_s() / longest).norm() * (longest * seconds) / MAX_STEP;
+        let (gradient, duration) = (flow.per_s() / longest, longest * seconds);
+        let needed = gradient.norm() * duration / MAX_STEP;
         if !(steps as f64 >= needed) {
             return refused(format!(
                 "at least {:.0}, in which the liquid's gradient is resolved",
                 needed.ceil()
+            ));
+        }
+        let other_flow = flow.shear_rate_per_s().is_none();
+        let crossings = self.volume().map_or(0.0, |volume| volume.crossings(&gradient)) * duration;
+        if other_flow && !(crossings <= MAX_CROSSINGS * steps as f64) {
+            return refused(format!(
+                "at least {:.0}: in a step the liquid may cross the control volume {MAX_CROSSINGS} times at most; or a box_mm whose \
+                 sides differ less",
+                (crossings / MAX_CROSSINGS).ceil()
             ));
         }
         let error =

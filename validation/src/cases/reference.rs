@@ -296,5 +296,14 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
             lab::interaction(scene).min_contact_arm = 0.1;
             in_a_flow(scene, [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]]);
         }),
+        // The exact step and the kick, in both ways of motion.
+        scene(100, 100.0, |scene| {
+            scene.particles.aspect_ratio_sd_percent = 3.6;
+            lab::interaction(scene).update = scene::Update::Kick;
+        }),
+        scene(100, 500.0, |scene| {
+            lab::interaction(scene).update = scene::Update::Kick;
+            in_a_flow(scene, [[0.1, -0.5, 0.0], [0.6, -0.1, 0.0], [0.0; 3]]);
+        }),
     ]
 }

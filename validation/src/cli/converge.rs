@@ -50,11 +50,13 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let at = |message: String| format!("{}: {message}", named.source);
     let plan = Plan::new(&named.scene).map_err(|error| Failure::Input(at(error.to_string())))?;
     if plan.keeps(Stage::Contacts) && plan.flow().shear_rate_per_s().is_none() {
-        return Err(Failure::Input(at(
+        let (key, steps) = (named.scene.steps_key(), named.scene.steps_per_unit());
+        return Err(Failure::Input(at(format!(
             "flow.gradient_per_s: converge of interacting rods needs plane Couette flow, only ∂u_2/∂x_1 other than 0; in \
-             other flows halve the time step and compare: sweep --over time.steps_per_strain=10,20,40"
-                .into(),
-        )));
+             other flows halve the time step and compare: sweep --over {key}={steps},{},{}",
+            2 * steps,
+            4 * steps
+        ))));
     }
     let stem = format!("converge-{}", named.stem);
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(stem));

@@ -53,7 +53,7 @@ impl Facts {
         let period_s = plan.unit().seconds;
         Self {
             period_s: (plan.time_name() != "strain" && period_s.is_finite()).then_some(period_s),
-            strain_per_step: (plan.steps() > 0).then(|| scene.strain_per_step()),
+            strain_per_step: (plan.steps() > 0).then(|| plan.unit().strain / scene.steps_per_unit() as f64),
             // Divided through: r² is infinite for long rods.
             shape_factor: (r - 1.0 / r) / (r + 1.0 / r),
             n_a3,

@@ -204,7 +204,7 @@ mod tests {
         let error = refused(&["interaction.alpa=1,2"]);
         assert!(error.contains("unknown key `alpa`, expected one of"), "{error}");
         let error = refused(&["interaction.update=angels"]);
-        assert!(error.ends_with("\"rotation\" or \"angles\""), "{error}");
+        assert!(error.ends_with("\"rotation\", \"angles\" or \"kick\""), "{error}");
         assert!(refused(&["title.x=1"]).contains("is no table"));
         let error = refused(&["a=1:2:1000", "b=1:2:101"]);
         assert!(error.contains("more than 100000 points"), "{error}");

@@ -233,7 +233,7 @@ fn bad_input_is_refused_before_anything_runs() {
         ),
         (
             "interaction.update=rotation,angels",
-            "(point 2 of 2): interaction.update = \"angels\" is not allowed: \"rotation\" or \"angles\"",
+            "(point 2 of 2): interaction.update = \"angels\" is not allowed: \"rotation\", \"angles\" or \"kick\"",
         ),
         ("interaction.alpa=1,2", "unknown key `alpa`, expected one of"),
         ("alpha=1,2", "unknown key `alpha`, expected one of"),
