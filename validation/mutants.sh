@@ -63,7 +63,7 @@ inflow-at-half-time@@src/volume/inflow.rs@@since * self.step@@(0.5 + 0.0 * since
 inflow-of-what-was-inside@@src/volume/inflow.rs@@!self.holds(&(self.back * x))@@self.holds(&x)
 inflow-without-area@@src/volume/inflow.rs@@face.most * inflow.sides[j] * inflow.sides[k]@@face.most + 0.0 * inflow.sides[j] * inflow.sides[k]
 inflow-shares-numbers@@src/volume/inflow.rs@@NUMBERS * u128::from(rod)@@NUMBERS * u128::from(rod % 2)
-liquid-transposed@@src/suspension/liquid.rs@@gradient * separation@@gradient.transpose() * separation
+liquid-transposed@@src/suspension/liquid.rs@@inflow.gradient() * separation@@inflow.gradient().transpose() * separation
 spin-reversed@@src/jeffery.rs@@0.5 * (along - across)@@0.5 * (across - along)
 collided-rods-move-too@@src/rods.rs@@u64::from(*since) <= tick)@@u64::from(*since) <= tick + 1)
 all-move-as-the-first@@src/rods.rs@@mapped(map, [*p1, *p2, *p3])@@mapped(&maps[0], [*p1, *p2, *p3])

@@ -3,7 +3,7 @@
 use crate::jeffery::{couette_rate, rate};
 use crate::plan::Plan;
 use crate::volume::{ControlVolume, Inflow};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use rand_pcg::Pcg64Dxsm;
 
 #[derive(Clone, Debug)]
@@ -11,7 +11,7 @@ pub(super) enum Liquid {
     /// u_2 = ±x_1, with time in 1/|G| and rods that come back by eq. 14.
     Couette { volume: ControlVolume, sign: f64 },
     /// Any gradient of trace 0, with time in that over its largest component.
-    Any { gradient: Matrix3<f64>, inflow: Inflow },
+    Any(Box<Inflow>),
 }
 
 impl Liquid {
@@ -27,15 +27,14 @@ impl Liquid {
             flow.per_s() / rate_per_s,
             plan.unit().seconds * rate_per_s / steps,
         );
-        let inflow = Inflow::new(&volume, gradient, step);
-        (Self::Any { gradient, inflow }, step)
+        (Self::Any(Box::new(Inflow::new(&volume, gradient, step))), step)
     }
 
     /// ṗ of a free rod.
     pub fn rate(&self, p: &Vector3<f64>, shape_factor: f64) -> Vector3<f64> {
         match self {
             Self::Couette { sign, .. } => couette_rate(p, shape_factor, *sign),
-            Self::Any { gradient, .. } => rate(gradient, p, shape_factor),
+            Self::Any(inflow) => rate(inflow.gradient(), p, shape_factor),
         }
     }
 
@@ -43,7 +42,7 @@ impl Liquid {
     pub fn velocity(&self, separation: &Vector3<f64>) -> Vector3<f64> {
         match self {
             Self::Couette { sign, .. } => Vector3::new(0.0, sign * separation.x, 0.0),
-            Self::Any { gradient, .. } => gradient * separation,
+            Self::Any(inflow) => inflow.gradient() * separation,
         }
     }
 
@@ -51,7 +50,7 @@ impl Liquid {
     pub fn carry(&self, positions: &mut [Vec<f64>; 3], step: f64, before: u64, rng: &Pcg64Dxsm) -> u64 {
         match self {
             Self::Couette { volume, sign } => volume.advance(positions, step, *sign, before, rng),
-            Self::Any { inflow, .. } => inflow.advance(positions, before, rng),
+            Self::Any(inflow) => inflow.advance(positions, before, rng),
         }
     }
 }

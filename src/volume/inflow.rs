@@ -94,6 +94,11 @@ impl Inflow {
         inflow
     }
 
+    /// L.
+    pub fn gradient(&self) -> &Matrix3<f64> {
+        &self.gradient
+    }
+
     /// Moves every rod with the liquid over the step, replaces those that left and returns how many; `before` is how many have
     /// been in all steps before, on which depends what is drawn.
     pub fn advance(&self, positions: &mut [Vec<f64>; 3], before: u64, rng: &Pcg64Dxsm) -> u64 {

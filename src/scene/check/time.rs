@@ -100,7 +100,7 @@ impl Scene {
         };
         let (gradient, duration) = (flow.per_s() / longest, longest * seconds);
         let needed = gradient.norm() * duration / MAX_STEP;
-        if !(steps as f64 >= needed) {
+        if needed.is_nan() || needed > steps as f64 {
             return refused(format!(
                 "at least {:.0}, in which the liquid's gradient is resolved",
                 needed.ceil()
@@ -108,7 +108,7 @@ impl Scene {
         }
         let other_flow = flow.shear_rate_per_s().is_none();
         let crossings = self.volume().map_or(0.0, |volume| volume.crossings(&gradient)) * duration;
-        if other_flow && !(crossings <= MAX_CROSSINGS * steps as f64) {
+        if other_flow && (crossings.is_nan() || crossings > MAX_CROSSINGS * steps as f64) {
             return refused(format!(
                 "at least {:.0}: in a step the liquid may cross the control volume {MAX_CROSSINGS} times at most; or a box_mm whose \
                  sides differ less",

@@ -31,8 +31,11 @@ enum Subject {
     Wrong(Option<Mistake>),
 }
 
+/// L in 1/s, row by row.
+type Gradient = [[f64; 3]; 3];
+
 /// Shear that is oblique to the volume, extension, and a flow with all components, each with a volume that is no cube.
-const FLOWS: [(&str, [[f64; 3]; 3], [f64; 3]); 3] = [
+const FLOWS: [(&str, Gradient, [f64; 3]); 3] = [
     (
         "oblique shear",
         [[0.5, -0.5, 0.0], [0.5, -0.5, 0.0], [0.0; 3]],
@@ -86,7 +89,7 @@ fn ends(
     subject: &Subject,
     effort: &Effort,
     count: usize,
-    gradient: [[f64; 3]; 3],
+    gradient: Gradient,
     box_mm: [f64; 3],
 ) -> [Vec<f64>; 3] {
     let scene = scene(effort, count, gradient, box_mm);
@@ -124,7 +127,7 @@ fn ends(
     }
 }
 
-fn scene(effort: &Effort, count: usize, gradient: [[f64; 3]; 3], box_mm: [f64; 3]) -> Scene {
+fn scene(effort: &Effort, count: usize, gradient: Gradient, box_mm: [f64; 3]) -> Scene {
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = count;
     (scene.flow.shear_rate_per_s, scene.flow.gradient_per_s) = (None, Some(gradient));
