@@ -92,7 +92,7 @@ impl Placed {
     /// Suspension of the replica as it was kept; `None` for a plan that takes no steps.
     pub(crate) fn suspension(self, plan: &Plan, replica: u64) -> Option<Suspension> {
         let mut suspension = Suspension::new(plan, replica)?;
-        let rng = |purpose, drawn| ahead(&stream(plan.scene().ensemble.seed, replica, purpose), drawn);
+        let rng = |purpose, drawn: u128| ahead(&stream(plan.scene().ensemble.seed, replica, purpose), drawn);
         let Self {
             counters,
             directions,
@@ -100,8 +100,10 @@ impl Placed {
             positions,
         } = self;
         if let Some(draws) = &mut suspension.draws {
-            *draws = rng(Purpose::Collisions, counters.draws);
+            *draws = rng(Purpose::Collisions, counters.draws.into());
         }
+        let drawn = suspension.numbers_per_replacement() * u128::from(counters.replacements);
+        suspension.replacements = rng(Purpose::Replacements, drawn);
         suspension.rods.restore(directions, since);
         suspension.positions = positions;
         suspension.tick = counters.steps;

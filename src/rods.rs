@@ -1,22 +1,20 @@
 //! The rods' directions: each rod keeps the direction it had after its last collision, and the exact
 //! motion takes it from there to whatever time is asked for. A free rod is never stepped.
 
+mod draw;
+
 use crate::border::Fault;
 use crate::chunks::{CHUNK, over_chunks};
 use crate::free::{FreeMotion, MAX_ERROR_RAD, Way, directed, refused_direction};
-use crate::gaussian;
 use crate::jeffery::strain_per_period;
 use crate::observable::{BLOCK, Block};
-use crate::orientation::{from_degrees, isotropic};
 use crate::phase::{Phase, nearest_whole};
 use crate::plan::{Clock, Plan, Stage};
 use crate::propagator::{Propagator, couette};
-use crate::random::{Purpose, ahead, stream};
-use crate::scene::{Orientation, step_maps};
+use crate::scene::step_maps;
 use crate::work::Counters;
+use draw::{draw_directions, draw_lengths, draw_shapes};
 use nalgebra::{Matrix3, UnitVector3, Vector3};
-use rand::RngExt;
-use rand_pcg::Pcg64Dxsm;
 use std::cell::Cell;
 use std::sync::Arc;
 
@@ -141,10 +139,7 @@ impl Rods {
     /// Where one of the rods that meet at `tick` is a step later by itself.
     pub fn after_step(&self, rod: usize, tick: u64) -> Vector3<f64> {
         match &self.motion {
-            Motion::Steps(maps) => {
-                let map = maps.get(rod).unwrap_or(&maps[0]);
-                mapped(map, self.p.each_ref().map(|axis| axis[rod])).into()
-            }
+            Motion::Steps(maps) => mapped(map_of(maps, rod), self.p.each_ref().map(|axis| axis[rod])).into(),
             _ => self.direction(rod, tick + 1),
         }
     }
@@ -164,8 +159,7 @@ impl Rods {
             let axes = p1.iter_mut().zip(p2).zip(p3);
             for (rod, ((p1, p2), p3)) in (chunk * CHUNK..).zip(axes) {
                 if since.get(rod).is_none_or(|since| u64::from(*since) <= tick) {
-                    let map = maps.get(rod).unwrap_or(&maps[0]);
-                    [*p1, *p2, *p3] = mapped(map, [*p1, *p2, *p3]);
+                    [*p1, *p2, *p3] = mapped(map_of(maps, rod), [*p1, *p2, *p3]);
                 }
             }
         });
@@ -292,88 +286,15 @@ impl Ticks {
     }
 }
 
+/// The map of a rod, where each has one or all the same.
+#[inline]
+fn map_of(maps: &[Matrix3<f64>], rod: usize) -> &Matrix3<f64> {
+    maps.get(rod).unwrap_or(&maps[0])
+}
+
 #[inline]
 fn mapped(map: &Matrix3<f64>, p: [f64; 3]) -> [f64; 3] {
     (map * Vector3::from(p)).normalize().into()
-}
-
-fn draw_shapes(plan: &Plan, replica: u64) -> (Shapes, u64) {
-    let particles = &plan.scene().particles;
-    let mean = particles.aspect_ratio;
-    if !plan.keeps(Stage::AspectRatios) {
-        return (Shapes::Shared(mean), 0);
-    }
-    if let Some(own) = particles.own_aspect_ratios() {
-        return (Shapes::Each(own.to_vec()), 0);
-    }
-    let rng = stream(plan.scene().ensemble.seed, replica, Purpose::AspectRatios);
-    // A rod stays a rod and a disc a disc; a draw across r_e = 1 (or below 0) is drawn again (eq. 11).
-    let allowed = |r: f64| {
-        if mean > 1.0 { r > 1.0 } else { r > 0.0 && r < 1.0 }
-    };
-    let deviation = mean * particles.aspect_ratio_sd_percent / 100.0;
-    let (aspect_ratios, redrawn) = draw_gaussian(rng, particles.count, [mean, deviation], allowed);
-    (Shapes::Each(aspect_ratios), redrawn)
-}
-
-/// Lengths over their mean, of a file over the scene's length.
-fn draw_lengths(plan: &Plan, replica: u64) -> (Vec<f64>, u64) {
-    let particles = &plan.scene().particles;
-    if !plan.keeps(Stage::Lengths) {
-        return (Vec::new(), 0);
-    }
-    if let Some(own) = particles.own_lengths_mm() {
-        return (own.iter().map(|length| length / particles.length_mm).collect(), 0);
-    }
-    let rng = stream(plan.scene().ensemble.seed, replica, Purpose::Lengths);
-    let deviation = particles.length_sd_percent / 100.0;
-    draw_gaussian(rng, particles.count, [1.0, deviation], |length| length > 0.0)
-}
-
-/// Numbers of this mean and standard deviation, drawn again where they are not allowed, and how many were.
-fn draw_gaussian(
-    mut rng: Pcg64Dxsm,
-    count: usize,
-    [mean, deviation]: [f64; 2],
-    allowed: impl Fn(f64) -> bool,
-) -> (Vec<f64>, u64) {
-    let mut redrawn = 0;
-    let mut one = || {
-        loop {
-            let value = mean + deviation * gaussian::standard(&mut rng);
-            if allowed(value) {
-                return value;
-            }
-            redrawn += 1;
-        }
-    };
-    let all = (0..count).map(|_| one()).collect();
-    (all, redrawn)
-}
-
-fn draw_directions(plan: &Plan, replica: u64) -> [Vec<f64>; 3] {
-    let particles = &plan.scene().particles;
-    if let Some(p) = particles.own().and_then(|own| own.p.as_ref()) {
-        return p.clone();
-    }
-    let count = particles.count;
-    let mut p = [(); 3].map(|()| vec![0.0; count]);
-    let rng = plan
-        .keeps(Stage::Orientations)
-        .then(|| stream(plan.scene().ensemble.seed, replica, Purpose::Orientations));
-    over_chunks(&mut p, |chunk, [p1, p2, p3]| {
-        let mut rng = rng.as_ref().map(|rng| ahead(rng, 2 * (chunk * CHUNK) as u64));
-        for ((p1, p2), p3) in p1.iter_mut().zip(p2).zip(p3) {
-            let drawn = rng.as_mut().map(|rng| isotropic(rng.random(), rng.random()));
-            let direction = match (&particles.orientation, drawn) {
-                (Orientation::Random(_), Some(drawn)) => drawn,
-                (Orientation::Given { phi_deg, theta_deg }, _) => from_degrees(*phi_deg, *theta_deg),
-                _ => unreachable!("a plan keeps the draws of random directions"),
-            };
-            [*p1, *p2, *p3] = direction.into_inner().into();
-        }
-    });
-    p
 }
 
 fn choose_motion(plan: &Plan, shapes: &Shapes) -> Motion {

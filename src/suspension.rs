@@ -65,7 +65,7 @@ pub struct Suspension {
     liquid: Liquid,
     neighbours: Option<Neighbours>,
     pub(crate) draws: Option<Pcg64Dxsm>,
-    replacements: Pcg64Dxsm,
+    pub(crate) replacements: Pcg64Dxsm,
     contacts: bool,
     reach: Reach,
     rule: Rule,
@@ -179,9 +179,8 @@ impl Suspension {
         self.rods.advance(self.tick);
         self.tick += 1;
         self.counters.steps += 1;
-        let before = self.counters.replacements;
         self.counters.replacements +=
-            (self.liquid).carry(&mut self.positions, self.rule.step, before, &self.replacements);
+            (self.liquid).carry(&mut self.positions, self.rule.step, &mut self.replacements);
         Ok(&self.collisions)
     }
 

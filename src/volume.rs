@@ -2,6 +2,7 @@
 
 mod inflow;
 
+pub(crate) use inflow::NUMBERS as INFLOW_NUMBERS;
 pub use inflow::{Inflow, MAX_STEP};
 
 use crate::chunks::{CHUNK, over_chunks};
@@ -82,19 +83,11 @@ impl ControlVolume {
 
     /// Moves every rod with the liquid of plane Couette flow u_2 = ±x_1 over `strain` ≥ 0 (`sign` of G), and replaces the rods
     /// that left through the faces normal to axis 2: x_1 = H₁√R, x_3 = H₃R, x_2 by the overshoot modulo H₂ (eq. 14 with the
-    /// text's second coordinate read as x_3). Returns how many were replaced; `before` is how many have been in all steps
-    /// before, each with two numbers of `rng`.
-    pub fn advance(
-        &self,
-        positions: &mut [Vec<f64>; 3],
-        strain: f64,
-        sign: f64,
-        before: u64,
-        rng: &Pcg64Dxsm,
-    ) -> u64 {
+    /// text's second coordinate read as x_3). Returns how many were replaced.
+    pub fn advance(&self, positions: &mut [Vec<f64>; 3], strain: f64, sign: f64, rng: &mut Pcg64Dxsm) -> u64 {
         let carry = |[x1, x2, _]: [&mut [f64]; 3]| self.carry(x1, x2, sign * strain);
-        advance(positions, before, carry, |axes, before| {
-            self.replace(axes, ahead(rng, 2 * u128::from(before)));
+        advance(positions, COUETTE_NUMBERS, rng, carry, |axes, rng| {
+            self.replace(axes, rng)
         })
     }
 
@@ -110,7 +103,7 @@ impl ControlVolume {
     }
 
     /// Replaces the rods that are outside, each with the next two numbers of the stream.
-    fn replace(&self, [x1, x2, x3]: [&mut [f64]; 3], mut rng: Pcg64Dxsm) {
+    fn replace(&self, [x1, x2, x3]: [&mut [f64]; 3], rng: &mut Pcg64Dxsm) {
         let [h1, h2, h3] = self.sides;
         for ((x1, x2), x3) in x1.iter_mut().zip(x2).zip(x3) {
             if (0.0..h2).contains(x2) {
@@ -126,23 +119,27 @@ impl ControlVolume {
     }
 }
 
-/// Carries all rods, of which `carry` counts those that leave, and then replaces these: `replace` is told how many were
-/// replaced before its first, `before` of them in earlier steps. Returns how many are replaced.
+/// Numbers of the stream for each rod that is replaced in plane Couette flow.
+pub(crate) const COUETTE_NUMBERS: u128 = 2;
+
+/// Carries all rods, of which `carry` counts those that leave, and then replaces these, each with the next `numbers` of the
+/// stream, and in the order of rods. Returns how many are replaced.
 fn advance(
     positions: &mut [Vec<f64>; 3],
-    before: u64,
+    numbers: u128,
+    rng: &mut Pcg64Dxsm,
     carry: impl Fn([&mut [f64]; 3]) -> u64 + Sync,
-    replace: impl Fn([&mut [f64]; 3], u64) + Sync,
+    replace: impl Fn([&mut [f64]; 3], &mut Pcg64Dxsm) + Sync,
 ) -> u64 {
     if positions[0].len() <= CHUNK {
         let left = carry(positions.each_mut().map(Vec::as_mut_slice));
-        replace(positions.each_mut().map(Vec::as_mut_slice), before);
+        replace(positions.each_mut().map(Vec::as_mut_slice), rng);
         return left;
     }
     let left = over_chunks(positions, |_, axes| carry(axes));
-    over_chunks(positions, |chunk, axes| {
-        replace(axes, before + left[..chunk].iter().sum::<u64>())
-    });
+    let after = |left: &[u64]| ahead(rng, numbers * u128::from(left.iter().sum::<u64>()));
+    over_chunks(positions, |chunk, axes| replace(axes, &mut after(&left[..chunk])));
+    *rng = after(&left);
     left.iter().sum()
 }
 
@@ -163,17 +160,17 @@ mod tests {
         let count = 2 * CHUNK + 1000;
         let volume = ControlVolume::holding(count, 1.0);
         let mut all = volume.draw_positions(count, &stream(3, 0, Purpose::Positions));
-        let rng = stream(3, 0, Purpose::Replacements);
+        let start = stream(3, 0, Purpose::Replacements);
         let mut parts: Vec<[Vec<f64>; 3]> = [0..CHUNK, CHUNK..2 * CHUNK, 2 * CHUNK..count]
             .map(|part| all.each_ref().map(|axis| axis[part.clone()].to_vec()))
             .into();
-        let (mut one, mut many) = (0, 0);
+        let (mut one, mut many) = (start.clone(), start);
         for _ in 0..2 {
-            many += volume.advance(&mut all, 0.3, 1.0, many, &rng);
-            for part in &mut parts {
-                one += volume.advance(part, 0.3, 1.0, one, &rng);
-            }
-            assert_eq!(many, one);
+            let replaced = volume.advance(&mut all, 0.3, 1.0, &mut many);
+            let each = parts
+                .iter_mut()
+                .map(|part| volume.advance(part, 0.3, 1.0, &mut one));
+            assert_eq!(replaced, each.sum::<u64>());
         }
         for (axis, all) in all.iter().enumerate() {
             assert!(all.iter().eq(parts.iter().flat_map(|part| &part[axis])));
@@ -193,7 +190,12 @@ mod tests {
             let sides = volume.sides();
             let mut positions = volume.draw_positions(1000, &stream(3, 0, Purpose::Positions));
             let before = positions.clone();
-            let replaced = volume.advance(&mut positions, 0.3, sign, 0, &stream(3, 0, Purpose::Replacements));
+            let replaced = volume.advance(
+                &mut positions,
+                0.3,
+                sign,
+                &mut stream(3, 0, Purpose::Replacements),
+            );
             let mut changed = 0;
             for rod in 0..1000 {
                 let moved = before[1][rod] + sign * 0.3 * before[0][rod];

@@ -27,7 +27,7 @@ uniform-replacement@@src/volume.rs@@*x1 = h1 * rng.random::<f64>().sqrt();@@*x1 
 step-length@@src/suspension/liquid.rs@@plan.unit().strain / steps@@1.01 * plan.unit().strain / steps
 liquid-at-rest@@src/suspension/liquid.rs@@Vector3::new(0.0, sign * separation.x, 0.0)@@Vector3::new(0.0, 0.0 * sign * separation.x, 0.0)
 candidate-order@@src/suspension.rs@@a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))@@a.1.cmp(&b.1)
-deviation-not-percent@@src/rods.rs@@let deviation = mean * particles.aspect_ratio_sd_percent / 100.0;@@let deviation = particles.aspect_ratio_sd_percent / 100.0;
+deviation-not-percent@@src/rods/draw.rs@@let deviation = mean * particles.aspect_ratio_sd_percent / 100.0;@@let deviation = particles.aspect_ratio_sd_percent / 100.0;
 signed-projection@@src/observable.rs@@sum.add_each(block.len, |i| p[i].abs())@@sum.add_each(block.len, |i| p[i])
 standard-error@@src/ensemble.rs@@(self.deviation[k] / (replicas - 1.0) / replicas).sqrt()@@(self.deviation[k] / (replicas - 1.0)).sqrt()
 flow-rate-of-a@@src/jeffery.rs@@half * (shape_factor - 1.0) * p.y@@half * (shape_factor + 1.0) * p.y
@@ -55,18 +55,18 @@ stress-by-squared-length@@src/rods.rs@@self.per_cube * length.powi(3)@@self.per_
 inflow-by-other-side@@src/volume.rs@@*x1 = h1 * rng@@*x1 = h2 * rng
 boxes-have-one-side@@src/scene.rs@@ControlVolume::of(sides.map(@@ControlVolume::of([sides[0]; 3].map(
 places-drawn-anew@@src/suspension.rs@@Some(places) => volume.within(places, scene.particles.length_mm),@@Some(_) => volume.draw_positions(count, &rng(Purpose::Positions)),
-lengths-of-a-file-lost@@src/rods.rs@@if let Some(own) = particles.own_lengths_mm() {@@if let Some(own) = particles.own_lengths_mm().filter(|_| false) {
+lengths-of-a-file-lost@@src/rods/draw.rs@@if let Some(own) = particles.own_lengths_mm() {@@if let Some(own) = particles.own_lengths_mm().filter(|_| false) {
 chunks-share-numbers@@src/random.rs@@ahead(rng, (k * CHUNK) as u64)@@ahead(rng, (0 * k * CHUNK) as u64)
-replaced-share-numbers@@src/volume.rs@@2 * u128::from(before)@@u128::from(before)
+replaced-share-numbers@@src/volume.rs@@ahead(rng, numbers * u128::from(left.iter().sum::<u64>()))@@ahead(rng, u128::from(left.iter().sum::<u64>()))
 inflow-anywhere@@src/volume/inflow.rs@@if accepted * face.most >= self.speed_in(face, &entry) {@@if 0.0 * accepted >= self.speed_in(face, &entry) {
 inflow-at-half-time@@src/volume/inflow.rs@@since * self.step@@(0.5 + 0.0 * since) * self.step
 inflow-of-what-was-inside@@src/volume/inflow.rs@@!self.holds(&(self.back * x))@@self.holds(&x)
 inflow-without-area@@src/volume/inflow.rs@@face.most * inflow.sides[j] * inflow.sides[k]@@face.most + 0.0 * inflow.sides[j] * inflow.sides[k]
-inflow-shares-numbers@@src/volume/inflow.rs@@NUMBERS * u128::from(rod)@@NUMBERS * u128::from(rod % 2)
+inflow-shares-numbers@@src/volume/inflow.rs@@*rng = ahead(rng, NUMBERS);@@*rng = ahead(rng, 0 * NUMBERS);
 liquid-transposed@@src/suspension/liquid.rs@@inflow.gradient() * separation@@inflow.gradient().transpose() * separation
 spin-reversed@@src/jeffery.rs@@0.5 * (along - across)@@0.5 * (across - along)
 collided-rods-move-too@@src/rods.rs@@u64::from(*since) <= tick)@@u64::from(*since) <= tick + 1)
-all-move-as-the-first@@src/rods.rs@@mapped(map, [*p1, *p2, *p3])@@mapped(&maps[0], [*p1, *p2, *p3])
+all-move-as-the-first@@src/rods.rs@@mapped(map_of(maps, rod), [*p1@@mapped(&maps[0], [*p1
 any-trace@@src/scene/check.rs@@trace.abs() > INCOMPRESSIBLE@@trace.abs() > 1e300 + INCOMPRESSIBLE
 mirrored-free-phase@@src/rods.rs@@clock.phase(tick as f64, clock.sign)@@clock.phase(tick as f64, 1.0)
 chunks-not-added@@src/observable/sum.rs@@self.value += other.value;@@self.value = other.value;

@@ -78,6 +78,14 @@ impl Scene {
         }
     }
 
+    /// The seconds of a period of the mean aspect ratio or of a unit of strain, as the time is given; NaN where there is no period.
+    pub(crate) fn seconds_per_unit(&self, flow: &VelocityGradient) -> f64 {
+        match self.time.strain {
+            Some(_) => 1.0 / flow.magnitude_per_s(),
+            None => (Propagator::new(flow, self.particles.aspect_ratio).period_s()).unwrap_or(f64::NAN),
+        }
+    }
+
     /// The larger of strain and turn of the liquid in a period or a unit of strain.
     pub(super) fn motion_per_unit(&self) -> f64 {
         let r = self.particles.aspect_ratio;
@@ -94,10 +102,7 @@ impl Scene {
         let (strain_per_s, turn_per_s) = (flow.magnitude_per_s(), flow.turn_per_s());
         match self.time.strain {
             Some(_) => (turn_per_s / strain_per_s).max(1.0),
-            None => {
-                let period_s = Propagator::new(&flow, r).period_s().unwrap_or(f64::NAN);
-                strain_per_s.max(turn_per_s) * period_s
-            }
+            None => strain_per_s.max(turn_per_s) * self.seconds_per_unit(&flow),
         }
     }
 }

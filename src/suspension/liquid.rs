@@ -2,7 +2,7 @@
 
 use crate::jeffery::{couette_rate, rate};
 use crate::plan::Plan;
-use crate::volume::{ControlVolume, Inflow};
+use crate::volume::{COUETTE_NUMBERS, ControlVolume, INFLOW_NUMBERS, Inflow};
 use nalgebra::Vector3;
 use rand_pcg::Pcg64Dxsm;
 
@@ -46,11 +46,19 @@ impl Liquid {
         }
     }
 
-    /// Moves every rod over a step and replaces those that leave, which are counted, `before` of them in earlier steps.
-    pub fn carry(&self, positions: &mut [Vec<f64>; 3], step: f64, before: u64, rng: &Pcg64Dxsm) -> u64 {
+    /// Moves every rod over a step and replaces those that leave, which are counted.
+    pub fn carry(&self, positions: &mut [Vec<f64>; 3], step: f64, rng: &mut Pcg64Dxsm) -> u64 {
         match self {
-            Self::Couette { volume, sign } => volume.advance(positions, step, *sign, before, rng),
-            Self::Any(inflow) => inflow.advance(positions, before, rng),
+            Self::Couette { volume, sign } => volume.advance(positions, step, *sign, rng),
+            Self::Any(inflow) => inflow.advance(positions, rng),
+        }
+    }
+
+    /// Numbers of the stream for each rod that is replaced.
+    pub fn numbers(&self) -> u128 {
+        match self {
+            Self::Couette { .. } => COUETTE_NUMBERS,
+            Self::Any(_) => INFLOW_NUMBERS,
         }
     }
 }

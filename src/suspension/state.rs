@@ -5,6 +5,11 @@ use crate::work::Counters;
 use nalgebra::Vector3;
 
 impl Suspension {
+    /// Numbers of the stream of replacements for each rod that is replaced.
+    pub(crate) fn numbers_per_replacement(&self) -> u128 {
+        self.liquid.numbers()
+    }
+
     /// The work done so far.
     pub fn counters(&self) -> &Counters {
         &self.counters

@@ -13,7 +13,7 @@ use rand_pcg::Pcg64Dxsm;
 pub const MAX_STEP: f64 = 8.0;
 
 /// Numbers of the stream that are set apart for one rod. A try takes five; on average fewer than ten are needed.
-const NUMBERS: u128 = 1 << 20;
+pub const NUMBERS: u128 = 1 << 20;
 
 /// One step of rods in a control volume whose liquid has any gradient L of trace 0 (eqs 2 and 3, with x from the volume's
 /// corner).
@@ -29,7 +29,7 @@ const NUMBERS: u128 = 1 << 20;
 /// use shearbed::volume::{ControlVolume, Inflow};
 /// let (volume, extension) = (ControlVolume::of([4.0; 3]), Matrix3::from_diagonal(&Vector3::new(1.0, -0.5, -0.5)));
 /// let mut positions = volume.draw_positions(100, &stream(1, 0, Purpose::Positions));
-/// let replaced = Inflow::new(&volume, extension, 0.1).advance(&mut positions, 0, &stream(1, 0, Purpose::Replacements));
+/// let replaced = Inflow::new(&volume, extension, 0.1).advance(&mut positions, &mut stream(1, 0, Purpose::Replacements));
 /// assert!(replaced > 0 && positions.iter().flatten().all(|x| (0.0..4.0).contains(x)));
 /// ```
 #[derive(Clone, Debug)]
@@ -99,11 +99,10 @@ impl Inflow {
         &self.gradient
     }
 
-    /// Moves every rod with the liquid over the step, replaces those that left and returns how many; `before` is how many have
-    /// been in all steps before, on which depends what is drawn.
-    pub fn advance(&self, positions: &mut [Vec<f64>; 3], before: u64, rng: &Pcg64Dxsm) -> u64 {
-        let replace = |axes: [&mut [f64]; 3], before| self.replace(axes, before, rng);
-        super::advance(positions, before, |axes| self.carry(axes), replace)
+    /// Moves every rod with the liquid over the step, replaces those that left and returns how many.
+    pub fn advance(&self, positions: &mut [Vec<f64>; 3], rng: &mut Pcg64Dxsm) -> u64 {
+        let replace = |axes: [&mut [f64]; 3], rng: &mut Pcg64Dxsm| self.replace(axes, rng);
+        super::advance(positions, NUMBERS, rng, |axes| self.carry(axes), replace)
     }
 
     /// Moves rods with the liquid, and counts those that are outside then.
@@ -118,12 +117,12 @@ impl Inflow {
         left
     }
 
-    /// Replaces the rods that are outside; `rod` were replaced before.
-    fn replace(&self, [x1, x2, x3]: [&mut [f64]; 3], mut rod: u64, rng: &Pcg64Dxsm) {
+    /// Replaces the rods that are outside, each with numbers of its own.
+    fn replace(&self, [x1, x2, x3]: [&mut [f64]; 3], rng: &mut Pcg64Dxsm) {
         for ((x1, x2), x3) in x1.iter_mut().zip(x2).zip(x3) {
             if !self.holds(&Vector3::new(*x1, *x2, *x3)) {
-                [*x1, *x2, *x3] = self.come_in(ahead(rng, NUMBERS * u128::from(rod))).into();
-                rod += 1;
+                [*x1, *x2, *x3] = self.come_in(rng.clone()).into();
+                *rng = ahead(rng, NUMBERS);
             }
         }
     }

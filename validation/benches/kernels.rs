@@ -79,10 +79,10 @@ fn search(c: &mut Criterion) {
 fn parts_of_a_step(c: &mut Criterion) {
     let mut group = c.benchmark_group("parts of a step");
     let (volume, mut positions) = scattered(10_000);
-    let rng = stream(1, 0, Purpose::Replacements);
+    let mut rng = stream(1, 0, Purpose::Replacements);
     group.throughput(Throughput::Elements(10_000));
     group.bench_function("translation, per rod", |b| {
-        b.iter(|| volume.advance(&mut positions, 0.37, 1.0, 0, &rng))
+        b.iter(|| volume.advance(&mut positions, 0.37, 1.0, &mut rng))
     });
     group.throughput(Throughput::Elements(1));
     let p = [(0.3, 1.1), (2.0, 0.7)].map(|(phi, theta)| from_angles(phi, theta));

@@ -36,19 +36,17 @@ impl Scene {
             return Err(Invalid::new(key, periods, allowed));
         }
         let time = &self.time;
-        for (key, value, own) in [
-            ("time.steps_per_strain", time.steps_per_strain, "steps_per_period"),
-            (
-                "time.outputs_per_strain",
-                time.outputs_per_strain,
-                "outputs_per_period",
-            ),
-        ] {
-            if let Some(value) = value {
-                let allowed = format!("goes with strain; periods take {own}");
-                return Err(Invalid::new(key, value, allowed));
-            }
-        }
+        not_given(
+            "goes with strain; periods take",
+            [
+                ("time.steps_per_strain", time.steps_per_strain, "steps_per_period"),
+                (
+                    "time.outputs_per_strain",
+                    time.outputs_per_strain,
+                    "outputs_per_period",
+                ),
+            ],
+        )?;
         let outputs = self.outputs_per_period();
         bounded(key, periods, outputs, "outputs", MAX_OUTPUTS)?;
         self.check_seconds(periods * period_s)?;
@@ -94,11 +92,7 @@ impl Scene {
         let steps = self.steps_per_unit();
         let refused = |allowed: String| Err(Invalid::new(self.steps_key(), steps, allowed));
         let longest = flow.per_s().amax();
-        let seconds = match self.time.strain {
-            Some(_) => 1.0 / flow.magnitude_per_s(),
-            None => (Propagator::new(flow, self.particles.aspect_ratio).period_s()).unwrap_or(f64::NAN),
-        };
-        let (gradient, duration) = (flow.per_s() / longest, longest * seconds);
+        let (gradient, duration) = (flow.per_s() / longest, longest * self.seconds_per_unit(flow));
         let needed = gradient.norm() * duration / MAX_STEP;
         if needed.is_nan() || needed > steps as f64 {
             return refused(format!(
@@ -163,19 +157,17 @@ impl Scene {
             ));
         }
         let time = &self.time;
-        for (key, value, own) in [
-            ("time.steps_per_period", time.steps_per_period, "steps_per_strain"),
-            (
-                "time.outputs_per_period",
-                time.outputs_per_period,
-                "outputs_per_strain",
-            ),
-        ] {
-            if let Some(value) = value {
-                let allowed = format!("goes with periods; strain takes {own}");
-                return Err(Invalid::new(key, value, allowed));
-            }
-        }
+        not_given(
+            "goes with periods; strain takes",
+            [
+                ("time.steps_per_period", time.steps_per_period, "steps_per_strain"),
+                (
+                    "time.outputs_per_period",
+                    time.outputs_per_period,
+                    "outputs_per_strain",
+                ),
+            ],
+        )?;
         let outputs = self.outputs_per_strain();
         bounded(key, strain, outputs, "outputs", MAX_OUTPUTS)?;
         self.check_counted_steps(key, strain, ("time.outputs_per_strain", outputs))?;
@@ -198,6 +190,17 @@ impl Scene {
             Some(g) => Invalid::new("flow.shear_rate_per_s", g, allowed),
             None => self.refused_gradient(allowed),
         })
+    }
+}
+
+/// Refuses keys of the other unit of time, and names those of the own.
+fn not_given(why: &str, keys: [(&'static str, Option<u64>, &str); 2]) -> Result<(), Invalid> {
+    match keys
+        .into_iter()
+        .find_map(|(key, value, own)| Some((key, value?, own)))
+    {
+        Some((key, value, own)) => Err(Invalid::new(key, value, format!("{why} {own}"))),
+        None => Ok(()),
     }
 }
 

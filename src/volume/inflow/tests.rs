@@ -87,11 +87,8 @@ fn an_even_suspension_stays_even() {
         let volume = ControlVolume::of(sides);
         let inflow = Inflow::new(&volume, gradient, 0.1);
         let mut positions = volume.draw_positions(COUNT, &stream(4, 0, Purpose::Positions));
-        let rng = stream(4, 0, Purpose::Replacements);
-        let mut replaced = 0;
-        for _ in 0..30 {
-            replaced += inflow.advance(&mut positions, replaced, &rng);
-        }
+        let mut rng = stream(4, 0, Purpose::Replacements);
+        let replaced: u64 = (0..30).map(|_| inflow.advance(&mut positions, &mut rng)).sum();
         let found = points(&positions);
         assert!(found.iter().all(|x| inflow.holds(x)));
         assert!(replaced > COUNT as u64 / 2, "{replaced}: {gradient}");
@@ -122,13 +119,12 @@ fn many_rods_are_carried_as_one_after_the_other() {
     let mut parts: Vec<[Vec<f64>; 3]> = [0..CHUNK, CHUNK..2 * CHUNK, 2 * CHUNK..count]
         .map(|part| all.each_ref().map(|axis| axis[part.clone()].to_vec()))
         .into();
-    let rng = stream(5, 0, Purpose::Replacements);
-    let (mut one, mut many) = (0, 0);
+    let start = stream(5, 0, Purpose::Replacements);
+    let (mut one, mut many) = (start.clone(), start);
     for _ in 0..2 {
-        many += inflow.advance(&mut all, many, &rng);
-        for part in &mut parts {
-            one += inflow.advance(part, one, &rng);
-        }
+        let replaced = inflow.advance(&mut all, &mut many);
+        let each = parts.iter_mut().map(|part| inflow.advance(part, &mut one));
+        assert_eq!(replaced, each.sum::<u64>());
         assert_eq!(many, one);
     }
     for (axis, all) in all.iter().enumerate() {

@@ -49,11 +49,11 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let named = args.chosen.load(&Ensemble::default(), &[])?;
     let at = |message: String| format!("{}: {message}", named.source);
     let plan = Plan::new(&named.scene).map_err(|error| Failure::Input(at(error.to_string())))?;
-    if plan.keeps(Stage::Contacts) && plan.flow().shear_rate_per_s().is_none() {
+    if plan.keeps(Stage::Contacts) && !law::judges(&plan) {
         let (key, steps) = (named.scene.steps_key(), named.scene.steps_per_unit());
         return Err(Failure::Input(at(format!(
-            "flow.gradient_per_s: converge of interacting rods needs plane Couette flow, only ∂u_2/∂x_1 other than 0; in \
-             other flows halve the time step and compare: sweep --over {key}={steps},{},{}",
+            "converge of interacting rods needs plane Couette flow, only ∂u_2/∂x_1 other than 0, and time.periods; \
+             else halve the time step and compare: sweep --over {key}={steps},{},{}",
             2 * steps,
             4 * steps
         ))));

@@ -32,9 +32,9 @@ pub(super) fn of_scene(plan: &Plan) -> String {
     }
     let scene = plan.scene();
     let own = scene.particles.count as f64 * scene.ensemble.replicas as f64 * plan.steps() as f64;
-    let study = match plan.flow().shear_rate_per_s() {
-        Some(_) => of_jobs(&law::jobs(scene, Replicas::CONVERGE)),
-        None => "plane Couette flow only".to_owned(),
+    let study = match law::judges(plan) {
+        true => of_jobs(&law::jobs(scene, Replicas::CONVERGE)),
+        false => "plane Couette flow by periods only".to_owned(),
     };
     format!("run: {}\nconverge: {study}\n", text(own))
 }

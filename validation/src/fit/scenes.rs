@@ -53,7 +53,7 @@ pub struct Scenes {
     pub sets: Vec<Set>,
     /// The parameters.
     pub ranges: Vec<Range>,
-    /// Steps per period of each scene, the same for all values of the parameters: so they keep their random numbers.
+    /// Steps per period or unit of strain of each scene, the same for all values of the parameters: so they keep their random numbers.
     steps: Vec<u64>,
 }
 

@@ -9,8 +9,8 @@ use super::{Estimate, correlation};
 use crate::integrators::apart_rad;
 use nalgebra::Vector3;
 use serde::Serialize;
-use shearbed::Scene;
 use shearbed::jeffery::strain_per_period;
+use shearbed::{Plan, Scene};
 
 /// Steps per period that are tried.
 pub const STEPS_PER_PERIOD: [u64; 10] = [20, 50, 100, 200, 400, 800, 1600, 3200, 6400, 12800];
@@ -113,6 +113,11 @@ pub struct Law {
     pub variance_per_rod: f64,
     /// Rods times steps of all jobs.
     pub rod_steps: u64,
+}
+
+/// Whether the law is of a plan's scene: its jobs are of periods, and its orbit constants of plane Couette flow.
+pub fn judges(plan: &Plan) -> bool {
+    plan.flow().shear_rate_per_s().is_some() && plan.scene().time.strain.is_none()
 }
 
 /// The jobs of a scene: every number of steps, then every number of rods, each once.

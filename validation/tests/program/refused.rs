@@ -83,3 +83,51 @@ fn a_scene_that_does_not_fit_in_memory_is_refused_before_it_starts() {
     }
     assert_eq!(names(dir.path()), ["huge.toml", "small.toml"]);
 }
+
+/// The law that interacting rods are studied by is of periods and of plane Couette flow; what else there is to do is said.
+#[test]
+fn a_study_of_rods_that_meet_needs_shear_by_periods() {
+    let dir = unequal();
+    let by_strain = UNEQUAL.replace(
+        "periods = 1\nsteps_per_period = 200\noutputs_per_period = 4",
+        "strain = 2\nsteps_per_strain = 10",
+    );
+    let elliptic = UNEQUAL
+        .replace(
+            "shear_rate_per_s = 0.5",
+            "gradient_per_s = [[0, -0.2, 0], [0.5, 0, 0], [0, 0, 0]]",
+        )
+        .replace("\"orbit_constant\", ", "");
+    for (name, scene, advice) in [
+        ("strain.toml", by_strain, "time.steps_per_strain=10,20,40"),
+        ("elliptic.toml", elliptic, "time.steps_per_period=200,400,800"),
+    ] {
+        fs::write(dir.path().join(name), scene).unwrap();
+        let plan = shearbed(dir.path(), &format!("plan {name}"));
+        assert_eq!(plan.code, Some(0), "{}", plan.stderr);
+        assert!(
+            plan.stdout
+                .contains("converge: plane Couette flow by periods only\n"),
+            "{}",
+            plan.stdout
+        );
+        let before = names(dir.path());
+        let ended = shearbed(dir.path(), &format!("converge {name}"));
+        assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+        assert!(
+            ended
+                .stderr
+                .contains(&format!("{name}: converge of interacting rods needs")),
+            "{}",
+            ended.stderr
+        );
+        assert!(ended.stderr.contains(advice), "{}", ended.stderr);
+        assert_eq!(names(dir.path()), before);
+        // The advice can be followed.
+        let sweep = shearbed(
+            dir.path(),
+            &format!("sweep {name} --over {advice} --out s-{name} --quiet"),
+        );
+        assert_eq!(sweep.code, Some(0), "{}", sweep.stderr);
+    }
+}

@@ -1,0 +1,154 @@
+//! What the reader of a scene's results should know before trusting them.
+
+use super::{Plan, Stage};
+use crate::observable::Observable;
+use crate::scene::{Orientation, Update, resolved_strain};
+
+/// The aspect ratio below which the slender limit of the rods' stress comes with a warning: a rule of thumb, for what the limit
+/// leaves out falls slowly with r_e, and there is no r_e at which it becomes right.
+const SLENDER: f64 = 30.0;
+
+/// Relative difference between the mean r_e in a file and the scene's that triggers no warning: three standard errors of a few rods.
+const OWN_MEAN: f64 = 0.1;
+
+impl Plan {
+    /// What the reader of the results should know before trusting them.
+    pub fn warnings(&self) -> Vec<String> {
+        [
+            self.unresolved_steps(),
+            self.turned_straight(),
+            self.unrelated_sizes(),
+            self.other_mean(),
+            self.drawn_for_nothing(),
+            self.half_empty(),
+            self.not_slender(),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
+    /// Steps that are too long for the motion.
+    fn unresolved_steps(&self) -> Option<String> {
+        let (steps, motion) = (self.scene.steps_per_unit(), self.scene.motion_per_step());
+        let resolved = resolved_strain(self.scene.particles.mean_aspect_ratio());
+        (self.steps() > 0 && motion > resolved).then(|| {
+            // They are equal in shear, to round-off.
+            let what = match motion > 1.5 * self.unit().strain / steps as f64 {
+                true => "twice the angle by which the liquid turns in a step",
+                false => "the strain per step",
+            };
+            format!(
+                "{} = {steps} does not resolve the motion: {what} is {motion:.3}, above {resolved:.3}; {} \
+                 steps a {} resolve it (the default)",
+                self.scene.steps_key(),
+                self.scene.resolving_steps(),
+                self.scene.time_unit()
+            )
+        })
+    }
+
+    /// Collisions that turn rods straight in a liquid that turns, other than in the paper's flow.
+    fn turned_straight(&self) -> Option<String> {
+        let update = self.scene.interaction.as_ref()?.update;
+        let turns = self.flow.shear_rate_per_s().is_none() && self.flow.turn_per_s() > 0.0;
+        (self.keeps(Stage::Contacts) && turns && update != Update::Kick).then(|| {
+            "interaction.update turns colliding rods straight through a step, where free rods follow the liquid: an error ∝ Δt that \
+             adds up with time in flows that turn; \"kick\" has none"
+                .to_owned()
+        })
+    }
+
+    /// Directions from a file for rods whose aspect ratios or lengths are drawn anew.
+    fn unrelated_sizes(&self) -> Option<String> {
+        let particles = &self.scene.particles;
+        let (file, own) = (&particles.rods.as_ref()?.file, particles.own()?);
+        let drawn = [
+            (
+                "aspect_ratio",
+                own.aspect_ratio.is_none(),
+                particles.aspect_ratio_sd_percent,
+            ),
+            ("length", own.length_mm.is_none(), particles.length_sd_percent),
+        ];
+        let (name, _, sd) =
+            (drawn.into_iter()).find(|(_, lacks, sd)| own.p.is_some() && *lacks && *sd > 0.0)?;
+        Some(format!(
+            "particles.{name}_sd_percent = {sd} draws each rod's {} anew, unrelated to its direction in {file}: to \
+             continue a suspension of unequal rods, give the file that column too, as rods.csv has it",
+            name.replace('_', " ")
+        ))
+    }
+
+    /// A mean r_e of the rods of a file that is far from the scene's.
+    fn other_mean(&self) -> Option<String> {
+        let particles = &self.scene.particles;
+        let mean = particles.mean_aspect_ratio();
+        let near = (mean / particles.aspect_ratio - 1.0).abs() <= OWN_MEAN;
+        (!near).then(|| {
+            format!(
+                "particles.aspect_ratio = {} sets only the period T and the output times: the rods in particles.rods have a mean of \
+                 {mean:.4}",
+                particles.aspect_ratio
+            )
+        })
+    }
+
+    /// Keys that have no effect because the file gives what they would draw.
+    fn drawn_for_nothing(&self) -> Option<String> {
+        let particles = &self.scene.particles;
+        let own = particles.own()?;
+        let unused = [
+            (
+                "orientation",
+                own.p.is_some() && particles.orientation != Orientation::default(),
+            ),
+            (
+                "aspect_ratio_sd_percent",
+                own.aspect_ratio.is_some() && particles.aspect_ratio_sd_percent > 0.0,
+            ),
+            (
+                "length_sd_percent",
+                own.length_mm.is_some() && particles.length_sd_percent > 0.0,
+            ),
+        ];
+        let unused = unused.into_iter().filter(|(_, is)| *is);
+        let unused: Vec<_> = unused.map(|(key, _)| format!("particles.{key}")).collect();
+        (!unused.is_empty()).then(|| {
+            format!(
+                "{} has no effect: particles.rods gives it for each rod",
+                unused.join(", ")
+            )
+        })
+    }
+
+    /// Places that leave part of the control volume empty, as they would after a change of its size.
+    fn half_empty(&self) -> Option<String> {
+        let (places, sides) = (
+            self.scene.particles.own()?.place_mm.as_ref()?,
+            self.scene.sides_mm()?,
+        );
+        let farthest = |axis: &Vec<f64>| axis.iter().copied().fold(0.0, f64::max);
+        let short = places.iter().map(farthest).zip(sides);
+        // n uniform places all lie within this share of a side by chance once in a million.
+        let rods = places[0].len() as f64;
+        let by_chance = |share: f64| libm::pow(share, rods) < 1e-6;
+        let (axis, (farthest, side)) =
+            (short.enumerate()).find(|(_, (farthest, side))| by_chance(farthest / side))?;
+        Some(format!(
+            "the places in particles.rods reach only {farthest} of {side} mm along axis {}: check that they belong to this control volume",
+            axis + 1
+        ))
+    }
+
+    /// A stress of slender rods for rods that are not.
+    fn not_slender(&self) -> Option<String> {
+        let r = self.scene.particles.mean_aspect_ratio();
+        (self.keeps(Stage::Observe(Observable::ParticleStress)) && r < SLENDER).then(|| {
+            format!(
+                "particle_stress is the limit of slender rods, r_e ≫ 1: at aspect_ratio = {r} the terms that it leaves out \
+                 are not small (docs/coefficients.md)"
+            )
+        })
+    }
+}
