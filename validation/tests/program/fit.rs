@@ -139,6 +139,41 @@ fn what_the_points_do_not_say_is_warned_of() {
     assert!(record["warnings"].to_string().contains("upper end"));
 }
 
+/// Projections hardly depend on how much lengths differ (docs/model.md): the fit says so, finds α beside it, and asks for no
+/// lengths that a scene may not have.
+#[test]
+fn a_spread_of_lengths_is_fitted_and_found_to_be_untold() {
+    let dir = folder();
+    points_of(dir.path(), "particles.length_sd_percent=20", "points.csv");
+    let fit = "fit small.toml --data points.csv --replicas 50 --over interaction.alpha=0.1:2";
+    let done = shearbed(
+        dir.path(),
+        &format!("{fit} --over particles.length_sd_percent=10:30 --out both"),
+    );
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    assert!(
+        done.stderr.contains(
+            "particles.length_sd_percent: its 95 % interval is its whole range, 10 to 30: the points say nothing of it there"
+        ),
+        "{}",
+        done.stderr
+    );
+    assert!(!done.stderr.contains("interaction.alpha: its"), "{}", done.stderr);
+    let alpha = &json(&dir.path().join("both/fit.json"))["parameters"]["interaction.alpha"];
+    let bound = |name: &str| alpha[name].as_f64().unwrap();
+    assert!(bound("low_95") < 0.5 && 0.5 < bound("high_95"), "{alpha}");
+    let refused = shearbed(
+        dir.path(),
+        &format!("{fit} --over particles.length_sd_percent=0:40 --out not"),
+    );
+    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+    assert!(
+        refused.stderr.contains("particles.length_sd_percent = 40") && !dir.path().join("not").exists(),
+        "{}",
+        refused.stderr
+    );
+}
+
 #[test]
 fn two_sets_share_their_parameters() {
     let dir = folder();
