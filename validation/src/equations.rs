@@ -43,7 +43,7 @@ pub const ALL: [Equation; 35] = [
         "P_c with m = 3",
         &["collision.rs: reach", "scene.rs: three"],
     ),
-    eq("11", "Gaussian aspect ratios", &["rods/draw.rs: draw_shapes"]),
+    eq("11", "Gaussian aspect ratios", &["rods.rs: draw_shapes"]),
     eq(
         "12",
         "random positions and orientations",
