@@ -1,8 +1,8 @@
 //! Your own integrator, graded as those of the project are: `cargo run --release --example bring_your_own`.
 
 use nalgebra::Vector3;
-use validation::integrators::{FixedStep, Problem, Setting, grade};
-use validation::work_precision::{Budget, curve, order};
+use validation::studies::integrators::{FixedStep, Problem, Setting, grade};
+use validation::studies::work_precision::{Budget, curve, order};
 
 /// Heun's method: one step of length h (in 1/G) from p.
 fn heun(problem: &Problem, p: Vector3<f64>, h: f64) -> Vector3<f64> {

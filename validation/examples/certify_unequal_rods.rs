@@ -5,7 +5,7 @@
 
 use validation::oracle::reference::big::digits;
 use validation::oracle::reference::unequal::means_to_22_digits;
-use validation::problems;
+use validation::serve::problems;
 
 fn main() {
     let problem = &problems::named("unequal-rods").expect("it is there").problem;

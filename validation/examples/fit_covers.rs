@@ -12,15 +12,15 @@ use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::collections::BTreeMap;
-use validation::fit::Range;
-use validation::fit::data::{Datum, TimeColumn};
-use validation::fit::elsewhere::look_elsewhere;
-use validation::fit::likelihood::{EMULATOR, REPLICAS};
-use validation::fit::scenes::{AS_WRITTEN, Scenes, Set};
-use validation::fit::search::{Fit, Measured, Problem, Watch, search};
-use validation::scenes;
-use validation::start::Starts;
-use validation::sweep::Setting;
+use validation::input::scenes;
+use validation::input::start::Starts;
+use validation::serve::fit::Range;
+use validation::serve::fit::data::{Datum, TimeColumn};
+use validation::serve::fit::elsewhere::look_elsewhere;
+use validation::serve::fit::likelihood::{EMULATOR, REPLICAS};
+use validation::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
+use validation::serve::fit::search::{Fit, Measured, Problem, Watch, search};
+use validation::serve::sweep::Setting;
 
 /// The values behind the points.
 const PLANTED: [(&str, f64); 5] = [

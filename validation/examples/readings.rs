@@ -1,12 +1,12 @@
 //! Prints what the open readings change as a Markdown table; with `-- full`, from as many replicas as `--full`.
 
-use validation::case::Effort;
-use validation::readings::{measure, table};
+use validation::judge::case::Effort;
+use validation::studies::readings::{measure, table};
 
 fn main() {
     let effort = Effort {
         full: std::env::args().any(|argument| argument == "full"),
-        seed: validation::case::GATE_SEED,
+        seed: validation::judge::case::GATE_SEED,
         data: None,
     };
     let table = table(&measure(&effort).unwrap_or_default());

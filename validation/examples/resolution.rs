@@ -3,9 +3,9 @@
 //! `cargo run --release -p shearbed-suite --example resolution -- REPLICAS [R_E...]`: 50 replicas, and the aspect ratios of the
 //! table, where nothing else is asked for.
 
-use validation::case::Effort;
 use validation::cases::resolution::{change, scene, steps, x1};
-use validation::statistics::Sample;
+use validation::judge::case::Effort;
+use validation::judge::statistics::Sample;
 
 /// GΔt of the reference, and of the steps that are compared with it.
 const FINE: f64 = 0.023;

@@ -5,9 +5,9 @@
 //! case whose evidence is the same at the first five seeds draws nothing, and is not run again.
 
 use std::collections::BTreeMap;
-use validation::accept::{Rule, Verdict};
-use validation::case::{Case, Effort, Outcome};
 use validation::cases;
+use validation::judge::accept::{Rule, Verdict};
+use validation::judge::case::{Case, Effort, Outcome};
 
 fn main() {
     let mut words = std::env::args().skip(1);
@@ -160,7 +160,7 @@ impl Record {
             let mean = drawn.iter().sum::<f64>() / n;
             let sd = (drawn.iter().map(|m| (m - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0)).sqrt();
             let least = drawn.iter().copied().fold(f64::INFINITY, f64::min);
-            let miss = validation::accept::upper_tail(mean / sd.max(1.0));
+            let miss = validation::judge::accept::upper_tail(mean / sd.max(1.0));
             format!("{mistake}: {least:.1}, {mean:.1} ± {sd:.1}, {miss:.0e}{still}")
         });
         format!(

@@ -1,13 +1,13 @@
 //! Prints the tables of docs/time-step.md as Markdown; with `-- full`, from as many replicas as `--full`.
 
-use validation::case::Effort;
-use validation::kicks::study::measure;
-use validation::kicks::tables::tables;
+use validation::judge::case::Effort;
+use validation::studies::kicks::study::measure;
+use validation::studies::kicks::tables::tables;
 
 fn main() -> Result<(), String> {
     let effort = Effort {
         full: std::env::args().any(|argument| argument == "full"),
-        seed: validation::case::GATE_SEED,
+        seed: validation::judge::case::GATE_SEED,
         data: None,
     };
     for table in tables(&measure(&effort)?) {

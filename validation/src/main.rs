@@ -8,7 +8,7 @@ const STACK: usize = 8 << 20;
 
 fn main() -> ExitCode {
     let work = Builder::new().name("main".to_owned()).stack_size(STACK);
-    match work.spawn(validation::cli::main).map(|work| work.join()) {
+    match work.spawn(validation::program::main).map(|work| work.join()) {
         Ok(Ok(code)) => code,
         Ok(Err(_)) => ExitCode::from(101),
         Err(error) => {

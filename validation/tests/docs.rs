@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::process::Command;
-use validation::{dependencies, scene_keys, scenes, tried};
+use validation::input::{scene_keys, scenes};
+use validation::program::{dependencies, tried};
 
 /// Compares a committed file with what is made now, or writes it.
 fn fresh(file: &str, expected: &str) {
@@ -20,7 +21,7 @@ fn fresh(file: &str, expected: &str) {
 
 #[test]
 fn the_catalogue_is_fresh() {
-    fresh("../docs/catalogue.md", &validation::catalogue::markdown());
+    fresh("../docs/catalogue.md", &validation::cases::catalogue::markdown());
 }
 
 #[test]

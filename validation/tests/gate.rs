@@ -1,9 +1,9 @@
 //! The acceptance gate: one named test per case of the registry.
 
 use libtest_mimic::{Arguments, Trial};
-use validation::accept::Verdict;
-use validation::case::Effort;
 use validation::cases;
+use validation::judge::accept::Verdict;
+use validation::judge::case::Effort;
 
 fn main() {
     let trials = cases::all()

@@ -10,7 +10,7 @@ use shearbed::{Plan, scene_file};
 use std::collections::BTreeMap;
 use std::fs;
 use std::time::Duration;
-use validation::checkpoint::{Checkpoint, Refused, Replicas};
+use validation::files::checkpoint::{Checkpoint, Refused, Replicas};
 
 /// A scene that is soon run.
 pub const RODS: &str = r#"title = "rods"

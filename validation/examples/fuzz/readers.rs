@@ -4,9 +4,9 @@ use crate::{Files, Taken, Target};
 use std::fs;
 use std::path::Path;
 use std::sync::OnceLock;
-use validation::experiment::{self, SOURCES};
-use validation::grade::{self, Axes, Claim, Dump, LineEnds, Options, Told};
-use validation::problems::{self, LoadedProblem};
+use validation::input::experiment::{self, SOURCES};
+use validation::serve::grade::{self, Axes, Claim, Dump, LineEnds, Options, Told};
+use validation::serve::problems::{self, LoadedProblem};
 
 const PROVENANCE: &str = r#"paper = "synthetic, for this test"
 figure = "none"

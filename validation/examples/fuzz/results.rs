@@ -5,9 +5,9 @@ use crate::readers::{named, put};
 use crate::{Files, Taken, Target};
 use serde_json::{Value, json};
 use std::fs;
-use validation::cli;
-use validation::fit::data;
-use validation::output::{RECORD, Sum};
+use validation::files::output::{RECORD, Sum};
+use validation::program;
+use validation::serve::fit::data;
 
 /// Points of `shearbed fit`.
 pub fn fits() -> Target {
@@ -49,7 +49,7 @@ fn folder_of_a_run() -> Vec<(&'static str, Vec<u8>)> {
         "--out".into(),
         out.clone().into_os_string(),
     ];
-    cli::call(words.to_vec()).expect("it runs");
+    program::call(words.to_vec()).expect("it runs");
     let read = |name| (name, fs::read(out.join(name)).expect("it is written"));
     WRITTEN.map(read).to_vec()
 }
@@ -84,7 +84,7 @@ pub fn plots() -> Target {
                 _ => put(folder, &with_right_sums(files))?,
             }
             let dirs = [folder.to_path_buf()];
-            match cli::figure(&dirs, Some("x1")) {
+            match program::figure(&dirs, Some("x1")) {
                 Ok(figure) => match figure.curves.iter().all(|curve| {
                     let numbers = curve.x.iter().chain(&curve.y);
                     numbers.copied().all(f64::is_finite)

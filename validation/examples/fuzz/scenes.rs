@@ -3,8 +3,8 @@
 use crate::{Taken, Target};
 use shearbed::run::run_replica;
 use shearbed::{Plan, memory, scene_file};
-use validation::scenes;
-use validation::sweep::{Axis, Setting, points, scene_with};
+use validation::input::scenes;
+use validation::serve::sweep::{Axis, Setting, points, scene_with};
 
 /// Rods times steps and outputs of one replica that is run: milliseconds.
 const WORK: u64 = 20_000;
@@ -163,7 +163,7 @@ pub fn sweep() -> Target {
             }
             match points(
                 text,
-                &validation::start::Starts::default(),
+                &validation::input::start::Starts::default(),
                 &[],
                 std::slice::from_ref(&axis),
             ) {

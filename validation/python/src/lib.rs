@@ -30,7 +30,7 @@ fn plan(name: &str, text: &str, replicas: Option<u64>, seed: Option<u64>) -> PyR
     let refused = |error: &dyn std::fmt::Display| SceneError::new_err(error.to_string());
     let mut scene = scene_file::parse(name, text).map_err(|error| refused(&error))?;
     let folder = Path::new(name).parent().unwrap_or(Path::new(""));
-    validation::start::Starts::beside(folder)
+    validation::input::start::Starts::beside(folder)
         .fill(&mut scene)
         .map_err(|error| refused(&format!("{name}: {error}")))?;
     scene.ensemble.replicas = replicas.unwrap_or(scene.ensemble.replicas);
@@ -83,7 +83,7 @@ fn run<'py>(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let plan = plan(name, text, replicas, seed)?;
-    validation::cli::fits(&plan, threads.map(|count| count as u64), name).map_err(SceneError::new_err)?;
+    validation::program::fits(&plan, threads.map(|count| count as u64), name).map_err(SceneError::new_err)?;
     let pool = threads
         .map(|count| rayon::ThreadPoolBuilder::new().num_threads(count).build())
         .transpose()
@@ -191,7 +191,7 @@ fn dictionary<'py>(py: Python<'py>, plan: &Plan, results: Results) -> PyResult<B
 /// code, and what went wrong.
 #[pyfunction]
 fn call(py: Python<'_>, arguments: Vec<OsString>) -> (u8, String) {
-    let ended = py.detach(|| std::panic::catch_unwind(|| validation::cli::call(arguments)));
+    let ended = py.detach(|| std::panic::catch_unwind(|| validation::program::call(arguments)));
     match ended {
         Ok(Ok(())) => (0, String::new()),
         Ok(Err((message, code))) => (code, message),
@@ -202,7 +202,7 @@ fn call(py: Python<'_>, arguments: Vec<OsString>) -> (u8, String) {
 /// The program: `program` are the words that start it again. Ends the process.
 #[pyfunction]
 fn main(py: Python<'_>, program: Vec<OsString>, arguments: Vec<OsString>) {
-    py.detach(|| std::process::exit(i32::from(validation::cli::main_of(program, arguments))))
+    py.detach(|| std::process::exit(i32::from(validation::program::main_of(program, arguments))))
 }
 
 #[pymodule]

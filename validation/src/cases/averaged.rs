@@ -1,13 +1,13 @@
 //! What the model tends to as Δt → 0 where the arms are bounded, and how the two updates differ where they are not
 //! (docs/time-step.md).
 
-use crate::accept::Design;
-use crate::case::{Case, Effort, Evidence};
-use crate::kicks::averaged::{Apart, apart, scene};
-use crate::lab;
+use crate::judge::accept::Design;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab;
+use crate::judge::statistics::{Sample, larger};
 use crate::oracle::jeffery::direction_rate_per_s;
 use crate::oracle::naive::Problem;
-use crate::statistics::{Sample, larger};
+use crate::studies::kicks::averaged::{Apart, apart, scene};
 use nalgebra::{UnitVector3, Vector3};
 use rayon::prelude::*;
 use shearbed::collision::{share_velocity, step_angles, turn};

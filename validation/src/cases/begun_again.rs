@@ -1,9 +1,9 @@
 //! A suspension that is written and begun again from what was written: every rod's length, r_e, direction and place.
 
-use crate::accept::Design;
-use crate::case::{Case, Effort, Evidence};
-use crate::lab;
-use crate::statistics::Sample;
+use crate::judge::accept::Design;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab;
+use crate::judge::statistics::Sample;
 use rayon::prelude::*;
 use shearbed::Suspension;
 use shearbed::scene::{OwnRods, RodsFile, Scene};

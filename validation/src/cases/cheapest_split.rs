@@ -1,12 +1,12 @@
 //! The cheapest split of a run: what `docs/work-precision.md` says of it.
 
 use super::work_precision_coupled::first;
-use crate::case::{Case, Effort, Evidence};
-use crate::lab;
-use crate::lab::Shared;
-use crate::statistics::{Estimate, Sample, covariance};
-use crate::suspensions::coupled::interacting;
-use crate::suspensions::split::{Constants, Scope, Split};
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab;
+use crate::judge::lab::Shared;
+use crate::judge::statistics::{Estimate, Sample, covariance};
+use crate::studies::suspensions::coupled::interacting;
+use crate::studies::suspensions::split::{Constants, Scope, Split};
 use shearbed::Scene;
 
 /// A change to what is run for an error.

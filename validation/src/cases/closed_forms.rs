@@ -4,11 +4,11 @@
 mod damping;
 
 use self::damping::{Factor, in_plane_start, spread_damping};
-use crate::accept::{Design, kolmogorov_samples};
-use crate::case::{Case, Effort, Evidence};
-use crate::lab::{self, Change, per_replica};
+use crate::judge::accept::{Design, kolmogorov_samples};
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, Change, per_replica};
+use crate::judge::statistics::{Sample, larger};
 use crate::oracle::{closed_form, isotropic, quadrature};
-use crate::statistics::{Sample, larger};
 use nalgebra::UnitVector3;
 use shearbed::ensemble;
 use shearbed::flow::VelocityGradient;

@@ -1,10 +1,10 @@
 //! ⟨pppp⟩ and the rods' stress.
 
-use crate::accept::Design;
-use crate::case::{Case, Effort, Evidence};
-use crate::lab::{self, Change};
+use crate::judge::accept::Design;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, Change};
+use crate::judge::statistics::{Sample, worst};
 use crate::oracle::moments;
-use crate::statistics::{Sample, worst};
 use shearbed::Observable;
 use shearbed::observable::Channel;
 use shearbed::scene::Scene;

@@ -3,8 +3,8 @@
 mod properties;
 
 use self::properties::PROPERTIES;
-use crate::case::{Case, Effort, Evidence};
-use crate::statistics::larger;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::statistics::larger;
 use nalgebra::{Rotation3, UnitVector3, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;

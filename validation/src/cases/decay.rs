@@ -8,10 +8,10 @@ mod dying;
 
 use self::dying::{damped, dies_out, on_all_axes, undamped};
 use super::readings::LINE;
-use crate::accept::Design;
-use crate::case::{Case, Effort, Evidence};
-use crate::lab::{self, Change, per_replica};
-use crate::statistics::Sample;
+use crate::judge::accept::Design;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, Change, per_replica};
+use crate::judge::statistics::Sample;
 use shearbed::observable::Channel;
 use shearbed::scene::Scene;
 use std::f64::consts::E;

@@ -1,10 +1,10 @@
 //! Who collides: P_c and its empirical frequency.
 
-use crate::accept::Design;
-use crate::case::{Case, Effort, Evidence};
-use crate::lab::{self, Change};
+use crate::judge::accept::Design;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, Change};
+use crate::judge::statistics::{Sample, larger};
 use crate::oracle::naive::collision_probability;
-use crate::statistics::{Sample, larger};
 use rayon::prelude::*;
 use shearbed::collision::reach;
 

@@ -1,16 +1,16 @@
 //! Experiments (Figs 4 and 5): judged where the measured points are at hand, `NoData` where they are not.
 
-use crate::accept::Rule;
-use crate::case::{Case, Effort, Evidence};
-use crate::experiment::{
+use crate::input::experiment::{
     self, ANCZUROWSKI, Comparison, DataError, MeasuredCurve, OKAGAWA_MASON, Runs, Source,
 };
-use crate::fit::Range;
-use crate::fit::data::TimeColumn;
-use crate::fit::scenes::{Scenes, Set};
-use crate::lab::{self, Change};
-use crate::start::Starts;
-use crate::statistics::{Sample, worst};
+use crate::input::start::Starts;
+use crate::judge::accept::Rule;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, Change};
+use crate::judge::statistics::{Sample, worst};
+use crate::serve::fit::Range;
+use crate::serve::fit::data::TimeColumn;
+use crate::serve::fit::scenes::{Scenes, Set};
 use shearbed::observable::Channel;
 use shearbed::scene::{Orientation, Scene};
 

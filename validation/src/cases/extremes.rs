@@ -1,10 +1,10 @@
 //! The core where it is stiff or extreme: no NaN, no panic, |p| = 1 to 4 ulp, C to its bound.
 
-use crate::case::{Case, Effort, Evidence};
-use crate::integrators::{ClosedForm, Integrator, Problem, Setting};
-use crate::stability::corners;
-use crate::stability::map::{ASPECT_RATIOS, STEPS};
-use crate::statistics::larger;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::statistics::larger;
+use crate::studies::integrators::{ClosedForm, Integrator, Problem, Setting};
+use crate::studies::stability::corners;
+use crate::studies::stability::map::{ASPECT_RATIOS, STEPS};
 use nalgebra::{Matrix3, Rotation3, UnitVector3, Vector3};
 use shearbed::flow::VelocityGradient;
 use shearbed::jeffery::shape_factor;

@@ -9,17 +9,17 @@
 
 mod outright;
 
-use crate::accept::{Design, kolmogorov_samples};
-use crate::case::{Case, Effort, Evidence};
-use crate::fit::Range;
-use crate::fit::basis::Basis;
-use crate::fit::data::{Datum, TimeColumn};
-use crate::fit::emulator::{Coefficients, Emulator, coefficients};
-use crate::fit::scenes::{AS_WRITTEN, Scenes, Set};
-use crate::fit::search::{Fit, Measured, fitted};
-use crate::lab::{self, Shared};
-use crate::start::Starts;
-use crate::statistics::Sample;
+use crate::input::start::Starts;
+use crate::judge::accept::{Design, kolmogorov_samples};
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, Shared};
+use crate::judge::statistics::Sample;
+use crate::serve::fit::Range;
+use crate::serve::fit::basis::Basis;
+use crate::serve::fit::data::{Datum, TimeColumn};
+use crate::serve::fit::emulator::{Coefficients, Emulator, coefficients};
+use crate::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
+use crate::serve::fit::search::{Fit, Measured, fitted};
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;

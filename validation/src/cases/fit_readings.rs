@@ -4,19 +4,19 @@
 //! describes them with an α of its own. A contact line cut at the rods' ends is felt less where rods are far apart, so that it asks
 //! for another α at another concentration. Who draws cannot be told so: `docs/fit.md` has the numbers.
 
-use crate::accept::Rule;
-use crate::case::{Case, Effort, Evidence};
-use crate::fit::Range;
-use crate::fit::basis::Basis;
-use crate::fit::data::{Datum, TimeColumn};
-use crate::fit::emulator::{Coefficients, coefficients};
-use crate::fit::scenes::{AS_WRITTEN, Scenes, Set};
-use crate::fit::search::{Fit, Measured, fitted};
-use crate::lab::problem;
-use crate::lab::{self, Shared};
+use crate::input::start::Starts;
+use crate::judge::accept::Rule;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::problem;
+use crate::judge::lab::{self, Shared};
 use crate::oracle::naive::{Lines, Naive, mean_projections};
-use crate::readings::Change;
-use crate::start::Starts;
+use crate::serve::fit::Range;
+use crate::serve::fit::basis::Basis;
+use crate::serve::fit::data::{Datum, TimeColumn};
+use crate::serve::fit::emulator::{Coefficients, coefficients};
+use crate::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
+use crate::serve::fit::search::{Fit, Measured, fitted};
+use crate::studies::readings::Change;
 use rand::{RngExt, SeedableRng};
 use rand_distr::StandardNormal;
 use rand_pcg::Pcg64Dxsm;
@@ -37,7 +37,7 @@ const STEPS: usize = 5;
 const STEPS_PER_PERIOD: u64 = 100;
 
 /// Replicas behind the points, and behind each node of the model. In a pilot of other seeds χ² of cut lines exceeds that of
-/// whole ones by 248. Of 59 degrees of freedom χ² is above 124 with the probability [`crate::accept::LEVEL`]; with 248 more it is
+/// whole ones by 248. Of 59 degrees of freedom χ² is above 124 with the probability [`crate::judge::accept::LEVEL`]; with 248 more it is
 /// 307 with a standard deviation of √(2·59 + 4·248) = 33, 5.5 of these above.
 const REPLICAS: u64 = 600;
 

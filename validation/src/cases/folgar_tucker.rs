@@ -1,12 +1,12 @@
 //! The coefficient of Folgar & Tucker, and what it cannot describe.
 
-use crate::accept::Design;
-use crate::case::{Case, Effort, Evidence};
-use crate::coefficients::jumps::{Quantity, Shares, Watch, above, diffused, kicked};
-use crate::coefficients::{self, Diffusing, Diffusion, Means, Setting};
-use crate::lab::{self, Change, Shared};
-use crate::published::folgar_tucker;
-use crate::statistics::{Sample, correlation};
+use crate::input::published::folgar_tucker;
+use crate::judge::accept::Design;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, Change, Shared};
+use crate::judge::statistics::{Sample, correlation};
+use crate::studies::coefficients::jumps::{Quantity, Shares, Watch, above, diffused, kicked};
+use crate::studies::coefficients::{self, Diffusing, Diffusion, Means, Setting};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 use shearbed::jeffery::shape_factor;

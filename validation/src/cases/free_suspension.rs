@@ -1,10 +1,10 @@
 //! Whole runs of free rods against closed forms with no simulation in them.
 
-use crate::accept::Design;
-use crate::case::{Case, Effort, Evidence};
-use crate::lab::{self, Change};
+use crate::judge::accept::Design;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, Change};
+use crate::judge::statistics::{Sample, larger};
 use crate::oracle::isotropic;
-use crate::statistics::{Sample, larger};
 use shearbed::ensemble;
 use shearbed::scene::Scene;
 

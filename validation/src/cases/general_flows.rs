@@ -3,8 +3,8 @@
 mod problems;
 mod scenes;
 
-use crate::case::{Case, Effort, Evidence};
-use crate::lab::Shared;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::Shared;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use problems::{Kind, Problem, random};
 use shearbed::flow::VelocityGradient;
@@ -150,7 +150,7 @@ fn planar(a: &Matrix3<f64>, time: f64) -> Matrix3<f64> {
 }
 
 /// Hard problems. Of 10 000 at another seed 525 show a bound that is too wide and 585 one that is missing, so that at least
-/// 0.047 of all do: none of 300 does with a probability of 0.953³⁰⁰ = 5·10⁻⁷, below [`crate::accept::MISS`]. Of problems of any
+/// 0.047 of all do: none of 300 does with a probability of 0.953³⁰⁰ = 5·10⁻⁷, below [`crate::judge::accept::MISS`]. Of problems of any
 /// kind only 0.005 and 0.009 do, and 400 of these alone missed one or the other at one seed in nine.
 const HARD: u64 = 300;
 

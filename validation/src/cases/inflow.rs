@@ -1,8 +1,8 @@
 //! Rods in any flow that keeps the liquid's volume: it stays evenly filled.
 
-use crate::accept::kolmogorov_samples;
-use crate::case::{Case, Effort, Evidence};
-use crate::lab;
+use crate::judge::accept::kolmogorov_samples;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab;
 use crate::oracle::naive::{Mistake, carry, stream};
 use rand::RngExt;
 use shearbed::scene::{Scene, Time};
@@ -145,7 +145,7 @@ fn scene(effort: &Effort, count: usize, gradient: Gradient, box_mm: [f64; 3]) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::accept::{Verdict, judge};
+    use crate::judge::accept::{Verdict, judge};
 
     #[test]
     fn the_wrong_rules_are_wrong_by_their_mistakes_alone() {

@@ -2,11 +2,11 @@
 
 use super::subjects::Integrators;
 use super::subjects::spoiled::in_p;
-use crate::case::{Case, Effort, Evidence};
-use crate::integrators::{self, *};
-use crate::stability::orbit::Place;
-use crate::statistics::larger;
-use crate::work_precision::order;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::statistics::larger;
+use crate::studies::integrators::{self, *};
+use crate::studies::stability::orbit::Place;
+use crate::studies::work_precision::order;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 

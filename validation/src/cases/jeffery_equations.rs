@@ -1,11 +1,11 @@
 //! Jeffery's equations one by one: the rate of a run's rods against A.1 to A.3 as printed, and the motion of a whole run
 //! against A.4 and A.5.
 
-use crate::case::{Case, Effort, Evidence};
-use crate::integrators::apart_rad;
-use crate::lab::{self, Change};
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, Change};
+use crate::judge::statistics::larger;
 use crate::oracle::{closed_form, jeffery as printed};
-use crate::statistics::larger;
+use crate::studies::integrators::apart_rad;
 use nalgebra::{Matrix3, Vector3};
 use shearbed::jeffery::{couette_rate, shape_factor};
 use shearbed::orientation;

@@ -1,12 +1,12 @@
 //! Kicks: how heavy their tail is, and what bounds them (docs/time-step.md).
 
 use super::kicks::fresh_scene;
-use crate::accept::Design;
-use crate::case::{Case, Effort, Evidence};
-use crate::kicks::{Angles, kicks_rad, step_strain, tail};
-use crate::lab;
+use crate::judge::accept::Design;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab;
+use crate::judge::statistics::{Sample, larger};
 use crate::oracle::kicks::{kicks, largest_kick};
-use crate::statistics::{Sample, larger};
+use crate::studies::kicks::{Angles, kicks_rad, step_strain, tail};
 
 pub fn cases() -> Vec<Case> {
     vec![

@@ -1,13 +1,13 @@
 //! Kicks: how often, and what the time step has to do with it (docs/time-step.md).
 
-use crate::accept::Design;
-use crate::case::{Case, Effort, Evidence};
-use crate::kicks::{Counted, KICKS, is_above, kicks_rad, of_one_step, rates, step_strain};
-use crate::lab;
-use crate::lab::Shared;
+use crate::judge::accept::Design;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab;
+use crate::judge::lab::Shared;
+use crate::judge::statistics::Sample;
 use crate::oracle::kicks::{chance_of_threads, tail_of_isotropic};
 use crate::oracle::pairing::{Pair, nearest_pairs};
-use crate::statistics::Sample;
+use crate::studies::kicks::{Counted, KICKS, is_above, kicks_rad, of_one_step, rates, step_strain};
 use rayon::prelude::*;
 use shearbed::Suspension;
 use shearbed::scene::Scene;

@@ -2,11 +2,11 @@
 //!
 //! A.13 is in `contact_rule`, eq. 14's text in `encounters`, the period's number (eq. 15) in `motion`.
 
-use crate::accept::Rule;
-use crate::case::{Case, Effort, Evidence};
-use crate::integrators::rk4;
-use crate::lab;
-use crate::statistics::larger;
+use crate::judge::accept::Rule;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab;
+use crate::judge::statistics::larger;
+use crate::studies::integrators::rk4;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use shearbed::flow::VelocityGradient;
 use shearbed::observable::{Block, Observable, Sum};

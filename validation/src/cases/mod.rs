@@ -2,12 +2,14 @@
 
 mod averaged;
 mod begun_again;
+pub mod catalogue;
 mod cheapest_split;
 mod closed_forms;
 mod coefficients;
 mod contact_rule;
 mod decay;
 mod encounters;
+pub mod equations;
 mod experiments;
 mod extreme_scenes;
 mod extremes;
@@ -40,7 +42,7 @@ mod volume_shapes;
 mod work_precision;
 mod work_precision_coupled;
 
-use crate::case::Case;
+use crate::judge::case::Case;
 
 /// Every case, in the order of the report.
 pub fn all() -> Vec<Case> {

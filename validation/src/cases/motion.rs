@@ -3,10 +3,10 @@
 mod integrated;
 
 use self::integrated::integrated_motion;
-use crate::case::{Case, Effort, Evidence};
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::statistics::larger;
 use crate::oracle::jeffery::direction_rate_per_s;
 use crate::oracle::{closed_form, quadrature};
-use crate::statistics::larger;
 use nalgebra::{Matrix3, SVector, UnitVector3, Vector3};
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, System};

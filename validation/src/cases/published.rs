@@ -1,7 +1,7 @@
 //! The model beside numbers that others published on related suspensions.
 
-use crate::case::{Case, Evidence};
-use crate::published::{SPH_ASPECT_RATIO, first_half_turn, sph_fibres};
+use crate::input::published::{SPH_ASPECT_RATIO, first_half_turn, sph_fibres};
+use crate::judge::case::{Case, Evidence};
 use shearbed::jeffery::strain_per_period;
 use shearbed::shape::spread;
 

@@ -1,11 +1,11 @@
 //! What the paper leaves open: which readings change X̄₁ of Fig. 7's rods, and which do not.
 
-use crate::accept::Design;
-use crate::case::{Case, Effort, Evidence};
-use crate::lab::{self, per_replica};
+use crate::judge::accept::Design;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, per_replica};
+use crate::judge::statistics::Sample;
 use crate::oracle::naive::{Lines, Naive, Problem, Who, mean_projections};
-use crate::readings::Change;
-use crate::statistics::Sample;
+use crate::studies::readings::Change;
 use rayon::prelude::*;
 use shearbed::observable::Channel;
 use shearbed::scene::{Interaction, Update};

@@ -1,8 +1,8 @@
 //! A richer model must reduce to the simpler one; standard errors are those of independent values.
 
-use crate::case::{Case, Effort, Evidence};
-use crate::lab::{self, per_replica};
-use crate::statistics::{Sample, larger};
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, per_replica};
+use crate::judge::statistics::{Sample, larger};
 use shearbed::ensemble::{self, Results};
 use shearbed::observable::Channel;
 use shearbed::scene::Scene;

@@ -1,9 +1,9 @@
 //! The core against the naive reference: the same draws, collision by collision.
 
-use crate::case::{Case, Effort, Evidence};
-use crate::lab::{self, problem};
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, problem};
+use crate::judge::statistics::larger;
 use crate::oracle::naive::{Mistake, Naive};
-use crate::statistics::larger;
 use nalgebra::Vector3;
 use shearbed::Suspension;
 use shearbed::scene::{self, Orientation, Scene};

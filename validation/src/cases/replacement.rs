@@ -1,10 +1,10 @@
 //! The control volume: rods that leave it come back by eq. 14.
 
-use crate::accept::kolmogorov_samples;
-use crate::case::{Case, Effort, Evidence};
-use crate::lab;
+use crate::judge::accept::kolmogorov_samples;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab;
+use crate::judge::statistics::larger;
 use crate::oracle::naive::stream;
-use crate::statistics::larger;
 use rand::RngExt;
 use rand_pcg::Pcg64Dxsm;
 use shearbed::Suspension;
@@ -196,7 +196,7 @@ fn in_sides(suspension: &Suspension, [h1, h2, h3]: [f64; 3]) -> Vec<[f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::accept::{Verdict, judge};
+    use crate::judge::accept::{Verdict, judge};
 
     #[test]
     fn the_wrong_volumes_are_wrong_by_their_rules_alone() {

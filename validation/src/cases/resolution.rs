@@ -1,10 +1,10 @@
 //! Whether a step resolves the motion: X̄₁ of interacting rods at half a period, where free rods are back at their
 //! start and a step that is too long shows most, against one of twice the length.
 
-use crate::accept::Design;
-use crate::case::{Case, Effort, Evidence};
-use crate::lab::{self, Shared};
-use crate::statistics::Sample;
+use crate::judge::accept::Design;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, Shared};
+use crate::judge::statistics::Sample;
 use shearbed::jeffery::strain_per_period;
 use shearbed::observable::Channel;
 use shearbed::scene::Scene;

@@ -2,11 +2,11 @@
 
 use super::subjects::Integrators;
 use super::subjects::spoiled::{Refuses, WholeTurns, in_angles, in_p};
-use crate::case::{Case, Effort, Evidence};
-use crate::integrators::{self, *};
-use crate::stability::map::{self, ASPECT_RATIOS, Cell, Found, STEPS, TOLERANCES};
-use crate::stability::orbit::Place;
-use crate::statistics::larger;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::statistics::larger;
+use crate::studies::integrators::{self, *};
+use crate::studies::stability::map::{self, ASPECT_RATIOS, Cell, Found, STEPS, TOLERANCES};
+use crate::studies::stability::orbit::Place;
 
 pub fn cases() -> Vec<Case> {
     vec![

@@ -2,10 +2,10 @@
 //! How oscillations die is in `decay`. Effects and deviations are of pilots at seed 99.
 
 use super::readings::LINE;
-use crate::accept::Design;
-use crate::case::{Case, Effort, Evidence};
-use crate::lab::{self, Change, per_replica};
-use crate::statistics::{Sample, larger};
+use crate::judge::accept::Design;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, Change, per_replica};
+use crate::judge::statistics::{Sample, larger};
 use rayon::prelude::*;
 use shearbed::observable::Channel;
 use shearbed::scene::Orientation;

@@ -1,10 +1,10 @@
 //! The steady state of interacting rods (Fig. 11).
 
-use crate::accept::Design;
-use crate::case::{Case, Effort, Evidence};
-use crate::lab::{self, Change};
+use crate::judge::accept::Design;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, Change};
+use crate::judge::statistics::Sample;
 use crate::oracle::closed_form;
-use crate::statistics::Sample;
 use shearbed::Observable;
 use shearbed::observable::Channel;
 

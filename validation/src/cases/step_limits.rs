@@ -5,12 +5,12 @@ mod in_p;
 use self::in_p::{at_least, frozen, near_a_sphere};
 use super::subjects::Integrators;
 use super::subjects::spoiled::{in_angles, in_p};
-use crate::case::{Case, Effort, Evidence};
-use crate::integrators::{self, *};
-use crate::stability::limit_tables::{ONE_STEP, TEN_PERIODS};
-use crate::stability::limits::{Limit, Property, bisect, holds};
-use crate::stability::theory;
-use crate::statistics::larger;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::statistics::larger;
+use crate::studies::integrators::{self, *};
+use crate::studies::stability::limit_tables::{ONE_STEP, TEN_PERIODS};
+use crate::studies::stability::limits::{Limit, Property, bisect, holds};
+use crate::studies::stability::theory;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Integrators that are to lose a property at a step given by theory.

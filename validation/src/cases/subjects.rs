@@ -2,10 +2,10 @@
 
 pub(super) mod spoiled;
 
-use crate::case::{Case, Effort, Evidence};
-use crate::integrators::{self, *};
-use crate::statistics::larger;
-use crate::work_precision::order::{self, ORDER_TOLERANCE};
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::statistics::larger;
+use crate::studies::integrators::{self, *};
+use crate::studies::work_precision::order::{self, ORDER_TOLERANCE};
 use nalgebra::{Vector2, Vector3};
 use spoiled::{Spoiled, WholeTurns, in_angles, in_p};
 

@@ -1,10 +1,10 @@
 //! Whole runs keep the symmetries of the equations.
 
 use super::reductions::difference;
-use crate::accept::Design;
-use crate::case::{Case, Effort, Evidence};
-use crate::lab::{self, per_replica};
-use crate::statistics::{Sample, larger};
+use crate::judge::accept::Design;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, per_replica};
+use crate::judge::statistics::{Sample, larger};
 use nalgebra::UnitVector3;
 use shearbed::observable::Channel;
 use shearbed::scene::{Orientation, Scene};

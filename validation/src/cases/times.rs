@@ -1,9 +1,9 @@
 //! What a run tells its times in: seconds and strain.
 
-use crate::case::{Case, Effort, Evidence};
-use crate::lab::{changed, free_scene, plan};
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{changed, free_scene, plan};
+use crate::judge::statistics::larger;
 use crate::oracle::closed_form;
-use crate::statistics::larger;
 use shearbed::scene::Scene;
 use std::f64::consts::TAU;
 

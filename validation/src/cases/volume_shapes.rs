@@ -1,10 +1,10 @@
 //! The shape of the control volume, which counts however many rods it holds: eq. 14 gives a rod that left other
 //! neighbours, H₁/(2H₂) times a rod and unit of strain.
 
-use crate::accept::Design;
-use crate::case::{Case, Effort, Evidence};
-use crate::lab::{self, Shared};
-use crate::statistics::Sample;
+use crate::judge::accept::Design;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, Shared};
+use crate::judge::statistics::Sample;
 use shearbed::observable::Channel;
 use std::sync::Arc;
 

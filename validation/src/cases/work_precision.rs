@@ -1,13 +1,13 @@
 //! How the error of a suspension's mean falls with the rods: what `docs/work-precision.md` says. Nothing is timed.
 
-use crate::accept::Design;
-use crate::case::{Case, Effort, Evidence};
-use crate::lab;
+use crate::judge::accept::Design;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab;
+use crate::judge::statistics::Sample;
 use crate::oracle::naive::collision_probability;
-use crate::statistics::Sample;
-use crate::suspensions::free::{Free, exponents};
-use crate::suspensions::starts::{self, Start};
-use crate::suspensions::{blocks, law};
+use crate::studies::suspensions::free::{Free, exponents};
+use crate::studies::suspensions::starts::{self, Start};
+use crate::studies::suspensions::{blocks, law};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;

@@ -1,14 +1,14 @@
 //! Runs that share random numbers: what `docs/work-precision.md` says of them.
 
-use crate::accept::Design;
-use crate::case::{Case, Effort, Evidence};
-use crate::lab::Shared;
-use crate::lab::{self, Change};
-use crate::statistics::Sample;
-use crate::statistics::correlation;
-use crate::suspensions::coupled::{at, free, free_mean, interacting};
-use crate::suspensions::job::Job;
-use crate::suspensions::law;
+use crate::judge::accept::Design;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::Shared;
+use crate::judge::lab::{self, Change};
+use crate::judge::statistics::Sample;
+use crate::judge::statistics::correlation;
+use crate::studies::suspensions::coupled::{at, free, free_mean, interacting};
+use crate::studies::suspensions::job::Job;
+use crate::studies::suspensions::law;
 use shearbed::Scene;
 use statrs::statistics::Statistics;
 

@@ -5,8 +5,8 @@ use serde_json::{Value, json};
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
-use validation::grade::{self, Axes, Claim, Dump, LineEnds, Options, Told};
-use validation::problems::{self, LoadedProblem};
+use validation::serve::grade::{self, Axes, Claim, Dump, LineEnds, Options, Told};
+use validation::serve::problems::{self, LoadedProblem};
 
 /// Writes `problem.json` of a problem in a folder of references, with one key changed.
 fn edit(reference: &Path, name: &str, key: &str, value: Value) {

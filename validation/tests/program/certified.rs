@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use std::sync::LazyLock;
 use validation::oracle::naive::{self, Mistake, Naive, Reading, Start, Update};
-use validation::problems::{self, Kind, LoadedProblem, Metric};
+use validation::serve::problems::{self, Kind, LoadedProblem, Metric};
 
 /// Every problem, as a program that has only the files sees it.
 static PROBLEMS: LazyLock<Vec<LoadedProblem>> = LazyLock::new(|| {

@@ -5,11 +5,11 @@ use super::example_case::cases;
 use super::example_study::STUDY;
 use std::fs;
 use std::path::Path;
-use validation::accept::Verdict;
-use validation::case::Effort;
-use validation::plot;
-use validation::study::Extent;
-use validation::table::Datum;
+use validation::judge::accept::Verdict;
+use validation::judge::case::Effort;
+use validation::present::plot;
+use validation::present::study::Extent;
+use validation::present::table::Datum;
 
 #[test]
 fn the_example_of_a_case_is_one() {

@@ -1,6 +1,6 @@
-use validation::case::{Case, Effort, Evidence};
+use validation::judge::case::{Case, Effort, Evidence};
 use validation::oracle::closed_form;
-use validation::statistics::worst;
+use validation::judge::statistics::worst;
 
 type Period = fn(f64, f64) -> f64;
 

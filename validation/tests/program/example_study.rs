@@ -1,8 +1,8 @@
-use validation::lab::{changed, free_scene, per_replica};
-use validation::plot::{Curve, Figure};
-use validation::statistics::covariance;
-use validation::study::{Exhibit, Extent, Found, ReportFigure, Study};
-use validation::table::{ReportTable, field, number};
+use validation::judge::lab::{changed, free_scene, per_replica};
+use validation::present::plot::{Curve, Figure};
+use validation::judge::statistics::covariance;
+use validation::present::study::{Exhibit, Extent, Found, ReportFigure, Study};
+use validation::present::table::{ReportTable, field, number};
 
 pub const STUDY: Study = Study {
     name: "rods-and-scatter",

@@ -9,10 +9,11 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 use tempfile::TempDir;
-use validation::accept::Verdict;
-use validation::case::{Effort, Outcome};
-use validation::experiment::{ANCZUROWSKI, OKAGAWA_MASON, Runs};
-use validation::{cases, experiment, scenes};
+use validation::cases;
+use validation::input::experiment::{ANCZUROWSKI, OKAGAWA_MASON, Runs};
+use validation::input::{experiment, scenes};
+use validation::judge::accept::Verdict;
+use validation::judge::case::{Effort, Outcome};
 
 /// One standard deviation of reading off, in T and in the rod's length.
 const U_X: f64 = 0.004;

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
-use validation::problems;
+use validation::serve::problems;
 
 /// The files of every problem, by `NAME/FILE`: built once.
 static FILES: LazyLock<BTreeMap<String, String>> = LazyLock::new(|| {

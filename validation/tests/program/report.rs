@@ -1,10 +1,11 @@
 //! A real report, with the figures of a few replicas, as its reader gets it.
 
 use std::sync::LazyLock;
-use validation::case::Effort;
-use validation::figures::{self, Replicas};
-use validation::report::{self, Report, ReportStudy, Sections};
-use validation::{cases, catalogue};
+use validation::cases;
+use validation::cases::catalogue;
+use validation::judge::case::Effort;
+use validation::present::report::{self, Report, ReportStudy, Sections};
+use validation::studies::figures::{self, Replicas};
 
 /// Names of cases that are quick, of which some are cited by figures.
 const CHOSEN: [&str; 3] = ["jeffery-period", "planar-projections", "free-half-period"];

@@ -113,7 +113,7 @@ fn a_sweep_and_a_study_set_keys_as_a_run_does() {
     succeeds("converge fig6-uniform --set particles.aspect_ratio=5 --quiet --out e");
     fs::write(
         dir.path().join("five.toml"),
-        validation::scenes::find("fig6-uniform")
+        validation::input::scenes::find("fig6-uniform")
             .unwrap()
             .text
             .replace("aspect_ratio = 11.6", "aspect_ratio = 5"),

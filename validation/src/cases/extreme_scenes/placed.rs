@@ -1,7 +1,7 @@
 //! Two rods put down by hand, so near to overflow as no drawn rods come.
 
-use crate::case::Effort;
-use crate::lab;
+use crate::judge::case::Effort;
+use crate::judge::lab;
 use nalgebra::{UnitVector3, Vector3};
 use shearbed::collision::share_velocity;
 use shearbed::contact::contact;

@@ -2,15 +2,15 @@
 //! alike in every replica, so that hardly any noise of them is left.
 
 use super::{POINTS, data, one_set};
-use crate::case::{Effort, Evidence};
-use crate::fit::Range;
-use crate::fit::basis::Basis;
-use crate::fit::data::TimeColumn;
-use crate::fit::emulator::{Coefficients, Emulator, coefficients};
-use crate::fit::scenes::AS_WRITTEN;
-use crate::fit::search::{Measured, fitted};
-use crate::lab::{self, Shared};
-use crate::statistics::Sample;
+use crate::judge::case::{Effort, Evidence};
+use crate::judge::lab::{self, Shared};
+use crate::judge::statistics::Sample;
+use crate::serve::fit::Range;
+use crate::serve::fit::basis::Basis;
+use crate::serve::fit::data::TimeColumn;
+use crate::serve::fit::emulator::{Coefficients, Emulator, coefficients};
+use crate::serve::fit::scenes::AS_WRITTEN;
+use crate::serve::fit::search::{Measured, fitted};
 use nalgebra::{DMatrix, DVector};
 use shearbed::jeffery::strain_per_period;
 

@@ -1,8 +1,8 @@
 //! Whole scenes that were wrong once: overflowing spirals, extreme shapes, near-parabolic flows, Couette flow turned by 45°,
 //! a weak strain in a strong rotation.
 
-use crate::case::{Effort, Evidence};
-use crate::lab;
+use crate::judge::case::{Effort, Evidence};
+use crate::judge::lab;
 use crate::oracle::exponential::{Rod, Span};
 use shearbed::orientation::from_degrees;
 use shearbed::scene::{Orientation, Scene};

@@ -1,6 +1,6 @@
 //! Integrators with a mistake, and subjects made from a step alone.
 
-use crate::integrators::*;
+use crate::studies::integrators::*;
 use nalgebra::{UnitVector3, Vector2, Vector3};
 use std::f64::consts::TAU;
 

@@ -1,0 +1,181 @@
+//! Checkpoints: a file that says how far a command has come, from which the same command goes on.
+//!
+//! A line with the format's number, a line of JSON that says of which work it is, the state in MessagePack, and the CRC-32 of
+//! all before in four bytes. It is replaced whole, so that a kill leaves the old one or the new one.
+
+mod replicas;
+mod stop;
+#[cfg(test)]
+mod tests;
+
+pub use replicas::{Progress, Replicas};
+pub(crate) use stop::{last_words, on_stop, stays};
+
+use crate::files::bounded;
+use crate::files::build;
+use crate::files::difference::difference;
+use crate::files::output::{OutputError, Part, Replaced};
+use crate::files::text::Shown;
+use crc32fast::Hasher;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read, Seek, Write};
+use std::path::Path;
+
+/// How every checkpoint begins, before the number of its format.
+const HEAD: &str = "shearbed checkpoint ";
+/// The format that is written and read.
+const FORMAT: u32 = 2;
+/// The checksum at the end.
+const SUM: u64 = 4;
+/// The longest first line, and the longest second one.
+const LINES: [u64; 2] = [64, 1 << 20];
+
+/// The checkpoint of one command, which no other process writes meanwhile.
+pub struct Checkpoint {
+    file: Replaced,
+    identity: Value,
+}
+
+/// Why a checkpoint is not used: it cannot be read or written, or it is not of this work.
+#[derive(Debug)]
+pub struct Refused(pub String);
+
+impl From<OutputError> for Refused {
+    fn from(error: OutputError) -> Self {
+        Self(error.to_string())
+    }
+}
+
+impl Checkpoint {
+    /// Claims the file for the work that `identity` and the build say: what the results depend on.
+    pub fn open(path: &Path, command: &str, mut identity: Value) -> Result<Self, Refused> {
+        identity["command"] = command.into();
+        identity["build"] = build::record();
+        // As text: what was written and read again is compared with the same.
+        let identity = serde_json::from_str(&identity.to_string()).unwrap_or(identity);
+        Ok(Self {
+            file: Replaced::claim(path)?,
+            identity,
+        })
+    }
+
+    /// Its file.
+    pub fn path(&self) -> &Path {
+        self.file.path()
+    }
+
+    /// The state that is kept, where there is one.
+    pub fn read<T: DeserializeOwned>(&self) -> Result<Option<T>, Refused> {
+        match bounded::open(self.path()) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(self.refused(&format!("cannot be read: {error}"))),
+            Ok(file) => {
+                let why = |why: String| self.refused(&why);
+                self.state(file).map(Some).map_err(why)
+            }
+        }
+    }
+
+    /// Keeps a state in place of the last.
+    pub fn write(&self, state: &impl Serialize) -> Result<(), OutputError> {
+        self.begin(state)?.finish()
+    }
+
+    /// The same up to where the state is no longer needed.
+    fn begin(&self, state: &impl Serialize) -> Result<Part<'_>, OutputError> {
+        self.file.write(|file| {
+            let mut file = Summed(file, Hasher::new());
+            writeln!(file, "{HEAD}{FORMAT}\n{}", self.identity)?;
+            rmp_serde::encode::write_named(&mut file, state).map_err(cause)?;
+            let sum = file.1.finalize();
+            file.0.write_all(&sum.to_be_bytes())
+        })
+    }
+
+    /// The file is not to be used, and why.
+    pub fn refused(&self, why: &str) -> Refused {
+        Refused(format!(
+            "--checkpoint {}: {why}; give another name, or remove it to start anew; nothing was changed",
+            self.path().shown()
+        ))
+    }
+
+    fn state<T: DeserializeOwned>(&self, file: File) -> Result<T, String> {
+        let unread = |error: io::Error| format!("cannot be read: {error}");
+        let length = file.metadata().map_err(unread)?.len().saturating_sub(SUM);
+        let mut file = BufReader::new(file);
+        let first = line(&mut file, LINES[0]).map_err(unread)?;
+        let format = first.strip_prefix(HEAD).ok_or("is no checkpoint of shearbed")?;
+        if format != FORMAT.to_string() {
+            return Err(format!(
+                "has the format {format}, of another version of shearbed; {FORMAT} is allowed"
+            ));
+        }
+        file.rewind().map_err(unread)?;
+        let mut sum = Summed(io::sink(), Hasher::new());
+        io::copy(&mut file.by_ref().take(length), &mut sum).map_err(unread)?;
+        let mut kept = [0; SUM as usize];
+        file.read_exact(&mut kept).map_err(unread)?;
+        let (kept, found) = (u32::from_be_bytes(kept), sum.1.finalize());
+        if kept != found {
+            return Err(format!(
+                "is damaged: its checksum is {kept:08x}, and that of its contents {found:08x}"
+            ));
+        }
+        file.rewind().map_err(unread)?;
+        let mut file = file.take(length);
+        line(&mut file, LINES[0]).map_err(unread)?;
+        let identity = line(&mut file, LINES[1]).map_err(unread)?;
+        let broken = |error: &dyn std::fmt::Display| format!("is damaged: {error}");
+        let identity: Value = serde_json::from_str(&identity).map_err(|error| broken(&error))?;
+        if let Some((key, kept, own)) = difference(&identity, &self.identity) {
+            return Err(format!("is of other work: {key} was {kept} and is {own} now"));
+        }
+        let state = rmp_serde::from_read(&mut file).map_err(|error| broken(&error))?;
+        match file.fill_buf().map_err(unread)? {
+            [] => Ok(state),
+            _ => Err(broken(&"bytes follow its state")),
+        }
+    }
+}
+
+/// The system's reason below an error of the encoder, as a full disk; the encoder's own words where there is none.
+fn cause(error: rmp_serde::encode::Error) -> io::Error {
+    let mut below: Option<&(dyn std::error::Error + 'static)> = Some(&error);
+    while let Some(found) = below {
+        if let Some(system) = found.downcast_ref::<io::Error>() {
+            return match system.raw_os_error() {
+                Some(code) => io::Error::from_raw_os_error(code),
+                None => io::Error::new(system.kind(), system.to_string()),
+            };
+        }
+        below = found.source();
+    }
+    io::Error::other(error)
+}
+
+/// The next line of at most so many bytes, without its end.
+fn line(file: &mut impl BufRead, most: u64) -> io::Result<String> {
+    let mut bytes = Vec::new();
+    file.take(most).read_until(b'\n', &mut bytes)?;
+    bytes.pop_if(|last| *last == b'\n');
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// A writer that sums up what it writes.
+struct Summed<W>(W, Hasher);
+
+impl<W: Write> Write for Summed<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.0.write(bytes)?;
+        self.1.update(&bytes[..written]);
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.flush()
+    }
+}

@@ -1,0 +1,94 @@
+//! Work over the ranks of an MPI job, with the feature `mpi`; without it there is one rank, and nothing here does
+//! more than a loop.
+//!
+//! Every rank runs the same command on the same input and comes to the same calls of [`share`] and [`from_root`] in
+//! the same order. Rank 0, the root, alone writes and prints. A job's result does not depend on the rank that makes
+//! it, and results come back in the order of jobs: so the root goes on with the bits that one process has. A rank
+//! that fails says why and ends all others ([`Joined::fail`]).
+
+#[cfg(not(feature = "mpi"))]
+mod alone;
+#[cfg(feature = "mpi")]
+mod ranks;
+mod replicas;
+
+#[cfg(not(feature = "mpi"))]
+pub use alone::{Joined, from_root, is_root, share, size};
+#[cfg(feature = "mpi")]
+pub use ranks::{Joined, from_root, is_root, share, size};
+pub use replicas::ensemble;
+
+use crate::files::build;
+use crate::files::difference::difference;
+use crate::files::text::{readable, shortened};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use std::io::Write;
+use std::process::ExitCode;
+
+/// Compares the inputs of all ranks, before anything runs: every command comes here first, whatever it does, so that ranks
+/// that were given different things do not wait for each other. The error, on the root, names the rank and the key.
+pub fn agree(command: &str, mut input: Value) -> Result<(), String> {
+    input["command"] = command.into();
+    input["build"] = build::record();
+    let all = share(size(), |_| Ok::<_, String>(input.clone()), |_, _| Ok(()))?;
+    from_root(|| all_as_first(&all.unwrap_or_default()))
+}
+
+/// Whether all ranks have the input of the first.
+fn all_as_first(inputs: &[Value]) -> Result<(), String> {
+    for (rank, input) in inputs.iter().enumerate() {
+        if let Some((key, there, here)) = difference(input, &inputs[0]) {
+            return Err(format!(
+                "rank {rank} has another input: {key} is {there} there and {here} on rank 0; the same on every rank is \
+                 allowed"
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Does every job in this process. `arrived` is called with each result in order; so are the results.
+pub fn in_order<T, E>(
+    jobs: usize,
+    job: impl Fn(usize) -> Result<T, E>,
+    mut arrived: impl FnMut(usize, &T) -> Result<(), E>,
+) -> Result<Option<Vec<T>>, E>
+where
+    T: Serialize + DeserializeOwned,
+{
+    let done = |k| {
+        let result = job(k)?;
+        arrived(k, &result)?;
+        Ok(result)
+    };
+    (0..jobs).map(done).collect::<Result<_, E>>().map(Some)
+}
+
+/// Says why this process failed; its exit code. Where even this cannot be written, the exit code has to say it.
+pub fn failed(message: &str, code: u8) -> ExitCode {
+    let _ = writeln!(std::io::stderr(), "error: {}", readable(&shortened(message)));
+    ExitCode::from(code)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn a_rank_with_another_input_is_named_with_its_key() {
+        let input = |seed: u64| json!({ "command": "run", "scene": { "ensemble": { "seed": seed } } });
+        assert_eq!(all_as_first(&[]), Ok(()));
+        assert_eq!(all_as_first(&[input(1), input(1)]), Ok(()));
+        let error = all_as_first(&[input(1), input(1), input(2), input(3)]).unwrap_err();
+        let expected = "rank 2 has another input: scene.ensemble.seed is 2 there and 1 on rank 0";
+        assert!(error.starts_with(expected), "{error}");
+        let error = all_as_first(&[input(1), json!({ "command": "plan" })]).unwrap_err();
+        assert!(
+            error.contains(r#"command is "plan" there and "run" on rank 0"#),
+            "{error}"
+        );
+    }
+}

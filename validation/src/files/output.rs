@@ -1,0 +1,205 @@
+//! Writing files so that a set of them appears together or not at all, and that two processes do not mix theirs.
+
+mod claim;
+mod record;
+mod replaced;
+#[cfg(test)]
+mod tests;
+
+pub use claim::Claim;
+pub(crate) use claim::stop;
+pub(crate) use record::left_over;
+pub use record::{Author, RECORD, Record, Refused, Sum, sums};
+pub use replaced::{Part, Replaced};
+
+use crate::files::bounded;
+use crate::files::text::Shown;
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// A file's name, which may begin with a folder's as `curves/fig5.csv`, and its contents.
+pub type Output = (String, String);
+
+/// Why nothing was written: the file or folder, and the reason.
+#[derive(Debug)]
+pub struct OutputError {
+    /// What could not be written.
+    pub path: PathBuf,
+    /// The system's reason.
+    pub reason: io::Error,
+}
+
+impl std::fmt::Display for OutputError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}: cannot be written: {}", self.path.shown(), self.reason)
+    }
+}
+
+impl std::error::Error for OutputError {}
+
+fn at(path: &Path) -> impl FnOnce(io::Error) -> OutputError {
+    let path = path.to_owned();
+    |reason| OutputError { path, reason }
+}
+
+/// How long a writer waits for another one: sets of files are written in far less.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// Whether `bytes` can be written in `dir`, or where it does not exist in the folder above it: they are written to a
+/// file without a name, of which nothing is left even by a kill. For a command that works long before it writes. A folder
+/// in which another process is at work is refused, and what a killed one left there is put right.
+pub fn probe(dir: &Path, bytes: u64) -> Result<(), OutputError> {
+    if dir.is_dir() {
+        Claim::new(dir, PATIENCE)?;
+    }
+    let here = Path::new(".");
+    let existing = dir.ancestors().find(|folder| folder.exists());
+    let existing = existing
+        .filter(|folder| !folder.as_os_str().is_empty())
+        .unwrap_or(here);
+    let mut file = tempfile::tempfile_in(existing).map_err(at(dir))?;
+    // Noise, which no file system compresses.
+    let mut noise = 1_u32;
+    let block: Vec<u8> = std::iter::repeat_with(|| {
+        noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (noise >> 24) as u8
+    })
+    .take(1 << 16)
+    .collect();
+    let blocks = bytes.div_ceil(block.len() as u64);
+    (0..blocks)
+        .try_for_each(|_| file.write_all(&block))
+        .and_then(|()| file.sync_all())
+        .map_err(|error| {
+            let needed = format!("{error}; {:.1} MB are to be written there", 1e-6 * bytes as f64);
+            at(dir)(io::Error::new(error.kind(), needed))
+        })
+}
+
+/// Writes all files into `dir`, which is made where it does not exist. A new folder appears with all of them; in one
+/// that exists the files of two sets never stand side by side (see [`Claim::write_all`]). On any error before the last
+/// moment nothing that was there has changed.
+pub fn write_all<C: AsRef<[u8]>>(dir: &Path, files: &[(String, C)]) -> Result<(), OutputError> {
+    if !dir.exists() && appear(dir, files)? {
+        return Ok(());
+    }
+    Claim::new(dir, PATIENCE)?.write_all(files, &[])
+}
+
+/// Writes one file, at once or not at all. A link is followed. A file that is there already is replaced by `force` alone; one
+/// with these contents is left.
+///
+/// # Errors
+///
+/// A file with other contents, or what is no regular file, which is named; or what cannot be written.
+pub fn write_one(path: &Path, contents: &[u8], force: bool) -> Result<(), Refused> {
+    let target = followed(path);
+    let name = target.file_name().map(|name| name.to_string_lossy().into_owned());
+    let name = name.ok_or_else(|| at(path)(io::ErrorKind::InvalidFilename.into()))?;
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let folder = folder.unwrap_or(Path::new("."));
+    let at_file = |error: OutputError| at(path)(error.reason);
+    let files = [(name, contents)];
+    if !folder.exists() && appear(folder, &files).map_err(at_file)? {
+        return Ok(());
+    }
+    // Before the claim: in a folder that nobody writes in, as /dev, the reason is what the file is.
+    holds(&target, contents).map_err(at(path))?;
+    let claim = Claim::new(folder, PATIENCE).map_err(at_file)?;
+    match holds(&target, contents).map_err(at(path))? {
+        Some(true) => Ok(()),
+        Some(false) if !force => Err(record::kept(path, "is here already, with other contents")),
+        _ => Ok(claim.write_all(&files, &[]).map_err(at_file)?),
+    }
+}
+
+/// Whether a regular file has these contents; none where there is no file.
+fn holds(path: &Path, contents: &[u8]) -> io::Result<Option<bool>> {
+    match bounded::length_and_crc32(path, contents.len() as u64) {
+        Ok((bytes, crc32)) => Ok(Some(Sum::from_parts(bytes, crc32) == Sum::of(contents))),
+        Err(error) if error.kind() == io::ErrorKind::FileTooLarge => Ok(Some(false)),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error),
+    }
+}
+
+/// The file that links lead to, whether it is there or not.
+pub fn followed(path: &Path) -> PathBuf {
+    let mut path = path.to_owned();
+    // Links in a circle lead nowhere; as many are followed as Linux does.
+    for _ in 0..40 {
+        let Ok(next) = fs::read_link(&path) else {
+            break;
+        };
+        path = path.parent().unwrap_or(Path::new("")).join(next);
+    }
+    path
+}
+
+/// Writes a new folder beside its place, under a hidden name, and moves it there; false where somebody else made one in
+/// between. What a killed process left under the hidden name is replaced.
+fn appear<C: AsRef<[u8]>>(dir: &Path, files: &[(String, C)]) -> Result<bool, OutputError> {
+    let Some(name) = dir.file_name() else {
+        return Ok(false);
+    };
+    let part = dir.with_file_name(format!(".{}.shearbed-part", name.to_string_lossy()));
+    let claim = Claim::new(&part, PATIENCE).map_err(|error| at(dir)(error.reason))?;
+    let _writing = claim::writing();
+    let moved = refill(&part, dir, files).and_then(|()| match fs::rename(&part, dir) {
+        Ok(()) => Ok(true),
+        Err(_) if dir.exists() => Ok(false),
+        Err(error) => Err(at(dir)(error)),
+    });
+    match moved {
+        Ok(true) => claim.moved_to(dir),
+        _ => drop(fs::remove_dir_all(&part)),
+    }
+    moved
+}
+
+/// Writes a new folder of files inside one that is claimed. It appears whole or not at all; what a killed process left
+/// of it is replaced.
+pub fn write_folder(dir: &Path, files: &[Output]) -> Result<(), OutputError> {
+    let name = dir.file_name().unwrap_or_default().to_string_lossy();
+    let part = dir.with_file_name(format!(".{name}.part"));
+    let _writing = claim::writing();
+    fs::create_dir_all(&part).map_err(at(dir))?;
+    let written = refill(&part, dir, files).and_then(|()| fs::rename(&part, dir).map_err(at(dir)));
+    if written.is_err() {
+        // The first error is the one to report.
+        let _ = fs::remove_dir_all(&part);
+    }
+    written
+}
+
+/// Empties the folder `part` but for a lock and writes files there, to the disk. Errors name the folder `dir`, to which
+/// they belong.
+fn refill<C: AsRef<[u8]>>(part: &Path, dir: &Path, files: &[(String, C)]) -> Result<(), OutputError> {
+    let empty = || {
+        for entry in fs::read_dir(part)? {
+            let path = entry?.path();
+            if path.is_dir() {
+                fs::remove_dir_all(&path)?;
+            } else if !path.ends_with(claim::LOCK) {
+                fs::remove_file(&path)?;
+            }
+        }
+        Ok(())
+    };
+    empty().map_err(at(dir))?;
+    for (name, contents) in files {
+        let write = || {
+            if let Some((folder, _)) = name.split_once('/') {
+                fs::create_dir_all(part.join(folder))?;
+            }
+            let mut file = File::create_new(part.join(name))?;
+            file.write_all(contents.as_ref())?;
+            file.sync_all()
+        };
+        write().map_err(at(&dir.join(name)))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,266 @@
+//! The right to write in a folder, held by one process at a time.
+
+use super::{OutputError, RECORD, at, refill};
+use crate::files::bounded;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// The file whose lock is the claim; the system lets go of it when a process ends in any way.
+pub(super) const LOCK: &str = ".shearbed-lock";
+/// A set of files that is being written.
+const PART: &str = ".shearbed-part";
+/// A set of files that is written and belongs one folder up.
+const READY: &str = ".shearbed-ready";
+/// How every name of ours begins that is no result.
+const OURS: &str = ".shearbed-";
+
+/// While it lives, no other process that claims the folder writes there.
+#[derive(Debug)]
+pub struct Claim {
+    dir: PathBuf,
+    /// The folder was made for it.
+    made: bool,
+    lock: Option<Lock>,
+}
+
+/// A file that exists for its lock.
+#[derive(Debug)]
+pub(super) struct Lock {
+    path: PathBuf,
+    /// Held open.
+    _file: File,
+}
+
+/// Held by whoever writes a set of files.
+static WRITING: Mutex<()> = Mutex::new(());
+/// The locks of this process.
+static LOCKS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn held<T>(mutex: &'static Mutex<T>) -> MutexGuard<'static, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Keeps [`stop`] waiting.
+pub(super) fn writing() -> MutexGuard<'static, ()> {
+    held(&WRITING)
+}
+
+/// Waits until no files are being written and ends the process, leaving nothing half done.
+pub(crate) fn stop(code: i32) -> ! {
+    let _writing = writing();
+    for lock in held(&LOCKS).iter() {
+        // What is not removed here the next claim takes over.
+        let _ = fs::remove_file(lock);
+    }
+    std::process::exit(code)
+}
+
+impl Claim {
+    /// Claims a folder, which is made where it does not exist, waiting so long for others. Then what a killed process
+    /// left there is put right: a set of files that was complete is moved into place, one that was not is removed.
+    pub fn new(dir: &Path, patience: Duration) -> Result<Self, OutputError> {
+        let made = !dir.exists();
+        let busy = "another shearbed is at work in this folder; wait for it, or give another --out";
+        let lock = Lock::new(dir, LOCK, patience, |reason| {
+            let reason = match reason.kind() {
+                io::ErrorKind::WouldBlock => io::Error::new(reason.kind(), busy),
+                io::ErrorKind::Unsupported => {
+                    io::Error::new(reason.kind(), format!("{reason}; give another --out"))
+                }
+                _ => reason,
+            };
+            at(dir)(reason)
+        })?;
+        let claim = Self {
+            dir: dir.to_owned(),
+            made,
+            lock: Some(lock),
+        };
+        let _writing = writing();
+        claim.put_right()?;
+        Ok(claim)
+    }
+
+    /// Writes all files. They are written to the disk under a hidden name; then the old files of these names are removed,
+    /// and the new ones moved into place, JSON last and the folder's record after it. So files of two sets never stand side by
+    /// side, and a process that is killed in between leaves a set without its record, which the next claim makes whole. Then
+    /// the files `left_over` of an earlier set are removed.
+    pub fn write_all<C: AsRef<[u8]>>(
+        &self,
+        files: &[(String, C)],
+        left_over: &[String],
+    ) -> Result<(), OutputError> {
+        let _writing = writing();
+        let part = self.dir.join(PART);
+        fs::create_dir_all(&part).map_err(at(&self.dir))?;
+        let ready = refill(&part, &self.dir, files)
+            .and_then(|()| self.no_folder_in_the_way(files))
+            .and_then(|()| fs::rename(&part, self.dir.join(READY)).map_err(at(&self.dir)));
+        if ready.is_err() {
+            // The first error is the one to report.
+            let _ = fs::remove_dir_all(&part);
+            return ready;
+        }
+        self.move_into_place()?;
+        left_over.iter().try_for_each(|name| self.remove(name))
+    }
+
+    fn remove(&self, name: impl AsRef<Path>) -> Result<(), OutputError> {
+        let path = self.dir.join(name);
+        match fs::remove_file(&path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(at(&path)(error)),
+            _ => Ok(()),
+        }
+    }
+
+    fn no_folder_in_the_way<C>(&self, files: &[(String, C)]) -> Result<(), OutputError> {
+        let mut targets = files.iter().map(|(name, _)| self.dir.join(name));
+        match targets.find(|target| target.is_dir()) {
+            Some(target) => Err(at(&target)(io::ErrorKind::IsADirectory.into())),
+            None => Ok(()),
+        }
+    }
+
+    fn move_into_place(&self) -> Result<(), OutputError> {
+        let ready = self.dir.join(READY);
+        let mut names = names(&ready).map_err(at(&self.dir))?;
+        names.sort_by_key(|name| {
+            let json = name.extension().is_some_and(|ending| ending == "json");
+            (name == Path::new(RECORD), json, name.clone())
+        });
+        names.iter().rev().try_for_each(|name| self.remove(name))?;
+        for name in names {
+            let target = self.dir.join(&name);
+            let folder = target.parent().unwrap_or(&self.dir);
+            fs::create_dir_all(folder)
+                .and_then(|()| fs::rename(ready.join(&name), &target))
+                .map_err(at(&target))?;
+        }
+        fs::remove_dir_all(&ready).map_err(at(&self.dir))
+    }
+
+    fn put_right(&self) -> Result<(), OutputError> {
+        if self.dir.join(READY).is_dir() {
+            self.move_into_place()?;
+        }
+        for entry in fs::read_dir(&self.dir).map_err(at(&self.dir))? {
+            let entry = entry.map_err(at(&self.dir))?;
+            let name = entry.file_name().to_string_lossy().into_owned();
+            let path = entry.path();
+            if name.starts_with(OURS) && name != LOCK {
+                let removed = match path.is_dir() {
+                    true => fs::remove_dir_all(&path),
+                    false => fs::remove_file(&path),
+                };
+                removed.map_err(at(&path))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The claimed folder has another name now, and the claim ends.
+    pub(super) fn moved_to(mut self, dir: &Path) {
+        if let Some(lock) = &mut self.lock {
+            lock.moved_to(dir.join(LOCK));
+        }
+        self.dir = dir.to_owned();
+    }
+}
+
+impl Drop for Claim {
+    fn drop(&mut self) {
+        drop(self.lock.take());
+        if self.made {
+            // Only where nothing was written.
+            let _ = fs::remove_dir(&self.dir);
+        }
+    }
+}
+
+impl Lock {
+    /// Makes the file `name` in a folder, and the folder where it does not exist, waiting so long for other processes that
+    /// hold it: then the error's kind is `WouldBlock`, and `Unsupported` where the file system grants no locks.
+    pub(super) fn new(
+        dir: &Path,
+        name: &str,
+        patience: Duration,
+        at: impl Fn(io::Error) -> OutputError,
+    ) -> Result<Self, OutputError> {
+        let start = Instant::now();
+        let path = dir.join(name);
+        let file = loop {
+            fs::create_dir_all(dir).map_err(&at)?;
+            let mut options = OpenOptions::new();
+            options.write(true).create(true).truncate(false);
+            let file = match bounded::open_with(&path, &mut options) {
+                // The folder was removed just now.
+                Err(error) if error.kind() == io::ErrorKind::NotFound && !dir.exists() => continue,
+                Err(error) if error.kind() == io::ErrorKind::InvalidInput => {
+                    let why = format!("{name}: {error}, or none; remove it");
+                    return Err(at(io::Error::new(error.kind(), why)));
+                }
+                file => file.map_err(&at)?,
+            };
+            match file.try_lock() {
+                // Whoever held it may have removed it: then it locks nothing.
+                Ok(()) if is_there(&file) => break file,
+                Ok(()) => continue,
+                Err(TryLockError::WouldBlock) if start.elapsed() < patience => {
+                    sleep(Duration::from_millis(5))
+                }
+                Err(TryLockError::WouldBlock) => return Err(at(io::ErrorKind::WouldBlock.into())),
+                Err(TryLockError::Error(error)) => {
+                    let why = format!("this file system grants no locks: {error}");
+                    return Err(at(io::Error::new(io::ErrorKind::Unsupported, why)));
+                }
+            }
+        };
+        held(&LOCKS).push(path.clone());
+        Ok(Self { path, _file: file })
+    }
+
+    /// The file has another name now.
+    fn moved_to(&mut self, path: PathBuf) {
+        held(&LOCKS).retain(|held| *held != self.path);
+        self.path = path;
+    }
+}
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        // Removed while it is locked: nobody else can hold it.
+        let _ = fs::remove_file(&self.path);
+        held(&LOCKS).retain(|held| *held != self.path);
+    }
+}
+
+/// Whether an open file still has a name.
+#[cfg(unix)]
+fn is_there(file: &File) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    file.metadata().is_ok_and(|metadata| metadata.nlink() > 0)
+}
+
+/// Where an open file cannot be removed it is there.
+#[cfg(not(unix))]
+fn is_there(_: &File) -> bool {
+    true
+}
+
+/// The files of a folder and of those in it, as paths from there.
+fn names(dir: &Path) -> io::Result<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(dir)? {
+        let entry = entry?;
+        let name = PathBuf::from(entry.file_name());
+        match entry.file_type()?.is_dir() {
+            true => found.extend(names(&entry.path())?.into_iter().map(|below| name.join(below))),
+            false => found.push(name),
+        }
+    }
+    Ok(found)
+}

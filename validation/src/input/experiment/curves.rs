@@ -1,0 +1,175 @@
+//! From a pair of files to curves in the model's units, sorted by time.
+
+use super::error::{DataError, read_text};
+use super::provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance};
+use super::table::{self, DataRow, Dataset};
+use super::{Measured, MeasuredCurve, Source, provenance_file};
+use crate::input::scenes;
+use std::collections::HashMap;
+use std::path::Path;
+
+/// The largest standard uncertainty of a time, in periods. Projections have the period T/2, so that ± a quarter of T is one
+/// whole oscillation: a point of a more uncertain time says nothing of the model, but makes it run for long.
+const MOST_UNCERTAIN: f64 = 0.25;
+
+const TIME_UNCERTAINTY: &str =
+    "one standard deviation of at most a quarter of a period, a whole oscillation from end to end";
+
+/// Reads the provenance file `path` and the CSV file of the same name beside it.
+pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, DataError> {
+    let csv_path = path.with_extension("csv");
+    if !csv_path.is_file() {
+        let message = format!("it has no {} beside it", csv_path.display());
+        return Err(DataError::whole(path, message));
+    }
+    let file = csv_path.display().to_string();
+    let provenance = provenance_file::parse(&path.display().to_string(), &read_text(path)?, source)?;
+    let text = read_text(&csv_path)?;
+    let datasets = match provenance.csv {
+        Layout::WebPlotDigitizer => table::webplotdigitizer(&file, &text)?,
+        Layout::Columns => {
+            let ys: Vec<_> = provenance
+                .curves
+                .iter()
+                .map(|key| column(&provenance, key))
+                .collect();
+            table::columns(&file, &text, provenance.x.quantity.column(), &ys)?
+        }
+    };
+    let axis = &provenance.x;
+    let period = |key: &Key| {
+        let scene = scenes::find(key.scene).and_then(|built_in| built_in.scene().ok());
+        scene.map_or(f64::NAN, |scene| {
+            axis.quantity.per_period(scene.particles.aspect_ratio)
+        })
+    };
+    let shortest = provenance.curves.iter().map(period).fold(f64::INFINITY, f64::min);
+    if axis.standard_uncertainty > MOST_UNCERTAIN * shortest {
+        let message = format!(
+            "x.standard_uncertainty = {} is not allowed: {TIME_UNCERTAINTY}, here {}",
+            axis.standard_uncertainty,
+            MOST_UNCERTAIN * shortest
+        );
+        return Err(DataError::whole(path, message));
+    }
+    let named = |dataset: &Dataset| format!("`{}`", dataset.name);
+    let names = datasets.iter().map(named).collect::<Vec<_>>().join(", ");
+    if datasets.len() != provenance.curves.len() {
+        let message = format!(
+            "{} datasets ({names}); the provenance file has {} [[curve]]: one for each is allowed",
+            datasets.len(),
+            provenance.curves.len()
+        );
+        return Err(DataError::at(&file, 1, message));
+    }
+    let curve = |key: &Key| {
+        let wanted = match provenance.csv {
+            Layout::Columns => Some(column(&provenance, key)),
+            Layout::WebPlotDigitizer => key.dataset.clone(),
+        };
+        // A name is needed only where there are several.
+        let only = wanted.is_none() && datasets.len() == 1;
+        let dataset = datasets
+            .iter()
+            .find(|dataset| only || Some(&dataset.name) == wanted.as_ref());
+        let dataset = dataset.ok_or_else(|| {
+            let wanted = wanted.unwrap_or_else(|| "missing".to_owned());
+            let message = format!(
+                "curve.dataset = {wanted} is not allowed: {} has {names}",
+                csv_path.display()
+            );
+            DataError::at(&path.display().to_string(), key.line, message)
+        })?;
+        convert(&file, key, dataset, &provenance, source)
+    };
+    provenance.curves.iter().map(curve).collect()
+}
+
+/// The name of a curve's column in the project's layout.
+fn column(provenance: &Provenance, key: &Key) -> String {
+    let name = OBSERVABLES[key.channel];
+    match provenance.y.quantity {
+        Projection::Fraction => name.to_owned(),
+        Projection::Millimetres => format!("{name}_mm"),
+    }
+}
+
+fn convert(
+    file: &str,
+    key: &Key,
+    dataset: &Dataset,
+    provenance: &Provenance,
+    source: &Source,
+) -> Result<MeasuredCurve, DataError> {
+    if dataset.rows.is_empty() {
+        let message = format!("`{}` has no points", dataset.name);
+        return Err(DataError::at(file, 1, message));
+    }
+    let mut seen = HashMap::new();
+    for row in &dataset.rows {
+        on_axis(file, row.line, "x", row.x, &provenance.x, row.u_x)?;
+        on_axis(file, row.line, "y", row.y, &provenance.y, row.u_y)?;
+        // 0 and −0 are one number.
+        let place = [row.x + 0.0, row.y + 0.0].map(f64::to_bits);
+        if let Some(first) = seen.insert(place, row.line) {
+            let message = format!(
+                "the point ({}, {}) is in line {first} already: each point once is allowed",
+                row.x, row.y
+            );
+            return Err(DataError::at(file, row.line, message));
+        }
+    }
+    let scene = scenes::find(key.scene).and_then(|built_in| built_in.scene().ok());
+    let particles = scene.map(|scene| scene.particles);
+    // Every source's scenes exist and are valid: a test says so.
+    let (aspect_ratio, length_mm) = particles.map_or((f64::NAN, f64::NAN), |p| (p.aspect_ratio, p.length_mm));
+    let period = provenance.x.quantity.per_period(aspect_ratio);
+    let most = MOST_UNCERTAIN * period;
+    let vague = |row: &&DataRow| row.u_x.is_some_and(|u| u > most);
+    if let Some(row) = dataset.rows.iter().find(vague) {
+        let (name, u) = (provenance.x.quantity.column(), row.u_x.unwrap_or_default());
+        let message = format!("column {name}_u: `{u}` is not allowed: {TIME_UNCERTAINTY}, here {most}");
+        return Err(DataError::at(file, row.line, message));
+    }
+    let length = match provenance.y.quantity {
+        Projection::Fraction => 1.0,
+        Projection::Millimetres => length_mm,
+    };
+    let point = |row: &DataRow| Measured {
+        label: format!("{}, {}", source.label, provenance.figure),
+        observable: OBSERVABLES[key.channel],
+        x: row.x / period,
+        y: row.y / length,
+        u_x: row.u_x.unwrap_or(provenance.x.standard_uncertainty) / period,
+        u_y: row.u_y.unwrap_or(provenance.y.standard_uncertainty) / length,
+    };
+    let mut points: Vec<_> = dataset.rows.iter().map(point).collect();
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    Ok(MeasuredCurve {
+        scene: key.scene,
+        channel: key.channel,
+        points,
+        provenance: provenance.clone(),
+    })
+}
+
+/// Refuses a value beyond the reference points by more than reading off at an end explains.
+fn on_axis<Q>(
+    file: &str,
+    line: usize,
+    name: &str,
+    value: f64,
+    axis: &Axis<Q>,
+    own: Option<f64>,
+) -> Result<(), DataError> {
+    let (least, most) = axis.range();
+    let slack = 3.0 * own.unwrap_or(axis.standard_uncertainty);
+    if (least - slack..=most + slack).contains(&value) {
+        return Ok(());
+    }
+    let message = format!(
+        "{name} = {value} is not allowed: the axis is calibrated from {least} to {most} (three standard \
+         uncertainties beyond its ends are allowed)"
+    );
+    Err(DataError::at(file, line, message))
+}

@@ -1,0 +1,199 @@
+//! Measured points of experiments: reading them, and comparing them with the model.
+//!
+//! One folder for each source under a data folder, laid out as `validation/data`; in it pairs of files, `NAME.toml` with
+//! where the points come from and `NAME.csv` with the points. `docs/experiments.md` has the formats and the formulas.
+
+mod bias;
+mod compare;
+mod comparison;
+mod covariance;
+mod curves;
+mod error;
+mod keys;
+mod model;
+mod provenance;
+mod provenance_file;
+pub(crate) mod table;
+#[cfg(test)]
+mod tests;
+
+pub use bias::{Bias, bias};
+pub use compare::{Runs, alpha, compare};
+pub use comparison::{AlphaFit, Comparison, Point};
+pub use error::DataError;
+use error::unreadable;
+pub(crate) use error::{MOST_BYTES, read_text};
+pub(crate) use model::interpolate;
+pub use provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance, Time};
+
+use crate::files::bounded;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// A paper with measured points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Source {
+    /// The name of its folder.
+    pub folder: &'static str,
+    /// Its name in legends.
+    pub label: &'static str,
+    /// The built-in scenes of its conditions.
+    pub scenes: &'static [&'static str],
+    /// Points at later t/T are read and drawn but not judged.
+    pub judged_up_to: f64,
+}
+
+/// Fig. 4. Twenty periods: the oscillations are long damped out then, and to simulate more only takes time.
+pub const OKAGAWA_MASON: Source = Source {
+    folder: "okagawa-mason-1973",
+    label: "Okagawa & Mason (1973)",
+    scenes: &["fig4-n20", "fig4-n50", "fig4-n100"],
+    judged_up_to: 20.0,
+};
+
+/// Fig. 5. The paper claims agreement at t/T = 3, and says of later times that the experiment drifts for an unknown
+/// reason.
+pub const ANCZUROWSKI: Source = Source {
+    folder: "anczurowski-cox-mason-1967",
+    label: "Anczurowski, Cox & Mason (1967)",
+    scenes: &["fig5"],
+    judged_up_to: 3.5,
+};
+
+/// Every source.
+pub const SOURCES: [Source; 2] = [OKAGAWA_MASON, ANCZUROWSKI];
+
+/// A measured point in the model's units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// The source and its figure, for a legend.
+    pub label: String,
+    /// x1, x2 or x3.
+    pub observable: &'static str,
+    /// t/T.
+    pub x: f64,
+    /// A mean projection, as a fraction of the rod's length.
+    pub y: f64,
+    /// One standard deviation of x.
+    pub u_x: f64,
+    /// One standard deviation of y.
+    pub u_y: f64,
+}
+
+/// The measured points of one observable under the conditions of one scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredCurve {
+    /// A built-in scene.
+    pub scene: &'static str,
+    /// 0, 1, 2 for x1, x2, x3.
+    pub channel: usize,
+    /// By ascending time.
+    pub points: Vec<Measured>,
+    /// Where they come from.
+    pub provenance: Provenance,
+}
+
+/// Every curve of a source under `data`; none where the source has no folder or no files there.
+pub fn read(data: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, DataError> {
+    let folder = data.join(source.folder);
+    if !folder.exists() {
+        return Ok(Vec::new());
+    }
+    let paths = files(&folder)?;
+    let with = |extension: &str| {
+        let extension = extension.to_owned();
+        paths
+            .iter()
+            .filter(move |path| path.extension().is_some_and(|found| *found == *extension))
+    };
+    if let Some(alone) = with("csv").find(|path| !path.with_extension("toml").is_file()) {
+        let message = "it has no provenance file of the same name beside it, ending in .toml";
+        return Err(DataError::whole(alone, message));
+    }
+    let mut found: Vec<MeasuredCurve> = Vec::new();
+    for path in with("toml") {
+        let new = curves::read(path, source)?;
+        let again = |curve: &&MeasuredCurve| {
+            found
+                .iter()
+                .any(|old| (old.scene, old.channel) == (curve.scene, curve.channel))
+        };
+        if let Some(curve) = new.iter().find(again) {
+            let name = OBSERVABLES[curve.channel];
+            let message = format!(
+                "{name} of {} is in another file already: points count once",
+                curve.scene
+            );
+            return Err(DataError::whole(path, message));
+        }
+        found.extend(new);
+    }
+    Ok(found)
+}
+
+/// Reads everything under `data`, and refuses points in places that nobody reads.
+pub fn check(data: &Path) -> Result<(), DataError> {
+    for source in &SOURCES {
+        read(data, source)?;
+    }
+    let folders = SOURCES.map(|source| source.folder);
+    let strange = |path: &PathBuf| path.is_dir() && !folders.iter().any(|folder| path.ends_with(folder));
+    let inside = files(data)?;
+    let mut unread: Vec<PathBuf> = inside.iter().filter(|path| path.is_file()).cloned().collect();
+    for folder in inside.iter().filter(|path| strange(path)) {
+        unread.extend(files(folder)?);
+    }
+    match unread
+        .iter()
+        .find(|path| path.extension().is_some_and(|extension| extension == "csv"))
+    {
+        Some(path) => {
+            let message = format!("no source has this folder; there are {}", folders.join(", "));
+            Err(DataError::whole(path, message))
+        }
+        None => Ok(()),
+    }
+}
+
+/// The checksum of every file that is read under `data`, by its path from there.
+pub fn digest(data: &Path) -> Result<BTreeMap<String, u32>, DataError> {
+    let mut sums = BTreeMap::new();
+    for source in &SOURCES {
+        let folder = data.join(source.folder);
+        if !folder.exists() {
+            continue;
+        }
+        for path in files(&folder)?.iter().filter(|path| path.is_file()) {
+            let (_, crc32) =
+                bounded::length_and_crc32(path, MOST_BYTES).map_err(|error| unreadable(path, &error))?;
+            let name = path.strip_prefix(data).unwrap_or(path).display().to_string();
+            sums.insert(name, crc32);
+        }
+    }
+    Ok(sums)
+}
+
+/// Every measured point under the conditions of a scene, for pictures; none without data.
+pub fn points_for(data: Option<&Path>, scene_name: &str) -> Result<Vec<Measured>, DataError> {
+    let mut points = Vec::new();
+    for source in SOURCES
+        .iter()
+        .filter(|source| source.scenes.contains(&scene_name))
+    {
+        let curves = data.map_or(Ok(Vec::new()), |data| read(data, source))?;
+        let here = curves.into_iter().filter(|curve| curve.scene == scene_name);
+        points.extend(here.flat_map(|curve| curve.points));
+    }
+    Ok(points)
+}
+
+/// What is in a folder, by name.
+fn files(folder: &Path) -> Result<Vec<PathBuf>, DataError> {
+    let refused = |error: std::io::Error| unreadable(folder, &error);
+    let entries = std::fs::read_dir(folder).map_err(refused)?;
+    let mut paths = entries
+        .map(|entry| Ok(entry.map_err(refused)?.path()))
+        .collect::<Result<Vec<_>, DataError>>()?;
+    paths.sort();
+    Ok(paths)
+}

@@ -1,0 +1,136 @@
+//! The model's values at the times of measured points, with what they do not tell exactly.
+
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+use shearbed::observable::Channel;
+use shearbed::plan::Plan;
+use shearbed::run::run_replica;
+use shearbed::{Observable, Scene};
+
+/// Where a curve of the model is wanted.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MeasuredAt {
+    /// t/T.
+    pub(super) turns: f64,
+    /// One standard deviation of t/T.
+    pub(super) u_turns: f64,
+    /// 0, 1, 2 for x1, x2, x3.
+    pub(super) channel: usize,
+}
+
+/// The model at some places.
+#[derive(Clone, Debug)]
+pub(super) struct Model {
+    /// Means over rods and replicas.
+    pub(super) value: Vec<f64>,
+    /// The variance that an uncertain time gives each value.
+    pub(super) time_variance: Vec<f64>,
+    /// How far linear interpolation is from the cubic that is used: more than the cubic's own error.
+    pub(super) interpolation: Vec<f64>,
+    /// A row for each replica and a column for each place: spreadᵀ·spread is the covariance of one replica's values, and
+    /// that over the number of replicas the one of `value`.
+    pub(super) spread: DMatrix<f64>,
+}
+
+/// What is evaluated at each place: the value, the value by linear interpolation, and at the two outer nodes.
+const EACH: usize = 4;
+
+/// Runs replicas of a scene with an output in each of its steps, for as long as the places need. The steps may be finer
+/// than those outputs, by the factor `finer`.
+pub(super) fn run(scene: &Scene, places: &[MeasuredAt], replicas: u64, finer: u64) -> Result<Model, String> {
+    let mut scene = scene.clone();
+    let per_period = scene.steps_per_unit();
+    // Gauss–Hermite's outer nodes, ±√3 standard deviations.
+    let nodes =
+        |place: &MeasuredAt| [-1.0, 1.0].map(|side| place.turns + side * 3.0_f64.sqrt() * place.u_turns);
+    let last = places.iter().map(|place| nodes(place)[1]).fold(0.0, f64::max);
+    // One output more than the last place needs, for the cubic.
+    scene.time.periods = Some(((last * per_period as f64).ceil() + 1.0) / per_period as f64);
+    scene.time.outputs_per_period = Some(per_period);
+    scene.time.steps_per_period = Some(per_period * finer);
+    scene.output.observables = vec![Observable::Projections];
+    let plan = Plan::new(&scene).map_err(|invalid| invalid.to_string())?;
+    let rows = (0..replicas)
+        .into_par_iter()
+        .map(|replica| {
+            let found = run_replica(&plan, replica).map_err(|error| error.to_string())?;
+            let evaluate = |place: &MeasuredAt| -> [f64; EACH] {
+                let at = |output: usize| found.mean(Channel::X[place.channel], output).unwrap_or(f64::NAN);
+                let cubic = |turns: f64| interpolate(plan.outputs(), turns * per_period as f64, 4, at);
+                let linear = interpolate(plan.outputs(), place.turns * per_period as f64, 2, at);
+                let [before, after] = nodes(place);
+                [cubic(place.turns), linear, cubic(before), cubic(after)]
+            };
+            Ok(places.iter().flat_map(evaluate).collect())
+        })
+        .collect::<Result<Vec<Vec<f64>>, String>>()?;
+    let n = rows.len() as f64;
+    let means: Vec<f64> = (0..EACH * places.len())
+        .map(|k| rows.iter().map(|row| row[k]).sum::<f64>() / n)
+        .collect();
+    let spread = DMatrix::from_fn(rows.len(), places.len(), |r, k| {
+        (rows[r][EACH * k] - means[EACH * k]) / (n - 1.0).sqrt()
+    });
+    let each = || means.chunks_exact(EACH);
+    Ok(Model {
+        value: each().map(|mean| mean[0]).collect(),
+        // The mean of (S(t + ε) − S(t))² over a Gaussian ε by Gauss–Hermite's rule of three nodes: u_t²·(dS/dt)² where S is
+        // straight, and still right on a peak, where the slope alone would be 0.
+        time_variance: each()
+            .map(|mean| ((mean[2] - mean[0]).powi(2) + (mean[3] - mean[0]).powi(2)) / 6.0)
+            .collect(),
+        interpolation: each().map(|mean| (mean[1] - mean[0]).abs()).collect(),
+        spread,
+    })
+}
+
+/// Lagrange's polynomial through the `order` outputs around `at`, counted in outputs. Before the first output the curve
+/// stays what it was there.
+pub(crate) fn interpolate(outputs: usize, at: f64, order: usize, value: impl Fn(usize) -> f64) -> f64 {
+    let at = at.clamp(0.0, (outputs - 1) as f64);
+    let order = order.min(outputs);
+    let first = (at.floor() as usize + 1)
+        .saturating_sub(order / 2)
+        .min(outputs - order);
+    let weight = |k: usize| -> f64 {
+        let others = (first..first + order).filter(|other| *other != k);
+        others
+            .map(|other| (at - other as f64) / (k as f64 - other as f64))
+            .product()
+    };
+    (first..first + order).map(|k| weight(k) * value(k)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_cubic_and_a_line_are_met_everywhere() {
+        let cubic = |t: f64| 1.0 + t - 0.3 * t * t + 0.02 * t.powi(3);
+        let line = |t: f64| 2.0 - 0.1 * t;
+        for at in [0.0, 0.3, 1.0, 4.5, 9.99, 10.0] {
+            let found = interpolate(11, at, 4, |k| cubic(k as f64));
+            assert_relative_eq!(found, cubic(at), max_relative = 1e-12);
+            let found = interpolate(11, at, 2, |k| line(k as f64));
+            assert_relative_eq!(found, line(at), max_relative = 1e-12);
+        }
+        assert_eq!(interpolate(11, -0.2, 4, |k| k as f64 + 5.0), 5.0);
+    }
+
+    #[test]
+    fn finer_steps_are_other_steps_at_the_same_times() {
+        let scene = crate::judge::lab::interacting_scene(&crate::judge::case::Effort::gate());
+        let place = |turns| MeasuredAt {
+            turns,
+            u_turns: 0.0,
+            channel: 0,
+        };
+        let at = |finer| run(&scene, &[place(0.0), place(0.3)], 4, finer).unwrap().value;
+        let (coarse, fine) = (at(1), at(2));
+        assert_eq!(coarse[0], fine[0], "the same rods at the start");
+        assert_ne!(coarse[1], fine[1], "other collisions after it");
+        assert_relative_eq!(coarse[1], fine[1], epsilon = 0.05);
+    }
+}

@@ -1,0 +1,249 @@
+//! Reading a provenance file, with errors that name the line, the key, its value and what is allowed.
+
+use super::Source;
+use super::error::DataError;
+use super::keys::{Table, line_of};
+use super::provenance::{Axis, INPUTS, Key, Layout, OBSERVABLES, Projection, Provenance, Time};
+use crate::input::scenes;
+use toml::de::DeTable;
+
+const CALIBRATION: &str = "the values of the axis's reference points, two different numbers at least";
+const UNCERTAINTY: &str = "one standard deviation of what was read off, a number > 0 in the unit of quantity";
+const QUANTITY_X: &str = "\"t_over_T\", \"t_s\" or \"strain\": the unit is in the name";
+const QUANTITY_Y: &str = "\"fraction\" (of the rod's length) or \"mm\": the unit is in the name";
+
+/// Reads a provenance file of a source.
+pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenance, DataError> {
+    let document = DeTable::parse(text).map_err(|error| {
+        let offset = error.span().map_or(0, |span| span.start);
+        let message = error.message().trim_end().replace('\n', "; ");
+        DataError::at(file, line_of(text, offset), message)
+    })?;
+    let all = Table::of_file(file, text, document.get_ref());
+    all.only(&[
+        "paper",
+        "figure",
+        "digitised_by",
+        "tool",
+        "date",
+        "csv",
+        "rods",
+        "aspect_ratio",
+        "x",
+        "y",
+        "curve",
+        "inputs",
+    ])?;
+    let layouts = "\"columns\" or \"webplotdigitizer\"";
+    let csv = match all.text("csv", layouts)?.as_str() {
+        "columns" => Layout::Columns,
+        "webplotdigitizer" => Layout::WebPlotDigitizer,
+        _ => return Err(all.refused("csv", layouts)),
+    };
+    let rods = match all.has("rods") {
+        true => Some(all.number("rods", "a whole number ≥ 1", |n| n >= 1.0 && n.fract() == 0.0)?),
+        false => None,
+    };
+    let curves = curves(&all, csv, source)?;
+    own_aspect_ratio(&all, &curves)?;
+    Ok(Provenance {
+        paper: all.text("paper", "the paper that shows the points, as a text")?,
+        figure: all.text("figure", "the figure or table, as a text")?,
+        digitised_by: all.text("digitised_by", "who read the points off, as a text")?,
+        tool: all.text("tool", "with which tool and version, as a text")?,
+        date: date(&all)?,
+        csv,
+        rods,
+        x: axis(&all.table("x", "the table [x] of the time axis")?, time)?,
+        y: axis(
+            &all.table("y", "the table [y] of the axis of projections")?,
+            projection,
+        )?,
+        curves,
+        inputs: inputs(&all)?,
+    })
+}
+
+fn date(all: &Table<'_>) -> Result<String, DataError> {
+    let allowed = "the day of reading off, as \"YYYY-MM-DD\"";
+    let date = all.text("date", allowed)?;
+    match is_day(&date) {
+        true => Ok(date),
+        false => Err(all.refused("date", allowed)),
+    }
+}
+
+/// Whether a text is a day of the calendar, as YYYY-MM-DD.
+fn is_day(text: &str) -> bool {
+    let shape = text.chars().map(|c| if c.is_ascii_digit() { '0' } else { c });
+    if !shape.eq("0000-00-00".chars()) {
+        return false;
+    }
+    let number = |from: usize, to: usize| text[from..to].parse::<u32>().unwrap_or_default();
+    let (year, month, day) = (number(0, 4), number(5, 7), number(8, 10));
+    let leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    let days = match month {
+        1 | 3 | 5 | 7 | 8 | 10 | 12 => 31,
+        4 | 6 | 9 | 11 => 30,
+        2 => 28 + u32::from(leap),
+        _ => 0,
+    };
+    (1..=days).contains(&day)
+}
+
+fn axis<Q>(
+    table: &Table<'_>,
+    quantity: fn(&Table<'_>) -> Result<Q, DataError>,
+) -> Result<Axis<Q>, DataError> {
+    table.only(&[
+        "quantity",
+        "shear_rate_per_s",
+        "calibration",
+        "standard_uncertainty",
+    ])?;
+    let axis = Axis {
+        quantity: quantity(table)?,
+        calibration: table.numbers("calibration", CALIBRATION)?,
+        standard_uncertainty: table.number("standard_uncertainty", UNCERTAINTY, |u| u > 0.0)?,
+    };
+    let (least, most) = axis.range();
+    match least < most {
+        true => Ok(axis),
+        false => Err(table.refused("calibration", CALIBRATION)),
+    }
+}
+
+fn time(table: &Table<'_>) -> Result<Time, DataError> {
+    let quantity = match table.text("quantity", QUANTITY_X)?.as_str() {
+        "t_over_T" => Time::Periods,
+        "strain" => Time::Strain,
+        "t_s" => {
+            let allowed = "the experiment's shear rate, a number > 0, to turn seconds into periods";
+            return Ok(Time::Seconds {
+                shear_rate_per_s: table.number("shear_rate_per_s", allowed, |g| g > 0.0)?,
+            });
+        }
+        _ => return Err(table.refused("quantity", QUANTITY_X)),
+    };
+    no_shear_rate(table)?;
+    Ok(quantity)
+}
+
+fn projection(table: &Table<'_>) -> Result<Projection, DataError> {
+    no_shear_rate(table)?;
+    match table.text("quantity", QUANTITY_Y)?.as_str() {
+        "fraction" => Ok(Projection::Fraction),
+        "mm" => Ok(Projection::Millimetres),
+        _ => Err(table.refused("quantity", QUANTITY_Y)),
+    }
+}
+
+fn no_shear_rate(table: &Table<'_>) -> Result<(), DataError> {
+    match table.has("shear_rate_per_s") {
+        true => Err(table.refused("shear_rate_per_s", "only for x.quantity = \"t_s\"")),
+        false => Ok(()),
+    }
+}
+
+fn curves(all: &Table<'_>, csv: Layout, source: &Source) -> Result<Vec<Key>, DataError> {
+    let tables = all.tables("curve", "one [[curve]] for each dataset of the CSV file")?;
+    let mut keys: Vec<Key> = Vec::new();
+    for table in &tables {
+        table.only(&["scene", "observable", "dataset"])?;
+        let scenes = format!("a scene of {}: {}", source.folder, source.scenes.join(", "));
+        let name = table.text("scene", &scenes)?;
+        let scene = source
+            .scenes
+            .iter()
+            .find(|scene| **scene == name && scenes::find(scene).is_some());
+        let scene = scene.ok_or_else(|| table.refused("scene", &scenes))?;
+        let names = "\"x1\", \"x2\" or \"x3\"";
+        let observable = table.text("observable", names)?;
+        let channel = OBSERVABLES.iter().position(|name| *name == observable);
+        let dataset = match table.has("dataset") {
+            true if csv == Layout::Columns => {
+                return Err(table.refused("dataset", "only in a WebPlotDigitizer export"));
+            }
+            true => Some(table.text("dataset", "the dataset's name, as a text")?),
+            false => None,
+        };
+        let key = Key {
+            scene,
+            channel: channel.ok_or_else(|| table.refused("observable", names))?,
+            dataset,
+            line: table.line("observable"),
+        };
+        let first = keys.first().map(|key| key.scene);
+        if csv == Layout::Columns && first.is_some_and(|first| first != key.scene) {
+            return Err(table.refused("scene", "one scene in a file of csv = \"columns\""));
+        }
+        let repeats = |other: &Key| (other.scene, other.channel) == (key.scene, key.channel);
+        if keys.iter().any(repeats) {
+            return Err(table.refused("observable", "each observable of a scene once in a file"));
+        }
+        let same_dataset = |other: &Key| key.dataset.is_some() && other.dataset == key.dataset;
+        if keys.iter().any(same_dataset) {
+            return Err(table.refused("dataset", "each dataset once"));
+        }
+        keys.push(key);
+    }
+    Ok(keys)
+}
+
+/// Refuses points of other rods than the scenes'.
+fn own_aspect_ratio(all: &Table<'_>, curves: &[Key]) -> Result<(), DataError> {
+    if !all.has("aspect_ratio") {
+        return Ok(());
+    }
+    for key in curves {
+        let scene = scenes::find(key.scene).and_then(|built_in| built_in.scene().ok());
+        let own = scene.map_or(f64::NAN, |scene| scene.particles.aspect_ratio);
+        let allowed = format!(
+            "the mean r_e of the measured rods, {own} in {}; the paper leaves its points of r_e = 3.96 out (Results, after Fig. 5): \
+             rods that start parallel in the shear plane do not disturb each other in this model",
+            key.scene
+        );
+        all.number("aspect_ratio", &allowed, |given| given == own)?;
+    }
+    Ok(())
+}
+
+fn inputs(all: &Table<'_>) -> Result<Vec<(usize, f64)>, DataError> {
+    if !all.has("inputs") {
+        return Ok(Vec::new());
+    }
+    let table = all.table("inputs", "the table [inputs] of standard uncertainties")?;
+    table.only(&INPUTS.map(|(name, _)| name))?;
+    let stated = INPUTS.iter().enumerate().filter(|(_, (name, _))| table.has(name));
+    stated
+        .map(|(index, (name, _))| {
+            let allowed = "one standard deviation in the scene's unit, a number > 0";
+            Ok((index, table.number(name, allowed, |u| u > 0.0)?))
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_day;
+
+    #[test]
+    fn a_date_is_a_day_of_the_calendar() {
+        for day in ["1973-01-31", "2024-02-29", "2000-02-29", "2026-12-31"] {
+            assert!(is_day(day), "{day}");
+        }
+        for none in [
+            "2026-13-45",
+            "2026-00-01",
+            "2026-04-31",
+            "2023-02-29",
+            "1900-02-29",
+            "2026-01-00",
+            "26-01-01",
+            "2026-1-1",
+            "2026-01-0１",
+        ] {
+            assert!(!is_day(none), "{none}");
+        }
+    }
+}

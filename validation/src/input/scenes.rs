@@ -1,0 +1,131 @@
+//! The built-in scenes: the paper's figures, one file each in `validation/scenes/`, declared once here.
+
+use shearbed::Scene;
+use shearbed::scene_file::{self, SceneError};
+
+/// A scene that is part of the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BuiltIn {
+    /// Its name on the command line: the stem of its file's name.
+    pub name: &'static str,
+    /// Its file's text.
+    pub text: &'static str,
+}
+
+impl BuiltIn {
+    /// Reads and checks the scene.
+    pub fn scene(&self) -> Result<Scene, SceneError> {
+        scene_file::parse(&format!("{}.toml", self.name), self.text)
+    }
+}
+
+macro_rules! built_in {
+    ($($name:literal)*) => {
+        /// Every built-in scene, in the order of the paper's figures.
+        pub const ALL: &[BuiltIn] = &[$(BuiltIn {
+            name: $name,
+            text: include_str!(concat!("../../scenes/", $name, ".toml")),
+        }),*];
+    };
+}
+
+built_in! {
+    "fig4-n20" "fig4-n50" "fig4-n100"
+    "fig5"
+    "fig6-uniform" "fig6-polydisperse" "fig6-interacting"
+    "fig7-n20" "fig7-n50" "fig7-n100"
+    "fig8-a0.36" "fig8-a0.72" "fig8-a1.44"
+    "fig9-sd0" "fig9-sd1.8" "fig9-sd3.6" "fig9-sd7.2"
+    "fig10-free-sd0" "fig10-free-sd3.6" "fig10-interacting-sd0" "fig10-interacting-sd3.6"
+    "fig11-re5" "fig11-re10" "fig11-re11.6" "fig11-re14.2" "fig11-re20" "fig11-re30" "fig11-re50"
+    "fig12"
+    "extension"
+}
+
+/// The built-in scene of this name.
+pub fn find(name: &str) -> Option<&'static BuiltIn> {
+    ALL.iter().find(|scene| scene.name == name)
+}
+
+/// Up to three names of built-in scenes that `name` may have meant, the closest first.
+pub fn close_to(name: &str) -> Vec<&'static str> {
+    let mut close: Vec<_> = ALL
+        .iter()
+        .map(|scene| (strsim::jaro_winkler(name, scene.name), scene.name))
+        .filter(|(closeness, _)| *closeness > 0.85)
+        .collect();
+    close.sort_by(|a, b| b.0.total_cmp(&a.0));
+    close.into_iter().take(3).map(|(_, name)| name).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use shearbed::Plan;
+    use std::collections::BTreeSet;
+    use std::path::Path;
+
+    #[test]
+    fn every_file_is_declared_once() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+        let files: BTreeSet<_> = std::fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+            .map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned())
+            .collect();
+        let names: BTreeSet<_> = ALL.iter().map(|scene| scene.name.to_owned()).collect();
+        assert_eq!(files, names);
+        assert_eq!(names.len(), ALL.len());
+    }
+
+    #[test]
+    fn every_scene_is_planned_and_runs() {
+        for built_in in ALL {
+            let mut scene = built_in.scene().unwrap();
+            scene.ensemble.replicas = 2;
+            scene.particles.count = scene.particles.count.min(100);
+            let results = shearbed::ensemble::run(&Plan::new(&scene).unwrap()).unwrap();
+            let means = results
+                .series
+                .iter()
+                .flat_map(|s| &s.columns)
+                .flat_map(|c| &c.mean);
+            assert!(
+                means.into_iter().all(|mean| mean.is_finite()),
+                "{}",
+                built_in.name
+            );
+        }
+    }
+
+    #[test]
+    fn every_title_names_its_figure() {
+        for built_in in ALL {
+            let title = built_in.scene().unwrap().title;
+            let figure: String = built_in
+                .name
+                .trim_start_matches("fig")
+                .chars()
+                .take_while(char::is_ascii_digit)
+                .collect();
+            let start = match figure.as_str() {
+                "" => "No figure".to_owned(),
+                number => format!("Fig. {number}"),
+            };
+            assert!(title.starts_with(&start), "{}: {title}", built_in.name);
+            assert!(
+                built_in.text.starts_with(&format!("# {start}")),
+                "{}",
+                built_in.name
+            );
+            assert!(built_in.text.contains("ours"), "{}", built_in.name);
+        }
+    }
+
+    #[test]
+    fn a_misspelt_name_finds_the_close_ones() {
+        assert_eq!(close_to("fig4n50")[0], "fig4-n50");
+        assert_eq!(close_to("extention"), ["extension"]);
+        assert!(close_to("rods").is_empty());
+    }
+}

@@ -1,0 +1,175 @@
+//! Rods of which a file beside the scene says what each is: length, r_e, direction and place.
+
+mod table;
+
+use shearbed::scene::{OwnRods, RodsFile, Scene};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use table::read;
+
+/// The files that were read for scenes of one folder: each is read once, and its rods are held once.
+#[derive(Clone, Debug, Default)]
+pub struct Starts {
+    folder: PathBuf,
+    read: BTreeMap<String, Start>,
+}
+
+#[derive(Clone, Debug)]
+struct Start {
+    crc32: String,
+    own: Arc<OwnRods>,
+    /// The line of each rod.
+    lines: Arc<Vec<u64>>,
+}
+
+impl Starts {
+    /// For scenes whose files are in this folder; nothing is read yet.
+    pub fn beside(folder: &Path) -> Self {
+        Self {
+            folder: folder.to_owned(),
+            read: BTreeMap::new(),
+        }
+    }
+
+    /// The checksum (CRC-32) of each file that was read.
+    pub fn checksums(&self) -> BTreeMap<&str, &str> {
+        (self.read.iter())
+            .map(|(file, start)| (file.as_str(), start.crc32.as_str()))
+            .collect()
+    }
+
+    /// The files that were read.
+    pub fn files(&self) -> impl Iterator<Item = PathBuf> {
+        self.read.keys().map(|file| self.folder.join(file))
+    }
+
+    /// Loads the file of `particles.rods` into the scene. A scene without one is left unchanged.
+    ///
+    /// # Errors
+    ///
+    /// The file, line, column and value, and what is allowed.
+    pub fn fill(&mut self, scene: &mut Scene) -> Result<(), String> {
+        let Some(RodsFile { file, crc32, .. }) = &scene.particles.rods else {
+            return Ok(());
+        };
+        let path = self.folder.join(file);
+        let refused = |what: String| format!("particles.rods: {}{what}", path.display());
+        let start = match self.read.get(file) {
+            Some(start) => start.clone(),
+            None => {
+                let bytes = crate::files::bounded::bytes(&path, 1 << 31)
+                    .map_err(|error| refused(format!(": cannot be read: {error}")))?;
+                let (own, lines) = read(&bytes).map_err(|error| refused(format!(":{error}")))?;
+                let start = Start {
+                    crc32: format!("{:08x}", crc32fast::hash(&bytes)),
+                    own: Arc::new(own),
+                    lines: Arc::new(lines),
+                };
+                self.read.insert(file.clone(), start.clone());
+                start
+            }
+        };
+        if let Some(expected) = crc32.as_deref().filter(|expected| *expected != start.crc32) {
+            let found = &start.crc32;
+            return Err(refused(format!(
+                ": has crc32 = {found}; {expected:?} is allowed, or no crc32"
+            )));
+        }
+        fits(scene, &start).map_err(refused)?;
+        if let Some(rods) = &mut scene.particles.rods {
+            (rods.crc32, rods.own) = (Some(start.crc32), Some(start.own));
+        }
+        Ok(())
+    }
+}
+
+/// Checks that the scene can have the rods of a file; an error starts with the line.
+fn fits(scene: &Scene, start: &Start) -> Result<(), String> {
+    let (count, rows, own) = (scene.particles.count, start.lines.len(), &start.own);
+    if rows != count {
+        return Err(format!(
+            ": has {rows} rows; as many as particles.count = {count} are allowed"
+        ));
+    }
+    match scene.misfit(own) {
+        Some(misfit) => Err(format!(
+            ":{}: {} = {:?} is not allowed: {}",
+            start.lines[misfit.rod], misfit.column, misfit.value, misfit.allowed
+        )),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of_a_file(count: usize, interacting: bool) -> Scene {
+        let name = if interacting { "fig4-n50" } else { "extension" };
+        let text = crate::input::scenes::find(name).unwrap().text;
+        let mut scene = shearbed::scene_file::parse("s", text).unwrap();
+        scene.particles.count = count;
+        scene.particles.rods = Some(RodsFile {
+            own: None,
+            ..RodsFile::with("start.csv", OwnRods::default())
+        });
+        scene
+    }
+
+    /// Removed after it was read: a file that is read again would be missed.
+    #[test]
+    fn a_file_is_read_and_held_once_for_all_scenes() {
+        let first = of_a_file(1, false);
+        let of = |scene: &Scene| scene.particles.rods.as_ref().unwrap().own.clone().unwrap();
+        let dir = tempfile::tempdir().unwrap();
+        let file = dir.path().join("start.csv");
+        let mut starts = Starts::beside(dir.path());
+        let (mut a, mut b) = (first.clone(), first);
+        std::fs::write(&file, "p1,p2,p3\n1,0,0\n").unwrap();
+        starts.fill(&mut a).unwrap();
+        std::fs::remove_file(&file).unwrap();
+        starts.fill(&mut b).unwrap();
+        assert!(Arc::ptr_eq(&of(&a), &of(&b)));
+    }
+
+    /// Two rods at 50 per cm³: H = 3.42 mm.
+    #[test]
+    fn rods_that_the_scene_cannot_have_are_told_with_their_line() {
+        let dir = tempfile::tempdir().unwrap();
+        let fill = |text: &str, interacting: bool| {
+            std::fs::write(dir.path().join("start.csv"), text).unwrap();
+            Starts::beside(dir.path()).fill(&mut of_a_file(2, interacting))
+        };
+        for (text, said) in [
+            (
+                "length_mm\n1\n",
+                "start.csv: has 1 rows; as many as particles.count = 2",
+            ),
+            ("length_mm\n1\n1\n1\n", "start.csv: has 3 rows"),
+            (
+                "aspect_ratio\n2\n1\n",
+                "start.csv:3: aspect_ratio = 1.0 is not allowed: a number > 1, up to 1e100, for interacting rods",
+            ),
+            (
+                "x1_mm,x2_mm,x3_mm\n1,2,3\n3,4,1\n",
+                "start.csv:3: x2_mm = 4.0 is not allowed: 0 to 3.41",
+            ),
+            (
+                "x1_mm,x2_mm,x3_mm\n1,2,-3\n3,1,1\n",
+                "start.csv:2: x3_mm = -3.0 is not allowed",
+            ),
+        ] {
+            let refused = fill(text, true).unwrap_err();
+            assert!(
+                refused.starts_with("particles.rods: ") && refused.contains(said),
+                "{refused}"
+            );
+        }
+        // Free rods may be discs, and are nowhere.
+        assert_eq!(
+            fill("aspect_ratio,x1_mm,x2_mm,x3_mm\n2,1,2,3\n0.5,3,4,1\n", false),
+            Ok(())
+        );
+    }
+}

@@ -1,0 +1,51 @@
+//! How hard a case works, and from which random streams.
+
+use crate::judge::accept::Design;
+use std::path::PathBuf;
+
+/// How hard a case works, and from which random streams.
+#[derive(Clone, Debug)]
+pub struct Effort {
+    /// More replicas and samples, the same cases.
+    pub full: bool,
+    /// The seed from which every case takes its seeds.
+    pub seed: u64,
+    /// A folder with measured points, where the user has them.
+    pub data: Option<PathBuf>,
+}
+
+/// The seed of the gate.
+pub const GATE_SEED: u64 = 1;
+
+impl Effort {
+    /// That of `cargo test`.
+    pub fn gate() -> Self {
+        Self {
+            full: false,
+            seed: GATE_SEED,
+            data: None,
+        }
+    }
+
+    /// `quick` for the gate, `full` for `--full`.
+    pub fn pick<T>(&self, quick: T, full: T) -> T {
+        if self.full { full } else { quick }
+    }
+
+    /// The values that a sample needs; four times as many in a full run.
+    pub fn samples(&self, design: Design) -> u64 {
+        self.pick(1, 4) * design.samples()
+    }
+
+    /// The seed of one of a case's streams: another for every `stream` and every seed of the run.
+    pub fn seed(&self, stream: u64) -> u64 {
+        // SplitMix64's output function on both; 63 bits, as scenes allow.
+        let mix = |z: u64| {
+            let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+            let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+            z ^ (z >> 31)
+        };
+        const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
+        mix(mix(self.seed.wrapping_add(STEP)) ^ stream.wrapping_add(STEP)) >> 1
+    }
+}

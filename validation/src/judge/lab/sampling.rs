@@ -1,0 +1,50 @@
+//! Independent samples: one value per replica, and whether values are spread evenly.
+
+use super::plan;
+use crate::judge::accept::{Rule, Text, kolmogorov_samples};
+use rayon::prelude::*;
+use shearbed::observable::Channel;
+use shearbed::run::run_replica;
+use shearbed::scene::Scene;
+use statrs::distribution::Uniform;
+use statrs::stats_tests::NaNPolicy;
+use statrs::stats_tests::ks_test::{KSOneSampleAlternativeMethod, ks_onesample};
+
+/// One value per replica of a scene, made of the replica's means: `mean(channel, output)`.
+pub fn per_replica<T: Send>(
+    scene: &Scene,
+    replicas: u64,
+    value: impl Fn(&dyn Fn(Channel, usize) -> f64) -> T + Sync,
+) -> Vec<T> {
+    let plan = plan(scene);
+    let of_replica = |replica| {
+        // A run that stopped fails whatever is asked of it: every mean is NaN.
+        let found = run_replica(&plan, replica).ok();
+        value(&|channel, output| {
+            found
+                .as_ref()
+                .and_then(|found| found.mean(channel, output))
+                .unwrap_or(f64::NAN)
+        })
+    };
+    (0..replicas).into_par_iter().map(of_replica).collect()
+}
+
+/// The Kolmogorov–Smirnov test that `values` in [0, 1] are uniform there, by as many as would show a `distance` between
+/// the two distribution functions.
+pub fn uniform(values: Vec<f64>, distance: f64, because: impl Into<Text>) -> Rule {
+    let samples = values.len() as u64;
+    let enough = kolmogorov_samples(distance);
+    let method = KSOneSampleAlternativeMethod::TwoSidedAsymptotic;
+    let (distance, p) = Uniform::new(0.0, 1.0)
+        .ok()
+        .and_then(|unit| ks_onesample(values, &unit, method, NaNPolicy::Propogate).ok())
+        .unwrap_or((f64::NAN, f64::NAN));
+    Rule::PValue {
+        p,
+        samples,
+        enough,
+        distance: Some(distance),
+        because: because.into(),
+    }
+}

@@ -1,0 +1,81 @@
+//! What a check and its controls have in common, worked out once: a control that is a wrong formula needs no run of its
+//! own.
+
+use crate::judge::case::Effort;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Values by their keys, for the seed and the effort of one run.
+pub struct Shared<K, T>(Mutex<Kept<K, T>>);
+
+struct Kept<K, T> {
+    run: (u64, bool),
+    values: BTreeMap<K, Arc<T>>,
+}
+
+impl<K: Ord, T> Default for Shared<K, T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<K: Ord, T> Shared<K, T> {
+    /// Nothing yet.
+    pub const fn new() -> Self {
+        Self(Mutex::new(Kept {
+            run: (0, false),
+            values: BTreeMap::new(),
+        }))
+    }
+
+    /// The value with this `key`, which must depend on the key and the effort alone; another run forgets it.
+    pub fn get(&self, effort: &Effort, key: K, work_out: impl FnOnce() -> T) -> Arc<T> {
+        let held = || {
+            let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            let run = (effort.seed, effort.full);
+            if kept.run != run {
+                kept.run = run;
+                kept.values.clear();
+            }
+            kept
+        };
+        if let Some(found) = held().values.get(&key) {
+            return Arc::clone(found);
+        }
+        // Not under the lock: who waits for other threads may be given other work of theirs, which may want it too.
+        let found = Arc::new(work_out());
+        held().values.insert(key, Arc::clone(&found));
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_key_and_every_effort_is_worked_out_anew() {
+        let shared = Shared::new();
+        let mut runs = 0;
+        for (seed, full, key) in [
+            (1, false, 0),
+            (1, false, 0),
+            (1, false, 1),
+            (2, false, 0),
+            (2, true, 0),
+            (2, true, 0),
+        ] {
+            let effort = Effort {
+                full,
+                seed,
+                data: None,
+            };
+            let found = shared.get(&effort, key, || {
+                runs += 1;
+                (seed, key)
+            });
+            assert_eq!(*found, (seed, key));
+        }
+        assert_eq!(runs, 4);
+    }
+}

@@ -1,0 +1,251 @@
+//! Pictures of curves, points and maps as SVG or PNG: plain data in, a file's contents out.
+//!
+//! Curves differ by colour (Okabe & Ito's palette, safe for the colour-blind), by dashes and, where their points are
+//! few, by markers, points by colour and marker; the legend stands above the axes, where it covers no data.
+
+mod axes;
+mod axis;
+#[cfg(test)]
+mod boxes;
+mod grid;
+mod legend;
+mod letters;
+mod png;
+mod style;
+#[cfg(test)]
+mod tests;
+
+use crate::files::text::{escaped, readable};
+use crate::present::markup::unicode;
+pub(crate) use axis::power_of_ten;
+pub(crate) use grid::decade;
+use legend::Legend;
+use plotters::prelude::*;
+pub use png::{Png, png};
+use serde::{Deserialize, Serialize};
+use std::error::Error;
+use style::{AXES_HEIGHT, FINE, MARGIN, ROW, TITLE, WIDTH};
+
+/// A curve with, perhaps, its 95 % band.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Curve {
+    /// Its name in the legend.
+    pub label: String,
+    /// Abscissas.
+    pub x: Vec<f64>,
+    /// Ordinates; the curve is broken where one is not finite.
+    pub y: Vec<f64>,
+    /// Half the width of the 95 % band about it, drawn as a translucent area.
+    pub half_band: Option<Vec<f64>>,
+}
+
+impl Curve {
+    /// Whether each of its points is shown: there are few, and so each is a result of its own. A line through two is a
+    /// guide for the eye, and theory has no points.
+    fn is_marked(&self) -> bool {
+        (3..=40).contains(&self.x.len()) && !self.label.ends_with(", theory")
+    }
+}
+
+/// Single points with, perhaps, error bars.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Points {
+    /// Their name in the legend.
+    pub label: String,
+    /// Abscissas.
+    pub x: Vec<f64>,
+    /// Ordinates; a point with one that is not finite is left out.
+    pub y: Vec<f64>,
+    /// Half the length of the horizontal error bars.
+    pub x_error: Option<Vec<f64>>,
+    /// Half the length of the vertical error bars.
+    pub y_error: Option<Vec<f64>>,
+}
+
+/// A map: which class of what was found in each row and column.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Map {
+    /// What it is of.
+    pub title: String,
+    /// The number of the class in each cell, row by row.
+    pub cells: Vec<Vec<usize>>,
+    /// A line of theory through it, in columns and rows: 0 is the middle of the first.
+    pub limit: Vec<(f64, f64)>,
+}
+
+/// Maps with the same rows and columns, side by side.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Grid {
+    /// What the classes are called.
+    pub classes: Vec<String>,
+    /// The columns' names; empty where there is no room for one.
+    pub columns: Vec<String>,
+    /// What every column is, as data.
+    pub values: Vec<String>,
+    /// The rows' names.
+    pub rows: Vec<String>,
+    /// The maps.
+    pub maps: Vec<Map>,
+    /// What the line is.
+    pub limit_name: String,
+}
+
+/// A picture.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Figure {
+    /// What is shown.
+    pub title: String,
+    /// The horizontal axis, with its unit.
+    pub x_name: String,
+    /// The vertical axis, with its unit; some 40 letters fit.
+    pub y_name: String,
+    /// Curves, drawn beneath the points.
+    pub curves: Vec<Curve>,
+    /// Points.
+    pub points: Vec<Points>,
+    /// A logarithmic horizontal axis; what is not positive has no place on it.
+    pub x_log: bool,
+    /// A logarithmic vertical axis.
+    pub y_log: bool,
+    /// What the horizontal axis covers at least; data beyond it widen it.
+    pub x_span: Option<(f64, f64)>,
+    /// What the vertical axis covers at least.
+    pub y_span: Option<(f64, f64)>,
+    /// Maps, in place of curves and points.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub grid: Option<Grid>,
+}
+
+type Drawn = Result<(), Box<dyn Error>>;
+
+/// The figure as an SVG document, which may also stand inside HTML. Texts are typeset: x_1 is x₁.
+pub fn svg(figure: &Figure) -> Result<String, String> {
+    let figure = &typeset(figure);
+    let parts = Parts::of(figure);
+    let mut drawing = String::new();
+    let size = (WIDTH as u32, parts.height as u32);
+    let drawn = parts.draw(figure, SVGBackend::with_string(&mut drawing, size));
+    drawn.map_err(|error| format!("cannot draw the figure '{}': {error}", figure.title))?;
+    Ok(finish(figure, &drawing, parts.height))
+}
+
+/// What is above the axes, and how high everything is.
+struct Parts {
+    title: Vec<String>,
+    legend: Legend,
+    grid: Option<grid::Layout>,
+    height: i32,
+}
+
+impl Parts {
+    fn of(figure: &Figure) -> Self {
+        let title = style::wrap(&figure.title, WIDTH - 2 * MARGIN, TITLE);
+        let legend = Legend::of(figure);
+        let grid = figure.grid.as_ref().map(grid::Layout::of);
+        let head = MARGIN + title.len() as i32 * ROW + if grid.is_some() { 0 } else { legend.height() };
+        let axes = AXES_HEIGHT.max(legend.height_beside() + style::AXES_FRAME);
+        let body = grid.as_ref().map_or(axes, |layout| layout.height);
+        Self {
+            title,
+            legend,
+            grid,
+            height: head + body,
+        }
+    }
+
+    fn draw<DB: DrawingBackend>(&self, figure: &Figure, backend: DB) -> Drawn
+    where
+        DB::ErrorType: 'static,
+    {
+        let canvas = backend.into_drawing_area();
+        canvas.fill(&WHITE)?;
+        for (row, line) in self.title.iter().enumerate() {
+            let place = (MARGIN, MARGIN + row as i32 * ROW);
+            canvas.draw(&Text::new(line.as_str(), place, style::bold(TITLE)))?;
+        }
+        let head = MARGIN + self.title.len() as i32 * ROW;
+        if let (Some(grid), Some(layout)) = (&figure.grid, &self.grid) {
+            grid::draw(&canvas, figure, grid, layout, head)?;
+        } else {
+            self.legend.draw(&canvas, head)?;
+            let area = canvas.split_vertically(head + self.legend.height()).1;
+            axes::draw(figure, &self.legend, &area)?;
+        }
+        Ok(canvas.present()?)
+    }
+}
+
+/// As [`svg`], with the first curve in bold black and the others in grey.
+pub fn svg_of_one(figure: &Figure) -> Result<String, String> {
+    let drawn = svg(figure)?;
+    let looks = style::looks(figure);
+    let (own, grey) = (
+        style::curve_stroke(looks[0]),
+        "stroke=\"#9A9A9A\" stroke-width=\"4\"",
+    );
+    let bold = format!("stroke=\"#000000\" stroke-width=\"{}\"", 3 * style::CURVE_WIDTH);
+    let others = looks[1..figure.curves.len()]
+        .iter()
+        .map(|look| style::curve_stroke(*look));
+    Ok(others.fold(drawn.replace(&own, &bold), |drawn, stroke| {
+        drawn.replace(&stroke, grey)
+    }))
+}
+
+fn typeset(figure: &Figure) -> Figure {
+    let mut figure = figure.clone();
+    let curves = figure.curves.iter_mut().map(|curve| &mut curve.label);
+    let points = figure.points.iter_mut().map(|points| &mut points.label);
+    let texts = [&mut figure.title, &mut figure.x_name, &mut figure.y_name];
+    let maps = figure.grid.iter_mut().flat_map(|grid| {
+        let titles = grid.maps.iter_mut().map(|map| &mut map.title);
+        let names = grid
+            .rows
+            .iter_mut()
+            .chain(&mut grid.columns)
+            .chain(&mut grid.classes);
+        titles.chain(names)
+    });
+    for text in texts.into_iter().chain(curves).chain(points).chain(maps) {
+        // XML has no place for some characters, not even escaped.
+        *text = readable(&unicode(text)).into_owned();
+    }
+    figure
+}
+
+/// Sizes the document, names it for those who cannot see it, and adds what plotters lacks: dashes.
+fn finish(figure: &Figure, drawing: &str, height: i32) -> String {
+    let labels: Vec<_> = (figure.curves.iter().map(|c| c.label.as_str()))
+        .chain(figure.points.iter().map(|p| p.label.as_str()))
+        .chain(
+            figure
+                .grid
+                .iter()
+                .flat_map(|grid| &grid.maps)
+                .map(|map| map.title.as_str()),
+        )
+        .collect();
+    let open = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"{}\" height=\"{}\" \
+         viewBox=\"0 0 {WIDTH} {height}\">\n<title>{}</title>\n<desc>{}</desc>",
+        WIDTH / FINE,
+        height / FINE,
+        escaped(&figure.title),
+        escaped(&format!(
+            "{} against {}: {}",
+            figure.y_name,
+            figure.x_name,
+            labels.join(", ")
+        )),
+    );
+    let body = drawing.split_once('>').map_or("", |(_, body)| body);
+    let looks = style::looks(figure);
+    let dashed = looks[..figure.curves.len()]
+        .iter()
+        .fold(body.to_string(), |body, look| {
+            let stroke = style::curve_stroke(*look);
+            let dashes = style::dashes(*look);
+            body.replace(&stroke, &format!("{stroke} stroke-linejoin=\"round\"{dashes}"))
+        });
+    open + &dashed
+}

@@ -1,0 +1,262 @@
+//! What pictures must be, on made-up data.
+
+mod figures;
+
+use super::*;
+use crate::present::xml::is_well_formed;
+pub(super) use figures::{many, maps};
+
+fn wave(label: &str, phase: f64) -> Curve {
+    let x: Vec<f64> = (0..=300).map(|k| 0.02 * f64::from(k)).collect();
+    Curve {
+        label: label.into(),
+        y: x.iter()
+            .map(|x| 0.5 + (-0.3 * x).exp() * (6.0 * x + phase).sin() / 3.0)
+            .collect(),
+        half_band: Some(vec![0.03; x.len()]),
+        x,
+    }
+}
+
+pub(super) fn synthetic() -> Figure {
+    Figure {
+        title: "Synthetic: a < b & c, for a test of the drawing that has a title of more than one line"
+            .into(),
+        x_name: "t/T (periods)".into(),
+        y_name: "mean axial projection X̄₁ (–)".into(),
+        curves: vec![
+            wave("n = 20 cm⁻³", 0.0),
+            wave("n = 50 cm⁻³", 1.0),
+            wave("free", 2.0),
+        ],
+        points: vec![Points {
+            label: "synthetic points".into(),
+            x: vec![0.5, 1.5, f64::NAN],
+            y: vec![0.3, 0.6, 0.5],
+            x_error: Some(vec![0.1, 0.1]),
+            y_error: Some(vec![0.05, f64::NAN]),
+        }],
+        ..Default::default()
+    }
+}
+
+#[test]
+fn a_figure_is_well_formed_and_names_everything() {
+    let svg = svg(&synthetic()).unwrap();
+    assert!(is_well_formed(&svg), "{svg}");
+    for text in [
+        "a &lt; b &amp; c",
+        "t/T (periods)",
+        "mean axial projection",
+        "n = 20 cm⁻³",
+        "synthetic points",
+        "95 % band",
+        "viewBox=",
+        "role=\"img\"",
+        "<desc>",
+    ] {
+        assert!(svg.contains(text), "no {text} in {svg}");
+    }
+    assert_eq!(
+        svg.matches("<polygon").count(),
+        3 + 2 + 1,
+        "bands, points, legend"
+    );
+    assert_eq!(
+        svg.matches("stroke-dasharray").count(),
+        4,
+        "two curves and their legends"
+    );
+}
+
+#[test]
+fn odd_data_draw_what_can_be_drawn() {
+    let odd = [
+        vec![],
+        vec![f64::NAN; 3],
+        vec![f64::INFINITY, f64::NEG_INFINITY],
+        vec![0.5],
+        vec![0.5; 3],
+        vec![0.0; 3],
+        vec![1e308, -1e308],
+        vec![5e-324, 0.0],
+        vec![1.0, f64::NAN, 2.0, 3.0],
+    ];
+    for values in &odd {
+        for log in [false, true] {
+            for band in [None, Some(vec![f64::NAN]), Some(values.clone())] {
+                let curve = Curve {
+                    x: values.clone(),
+                    y: values.clone(),
+                    half_band: band.clone(),
+                    ..Default::default()
+                };
+                let points = Points {
+                    x: values.clone(),
+                    y: values.clone(),
+                    x_error: band.clone(),
+                    y_error: band,
+                    ..Default::default()
+                };
+                let figure = Figure {
+                    curves: vec![curve],
+                    points: vec![points],
+                    x_log: log,
+                    y_log: log,
+                    ..Default::default()
+                };
+                let svg = svg(&figure).unwrap();
+                assert!(
+                    is_well_formed(&svg) && !svg.contains("NaN"),
+                    "{values:?} {log}: {svg}"
+                );
+            }
+        }
+    }
+    assert!(svg(&Figure::default()).unwrap().contains("no data"));
+}
+
+#[test]
+fn a_power_law_is_straight_on_logarithmic_axes() {
+    let x: Vec<f64> = (0..=4).map(|k| 10f64.powi(-k)).collect();
+    let figure = Figure {
+        curves: vec![Curve {
+            y: x.iter().map(|x| 3.0 * x * x).collect(),
+            x,
+            ..Default::default()
+        }],
+        x_log: true,
+        y_log: true,
+        ..Default::default()
+    };
+    let svg = svg(&figure).unwrap();
+    let path = svg.lines().find(|line| line.contains("stroke-linejoin")).unwrap();
+    let path = path.split("points=\"").nth(1).unwrap().split('"').next().unwrap();
+    let points: Vec<Vec<f64>> = (path.split_whitespace())
+        .map(|point| point.split(',').map(|v| v.parse().unwrap()).collect())
+        .collect();
+    assert_eq!(points.len(), 5);
+    for w in points.windows(3) {
+        let bend = |axis: usize| w[0][axis] - 2.0 * w[1][axis] + w[2][axis];
+        assert!(bend(0).abs() <= 2.0 && bend(1).abs() <= 2.0, "{points:?}");
+    }
+}
+
+#[test]
+fn no_text_leaves_its_picture_or_overlaps_another() {
+    for figure in [synthetic(), many(), maps(), Figure::default()] {
+        let svg = svg(&figure).unwrap();
+        assert!(is_well_formed(&svg), "{svg}");
+        let faults = boxes::faults(&svg);
+        assert!(faults.is_empty(), "{}: {faults:#?}", figure.title);
+    }
+    // What a user may write: words without end, and more runs than there is room for.
+    let long = |name: &str| format!("{name}{}", "unendliches".repeat(20));
+    for count in [3, 30] {
+        let mut figure = Figure {
+            title: format!("{} {}", long("title"), "and more words ".repeat(60)),
+            x_name: long("time"),
+            y_name: long("mean"),
+            ..synthetic()
+        };
+        figure.points.clear();
+        figure.curves = (0..count)
+            .map(|k| wave(&long(&k.to_string()), 0.1 * f64::from(k)))
+            .collect();
+        let svg = svg(&figure).unwrap();
+        let faults = boxes::faults(&svg);
+        assert!(faults.is_empty(), "{count}: {faults:#?}");
+    }
+    // Controls: a text that is moved out, and one that is moved onto another.
+    let svg = svg(&many()).unwrap();
+    let place = svg.split("<text x=\"").nth(1).unwrap().split('"').next().unwrap();
+    let moved = |to: &str| svg.replacen(&format!("<text x=\"{place}\""), &format!("<text x=\"{to}\""), 1);
+    assert!(
+        boxes::faults(&moved("2200"))
+            .iter()
+            .any(|fault| fault.starts_with("outside"))
+    );
+    let twice = format!("{svg}<text{}", svg.split("<text").nth(1).unwrap());
+    assert!(
+        boxes::faults(&twice)
+            .iter()
+            .any(|fault| fault.starts_with("overlap"))
+    );
+}
+
+#[test]
+fn few_points_are_shown_and_theory_has_none() {
+    let markers = |figure: &Figure| svg(figure).unwrap().matches("<polygon").count();
+    let mut figure = many();
+    // Three points and a sample in the legend, of each.
+    assert_eq!(markers(&figure), 7 * 4);
+    figure.curves[0].label += ", theory";
+    assert_eq!(markers(&figure), 6 * 4);
+    figure.curves.truncate(2);
+    figure.curves[1] = Curve {
+        half_band: None,
+        ..wave("many points", 0.0)
+    };
+    assert_eq!(markers(&figure), 0);
+}
+
+/// Every picture of the paper's figures, with the titles and names that the report has.
+#[test]
+fn no_text_of_the_papers_figures_leaves_its_picture_or_overlaps_another() {
+    let few = crate::studies::figures::Replicas {
+        interacting: 2,
+        free: 2,
+    };
+    let drawn = crate::studies::figures::draw(&crate::judge::case::Effort::gate(), few, &|| ())
+        .unwrap()
+        .unwrap();
+    let figures: Vec<_> = (drawn.exhibits.iter())
+        .filter_map(|exhibit| exhibit.figure.as_ref())
+        .collect();
+    assert!(figures.len() > 8);
+    for figure in figures {
+        let faults = boxes::faults(&svg(&figure.figure).unwrap());
+        assert!(faults.is_empty(), "{}: {faults:#?}", figure.name);
+    }
+}
+
+#[test]
+fn an_integrator_looks_the_same_in_every_picture() {
+    let alone = Figure {
+        curves: vec![many().curves[3].clone()],
+        ..many()
+    };
+    assert_eq!(style::looks(&many())[3], style::looks(&alone)[0]);
+    let theory = Figure {
+        curves: vec![Curve {
+            label: "explicit Euler in angles, theory".into(),
+            ..Default::default()
+        }],
+        points: vec![Points {
+            label: "explicit Euler in angles".into(),
+            ..Default::default()
+        }],
+        ..Default::default()
+    };
+    let looks = style::looks(&theory);
+    let hue = |look| {
+        let plotters::style::RGBColor(red, green, _) = style::colour(look);
+        (red, green)
+    };
+    assert_eq!(hue(looks[0]), hue(looks[1]));
+    // Others take what nobody has.
+    let mixed = Figure {
+        curves: vec![many().curves[0].clone(), wave("mine", 0.0)],
+        ..Default::default()
+    };
+    assert_eq!(style::looks(&mixed), [0, 1]);
+}
+
+#[test]
+fn an_axis_covers_what_it_is_asked_to() {
+    let figure = Figure {
+        y_span: Some((0.0, 1.0)),
+        ..synthetic()
+    };
+    assert!(svg(&figure).unwrap().contains(">\n1.0\n<"));
+}

@@ -1,0 +1,131 @@
+//! What the first screen shows: the verdict in parts, three pictures, and where to look first.
+
+use super::formats::share;
+use super::{Part, Report};
+use crate::judge::accept::Verdict;
+use crate::judge::case::Judges;
+use crate::present::plot::{self, Figure};
+use serde::Serialize;
+
+/// What a part of the verdict says.
+#[derive(Serialize)]
+pub(super) struct Card {
+    tag: &'static str,
+    name: &'static str,
+    count: String,
+    class: Verdict,
+}
+
+/// A small picture that leads to its place.
+#[derive(Serialize)]
+pub(super) struct Thumbnail<'a> {
+    name: &'a str,
+    svg: String,
+}
+
+/// A case that passes, and how much of its tolerance it uses.
+#[derive(Serialize)]
+pub(super) struct Closest<'a> {
+    name: &'a str,
+    used: String,
+}
+
+/// What the cases of a kind judge, as a heading.
+pub(super) fn title(judges: Judges) -> &'static str {
+    match judges {
+        Judges::Core => "Verification of the core",
+        Judges::Program => "Verification of the program",
+        Judges::Integrator => "Integrators",
+        Judges::Oracle => "Oracles and misprints",
+        Judges::Interpretation => "Open choices of the model",
+        Judges::Statement => "The paper’s statements",
+        Judges::Measurement => "Measured points",
+    }
+}
+
+/// What it means that they pass.
+pub(super) fn means(judges: Judges) -> &'static str {
+    match judges {
+        Judges::Core => "The equations are solved right: closed forms, orders, invariants.",
+        Judges::Program => "Whole runs are right: files, errors, statistics, refusals.",
+        Judges::Integrator => "Integrators of one rod behave as theory says.",
+        Judges::Oracle => "What judges the rest is right, and misprints of the paper are shown to be such.",
+        Judges::Interpretation => "Where the paper is open: what the alternatives change.",
+        Judges::Statement => "What the paper says in words of its model’s results.",
+        Judges::Measurement => "Validation: the model against experiments.",
+    }
+}
+
+/// A card for each part.
+pub(super) fn cards(report: &Report) -> Vec<Card> {
+    let parts = report.summary.parts.iter();
+    parts
+        .map(|part| {
+            let red = |verdict| {
+                let rows = report.cases.iter().filter(|row| row.judges == part.judges);
+                rows.into_iter().any(|row| row.verdict == verdict)
+            };
+            Card {
+                tag: part.judges.tag(),
+                name: title(part.judges),
+                count: count(part),
+                class: match () {
+                    () if red(Verdict::Fail) => Verdict::Fail,
+                    () if red(Verdict::Underpowered) => Verdict::Underpowered,
+                    () if part.nodata > 0 => Verdict::NoData,
+                    () => Verdict::Pass,
+                },
+            }
+        })
+        .collect()
+}
+
+fn count(part: &Part) -> String {
+    let passed = format!("{} of {}", part.pass, part.cases);
+    match part.nodata {
+        0 => passed,
+        none if none == part.cases => format!("{passed}, no data"),
+        none => format!("{passed}, no data for {none}"),
+    }
+}
+
+/// The pictures of the first screen, as far as they are there: the paper's Fig. 4, error against run time, and one map of
+/// stability.
+pub(super) fn thumbnails(report: &Report) -> Result<Vec<Thumbnail<'_>>, String> {
+    let wanted = ["fig4", "work-precision-re11.6", "stability-steps"];
+    let figures = wanted
+        .iter()
+        .filter_map(|name| report.sections.figures().find(|figure| figure.name == *name));
+    figures
+        .map(|figure| {
+            let mut small: Figure = figure.figure.clone();
+            if let Some(grid) = &mut small.grid {
+                // One with a line of theory, and with more than one way to be wrong.
+                let shown = grid
+                    .maps
+                    .iter()
+                    .position(|map| map.title == "implicit midpoint in p");
+                grid.maps = grid.maps.drain(..).skip(shown.unwrap_or(0)).take(1).collect();
+            }
+            Ok(Thumbnail {
+                name: &figure.name,
+                svg: plot::svg(&small)?,
+            })
+        })
+        .collect()
+}
+
+/// The passing cases that use most of their tolerance.
+pub(super) fn closest(report: &Report) -> Vec<Closest<'_>> {
+    const SHOWN: usize = 6;
+    let passing = report.cases.iter().filter(|row| row.verdict == Verdict::Pass);
+    let mut used: Vec<_> = passing.filter_map(|row| Some((row.worst()?.used, row))).collect();
+    used.sort_by(|a, b| b.0.total_cmp(&a.0));
+    used.into_iter()
+        .take(SHOWN)
+        .map(|(used, row)| Closest {
+            name: &row.name,
+            used: share(used),
+        })
+        .collect()
+}

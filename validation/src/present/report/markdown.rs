@@ -1,0 +1,123 @@
+//! The report as Markdown.
+
+use super::formats::{bounds, seconds, verdict};
+use super::{CaseRow, Report, ReportEquation, ReportStudy};
+use crate::files::text::readable;
+use crate::present::markup::markdown;
+use crate::present::table::{ReportTable, of_words};
+
+pub(super) fn write(report: &Report) -> String {
+    let origin = &report.origin;
+    let mut text = format!("# shearbed: validation report\n\n{}\n\n", report.headline());
+    text += "| verdict | case | judges | claim | source | error | tolerance | because | controls caught | time |\n";
+    text += "| --- | --- | --- | --- | --- | ---: | ---: | --- | ---: | ---: |\n";
+    for case in &report.cases {
+        text += &row(case);
+    }
+    text += "\nError and tolerance are those of the worst line of evidence; for a goodness-of-fit test they are \
+             its p-value and the smallest allowed. To repeat one case: \
+             `cargo run --release -- validate --case NAME`.\n\n";
+    text += &report.sections.studies.iter().map(study).collect::<String>();
+    text += &report.sections.tables.iter().map(section).collect::<String>();
+    if !report.sections.equations.is_empty() {
+        text += &section(&equation_table(&report.sections.equations));
+    }
+    text += &format!(
+        "Made {} by {} (shearbed {}, commit {}, {}, {} build) on {}, {} threads, {}. Seeds: {}.\n",
+        origin.date,
+        code(&origin.command),
+        origin.version,
+        origin.commit,
+        markdown(&origin.rustc),
+        origin.build,
+        markdown(&origin.processor),
+        origin.threads,
+        origin.system,
+        markdown(&origin.seeds)
+    );
+    readable(&text).into_owned()
+}
+
+fn row(case: &CaseRow) -> String {
+    let (symbol, word) = verdict(case.verdict);
+    let (error, tolerance) = case.worst().map_or(("–".into(), "–".into()), bounds);
+    let because = case.worst().map_or("no evidence", |line| &line.because);
+    format!(
+        "| {symbol} {word} | `{}` | {} | {} | {} | {error} | {tolerance} | {} | {} of {} | {} |\n",
+        case.name,
+        case.judges.name(),
+        markdown(&case.claim),
+        markdown(&case.source),
+        markdown(because),
+        case.caught,
+        case.controls.len(),
+        seconds(case.seconds)
+    )
+}
+
+/// A study: its question, its answer, and each picture's data and table.
+fn study(study: &ReportStudy) -> String {
+    let mut text = format!(
+        "## {}\n\n*{}* {}\n\nRepeat: {}\n\n",
+        markdown(&study.title),
+        markdown(&study.question),
+        markdown(&study.answer),
+        code(&study.command)
+    );
+    for exhibit in &study.exhibits {
+        if let Some(figure) = &exhibit.figure {
+            let (title, caption) = (markdown(&figure.figure.title), markdown(&figure.caption));
+            text += &format!("**{title}** (`curves/{}.csv`): {caption}\n\n", figure.name);
+        }
+        if let Some(table) = &exhibit.table {
+            text += &format!(
+                "### {}\n\n{}\n\n{}\n",
+                markdown(&table.title),
+                markdown(&table.caption),
+                table.cells_as_markdown()
+            );
+        }
+    }
+    text
+}
+
+fn section(table: &ReportTable) -> String {
+    format!(
+        "## {}\n\n{}\n\n{}\n",
+        markdown(&table.title),
+        markdown(&table.caption),
+        table.cells_as_markdown()
+    )
+}
+
+/// The equations as a table.
+pub(crate) fn equation_table(equations: &[ReportEquation]) -> ReportTable {
+    let code = |items: &[String]| items.iter().map(|item| format!("`{item}`")).collect::<Vec<_>>();
+    of_words(
+        "equations",
+        "Equations",
+        "From each equation of the paper to the code that is made from it and the cases that test it.",
+        &["equation", "says", "code, in `src/`", "cases"],
+        (equations.iter())
+            .map(|e| {
+                vec![
+                    e.number.clone(),
+                    e.says.clone(),
+                    code(&e.code).join(", "),
+                    code(&e.cases).join(", "),
+                ]
+            })
+            .collect(),
+    )
+}
+
+/// A text as code, whatever backticks are in it: CommonMark ends a span at as many as it begins with.
+fn code(text: &str) -> String {
+    let text = text.replace('\n', " ");
+    let runs = text.split(|c| c != '`').map(str::len);
+    let fence = "`".repeat(runs.max().unwrap_or(0) + 1);
+    match text.contains('`') {
+        true => format!("{fence} {text} {fence}"),
+        false => format!("{fence}{text}{fence}"),
+    }
+}

@@ -1,0 +1,118 @@
+//! Where, when and from what a report was made.
+
+use super::ScenePlan;
+use super::formats::utc;
+use crate::files::bounded;
+use crate::files::build::BUILD;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Command;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+/// What somebody who repeats the run has to know. What cannot be found out is "unknown".
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Origin {
+    /// The command line.
+    pub command: String,
+    /// The version of the package.
+    pub version: String,
+    /// The commit of the sources it was built from, with `-dirty` where they had been changed since.
+    pub commit: String,
+    /// The compiler.
+    pub rustc: String,
+    /// How it was built: `release`, or `development` with debug assertions.
+    pub build: String,
+    /// The model of the processor.
+    pub processor: String,
+    /// Hardware threads.
+    pub threads: usize,
+    /// The operating system and the architecture.
+    pub system: String,
+    /// When the report was made, RFC 3339.
+    pub date: String,
+    /// Where random numbers come from.
+    pub seeds: String,
+}
+
+impl Origin {
+    /// This run's, with figures drawn from the scenes of `plans`.
+    pub fn here(command: String, plans: &[ScenePlan]) -> Self {
+        let since_1970 = SystemTime::now().duration_since(UNIX_EPOCH);
+        Self {
+            command,
+            version: BUILD.version.into(),
+            commit: BUILD.commit.into(),
+            rustc: BUILD.rustc.into(),
+            build: BUILD.build.into(),
+            processor: processor().unwrap_or_else(unknown),
+            threads: std::thread::available_parallelism().map_or(1, Into::into),
+            system: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
+            date: since_1970.map_or_else(|_| unknown(), |time| utc(time.as_secs())),
+            seeds: seeds(plans),
+        }
+    }
+}
+
+/// Where the random numbers of cases come from, and the scenes of each seed.
+fn seeds(plans: &[ScenePlan]) -> String {
+    let mut scenes = BTreeMap::<u64, Vec<&str>>::new();
+    for plan in plans {
+        scenes.entry(plan.seed).or_default().push(&plan.scene);
+    }
+    let of_scenes = scenes
+        .iter()
+        .map(|(seed, names)| format!("; {seed} of the scenes {}", names.join(", ")));
+    let of_scenes: String = of_scenes.collect();
+    format!("fixed in the source of each case{of_scenes}. No result depends on the number of threads.")
+}
+
+fn unknown() -> String {
+    "unknown".into()
+}
+
+/// The longest description of processors: some kB for each.
+const MOST_BYTES: u64 = 64 << 20;
+
+fn processor() -> Option<String> {
+    if let Ok(text) = bounded::text(Path::new("/proc/cpuinfo"), MOST_BYTES) {
+        let line = text.lines().find(|line| line.starts_with("model name"))?;
+        return line.split_once(':').map(|(_, name)| name.trim().to_string());
+    }
+    let mac = output(Command::new("sysctl").args(["-n", "machdep.cpu.brand_string"]));
+    mac.or_else(|| std::env::var("PROCESSOR_IDENTIFIER").ok())
+}
+
+/// What a command prints, if it is there and succeeds.
+fn output(command: &mut Command) -> Option<String> {
+    let output = command.output().ok().filter(|output| output.status.success())?;
+    let text = String::from_utf8(output.stdout).ok()?.trim().to_string();
+    (!text.is_empty()).then_some(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scenes_are_listed_by_their_seeds() {
+        let plan = |scene: &str, seed| ScenePlan {
+            scene: scene.into(),
+            seed,
+            ..Default::default()
+        };
+        let text = seeds(&[plan("a", 2), plan("b", 1), plan("c", 2)]);
+        assert!(
+            text.contains("; 1 of the scenes b; 2 of the scenes a, c."),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn nothing_is_empty() {
+        let origin = Origin::here("shearbed validate".into(), &[]);
+        assert!(origin.threads > 0);
+        assert!(!origin.commit.is_empty() && !origin.processor.is_empty());
+        assert!(origin.rustc.starts_with("rustc ") && origin.date.ends_with('Z'));
+    }
+}

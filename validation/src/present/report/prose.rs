@@ -1,0 +1,101 @@
+//! Plain text as HTML: escaped, typeset, and with links to what the report has.
+
+use super::Report;
+use crate::files::text::escaped;
+use crate::present::markup::{Piece, pieces, subscripts};
+use std::collections::BTreeSet;
+
+/// The anchors of a report.
+pub(super) struct Anchors {
+    known: BTreeSet<String>,
+    /// In the report's order: the first figure of a number is linked.
+    figures: Vec<String>,
+}
+
+impl Anchors {
+    pub(super) fn of(report: &Report) -> Self {
+        let sections = &report.sections;
+        let figures: Vec<_> = sections.figures().map(|figure| figure.name.clone()).collect();
+        let cases = report.cases.iter().map(|row| format!("case-{}", row.name));
+        let equations = (sections.equations.iter()).map(|e| format!("equation-{}", e.number));
+        Self {
+            known: cases.chain(equations).collect(),
+            figures,
+        }
+    }
+
+    /// A text as HTML.
+    pub(super) fn html(&self, text: &str) -> String {
+        let html = pieces(text).into_iter().map(|piece| match piece {
+            Piece::Text(text) => typeset(text),
+            Piece::Code(code) => {
+                self.link(&format!("case-{code}"), format!("<code>{}</code>", escaped(code)))
+            }
+            Piece::Equation(number) => self.link(&format!("equation-{number}"), escaped(number)),
+            Piece::Figure(number) => match self.figure(number) {
+                Some(name) => anchor(&format!("figure-{name}"), &escaped(number)),
+                None => escaped(number),
+            },
+        });
+        html.collect()
+    }
+
+    /// The first figure of this number: `fig4-n20` or `fig5`.
+    fn figure(&self, number: &str) -> Option<&String> {
+        let is = |name: &&String| {
+            let rest = name
+                .strip_prefix("fig")
+                .and_then(|name| name.strip_prefix(number));
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
+        };
+        self.figures.iter().find(is)
+    }
+
+    /// A link to what has this anchor, or where nothing has it the bare text.
+    fn link(&self, target: &str, html: String) -> String {
+        match self.known.contains(target) {
+            true => anchor(target, &html),
+            false => html,
+        }
+    }
+}
+
+fn anchor(target: &str, html: &str) -> String {
+    format!("<a href=\"#{}\">{html}</a>", escaped(target))
+}
+
+fn typeset(text: &str) -> String {
+    // An error stays with its sign where a line is broken.
+    let text = text.replace("± ", "±\u{a0}");
+    let parts = subscripts(&text).into_iter().map(|(below, part)| match below {
+        true => format!("<sub>{}</sub>", escaped(part)),
+        false => escaped(part),
+    });
+    parts.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_is_there_is_linked() {
+        let anchors = Anchors {
+            known: ["case-a", "equation-A.7"].map(String::from).into(),
+            figures: ["fig4-n20", "fig4-n50", "fig10"].map(String::from).into(),
+        };
+        for (text, html) in [
+            (
+                "`a` & `b`",
+                "<a href=\"#case-a\"><code>a</code></a> &amp; <code>b</code>",
+            ),
+            ("eqs 5, A.7", "eqs 5, <a href=\"#equation-A.7\">A.7</a>"),
+            ("Fig. 4", "Fig. <a href=\"#figure-fig4-n20\">4</a>"),
+            ("Fig. 1", "Fig. 1"),
+            ("0.5 ± 0.1", "0.5 ±\u{a0}0.1"),
+            ("r_e < \"5\"", "r<sub>e</sub> &lt; &quot;5&quot;"),
+        ] {
+            assert_eq!(anchors.html(text), html);
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! The writers on made-up outcomes of every verdict. Nothing here was measured.
+
+mod page;
+mod synthetic;
+
+use super::*;
+use crate::judge::accept::{Rule, judge};
+use crate::judge::case::{About, Control, Evidence, GATE_SEED, Judged, Judges};
+use crate::present::plot::{Curve, Figure};
+use crate::present::study::Exhibit;
+use crate::present::table::{number, words};
+use crate::present::xml::is_well_formed;
+use synthetic::synthetic;
+
+const EFFORT: Effort = Effort {
+    full: false,
+    seed: GATE_SEED,
+    data: None,
+};
+
+fn outcome(
+    name: &'static str,
+    verdict: Verdict,
+    rules: Vec<Rule>,
+    controls: &[(&'static str, bool)],
+) -> Outcome {
+    let judged = |(k, rule): (usize, Rule)| Judged {
+        verdict: judge(&rule),
+        evidence: Evidence::new(format!("synthetic number {k} with a < b & c"), rule),
+    };
+    Outcome {
+        about: About {
+            name,
+            judges: match verdict {
+                Verdict::Pass | Verdict::Fail => Judges::Core,
+                _ => Judges::Measurement,
+            },
+            claim: "Synthetic claim: <b>|p₁|</b> & more.",
+            source: "eqs A.4, A.5",
+            equations: &[],
+        },
+        verdict,
+        evidence: rules.into_iter().enumerate().map(judged).collect(),
+        controls: (controls.iter())
+            .map(|&(mistake, caught)| Control {
+                mistake: mistake.into(),
+                caught,
+                drawn: false,
+                margin: None,
+            })
+            .collect(),
+        seconds: 1.25,
+    }
+}
+
+fn mean(se: f64) -> Rule {
+    Rule::Mean {
+        mean: 0.5012,
+        se,
+        samples: 400,
+        reference: 0.5,
+        allowance: 0.0,
+        effect: 0.1,
+        because: "synthetic: 2 % of the amplitude".into(),
+    }
+}
+
+fn p_value(p: f64) -> Rule {
+    Rule::PValue {
+        p,
+        samples: 1000,
+        enough: 100,
+        distance: None,
+        because: "synthetic: Kolmogorov–Smirnov".into(),
+    }
+}
+
+#[test]
+fn markdown_is_as_before() {
+    insta::assert_snapshot!(synthetic().markdown());
+}
+
+#[test]
+fn counts_and_exit_code() {
+    let report = synthetic();
+    let summary = &report.summary;
+    let counts = (summary.pass, summary.fail, summary.underpowered, summary.nodata);
+    assert_eq!(counts, (2, 3, 1, 1));
+    assert_eq!(report.exit_code(), 1);
+    let only = |verdict| {
+        let outcomes = vec![outcome("synthetic", verdict, vec![], &[])];
+        build(outcomes, Sections::default(), &EFFORT, String::new()).exit_code()
+    };
+    let verdicts = [
+        Verdict::Pass,
+        Verdict::Fail,
+        Verdict::Underpowered,
+        Verdict::NoData,
+    ];
+    assert_eq!(verdicts.map(only), [0, 1, 1, 0]);
+    assert_eq!(
+        build(vec![], Sections::default(), &EFFORT, String::new()).exit_code(),
+        0
+    );
+}
+
+#[test]
+fn the_worst_evidence_is_shown() {
+    let worst: Vec<_> = synthetic().cases.iter().map(|row| row.worst).collect();
+    // Of the passing ones what is nearest to its bound, of the failing ones what cannot be compared.
+    assert_eq!(
+        worst,
+        [Some(2), Some(0), Some(1), Some(0), None, Some(0), Some(0)]
+    );
+}
+
+#[test]
+fn a_command_repeats_the_run() {
+    let effort = Effort {
+        full: true,
+        seed: GATE_SEED,
+        data: Some("my data".into()),
+    };
+    let row = CaseRow::new(outcome("synthetic", Verdict::Pass, vec![], &[]), &effort);
+    let command = "cargo run --release -- validate --case synthetic --full --data 'my data'";
+    assert_eq!(row.command, command);
+}
+
+#[test]
+fn json_has_numbers_as_numbers() {
+    let report: serde_json::Value = serde_json::from_str(&synthetic().json()).unwrap();
+    assert_eq!(report["summary"]["fail"], 3);
+    assert_eq!(report["cases"][0]["evidence"][2]["error"], 2.5e-13);
+    assert_eq!(report["cases"][0]["evidence"][2]["judged_by"]["rule"], "within");
+    assert!(
+        report["cases"][2]["evidence"][1]["error"].is_null(),
+        "NaN is null"
+    );
+    assert_eq!(report["cases"][3]["controls"][1]["caught"], false);
+    assert_eq!(report["figures"][0]["figure"]["curves"][0]["y"][0], 0.0);
+}
+
+#[test]
+fn json_is_as_its_schema_says() {
+    let schema: serde_json::Value =
+        serde_json::from_str(include_str!("../../../schemas/report.schema.json")).unwrap();
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    let mut report: serde_json::Value = serde_json::from_str(&synthetic().json()).unwrap();
+    let errors: Vec<_> = validator
+        .iter_errors(&report)
+        .map(|error| error.to_string())
+        .collect();
+    assert!(errors.is_empty(), "{errors:#?}");
+    // Controls: what is not in the form is refused.
+    report["cases"][0]["verdict"] = "perhaps".into();
+    assert!(!validator.is_valid(&report));
+    report["cases"][0]["verdict"] = "pass".into();
+    assert!(validator.is_valid(&report));
+    report["studies"][0]["answer"].take();
+    assert!(!validator.is_valid(&report));
+}
+
+#[test]
+fn junit_counts_what_is_red() {
+    let junit = synthetic().junit();
+    assert!(is_well_formed(&junit), "{junit}");
+    assert!(
+        junit.contains("tests=\"7\" failures=\"4\" errors=\"0\" skipped=\"1\""),
+        "{junit}"
+    );
+    assert_eq!(junit.matches("<testcase ").count(), 7);
+    assert_eq!(junit.matches("<failure ").count(), 4);
+    assert_eq!(junit.matches("<skipped ").count(), 1);
+    assert!(junit.contains("not caught: the same check passes or breaks on this mistake: factor &lt; 2"));
+}
+
+#[test]
+fn a_one_sided_rule_uses_less_of_its_bound_the_farther_it_is() {
+    let used = |mean| {
+        let rule = Rule::Above {
+            mean,
+            se: 0.0,
+            samples: 100,
+            bound: 0.1,
+            effect: 0.2,
+            because: "synthetic".into(),
+        };
+        let row = CaseRow::new(outcome("synthetic", Verdict::Pass, vec![rule], &[]), &EFFORT);
+        row.evidence[0].used
+    };
+    assert_eq!(used(0.4), 0.25);
+    assert_eq!(used(0.05), 2.0);
+    assert_eq!(used(-0.1), f64::INFINITY);
+}

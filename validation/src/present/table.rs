@@ -1,0 +1,288 @@
+//! A table: named columns over records, declared once, and every writer of it.
+
+#[cfg(test)]
+mod tests;
+
+use crate::files::text::cell;
+use crate::present::markup;
+use serde::{Deserialize, Serialize};
+
+/// What a cell holds as data.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Datum {
+    /// Nothing is there.
+    #[default]
+    Nothing,
+    /// Words.
+    Text(String),
+    /// A whole number.
+    Count(u64),
+    /// Any other number.
+    Number(f64),
+}
+
+impl From<f64> for Datum {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<u64> for Datum {
+    fn from(count: u64) -> Self {
+        Self::Count(count)
+    }
+}
+
+impl From<u32> for Datum {
+    fn from(count: u32) -> Self {
+        Self::Count(count.into())
+    }
+}
+
+impl From<usize> for Datum {
+    fn from(count: usize) -> Self {
+        Self::Count(count as u64)
+    }
+}
+
+impl From<&str> for Datum {
+    fn from(text: &str) -> Self {
+        Self::Text(text.into())
+    }
+}
+
+impl<T: Into<Datum>> From<Option<T>> for Datum {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Self::Nothing, Into::into)
+    }
+}
+
+/// A table in plain text. A text in backticks is code, and a link where it is a case's name.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ReportTable {
+    /// Its name, in words joined by `-`; its anchor is `table-NAME`.
+    pub name: String,
+    /// What it holds, in a few words.
+    pub title: String,
+    /// What to see.
+    pub caption: String,
+    /// The heads of the columns, with units.
+    pub columns: Vec<String>,
+    /// The cells as they are shown, row by row.
+    pub rows: Vec<Vec<String>>,
+    /// The heads of the data: a column of estimates has two.
+    pub heads: Vec<String>,
+    /// The cells as data, in full precision.
+    pub data: Vec<Vec<Datum>>,
+}
+
+/// A cell: as it is shown, if there is anything, and as data.
+type Cell = (Option<String>, Vec<Datum>);
+
+/// A column over records: its name, and what its cell shows and holds.
+pub struct Column<'a, R> {
+    name: String,
+    heads: Vec<String>,
+    cell: Box<dyn Fn(&R) -> Cell + 'a>,
+    none: &'static str,
+}
+
+impl<R> Column<'_, R> {
+    /// The same column with other words where there is no value.
+    pub fn or(self, none: &'static str) -> Self {
+        Self { none, ..self }
+    }
+}
+
+/// What is shown where there is no value.
+pub const NONE: &str = "–";
+
+/// A column of words.
+pub fn words<'a, R, T: Into<String>>(name: impl Into<String>, of: impl Fn(&R) -> T + 'a) -> Column<'a, R> {
+    let name = name.into();
+    Column {
+        heads: vec![name.clone()],
+        name,
+        cell: Box::new(move |record| {
+            let text: String = of(record).into();
+            (Some(text.clone()), vec![Datum::Text(text)])
+        }),
+        none: NONE,
+    }
+}
+
+/// A column of data, shown as they are.
+pub fn field<'a, R, T: Into<Datum>>(name: impl Into<String>, of: impl Fn(&R) -> T + 'a) -> Column<'a, R> {
+    let name = name.into();
+    Column {
+        heads: vec![name.clone()],
+        name,
+        cell: Box::new(move |record| {
+            let datum = of(record).into();
+            let shown = match &datum {
+                Datum::Nothing => None,
+                Datum::Text(text) => Some(text.clone()),
+                Datum::Count(count) => Some(count.to_string()),
+                Datum::Number(number) => Some(number.to_string()),
+            };
+            (shown, vec![datum])
+        }),
+        none: NONE,
+    }
+}
+
+/// A column of numbers in a format; a number that is not there is `–`.
+pub fn number<'a, R, T: Into<Option<f64>>>(
+    name: impl Into<String>,
+    format: impl Fn(f64) -> String + 'a,
+    of: impl Fn(&R) -> T + 'a,
+) -> Column<'a, R> {
+    let name = name.into();
+    Column {
+        heads: vec![name.clone()],
+        name,
+        cell: Box::new(move |record| {
+            let value = of(record).into();
+            (value.map(&format), vec![value.into()])
+        }),
+        none: NONE,
+    }
+}
+
+/// A column of numbers with their standard errors in a format.
+pub fn estimate<'a, R, T: Into<Option<(f64, f64)>>>(
+    name: impl Into<String>,
+    format: impl Fn(f64, f64) -> String + 'a,
+    of: impl Fn(&R) -> T + 'a,
+) -> Column<'a, R> {
+    let name = name.into();
+    Column {
+        heads: vec![name.clone(), format!("± {name}")],
+        name,
+        cell: Box::new(move |record| {
+            let found = of(record).into();
+            let data = [found.map(|f| f.0), found.map(|f| f.1)].map(Datum::from);
+            (found.map(|(value, se)| format(value, se)), data.into())
+        }),
+        none: NONE,
+    }
+}
+
+/// A table of words alone.
+pub fn of_words(
+    name: &str,
+    title: &str,
+    caption: &str,
+    columns: &[impl AsRef<str>],
+    rows: Vec<Vec<String>>,
+) -> ReportTable {
+    let columns: Vec<String> = columns.iter().map(|column| column.as_ref().into()).collect();
+    let data = |row: &Vec<String>| row.iter().map(|text| Datum::Text(text.clone())).collect();
+    ReportTable {
+        name: name.into(),
+        title: title.into(),
+        caption: caption.into(),
+        data: rows.iter().map(data).collect(),
+        heads: columns.clone(),
+        columns,
+        rows,
+    }
+}
+
+/// The table in a text of Markdown.
+pub fn of_markdown(name: &str, title: &str, caption: &str, text: &str) -> ReportTable {
+    let lines = (text.lines()).filter(|line| line.starts_with('|') && !line.starts_with("| ---"));
+    let mut rows = lines.map(|line| {
+        let cells = line.trim_matches('|').split(" | ");
+        cells.map(|cell| cell.trim().to_owned()).collect::<Vec<_>>()
+    });
+    let columns = rows.next().unwrap_or_default();
+    of_words(name, title, caption, &columns, rows.collect())
+}
+
+impl ReportTable {
+    /// A row for each record.
+    pub fn new<R>(
+        [name, title]: [&str; 2],
+        caption: impl Into<String>,
+        records: impl IntoIterator<Item = R>,
+        columns: Vec<Column<'_, R>>,
+    ) -> Self {
+        let cells = |record: R| -> (Vec<String>, Vec<Vec<Datum>>) {
+            let cell = |column: &Column<'_, R>| {
+                let (shown, data) = (column.cell)(&record);
+                (shown.unwrap_or_else(|| column.none.into()), data)
+            };
+            columns.iter().map(cell).unzip()
+        };
+        let (rows, data): (Vec<_>, Vec<_>) = records.into_iter().map(cells).unzip();
+        Self {
+            name: name.into(),
+            title: title.into(),
+            caption: caption.into(),
+            rows,
+            data: data.into_iter().map(|row| row.concat()).collect(),
+            heads: columns.iter().flat_map(|column| column.heads.clone()).collect(),
+            columns: columns.into_iter().map(|column| column.name).collect(),
+        }
+    }
+
+    /// The data as CSV. Every number is the shortest text that reads back as the same bits; what is not there is empty,
+    /// and a text that a spreadsheet would take for a formula has an apostrophe before it.
+    pub fn csv(&self) -> Result<String, String> {
+        let safe = |datum: &Datum| match datum {
+            Datum::Text(text) => Datum::Text(cell(text)),
+            other => other.clone(),
+        };
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer
+            .write_record(self.heads.iter().map(|head| cell(head).to_string()))
+            .map_err(|error| error.to_string())?;
+        for row in &self.data {
+            let row: Vec<_> = row.iter().map(safe).collect();
+            writer.serialize(row).map_err(|error| error.to_string())?;
+        }
+        let bytes = writer.into_inner().map_err(|error| error.to_string())?;
+        String::from_utf8(bytes).map_err(|error| error.to_string())
+    }
+
+    /// For the terminal: its title, columns of even width, and what to see.
+    pub fn text(&self) -> String {
+        let lines = || std::iter::once(&self.columns).chain(&self.rows);
+        let width = |column: usize| {
+            let cells = lines().filter_map(|cells| cells.get(column));
+            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+        };
+        let widths: Vec<_> = (0..self.columns.len()).map(width).collect();
+        let mut text = format!("{}\n\n", self.title);
+        for cells in lines() {
+            let padded = cells
+                .iter()
+                .zip(&widths)
+                .map(|(cell, width)| format!("{cell:<width$}  "));
+            text.push_str(padded.collect::<String>().trim_end());
+            text.push('\n');
+        }
+        format!("{text}\n{}\n\n", self.caption)
+    }
+
+    /// Its caption and its cells as Markdown.
+    pub fn markdown(&self) -> String {
+        format!("{}\n\n{}", self.caption, self.cells_as_markdown())
+    }
+
+    /// Its cells alone.
+    pub(crate) fn cells_as_markdown(&self) -> String {
+        let line = |cells: &[String]| {
+            let cells: Vec<_> = cells.iter().map(|cell| markup::markdown(cell)).collect();
+            format!("| {} |\n", cells.join(" | "))
+        };
+        let rows: String = self.rows.iter().map(|row| line(row)).collect();
+        format!(
+            "{}|{}\n{rows}",
+            line(&self.columns),
+            " --- |".repeat(self.columns.len())
+        )
+    }
+}

@@ -1,0 +1,88 @@
+//! `shearbed bench`: the studies that have named parts, alone and measured longer.
+
+use super::{Failure, on_threads, print, probe};
+use crate::files::output::Author;
+use crate::files::text::Shown;
+use crate::judge::case::Effort;
+use crate::present::plot;
+use crate::present::study::Extent;
+use crate::studies;
+use serde_json::json;
+use std::path::PathBuf;
+
+/// Arguments of `bench`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Run this bench only, as re11.6, fig7-n50 or speed; can be given more than once
+    #[arg(long = "case", value_name = "NAME")]
+    cases: Vec<String>,
+    /// The folder for the tables, their data and the pictures
+    #[arg(long, value_name = "DIR", default_value = "out/bench")]
+    out: PathBuf,
+    /// Overwrite what this command did not write in the folder, or wrote from other input
+    #[arg(long)]
+    force: bool,
+    /// Print nothing but errors
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Measures errors against run times, one bench after the other: of a rod on one core, of suspensions by runs on all
+/// cores and the time of one, and of the core its speed.
+pub(super) fn bench(args: &Args) -> Result<(), Failure> {
+    check(&args.cases)?;
+    let wanted = |name: &str| args.cases.is_empty() || args.cases.iter().any(|case| case == name);
+    probe(&args.out, 0)?;
+    let author = Author::new("bench", json!({ "cases": args.cases }), args.force);
+    author.check(&args.out, &[""; 0])?;
+    let effort = Effort {
+        full: true,
+        ..Effort::gate()
+    };
+    let (mut files, mut tables) = (Vec::new(), String::new());
+    for study in studies::ALL {
+        if !(study.benches)().iter().any(|name| wanted(name)) {
+            continue;
+        }
+        let found = on_threads(None, || {
+            study.found(&Extent {
+                effort: &effort,
+                wanted: &wanted,
+                finished: &|| (),
+            })
+        })?;
+        let Some(found) = found.map_err(Failure::Failed)? else {
+            continue;
+        };
+        files.extend(found.files);
+        for exhibit in found.exhibits {
+            if let Some(figure) = exhibit.figure {
+                let svg = plot::svg(&figure.figure).map_err(Failure::Failed)?;
+                files.push((format!("{}.svg", figure.name), svg));
+            }
+            tables.extend(exhibit.table.map(|table| table.text()));
+        }
+    }
+    let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
+    author.write(&args.out, files)?;
+    if args.quiet {
+        return Ok(());
+    }
+    print(&format!(
+        "{tables}in {}: {}\n",
+        args.out.shown(),
+        names.join(", ")
+    ))
+}
+
+/// Refuses names that no bench has.
+fn check(names: &[String]) -> Result<(), Failure> {
+    let known: Vec<_> = studies::ALL.iter().flat_map(|study| (study.benches)()).collect();
+    match names.iter().find(|name| !known.contains(name)) {
+        Some(unknown) => Err(Failure::Input(format!(
+            "--case {unknown}: no bench has this name; there are {}",
+            known.join(", ")
+        ))),
+        None => Ok(()),
+    }
+}

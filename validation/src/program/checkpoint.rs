@@ -1,0 +1,56 @@
+//! Where a command may keep its checkpoint, and what a signal says of it.
+
+use super::Failure;
+use crate::files::checkpoint::{on_stop, stays};
+use crate::files::text::Shown;
+use crate::files::{cluster, output};
+use std::path::{Component, Path, PathBuf};
+
+/// How the names of results end.
+const ENDINGS: [&str; 9] = ["csv", "svg", "json", "pvd", "vtp", "html", "md", "xml", "png"];
+
+/// Refuses a checkpoint of more than one rank, and one whose name the results in `out` may take, whether these files and
+/// folders are there yet or not. From then on a signal says that what the file holds stays.
+pub(super) fn check(checkpoint: &Path, out: &Path) -> Result<PathBuf, Failure> {
+    let refused = |what: &str| Failure::Input(format!("--checkpoint {}: {what}", checkpoint.shown()));
+    if cluster::size() > 1 {
+        let ranks = cluster::size();
+        return Err(refused(&format!("{ranks} ranks; one process alone is allowed")));
+    }
+    let path = output::followed(checkpoint);
+    let (file, folder) = (resolved(&path), resolved(out));
+    if folder.starts_with(&file) {
+        return Err(refused(&format!(
+            "is --out {}, or a folder above it; another name is allowed",
+            out.shown()
+        )));
+    }
+    let of_results = ENDINGS
+        .iter()
+        .any(|end| file.extension().is_some_and(|own| own == *end));
+    if of_results && file.starts_with(&folder) {
+        return Err(refused(
+            "the results may take that name; choose a checkpoint outside the output folder, or a name without .csv, .svg, .json or \
+             the like at its end",
+        ));
+    }
+    let kept = path.clone();
+    on_stop(move || stays(&kept));
+    Ok(path)
+}
+
+/// The one path of a file or folder that need not be there: what is there of it without links, then the rest.
+fn resolved(path: &Path) -> PathBuf {
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let mut resolved = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::ParentDir => _ = resolved.pop(),
+            part => resolved.push(part),
+        }
+        if let Ok(real) = resolved.canonicalize() {
+            resolved = real;
+        }
+    }
+    resolved
+}

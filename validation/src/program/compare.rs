@@ -1,0 +1,337 @@
+//! `shearbed compare`: what changed between two reports.
+
+use super::{Failure, print};
+use crate::files::bounded;
+use crate::files::text::Shown;
+use crate::files::text::snippet;
+use crate::present::report::FORMAT;
+use crate::present::table::{ReportTable, number, words};
+use crate::studies::work_precision::tables::time;
+use serde::Deserialize;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+/// Arguments of `compare`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// A report.json
+    #[arg(value_name = "A/report.json")]
+    before: PathBuf,
+    /// Another one
+    #[arg(value_name = "B/report.json")]
+    after: PathBuf,
+}
+
+/// What is read of a report.
+#[derive(Deserialize)]
+struct Report {
+    format: u32,
+    summary: Summary,
+    cases: Vec<Case>,
+    #[serde(default)]
+    studies: Vec<StudyTime>,
+    origin: Origin,
+}
+
+#[derive(Deserialize)]
+struct Summary {
+    full: bool,
+    seed: u64,
+}
+
+#[derive(Deserialize)]
+struct Origin {
+    commit: String,
+    processor: String,
+}
+
+#[derive(Deserialize)]
+struct StudyTime {
+    name: String,
+    seconds: f64,
+}
+
+#[derive(Deserialize)]
+struct Case {
+    name: String,
+    verdict: String,
+    seconds: f64,
+    evidence: Vec<Line>,
+}
+
+#[derive(Deserialize)]
+struct Line {
+    what: String,
+    /// Null where it is no number.
+    error: Option<f64>,
+    tolerance: Option<f64>,
+    judged_by: Rule,
+}
+
+#[derive(Deserialize)]
+struct Rule {
+    rule: String,
+    mean: Option<f64>,
+    se: Option<f64>,
+}
+
+/// A line of both reports: in words, and as one number of how far it moved.
+struct Moved<'a> {
+    case: &'a str,
+    what: &'a str,
+    before: Option<f64>,
+    after: Option<f64>,
+    by: String,
+}
+
+/// Means that differ by more than so many standard errors have moved: 1 in 15 000 does by chance.
+const NOISE: f64 = 4.0;
+
+/// Errors without noise have moved where they change by this part of their tolerance.
+const PART: f64 = 0.01;
+
+/// Prints what changed.
+pub(super) fn compare(args: &Args) -> Result<(), Failure> {
+    let (a, b) = (read(&args.before)?, read(&args.after)?);
+    let mut text = format!(
+        "A: {}, commit {}\nB: {}, commit {}\n",
+        args.before.shown(),
+        a.origin.commit,
+        args.after.shown(),
+        b.origin.commit
+    );
+    if (a.summary.full, a.summary.seed) != (b.summary.full, b.summary.seed) {
+        text += "The two differ in --full or --seed: other samples, so that means move by chance.\n";
+    }
+    text.push('\n');
+    text += &verdicts(&a, &b);
+    let moved = moved(&a, &b);
+    if moved.is_empty() {
+        text += "No error moved beyond its noise.\n\n";
+    } else {
+        text += &moved_table(moved).text();
+    }
+    text += &speeds(&a, &b).text();
+    if a.origin.processor != b.origin.processor {
+        text += &format!(
+            "Times are of two processors: {} and {}.\n",
+            a.origin.processor, b.origin.processor
+        );
+    }
+    print(&text)
+}
+
+/// The longest report.
+const MOST_BYTES: u64 = 256 << 20;
+
+fn read(path: &Path) -> Result<Report, Failure> {
+    let at = |what: String| Failure::Input(format!("{}: {what}", path.shown()));
+    let text = bounded::text(path, MOST_BYTES).map_err(|error| at(format!("cannot be read: {error}")))?;
+    parse(&text).map_err(at)
+}
+
+/// A report of this version's format, in which every case and every study stands once.
+fn parse(text: &str) -> Result<Report, String> {
+    let report: Report = serde_json::from_str(text)
+        .map_err(|error| format!("is no report.json that `shearbed validate` wrote: {error}"))?;
+    if report.format != FORMAT {
+        return Err(format!(
+            "format = {} is not allowed: {FORMAT}, of this version of shearbed",
+            report.format
+        ));
+    }
+    let cases: Vec<_> = report.cases.iter().map(|case| case.name.as_str()).collect();
+    let studies: Vec<_> = (report.studies.iter()).map(|study| study.name.as_str()).collect();
+    for (what, names) in [("case", cases), ("study", studies)] {
+        let mut seen = BTreeSet::new();
+        if let Some(twice) = names.into_iter().find(|name| !seen.insert(*name)) {
+            return Err(format!(
+                "the {what} {} is there twice; once is allowed",
+                snippet(twice)
+            ));
+        }
+    }
+    Ok(report)
+}
+
+/// Cases that ended otherwise, and those that only one report has.
+fn verdicts(a: &Report, b: &Report) -> String {
+    let mut lines = Vec::new();
+    for before in &a.cases {
+        match b.cases.iter().find(|case| case.name == before.name) {
+            Some(after) if after.verdict != before.verdict => {
+                lines.push(format!("{}: {} → {}", before.name, before.verdict, after.verdict));
+            }
+            Some(_) => {}
+            None => lines.push(format!("{}: {} → not in B", before.name, before.verdict)),
+        }
+    }
+    let new = b
+        .cases
+        .iter()
+        .filter(|case| !a.cases.iter().any(|other| other.name == case.name));
+    lines.extend(new.map(|case| format!("{}: not in A → {}", case.name, case.verdict)));
+    match lines.is_empty() {
+        true => format!("Verdicts: none of {} changed.\n", a.cases.len()),
+        false => format!("Verdicts that changed:\n  {}\n", lines.join("\n  ")),
+    }
+}
+
+fn moved<'a>(a: &'a Report, b: &'a Report) -> Vec<Moved<'a>> {
+    let mut moved = Vec::new();
+    for before in &a.cases {
+        let Some(after) = b.cases.iter().find(|case| case.name == before.name) else {
+            continue;
+        };
+        for line in &before.evidence {
+            let same = after.evidence.iter().find(|other| other.what == line.what);
+            let by = same.and_then(|other| Some((other, by(line, other)?)));
+            moved.extend(by.map(|(other, by)| Moved {
+                case: &before.name,
+                what: &line.what,
+                before: line.judged_by.mean.or(line.error),
+                after: other.judged_by.mean.or(other.error),
+                by,
+            }));
+        }
+    }
+    moved
+}
+
+/// By how much a line of evidence moved, where it did beyond its noise.
+fn by(a: &Line, b: &Line) -> Option<String> {
+    let means = (a.judged_by.mean.zip(a.judged_by.se)).zip(b.judged_by.mean.zip(b.judged_by.se));
+    if let Some(((mean_a, se_a), (mean_b, se_b))) = means {
+        let deviations = (mean_b - mean_a) / se_a.hypot(se_b);
+        return (deviations.abs() > NOISE).then(|| format!("{deviations:+.1} standard errors"));
+    }
+    match (a.error, b.error) {
+        // A p-value is noise itself: its verdict says what there is to say.
+        _ if a.judged_by.rule == "p_value" => None,
+        (Some(before), Some(after)) => {
+            let tolerance = a.tolerance.unwrap_or(0.0).abs();
+            let change = after.abs() - before.abs();
+            let beyond = if tolerance > 0.0 {
+                change.abs() > PART * tolerance
+            } else {
+                change != 0.0
+            };
+            beyond.then(|| match before == 0.0 {
+                true => "from 0".into(),
+                false => format!("× {:.3}", after.abs() / before.abs()),
+            })
+        }
+        (None, None) => None,
+        _ => Some("to or from no number".into()),
+    }
+}
+
+fn moved_table(moved: Vec<Moved>) -> ReportTable {
+    let e = |x: f64| format!("{x:.4e}");
+    ReportTable::new(
+        ["moved", "Errors that moved"],
+        format!(
+            "Means by more than {NOISE} standard errors of the two; other errors by more than {PART} of their tolerance."
+        ),
+        moved,
+        vec![
+            words("case", |m: &Moved| m.case),
+            words("what", |m: &Moved| m.what),
+            number("A", e, |m: &Moved| m.before),
+            number("B", e, |m: &Moved| m.after),
+            words("moved by", |m: &Moved| m.by.clone()),
+        ],
+    )
+}
+
+/// Shorter times are noise.
+const LEAST_SECONDS: f64 = 0.05;
+
+fn speeds(a: &Report, b: &Report) -> ReportTable {
+    type Row<'a> = (&'a str, f64, f64);
+    let cases = a.cases.iter().filter_map(|case| {
+        let other = b.cases.iter().find(|other| other.name == case.name)?;
+        Some((case.name.as_str(), case.seconds, other.seconds))
+    });
+    let studies = a.studies.iter().filter_map(|study| {
+        let other = b.studies.iter().find(|other| other.name == study.name)?;
+        Some((study.name.as_str(), study.seconds, other.seconds))
+    });
+    let both: Vec<Row> = cases.chain(studies).collect();
+    let total = both
+        .iter()
+        .fold((0.0, 0.0), |sum, row| (sum.0 + row.1, sum.1 + row.2));
+    let ratio = |row: &Row| row.2 / row.1;
+    let far = |row: &&Row| row.1.min(row.2) > LEAST_SECONDS && !(0.67..1.5).contains(&ratio(row));
+    let mut rows: Vec<Row> = both.iter().filter(far).copied().collect();
+    rows.sort_by(|x, y| ratio(y).total_cmp(&ratio(x)));
+    rows.insert(0, ("all that both have", total.0, total.1));
+    ReportTable::new(
+        ["speeds", "Times"],
+        format!(
+            "All together, then what is 1.5 times as slow or as fast and takes more than {LEAST_SECONDS} s."
+        ),
+        rows,
+        vec![
+            words("what", |row: &Row| row.0),
+            number("A", time, |row: &Row| row.1),
+            number("B", time, |row: &Row| row.2),
+            number("B / A", |x| format!("{x:.2}"), move |row: &Row| ratio(row)),
+        ],
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn another_format_and_doubled_cases_are_refused() {
+        let report = |format: u32, names: [&str; 2]| {
+            let cases = names.map(
+                |name| serde_json::json!({ "name": name, "verdict": "pass", "seconds": 0.1, "evidence": [] }),
+            );
+            let report = serde_json::json!({
+                "format": format, "summary": { "full": false, "seed": 1 }, "cases": cases,
+                "origin": { "commit": "a", "processor": "b" },
+            });
+            parse(&report.to_string()).map(|report| report.cases.len())
+        };
+        assert_eq!(report(2, ["a", "b"]), Ok(2));
+        let other = report(99, ["a", "b"]).unwrap_err();
+        assert!(other.starts_with("format = 99 is not allowed: 2"), "{other}");
+        let twice = report(2, ["a", "a"]).unwrap_err();
+        assert_eq!(twice, "the case \"a\" is there twice; once is allowed");
+    }
+
+    fn line(json: serde_json::Value) -> Line {
+        serde_json::from_value(json).unwrap()
+    }
+
+    #[test]
+    fn only_what_is_beyond_noise_has_moved() {
+        let mean = |mean: f64| {
+            line(serde_json::json!({
+                "what": "synthetic", "error": 0.1, "tolerance": 1.0,
+                "judged_by": { "rule": "mean", "mean": mean, "se": 0.1 },
+            }))
+        };
+        // √2 · 0.1 is a standard error of the difference.
+        assert_eq!(by(&mean(1.0), &mean(1.5)), None);
+        assert_eq!(
+            by(&mean(1.0), &mean(1.6)).as_deref(),
+            Some("+4.2 standard errors")
+        );
+        let within = |error: Option<f64>| {
+            line(serde_json::json!({
+                "what": "synthetic", "error": error, "tolerance": 1e-12, "judged_by": { "rule": "within" },
+            }))
+        };
+        assert_eq!(by(&within(Some(1e-14)), &within(Some(1.5e-14))), None);
+        assert_eq!(
+            by(&within(Some(1e-14)), &within(Some(4e-14))).as_deref(),
+            Some("× 4.000")
+        );
+        assert!(by(&within(Some(0.0)), &within(None)).is_some());
+    }
+}

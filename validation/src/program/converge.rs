@@ -1,0 +1,210 @@
+//! `shearbed converge`.
+
+use super::scene::{Chosen, Ensemble};
+use super::{
+    Failure, MAX_THREADS, agree, duration, memory, on_threads, print, probe, progress, scene, whole,
+};
+use crate::files::output::{Author, Output};
+use crate::files::text::Shown;
+use crate::files::{build, cluster};
+use crate::present::table::ReportTable;
+use crate::studies::suspensions::law::{self, Law, Replicas};
+use crate::studies::suspensions::split::{Constants, Scope, Split, TARGETS};
+use crate::studies::suspensions::{self, law_tables};
+use crate::studies::work_precision::order::{self, Found};
+use crate::studies::work_precision::{export, tables};
+use serde::Serialize;
+use serde_json::json;
+use shearbed::jeffery::strain_per_period;
+use shearbed::plan::Stage;
+use shearbed::scene::{MAX_REPLICAS, resolved_strain};
+use shearbed::{Plan, Scene};
+use std::path::{Path, PathBuf};
+
+/// Arguments of `converge`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    #[command(flatten)]
+    chosen: Chosen,
+    /// The folder for the tables and converge.json [default: out/converge-<scene>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replicas at every step and number of rods of an interacting scene [default: as many as some three minutes
+    /// of one core allow, fewer at fine steps]
+    #[arg(long, value_name = "N", value_parser = whole(2, MAX_REPLICAS), allow_negative_numbers = true)]
+    replicas: Option<u64>,
+    /// Threads to run on; the results do not depend on it [default: one for each core]
+    #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
+    threads: Option<u64>,
+    /// Overwrite what this command did not write in the folder, or wrote from other input
+    #[arg(long)]
+    force: bool,
+    /// Print nothing but errors
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Studies a scene: where rods meet by the law of its mean and directions, else by every fixed-step subject.
+pub(super) fn converge(args: &Args) -> Result<(), Failure> {
+    let named = args.chosen.load(&Ensemble::default(), &[])?;
+    let at = |message: String| format!("{}: {message}", named.source);
+    let plan = Plan::new(&named.scene).map_err(|error| Failure::Input(at(error.to_string())))?;
+    if plan.keeps(Stage::Contacts) && !law::judges(&plan) {
+        let (key, steps) = (named.scene.steps_key(), named.scene.steps_per_unit());
+        return Err(Failure::Input(at(format!(
+            "converge of interacting rods needs plane Couette flow, only ∂u_2/∂x_1 other than 0, and time.periods; \
+             else halve the time step and compare: sweep --over {key}={steps},{},{}",
+            2 * steps,
+            4 * steps
+        ))));
+    }
+    let stem = format!("converge-{}", named.stem);
+    let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(stem));
+    let input = json!({ "scene": named.scene.resolved(), "replicas": args.replicas });
+    agree("converge", input.clone())?;
+    probe(&out, 0)?;
+    let author = Author::new("converge", input, args.force);
+    if cluster::is_root() {
+        author.check(&out, &["converge.csv", "converge.json", "replicas.csv"])?;
+    }
+    let replicas = args.replicas.map_or(Replicas::CONVERGE, Replicas::Each);
+    let done = match plan.keeps(Stage::Contacts) {
+        true => {
+            let warnings = [plan.warnings(), vec![coarse(&named.scene)]].concat();
+            scene::warn(&named.source, &warnings);
+            on_threads(args.threads, || {
+                interacting(&named.scene, replicas, warnings, args)
+            })?
+        }
+        // Milliseconds: no work for many.
+        false if cluster::is_root() => free(&named.scene).map(Some),
+        false => Ok(None),
+    }
+    .map_err(|failure| match failure {
+        Failure::Input(message) => Failure::Input(at(message)),
+        Failure::Failed(message) => Failure::Failed(at(message)),
+    })?;
+    let Some(done) = done else {
+        return Ok(());
+    };
+    let names: Vec<_> = done.files.iter().map(|(name, _)| name.clone()).collect();
+    author.write(&out, done.files)?;
+    if !args.quiet {
+        let text: String = done.tables.iter().map(ReportTable::text).collect();
+        print(&format!("{text}in {}: {}\n", out.shown(), names.join(", ")))?;
+    }
+    match done.wrong {
+        None => Ok(()),
+        Some(names) => Err(Failure::Failed(at(format!("order not as theory: {names}")))),
+    }
+}
+
+/// What a study leaves.
+struct Done {
+    tables: Vec<ReportTable>,
+    files: Vec<Output>,
+    /// The subjects whose order is not that of theory.
+    wrong: Option<String>,
+}
+
+fn done(tables: Vec<ReportTable>, files: Vec<(&str, Result<String, String>)>) -> Result<Done, Failure> {
+    let written = |(name, text): (&str, Result<String, String>)| Ok((name.to_owned(), text?));
+    let files: Result<_, _> = files.into_iter().map(written).collect();
+    Ok(Done {
+        tables,
+        files: files.map_err(Failure::Failed)?,
+        wrong: None,
+    })
+}
+
+/// Every fixed-step subject on one rod of the scene's mean aspect ratio, from its start, through its periods.
+fn free(scene: &Scene) -> Result<Done, Failure> {
+    if scene.flow.shear_rate_per_s.is_none() {
+        return Err(Failure::Input(
+            "flow: the subjects turn rods in plane Couette flow; shear_rate_per_s is needed".into(),
+        ));
+    }
+    let orders = order::of_scene(scene).ok_or_else(|| {
+        Failure::Input("time: the subjects turn rods through periods; periods is needed".into())
+    })?;
+    let (csv, json) = (export::orders_csv(&orders.studies), build::json(&orders));
+    let wrong: Vec<_> = (orders.studies.iter())
+        .filter(|study| study.found == Found::Not)
+        .map(|study| study.subject.as_str())
+        .collect();
+    let files = vec![("converge.csv", csv), ("converge.json", json)];
+    Ok(Done {
+        wrong: (!wrong.is_empty()).then(|| wrong.join(", ")),
+        ..done(vec![tables::orders(&orders)], files)?
+    })
+}
+
+/// Which of the steps that are tried do not resolve the motion.
+fn coarse(scene: &Scene) -> String {
+    let strain = |steps: u64| strain_per_period(scene.particles.aspect_ratio) / steps as f64;
+    let resolved = resolved_strain(scene.particles.aspect_ratio);
+    let steps = law::STEPS_PER_PERIOD.map(|steps| (steps, strain(steps) > resolved));
+    let coarse = steps.iter().filter(|(_, coarse)| *coarse).count();
+    let (first, last) = (law::STEPS_PER_PERIOD[0], law::STEPS_PER_PERIOD[coarse.max(1) - 1]);
+    format!(
+        "{coarse} of the {} numbers of steps that are tried, {first} to {last} a period (strain per step {:.3} to {:.3}), \
+         do not resolve the motion (strain per step at most {resolved:.3}): they are run on purpose, to show what a \
+         coarse step changes",
+        steps.len(),
+        strain(first),
+        strain(last),
+    )
+}
+
+/// converge.json of an interacting scene.
+#[derive(Serialize)]
+struct Written {
+    warnings: Vec<String>,
+    law: Law,
+    constants: Option<Constants>,
+    splits: Vec<Split>,
+}
+
+/// X̄₁ and the directions of an interacting scene against steps, rods and replicas, and what follows for its cost; none
+/// but on the root.
+fn interacting(
+    scene: &Scene,
+    replicas: Replicas,
+    warnings: Vec<String>,
+    args: &Args,
+) -> Result<Option<Done>, Failure> {
+    let jobs = law::jobs(scene, replicas);
+    memory::check_jobs(&jobs, args.threads)?;
+    if !args.quiet && cluster::is_root() {
+        eprintln!("{}; nothing is kept before it ends", duration::of_jobs(&jobs));
+    }
+    let bar = progress(jobs.iter().map(|job| job.replicas).sum(), "replicas", args.quiet);
+    let found = cluster::share(jobs.len(), |k| jobs[k].run(&|| bar.inc(1)), |_, _| Ok(()));
+    bar.finish_and_clear();
+    let Some(found) = found.map_err(Failure::Failed)? else {
+        return Ok(None);
+    };
+    let law = law::read(scene, &jobs, &found);
+    let mut tables = law_tables::law(&law, strain_per_period(scene.particles.aspect_ratio));
+    let constants = Constants::of(&law);
+    let scopes = [Scope::OwnRods(scene.particles.count), Scope::Unbounded];
+    let splits: Vec<_> = (constants.iter())
+        .flat_map(|constants| scopes.map(|scope| TARGETS.map(|target| constants.cheapest(scope, target))))
+        .flatten()
+        .collect();
+    tables.extend((constants.iter()).map(|constants| suspensions::tables::splits(constants, &splits)));
+    let csv = suspensions::export::law_csv(&law);
+    let blocks = suspensions::export::replicas_csv(&law);
+    let json = build::json(&Written {
+        warnings,
+        law,
+        constants,
+        splits,
+    });
+    let files = vec![
+        ("converge.csv", csv),
+        ("replicas.csv", blocks),
+        ("converge.json", json),
+    ];
+    done(tables, files).map(Some)
+}

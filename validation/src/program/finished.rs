@@ -1,0 +1,161 @@
+//! What `validate` has finished, kept so that it need not run again.
+
+use super::{Failure, print};
+use crate::files::checkpoint::{Checkpoint, on_stop};
+use crate::judge::accept::Verdict;
+use crate::judge::case::{Control, Judged};
+use crate::present::study::Found;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// An outcome without what the case says of itself.
+pub(super) type Ended = (Verdict, Vec<Judged>, Vec<Control>, f64);
+
+/// What a study found, and in how many seconds.
+pub(super) type Measured = (Found, f64);
+
+/// Cases and studies by name.
+#[derive(Default, Serialize, Deserialize)]
+struct State {
+    cases: BTreeMap<String, Ended>,
+    studies: BTreeMap<String, Measured>,
+}
+
+/// What is finished, and the file that has it.
+pub(super) struct Finished {
+    file: Checkpoint,
+    state: Mutex<State>,
+}
+
+impl Finished {
+    /// Goes on from `file` where it is of the same input and build.
+    pub(super) fn open(path: &Path, input: Value, quiet: bool) -> Result<Self, Failure> {
+        let file = Checkpoint::open(path, "validate", input)?;
+        let state: State = file.read()?.unwrap_or_default();
+        file.write(&state)?;
+        let path = path.display().to_string();
+        let (cases, studies) = (state.cases.len(), state.studies.len());
+        if cases + studies > 0 && !quiet {
+            print(&format!(
+                "goes on from {path}: {cases} cases and {studies} studies are finished\n"
+            ))?;
+        }
+        on_stop(move || {
+            Some(format!(
+                "finished cases and studies are kept in {path}, and the same command goes on from there"
+            ))
+        });
+        Ok(Self {
+            file,
+            state: Mutex::new(state),
+        })
+    }
+
+    /// How a case ended, where it is finished.
+    pub(super) fn case(&self, name: &str) -> Option<Ended> {
+        self.state().cases.get(name).cloned()
+    }
+
+    /// Keeps how a case ended.
+    pub(super) fn keep_case(&self, name: &str, ended: &Ended) -> Result<(), Failure> {
+        let mut state = self.state();
+        if state.cases.insert(name.to_owned(), ended.clone()).as_ref() == Some(ended) {
+            return Ok(());
+        }
+        Ok(self.file.write(&*state)?)
+    }
+
+    /// What a study found, where it is finished.
+    pub(super) fn study(&self, name: &str) -> Option<Measured> {
+        self.state().studies.get(name).cloned()
+    }
+
+    /// Keeps what a study found.
+    pub(super) fn keep_study(&self, name: &str, measured: &Measured) -> Result<(), Failure> {
+        let mut state = self.state();
+        state.studies.insert(name.to_owned(), measured.clone());
+        Ok(self.file.write(&*state)?)
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::present::plot::{Curve, Figure, Grid, Map, Points};
+    use crate::present::study::{Exhibit, ReportFigure, ScenePlan};
+    use crate::present::table::{ReportTable, field, of_words};
+    use serde_json::json;
+
+    /// Everything that a study can find, with numbers that texts lose and whole ones that are no counts.
+    fn found() -> Found {
+        let cells = vec![Some(0.1), Some(-0.0), Some(3.0), None];
+        let column = field("x", |x: &Option<f64>| *x);
+        let count = field("n", |x: &Option<f64>| x.map(|x| x as u64));
+        let numbers = ReportTable::new(["numbers", "Numbers"], "some", cells, vec![column, count]);
+        let curve = Curve {
+            label: "curve".into(),
+            x: vec![5e-324, 1.0 / 3.0],
+            y: vec![f64::INFINITY, 2.0],
+            half_band: Some(vec![0.5, 0.25]),
+        };
+        let points = Points {
+            x_error: Some(vec![1.0]),
+            ..Points::default()
+        };
+        let map = Map {
+            cells: vec![vec![0, 1]],
+            limit: vec![(0.5, 1.0)],
+            ..Map::default()
+        };
+        let figure = Figure {
+            curves: vec![curve],
+            points: vec![points],
+            x_span: Some((0.0, 1.0)),
+            grid: Some(Grid {
+                maps: vec![map],
+                ..Grid::default()
+            }),
+            ..Figure::default()
+        };
+        let figure = ReportFigure {
+            figure,
+            cases: vec!["kick-bound".into()],
+            ..ReportFigure::default()
+        };
+        Found {
+            answer: "Yes.".into(),
+            exhibits: vec![
+                Exhibit::both(figure, numbers),
+                of_words("words", "Words", "", &["word"], vec![vec!["1".into()]]).into(),
+            ],
+            files: vec![("curves/fig5.csv".into(), "x\n".into())],
+            plans: vec![ScenePlan {
+                seed: u64::MAX,
+                ..ScenePlan::default()
+            }],
+        }
+    }
+
+    #[test]
+    fn what_is_finished_is_there_again_and_nothing_else() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("kept");
+        let open = || Finished::open(&path, json!({ "seed": 1 }), true).unwrap();
+        let ended: Ended = (Verdict::Pass, Vec::new(), Vec::new(), 0.3);
+        let first = open();
+        first.keep_study("figures", &(found(), 0.1)).unwrap();
+        first.keep_case("kick-bound", &ended).unwrap();
+        drop(first);
+        let again = open();
+        assert_eq!(again.study("figures"), Some((found(), 0.1)));
+        assert_eq!(again.case("kick-bound"), Some(ended));
+        assert!(again.case("figures").is_none() && again.study("kick-bound").is_none());
+    }
+}

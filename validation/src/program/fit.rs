@@ -1,0 +1,247 @@
+//! `shearbed fit`.
+
+mod input;
+mod shifts;
+
+use super::{Failure, MAX_THREADS, on_threads, print, probe, progress, scene, whole};
+use crate::files::build::BUILD;
+use crate::files::output::{Author, Output};
+use crate::files::text::command;
+use crate::input::experiment::MOST_BYTES;
+use crate::present::plot;
+use crate::serve::fit::design::{Candidate, design};
+use crate::serve::fit::elsewhere::look_elsewhere;
+use crate::serve::fit::report::{self, Report};
+use crate::serve::fit::scenes::AS_WRITTEN;
+use crate::serve::fit::search::{Fit, Measured, Problem, Watch, search};
+use crate::serve::fit::{Range, pictures, terminal};
+use crate::serve::sweep::Setting;
+use input::{Input, input};
+use serde_json::{Value, json};
+use shearbed::Plan;
+use shearbed::scene::{MAX_REPLICAS, MAX_SEED, Scene};
+use shifts::{shifts, taken_as_known};
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+/// The most replicas at each value of the parameters, unless asked for more.
+const MOST_REPLICAS: u64 = 1000;
+
+/// Arguments of `fit`.
+#[derive(clap::Args)]
+#[command(after_help = "\
+FILE.csv has the columns t_over_T (or t_s, strain), x1, x1_u, and as you like x2, x2_u, … (docs/fit.md).
+Examples:
+  shearbed fit fig4-n50 --data points.csv --over interaction.alpha=0.05:5
+  shearbed fit fig4-n20 --data n20.csv --data fig4-n50=n50.csv --over interaction.alpha=0.1:2 --over interaction.m=1:6")]
+pub(super) struct Args {
+    /// A scene file, or the name of a built-in scene
+    scene: OsString,
+    /// Measured points of SCENE; SCENE2=FILE.csv: points of another scene, fitted with the same parameters, but for those of one set
+    #[arg(long, value_name = "FILE.csv", required = true)]
+    data: Vec<OsString>,
+    /// A key of the scene to fit, and the range to look in; up to three times. SET:KEY=FROM:TO: a value of its own for the scene
+    /// of the first, second, … --data
+    #[arg(long, value_name = "[SET:]KEY=FROM:TO", required = true, value_parser = Range::parse)]
+    over: Vec<Range>,
+    /// The folder for fit.json, tables and pictures [default: out/fit-<scene>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// The most independent runs at each value of the parameters: so many only where the model's own error asks for them
+    #[arg(long, value_name = "N", default_value_t = MOST_REPLICAS, value_parser = whole(20, MAX_REPLICAS), allow_negative_numbers = true)]
+    replicas: u64,
+    /// The seed of all random numbers, in place of the scene's own
+    #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), allow_negative_numbers = true)]
+    seed: Option<u64>,
+    /// Rods that each measured point is a mean over; without it their sampling is taken to be in the uncertainties
+    #[arg(long, value_name = "N", value_parser = whole(1, u64::MAX), allow_negative_numbers = true)]
+    rods: Option<u64>,
+    /// A key of every scene and the value to give it; can be given more than once
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Setting::parse)]
+    settings: Vec<Setting>,
+    /// Threads to run on; the results do not depend on it [default: one for each core]
+    #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
+    threads: Option<u64>,
+    /// List further points, at all times and at half and twice the concentration, with what each would leave of the uncertainties
+    #[arg(long)]
+    design: bool,
+    /// Overwrite what this command did not write in the folder, or wrote from other input
+    #[arg(long)]
+    force: bool,
+    /// Print nothing but errors and warnings
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// The record of a fit.
+const FIT: &str = "fit.json";
+
+/// What a fit leaves.
+struct Done {
+    fit: Fit,
+    report: Report,
+    figures: Vec<(String, plot::Figure)>,
+    candidates: Vec<Candidate>,
+}
+
+/// Fits keys of a scene to measured points.
+pub(super) fn fit(args: &Args) -> Result<(), Failure> {
+    let input = input(args)?;
+    let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("fit-{}", input.stem)));
+    probe(&out, 0)?;
+    let asked = asked(args, &input)?;
+    let author = Author::new("fit", asked.clone(), args.force);
+    author.check(&out, &[FIT, "residuals.csv", "profiles.csv", "design.csv"])?;
+    let bar = progress(0, "runs", args.quiet);
+    let watch = Watch {
+        planned: &|runs| bar.inc_length(runs),
+        done: &|| bar.inc(1),
+    };
+    let done = on_threads(args.threads, || work(args, &input, &watch))?;
+    bar.finish_and_clear();
+    let done = done?;
+    let times: Vec<&str> = input.scenes.sets.iter().map(|set| set.time.name()).collect();
+    let mut files: Vec<Output> = vec![
+        (
+            "residuals.csv".into(),
+            report::residuals_csv(&done.report, &times).map_err(Failure::Failed)?,
+        ),
+        (
+            "profiles.csv".into(),
+            report::profiles_csv(&done.fit).map_err(Failure::Failed)?,
+        ),
+    ];
+    if args.design {
+        let text = report::design_csv(&done.fit, &done.candidates, &times);
+        files.push(("design.csv".into(), text.map_err(Failure::Failed)?));
+    }
+    for (stem, figure) in &done.figures {
+        files.push((format!("{stem}.svg"), plot::svg(figure).map_err(Failure::Failed)?));
+    }
+    let names: Vec<&str> = std::iter::once(FIT)
+        .chain(files.iter().map(|(name, _)| name.as_str()))
+        .collect();
+    let record = record(&asked, &done, &names)?;
+    let names = names.join(", ");
+    files.push((FIT.into(), record));
+    author.write(&out, files)?;
+    scene::warn(&input.stem, &done.report.warnings);
+    if args.quiet {
+        return Ok(());
+    }
+    let design = (done.report.design.as_ref()).map_or(String::new(), |steps| {
+        terminal::design(&done.fit, steps, &times) + "\n"
+    });
+    print(&format!(
+        "{}\n\n{}\n{design}in {}: {names}\n",
+        terminal::sentence(&done.fit, &done.report),
+        terminal::table(&done.fit, &done.report),
+        out.display(),
+    ))
+}
+
+fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> {
+    let Input { scenes, data, .. } = input;
+    let stopped = |error: String| Failure::Input(error);
+    let model = |values: &[f64]| scenes.model(data, AS_WRITTEN, values);
+    let rods: Vec<f64> = (scenes.sets.iter().enumerate())
+        .map(|(set, _)| {
+            let middle: Vec<f64> = args.over.iter().map(|range| range.from).collect();
+            let count = scenes
+                .scene(set, &middle)
+                .map_or(f64::NAN, |scene| scene.particles.count as f64);
+            args.rods.map_or(0.0, |rods| count / rods as f64)
+        })
+        .collect();
+    let problem = Problem {
+        measured: Measured {
+            data,
+            ranges: &args.over,
+            rods_over_measured: &rods,
+        },
+        model: &model,
+        most_replicas: args.replicas,
+    };
+    let fit = search(&problem, watch).map_err(stopped)?;
+    let unsearched = look_elsewhere(&problem, &fit, watch).map_err(stopped)?;
+    let shifts = shifts(input, &fit, &model, watch).map_err(stopped)?;
+    let mut report = report::report(&fit, data, shifts);
+    report.warnings.extend(unsearched);
+    let known = taken_as_known(&report);
+    report.warnings.extend(known);
+    let mut candidates = Vec::new();
+    if args.design {
+        let found = design(&fit, scenes, data, watch).map_err(stopped)?;
+        report.warnings.extend(found.warnings);
+        report.design = Some(found.steps);
+        candidates = found.candidates;
+    }
+    let best = scenes
+        .plans(&fit.values(&fit.best.place), data, AS_WRITTEN)
+        .map_err(stopped)?;
+    let mut warnings: Vec<String> = best.iter().flat_map(Plan::warnings).collect();
+    warnings.extend(best.iter().filter_map(|plan| not_slender(plan.scene())));
+    warnings.dedup();
+    report.warnings.extend(warnings);
+    let places = pictures::places(data);
+    let drawn = |values: &[f64]| scenes.model(&places, AS_WRITTEN, values);
+    let curves = pictures::best_curves(&fit, &places, &drawn, watch).map_err(stopped)?;
+    let times: Vec<&str> = scenes.sets.iter().map(|set| set.time.name()).collect();
+    let figures = pictures::figures(&fit, &report, data, (&places, &curves), &input.names, &times);
+    Ok(Done {
+        fit,
+        report,
+        figures,
+        candidates,
+    })
+}
+
+/// The largest r_e whose measured points the paper leaves out.
+const LEFT_OUT: f64 = 3.96;
+
+/// That interacting rods are too short for the model.
+fn not_slender(scene: &Scene) -> Option<String> {
+    let aspect_ratio = scene.particles.aspect_ratio;
+    (scene.interaction.is_some() && aspect_ratio <= LEFT_OUT).then(|| {
+        format!(
+            "r_e = {aspect_ratio}: the model is for r_e ≫ 1, and Lee & Springer leave out their measured points of r_e = {LEFT_OUT} \
+             (Results, after Fig. 5)"
+        )
+    })
+}
+
+/// What a fit is of: everything that its results depend on.
+fn asked(args: &Args, input: &Input) -> Result<Value, Failure> {
+    let mut data = Vec::new();
+    for (set, path) in input.scenes.sets.iter().zip(&input.files) {
+        let (_, crc32) = crate::files::bounded::length_and_crc32(path, MOST_BYTES)
+            .map_err(|error| Failure::Input(format!("{}: cannot be read: {error}", path.display())))?;
+        data.push(json!({
+            "scene": set.source, "file": path.display().to_string(), "crc32": crc32, "time": set.time,
+            "seed": set.seed, "scene_text": set.text, "starts": set.starts.checksums()
+        }));
+    }
+    let set = |setting: &Setting| format!("{}={}", setting.key, setting.value);
+    Ok(json!({
+        "data": data,
+        "over": args.over,
+        "set": args.settings.iter().map(set).collect::<Vec<_>>(),
+        "rods": args.rods,
+        "most_replicas": args.replicas,
+    }))
+}
+
+/// The text of `fit.json`.
+fn record(asked: &Value, done: &Done, files: &[&str]) -> Result<String, Failure> {
+    let failed = |error: serde_json::Error| Failure::Failed(error.to_string());
+    let mut record = serde_json::to_value(&done.report).map_err(failed)?;
+    record["build"] = json!(BUILD);
+    record["command"] = json!(command(std::env::args_os()));
+    for (key, value) in asked.as_object().into_iter().flatten() {
+        record[key] = value.clone();
+    }
+    record["files"] = json!(files);
+    serde_json::to_string_pretty(&record)
+        .map(|text| text + "\n")
+        .map_err(failed)
+}

@@ -1,0 +1,217 @@
+//! What `shearbed fit` starts from: scenes, points and ranges, checked.
+
+use super::Args;
+use crate::files::text::line;
+use crate::program::{Failure, memory, scene};
+use crate::serve::fit::Range;
+use crate::serve::fit::basis::MOST_PARAMETERS;
+use crate::serve::fit::data::{self, Datum, MOST_POINTS, TimeColumn};
+use crate::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
+use crate::serve::sweep;
+use shearbed::Plan;
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Tables of a scene that hold no property of rods, liquid or interaction.
+const NOT_FITTED: [&str; 3] = ["ensemble", "output", "time"];
+
+/// Everything a fit starts from.
+pub(super) struct Input {
+    pub(super) scenes: Scenes,
+    pub(super) data: Vec<Datum>,
+    /// What each data set is called, and the file it is from.
+    pub(super) names: Vec<String>,
+    pub(super) files: Vec<PathBuf>,
+    pub(super) stem: String,
+}
+
+/// Reads scenes and points. Every fault of either is found here, before anything runs.
+pub(super) fn input(args: &Args) -> Result<Input, Failure> {
+    if args.over.len() > MOST_PARAMETERS {
+        return Err(Failure::Input(format!(
+            "--over: given {} times; up to {MOST_PARAMETERS} parameters at once are allowed",
+            args.over.len()
+        )));
+    }
+    for set in 0..args.data.len() {
+        one_owner(args, set)?;
+    }
+    for setting in &args.settings {
+        let table = setting.key.split('.').next().unwrap_or_default();
+        if ["ensemble", "output"].contains(&table) {
+            return Err(Failure::Input(format!(
+                "--set {}: a fit takes its own {table}; --replicas and --seed are allowed",
+                setting.key
+            )));
+        }
+    }
+    for range in &args.over {
+        if let Some(none) = range.set.filter(|set| *set > args.data.len()) {
+            return Err(Failure::Input(format!(
+                "--over {}: there is no set {none}; --data is given {} times, and 1 to {} are allowed",
+                range.label(),
+                args.data.len(),
+                args.data.len()
+            )));
+        }
+        let key = &range.key;
+        if let Some(table) = NOT_FITTED
+            .iter()
+            .find(|table| key.split('.').next() == Some(table))
+        {
+            return Err(Failure::Input(format!(
+                "--over {key}: {table} is nothing that points tell; keys of flow, particles and interaction are allowed"
+            )));
+        }
+    }
+    let (mut sets, mut data, mut names, mut files) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut stem = String::new();
+    for (k, given) in args.data.iter().enumerate() {
+        let (scene, path) = scene_and_file(&args.scene, given);
+        let named = scene::load(scene)?;
+        let same = |other: &PathBuf| fs::canonicalize(other).ok() == fs::canonicalize(path).ok();
+        if files.iter().any(same) {
+            return Err(Failure::Input(format!(
+                "--data {}: given twice, and its points would count twice; each file once is allowed",
+                path.display()
+            )));
+        }
+        let points = data::read(path, k).map_err(|error| Failure::Input(error.to_string()))?;
+        within_scene(&named, args, points.time, &points.points, path)?;
+        if k == 0 {
+            stem.clone_from(&named.stem);
+        }
+        names.push(line(&named.scene.title));
+        files.push(path.to_owned());
+        data.extend(points.points);
+        sets.push(Set {
+            seed: args.seed.unwrap_or(named.scene.ensemble.seed),
+            source: named.source,
+            text: named.text,
+            starts: named.starts,
+            settings: args.settings.clone(),
+            time: points.time,
+        });
+    }
+    if data.len() > MOST_POINTS {
+        return Err(Failure::Input(format!(
+            "--data: {} points; at most {MOST_POINTS} are allowed",
+            data.len()
+        )));
+    }
+    if data.len() <= args.over.len() {
+        return Err(Failure::Input(format!(
+            "--data: {} points for {} parameters; more points than parameters are needed",
+            data.len(),
+            args.over.len()
+        )));
+    }
+    for (k, point) in data.iter().enumerate() {
+        let measured = |datum: &Datum| (datum.time.to_bits(), datum.value.to_bits());
+        let same = |other: &&Datum| {
+            other.set != point.set
+                && sets[other.set].source == sets[point.set].source
+                && (measured(other), &other.column) == (measured(point), &point.column)
+        };
+        if let Some(first) = data[..k].iter().find(same) {
+            return Err(Failure::Input(format!(
+                "{}:{}: {} = {} at {} is in {}:{} already: each point of a scene once is allowed",
+                files[point.set].display(),
+                point.line,
+                point.column,
+                point.value,
+                point.time,
+                files[first.set].display(),
+                first.line
+            )));
+        }
+    }
+    let scenes = Scenes::new(sets, args.over.clone()).map_err(Failure::Input)?;
+    let ends = [|range: &Range| range.from, |range: &Range| range.to];
+    for values in ends.map(|end| args.over.iter().map(end).collect::<Vec<f64>>()) {
+        for plan in scenes.plans(&values, &data, AS_WRITTEN).map_err(Failure::Input)? {
+            memory::check(&plan, args.threads, false, &stem)?;
+        }
+    }
+    Ok(Input {
+        scenes,
+        data,
+        names,
+        files,
+        stem,
+    })
+}
+
+/// That each key of a set's scene is set by one flag.
+fn one_owner(args: &Args, set: usize) -> Result<(), Failure> {
+    let over = args.over.iter().filter(|range| range.is_of(set));
+    let over = over.map(|range| ("--over", range.key.as_str()));
+    let given = args
+        .settings
+        .iter()
+        .map(|setting| ("--set", setting.key.as_str()));
+    let seed = args.seed.map(|_| ("--seed", "ensemble.seed"));
+    let owners: Vec<_> = over.chain(given).chain(seed).collect();
+    sweep::one_owner(&owners).map_err(Failure::Input)
+}
+
+/// `FILE` belongs to the scene of the command, `SCENE2=FILE` to another. What exists as a file is one, whatever its name.
+fn scene_and_file<'a>(scene: &'a OsStr, given: &'a OsStr) -> (&'a OsStr, &'a Path) {
+    match given.to_str().and_then(|text| text.split_once('=')) {
+        Some((other, file)) if !Path::new(given).exists() => (OsStr::new(other), Path::new(file)),
+        _ => (scene, Path::new(given)),
+    }
+}
+
+/// Refuses points later than the scene runs: they would make it run for long, and are mostly of another unit.
+fn within_scene(
+    named: &scene::Named,
+    args: &Args,
+    time: TimeColumn,
+    points: &[Datum],
+    path: &Path,
+) -> Result<(), Failure> {
+    let refused = |error: String| Failure::Input(format!("{}: {error}", named.source));
+    let mut scene = sweep::scene_with(&named.text, &args.settings).map_err(refused)?;
+    named.starts.clone().fill(&mut scene).map_err(refused)?;
+    let plan = Plan::new(&scene).map_err(|error| refused(error.to_string()))?;
+    let end = time.end_of(&plan).ok_or_else(|| {
+        Failure::Input(format!(
+            "{}: {} has no periods; t_s or strain are allowed in place of t_over_T",
+            path.display(),
+            named.source
+        ))
+    })?;
+    let key = if scene.time.strain.is_some() {
+        "strain"
+    } else {
+        "periods"
+    };
+    let (most, what) = match (scene.time.strain, time.per_unit(&plan)) {
+        (None, Some(period)) => (0.25 * period, "a quarter of a period"),
+        _ => (end, "the scene's length"),
+    };
+    if let Some(point) = points.iter().find(|point| point.u_time > most * (1.0 + 1e-12)) {
+        return Err(Failure::Input(format!(
+            "{}:{}: column {}_u: `{}` is not allowed: one standard deviation of at most {what}, {most}",
+            path.display(),
+            point.line,
+            time.name(),
+            point.u_time
+        )));
+    }
+    // A point at the very end may be rounded beyond it.
+    match points.iter().find(|point| point.time > end * (1.0 + 1e-12)) {
+        None => Ok(()),
+        Some(point) => Err(Failure::Input(format!(
+            "{}:{}: column {}: `{}` is not allowed: {} ends at {} there; --set time.{key}=… moves that",
+            path.display(),
+            point.line,
+            time.name(),
+            point.time,
+            named.source,
+            end
+        ))),
+    }
+}

@@ -1,0 +1,271 @@
+//! `shearbed grade`.
+
+mod args;
+mod inputs;
+
+pub(super) use args::Args;
+
+use super::{Failure, print};
+use crate::files::output::{self, Author};
+use crate::files::text::Shown;
+use crate::present::plot;
+use crate::serve::grade::live::{self, Mode, Program};
+use crate::serve::grade::{self, Claim, Dump, Graded, LineEnds, Options, Report, Told};
+use crate::serve::problems::{self, Kind, LoadedProblem};
+use serde_json::Value;
+use std::io;
+use std::path::Path;
+use std::time::Duration;
+
+/// Beside the report: error against steps, and error against run time.
+const PICTURES: [&str; 2] = ["steps.svg", "work-precision.svg"];
+
+/// The report.
+const PAGES: [&str; 4] = ["grade.json", "grade.html", "grade.md", "junit.xml"];
+
+/// Grades answers in files, or a program.
+pub(super) fn grade(args: &Args) -> Result<(), Failure> {
+    if args.echo {
+        return live::echo(io::stdin().lock(), io::stdout().lock()).map_err(Failure::Input);
+    }
+    let (report, wanted, inputs) = match (&args.command, &args.reference, &args.mine) {
+        (Some(command), reference, _) => program(args, command, reference.as_deref())?,
+        (None, Some(reference), Some(mine)) => files(args, reference, mine)?,
+        _ => {
+            return Err(Failure::Input(
+                "REF and MINE, or --command, are asked for".to_owned(),
+            ));
+        }
+    };
+    let pictures = pictures(&report, &wanted).map_err(Failure::Failed)?;
+    let inside: Vec<_> = pictures.iter().map(|(_, svg)| svg.as_str()).collect();
+    let html = grade::html(&report, report.passes(args.all), &inside).map_err(Failure::Failed)?;
+    let pages = [
+        grade::json(&report).map_err(Failure::Failed)?,
+        html,
+        grade::markdown(&report),
+        grade::junit(&report),
+    ];
+    let mut files: Vec<_> = PAGES.map(str::to_owned).into_iter().zip(pages).collect();
+    files.extend(pictures);
+    Author::new("grade", inputs, args.force).write(&args.out, files)?;
+    if !args.quiet {
+        let place = args.out.join("grade.html");
+        print(&format!(
+            "{}\nreport: {}\n",
+            grade::terminal(&report),
+            place.shown()
+        ))?;
+    }
+    match report.passes(args.all) {
+        true => Ok(()),
+        false => Err(Failure::Failed(format!(
+            "not every problem passed: {}",
+            report.headline()
+        ))),
+    }
+}
+
+/// The program in bold beside the project's own integrators, as SVG by the name of its file.
+fn pictures(report: &Report, problems: &[LoadedProblem]) -> Result<Vec<output::Output>, String> {
+    let mut pictures = Vec::new();
+    if let Some(steps) = grade::figures::steps(problems, &report.problems) {
+        pictures.push((PICTURES[0].to_owned(), plot::svg_of_one(&steps)?));
+    }
+    if let Some(bench) = report.live.as_ref().and_then(|live| live.work_precision.as_ref()) {
+        pictures.push((PICTURES[1].to_owned(), bench.picture()?));
+    }
+    Ok(pictures)
+}
+
+fn options(args: &Args) -> Options {
+    Options {
+        told: Told {
+            columns: args.columns.clone(),
+            foreign: args.layout,
+            axes: args.axes,
+            ends: match args.windows_text {
+                true => LineEnds::Windows,
+                false => LineEnds::Unix,
+            },
+        },
+        dump: Dump {
+            timestep_s: args.timestep_s,
+            rod_axis: args.rod_axis,
+        },
+        claim: Claim { order: args.order },
+    }
+}
+
+/// Whether a problem of this name is to be graded.
+fn asked_for(args: &Args, name: &str) -> bool {
+    args.problems.is_empty() || args.problems.iter().any(|asked| asked == name)
+}
+
+/// That every name after `--problem` is one of these.
+fn check_names(args: &Args, names: &[String]) -> Result<(), Failure> {
+    match args.problems.iter().find(|name| !names.contains(name)) {
+        None => Ok(()),
+        Some(unknown) => Err(Failure::Input(format!(
+            "--problem {unknown}: no problem has this name; there are {}",
+            names.join(", ")
+        ))),
+    }
+}
+
+/// The problems that are to be graded.
+fn chosen(args: &Args, mut all: Vec<LoadedProblem>) -> Result<Vec<LoadedProblem>, Failure> {
+    all.retain(|loaded| {
+        let of_kind = args.kind.is_none_or(|kind| kind == loaded.problem.kind);
+        of_kind && asked_for(args, &loaded.problem.name)
+    });
+    match all.is_empty() {
+        true => Err(Failure::Input(
+            "no problem is left to grade: --kind and --problem leave none".to_owned(),
+        )),
+        false => Ok(all),
+    }
+}
+
+fn names(all: &[LoadedProblem]) -> Vec<String> {
+    all.iter().map(|loaded| loaded.problem.name.clone()).collect()
+}
+
+/// A report, the problems it is about, and what it depends on.
+type Done = (Report, Vec<LoadedProblem>, Value);
+
+fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
+    let all = problems::read(reference).map_err(|error| Failure::Input(error.to_string()))?;
+    let names = names(&all);
+    check_names(args, &names)?;
+    let wanted = chosen(args, all)?;
+    if !mine.is_dir() {
+        return Err(Failure::Input(format!(
+            "{}: no such folder; answers are asked for in MINE/NAME",
+            mine.shown()
+        )));
+    }
+    output::probe(&args.out, 0)?;
+    let problems = grade::grade(&wanted, mine, &options(args)).map_err(|errors| {
+        let lines: Vec<_> = errors.iter().map(ToString::to_string).collect();
+        Failure::Input(lines.join("\n"))
+    })?;
+    let report = report(
+        reference.shown(),
+        mine.shown(),
+        problems,
+        unknown_folders(mine, &names),
+    );
+    let inputs = inputs::of_files(args, reference, mine, &wanted)?;
+    Ok((report, wanted, inputs))
+}
+
+/// Folders of answers to problems that there are not.
+fn unknown_folders(mine: &Path, names: &[String]) -> Vec<String> {
+    let entries = std::fs::read_dir(mine).into_iter().flatten().flatten();
+    let folders = entries.filter(|entry| entry.path().is_dir());
+    let mut unknown: Vec<_> = folders
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .collect();
+    unknown.retain(|name| !names.contains(name));
+    unknown.sort();
+    let remark = |name: String| {
+        format!(
+            "{}: no problem has this name; it was not read",
+            mine.join(name).shown()
+        )
+    };
+    unknown.into_iter().map(remark).collect()
+}
+
+fn report(reference: String, answers: String, problems: Vec<Graded>, remarks: Vec<String>) -> Report {
+    Report {
+        format: 1,
+        shearbed: env!("CARGO_PKG_VERSION").to_owned(),
+        reference,
+        answers,
+        problems,
+        live: None,
+        remarks,
+    }
+}
+
+/// A problem about anything else is a mistake of the caller, not of a name.
+fn check_rods_alone(args: &Args) -> Result<(), Failure> {
+    const INSTEAD: &str =
+        "a program that runs is asked about single rods only; other answers go into files (grade REF MINE)";
+    let other = |name: &&String| {
+        let of_rods = problems::free_rods().contains(&name.as_str());
+        !of_rods && problems::all().iter().any(|def| def.name == **name)
+    };
+    if let Some(name) = args.problems.iter().find(other) {
+        return Err(Failure::Input(format!("--problem {name}: {INSTEAD}")));
+    }
+    match args.kind {
+        None | Some(Kind::Rods) => Ok(()),
+        Some(_) => Err(Failure::Input(format!("--kind: {INSTEAD}; rods is allowed"))),
+    }
+}
+
+/// The problems that a program is asked.
+fn about_rods(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Failure> {
+    check_rods_alone(args)?;
+    let Some(dir) = reference else {
+        let all: Vec<_> = problems::free_rods().into_iter().map(str::to_owned).collect();
+        check_names(args, &all)?;
+        return Ok(live::built_in(|name| asked_for(args, name)));
+    };
+    let mut rods = problems::read(dir).map_err(|error| Failure::Input(error.to_string()))?;
+    rods.retain(|loaded| loaded.problem.kind == Kind::Rods);
+    check_names(args, &names(&rods))?;
+    chosen(args, rods)
+}
+
+fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done, Failure> {
+    let wanted = about_rods(args, reference)?;
+    output::probe(&args.out, 0)?;
+    let inputs = inputs::of_program(args, reference, &wanted)?;
+    Author::new("grade", inputs.clone(), args.force).check(&args.out, &[&PAGES[..], &PICTURES].concat())?;
+    let timeout = Duration::from_secs_f64(args.timeout);
+    let program = Program::start(command, timeout).map_err(Failure::Input)?;
+    let mode = live::mode(&program);
+    let claim = Claim { order: args.order };
+    let problems: Vec<_> = wanted
+        .iter()
+        .map(|problem| live::grade(&program, problem, mode, claim))
+        .collect();
+    let observed = problems
+        .iter()
+        .filter(|graded| graded.verdict == grade::Verdict::Pass);
+    let theory = live::theory(
+        mode == Mode::Tolerance,
+        observed.filter_map(|graded| graded.observed_order).next(),
+    );
+    let program = program.with_theory(theory);
+    let studies = (!args.brief && program.given_up().is_none()).then(|| live::studies(&program, &echo()));
+    let mut remarks: Vec<_> = studies.iter().flat_map(live::Studies::left_out).collect();
+    remarks.extend(program.breaches());
+    remarks.extend(
+        program
+            .given_up()
+            .map(|reason| format!("the program was given up: {reason}")),
+    );
+    if let Err(end) = program.close() {
+        remarks.push(format!("the program's end: {end}"));
+    }
+    let reference = reference.map_or("built-in problems".to_owned(), |dir| dir.shown());
+    let mut report = report(reference, command.to_owned(), problems, remarks);
+    report.live = studies;
+    Ok((report, wanted, inputs))
+}
+
+/// This program as an echo.
+fn echo() -> String {
+    let words = super::program::again();
+    let words: Vec<_> = words.iter().map(|word| word.to_string_lossy()).collect();
+    let quoted = shlex::try_join(words.iter().map(|word| word.as_ref()));
+    format!(
+        "{} grade --echo",
+        quoted.unwrap_or_else(|_| "shearbed".to_owned())
+    )
+}

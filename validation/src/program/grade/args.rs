@@ -1,0 +1,98 @@
+//! What `shearbed grade` is told.
+
+use crate::serve::grade::{Axes, Foreign};
+use crate::serve::problems::Kind;
+use std::path::PathBuf;
+
+/// Arguments of `grade`.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The folder with the problems, as `problems export` writes it
+    #[arg(value_name = "REF", required_unless_present_any = ["command", "echo"])]
+    pub(super) reference: Option<PathBuf>,
+    /// The folder with the answers: MINE/NAME/answer.csv or MINE/NAME/steps-N.csv
+    #[arg(value_name = "MINE", required_unless_present_any = ["command", "echo"], conflicts_with = "command")]
+    pub(super) mine: Option<PathBuf>,
+    /// Start this program once and ask it by lines of JSON, in place of answers in files
+    #[arg(long, value_name = "PROGRAM ARGS")]
+    pub(super) command: Option<String>,
+    /// The folder for grade.html, grade.json, grade.md, junit.xml and pictures
+    #[arg(long, value_name = "DIR", default_value = "out/grade")]
+    pub(super) out: PathBuf,
+    /// Grade this problem only; can be given more than once
+    #[arg(long = "problem", value_name = "NAME")]
+    pub(super) problems: Vec<String>,
+    /// Grade problems of this kind only: rods, tensor, contact or ensemble
+    #[arg(long, value_name = "KIND", value_parser = kind)]
+    pub(super) kind: Option<Kind>,
+    /// The answer's columns in the order of the file, - for one to leave out: time_s,rod,p3,p1,p2
+    #[arg(
+        long,
+        value_name = "NAMES",
+        value_delimiter = ',',
+        conflicts_with = "layout",
+        allow_hyphen_values = true
+    )]
+    pub(super) columns: Option<Vec<String>>,
+    /// What the program's axes 1, 2, 3 are, as flow,gradient,vorticity; -flow is against the flow
+    #[arg(
+        long,
+        value_name = "AXES",
+        default_value = "gradient,flow,vorticity",
+        allow_hyphen_values = true
+    )]
+    pub(super) axes: Axes,
+    /// The layout of a known program's tables
+    #[arg(long, value_name = "PROGRAM")]
+    pub(super) layout: Option<Foreign>,
+    /// Take CR LF at line ends and a byte order mark, which are refused else
+    #[arg(long)]
+    pub(super) windows_text: bool,
+    /// The order that the program's error is said to have: another observed order fails
+    #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]
+    pub(super) order: Option<f64>,
+    /// LAMMPS dumps: the length of a time step in s, where the dump has no ITEM: TIME
+    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
+    pub(super) timestep_s: Option<f64>,
+    /// LAMMPS dumps: the rod's axis in the body's frame, where shapex, shapey, shapez do not tell
+    #[arg(long, value_name = "x|y|z", value_parser = body_axis)]
+    pub(super) rod_axis: Option<usize>,
+    /// With --command: the most seconds for one answer, and for the answers to one problem together
+    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true, default_value = "10",
+          requires = "command")]
+    pub(super) timeout: f64,
+    /// With --command: verdicts only, without work–precision, longest steps and the stability map
+    #[arg(long, requires = "command")]
+    pub(super) brief: bool,
+    /// Answer requests with their own start: what the pipe itself costs
+    #[arg(long, conflicts_with_all = ["reference", "command"])]
+    pub(super) echo: bool,
+    /// A missing answer is a failure
+    #[arg(long)]
+    pub(super) all: bool,
+    /// Overwrite what this command did not write in the folder, or wrote from other input
+    #[arg(long)]
+    pub(super) force: bool,
+    /// Print nothing but errors
+    #[arg(long)]
+    pub(super) quiet: bool,
+}
+
+fn kind(text: &str) -> Result<Kind, String> {
+    serde_json::from_value(text.into())
+        .map_err(|_| "rods, tensor, contact and ensemble are allowed".to_owned())
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number > 0.0 && number < 1e9 => Ok(number),
+        _ => Err("a positive number below 1e9 is allowed".to_owned()),
+    }
+}
+
+fn body_axis(text: &str) -> Result<usize, String> {
+    ["x", "y", "z"]
+        .iter()
+        .position(|axis| *axis == text)
+        .ok_or_else(|| "x, y and z are allowed".to_owned())
+}

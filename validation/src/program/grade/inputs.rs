@@ -1,0 +1,64 @@
+//! What a grading depends on: references and answers by their checksums, and how they are read.
+
+use super::{Args, options};
+use crate::files::bounded;
+use crate::files::text::Shown;
+use crate::program::Failure;
+use crate::serve::problems::LoadedProblem;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+/// The longest file of an answer.
+const MOST_BYTES: u64 = 1 << 36;
+
+/// The input of a grading of files.
+pub(super) fn of_files(
+    args: &Args,
+    reference: &Path,
+    mine: &Path,
+    wanted: &[LoadedProblem],
+) -> Result<Value, Failure> {
+    let mut inputs = of_program(args, Some(reference), wanted)?;
+    inputs["answers_crc32"] = json!(checksums(mine, wanted)?);
+    Ok(inputs)
+}
+
+/// The input of a grading of a program, which may answer otherwise another time.
+pub(super) fn of_program(
+    args: &Args,
+    reference: Option<&Path>,
+    wanted: &[LoadedProblem],
+) -> Result<Value, Failure> {
+    let reference = reference.map(|dir| checksums(dir, wanted)).transpose()?;
+    let problems: Vec<_> = wanted.iter().map(|loaded| &loaded.problem.name).collect();
+    Ok(json!({
+        "problems": problems,
+        "reference_crc32": reference,
+        "command": args.command,
+        "timeout": args.timeout,
+        "brief": args.brief,
+        "all": args.all,
+        "reading": format!("{:?}", options(args)),
+    }))
+}
+
+/// The checksums of the files in a folder's folder of each problem, by their names.
+fn checksums(dir: &Path, wanted: &[LoadedProblem]) -> Result<BTreeMap<String, String>, Failure> {
+    let mut sums = BTreeMap::new();
+    for name in wanted.iter().map(|loaded| &loaded.problem.name) {
+        // Where there is none, no file of it was read.
+        for entry in fs::read_dir(dir.join(name)).into_iter().flatten().flatten() {
+            let path = entry.path();
+            if !path.is_file() {
+                continue;
+            }
+            let (_, crc32) = bounded::length_and_crc32(&path, MOST_BYTES)
+                .map_err(|error| Failure::Input(format!("{}: cannot be read: {error}", path.shown())))?;
+            let file = format!("{name}/{}", entry.file_name().to_string_lossy());
+            sums.insert(file, format!("{crc32:08x}"));
+        }
+    }
+    Ok(sums)
+}

@@ -1,0 +1,38 @@
+//! Ctrl-C and its like: an end in order.
+
+/// From now on SIGINT, SIGTERM and SIGHUP end the program with a message and the exit code that a shell expects, 128 and
+/// the signal's number, and never in the middle of writing files.
+#[cfg(unix)]
+pub(super) fn watch() {
+    use crate::files::{checkpoint, cluster, output};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::iterator::Signals;
+
+    // Without it the system ends the program as it always did.
+    let Ok(mut signals) = Signals::new([SIGINT, SIGTERM, SIGHUP]) else {
+        return;
+    };
+    let wait = move || {
+        let Some(signal) = signals.forever().next() else {
+            return;
+        };
+        let name = match signal {
+            SIGINT => "SIGINT",
+            SIGTERM => "SIGTERM",
+            _ => "SIGHUP",
+        };
+        let code = 128 + signal;
+        let kept = checkpoint::last_words().unwrap_or_else(|| {
+            "a sweep keeps its finished points, and the same command goes on from them; nothing else is kept".to_owned()
+        });
+        let message = format!("stopped by {name}: files that were not complete were not written; {kept}");
+        cluster::failed(&message, code as u8);
+        crate::serve::grade::live::end_all();
+        output::stop(code)
+    };
+    std::thread::spawn(wait);
+}
+
+/// The system ends the program.
+#[cfg(not(unix))]
+pub(super) fn watch() {}

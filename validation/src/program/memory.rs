@@ -1,0 +1,185 @@
+//! A scene that would not fit in memory says so before it starts.
+
+mod available;
+
+use super::{Failure, rods, tables, threads};
+use crate::studies::suspensions::job::{Job, Look};
+use available::available;
+use shearbed::{Plan, memory};
+
+/// What the program takes beside its work, and what the allocator does not give back.
+const PROGRAM: u64 = 32 << 20;
+
+/// What a thread takes beside its replica: its stack.
+const THREAD: u64 = 2 << 20;
+
+/// Refuses a plan that needs more memory than there is, with `threads` replicas at a time, and with `vtk` files for
+/// ParaView. Where the system does not say what there is, nothing is refused.
+pub(super) fn check(plan: &Plan, threads: Option<u64>, vtk: bool, source: &str) -> Result<(), Failure> {
+    check_beside(plan, threads, vtk, source, 0)
+}
+
+/// The same where so many bytes are held beside each replica.
+pub(super) fn check_beside(
+    plan: &Plan,
+    threads: Option<u64>,
+    vtk: bool,
+    source: &str,
+    beside: u64,
+) -> Result<(), Failure> {
+    let threads = threads::count(threads)?;
+    match available() {
+        Some(free) => fits(plan, threads, vtk, free, beside)
+            .map_err(|message| Failure::Input(format!("{source}: {message}"))),
+        None => Ok(()),
+    }
+}
+
+/// Refuses jobs of which one needs more memory than there is, beside what all leave.
+pub(super) fn check_jobs(jobs: &[Job], threads: Option<u64>) -> Result<(), Failure> {
+    let threads = threads::count(threads)?;
+    let free = available().unwrap_or(u64::MAX);
+    let left: u64 = jobs.iter().map(left_by).sum();
+    for job in jobs {
+        let mut scene = job.scene.clone();
+        scene.ensemble.replicas = job.replicas;
+        let plan = Plan::new(&scene).map_err(|error| Failure::Input(error.to_string()))?;
+        let at_once = threads.min(job.replicas);
+        // Directions are copied to be looked at.
+        let copies = at_once * 24 * scene.particles.count as u64;
+        let needed = memory::bytes(&plan, at_once) + copies + threads * THREAD + PROGRAM + left;
+        if needed > free {
+            return Err(Failure::Input(format!(
+                "particles.count = {}: with {} rods, {at_once} replicas at a time need {} of memory, and {} are free; \
+                 allowed: fewer --threads, --replicas or particles",
+                jobs[0].scene.particles.count,
+                scene.particles.count,
+                size(needed),
+                size(free),
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// What a job leaves until all are done.
+fn left_by(job: &Job) -> u64 {
+    let looks = job.replicas * (job.marks.len() * size_of::<Look>()) as u64;
+    looks + job.followed.min(job.replicas) * 24 * job.scene.particles.count as u64
+}
+
+/// What a run of a plan holds, with its results and their tables and pictures at its end, and so many bytes beside each
+/// replica.
+fn needed(plan: &Plan, threads: u64, vtk: bool, beside: u64) -> u64 {
+    // A text that grows has twice its room.
+    let rods = rods::most_bytes(plan, vtk).saturating_mul(2);
+    let replicas = threads.min(plan.scene().ensemble.replicas);
+    let rest = replicas * beside + threads * THREAD + PROGRAM + tables::most_memory(plan);
+    memory::bytes(plan, threads)
+        .saturating_add(rest)
+        .saturating_add(rods)
+}
+
+/// Refuses every rod at every time that is asked for, where it is they that do not fit.
+fn rods_fit(plan: &Plan, threads: u64, vtk: bool, free: u64) -> Result<(), String> {
+    let mut scene = plan.scene().clone();
+    scene.output.rods_at.clear();
+    let without = Plan::new(&scene).map_err(|error| error.to_string())?;
+    if plan.rods_out() == 0 || needed(&without, threads, false, 0) > free {
+        return Ok(());
+    }
+    Err(format!(
+        "output.rods_at = {:?}: {} times of {} rods in each of {} replicas make files of up to {} and need {} of \
+         memory, and {} are free; allowed: fewer times, rods or replicas",
+        plan.scene().output.rods_at,
+        plan.scene().output.rods_at.len(),
+        plan.scene().particles.count,
+        plan.scene().ensemble.replicas,
+        size(rods::most_bytes(plan, vtk)),
+        size(needed(plan, threads, vtk, 0)),
+        size(free),
+    ))
+}
+
+fn fits(plan: &Plan, threads: u64, vtk: bool, free: u64, beside: u64) -> Result<(), String> {
+    let most = needed(plan, threads, vtk, beside);
+    if most <= free {
+        return Ok(());
+    }
+    rods_fit(plan, threads, vtk, free)?;
+    let replicas = threads.min(plan.scene().ensemble.replicas);
+    let least = needed(plan, 1, vtk, beside);
+    let allowed = match least <= free {
+        true => format!("fewer --threads: {} with one", size(least)),
+        false => format!("fewer: one replica needs {}", size(least)),
+    };
+    Err(format!(
+        "particles.count = {}: {replicas} at a time of {} replicas, with {} outputs each, need {} of memory, and {} are \
+         free; allowed: {allowed}",
+        plan.scene().particles.count,
+        plan.scene().ensemble.replicas,
+        plan.outputs(),
+        size(most),
+        size(free),
+    ))
+}
+
+fn size(bytes: u64) -> String {
+    format!("{:.2} GB", 1e-9 * bytes as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::judge::lab;
+
+    #[test]
+    fn what_does_not_fit_is_refused_with_its_number() {
+        let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
+        scene.particles.count = 10_000_000;
+        scene.ensemble.replicas = 3;
+        let plan = lab::plan(&scene);
+        let one = needed(&plan, 1, false, 0);
+        assert!((1.0e9..1.2e9).contains(&(one as f64)), "{one}");
+        assert_eq!(fits(&plan, 1, false, one, 0), Ok(()));
+        assert!(
+            fits(&plan, 1, false, one, 1).is_err(),
+            "what is held beside counts"
+        );
+        let refused = fits(&plan, 2, false, one, 0).unwrap_err();
+        assert!(
+            refused.starts_with("particles.count = 10000000: 2 at a time of 3 replicas")
+                && refused.contains("fewer --threads"),
+            "{refused}"
+        );
+        assert!(
+            fits(&plan, 1, false, one - 1, 0)
+                .unwrap_err()
+                .contains("fewer: one replica needs 1.")
+        );
+    }
+
+    #[test]
+    fn rods_that_do_not_fit_are_refused_by_their_key() {
+        let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
+        let without = needed(&lab::plan(&scene), 1, false, 0);
+        scene.output.rods_at = vec![0.0, 0.5, 1.0];
+        let plan = lab::plan(&scene);
+        let (table, lines) = (needed(&plan, 1, false, 0), needed(&plan, 1, true, 0));
+        // 300 rods: 57 bytes each, and the text of their rows twice.
+        assert_eq!(table - without, 300 * (57 + 2 * 261));
+        assert_eq!(fits(&plan, 1, true, lines, 0), Ok(()));
+        let refused = fits(&plan, 1, true, lines - 1, 0).unwrap_err();
+        let expected =
+            "output.rods_at = [0.0, 0.5, 1.0]: 3 times of 100 rods in each of 1 replicas make files of up to";
+        assert!(refused.starts_with(expected), "{refused}");
+        // Where the run alone does not fit, the rods are not to blame.
+        let refused = fits(&plan, 1, true, without - 1, 0).unwrap_err();
+        assert!(refused.starts_with("particles.count"), "{refused}");
+        scene.ensemble.replicas = 10_000_000;
+        scene.output.rods_at = (0..51).map(|k| f64::from(k) / 50.0).collect();
+        scene.particles.count = 1_000_000;
+        let refused = fits(&lab::plan(&scene), 1, true, 1 << 40, 0).unwrap_err();
+        assert!(refused.starts_with("output.rods_at"), "{refused}");
+    }
+}

@@ -1,0 +1,273 @@
+//! The commands of the program `shearbed`.
+
+mod bench;
+mod checkpoint;
+mod choice;
+mod cite;
+mod compare;
+mod converge;
+pub mod dependencies;
+mod duration;
+mod facts;
+mod finished;
+mod fit;
+mod grade;
+mod interrupt;
+mod memory;
+mod pictures;
+mod plot;
+mod problems;
+mod program;
+mod record;
+mod reference;
+mod rods;
+mod run;
+mod scene;
+mod shape;
+mod show;
+mod sweep;
+mod tables;
+mod terminal;
+mod threads;
+pub mod tried;
+mod validate;
+
+use crate::files::text::readable;
+use crate::files::{cluster, output, text};
+use crate::present::plot::Figure;
+use clap::{Parser, Subcommand};
+use serde_json::{Value, json};
+use std::ffi::OsString;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use terminal::{log, print, progress};
+use threads::{MAX_THREADS, on_threads};
+
+/// Rigid slender rods in a sheared viscous liquid, after Lee & Springer (1982).
+#[derive(Parser)]
+#[command(name = "shearbed", version, arg_required_else_help = true)]
+#[command(
+    after_help = "Exit codes: 0 all well, 1 a case failed, 2 bad input or usage, or a run that stopped."
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run a scene: tables (CSV), pictures (SVG) and a record of the run (run.json)
+    Run(run::Args),
+    /// Show what a scene will run, what it leaves out, and why
+    Plan(show::PlanArgs),
+    /// List the built-in scenes, or print one to start your own from
+    Scenes(show::ScenesArgs),
+    /// Run the verification and validation cases and write the report
+    Validate(validate::Args),
+    /// Measure error against run time: integrators of one free rod, suspensions, and the speed of the core
+    Bench(bench::Args),
+    /// Run a scene at every point of a grid of its keys' values: one row a point
+    Sweep(sweep::Args),
+    /// Show how a scene's results depend on the step, and for interacting rods on their number and the replicas
+    Converge(converge::Args),
+    /// Fit keys of a scene to measured points: estimates, intervals, goodness of fit
+    Fit(fit::Args),
+    /// Grade any program's answers to the reference problems, from files or while it runs
+    Grade(grade::Args),
+    /// List the reference problems for any program, or export them with their certified answers
+    Problems(problems::Args),
+    /// List the aspect ratio r_e of the ellipsoid that turns as a cylinder does, by published formulas
+    Shape(shape::Args),
+    /// Draw one picture of a channel from several runs, or from the points of a sweep
+    Plot(plot::Args),
+    /// Show what changed between two reports: verdicts, errors, speed
+    Compare(compare::Args),
+    /// Print BibTeX for this build
+    Cite,
+    /// Exact values without a simulation: one free rod, or means over isotropic rods, as CSV
+    Reference(reference::Args),
+}
+
+/// Why a command did not end well.
+#[derive(Debug)]
+enum Failure {
+    /// Bad input or usage, a scene that cannot be computed, or a file that cannot be read or written.
+    Input(String),
+    /// A case failed, or the program did.
+    Failed(String),
+}
+
+impl Failure {
+    fn message_and_code(self) -> (String, u8) {
+        match self {
+            Self::Failed(message) => (message, 1),
+            Self::Input(message) => (message, 2),
+        }
+    }
+}
+
+/// Runs the command of the process's arguments.
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return told(&error),
+    };
+    let joined = match cluster::Joined::new() {
+        Ok(joined) => joined,
+        Err(message) => return cluster::failed(&message, 2),
+    };
+    if cluster::size() == 1 {
+        // Else the job's starter tells all ranks to end, and says why.
+        interrupt::watch();
+    }
+    match joined.caught(|| command(cli.command)) {
+        Ok(Ok(())) => joined.end(),
+        Ok(Err(failure)) => {
+            let (message, code) = failure.message_and_code();
+            joined.fail(&message, code)
+        }
+        Err(panic) => joined.fail(&panic, 101),
+    }
+}
+
+/// The same in a process of another program, and without ranks: `program` are the words that start it, `arguments` what
+/// follows them. The exit code.
+pub fn main_of(program: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
+    program::give(program, arguments.clone());
+    let cli = match Cli::try_parse_from(with_name(arguments)) {
+        Ok(cli) => cli,
+        Err(error) => {
+            told(&error);
+            return error.exit_code() as u8;
+        }
+    };
+    interrupt::watch();
+    match command(cli.command).map_err(Failure::message_and_code) {
+        Ok(()) => 0,
+        Err((message, code)) => {
+            cluster::failed(&message, code);
+            code
+        }
+    }
+}
+
+/// Runs a command, without its name as the first word, inside another program: no signal is watched for, and what went
+/// wrong comes back in the program's words, with its exit code.
+pub fn call(arguments: Vec<OsString>) -> Result<(), (String, u8)> {
+    let cli = Cli::try_parse_from(with_name(arguments))
+        .map_err(|error| (error.to_string(), error.exit_code() as u8))?;
+    command(cli.command).map_err(Failure::message_and_code)
+}
+
+/// What `shearbed plot` draws of these folders; on error, why not.
+pub fn figure(dirs: &[PathBuf], channel: Option<&str>) -> Result<Figure, String> {
+    let drawn = plot::figure(dirs, channel);
+    drawn
+        .map(|(figure, _)| figure)
+        .map_err(|failure| failure.message_and_code().0)
+}
+
+fn with_name(arguments: Vec<OsString>) -> Vec<OsString> {
+    std::iter::once("shearbed".into()).chain(arguments).collect()
+}
+
+/// Whether a plan fits into memory, with so many replicas at a time; why not.
+pub fn fits(plan: &shearbed::Plan, threads: Option<u64>, source: &str) -> Result<(), String> {
+    memory::check(plan, threads, false, source).map_err(|failure| failure.message_and_code().0)
+}
+
+/// Says what is wrong with the arguments, or how to use them.
+fn told(error: &clap::Error) -> ExitCode {
+    let (message, code) = (error.to_string(), error.exit_code());
+    let written = match error.use_stderr() {
+        true => io::stderr().write_all(readable(&text::shortened(&message)).as_bytes()),
+        false => io::stdout().write_all(message.as_bytes()),
+    };
+    // Where even this cannot be written, the exit code has to say it.
+    drop(written);
+    ExitCode::from(code as u8)
+}
+
+impl Command {
+    /// Whether ranks share its work; such a command tells them its input itself.
+    fn is_shared(&self) -> bool {
+        matches!(
+            self,
+            Self::Run(_) | Self::Validate(_) | Self::Sweep(_) | Self::Converge(_)
+        )
+    }
+}
+
+fn command(command: Command) -> Result<(), Failure> {
+    threads::check()?;
+    if !command.is_shared() {
+        let words = program::words();
+        let name = words.get(1).map(|word| word.to_string_lossy().into_owned());
+        agree(&name.unwrap_or_default(), json!({}))?;
+        if !cluster::is_root() {
+            return Ok(());
+        }
+    }
+    match command {
+        Command::Run(args) => run::run(&args),
+        Command::Validate(args) => validate::validate(args),
+        Command::Sweep(args) => sweep::sweep(&args),
+        Command::Converge(args) => converge::converge(&args),
+        Command::Plan(args) => show::plan(&args),
+        Command::Scenes(args) => show::scenes(&args),
+        Command::Bench(args) => bench::bench(&args),
+        Command::Fit(args) => fit::fit(&args),
+        Command::Grade(args) => grade::grade(&args),
+        Command::Problems(args) => problems::problems(&args),
+        Command::Shape(args) => shape::shape(&args),
+        Command::Plot(args) => plot::plot(&args),
+        Command::Compare(args) => compare::compare(&args),
+        Command::Cite => cite::cite(),
+        Command::Reference(args) => reference::reference(&args),
+    }
+}
+
+/// Whether the root can write files into `dir`, so many bytes of them and a little more: known before a long run.
+fn probe(dir: &Path, bytes: u64) -> Result<(), Failure> {
+    /// Pictures, records and what folders need.
+    const MORE: u64 = 1 << 20;
+    match cluster::is_root() {
+        true => Ok(output::probe(dir, bytes + MORE)?),
+        false => Ok(()),
+    }
+}
+
+/// Refuses ranks with other inputs than the root's, before anything runs.
+fn agree(command: &str, input: Value) -> Result<(), Failure> {
+    cluster::agree(command, input).map_err(Failure::Input)
+}
+
+/// A parser of whole numbers whose error says what is allowed.
+fn whole(least: u64, most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone + Send + Sync + 'static {
+    move |text| match text.parse() {
+        Ok(number) if (least..=most).contains(&number) => Ok(number),
+        _ => Err(format!("a whole number from {least} to {most} is allowed")),
+    }
+}
+
+impl From<crate::files::checkpoint::Refused> for Failure {
+    fn from(refused: crate::files::checkpoint::Refused) -> Self {
+        Self::Input(refused.0)
+    }
+}
+
+impl From<output::Refused> for Failure {
+    fn from(refused: output::Refused) -> Self {
+        match refused {
+            output::Refused::Other(message) => Self::Input(message),
+            output::Refused::Output(error) => error.into(),
+        }
+    }
+}
+
+impl From<crate::files::output::OutputError> for Failure {
+    fn from(error: crate::files::output::OutputError) -> Self {
+        Self::Input(error.to_string())
+    }
+}

@@ -1,0 +1,93 @@
+//! Results as pictures: each observable's means against time with 95 % bands.
+
+use crate::present::plot::{Curve, Figure};
+use shearbed::ensemble::{Column, Series};
+use shearbed::{Observable, Results, Scene};
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// The stems of the names of an observable's pictures.
+pub(super) fn stems(observable: Observable) -> Vec<String> {
+    let stem = observable.name().to_owned();
+    match observable {
+        Observable::OrbitConstant => vec![stem.clone(), format!("{stem}_density")],
+        _ => vec![stem],
+    }
+}
+
+/// The pictures of an observable, each with the stem of its file's name.
+pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<(String, Figure)> {
+    let stem = series.observable.name();
+    let half_widths = half_widths(scene);
+    let figure = |x_name: &str, y_name: &str, curves| Figure {
+        title: scene.title.clone(),
+        x_name: x_name.to_owned(),
+        y_name: y_name.to_owned(),
+        curves,
+        ..Figure::default()
+    };
+    let time_name = if results.time_name == "strain" {
+        "strain"
+    } else {
+        "t/T"
+    };
+    let against_time = |channels: &[Column]| {
+        let curve = |channel: &Column| Curve {
+            label: channel.name.clone(),
+            x: results.times.clone(),
+            y: channel.mean.clone(),
+            half_band: half_widths.map(|factor| channel.se.iter().map(|se| factor * se).collect()),
+        };
+        figure(
+            time_name,
+            y_name(series.observable),
+            channels.iter().map(curve).collect(),
+        )
+    };
+    match (series.observable, series.columns.split_first()) {
+        (Observable::OrbitConstant, Some((mean, density))) => {
+            let ends = [0, results.times.len().saturating_sub(1)];
+            let curves = ends.map(|output| Curve {
+                label: format!("{time_name} = {}", results.times[output]),
+                x: (0..density.len())
+                    .map(|bin| (bin as f64 + 0.5) / density.len() as f64)
+                    .collect(),
+                y: density.iter().map(|channel| channel.mean[output]).collect(),
+                half_band: half_widths.map(|factor| {
+                    density
+                        .iter()
+                        .map(|channel| factor * channel.se[output])
+                        .collect()
+                }),
+            });
+            let density = figure("C_b = C/(1 + C)", "density", curves.into());
+            vec![
+                (stem.to_owned(), against_time(std::slice::from_ref(mean))),
+                (format!("{stem}_density"), density),
+            ]
+        }
+        _ => vec![(stem.to_owned(), against_time(&series.columns))],
+    }
+}
+
+fn y_name(observable: Observable) -> &'static str {
+    match observable {
+        Observable::Projections => "mean projection on an axis",
+        Observable::PlanarProjections => "mean projection on a plane",
+        Observable::MeanAngle => "mean angle φ (rad)",
+        Observable::OrbitConstant => "mean C_b",
+        Observable::OrientationTensor => "mean of p_i p_j",
+        Observable::OrientationTensor4 => "mean of p_i p_j p_k p_l",
+        Observable::ParticleStress => "stress of the rods over μ_fiber G",
+    }
+}
+
+/// Half the width of a 95 % band in standard errors: Student's t for the replicas, or for the rods of one replica.
+/// `None` where one value has no standard error.
+pub(super) fn half_widths(scene: &Scene) -> Option<f64> {
+    let samples = match scene.ensemble.replicas {
+        1 => scene.particles.count as u64,
+        replicas => replicas,
+    };
+    let student = StudentsT::new(0.0, 1.0, samples.checked_sub(1)? as f64).ok()?;
+    Some(student.inverse_cdf(0.975))
+}

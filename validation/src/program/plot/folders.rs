@@ -1,0 +1,116 @@
+//! The runs that folders of `shearbed run` and `shearbed sweep` hold, if they are as they were written.
+
+use crate::files::bounded;
+use crate::files::output::{RECORD, Record, Sum};
+use crate::files::text::Shown;
+use crate::program::Failure;
+use crate::serve::sweep::POINT;
+use serde::Deserialize;
+use serde_json::Value;
+use shearbed::Scene;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// A folder of tables, what it is called, its scene, and the sums of its files.
+pub(super) struct Run {
+    pub(super) dir: PathBuf,
+    pub(super) label: String,
+    pub(super) scene: Scene,
+    pub(super) sums: BTreeMap<String, Sum>,
+}
+
+/// What `point.json` says.
+#[derive(Deserialize)]
+struct PointRecord {
+    point: String,
+    files: BTreeMap<String, Sum>,
+}
+
+/// The longest record.
+const MOST_BYTES: u64 = 64 << 20;
+
+/// The runs that a folder holds: itself, or all points of a sweep.
+pub(super) fn runs_in(dir: &Path) -> Result<Vec<Run>, Failure> {
+    let refused = |path: &Path, what: &str| Failure::Input(format!("{}: {what}", path.shown()));
+    let is_there = |name: &str| dir.join(name).symlink_metadata().is_ok();
+    if !["run.json", "sweep.json", RECORD].into_iter().any(is_there) {
+        let what = "neither run.json nor sweep.json is in it; a folder that `shearbed run` or `shearbed sweep` wrote is allowed";
+        return Err(refused(dir, what));
+    }
+    let path = dir.join(RECORD);
+    let record = Record::read(dir).map_err(|why| refused(&path, &why))?;
+    let record = record.ok_or_else(|| {
+        let what = "is missing: it has the checksums of the folder's files; run the command that wrote the folder again";
+        refused(&path, what)
+    })?;
+    match record.command.as_str() {
+        "run" => Ok(vec![Run {
+            label: name(dir),
+            scene: scene(dir, "run.json", &record)?,
+            dir: dir.to_owned(),
+            sums: record.files,
+        }]),
+        "sweep" => points(dir, &record),
+        other => Err(refused(
+            &path,
+            &format!("is of `shearbed {other}`; `run` and `sweep` are allowed"),
+        )),
+    }
+}
+
+fn name(dir: &Path) -> String {
+    let own = dir.canonicalize().unwrap_or(dir.to_owned());
+    own.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// The points of a sweep, which must be finished.
+fn points(dir: &Path, record: &Record) -> Result<Vec<Run>, Failure> {
+    if !record.files.contains_key("sweep.csv") {
+        return Err(Failure::Input(format!(
+            "{}: the sweep is not finished: the same `shearbed sweep` goes on with it",
+            dir.shown()
+        )));
+    }
+    let scene = scene(dir, "sweep.json", record)?;
+    let of_points = (record.files.keys()).filter_map(|name| Some((name, name.strip_suffix(POINT)?)));
+    let point = |(name, folder): (&String, &str)| {
+        let point: PointRecord = json(dir, name, record)?;
+        Ok(Run {
+            label: point.point,
+            scene: scene.clone(),
+            dir: dir.join(folder),
+            sums: point.files,
+        })
+    };
+    of_points.map(point).collect()
+}
+
+fn scene(dir: &Path, name: &str, record: &Record) -> Result<Scene, Failure> {
+    let mut whole: Value = json(dir, name, record)?;
+    serde_json::from_value(whole["scene"].take()).map_err(|error| {
+        let path = dir.join(name);
+        Failure::Input(format!(
+            "{}: scene: is no scene of this version: {error}",
+            path.shown()
+        ))
+    })
+}
+
+/// A file in JSON that is as it was written.
+fn json<T: serde::de::DeserializeOwned>(dir: &Path, name: &str, record: &Record) -> Result<T, Failure> {
+    let path = dir.join(name);
+    let at = |what: String| Failure::Input(format!("{}: {what}", path.shown()));
+    let bytes = bounded::bytes(&path, MOST_BYTES).map_err(|error| at(format!("cannot be read: {error}")))?;
+    if record.files.get(name) != Some(&Sum::of(&bytes)) {
+        return Err(at(changed()));
+    }
+    serde_json::from_slice(&bytes).map_err(|error| at(format!("is no record: {error}")))
+}
+
+/// That a file is not as it was written.
+pub(super) fn changed() -> String {
+    format!(
+        "was changed after it was written: it has another checksum than {RECORD} or {POINT} says; run the command that wrote it \
+         again"
+    )
+}

@@ -1,0 +1,70 @@
+//! `run.json`: what ran, so that it can be run again.
+
+use super::facts::{Facts, warnings};
+use crate::files::build::{BUILD, Build};
+use crate::files::text::command;
+use serde::Serialize;
+use shearbed::plan::Entry;
+use shearbed::work::Counters;
+use shearbed::{Plan, Results, Scene};
+
+/// Wall times in seconds.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub(super) struct Seconds {
+    /// Reading the scene and planning.
+    pub(super) plan: f64,
+    /// All replicas.
+    pub(super) run: f64,
+    /// Tables and pictures, without writing them.
+    pub(super) tables_and_pictures: f64,
+}
+
+#[derive(Serialize)]
+struct Record<'a> {
+    #[serde(flatten)]
+    build: Build,
+    /// The command line, for a shell.
+    command: String,
+    /// With every default written out.
+    scene: Scene,
+    facts: Facts,
+    seed: u64,
+    plan: &'a [Entry],
+    plan_text: String,
+    /// What to know before trusting the results.
+    warnings: Vec<String>,
+    counters: Counters,
+    /// Processes of an MPI job.
+    ranks: usize,
+    /// Of each rank.
+    threads: usize,
+    seconds: Seconds,
+    files: Vec<&'a str>,
+}
+
+/// The text of `run.json`.
+pub(super) fn json(
+    plan: &Plan,
+    results: &Results,
+    threads: usize,
+    seconds: Seconds,
+    files: Vec<&str>,
+) -> Result<String, String> {
+    let record = Record {
+        build: BUILD,
+        command: command(super::program::words()),
+        scene: plan.scene().resolved(),
+        facts: Facts::of(plan),
+        seed: plan.scene().ensemble.seed,
+        plan: plan.entries(),
+        plan_text: plan.to_string(),
+        warnings: warnings(plan),
+        counters: results.counters,
+        ranks: crate::files::cluster::size(),
+        threads,
+        seconds,
+        files,
+    };
+    let text = serde_json::to_string_pretty(&record).map_err(|error| error.to_string())?;
+    Ok(text + "\n")
+}

@@ -1,0 +1,261 @@
+//! `shearbed reference`.
+
+use super::{Failure, print};
+use crate::files::output;
+use crate::files::text::Shown;
+use crate::oracle::reference::big::{Bits, decimal, digits, double};
+use crate::oracle::reference::constants::{self, Constant};
+use crate::oracle::reference::motion::{LARGEST_STRAIN, Motion, Unit};
+use crate::oracle::reference::rod::Direction;
+use crate::oracle::reference::table::{self, NoValue, Start};
+use crate::oracle::reference::unequal::LONGEST_TURNS;
+use std::path::{Path, PathBuf};
+
+/// Arguments of `reference`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// r_e, from 1e-100 to 1e100
+    #[arg(long, value_name = "R", value_parser = aspect_ratio, allow_negative_numbers = true)]
+    aspect_ratio: f64,
+    /// Where rods point at t = 0: `isotropic`, or one rod's angles φ,θ in degrees
+    #[arg(long, value_name = "isotropic|PHI_DEG,THETA_DEG", default_value = "isotropic", value_parser = start, allow_hyphen_values = true)]
+    start: From,
+    /// COUNT evenly spaced times with both ends; COUNT = 1: the time FROM
+    #[arg(long, value_name = "FROM:TO:COUNT", value_parser = times, allow_hyphen_values = true, required_unless_present_any = ["constants", "explain"])]
+    times: Option<Times>,
+    /// What times count: periods of (mean) r_e, strain, or seconds
+    #[arg(long, value_name = "period|strain|s", default_value = "period", value_parser = unit)]
+    unit: Unit,
+    /// G of plane Couette flow, u_2 = G x_1
+    #[arg(long, value_name = "G", default_value = "1", value_parser = rate, allow_negative_numbers = true)]
+    shear_rate_per_s: f64,
+    /// Another steady flow: nine numbers ∂u_i/∂x_j, row by row, in 1/s
+    #[arg(long, value_name = "L11,L12,…,L33", value_parser = gradient, conflicts_with = "shear_rate_per_s", allow_hyphen_values = true)]
+    gradient_per_s: Option<[[f64; 3]; 3]>,
+    /// Standard deviation of a Gaussian r_e in percent of the mean, for isotropic starts
+    #[arg(long, value_name = "PERCENT", default_value = "0", value_parser = deviation, allow_negative_numbers = true)]
+    aspect_ratio_sd_percent: f64,
+    /// The fourth moments a_ijkl of an isotropic start in place of its other means
+    #[arg(long)]
+    fourth: bool,
+    /// What does not change with time: T, ⟨φ⟩, C_b, means over phases, plateaus
+    #[arg(long, conflicts_with_all = ["times", "fourth", "aspect_ratio_sd_percent", "explain"])]
+    constants: bool,
+    /// Say what each column is, its unit and its equation, and compute nothing
+    #[arg(long)]
+    explain: bool,
+    /// A file for the CSV, in place of standard output
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Overwrite the file where it is there with other contents
+    #[arg(long, requires = "out")]
+    force: bool,
+}
+
+/// What `--start` says.
+#[derive(Clone, Copy, Debug)]
+enum From {
+    Isotropic,
+    Angles { phi_deg: f64, theta_deg: f64 },
+}
+
+/// What `--times` says.
+#[derive(Clone, Debug)]
+struct Times(Vec<f64>);
+
+/// Prints or writes reference values.
+pub(super) fn reference(args: &Args) -> Result<(), Failure> {
+    let rate = args.shear_rate_per_s;
+    let couette = [[0.0; 3], [rate, 0.0, 0.0], [0.0; 3]];
+    let motion = Motion {
+        gradient_per_s: args.gradient_per_s.unwrap_or(couette),
+        aspect_ratio: args.aspect_ratio,
+    };
+    let direction = match args.start {
+        From::Isotropic => None,
+        From::Angles { phi_deg, theta_deg } => Some(Direction::Angles { phi_deg, theta_deg }),
+    };
+    let text = if args.constants {
+        let constants = constants::constants(&motion, direction).ok_or_else(|| no_couette("--constants"))?;
+        constants_csv(&constants)
+    } else {
+        let start = start_of(args, direction)?;
+        match (args.explain, &args.times) {
+            (false, Some(Times(times))) => values(args, &motion, start, times)?,
+            _ => explained(start),
+        }
+    };
+    match &args.out {
+        Some(path) => write(path, text, args.force),
+        None => print(&text),
+    }
+}
+
+fn start_of(args: &Args, direction: Option<Direction>) -> Result<Start, Failure> {
+    let sd = args.aspect_ratio_sd_percent;
+    match direction {
+        None => Ok(Start::Isotropic {
+            aspect_ratio_sd_percent: sd,
+            fourth: args.fourth,
+        }),
+        Some(_) if sd != 0.0 => Err(isotropic_only(&format!("--aspect-ratio-sd-percent {sd}"))),
+        Some(_) if args.fourth => Err(isotropic_only("--fourth")),
+        Some(direction) => Ok(Start::Rod(direction)),
+    }
+}
+
+fn values(args: &Args, motion: &Motion, start: Start, times: &[f64]) -> Result<String, Failure> {
+    let table = table::table(motion, start, times, args.unit).map_err(|why| refused(args, why))?;
+    let names = table.columns.iter().map(|column| column.name.clone());
+    let header: Vec<_> = names.collect();
+    let mut text = header.join(",") + "\n";
+    for row in &table.rows {
+        let fields: Vec<_> = row
+            .iter()
+            .map(|value| value.map_or(String::new(), |x| format!("{x:?}")))
+            .collect();
+        text += &(fields.join(",") + "\n");
+    }
+    Ok(text)
+}
+
+fn constants_csv(constants: &[Constant]) -> String {
+    let mut text = String::from("quantity,value,unit,equation\n");
+    for constant in constants {
+        let value = digits(&constant.value, 25);
+        text += &format!(
+            "{},{value},{},\"{}\"\n",
+            constant.quantity, constant.unit, constant.equation
+        );
+    }
+    text
+}
+
+fn explained(start: Start) -> String {
+    let columns = table::columns(start);
+    let line =
+        |column: &table::Column| format!("{:<10} {:<4} {}\n", column.name, column.unit, column.equation);
+    columns.iter().map(line).collect::<String>()
+        + "Numbers before words are equations of Lee & Springer (1982). Values are correctly rounded doubles at exactly the time in \
+           the unit of --unit; the other times are rounded. With --aspect-ratio-sd-percent they are rounded to eleven decimals.\n"
+}
+
+fn write(path: &Path, text: String, force: bool) -> Result<(), Failure> {
+    if path.file_name().is_none() {
+        return Err(Failure::Input(format!("--out {}: is no file name", path.shown())));
+    }
+    Ok(output::write_one(path, text.as_bytes(), force)?)
+}
+
+fn no_couette(flag: &str) -> Failure {
+    Failure::Input(format!(
+        "{flag}: this flow has none; plane Couette flow, --shear-rate-per-s G or a gradient with L21 alone, is allowed"
+    ))
+}
+
+fn isotropic_only(flag: &str) -> Failure {
+    Failure::Input(format!(
+        "{flag}: is of many rods; only --start isotropic is allowed with it"
+    ))
+}
+
+fn refused(args: &Args, why: NoValue) -> Failure {
+    Failure::Input(match why {
+        NoValue::Unit => "--unit: this flow has no such unit of time; s is allowed, strain where it stretches, and period in plane \
+                          Couette flow (--shear-rate-per-s G)"
+            .into(),
+        NoValue::Strain => format!(
+            "--times: |L|t is above {LARGEST_STRAIN}, the most that is allowed in a flow other than plane Couette flow"
+        ),
+        NoValue::Time => "--times: a time in s, strain or periods is no finite double; smaller times are allowed".into(),
+        NoValue::Unequal => format!(
+            "--aspect-ratio-sd-percent {}: is allowed in plane Couette flow, up to {LONGEST_TURNS} periods, without --fourth, for \
+             r_e from 1e-4 to 1e4 of which eight standard deviations do not reach 1 or 0",
+            args.aspect_ratio_sd_percent
+        ),
+    })
+}
+
+fn number(text: &str, allowed: impl Fn(f64) -> bool, words: &str) -> Result<f64, String> {
+    let number = decimal(text).map(|x| double(&x)).filter(|x| allowed(*x));
+    number.ok_or_else(|| format!("{words} is allowed"))
+}
+
+fn aspect_ratio(text: &str) -> Result<f64, String> {
+    number(
+        text,
+        |r| (1e-100..=1e100).contains(&r),
+        "a number from 1e-100 to 1e100",
+    )
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    let words = "a number with a size from 1e-100 to 1e100";
+    number(text, |g| (1e-100..=1e100).contains(&g.abs()), words)
+}
+
+fn deviation(text: &str) -> Result<f64, String> {
+    number(
+        text,
+        |sd| (0.0..100.0).contains(&sd),
+        "a number from 0 to below 100",
+    )
+}
+
+fn unit(text: &str) -> Result<Unit, String> {
+    match text {
+        "period" => Ok(Unit::Period),
+        "strain" => Ok(Unit::Strain),
+        "s" => Ok(Unit::Second),
+        _ => Err("period, strain or s is allowed".into()),
+    }
+}
+
+fn start(text: &str) -> Result<From, String> {
+    let words = "`isotropic`, or φ,θ in degrees with θ from 0 to 180,";
+    match text.split_once(',') {
+        None if text == "isotropic" => Ok(From::Isotropic),
+        None => Err(format!("{words} is allowed")),
+        Some((phi, theta)) => Ok(From::Angles {
+            phi_deg: number(phi, |_| true, words)?,
+            theta_deg: number(theta, |theta| (0.0..=180.0).contains(&theta), words)?,
+        }),
+    }
+}
+
+fn gradient(text: &str) -> Result<[[f64; 3]; 3], String> {
+    let words = "nine finite numbers with sizes from 1e-100 to 1e100 or 0, separated by commas,";
+    let within = |x: f64| x == 0.0 || (1e-100..=1e100).contains(&x.abs());
+    let entries = text.split(',').map(|entry| number(entry, within, words));
+    let entries: Vec<f64> = entries.collect::<Result<_, _>>()?;
+    match <[f64; 9]>::try_from(entries) {
+        Ok(l) => Ok([[l[0], l[1], l[2]], [l[3], l[4], l[5]], [l[6], l[7], l[8]]]),
+        Err(_) => Err(format!("{words} are allowed")),
+    }
+}
+
+/// The most times at once.
+const MOST: u64 = 100_000;
+
+fn times(text: &str) -> Result<Times, String> {
+    let refuse = || format!("FROM:TO:COUNT with finite FROM ≤ TO and a COUNT from 1 to {MOST} is allowed");
+    let parts: Vec<_> = text.split(':').collect();
+    let [from, to, count] = parts[..] else {
+        return Err(refuse());
+    };
+    let count = count
+        .parse::<u64>()
+        .ok()
+        .filter(|count| (1..=MOST).contains(count));
+    let (Some(from), Some(to), Some(count)) = (decimal(from), decimal(to), count) else {
+        return Err(refuse());
+    };
+    if from > to {
+        return Err(refuse());
+    }
+    // Exact until the end, so that a time is the double nearest to its decimal.
+    let gaps = Bits(400).of((count - 1).max(1) as f64);
+    let span = to - &from;
+    let time = |k: u64| &from + &span * Bits(400).of(k as f64) / &gaps;
+    Ok(Times((0..count).map(|k| double(&time(k))).collect()))
+}

@@ -1,0 +1,174 @@
+//! Finding the scene that the command line names, with the keys that it sets.
+
+use super::{Failure, whole};
+use crate::files::bounded;
+use crate::files::cluster;
+use crate::files::text::Shown;
+use crate::files::text::line;
+use crate::input::scenes;
+use crate::input::start::Starts;
+use crate::serve::sweep::{self, Axis, Setting};
+use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
+use shearbed::{Scene, scene_file};
+use std::ffi::{OsStr, OsString};
+use std::io::Write;
+use std::path::Path;
+use toml::Value;
+
+/// Which scene, and with which keys set.
+#[derive(clap::Args)]
+pub(super) struct Chosen {
+    /// A scene file, or the name of a built-in scene (`shearbed scenes` lists them)
+    scene: OsString,
+    /// A key of the scene and the value to give it, as interaction.alpha=0.3; can be given more than once
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Setting::parse)]
+    settings: Vec<Setting>,
+}
+
+/// Keys that have flags of their own.
+#[derive(clap::Args, Default)]
+pub(super) struct Ensemble {
+    /// Replicas, independent runs of the scene, in place of the scene's own number
+    #[arg(long, value_name = "N", value_parser = whole(1, MAX_REPLICAS), allow_negative_numbers = true)]
+    replicas: Option<u64>,
+    /// The seed of all random numbers, in place of the scene's own
+    #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), allow_negative_numbers = true)]
+    seed: Option<u64>,
+}
+
+impl Ensemble {
+    fn settings(&self) -> impl Iterator<Item = (&'static str, Setting)> {
+        let given = [
+            ("--replicas", "ensemble.replicas", self.replicas),
+            ("--seed", "ensemble.seed", self.seed),
+        ];
+        given.into_iter().filter_map(|(flag, key, value)| {
+            let value = Value::Integer(value? as i64);
+            let key = key.to_owned();
+            Some((flag, Setting { key, value }))
+        })
+    }
+}
+
+impl Chosen {
+    /// The scene with its keys set, each by one flag. `over` are the keys that a sweep sets.
+    pub(super) fn load(&self, ensemble: &Ensemble, over: &[Axis]) -> Result<Named, Failure> {
+        let set = self.settings.iter().map(|setting| ("--set", setting.clone()));
+        let given: Vec<_> = set.chain(ensemble.settings()).collect();
+        let swept = over.iter().map(|axis| ("--over", axis.key.as_str()));
+        let others = given.iter().map(|(flag, setting)| (*flag, setting.key.as_str()));
+        sweep::one_owner(&swept.chain(others).collect::<Vec<_>>()).map_err(Failure::Input)?;
+        load(&self.scene)?.with(given.into_iter().map(|(_, setting)| setting).collect())
+    }
+}
+
+/// A scene with the name of what is made from it.
+pub(super) struct Named {
+    pub(super) scene: Scene,
+    /// The text it was read from.
+    pub(super) text: String,
+    /// The keys set in place of the text's.
+    pub(super) settings: Vec<Setting>,
+    /// The file as given, or the built-in scene's name: for messages.
+    pub(super) source: String,
+    /// What was read of files of starts beside it.
+    pub(super) starts: Starts,
+    /// The stem of the file's name, or the built-in scene's name.
+    pub(super) stem: String,
+}
+
+impl Named {
+    fn with(mut self, settings: Vec<Setting>) -> Result<Self, Failure> {
+        if settings.is_empty() {
+            return Ok(self);
+        }
+        self.scene = sweep::scene_with(&self.text, &settings).map_err(|error| {
+            let said = settings
+                .iter()
+                .map(|setting| format!(" --set {}={}", setting.key, sweep::shown(&setting.value)));
+            Failure::Input(format!("{}{}: {error}", self.source, said.collect::<String>()))
+        })?;
+        self.starts
+            .fill(&mut self.scene)
+            .map_err(|error| refused(&self.source, &error))?;
+        self.settings = settings;
+        Ok(self)
+    }
+}
+
+fn refused(source: &str, error: &str) -> Failure {
+    Failure::Input(format!("{source}: {error}"))
+}
+
+/// Reads the file `given`, or where there is none the built-in scene of that name.
+pub(super) fn load(given: &OsStr) -> Result<Named, Failure> {
+    let path = Path::new(given);
+    let source = path.shown();
+    let built_in = scenes::find(&source).filter(|_| !path.exists() || path.is_dir());
+    if let Some(built_in) = built_in {
+        let scene = built_in
+            .scene()
+            .map_err(|error| Failure::Input(error.to_string()))?;
+        let stem = source.clone();
+        let text = built_in.text.to_owned();
+        return Ok(Named {
+            scene,
+            text,
+            settings: Vec::new(),
+            source,
+            starts: Starts::default(),
+            stem,
+        });
+    }
+    let text = read(path)?;
+    let mut scene = scene_file::parse(&source, &text).map_err(|error| Failure::Input(error.to_string()))?;
+    let mut starts = Starts::beside(path.parent().unwrap_or(Path::new("")));
+    starts
+        .fill(&mut scene)
+        .map_err(|error| refused(&source, &error))?;
+    let stem = path.file_stem().unwrap_or(given).to_string_lossy().into_owned();
+    Ok(Named {
+        scene,
+        text,
+        settings: Vec::new(),
+        source,
+        starts,
+        stem,
+    })
+}
+
+/// Says on standard error, from the root, what the reader of the results should know before trusting them.
+pub(super) fn warn<'a>(source: &str, warnings: impl IntoIterator<Item = &'a String>) {
+    if !cluster::is_root() {
+        return;
+    }
+    let mut stderr = std::io::stderr().lock();
+    for warning in warnings {
+        // A warning that cannot be written stands in the files all the same.
+        let _ = writeln!(stderr, "{}", line(&format!("warning: {source}: {warning}")));
+    }
+}
+
+/// The longest scene file.
+const MOST_BYTES: u64 = 64 << 20;
+
+fn read(path: &Path) -> Result<String, Failure> {
+    let source = path.shown();
+    bounded::text(path, MOST_BYTES).map_err(|error| {
+        let known = if path.exists() {
+            String::new()
+        } else {
+            built_in_names(&source.to_string())
+        };
+        Failure::Input(format!("{source}: cannot be read: {error}{known}"))
+    })
+}
+
+fn built_in_names(name: &str) -> String {
+    let close = scenes::close_to(name);
+    let close = match close.is_empty() {
+        true => String::new(),
+        false => format!(" (close names: {})", close.join(", ")),
+    };
+    format!("; nor is it a built-in scene{close}: `shearbed scenes` lists them")
+}

@@ -1,0 +1,85 @@
+//! `shearbed plan` and `shearbed scenes`.
+
+use super::duration;
+use super::facts::{self, Facts};
+use super::scene::{Chosen, Ensemble};
+use super::{Failure, memory, print};
+use crate::input::{scene_keys, scenes};
+use shearbed::Plan;
+
+/// Arguments of `plan`.
+#[derive(clap::Args)]
+pub(super) struct PlanArgs {
+    #[command(flatten)]
+    chosen: Chosen,
+}
+
+/// Arguments of `scenes`.
+#[derive(clap::Args)]
+pub(super) struct ScenesArgs {
+    /// Print this built-in scene's file, to start a scene of your own from:
+    /// `shearbed scenes --show fig4-n50 > mine.toml`
+    #[arg(long, value_name = "NAME")]
+    show: Option<String>,
+    /// Print every key of a scene file: what it means, its unit, what is allowed, its default
+    #[arg(long, conflicts_with = "show")]
+    keys: bool,
+}
+
+/// Prints a scene's plan. Fails where `run` would for want of memory.
+pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
+    let named = args.chosen.load(&Ensemble::default(), &[])?;
+    let plan =
+        Plan::new(&named.scene).map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
+    // The plan ends with its own warnings, and all of them come last.
+    let said = |warnings: Vec<String>| -> String {
+        let lines = warnings.iter().map(|warning| format!("warning: {warning}\n"));
+        lines.collect()
+    };
+    let text = plan.to_string();
+    let stages = text.strip_suffix(&said(plan.warnings())).unwrap_or(&text);
+    print(&format!(
+        "{stages}{}{}{}",
+        Facts::of(&plan).text(),
+        duration::of_scene(&plan),
+        said(facts::warnings(&plan))
+    ))?;
+    // What `run` would refuse here is still shown: it may fit on another machine.
+    memory::check(&plan, None, false, &named.source)
+}
+
+/// Lists the built-in scenes, or prints one.
+pub(super) fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
+    if args.keys {
+        return print(&scene_keys::text());
+    }
+    let Some(name) = &args.show else {
+        return print(&table()?);
+    };
+    match scenes::find(name) {
+        Some(built_in) => print(built_in.text),
+        None => {
+            let names: Vec<_> = scenes::ALL.iter().map(|built_in| built_in.name).collect();
+            let names = names.join(", ");
+            Err(Failure::Input(format!(
+                "--show {name}: no built-in scene has this name; there are {names}"
+            )))
+        }
+    }
+}
+
+fn table() -> Result<String, Failure> {
+    let width = scenes::ALL
+        .iter()
+        .map(|built_in| built_in.name.len())
+        .max()
+        .unwrap_or(0);
+    let mut lines = String::new();
+    for built_in in scenes::ALL {
+        let scene = built_in
+            .scene()
+            .map_err(|error| Failure::Input(error.to_string()))?;
+        lines.push_str(&format!("{:<width$}  {}\n", built_in.name, scene.title));
+    }
+    Ok(lines)
+}

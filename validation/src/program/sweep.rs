@@ -1,0 +1,245 @@
+//! `shearbed sweep`.
+
+use super::scene::{Chosen, Ensemble};
+use super::{
+    Failure, MAX_THREADS, agree, facts, log, memory, on_threads, print, probe, progress, scene, tables, whole,
+};
+use crate::files::cluster;
+use crate::files::output::{Author, Output};
+use crate::files::text;
+use crate::files::text::Shown;
+use crate::serve::sweep::{self, Axis, Folder, Identity, Point, Points};
+use shearbed::ensemble;
+use std::path::{Path, PathBuf};
+
+/// Arguments of `sweep`.
+#[derive(clap::Args)]
+#[command(after_help = "\
+An interrupted sweep goes on when the same command is given again. Every point has the same seed.
+Examples:
+  shearbed sweep fig4-n50 --over interaction.alpha=0.1:1:10 --replicas 100
+  shearbed sweep mine.toml --over interaction.update=rotation,angles --over time.steps_per_period=100,200,400")]
+pub(super) struct Args {
+    #[command(flatten)]
+    chosen: Chosen,
+    #[command(flatten)]
+    ensemble: Ensemble,
+    /// A key of the scene and its values: FROM:TO:COUNT evenly with both ends, or a list; given more than once, every
+    /// combination is a point
+    #[arg(long, value_name = "KEY=VALUES", required = true, value_parser = Axis::parse)]
+    over: Vec<Axis>,
+    /// The folder for sweep.csv, sweep.json and points/ [default: out/sweep-<scene>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Threads to run on; the results do not depend on it [default: one for each core]
+    #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
+    threads: Option<u64>,
+    /// Overwrite what this command did not write in the folder, or wrote from other input
+    #[arg(long)]
+    force: bool,
+    /// Print nothing but errors
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// Runs the points of a sweep that are not finished, and writes one row a point.
+pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
+    let named = args.chosen.load(&args.ensemble, &args.over)?;
+    check(&args.over)?;
+    if !named.scene.output.rods_at.is_empty() {
+        return Err(Failure::Input(format!(
+            "{}: output.rods_at: a sweep keeps no rods; without the key it is allowed",
+            named.source
+        )));
+    }
+    let points = sweep::points(&named.text, &named.starts, &named.settings, &args.over)
+        .map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
+    for point in &points {
+        if point.plan.time_name() != points[0].plan.time_name() {
+            return Err(Failure::Input(format!(
+                "{}: --over {}: its time is {}, that of the first point {}; all points have the same columns",
+                named.source,
+                sweep::described(&args.over, &point.values),
+                point.plan.time_name(),
+                points[0].plan.time_name()
+            )));
+        }
+        let at = format!(
+            "{}: --over {}",
+            named.source,
+            sweep::described(&args.over, &point.values)
+        );
+        memory::check(&point.plan, args.threads, false, &at)?;
+    }
+    let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("sweep-{}", named.stem)));
+    let total = points.len();
+    let warned = warnings(&points, &args.over);
+    let identity = Identity::new(&named.scene, &args.over, &points, &warned);
+    agree("sweep", identity.value().clone())?;
+
+    let author = Author::new("sweep", identity.value().clone(), args.force);
+
+    // Only the root may see the folder.
+    let mut folder = None;
+    let open = || {
+        let bytes = (points.iter()).map(|point| tables::most_bytes(&point.plan)).sum();
+        probe(&out, bytes)?;
+        let points = Points {
+            described: (points.iter())
+                .map(|point| sweep::described(&args.over, &point.values))
+                .collect(),
+            tables: (points[0].plan.observables().iter())
+                .map(|observable| format!("{}.csv", observable.name()))
+                .collect(),
+        };
+        let opened = folder.insert(Folder::open(&out, &author, &identity, points)?);
+        Ok::<_, Failure>(self::jobs(&opened.finished(), total))
+    };
+    let (checked, jobs): (Option<usize>, Vec<usize>) = cluster::from_root(open)?;
+    scene::warn(&named.source, warned.iter().take(MOST_WARNINGS));
+    let more = warned.len().saturating_sub(MOST_WARNINGS);
+    scene::warn(
+        &named.source,
+        (more > 0)
+            .then(|| format!("and {more} more points with warnings: sweep.json has them all"))
+            .iter(),
+    );
+    let new = jobs.len() - usize::from(checked.is_some());
+    let finished = total - new;
+    if finished > 0 && !args.quiet {
+        print(&format!(
+            "goes on from {}: {finished} of {total} points are finished\n",
+            out.display()
+        ))?;
+    }
+    let mut ended = finished;
+    let bar = progress(jobs.len() as u64, "points", args.quiet);
+    let job = |job: usize| {
+        let k = jobs[job];
+        tables_of(&points[k]).map_err(|error| {
+            let point = sweep::described(&args.over, &points[k].values);
+            Failure::Input(format!("{}: --over {point}: {error}", named.source))
+        })
+    };
+    let arrived = |job: usize, tables: &Vec<Output>| {
+        bar.inc(1);
+        let k = jobs[job];
+        // Results arrive on the root alone.
+        let Some(folder) = &folder else {
+            return Ok(());
+        };
+        match checked {
+            Some(finished) if finished == k => match folder.kept(k)? == *tables {
+                true => Ok(()),
+                false => Err(other_numbers(&folder.point(k))),
+            },
+            _ => {
+                folder.keep(k, tables)?;
+                ended += 1;
+                let line = format!(
+                    "kept in {}: {ended} of {total} points are finished",
+                    out.display()
+                );
+                log(&line, args.quiet);
+                Ok(())
+            }
+        }
+    };
+    let shared = on_threads(args.threads, || cluster::share(jobs.len(), job, arrived))??;
+    bar.finish_and_clear();
+    let (Some(folder), true) = (&folder, shared.is_some()) else {
+        return Ok(());
+    };
+    let values: Vec<_> = points.iter().map(|point| point.values.clone()).collect();
+    let rows = folder.gather(&args.over, &values)?;
+    if args.quiet {
+        return Ok(());
+    }
+    print(&format!(
+        "{}\npoints: {total}, of which {finished} were finished before\n\n{}\nin {}: sweep.csv, sweep.json, points\n",
+        text::line(&named.scene.title),
+        table(&rows, args.over.len()),
+        out.shown(),
+    ))
+}
+
+/// The most warnings of points on the terminal.
+const MOST_WARNINGS: usize = 10;
+
+/// What to know before trusting a point's results, point by point.
+fn warnings(points: &[Point], over: &[Axis]) -> Vec<String> {
+    let of_point = |point: &Point| {
+        let at = sweep::described(over, &point.values);
+        let warnings = facts::warnings(&point.plan).into_iter();
+        warnings
+            .map(|warning| format!("--over {at}: {warning}"))
+            .collect::<Vec<_>>()
+    };
+    points.iter().flat_map(of_point).collect()
+}
+
+/// Refuses a key that changes what is observed.
+fn check(axes: &[Axis]) -> Result<(), Failure> {
+    match axes.iter().find(|axis| axis.key.starts_with("output")) {
+        Some(axis) => Err(Failure::Input(format!(
+            "--over {}: all points have the same columns; keys of other tables are allowed",
+            axis.key
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// The points to run: those that are missing; where others are finished, the first of these comes before them, to be
+/// compared with what is kept: a program whose numbers have changed is to be noticed.
+fn jobs(finished: &[usize], points: usize) -> (Option<usize>, Vec<usize>) {
+    let missing: Vec<_> = (0..points)
+        .filter(|k| finished.binary_search(k).is_err())
+        .collect();
+    let checked = finished.first().copied().filter(|_| !missing.is_empty());
+    (checked, checked.into_iter().chain(missing).collect())
+}
+
+/// A table of each observable of a point.
+fn tables_of(point: &Point) -> Result<Vec<Output>, String> {
+    let results = ensemble::run(&point.plan).map_err(|error| error.to_string())?;
+    let table = |series: &ensemble::Series| {
+        let name = format!("{}.csv", series.observable.name());
+        Ok((name, tables::csv(&results, series)?))
+    };
+    results.series.iter().map(table).collect()
+}
+
+fn other_numbers(point: &Path) -> Failure {
+    Failure::Input(format!(
+        "{}: run again, this point has other numbers: another build of the program made it; give another --out, or \
+         remove the folder; nothing of it was changed",
+        point.shown()
+    ))
+}
+
+/// The most rows and columns of a table for the terminal.
+const MOST: (usize, usize) = (32, 9);
+
+/// The rows with numbers shortened, where they are few enough to read.
+fn table(rows: &[Vec<String>], swept: usize) -> String {
+    if rows.len() > MOST.0 + 1 {
+        return String::new();
+    }
+    let columns = rows[0].len().min(swept + MOST.1);
+    let short = |column: usize, text: &String| match text.parse::<f64>() {
+        Ok(number) if column >= swept => text::four_decimals(number),
+        _ => text.clone(),
+    };
+    let cells: Vec<Vec<_>> = (rows.iter())
+        .map(|row| (0..columns).map(|c| short(c, &row[c])).collect())
+        .collect();
+    let width = |c: usize| cells.iter().map(|row| row[c].chars().count()).max().unwrap_or(0);
+    let widths: Vec<_> = (0..columns).map(width).collect();
+    let line = |row: &Vec<String>| {
+        let cells: Vec<_> = (row.iter().zip(&widths))
+            .map(|(cell, width)| format!("{cell:>width$}"))
+            .collect();
+        cells.join("  ") + "\n"
+    };
+    cells.iter().map(line).collect()
+}

@@ -1,0 +1,68 @@
+//! What a command says on the terminal while it runs.
+
+use super::Failure;
+use crate::files::cluster;
+use crate::files::text::readable;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use std::fmt;
+use std::io::{self, IsTerminal, Write};
+use std::time::Duration;
+
+/// Prints to standard output. A reader that has gone away, as `head` does, is no error.
+pub(super) fn print(text: &str) -> Result<(), Failure> {
+    if !cluster::is_root() {
+        return Ok(());
+    }
+    let mut stdout = io::stdout().lock();
+    match stdout
+        .write_all(readable(text).as_bytes())
+        .and_then(|()| stdout.flush())
+    {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Input(format!(
+            "standard output: cannot be written: {error}"
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// Prints a line about progress to standard error where no bar shows it: in the log of a job.
+pub(super) fn log(line: &str, quiet: bool) {
+    if quiet || !cluster::is_root() || io::stderr().is_terminal() {
+        return;
+    }
+    // A log that cannot be written is no reason to end.
+    let _ = writeln!(io::stderr().lock(), "{}", readable(line));
+}
+
+/// A bar over the steps of a slow part on a terminal, and nothing elsewhere. The time left is told once a step is done, and
+/// then from the rate of all; of a single step only the time that it has taken.
+pub(super) fn progress(steps: u64, what: &str, quiet: bool) -> ProgressBar {
+    if quiet || !cluster::is_root() || !io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let template = match steps {
+        0 | 1 => "{spinner} running for {elapsed} {msg}".to_owned(),
+        _ => format!("{{wide_bar}} {{pos}}/{{len}} {what}, {{left}} {{msg}}"),
+    };
+    let left = |state: &ProgressState, text: &mut dyn fmt::Write| {
+        let elapsed = state.elapsed().as_secs_f64();
+        let words = match (state.pos(), state.len()) {
+            (0, _) | (_, None) => format!("{elapsed:.0} s so far"),
+            (done, Some(all)) => {
+                let rate = done as f64 / elapsed.max(1e-9);
+                format!(
+                    "{rate:.2} a second, {:.0} s left",
+                    all.saturating_sub(done) as f64 / rate
+                )
+            }
+        };
+        // Where even this cannot be written, there is no bar.
+        let _ = text.write_str(&words);
+    };
+    let style = ProgressStyle::with_template(&template);
+    let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
+    let bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::stderr());
+    bar.set_style(style.with_key("left", left));
+    bar.enable_steady_tick(Duration::from_millis(500));
+    bar
+}

@@ -1,0 +1,236 @@
+//! `shearbed validate`.
+
+use super::finished::{Ended, Finished};
+use super::{Failure, MAX_THREADS, agree, checkpoint, choice, on_threads, print, probe, progress, whole};
+use crate::cases::catalogue;
+use crate::files::cluster;
+use crate::files::output::Author;
+use crate::files::text::Shown;
+use crate::files::text::command;
+use crate::input::experiment;
+use crate::judge::accept::Verdict;
+use crate::judge::case::{Case, Effort, GATE_SEED, Outcome};
+use crate::present::report::{self, CaseRow, ReportStudy, Sections};
+use crate::present::study::Extent;
+use crate::program::{dependencies, tried};
+use crate::studies;
+use crate::studies::figures;
+use serde_json::json;
+use shearbed::scene::MAX_SEED;
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Arguments of `validate`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Run this case only; can be given more than once
+    #[arg(long = "case", value_name = "NAME")]
+    cases: Vec<String>,
+    /// Run the cases with this tag: what they judge, or an equation as eq-15; can be given more than once
+    #[arg(long = "tag", value_name = "TAG")]
+    tags: Vec<String>,
+    /// List the cases, with their tags and claims, and run none
+    #[arg(long)]
+    list: bool,
+    /// More replicas and samples: the same cases, judged more sharply
+    #[arg(long)]
+    full: bool,
+    /// The seed from which every case takes its random numbers [default: that of the gate]
+    #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), default_value_t = GATE_SEED, allow_negative_numbers = true)]
+    seed: u64,
+    /// Keep finished cases and studies in this file, and do not run again those that it has
+    #[arg(long, value_name = "FILE")]
+    checkpoint: Option<PathBuf>,
+    /// A folder with measured points, for the cases that compare with experiments
+    #[arg(long, value_name = "DIR", value_parser = folder)]
+    data: Option<PathBuf>,
+    /// The folder for report.html, report.json, report.md and curves/
+    #[arg(long, value_name = "DIR", default_value = "out/report")]
+    out: PathBuf,
+    /// Threads to run on [default: one for each core]
+    #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
+    threads: Option<u64>,
+    /// Overwrite what this command did not write in the folder, or wrote from other input
+    #[arg(long)]
+    force: bool,
+    /// Print nothing but errors
+    #[arg(long)]
+    quiet: bool,
+}
+
+fn folder(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.metadata() {
+        Ok(metadata) if metadata.is_dir() => Ok(path),
+        Ok(_) => Err("it is no folder; an existing folder is allowed".to_owned()),
+        Err(error) => Err(format!("{error}; an existing folder is allowed")),
+    }
+}
+
+/// What a report has beside its curves and tables.
+const PAGES: [&str; 4] = ["report.html", "report.json", "report.md", "junit.xml"];
+
+/// Runs the cases and writes the report. Where cases are chosen, the report holds them alone.
+pub(super) fn validate(args: Args) -> Result<(), Failure> {
+    let chosen = choice::chosen(&args.cases, &args.tags)?;
+    if args.list {
+        return print(&choice::list(&chosen));
+    }
+    if let Some(data) = &args.data {
+        // Bad points are bad input, not a case that failed.
+        experiment::check(data).map_err(|error| Failure::Input(error.to_string()))?;
+    }
+    let names: Vec<_> = chosen.iter().map(|case| case.about.name).collect();
+    let data = (args.data.as_deref()).map(experiment::digest).transpose();
+    let data = data.map_err(|error| Failure::Input(error.to_string()))?;
+    let input = json!({ "full": args.full, "seed": args.seed, "data": data });
+    let mut agreed = input.clone();
+    agreed["cases"] = json!(names);
+    agree("validate", agreed.clone())?;
+    let path = args.checkpoint.as_deref();
+    let path = path.map(|path| checkpoint::check(path, &args.out)).transpose()?;
+    probe(&args.out, 0)?;
+    let author = Author::new("validate", agreed, args.force);
+    if cluster::is_root() {
+        author.check(&args.out, &PAGES)?;
+    }
+    let kept = match &path {
+        Some(path) => Some(Finished::open(path, input, args.quiet)?),
+        None => None,
+    };
+    let effort = Effort {
+        full: args.full,
+        seed: args.seed,
+        data: args.data,
+    };
+    let (outcomes, sections) = on_threads(args.threads, || {
+        let outcomes = outcomes(&chosen, &effort, kept.as_ref(), args.quiet)?;
+        let sections = match args.cases.is_empty() && args.tags.is_empty() {
+            true => gather(&effort, kept.as_ref(), args.quiet)?,
+            false => Some(Sections::default()),
+        };
+        Ok::<_, Failure>((outcomes, sections))
+    })??;
+    let (Some(outcomes), Some(sections)) = (outcomes, sections) else {
+        return Ok(());
+    };
+    let report = report::build(outcomes, sections, &effort, command(super::program::words()));
+    let mut files = report.data().map_err(Failure::Failed)?;
+    let pages = [
+        report.html().map_err(Failure::Failed)?,
+        report.json(),
+        report.markdown(),
+        report.junit(),
+    ];
+    files.extend(PAGES.map(str::to_owned).into_iter().zip(pages));
+    author.write(&args.out, files)?;
+    let red: String = report.cases.iter().map(CaseRow::reasons).collect();
+    if !red.is_empty() && cluster::is_root() {
+        // Also where nothing else is printed: what is red is an error. Where even this cannot be written, the exit code
+        // has to say it.
+        let _ = write!(std::io::stderr(), "\n{red}");
+    }
+    if !args.quiet {
+        let page = args.out.join("report.html");
+        print(&format!("\n{}\nreport: {}\n", report.headline(), page.shown()))?;
+    }
+    match report.exit_code() {
+        0 => Ok(()),
+        _ => Err(Failure::Failed(format!(
+            "not every case passed: {}",
+            report.headline()
+        ))),
+    }
+}
+
+/// Runs every study and gathers what the report shows beside its cases on the root; nothing elsewhere.
+fn gather(effort: &Effort, kept: Option<&Finished>, quiet: bool) -> Result<Option<Sections>, Failure> {
+    let mut sections = Sections {
+        equations: catalogue::equations(),
+        tables: vec![tried::table(), dependencies::table()],
+        ..Default::default()
+    };
+    for study in studies::ALL {
+        if let Some((found, seconds)) = kept.and_then(|kept| kept.study(study.name)) {
+            sections.add(ReportStudy::new(&study, found, seconds));
+            continue;
+        }
+        if !quiet {
+            print(&format!("study: {}\n", study.title))?;
+        }
+        // One study alone calls back for its pieces of work.
+        let work = match study.name == figures::STUDY.name {
+            true => figures::work(figures::Replicas::of(effort)).map_err(Failure::Failed)?,
+            false => 0,
+        };
+        let bar = progress(work, "replicas", quiet || work == 0);
+        let start = Instant::now();
+        let found = study.found(&Extent {
+            effort,
+            wanted: &|_| true,
+            finished: &|| bar.inc(1),
+        });
+        bar.finish_and_clear();
+        if let Some(found) = found.map_err(Failure::Failed)? {
+            let measured = (found, start.elapsed().as_secs_f64());
+            kept.map_or(Ok(()), |kept| kept.keep_study(study.name, &measured))?;
+            sections.add(ReportStudy::new(&study, measured.0, measured.1));
+        }
+    }
+    catalogue::name_judges(&mut sections);
+    Ok(cluster::is_root().then_some(sections))
+}
+
+/// Runs the cases, each rank its part one after the other, and prints how each ended. All outcomes on the root, and
+/// none elsewhere.
+fn outcomes(
+    chosen: &[Case],
+    effort: &Effort,
+    kept: Option<&Finished>,
+    quiet: bool,
+) -> Result<Option<Vec<Outcome>>, Failure> {
+    let bar = progress(chosen.len() as u64, "cases", quiet);
+    // What a case says of itself every rank knows.
+    let run = |k: usize| {
+        let case: &Case = &chosen[k];
+        if let Some(found) = kept.and_then(|kept| kept.case(case.about.name)) {
+            return Ok(found);
+        }
+        bar.set_message(case.about.name);
+        let outcome = case.run(effort);
+        Ok((
+            outcome.verdict,
+            outcome.evidence,
+            outcome.controls,
+            outcome.seconds,
+        ))
+    };
+    let arrived = |k: usize, found: &Ended| {
+        if !quiet {
+            bar.suspend(|| print(&line(chosen[k].about.name, found.0, found.3)))?;
+        }
+        bar.inc(1);
+        kept.map_or(Ok(()), |kept| kept.keep_case(chosen[k].about.name, found))
+    };
+    let found = cluster::share(chosen.len(), run, arrived)?;
+    bar.finish_and_clear();
+    let outcome = |(case, (verdict, evidence, controls, seconds)): (&Case, Ended)| Outcome {
+        about: case.about,
+        verdict,
+        evidence,
+        controls,
+        seconds,
+    };
+    Ok(found.map(|found| chosen.iter().zip(found).map(outcome).collect()))
+}
+
+fn line(name: &str, verdict: Verdict, seconds: f64) -> String {
+    let verdict = match verdict {
+        Verdict::Pass => "pass",
+        Verdict::Fail => "FAIL",
+        Verdict::Underpowered => "UNDER-POWERED",
+        Verdict::NoData => "no data",
+    };
+    format!("{verdict:<14}  {name:<40}  {seconds:>7.2} s\n")
+}

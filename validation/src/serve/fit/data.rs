@@ -1,0 +1,396 @@
+//! Measured points from a CSV file, in the columns of `docs/experiments.md`.
+
+use crate::input::experiment::{DataError, read_text, table};
+use serde::Serialize;
+use shearbed::observable::Channel;
+use shearbed::{Observable, Plan};
+use std::path::Path;
+
+/// The most points that are fitted at once: their covariance is a full matrix.
+pub const MOST_POINTS: usize = 1000;
+
+/// A measured point.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Datum {
+    /// Which data set it is of.
+    pub set: usize,
+    /// Its line in the file.
+    pub line: usize,
+    /// The column, as `x1`.
+    pub column: String,
+    /// Its time in the unit of the file's column.
+    pub time: f64,
+    /// What was measured.
+    pub value: f64,
+    /// One standard deviation of the time; 0 where none is given.
+    pub u_time: f64,
+    /// One standard deviation of the value.
+    pub u: f64,
+}
+
+impl Datum {
+    /// A place where a point could be: without a line, a value and uncertainties.
+    pub fn place(set: usize, column: &str, time: f64) -> Self {
+        Self {
+            set,
+            line: 0,
+            column: column.into(),
+            time,
+            value: f64::NAN,
+            u_time: 0.0,
+            u: f64::NAN,
+        }
+    }
+}
+
+/// The unit of a file's times: the name of its first column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum TimeColumn {
+    /// Periods of the scene's mean aspect ratio, whatever that is when it is fitted.
+    #[serde(rename = "t_over_T")]
+    Periods,
+    /// Seconds.
+    #[serde(rename = "t_s")]
+    Seconds,
+    /// Shear strain.
+    #[serde(rename = "strain")]
+    Strain,
+}
+
+impl TimeColumn {
+    const ALL: [Self; 3] = [Self::Periods, Self::Seconds, Self::Strain];
+
+    /// The column's name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Periods => "t_over_T",
+            Self::Seconds => "t_s",
+            Self::Strain => "strain",
+        }
+    }
+
+    /// How much of it is one unit of a plan's times; none where the plan has no periods to count.
+    pub fn per_unit(self, plan: &Plan) -> Option<f64> {
+        match self {
+            Self::Periods => (plan.time_name() == "t_over_T").then_some(1.0),
+            Self::Seconds => Some(plan.unit().seconds),
+            Self::Strain => Some(plan.unit().strain),
+        }
+    }
+
+    /// Where a plan's scene ends.
+    pub fn end_of(self, plan: &Plan) -> Option<f64> {
+        let time = &plan.scene().time;
+        Some(time.strain.or(time.periods)? * self.per_unit(plan)?)
+    }
+}
+
+/// The points of one file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Points {
+    /// The unit of their times.
+    pub time: TimeColumn,
+    /// In the order of the columns, then of the lines.
+    pub points: Vec<Datum>,
+}
+
+/// Every column that can be measured: the channels of all observables.
+fn measurable() -> Vec<String> {
+    Observable::ALL
+        .iter()
+        .flat_map(|observable| observable.channels())
+        .map(Channel::name)
+        .collect()
+}
+
+/// Reads the file `path` as data set number `set`. Every point needs an uncertainty `NAME_u`; blank points were not
+/// measured.
+pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
+    let text = read_text(path)?;
+    let file = path.display().to_string();
+    let first = text.lines().position(|line| !line.trim().is_empty()).unwrap_or(0);
+    let header: Vec<&str> = (text.lines().nth(first).unwrap_or_default().split(','))
+        .map(str::trim)
+        .collect();
+    let refused = |message: String| DataError::at(&file, first + 1, message);
+    let times = TimeColumn::ALL.map(TimeColumn::name).join(", ");
+    let here: Vec<_> = TimeColumn::ALL
+        .into_iter()
+        .filter(|time| header.contains(&time.name()))
+        .collect();
+    let [time] = here[..] else {
+        let found = here.iter().map(|time| time.name()).collect::<Vec<_>>().join(", ");
+        return Err(refused(format!(
+            "the first line has the time columns [{found}]; one of {times} is allowed"
+        )));
+    };
+    let known = measurable();
+    let mut columns: Vec<String> = Vec::new();
+    for name in &header {
+        let (value, is_uncertainty) = match name.strip_suffix("_u") {
+            Some(value) => (value, true),
+            None => (*name, false),
+        };
+        if value == time.name() {
+            continue;
+        }
+        if !known.iter().any(|known| known == value) {
+            return Err(refused(format!(
+                "column `{name}` is not allowed: a time ({times}), x1, x2, x3 or another column of `shearbed run` \
+                 (phi, c_b, a11, …), and after a name `_u` for its uncertainty"
+            )));
+        }
+        if !is_uncertainty {
+            columns.push(value.to_owned());
+        }
+    }
+    if columns.is_empty() {
+        return Err(refused(
+            "no column of measured values; x1, x2, x3 … are allowed".into(),
+        ));
+    }
+    if let Some(bare) = columns
+        .iter()
+        .find(|name| !header.contains(&format!("{name}_u").as_str()))
+    {
+        return Err(refused(format!(
+            "column {bare}_u is missing: one standard deviation of each {bare} is needed"
+        )));
+    }
+    let mut points = Vec::new();
+    for dataset in table::columns(&file, &text, time.name(), &columns)? {
+        for row in dataset.rows {
+            let refused = |message: String| DataError::at(&file, row.line, message);
+            let u = row.u_y.ok_or_else(|| {
+                refused(format!(
+                    "column {}_u is blank: one standard deviation, a number > 0, is needed",
+                    dataset.name
+                ))
+            })?;
+            if row.x < 0.0 {
+                return Err(refused(format!(
+                    "column {}: `{}` is not allowed: a time ≥ 0",
+                    time.name(),
+                    row.x
+                )));
+            }
+            let (least, most) = allowed(&dataset.name);
+            if !(least..=most).contains(&row.y) {
+                return Err(refused(format!(
+                    "column {}: `{:?}` is not allowed: a value from {least} to {most}",
+                    dataset.name, row.y
+                )));
+            }
+            // A smaller one is lost in the rounding of the model, a larger one says nothing.
+            if !(LEAST_U..=most - least).contains(&u) {
+                return Err(refused(format!(
+                    "column {}_u: `{u:?}` is not allowed: one standard deviation from {LEAST_U:?} to {}, the width of what {} can be",
+                    dataset.name,
+                    most - least,
+                    dataset.name
+                )));
+            }
+            points.push(Datum {
+                set,
+                line: row.line,
+                column: dataset.name.clone(),
+                time: row.x,
+                value: row.y,
+                u_time: row.u_x.unwrap_or(0.0),
+                u,
+            });
+        }
+    }
+    check(&file, &points)?;
+    Ok(Points { time, points })
+}
+
+/// The smallest standard deviation of a point.
+const LEAST_U: f64 = 1e-12;
+
+/// The largest size of a column whose values have no bound of their own: stresses, in units of μ_fiber G.
+const MOST_STRESS: f64 = 1e6;
+
+/// Equal parts of [0, 1] in which the density of C_b is counted: all of it in one is this density.
+const DENSITY_BINS: f64 = 20.0;
+
+/// The least and the most that a column of `shearbed run` can be, by its name.
+fn allowed(column: &str) -> (f64, f64) {
+    if column == "phi" {
+        return (0.0, std::f64::consts::FRAC_PI_2);
+    }
+    if column.starts_with("density") {
+        return (0.0, DENSITY_BINS);
+    }
+    if column.contains("_per_mu_") {
+        return (-MOST_STRESS, MOST_STRESS);
+    }
+    match column.strip_prefix('a') {
+        Some(axes) => allowed_moment(axes),
+        None => (0.0, 1.0),
+    }
+}
+
+/// The bounds of a mean of products of direction components, as of `1123` for p₁²p₂p₃: with exponents e of sum d the size
+/// of a product is at most Π (e/d)^(e/2).
+fn allowed_moment(axes: &str) -> (f64, f64) {
+    let exponents = ['1', '2', '3'].map(|axis| axes.matches(axis).count() as i32);
+    let all = axes.len() as f64;
+    let square: f64 = (exponents.iter())
+        .map(|e| (f64::from(*e) / all).powi(*e))
+        .product();
+    let most = square.sqrt();
+    match exponents.iter().all(|e| e % 2 == 0) {
+        true => (0.0, most),
+        false => (-most, most),
+    }
+}
+
+fn check(file: &str, points: &[Datum]) -> Result<(), DataError> {
+    if points.is_empty() {
+        return Err(DataError::at(file, 1, "no points: one row for each is needed"));
+    }
+    if points.len() > MOST_POINTS {
+        let message = format!("{} points; at most {MOST_POINTS} are allowed", points.len());
+        return Err(DataError::at(file, points[MOST_POINTS].line, message));
+    }
+    for (k, point) in points.iter().enumerate() {
+        let same = |other: &&Datum| {
+            (&other.column, other.time, other.value) == (&point.column, point.time, point.value)
+        };
+        if let Some(first) = points[..k].iter().find(same) {
+            let message = format!(
+                "{} = {} at {} is in line {} already: each point once is allowed",
+                point.column, point.value, point.time, first.line
+            );
+            return Err(DataError::at(file, point.line, message));
+        }
+    }
+    Ok(())
+}
+
+/// Every data set and column, in order.
+pub(super) fn kinds(data: &[Datum]) -> Vec<(usize, String)> {
+    let mut kinds: Vec<_> = data
+        .iter()
+        .map(|datum| (datum.set, datum.column.clone()))
+        .collect();
+    kinds.sort();
+    kinds.dedup();
+    kinds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    fn read_of(text: &str) -> Result<Points, String> {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("points.csv");
+        fs::write(&path, text).unwrap();
+        read(&path, 3).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn points_are_read_column_by_column_with_blanks_left_out() {
+        let found =
+            read_of("t_over_T,t_over_T_u,x1,x1_u,x3,x3_u\n0,,0.5,0.01,,\n0.5,0.02,0.4,0.02,0.6,0.03\n")
+                .unwrap();
+        assert_eq!(found.time, TimeColumn::Periods);
+        let short: Vec<_> = (found.points.iter())
+            .map(|p| (p.line, p.column.as_str(), p.time, p.u_time, p.value, p.u))
+            .collect();
+        let expected = [
+            (2, "x1", 0.0, 0.0, 0.5, 0.01),
+            (3, "x1", 0.5, 0.02, 0.4, 0.02),
+            (3, "x3", 0.5, 0.02, 0.6, 0.03),
+        ];
+        assert_eq!(short, expected);
+        assert!(found.points.iter().all(|point| point.set == 3));
+        assert_eq!(
+            read_of("strain,phi,phi_u\n1,0.7,0.1\n").unwrap().time,
+            TimeColumn::Strain
+        );
+    }
+
+    /// Against the largest products of a fine grid of directions.
+    #[test]
+    fn every_column_has_the_bounds_of_its_formula() {
+        for (axes, exponents) in [
+            ("11", [2, 0, 0]),
+            ("12", [1, 1, 0]),
+            ("1112", [3, 1, 0]),
+            ("1123", [2, 1, 1]),
+            ("2233", [0, 2, 2]),
+        ] {
+            let (least, most) = allowed(&format!("a{axes}"));
+            let (mut low, mut high) = (0.0_f64, 0.0_f64);
+            for (i, j) in (0..400).flat_map(|i| (0..400).map(move |j| (i, j))) {
+                let (theta, phi) = (
+                    std::f64::consts::PI * f64::from(i) / 400.0,
+                    std::f64::consts::TAU * f64::from(j) / 400.0,
+                );
+                let p = [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()];
+                let product: f64 = p.iter().zip(exponents).map(|(p, e)| p.powi(e)).product();
+                (low, high) = (low.min(product), high.max(product));
+            }
+            // The grid misses a maximum by half a step at most: (π/400)², times the curvature.
+            assert!(
+                (least - low).abs() < 1e-3 && (most - high).abs() < 1e-3,
+                "{axes}: {least} {most}, {low} {high}"
+            );
+        }
+        for name in measurable() {
+            let (least, most) = allowed(&name);
+            assert!(least < most && least.is_finite() && most.is_finite(), "{name}");
+        }
+        let bins = measurable()
+            .iter()
+            .filter(|name| name.starts_with("density"))
+            .count();
+        assert_eq!(bins as f64, DENSITY_BINS);
+        assert_eq!(allowed("x3"), (0.0, 1.0));
+        assert_eq!(allowed("x1x2"), (0.0, 1.0));
+        assert_eq!(allowed("c_b"), (0.0, 1.0));
+    }
+
+    #[test]
+    fn what_cannot_be_is_refused_with_line_and_what_is_allowed() {
+        for (text, line, named) in [
+            ("", 1, "empty"),
+            ("x1,x1_u\n0.5,0.1\n", 1, "one of t_over_T, t_s, strain is allowed"),
+            ("t_s,strain,x1,x1_u\n", 1, "[t_s, strain]"),
+            ("t_s,x4,x4_u\n", 1, "column `x4`"),
+            ("t_s\n1\n", 1, "no column of measured values"),
+            ("t_s,x1\n1,0.5\n", 1, "x1_u is missing"),
+            ("t_s,x1,x1_u\n", 1, "no points"),
+            ("t_s,x1,x1_u\n1,0.5,\n", 2, "x1_u is blank"),
+            ("t_s,x1,x1_u\n1,0.5,0\n", 2, "> 0"),
+            ("t_s,x1,x1_u\n1,nan,0.1\n", 2, "`nan`"),
+            ("t_s,x1,x1_u\n-1,0.5,0.1\n", 2, "a time ≥ 0"),
+            ("t_s,x1,x1_u\n1,0.5,0.1\n\n1,0.5,0.2\n", 4, "in line 2 already"),
+            ("t_s,x1,x1_u,x1\n1,0.5,0.1,2\n", 1, "twice"),
+            ("t_s,x1,x1_u\n1,0.5\n", 2, "2 cells"),
+            (
+                "t_s,x1,x1_u\n1,1e300,0.1\n",
+                2,
+                "column x1: `1e300` is not allowed",
+            ),
+            ("t_s,x1,x1_u\n1,1e153,0.1\n", 2, "a value from 0 to 1"),
+            ("t_s,x1,x1_u\n1,1.01,0.1\n", 2, "column x1: `1.01` is not allowed"),
+            ("t_s,x1,x1_u\n1,0.5,0.1\n2,-0.01,0.1\n", 3, "a value from 0 to 1"),
+            ("t_s,phi,phi_u\n1,1.6,0.1\n", 2, "from 0 to 1.57"),
+            ("t_s,a12,a12_u\n1,-0.51,0.1\n", 2, "from -0.5 to 0.5"),
+            ("t_s,x1,x1_u\n1,0.5,1e200\n", 2, "column x1_u: `1e200`"),
+            ("t_s,x1,x1_u\n1,0.5,1e-200\n", 2, "1e-12 to 1"),
+        ] {
+            let error = read_of(text).unwrap_err();
+            assert!(
+                error.contains(&format!("points.csv:{line}: ")),
+                "{text:?}: {error}"
+            );
+            assert!(error.contains(named), "{text:?}: {error}");
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! Points that hardly tell a parameter, and a model whose replicas are noisy: by chance its curves differ from one value to another,
+//! which would make intervals short.
+
+use super::basis::Basis;
+use super::data::Datum;
+use super::emulator::{Replica, coefficients};
+use super::profile::profile;
+use super::range::Range;
+use super::search::{Fit, Measured, fitted};
+use super::tests::{normal, share};
+use crate::judge::accept::{Design, Verdict, judge};
+use crate::judge::statistics::Sample;
+use rand::SeedableRng;
+use rand_pcg::Pcg64Dxsm;
+use rayon::prelude::*;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+const POINTS: usize = 40;
+const NOISE: f64 = 0.01;
+const PLANTED: f64 = 0.2;
+/// One standard deviation of a replica.
+const SCATTER: f64 = 0.03;
+
+/// A slope by which the points tell the parameter to 0.2 of its range, −1 to 1.
+const SLOPE: f64 = 0.008;
+
+fn curve(slope: f64, value: f64) -> impl Iterator<Item = f64> {
+    (0..POINTS).map(move |k| 0.5 + slope * value * (k as f64).cos().signum())
+}
+
+/// Replicas whose noise is another at each value of the parameters: no random numbers in common.
+fn model(slope: f64, seed: u64) -> impl Fn(&[f64]) -> Result<Replica, String> + Sync {
+    move |values| {
+        let mean: Vec<f64> = curve(slope, values[0]).collect();
+        let here = values.iter().fold(seed, |hash, value| {
+            (hash ^ value.to_bits())
+                .wrapping_mul(0x9E37_79B9_7F4A_7C15)
+                .rotate_left(29)
+        });
+        Ok(Box::new(move |replica| {
+            let mut rng = Pcg64Dxsm::seed_from_u64(here.wrapping_add(replica));
+            let one = |mean: &f64| [mean + SCATTER * normal(&mut rng); 3];
+            Ok(mean.iter().map(one).collect())
+        }))
+    }
+}
+
+fn ranges() -> Vec<Range> {
+    vec![Range::parse("a.a=-1:1").unwrap()]
+}
+
+fn points(seed: u64) -> Vec<Datum> {
+    let mut rng = Pcg64Dxsm::seed_from_u64(seed);
+    let point = |(k, value): (usize, f64)| Datum {
+        value: value + NOISE * normal(&mut rng),
+        u: NOISE,
+        ..Datum::place(0, "x1", k as f64)
+    };
+    curve(SLOPE, PLANTED).enumerate().map(point).collect()
+}
+
+fn fit(data: &[Datum], slope: f64, seed: u64) -> Fit {
+    let (ranges, basis) = (ranges(), Basis::new(1));
+    let found = coefficients(
+        &basis,
+        &model(slope, seed),
+        |node| node.to_vec(),
+        0..REPLICAS,
+        &|| (),
+    );
+    let measured = Measured {
+        data,
+        ranges: &ranges,
+        rods_over_measured: &[0.0],
+    };
+    fitted(&measured, &basis, &vec![(-1.0, 1.0)], &found.unwrap()).unwrap()
+}
+
+/// The control: the noise in the slopes is taken for the points' word.
+fn believed(fit: &Fit) -> Fit {
+    let best = fit.best.with_noise();
+    Fit {
+        profiles: vec![profile(&best, 0)],
+        best,
+        ..fit.clone()
+    }
+}
+
+/// Whether the intervals of 68 and 95 % hold the planted value, and the p-value.
+fn asked(fit: &Fit) -> ([bool; 2], f64) {
+    let inside = [0.68, 0.95].map(|confidence| {
+        let ends = fit.interval(0, confidence);
+        (ends.low..=ends.high).contains(&PLANTED)
+    });
+    let law = ChiSquared::new((POINTS - 1) as f64).unwrap();
+    (inside, law.sf(fit.best.chi_square))
+}
+
+/// Where 0.4 of what the points seem to tell is noise, intervals would be √0.6 as long and hold the truth in 56 and 87 %.
+const EFFECT: f64 = 0.1;
+
+/// The covariance of a replica, half of V, is estimated itself: from [`REPLICAS`] of them.
+const ALLOWANCE: f64 = 0.02;
+const REPLICAS: u64 = 100;
+
+#[test]
+fn the_noise_of_replicas_makes_no_interval_short() {
+    let count = Design {
+        effect: EFFECT,
+        sd: (0.68_f64 * 0.32).sqrt(),
+    }
+    .samples();
+    let one = |k: u64| {
+        let fit = fit(&points(1000 + k), SLOPE, 5000 + k);
+        (asked(&fit), asked(&believed(&fit)), fit.feigned())
+    };
+    let all: Vec<_> = (0..count).into_par_iter().map(one).collect();
+    let feigned = all.iter().map(|(_, _, feigned)| feigned).sum::<f64>() / count as f64;
+    assert!((0.33..0.5).contains(&feigned), "{feigned}");
+    for (which, confidence) in [0.68, 0.95].into_iter().enumerate() {
+        let own = share(
+            all.iter().map(|(own, ..)| own.0[which]),
+            confidence,
+            ALLOWANCE,
+            EFFECT,
+        );
+        assert_eq!(judge(&own), Verdict::Pass, "{own:?}");
+    }
+    let believed = share(
+        all.iter().map(|(_, believed, _)| believed.0[0]),
+        0.68,
+        ALLOWANCE,
+        EFFECT,
+    );
+    assert_eq!(judge(&believed), Verdict::Fail, "{believed:?}");
+    // χ² is neither too large nor too kind.
+    for above in [0.05, 0.95] {
+        let own = share(
+            all.iter().map(|(own, ..)| own.1 > above),
+            1.0 - above,
+            ALLOWANCE,
+            EFFECT,
+        );
+        assert_eq!(judge(&own), Verdict::Pass, "{own:?}");
+    }
+}
+
+/// What the noise adds to the squares of the slopes is all there is where the model does not change with the parameter.
+#[test]
+fn the_noise_of_a_flat_model_is_all_of_its_slopes() {
+    let one = |seed: u64| {
+        let surface = fit(&points(1), 0.0, seed).best.surface;
+        let place = [0.3];
+        (surface.noise(&place).trace(), surface.slopes(&place).1.trace())
+    };
+    const SEEDS: u64 = 200;
+    let all: Vec<(f64, f64)> = (0..SEEDS).into_par_iter().map(one).collect();
+    let differences: Vec<f64> = all.iter().map(|(added, all)| all - added).collect();
+    let seen = Sample::of(&differences);
+    let mean = all.iter().map(|(_, all)| all).sum::<f64>() / SEEDS as f64;
+    assert!(
+        seen.mean.abs() < 4.0 * seen.se && seen.se < 0.05 * mean,
+        "{seen:?} {mean}"
+    );
+}

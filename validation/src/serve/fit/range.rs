@@ -1,0 +1,156 @@
+//! `[SET:]KEY=FROM:TO`: a key of the scene and the range in which it is sought, for all sets of points or for one.
+
+use crate::serve::sweep::key_and_text;
+use serde::Serialize;
+
+/// From this ratio of its ends on, a range of positive values is covered evenly in the logarithm.
+const DECADE: f64 = 10.0;
+
+/// A key of the scene with the range of its value.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Range {
+    /// As `interaction.alpha`.
+    pub key: String,
+    /// The set of points whose scene alone has it, counted from 1; none where all scenes share it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub set: Option<usize>,
+    /// The least value, in the unit of the key.
+    pub from: f64,
+    /// The most, above the least.
+    pub to: f64,
+}
+
+impl Range {
+    /// Reads what stands after `--over`.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        const SHAPE: &str = "KEY=FROM:TO is allowed, as interaction.alpha=0.05:5, and SET:KEY=FROM:TO with the number of a --data";
+        let (set, text) = match text.split_once(':') {
+            Some((set, rest)) if !set.contains('=') => {
+                let number = set.trim().parse().ok().filter(|number| *number > 0);
+                (
+                    Some(number.ok_or_else(|| format!("{set:?} is no set of points; {SHAPE}"))?),
+                    rest,
+                )
+            }
+            _ => (None, text),
+        };
+        let (key, ends) = key_and_text(text, SHAPE)?;
+        let (from, to) = (ends.split_once(':')).ok_or_else(|| format!("{ends:?} is no range; {SHAPE}"))?;
+        let number = |text: &str| match text.trim().parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(number),
+            _ => Err(format!(
+                "{text:?} is no end of a range; a finite number is allowed: {SHAPE}"
+            )),
+        };
+        let (from, to) = (number(from)?, number(to)?);
+        match from < to {
+            true => Ok(Self {
+                key: key.to_owned(),
+                set,
+                from,
+                to,
+            }),
+            false => Err(format!("{from}:{to} is no range; FROM < TO is allowed")),
+        }
+    }
+
+    /// As it is given: `interaction.alpha`, `2:interaction.alpha`.
+    pub fn label(&self) -> String {
+        self.set
+            .map_or_else(|| self.key.clone(), |set| format!("{set}:{}", self.key))
+    }
+
+    /// The last word of the key, for sentences and names of files: `alpha`, `alpha_2`.
+    pub fn name(&self) -> String {
+        let last = self.key.rsplit('.').next().unwrap_or(&self.key);
+        self.set
+            .map_or_else(|| last.to_owned(), |set| format!("{last}_{set}"))
+    }
+
+    /// Whether the scene of this set, counted from 0, has it.
+    pub fn is_of(&self, set: usize) -> bool {
+        self.set.is_none_or(|own| own == set + 1)
+    }
+
+    /// Whether the range is covered evenly in the logarithm: both ends positive and a factor of ten apart.
+    pub fn is_logarithmic(&self) -> bool {
+        self.from > 0.0 && self.to / self.from >= DECADE
+    }
+
+    /// The value on the scale on which the range is covered evenly.
+    pub fn scaled(&self, value: f64) -> f64 {
+        if self.is_logarithmic() { value.ln() } else { value }
+    }
+
+    /// The value of a place on that scale, never outside the range.
+    pub fn value(&self, scaled: f64) -> f64 {
+        let value = if self.is_logarithmic() {
+            scaled.exp()
+        } else {
+            scaled
+        };
+        value.clamp(self.from, self.to)
+    }
+
+    /// Change of the value with its place on that scale.
+    pub fn slope(&self, scaled: f64) -> f64 {
+        if self.is_logarithmic() { scaled.exp() } else { 1.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wide_positive_ranges_are_logarithmic_and_keep_their_ends() {
+        let range = Range::parse("interaction.alpha=0.05:5").unwrap();
+        assert!(range.is_logarithmic());
+        assert_eq!(range.name(), "alpha");
+        for value in [0.05, 0.5, 5.0] {
+            let back = range.value(range.scaled(value));
+            assert!((back - value).abs() < 1e-15 * value.max(1.0), "{back}");
+        }
+        // dα/d ln α = α.
+        assert!((range.slope(range.scaled(0.7)) - 0.7).abs() < 1e-15);
+        assert_eq!(range.value(9.0), 5.0);
+        for text in ["a=0:5", "a=-1:5", "a=1:9"] {
+            assert!(!Range::parse(text).unwrap().is_logarithmic(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_range_may_be_of_one_set() {
+        let of_all = Range::parse("interaction.alpha=0.05:5").unwrap();
+        let own = Range::parse("2:interaction.alpha=0.05:5").unwrap();
+        assert_eq!((own.set, own.key.as_str()), (Some(2), "interaction.alpha"));
+        assert_eq!(
+            (own.label().as_str(), own.name().as_str()),
+            ("2:interaction.alpha", "alpha_2")
+        );
+        assert_eq!([0, 1, 2].map(|set| own.is_of(set)), [false, true, false]);
+        assert_eq!(
+            (of_all.label().as_str(), of_all.is_of(7)),
+            ("interaction.alpha", true)
+        );
+    }
+
+    #[test]
+    fn what_is_no_range_is_refused_with_what_is_allowed() {
+        for (text, named) in [
+            ("alpha", "KEY=FROM:TO"),
+            ("a b=1:2", "no key"),
+            ("a=1", "\"1\" is no range"),
+            ("a=1:x", "\"x\" is no end"),
+            ("a=1:inf", "\"inf\" is no end"),
+            ("a=1:2:3", "\"2:3\" is no end"),
+            ("a=2:2", "FROM < TO"),
+            ("a=3:2", "FROM < TO"),
+            ("0:a=1:2", "\"0\" is no set of points"),
+            ("x:a=1:2", "\"x\" is no set of points"),
+        ] {
+            let error = Range::parse(text).unwrap_err();
+            assert!(error.contains(named), "{text}: {error}");
+        }
+    }
+}

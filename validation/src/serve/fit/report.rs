@@ -1,0 +1,289 @@
+//! A fit as plain data, as JSON and CSV, and in words.
+
+use super::budget::{self, Part, Residual, Shift};
+use super::data::Datum;
+use super::design::{Candidate, Step};
+use super::likelihood::{EMULATOR, REPLICAS, correlation_of};
+use super::profile::rise_of;
+use super::range::Range;
+use super::search::{Fit, MOST_SHARE};
+use crate::input::experiment::{Bias, bias};
+use nalgebra::DMatrix;
+use serde::Serialize;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+use std::collections::BTreeMap;
+
+/// A parameter as the points have it, in the unit of its key.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Parameter {
+    /// The best value.
+    pub estimate: f64,
+    /// The 68 % interval by profile likelihood.
+    pub low_68: f64,
+    /// Its upper end.
+    pub high_68: f64,
+    /// The 95 % interval.
+    pub low_95: f64,
+    /// Its upper end.
+    pub high_95: f64,
+    /// One standard uncertainty, of the linear theory.
+    pub standard_uncertainty: f64,
+    /// The range in which it was sought.
+    pub range: [f64; 2],
+    /// Whether the 95 % interval ends at an edge of the range, below and above: the points do not say where it does.
+    pub ends_at_edge: [bool; 2],
+}
+
+/// Everything that a fit says.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// By the key of the scene, `SET:KEY` where it is of one set alone.
+    pub parameters: BTreeMap<String, Parameter>,
+    /// The least χ².
+    pub chi2: f64,
+    /// Points less parameters.
+    pub degrees_of_freedom: usize,
+    /// The probability of a larger χ² if the model were right.
+    pub p_value: f64,
+    /// The order of the parameters in what follows.
+    pub order: Vec<String>,
+    /// The covariance of the estimates, of the linear theory.
+    pub covariance: Vec<Vec<f64>>,
+    /// Their correlation.
+    pub correlation: Vec<Vec<f64>>,
+    /// What the standard uncertainties are made of.
+    pub budget: Vec<Part>,
+    /// What further points would leave; none where it was not asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub design: Option<Vec<Step>>,
+    /// What a finer step and more rods would change; not part of the intervals, which are of the scene as it is written.
+    pub shifts: Vec<Shift>,
+    /// FDS's bias δ and scatter σ_M of the best model; none where a value is not positive.
+    pub bias: Option<Bias>,
+    /// Each point beside the best model.
+    pub residuals: Vec<Residual>,
+    /// Replicas at each value of the parameters in the last box.
+    pub replicas: usize,
+    /// Runs over all boxes.
+    pub runs: u64,
+    /// Boxes that were tried.
+    pub boxes: u64,
+    /// What to know before trusting it.
+    pub warnings: Vec<String>,
+}
+
+/// Below this p-value a model is said not to describe the points.
+const NOT_DESCRIBED: f64 = 0.001;
+
+/// Above this correlation two parameters are said to be hardly told apart.
+const ALIKE: f64 = 0.95;
+
+/// The report of a fit of some points.
+pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
+    let freedom = data.len() - fit.ranges.len();
+    let p_value = ChiSquared::new(freedom as f64).map_or(f64::NAN, |law| law.sf(fit.best.chi_square));
+    let values = fit.values(&fit.best.place);
+    let covariance = fit.covariance();
+    let correlation = correlation_of(&fit.best.covariance());
+    let parameters: BTreeMap<_, _> = (fit.ranges.iter().enumerate())
+        .map(|(axis, range)| {
+            let (inner, outer) = (fit.interval(axis, 0.68), fit.interval(axis, 0.95));
+            let estimate = Parameter {
+                estimate: values[axis],
+                low_68: inner.low,
+                high_68: inner.high,
+                low_95: outer.low,
+                high_95: outer.high,
+                standard_uncertainty: covariance[(axis, axis)].sqrt(),
+                range: [range.from, range.to],
+                ends_at_edge: outer.open,
+            };
+            (range.label(), estimate)
+        })
+        .collect();
+    let residuals = budget::residuals(fit, data);
+    let pairs: Vec<_> = residuals.iter().map(|r| (r.simulated, r.measured)).collect();
+    let relative = |r: &Residual| (r.u / r.measured).powi(2);
+    let sigma_e = (residuals.iter().map(relative).sum::<f64>() / residuals.len() as f64).sqrt();
+    let rows = |matrix: &DMatrix<f64>| {
+        matrix
+            .row_iter()
+            .map(|row| row.iter().copied().collect())
+            .collect()
+    };
+    Report {
+        warnings: warnings(fit, &parameters, &correlation, p_value),
+        parameters,
+        chi2: fit.best.chi_square,
+        degrees_of_freedom: freedom,
+        p_value,
+        order: fit.ranges.iter().map(Range::label).collect(),
+        covariance: rows(&covariance),
+        correlation: rows(&correlation),
+        budget: budget::parts(fit),
+        shifts,
+        design: None,
+        bias: bias(&pairs, sigma_e),
+        residuals,
+        replicas: fit.emulator.replicas(),
+        runs: fit.runs,
+        boxes: fit.rounds,
+    }
+}
+
+fn warnings(
+    fit: &Fit,
+    parameters: &BTreeMap<String, Parameter>,
+    correlation: &DMatrix<f64>,
+    p_value: f64,
+) -> Vec<String> {
+    let mut all = Vec::new();
+    for range in &fit.ranges {
+        let found = &parameters[&range.label()];
+        let ends = [
+            (found.ends_at_edge[0], "lower", range.from),
+            (found.ends_at_edge[1], "upper", range.to),
+        ];
+        if found.ends_at_edge == [true, true] {
+            all.push(format!(
+                "{}: its 95 % interval is its whole range, {} to {}: the points say nothing of it there",
+                range.label(),
+                range.from,
+                range.to
+            ));
+            continue;
+        }
+        for (_, side, edge) in ends.into_iter().filter(|(open, ..)| *open) {
+            all.push(format!(
+                "{}: its 95 % interval reaches the {side} end of its range, {edge}: the points do not say where it ends",
+                range.label()
+            ));
+        }
+    }
+    for i in 0..fit.ranges.len() {
+        for j in 0..i {
+            if correlation[(i, j)].abs() > ALIKE {
+                all.push(format!(
+                    "{} and {}: these points hardly tell them apart (correlation {:.3}); --design shows \
+                     what further points would do",
+                    fit.ranges[j].label(),
+                    fit.ranges[i].label(),
+                    correlation[(i, j)]
+                ));
+            }
+        }
+    }
+    if p_value < NOT_DESCRIBED {
+        all.push(format!(
+            "p = {p_value:.1e}: the model with the best values does not describe these points, or their uncertainties are \
+             too small; the intervals say nothing then"
+        ));
+    }
+    for (cause, what) in [
+        (REPLICAS, "more --replicas make"),
+        (EMULATOR, "a narrower --over range makes"),
+    ] {
+        // Noise of the replicas is in the curves and in their slopes.
+        let share = match cause {
+            REPLICAS => fit.best.share(cause).max(fit.feigned()),
+            _ => fit.best.share(cause),
+        };
+        if share > 1.5 * MOST_SHARE {
+            all.push(format!(
+                "{:.0} % of a parameter's variance is the model's own error ({}): {what} the interval shorter",
+                100.0 * share,
+                super::likelihood::CAUSES[cause],
+            ));
+        }
+    }
+    all
+}
+
+/// `residuals.csv`: each point with the best model.
+pub fn residuals_csv(report: &Report, times: &[&str]) -> Result<String, String> {
+    let mut rows = vec![
+        [
+            "set",
+            "time_unit",
+            "time",
+            "column",
+            "measured",
+            "simulated",
+            "residual",
+            "u",
+        ]
+        .map(String::from)
+        .to_vec(),
+    ];
+    rows.extend(report.residuals.iter().map(|r| {
+        let numbers = [r.measured, r.simulated, r.residual, r.u].map(|number| number.to_string());
+        let place = [
+            r.set.to_string(),
+            times[r.set].to_owned(),
+            r.time.to_string(),
+            r.column.clone(),
+        ];
+        place.into_iter().chain(numbers).collect()
+    }));
+    csv_of(&rows)
+}
+
+/// `profiles.csv`: χ² − χ²_min along each parameter, as it counts beside the noise of the replicas.
+pub fn profiles_csv(fit: &Fit) -> Result<String, String> {
+    let mut rows = vec![["parameter", "value", "rise_of_chi2"].map(String::from).to_vec()];
+    for (axis, profile) in fit.profiles.iter().enumerate() {
+        rows.extend(profile.place.iter().zip(&profile.rise).map(|(place, rise)| {
+            vec![
+                fit.ranges[axis].label(),
+                fit.value(axis, *place).to_string(),
+                rise.to_string(),
+            ]
+        }));
+    }
+    csv_of(&rows)
+}
+
+/// `design.csv`: each point that could be measured, what the measured ones leave of it, and what it would leave of the
+/// parameters.
+pub fn design_csv(fit: &Fit, candidates: &[Candidate], times: &[&str]) -> Result<String, String> {
+    let head = [
+        "set",
+        "time_unit",
+        "time",
+        "column",
+        "concentration_per_cm3",
+        "u",
+        "spread",
+    ];
+    let own = (fit.ranges.iter()).map(|range| format!("u_{}_with_it", range.name()));
+    let mut rows: Vec<Vec<String>> = vec![head.into_iter().map(String::from).chain(own).collect()];
+    rows.extend(candidates.iter().map(|one| {
+        let place = [
+            one.set.to_string(),
+            times[one.set].to_owned(),
+            one.time.to_string(),
+            one.column.clone(),
+            one.concentration_per_cm3.map_or(String::new(), |n| n.to_string()),
+        ];
+        let numbers = [one.u, one.spread].into_iter().chain(one.leaves.iter().copied());
+        place
+            .into_iter()
+            .chain(numbers.map(|number| number.to_string()))
+            .collect()
+    }));
+    csv_of(&rows)
+}
+
+fn csv_of(rows: &[Vec<String>]) -> Result<String, String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer.write_record(row).map_err(|error| error.to_string())?;
+    }
+    let bytes = writer.into_inner().map_err(|error| error.to_string())?;
+    String::from_utf8(bytes).map_err(|error| error.to_string())
+}
+
+/// The levels of a profile that are drawn.
+pub fn levels() -> [(f64, f64); 2] {
+    [0.68, 0.95].map(|confidence| (confidence, rise_of(confidence)))
+}

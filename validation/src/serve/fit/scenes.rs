@@ -1,0 +1,324 @@
+//! Scenes as a model of measured points: a scene's keys set to values, its replicas run, and looked at where points lie.
+
+use super::data::{Datum, TimeColumn};
+use super::emulator::{Prediction, Replica};
+use super::range::Range;
+use crate::input::experiment::interpolate;
+use crate::input::start::Starts;
+use crate::serve::sweep::{self, Setting};
+use shearbed::observable::Channel;
+use shearbed::run::run_replica;
+use shearbed::{Observable, Plan, Scene};
+use toml::Value;
+
+/// A scene with the times and columns at which it was measured.
+#[derive(Clone, Debug)]
+pub struct Set {
+    /// The scene's name or file, for messages.
+    pub source: String,
+    /// The text of the scene's file.
+    pub text: String,
+    /// The starts of rods that have theirs in a file beside the scene's, read once for all values of the parameters.
+    pub starts: Starts,
+    /// Keys that have other values than in the text, the same for all parameters.
+    pub settings: Vec<Setting>,
+    /// The seed of all random numbers.
+    pub seed: u64,
+    /// The unit of its points' times.
+    pub time: TimeColumn,
+}
+
+/// How a model differs from the scene as it is written, to see what that changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Variant {
+    /// Steps, in multiples of the scene's.
+    pub steps: u64,
+    /// Rods, in multiples of the scene's.
+    pub rods: usize,
+    /// Whether all rods have the mean r_e.
+    pub one_aspect_ratio: bool,
+}
+
+/// The scene as it is written.
+pub const AS_WRITTEN: Variant = Variant {
+    steps: 1,
+    rods: 1,
+    one_aspect_ratio: false,
+};
+
+/// Several scenes with parameters that they share or have each for itself.
+#[derive(Clone, Debug)]
+pub struct Scenes {
+    /// The scenes.
+    pub sets: Vec<Set>,
+    /// The parameters.
+    pub ranges: Vec<Range>,
+    /// Steps per period or unit of strain of each scene, the same for all values of the parameters: so they keep their random numbers.
+    steps: Vec<u64>,
+}
+
+/// Why rods that start in one direction do not disturb each other, where they do not: parallel ones have no contact line; in
+/// the shear plane it is along axis 3, along which nothing moves.
+fn apart(scene: &Scene) -> Option<&'static str> {
+    let [_, theta_deg] = scene.particles.common_start_deg()?;
+    match theta_deg.rem_euclid(180.0) {
+        90.0 => Some("all rods start parallel in the shear plane"),
+        0.0 => Some("all rods start along the vorticity axis"),
+        _ if !scene.particles.of_several_shapes() => Some("all rods start parallel with one r_e"),
+        _ => None,
+    }
+}
+
+/// √3: Gauss–Hermite's outer nodes in standard deviations.
+const OUTER: f64 = 1.732_050_807_568_877_2;
+
+/// Outputs per unit of strain, where time is no period.
+const PER_STRAIN: u64 = 40;
+
+/// Outputs per period of free rods that start alike: |p_i| has a kink where p_i changes its sign, all of them at once, which a cubic
+/// between outputs rounds off by a share of their distance.
+const KINKED: u64 = 5000;
+
+impl Scenes {
+    /// Checks every scene at all corners of the ranges. On error, which scene, which values, and why.
+    pub fn new(sets: Vec<Set>, ranges: Vec<Range>) -> Result<Self, String> {
+        let mut scenes = Self {
+            steps: vec![0; sets.len()],
+            sets,
+            ranges,
+        };
+        for set in 0..scenes.sets.len() {
+            for corner in scenes.corners() {
+                let scene = scenes.scene(set, &corner)?;
+                scenes.says_something(set, &scene)?;
+                scenes.steps[set] = scenes.steps[set].max(scene.steps_per_unit());
+            }
+        }
+        Ok(scenes)
+    }
+
+    /// Refuses to fit the interaction of rods that never disturb each other: what their curves say of it is nothing.
+    fn says_something(&self, set: usize, scene: &Scene) -> Result<(), String> {
+        let fitted = self
+            .ranges
+            .iter()
+            .find(|range| range.is_of(set) && range.key.starts_with("interaction."));
+        match (fitted, apart(scene)) {
+            (Some(range), Some(why)) => Err(format!(
+                "{}: --over {}: {why}: such rods do not disturb each other in this model, but by the error of a time step, and points of \
+                 them say nothing of it. Lee & Springer leave such points out (r_e = 3.96; Results, after Fig. 5). Keys of particles \
+                 and flow are allowed",
+                self.sets[set].source,
+                range.label()
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// Where the scene of a set ends with these values, in the unit of its points' times.
+    pub fn end(&self, set: usize, values: &[f64]) -> Result<f64, String> {
+        let refused = |error: String| format!("{}: {error}", self.sets[set].source);
+        let plan = Plan::new(&self.scene(set, values)?).map_err(|error| refused(error.to_string()))?;
+        (self.sets[set].time.end_of(&plan)).ok_or_else(|| refused("has no period".into()))
+    }
+
+    /// The same scenes at so many times their concentration, and that; none of rods that do not interact, or whose
+    /// concentration is fitted. A box is changed in proportion.
+    pub fn at_concentration(&self, factor: f64, values: &[f64]) -> Result<(Self, Vec<Option<f64>>), String> {
+        const KEY: &str = "interaction.concentration_per_cm3";
+        const BOX: &str = "interaction.box_mm";
+        let (mut scenes, mut all) = (self.clone(), Vec::new());
+        for set in 0..self.sets.len() {
+            let fitted = (self.ranges.iter()).any(|range| range.is_of(set) && range.key == KEY);
+            let scene = self.scene(set, values)?;
+            let own = scene.concentration_per_cm3().filter(|_| !fitted);
+            let concentration = own.map(|own| factor * own);
+            if let (Some(value), Some(interaction)) = (concentration, scene.interaction) {
+                let side = |side: f64| Value::Float(side / factor.cbrt());
+                let sides = interaction.box_mm;
+                let sides = sides.map(|sides| Value::Array(sides.map(side).to_vec()));
+                let given = interaction.concentration_per_cm3.map(|_| Value::Float(value));
+                let settings = &mut scenes.sets[set].settings;
+                for (key, value) in [(KEY, given), (BOX, sides)] {
+                    settings.retain(|setting| setting.key != key);
+                    let key = key.to_owned();
+                    settings.extend(value.map(|value| Setting { key, value }));
+                }
+            }
+            all.push(concentration);
+        }
+        Ok((scenes, all))
+    }
+
+    fn corners(&self) -> Vec<Vec<f64>> {
+        let end = |k: usize, range: usize| match k >> range & 1 {
+            0 => self.ranges[range].from,
+            _ => self.ranges[range].to,
+        };
+        (0..1 << self.ranges.len())
+            .map(|k: usize| (0..self.ranges.len()).map(|range| end(k, range)).collect())
+            .collect()
+    }
+
+    /// The scene of a set with these values, as its file has it otherwise.
+    pub fn scene(&self, set: usize, values: &[f64]) -> Result<Scene, String> {
+        let Set {
+            source,
+            text,
+            starts,
+            settings,
+            seed,
+            ..
+        } = &self.sets[set];
+        let own = || {
+            self.ranges
+                .iter()
+                .zip(values)
+                .filter(|(range, _)| range.is_of(set))
+        };
+        let fitted = own().map(|(range, value)| Setting {
+            key: range.key.clone(),
+            value: Value::Float(*value),
+        });
+        let settings: Vec<_> = settings.iter().cloned().chain(fitted).collect();
+        let said = || {
+            let pairs = own().map(|(range, value)| format!(" {}={value}", range.label()));
+            pairs.collect::<String>()
+        };
+        let mut filled = starts.clone();
+        let mut scene = sweep::scene_with(text, &settings)
+            .and_then(|mut scene| filled.fill(&mut scene).map(|()| scene))
+            .map_err(|error| format!("{source}: --over{}: {error}", said()))?;
+        scene.ensemble.seed = *seed;
+        Ok(scene)
+    }
+
+    /// The plans of all scenes with these values that reach the last of these times (in the unit of each set), with an
+    /// output in every step.
+    pub fn plans(&self, values: &[f64], data: &[Datum], variant: Variant) -> Result<Vec<Plan>, String> {
+        (0..self.sets.len())
+            .map(|set| self.plan(set, values, data, variant))
+            .collect()
+    }
+
+    fn plan(&self, set: usize, values: &[f64], data: &[Datum], variant: Variant) -> Result<Plan, String> {
+        let refused = |error: String| format!("{}: {error}", self.sets[set].source);
+        let mut scene = self.scene(set, values)?;
+        let own = Plan::new(&scene).map_err(|error| refused(error.to_string()))?;
+        let per_unit = self.sets[set].time.per_unit(&own).ok_or_else(|| {
+            refused("has no period: times as t_s or strain are allowed, not t_over_T".into())
+        })?;
+        let here = data.iter().filter(|datum| datum.set == set);
+        let last = here
+            .map(|datum| (datum.time + OUTER * datum.u_time) / per_unit)
+            .fold(0.0, f64::max);
+        // One output more than the last point needs, for the cubic.
+        let kinked = scene.interaction.is_none() && scene.particles.common_start_deg().is_some();
+        let by_strain = scene.time.strain.is_some();
+        let outputs = match (&scene.interaction, by_strain) {
+            (Some(_), _) => self.steps[set],
+            (None, true) => (scene.outputs_per_strain()).max(if kinked { KINKED / 10 } else { PER_STRAIN }),
+            (None, false) => self.steps[set].max(if kinked { KINKED } else { 1 }),
+        };
+        let time = Some(((last * outputs as f64).ceil() + 1.0) / outputs as f64);
+        if by_strain {
+            (scene.time.strain, scene.time.outputs_per_strain) = (time, Some(outputs));
+        } else {
+            (scene.time.periods, scene.time.outputs_per_period) = (time, Some(outputs));
+        }
+        scene.set_steps_per_unit(outputs * variant.steps);
+        scene.set_count(scene.particles.count * variant.rods);
+        if variant.one_aspect_ratio {
+            scene.particles.aspect_ratio_sd_percent = 0.0;
+        }
+        let needed = |observable: &Observable| {
+            let mut channels = observable.channels();
+            channels.any(|channel| {
+                data.iter()
+                    .any(|datum| datum.set == set && datum.column == channel.name())
+            })
+        };
+        scene.output.observables = Observable::ALL.into_iter().filter(needed).collect();
+        scene.output.rods_at.clear();
+        Plan::new(&scene).map_err(|error| refused(error.to_string()))
+    }
+
+    /// The model of these points with parameters of these values.
+    pub fn model(&self, data: &[Datum], variant: Variant, values: &[f64]) -> Result<Replica, String> {
+        let sets: Vec<(Plan, Vec<Look>)> = (self.plans(values, data, variant)?.into_iter().enumerate())
+            .map(|(set, plan)| {
+                let looks = looks(&plan, self.sets[set].time, data, set);
+                (plan, looks)
+            })
+            .collect();
+        let points = data.len();
+        Ok(Box::new(move |replica| {
+            let mut all = vec![[f64::NAN; 3]; points];
+            for (plan, looks) in &sets {
+                predict(plan, looks, replica, &mut all)?;
+            }
+            Ok(all)
+        }))
+    }
+}
+
+/// Where a scene is looked at for one point.
+#[derive(Clone, Copy, Debug)]
+struct Look {
+    /// Which point.
+    point: usize,
+    /// What was measured.
+    channel: Channel,
+    /// Its time, and one standard deviation, in outputs.
+    outputs: f64,
+    u_outputs: f64,
+}
+
+fn looks(plan: &Plan, time: TimeColumn, data: &[Datum], set: usize) -> Vec<Look> {
+    let per_output = plan.times().get(1).copied().unwrap_or(1.0) * time.per_unit(plan).unwrap_or(f64::NAN);
+    let here = data.iter().enumerate().filter(|(_, datum)| datum.set == set);
+    here.filter_map(|(point, datum)| {
+        Some(Look {
+            point,
+            channel: Channel::named(&datum.column)?,
+            outputs: datum.time / per_output,
+            u_outputs: datum.u_time / per_output,
+        })
+    })
+    .collect()
+}
+
+fn predict(plan: &Plan, looks: &[Look], replica: u64, all: &mut [Prediction]) -> Result<(), String> {
+    let found = run_replica(plan, replica).map_err(|error| error.to_string())?;
+    for look in looks {
+        let mean = |output: usize| found.mean(look.channel, output).unwrap_or(f64::NAN);
+        let at = |outputs: f64| interpolate(plan.outputs(), outputs, 4, mean);
+        all[look.point] = [0.0, -OUTER, OUTER].map(|side| at(look.outputs + side * look.u_outputs));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use shearbed::scene::Orientation;
+
+    #[test]
+    fn parallel_rods_do_not_disturb_each_other_while_they_are_alike() {
+        let said = |theta_deg: f64, sd: f64| {
+            let mut scene = Scene::default();
+            scene.particles.orientation = Orientation::Given {
+                phi_deg: 30.0,
+                theta_deg,
+            };
+            scene.particles.aspect_ratio_sd_percent = sd;
+            apart(&scene).is_some()
+        };
+        assert!([0.0, 45.0, 90.0, 180.0].iter().all(|theta| said(*theta, 0.0)));
+        assert_eq!(
+            [0.0, 45.0, 90.0].map(|theta| said(theta, 3.6)),
+            [true, false, true]
+        );
+        assert_eq!(apart(&Scene::default()), None);
+    }
+}

@@ -1,0 +1,152 @@
+//! A program's answer to a problem, in the order of the problem's own rows.
+
+use crate::judge::statistics::worst;
+use crate::serve::problems::{Kind, LoadedProblem, ReadError};
+use std::path::{Path, PathBuf};
+
+/// How far a time may be from the problem's, in parts of the gap to the next one: it is a label, printed with some digits.
+const LABEL: f64 = 1e-4;
+
+/// An answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer {
+    /// The file.
+    pub path: PathBuf,
+    /// The values asked for, without keys, a row for each of the problem's; finite or not.
+    pub rows: Vec<Vec<f64>>,
+    /// The line that each row was in.
+    pub lines: Vec<u64>,
+}
+
+impl Answer {
+    /// The largest difference of a value from the same value of another answer; NaN where one is not finite.
+    pub fn largest_change(&self, other: &Self) -> f64 {
+        let pairs = self.rows.iter().flatten().zip(other.rows.iter().flatten());
+        worst(pairs.map(|(a, b)| (a - b).abs()))
+    }
+}
+
+/// Rows as they come, put where they belong. They come in the problem's order: a shuffled file is a mistake in the making.
+pub(super) struct Collector<'a> {
+    problem: &'a LoadedProblem,
+    rods: usize,
+    /// Rows at t = 0 that come before those that are asked for.
+    ahead: usize,
+    /// The line of each row that was there, those at t = 0 first.
+    lines: Vec<Option<u64>>,
+    /// The place of the last one.
+    last: usize,
+    rows: Vec<Vec<f64>>,
+}
+
+impl<'a> Collector<'a> {
+    pub(super) fn new(problem: &'a LoadedProblem) -> Self {
+        let rods = problem.start.len().max(1);
+        let ahead = match problem.problem.kind {
+            Kind::Contact => 0,
+            _ => rods,
+        };
+        let rows = problem.certified.rows.len();
+        Self {
+            problem,
+            rods,
+            ahead,
+            lines: vec![None; ahead + rows],
+            last: 0,
+            rows: vec![Vec::new(); rows],
+        }
+    }
+
+    /// Adds the row with these keys. `Err` has the key that is wrong, and why.
+    pub(super) fn add(&mut self, line: u64, keys: &[f64], values: Vec<f64>) -> Result<(), (usize, String)> {
+        let at = self.place(keys)?;
+        let names = self.problem.problem.kind.keys().join(" and ");
+        if let Some(before) = self.lines[at] {
+            return Err((keys.len() - 1, format!("the same {names} as in line {before}")));
+        }
+        if at < self.last {
+            let earlier = at / self.rods < self.last / self.rods;
+            let key = if earlier { 0 } else { keys.len() - 1 };
+            return Err((key, format!("out of order: rows must ascend in {names}")));
+        }
+        self.last = at;
+        self.lines[at] = Some(line);
+        if let Some(row) = at.checked_sub(self.ahead) {
+            self.rows[row] = values;
+        }
+        Ok(())
+    }
+
+    /// Its place among rows at t = 0 and those that are asked for.
+    fn place(&self, keys: &[f64]) -> Result<usize, (usize, String)> {
+        let whole = |key: usize, count: usize| {
+            let found = keys[key];
+            let name = self.problem.problem.kind.keys()[key];
+            match found >= 0.0 && found < count as f64 && found.fract() == 0.0 {
+                true => Ok(found as usize),
+                false => Err((
+                    key,
+                    format!(
+                        "{name} = {found}; whole numbers from 0 to {} are asked for",
+                        count - 1
+                    ),
+                )),
+            }
+        };
+        if self.problem.problem.kind == Kind::Contact {
+            return whole(0, self.rows.len());
+        }
+        let time = self.time(keys[0])?;
+        let rod = if keys.len() > 1 { whole(1, self.rods)? } else { 0 };
+        Ok(time.map_or(0, |time| time + 1) * self.rods + rod)
+    }
+
+    /// Which time; `None` at the start, where it is not asked for.
+    fn time(&self, found: f64) -> Result<Option<usize>, (usize, String)> {
+        let times = &self.problem.problem.times_s;
+        let after = times.partition_point(|time| *time < found);
+        let near = [after.checked_sub(1), (after < times.len()).then_some(after)];
+        let nearest = (near.into_iter().flatten())
+            .min_by(|a, b| (times[*a] - found).abs().total_cmp(&(times[*b] - found).abs()));
+        let gap = |at: usize| {
+            let below = at.checked_sub(1).map_or(0.0, |before| times[before]);
+            let above = times.get(at + 1).map_or(f64::INFINITY, |next| next - times[at]);
+            (times[at] - below).abs().min(above)
+        };
+        match nearest {
+            Some(at) if (times[at] - found).abs() <= LABEL * gap(at) => Ok(Some(at)),
+            _ if found == 0.0 => Ok(None),
+            Some(at) => Err((
+                0,
+                format!(
+                    "time_s = {found} is not asked for; the nearest that is asked for is {}",
+                    times[at]
+                ),
+            )),
+            None => Err((0, format!("time_s = {found} is not asked for"))),
+        }
+    }
+
+    pub(super) fn finish(self, path: &Path, last: u64) -> Result<Answer, ReadError> {
+        let lines = &self.lines[self.ahead..];
+        let missing = lines.iter().filter(|line| line.is_none()).count();
+        if let Some(first) = lines.iter().position(Option::is_none) {
+            let names = self.problem.problem.kind.keys();
+            let keys = &self.problem.certified.rows[first];
+            let key: Vec<_> = (names.iter().zip(keys))
+                .map(|(name, key)| format!("{name} = {key}"))
+                .collect();
+            let message = format!(
+                "ends without {} ({missing} of {} rows are missing)",
+                key.join(", "),
+                lines.len()
+            );
+            return Err(ReadError::at(path, last, 1, message));
+        }
+        Ok(Answer {
+            path: path.to_owned(),
+            lines: lines.iter().flatten().copied().collect(),
+            rows: self.rows,
+        })
+    }
+}

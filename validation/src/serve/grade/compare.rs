@@ -1,0 +1,231 @@
+//! How far an answer is from the certified one, and what it lost.
+
+use super::answer::Answer;
+use crate::serve::problems::{LoadedProblem, Metric};
+use crate::studies::integrators::apart_rad;
+use nalgebra::{Matrix3, Vector3};
+use shearbed::flow::VelocityGradient;
+use shearbed::{jeffery, orientation};
+use std::f64::consts::{PI, TAU};
+
+/// What an answer comes to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Compared {
+    /// The largest error of a row by the problem's metric; for directions not less than ||p| − 1|. NaN where a value is
+    /// not finite.
+    pub error: f64,
+    /// The row that has it.
+    pub row: usize,
+    /// What is wrong apart from the error.
+    pub remark: Option<String>,
+    /// The largest ||p| − 1|.
+    pub length_drift: Option<f64>,
+    /// The largest change of C_b = C/(1 + C) from the start (eq. 13), in plane Couette flow.
+    pub orbit_drift: Option<f64>,
+    /// The phase lost per period in periods, negative where it was won: of the worst rod at the last time, in plane
+    /// Couette flow.
+    pub phase_lost_per_period: Option<f64>,
+    /// Standard errors that are too large to judge by, where there are any.
+    pub too_little_data: bool,
+}
+
+/// Compares an answer with the problem's certified values.
+pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
+    let keys = loaded.problem.kind.keys().len();
+    let names = &loaded.problem.columns[keys..];
+    let certified = |row: usize| &loaded.certified.rows[row][keys..];
+    let error_of = |row: usize| match loaded.problem.metric {
+        Metric::Angle => direction_error(&answer.rows[row], certified(row)),
+        Metric::Absolute => largest(
+            answer.rows[row]
+                .iter()
+                .zip(certified(row))
+                .map(|(a, b)| (a - b).abs()),
+        ),
+        Metric::Relative => relative(names, &answer.rows[row], certified(row)),
+        Metric::StandardErrors => standard_errors(names, &answer.rows[row], certified(row)),
+    };
+    let worst = (0..answer.rows.len())
+        .map(|row| (row, error_of(row)))
+        .reduce(|a, b| {
+            let worse = b.1.is_nan() || b.1 > a.1;
+            if worse && !a.1.is_nan() { b } else { a }
+        });
+    let (row, error) = worst.unwrap_or((0, f64::NAN));
+    let largest_se = largest_standard_error(names, answer);
+    let enough = loaded
+        .problem
+        .ensemble
+        .as_ref()
+        .map_or(f64::INFINITY, |ensemble| ensemble.largest_standard_error);
+    let directions = loaded.problem.metric == Metric::Angle;
+    Compared {
+        error,
+        row,
+        remark: remark(loaded, answer, row, error, largest_se),
+        length_drift: directions.then(|| {
+            largest(
+                answer
+                    .rows
+                    .iter()
+                    .map(|p| (Vector3::from_row_slice(p).norm() - 1.0).abs()),
+            )
+        }),
+        orbit_drift: couette_per_s(loaded)
+            .filter(|_| directions)
+            .map(|_| orbit_drift(loaded, answer)),
+        phase_lost_per_period: couette_per_s(loaded)
+            .filter(|_| directions)
+            .and_then(|rate| phase_lost(loaded, answer, rate)),
+        too_little_data: largest_se.is_nan() || largest_se > enough,
+    }
+}
+
+/// The largest, or NaN where one is.
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |a: f64, b| {
+        if a.is_nan() || b.is_nan() {
+            f64::NAN
+        } else {
+            a.max(b)
+        }
+    })
+}
+
+fn direction_error(p: &[f64], certified: &[f64]) -> f64 {
+    let (p, certified) = (Vector3::from_row_slice(p), Vector3::from_row_slice(certified));
+    let length = (p.norm() - 1.0).abs();
+    if !length.is_finite() {
+        return f64::NAN;
+    }
+    apart_rad(&p, &certified).max(length)
+}
+
+/// Columns of rods a and b, each by the length of its difference.
+fn relative(names: &[String], values: &[f64], certified: &[f64]) -> f64 {
+    let of_rod = |rod: &str| {
+        let columns: Vec<_> = (0..names.len()).filter(|k| names[*k].starts_with(rod)).collect();
+        let sum = |of: &dyn Fn(usize) -> f64| columns.iter().map(|k| of(*k).powi(2)).sum::<f64>().sqrt();
+        match columns.is_empty() {
+            true => 0.0,
+            false => sum(&|k| values[k] - certified[k]) / sum(&|k| certified[k]).max(f64::MIN_POSITIVE),
+        }
+    };
+    largest(["a_", "b_"].into_iter().map(of_rod))
+}
+
+/// Pairs of columns x and `x_se`.
+fn with_errors(names: &[String]) -> impl Iterator<Item = (usize, usize)> + '_ {
+    names.iter().enumerate().filter_map(|(k, name)| {
+        let error = format!("{name}_se");
+        Some((k, names.iter().position(|other| *other == error)?))
+    })
+}
+
+/// The largest difference of means in their common standard errors.
+pub(super) fn standard_errors(names: &[String], values: &[f64], certified: &[f64]) -> f64 {
+    largest(with_errors(names).map(|(mean, se)| {
+        let se = values[se].hypot(certified[se]);
+        (values[mean] - certified[mean]).abs() / se.max(f64::MIN_POSITIVE)
+    }))
+}
+
+/// NaN where one is not above 0: the mean of a random sample has an error.
+fn largest_standard_error(names: &[String], answer: &Answer) -> f64 {
+    let of_row = |row: &Vec<f64>| {
+        largest(with_errors(names).map(|(_, se)| if row[se] > 0.0 { row[se] } else { f64::NAN }))
+    };
+    largest(answer.rows.iter().map(of_row))
+}
+
+/// A standard error that is not above 0.
+fn without_error(loaded: &LoadedProblem, answer: &Answer) -> Option<String> {
+    let names = &loaded.problem.columns[loaded.problem.kind.keys().len()..];
+    let none = |(row, values): (usize, &Vec<f64>)| {
+        let (_, se) = with_errors(names).find(|(_, se)| values[*se] <= 0.0)?;
+        let place = format!("{}:{}", answer.path.display(), answer.lines[row]);
+        let (name, found) = (&names[se], values[se]);
+        Some(format!(
+            "{place}: {name} = {found}; the mean of a random sample has a standard error above 0"
+        ))
+    };
+    answer.rows.iter().enumerate().find_map(none)
+}
+
+fn remark(
+    loaded: &LoadedProblem,
+    answer: &Answer,
+    row: usize,
+    error: f64,
+    largest_se: f64,
+) -> Option<String> {
+    let place = || format!("{}:{}", answer.path.display(), answer.lines[row]);
+    if error.is_nan() {
+        return Some(format!("{}: a value is not finite", place()));
+    }
+    if let Some(none) = without_error(loaded, answer) {
+        return Some(none);
+    }
+    if let Some(ensemble) = &loaded.problem.ensemble
+        && (largest_se.is_nan() || largest_se > ensemble.largest_standard_error)
+    {
+        let enough = ensemble.largest_standard_error;
+        return Some(format!(
+            "too little data to judge: the largest standard error is {largest_se:.2e}, {enough:.2e} is allowed"
+        ));
+    }
+    let keys = loaded.problem.kind.keys().len();
+    let names = &loaded.problem.columns[keys..];
+    let column = |name: &str| names.iter().position(|found| found == name);
+    if let (Some(a), Some(b), Some(c)) = (column("a11"), column("a22"), column("a33")) {
+        let values = &answer.rows[row];
+        let trace = values[a] + values[b] + values[c];
+        // Six printed digits and an integrator's drift are less.
+        if (trace - 1.0).abs() > 1e-3 {
+            return Some(format!(
+                "{}: the trace is {trace:.4}; are the columns in another order?",
+                place()
+            ));
+        }
+    }
+    None
+}
+
+/// G in 1/s of a problem in plane Couette flow u_2 = G x_1.
+fn couette_per_s(loaded: &LoadedProblem) -> Option<f64> {
+    let l = &loaded.problem.gradient_per_s;
+    let flow = VelocityGradient::new(Matrix3::from_fn(|i, j| l[i][j]))?;
+    flow.shear_rate_per_s()
+}
+
+fn orbit_drift(loaded: &LoadedProblem, answer: &Answer) -> f64 {
+    let rods = loaded.start.len();
+    let r = loaded.problem.aspect_ratio;
+    let c_b = |p: [f64; 3]| orientation::bounded_orbit_constant(p, r);
+    largest(
+        (answer.rows.iter().enumerate())
+            .map(|(row, p)| (c_b([p[0], p[1], p[2]]) - c_b(loaded.start[row % rods])).abs()),
+    )
+}
+
+fn phase_lost(loaded: &LoadedProblem, answer: &Answer, shear_rate_per_s: f64) -> Option<f64> {
+    let r = loaded.problem.aspect_ratio;
+    let time_s = *loaded.problem.times_s.last()?;
+    let periods = time_s * shear_rate_per_s.abs() / jeffery::strain_per_period(r);
+    let last = answer.rows.len() - loaded.start.len();
+    let lost = |row: usize| {
+        let (p, q) = (&answer.rows[row], &loaded.certified.rows[row][2..]);
+        let phase = |p: &[f64]| (p[1] / r).atan2(p[0]) * shear_rate_per_s.signum();
+        let off = phase(q) - phase(p);
+        // Half a turn is the same rod.
+        (off - PI * (off / PI).round()) / TAU / periods
+    };
+    // A rod along the vorticity axis has no phase.
+    let turning = (last..answer.rows.len()).filter(|row| {
+        let q = &loaded.certified.rows[*row][2..];
+        q[0].hypot(q[1]) > 1e-6
+    });
+    turning
+        .map(lost)
+        .reduce(|a, b| if b.abs() > a.abs() { b } else { a })
+}

@@ -1,0 +1,92 @@
+//! Which known mistake about two rods in contact (A.7 to A.14) an answer has.
+
+use super::answer::Answer;
+use crate::serve::problems::LoadedProblem;
+use crate::serve::problems::contact::{Variant, answers};
+use nalgebra::Matrix3;
+
+const MISTAKES: [(&str, Variant); 4] = [
+    ("a kick with the wrong sign", kicked(-1.0)),
+    ("no kick", kicked(0.0)),
+    ("a kick to the other rod's velocity, not to the mean", kicked(2.0)),
+    (
+        "A.13 as printed",
+        Variant {
+            kick: 1.0,
+            printed: true,
+        },
+    ),
+];
+
+const fn kicked(kick: f64) -> Variant {
+    Variant { kick, printed: false }
+}
+
+/// The mistakes whose answers are near, and how near.
+pub(super) fn near(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Vec<(f64, String)> {
+    let Some(inputs) = &loaded.inputs else {
+        return Vec::new();
+    };
+    let (l, step_s) = (&loaded.problem.gradient_per_s, loaded.problem.time_step_s);
+    let gradient = Matrix3::from_fn(|i, j| l[i][j]);
+    let of_mistake = |(name, variant): &(&str, Variant)| {
+        let mut largest: f64 = 0.0;
+        for (values, pair) in answer.rows.iter().zip(&inputs.rows) {
+            let half = values.len() / 2;
+            for (k, expected) in answers(&gradient, &pair[1..], step_s, *variant)
+                .iter()
+                .enumerate()
+            {
+                let found = values.get(k * half..(k + 1) * half)?;
+                let square = |of: &dyn Fn(usize) -> f64| (0..half).map(|i| of(i).powi(2)).sum::<f64>();
+                let off = square(&|i| found[i] - expected[i]) / square(&|i| expected[i]);
+                largest = largest.max(if off.is_nan() { f64::INFINITY } else { off.sqrt() });
+            }
+        }
+        Some((largest, (*name).to_owned()))
+    };
+    // A.13 makes angles; ṗ′ does not need it.
+    let applies = |(_, variant): &&(&str, Variant)| !variant.printed || step_s.is_some();
+    let near = MISTAKES.iter().filter(applies).filter_map(of_mistake);
+    near.filter(|(distance, _)| *distance <= nearer_than).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::serve::problems;
+
+    /// Answers with a mistake have that one and no other; right answers have none.
+    #[test]
+    fn each_mistake_is_named_by_its_own_answers() {
+        for name in ["contact-rule", "contact-angles"] {
+            let built = problems::named(name).unwrap();
+            let loaded = built.loaded(name.into());
+            let (l, step_s) = (loaded.problem.gradient_per_s, loaded.problem.time_step_s);
+            let gradient = Matrix3::from_fn(|i, j| l[i][j]);
+            let named = |variant: Variant| {
+                let inputs = loaded.inputs.as_ref().unwrap();
+                let row = |pair: &Vec<f64>| answers(&gradient, &pair[1..], step_s, variant).concat();
+                let answer = Answer {
+                    path: name.into(),
+                    rows: inputs.rows.iter().map(row).collect(),
+                    lines: Vec::new(),
+                };
+                let near = near(&loaded, &answer, 1e-3);
+                near.into_iter()
+                    .map(|(distance, name)| {
+                        assert!(distance < 1e-14, "{name}: {distance}");
+                        name
+                    })
+                    .collect::<Vec<_>>()
+            };
+            for (mistake, variant) in MISTAKES {
+                // Without Δt there are no angles.
+                if !variant.printed || step_s.is_some() {
+                    assert_eq!(named(variant), [mistake], "{name}");
+                }
+            }
+            assert_eq!(named(kicked(1.0)), [""; 0], "{name}");
+        }
+    }
+}

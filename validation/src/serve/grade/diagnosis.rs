@@ -1,0 +1,122 @@
+//! Which known mistake's curve an answer is.
+
+use super::answer::Answer;
+use super::contact;
+use super::means;
+use super::mistakes::{self, Mistake, Setting};
+use crate::serve::problems::{Kind, LoadedProblem};
+use crate::studies::integrators::apart_rad;
+use nalgebra::{Matrix3, Vector3};
+
+/// An answer is a mistake's curve where it is a thousand times nearer to it than to the truth: a chance coincidence of one
+/// direction with one of some fifty curves has a probability of 10⁻⁴, of several rows far less.
+const NEARER: f64 = 1e-3;
+
+/// The largest distance between an answer and a mistake's curve; `None` where the mistake has no meaning here.
+type Distance<'a> = Box<dyn Fn(&Mistake) -> Option<f64> + 'a>;
+
+/// What is to be said of an answer that is `error` from the truth.
+pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Option<String> {
+    if error.is_nan() || error <= loaded.problem.tolerance {
+        return None;
+    }
+    let l = &loaded.problem.gradient_per_s;
+    let setting = Setting {
+        gradient_per_s: Matrix3::from_fn(|i, j| l[i][j]),
+        aspect_ratio: loaded.problem.aspect_ratio,
+    };
+    if loaded.problem.kind == Kind::Contact {
+        let near = contact::near(loaded, answer, NEARER * error);
+        return said(near, loaded.problem.tolerance);
+    }
+    if loaded.problem.kind == Kind::Ensemble {
+        return means::ensemble(loaded, answer);
+    }
+    if loaded.problem.aspect_ratio_sd_percent > 0.0 {
+        let near = means::unequal(loaded, answer, NEARER * error);
+        return said(near, loaded.problem.tolerance);
+    }
+    let distance: Distance<'_> = match loaded.problem.kind {
+        Kind::Rods => Box::new(move |mistake| rods(loaded, answer, &setting, mistake)),
+        _ => Box::new(move |mistake| tensor(loaded, answer, &setting, mistake)),
+    };
+    let near: Vec<_> = (mistakes::all().into_iter())
+        .filter_map(|mistake| Some((distance(&mistake)?, mistake.name)))
+        .filter(|(distance, _)| *distance <= NEARER * error)
+        .collect();
+    said(near, loaded.problem.tolerance)
+}
+
+/// The nearest curve, and those that cannot be told from it here.
+pub(super) fn said(mut near: Vec<(f64, String)>, tolerance: f64) -> Option<String> {
+    near.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (nearest, _) = near.first()?;
+    let nearest = nearest.max(f64::EPSILON);
+    near.retain(|(distance, _)| *distance <= (10.0 * nearest).max(tolerance));
+    // Plane Couette flow is its own mirror image in axis 3: a reversal in the start is one in the answer.
+    let found: Vec<_> = near.iter().map(|(_, name)| name.clone()).collect();
+    near.retain(|(_, name)| {
+        !name
+            .strip_suffix(mistakes::IN_THE_START)
+            .is_some_and(|name| found.iter().any(|other| other == name))
+    });
+    let names: Vec<_> = near.into_iter().map(|(_, name)| name).collect();
+    Some(format!(
+        "this is the curve of {}, to {nearest:.0e}",
+        names.join(" or of ")
+    ))
+}
+
+/// The largest of the distances; `None` where one is missing or not finite.
+fn largest(distances: impl Iterator<Item = Option<f64>>) -> Option<f64> {
+    let finite = |distance: Option<f64>| distance.filter(|distance| distance.is_finite());
+    distances.map(finite).try_fold(0.0, |a: f64, b| Some(a.max(b?)))
+}
+
+fn rods(loaded: &LoadedProblem, answer: &Answer, setting: &Setting, mistake: &Mistake) -> Option<f64> {
+    let count = loaded.start.len();
+    let of_row = |(row, values): (usize, &Vec<f64>)| {
+        let time = loaded.problem.times_s[row / count];
+        let expected = mistake.direction(setting, &Vector3::from(loaded.start[row % count]), time)?;
+        Some(apart(
+            &Vector3::from_row_slice(values),
+            &expected,
+            mistake.has_length,
+        ))
+    };
+    largest(answer.rows.iter().enumerate().map(of_row))
+}
+
+/// The angle, and what |p| is off by where that is more; or, of a mistake with a length of its own, the relative distance.
+/// Head or tail alike.
+pub(super) fn apart(found: &Vector3<f64>, expected: &Vector3<f64>, has_length: bool) -> f64 {
+    match has_length {
+        true => (found - expected).norm().min((found + expected).norm()) / expected.norm(),
+        false => apart_rad(found, expected).max((found.norm() - 1.0).abs()),
+    }
+}
+
+fn tensor(loaded: &LoadedProblem, answer: &Answer, setting: &Setting, mistake: &Mistake) -> Option<f64> {
+    let columns: Vec<(usize, usize)> = (loaded.problem.columns.iter().skip(1))
+        .map(|name| match name.as_bytes() {
+            [b'a', i @ b'1'..=b'3', j @ b'1'..=b'3'] => Some((usize::from(i - b'1'), usize::from(j - b'1'))),
+            _ => None,
+        })
+        .collect::<Option<_>>()?;
+    let of_row = |(row, values): (usize, &Vec<f64>)| {
+        let map = mistake.map(setting, loaded.problem.times_s[row])?;
+        let expected = match mistake.has_length {
+            // ⟨qq⟩ of isotropic p(0).
+            true => map * map.transpose() / 3.0,
+            false => mistakes::isotropic_tensor(&map)?,
+        };
+        let scale = if mistake.has_length { expected.amax() } else { 1.0 };
+        largest(
+            columns
+                .iter()
+                .zip(values)
+                .map(|((i, j), value)| Some((value - expected[(*i, *j)]).abs() / scale)),
+        )
+    };
+    largest(answer.rows.iter().enumerate().map(of_row))
+}

@@ -1,0 +1,101 @@
+//! Pictures of what was found.
+
+use super::Graded;
+use crate::present::plot::{Curve, Figure};
+use crate::serve::problems::{Kind, LoadedProblem};
+use crate::studies::integrators::{self, Integrator, Problem, Setting, Theory};
+use nalgebra::{Matrix3, UnitVector3, Vector3};
+use shearbed::flow::VelocityGradient;
+use std::f64::consts::TAU;
+
+/// More steps than this are not taken by the project's own integrators: they draw a background.
+const MOST_STEPS: u64 = 20_000;
+
+/// An error of 0 has no place on a logarithmic axis; it is drawn here.
+pub(super) const LEAST: f64 = 1e-17;
+
+/// How the program is called in a picture: its own name may be long, and _ would lower what follows.
+pub(super) const PROGRAM: &str = "the graded program";
+
+/// Error against the number of steps on one problem about rods in plane Couette flow, the program's first, then the
+/// project's own; `None` where the program has answered none of them with two numbers of steps.
+pub fn steps(problems: &[LoadedProblem], graded: &[Graded]) -> Option<Figure> {
+    let with_steps = |name: &str| {
+        let of = |graded: &&Graded| graded.name == name && drawn(graded).len() >= 2;
+        graded.iter().find(of)
+    };
+    let candidates = problems.iter().filter_map(|loaded| {
+        let graded = with_steps(&loaded.problem.name)?;
+        Some((loaded, graded, couette_per_s(loaded)?))
+    });
+    // The paper's aspect ratio, where it is there.
+    let (loaded, graded, rate) =
+        candidates.min_by_key(|(loaded, ..)| loaded.problem.name != "mid-flip-11.6")?;
+    let errors = drawn(graded);
+    let counts: Vec<_> = errors.iter().map(|(steps, _)| *steps).collect();
+    let mut curves = vec![curve(PROGRAM.to_owned(), &errors)];
+    for subject in integrators::own() {
+        if matches!(subject.theory(), Theory::Order(_)) {
+            let errors = own_errors(subject.as_ref(), loaded, rate, &counts);
+            curves.push(curve(subject.name().to_owned(), &errors));
+        }
+    }
+    Some(Figure {
+        title: format!("Error against steps, {}", loaded.problem.name),
+        x_name: "steps".into(),
+        y_name: "error (rad)".into(),
+        curves,
+        points: Vec::new(),
+        x_log: true,
+        y_log: true,
+        x_span: None,
+        y_span: None,
+        grid: None,
+    })
+}
+
+/// What has a place on the axes.
+fn drawn(graded: &Graded) -> Vec<(u64, f64)> {
+    let finite = graded.errors.iter().filter(|(_, error)| error.is_finite());
+    finite.copied().collect()
+}
+
+fn curve(label: String, errors: &[(u64, f64)]) -> Curve {
+    Curve {
+        label,
+        x: errors.iter().map(|(steps, _)| *steps as f64).collect(),
+        y: errors.iter().map(|(_, error)| error.max(LEAST)).collect(),
+        half_band: None,
+    }
+}
+
+/// G in 1/s of a problem about rods in plane Couette flow u_2 = G x_1, G > 0.
+fn couette_per_s(loaded: &LoadedProblem) -> Option<f64> {
+    let l = &loaded.problem.gradient_per_s;
+    let flow = VelocityGradient::new(Matrix3::from_fn(|i, j| l[i][j]))?;
+    let rate = flow.shear_rate_per_s().filter(|rate| *rate > 0.0)?;
+    (loaded.problem.kind == Kind::Rods).then_some(rate)
+}
+
+/// The worst rod's error at the last time.
+fn own_errors(
+    subject: &dyn Integrator,
+    loaded: &LoadedProblem,
+    rate: f64,
+    counts: &[u64],
+) -> Vec<(u64, f64)> {
+    let r = loaded.problem.aspect_ratio;
+    let end_s = loaded.problem.times_s.last().copied().unwrap_or_default();
+    let problem = Problem::new(r, rate * end_s / (TAU * (r + 1.0 / r)));
+    let error = |steps: u64| {
+        let of_rod = |p: &[f64; 3]| {
+            let start = UnitVector3::new_normalize(Vector3::from(*p));
+            let errors = integrators::grade(subject, &problem, &start, Setting::Steps(steps)).ok()?;
+            Some(errors.orientation_rad)
+        };
+        let errors: Option<Vec<_>> = loaded.start.iter().map(of_rod).collect();
+        Some((steps, errors?.into_iter().fold(0.0, f64::max)))
+    };
+    let few = counts.iter().copied().filter(|steps| *steps <= MOST_STEPS);
+    few.filter_map(error).collect()
+}

@@ -1,0 +1,183 @@
+//! Verdicts on answers in files.
+
+use super::answer::Answer;
+use super::compare::compare;
+use super::diagnosis::diagnose;
+use super::lammps;
+use super::layout::Told;
+use super::read::read;
+use super::{Graded, ORDER_TOLERANCE, Verdict, orders};
+use crate::serve::problems::{LoadedProblem, Metric, ReadError};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What a user says of a program's error.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Claim {
+    /// The order of its error in the step.
+    pub order: Option<f64>,
+}
+
+/// How answers are to be read and judged.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// What the columns are.
+    pub told: Told,
+    /// What a dump does not say.
+    pub dump: lammps::Told,
+    /// What the program is said to do.
+    pub claim: Claim,
+}
+
+/// Grades the answers in `mine/NAME/` to each problem. `Err` has every file that cannot be read.
+pub fn grade(
+    problems: &[LoadedProblem],
+    mine: &Path,
+    options: &Options,
+) -> Result<Vec<Graded>, Vec<ReadError>> {
+    let mut all = Vec::new();
+    let mut errors = Vec::new();
+    for problem in problems {
+        match one(problem, &mine.join(&problem.problem.name), options) {
+            Ok(graded) => all.push(graded),
+            Err(error) => errors.push(error),
+        }
+    }
+    if errors.is_empty() { Ok(all) } else { Err(errors) }
+}
+
+/// The files of an answer: one, or one for each number of steps from few to many.
+struct Found {
+    answer: Option<PathBuf>,
+    steps: Vec<(u64, PathBuf)>,
+}
+
+/// Endings of an answer's file.
+const ENDINGS: [&str; 5] = ["csv", "txt", "dat", "dump", "lammpstrj"];
+
+fn find(dir: &Path) -> Result<Found, ReadError> {
+    let failed = |error: std::io::Error| ReadError::whole(dir, format!("cannot be read: {error}"));
+    let mut found = Found {
+        answer: None,
+        steps: Vec::new(),
+    };
+    if !dir.exists() {
+        return Ok(found);
+    }
+    let mut paths = Vec::new();
+    for entry in fs::read_dir(dir).map_err(failed)? {
+        paths.push(entry.map_err(failed)?.path());
+    }
+    paths.sort();
+    for path in paths {
+        let ending = path
+            .extension()
+            .and_then(|ending| ending.to_str())
+            .unwrap_or_default();
+        let stem = path
+            .file_stem()
+            .and_then(|stem| stem.to_str())
+            .unwrap_or_default();
+        if !ENDINGS.contains(&ending) {
+            continue;
+        }
+        if stem == "answer" {
+            if let Some(other) = &found.answer {
+                let other = other.display();
+                return Err(ReadError::whole(
+                    &path,
+                    format!("there is {other} too; one of them is allowed"),
+                ));
+            }
+            found.answer = Some(path);
+        } else if let Some(number) = stem.strip_prefix("steps-") {
+            match number.parse() {
+                Ok(steps @ 1..) if !found.steps.iter().any(|(other, _)| *other == steps) => {
+                    found.steps.push((steps, path));
+                }
+                _ => {
+                    let message = format!("steps-{number}: a whole number from 1 is allowed, once each");
+                    return Err(ReadError::whole(&path, message));
+                }
+            }
+        }
+    }
+    found.steps.sort();
+    Ok(found)
+}
+
+fn one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, ReadError> {
+    let problem = &loaded.problem;
+    let found = find(dir)?;
+    let read = |path: &PathBuf| read(path, loaded, &options.told, &options.dump);
+    let mut errors = Vec::new();
+    let mut finest = None;
+    for (steps, path) in &found.steps {
+        let answer = read(path)?;
+        errors.push((*steps, compare(loaded, &answer).error));
+        finest = Some((Some(*steps), answer));
+    }
+    // A file without steps is the answer, and the others show the order.
+    if let Some(path) = &found.answer {
+        finest = Some((None, read(path)?));
+    }
+    let mut graded = Graded::without_answer(loaded);
+    let Some((steps, answer)) = finest else {
+        graded.note = Some(format!("no answer.csv and no steps-N.csv in {}", dir.display()));
+        return Ok(graded);
+    };
+    (graded.orders, graded.observed_order) = orders(&errors, problem.tolerance);
+    graded.errors = errors;
+    graded.steps = steps;
+    judge(&mut graded, loaded, &answer, options.claim);
+    Ok(graded)
+}
+
+/// The verdict on an answer.
+fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer, claim: Claim) {
+    let compared = compare(loaded, answer);
+    let within = compared.error <= loaded.problem.tolerance && !compared.too_little_data;
+    let off = order_off(graded.observed_order, claim);
+    graded.verdict = if within && off.is_none() {
+        Verdict::Pass
+    } else {
+        Verdict::Fail
+    };
+    graded.error = compared.error.is_finite().then_some(compared.error);
+    graded.length_drift = compared.length_drift.filter(|drift| drift.is_finite());
+    graded.orbit_drift = compared.orbit_drift.filter(|drift| drift.is_finite());
+    graded.phase_lost_per_period = compared.phase_lost_per_period.filter(|lost| lost.is_finite());
+    graded.diagnosis = diagnose(loaded, answer, compared.error);
+    graded.note = match within {
+        true => off,
+        false => compared
+            .remark
+            .or_else(|| Some(place(loaded, answer, compared.row))),
+    };
+}
+
+/// What is wrong with an observed order against the one claimed.
+pub(super) fn order_off(observed: Option<f64>, claim: Claim) -> Option<String> {
+    let (observed, claimed) = (observed?, claim.order?);
+    let off = (observed - claimed).abs() >= ORDER_TOLERANCE;
+    off.then(|| format!("observed order {observed:+.2} where {claimed} is claimed"))
+}
+
+/// Where the largest error is.
+fn place(loaded: &LoadedProblem, answer: &Answer, row: usize) -> String {
+    let keys = loaded.problem.kind.keys();
+    let values = &loaded.certified.rows[row];
+    let key: Vec<_> = keys
+        .iter()
+        .zip(values)
+        .map(|(name, value)| format!("{name} = {value}"))
+        .collect();
+    let unit = match loaded.problem.metric {
+        Metric::Angle => "rad",
+        Metric::Absolute => "absolute",
+        Metric::Relative => "relative",
+        Metric::StandardErrors => "standard errors",
+    };
+    let place = format!("{}:{}", answer.path.display(), answer.lines[row]);
+    format!("worst ({unit}) at {}, in {place}", key.join(", "))
+}

@@ -1,0 +1,209 @@
+//! LAMMPS dumps of quaternions: `dump custom` with `id` and the quaternion of `compute property/atom`
+//! (docs.lammps.org/dump.html, docs.lammps.org/compute_property_atom.html).
+
+use super::answer::{Answer, Collector};
+use super::axes::Axes;
+use super::lines::{Lines, number};
+use crate::serve::problems::{Kind, LoadedProblem, ReadError};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+/// What a dump does not say itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Told {
+    /// The length of a time step in s, where the dump has no `ITEM: TIME`.
+    pub timestep_s: Option<f64>,
+    /// The rod's axis in its body frame, 0 to 2; the one that the columns shapex, shapey, shapez single out where `None`.
+    pub rod_axis: Option<usize>,
+}
+
+/// The columns of a dump that are used.
+struct Columns {
+    count: usize,
+    id: usize,
+    quaternion: [usize; 4],
+    shape: Option<[usize; 3]>,
+}
+
+/// Names of the quaternion's components (w, i, j, k): of the atoms themselves, or of a compute c_ID[1] to c_ID[4].
+fn columns(header: &str) -> Result<Columns, String> {
+    let names: Vec<_> = header.split_whitespace().collect();
+    let at = |name: &str| names.iter().position(|found| *found == name);
+    let all = |wanted: [&str; 4]| -> Option<[usize; 4]> {
+        Some([at(wanted[0])?, at(wanted[1])?, at(wanted[2])?, at(wanted[3])?])
+    };
+    let compute = names.iter().find_map(|name| name.strip_suffix("[1]"));
+    let of_compute = || {
+        let column = |k: usize| at(&format!("{}[{k}]", compute?));
+        Some([column(1)?, column(2)?, column(3)?, column(4)?])
+    };
+    let quaternion = all(["quatw", "quati", "quatj", "quatk"])
+        .or_else(|| all(["c_quatw", "c_quati", "c_quatj", "c_quatk"]))
+        .or_else(of_compute)
+        .ok_or("no quaternion: columns quatw quati quatj quatk or c_ID[1] to c_ID[4] are asked for")?;
+    let shape = || Some([at("shapex")?, at("shapey")?, at("shapez")?]);
+    Ok(Columns {
+        count: names.len(),
+        id: at("id").ok_or("no column id")?,
+        quaternion,
+        shape: shape(),
+    })
+}
+
+/// Reads a dump whose first line has been read. Rod k is the atom with the (k+1)-th smallest id.
+pub(super) fn read(
+    mut lines: Lines,
+    first: String,
+    problem: &LoadedProblem,
+    axes: Axes,
+    told: &Told,
+) -> Result<Answer, ReadError> {
+    if problem.problem.kind != Kind::Rods {
+        return Err(lines.error(0, "a dump of quaternions answers problems about rods only"));
+    }
+    let mut collector = Collector::new(problem);
+    let mut item = Some(first);
+    let mut time_s = None;
+    let mut atoms = 0;
+    while let Some(line) = item {
+        match line.strip_prefix("ITEM:").map(str::trim) {
+            Some("TIMESTEP") => {
+                let step = value(&mut lines)?;
+                // ITEM: TIME, where it is there, comes before it.
+                time_s = time_s.or(told.timestep_s.map(|length| step * length));
+            }
+            Some("TIME") => time_s = Some(value(&mut lines)?),
+            Some("NUMBER OF ATOMS") => {
+                let found = value(&mut lines)?;
+                if found != problem.start.len() as f64 {
+                    let message = format!("{found} atoms; the problem has {} rods", problem.start.len());
+                    return Err(lines.error(1, message));
+                }
+                atoms = problem.start.len();
+            }
+            Some(units) if units.starts_with("UNITS") => skip(&mut lines, 1)?,
+            Some(bounds) if bounds.starts_with("BOX BOUNDS") => skip(&mut lines, 3)?,
+            Some(header) if header.starts_with("ATOMS") => {
+                let time = time_s.take().ok_or_else(|| {
+                    lines.error(
+                        0,
+                        "no time: --timestep-s must say how long a step is, or the dump must have ITEM: TIME",
+                    )
+                })?;
+                let columns = columns(&header["ATOMS".len()..]).map_err(|message| lines.error(0, message))?;
+                snapshot(&mut lines, &mut collector, &columns, atoms, time, axes, told)?;
+            }
+            _ => return Err(lines.error(0, "no ITEM of a dump")),
+        }
+        item = lines.next_line()?;
+    }
+    let (path, last) = (lines.path().to_owned(), lines.number().saturating_sub(1));
+    collector.finish(&path, last)
+}
+
+fn value(lines: &mut Lines) -> Result<f64, ReadError> {
+    let line = lines
+        .next_line()?
+        .ok_or_else(|| lines.error(0, "the dump ends here"))?;
+    number(line.trim()).map_err(|message| lines.error(1, message))
+}
+
+fn skip(lines: &mut Lines, count: usize) -> Result<(), ReadError> {
+    for _ in 0..count {
+        lines
+            .next_line()?
+            .ok_or_else(|| lines.error(0, "the dump ends here"))?;
+    }
+    Ok(())
+}
+
+fn snapshot(
+    lines: &mut Lines,
+    collector: &mut Collector<'_>,
+    columns: &Columns,
+    atoms: usize,
+    time_s: f64,
+    axes: Axes,
+    told: &Told,
+) -> Result<(), ReadError> {
+    // LAMMPS writes atoms in any order: by id they are the rods.
+    let mut found = Vec::new();
+    for _ in 0..atoms {
+        let line = lines
+            .next_line()?
+            .ok_or_else(|| lines.error(0, "the dump ends here"))?;
+        let fields: Vec<_> = line.split_whitespace().collect();
+        if fields.len() != columns.count {
+            let message = format!(
+                "{} fields; the snapshot has {} columns",
+                fields.len(),
+                columns.count
+            );
+            return Err(lines.error(fields.len(), message));
+        }
+        let at = |column: usize| number(fields[column]).map_err(|message| lines.error(column + 1, message));
+        let mut q = [0.0; 4];
+        for (slot, column) in q.iter_mut().zip(columns.quaternion) {
+            *slot = at(column)?;
+        }
+        let mut shape = None;
+        if let Some(places) = columns.shape {
+            shape = Some([at(places[0])?, at(places[1])?, at(places[2])?]);
+        }
+        let axis = told.rod_axis.or_else(|| shape.and_then(odd_one)).ok_or_else(|| {
+            lines.error(
+                0,
+                "which axis of the body is the rod's? --rod-axis x, y or z, or columns shapex shapey shapez",
+            )
+        })?;
+        found.push((at(columns.id)?, lines.number(), direction(q, axis)));
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    for (rod, (id, line, p)) in found.iter().enumerate() {
+        if rod > 0 && found[rod - 1].0 == *id {
+            return Err(ReadError::at(
+                lines.path(),
+                *line,
+                columns.id as u64 + 1,
+                format!("atom {id} is there twice"),
+            ));
+        }
+        let ours = ["p1", "p2", "p3"].map(|column| {
+            let (theirs, sign) = axes.theirs(column);
+            let axis = usize::from(theirs.as_bytes()[1] - b'1');
+            sign * p[axis]
+        });
+        let added = collector.add(*line, &[time_s, rod as f64], ours.to_vec());
+        added.map_err(|(_, message)| ReadError::at(lines.path(), *line, 0, message))?;
+    }
+    Ok(())
+}
+
+/// The axis whose diameter differs from the two others, which are alike.
+fn odd_one([x, y, z]: [f64; 3]) -> Option<usize> {
+    match (x == y, y == z, x == z) {
+        (true, false, false) => Some(2),
+        (false, true, false) => Some(0),
+        (false, false, true) => Some(1),
+        _ => None,
+    }
+}
+
+/// An axis of the body in space, by the quaternion w + ix + jy + kz.
+fn direction([w, i, j, k]: [f64; 4], axis: usize) -> Vector3<f64> {
+    let mut body = Vector3::zeros();
+    body[axis] = 1.0;
+    UnitQuaternion::new_normalize(Quaternion::new(w, i, j, k)) * body
+}
+
+#[cfg(test)]
+mod tests {
+    use super::odd_one;
+
+    #[test]
+    fn the_axis_of_a_body_is_the_one_whose_diameter_differs() {
+        assert_eq!(odd_one([3.0, 1.0, 1.0]), Some(0));
+        assert_eq!(odd_one([1.0, 3.0, 1.0]), Some(1));
+        assert_eq!(odd_one([1.0, 1.0, 3.0]), Some(2));
+        assert_eq!([[1.0, 1.0, 1.0], [1.0, 2.0, 3.0]].map(odd_one), [None; 2]);
+    }
+}

@@ -1,0 +1,198 @@
+//! Which field of a row is what: by the header, by `--columns`, or by the layout of a known program.
+
+use super::axes::Axes;
+use super::lines::LineEnds;
+use crate::serve::problems::{Kind, Problem};
+
+/// What the field of a row is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Field {
+    /// The key with this number.
+    Key(usize),
+    /// The value with this number, times a sign.
+    Value(usize, f64),
+    /// The other half of a symmetric tensor: the value with this number once more.
+    Again(usize),
+    /// Nothing that is asked for.
+    Nothing,
+}
+
+/// How the rows of a file are laid out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layout {
+    /// A letter, or white space where it is a blank.
+    pub separator: char,
+    /// One for each field of a row.
+    pub fields: Vec<Field>,
+    /// Whether the first line is a row.
+    pub first_is_row: bool,
+}
+
+/// Layouts of programs whose tables have no names, or other names than ours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Foreign {
+    /// Without a header: t, then A row by row (nine numbers), as fiberoripy's and PySPH's tables
+    Fiberoripy,
+    /// Without a header: t, then A in the order 11, 22, 33, 12, 23, 13 of fiberpy's Mat2
+    Fiberpy,
+    /// time, A2_0 to A2_5: OpenFOAM's symmTensor xx, xy, xz, yy, yz, zz
+    Openfoam,
+}
+
+impl Foreign {
+    fn columns(self) -> &'static [&'static str] {
+        match self {
+            Self::Fiberoripy => &[
+                "time_s", "a11", "a12", "a13", "a21", "a22", "a23", "a31", "a32", "a33",
+            ],
+            Self::Fiberpy => &["time_s", "a11", "a22", "a33", "a12", "a23", "a13"],
+            Self::Openfoam => &["time_s", "a11", "a12", "a13", "a22", "a23", "a33"],
+        }
+    }
+}
+
+/// Names in a header that other programs write for ours.
+fn known(name: &str) -> &str {
+    match name {
+        "time" | "t" => "time_s",
+        "A2_0" => "a11",
+        "A2_1" => "a12",
+        "A2_2" => "a13",
+        "A2_3" => "a22",
+        "A2_4" => "a23",
+        "A2_5" => "a33",
+        other => other,
+    }
+}
+
+/// What the user says of the columns.
+#[derive(Clone, Debug, Default)]
+pub struct Told {
+    /// The names of the columns in the order of the file, `-` for one to leave out.
+    pub columns: Option<Vec<String>>,
+    /// A known program's layout.
+    pub foreign: Option<Foreign>,
+    /// Axes in another order.
+    pub axes: Axes,
+    /// How lines may end.
+    pub ends: LineEnds,
+}
+
+impl Layout {
+    /// The layout of a file with this first line. `Err` has the field from 1, or 0, and what is wrong.
+    pub fn find(first: &str, problem: &Problem, told: &Told) -> Result<Self, (usize, String)> {
+        let separator = [',', ';', '\t']
+            .into_iter()
+            .find(|letter| first.contains(*letter))
+            .unwrap_or(' ');
+        let header: Vec<_> = split(first.trim_start_matches('#').trim(), separator).collect();
+        let first_is_row = header.iter().all(|field| field.parse::<f64>().is_ok());
+        let wants_tensor = problem.kind == Kind::Tensor;
+        let names: Vec<String> = match (&told.columns, told.foreign, first_is_row) {
+            (Some(columns), _, _) => columns.clone(),
+            (None, Some(foreign), _) => foreign.columns().iter().map(|name| (*name).to_owned()).collect(),
+            (None, None, false) => header
+                .iter()
+                .map(|name| known(name.trim_matches('"')).to_owned())
+                .collect(),
+            (None, None, true) if wants_tensor && header.len() == 10 => Foreign::Fiberoripy
+                .columns()
+                .iter()
+                .map(|name| (*name).to_owned())
+                .collect(),
+            (None, None, true) => {
+                let message = format!(
+                    "there is no header; it must be {:?}, or --columns or --layout must say what the columns are",
+                    problem.columns.join(",")
+                );
+                return Err((0, message));
+            }
+        };
+        if names.len() != header.len() {
+            return Err((
+                0,
+                format!("{} fields where {} columns are named", header.len(), names.len()),
+            ));
+        }
+        Ok(Self {
+            separator,
+            fields: fields(&names, problem, told.axes)?,
+            first_is_row,
+        })
+    }
+
+    /// The fields of a row.
+    pub fn split<'a>(&self, line: &'a str) -> impl Iterator<Item = &'a str> + use<'a> {
+        split(line, self.separator)
+    }
+}
+
+fn split(line: &str, separator: char) -> impl Iterator<Item = &str> {
+    // White space may be several blanks; empty fields between commas are fields.
+    let blank = separator == ' ';
+    let parts = line.split(move |letter: char| {
+        if blank {
+            letter.is_whitespace()
+        } else {
+            letter == separator
+        }
+    });
+    parts
+        .map(str::trim)
+        .filter(move |part| !blank || !part.is_empty())
+}
+
+fn fields(names: &[String], problem: &Problem, axes: Axes) -> Result<Vec<Field>, (usize, String)> {
+    let keys = problem.kind.keys();
+    let theirs: Vec<_> = problem.columns[keys.len()..]
+        .iter()
+        .map(|column| axes.theirs(column))
+        .collect();
+    let mut fields = Vec::new();
+    for (k, name) in names.iter().enumerate() {
+        let mirrored: String = match name.strip_prefix('a') {
+            Some(digits) if digits.len() == 2 => format!("a{}", digits.chars().rev().collect::<String>()),
+            _ => String::new(),
+        };
+        let value = |name: &str| theirs.iter().position(|(column, _)| column == name);
+        let field = if name == "-" {
+            Field::Nothing
+        } else if let Some(key) = keys.iter().position(|key| key == name) {
+            Field::Key(key)
+        } else if let Some(at) = value(name) {
+            Field::Value(at, theirs[at].1)
+        } else if let Some(at) = value(&mirrored) {
+            Field::Again(at)
+        } else {
+            let message = format!(
+                "column {name:?} is not asked for; the columns are {} (--columns can leave one out with a -)",
+                problem.columns.join(",")
+            );
+            return Err((k + 1, message));
+        };
+        if !matches!(field, Field::Nothing) && fields.contains(&field) {
+            return Err((k + 1, format!("column {name:?} is there twice")));
+        }
+        fields.push(field);
+    }
+    let there = |wanted: &str, is: &dyn Fn(&Field) -> bool| match fields.iter().any(is) {
+        true => Ok(()),
+        false => Err((
+            0,
+            format!(
+                "column {wanted:?} is missing; asked for are {}",
+                problem.columns.join(",")
+            ),
+        )),
+    };
+    for (k, key) in keys.iter().enumerate() {
+        // One rod needs no number.
+        if *key != "rod" {
+            there(key, &|field| *field == Field::Key(k))?;
+        }
+    }
+    for (k, (column, _)) in theirs.iter().enumerate() {
+        there(column, &|field| matches!(field, Field::Value(at, _) if *at == k))?;
+    }
+    Ok(fields)
+}

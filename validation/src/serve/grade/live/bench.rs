@@ -1,0 +1,169 @@
+//! Error against run time of a program beside the project's own integrators, and what the pipe itself costs.
+
+use super::program::{Program, Question};
+use crate::present::plot;
+use crate::present::table::{ReportTable, of_words};
+use crate::serve::grade::figures::{LEAST, PROGRAM};
+use crate::studies::integrators::{self, Setting, Theory};
+use crate::studies::work_precision::tables::{NOT_REACHED, time};
+use crate::studies::work_precision::{Budget, IntegratorCurve, TARGETS_RAD, curve};
+use serde::Serialize;
+use std::io::{BufRead, Write};
+use std::time::Duration;
+
+/// The aspect ratio of the bench: the paper's.
+pub const ASPECT_RATIO: f64 = 11.6;
+
+/// Requests from which the pipe's cost is taken, after some to warm up.
+const ECHOES: usize = 200;
+
+/// A program's error against its run time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Bench {
+    /// r_e.
+    pub aspect_ratio: f64,
+    /// The program's curve; its times have the pipe's cost in them.
+    pub program: IntegratorCurve,
+    /// The least time in s of a request to a program that does nothing, which is taken off in tables and pictures.
+    pub pipe_s: Option<f64>,
+    /// The project's own integrators, without a pipe.
+    pub ours: Vec<IntegratorCurve>,
+}
+
+/// Answers every request with its start, until the input ends: what the pipe and its JSON cost without any work.
+pub fn echo(input: impl BufRead, mut output: impl Write) -> Result<(), String> {
+    for line in input.lines() {
+        let line = line.map_err(|error| error.to_string())?;
+        let request: serde_json::Value = serde_json::from_str(&line).map_err(|error| error.to_string())?;
+        let answer = serde_json::json!({"id": request["id"], "p": request["start"]});
+        writeln!(output, "{answer}")
+            .and_then(|()| output.flush())
+            .map_err(|error| error.to_string())?;
+    }
+    Ok(())
+}
+
+/// The least time in s of a request for one rod to this echo program.
+fn pipe_s(echo: &str, timeout: Duration) -> Option<f64> {
+    let program = Program::start(echo, timeout).ok()?;
+    let question = Question {
+        gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]],
+        aspect_ratio: ASPECT_RATIO,
+        start: vec![[0.36, 0.48, 0.8]],
+        end_s: 1.0,
+    };
+    let times: Option<Vec<_>> = (0..ECHOES)
+        .map(|_| Some(program.ask(&question, Setting::Steps(1)).ok()?.1))
+        .collect();
+    times?.into_iter().min().map(|least| least.as_secs_f64())
+}
+
+/// Measures the program, the pipe and the project's own integrators on the same rod.
+pub fn bench(program: &Program, echo: &str) -> Bench {
+    let budget = Budget {
+        seconds_per_run: 0.1,
+        runs: 3,
+    };
+    Bench {
+        aspect_ratio: ASPECT_RATIO,
+        program: curve(program, ASPECT_RATIO, budget),
+        pipe_s: pipe_s(echo, program.timeout()),
+        ours: integrators::all()
+            .iter()
+            .map(|subject| curve(subject.as_ref(), ASPECT_RATIO, Budget::QUICK))
+            .collect(),
+    }
+}
+
+impl Bench {
+    /// The program's curve without the pipe's cost; what is not longer than that is left at a tenth of it.
+    pub fn without_pipe(&self) -> IntegratorCurve {
+        let pipe = self.pipe_s.unwrap_or(0.0);
+        let mut program = self.program.clone();
+        for point in &mut program.points {
+            for seconds in [&mut point.seconds.least, &mut point.seconds.most] {
+                *seconds = (*seconds - pipe).max(0.1 * pipe);
+            }
+        }
+        program
+    }
+
+    /// The program's curve in bold beside ours in grey, as SVG. A program that takes no steps is a dash.
+    pub fn picture(&self) -> Result<String, String> {
+        let mut program = self.without_pipe();
+        program.subject = PROGRAM.to_owned();
+        let line = |curve: &IntegratorCurve| {
+            let points = || curve.points.iter().filter(|point| point.errors.is_some());
+            let mut x: Vec<_> = points().map(|point| point.seconds.least).collect();
+            let mut y: Vec<_> = points().map(|point| point.error_rad().max(LEAST)).collect();
+            if let ([only], [error]) = (&x[..], &y[..]) {
+                (x, y) = (vec![*only, 1.5 * only], vec![*error; 2]);
+            }
+            plot::Curve {
+                label: curve.subject.clone(),
+                x,
+                y,
+                half_band: None,
+            }
+        };
+        plot::svg_of_one(&plot::Figure {
+            title: format!("Error against run time, one rod, r_e = {}", self.aspect_ratio),
+            x_name: "run time (s), without the pipe's".into(),
+            y_name: "angle to the closed form (rad)".into(),
+            curves: std::iter::once(&program).chain(&self.ours).map(line).collect(),
+            points: Vec::new(),
+            x_log: true,
+            y_log: true,
+            x_span: Some((1e-8, 0.1)),
+            y_span: Some((LEAST, 10.0)),
+            grid: None,
+        })
+    }
+
+    /// For each error the time of the program and of ours.
+    pub fn table(&self) -> ReportTable {
+        let row = |curve: &IntegratorCurve, name: String| {
+            let mut row = vec![name];
+            row.extend(TARGETS_RAD.map(|target| match curve.cheapest(target) {
+                Some(point) => time(point.seconds.least),
+                None => NOT_REACHED.into(),
+            }));
+            let best = curve.best().filter(|point| point.errors.is_some());
+            row.push(best.map_or("failed".into(), |point| format!("{:.1e}", point.error_rad())));
+            row.push(format!("{} of {}", curve.failures(), curve.points.len()));
+            row
+        };
+        let program = row(&self.without_pipe(), self.program.subject.clone());
+        let ours = self.ours.iter().map(|curve| row(curve, curve.subject.clone()));
+        let pipe = match self.pipe_s {
+            Some(seconds) => format!(
+                "The pipe itself, {} a request by an echo program, is taken off.",
+                time(seconds)
+            ),
+            None => "The pipe's own cost could not be measured and is in the program's times.".to_owned(),
+        };
+        of_words(
+            "grade-work-precision",
+            &format!("Time for an error, one rod of r_e = {}", self.aspect_ratio),
+            &format!("{pipe} Times not longer than the pipe's are not known better than a tenth of it."),
+            &[
+                "program",
+                "1e-3 rad",
+                "1e-6 rad",
+                "1e-9 rad",
+                "best (rad)",
+                "failed",
+            ],
+            std::iter::once(program).chain(ours).collect(),
+        )
+    }
+}
+
+/// What the program is taken for by an observed order.
+pub fn theory(by_tolerance: bool, observed_order: Option<f64>) -> Theory {
+    match (by_tolerance, observed_order) {
+        (true, _) => Theory::Adaptive,
+        (false, Some(order)) if order >= 0.5 => Theory::Order(order.round() as u32),
+        (false, _) => Theory::Order(1),
+    }
+}

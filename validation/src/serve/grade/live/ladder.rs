@@ -1,0 +1,154 @@
+//! A problem asked with more and more steps, or with smaller and smaller tolerances.
+
+mod climb;
+mod jumps;
+#[cfg(test)]
+mod tests;
+
+use super::last_time;
+use super::program::{Program, Question};
+use crate::serve::grade::answer::Answer;
+use crate::serve::grade::compare::{Compared, compare};
+use crate::serve::grade::diagnosis::diagnose;
+use crate::serve::grade::files::{Claim, order_off};
+use crate::serve::grade::{Graded, Verdict, orders};
+use crate::serve::problems::LoadedProblem;
+use crate::studies::integrators::Setting;
+use climb::{End, climb};
+use std::time::Duration;
+
+/// What a program takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// Equal steps.
+    Steps,
+    /// A tolerance.
+    Tolerance,
+}
+
+/// Asks for a rod of r_e = 2 over a short time: by steps, and where the program has an error for that, by tolerance.
+pub fn mode(program: &Program) -> Mode {
+    program.during("the first request");
+    let question = Question {
+        gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]],
+        aspect_ratio: 2.0,
+        start: vec![[1.0, 0.0, 0.0]],
+        end_s: 1.0,
+    };
+    let refused = matches!(
+        program.ask(&question, Setting::Steps(8)),
+        Err(super::program::Asked::Says(_))
+    );
+    match refused && program.ask(&question, Setting::Tolerance(1e-3)).is_ok() {
+        true => Mode::Tolerance,
+        false => Mode::Steps,
+    }
+}
+
+/// One setting and what came.
+struct Rung {
+    setting: Setting,
+    answer: Answer,
+    compared: Compared,
+    took: Duration,
+}
+
+impl Rung {
+    fn of(problem: &LoadedProblem, setting: Setting, p: Vec<[f64; 3]>, took: Duration) -> Self {
+        let answer = Answer {
+            path: "standard output".into(),
+            lines: vec![0; p.len()],
+            rows: p.into_iter().map(Vec::from).collect(),
+        };
+        Self {
+            setting,
+            compared: compare(problem, &answer),
+            answer,
+            took,
+        }
+    }
+
+    fn error(&self) -> f64 {
+        self.compared.error
+    }
+}
+
+/// Grades a program on a problem about free rods, at its last time.
+pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim) -> Graded {
+    program.during(&problem.problem.name);
+    let problem = last_time(problem);
+    let of = &problem.problem;
+    let question = Question {
+        gradient_per_s: of.gradient_per_s,
+        aspect_ratio: of.aspect_ratio,
+        start: problem.start.clone(),
+        end_s: of.times_s[0],
+    };
+    let ask = |setting: Setting| {
+        let (p, took) = program.ask(&question, setting)?;
+        Ok(Rung::of(&problem, setting, p, took))
+    };
+    let (rungs, mut end) = climb(&problem, mode, program.timeout(), ask);
+    if matches!(end, End::Reached) {
+        end = jumps::judged(&rungs, of.tolerance, ask);
+    }
+    let mut graded = Graded::without_answer(&problem);
+    let errors = rungs
+        .iter()
+        .filter_map(|rung| Some((rung.setting.steps().ok()?, rung.error())));
+    let errors: Vec<_> = errors.collect();
+    (graded.orders, graded.observed_order) = orders(&errors, of.tolerance);
+    graded.errors = errors;
+    let off = order_off(graded.observed_order, claim);
+    graded.verdict = match (&end, &off) {
+        (End::OutOfTime(_), _) => Verdict::NotReached,
+        (End::Reached, None) => Verdict::Pass,
+        _ => Verdict::Fail,
+    };
+    if let Some(finest) = rungs.last() {
+        graded.steps = finest.setting.steps().ok();
+        graded.asked_tolerance = finest.setting.tolerance().ok();
+        let compared = &finest.compared;
+        let finite = |number: &f64| number.is_finite();
+        graded.error = Some(compared.error).filter(finite);
+        graded.length_drift = compared.length_drift.filter(finite);
+        graded.orbit_drift = compared.orbit_drift.filter(finite);
+        graded.phase_lost_per_period = compared.phase_lost_per_period.filter(finite);
+        graded.diagnosis = diagnose(&problem, &finest.answer, compared.error);
+    }
+    graded.note = match end {
+        End::Broke(words) | End::Jumps(words) => Some(words),
+        End::Reached => off.or_else(|| not_finite(&rungs)),
+        End::Wrong(words) | End::OutOfTime(words) => Some(why(&graded, rungs.last(), words)),
+    };
+    graded
+}
+
+/// The coarse settings of a ladder that passes whose answers are not finite.
+fn not_finite(rungs: &[Rung]) -> Option<String> {
+    let names = rungs.iter().filter(|rung| !rung.error().is_finite());
+    let names: Vec<_> = names.map(|rung| rung.setting.to_string()).collect();
+    (!names.is_empty()).then(|| format!("with {} the answer is not finite", names.join(", ")))
+}
+
+/// What is to be said of an answer that is not within the tolerance.
+fn why(graded: &Graded, finest: Option<&Rung>, words: String) -> String {
+    let Some(finest) = finest else {
+        return words;
+    };
+    let (setting, error) = (finest.setting, finest.error());
+    if !error.is_finite() {
+        return format!("with {setting} the answer is not finite; {words}");
+    }
+    let mut said = match setting {
+        Setting::Tolerance(asked) => {
+            format!("it claims success at the tolerance {asked:.0e} and is off by {error:.1e}")
+        }
+        _ => format!("with {setting} it is off by {error:.1e}"),
+    };
+    if let (Some(order @ 0.5..), Some(steps)) = (graded.observed_order, graded.steps) {
+        let needed = steps as f64 * (error / graded.tolerance).powf(1.0 / order);
+        said += &format!("; at this order about {needed:.0e} steps would be within the tolerance");
+    }
+    format!("{said}; {words}")
+}

@@ -1,0 +1,161 @@
+//! From coarse settings to fine ones, until the answers are within the tolerance, show that they will not be, or time is up.
+
+use super::{Mode, Rung};
+use crate::serve::grade::live::program::Asked;
+use crate::serve::problems::LoadedProblem;
+use crate::studies::integrators::Setting;
+use std::time::{Duration, Instant};
+
+/// Doublings of the steps at most, from GΔt of about 1.
+const DOUBLINGS: u32 = 24;
+
+/// Rungs from which nothing is foretold: from here on a step is at most a hundredth of a unit of strain.
+const RESOLVING: usize = 7;
+
+/// An error in rad below which a method follows the motion: what does not change any more is then a result.
+const FOLLOWED: f64 = 0.01;
+
+/// How a ladder ended. Only what time has no part in is a failure.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum End {
+    /// The answers came within the tolerance.
+    Reached,
+    /// The program broke the protocol, whatever it answered before.
+    Broke(String),
+    /// Its answers jump from one number of steps to the next.
+    Jumps(String),
+    /// Finer settings would not come within the tolerance, or there are none.
+    Wrong(String),
+    /// Time ran out first.
+    OutOfTime(String),
+}
+
+/// Climbs, and says how that ended.
+pub(super) fn climb(
+    problem: &LoadedProblem,
+    mode: Mode,
+    timeout: Duration,
+    ask: impl Fn(Setting) -> Result<Rung, Asked>,
+) -> (Vec<Rung>, End) {
+    let tolerance = problem.problem.tolerance;
+    let mut rungs: Vec<Rung> = Vec::new();
+    let mut says = None;
+    let begun = Instant::now();
+    for setting in settings(problem, mode) {
+        let took = match ask(setting) {
+            Ok(rung) => {
+                let took = rung.took;
+                rungs.push(rung);
+                took
+            }
+            // It may do better with shorter steps.
+            Err(Asked::Says(words)) => {
+                says = Some(format!("with {setting} the program says: {words}"));
+                Duration::ZERO
+            }
+            Err(Asked::Breach(words)) => return (rungs, End::Broke(format!("asked for {setting}: {words}"))),
+            Err(Asked::Late(words)) => {
+                return (rungs, End::OutOfTime(format!("asked for {setting}: {words}")));
+            }
+        };
+        if reached(&rungs, tolerance) {
+            return (rungs, End::Reached);
+        }
+        if let Some(end) = hopeless(&rungs, tolerance, timeout) {
+            return (rungs, end);
+        }
+        let spent = begun.elapsed();
+        if !affordable(spent, took, timeout, within(&rungs, tolerance)) {
+            let seconds = spent.as_secs_f64();
+            let words = format!("finer ones would take too long (--timeout): {seconds:.1} s so far");
+            return (rungs, End::OutOfTime(words));
+        }
+    }
+    // There is no finer setting by which the last one could be confirmed.
+    match within(&rungs, tolerance) {
+        true => (rungs, End::Reached),
+        false => (
+            rungs,
+            End::Wrong(says.unwrap_or_else(|| "there is no finer setting".to_owned())),
+        ),
+    }
+}
+
+/// Whether there is time for one more setting. One that would confirm an answer is asked for where it may come in time.
+fn affordable(spent: Duration, took: Duration, timeout: Duration, confirms: bool) -> bool {
+    match confirms {
+        true => 2 * took <= timeout,
+        false => 4 * took <= timeout && spent <= timeout,
+    }
+}
+
+pub(super) fn within(rungs: &[Rung], tolerance: f64) -> bool {
+    rungs.last().is_some_and(|rung| rung.error() <= tolerance)
+}
+
+/// Whether two settings in a row are within the tolerance, or one to which the error fell by a steady order: one alone may be a
+/// chance crossing.
+pub(super) fn reached(rungs: &[Rung], tolerance: f64) -> bool {
+    let within = |rung: &&Rung| rung.error() <= tolerance;
+    match rungs.iter().rev().take_while(within).count() {
+        0 => false,
+        1 => steady_order(rungs).is_some(),
+        _ => true,
+    }
+}
+
+/// Why finer settings would not come within the tolerance, where that can be told from those that were tried.
+pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration) -> Option<End> {
+    // From coarse steps nothing follows: they may be unstable, or miss the motion.
+    let resolving = &rungs[RESOLVING.min(rungs.len())..];
+    let [.., third, second, first, last] = resolving else {
+        return None;
+    };
+    let errors = [third, second, first, last].map(Rung::error);
+    if !errors.iter().any(|error| error.is_finite()) {
+        return Some(End::Wrong("finer ones are not finite either".to_owned()));
+    }
+    let changes = [(third, second), (second, first), (first, last)];
+    let changes = changes.map(|(coarse, fine)| coarse.answer.largest_change(&fine.answer));
+    // A method that follows the motion, of any order above 0.02, changes by more than a hundredth of its error.
+    let still = match errors[3] < FOLLOWED {
+        true => 0.01 * errors[3],
+        false => 0.01 * tolerance,
+    };
+    if changes.iter().all(|change| *change <= still) && errors[3] > tolerance {
+        return Some(End::Wrong("finer ones no longer change the answer".to_owned()));
+    }
+    // A steady order foretells the steps, and two times that double what they take.
+    let order = steady_order(resolving)?;
+    let doubles = first.took > Duration::from_millis(200) && last.took < 3 * first.took;
+    let more = (errors[3] / tolerance).powf(1.0 / order);
+    let needed_s = last.took.as_secs_f64() * more;
+    (doubles && needed_s > 4.0 * timeout.as_secs_f64()).then(|| {
+        End::OutOfTime(format!(
+            "those would take some {needed_s:.0e} s, which --timeout does not allow"
+        ))
+    })
+}
+
+/// The order by which the last four errors fall, where it is nearly the same from each to the next.
+fn steady_order(rungs: &[Rung]) -> Option<f64> {
+    let last = rungs.last_chunk::<4>()?.each_ref().map(Rung::error);
+    let orders = [0, 1, 2].map(|k| (last[k] / last[k + 1]).log2());
+    let steady = |order: &f64| *order > 0.5 && (order - orders[2]).abs() < 0.1;
+    orders.iter().all(steady).then_some(orders[2])
+}
+
+fn settings(problem: &LoadedProblem, mode: Mode) -> Vec<Setting> {
+    let of = &problem.problem;
+    let largest = of
+        .gradient_per_s
+        .iter()
+        .flatten()
+        .fold(0.0, |a: f64, b| a.max(b.abs()));
+    let strain = largest * of.times_s[0];
+    let coarsest = (strain.ceil() as u64).next_power_of_two().max(8);
+    match mode {
+        Mode::Steps => (0..=DOUBLINGS).map(|k| Setting::Steps(coarsest << k)).collect(),
+        Mode::Tolerance => (2..=14).map(|k| Setting::Tolerance(10f64.powi(-k))).collect(),
+    }
+}

@@ -1,0 +1,155 @@
+//! Every setting that was asked is judged, not the finest alone: a method's error is a continuous function of its step.
+//!
+//! Where a method follows the motion, its error falls by its order from one number of steps to twice as many. Where an error
+//! falls by far more, the numbers of steps between the two are bisected down to neighbours N and N + 1. A method that is
+//! unstable with long steps, or misses the motion, comes right over many N. Answers that are wrong from one N to the next
+//! are no method's.
+
+use super::Rung;
+use super::climb::End;
+use crate::serve::grade::live::program::Asked;
+use crate::studies::integrators::Setting;
+use std::f64::consts::FRAC_PI_2;
+
+/// How many times the error that the finer settings foretell is far: five orders more than the method's between two
+/// settings, and between neighbours, whose steps differ by an eighth at most, an order of thirty.
+const FAR: f64 = 32.0;
+
+/// The order where the errors above the tolerance do not show one: of the highest methods in use.
+const HIGHEST: f64 = 8.0;
+
+/// Of a program that chooses its steps: how many times the errors of both neighbouring tolerances an error may be. The
+/// error of a right one is about proportional to its tolerance, which changes by ten.
+const OUTLIER: f64 = 1000.0;
+
+/// Judges every rung of a ladder whose last ones are within the tolerance.
+pub(super) fn judged(rungs: &[Rung], tolerance: f64, ask: impl Fn(Setting) -> Result<Rung, Asked>) -> End {
+    let order = falling_order(rungs, tolerance);
+    for k in (0..rungs.len().saturating_sub(1)).rev() {
+        // Unstable to the end: nothing but this can be said of the coarsest.
+        if !rungs[..=k].iter().any(|rung| rung.error().is_finite()) {
+            return End::Reached;
+        }
+        let found = match (rungs[k].setting, rungs[k + 1].setting) {
+            (Setting::Steps(coarse), Setting::Steps(fine)) => {
+                let foretold = Foretold::from(&rungs[k + 1..], fine, tolerance, order);
+                match far(&rungs[k], foretold.at(coarse)) {
+                    true => jump(coarse, fine, &foretold, &ask),
+                    false => Ok(None),
+                }
+            }
+            _ => Ok(outlier(rungs, k, tolerance)),
+        };
+        match found {
+            Ok(None) => {}
+            Ok(Some(words)) => return End::Jumps(words),
+            Err(Asked::Late(words)) => return End::OutOfTime(words),
+            Err(Asked::Breach(words)) => return End::Broke(words),
+            Err(Asked::Says(_)) => {}
+        }
+    }
+    End::Reached
+}
+
+/// The error that finer settings foretell for coarser ones, by a power of the number of steps.
+struct Foretold {
+    steps: f64,
+    error: f64,
+    order: f64,
+}
+
+impl Foretold {
+    /// From the next finer settings. The first error may be small by chance: the second foretells it too.
+    fn from(finer: &[Rung], steps: u64, tolerance: f64, order: f64) -> Self {
+        let second = finer.get(1).and_then(|rung| {
+            let ratio = rung.setting.steps().ok()? as f64 / steps as f64;
+            Some(capped(rung) * ratio.powf(order))
+        });
+        Self {
+            steps: steps as f64,
+            error: capped(&finer[0]).max(second.unwrap_or(0.0)).max(tolerance),
+            order,
+        }
+    }
+
+    fn at(&self, steps: u64) -> f64 {
+        self.error * (self.steps / steps as f64).powf(self.order)
+    }
+}
+
+/// A rung's error, where one that is not finite, or larger than a direction's can be, is a right angle.
+fn capped(rung: &Rung) -> f64 {
+    match rung.error() {
+        error if error.is_finite() => error.min(FRAC_PI_2),
+        _ => FRAC_PI_2,
+    }
+}
+
+fn far(rung: &Rung, foretold: f64) -> bool {
+    capped(rung) > FAR * foretold
+}
+
+/// The median order between settings that follow the motion and are above the tolerance.
+pub(super) fn falling_order(rungs: &[Rung], tolerance: f64) -> f64 {
+    let follows = |rung: &Rung| rung.error() > tolerance && rung.error() < 0.1;
+    let order = |pair: &[Rung]| {
+        let steps = [&pair[0], &pair[1]].map(|rung| rung.setting.steps().ok());
+        let [Some(coarse), Some(fine)] = steps else {
+            return None;
+        };
+        let order = (pair[0].error() / pair[1].error()).ln() / (fine as f64 / coarse as f64).ln();
+        (pair.iter().all(follows) && order > 0.5).then_some(order)
+    };
+    let mut orders: Vec<_> = rungs.windows(2).filter_map(order).collect();
+    orders.sort_by(f64::total_cmp);
+    orders.get(orders.len() / 2).copied().unwrap_or(HIGHEST)
+}
+
+/// Bisects from a number of steps whose answer is far off to one whose answer is not, and says where the answers jump.
+fn jump(
+    mut bad: u64,
+    mut good: u64,
+    foretold: &Foretold,
+    ask: impl Fn(Setting) -> Result<Rung, Asked>,
+) -> Result<Option<String>, Asked> {
+    let mut error = [None; 2];
+    while good - bad > 1 {
+        let middle = bad + (good - bad) / 2;
+        let rung = ask(Setting::Steps(middle))?;
+        match far(&rung, foretold.at(middle)) {
+            true => (bad, error[0]) = (middle, Some(capped(&rung))),
+            false => (good, error[1]) = (middle, Some(capped(&rung))),
+        }
+    }
+    // The ends are asked again where the bisection has not moved from them.
+    let of = |steps: u64, known: Option<f64>| match known {
+        Some(error) => Ok(error),
+        None => ask(Setting::Steps(steps)).map(|rung| capped(&rung)),
+    };
+    let [bad_error, good_error] = [of(bad, error[0])?, of(good, error[1])?];
+    let jumps = bad_error > FAR * good_error.max(foretold.at(good));
+    Ok(jumps.then(|| {
+        format!(
+            "with {bad} steps it is off by {bad_error:.1e}, with {good} by {good_error:.1e}: a method's error does not jump \
+             so between two numbers of steps"
+        )
+    }))
+}
+
+/// Of a program that chooses its steps: an error far above those of both neighbouring tolerances.
+fn outlier(rungs: &[Rung], k: usize, tolerance: f64) -> Option<String> {
+    let coarser = &rungs[k.checked_sub(1)?];
+    let finer = &rungs[k + 1];
+    let most = OUTLIER * capped(coarser).max(capped(finer)).max(tolerance);
+    (capped(&rungs[k]) > most).then(|| {
+        format!(
+            "with {} it is off by {:.1e}, with {} by {:.1e} and with {} by {:.1e}",
+            rungs[k].setting,
+            capped(&rungs[k]),
+            coarser.setting,
+            capped(coarser),
+            finer.setting,
+            capped(finer)
+        )
+    })
+}

@@ -1,0 +1,227 @@
+use super::climb::{hopeless, reached, within};
+use super::jumps::falling_order;
+use super::*;
+use crate::serve::grade::live::program::Asked;
+use std::cell::Cell;
+
+const TOLERANCE: f64 = 1e-6;
+
+/// Fifteen rungs, one for each doubling: the angle by which a rod is off, which is its error too, and how long it took.
+fn ladder(rungs: impl Fn(i32) -> (f64, f64)) -> Vec<Rung> {
+    let rung = |k: i32| {
+        let (error, seconds) = rungs(k);
+        rung(Setting::Steps(8 << k), error, seconds)
+    };
+    (0..15).map(rung).collect()
+}
+
+fn rung(setting: Setting, error: f64, seconds: f64) -> Rung {
+    Rung {
+        setting,
+        answer: Answer {
+            path: "a test".into(),
+            rows: vec![vec![error.cos(), error.sin(), 0.0]],
+            lines: vec![0],
+        },
+        compared: Compared {
+            error,
+            row: 0,
+            remark: None,
+            length_drift: None,
+            orbit_drift: None,
+            phase_lost_per_period: None,
+            too_little_data: false,
+        },
+        took: Duration::from_secs_f64(seconds),
+    }
+}
+
+fn climbed(rungs: impl Fn(i32) -> (f64, f64)) -> Option<String> {
+    let rungs = ladder(rungs);
+    let end = (1..=rungs.len()).find_map(|k| hopeless(&rungs[..k], TOLERANCE, Duration::from_secs(60)))?;
+    match end {
+        End::Wrong(words) => Some(words),
+        End::OutOfTime(words) => Some(format!("out of time: {words}")),
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Seconds in proportion to the steps.
+fn seconds(k: i32) -> f64 {
+    2e-5 * 2f64.powi(k)
+}
+
+#[test]
+fn a_steady_order_or_a_second_rung_tells_an_answer_from_a_chance_crossing() {
+    let asked = |error: &dyn Fn(i32) -> f64| {
+        let rungs = ladder(|k| (error(k), seconds(k)));
+        (1..=rungs.len()).find(|asked| reached(&rungs[..*asked], TOLERANCE))
+    };
+    // 0.3/16⁵ is within 10⁻⁶: the sixth rung. Where orders wander, one more.
+    assert_eq!(asked(&|k| 0.3 * 16f64.powi(-k)), Some(6));
+    assert_eq!(
+        asked(&|k| 0.3 * 16f64.powi(-k) * if k % 2 == 0 { 1.0 } else { 1.2 }),
+        Some(7)
+    );
+    // Zeros crossed by chance, among coarse and fine steps.
+    let crossing = |k: i32| {
+        if k == 2 || k == 8 {
+            0.0
+        } else {
+            0.3 * 2f64.powi(-k)
+        }
+    };
+    assert_eq!(asked(&crossing), None);
+    assert_eq!(asked(&|_| f64::NAN), None);
+}
+
+#[test]
+fn the_finest_setting_says_whether_an_answer_is_within_the_tolerance() {
+    let all = ladder(|k| (0.3 * 4f64.powi(-k), 1.0));
+    assert!(within(&all, TOLERANCE) && !within(&all[..5], TOLERANCE) && !within(&[], TOLERANCE));
+}
+
+#[test]
+fn the_order_by_which_errors_fall_is_that_of_those_above_the_tolerance() {
+    for order in [1, 2, 4] {
+        let all = ladder(|k| ((0.3 * 2f64.powi(-k * order)).max(1e-9), 1.0));
+        let found = falling_order(&all, TOLERANCE);
+        assert!((found - f64::from(order)).abs() < 1e-9, "{order}: {found}");
+    }
+}
+
+#[test]
+fn settings_that_are_not_finite_are_named() {
+    let all = ladder(|k| (if k < 2 { f64::NAN } else { 1e-9 }, 1.0));
+    assert_eq!(not_finite(&all[2..]), None);
+    let words = not_finite(&all).unwrap();
+    assert!(
+        words.starts_with("with ") && words.contains('8') && words.contains("16"),
+        "{words}"
+    );
+    assert!(!words.contains("32"), "{words}");
+}
+
+#[test]
+fn what_no_longer_changes_is_not_asked_on() {
+    let wrong = climbed(|k| (0.3 + 1e-3 * 16f64.powi(-k), seconds(k)));
+    assert_eq!(wrong.as_deref(), Some("finer ones no longer change the answer"));
+    let off = climbed(|k| (1e-4 + 1e-3 * 16f64.powi(-k), seconds(k)));
+    assert_eq!(off.as_deref(), Some("finer ones no longer change the answer"));
+    let not_a_number = climbed(|k| (f64::NAN, seconds(k)));
+    assert_eq!(not_a_number.as_deref(), Some("finer ones are not finite either"));
+}
+
+#[test]
+fn an_order_too_low_for_the_time_is_told_early() {
+    let first = climbed(|k| (0.3 * 2f64.powi(-k), 1000.0 * seconds(k))).unwrap();
+    assert!(
+        first.starts_with("out of time") && first.contains("s, which --timeout does not allow"),
+        "{first}"
+    );
+}
+
+#[test]
+fn what_may_yet_come_within_the_tolerance_is_asked_on() {
+    let second = |k: i32| 0.3 * 4f64.powi(-k);
+    assert_eq!(climbed(|k| (second(k), seconds(k))), None);
+    // Coarse steps that are unstable, or miss the motion.
+    let unstable = |k: i32| if k < 9 { f64::NAN } else { second(k) };
+    assert_eq!(climbed(|k| (unstable(k), seconds(k))), None);
+    let missed = |k: i32| {
+        if k < 9 {
+            1.5 + 1e-4 * f64::from(k)
+        } else {
+            second(k)
+        }
+    };
+    assert_eq!(climbed(|k| (missed(k), seconds(k))), None);
+    // A pause of the machine; what takes long to start.
+    let pause = |k: i32| seconds(k) + if k == 10 { 3.0 } else { 0.0 };
+    assert_eq!(climbed(|k| (0.3 * 2f64.powi(-k), pause(k))), None);
+    let start = |k: i32| if k == 0 { 3.0 } else { 1e-4 };
+    assert_eq!(climbed(|k| (second(k), start(k))), None);
+}
+
+/// How the rungs of a program are judged whose error at so many steps, asked for the n-th time, is this.
+fn judged(error: impl Fn(u64, u32) -> f64) -> End {
+    let count = Cell::new(0);
+    let ask = |setting: Setting| -> Result<Rung, Asked> {
+        count.set(count.get() + 1);
+        Ok(rung(setting, error(setting.steps().unwrap(), count.get()), 0.0))
+    };
+    let mut rungs = Vec::new();
+    for k in 0..24 {
+        rungs.push(ask(Setting::Steps(8 << k)).unwrap());
+        if reached(&rungs, TOLERANCE) {
+            return jumps::judged(&rungs, TOLERANCE, ask);
+        }
+    }
+    panic!("the tolerance is not reached");
+}
+
+#[test]
+fn what_comes_right_over_many_numbers_of_steps_is_a_method() {
+    let of_order = |order: f64| move |steps: u64| (0.5 * (steps as f64 / 16.0).powf(-order)).min(0.57);
+    for order in [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 14.0] {
+        let right = of_order(order);
+        assert_eq!(judged(|steps, _| right(steps)), End::Reached, "{order}");
+        // Unstable with fewer than some 200 steps: what grows does so by a factor a step.
+        let unstable = |steps: u64| right(steps) + 1e-12 * 1.5f64.powi(200 - steps as i32);
+        assert_eq!(judged(|steps, _| unstable(steps)), End::Reached, "{order}");
+        // Not finite where it is unstable, or too long.
+        for wild in [f64::NAN, f64::INFINITY, 1e30] {
+            let found = judged(|steps, _| if steps < 16 { wild } else { right(steps) });
+            assert_eq!(found, End::Reached, "{order} {wild}");
+        }
+        // A zero crossed by chance, at a rung.
+        let crossing = |steps: u64| right(steps) * (1.0 - 64.0 / steps as f64).abs();
+        assert_eq!(judged(|steps, _| crossing(steps)), End::Reached, "{order}");
+    }
+}
+
+#[test]
+fn answers_that_are_wrong_at_some_numbers_of_steps_are_no_methods() {
+    for order in [2.0, 4.0, 5.0, 8.0] {
+        let right = |steps: u64| 0.5 * (steps as f64 / 16.0).powf(-order);
+        let jumps = |found: End| matches!(&found, End::Jumps(words) if words.contains("does not jump"));
+        for wild in [1.2, f64::NAN] {
+            let below = judged(|steps, _| {
+                if steps < 512 && steps > 8 {
+                    wild
+                } else {
+                    right(steps)
+                }
+            });
+            assert!(jumps(below), "{order} {wild}");
+            let third = judged(|steps, asked| {
+                if asked % 3 == 0 && steps > 100 {
+                    wild
+                } else {
+                    right(steps)
+                }
+            });
+            assert!(order > 5.0 || jumps(third), "{order} {wild}");
+        }
+        let once = judged(|steps, _| if steps == 512 { 1.2 } else { right(steps) });
+        assert!(order > 4.0 || jumps(once), "{order}");
+    }
+}
+
+#[test]
+fn a_tolerance_far_worse_than_both_its_neighbours_is_no_methods() {
+    let judged = |spoilt: i32, error: f64| {
+        let of = |k: i32| if k == spoilt { error } else { 3.0 * 10f64.powi(-k) };
+        let rungs: Vec<_> = (2..=9)
+            .map(|k| rung(Setting::Tolerance(10f64.powi(-k)), of(k), 0.0))
+            .collect();
+        jumps::judged(&rungs, TOLERANCE, |_| {
+            Err(Asked::Says("it is not asked".to_owned()))
+        })
+    };
+    assert_eq!(judged(0, 0.0), End::Reached);
+    // Coarse tolerances miss the motion.
+    assert_eq!(judged(2, 1.5), End::Reached);
+    assert_eq!(judged(4, 0.03), End::Reached);
+    assert!(matches!(judged(6, 1.2), End::Jumps(_)));
+}

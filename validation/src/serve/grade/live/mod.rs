@@ -1,0 +1,37 @@
+//! Grading a program that runs: it is asked over its standard input and answers over its standard output.
+
+mod bench;
+mod ladder;
+pub mod pipe;
+mod program;
+mod protocol;
+mod signals;
+mod studies;
+
+pub use bench::{Bench, echo, theory};
+pub use ladder::{Mode, grade, mode};
+pub use program::{Asked, Program, Question};
+pub use signals::end_all;
+pub use studies::{Studies, studies};
+
+use crate::serve::problems::{self, LoadedProblem};
+use rayon::prelude::*;
+
+/// Problems about free rods that this build has, as they would be exported: those of the names that are wanted.
+pub fn built_in(wanted: impl Fn(&str) -> bool) -> Vec<LoadedProblem> {
+    let mut rods = problems::free_rods();
+    rods.retain(|name| wanted(name));
+    (rods.into_par_iter())
+        .filter_map(problems::named)
+        .map(|built| built.loaded(built.problem.name.clone().into()))
+        .collect()
+}
+
+/// The problem with its last time alone: what a request asks for.
+fn last_time(problem: &LoadedProblem) -> LoadedProblem {
+    let mut last = problem.clone();
+    let rods = problem.start.len();
+    last.problem.times_s.drain(..problem.problem.times_s.len() - 1);
+    last.certified.rows.drain(..problem.certified.rows.len() - rods);
+    last
+}

@@ -1,0 +1,294 @@
+//! A program that is asked, kept within its bounds, and started anew after it has broken the protocol.
+
+use super::pipe::Pipe;
+use super::protocol::{self, Answer, Request};
+use crate::studies::integrators::{Failure, Integrator, Problem, Setting, Theory};
+use nalgebra::{UnitVector3, Vector3};
+use std::hash::{BuildHasher, RandomState};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// After so many answers that did not come in time the program is not asked again.
+const MOST_HANGS: u32 = 2;
+
+/// After so many breaches of the protocol it is not started again.
+const MOST_BREACHES: u32 = 20;
+
+/// What is asked of free rods: their directions at `end_s`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Question {
+    /// L in 1/s.
+    pub gradient_per_s: [[f64; 3]; 3],
+    /// r_e.
+    pub aspect_ratio: f64,
+    /// Directions at t = 0.
+    pub start: Vec<[f64; 3]>,
+    /// In s.
+    pub end_s: f64,
+}
+
+/// A program behind the protocol.
+pub struct Program {
+    words: Vec<String>,
+    name: String,
+    theory: Theory,
+    timeout: Duration,
+    state: Mutex<State>,
+}
+
+#[derive(Default)]
+struct State {
+    pipe: Option<Pipe>,
+    /// The last request's id.
+    asked: u64,
+    hangs: u32,
+    breaches: u32,
+    /// Why it is not asked again.
+    given_up: Option<String>,
+    /// What is asked for at the moment, for messages.
+    during: String,
+    /// Every breach, with what was asked.
+    log: Vec<String>,
+    /// When a study has to end.
+    deadline: Option<Instant>,
+}
+
+/// Why there is no answer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Asked {
+    /// The program's own error.
+    Says(String),
+    /// It broke the protocol, now or so often that it is not asked again.
+    Breach(String),
+    /// No answer came in time, or it is not asked again because of that.
+    Late(String),
+}
+
+impl std::fmt::Display for Asked {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Says(words) => write!(f, "the program says: {words}"),
+            Self::Breach(words) | Self::Late(words) => write!(f, "{words}"),
+        }
+    }
+}
+
+impl Program {
+    /// Starts the command. `Err` when it cannot be started at all.
+    pub fn start(command: &str, timeout: Duration) -> Result<Self, String> {
+        let words =
+            shlex::split(command).ok_or_else(|| format!("--command {command}: a quote is not closed"))?;
+        let pipe = Pipe::start(&words).map_err(|error| format!("--command {error}"))?;
+        Ok(Self {
+            words,
+            name: command.to_owned(),
+            theory: Theory::Order(0),
+            timeout,
+            state: Mutex::new(State {
+                pipe: Some(pipe),
+                ..State::default()
+            }),
+        })
+    }
+
+    /// The same program, to be taken as one whose error falls so.
+    pub fn with_theory(self, theory: Theory) -> Self {
+        Self { theory, ..self }
+    }
+
+    /// The longest that one answer may take.
+    pub fn timeout(&self) -> Duration {
+        self.timeout
+    }
+
+    /// Says what the following questions are for.
+    pub fn during(&self, what: &str) {
+        self.state().during = what.to_owned();
+    }
+
+    /// Every breach of the protocol so far, and what was asked then; the same one after the other in one line.
+    pub fn breaches(&self) -> Vec<String> {
+        in_a_row(&self.state().log)
+    }
+
+    /// Why the program is not asked again, where it is not.
+    pub fn given_up(&self) -> Option<String> {
+        self.state().given_up.clone()
+    }
+
+    /// Asks, and takes the time of the answer. Directions may be NaN.
+    pub fn ask(&self, question: &Question, setting: Setting) -> Result<(Vec<[f64; 3]>, Duration), Asked> {
+        let mut state = self.state();
+        if let Some(reason) = &state.given_up {
+            let words = format!("not asked: {reason}");
+            return Err(match state.hangs >= MOST_HANGS {
+                true => Asked::Late(words),
+                false => Asked::Breach(words),
+            });
+        }
+        if state.deadline.is_some_and(|deadline| Instant::now() > deadline) {
+            return Err(Asked::Late("not asked: out of time".to_owned()));
+        }
+        let asked = Instant::now();
+        match state.ask(&self.words, question, setting, self.timeout) {
+            Ok(Answer::Directions(p)) => Ok((p, asked.elapsed())),
+            Ok(Answer::Error(reason)) => Err(Asked::Says(reason)),
+            Err(breach) if breach.hung => Err(Asked::Late(state.breached(breach))),
+            Err(breach) => Err(Asked::Breach(state.breached(breach))),
+        }
+    }
+
+    /// Does a study that asks for no longer than one answer may take, but for the last one. `None` where that was too
+    /// short, or the program was given up.
+    pub fn within_time<T>(&self, what: &str, study: impl FnOnce() -> T) -> Option<T> {
+        self.during(what);
+        let deadline = Instant::now() + self.timeout;
+        self.state().deadline = Some(deadline);
+        let breaches = self.state().breaches;
+        let found = study();
+        self.state().deadline = None;
+        let in_time = Instant::now() <= deadline && self.state().breaches == breaches;
+        (in_time && self.given_up().is_none()).then_some(found)
+    }
+
+    /// Closes the program's input and waits for its end. `Err` says what was wrong with that.
+    pub fn close(&self) -> Result<(), String> {
+        match self.state().pipe.take() {
+            Some(pipe) => pipe.close(),
+            None => Ok(()),
+        }
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// A breach of the protocol: what is wrong, and whether nothing came at all.
+struct Breach {
+    what: String,
+    hung: bool,
+}
+
+impl State {
+    fn ask(
+        &mut self,
+        words: &[String],
+        question: &Question,
+        setting: Setting,
+        limit: Duration,
+    ) -> Result<Answer, Breach> {
+        let wrong = |what: String| Breach { what, hung: false };
+        if self.pipe.is_none() {
+            self.pipe = Some(Pipe::start(words).map_err(wrong)?);
+        }
+        let Some(pipe) = &mut self.pipe else {
+            return Err(wrong("it does not run".to_owned()));
+        };
+        self.asked = next_id(self.asked);
+        let request = Request {
+            id: self.asked,
+            gradient_per_s: &question.gradient_per_s,
+            aspect_ratio: question.aspect_ratio,
+            start: &question.start,
+            end_s: question.end_s,
+            steps: setting.steps().ok(),
+            tolerance: setting.tolerance().ok(),
+        };
+        pipe.nothing_more(Duration::ZERO).map_err(wrong)?;
+        pipe.send(serde_json::to_string(&request).map_err(|error| wrong(error.to_string()))?);
+        let (line, text) = pipe.line(limit).map_err(|trouble| Breach {
+            what: trouble.to_string(),
+            hung: matches!(trouble, super::pipe::Trouble::Hung(_)),
+        })?;
+        protocol::read(&text, self.asked, question.start.len())
+            .map_err(|reason| wrong(format!("line {line} of standard output: {reason}")))
+    }
+
+    /// Stops the program, notes the breach, and says whether there is another try.
+    fn breached(&mut self, breach: Breach) -> String {
+        self.pipe = None;
+        self.breaches += 1;
+        self.hangs += u32::from(breach.hung);
+        self.log.push(format!("{}: {}", self.during, breach.what));
+        if self.hangs >= MOST_HANGS {
+            self.given_up = Some(format!("{} answers did not come in time", self.hangs));
+        } else if self.breaches >= MOST_BREACHES {
+            self.given_up = Some(format!("it broke the protocol {} times", self.breaches));
+        }
+        breach.what
+    }
+}
+
+/// Ascending ids with gaps that nobody can foretell: an answer that is written before its request has the wrong one.
+fn next_id(last: u64) -> u64 {
+    const LARGEST_GAP: u64 = 1000;
+    last + 1 + RandomState::new().hash_one(last) % LARGEST_GAP
+}
+
+/// Lines, those that come again at once in one.
+fn in_a_row(lines: &[String]) -> Vec<String> {
+    let one = |same: &[String]| match same.len() {
+        1 => same[0].clone(),
+        times => format!("{} ({times} times)", same[0]),
+    };
+    lines.chunk_by(PartialEq::eq).map(one).collect()
+}
+
+/// One rod in plane Couette flow with G = 1/s: what the project's own integrators are judged by.
+impl Integrator for Program {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn theory(&self) -> Theory {
+        self.theory
+    }
+
+    fn advance(
+        &self,
+        problem: &Problem,
+        start: &UnitVector3<f64>,
+        setting: Setting,
+    ) -> Result<Vector3<f64>, Failure> {
+        let all = self.advance_all(problem, std::slice::from_ref(start), setting)?;
+        Ok(all[0])
+    }
+
+    fn advance_all(
+        &self,
+        problem: &Problem,
+        starts: &[UnitVector3<f64>],
+        setting: Setting,
+    ) -> Result<Vec<Vector3<f64>>, Failure> {
+        let question = Question {
+            gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]],
+            aspect_ratio: problem.aspect_ratio,
+            start: starts.iter().map(|p| [p.x, p.y, p.z]).collect(),
+            end_s: problem.strain(),
+        };
+        match self.ask(&question, setting) {
+            Ok((p, _)) => Ok(p.into_iter().map(Vector3::from).collect()),
+            Err(asked) => Err(Failure::Gave(asked.to_string())),
+        }
+    }
+}
+
+#[test]
+fn ids_ascend_and_their_gaps_are_not_all_alike() {
+    let ids: Vec<_> = std::iter::successors(Some(0), |id| Some(next_id(*id)))
+        .take(100)
+        .collect();
+    let gaps = ids.windows(2).map(|pair| pair[1] - pair[0]);
+    let gaps: std::collections::BTreeSet<_> = gaps.collect();
+    assert!(
+        gaps.len() > 50 && gaps.iter().all(|gap| (1..=1000).contains(gap)),
+        "{gaps:?}"
+    );
+}
+
+#[test]
+fn lines_that_come_again_are_counted_and_none_is_lost() {
+    let told = in_a_row(&["a", "a", "b", "a"].map(String::from));
+    assert_eq!(told, ["a (2 times)", "b", "a"]);
+}

@@ -1,0 +1,225 @@
+//! What known mistakes make of the means |p_i| of rods that were isotropic at t = 0: of unequal rods, and of suspensions.
+
+use super::answer::Answer;
+use super::compare::standard_errors;
+use super::mistakes::{self, Mistake, Setting, right_map};
+use crate::serve::problems::{LoadedProblem, Problem};
+use nalgebra::{Matrix3, Vector3};
+use rayon::prelude::*;
+
+/// Nodes in r_e from −6 to 6 standard deviations: the trapezoid rule of a Gaussian times what is analytic converges
+/// geometrically, and so many leave 10⁻⁹ after three periods.
+const NODES: usize = 401;
+const REACH: f64 = 6.0;
+
+/// ⟨|p_i|⟩ of directions M p(0)/|M p(0)| where p(0) is isotropic: (1/π) ∫ (adj N)_ii^½ x^½/det N d(ln x), N = (M Mᵀ)⁻¹ + x
+/// with det M = 1, by the trapezoid rule, which leaves e^(−2π²/h).
+pub(super) fn projections(map: &Matrix3<f64>) -> Option<Vector3<f64>> {
+    const STEP: f64 = 0.5;
+    let map = map / map.determinant().abs().cbrt();
+    let back = map.try_inverse()?;
+    let (sigma, inverse) = (map * map.transpose(), back.transpose() * back);
+    // The integrand rises as x^½ and falls as x^(−3/2).
+    let steps = |range: f64| (range / STEP).ceil() as i32;
+    let (left, right) = (
+        steps(sigma.trace().ln() + 70.0),
+        steps(inverse.trace().ln() + 25.0),
+    );
+    let at = |k: i32| {
+        let x = (STEP * f64::from(k)).exp();
+        let determinant = ((x + inverse.trace()) * x + sigma.trace()) * x + 1.0;
+        let adjugate = Vector3::from_fn(|i, _| (x + inverse.trace() - inverse[(i, i)]) * x + sigma[(i, i)]);
+        adjugate.map(|entry| (entry * x).sqrt()) / determinant
+    };
+    let sum: Vector3<f64> = (-left..=right).map(at).sum();
+    let means = sum * STEP / std::f64::consts::PI;
+    means.iter().all(|mean| mean.is_finite()).then_some(means)
+}
+
+/// The mean of `of(r_e)` over the aspect ratios of a problem (eq. 11).
+fn over_shapes(problem: &Problem, of: impl Fn(f64) -> Option<Vector3<f64>>) -> Option<Vector3<f64>> {
+    let sd = 0.01 * problem.aspect_ratio_sd_percent;
+    if sd == 0.0 {
+        return of(problem.aspect_ratio);
+    }
+    let mut sum = Vector3::zeros();
+    let mut weights = 0.0;
+    for node in 0..NODES {
+        let z = REACH * (2.0 * node as f64 / (NODES - 1) as f64 - 1.0);
+        let weight = (-0.5 * z * z).exp();
+        sum += weight * of(problem.aspect_ratio * (1.0 + sd * z))?;
+        weights += weight;
+    }
+    Some(sum / weights)
+}
+
+fn setting(problem: &Problem, aspect_ratio: f64) -> Setting {
+    let l = &problem.gradient_per_s;
+    Setting {
+        gradient_per_s: Matrix3::from_fn(|i, j| l[i][j]),
+        aspect_ratio,
+    }
+}
+
+/// ⟨|p_i|⟩ of free rods by a mistake.
+fn by_mistake(problem: &Problem, mistake: &Mistake, time_s: f64) -> Option<Vector3<f64>> {
+    over_shapes(problem, |r| {
+        let map = mistake.map(&setting(problem, r), time_s)?;
+        match mistake.has_length {
+            // ⟨|m·p(0)|⟩ = |m|/2 for each row m.
+            true => Some(Vector3::from_fn(|i, _| 0.5 * map.row(i).norm())),
+            false => projections(&map),
+        }
+    })
+}
+
+fn free(problem: &Problem, time_s: f64) -> Option<Vector3<f64>> {
+    over_shapes(problem, |r| {
+        projections(&right_map(&setting(problem, r), time_s)?)
+    })
+}
+
+fn free_of_one_shape(problem: &Problem, time_s: f64) -> Option<Vector3<f64>> {
+    projections(&right_map(&setting(problem, problem.aspect_ratio), time_s)?)
+}
+
+/// Of free unequal rods: the mistakes that are nearer than this, with their distances.
+pub(super) fn unequal(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Vec<(f64, String)> {
+    let problem = &loaded.problem;
+    let distance = |of: &dyn Fn(f64) -> Option<Vector3<f64>>| {
+        let mut largest: f64 = 0.0;
+        for (values, time_s) in answer.rows.iter().zip(&problem.times_s) {
+            let off = (Vector3::from_row_slice(values) - of(*time_s)?).amax();
+            if off.is_nan() || off > nearer_than {
+                return None;
+            }
+            largest = largest.max(off);
+        }
+        Some(largest)
+    };
+    let mut near: Vec<_> = (mistakes::all().into_par_iter())
+        .filter_map(|mistake| {
+            Some((
+                distance(&|time| by_mistake(problem, &mistake, time))?,
+                mistake.name,
+            ))
+        })
+        .collect();
+    if let Some(distance) = distance(&|time| free_of_one_shape(problem, time)) {
+        near.push((distance, ONE_SHAPE.to_owned()));
+    }
+    near
+}
+
+const ONE_SHAPE: &str = "rods of one r_e, the mean";
+
+/// Of a suspension: what its means agree with as well as a right answer's may with the right ones.
+pub(super) fn ensemble(loaded: &LoadedProblem, answer: &Answer) -> Option<String> {
+    let problem = &loaded.problem;
+    let names = &problem.columns[1..];
+    let column = |name: &str| names.iter().position(|found| found == name);
+    let mean = [column("x1")?, column("x2")?, column("x3")?];
+    let exact = |of: &dyn Fn(&Problem, f64) -> Option<Vector3<f64>>| {
+        let row = |time: &f64| {
+            let means = of(problem, *time)?;
+            let mut row = vec![0.0; names.len()];
+            (0..3).for_each(|i| row[mean[i]] = means[i]);
+            Some(row)
+        };
+        problem.times_s.iter().map(row).collect::<Option<Vec<_>>>()
+    };
+    // Means and their errors change places together.
+    let exchanged = |order: [usize; 3]| {
+        let row = |certified: &Vec<f64>| {
+            let mut row = certified[1..].to_vec();
+            for (i, of) in order.into_iter().enumerate() {
+                for offset in 0..2 {
+                    row[mean[i] + offset] = certified[1 + mean[of] + offset];
+                }
+            }
+            row
+        };
+        Some(loaded.certified.rows.iter().map(row).collect::<Vec<_>>())
+    };
+    let mut known = vec![
+        ("free rods, without collisions", exact(&free)),
+        (
+            "p_i without its modulus, whose mean is 0",
+            exact(&|_, _| Some(Vector3::zeros())),
+        ),
+        ("x1 and x2 exchanged", exchanged([1, 0, 2])),
+        ("x1 and x3 exchanged", exchanged([2, 1, 0])),
+        ("x2 and x3 exchanged", exchanged([0, 2, 1])),
+        ("x2, x3, x1 in place of x1, x2, x3", exchanged([1, 2, 0])),
+        ("x3, x1, x2 in place of x1, x2, x3", exchanged([2, 0, 1])),
+    ];
+    if problem.aspect_ratio_sd_percent > 0.0 {
+        known.push((
+            "free rods of one r_e, without collisions",
+            exact(&free_of_one_shape),
+        ));
+    }
+    let off = |rows: &Vec<Vec<f64>>| {
+        let rows = answer.rows.iter().zip(rows);
+        rows.map(|(found, expected)| standard_errors(names, found, expected))
+            .fold(0.0, |a: f64, b| if b.is_nan() { f64::INFINITY } else { a.max(b) })
+    };
+    let near: Vec<_> = (known.into_iter())
+        .filter_map(|(name, rows)| Some((name, off(&rows?))))
+        .filter(|(_, off)| *off <= problem.tolerance)
+        .collect();
+    let (_, nearest) = near.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let names: Vec<_> = near.iter().map(|(name, _)| *name).collect();
+    Some(format!(
+        "these are the means of {}, to {nearest:.1} standard errors",
+        names.join(" or of ")
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::oracle::isotropic::{mean_projections, mean_projections_polydisperse};
+    use crate::serve::problems;
+
+    fn problem() -> Problem {
+        problems::named("unequal-rods").unwrap().problem.clone()
+    }
+
+    /// Isotropic rods have ⟨|p_i|⟩ = ½, with their length or without it.
+    #[test]
+    fn every_mistake_starts_from_isotropic_rods() {
+        let problem = problem();
+        let mistakes = crate::serve::grade::mistakes::all();
+        assert!(mistakes.iter().any(|mistake| mistake.has_length));
+        for mistake in &mistakes {
+            if let Some(means) = by_mistake(&problem, mistake, 0.0) {
+                let off = means.iter().map(|mean| (mean - 0.5).abs()).fold(0.0, f64::max);
+                assert!(off < 1e-9, "{}: {means}", mistake.name);
+            }
+        }
+    }
+
+    #[test]
+    fn means_of_free_rods_are_carlsons_integrals() {
+        let mut problem = problem();
+        let period_s = std::f64::consts::TAU * (11.6 + 1.0 / 11.6) / problem.gradient_per_s[1][0];
+        for turns in [0.0, 0.1, 0.25, 0.5, 3.0] {
+            let time_s = turns * period_s;
+            let off = |found: Option<Vector3<f64>>, expected: [f64; 3]| {
+                (found.unwrap() - Vector3::from(expected)).amax()
+            };
+            problem.aspect_ratio_sd_percent = 0.0;
+            assert!(off(free(&problem, time_s), mean_projections(11.6, turns)) < 1e-12);
+            problem.aspect_ratio_sd_percent = 3.6;
+            // Six standard deviations leave 2·10⁻⁹ of the Gaussian.
+            let expected = mean_projections_polydisperse(11.6, 3.6, turns);
+            assert!(off(free(&problem, time_s), expected) < 2e-9, "{turns}");
+            let wrong = mean_projections_polydisperse(11.6, 3.7, turns);
+            assert!(
+                turns < 0.2 || off(free(&problem, time_s), wrong) > 1e-6,
+                "{turns}"
+            );
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! Reading an answer from a file.
+
+use super::answer::{Answer, Collector};
+use super::lammps;
+use super::layout::{Field, Layout, Told};
+use super::lines::{Lines, number};
+use crate::serve::problems::{LoadedProblem, ReadError};
+use std::path::Path;
+
+/// How far a tensor's two halves may be apart: beyond six digits they are two answers.
+const SYMMETRIC: f64 = 1e-6;
+
+/// Reads an answer.
+pub fn read(
+    path: &Path,
+    problem: &LoadedProblem,
+    told: &Told,
+    dump: &lammps::Told,
+) -> Result<Answer, ReadError> {
+    let mut lines = Lines::open(path, told.ends)?;
+    let first = lines.next_line()?;
+    let first = first.ok_or_else(|| ReadError::at(path, 1, 1, "the file is empty"))?;
+    if first.starts_with("ITEM:") {
+        return lammps::read(lines, first, problem, told.axes, dump);
+    }
+    let layout =
+        Layout::find(&first, &problem.problem, told).map_err(|(at, message)| lines.error(at, message))?;
+    let mut collector = Collector::new(problem);
+    let mut row = layout.first_is_row.then_some(first);
+    let mut last = lines.number();
+    loop {
+        let line = match row.take() {
+            Some(line) => line,
+            None => match lines.next_line()? {
+                Some(line) => line,
+                None => return collector.finish(path, last),
+            },
+        };
+        last = lines.number();
+        let (keys, values) =
+            fields(&line, &layout, problem).map_err(|(at, message)| lines.error(at, message))?;
+        let place = |key: usize| {
+            layout
+                .fields
+                .iter()
+                .position(|field| *field == Field::Key(key))
+                .map_or(0, |at| at + 1)
+        };
+        collector
+            .add(last, &keys, values)
+            .map_err(|(key, message)| lines.error(place(key), message))?;
+    }
+}
+
+/// Keys and values of a row. `Err` has the field from 1, or 0, and what is wrong.
+fn fields(
+    line: &str,
+    layout: &Layout,
+    problem: &LoadedProblem,
+) -> Result<(Vec<f64>, Vec<f64>), (usize, String)> {
+    let key_count = problem.problem.kind.keys().len();
+    let mut keys = vec![0.0; key_count];
+    let mut values = vec![f64::NAN; problem.problem.columns.len() - key_count];
+    let mut again = Vec::new();
+    let mut count = 0;
+    for (k, text) in layout.split(line).enumerate() {
+        count += 1;
+        let Some(field) = layout.fields.get(k) else {
+            continue;
+        };
+        let found = || number(text.trim_matches('"')).map_err(|message| (k + 1, message));
+        match *field {
+            Field::Key(at) => {
+                keys[at] = found()?;
+                if !keys[at].is_finite() {
+                    return Err((k + 1, format!("{text} is no finite number")));
+                }
+            }
+            Field::Value(at, sign) => values[at] = sign * found()?,
+            Field::Again(at) => again.push((k + 1, at, found()?)),
+            Field::Nothing => {}
+        }
+    }
+    if count != layout.fields.len() {
+        let message = format!("{count} fields; the first line has {}", layout.fields.len());
+        return Err((
+            count.min(layout.fields.len()) + usize::from(count < layout.fields.len()),
+            message,
+        ));
+    }
+    for (column, at, other) in again {
+        let sign = layout.fields.iter().find_map(|field| match field {
+            Field::Value(found, sign) if *found == at => Some(*sign),
+            _ => None,
+        });
+        let off = (values[at] - sign.unwrap_or(1.0) * other).abs();
+        if off > SYMMETRIC {
+            return Err((
+                column,
+                format!("the tensor is not symmetric: its two halves are {off:.1e} apart"),
+            ));
+        }
+    }
+    Ok((keys, values))
+}

@@ -1,0 +1,297 @@
+//! What was found, for people and for machines.
+
+use super::live::Studies;
+use super::{Graded, Verdict};
+use crate::files::text::escaped;
+use crate::present::table::{ReportTable, of_words};
+use crate::serve::problems::Origin;
+use serde::Serialize;
+
+/// Everything that is said of a program.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// The version of this report's form.
+    pub format: u32,
+    /// The version of shearbed.
+    pub shearbed: String,
+    /// Where the problems are from.
+    pub reference: String,
+    /// Whose answers: a folder, or a command.
+    pub answers: String,
+    /// One for each problem.
+    pub problems: Vec<Graded>,
+    /// What was measured of a program that runs, beyond verdicts.
+    pub live: Option<Studies>,
+    /// What else is to be said.
+    pub remarks: Vec<String>,
+}
+
+impl Report {
+    fn count(&self, verdict: Verdict) -> usize {
+        self.problems
+            .iter()
+            .filter(|graded| graded.verdict == verdict)
+            .count()
+    }
+
+    /// Whether a problem passes, and none fails or was not reached. A missing answer is neither, as a case without data is
+    /// in `validate`, but where `all` are wanted.
+    pub fn passes(&self, all: bool) -> bool {
+        let not = self.count(Verdict::Fail) + self.count(Verdict::NotReached);
+        let missing = self.count(Verdict::Missing);
+        self.count(Verdict::Pass) > 0 && not == 0 && !(all && missing > 0)
+    }
+
+    /// The counts in words.
+    pub fn headline(&self) -> String {
+        let [pass, fail, missing, late] = [
+            Verdict::Pass,
+            Verdict::Fail,
+            Verdict::Missing,
+            Verdict::NotReached,
+        ]
+        .map(|v| self.count(v));
+        let mut words = format!("{pass} of {} problems pass", self.problems.len());
+        if fail > 0 {
+            words += &format!(", {fail} FAIL");
+        }
+        if missing > 0 {
+            words += &format!(", {missing} MISSING (no answer: neither passed nor failed)");
+        }
+        if late > 0 {
+            words += &format!(", {late} NOT REACHED (time ran out: not passed)");
+        }
+        let foreign = self
+            .problems
+            .iter()
+            .filter(|graded| graded.reference == Origin::Foreign);
+        match foreign.count() {
+            0 => {}
+            count => {
+                words += &format!(
+                    "; {count} FOREIGN (no problem of this program: its certified answer is unchecked)"
+                );
+            }
+        }
+        words
+    }
+}
+
+/// grade.json.
+pub fn json(report: &Report) -> Result<String, String> {
+    crate::files::build::json(report)
+}
+
+/// A number with two digits.
+pub(super) fn number(value: Option<f64>) -> String {
+    value.map_or("–".into(), |value| format!("{value:.1e}"))
+}
+
+/// Whose problem it is, in a word.
+pub(super) fn origin(graded: &Graded) -> &'static str {
+    match graded.reference {
+        Origin::BuiltIn => "built-in",
+        Origin::Foreign => "FOREIGN",
+    }
+}
+
+/// The verdicts as a table.
+fn verdicts(report: &Report) -> ReportTable {
+    let row = |graded: &Graded| {
+        vec![
+            graded.verdict.word().to_owned(),
+            graded.name.clone(),
+            origin(graded).to_owned(),
+            number(graded.error),
+            number(Some(graded.tolerance)),
+            graded.order_text(),
+            graded.setting_text(),
+            number(graded.length_drift),
+            number(graded.orbit_drift),
+            number(graded.phase_lost_per_period),
+        ]
+    };
+    of_words(
+        "grade",
+        &format!("{} on {}", report.answers, report.reference),
+        &format!("{}.", report.headline()),
+        &[
+            "verdict",
+            "problem",
+            "reference",
+            "error",
+            "tolerance",
+            "order",
+            "setting",
+            "|p| off by",
+            "C_b drift",
+            "phase lost/period",
+        ],
+        report.problems.iter().map(row).collect(),
+    )
+}
+
+/// What is said of a problem beyond numbers.
+pub(super) fn words(graded: &Graded) -> Vec<&str> {
+    let parts = [graded.diagnosis.as_deref(), graded.note.as_deref()];
+    parts.into_iter().flatten().collect()
+}
+
+/// What is said of single problems, and the remarks.
+fn lines(report: &Report) -> Vec<String> {
+    let of = |graded: &Graded| {
+        let parts = words(graded);
+        (!parts.is_empty())
+            .then(|| format!("{} {}: {}", graded.verdict.word(), graded.name, parts.join("; ")))
+    };
+    let remarks = report.remarks.iter().cloned();
+    report.problems.iter().filter_map(of).chain(remarks).collect()
+}
+
+/// The verdicts, then what was measured.
+pub(super) fn tables(report: &Report) -> Vec<ReportTable> {
+    let mut tables = vec![verdicts(report)];
+    tables.extend(report.live.iter().flat_map(Studies::tables));
+    tables
+}
+
+/// For the terminal.
+pub fn terminal(report: &Report) -> String {
+    let words: String = lines(report).iter().map(|line| format!("{line}\n")).collect();
+    let mut tables = tables(report).into_iter();
+    let first = tables.next().map(|table| table.text()).unwrap_or_default();
+    let more: String = tables.map(|table| "\n".to_owned() + &table.text()).collect();
+    first + &words + &more
+}
+
+/// grade.md.
+pub fn markdown(report: &Report) -> String {
+    let mut text = String::from("# Grades\n");
+    for (k, table) in tables(report).iter().enumerate() {
+        text += &format!(
+            "\n## {}\n\n{}\n\n{}",
+            table.title,
+            table.caption,
+            table.cells_as_markdown()
+        );
+        if k == 0 {
+            text += "\n";
+            text += &lines(report)
+                .iter()
+                .map(|line| format!("- {line}\n"))
+                .collect::<String>();
+        }
+    }
+    text
+}
+
+/// junit.xml: a test case for each problem. A missing answer is skipped; one that was not reached is a failure.
+pub fn junit(report: &Report) -> String {
+    let failed = report.count(Verdict::Fail) + report.count(Verdict::NotReached);
+    let skipped = report.count(Verdict::Missing);
+    let mut xml = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"shearbed grade\" tests=\"{}\" \
+         failures=\"{failed}\" errors=\"0\" skipped=\"{skipped}\">\n",
+        report.problems.len()
+    );
+    for graded in &report.problems {
+        let name = escaped(&graded.name);
+        xml += &format!("<testcase classname=\"shearbed\" name=\"{name}\">");
+        if graded.verdict != Verdict::Pass {
+            let message = format!(
+                "{}: error {}, tolerance {}; {}",
+                graded.verdict.word(),
+                number(graded.error),
+                number(Some(graded.tolerance)),
+                words(graded).join("; ")
+            );
+            let element = if graded.verdict == Verdict::Missing {
+                "skipped"
+            } else {
+                "failure"
+            };
+            xml += &format!("<{element} message=\"{}\"></{element}>", escaped(&message));
+        }
+        xml += "</testcase>\n";
+    }
+    xml + "</testsuite>\n</testsuites>\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::present::xml::is_well_formed;
+    use crate::serve::problems;
+
+    fn report() -> Report {
+        let sphere = problems::named("sphere").unwrap().loaded("sphere".into());
+        let graded = |name: &str, verdict, error| Graded {
+            name: name.to_owned(),
+            verdict,
+            error,
+            ..Graded::without_answer(&sphere)
+        };
+        let mut bad = graded("b", Verdict::Fail, Some(0.5));
+        bad.diagnosis = Some("this is the curve of \"x\" & <y>\u{1}, to 1e-9".into());
+        Report {
+            format: 1,
+            shearbed: "0".into(),
+            reference: "ref".into(),
+            answers: "mine".into(),
+            problems: vec![
+                graded("a", Verdict::Pass, Some(1e-10)),
+                bad,
+                graded("c", Verdict::Missing, None),
+                Graded {
+                    reference: Origin::Foreign,
+                    ..graded("d", Verdict::NotReached, Some(1e-3))
+                },
+            ],
+            live: None,
+            remarks: vec!["a remark".into()],
+        }
+    }
+
+    #[test]
+    fn every_writer_has_every_problem_and_its_verdict() {
+        let report = report();
+        let xml = junit(&report);
+        assert!(is_well_formed(xml.split_once("?>\n").unwrap().1), "{xml}");
+        assert!(xml.contains("tests=\"4\" failures=\"2\"") && xml.contains("<skipped"));
+        assert!(xml.contains("&quot;x&quot; &amp; &lt;y&gt;\\u{1}"));
+        let json: serde_json::Value = serde_json::from_str(&json(&report).unwrap()).unwrap();
+        assert_eq!(json["problems"][1]["verdict"], "FAIL");
+        assert_eq!(json["problems"][2]["error"], serde_json::Value::Null);
+        assert_eq!(json["problems"][3]["verdict"], "NOT REACHED");
+        let origins = [2, 3].map(|k| json["problems"][k]["reference"].clone());
+        assert_eq!(origins, ["built-in", "foreign"]);
+        for text in [terminal(&report), markdown(&report)] {
+            for word in [
+                "PASS",
+                "FAIL",
+                "MISSING",
+                "curve of",
+                "a remark",
+                "1 of 4 problems pass",
+                "1 NOT REACHED",
+                "FOREIGN",
+            ] {
+                assert!(text.contains(word), "{word}: {text}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_report_passes_where_one_passes_and_none_fails() {
+        let mut report = report();
+        assert!(!report.passes(false));
+        report.problems.remove(1);
+        assert!(!report.passes(false), "one is not reached");
+        report.problems.pop();
+        assert!(report.passes(false) && !report.passes(true), "one is missing");
+        report.problems.remove(0);
+        assert!(!report.passes(false), "none passes");
+        report.problems.clear();
+        assert!(!report.passes(false));
+    }
+}

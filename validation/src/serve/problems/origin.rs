@@ -1,0 +1,79 @@
+//! Whose problem a folder holds: one of this program's, as `problems export` writes it, or somebody else's.
+
+use super::check::cut;
+use super::table::{ReadError, Table};
+use super::{LoadedProblem, Origin, named};
+use crate::files::difference::difference;
+use std::path::Path;
+
+/// Tells a built-in problem from a foreign one by its name.
+///
+/// # Errors
+///
+/// A problem with the name of a built-in one that differs from it in anything that is read: file, line, key or column,
+/// with what was found and what this program has there.
+pub(super) fn origin(loaded: &LoadedProblem, json: &str) -> Result<Origin, ReadError> {
+    let Some(built) = named(&loaded.problem.name) else {
+        return Ok(Origin::Foreign);
+    };
+    let own = built.loaded(loaded.dir.clone());
+    let path = |file: &str| loaded.dir.join(file);
+    let name = &loaded.problem.name;
+    let record = |loaded: &LoadedProblem| serde_json::to_value(&loaded.problem).unwrap_or_default();
+    if let Some((key, found, due)) = difference(&record(loaded), &record(&own)) {
+        let place = super::read::line_of(json, key.split('.').next().unwrap_or_default());
+        let (found, due) = (cut(&found.to_string()), cut(&due.to_string()));
+        let message = format!("{key} = {found}: {}", differs(name, &due));
+        return Err(ReadError::at(&path("problem.json"), place, 0, message));
+    }
+    let starts = |start: &[[f64; 3]]| {
+        let rows = start.iter().enumerate();
+        Table {
+            columns: ["rod", "p1", "p2", "p3"].map(String::from).into(),
+            rows: rows.map(|(rod, p)| vec![rod as f64, p[0], p[1], p[2]]).collect(),
+        }
+    };
+    same(
+        &path("start.csv"),
+        name,
+        &starts(&loaded.start),
+        &starts(&own.start),
+    )?;
+    if let (Some(found), Some(due)) = (&loaded.inputs, &own.inputs) {
+        same(&path("inputs.csv"), name, found, due)?;
+    }
+    same(&path("certified.csv"), name, &loaded.certified, &own.certified)?;
+    Ok(Origin::BuiltIn)
+}
+
+fn differs(name: &str, due: &str) -> String {
+    format!(
+        "{name} is a problem of this program, which has {due} there; `shearbed problems export` writes it afresh, and a problem \
+         of your own needs a name of its own"
+    )
+}
+
+fn same(path: &Path, name: &str, found: &Table, due: &Table) -> Result<(), ReadError> {
+    for (at, (row, own)) in found.rows.iter().zip(&due.rows).enumerate() {
+        if let Some(k) = (0..row.len()).find(|k| row[*k] != own[*k]) {
+            let message = format!(
+                "{} = {}: {}",
+                found.columns[k],
+                row[k],
+                differs(name, &own[k].to_string())
+            );
+            return Err(ReadError::at(path, at as u64 + 2, k as u64 + 1, message));
+        }
+    }
+    match found.rows.len() == due.rows.len() {
+        true => Ok(()),
+        false => {
+            let message = format!(
+                "{} rows: {}",
+                found.rows.len(),
+                differs(name, &due.rows.len().to_string())
+            );
+            Err(ReadError::whole(path, message))
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! CSV tables of numbers, read strictly: an error names file, line and column.
+
+use super::check::cut;
+use crate::files::bounded;
+use crate::files::text::Shown;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// A table of finite numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// The header.
+    pub columns: Vec<String>,
+    /// One number a column.
+    pub rows: Vec<Vec<f64>>,
+}
+
+impl Table {
+    /// The place of a column.
+    pub fn column(&self, name: &str) -> Option<usize> {
+        self.columns.iter().position(|column| column == name)
+    }
+}
+
+/// Why a file of a problem is refused.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReadError {
+    /// The file or folder.
+    pub path: PathBuf,
+    /// The line from 1, 0 where the whole file is meant.
+    pub line: u64,
+    /// The column from 1: of a table the field, of JSON the character; 0 where the whole line is meant.
+    pub column: u64,
+    /// What is wrong, and what is allowed.
+    pub message: String,
+}
+
+impl ReadError {
+    /// About a whole file or folder.
+    pub fn whole(path: &Path, message: impl Into<String>) -> Self {
+        Self::at(path, 0, 0, message)
+    }
+
+    /// About a place in a file.
+    pub fn at(path: &Path, line: u64, column: u64, message: impl Into<String>) -> Self {
+        Self {
+            path: path.to_owned(),
+            line,
+            column,
+            message: message.into(),
+        }
+    }
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.path.shown())?;
+        for place in [self.line, self.column].iter().take_while(|place| **place > 0) {
+            write!(f, ":{place}")?;
+        }
+        write!(f, ": {}", self.message)
+    }
+}
+
+impl std::error::Error for ReadError {}
+
+/// A file's text, of at most 100 MB.
+pub(super) fn text(path: &Path) -> Result<String, ReadError> {
+    const MOST: u64 = 100_000_000;
+    bounded::text(path, MOST).map_err(|error| ReadError::whole(path, format!("cannot be read: {error}")))
+}
+
+/// The table of a file with exactly these columns, at least one row, and finite numbers only.
+pub(super) fn read(path: &Path, columns: &[&str]) -> Result<Table, ReadError> {
+    parse(path, &text(path)?, columns)
+}
+
+fn parse(path: &Path, text: &str, columns: &[&str]) -> Result<Table, ReadError> {
+    let mut lines = (1..).zip(text.lines());
+    let header = lines.next().map_or("", |(_, header)| header);
+    if header != columns.join(",") {
+        let message = format!(
+            "the header is {:?}; it must be {:?}",
+            cut(header),
+            columns.join(",")
+        );
+        return Err(ReadError::at(path, 1, 0, message));
+    }
+    let row = |(line, text): (u64, &str)| {
+        let fields: Vec<_> = text.split(',').collect();
+        if fields.len() != columns.len() {
+            let message = format!("{} fields; the header has {}", fields.len(), columns.len());
+            return Err(ReadError::at(path, line, 0, message));
+        }
+        let number = |(column, field): (u64, &&str)| match field.parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(number),
+            _ => Err(ReadError::at(
+                path,
+                line,
+                column,
+                format!("{:?} is no finite number", cut(field)),
+            )),
+        };
+        (1..).zip(&fields).map(number).collect()
+    };
+    let rows: Vec<Vec<f64>> = lines.map(row).collect::<Result<_, _>>()?;
+    if rows.is_empty() {
+        return Err(ReadError::at(path, 1, 0, "there is no row below the header"));
+    }
+    Ok(Table {
+        columns: columns.iter().map(|column| (*column).to_owned()).collect(),
+        rows,
+    })
+}

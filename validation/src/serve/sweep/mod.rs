@@ -1,0 +1,212 @@
+//! A sweep: one scene at every point of a grid of its keys' values.
+
+mod axis;
+mod folder;
+
+pub(crate) use axis::key_and_text;
+pub use axis::{Axis, MAX_POINTS, Setting, shown};
+pub use folder::{Folder, Identity, POINT, Points};
+
+use crate::input::start::Starts;
+use shearbed::{Plan, Scene, scene_file};
+use toml::{Table, Value};
+
+/// A point of the grid.
+pub struct Point {
+    /// The value of each axis.
+    pub values: Vec<Value>,
+    /// What to run.
+    pub plan: Plan,
+}
+
+/// Every point, the last axis varying fastest, checked as a scene file is. `fixed` are keys that all points have in
+/// place of the scene's own; `starts` are of the scene's folder. On error, which point and why.
+pub fn points(text: &str, starts: &Starts, fixed: &[Setting], axes: &[Axis]) -> Result<Vec<Point>, String> {
+    let base: Table = text.parse().map_err(|error: toml::de::Error| error.to_string())?;
+    let count = (axes.iter())
+        .try_fold(1_usize, |count, axis| count.checked_mul(axis.values.len()))
+        .filter(|count| *count <= MAX_POINTS)
+        .ok_or_else(|| format!("--over: more than {MAX_POINTS} points; at most so many are allowed"))?;
+    let mut starts = starts.clone();
+    let point = |k| {
+        let values = at(axes, k);
+        let keys = axes.iter().map(|axis| axis.key.as_str());
+        let own = keys.zip(values.iter().cloned());
+        let settings = fixed.iter().map(Setting::pair).chain(own);
+        let plan = plan(&base, &mut starts, settings).map_err(|error| {
+            let point = described(axes, &values);
+            format!("--over {point} (point {} of {count}): {error}", k + 1)
+        })?;
+        Ok(Point { values, plan })
+    };
+    (0..count).map(point).collect()
+}
+
+/// A point in words: `interaction.alpha=0.3 particles.count=10`.
+pub fn described(axes: &[Axis], values: &[Value]) -> String {
+    let pairs = axes.iter().zip(values);
+    let words: Vec<_> = pairs
+        .map(|(axis, value)| format!("{}={}", axis.key, shown(value)))
+        .collect();
+    words.join(" ")
+}
+
+/// Why the keys set by several hands cannot all be: each key has one owner, and a table owns every key in it.
+pub fn one_owner(flags: &[(&str, &str)]) -> Result<(), String> {
+    for (k, (flag, key)) in flags.iter().enumerate() {
+        let within = |inner: &str, outer: &str| {
+            let rest = inner.strip_prefix(outer);
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+        };
+        let clash = |(_, other): &&(&str, &str)| within(other, key) || within(key, other);
+        if let Some((first, other)) = flags[..k].iter().find(clash) {
+            let both = match other == key {
+                true => "both set it".to_owned(),
+                false => format!("both set {}", if key.len() > other.len() { key } else { other }),
+            };
+            return Err(format!(
+                "{flag} {key} and {first} {other}: {both}; one of the two is allowed"
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The values of point k.
+fn at(axes: &[Axis], mut k: usize) -> Vec<Value> {
+    let mut values = Vec::new();
+    for axis in axes.iter().rev() {
+        values.push(axis.values[k % axis.values.len()].clone());
+        k /= axis.values.len();
+    }
+    values.reverse();
+    values
+}
+
+/// The plan of the scene `base` with some keys set.
+fn plan<'a>(
+    base: &Table,
+    starts: &mut Starts,
+    settings: impl Iterator<Item = (&'a str, Value)>,
+) -> Result<Plan, String> {
+    let mut scene = with(base, settings)?;
+    starts.fill(&mut scene)?;
+    Plan::new(&scene).map_err(|error| error.to_string())
+}
+
+/// The scene of a file's text with some keys set, checked as the file is.
+pub fn scene_with(text: &str, settings: &[Setting]) -> Result<Scene, String> {
+    let base: Table = text.parse().map_err(|error: toml::de::Error| error.to_string())?;
+    with(&base, settings.iter().map(Setting::pair))
+}
+
+fn with<'a>(base: &Table, settings: impl Iterator<Item = (&'a str, Value)>) -> Result<Scene, String> {
+    let mut table = base.clone();
+    for (key, value) in settings {
+        set(&mut table, key, value)?;
+    }
+    let text = toml::to_string(&table).map_err(|error| error.to_string())?;
+    // The lines of this text are nobody's.
+    scene_file::parse("", &text).map_err(|error| {
+        let messages: Vec<_> = (error.problems.into_iter())
+            .map(|problem| problem.message)
+            .collect();
+        messages.join("; ")
+    })
+}
+
+/// Sets a key as `interaction.alpha`, making the tables above it.
+fn set(table: &mut Table, key: &str, value: Value) -> Result<(), String> {
+    match key.split_once('.') {
+        None => {
+            table.insert(key.to_owned(), value);
+            Ok(())
+        }
+        Some((first, rest)) => {
+            let inner = table.entry(first).or_insert_with(|| Value::Table(Table::new()));
+            match inner {
+                Value::Table(inner) => set(inner, rest, value),
+                other => Err(format!("{first} = {other} is no table: it has no key {rest}")),
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::scenes;
+
+    fn text() -> &'static str {
+        scenes::find("fig4-n50").unwrap().text
+    }
+
+    fn refused(over: &[&str]) -> String {
+        let axes: Vec<_> = over.iter().map(|text| Axis::parse(text).unwrap()).collect();
+        points(text(), &Starts::default(), &[], &axes).err().unwrap()
+    }
+
+    #[test]
+    fn the_grid_is_full_and_its_numbers_reach_the_scene_bit_for_bit() {
+        let over = ["interaction.alpha=0.1:0.7:7", "particles.count=10,20"];
+        let axes = over.map(|text| Axis::parse(text).unwrap());
+        let found = points(
+            text(),
+            &Starts::default(),
+            &[Setting::parse("ensemble.replicas=3").unwrap()],
+            &axes,
+        )
+        .unwrap();
+        assert_eq!(found.len(), 14);
+        for (k, point) in found.iter().enumerate() {
+            let scene = point.plan.scene();
+            let alpha = (k / 2 + 1) as f64 / 10.0;
+            assert_eq!(scene.interaction.as_ref().unwrap().alpha, alpha);
+            assert_eq!(
+                (scene.particles.count, scene.ensemble.replicas),
+                (10 * (k % 2 + 1), 3)
+            );
+        }
+    }
+
+    #[test]
+    fn a_key_has_one_owner() {
+        let over = |keys: &[&'static str]| {
+            let flags: Vec<_> = keys.iter().map(|key| ("--over", *key)).collect();
+            one_owner(&flags)
+        };
+        assert_eq!(
+            over(&["ensemble.seed", "ensemble.replicas", "ensemble_x", "e"]),
+            Ok(())
+        );
+        for keys in [
+            ["particles", "particles.count"],
+            ["particles.count", "particles"],
+            ["particles.orientation.phi_deg", "particles.orientation"],
+            ["flow.x", "flow.x"],
+        ] {
+            let error = over(&keys).unwrap_err();
+            assert!(error.contains("one of the two is allowed"), "{error}");
+        }
+        let error = one_owner(&[("--replicas", "ensemble.replicas"), ("--over", "ensemble")]).unwrap_err();
+        assert_eq!(
+            error,
+            "--over ensemble and --replicas ensemble.replicas: both set ensemble.replicas; one of the two is allowed"
+        );
+    }
+
+    #[test]
+    fn every_point_is_checked_as_a_scene_file_is() {
+        let error = refused(&["particles.count=10:20:4"]);
+        let expected = "--over particles.count=13.333333333333334 (point 2 of 4): particles.count = 13.333333333333334 \
+                        is not allowed: a whole number from 1 to 100000000";
+        assert_eq!(error, expected);
+        let error = refused(&["interaction.alpa=1,2"]);
+        assert!(error.contains("unknown key `alpa`, expected one of"), "{error}");
+        let error = refused(&["interaction.update=angels"]);
+        assert!(error.ends_with("\"rotation\", \"angles\" or \"kick\""), "{error}");
+        assert!(refused(&["title.x=1"]).contains("is no table"));
+        let error = refused(&["a=1:2:1000", "b=1:2:101"]);
+        assert!(error.contains("more than 100000 points"), "{error}");
+    }
+}

@@ -1,0 +1,261 @@
+//! The runs behind the coefficients.
+
+use super::Means;
+use crate::judge::case::Effort;
+use crate::judge::lab;
+use crate::judge::statistics::Estimate;
+use crate::studies::readings::damping_rate;
+use nalgebra::Matrix3;
+use serde::Serialize;
+use shearbed::Observable;
+use shearbed::jeffery::{shape_factor, strain_per_period};
+use shearbed::observable::Channel;
+use shearbed::scene::Scene;
+
+/// A suspension.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Setting {
+    /// n a³.
+    pub n_a3: f64,
+    /// r_e, the same for all rods.
+    pub aspect_ratio: f64,
+    /// α, with m = 3.
+    pub alpha: f64,
+    /// Time steps over those that resolve the motion.
+    pub finer: u64,
+}
+
+const fn setting(n_a3: f64, aspect_ratio: f64, alpha: f64, finer: u64) -> Setting {
+    Setting {
+        n_a3,
+        aspect_ratio,
+        alpha,
+        finer,
+    }
+}
+
+/// The suspensions of `shearbed bench`: the time step first, then the rest at the step [`Amount`] says.
+const FULL: [Setting; 16] = [
+    setting(0.2, 11.6, 0.5, 1),
+    setting(0.2, 11.6, 0.5, 2),
+    setting(0.2, 11.6, 0.5, 4),
+    setting(0.2, 11.6, 0.5, 8),
+    setting(0.2, 11.6, 0.5, 16),
+    setting(0.2, 11.6, 0.5, 32),
+    setting(0.05, 11.6, 0.5, 8),
+    setting(0.1, 11.6, 0.5, 8),
+    setting(0.5, 11.6, 0.5, 8),
+    setting(1.0, 11.6, 0.5, 8),
+    setting(0.2, 5.0, 0.5, 8),
+    setting(0.2, 20.0, 0.5, 8),
+    setting(0.2, 30.0, 0.5, 8),
+    setting(0.2, 11.6, 0.25, 8),
+    setting(0.2, 11.6, 1.0, 8),
+    setting(0.2, 11.6, 2.0, 8),
+];
+
+/// Those of the report.
+const QUICK: [Setting; 7] = [
+    setting(0.2, 11.6, 0.5, 1),
+    setting(0.2, 11.6, 0.5, 4),
+    setting(0.1, 11.6, 0.5, 4),
+    setting(0.5, 11.6, 0.5, 4),
+    setting(1.0, 11.6, 0.5, 4),
+    setting(0.2, 5.0, 0.5, 4),
+    setting(0.2, 11.6, 1.0, 4),
+];
+
+/// How much is measured.
+#[derive(Clone, Copy, Debug)]
+pub struct Amount {
+    /// The suspensions.
+    pub settings: &'static [Setting],
+    /// Time steps over those that resolve the motion, where the rest is compared.
+    pub finer: u64,
+    /// Replicas of each.
+    pub replicas: u64,
+}
+
+impl Amount {
+    /// Of the report.
+    pub const QUICK: Self = Self {
+        settings: &QUICK,
+        finer: 4,
+        replicas: 12,
+    };
+    /// Of `shearbed bench`.
+    pub const FULL: Self = Self {
+        settings: &FULL,
+        finer: 8,
+        replicas: 48,
+    };
+}
+
+/// What was found of a suspension.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Coefficients {
+    /// The suspension.
+    pub setting: Setting,
+    /// φ r_p of cylinders as long, with r_p = r_e.
+    pub phi_rp: f64,
+    /// Replicas of 100 rods.
+    pub replicas: u64,
+    /// Periods before the window, and in it.
+    pub periods: u64,
+    /// C_I.
+    pub c_i: Estimate,
+    /// C_I of the components 11, 22, 33 and 12 of J, each by itself.
+    pub own: [Estimate; 4],
+    /// The part of |J| that a single C_I leaves.
+    pub misfit: Estimate,
+    /// The rate at which X̄₁'s oscillation decays from an isotropic start, per period; none where it is lost in noise.
+    pub damping_per_period: Option<Estimate>,
+    /// Steady σ₁₂, N₁ and N₂ of the rods over μ_fiber G.
+    pub stress: [Estimate; 3],
+}
+
+/// Outputs per period.
+const OUTPUTS: usize = 100;
+
+/// Rods of a replica.
+const RODS: usize = 100;
+
+/// Measures one suspension after the other.
+pub fn rows(amount: Amount, effort: &Effort) -> Vec<Coefficients> {
+    let settings = amount.settings.iter();
+    settings
+        .map(|setting| row(*setting, amount.replicas, effort))
+        .collect()
+}
+
+/// Periods until the state is steady and as many of the window: collisions are as many in each suspension.
+fn periods(setting: Setting) -> u64 {
+    (1.0 / (setting.n_a3 * setting.alpha / 0.5))
+        .ceil()
+        .clamp(5.0, 50.0) as u64
+}
+
+/// The scene of a suspension.
+pub fn scene(setting: Setting, effort: &Effort) -> Scene {
+    let mut scene = lab::interacting_scene(effort);
+    scene.particles.count = RODS;
+    scene.particles.aspect_ratio = setting.aspect_ratio;
+    let length_cm = 0.1 * scene.particles.length_mm;
+    let interaction = lab::interaction(&mut scene);
+    interaction.concentration_per_cm3 = Some(setting.n_a3 / length_cm.powi(3));
+    interaction.alpha = setting.alpha;
+    scene.time.periods = Some(2.0 * periods(setting) as f64);
+    scene.time.outputs_per_period = Some(OUTPUTS as u64);
+    scene.time.steps_per_period = Some(setting.finer * scene.resolving_steps());
+    scene.output.observables = vec![
+        Observable::Projections,
+        Observable::OrientationTensor,
+        Observable::OrientationTensor4,
+    ];
+    scene
+}
+
+/// The means of each replica in its window, and X̄₁ at each quarter of the first two periods.
+pub(crate) fn windows(scene: &Scene, replicas: u64) -> Vec<(Means, [f64; 9])> {
+    let half = scene.time.periods.unwrap_or(0.0) as usize / 2 * OUTPUTS;
+    let strain = strain_per_period(scene.particles.aspect_ratio) / OUTPUTS as f64;
+    let channels = Channels::new();
+    lab::per_replica(scene, replicas, |mean| {
+        let means = channels.window(mean, half..2 * half, strain);
+        (
+            means,
+            std::array::from_fn(|k| mean(Channel::X[0], k * OUTPUTS / 4)),
+        )
+    })
+}
+
+fn row(setting: Setting, replicas: u64, effort: &Effort) -> Coefficients {
+    let (means, quarters): (Vec<_>, Vec<_>) = windows(&scene(setting, effort), replicas).into_iter().unzip();
+    let factor = shape_factor(setting.aspect_ratio);
+    let of = |value: &dyn Fn(&Means) -> f64| {
+        let without: Vec<_> = (0..means.len())
+            .map(|k| value(&Means::of(&means, Some(k))))
+            .collect();
+        Estimate::jackknife(value(&Means::of(&means, None)), &without)
+    };
+    let own = |i: usize, j: usize| of(&|means| means.gain(factor)[(i, j)] / means.diffusion()[(i, j)]);
+    Coefficients {
+        setting,
+        phi_rp: std::f64::consts::FRAC_PI_4 * setting.n_a3 / setting.aspect_ratio,
+        replicas,
+        periods: periods(setting),
+        c_i: of(&|means| means.coefficient(factor)),
+        own: [own(0, 0), own(1, 1), own(2, 2), own(0, 1)],
+        misfit: of(&|means| means.misfit(factor)),
+        damping_per_period: damping(&quarters),
+        stress: std::array::from_fn(|k| of(&|means| means.stress()[k])),
+    }
+}
+
+/// The decay of X̄₁'s oscillation by the mean of all replicas but each.
+fn damping(quarters: &[[f64; 9]]) -> Option<Estimate> {
+    let rate = |without: Option<usize>| {
+        let kept = || quarters.iter().enumerate().filter(|(k, _)| Some(*k) != without);
+        let count = kept().count() as f64;
+        let mean = |place: usize| kept().map(|(_, x)| x[place]).sum::<f64>() / count;
+        damping_rate(&std::array::from_fn(
+            |place| if place < 9 { mean(place) } else { 0.0 },
+        ))
+    };
+    let without: Vec<_> = (0..quarters.len()).map(|k| rate(Some(k))).collect();
+    let found = Estimate::jackknife(rate(None), &without);
+    (found.value.is_finite() && found.se.is_finite() && found.readable()).then_some(found)
+}
+
+/// The channels of ⟨pp⟩ and of ⟨pp p₁p₂⟩, found once.
+struct Channels {
+    second: Vec<([usize; 2], Channel)>,
+    sheared: Vec<([usize; 2], Channel)>,
+}
+
+impl Channels {
+    fn new() -> Self {
+        let pairs = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
+        let named = |pair: [usize; 2], more: &[usize]| {
+            let mut indices = [&pair[..], more].concat();
+            indices.sort_unstable();
+            let digits: String = indices.iter().map(|k| (k + 1).to_string()).collect();
+            Channel::named(&format!("a{digits}")).map(|channel| (pair, channel))
+        };
+        Self {
+            second: pairs.iter().filter_map(|pair| named(*pair, &[])).collect(),
+            sheared: pairs.iter().filter_map(|pair| named(*pair, &[0, 1])).collect(),
+        }
+    }
+
+    fn tensor(channels: &[([usize; 2], Channel)], value: impl Fn(Channel) -> f64) -> Matrix3<f64> {
+        let mut tensor = Matrix3::zeros();
+        for ([i, j], channel) in channels {
+            tensor[(*i, *j)] = value(*channel);
+            tensor[(*j, *i)] = tensor[(*i, *j)];
+        }
+        tensor
+    }
+
+    /// Means over a window of outputs, each `strain` after the one before, by the trapezoidal rule.
+    fn window(
+        &self,
+        mean: &dyn Fn(Channel, usize) -> f64,
+        outputs: std::ops::Range<usize>,
+        strain: f64,
+    ) -> Means {
+        let length = (outputs.end - outputs.start) as f64;
+        let over = |channel: Channel| {
+            let ends = mean(channel, outputs.start) + mean(channel, outputs.end);
+            let between = (outputs.start + 1..outputs.end).map(|output| mean(channel, output));
+            (0.5 * ends + between.sum::<f64>()) / length
+        };
+        let change =
+            |channel| (mean(channel, outputs.end) - mean(channel, outputs.start)) / (length * strain);
+        Means {
+            second: Self::tensor(&self.second, over),
+            sheared: Self::tensor(&self.sheared, over),
+            change: Self::tensor(&self.second, change),
+        }
+    }
+}

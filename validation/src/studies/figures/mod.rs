@@ -1,0 +1,88 @@
+//! Figures 4 to 12 of the paper, drawn from the built-in scenes in the paper's own axes.
+
+mod amplitude;
+mod beside;
+mod measured;
+mod paper;
+mod run;
+
+use crate::judge::case::Effort;
+use crate::present::study::{Exhibit, Extent, Found, ReportFigure, Study};
+use run::Runs;
+
+/// How many replicas of a scene are run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Replicas {
+    /// Of a scene with interaction, usually of 100 rods each.
+    pub interacting: u64,
+    /// Of a scene of free rods, usually of 10 000 rods each.
+    pub free: u64,
+}
+
+impl Replicas {
+    /// The number for a quick or a full run. The quick run of an interacting scene is the scene as its file says.
+    pub fn of(effort: &Effort) -> Self {
+        Self {
+            interacting: effort.pick(100, 1000),
+            free: effort.pick(20, 200),
+        }
+    }
+}
+
+/// The figures of the paper.
+pub const STUDY: Study = Study {
+    name: "figures",
+    title: "Figures 4 to 12 of the paper",
+    question: "Do the model's results look as the paper shows and describes them?",
+    cases: &[
+        "okagawa-mason-1973",
+        "anczurowski-1967",
+        "alpha-same-for-both",
+        "free-amplitude",
+        "faster-with-concentration",
+        "faster-with-length",
+        "faster-with-spread",
+        "faster-with-collisions",
+        "dies-out",
+        "other-axes-decay",
+        "period-unaffected",
+        "hundred-rods-suffice",
+        "steady-stays-put",
+        "steady-mean-angle",
+        "in-plane-rods",
+    ],
+    command: "cargo run --release -- validate",
+    benches: Study::no_parts,
+    shared: true,
+    run,
+};
+
+fn run(extent: &Extent) -> Result<Option<Found>, String> {
+    draw(extent.effort, Replicas::of(extent.effort), extent.finished)
+}
+
+/// How often [`draw`] calls `finished`.
+pub fn work(replicas: Replicas) -> Result<u64, String> {
+    let plans = run::plans(replicas)?;
+    Ok(plans.iter().map(|(_, plan)| plan.scene().ensemble.replicas).sum())
+}
+
+/// Runs the scenes over all ranks and draws the figures, each beside its numbers, on the root, none elsewhere;
+/// `finished` is called on the root for each replica, after its scene.
+pub fn draw(effort: &Effort, replicas: Replicas, finished: &dyn Fn()) -> Result<Option<Found>, String> {
+    let plans = run::plans(replicas)?;
+    let shown = plans.iter().map(run::shown).collect();
+    let Some(runs) = Runs::new(plans, finished)? else {
+        return Ok(None);
+    };
+    let beside = |figure: ReportFigure| {
+        let table = beside::table(&figure);
+        Exhibit::both(figure, table)
+    };
+    Ok(Some(Found {
+        answer: paper::answer(&runs)?,
+        exhibits: (paper::figures(&runs, effort)?.into_iter()).map(beside).collect(),
+        plans: shown,
+        ..Default::default()
+    }))
+}

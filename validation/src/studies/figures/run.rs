@@ -1,0 +1,156 @@
+//! The built-in scenes behind the figures, run replica by replica, and the curves read from them.
+
+use crate::files::cluster;
+use crate::input::scenes::{self, BuiltIn};
+use crate::judge::statistics::Sample;
+use crate::present::plot::Curve;
+use crate::present::study::ScenePlan;
+use shearbed::observable::Channel;
+use shearbed::run::Replica;
+use shearbed::{Plan, Scene, ensemble};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// A scene's replicas.
+pub(super) struct Run {
+    plan: Plan,
+    replicas: Vec<Replica>,
+}
+
+impl Run {
+    /// The times of the outputs, t/T.
+    pub(super) fn times(&self) -> Vec<f64> {
+        self.plan.times()
+    }
+
+    /// The scene.
+    pub(super) fn scene(&self) -> &Scene {
+        self.plan.scene()
+    }
+
+    /// The sample over replicas of what `value` makes of a channel's means against time. Empty where the scene
+    /// does not observe the channel.
+    pub(super) fn sample(&self, channel: &str, value: impl Fn(&dyn Fn(usize) -> f64) -> f64) -> Sample {
+        let channel = Channel::named(channel);
+        let observed = |replica: &Replica| channel.is_some_and(|channel| replica.mean(channel, 0).is_some());
+        let mean = |replica: &Replica, output| {
+            channel
+                .and_then(|channel| replica.mean(channel, output))
+                .unwrap_or(f64::NAN)
+        };
+        let replicas = self.replicas.iter().filter(|replica| observed(replica));
+        Sample::of(
+            &replicas
+                .map(|replica| value(&|output| mean(replica, output)))
+                .collect::<Vec<_>>(),
+        )
+    }
+
+    /// A channel's mean against t/T with its 95 % band.
+    pub(super) fn curve(&self, channel: &str, label: impl Into<String>) -> Curve {
+        let times = self.times();
+        let samples = (0..times.len()).map(|output| self.sample(channel, |mean| mean(output)));
+        with_band(label, times.iter().copied().zip(samples))
+    }
+}
+
+/// A curve through samples, with a band of 95 % by Student's t.
+pub(super) fn with_band(label: impl Into<String>, samples: impl Iterator<Item = (f64, Sample)>) -> Curve {
+    let mut curve = Curve {
+        label: label.into(),
+        ..Default::default()
+    };
+    let mut band = Vec::new();
+    for (x, sample) in samples {
+        curve.x.push(x);
+        curve.y.push(sample.mean);
+        band.push(sample.half_width());
+    }
+    curve.half_band = Some(band);
+    curve
+}
+
+/// The runs of all scenes, by the scenes' names. Scenes that differ in their titles only share a run.
+pub(super) struct Runs(BTreeMap<&'static str, Arc<Run>>);
+
+impl Runs {
+    /// Runs the scenes over all ranks; `finished` is called on the root for each replica, after its scene. None but on
+    /// the root.
+    pub(super) fn new(plans: Vec<(&'static str, Plan)>, finished: &dyn Fn()) -> Result<Option<Self>, String> {
+        let alike = |a: &(_, Plan), b: &(_, Plan)| same(a.1.scene(), b.1.scene());
+        let first = |k: usize| plans.iter().position(|other| alike(other, &plans[k]));
+        let own: Vec<_> = (0..plans.len()).filter(|k| first(*k) == Some(*k)).collect();
+        let job = |job: usize| {
+            let (name, plan) = &plans[own[job]];
+            replicas(plan).map_err(|error| format!("{name}: {error}"))
+        };
+        let arrived = |job: usize, _: &_| {
+            let shared = (0..plans.len()).filter(|k| first(*k) == Some(own[job]));
+            let replicas: u64 = shared.map(|k| plans[k].1.scene().ensemble.replicas).sum();
+            (0..replicas).for_each(|_| finished());
+            Ok(())
+        };
+        let Some(found) = cluster::share(own.len(), job, arrived)? else {
+            return Ok(None);
+        };
+        let run = |(k, replicas): (&usize, _)| {
+            let plan = plans[*k].1.clone();
+            (*k, Arc::new(Run { plan, replicas }))
+        };
+        let runs: BTreeMap<usize, Arc<Run>> = own.iter().zip(found).map(run).collect();
+        let named = (0..plans.len()).filter_map(|k| Some((plans[k].0, runs.get(&first(k)?)?.clone())));
+        Ok(Some(Self(named.collect())))
+    }
+
+    /// The run of a scene.
+    pub(super) fn get(&self, name: &str) -> Result<&Run, String> {
+        let run = self.0.get(name);
+        run.map(Arc::as_ref)
+            .ok_or_else(|| format!("{name}: no figure's scene has this name"))
+    }
+}
+
+/// Every replica of a scene.
+fn replicas(plan: &Plan) -> Result<Vec<Replica>, String> {
+    let replicas = 0..plan.scene().ensemble.replicas;
+    ensemble::replicas_of(plan, replicas, &|| ()).map_err(|error| error.to_string())
+}
+
+/// Whether two scenes differ in nothing but their titles.
+fn same(a: &Scene, b: &Scene) -> bool {
+    let untitled = |scene: &Scene| Scene {
+        title: String::new(),
+        ..scene.clone()
+    };
+    untitled(a) == untitled(b)
+}
+
+/// The plans of the scenes that figures are drawn from, with as many replicas as asked for.
+pub(super) fn plans(replicas: super::Replicas) -> Result<Vec<(&'static str, Plan)>, String> {
+    let scenes = scenes::ALL.iter().filter(|scene| scene.name.starts_with("fig"));
+    let plan = |built_in: &BuiltIn| {
+        let mut scene = built_in.scene().map_err(|error| error.to_string())?;
+        scene.ensemble.replicas = match scene.interaction {
+            Some(_) => replicas.interacting,
+            None => replicas.free,
+        };
+        let plan = Plan::new(&scene).map_err(|error| format!("{}: {error}", built_in.name))?;
+        Ok((built_in.name, plan))
+    };
+    scenes.map(plan).collect()
+}
+
+/// A plan as the report shows it.
+pub(super) fn shown((name, plan): &(&'static str, Plan)) -> ScenePlan {
+    let ensemble = &plan.scene().ensemble;
+    ScenePlan {
+        scene: (*name).into(),
+        title: plan.scene().title.clone(),
+        seed: ensemble.seed,
+        command: format!(
+            "cargo run --release -- run {name} --replicas {}",
+            ensemble.replicas
+        ),
+        text: plan.to_string(),
+    }
+}

@@ -1,0 +1,61 @@
+//! Register yours here: it is graded in every table of `bench`, `converge` and the report beside the project's own, and no
+//! case judges it, so the gate stays green whatever it does.
+
+use super::Integrator;
+
+/// The guests.
+pub(super) fn all() -> Vec<Box<dyn Integrator>> {
+    vec![
+        // Box::new(Mine),
+        #[cfg(test)]
+        Box::new(tests::HEUN),
+    ]
+}
+
+/// Whatever is tested is tested with a guest registered.
+#[cfg(test)]
+mod tests {
+    use super::super::{FixedStep, Problem, all, own};
+    use crate::judge::accept::Verdict;
+    use crate::judge::case::{Effort, Judges};
+    use crate::studies::work_precision::order;
+    use nalgebra::Vector3;
+
+    type Step = fn(&Problem, Vector3<f64>, f64) -> Vector3<f64>;
+
+    pub(super) const HEUN: FixedStep<Step> = FixedStep {
+        name: "Heun, a guest",
+        order: 2,
+        keeps_length: false,
+        step: |problem, p, h| {
+            let k1 = problem.rate(&p);
+            p + 0.5 * h * (k1 + problem.rate(&(p + h * k1)))
+        },
+    };
+
+    #[test]
+    fn a_guest_is_graded_and_breaks_no_case() {
+        assert_eq!(all().len(), own().len() + 1);
+        let studies = order::of_rod(2.0).studies;
+        let heun = studies.iter().find(|study| study.subject == HEUN.name);
+        assert_eq!(heun.unwrap().found, order::Found::AsTheory);
+        for case in crate::cases::all() {
+            // Those that ask for every subject.
+            if case.about.judges == Judges::Integrator && ASK_FOR_ALL.contains(&case.about.name) {
+                let outcome = case.run(&Effort::gate());
+                assert_eq!(outcome.verdict, Verdict::Pass, "{outcome:?}");
+                let text = format!("{:?}", outcome.evidence);
+                assert!(!text.contains(HEUN.name), "{text}");
+            }
+        }
+    }
+
+    const ASK_FOR_ALL: [&str; 6] = [
+        "stability-map",
+        "subject-orders",
+        "subject-lengths",
+        "who-loses-length",
+        "coarse-steps",
+        "grid-convergence-index",
+    ];
+}

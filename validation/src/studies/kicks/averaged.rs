@@ -1,0 +1,91 @@
+//! The core beside the averaged motion: the same rods at the same places, with and without draws.
+
+use crate::judge::case::Effort;
+use crate::judge::lab;
+use crate::judge::statistics::Sample;
+use crate::oracle::naive::{Naive, Problem};
+use rayon::prelude::*;
+use shearbed::scene::Scene;
+
+/// How far one replica of the model is from the averaged motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Apart {
+    /// X̄₁ of the model less that of the averaged motion.
+    pub x1: f64,
+    /// The mean over rods of sin² of the angle between a rod and itself in the averaged motion: 0 on the same path,
+    /// ⅔ if it points anywhere.
+    pub square: f64,
+    /// X̄₁ of the averaged motion.
+    pub averaged_x1: f64,
+}
+
+/// Runs both for so many steps. Places and replacements depend on no direction, so they are the same. `change` is what
+/// is done to the averaged motion alone.
+pub fn apart(scene: &Scene, steps: u64, change: fn(&mut Problem), replica: u64) -> Apart {
+    let mut core = lab::suspension(scene, replica);
+    let mut problem = lab::problem(scene, replica, None);
+    change(&mut problem);
+    let mut averaged = Naive::new(problem);
+    for _ in 0..steps {
+        averaged.step_averaged();
+        if core.step().is_err() {
+            return Apart {
+                x1: f64::NAN,
+                square: f64::NAN,
+                averaged_x1: f64::NAN,
+            };
+        }
+    }
+    let rods: Vec<_> = core.directions().into_iter().zip(averaged.orientations).collect();
+    let mean = |value: &dyn Fn(&[f64; 3], &[f64; 3]) -> f64| {
+        rods.iter().map(|(p, q)| value(&(*p).into(), q)).sum::<f64>() / rods.len() as f64
+    };
+    Apart {
+        x1: mean(&|p, q| p[0].abs() - q[0].abs()),
+        square: mean(&|p, q| 1.0 - (p[0] * q[0] + p[1] * q[1] + p[2] * q[2]).powi(2)),
+        averaged_x1: mean(&|_, q| q[0].abs()),
+    }
+}
+
+/// The model against the averaged motion at one step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AveragedStep {
+    /// Steps per period.
+    pub steps_per_period: u64,
+    /// `min_contact_arm` in rod lengths.
+    pub min_contact_arm: f64,
+    /// X̄₁ of the model less that of the averaged motion.
+    pub x1: Sample,
+    /// The mean sin² of the angle between the two paths.
+    pub square: Sample,
+    /// X̄₁ of the averaged motion.
+    pub averaged_x1: Sample,
+}
+
+/// Runs `replicas` with this step and shortest arm.
+pub fn row(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> AveragedStep {
+    let scene = scene(effort, steps_per_period, min_contact_arm);
+    let found: Vec<_> = (0..replicas)
+        .into_par_iter()
+        .map(|replica| apart(&scene, steps_per_period, |_| {}, replica))
+        .collect();
+    let sample = |value: fn(&Apart) -> f64| Sample::of(&found.iter().map(value).collect::<Vec<_>>());
+    AveragedStep {
+        steps_per_period,
+        min_contact_arm,
+        x1: sample(|apart| apart.x1),
+        square: sample(|apart| apart.square),
+        averaged_x1: sample(|apart| apart.averaged_x1),
+    }
+}
+
+/// 50 rods at 400 per cm³: eight times as dense as in Fig. 7, so that a few replicas show the limit. One period.
+pub fn scene(effort: &Effort, steps_per_period: u64, min_contact_arm: f64) -> Scene {
+    let mut scene = lab::interacting_scene(effort);
+    scene.particles.count = 50;
+    let interaction = lab::interaction(&mut scene);
+    (interaction.concentration_per_cm3, interaction.min_contact_arm) = (Some(400.0), min_contact_arm);
+    scene.time.steps_per_period = Some(steps_per_period);
+    scene.time.outputs_per_period = Some(1);
+    scene
+}

@@ -1,0 +1,261 @@
+//! The limit Δt → 0: how often collisions kick rods by large angles, how heavy the tail is, and what is left where
+//! the arms are bounded (docs/time-step.md).
+//!
+//! A kick is |ṗ′ − ṗ|Δt, what the collision does. The whole turn |ṗ′|Δt holds Jeffery's own |ṗ|Δt too, which at
+//! 200 steps a period passes 0.1 rad in every flip with no collision at all.
+
+pub mod averaged;
+pub mod chapter;
+pub mod study;
+pub mod tables;
+pub mod tail;
+pub mod updates;
+
+use crate::judge::lab;
+use crate::judge::statistics::Sample;
+use crate::oracle::kicks::chance_of_pair;
+use nalgebra::Vector3;
+use rayon::prelude::*;
+use shearbed::Suspension;
+use shearbed::jeffery::strain_per_period;
+use shearbed::scene::Scene;
+use shearbed::suspension::Collision;
+use std::ops::Range;
+
+/// The angles above which kicks are counted.
+pub const THRESHOLDS_RAD: [f64; 4] = [0.01, 0.1, 1.0, 10.0];
+
+/// The angles that are counted as kicks; a check may put something else in their place.
+pub type Angles = fn(&Collision) -> [f64; 2];
+
+/// |ṗ′ − ṗ|Δt of both rods.
+pub fn kicks_rad(collision: &Collision) -> [f64; 2] {
+    collision.kicks_rad
+}
+
+/// What is counted, and on which side.
+#[derive(Clone, Copy)]
+pub struct Counted {
+    /// The angles that count as kicks.
+    pub angles: Angles,
+    /// Whether the liquid pulls the contact points of two rods apart.
+    pub opens: fn(&Vector3<f64>, &Vector3<f64>) -> bool,
+    /// How often the formula looks at the directions.
+    pub looks_per_period: u64,
+}
+
+/// Kicks, by what the gap does.
+pub const KICKS: Counted = Counted {
+    angles: kicks_rad,
+    opens: is_opening,
+    looks_per_period: 200,
+};
+
+/// GΔt of a scene in plane Couette flow.
+pub fn step_strain(scene: &Scene) -> f64 {
+    strain_per_period(scene.particles.aspect_ratio) / scene.steps_per_unit() as f64
+}
+
+/// The counts of one replica over a window, per rod and period.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Counts {
+    /// Kicks above each of [`THRESHOLDS_RAD`] where the gap was closing: ℓ·D·ℓ < 0.
+    pub closing: [f64; 4],
+    /// The same where it was opening.
+    pub opening: [f64; 4],
+    /// What the formula for fresh arms gives for the closing ones, from the directions and collisions of the run.
+    pub fresh_closing: [f64; 4],
+    /// The same for the opening ones.
+    pub fresh_opening: [f64; 4],
+    /// Turns by a collision, two for each.
+    pub turns: f64,
+}
+
+/// Counts the kicks of one replica over whole periods. NaN where the run stopped.
+pub fn count(scene: &Scene, replica: u64, periods: Range<u64>, counted: Counted) -> Counts {
+    let mut suspension = lab::suspension(scene, replica);
+    let (steps, strain) = (scene.steps_per_unit(), step_strain(scene));
+    let aspect_ratios = suspension.aspect_ratios();
+    let mut counts = Counts::default();
+    let mut chances = [[0.0; 4]; 2];
+    for step in 0..periods.end * steps {
+        let within = step >= periods.start * steps;
+        let directions = if within {
+            suspension.directions()
+        } else {
+            Vec::new()
+        };
+        if within && step % (steps / counted.looks_per_period).max(1) == 0 {
+            chances = mean_chances(&directions, &aspect_ratios, strain, counted.opens);
+        }
+        let Ok(collisions) = suspension.step() else {
+            return Counts {
+                closing: [f64::NAN; 4],
+                ..counts
+            };
+        };
+        for collision in collisions.iter().filter(|_| within) {
+            let [a, b] = collision.rods.map(|rod| directions[rod]);
+            counts.add((counted.opens)(&a, &b), (counted.angles)(collision));
+            for (fresh, chances) in [&mut counts.fresh_closing, &mut counts.fresh_opening]
+                .into_iter()
+                .zip(chances)
+            {
+                for (fresh, chance) in fresh.iter_mut().zip(chances) {
+                    *fresh += 2.0 * chance;
+                }
+            }
+        }
+    }
+    counts.over((aspect_ratios.len() as u64 * (periods.end - periods.start)) as f64)
+}
+
+/// Whether a kick is above a threshold. One that is no number is: it must not go unseen.
+pub fn is_above(kick_rad: f64, threshold_rad: f64) -> bool {
+    kick_rad > threshold_rad || kick_rad.is_nan()
+}
+
+/// Whether the liquid pulls the contact points of two rods apart: ℓ·D·ℓ > 0 with ℓ ∝ p_A × p_B.
+fn is_opening(a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
+    let normal = a.cross(b);
+    normal.x * normal.y > 0.0
+}
+
+/// The formula's chances of a kick above each threshold, closing and opening, over pairs of rods that know nothing
+/// of each other.
+fn mean_chances(
+    directions: &[Vector3<f64>],
+    aspect_ratios: &[f64],
+    strain: f64,
+    opens: fn(&Vector3<f64>, &Vector3<f64>) -> bool,
+) -> [[f64; 4]; 2] {
+    let count = directions.len();
+    let mut sums = [[0.0; 4]; 2];
+    let mut pairs = 0.0;
+    for shift in 1..count.min(3) {
+        for i in 0..count {
+            let j = (i + shift) % count;
+            let [a, b] = [directions[i], directions[j]];
+            let side = &mut sums[usize::from(opens(&a, &b))];
+            for (sum, threshold) in side.iter_mut().zip(THRESHOLDS_RAD) {
+                *sum += chance_of_pair(a.into(), b.into(), aspect_ratios[j], threshold / strain);
+            }
+            pairs += 1.0;
+        }
+    }
+    sums.map(|side| side.map(|sum| sum / pairs))
+}
+
+impl Counts {
+    fn add(&mut self, opening: bool, angles: [f64; 2]) {
+        let side = if opening {
+            &mut self.opening
+        } else {
+            &mut self.closing
+        };
+        for (count, threshold) in side.iter_mut().zip(THRESHOLDS_RAD) {
+            *count += angles.iter().filter(|angle| **angle > threshold).count() as f64;
+        }
+        self.turns += 2.0;
+    }
+
+    fn over(self, rod_periods: f64) -> Self {
+        let each = |counts: [f64; 4]| counts.map(|count| count / rod_periods);
+        Self {
+            closing: each(self.closing),
+            opening: each(self.opening),
+            fresh_closing: each(self.fresh_closing),
+            fresh_opening: each(self.fresh_opening),
+            turns: self.turns / rod_periods,
+        }
+    }
+
+    /// Kicks above the `index`-th threshold, closing or opening.
+    pub fn all(&self, index: usize) -> f64 {
+        self.closing[index] + self.opening[index]
+    }
+
+    /// The formula's number of them.
+    pub fn fresh(&self, index: usize) -> f64 {
+        self.fresh_closing[index] + self.fresh_opening[index]
+    }
+}
+
+/// The counts of many replicas of a scene with a step of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepCounts {
+    /// Steps per period.
+    pub steps_per_period: u64,
+    /// The window.
+    pub periods: Range<u64>,
+    /// One per replica.
+    pub counts: Vec<Counts>,
+}
+
+impl StepCounts {
+    /// The mean over replicas of a number per replica.
+    pub fn mean(&self, value: impl Fn(&Counts) -> f64) -> Sample {
+        Sample::of(&self.counts.iter().map(value).collect::<Vec<_>>())
+    }
+}
+
+/// Counts the kicks of a scene at `steps_per_period` over a window of periods.
+pub fn rates(
+    scene: &Scene,
+    steps_per_period: u64,
+    periods: Range<u64>,
+    replicas: u64,
+    counted: Counted,
+) -> StepCounts {
+    let mut scene = scene.clone();
+    scene.time.steps_per_period = Some(steps_per_period);
+    scene.time.outputs_per_period = Some(1);
+    scene.time.periods = Some(periods.end as f64);
+    StepCounts {
+        steps_per_period,
+        counts: (0..replicas)
+            .into_par_iter()
+            .map(|replica| count(&scene, replica, periods.clone(), counted))
+            .collect(),
+        periods,
+    }
+}
+
+/// The kicks of one step from a fresh start: isotropic rods at random places.
+pub fn of_one_step(suspension: &mut Suspension, angles: Angles) -> Vec<f64> {
+    (suspension.step()).map_or(vec![f64::NAN], |collisions| {
+        collisions.iter().flat_map(angles).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kicks_are_sorted_by_size_and_by_what_the_gap_does() {
+        let mut counts = Counts::default();
+        counts.add(true, [0.05, 20.0]);
+        counts.add(false, [0.001, 0.5]);
+        let counts = counts.over(2.0);
+        assert_eq!(counts.opening, [1.0, 0.5, 0.5, 0.5]);
+        assert_eq!(counts.closing, [0.5, 0.5, 0.0, 0.0]);
+        assert_eq!((counts.all(0), counts.turns), (1.5, 2.0));
+        // ℓ along (1, 1, 0): stretched by u_2 = x_1; along (1, −1, 0): squeezed.
+        let line = |b: Vector3<f64>| is_opening(&Vector3::z(), &b);
+        assert!(line(Vector3::new(1.0, -1.0, 0.0)) && !line(Vector3::new(1.0, 1.0, 0.0)));
+    }
+
+    #[test]
+    fn a_window_is_part_of_the_run() {
+        let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
+        lab::interaction(&mut scene).concentration_per_cm3 = Some(400.0);
+        let turns = |periods| {
+            rates(&scene, 50, periods, 2, KICKS)
+                .mean(|counts| counts.turns)
+                .mean
+        };
+        let (both, parts) = (turns(0..2), [turns(0..1), turns(1..2)]);
+        assert!((2.0 * both - parts[0] - parts[1]).abs() < 1e-12 && parts[0] != parts[1]);
+    }
+}

@@ -1,0 +1,51 @@
+//! The studies, which the report, `shearbed bench` and their files are made from, and the integrators that they compare.
+//! They may use `present` and what is below. A study is a module with a `STUDY`, and a line of [`ALL`].
+
+pub mod coefficients;
+pub mod figures;
+pub mod integrators;
+pub mod kicks;
+pub mod readings;
+pub mod speed;
+pub mod stability;
+pub mod suspensions;
+pub mod work_precision;
+
+use crate::present::study::Study;
+
+/// Every study, in the order of the report.
+pub const ALL: [Study; 9] = [
+    figures::STUDY,
+    readings::STUDY,
+    kicks::chapter::STUDY,
+    work_precision::chapter::STUDY,
+    stability::chapter::STUDY,
+    suspensions::chapter::FREE,
+    suspensions::chapter::INTERACTING,
+    coefficients::chapter::STUDY,
+    speed::STUDY,
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cases;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn studies_name_cases_that_there_are_and_themselves_once() {
+        let known: BTreeSet<_> = cases::all().iter().map(|case| case.about.name).collect();
+        let mut names = BTreeSet::new();
+        for study in ALL {
+            assert!(names.insert(study.name), "{} twice", study.name);
+            assert!(
+                study.question.ends_with('?') && !study.cases.is_empty(),
+                "{}",
+                study.name
+            );
+            for case in study.cases {
+                assert!(known.contains(case), "{}: {case}", study.name);
+            }
+        }
+    }
+}

@@ -1,0 +1,217 @@
+//! What the paper's open readings change: each alternative alone, run by the naive reference against the reading
+//! that the project takes, with the same random numbers.
+//!
+//! The scene is that of Fig. 7 at 50 per cm³. Seeds are shared, and places do not depend on directions: so where
+//! the time step and the replacement are the same, two readings have the same rods at the same places with the
+//! same draws all along, and differ only in what collisions do. The errors of the differences use that.
+
+mod table;
+#[cfg(test)]
+mod tests;
+
+pub use table::table;
+
+use crate::files::cluster;
+use crate::judge::case::Effort;
+use crate::judge::statistics::Estimate;
+use crate::oracle::naive::{
+    Images, Length, Lines, Naive, Problem, Replacement, Update, Who, mean_projections,
+};
+use crate::present::study::{Extent, Found, Study};
+use rayon::prelude::*;
+use std::convert::Infallible;
+use std::iter::once;
+
+/// What the paper leaves open.
+pub const STUDY: Study = Study {
+    name: "readings",
+    title: "What the paper leaves open",
+    question: "What would other readings of the paper change?",
+    cases: &[
+        "reading-who-draws",
+        "reading-order",
+        "reading-update",
+        "reading-shortest-arm",
+        "reading-contact-lines",
+        "faces-cost-collisions",
+    ],
+    command: "cargo run --release -p shearbed-suite --example readings",
+    benches: Study::no_parts,
+    shared: true,
+    run,
+};
+
+fn run(extent: &Extent) -> Result<Option<Found>, String> {
+    let Some(rows) = measure(extent.effort) else {
+        return Ok(None);
+    };
+    let change = |row: &&ReadingRow| row.changes.as_ref().map_or(0.0, |changes| changes[0].value.abs());
+    let largest = rows.iter().max_by(|a, b| change(a).total_cmp(&change(b)));
+    let answer = largest.map_or(String::new(), |row| {
+        format!(
+            "X̄₁ at t/T = 1 changes most, by {:.3}, with {}: {}.",
+            change(&row),
+            row.open,
+            row.reading
+        )
+    });
+    Ok(Some(Found {
+        answer,
+        exhibits: vec![table(&rows).into()],
+        ..Default::default()
+    }))
+}
+
+/// The seed of all replicas.
+pub const SEED: u64 = 1;
+
+/// Quarters of a period in a run: free rods have their maxima of X̄₁ at the even ones, their minima between.
+const QUARTERS: usize = 8;
+
+/// The means of one replica: X̄₁ at every quarter of a period, then collisions per rod and period.
+pub type Trace = [f64; QUARTERS + 2];
+
+/// One reading, measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReadingRow {
+    /// What is left open.
+    pub open: &'static str,
+    /// How it is read here.
+    pub reading: &'static str,
+    /// Independent replicas.
+    pub replicas: u64,
+    /// Each of [`QUANTITIES`].
+    pub values: Vec<Estimate>,
+    /// Each less that of the default, from pairs of replicas; none for the default itself.
+    pub changes: Option<Vec<Estimate>>,
+}
+
+/// A quantity that follows from mean traces.
+pub type Quantity = fn(&Trace) -> f64;
+
+/// What is measured, by name.
+pub const QUANTITIES: [(&str, Quantity); 4] = [
+    ("X̄₁ at t/T = 1", |x| x[4]),
+    ("X̄₁ at t/T = 2", |x| x[8]),
+    ("damping rate per period", damping_rate),
+    ("collisions per rod and period", |x| x[QUARTERS + 1]),
+];
+
+/// A change of the problem.
+pub type Change = fn(&mut Problem);
+
+/// The alternatives: what is left open, how it is read, and that as a change of the default. The last two are
+/// those whose effect depends on the time step.
+#[rustfmt::skip]
+pub const ALTERNATIVES: [(&str, &str, Change); 17] = [
+    ("who collides", "one draw per mutual pair", |p| p.reading.who = Who::PairDraws),
+    ("who collides", "index order, not closest first", |p| p.reading.who = Who::IndexOrder),
+    ("update", "angles: A.14 to the letter", |p| p.update = Update::Angles),
+    ("update", "exact step plus kick", |p| p.update = Update::ExactStepAndKick),
+    ("shortest arm", "the rod's radius, 1/(2r_e)", |p| p.min_contact_arm = 0.5 / p.aspect_ratio),
+    ("contact lines", "cut at the rods' ends", |p| p.reading.lines = Lines::CutAtEnds),
+    ("images", "along x_2 and x_3", |p| p.reading.images = Images::FlowAndVorticity),
+    ("images", "along all axes", |p| p.reading.images = Images::All),
+    ("replacement", "overshoot times x_1(new)/x_1(old)", |p| p.reading.replacement = Replacement::ScaledOvershoot),
+    ("lengths", "scatter by 30 %", |p| p.length_sd_percent = 30.0),
+    ("lengths", "30 %, P_c by the partner's", |p| (p.length_sd_percent, p.reading.length) = (30.0, Length::Partners)),
+    ("lengths", "30 %, P_c by the mean of both", |p| (p.length_sd_percent, p.reading.length) = (30.0, Length::MeanOfBoth)),
+    ("box", "4 : ½ : ½ of the cube's sides", |p| p.box_mm = Some([4.0, 0.5, 0.5].map(|side| side * p.edges_mm()[0]))),
+    ("time step", "halved: 400 steps a period", |p| p.steps_per_period *= 2),
+    ("time step", "doubled: 100 steps a period", |p| p.steps_per_period /= 2),
+    ("update and step", "angles, 400 steps a period", |p| {
+        (p.update, p.steps_per_period) = (Update::Angles, 400);
+    }),
+    ("arm and step", "the rod's radius, 400 steps a period", |p| {
+        (p.min_contact_arm, p.steps_per_period) = (0.5 / p.aspect_ratio, 400);
+    }),
+];
+
+/// The default and every alternative, run over all ranks; none but on the root.
+pub fn measure(effort: &Effort) -> Option<Vec<ReadingRow>> {
+    let replicas = effort.pick(200, 2000);
+    let default: Change = |_| ();
+    let changes: Vec<_> = once(default)
+        .chain(ALTERNATIVES.map(|(.., change)| change))
+        .collect();
+    let job = |k: usize| Ok::<_, Infallible>(traces(changes[k], replicas));
+    let Ok(shared) = cluster::share(changes.len(), job, |_, _| Ok(()));
+    let all = shared?;
+    let (default, others) = all.split_first()?;
+    let row = |open, reading, values, changes| ReadingRow {
+        open,
+        reading,
+        replicas,
+        values,
+        changes,
+    };
+    let each = |estimate: &dyn Fn(Quantity) -> Estimate| QUANTITIES.map(|(_, q)| estimate(q)).to_vec();
+    let values = |traces: &[Trace]| each(&|quantity| value(quantity, traces));
+    let mut rows = vec![row("–", "this project", values(default), None)];
+    for ((open, reading, _), traces) in ALTERNATIVES.into_iter().zip(others) {
+        let changes = each(&|quantity| change(quantity, default, traces));
+        rows.push(row(open, reading, values(traces), Some(changes)));
+    }
+    Some(rows)
+}
+
+/// The trace of each of the first `replicas` replicas of a changed problem.
+pub fn traces(change: Change, replicas: u64) -> Vec<Trace> {
+    let run = |replica| {
+        let mut problem = Problem::paper(SEED, replica);
+        change(&mut problem);
+        trace(problem)
+    };
+    (0..replicas).into_par_iter().map(run).collect()
+}
+
+/// Two periods of a problem with steps in multiples of four to the period.
+fn trace(problem: Problem) -> Trace {
+    let (steps, rods) = (problem.steps_per_period / 4, problem.count as f64);
+    let mut naive = Naive::new(problem);
+    let mut trace = [0.0; QUARTERS + 2];
+    trace[0] = mean_projections(&naive.orientations)[0];
+    for x1 in &mut trace[1..=QUARTERS] {
+        (0..steps).for_each(|_| naive.step());
+        *x1 = mean_projections(&naive.orientations)[0];
+    }
+    // each collision turns two rods
+    trace[QUARTERS + 1] = 2.0 * naive.collisions as f64 / rods / (QUARTERS as f64 / 4.0);
+    trace
+}
+
+/// How fast the oscillation of a mean X̄₁ dies away, 1/T: minus the slope, by least squares over four half
+/// periods, of ln A. A, at the minimum between two maxima, is the mean of these maxima less the minimum.
+/// Maxima and minima are taken where those of free rods are.
+pub fn damping_rate(x1: &Trace) -> f64 {
+    let ln_a = [1, 3, 5, 7].map(|k| (0.5 * (x1[k - 1] + x1[k + 1]) - x1[k]).ln());
+    let t: [f64; 4] = [-0.75, -0.25, 0.25, 0.75];
+    let slope =
+        |t: &[f64; 4]| (0..4).map(|k| t[k] * ln_a[k]).sum::<f64>() / t.map(|t| t * t).iter().sum::<f64>();
+    -slope(&t)
+}
+
+/// A quantity of the mean trace.
+pub fn value(quantity: Quantity, traces: &[Trace]) -> Estimate {
+    let without: Vec<_> = means_without_one(traces).iter().map(quantity).collect();
+    Estimate::jackknife(quantity(&mean(traces)), &without)
+}
+
+/// A quantity of the mean of `traces` less that of `default`, replica by replica from the same random numbers.
+pub fn change(quantity: Quantity, default: &[Trace], traces: &[Trace]) -> Estimate {
+    let less = |after: &Trace, before: &Trace| quantity(after) - quantity(before);
+    let (after, before) = (means_without_one(traces), means_without_one(default));
+    let without: Vec<_> = after.iter().zip(&before).map(|(a, b)| less(a, b)).collect();
+    Estimate::jackknife(less(&mean(traces), &mean(default)), &without)
+}
+
+fn mean(traces: &[Trace]) -> Trace {
+    std::array::from_fn(|i| traces.iter().map(|trace| trace[i]).sum::<f64>() / traces.len() as f64)
+}
+
+/// For each replica, the mean of all others.
+fn means_without_one(traces: &[Trace]) -> Vec<Trace> {
+    let (n, mean) = (traces.len() as f64, mean(traces));
+    let without = |trace: &Trace| std::array::from_fn(|i| (n * mean[i] - trace[i]) / (n - 1.0));
+    traces.iter().map(without).collect()
+}

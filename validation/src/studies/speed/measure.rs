@@ -1,0 +1,264 @@
+//! The measurements: each is the least of several, after one to warm up.
+
+mod naive;
+#[cfg(test)]
+mod tests;
+
+use super::{Amount, Check, Speed, Step, Target};
+use crate::judge::lab;
+use crate::oracle::naive::{Naive, Problem};
+use naive::against_naive;
+use rayon::prelude::*;
+use shearbed::run::run_replica;
+use shearbed::scene::Scene;
+use shearbed::{Plan, Suspension, ensemble, memory};
+use std::hint::black_box;
+use std::time::Instant;
+
+const RODS: [usize; 6] = [30, 100, 1_000, 10_000, 100_000, 1_000_000];
+const CONCENTRATIONS_PER_CM3: [f64; 6] = [0.5, 5.0, 50.0, 500.0, 5_000.0, 50_000.0];
+/// More rods than these take the naive reference too long.
+const NAIVE_RODS: usize = 10_000;
+
+/// Measures everything; takes no notice of the threads of the caller.
+pub fn measure(amount: Amount) -> Result<Speed, String> {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let one = pool(1)?;
+    let by_rods: Vec<_> = (RODS.iter())
+        .map(|rods| one.install(|| step(*rods, 50.0, amount)))
+        .collect::<Result<_, _>>()?;
+    let by_concentration = (CONCENTRATIONS_PER_CM3.iter())
+        .map(|n| one.install(|| step(1000, *n, amount)))
+        .collect::<Result<_, _>>()?;
+    let all = pool(threads)?;
+    let mut checks = vec![
+        free(
+            "free rods of one r_e, per rod and output",
+            0.0,
+            Target::AtMost(3.0),
+            &one,
+            amount,
+        ),
+        free(
+            "free rods of unequal r_e, per rod and output",
+            3.6,
+            Target::None,
+            &one,
+            amount,
+        ),
+        memory_rate(&all, amount),
+    ];
+    checks.extend(against_naive(&by_rods));
+    checks.push(replicas(&one, &all, threads, amount)?);
+    checks.push(one_large_run(&one, &all, amount)?);
+    checks.push(held());
+    Ok(Speed {
+        threads,
+        checks,
+        by_rods,
+        by_concentration,
+    })
+}
+
+fn pool(threads: usize) -> Result<rayon::ThreadPool, String> {
+    let built = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    built.map_err(|error| format!("cannot start {threads} threads: {error}"))
+}
+
+/// The least of several measurements in seconds, after one to warm up.
+fn least(amount: Amount, mut measure: impl FnMut() -> f64) -> f64 {
+    measure();
+    (0..amount.repeats)
+        .map(|_| measure())
+        .fold(f64::INFINITY, f64::min)
+}
+
+fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
+    let start = Instant::now();
+    black_box(work());
+    start.elapsed().as_secs_f64()
+}
+
+/// So many steps that they take about the wanted time.
+fn step(rods: usize, concentration_per_cm3: f64, amount: Amount) -> Result<Step, String> {
+    let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
+    scene.particles.count = rods;
+    lab::interaction(&mut scene).concentration_per_cm3 = Some(concentration_per_cm3);
+    let mut suspension = lab::suspension(&scene, 0);
+    let steps = |suspension: &mut Suspension, count: u64| {
+        (0..count).try_for_each(|_| {
+            suspension.step().map(|collisions| {
+                black_box(collisions.len());
+            })
+        })
+    };
+    // The first steps set up the buffers.
+    let mut failed = steps(&mut suspension, 2).err();
+    let once = seconds(|| suspension.step().map(<[_]>::len)).max(1e-7);
+    let count = (amount.seconds / once).clamp(1.0, 1e6) as u64;
+    let core = least(amount, || {
+        seconds(|| {
+            if let Err(error) = steps(&mut suspension, count) {
+                failed = Some(error);
+            }
+        })
+    });
+    if let Some(error) = failed {
+        return Err(error.to_string());
+    }
+    let per_rod = |seconds: f64, steps: u64| 1e9 * seconds / (steps as f64 * rods as f64);
+    let naive_ns = (rods <= NAIVE_RODS && concentration_per_cm3 == 50.0).then(|| {
+        let mut naive = Naive::new(Problem {
+            count: rods,
+            ..Problem::paper(1, 0)
+        });
+        let once = seconds(|| naive.step());
+        let count = (amount.seconds / once).clamp(1.0, 1e6) as u64;
+        let repeats = Amount {
+            repeats: if once > 0.1 { 1 } else { amount.repeats },
+            ..amount
+        };
+        per_rod(
+            least(repeats, || seconds(|| (0..count).for_each(|_| naive.step()))),
+            count,
+        )
+    });
+    Ok(Step {
+        rods,
+        concentration_per_cm3,
+        core_ns: per_rod(core, count),
+        naive_ns,
+    })
+}
+
+fn free_plan(rods: usize, outputs: u64, sd_percent: f64) -> Plan {
+    let mut scene = lab::free_scene(&crate::judge::case::Effort::gate());
+    scene.particles.count = rods;
+    scene.particles.aspect_ratio_sd_percent = sd_percent;
+    scene.time.periods = Some(1.0);
+    scene.time.outputs_per_period = Some(outputs);
+    scene.ensemble.replicas = 1;
+    lab::plan(&scene)
+}
+
+/// Whole runs, drawing the rods included.
+fn free(
+    what: &'static str,
+    sd_percent: f64,
+    target: Target,
+    one: &rayon::ThreadPool,
+    amount: Amount,
+) -> Check {
+    let plan = free_plan(10_000, 50, sd_percent);
+    let least = least(amount, || one.install(|| seconds(|| run_replica(&plan, 0))));
+    Check {
+        what,
+        measured: 1e9 * least / (plan.outputs() as f64 * 1e4),
+        target,
+        unit: "ns",
+        behind: format!(
+            "10⁴ rods, {} outputs, projections, one core, rods drawn anew",
+            plan.outputs()
+        ),
+    }
+}
+
+/// Bytes of directions per second that outputs are made from, over the rate at which the same arrays are summed.
+fn memory_rate(all: &rayon::ThreadPool, amount: Amount) -> Check {
+    let bytes = 24.0 * amount.free_rods as f64;
+    let (few, many) = (
+        free_plan(amount.free_rods, 1, 0.0),
+        free_plan(amount.free_rods, 33, 0.0),
+    );
+    let run = |plan: &Plan| least(amount, || all.install(|| seconds(|| run_replica(plan, 0))));
+    // The difference: drawing the rods is left out.
+    let per_output = (run(&many) - run(&few)) / (many.outputs() - few.outputs()) as f64;
+    let arrays = [0.25f64, 0.5, 0.75].map(|value| vec![value; amount.free_rods]);
+    let sum = least(amount, || {
+        let total = |axis: &Vec<f64>| -> f64 { axis.par_chunks(1 << 16).map(lane_sum).sum() };
+        all.install(|| seconds(|| arrays.iter().map(total).sum::<f64>()))
+    });
+    Check {
+        what: "free rods on all cores: rate over that of a plain sum of the same arrays",
+        measured: sum / per_output,
+        target: Target::AtLeast(0.6),
+        unit: "×",
+        behind: format!(
+            "{:.0e} rods: {:.1} GB/s for an output, {:.1} GB/s for the sum",
+            amount.free_rods as f64,
+            1e-9 * bytes / per_output,
+            1e-9 * bytes / sum
+        ),
+    }
+}
+
+/// A sum that the compiler may keep in registers side by side.
+fn lane_sum(values: &[f64]) -> f64 {
+    let mut lanes = [0.0; 8];
+    for chunk in values.chunks_exact(8) {
+        for (lane, value) in lanes.iter_mut().zip(chunk) {
+            *lane += value;
+        }
+    }
+    lanes.iter().sum::<f64>() + values.chunks_exact(8).remainder().iter().sum::<f64>()
+}
+
+/// The same replicas on one thread and on all.
+fn replicas(
+    one: &rayon::ThreadPool,
+    all: &rayon::ThreadPool,
+    threads: usize,
+    amount: Amount,
+) -> Result<Check, String> {
+    let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
+    scene.time.periods = Some(1.0);
+    scene.ensemble.replicas = 64 * threads as u64;
+    let [alone, shared] = whole_runs(&scene, [one, all], amount)?;
+    Ok(Check {
+        what: "replicas over all cores: the time on one core over that on all, and over their number",
+        measured: alone / shared / threads as f64,
+        target: Target::AtLeast(0.9),
+        unit: "×",
+        behind: format!(
+            "{alone:.3} s on one, {shared:.3} s on {threads}, {} replicas",
+            64 * threads
+        ),
+    })
+}
+
+fn one_large_run(one: &rayon::ThreadPool, all: &rayon::ThreadPool, amount: Amount) -> Result<Check, String> {
+    let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
+    scene.particles.count = 300_000;
+    scene.time.periods = Some(0.04);
+    scene.time.outputs_per_period = Some(25);
+    scene.ensemble.replicas = 1;
+    let [alone, shared] = whole_runs(&scene, [one, all], amount)?;
+    Ok(Check {
+        what: "one run of 3·10⁵ rods over all cores: the time on one core over that on all",
+        measured: alone / shared,
+        target: Target::None,
+        unit: "×",
+        behind: format!("{alone:.3} s and {shared:.3} s, 8 steps and the draws"),
+    })
+}
+
+/// What a run of 10⁶ rods holds, as `tests/memory.rs` counts it to within a quarter.
+fn held() -> Check {
+    let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
+    scene.particles.count = 1_000_000;
+    scene.particles.aspect_ratio_sd_percent = 3.6;
+    scene.ensemble.replicas = 1;
+    Check {
+        what: "memory of an interacting rod with an r_e of its own",
+        measured: memory::bytes(&lab::plan(&scene), 1) as f64 / 1e6,
+        target: Target::AtMost(120.0),
+        unit: "bytes",
+        behind: "10⁶ rods; what `shearbed run` checks before it starts".into(),
+    }
+}
+
+fn whole_runs(scene: &Scene, pools: [&rayon::ThreadPool; 2], amount: Amount) -> Result<[f64; 2], String> {
+    let plan = lab::plan(scene);
+    ensemble::run(&plan).map_err(|error| error.to_string())?;
+    Ok(pools.map(|pool| least(amount, || pool.install(|| seconds(|| ensemble::run(&plan))))))
+}

@@ -1,0 +1,74 @@
+//! The core's motion of free rods in every corner of plane Couette flow.
+
+use super::map;
+use crate::judge::statistics::larger;
+use nalgebra::{UnitVector3, Vector3};
+use shearbed::flow::VelocityGradient;
+use shearbed::propagator::Propagator;
+
+/// The direction after a number of turns, of a rod of aspect ratio r at the shear rate G.
+pub type Motion = dyn Fn(f64, f64, &UnitVector3<f64>, f64) -> Vector3<f64>;
+
+/// The propagator of the core; NaN where it has none.
+pub fn exact(aspect_ratio: f64, shear_rate_per_s: f64, p: &UnitVector3<f64>, turns: f64) -> Vector3<f64> {
+    let end = VelocityGradient::plane_couette(shear_rate_per_s)
+        .and_then(|flow| Propagator::new(&flow, aspect_ratio).after_turns(p, turns));
+    end.map_or(Vector3::repeat(f64::NAN), UnitVector3::into_inner)
+}
+
+/// Shear rates in 1/s.
+pub const SHEAR_RATES: [f64; 3] = [1e-30, 0.5, 1e30];
+
+/// Durations in periods.
+pub const TURNS: [f64; 14] = [
+    1e-9,
+    1e-6,
+    1e-3,
+    0.25,
+    1.0 / 3.0,
+    0.37,
+    0.5,
+    1.0,
+    10.0,
+    1e3,
+    1e6,
+    1e8,
+    1e8 + 0.25,
+    1e8 + 0.37,
+];
+
+/// The largest errors over shear rates, durations and starts. NaN stays.
+#[derive(Clone, Copy, Debug)]
+pub struct Worst {
+    /// ||p| − 1|.
+    pub length: f64,
+    /// The change of C_b.
+    pub orbit: f64,
+    /// The angle to the closed form over [`map::round_off_at_once`].
+    pub angle: f64,
+}
+
+/// The worst at this aspect ratio.
+pub fn worst(aspect_ratio: f64, motion: &Motion) -> Worst {
+    let mut worst = Worst {
+        length: 0.0,
+        orbit: 0.0,
+        angle: 0.0,
+    };
+    for turns in TURNS {
+        for (_, end) in map::places(aspect_ratio) {
+            let start = end.before(turns).direction(aspect_ratio);
+            let bound = map::round_off_at_once(aspect_ratio, turns);
+            for shear_rate_per_s in SHEAR_RATES {
+                let p = motion(aspect_ratio, shear_rate_per_s, &start, turns);
+                let in_plane = p.x.hypot(p.y / aspect_ratio);
+                let orbit = in_plane / (in_plane + p.z.abs()) - end.bounded_orbit_constant();
+                let angle = crate::studies::integrators::apart_rad(&p, &end.direction(aspect_ratio));
+                worst.length = larger(worst.length, (p.norm() - 1.0).abs());
+                worst.orbit = larger(worst.orbit, orbit.abs());
+                worst.angle = larger(worst.angle, angle / bound);
+            }
+        }
+    }
+    worst
+}

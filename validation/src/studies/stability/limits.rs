@@ -1,0 +1,176 @@
+//! The longest step with which a fixed-step subject keeps a property, by bisection.
+
+use crate::studies::integrators::{Errors, Failure, Integrator, Problem, Setting, Theory};
+use nalgebra::{UnitVector3, Vector3};
+use serde::Serialize;
+use std::f64::consts::PI;
+use std::ops::Range;
+
+/// What a subject keeps with short steps and may lose with long ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Property {
+    /// In the plane of shear no rod overtakes another within a step.
+    Order,
+    /// In the plane of shear every rod turns forward within a step, by less than half a turn: none rests, as p ≡ −p.
+    Turning,
+    /// No rod crosses the plane of shear within a step: p_3 keeps its sign.
+    Side,
+    /// |p| < 1.5 after ten periods in the plane of shear.
+    Length,
+    /// C_b is within 0.1 of its start after ten periods.
+    Orbit,
+    /// The step can be taken at all, from every direction.
+    Solvable,
+}
+
+/// What a search found.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Limit {
+    /// The property holds up to this GΔt on the ladder and is lost just above.
+    At(f64),
+    /// It holds on the whole ladder, up to this GΔt.
+    Beyond(f64),
+    /// It is lost at every step tried, down to this GΔt.
+    Below(f64),
+}
+
+/// The steps that are tried: a ladder from the shortest up, as a property may come back at longer steps.
+#[derive(Clone, Copy, Debug)]
+pub struct Ladder {
+    /// The shortest GΔt.
+    pub least: f64,
+    /// The longest.
+    pub most: f64,
+    /// From rung to rung.
+    pub factor: f64,
+}
+
+/// Periods over which a length or an orbit is judged.
+pub const PERIODS: f64 = 10.0;
+
+/// p_3 of a rod just beside the plane of shear.
+const NEAR_PLANE: f64 = 1e-9;
+
+/// Rods in half of the plane of shear.
+const RODS: u32 = 512;
+
+/// Those that are stepped at once.
+const PART: u32 = 64;
+
+/// The longest step on the ladder up to which `holds`, refined by bisection between the last rung where it does and the
+/// first where it does not.
+pub fn bisect(ladder: Ladder, holds: impl Fn(f64) -> bool) -> Limit {
+    let mut good = ladder.least;
+    if !holds(good) {
+        return Limit::Below(good);
+    }
+    loop {
+        let next = good * ladder.factor;
+        if next > ladder.most {
+            return Limit::Beyond(good);
+        }
+        if !holds(next) {
+            let (mut low, mut high) = (good, next);
+            while high - low > 1e-7 * low {
+                let middle = 0.5 * (low + high);
+                match holds(middle) {
+                    true => low = middle,
+                    false => high = middle,
+                }
+            }
+            return Limit::At(low);
+        }
+        good = next;
+    }
+}
+
+/// Whether a subject has a property with steps of GΔt = `strain` at this aspect ratio.
+pub fn holds(subject: &dyn Integrator, property: Property, aspect_ratio: f64, strain: f64) -> bool {
+    let stepped = |p3: f64, more: u32| {
+        let parts = (0..RODS).step_by(PART as usize);
+        parts.map(move |first| near_plane(subject, aspect_ratio, strain, p3, first..first + PART + more))
+    };
+    match property {
+        Property::Order => stepped(0.0, 1).all(|rods| {
+            let mut pairs = rods.windows(2);
+            pairs.all(|pair| forward(&pair[0].1, &pair[1].1))
+        }),
+        Property::Turning => {
+            stepped(0.0, 0).all(|rods| rods.iter().all(|(before, after)| forward(before, after)))
+        }
+        Property::Side => stepped(NEAR_PLANE, 0).all(|rods| rods.iter().all(|(_, after)| after.z > 0.0)),
+        Property::Length => {
+            let p = UnitVector3::new_normalize(Vector3::new(1.0, 0.0, 0.0));
+            ten_periods(subject, aspect_ratio, strain, &p).is_ok_and(|(_, end)| end.norm() < 1.5)
+        }
+        Property::Orbit => {
+            let (_, start) = Problem::mid_flip(aspect_ratio);
+            ten_periods(subject, aspect_ratio, strain, &start)
+                .is_ok_and(|(problem, end)| Errors::of(&end, &problem, &start).orbit_constant < 0.1)
+        }
+        Property::Solvable => (0..=64).all(|i| {
+            (0..=16).all(|j| {
+                let p =
+                    shearbed::orientation::from_angles(PI * f64::from(i) / 64.0, PI * f64::from(j) / 16.0);
+                let end = subject.advance(&one_step(aspect_ratio, strain), &p, one(subject));
+                end.is_ok_and(|p| p.iter().all(|component| component.is_finite()))
+            })
+        }),
+    }
+}
+
+/// φ of one of the rods over half of the plane of shear. Halfway between two is the steepest place of φ̇, φ = π/4.
+fn phi(k: u32) -> f64 {
+    PI * (f64::from(k) + 0.5) / f64::from(RODS)
+}
+
+/// Whether b is ahead of a by less than half a turn; a difference of round-off says nothing.
+fn forward(a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
+    (a.x * b.y - a.y * b.x) / (a.norm() * b.norm()) >= -4.0 * f64::EPSILON
+}
+
+/// Rods before and after one step that start beside the plane of shear by `p3`; NaN where the step cannot be taken.
+fn near_plane(
+    subject: &dyn Integrator,
+    aspect_ratio: f64,
+    strain: f64,
+    p3: f64,
+    rods: Range<u32>,
+) -> Vec<(Vector3<f64>, Vector3<f64>)> {
+    let start = |k: u32| UnitVector3::new_normalize(Vector3::new(phi(k).cos(), phi(k).sin(), p3));
+    let starts: Vec<_> = rods.map(start).collect();
+    let ends = subject.advance_all(&one_step(aspect_ratio, strain), &starts, one(subject));
+    let ends = ends.unwrap_or(vec![Vector3::repeat(f64::NAN); starts.len()]);
+    starts
+        .into_iter()
+        .map(UnitVector3::into_inner)
+        .zip(ends)
+        .collect()
+}
+
+fn one_step(aspect_ratio: f64, strain: f64) -> Problem {
+    Problem::new(aspect_ratio, strain / Problem::new(aspect_ratio, 1.0).strain())
+}
+
+fn one(subject: &dyn Integrator) -> Setting {
+    match subject.theory() {
+        Theory::Exact => Setting::Once,
+        _ => Setting::Steps(1),
+    }
+}
+
+/// Ten periods by steps of GΔt = `strain`, rounded up to whole steps.
+fn ten_periods(
+    subject: &dyn Integrator,
+    aspect_ratio: f64,
+    strain: f64,
+    start: &UnitVector3<f64>,
+) -> Result<(Problem, Vector3<f64>), Failure> {
+    let period = Problem::new(aspect_ratio, 1.0).strain();
+    let steps = (PERIODS * period / strain).ceil();
+    let problem = Problem::new(aspect_ratio, steps * strain / period);
+    let end = subject.advance(&problem, start, Setting::Steps(steps as u64))?;
+    Ok((problem, end))
+}

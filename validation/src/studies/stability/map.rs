@@ -1,0 +1,270 @@
+//! What becomes of a rod in every corner: aspect ratio by step, by start, by duration.
+
+use super::orbit::Place;
+use crate::studies::integrators::{Failure, Integrator, Problem, Setting, Theory, apart_rad};
+use nalgebra::Vector3;
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// What was found at the end of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Found {
+    /// The angle to the closed form is at most [`Run::round_off`], and accurate.
+    RoundOff,
+    /// It is at most [`ACCURATE_RAD`].
+    Accurate,
+    /// It is more, but |p| is 1 to [`LENGTH_KEPT`].
+    Wrong,
+    /// |p| is not.
+    LengthLost,
+    /// A component is infinite or no number.
+    NotFinite,
+    /// The subject gave an error of its own.
+    Refused,
+    /// It would take more steps than the budget has.
+    NotRun,
+}
+
+/// An angle to the closed form that still counts as accurate, in rad.
+pub const ACCURATE_RAD: f64 = 1e-2;
+
+/// How far |p| may be from 1 and still count as kept.
+pub const LENGTH_KEPT: f64 = 1e-2;
+
+impl Found {
+    /// In a letter or a sign.
+    pub fn sign(self) -> &'static str {
+        match self {
+            Self::RoundOff => "=",
+            Self::Accurate => "+",
+            Self::Wrong => "w",
+            Self::LengthLost => "L",
+            Self::NotFinite => "N",
+            Self::Refused => "R",
+            Self::NotRun => "·",
+        }
+    }
+
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::RoundOff => "round-off",
+            Self::Accurate => "accurate",
+            Self::Wrong => "stable but wrong",
+            Self::LengthLost => "length lost",
+            Self::NotFinite => "not finite",
+            Self::Refused => "refused",
+            Self::NotRun => "not run",
+        }
+    }
+
+    /// Whether the end is right.
+    pub fn is_right(self) -> bool {
+        self <= Self::Accurate
+    }
+}
+
+/// One run: a rod that is to end at a place after some turns.
+#[derive(Clone, Copy, Debug)]
+pub struct Run {
+    /// r_e.
+    pub aspect_ratio: f64,
+    /// t/T.
+    pub turns: f64,
+    /// Where it is to end.
+    pub end: Place,
+    /// How hard the subject is to try.
+    pub setting: Setting,
+}
+
+/// What a run came to.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Cell {
+    /// What was found.
+    pub found: Found,
+    /// The angle to the closed form in rad, where there is one.
+    pub error_rad: Option<f64>,
+    /// ||p| − 1|, where there is one.
+    pub length: Option<f64>,
+    /// The change of C_b, where there is one.
+    pub orbit: Option<f64>,
+    /// The subject's error, or why it was not run.
+    pub reason: Option<String>,
+}
+
+/// How far a direction may be off by rounding alone after `turns` at once: what is left of the phase without whole turns
+/// is rounded to ε, and φ moves by max(r_e, 1/r_e) times that; some sixteen roundings: 16 ε(1 + 2π max(r_e, 1/r_e)|rest|).
+pub fn round_off_at_once(aspect_ratio: f64, turns: f64) -> f64 {
+    let stretch = aspect_ratio.max(1.0 / aspect_ratio);
+    16.0 * f64::EPSILON * (1.0 + TAU * stretch * (turns - turns.round()).abs())
+}
+
+impl Run {
+    /// How far a direction may be off by rounding alone. With steps the time itself is rounded, φ moves by max(r_e, 1/r_e)
+    /// times the phase, and thousands of roundings add up: 1000 ε max(r_e, 1/r_e) max(t/T, 1), as `work_precision::order`.
+    pub fn round_off(&self) -> f64 {
+        let stretch = self.aspect_ratio.max(1.0 / self.aspect_ratio);
+        match self.setting {
+            Setting::Once => round_off_at_once(self.aspect_ratio, self.turns),
+            _ => 1000.0 * f64::EPSILON * stretch * self.turns.max(1.0),
+        }
+    }
+
+    /// Runs a subject and says what was found.
+    pub fn of(&self, subject: &dyn Integrator) -> Cell {
+        let start = self.end.before(self.turns).direction(self.aspect_ratio);
+        let problem = Problem::new(self.aspect_ratio, self.turns);
+        match subject.advance(&problem, &start, self.setting) {
+            Ok(end) if end.iter().all(|component| component.is_finite()) => self.judged(&end),
+            Ok(_) | Err(Failure::NotFinite) => Cell::without(Found::NotFinite, None),
+            Err(failure) => Cell::without(Found::Refused, Some(failure.to_string())),
+        }
+    }
+
+    fn judged(&self, end: &Vector3<f64>) -> Cell {
+        let error = apart_rad(end, &self.end.direction(self.aspect_ratio));
+        let length = (end.norm() - 1.0).abs();
+        let in_plane = end.x.hypot(end.y / self.aspect_ratio);
+        let orbit = in_plane / (in_plane + end.z.abs()) - self.end.bounded_orbit_constant();
+        let found = if length.is_nan() || length > LENGTH_KEPT {
+            Found::LengthLost
+        } else if error.is_nan() || error > ACCURATE_RAD {
+            Found::Wrong
+        } else if error <= self.round_off() {
+            Found::RoundOff
+        } else {
+            Found::Accurate
+        };
+        Cell {
+            found,
+            error_rad: Some(error),
+            length: Some(length),
+            orbit: Some(orbit.abs()),
+            reason: None,
+        }
+    }
+}
+
+impl Cell {
+    fn without(found: Found, reason: Option<String>) -> Self {
+        Self {
+            found,
+            error_rad: None,
+            length: None,
+            orbit: None,
+            reason,
+        }
+    }
+
+    /// Not run, and why.
+    pub fn not_run(reason: String) -> Self {
+        Self::without(Found::NotRun, Some(reason))
+    }
+}
+
+/// The aspect ratios of the map: nearly a sphere, rods up to 10⁸, discs down to 10⁻⁸.
+pub const ASPECT_RATIOS: [f64; 11] = [
+    1e-8,
+    1e-4,
+    0.1,
+    1.0 + 1e-12,
+    1.01,
+    2.0,
+    11.6,
+    100.0,
+    1e4,
+    1e6,
+    1e8,
+];
+
+/// The steps of the map in periods.
+pub const STEPS: [f64; 13] = [
+    1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3,
+];
+
+/// The tolerances of the map.
+pub const TOLERANCES: [f64; 7] = [1e-1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
+
+/// The durations of the map in periods.
+pub const PERIODS: [f64; 6] = [1.0, 10.0, 1e2, 1e4, 1e6, 1e8];
+
+/// From φ = 0.2 to φ = 1 in periods: what a run has beyond whole ones, so that it covers a flip.
+fn flip(aspect_ratio: f64) -> f64 {
+    let phase = |phi: f64| (phi.sin() / aspect_ratio).atan2(phi.cos());
+    (phase(1.0) - phase(0.2)) / TAU
+}
+
+/// A run into a flip by steps of `step` periods, at most `most_steps` of them, or at once. At least twenty
+/// steps are taken, so at long steps it lasts for many periods; at short ones it stops before one is over.
+pub fn by_step(theory: Theory, aspect_ratio: f64, step: f64, most_steps: u64) -> Run {
+    let (turns, setting) = match theory {
+        Theory::Exact => (step, Setting::Once),
+        _ => {
+            let wanted = (1.0 / step).clamp(20.0, most_steps as f64).round();
+            let whole = (wanted * step).round();
+            let turns = match whole >= 1.0 {
+                true => whole + flip(aspect_ratio),
+                false => wanted * step,
+            };
+            (turns, Setting::Steps((turns / step).round().max(1.0) as u64))
+        }
+    };
+    let end = Place::mid_flip(aspect_ratio);
+    Run {
+        aspect_ratio,
+        turns,
+        end,
+        setting,
+    }
+}
+
+/// A run of `periods` periods and a flip to a place at a setting; `None`, with the reason, where it takes too many steps.
+pub fn by_duration(
+    theory: Theory,
+    aspect_ratio: f64,
+    periods: f64,
+    end: Place,
+    most_steps: u64,
+) -> Result<Run, String> {
+    let turns = periods + flip(aspect_ratio);
+    let setting = match theory {
+        Theory::Exact => Setting::Once,
+        Theory::Adaptive => Setting::Tolerance(TOLERANCE),
+        Theory::Order(_) => {
+            let steps = Problem::new(aspect_ratio, turns).strain() / STRAIN_PER_STEP;
+            if steps > most_steps as f64 {
+                return Err(format!("{steps:.0e} steps"));
+            }
+            Setting::Steps(steps.ceil() as u64)
+        }
+    };
+    Ok(Run {
+        aspect_ratio,
+        turns,
+        end,
+        setting,
+    })
+}
+
+/// GΔt of the runs by start and by duration: a tenth of explicit Euler's limit, below every other's.
+pub const STRAIN_PER_STEP: f64 = 0.1;
+
+/// The tolerance of the runs by start and by duration.
+pub const TOLERANCE: f64 = 1e-9;
+
+/// Where runs by start end, and their names: both poles, the flip with head and tail, along the flow, and
+/// C = 0, 10⁻³⁰⁰, 10³⁰⁰, ∞.
+pub fn places(aspect_ratio: f64) -> Vec<(&'static str, Place)> {
+    let at = |c, z, xy| Place::new(c, z, xy, aspect_ratio);
+    vec![
+        ("θ = 0, C = 0", at(0.0, 1.0, [1.0, 0.0])),
+        ("θ = π", at(0.0, -1.0, [1.0, 0.0])),
+        ("flip", at(1.0, 1.0, [1.0, 0.0])),
+        ("flip, −p", at(1.0, -1.0, [-1.0, 0.0])),
+        ("φ = π/2", at(1.0, 1.0, [0.0, 1.0])),
+        ("C = 1e-300", at(1e-300, 1.0, [1.0, 1.0])),
+        ("C = 1e300", at(1.0, 1e-300, [1.0, 1.0])),
+        ("C = ∞", at(1.0, 0.0, [1.0, 1.0])),
+    ]
+}

@@ -1,0 +1,233 @@
+//! Free suspensions: the error of X̄₁ against the rods and the run time, for every way to lay the rods. No step is
+//! taken: what is left of the error is that of the sample.
+
+use super::starts::{Rod, Start};
+use crate::oracle::isotropic;
+use crate::studies::work_precision::{Budget, Seconds, measure};
+use rand::SeedableRng;
+use rand_pcg::Pcg64Dxsm;
+use rayon::prelude::*;
+use serde::Serialize;
+use shearbed::phase::Phase;
+use shearbed::propagator::couette;
+use statrs::distribution::{ContinuousCDF, Normal};
+
+/// The errors of X̄₁ for which the cheapest start is sought.
+pub const TARGETS: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-6];
+
+/// A free suspension whose X̄₁ is asked for at one time: isotropic at first, in plane Couette flow.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Free {
+    /// The built-in scene it is of.
+    pub scene: &'static str,
+    /// r_e, or its mean.
+    pub aspect_ratio: f64,
+    /// σ of r_e, in percent of its mean.
+    pub sd_percent: f64,
+    /// t/T.
+    pub turns: f64,
+}
+
+/// The free suspensions of the paper's Fig. 6, shortly before the end of the first period.
+pub const SCENES: [Free; 2] = [
+    Free {
+        scene: "fig6-uniform",
+        aspect_ratio: 11.6,
+        sd_percent: 0.0,
+        turns: 0.95,
+    },
+    Free {
+        scene: "fig6-polydisperse",
+        aspect_ratio: 11.6,
+        sd_percent: 3.6,
+        turns: 0.95,
+    },
+];
+
+/// One number of rods.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Point {
+    /// N.
+    pub rods: usize,
+    /// The root mean square of X̄₁ less the closed form.
+    pub error: f64,
+    /// Laid so many times.
+    pub trials: usize,
+    /// What laying and moving the rods once took.
+    pub seconds: Seconds,
+}
+
+/// A start's error against its run time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StartCurve {
+    /// The start's name.
+    pub start: &'static str,
+    /// The exponent by theory.
+    pub theory: f64,
+    /// The exponent found over the points with 10³ rods and more: below, the lattice does not resolve the stretched
+    /// rods yet.
+    pub exponent: f64,
+    /// Its standard error, over groups of trials.
+    pub exponent_se: f64,
+    /// From few rods to many.
+    pub points: Vec<Point>,
+}
+
+/// Every start on one suspension.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Bench {
+    /// The suspension.
+    pub free: Free,
+    /// X̄₁ by the closed form.
+    pub exact: f64,
+    /// One for each start.
+    pub curves: Vec<StartCurve>,
+}
+
+/// How far to go.
+#[derive(Clone, Copy, Debug)]
+pub struct Extent {
+    /// N = 10², 10^2.5, … up to 10^this/2.
+    pub half_decades: i32,
+    /// Laid so many times, a multiple of [`GROUPS`].
+    pub trials: usize,
+}
+
+impl Extent {
+    /// For the report of every day.
+    pub const QUICK: Self = Self {
+        half_decades: 10,
+        trials: 32,
+    };
+    /// For `shearbed bench` and full reports.
+    pub const FULL: Self = Self {
+        half_decades: 12,
+        trials: 64,
+    };
+}
+
+/// Trials are put into so many groups, and the spread of their exponents is the error.
+pub const GROUPS: usize = 8;
+
+impl Free {
+    fn unequal(&self) -> bool {
+        self.sd_percent > 0.0
+    }
+
+    /// X̄₁ by the closed form, or the quadrature over it.
+    pub fn exact(&self) -> f64 {
+        isotropic::mean_projections_polydisperse(self.aspect_ratio, self.sd_percent, self.turns)[0]
+    }
+
+    /// X̄₁ of these rods, each taken straight to the time.
+    pub fn mean(&self, rods: &[Rod]) -> f64 {
+        let r = self.aspect_ratio;
+        let sum: f64 = match Normal::new(r, 0.01 * self.sd_percent * r) {
+            Ok(gaussian) if self.unequal() => (rods.iter())
+                .map(|rod| {
+                    let own = gaussian.inverse_cdf(rod.quantile);
+                    let phase = Phase::of_turns(self.turns * (r + 1.0 / r) / (own + 1.0 / own));
+                    couette(rod.p, own, phase)[0].abs()
+                })
+                .sum(),
+            _ => {
+                let phase = Phase::of_turns(self.turns);
+                rods.iter().map(|rod| couette(rod.p, r, phase)[0].abs()).sum()
+            }
+        };
+        sum / rods.len() as f64
+    }
+
+    /// The rods that `start` lays, and the errors of X̄₁ in `trials` of them.
+    pub fn errors(&self, start: &Start, count: usize, trials: usize, seed: u64) -> (usize, Vec<f64>) {
+        let exact = self.exact();
+        let found: Vec<_> = (0..trials as u64)
+            .into_par_iter()
+            .map(|trial| {
+                let rods = (start.lay)(count, self.unequal(), &mut generator(seed, count, trial));
+                (rods.len(), self.mean(&rods) - exact)
+            })
+            .collect();
+        let rods = found.first().map_or(0, |(rods, _)| *rods);
+        (rods, found.into_iter().map(|(_, error)| error).collect())
+    }
+
+    /// Every one of `starts`; run times are of one core.
+    pub fn bench(&self, starts: &[Start], extent: Extent, budget: Budget) -> Bench {
+        Bench {
+            free: *self,
+            exact: self.exact(),
+            curves: (starts.iter())
+                .map(|start| self.curve(start, extent, budget))
+                .collect(),
+        }
+    }
+
+    fn curve(&self, start: &Start, extent: Extent, budget: Budget) -> StartCurve {
+        let counts = (4..=extent.half_decades).map(|half| 10f64.powf(0.5 * f64::from(half)).round() as usize);
+        let mut points = Vec::new();
+        let mut tried = Vec::new();
+        for count in counts {
+            let (rods, errors) = self.errors(start, count, extent.trials, SEED);
+            let once = || {
+                self.mean(&(start.lay)(
+                    count,
+                    self.unequal(),
+                    &mut generator(SEED, count, 0),
+                ))
+            };
+            points.push(Point {
+                rods,
+                error: root_mean_square(&errors),
+                trials: errors.len(),
+                seconds: measure(budget, once),
+            });
+            tried.push((rods, errors));
+        }
+        tried.retain(|(rods, _)| *rods >= 1000);
+        let exponents = exponents(&tried, GROUPS);
+        let exponent = super::Estimate::mean_of(&exponents);
+        StartCurve {
+            start: start.name,
+            theory: start.exponents[usize::from(self.unequal())],
+            exponent: exponent.value,
+            exponent_se: exponent.se,
+            points,
+        }
+    }
+}
+
+impl StartCurve {
+    /// The point with the fewest rods whose error is at most this.
+    pub fn cheapest(&self, error: f64) -> Option<&Point> {
+        self.points.iter().find(|point| point.error <= error)
+    }
+}
+
+/// The seed of [`Free::bench`].
+const SEED: u64 = 0;
+
+/// A stream of its own for each seed, number of rods and trial.
+fn generator(seed: u64, count: usize, trial: u64) -> Pcg64Dxsm {
+    Pcg64Dxsm::seed_from_u64(seed ^ (count as u64) << 32 ^ trial)
+}
+
+/// The exponents of N in the root-mean-square error, by least squares of the logarithms, one for each of `groups`
+/// of the trials.
+pub fn exponents(tried: &[(usize, Vec<f64>)], groups: usize) -> Vec<f64> {
+    let slope = |group: usize| {
+        let of_group = |errors: &[f64]| {
+            let size = errors.len() / groups;
+            root_mean_square(&errors[group * size..][..size]).ln()
+        };
+        let points: Vec<_> = (tried.iter())
+            .map(|(rods, errors)| ((*rods as f64).ln(), of_group(errors)))
+            .collect();
+        super::slope(&points)
+    };
+    (0..groups).map(slope).collect()
+}
+
+fn root_mean_square(errors: &[f64]) -> f64 {
+    (errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64).sqrt()
+}

@@ -1,0 +1,282 @@
+//! How an interacting scene's X̄₁ at t/T = 1, and the distribution of its directions, depend on the steps per period,
+//! the rods and the replicas: convergence in law. The study is a list of independent jobs, and what is read from
+//! what they found.
+
+use super::blocks::{Block, blocks, replicas_exponent};
+use super::fit::{Line, Means, Order};
+use super::job::{Job, PLACES, Trace};
+use super::{Estimate, correlation};
+use crate::studies::integrators::apart_rad;
+use nalgebra::Vector3;
+use serde::Serialize;
+use shearbed::jeffery::strain_per_period;
+use shearbed::{Plan, Scene};
+
+/// Steps per period that are tried.
+pub const STEPS_PER_PERIOD: [u64; 10] = [20, 50, 100, 200, 400, 800, 1600, 3200, 6400, 12800];
+
+/// Rods that are tried.
+pub const RODS: [usize; 6] = [25, 50, 100, 200, 400, 1000];
+
+/// The exponent of N in the bias: rods near a face of the volume lack neighbours, and the share of the volume within
+/// a rod length of a face is ∝ 1/H ∝ N^(−1/3).
+pub const FACES: f64 = -1.0 / 3.0;
+
+/// Replicas whose rods are compared one by one between two steps.
+const FOLLOWED: u64 = 16;
+
+/// How many replicas each job has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Replicas {
+    /// The same for all.
+    Each(u64),
+    /// As many as keep a job below so many rods times steps, at least 8 and at most `most`.
+    Within {
+        /// Rods times steps of a job.
+        rod_steps: u64,
+        /// The most replicas.
+        most: u64,
+    },
+}
+
+impl Replicas {
+    /// For `shearbed converge`: about three minutes of one core.
+    pub const CONVERGE: Self = Self::Within {
+        rod_steps: 400_000_000,
+        most: 20_000,
+    };
+
+    fn of(self, steps_per_period: u64, rods: usize) -> u64 {
+        match self {
+            Self::Each(replicas) => replicas,
+            Self::Within { rod_steps, most } => (rod_steps / (steps_per_period * rods as u64)).clamp(8, most),
+        }
+    }
+}
+
+/// What one job found of X̄₁ at t/T = 1.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct JobMean {
+    /// Steps per period.
+    pub steps_per_period: u64,
+    /// Rods in the control volume.
+    pub rods: usize,
+    /// Independent runs.
+    pub replicas: u64,
+    /// The mean of |p_1| over rods and replicas.
+    pub x1: f64,
+    /// Its standard error over replicas.
+    pub se: f64,
+}
+
+/// One number of steps per period less the next finer one, at the same seeds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Change {
+    /// Of X̄₁.
+    pub x1: Estimate,
+    /// The correlation of X̄₁ between the two; its error is that of normal variables.
+    pub correlation: Estimate,
+    /// Of the share of rods with |p_1| below 0.1, 0.2, … 0.9, where it is largest in its standard errors.
+    pub p1_distribution: Estimate,
+    /// The same of C_b.
+    pub orbit_distribution: Estimate,
+    /// The root mean square angle between the same rod in both, head or tail alike.
+    pub apart_rad: f64,
+    /// The same between different rods: no connection left.
+    pub unrelated_rad: f64,
+}
+
+/// Everything.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Law {
+    /// Against the steps per period, coarse to fine.
+    pub steps: Vec<JobMean>,
+    /// Each to the next finer.
+    pub changes: Vec<Change>,
+    /// The first of the levels with GΔt ≤ 1, which resolve a flip: where an order may be read.
+    pub resolved_from: usize,
+    /// The weak order over those, where the noise lets it be read and two differences are known from 0.
+    pub order: Option<Order>,
+    /// X̄₁ against 1/(steps per period) over those, or from a finer level where no straight line fits: first order.
+    pub steps_line: Option<Line>,
+    /// The level from which that line is.
+    pub line_from: usize,
+    /// Against the rods.
+    pub rods: Vec<JobMean>,
+    /// X̄₁ against N^(−1/3), and against 1/N.
+    pub rods_lines: [Option<Line>; 2],
+    /// Blocks of replicas of the scene as it stands.
+    pub blocks: Vec<Block>,
+    /// The exponent of the replicas in the standard deviation of their mean; `None` for fewer than 1024.
+    pub replicas_exponent: Option<Estimate>,
+    /// N times the variance of X̄₁ over replicas: what one rod more brings.
+    pub variance_per_rod: f64,
+    /// Rods times steps of all jobs.
+    pub rod_steps: u64,
+}
+
+/// Whether the law is of a plan's scene: its jobs are of periods, and its orbit constants of plane Couette flow.
+pub fn judges(plan: &Plan) -> bool {
+    plan.flow().shear_rate_per_s().is_some() && plan.scene().time.strain.is_none()
+}
+
+/// The jobs of a scene: every number of steps, then every number of rods, each once.
+pub fn jobs(scene: &Scene, replicas: Replicas) -> Vec<Job> {
+    let (own_steps, own_rods) = (scene.steps_per_unit(), scene.particles.count);
+    let job = |steps, rods| Job::new(scene, steps, rods, replicas.of(steps, rods), 1);
+    let with_own = |mut list: Vec<u64>, own: u64| {
+        list.push(own);
+        list.sort_unstable();
+        list.dedup();
+        list
+    };
+    let mut jobs: Vec<_> = with_own(STEPS_PER_PERIOD.into(), own_steps)
+        .into_iter()
+        .map(|steps| Job {
+            followed: FOLLOWED.min(replicas.of(steps, own_rods)),
+            ..job(steps, own_rods)
+        })
+        .collect();
+    let rods = RODS.iter().filter(|rods| **rods != own_rods);
+    jobs.extend(rods.map(|rods| job(own_steps, *rods)));
+    jobs
+}
+
+/// Runs every job, one after the other, on the threads of the current pool. `finished` is called after each replica.
+pub fn run(jobs: &[Job], finished: &(dyn Fn() + Sync)) -> Result<Vec<Vec<Trace>>, String> {
+    jobs.iter().map(|job| job.run(finished)).collect()
+}
+
+/// Reads what the jobs of [`jobs`] found.
+pub fn read(scene: &Scene, jobs: &[Job], found: &[Vec<Trace>]) -> Law {
+    let (own_steps, own_rods) = (scene.steps_per_unit(), scene.particles.count);
+    let x1: Vec<Vec<f64>> = (found.iter())
+        .map(|traces| traces.iter().map(|trace| trace.looks[0].x1).collect())
+        .collect();
+    let chosen = |which: &dyn Fn(&Job) -> bool| -> Vec<usize> {
+        let mut chosen: Vec<_> = (0..jobs.len()).filter(|k| which(&jobs[*k])).collect();
+        chosen.sort_by_key(|k| (jobs[*k].scene.particles.count, jobs[*k].scene.steps_per_unit()));
+        chosen
+    };
+    let steps = chosen(&|job| job.scene.particles.count == own_rods);
+    let rods = chosen(&|job| job.scene.steps_per_unit() == own_steps);
+    let samples = |which: &[usize]| which.iter().map(|k| sample(&jobs[*k], &x1[*k])).collect();
+    let of = |which: &[usize]| Means::of(&which.iter().map(|k| x1[*k].clone()).collect::<Vec<_>>());
+
+    let (means, h) = (
+        of(&steps),
+        steps.iter().map(|k| 1.0 / jobs[*k].scene.steps_per_unit() as f64),
+    );
+    let h: Vec<f64> = h.collect();
+    let changes: Vec<_> = (steps.windows(2).enumerate())
+        .map(|(k, pair)| change(&means, k, &found[pair[0]], &found[pair[1]]))
+        .collect();
+    let strain = strain_per_period(scene.particles.aspect_ratio);
+    let resolved_from = h
+        .iter()
+        .position(|h| strain * h <= 1.0)
+        .unwrap_or(h.len().saturating_sub(1));
+    let known = changes[resolved_from.min(changes.len())..]
+        .iter()
+        .filter(|change| change.x1.readable());
+    let order = match known.count() {
+        0 | 1 => None,
+        _ => means.from(resolved_from).order(&h[resolved_from..]),
+    };
+    let (line_from, steps_line) = first_order(&means, &h, resolved_from);
+
+    let of_rods = of(&rods);
+    let counts: Vec<f64> = (rods.iter())
+        .map(|k| jobs[*k].scene.particles.count as f64)
+        .collect();
+    let against = |exponent: f64| {
+        let x: Vec<_> = counts.iter().map(|count| count.powf(exponent)).collect();
+        of_rods.line(&x)
+    };
+    let own = (steps.iter()).find(|k| jobs[**k].scene.steps_per_unit() == own_steps);
+    let own = own.map_or(&[][..], |k| &x1[*k]);
+    Law {
+        steps: samples(&steps),
+        changes,
+        resolved_from,
+        order,
+        steps_line,
+        line_from,
+        rods: samples(&rods),
+        rods_lines: [against(FACES), against(-1.0)],
+        blocks: blocks(own),
+        replicas_exponent: replicas_exponent(own),
+        variance_per_rod: super::covariance(own, own) * own_rods as f64,
+        rod_steps: jobs.iter().map(Job::rod_steps).sum(),
+    }
+}
+
+fn sample(job: &Job, x1: &[f64]) -> JobMean {
+    let mean = Estimate::mean_of(x1);
+    JobMean {
+        steps_per_period: job.scene.steps_per_unit(),
+        rods: job.scene.particles.count,
+        replicas: job.replicas,
+        x1: mean.value,
+        se: mean.se,
+    }
+}
+
+/// The line a + b/S over the resolved levels; from a finer one where the line is refuted (p < 0.001).
+fn first_order(means: &Means, h: &[f64], resolved_from: usize) -> (usize, Option<Line>) {
+    let lines = (resolved_from..h.len().saturating_sub(2))
+        .filter_map(|first| Some((first, means.from(first).line(&h[first..])?)));
+    lines
+        .into_iter()
+        .find(|(_, line)| line.p.is_none_or(|p| p >= 1e-3))
+        .map_or((resolved_from, None), |(first, line)| (first, Some(line)))
+}
+
+fn change(means: &Means, level: usize, coarse: &[Trace], fine: &[Trace]) -> Change {
+    let (value, se) = means.difference(level, level + 1);
+    let x1 = |traces: &[Trace]| -> Vec<f64> { traces.iter().map(|trace| trace.looks[0].x1).collect() };
+    let count = coarse.len().min(fine.len());
+    let correlation = correlation(&x1(&coarse[..count]), &x1(&fine[..count]));
+    let [apart_rad, unrelated_rad] = [0, 1].map(|shift| apart(coarse, fine, shift));
+    Change {
+        x1: Estimate { value, se },
+        correlation: Estimate {
+            value: correlation,
+            se: (1.0 - correlation * correlation) / (count as f64).sqrt(),
+        },
+        p1_distribution: furthest(coarse, fine, |trace, k| trace.looks[0].p1_below[k]),
+        orbit_distribution: furthest(coarse, fine, |trace, k| trace.looks[0].orbit_below[k]),
+        apart_rad,
+        unrelated_rad,
+    }
+}
+
+/// The largest difference of two distribution functions in its standard errors.
+fn furthest(coarse: &[Trace], fine: &[Trace], share: impl Fn(&Trace, usize) -> f64) -> Estimate {
+    let at = |k: usize| {
+        let shares = [coarse, fine].map(|traces| traces.iter().map(|trace| share(trace, k)).collect());
+        let (value, se) = Means::of(&shares).difference(0, 1);
+        Estimate { value, se }
+    };
+    let apart = |e: &Estimate| {
+        if e.se > 0.0 { e.value.abs() / e.se } else { 0.0 }
+    };
+    let places = (0..PLACES).map(at);
+    let none = Estimate { value: 0.0, se: 0.0 };
+    places
+        .max_by(|a, b| apart(a).total_cmp(&apart(b)))
+        .unwrap_or(none)
+}
+
+/// The root mean square angle between rod i of one and rod i + `shift` of the other, replica by replica.
+pub fn apart(one: &[Trace], other: &[Trace], shift: usize) -> f64 {
+    let mut squares = Vec::new();
+    for (a, b) in one.iter().zip(other) {
+        let count = a.directions.len().min(b.directions.len());
+        squares.extend((0..count).map(|rod| {
+            let [p, q] = [a.directions[rod], b.directions[(rod + shift) % count]].map(Vector3::from);
+            apart_rad(&p, &q).powi(2)
+        }));
+    }
+    (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+}

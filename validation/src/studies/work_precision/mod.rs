@@ -1,0 +1,299 @@
+//! Error against run time of every subject, and how its error falls with the step: plain data. Writers are in
+//! [`export`], [`tables`] and [`figures`].
+
+pub mod chapter;
+pub mod export;
+pub mod figures;
+pub mod order;
+pub mod tables;
+mod time;
+
+use crate::studies::integrators::{self, Errors, Integrator, Problem, Setting, Theory, grade};
+use serde::Serialize;
+pub(crate) use time::measure;
+pub use time::{Budget, Seconds};
+
+/// The aspect ratios of the benches.
+pub const ASPECT_RATIOS: [f64; 4] = [2.0, 11.6, 100.0, 1e4];
+
+/// The errors in rad for which the cheapest subject is sought.
+pub const TARGETS_RAD: [f64; 3] = [1e-3, 1e-6, 1e-9];
+
+/// One setting of a subject, tried.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Point {
+    /// The setting.
+    pub setting: Setting,
+    /// The errors at the end, or nothing where the run failed.
+    pub errors: Option<Errors>,
+    /// Why it failed.
+    pub failure: Option<String>,
+    /// What a run took, failed or not.
+    pub seconds: Seconds,
+}
+
+/// A subject's error against its run time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct IntegratorCurve {
+    /// The subject's name.
+    pub subject: String,
+    /// How its error is said to fall.
+    pub theory: Theory,
+    /// From the coarsest setting to the finest that the budget allows.
+    pub points: Vec<Point>,
+}
+
+/// Every subject on one problem.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Bench {
+    /// Its name, as `re11.6`.
+    pub name: String,
+    /// r_e.
+    pub aspect_ratio: f64,
+    /// t/T at the end.
+    pub turns: f64,
+    /// One for each subject.
+    pub curves: Vec<IntegratorCurve>,
+}
+
+/// The name of the bench at an aspect ratio.
+pub fn name(aspect_ratio: f64) -> String {
+    format!("re{aspect_ratio}")
+}
+
+/// Runs every subject on a rod of this aspect ratio ([`Problem::mid_flip`]), on this thread alone.
+pub fn run(aspect_ratio: f64, subjects: &[Box<dyn Integrator>], budget: Budget) -> Bench {
+    let (problem, _) = Problem::mid_flip(aspect_ratio);
+    Bench {
+        name: name(aspect_ratio),
+        aspect_ratio,
+        turns: problem.turns,
+        curves: (subjects.iter())
+            .map(|subject| curve(subject.as_ref(), aspect_ratio, budget))
+            .collect(),
+    }
+}
+
+/// Runs every subject of the project at every aspect ratio of the benches.
+pub fn run_all(budget: Budget) -> Vec<Bench> {
+    let subjects = integrators::all();
+    (ASPECT_RATIOS.iter())
+        .map(|aspect_ratio| run(*aspect_ratio, &subjects, budget))
+        .collect()
+}
+
+/// One subject's curve: settings from coarse to fine until a run takes longer than half the budget, as the next would
+/// take twice as long.
+pub fn curve(subject: &dyn Integrator, aspect_ratio: f64, budget: Budget) -> IntegratorCurve {
+    let (problem, start) = Problem::mid_flip(aspect_ratio);
+    let mut points = Vec::new();
+    for setting in settings(subject.theory()) {
+        let graded = grade(subject, &problem, &start, setting);
+        let seconds = time::measure(budget, || subject.advance(&problem, &start, setting));
+        let (errors, failure) = match graded {
+            Ok(errors) => (Some(errors), None),
+            Err(failure) => (None, Some(failure.to_string())),
+        };
+        points.push(Point {
+            setting,
+            errors,
+            failure,
+            seconds,
+        });
+        if seconds.least > 0.5 * budget.seconds_per_run {
+            break;
+        }
+    }
+    IntegratorCurve {
+        subject: subject.name().into(),
+        theory: subject.theory(),
+        points,
+    }
+}
+
+/// 16, 32, … 2³⁰ steps, or tolerances from 10⁻² to 10⁻¹⁴.
+fn settings(theory: Theory) -> Vec<Setting> {
+    match theory {
+        Theory::Exact => vec![Setting::Once],
+        Theory::Order(_) => (4..=30).map(|power| Setting::Steps(1 << power)).collect(),
+        Theory::Adaptive => (2..=14)
+            .map(|power| Setting::Tolerance(10f64.powi(-power)))
+            .collect(),
+    }
+}
+
+impl Point {
+    /// The angle to the closed form in rad; infinite where the run failed.
+    pub fn error_rad(&self) -> f64 {
+        self.errors.map_or(f64::INFINITY, |errors| errors.orientation_rad)
+    }
+}
+
+impl IntegratorCurve {
+    /// The cheapest point with at most this error. The next finer one must have it too, lest a chance crossing count.
+    pub fn cheapest(&self, error_rad: f64) -> Option<&Point> {
+        let reaches = |k: usize| {
+            self.points
+                .get(k)
+                .is_none_or(|point| point.error_rad() <= error_rad)
+        };
+        (0..self.points.len())
+            .filter(|k| reaches(*k) && reaches(*k + 1))
+            .map(|k| &self.points[k])
+            .min_by(|a, b| a.seconds.least.total_cmp(&b.seconds.least))
+    }
+
+    /// The point with the smallest error.
+    pub fn best(&self) -> Option<&Point> {
+        (self.points.iter()).min_by(|a, b| a.error_rad().total_cmp(&b.error_rad()))
+    }
+
+    /// How many settings failed.
+    pub fn failures(&self) -> usize {
+        self.points.iter().filter(|point| point.errors.is_none()).count()
+    }
+}
+
+impl Bench {
+    /// The cheapest curve and point with at most this error, of the curves that `which` lets in.
+    pub fn cheapest(
+        &self,
+        error_rad: f64,
+        which: impl Fn(Theory) -> bool,
+    ) -> Option<(&IntegratorCurve, &Point)> {
+        (self.curves.iter())
+            .filter(|curve| which(curve.theory))
+            .filter_map(|curve| Some((curve, curve.cheapest(error_rad)?)))
+            .min_by(|a, b| a.1.seconds.least.total_cmp(&b.1.seconds.least))
+    }
+
+    /// The time of the first exact subject over that of the cheapest adaptive one with an error of 10⁻⁶.
+    pub fn exact_over_adaptive(&self) -> Option<f64> {
+        let exact = self.curves.iter().find(|curve| curve.theory == Theory::Exact)?;
+        let (_, adaptive) = self.cheapest(1e-6, |theory| theory == Theory::Adaptive)?;
+        Some(exact.points.first()?.seconds.least / adaptive.seconds.least)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::studies::integrators::{Failure, FixedStep};
+    use nalgebra::{UnitVector3, Vector3};
+
+    const QUICK: Budget = Budget {
+        seconds_per_run: 1e-4,
+        runs: 1,
+    };
+
+    fn point(error: Option<f64>, seconds: f64) -> Point {
+        let errors = error.map(|orientation_rad| Errors {
+            orientation_rad,
+            orbit_constant: 0.0,
+            phase_turns: 0.0,
+            length: 0.0,
+        });
+        Point {
+            setting: Setting::Once,
+            errors,
+            failure: None,
+            seconds: Seconds::same(seconds),
+        }
+    }
+
+    #[test]
+    fn a_chance_crossing_does_not_count() {
+        let curve = IntegratorCurve {
+            subject: "synthetic".into(),
+            theory: Theory::Order(1),
+            points: vec![
+                point(Some(1e-9), 1.0),
+                point(Some(0.1), 2.0),
+                point(None, 3.0),
+                point(Some(1e-4), 4.0),
+                point(Some(1e-5), 5.0),
+            ],
+        };
+        assert_eq!(curve.cheapest(1e-3).map(|p| p.seconds.least), Some(4.0));
+        assert_eq!(curve.cheapest(1e-5).map(|p| p.seconds.least), Some(5.0));
+        assert_eq!(curve.cheapest(1e-6), None);
+        assert_eq!(curve.failures(), 1);
+    }
+
+    #[test]
+    fn a_failing_subject_is_kept_and_a_slow_one_stopped() {
+        let blows_up = FixedStep {
+            name: "synthetic",
+            order: 1,
+            keeps_length: false,
+            step: |_: &Problem, p: Vector3<f64>, _| p * f64::INFINITY,
+        };
+        let found = curve(&blows_up, 2.0, QUICK);
+        assert_eq!(found.failures(), found.points.len());
+        assert_eq!(found.points[0].failure.as_deref(), Some("not finite"));
+        let idle = FixedStep {
+            name: "synthetic",
+            order: 1,
+            keeps_length: true,
+            step: |_: &Problem, p: Vector3<f64>, _| std::hint::black_box(p),
+        };
+        assert!(curve(&idle, 2.0, QUICK).points.len() < 26, "the budget ends it");
+
+        struct Refuses;
+        impl Integrator for Refuses {
+            fn name(&self) -> &str {
+                "synthetic"
+            }
+            fn theory(&self) -> Theory {
+                Theory::Adaptive
+            }
+            fn advance(
+                &self,
+                _: &Problem,
+                _: &UnitVector3<f64>,
+                _: Setting,
+            ) -> Result<Vector3<f64>, Failure> {
+                Err(Failure::Gave("too stiff".into()))
+            }
+        }
+        let found = curve(&Refuses, 2.0, QUICK);
+        assert_eq!((found.points.len(), found.failures()), (13, 13));
+
+        // What failed is in every writing.
+        let bench = Bench {
+            name: name(2.0),
+            aspect_ratio: 2.0,
+            turns: 1.0,
+            curves: vec![found],
+        };
+        let benches = [bench];
+        let csv = export::bench_csv(&benches).unwrap();
+        assert_eq!(csv.matches(",too stiff,").count(), 13, "{csv}");
+        assert!(
+            crate::files::build::json(&benches[0].curves[0].points[0])
+                .unwrap()
+                .contains("\"failure\": \"too stiff\"")
+        );
+        let tables = tables::cheapest(&benches).text() + &tables::every_subject(&benches[0]).text();
+        assert!(
+            tables.contains("not reached") && tables.contains("13 of 13"),
+            "{tables}"
+        );
+        let figure = &figures::figures(&benches)[0].figure;
+        assert_eq!(figure.points[0].x.len(), 13);
+    }
+
+    #[test]
+    fn every_subject_is_in_every_table() {
+        let subjects = integrators::all();
+        let bench = run(2.0, &subjects, QUICK);
+        let table = tables::every_subject(&bench);
+        let names: Vec<_> = table.rows.iter().map(|row| row[0].as_str()).collect();
+        assert!(
+            names
+                .iter()
+                .copied()
+                .eq(subjects.iter().map(|subject| subject.name()))
+        );
+    }
+}

@@ -1,0 +1,260 @@
+//! How the error of a fixed-step subject falls with the step: observed order with its sign, Richardson's value and
+//! Roache's grid convergence index.
+
+use crate::studies::integrators::{self, Errors, Integrator, Problem, Setting, Theory, grade};
+use nalgebra::UnitVector3;
+use serde::Serialize;
+use shearbed::Scene;
+
+/// How far an observed order may be from theory (DiffEqDevTools.jl's convergence tests). Its sign is kept.
+pub const ORDER_TOLERANCE: f64 = 0.2;
+
+/// Roache's safety factor for three grids.
+const SAFETY: f64 = 1.25;
+
+/// One of a sequence of runs with ever twice as many steps.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Halving {
+    /// Equal steps over the problem.
+    pub steps: u64,
+    /// The errors against the closed form, where the run ended.
+    pub errors: Option<Errors>,
+    /// |p_1| at the end, the number that is extrapolated.
+    pub value: Option<f64>,
+    /// log₂ of the orientation's last error over this one: negative where the error grows.
+    pub order: Option<f64>,
+}
+
+/// How an observed order compares with theory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Found {
+    /// Within [`ORDER_TOLERANCE`] on the last two pairs above round-off.
+    AsTheory,
+    /// Not.
+    Not,
+    /// Fewer than two pairs are above round-off.
+    RoundOff,
+}
+
+/// Three grids' extrapolation (Roache 1994; the references are in `docs/integrators.md`).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Richardson {
+    /// Steps of the finest of the three grids.
+    pub steps: u64,
+    /// The order from the three values, without a reference.
+    pub order: f64,
+    /// The value extrapolated to Δt = 0 by the order of theory.
+    pub value: f64,
+    /// How far that is from the closed form.
+    pub error: f64,
+    /// The grid convergence index of the finest grid, relative.
+    pub index: f64,
+    /// The relative error that it is to bound.
+    pub true_error: f64,
+}
+
+/// A fixed-step subject's convergence.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Convergence {
+    /// The subject's name.
+    pub subject: String,
+    /// Its order by theory.
+    pub theory: u32,
+    /// From coarse to fine.
+    pub halvings: Vec<Halving>,
+    /// The last two pairs above round-off, which are judged.
+    pub judged: Vec<f64>,
+    /// What they say.
+    pub found: Found,
+    /// The extrapolation, where three grids converge.
+    pub richardson: Option<Richardson>,
+}
+
+/// What the orders are of, in words, and those of every fixed-step subject of the project.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Orders {
+    /// The rod, its start and its end.
+    pub problem: String,
+    /// One for each subject.
+    pub studies: Vec<Convergence>,
+}
+
+/// A rod of this aspect ratio ([`Problem::mid_flip`]).
+pub fn of_rod(aspect_ratio: f64) -> Orders {
+    of_all(aspect_ratio, 0.2, 1.0, 1.0, "as in the benches")
+}
+
+/// A scene of free rods in plane Couette flow: one rod of its mean aspect ratio from its own start, through its own
+/// periods. `None` for other flows, and where the time is given as a strain.
+pub fn of_scene(scene: &Scene) -> Option<Orders> {
+    let shear_rate = scene.flow.shear_rate_per_s?;
+    let periods = scene.time.periods?;
+    let (phi, theta, whose) = match scene.particles.common_start_deg() {
+        // The flow turned round is its own mirror image, φ ↔ −φ.
+        Some([phi_deg, theta_deg]) => (
+            shear_rate.signum() * phi_deg.to_radians(),
+            theta_deg.to_radians(),
+            "the scene's own start",
+        ),
+        None if scene.particles.rods.is_some() => (0.2, 1.0, "as the scene's starts are many"),
+        None => (0.2, 1.0, "as the scene draws its starts at random"),
+    };
+    Some(of_all(scene.particles.aspect_ratio, phi, theta, periods, whose))
+}
+
+/// From GΔt of about 1 to 1/4096, or to 2²² steps where that is coarser.
+fn of_all(aspect_ratio: f64, phi: f64, theta: f64, turns: f64, whose: &str) -> Orders {
+    let (problem, start) = Problem::into_flip(aspect_ratio, phi, theta, turns);
+    let doublings = 22u32.saturating_sub(coarsest(&problem).ilog2()).clamp(4, 12);
+    Orders {
+        problem: format!(
+            "One rod of r_e = {aspect_ratio} from φ = {phi:.4} and θ = {theta:.4} rad ({whose}) over {:.5} periods, into a flip, \
+             to φ = 1 rad",
+            problem.turns
+        ),
+        studies: (integrators::all().iter())
+            .filter_map(|subject| study(subject.as_ref(), &problem, &start, doublings))
+            .collect(),
+    }
+}
+
+/// So many steps that GΔt is about 1.
+fn coarsest(problem: &Problem) -> u64 {
+    (problem.strain().ceil() as u64).next_power_of_two().max(8)
+}
+
+/// Halves the step `doublings` times, from GΔt of about 1. `None` for a subject that takes no equal steps.
+pub fn study(
+    subject: &dyn Integrator,
+    problem: &Problem,
+    start: &UnitVector3<f64>,
+    doublings: u32,
+) -> Option<Convergence> {
+    let Theory::Order(theory) = subject.theory() else {
+        return None;
+    };
+    let coarsest = coarsest(problem);
+    let mut halvings: Vec<Halving> = Vec::new();
+    for k in 0..=doublings {
+        let steps = coarsest << k;
+        let setting = Setting::Steps(steps);
+        let errors = grade(subject, problem, start, setting).ok();
+        let value = errors.and_then(|_| subject.advance(problem, start, setting).ok());
+        let before = halvings.last().and_then(|halving| halving.errors);
+        halvings.push(Halving {
+            steps,
+            errors,
+            value: value.map(|p| p.x.abs() / p.norm()),
+            order: errors
+                .zip(before)
+                .map(|(now, before)| (before.orientation_rad / now.orientation_rad).log2()),
+        });
+    }
+    let floor = round_off(problem);
+    let judged = judged(&halvings, floor);
+    Some(Convergence {
+        subject: subject.name().into(),
+        theory,
+        found: compare(&judged, theory),
+        judged,
+        richardson: richardson(&halvings, theory, problem.reference(start).x.abs(), floor),
+        halvings,
+    })
+}
+
+/// An error that is not round-off: the time has the relative error ε, φ moves by max(r_e, 1/r_e) times the phase, and
+/// thousands of steps add up.
+fn round_off(problem: &Problem) -> f64 {
+    let r = problem.aspect_ratio;
+    1000.0 * f64::EPSILON * r.max(1.0 / r) * problem.turns.max(1.0)
+}
+
+fn judged(halvings: &[Halving], floor: f64) -> Vec<f64> {
+    let above = |halving: &&Halving| {
+        halving
+            .errors
+            .is_some_and(|errors| errors.orientation_rad > floor)
+    };
+    // From the first run at round-off on, whatever follows is noise.
+    let orders: Vec<f64> = (halvings.iter().take_while(above))
+        .filter_map(|halving| halving.order)
+        .collect();
+    orders[orders.len().saturating_sub(2)..].to_vec()
+}
+
+fn compare(judged: &[f64], theory: u32) -> Found {
+    let holds = |order: &f64| (order - f64::from(theory)).abs() < ORDER_TOLERANCE;
+    match judged {
+        [_, _] if judged.iter().all(holds) => Found::AsTheory,
+        [_, _] => Found::Not,
+        _ => Found::RoundOff,
+    }
+}
+
+/// The extrapolation from the finest three grids whose differences are above round-off.
+fn richardson(halvings: &[Halving], theory: u32, exact: f64, floor: f64) -> Option<Richardson> {
+    halvings.windows(3).rev().find_map(|grids| {
+        let [coarse, middle, fine] = [grids[0].value?, grids[1].value?, grids[2].value?];
+        let (first, last) = (coarse - middle, middle - fine);
+        let gain = 2f64.powi(theory as i32) - 1.0;
+        let shrinks = first / last > 1.0;
+        if !shrinks || last.abs() <= gain * floor {
+            return None;
+        }
+        let value = fine - last / gain;
+        Some(Richardson {
+            steps: grids[2].steps,
+            order: (first / last).log2(),
+            value,
+            error: (value - exact).abs(),
+            index: SAFETY * (last / fine).abs() / gain,
+            true_error: (fine / exact - 1.0).abs(),
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn synthetic(errors: &[f64]) -> Vec<Halving> {
+        let of = |orientation_rad| Errors {
+            orientation_rad,
+            orbit_constant: 0.0,
+            phase_turns: 0.0,
+            length: 0.0,
+        };
+        (0..errors.len())
+            .map(|k| Halving {
+                steps: 8 << k,
+                errors: Some(of(errors[k])),
+                value: Some(0.5 + errors[k]),
+                order: (k > 0).then(|| (errors[k - 1] / errors[k]).log2()),
+            })
+            .collect()
+    }
+
+    #[test]
+    fn an_order_keeps_its_sign_and_round_off_is_not_judged() {
+        let found = |errors: &[f64], theory| compare(&judged(&synthetic(errors), 1e-12), theory);
+        assert_eq!(found(&[0.4, 0.1, 0.025, 0.00625], 2), Found::AsTheory);
+        assert_eq!(found(&[0.00625, 0.025, 0.1, 0.4], 2), Found::Not, "it diverges");
+        assert_eq!(found(&[0.4, 0.2, 0.1, 0.025], 2), Found::Not);
+        assert_eq!(found(&[1e-9, 6e-11, 4e-12, 1e-15, 2e-14], 4), Found::AsTheory);
+        assert_eq!(found(&[1e-9, 1e-15, 1e-9, 1e-9], 4), Found::RoundOff);
+        assert_eq!(found(&[f64::NAN, 0.1, f64::NAN], 4), Found::RoundOff);
+    }
+
+    #[test]
+    fn richardson_is_exact_for_a_pure_power() {
+        let halvings = synthetic(&[0.064, 0.016, 0.004, 0.001]);
+        let found = richardson(&halvings, 2, 0.5, 1e-12).unwrap();
+        assert_eq!(found.steps, 64);
+        assert!((found.order - 2.0).abs() < 1e-12 && found.error < 1e-15);
+        // For a pure power the index is the safety factor times the true error, relative to the finest value.
+        assert!((found.index / (0.001 / 0.501) - SAFETY).abs() < 1e-12);
+        assert!(richardson(&synthetic(&[0.1, 0.2, 0.4]), 2, 0.5, 1e-12).is_none());
+        assert!(richardson(&synthetic(&[0.1, -0.2, 0.1]), 2, 0.5, 1e-12).is_none());
+    }
+}
