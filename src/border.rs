@@ -59,12 +59,7 @@ pub(crate) fn sums(observable: Observable, block: &Block, sums: &[Sum]) -> Resul
     if sums.iter().all(Sum::is_finite) {
         return Ok(());
     }
-    let name = |k: usize| {
-        observable
-            .channels()
-            .nth(k)
-            .map_or_else(String::new, Channel::name)
-    };
+    let name = |k: usize| observable.channels().nth(k).map_or_else(String::new, Channel::name);
     let culprit = (0..block.len).find_map(|rod| {
         let mut own = vec![Sum::default(); sums.len()];
         observable.add(&alone(block, rod), &mut own);
@@ -74,16 +69,9 @@ pub(crate) fn sums(observable: Observable, block: &Block, sums: &[Sum]) -> Resul
     Err(match culprit {
         Some((rod, channel, value)) => Fault {
             rod: Some(rod),
-            cause: format!(
-                "its {} came out as {value}, at r_e = {}",
-                name(channel),
-                block.aspect_ratio[rod]
-            ),
+            cause: format!("its {} came out as {value}, at r_e = {}", name(channel), block.aspect_ratio[rod]),
         },
-        None => Fault {
-            rod: None,
-            cause: format!("the sum of {} is not finite", observable.name()),
-        },
+        None => Fault { rod: None, cause: format!("the sum of {} is not finite", observable.name()) },
     })
 }
 
@@ -91,28 +79,21 @@ pub(crate) fn sums(observable: Observable, block: &Block, sums: &[Sum]) -> Resul
 pub(crate) fn trace(observable: Observable, sums: &[Sum], count: usize) -> Result<(), Fault> {
     let (sum, tensor): (f64, _) = match observable {
         Observable::OrientationTensor => (sums[..3].iter().map(|sum| sum.value).sum(), "⟨pp⟩"),
-        Observable::OrientationTensor4 => (
-            TRACES.iter().map(|(k, times)| times * sums[*k].value).sum(),
-            "⟨pppp⟩",
-        ),
+        Observable::OrientationTensor4 => {
+            (TRACES.iter().map(|(k, times)| times * sums[*k].value).sum(), "⟨pppp⟩")
+        }
         _ => return Ok(()),
     };
     let trace = sum / count as f64;
     match (trace - 1.0).abs() <= TRACE {
         true => Ok(()),
-        false => Err(Fault {
-            rod: None,
-            cause: format!("the trace of {tensor} came out as {trace}, not 1"),
-        }),
+        false => Err(Fault { rod: None, cause: format!("the trace of {tensor} came out as {trace}, not 1") }),
     }
 }
 
 /// One rod of a block as a block.
 fn alone(block: &Block, rod: usize) -> Block {
-    let mut one = Block {
-        len: 1,
-        ..Block::default()
-    };
+    let mut one = Block { len: 1, ..Block::default() };
     for (axis, from) in one.p.iter_mut().zip(&block.p) {
         axis[0] = from[rod];
     }
@@ -128,10 +109,7 @@ mod tests {
 
     /// A block of directions all over the sphere.
     fn block(len: usize) -> Block {
-        let mut block = Block {
-            len,
-            ..Block::default()
-        };
+        let mut block = Block { len, ..Block::default() };
         for rod in 0..len {
             let p = from_angles(2.4 * rod as f64, 0.1 + 3.0 * rod as f64 / len as f64);
             for (axis, value) in block.p.iter_mut().zip([p.x, p.y, p.z]) {
@@ -185,10 +163,7 @@ mod tests {
         assert_eq!(fault.cause, "its x3 came out as NaN, at r_e = 1");
         // No rod of this block did it.
         let fault = sums(Observable::Projections, &good, &found).unwrap_err();
-        assert_eq!(
-            (fault.rod, fault.cause.as_str()),
-            (None, "the sum of projections is not finite")
-        );
+        assert_eq!((fault.rod, fault.cause.as_str()), (None, "the sum of projections is not finite"));
     }
 
     #[test]
@@ -201,11 +176,7 @@ mod tests {
         assert!(trace(Observable::OrientationTensor, &found, 129).is_err());
         found[1].value += 1e-9;
         let fault = trace(Observable::OrientationTensor, &found, 128).unwrap_err();
-        assert!(
-            fault
-                .cause
-                .starts_with("the trace of ⟨pp⟩ came out as 1.0000000000")
-        );
+        assert!(fault.cause.starts_with("the trace of ⟨pp⟩ came out as 1.0000000000"));
         found[1].value = f64::NAN;
         assert!(trace(Observable::OrientationTensor, &found, 128).is_err());
         // ⟨pppp⟩: each component of its trace counts.

@@ -16,18 +16,13 @@ pub(crate) fn over_chunks<T: Send>(
     if x1.len() <= CHUNK {
         return vec![each(0, [x1, x2, x3])];
     }
-    (x1.par_chunks_mut(CHUNK)
-        .zip(x2.par_chunks_mut(CHUNK))
-        .zip(x3.par_chunks_mut(CHUNK)))
-    .enumerate()
-    .map(|(k, ((x1, x2), x3))| each(k, [x1, x2, x3]))
-    .collect()
+    (x1.par_chunks_mut(CHUNK).zip(x2.par_chunks_mut(CHUNK)).zip(x3.par_chunks_mut(CHUNK)))
+        .enumerate()
+        .map(|(k, ((x1, x2), x3))| each(k, [x1, x2, x3]))
+        .collect()
 }
 
 /// What `each` makes of every chunk of `count` rods, in the order of chunks.
 pub(crate) fn of_chunks<T: Send>(count: usize, each: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
-    (0..count.div_ceil(CHUNK))
-        .into_par_iter()
-        .map(|k| each(k * CHUNK..count.min((k + 1) * CHUNK)))
-        .collect()
+    (0..count.div_ceil(CHUNK)).into_par_iter().map(|k| each(k * CHUNK..count.min((k + 1) * CHUNK))).collect()
 }

@@ -32,11 +32,7 @@ impl Reach {
     pub fn new(alpha: f64, m: f64) -> Self {
         // s* falls with R. The slack covers a logarithm that is not monotonic in its last digits.
         let bound = |bin: usize| reach(bin as f64 / BINS as f64, alpha, m) * (1.0 + 1e-12);
-        Self {
-            alpha,
-            m,
-            bounds: (0..BINS).map(bound).collect(),
-        }
+        Self { alpha, m, bounds: (0..BINS).map(bound).collect() }
     }
 
     /// s*(R) in rod lengths, for R in [0, 1).
@@ -67,10 +63,7 @@ pub fn share_velocity(
     let line = contact.line.as_ref();
     let [arm_a, arm_b] = contact.arms;
     let gap = line.dot(relative_velocity) + arm_b * line.dot(&rates[1]) - arm_a * line.dot(&rates[0]);
-    [
-        rates[0] + line * (0.5 * gap / arm_a),
-        rates[1] - line * (0.5 * gap / arm_b),
-    ]
+    [rates[0] + line * (0.5 * gap / arm_a), rates[1] - line * (0.5 * gap / arm_b)]
 }
 
 /// (φ̇′, θ̇′) of a rod with direction `p` whose direction moves at `rate` = V̂′_r/r (A.13, corrected:
@@ -129,11 +122,7 @@ pub fn kick(end: &Vector3<f64>, p: &Vector3<f64>, change: &Vector3<f64>, time: f
 /// |v| without overflow in the squares: a kick ∝ 1/r has no bound.
 pub(crate) fn norm(v: &Vector3<f64>) -> f64 {
     let largest = v.amax();
-    if largest > 0.0 && largest.is_finite() {
-        largest * (v / largest).norm()
-    } else {
-        largest
-    }
+    if largest > 0.0 && largest.is_finite() { largest * (v / largest).norm() } else { largest }
 }
 
 #[cfg(test)]
@@ -176,10 +165,7 @@ mod tests {
     fn a_collision_worked_by_hand() {
         // A along axis 1 and B along axis 2 pass with arms 2 and −3; ℓ is axis 3. Only the liquid moves:
         // B's point at 10 along ℓ, A's at 0. Both get 5: A turns at 5/2, B at −5/−3.
-        let contact = Contact {
-            line: Vector3::z_axis(),
-            arms: [2.0, -3.0],
-        };
+        let contact = Contact { line: Vector3::z_axis(), arms: [2.0, -3.0] };
         let [a, b] = share_velocity(&contact, &Vector3::new(1.0, 1.0, 10.0), [Vector3::zeros(); 2]);
         assert_relative_eq!(a, Vector3::new(0.0, 0.0, 2.5));
         assert_relative_eq!(b, Vector3::new(0.0, 0.0, 5.0 / 3.0), max_relative = 1e-15);
@@ -217,32 +203,18 @@ mod tests {
     fn a_length_is_known_from_nothing_to_infinity() {
         assert_eq!(norm(&Vector3::zeros()), 0.0);
         assert_eq!(norm(&Vector3::new(0.0, f64::INFINITY, 1.0)), f64::INFINITY);
-        assert_relative_eq!(
-            norm(&Vector3::new(3e300, -4e300, 0.0)),
-            5e300,
-            max_relative = 1e-15
-        );
+        assert_relative_eq!(norm(&Vector3::new(3e300, -4e300, 0.0)), 5e300, max_relative = 1e-15);
         // A rod that nothing turns stays where it is.
-        assert_eq!(
-            turn(&Vector3::x_axis(), &Vector3::zeros(), 1.0),
-            (Vector3::x_axis(), 0.0)
-        );
+        assert_eq!(turn(&Vector3::x_axis(), &Vector3::zeros(), 1.0), (Vector3::x_axis(), 0.0));
     }
 
     #[test]
     fn a_step_of_the_angles_is_by_their_rates_but_at_the_pole() {
         let rate = Vector3::new(0.6, 0.0, 0.0);
-        assert_eq!(
-            step_angles(&Vector3::z_axis(), &rate, 0.5),
-            turn(&Vector3::z_axis(), &rate, 0.5)
-        );
+        assert_eq!(step_angles(&Vector3::z_axis(), &rate, 0.5), turn(&Vector3::z_axis(), &rate, 0.5));
         // By hand, where one of p_1 and p_2 is 0 and θ̇ = 0: φ̇ = −ṗ_1/sin θ at φ = 90°, ṗ_2/sin θ at φ = 0.
         for (phi, rate, phi_rate) in [
-            (
-                std::f64::consts::FRAC_PI_2,
-                Vector3::new(0.6, 0.0, 0.0),
-                -0.6 / 0.4f64.sin(),
-            ),
+            (std::f64::consts::FRAC_PI_2, Vector3::new(0.6, 0.0, 0.0), -0.6 / 0.4f64.sin()),
             (0.0, Vector3::new(0.0, 0.6, 0.0), 0.6 / 0.4f64.sin()),
         ] {
             let mut p = from_angles(phi, 0.4).into_inner();

@@ -32,10 +32,7 @@ pub fn contact(
     let square = normal.norm_squared();
     // x_A + r_A p_A + c ℓ = x_B + r_B p_B, solved by triple products: they keep their digits where the
     // rods are nearly parallel, and do not change sign with p → −p except through the arm itself.
-    let arms = [
-        separation.dot(&p_b.cross(&normal)) / square,
-        separation.dot(&p_a.cross(&normal)) / square,
-    ];
+    let arms = [separation.dot(&p_b.cross(&normal)) / square, separation.dot(&p_a.cross(&normal)) / square];
     let line = UnitVector3::try_new(normal, 0.0)?;
     let usable = |(r, min): (f64, f64)| r.is_finite() && r != 0.0 && r.abs() >= min;
     let all_usable = arms.into_iter().zip(min_arms).all(usable);
@@ -67,13 +64,7 @@ mod tests {
     #[test]
     fn a_contact_worked_by_hand() {
         // A along axis 1 through (0,0,0), B along axis 2 through (2,3,1): they pass at (2,0,·).
-        let found = contact(
-            &Vector3::new(2.0, 3.0, 1.0),
-            &Vector3::x(),
-            &Vector3::y(),
-            [0.0; 2],
-        )
-        .unwrap();
+        let found = contact(&Vector3::new(2.0, 3.0, 1.0), &Vector3::x(), &Vector3::y(), [0.0; 2]).unwrap();
         assert_eq!(found.line, Vector3::z_axis());
         assert_eq!(found.arms, [2.0, -3.0]);
     }
@@ -87,10 +78,7 @@ mod tests {
         assert!(none([2.0, 3.0, 1.0], &x, &minus_x, 0.0));
         assert!(none([0.0, 3.0, 1.0], &x, &y, 0.0), "arm of A is 0");
         assert!(none([2.0, 3.0, 1.0], &x, &y, 2.5));
-        assert!(
-            !none([2.0, 3.0, 1.0], &x, &y, 2.0),
-            "an arm equal to the bound is kept"
-        );
+        assert!(!none([2.0, 3.0, 1.0], &x, &y, 2.0), "an arm equal to the bound is kept");
         assert!(!none([f64::MIN_POSITIVE, 3.0, 1.0], &x, &y, 0.0));
     }
 }

@@ -258,11 +258,7 @@ impl Tally {
     /// The sums at a place of every output, of which each has `width`.
     pub(crate) fn column(&self, name: String, place: usize, width: usize) -> Column {
         let all = || (place..self.mean.len()).step_by(width);
-        Column {
-            name,
-            mean: all().map(|k| self.mean[k]).collect(),
-            se: all().map(|k| self.se(k)).collect(),
-        }
+        Column { name, mean: all().map(|k| self.mean[k]).collect(), se: all().map(|k| self.se(k)).collect() }
     }
 
     /// What the replicas in it come to.

@@ -80,10 +80,7 @@ mod tests {
     fn plane_couette_flow_is_recognised_and_only_it() {
         let flow = VelocityGradient::plane_couette(-0.5).unwrap();
         assert_eq!(flow.shear_rate_per_s(), Some(-0.5));
-        assert_eq!(
-            flow.per_s() * Vector3::new(2.0, 7.0, 7.0),
-            Vector3::new(0.0, -1.0, 0.0)
-        );
+        assert_eq!(flow.per_s() * Vector3::new(2.0, 7.0, 7.0), Vector3::new(0.0, -1.0, 0.0));
         let mut other = *flow.per_s();
         other[(0, 1)] = 1e-300;
         assert_eq!(VelocityGradient::new(other).unwrap().shear_rate_per_s(), None);

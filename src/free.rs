@@ -30,11 +30,7 @@ pub(crate) enum Way {
     Maps(Vec<Matrix3<f64>>),
     /// A propagator for each rod, or one where they are alike; spans to each output, the propagator that has their periods, and whether
     /// the starts are rounded from others, as random ones are not: they are the doubles that were drawn.
-    Each {
-        mean: Box<Propagator>,
-        spans: Vec<Span>,
-        rounded: bool,
-    },
+    Each { mean: Box<Propagator>, spans: Vec<Span>, rounded: bool },
 }
 
 impl FreeMotion {
@@ -71,10 +67,7 @@ impl FreeMotion {
             let mean = Box::new(Propagator::new(flow, r));
             let spans = self::spans(scene);
             let rounded = each || start.is_some();
-            return Ok(Self {
-                way: Way::Each { mean, spans, rounded },
-                error_rad,
-            });
+            return Ok(Self { way: Way::Each { mean, spans, rounded }, error_rad });
         }
         let (way, error_rad) = match start {
             Some(start) => {
@@ -118,13 +111,8 @@ fn at_each<T: Send>(
     // A scene in periods has been checked to have one.
     let all = all.unwrap_or_default();
     let worst = all.iter().map(|(_, error, of_start)| (*error, *of_start));
-    let (error, of_start) = worst.fold((0.0, 0.0), |worst, next| {
-        if next.0 > worst.0 || next.0.is_nan() {
-            next
-        } else {
-            worst
-        }
-    });
+    let (error, of_start) =
+        worst.fold((0.0, 0.0), |worst, next| if next.0 > worst.0 || next.0.is_nan() { next } else { worst });
     // An error that is no number is not known to be small.
     if error.is_nan() || error > MAX_ERROR_RAD {
         return Err(unknown(scene, error, of_start));

@@ -23,11 +23,7 @@ pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
     let maps = match plan.free().map(|free| &free.way) {
         None => [0, 0],
         Some(Way::Each { spans, .. }) => {
-            let each = if plan.keeps(Stage::AspectRatios) {
-                size_of::<Propagator>()
-            } else {
-                0
-            };
+            let each = if plan.keeps(Stage::AspectRatios) { size_of::<Propagator>() } else { 0 };
             [each, size_of_val(&spans[..])]
         }
         Some(Way::Maps(maps)) => [0, size_of_val(&maps[..])],

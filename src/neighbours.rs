@@ -84,9 +84,7 @@ mod tests {
             .map(|other| Nearest {
                 rod: rod as u32,
                 other: other as u32,
-                square: (0..3)
-                    .map(|k| (positions[k][other] - positions[k][rod]).powi(2))
-                    .sum::<f64>(),
+                square: (0..3).map(|k| (positions[k][other] - positions[k][rod]).powi(2)).sum::<f64>(),
             })
             .filter(|nearest| nearest.square < reach * reach)
             .min_by(|a, b| a.square.total_cmp(&b.square).then(a.other.cmp(&b.other)))
@@ -108,10 +106,7 @@ mod tests {
     }
 
     fn searches(sides: [f64; 3], count: usize) -> [Search; 2] {
-        [
-            Search::Pairs(Pairs::new(sides)),
-            Search::Grid(Grid::new(sides, count)),
-        ]
+        [Search::Pairs(Pairs::new(sides)), Search::Grid(Grid::new(sides, count))]
     }
 
     proptest! {
@@ -152,22 +147,15 @@ mod tests {
         let positions = volume.draw_positions(count, &stream(crate::random::Purpose::Positions));
         let mut reach = vec![0.0; count];
         crate::random::fill_uniform(&mut stream(crate::random::Purpose::Collisions), &mut reach);
-        reach
-            .iter_mut()
-            .for_each(|reach| *reach = reach.powi(-2) / 4.0 - 0.25);
+        reach.iter_mut().for_each(|reach| *reach = reach.powi(-2) / 4.0 - 0.25);
         let on = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new()
-                .num_threads(threads)
-                .build()
-                .unwrap();
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| found(Search::Grid(Grid::new(volume.sides(), count)), &positions, &reach))
         };
         let all = on(3);
         assert_eq!(all, on(1));
         for rod in (0..count).step_by(997) {
-            let own = all
-                .binary_search_by_key(&(rod as u32), |nearest| nearest.rod)
-                .ok();
+            let own = all.binary_search_by_key(&(rod as u32), |nearest| nearest.rod).ok();
             assert_eq!(own.map(|k| all[k]), brute(&positions, rod, reach[rod]));
         }
     }
@@ -193,10 +181,7 @@ mod tests {
                 points.reverse();
             }
             let positions: [Vec<f64>; 3] = std::array::from_fn(|k| points.iter().map(|p| p[k]).collect());
-            let reach = points
-                .iter()
-                .map(|p| if p[0] == 0.5 { 0.2 } else { 0.0 })
-                .collect::<Vec<_>>();
+            let reach = points.iter().map(|p| if p[0] == 0.5 { 0.2 } else { 0.0 }).collect::<Vec<_>>();
             let all = found(Search::Grid(Grid::new([10.0; 3], 1000)), &positions, &reach);
             let pairs: Vec<_> = all.iter().map(|nearest| (nearest.rod, nearest.other)).collect();
             assert_eq!(pairs, [(0, 6), (6, 0)]);
@@ -208,9 +193,8 @@ mod tests {
         let side = 10.0;
         let last = side - 1e-9;
         // Eight corners, and a partner for each a tenth away along axis 1, 2 or 3.
-        let corners: Vec<[f64; 3]> = (0..8)
-            .map(|k| [k & 1, k & 2, k & 4].map(|bit| if bit > 0 { last } else { 0.0 }))
-            .collect();
+        let corners: Vec<[f64; 3]> =
+            (0..8).map(|k| [k & 1, k & 2, k & 4].map(|bit| if bit > 0 { last } else { 0.0 })).collect();
         for axis in 0..3 {
             let mut points = corners.clone();
             points.extend(corners.iter().map(|corner| {

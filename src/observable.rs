@@ -36,12 +36,7 @@ pub struct Block {
 
 impl Default for Block {
     fn default() -> Self {
-        Self {
-            p: [[0.0; BLOCK]; 3],
-            aspect_ratio: [1.0; BLOCK],
-            weight: [1.0; BLOCK],
-            len: 0,
-        }
+        Self { p: [[0.0; BLOCK]; 3], aspect_ratio: [1.0; BLOCK], weight: [1.0; BLOCK], len: 0 }
     }
 }
 
@@ -202,12 +197,10 @@ impl Observable {
             Self::ParticleStress => {
                 let weight = &block.weight;
                 sums[0].add_each(block.len, |i| weight[i] * (p1[i] * p2[i]).powi(2));
-                sums[1].add_each(block.len, |i| {
-                    weight[i] * (p1[i] * p2[i] * (p2[i] * p2[i] - p1[i] * p1[i]))
-                });
-                sums[2].add_each(block.len, |i| {
-                    weight[i] * (p1[i] * p2[i] * (p1[i] * p1[i] - p3[i] * p3[i]))
-                });
+                sums[1]
+                    .add_each(block.len, |i| weight[i] * (p1[i] * p2[i] * (p2[i] * p2[i] - p1[i] * p1[i])));
+                sums[2]
+                    .add_each(block.len, |i| weight[i] * (p1[i] * p2[i] * (p1[i] * p1[i] - p3[i] * p3[i])));
             }
         }
     }

@@ -37,11 +37,7 @@ pub fn isotropic(r4: f64, r5: f64) -> UnitVector3<f64> {
     // sin θ without the cancellation of 1 − cos²θ near the poles.
     let sin_theta = 2.0 * (r5 * (1.0 - r5)).sqrt();
     let (sin_phi, cos_phi) = libm::sincos(std::f64::consts::TAU * r4);
-    UnitVector3::new_normalize(Vector3::new(
-        sin_theta * cos_phi,
-        sin_theta * sin_phi,
-        1.0 - 2.0 * r5,
-    ))
+    UnitVector3::new_normalize(Vector3::new(sin_theta * cos_phi, sin_theta * sin_phi, 1.0 - 2.0 * r5))
 }
 
 /// The angles (φ, θ) in radians, φ in (−π, π] and θ in [0, π].

@@ -59,11 +59,7 @@ pub fn observe(plan: &Plan, own: &impl OwnObservable) -> Result<Vec<Column>, Run
         }
         Ok(())
     })?;
-    Ok(names
-        .into_iter()
-        .enumerate()
-        .map(|(place, name)| tally.column(name, place, width))
-        .collect())
+    Ok(names.into_iter().enumerate().map(|(place, name)| tally.column(name, place, width)).collect())
 }
 
 /// The sums of one replica, output by output.
@@ -78,10 +74,7 @@ fn one(plan: &Plan, own: &impl OwnObservable, names: &[String], replica: u64) ->
             for ((sum, value), name) in here.iter_mut().zip(&values).zip(names) {
                 if !value.is_finite() {
                     let cause = format!("its {name} came out as {value}");
-                    let fault = Fault {
-                        rod: Some(rod),
-                        cause,
-                    };
+                    let fault = Fault { rod: Some(rod), cause };
                     return Err(refused(plan, replica, first, output, fault));
                 }
                 sum.add_one(*value);

@@ -63,12 +63,7 @@ impl Plan {
     /// The first value, or combination of values, that is not allowed.
     pub fn new(scene: &Scene) -> Result<Self, Invalid> {
         let (flow, free) = scene.checked()?;
-        Ok(Self {
-            scene: scene.clone(),
-            flow,
-            free: free.map(Arc::new),
-            entries: entries(scene),
-        })
+        Ok(Self { scene: scene.clone(), flow, free: free.map(Arc::new), entries: entries(scene) })
     }
 
     /// The same plan with `stage`, and what it needs, kept although the scene does not need it: for tests
@@ -79,12 +74,9 @@ impl Plan {
             Stage::Translation => &[Stage::Positions],
             Stage::Neighbours => &[Stage::Translation, Stage::Positions],
             Stage::CollisionDraws => &[Stage::Translation, Stage::Positions],
-            Stage::Contacts => &[
-                Stage::CollisionDraws,
-                Stage::Neighbours,
-                Stage::Translation,
-                Stage::Positions,
-            ],
+            Stage::Contacts => {
+                &[Stage::CollisionDraws, Stage::Neighbours, Stage::Translation, Stage::Positions]
+            }
             _ => &[],
         };
         let in_volume = stage == Stage::Positions || !needs.is_empty();
@@ -128,9 +120,7 @@ impl Plan {
 
     /// Whether a stage runs.
     pub fn keeps(&self, stage: Stage) -> bool {
-        self.entries
-            .iter()
-            .any(|entry| entry.stage == stage && entry.kept)
+        self.entries.iter().any(|entry| entry.stage == stage && entry.kept)
     }
 
     /// The observables to compute, in the order of the scene.
@@ -150,20 +140,12 @@ impl Plan {
 
     /// The number of time steps; 0 where the exact motion goes straight to each output.
     pub fn steps(&self) -> u64 {
-        if self.keeps(Stage::Translation) {
-            (self.outputs() as u64 - 1) * self.ticks_per_output()
-        } else {
-            0
-        }
+        if self.keeps(Stage::Translation) { (self.outputs() as u64 - 1) * self.ticks_per_output() } else { 0 }
     }
 
     /// The name of the time column: `t_over_T`, or `strain` where the scene's time is a strain.
     pub fn time_name(&self) -> &'static str {
-        if self.scene.time.strain.is_some() {
-            "strain"
-        } else {
-            "t_over_T"
-        }
+        if self.scene.time.strain.is_some() { "strain" } else { "t_over_T" }
     }
 
     /// The seconds, and the shear strain ∫(2D:D)^½ dt, of one unit of [`Plan::times`].
@@ -197,12 +179,8 @@ impl Plan {
 
     pub(crate) fn clock(&self) -> Clock {
         match self.scene.time.strain {
-            Some(_) => Clock::Strain {
-                ticks: self.scene.outputs_per_strain(),
-            },
-            None => Clock::Periods {
-                ticks: self.scene.outputs_per_period() * self.ticks_per_output(),
-            },
+            Some(_) => Clock::Strain { ticks: self.scene.outputs_per_strain() },
+            None => Clock::Periods { ticks: self.scene.outputs_per_period() * self.ticks_per_output() },
         }
     }
 

@@ -36,9 +36,7 @@ pub enum Purpose {
 pub fn stream(seed: u64, replica: u64, purpose: Purpose) -> Pcg64Dxsm {
     let key = [replica, purpose as u64]
         .iter()
-        .fold(mix(seed.wrapping_add(GOLDEN)), |key, word| {
-            mix((key ^ word).wrapping_add(GOLDEN))
-        });
+        .fold(mix(seed.wrapping_add(GOLDEN)), |key, word| mix((key ^ word).wrapping_add(GOLDEN)));
     let mut bytes = [0; 32];
     for (k, word) in bytes.chunks_exact_mut(8).enumerate() {
         let step = GOLDEN.wrapping_mul(k as u64 + 1);

@@ -93,12 +93,7 @@ impl Placed {
     pub(crate) fn suspension(self, plan: &Plan, replica: u64) -> Option<Suspension> {
         let mut suspension = Suspension::new(plan, replica)?;
         let rng = |purpose, drawn: u128| ahead(&stream(plan.scene().ensemble.seed, replica, purpose), drawn);
-        let Self {
-            counters,
-            directions,
-            since,
-            positions,
-        } = self;
+        let Self { counters, directions, since, positions } = self;
         if let Some(draws) = &mut suspension.draws {
             *draws = rng(Purpose::Collisions, counters.draws.into());
         }
@@ -120,11 +115,7 @@ impl Placed {
             return Err("its outputs are not those of its steps");
         }
         let most = tick.saturating_mul(count as u64);
-        let drawn = if plan.keeps(Stage::CollisionDraws) {
-            most
-        } else {
-            0
-        };
+        let drawn = if plan.keeps(Stage::CollisionDraws) { most } else { 0 };
         if self.counters.draws != drawn || self.counters.replacements > most {
             return Err("it has drawn other numbers than its steps draw");
         }
@@ -141,10 +132,7 @@ impl Placed {
         if self.since.iter().any(|since| u64::from(*since) > tick) {
             return Err("a collision in it has yet to come");
         }
-        let sides = plan
-            .scene()
-            .volume()
-            .map_or([f64::INFINITY; 3], |volume| volume.sides());
+        let sides = plan.scene().volume().map_or([f64::INFINITY; 3], |volume| volume.sides());
         let within = |(axis, side): (&Vec<f64>, f64)| axis.iter().all(|x| (0.0..=side).contains(x));
         if !self.positions.iter().zip(sides).all(within) {
             return Err("a position in it is outside the control volume");
@@ -157,11 +145,6 @@ impl Suspension {
     /// Its rods, to be kept.
     pub(crate) fn placed(&self) -> Placed {
         let (directions, since) = self.rods.kept();
-        Placed {
-            counters: self.counters,
-            directions,
-            since,
-            positions: self.positions.clone(),
-        }
+        Placed { counters: self.counters, directions, since, positions: self.positions.clone() }
     }
 }

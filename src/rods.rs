@@ -46,10 +46,7 @@ enum Motion {
     /// Anything else where rods meet: the map q = M p of one step, for each rod or one for all.
     Steps(Vec<Matrix3<f64>>),
     /// Anything else as the plan has it; where rods are moved one by one with a propagator for each, or one for all.
-    Free {
-        motion: Arc<FreeMotion>,
-        propagators: Vec<Propagator>,
-    },
+    Free { motion: Arc<FreeMotion>, propagators: Vec<Propagator> },
 }
 
 impl Rods {
@@ -58,11 +55,8 @@ impl Rods {
         let (shapes, aspect_ratios_redrawn) = draw_shapes(plan, replica);
         let (lengths, lengths_redrawn) = draw_lengths(plan, replica);
         let motion = choose_motion(plan, &shapes);
-        let since = if plan.keeps(Stage::Contacts) {
-            vec![0; plan.scene().particles.count]
-        } else {
-            Vec::new()
-        };
+        let since =
+            if plan.keeps(Stage::Contacts) { vec![0; plan.scene().particles.count] } else { Vec::new() };
         let rods = Self {
             p: draw_directions(plan, replica),
             since,
@@ -71,11 +65,7 @@ impl Rods {
             lengths,
             motion,
         };
-        let counters = Counters {
-            aspect_ratios_redrawn,
-            lengths_redrawn,
-            ..Counters::default()
-        };
+        let counters = Counters { aspect_ratios_redrawn, lengths_redrawn, ..Counters::default() };
         (rods, counters)
     }
 
@@ -146,13 +136,7 @@ impl Rods {
 
     /// Moves the rods over the step from `tick` on that no collision has moved, where the motion goes by steps.
     pub fn advance(&mut self, tick: u64) {
-        let Self {
-            p,
-            since,
-            motion: Motion::Steps(maps),
-            ..
-        } = self
-        else {
+        let Self { p, since, motion: Motion::Steps(maps), .. } = self else {
             return;
         };
         over_chunks(p, |chunk, [p1, p2, p3]| {
@@ -190,9 +174,7 @@ impl Rods {
                 block.turn(from, |_, p, _| couette(p, *r, phase));
             }
             (Motion::Couette(clock), shapes) if self.since.is_empty() => {
-                block.turn(from, |_, p, r| {
-                    couette(p, r, clock.phase(tick as f64, clock.periods(shapes, r)))
-                });
+                block.turn(from, |_, p, r| couette(p, r, clock.phase(tick as f64, clock.periods(shapes, r))));
             }
             (Motion::Couette(clock), shapes) => {
                 let mut elapsed = [0.0; BLOCK];
@@ -200,9 +182,7 @@ impl Rods {
                     // At most 10⁹ steps, and none ahead of the present.
                     *elapsed = f64::from((tick as u32).wrapping_sub(*since) as i32);
                 }
-                block.turn(from, |k, p, r| {
-                    couette(p, r, clock.phase(elapsed[k], clock.periods(shapes, r)))
-                });
+                block.turn(from, |k, p, r| couette(p, r, clock.phase(elapsed[k], clock.periods(shapes, r))));
             }
             (Motion::Steps(_), _) => block.turn(from, |_, p, _| p),
             (Motion::Free { motion, propagators }, _) => match &motion.way {
@@ -238,10 +218,7 @@ impl Rods {
                         [f64::NAN; 3]
                     });
                     if let Some((rod, r, error, of_start)) = unknown.get() {
-                        return Err(Fault {
-                            rod: Some(rod),
-                            cause: refused_direction(r, error, of_start),
-                        });
+                        return Err(Fault { rod: Some(rod), cause: refused_direction(r, error, of_start) });
                     }
                 }
             },

@@ -123,9 +123,7 @@ fn straight(
     let (rods, counters) = Rods::draw(plan, replica);
     for first in (recorder.done..plan.outputs()).step_by(OUTPUTS) {
         let outputs = first..plan.outputs().min(first + OUTPUTS);
-        recorder.record(outputs, |first, output, block| {
-            rods.orient(first, output as u64, block)
-        })?;
+        recorder.record(outputs, |first, output, block| rods.orient(first, output as u64, block))?;
         look(&|| recorder.halfway(None));
     }
     let asked = plan.rods_outputs().into_iter();
@@ -155,9 +153,7 @@ fn stepped(
             look(&|| recorder.halfway(Some(suspension.placed())));
         }
         let (rods, tick) = (&suspension.rods, suspension.tick());
-        recorder.record(output..output + 1, |first, _, block| {
-            rods.orient(first, tick, block)
-        })?;
+        recorder.record(output..output + 1, |first, _, block| rods.orient(first, tick, block))?;
         if asked.contains(&output) {
             let snapshot = Snapshot::of_suspension(&suspension, recorder.replica, output);
             let snapshot = snapshot.map_err(|fault| recorder.refused(0, output, fault))?;

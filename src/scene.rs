@@ -72,11 +72,7 @@ pub struct Flow {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_rate_per_s: Option<f64>,
     /// Row i and column j hold ∂u_i/∂x_j.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "three_by_three"
-    )]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "three_by_three")]
     pub gradient_per_s: Option<[[f64; 3]; 3]>,
 }
 
@@ -110,11 +106,7 @@ pub struct Interaction {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub concentration_per_cm3: Option<f64>,
     /// H₁, H₂ and H₃, the sides of the control volume (eqs 12 and 14); without them it is a cube.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "three_numbers"
-    )]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "three_numbers")]
     pub box_mm: Option<[f64; 3]>,
     /// α of eq. 7; 0 means that no rods collide.
     pub alpha: f64,
@@ -202,10 +194,7 @@ impl Default for Scene {
             flow: Flow::default(),
             particles: Particles::default(),
             interaction: None,
-            time: Time {
-                periods: Some(1.0),
-                ..Time::default()
-            },
+            time: Time { periods: Some(1.0), ..Time::default() },
             ensemble: Ensemble::default(),
             output: Output::default(),
         }
@@ -215,10 +204,7 @@ impl Default for Scene {
 /// G = 0.5 1/s.
 impl Default for Flow {
     fn default() -> Self {
-        Self {
-            shear_rate_per_s: Some(0.5),
-            gradient_per_s: None,
-        }
+        Self { shear_rate_per_s: Some(0.5), gradient_per_s: None }
     }
 }
 
@@ -261,10 +247,7 @@ pub struct Output {
 
 impl Default for Output {
     fn default() -> Self {
-        Self {
-            observables: vec![Observable::Projections],
-            rods_at: Vec::new(),
-        }
+        Self { observables: vec![Observable::Projections], rods_at: Vec::new() }
     }
 }
 
@@ -308,10 +291,7 @@ impl Scene {
     /// Gives the control volume so many rods at the same concentration: a box grows or shrinks in proportion.
     pub fn set_count(&mut self, count: usize) {
         let grown = libm::cbrt(count as f64 / self.particles.count as f64);
-        if let Some(Interaction {
-            box_mm: Some(sides), ..
-        }) = &mut self.interaction
-        {
+        if let Some(Interaction { box_mm: Some(sides), .. }) = &mut self.interaction {
             *sides = sides.map(|side| side * grown);
         }
         self.particles.count = count;
@@ -332,10 +312,7 @@ impl Scene {
     pub(crate) fn volume(&self) -> Option<ControlVolume> {
         match self.box_mm() {
             Some(sides) => Some(ControlVolume::of(sides.map(|mm| mm / self.particles.length_mm))),
-            None => Some(ControlVolume::holding(
-                self.particles.count,
-                self.concentration()?,
-            )),
+            None => Some(ControlVolume::holding(self.particles.count, self.concentration()?)),
         }
     }
 

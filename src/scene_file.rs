@@ -62,14 +62,8 @@ pub fn parse(file: &str, text: &str) -> Result<Scene, SceneError> {
     let lines = Lines::of(text);
     read(&lines, text).map_err(|mut found| {
         found.sort();
-        let problem = |(offset, message)| Problem {
-            line: lines.number(offset),
-            message,
-        };
-        SceneError {
-            file: file.to_owned(),
-            problems: found.into_iter().map(problem).collect(),
-        }
+        let problem = |(offset, message)| Problem { line: lines.number(offset), message };
+        SceneError { file: file.to_owned(), problems: found.into_iter().map(problem).collect() }
     })
 }
 
@@ -212,9 +206,7 @@ fn missing(keys: &[Key], meant: &[&str]) -> Vec<Found> {
             _ => has(table).filter(|key| key.is_table).map(|key| key.span.start),
         };
         let lacks = |key: &&scene::Key| has(key.path).is_none() && !meant.contains(&key.path);
-        for (at, key) in at
-            .into_iter()
-            .flat_map(|at| required(table).filter(lacks).map(move |key| (at, key)))
+        for (at, key) in at.into_iter().flat_map(|at| required(table).filter(lacks).map(move |key| (at, key)))
         {
             found.push((at, format!("{} is missing: {}", key.path, key.holds)));
         }
@@ -226,10 +218,7 @@ fn missing(keys: &[Key], meant: &[&str]) -> Vec<Found> {
 fn one_shape(keys: &[Key], meant: &[&str]) -> Option<Found> {
     let has = |path: &str| keys.iter().find(|key| key.path == path);
     let particles = has("particles").filter(|key| key.is_table)?;
-    match (
-        has("particles.aspect_ratio"),
-        has("particles.physical_aspect_ratio"),
-    ) {
+    match (has("particles.aspect_ratio"), has("particles.physical_aspect_ratio")) {
         (Some(given), Some(_)) => {
             let message = format!(
                 "particles.aspect_ratio = {} is not allowed: either aspect_ratio or physical_aspect_ratio, not both",
@@ -253,23 +242,14 @@ fn one_start(keys: &[Key], meant: &[&str]) -> Option<Found> {
     const START: [&str; 2] = ["particles.orientation", "particles.rods"];
     let has = |path: &str| keys.iter().find(|key| key.path == path);
     let particles = has("particles").filter(|key| key.is_table)?;
-    let given = START
-        .iter()
-        .any(|path| has(path).is_some() || meant.contains(path));
+    let given = START.iter().any(|path| has(path).is_some() || meant.contains(path));
     let allowed = find(START[0])?.holds;
-    (!given).then(|| {
-        (
-            particles.span.start,
-            format!("{} is missing: {allowed}", START[0]),
-        )
-    })
+    (!given).then(|| (particles.span.start, format!("{} is missing: {allowed}", START[0])))
 }
 
 /// What is known in place of an unknown key.
 fn unknown(path: &str) -> String {
-    let known = paths(&KEYS)
-        .chain(paths(&TABLES))
-        .filter(|key| table(key) == table(path));
+    let known = paths(&KEYS).chain(paths(&TABLES)).filter(|key| table(key) == table(path));
     let known: Vec<_> = known.map(|key| format!("`{}`", last(key))).collect();
     let expected = match known.as_slice() {
         [one, other] => format!("{one} or {other}"),
@@ -277,17 +257,10 @@ fn unknown(path: &str) -> String {
     };
     let meant = nearest(path).map_or(String::new(), |key| {
         let misplaced = table(key).is_empty() && !table(path).is_empty();
-        let place = if misplaced {
-            ", which comes before all tables"
-        } else {
-            ""
-        };
+        let place = if misplaced { ", which comes before all tables" } else { "" };
         format!("; did you mean {key}{place}?")
     });
-    format!(
-        "unknown key `{}`, expected {expected}{meant}",
-        shortened(last(path))
-    )
+    format!("unknown key `{}`, expected {expected}{meant}", shortened(last(path)))
 }
 
 /// The key or table that an unknown one may stand for, by its last word.

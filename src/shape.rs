@@ -109,10 +109,7 @@ impl Formula {
 
 /// The least and the greatest r_e that the formulas give; none where none of them gives one.
 pub fn spread(r: f64) -> Option<(f64, f64)> {
-    let values: Vec<f64> = FORMULAS
-        .iter()
-        .filter_map(|formula| formula.equivalent(r))
-        .collect();
+    let values: Vec<f64> = FORMULAS.iter().filter_map(|formula| formula.equivalent(r)).collect();
     let least = values.iter().copied().reduce(f64::min)?;
     Some((least, values.iter().copied().fold(least, f64::max)))
 }
@@ -136,17 +133,9 @@ mod tests {
     #[test]
     fn a_correlation_is_the_formula_of_its_name() {
         for (correlation, formula, name) in [
-            (
-                Correlation::GoldsmithMason,
-                "Goldsmith & Mason 1967",
-                "goldsmith-mason",
-            ),
+            (Correlation::GoldsmithMason, "Goldsmith & Mason 1967", "goldsmith-mason"),
             (Correlation::Cox, "Cox 1971", "cox"),
-            (
-                Correlation::HarrisPittman,
-                "Harris & Pittman 1975",
-                "harris-pittman",
-            ),
+            (Correlation::HarrisPittman, "Harris & Pittman 1975", "harris-pittman"),
             (Correlation::Zhang, "Zhang et al. 2011", "zhang"),
         ] {
             assert_eq!((correlation.formula().name, correlation.name()), (formula, name));

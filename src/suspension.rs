@@ -112,10 +112,7 @@ impl Suspension {
     /// The state of one replica at t = 0. `None` for a plan that takes no steps.
     pub fn new(plan: &Plan, replica: u64) -> Option<Self> {
         let scene = plan.scene();
-        let interaction = scene
-            .interaction
-            .as_ref()
-            .filter(|_| plan.keeps(Stage::Translation))?;
+        let interaction = scene.interaction.as_ref().filter(|_| plan.keeps(Stage::Translation))?;
         let (rods, counters) = Rods::draw(plan, replica);
         let count = rods.count();
         let volume = scene.volume()?;
@@ -131,20 +128,12 @@ impl Suspension {
             },
             sides: volume.sides(),
             liquid,
-            neighbours: plan
-                .keeps(Stage::Neighbours)
-                .then(|| Neighbours::new(volume.sides(), count)),
-            draws: plan
-                .keeps(Stage::CollisionDraws)
-                .then(|| rng(Purpose::Collisions)),
+            neighbours: plan.keeps(Stage::Neighbours).then(|| Neighbours::new(volume.sides(), count)),
+            draws: plan.keeps(Stage::CollisionDraws).then(|| rng(Purpose::Collisions)),
             replacements: rng(Purpose::Replacements),
             contacts: plan.keeps(Stage::Contacts),
             reach: Reach::new(interaction.alpha, interaction.m),
-            rule: Rule {
-                update: interaction.update,
-                min_arm: interaction.min_contact_arm,
-                step,
-            },
+            rule: Rule { update: interaction.update, min_arm: interaction.min_contact_arm, step },
             tick: 0,
             drawn: Vec::new(),
             candidates: Vec::new(),
@@ -243,9 +232,7 @@ impl Suspension {
 
     /// Whether neither rod has collided in this step.
     fn both_free(&self, a: u32, b: u32) -> bool {
-        ![a, b]
-            .iter()
-            .any(|&rod| self.rods.turned_after(rod as usize, self.tick))
+        ![a, b].iter().any(|&rod| self.rods.turned_after(rod as usize, self.tick))
     }
 
     /// Where a collision would leave both rods, and the contact's arms; `None` without a contact.
@@ -291,11 +278,7 @@ impl Suspension {
             }
             self.rods.set(rods[k], end, self.tick + 1);
         }
-        self.collisions.push(Collision {
-            rods,
-            angles_rad: turns.angles_rad,
-            kicks_rad: turns.kicks_rad,
-        });
+        self.collisions.push(Collision { rods, angles_rad: turns.angles_rad, kicks_rad: turns.kicks_rad });
         Ok(())
     }
 
@@ -310,10 +293,6 @@ impl Suspension {
     }
 
     fn position(&self, rod: usize) -> Vector3<f64> {
-        Vector3::new(
-            self.positions[0][rod],
-            self.positions[1][rod],
-            self.positions[2][rod],
-        )
+        Vector3::new(self.positions[0][rod], self.positions[1][rod], self.positions[2][rod])
     }
 }

@@ -42,11 +42,7 @@ impl ControlVolume {
 
     /// How often the liquid would cross the volume in a unit of time, along the axis where that is most often.
     pub(crate) fn crossings(&self, gradient: &Matrix3<f64>) -> f64 {
-        let along = |k: usize| {
-            (0..3)
-                .map(|j| gradient[(k, j)].abs() * (self.sides[j] / self.sides[k]))
-                .sum()
-        };
+        let along = |k: usize| (0..3).map(|j| gradient[(k, j)].abs() * (self.sides[j] / self.sides[k])).sum();
         (0..3).map(along).fold(0.0, f64::max)
     }
 
@@ -72,12 +68,8 @@ impl ControlVolume {
 
     /// Positions of rods at these places, in units of `length`; what rounding puts beyond a face is at it.
     pub fn within(&self, places: &[Vec<f64>; 3], length: f64) -> [Vec<f64>; 3] {
-        let axis = |axis: usize| {
-            places[axis]
-                .iter()
-                .map(move |x| (x / length).min(self.sides[axis]))
-                .collect()
-        };
+        let axis =
+            |axis: usize| places[axis].iter().map(move |x| (x / length).min(self.sides[axis])).collect();
         std::array::from_fn(axis)
     }
 
@@ -86,9 +78,7 @@ impl ControlVolume {
     /// text's second coordinate read as x_3). Returns how many were replaced.
     pub fn advance(&self, positions: &mut [Vec<f64>; 3], strain: f64, sign: f64, rng: &mut Pcg64Dxsm) -> u64 {
         let carry = |[x1, x2, _]: [&mut [f64]; 3]| self.carry(x1, x2, sign * strain);
-        advance(positions, COUETTE_NUMBERS, rng, carry, |axes, rng| {
-            self.replace(axes, rng)
-        })
+        advance(positions, COUETTE_NUMBERS, rng, carry, |axes, rng| self.replace(axes, rng))
     }
 
     /// Moves rods along axis 2, and counts those that are outside then.
@@ -167,9 +157,7 @@ mod tests {
         let (mut one, mut many) = (start.clone(), start);
         for _ in 0..2 {
             let replaced = volume.advance(&mut all, 0.3, 1.0, &mut many);
-            let each = parts
-                .iter_mut()
-                .map(|part| volume.advance(part, 0.3, 1.0, &mut one));
+            let each = parts.iter_mut().map(|part| volume.advance(part, 0.3, 1.0, &mut one));
             assert_eq!(replaced, each.sum::<u64>());
         }
         for (axis, all) in all.iter().enumerate() {
@@ -179,23 +167,13 @@ mod tests {
 
     #[test]
     fn rods_that_leave_come_back_inside_and_the_others_only_move() {
-        let volumes = [
-            ControlVolume::holding(1000, 1.0),
-            ControlVolume::of([20.0, 10.0, 5.0]),
-        ];
-        for (volume, sign) in volumes
-            .into_iter()
-            .flat_map(|volume| [(volume, 1.0), (volume, -1.0)])
-        {
+        let volumes = [ControlVolume::holding(1000, 1.0), ControlVolume::of([20.0, 10.0, 5.0])];
+        for (volume, sign) in volumes.into_iter().flat_map(|volume| [(volume, 1.0), (volume, -1.0)]) {
             let sides = volume.sides();
             let mut positions = volume.draw_positions(1000, &stream(3, 0, Purpose::Positions));
             let before = positions.clone();
-            let replaced = volume.advance(
-                &mut positions,
-                0.3,
-                sign,
-                &mut stream(3, 0, Purpose::Replacements),
-            );
+            let replaced =
+                volume.advance(&mut positions, 0.3, sign, &mut stream(3, 0, Purpose::Replacements));
             let mut changed = 0;
             for rod in 0..1000 {
                 let moved = before[1][rod] + sign * 0.3 * before[0][rod];

@@ -34,10 +34,7 @@ fn apart(one: &Results, other: &Results) -> f64 {
     };
     let (one, other) = (columns(one), columns(other));
     assert_eq!(one.len(), other.len());
-    one.iter()
-        .zip(&other)
-        .map(|(one, other)| (one - other).abs())
-        .fold(0.0, f64::max)
+    one.iter().zip(&other).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
 }
 
 /// Rods that could meet, and do not, are moved step by step to where free rods are at once.
@@ -68,10 +65,7 @@ fn many_unequal_rods_that_do_not_meet_are_free() {
     let [free, stepped] = [0.0, 1e-300].map(|alpha| run(&scene_file::parse("s.toml", &text(alpha)).unwrap()));
     assert_eq!((free.counters.steps, stepped.counters.collisions), (0, 0));
     for (free, stepped) in free.snapshots[0].p.iter().zip(&stepped.snapshots[0].p) {
-        let off = free
-            .iter()
-            .zip(stepped)
-            .map(|(free, stepped)| (free - stepped).abs());
+        let off = free.iter().zip(stepped).map(|(free, stepped)| (free - stepped).abs());
         assert!(off.fold(0.0, f64::max) < 1e-13);
     }
 }
@@ -136,26 +130,14 @@ fn bits_do_not_depend_on_stops_or_threads() {
     let plan = Plan::new(&scene).unwrap();
     let mut kept = Vec::new();
     let whole = go_on(&plan, 0, None, |state| kept.push(state())).unwrap();
-    assert!(
-        whole.counters.collisions > 20 && kept.len() == 20,
-        "{:?}",
-        whole.counters
-    );
+    assert!(whole.counters.collisions > 20 && kept.len() == 20, "{:?}", whole.counters);
     for state in kept {
         assert_eq!(go_on(&plan, 0, Some(state), |_| ()).unwrap(), whole);
     }
-    let many = self::scene(
-        EXTENSION,
-        "count = 150000\naspect_ratio = 11.6",
-        0.5,
-        "strain = 0.3",
-    );
+    let many = self::scene(EXTENSION, "count = 150000\naspect_ratio = 11.6", 0.5, "strain = 0.3");
     let plan = Plan::new(&many).unwrap();
     let on = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| run_replica(&plan, 0).unwrap())
     };
     let all = on(3);
@@ -195,9 +177,7 @@ fn what_cannot_be_stepped_is_refused() {
     let in_box = |sides: &str| {
         let text = text(GENERAL, rods, 0.5, "strain = 1")
             .replace("concentration_per_cm3 = 1000", &format!("box_mm = {sides}"));
-        scene_file::parse("s.toml", &text)
-            .map(|_| ())
-            .map_err(|refused| refused.to_string())
+        scene_file::parse("s.toml", &text).map(|_| ()).map_err(|refused| refused.to_string())
     };
     let refused = in_box("[1e103, 1e103, 1e103]").unwrap_err();
     assert!(
@@ -235,11 +215,7 @@ fn what_cannot_be_stepped_is_refused() {
             "strain = 1\nsteps_per_strain = 10",
             "time.steps_per_strain = 10 is not allowed: at least 89, in which the liquid's gradient is resolved",
         ),
-        (
-            ELLIPTIC,
-            "periods = 1\nsteps_per_period = 1",
-            "is not allowed: at least 2, in which",
-        ),
+        (ELLIPTIC, "periods = 1\nsteps_per_period = 1", "is not allowed: at least 2, in which"),
         (
             EXTENSION,
             "strain = 1e4\nsteps_per_strain = 200000",

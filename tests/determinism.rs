@@ -37,26 +37,17 @@ fn plan(replicas: u64, seed: u64) -> Plan {
 /// Means and standard errors of every channel, bit by bit.
 fn bits(results: &Results) -> Vec<u64> {
     let channels = results.series.iter().flat_map(|series| &series.columns);
-    channels
-        .flat_map(|channel| channel.mean.iter().chain(&channel.se))
-        .map(|value| value.to_bits())
-        .collect()
+    channels.flat_map(|channel| channel.mean.iter().chain(&channel.se)).map(|value| value.to_bits()).collect()
 }
 
 fn run_on(threads: usize, plan: &Plan) -> Results {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .unwrap();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     pool.install(|| ensemble::run(plan).unwrap())
 }
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
-    let free = Scene {
-        interaction: None,
-        ..scene(9, 1)
-    };
+    let free = Scene { interaction: None, ..scene(9, 1) };
     for plan in [plan(9, 1), Plan::new(&free).unwrap()] {
         let one = run_on(1, &plan);
         for threads in [2, 3, 7] {
@@ -81,11 +72,7 @@ fn a_large_run_gives_the_same_bits_on_any_number_of_threads() {
         }
         Plan::new(&scene).unwrap()
     };
-    for plan in [
-        large(0.03, true, 3.6),
-        large(0.8, false, 0.0),
-        large(0.03, false, 3.6),
-    ] {
+    for plan in [large(0.03, true, 3.6), large(0.8, false, 0.0), large(0.03, false, 3.6)] {
         let one = run_on(1, &plan);
         for threads in [2, 3] {
             let more = run_on(threads, &plan);
@@ -105,10 +92,7 @@ fn a_large_run_sums_over_all_rods() {
     let results = ensemble::run(&Plan::new(&scene).unwrap()).unwrap();
     let column = |name| results.column(name).unwrap();
     for output in 0..results.times.len() {
-        let squares: f64 = ["a11", "a22", "a33"]
-            .map(|name| column(name).mean[output])
-            .iter()
-            .sum();
+        let squares: f64 = ["a11", "a22", "a33"].map(|name| column(name).mean[output]).iter().sum();
         assert!((squares - 1.0).abs() < 1e-12, "⟨|p|²⟩ = {squares}");
         // ⟨p₃²⟩ of one replica has its standard error from the squares: of numbers in [0, 1].
         let (mean, se) = (column("a33").mean[output], column("a33").se[output]);
@@ -131,12 +115,7 @@ fn a_replica_run_alone_is_its_part_of_the_ensemble() {
             for (replica, found) in alone.iter().enumerate() {
                 mean += (found.mean(channel, output).unwrap() - mean) / (replica + 1) as f64;
             }
-            assert_eq!(
-                mean.to_bits(),
-                expected.to_bits(),
-                "{} at output {output}",
-                column.name
-            );
+            assert_eq!(mean.to_bits(), expected.to_bits(), "{} at output {output}", column.name);
         }
     }
     assert_eq!(alone[0].mean(Channel::X[0], whole.times.len()), None);

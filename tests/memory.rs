@@ -53,10 +53,7 @@ fn a_run_holds_what_it_says_and_its_steps_allocate_nothing() {
     let within = |room: f64| {
         move |held: f64, said: u64, what: &str| {
             let said = said as f64;
-            assert!(
-                held <= 1.02 * said && said <= room * held,
-                "{what}: {held} bytes, said {said}"
-            );
+            assert!(held <= 1.02 * said && said <= room * held, "{what}: {held} bytes, said {said}");
         }
     };
     let agree = within(1.05);
@@ -72,11 +69,7 @@ fn a_run_holds_what_it_says_and_its_steps_allocate_nothing() {
         let plan = many_rods(count, concentration_per_cm3);
         let held = peak(|| run_replica(&plan, 0).unwrap());
         let what = format!("{concentration_per_cm3:?} per cm3");
-        assert!(
-            held <= most_per_rod * count as f64,
-            "{what}: {} bytes a rod",
-            held / count as f64
-        );
+        assert!(held <= most_per_rod * count as f64, "{what}: {} bytes a rod", held / count as f64);
         agree(held, memory::bytes(&plan, 1), &what);
         let mut twice = plan.scene().clone();
         twice.ensemble.replicas = 2;
@@ -121,10 +114,7 @@ fn others() -> [(&'static str, Scene); 6] {
         scene
     };
     [
-        (
-            "sums",
-            scene(|scene| scene.time.outputs_per_period = Some(50_000)),
-        ),
+        ("sums", scene(|scene| scene.time.outputs_per_period = Some(50_000))),
         (
             "sums of replicas that wait",
             scene(|scene| {
@@ -152,10 +142,7 @@ fn others() -> [(&'static str, Scene); 6] {
             "ends",
             scene(|scene| {
                 in_extension(scene);
-                scene.particles.orientation = Orientation::Given {
-                    phi_deg: 20.0,
-                    theta_deg: 80.0,
-                };
+                scene.particles.orientation = Orientation::Given { phi_deg: 20.0, theta_deg: 80.0 };
             }),
         ),
         (

@@ -86,16 +86,9 @@ fn assert_same_bits(part: &Results, whole: &Results, what: &str) {
     let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
     assert_eq!(bits(&part.times), bits(&whole.times), "{what}");
     for channel in part.series.iter().flat_map(|series| &series.columns) {
-        let other = whole
-            .column(&channel.name)
-            .expect("the whole has every channel of the part");
+        let other = whole.column(&channel.name).expect("the whole has every channel of the part");
         assert_eq!(bits(&channel.mean), bits(&other.mean), "{what}: {}", channel.name);
-        assert_eq!(
-            bits(&channel.se),
-            bits(&other.se),
-            "{what}: standard errors of {}",
-            channel.name
-        );
+        assert_eq!(bits(&channel.se), bits(&other.se), "{what}: standard errors of {}", channel.name);
     }
 }
 
@@ -154,11 +147,7 @@ fn a_stage_kept_by_request_does_run() {
 fn a_stage_without_what_it_works_on_cannot_be_kept() {
     assert!(plan(FREE).keeping(Stage::Neighbours).is_none());
     assert!(plan(EXTENSION).keeping(Stage::Positions).is_none());
-    assert!(
-        plan(FREE)
-            .keeping(Stage::Observe(Observable::MeanAngle))
-            .is_some()
-    );
+    assert!(plan(FREE).keeping(Stage::Observe(Observable::MeanAngle)).is_some());
 }
 
 #[test]
@@ -168,10 +157,7 @@ fn leaving_out_an_observable_changes_no_bit_of_the_others() {
         let whole = run(&Plan::new(&all).unwrap());
         for left_out in Observable::ALL {
             let mut fewer = all.clone();
-            fewer
-                .output
-                .observables
-                .retain(|observable| *observable != left_out);
+            fewer.output.observables.retain(|observable| *observable != left_out);
             let part = run(&Plan::new(&fewer).unwrap());
             assert_eq!(part.series.len(), Observable::ALL.len() - 1);
             assert_same_bits(&part, &whole, left_out.name());
@@ -181,11 +167,7 @@ fn leaving_out_an_observable_changes_no_bit_of_the_others() {
 
 #[test]
 fn writing_the_defaults_out_changes_nothing() {
-    for text in [
-        FREE.to_owned(),
-        format!("{FREE}{INTERACTING}"),
-        EXTENSION.to_owned(),
-    ] {
+    for text in [FREE.to_owned(), format!("{FREE}{INTERACTING}"), EXTENSION.to_owned()] {
         let scene = scene(&text);
         let resolved = Plan::new(&scene.resolved()).unwrap();
         assert_eq!(resolved.to_string(), plan(&text).to_string());
@@ -210,19 +192,11 @@ fn steps_resolve_the_motion_by_default() {
         assert_eq!(plan.warnings(), Vec::<String>::new());
     }
     // Outputs that are given fall on steps.
-    for (r, outputs, steps) in [
-        (50.0, 4, 3500),
-        (50.0, 8, 3600),
-        (11.6, 40, 200),
-        (11.6, 7, 350),
-        (11.6, 1000, 1000),
-    ] {
+    for (r, outputs, steps) in
+        [(50.0, 4, 3500), (50.0, 8, 3600), (11.6, 40, 200), (11.6, 7, 350), (11.6, 1000, 1000)]
+    {
         let plan = plan(&turning(r, &format!("outputs_per_period = {outputs}")));
-        assert_eq!(
-            (plan.steps(), plan.outputs()),
-            (steps, outputs + 1),
-            "{r} {outputs}"
-        );
+        assert_eq!((plan.steps(), plan.outputs()), (steps, outputs + 1), "{r} {outputs}");
     }
 }
 
@@ -245,10 +219,7 @@ fn a_coarse_step_is_warned_of_and_a_finer_one_is_not() {
         let time = format!("steps_per_period = {steps}\noutputs_per_period = 1");
         let plan = plan(&turning(11.6, &time));
         assert_eq!(plan.warnings().len(), usize::from(warns), "{steps}");
-        assert_eq!(
-            plan.to_string().contains("\nwarning: time.steps_per_period"),
-            warns
-        );
+        assert_eq!(plan.to_string().contains("\nwarning: time.steps_per_period"), warns);
     }
     let coarse = plan(&turning(50.0, "steps_per_period = 200"));
     insta::assert_snapshot!(coarse);
@@ -260,22 +231,12 @@ fn a_coarse_step_is_warned_of_and_a_finer_one_is_not() {
 #[test]
 fn the_stress_of_rods_that_are_not_slender_is_warned_of() {
     let stress = "[output]\nobservables = [\"particle_stress\"]\n";
-    for (r, warns) in [
-        (0.5, true),
-        (3.0, true),
-        (29.9, true),
-        (30.0, false),
-        (1e3, false),
-    ] {
+    for (r, warns) in [(0.5, true), (3.0, true), (29.9, true), (30.0, false), (1e3, false)] {
         let free = FREE.replace("= 11.6", &format!("= {r:?}"));
         assert_eq!(plan(&free).warnings(), Vec::<String>::new());
         let plan = plan(&(free + stress));
         assert_eq!(plan.warnings().len(), usize::from(warns), "{r}");
-        assert_eq!(
-            plan.to_string()
-                .contains("\nwarning: particle_stress is the limit"),
-            warns
-        );
+        assert_eq!(plan.to_string().contains("\nwarning: particle_stress is the limit"), warns);
     }
 }
 
@@ -303,13 +264,8 @@ fn long_rods_need_more_steps_than_there_may_be_and_say_what_to_set() {
 
 #[test]
 fn a_stage_that_is_kept_brings_what_it_needs() {
-    let all = [
-        Stage::Positions,
-        Stage::Translation,
-        Stage::Neighbours,
-        Stage::CollisionDraws,
-        Stage::Contacts,
-    ];
+    let all =
+        [Stage::Positions, Stage::Translation, Stage::Neighbours, Stage::CollisionDraws, Stage::Contacts];
     let plan = plan(&format!("{FREE}{ALPHA_0}"));
     assert!(!all.iter().any(|stage| plan.keeps(*stage)));
     for (stage, brought) in all.into_iter().zip([1, 2, 3, 3, 5]) {
@@ -330,10 +286,7 @@ fn the_error_of_free_rods_is_known_and_small_but_where_the_form_is_closed() {
     assert!(error > 0.0 && error < 16.0 * f64::EPSILON, "{error}");
     let unit = plan(EXTENSION).unit();
     // 2 D:D = 4 in this flow.
-    assert!(
-        (unit.seconds - 0.5).abs() < 2.0 * f64::EPSILON && unit.strain == 1.0,
-        "{unit:?}"
-    );
+    assert!((unit.seconds - 0.5).abs() < 2.0 * f64::EPSILON && unit.strain == 1.0, "{unit:?}");
 }
 
 /// Shear is shear, whichever axes it has: a general flow's period in seconds and strain.
@@ -344,14 +297,8 @@ fn the_unit_of_a_period_is_the_same_in_any_axes() {
     let shear_rate_per_s = turned.flow.shear_rate_per_s.take().unwrap();
     turned.flow.gradient_per_s = Some([[0.0; 3], [0.0; 3], [0.0, shear_rate_per_s, 0.0]]);
     let (unit, of_turned) = (straight.unit(), Plan::new(&turned).unwrap().unit());
-    assert!(
-        (of_turned.seconds / unit.seconds - 1.0).abs() < 1e-14,
-        "{of_turned:?}"
-    );
-    assert!(
-        (of_turned.strain / unit.strain - 1.0).abs() < 1e-14,
-        "{of_turned:?}"
-    );
+    assert!((of_turned.seconds / unit.seconds - 1.0).abs() < 1e-14, "{of_turned:?}");
+    assert!((of_turned.strain / unit.strain - 1.0).abs() < 1e-14, "{of_turned:?}");
 }
 
 /// A flow so slow that one period is a number of seconds, and many are not.

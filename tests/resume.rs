@@ -49,14 +49,8 @@ fn scenes() -> Vec<(Plan, usize)> {
             6,
         ),
         // Every rod at some outputs.
-        (
-            with_rods(plan(40, COUETTE, DENSE, steps, 3), vec![0.1, 0.3, 0.5]),
-            50,
-        ),
-        (
-            with_rods(plan(40, COUETTE, "", "periods = 3", 3), vec![0.0, 2.0]),
-            3,
-        ),
+        (with_rods(plan(40, COUETTE, DENSE, steps, 3), vec![0.1, 0.3, 0.5]), 50),
+        (with_rods(plan(40, COUETTE, "", "periods = 3", 3), vec![0.0, 2.0]), 3),
         // Free rods, more outputs than are made at once.
         (plan(40, COUETTE, "", "periods = 3", 3), 3),
         (
@@ -85,11 +79,7 @@ fn a_replica_goes_on_bit_for_bit_from_wherever_it_was() {
         let alone = run_replica(&plan, 2).unwrap();
         let (states, end) = watched(&plan, None);
         assert_eq!((states.len(), &end), (looks, &alone), "{plan}");
-        for (k, state) in states
-            .iter()
-            .enumerate()
-            .filter(|(k, _)| k % 7 == 0 || k + 2 > looks)
-        {
+        for (k, state) in states.iter().enumerate().filter(|(k, _)| k % 7 == 0 || k + 2 > looks) {
             assert_eq!(state.check(&plan), Ok(()), "{plan}");
             let (rest, end) = watched(&plan, Some(state.clone()));
             assert_eq!(end, alone, "{plan} from look {k}");
@@ -101,10 +91,7 @@ fn a_replica_goes_on_bit_for_bit_from_wherever_it_was() {
 #[test]
 fn what_is_of_no_replica_of_the_plan_is_refused() {
     let steps = "periods = 0.5\nsteps_per_period = 100\noutputs_per_period = 10";
-    let plans = [
-        plan(40, COUETTE, DENSE, steps, 3),
-        plan(40, COUETTE, "", "periods = 3", 3),
-    ];
+    let plans = [plan(40, COUETTE, DENSE, steps, 3), plan(40, COUETTE, "", "periods = 3", 3)];
     let [interacting, free] = plans.each_ref().map(|plan| {
         let (states, _) = watched(plan, None);
         serde_json::to_value(&states[states.len() / 2]).unwrap()
@@ -129,21 +116,13 @@ fn what_is_of_no_replica_of_the_plan_is_refused() {
     assert!(refused(&plans[0], with_errors).contains("sums"));
     let spoilt: [(&str, Spoil); 13] = [
         ("sums", |s| drop(s["sums"].as_array_mut().unwrap().pop())),
-        ("sums", |s| {
-            s["sums"] = json!(vec![json!({ "value": 0.0, "spread": null }); 10_000])
-        }),
+        ("sums", |s| s["sums"] = json!(vec![json!({ "value": 0.0, "spread": null }); 10_000])),
         ("outputs", |s| s["rods"]["counters"]["steps"] = json!(5)),
         ("outputs", |s| s["rods"]["counters"]["steps"] = json!(u64::MAX)),
         ("numbers", |s| s["rods"]["counters"]["draws"] = json!(7)),
-        ("numbers", |s| {
-            s["rods"]["counters"]["replacements"] = json!(u64::MAX)
-        }),
-        ("number of rods", |s| {
-            drop(s["rods"]["since"].as_array_mut().unwrap().pop())
-        }),
-        ("number of rods", |s| {
-            drop(s["rods"]["positions"][1].as_array_mut().unwrap().pop())
-        }),
+        ("numbers", |s| s["rods"]["counters"]["replacements"] = json!(u64::MAX)),
+        ("number of rods", |s| drop(s["rods"]["since"].as_array_mut().unwrap().pop())),
+        ("number of rods", |s| drop(s["rods"]["positions"][1].as_array_mut().unwrap().pop())),
         ("number of rods", |s| s["rods"]["directions"][2] = json!([])),
         ("length 1", |s| s["rods"]["directions"][2][7] = json!(2.0)),
         ("collision", |s| s["rods"]["since"][3] = json!(49)),
@@ -166,10 +145,7 @@ fn sums_over_another_number_of_rods_are_refused() {
     let check = |replica: Value| serde_json::from_value::<Replica>(replica).unwrap().check(&plan);
     assert_eq!(check(replica.clone()), Ok(()));
     type Spoil = fn(&mut Value);
-    let spoilt: [Spoil; 2] = [
-        |sum| sum["spread"]["rods"] = json!(41),
-        |sum| sum["spread"] = Value::Null,
-    ];
+    let spoilt: [Spoil; 2] = [|sum| sum["spread"]["rods"] = json!(41), |sum| sum["spread"] = Value::Null];
     for spoil in spoilt {
         let mut other = replica.clone();
         spoil(&mut other["sums"][7]);
@@ -195,11 +171,7 @@ fn replicas_and_tallies_of_other_scenes_are_refused() {
         let mut other = serde_json::to_value(&replica).unwrap();
         spoil(&mut other[key]);
         let other: Replica = serde_json::from_value(other).unwrap();
-        assert_eq!(
-            other.check(&plan),
-            Err("its sums are not those of this scene"),
-            "{key}"
-        );
+        assert_eq!(other.check(&plan), Err("its sums are not those of this scene"), "{key}");
     }
 
     let mut tally = Tally::new(&plan);
@@ -211,11 +183,7 @@ fn replicas_and_tallies_of_other_scenes_are_refused() {
         ("deviation", shorter, lengths),
         ("over_rods", shorter, lengths),
         ("replicas", |replicas| *replicas = json!(4), lengths),
-        (
-            "deviation",
-            |all| all[3] = json!(-1.0),
-            "a mean in it is no number",
-        ),
+        ("deviation", |all| all[3] = json!(-1.0), "a mean in it is no number"),
     ];
     for (key, spoil, cause) in spoilt {
         let mut other = serde_json::to_value(&tally).unwrap();

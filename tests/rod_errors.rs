@@ -47,10 +47,7 @@ fn hardly_apart() -> Scene {
 }
 
 fn run(scene: &Scene, threads: usize) -> Results {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .unwrap();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     let plan = Plan::new(scene).unwrap();
     pool.install(|| ensemble::run(&plan).unwrap())
 }
@@ -58,15 +55,8 @@ fn run(scene: &Scene, threads: usize) -> Results {
 /// What each rod of a snapshot adds to the sums of an observable.
 fn of_each_rod(observable: Observable, snapshot: &Snapshot) -> Vec<Vec<f64>> {
     let one = |rod: usize| {
-        let mut block = Block {
-            len: 1,
-            ..Block::default()
-        };
-        block
-            .p
-            .iter_mut()
-            .zip(&snapshot.p)
-            .for_each(|(axis, p)| axis[0] = p[rod]);
+        let mut block = Block { len: 1, ..Block::default() };
+        block.p.iter_mut().zip(&snapshot.p).for_each(|(axis, p)| axis[0] = p[rod]);
         block.aspect_ratio[0] = snapshot.aspect_ratio[rod];
         let mut sums = vec![Sum::default(); observable.width()];
         observable.add(&block, &mut sums);
@@ -94,10 +84,8 @@ fn off(results: &Results) -> Vec<String> {
         for series in &results.series {
             let values = of_each_rod(series.observable, snapshot);
             for (k, column) in series.columns.iter().enumerate() {
-                let (found, expected) = (
-                    column.se[snapshot.output],
-                    standard_error(values.iter().map(|values| values[k])),
-                );
+                let (found, expected) =
+                    (column.se[snapshot.output], standard_error(values.iter().map(|values| values[k])));
                 if (found - expected).abs() > allowed * expected {
                     off.push(format!(
                         "{} at output {}: {found:e}, expected {expected:e}",
@@ -120,9 +108,7 @@ fn errors_of_rods_that_are_nearly_alike_are_those_of_two_passes() {
         for snapshot in &results.snapshots {
             let values = of_each_rod(Observable::Projections, snapshot);
             let n = values.len() as f64;
-            let (sum, square) = values
-                .iter()
-                .fold((0.0, 0.0), |(s, q), v| (s + v[0], q + v[0] * v[0]));
+            let (sum, square) = values.iter().fold((0.0, 0.0), |(s, q), v| (s + v[0], q + v[0] * v[0]));
             let variance = (square / n - (sum / n) * (sum / n)).max(0.0);
             squares.series[0].columns[0].se[snapshot.output] = (variance / (n - 1.0)).sqrt();
         }
@@ -144,12 +130,7 @@ fn rods_alike_have_no_error_at_all() {
         let results = run(&scene, 1);
         let columns = results.series.iter().flat_map(|series| &series.columns);
         for column in columns {
-            assert!(
-                column.se.iter().all(|se| *se == 0.0),
-                "{}: {:?}",
-                column.name,
-                column.se
-            );
+            assert!(column.se.iter().all(|se| *se == 0.0), "{}: {:?}", column.name, column.se);
         }
     }
 }
@@ -162,10 +143,7 @@ fn errors_of_a_large_run_are_those_of_two_passes_on_any_number_of_threads() {
     assert_eq!(off(&one), [""; 0]);
     let bits = |results: &Results| -> Vec<u64> {
         let columns = results.series.iter().flat_map(|series| &series.columns);
-        columns
-            .flat_map(|column| &column.se)
-            .map(|se| se.to_bits())
-            .collect()
+        columns.flat_map(|column| &column.se).map(|se| se.to_bits()).collect()
     };
     assert_eq!(bits(&one), bits(&three));
 }

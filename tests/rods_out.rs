@@ -41,9 +41,7 @@ fn rods_that_are_asked_for_change_no_bit_of_the_rest() {
         let with = run(&asked);
         assert_eq!((&with.series, with.counters), (&without.series, without.counters));
         let places: Vec<_> = with.snapshots.iter().map(|s| (s.replica, s.output)).collect();
-        let expected: Vec<_> = (0..3)
-            .flat_map(|replica| [0, 1, 4].map(|output| (replica, output)))
-            .collect();
+        let expected: Vec<_> = (0..3).flat_map(|replica| [0, 1, 4].map(|output| (replica, output))).collect();
         assert_eq!(places, expected);
     }
 }
@@ -65,10 +63,7 @@ fn their_means_are_the_observables() {
                 let mean = snapshot.p[axis].iter().map(|p| p.abs()).sum::<f64>() / 150.0;
                 let expected = results.column(name).unwrap().mean[snapshot.output];
                 // 150 numbers up to 1 are added in another order.
-                assert!(
-                    (mean - expected).abs() < 150.0 * f64::EPSILON,
-                    "{name}: {mean} {expected}"
-                );
+                assert!((mean - expected).abs() < 150.0 * f64::EPSILON, "{name}: {mean} {expected}");
             }
             assert_eq!(snapshot.place_in_lengths.is_some(), !interaction.is_empty());
             assert_eq!(snapshot.collided.len(), 150);
@@ -95,10 +90,7 @@ fn who_collided_is_who_did_in_the_last_step_and_places_are_those_of_the_step() {
             }
         }
         assert_eq!(snapshot.collided, expected, "output {}", snapshot.output);
-        assert_eq!(
-            snapshot.place_in_lengths.as_ref(),
-            Some(suspension.positions_in_lengths())
-        );
+        assert_eq!(snapshot.place_in_lengths.as_ref(), Some(suspension.positions_in_lengths()));
         assert_eq!(snapshot.aspect_ratio, suspension.aspect_ratios());
         for (rod, p) in suspension.directions().iter().enumerate() {
             assert!((0..3).all(|axis| (snapshot.p[axis][rod] - p[axis]).abs() < 1e-15));
@@ -127,10 +119,7 @@ fn times_that_are_no_outputs_are_refused_with_what_is() {
         ("[\"now\"]", "a list of"),
     ] {
         let error = refused(given);
-        assert!(
-            error.starts_with(&format!("{key}{given} is not allowed: ")),
-            "{error}"
-        );
+        assert!(error.starts_with(&format!("{key}{given} is not allowed: ")), "{error}");
         assert!(error.contains(allowed), "{error}");
     }
     // A third in six digits is the output it stands for; its own time is what is written.
@@ -142,11 +131,9 @@ fn times_that_are_no_outputs_are_refused_with_what_is() {
 /// At the widest spread that is allowed one draw in 750 crosses 1, or of discs 0, and is drawn again.
 #[test]
 fn rods_stay_rods_and_discs_discs() {
-    for (mean, widest, side) in [
-        (4.0, 25.0, 1.0..f64::MAX),
-        (0.25, 100.0 / 3.0, 0.0..1.0),
-        (0.8, 25.0 / 3.0, 0.0..1.0),
-    ] {
+    for (mean, widest, side) in
+        [(4.0, 25.0, 1.0..f64::MAX), (0.25, 100.0 / 3.0, 0.0..1.0), (0.8, 25.0 / 3.0, 0.0..1.0)]
+    {
         let mut scene = scene(SCENE);
         scene.particles.count = 100_000;
         scene.particles.aspect_ratio = mean;

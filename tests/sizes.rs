@@ -31,14 +31,11 @@ const DENSE: &str = "concentration_per_cm3 = 1000";
 /// Twice the size in twice the box is the same suspension, to the bit: nothing but ratios of lengths counts.
 #[test]
 fn the_unit_of_length_does_not_count() {
-    let (short, long) = (
-        "length_mm = 0.5\nlength_sd_percent = 30",
-        "length_mm = 1.0\nlength_sd_percent = 30",
-    );
-    for (of_short, of_long) in [
-        ("box_mm = [8, 4, 2]", "box_mm = [16, 8, 4]"),
-        (DENSE, "concentration_per_cm3 = 125"),
-    ] {
+    let (short, long) =
+        ("length_mm = 0.5\nlength_sd_percent = 30", "length_mm = 1.0\nlength_sd_percent = 30");
+    for (of_short, of_long) in
+        [("box_mm = [8, 4, 2]", "box_mm = [16, 8, 4]"), (DENSE, "concentration_per_cm3 = 125")]
+    {
         let [short, long] = [scene(short, of_short), scene(long, of_long)].map(|scene| run(&scene));
         assert!(short.counters.collisions > 100, "{:?}", short.counters);
         assert_eq!(short.series, long.series, "{of_short}");
@@ -78,20 +75,11 @@ fn boxes_and_lengths_that_cannot_be_are_refused() {
         ("box_mm = \"cube\"", "[H1, H2, H3], three finite numbers > 0"),
     ] {
         let refusal = refusal(length, interaction);
-        assert!(
-            refusal.starts_with("s.toml:") && refusal.contains(why),
-            "{refusal}"
-        );
+        assert!(refusal.starts_with("s.toml:") && refusal.contains(why), "{refusal}");
     }
-    for (sd, why) in [
-        ("33.4", "below 33.3333, three standard deviations"),
-        ("-1", "a finite number ≥ 0"),
-    ] {
+    for (sd, why) in [("33.4", "below 33.3333, three standard deviations"), ("-1", "a finite number ≥ 0")] {
         let refusal = refusal(&format!("{length}\nlength_sd_percent = {sd}"), DENSE);
-        assert!(
-            refusal.starts_with("s.toml:7: ") && refusal.contains(why),
-            "{refusal}"
-        );
+        assert!(refusal.starts_with("s.toml:7: ") && refusal.contains(why), "{refusal}");
     }
 }
 
@@ -140,12 +128,7 @@ fn the_stress_of_two_rods_by_hand() {
     scene.output.rods_at = vec![0.2];
     let results = run(&scene);
     let rods = &results.snapshots[0];
-    let cubes: Vec<f64> = rods
-        .length
-        .iter()
-        .flatten()
-        .map(|length| length.powi(3))
-        .collect();
+    let cubes: Vec<f64> = rods.length.iter().flatten().map(|length| length.powi(3)).collect();
     assert!((cubes[0] / cubes[1] - 1.0).abs() > 0.1, "{cubes:?}");
     let [p1, p2, _] = &rods.p;
     let stress = |rod: usize| cubes[rod] * (p1[rod] * p2[rod]).powi(2);
@@ -174,10 +157,8 @@ fn rods_of_a_file_are_those_that_it_has() {
         "concentration_per_cm3 = 400",
     );
     // Places in mm are those in lengths.
-    let [x1, x2, x3] = Suspension::new(&Plan::new(&drawn).unwrap(), 0)
-        .unwrap()
-        .positions_in_lengths()
-        .clone();
+    let [x1, x2, x3] =
+        Suspension::new(&Plan::new(&drawn).unwrap(), 0).unwrap().positions_in_lengths().clone();
     let suspension = Suspension::new(&Plan::new(&drawn).unwrap(), 0).unwrap();
     let directions = suspension.directions();
     let whole = OwnRods {
@@ -194,17 +175,9 @@ fn rods_of_a_file_are_those_that_it_has() {
         run(&scene).series
     };
     // Directions of a suspension have been through the motion of no time, which rounds: a collision magnifies that.
-    for (found, expected) in of_a_file(whole.clone())[0]
-        .columns
-        .iter()
-        .zip(&expected.series[0].columns)
-    {
+    for (found, expected) in of_a_file(whole.clone())[0].columns.iter().zip(&expected.series[0].columns) {
         assert!(
-            found
-                .mean
-                .iter()
-                .zip(&expected.mean)
-                .all(|(a, b)| (a - b).abs() < 1e-12),
+            found.mean.iter().zip(&expected.mean).all(|(a, b)| (a - b).abs() < 1e-12),
             "{found:?} {expected:?}"
         );
     }
@@ -212,35 +185,17 @@ fn rods_of_a_file_are_those_that_it_has() {
     let whole = OwnRods { p: None, ..whole };
     let parts = [
         whole.clone(),
-        OwnRods {
-            aspect_ratio: None,
-            ..whole.clone()
-        },
-        OwnRods {
-            length_mm: None,
-            ..whole.clone()
-        },
-        OwnRods {
-            place_mm: None,
-            ..whole.clone()
-        },
+        OwnRods { aspect_ratio: None, ..whole.clone() },
+        OwnRods { length_mm: None, ..whole.clone() },
+        OwnRods { place_mm: None, ..whole.clone() },
         OwnRods::default(),
     ];
     for part in parts {
         assert_eq!(of_a_file(part), expected.series);
     }
     // What it has is taken.
-    let longer = whole
-        .length_mm
-        .clone()
-        .unwrap()
-        .iter()
-        .map(|length| 1.1 * length)
-        .collect();
-    let other = OwnRods {
-        length_mm: Some(longer),
-        ..whole
-    };
+    let longer = whole.length_mm.clone().unwrap().iter().map(|length| 1.1 * length).collect();
+    let other = OwnRods { length_mm: Some(longer), ..whole };
     assert_ne!(of_a_file(other), expected.series);
     // Equal rods given one by one are equal rods.
     drawn.particles.length_sd_percent = 0.0;
@@ -260,11 +215,7 @@ fn rods_of_a_file_are_those_that_it_has() {
 /// Another number of rods in a volume of the same shape and concentration.
 #[test]
 fn a_box_grows_with_its_rods() {
-    for interaction in [
-        "box_mm = [12, 5, 5]",
-        "concentration_per_cm3 = 1000\nbox_mm = [12, 5, 5]",
-        DENSE,
-    ] {
+    for interaction in ["box_mm = [12, 5, 5]", "concentration_per_cm3 = 1000\nbox_mm = [12, 5, 5]", DENSE] {
         let mut scene = scene("length_mm = 0.72", interaction);
         for count in [25, 300, 2400] {
             scene.set_count(count);

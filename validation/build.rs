@@ -67,6 +67,5 @@ fn printed(command: &mut Command) -> Option<String> {
 }
 
 fn known(text: Option<String>) -> String {
-    text.filter(|text| !text.is_empty())
-        .unwrap_or_else(|| "unknown".to_owned())
+    text.filter(|text| !text.is_empty()).unwrap_or_else(|| "unknown".to_owned())
 }

@@ -104,20 +104,14 @@ impl Grid {
     fn sort(&mut self, positions: &[Vec<f64>; 3], reach: impl Fn(usize) -> f64 + Sync) {
         let cells = self.along.iter().product::<usize>();
         let rods = &self.cells;
-        let threads = if rods.len() <= CHUNK {
-            1
-        } else {
-            rayon::current_num_threads()
-        };
+        let threads = if rods.len() <= CHUNK { 1 } else { rayon::current_num_threads() };
         let own = cells.div_ceil(threads);
         // Counted two places up, so that filling leaves `starts[cell]` at the start of its cell.
         self.starts.clear();
         self.starts.resize(cells + 2, 0);
         let count = |(part, counts): (usize, &mut [u32])| {
             let first = part * own;
-            each_rod_in(rods, first..first + own, |rod| {
-                counts[rods[rod] as usize - first] += 1
-            });
+            each_rod_in(rods, first..first + own, |rod| counts[rods[rod] as usize - first] += 1);
         };
         let counts = &mut self.starts[2..];
         if threads == 1 {
@@ -150,10 +144,8 @@ impl Grid {
         }
         let mut rest = self.sorted.as_mut_slice();
         let mut parts = Vec::with_capacity(threads);
-        let ends: Vec<_> = (own..cells + own)
-            .step_by(own)
-            .map(|end| self.starts[end.min(cells) + 1])
-            .collect();
+        let ends: Vec<_> =
+            (own..cells + own).step_by(own).map(|end| self.starts[end.min(cells) + 1]).collect();
         for ((part, places), end) in self.starts[1..=cells].chunks_mut(own).enumerate().zip(ends) {
             let (sorted, others) = rest.split_at_mut((end - places[0]) as usize);
             rest = others;
@@ -177,11 +169,7 @@ impl Grid {
         for &place in &*crowded {
             let entry = &self.sorted[place as usize];
             if let Some((other, square)) = self.nearest_within(entry, work) {
-                found(Nearest {
-                    rod: entry.rod,
-                    other,
-                    square,
-                });
+                found(Nearest { rod: entry.rod, other, square });
             }
         }
     }

@@ -39,9 +39,7 @@ impl Pairs {
         self.find_least(positions);
         work.pairs_screened += (self.ahead.len() * (count / 2)) as u64;
         for rod in 0..count {
-            let least = self.ahead[rod]
-                .min(self.behind[rod])
-                .min(self.behind[rod + count]);
+            let least = self.ahead[rod].min(self.behind[rod]).min(self.behind[rod + count]);
             let reach = reach(rod);
             // Both coordinates were rounded down: the difference is off by less than one unit.
             if f64::from(least) > reach * self.per_length + 1.0 {
@@ -102,9 +100,5 @@ fn nearest(positions: &[Vec<f64>; 3], rod: usize, reach: f64) -> Option<Nearest>
             best_square = square;
         }
     }
-    best.map(|other| Nearest {
-        rod: rod as u32,
-        other: other as u32,
-        square: best_square,
-    })
+    best.map(|other| Nearest { rod: rod as u32, other: other as u32, square: best_square })
 }

@@ -47,10 +47,7 @@ pub struct Spread {
 impl Sum {
     /// Of no rods; `spread` says whether standard errors over rods are wanted.
     pub(crate) fn none(spread: bool) -> Self {
-        Self {
-            value: 0.0,
-            spread: spread.then(Spread::default),
-        }
+        Self { value: 0.0, spread: spread.then(Spread::default) }
     }
 
     /// Whether it is finite.
@@ -134,8 +131,6 @@ impl Spread {
     }
 
     fn is_finite(&self) -> bool {
-        [self.first, self.differences, self.squares]
-            .iter()
-            .all(|x| x.is_finite())
+        [self.first, self.differences, self.squares].iter().all(|x| x.is_finite())
     }
 }

@@ -8,10 +8,7 @@ fn observe(observable: Observable) -> Vec<f64> {
 
 /// One rod along p, with r_e = 2.
 fn observe_rod(observable: Observable, p: [f64; 3]) -> Vec<f64> {
-    let mut block = Block {
-        len: 1,
-        ..Block::default()
-    };
+    let mut block = Block { len: 1, ..Block::default() };
     block.p.iter_mut().zip(p).for_each(|(axis, x)| axis[0] = x);
     block.aspect_ratio[0] = 2.0;
     let mut sums = vec![Sum::default(); observable.width()];
@@ -39,23 +36,13 @@ fn one_rod_by_hand() {
         16.0, -24.0, 48.0, 36.0, -72.0, 144.0, -54.0, 108.0, -216.0, 432.0, 81.0, -162.0, 324.0, -648.0,
         1296.0,
     ];
-    close(
-        observe(Observable::OrientationTensor4),
-        quads.map(|x| x / 2401.0).to_vec(),
-    );
+    close(observe(Observable::OrientationTensor4), quads.map(|x| x / 2401.0).to_vec());
     // p₁p₂ = −6/49; p₂² − p₁² = 5/49; p₁² − p₃² = −32/49.
-    close(
-        observe(Observable::ParticleStress),
-        [36.0, -30.0, 192.0].map(|x| x / 2401.0).to_vec(),
-    );
+    close(observe(Observable::ParticleStress), [36.0, -30.0, 192.0].map(|x| x / 2401.0).to_vec());
     // C = (4·4 + 9)^½/(2·6) = 5/12, so C_b = 5/17 = 0.294.
     let orbit = observe(Observable::OrbitConstant);
     assert_relative_eq!(orbit[0], 5.0 / 17.0, max_relative = 1e-15);
-    let filled: Vec<_> = orbit[1..]
-        .iter()
-        .enumerate()
-        .filter(|(_, d)| **d != 0.0)
-        .collect();
+    let filled: Vec<_> = orbit[1..].iter().enumerate().filter(|(_, d)| **d != 0.0).collect();
     assert_eq!(filled, [(5, &20.0)]);
 }
 
@@ -122,10 +109,7 @@ fn parts_come_to_the_error_of_all() {
         let (found, expected) = (whole.standard_error(), by_two_passes(&all));
         // n ε, with room for the rounding of both.
         let allowed = 4.0 * all.len() as f64 * f64::EPSILON;
-        assert!(
-            (found / expected - 1.0).abs() < allowed,
-            "{found:e}, expected {expected:e}"
-        );
+        assert!((found / expected - 1.0).abs() < allowed, "{found:e}, expected {expected:e}");
     };
     for lengths in [&[300][..], &[0, 300], &[1, 299], &[128, 128, 44], &[200, 0, 100]] {
         check(&near, lengths);

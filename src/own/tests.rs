@@ -21,10 +21,7 @@ impl OwnObservable for Own {
 fn what_the_core_observes_too_is_the_same() {
     for interaction in [None, Some(Interaction::default())] {
         for replicas in [1, 3] {
-            let mut scene = Scene {
-                interaction: interaction.clone(),
-                ..Scene::default()
-            };
+            let mut scene = Scene { interaction: interaction.clone(), ..Scene::default() };
             // More than a block, and not a whole number of them.
             scene.particles.count = 300;
             scene.particles.aspect_ratio_sd_percent = 3.6;
@@ -45,10 +42,7 @@ fn what_the_core_observes_too_is_the_same() {
             }
             // 300 rods with a deviation of 3.6 % have a mean within 5 standard errors of 11.6, and it does not change.
             let r_e = &own[3].mean;
-            assert!(
-                (r_e[0] / 11.6 - 1.0).abs() < 5.0 * 0.036 / 300f64.sqrt(),
-                "{r_e:?}"
-            );
+            assert!((r_e[0] / 11.6 - 1.0).abs() < 5.0 * 0.036 / 300f64.sqrt(), "{r_e:?}");
             assert!(r_e.iter().all(|r| r == &r_e[0]));
         }
     }

@@ -92,33 +92,18 @@ pub(crate) fn no_interaction(scene: &Scene) -> Option<&'static str> {
 pub(super) fn entries(scene: &Scene) -> Vec<Entry> {
     let mut entries = Vec::new();
     let mut add = |stage, kept, reason: &str| {
-        entries.push(Entry {
-            stage,
-            kept,
-            reason: reason.to_owned(),
-        });
+        entries.push(Entry { stage, kept, reason: reason.to_owned() });
     };
     let particles = &scene.particles;
     let file = particles.rods.as_ref().map_or("", |rods| &rods.file);
     match (particles.own_aspect_ratios(), particles.of_several_shapes()) {
-        (Some(_), _) => add(
-            Stage::AspectRatios,
-            true,
-            &format!("each rod has its own, of {file}"),
-        ),
+        (Some(_), _) => add(Stage::AspectRatios, true, &format!("each rod has its own, of {file}")),
         (None, true) => add(Stage::AspectRatios, true, "Gaussian aspect ratios are drawn"),
-        (None, false) => add(
-            Stage::AspectRatios,
-            false,
-            "standard deviation 0: all rods share the mean",
-        ),
+        (None, false) => add(Stage::AspectRatios, false, "standard deviation 0: all rods share the mean"),
     }
     if particles.of_several_lengths() {
         let asked = [
-            (
-                no_interaction(scene).is_none(),
-                "P_c and contact arms go by each rod's own length",
-            ),
+            (no_interaction(scene).is_none(), "P_c and contact arms go by each rod's own length"),
             (
                 scene.output.observables.contains(&Observable::ParticleStress),
                 "a rod's stress is as its cubed length",
@@ -136,27 +121,17 @@ pub(super) fn entries(scene: &Scene) -> Vec<Entry> {
     }
     let of_file = particles.own().is_some_and(|own| own.p.is_some());
     match &particles.orientation {
-        _ if of_file => add(
-            Stage::Orientations,
-            false,
-            &format!("every rod starts as in {file}"),
-        ),
+        _ if of_file => add(Stage::Orientations, false, &format!("every rod starts as in {file}")),
         Orientation::Random(_) => add(Stage::Orientations, true, "isotropic directions are drawn"),
         Orientation::Given { .. } => add(Stage::Orientations, false, "every rod starts at the given angles"),
     }
     let free = no_interaction(scene);
     for (stage, why) in [
         (Stage::Positions, "distances between rods are needed"),
-        (
-            Stage::Translation,
-            "the liquid carries rods past each other, step by step",
-        ),
+        (Stage::Translation, "the liquid carries rods past each other, step by step"),
         (Stage::Neighbours, "each rod meets its nearest neighbour"),
         (Stage::CollisionDraws, "P_c > R decides who collides"),
-        (
-            Stage::Contacts,
-            "colliding rods share their velocity along the contact line",
-        ),
+        (Stage::Contacts, "colliding rods share their velocity along the contact line"),
     ] {
         add(stage, free.is_none(), free.unwrap_or(why));
     }
@@ -172,11 +147,7 @@ pub(super) fn entries(scene: &Scene) -> Vec<Entry> {
         add(Stage::Rods, true, "asked for by output.rods_at");
     }
     if scene.ensemble.replicas == 1 {
-        add(
-            Stage::RodErrors,
-            true,
-            "one replica: standard errors come from the rods",
-        );
+        add(Stage::RodErrors, true, "one replica: standard errors come from the rods");
     } else {
         add(Stage::RodErrors, false, "standard errors come from the replicas");
     }

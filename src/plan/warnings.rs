@@ -64,11 +64,7 @@ impl Plan {
         let particles = &self.scene.particles;
         let (file, own) = (&particles.rods.as_ref()?.file, particles.own()?);
         let drawn = [
-            (
-                "aspect_ratio",
-                own.aspect_ratio.is_none(),
-                particles.aspect_ratio_sd_percent,
-            ),
+            ("aspect_ratio", own.aspect_ratio.is_none(), particles.aspect_ratio_sd_percent),
             ("length", own.length_mm.is_none(), particles.length_sd_percent),
         ];
         let (name, _, sd) =
@@ -99,35 +95,22 @@ impl Plan {
         let particles = &self.scene.particles;
         let own = particles.own()?;
         let unused = [
-            (
-                "orientation",
-                own.p.is_some() && particles.orientation != Orientation::default(),
-            ),
+            ("orientation", own.p.is_some() && particles.orientation != Orientation::default()),
             (
                 "aspect_ratio_sd_percent",
                 own.aspect_ratio.is_some() && particles.aspect_ratio_sd_percent > 0.0,
             ),
-            (
-                "length_sd_percent",
-                own.length_mm.is_some() && particles.length_sd_percent > 0.0,
-            ),
+            ("length_sd_percent", own.length_mm.is_some() && particles.length_sd_percent > 0.0),
         ];
         let unused = unused.into_iter().filter(|(_, is)| *is);
         let unused: Vec<_> = unused.map(|(key, _)| format!("particles.{key}")).collect();
-        (!unused.is_empty()).then(|| {
-            format!(
-                "{} has no effect: particles.rods gives it for each rod",
-                unused.join(", ")
-            )
-        })
+        (!unused.is_empty())
+            .then(|| format!("{} has no effect: particles.rods gives it for each rod", unused.join(", ")))
     }
 
     /// Places that leave part of the control volume empty, as they would after a change of its size.
     fn half_empty(&self) -> Option<String> {
-        let (places, sides) = (
-            self.scene.particles.own()?.place_mm.as_ref()?,
-            self.scene.sides_mm()?,
-        );
+        let (places, sides) = (self.scene.particles.own()?.place_mm.as_ref()?, self.scene.sides_mm()?);
         let farthest = |axis: &Vec<f64>| axis.iter().copied().fold(0.0, f64::max);
         let short = places.iter().map(farthest).zip(sides);
         // n uniform places all lie within this share of a side by chance once in a million.

@@ -26,33 +26,20 @@ impl Ball {
     pub const ZERO: Self = Self::exact(0.0);
     pub const ONE: Self = Self::exact(1.0);
     /// 2π.
-    pub const TAU: Self = Self {
-        hi: std::f64::consts::TAU,
-        lo: 2.449_293_598_294_706_4e-16,
-        error: 8.0 * ROUNDING,
-    };
+    pub const TAU: Self =
+        Self { hi: std::f64::consts::TAU, lo: 2.449_293_598_294_706_4e-16, error: 8.0 * ROUNDING };
     /// ln 2.
-    pub const LN_2: Self = Self {
-        hi: std::f64::consts::LN_2,
-        lo: 2.319_046_813_846_299_6e-17,
-        error: ROUNDING,
-    };
+    pub const LN_2: Self =
+        Self { hi: std::f64::consts::LN_2, lo: 2.319_046_813_846_299_6e-17, error: ROUNDING };
 
     /// A double.
     pub const fn exact(x: f64) -> Self {
-        Self {
-            hi: x,
-            lo: 0.0,
-            error: 0.0,
-        }
+        Self { hi: x, lo: 0.0, error: 0.0 }
     }
 
     /// The same with `error` more of error.
     pub fn widened(self, error: f64) -> Self {
-        Self {
-            error: self.error + error,
-            ..self
-        }
+        Self { error: self.error + error, ..self }
     }
 
     /// Whether it is 0 and known to be.
@@ -82,27 +69,15 @@ impl Ball {
 
     /// Times a power of two.
     pub fn scaled(self, power: f64) -> Self {
-        let scaled = Self {
-            hi: self.hi * power,
-            lo: self.lo * power,
-            error: self.error * power,
-        };
-        if self.hi != 0.0 && scaled.hi.abs() < IN_DANGER {
-            scaled.widened(UNDERFLOW)
-        } else {
-            scaled
-        }
+        let scaled = Self { hi: self.hi * power, lo: self.lo * power, error: self.error * power };
+        if self.hi != 0.0 && scaled.hi.abs() < IN_DANGER { scaled.widened(UNDERFLOW) } else { scaled }
     }
 
     /// Times 2 to a power that need not be a double.
     pub fn shifted(self, power: i32) -> Self {
         let [hi, lo, error] = [self.hi, self.lo, self.error].map(|x| libm::scalbn(x, power));
         let shifted = Self { hi, lo, error };
-        if !self.is_zero() && hi.abs() < IN_DANGER {
-            shifted.widened(UNDERFLOW)
-        } else {
-            shifted
-        }
+        if !self.is_zero() && hi.abs() < IN_DANGER { shifted.widened(UNDERFLOW) } else { shifted }
     }
 
     pub fn plus(self, other: Self) -> Self {
@@ -115,20 +90,12 @@ impl Ball {
         let (sum, rest) = two_sum(self.hi, other.hi);
         let carried = self.error + other.error;
         if self.is_double() && other.is_double() {
-            return Self {
-                hi: sum,
-                lo: rest,
-                error: 0.0,
-            };
+            return Self { hi: sum, lo: rest, error: 0.0 };
         }
         let (low, low_rest) = two_sum(self.lo, other.lo);
         let (hi, lo) = quick_two_sum(sum, rest + low);
         let (hi, lo) = quick_two_sum(hi, low_rest + lo);
-        Self {
-            hi,
-            lo,
-            error: carried * (1.0 + 4.0 * f64::EPSILON) + ROUNDING * hi.abs(),
-        }
+        Self { hi, lo, error: carried * (1.0 + 4.0 * f64::EPSILON) + ROUNDING * hi.abs() }
     }
 
     pub fn times(self, other: Self) -> Self {
@@ -138,20 +105,12 @@ impl Ball {
         let (product, rest) = two_product(self.hi, other.hi);
         let danger = if product.abs() < IN_DANGER { UNDERFLOW } else { 0.0 };
         if self.is_double() && other.is_double() {
-            return Self {
-                hi: product,
-                lo: rest,
-                error: danger,
-            };
+            return Self { hi: product, lo: rest, error: danger };
         }
         let (hi, lo) = quick_two_sum(product, rest + (self.hi * other.lo + self.lo * other.hi));
         // |lo| ≤ ε|hi|: a little more than the product's own terms.
         let carried = self.hi.abs() * other.error + other.hi.abs() * self.error + self.error * other.error;
-        Self {
-            hi,
-            lo,
-            error: carried * (1.0 + 8.0 * f64::EPSILON) + ROUNDING * hi.abs() + danger,
-        }
+        Self { hi, lo, error: carried * (1.0 + 8.0 * f64::EPSILON) + ROUNDING * hi.abs() + danger }
     }
 
     /// The quotient; not known where the divisor may be 0.
@@ -171,11 +130,7 @@ impl Ball {
         let carried = (self.error + hi.abs() * other.error) / other.least();
         let danger = if hi.abs() < IN_DANGER { UNDERFLOW } else { 0.0 };
         // The rest is known to some u² of |self|, and the quotient to as much of itself.
-        Self {
-            hi,
-            lo,
-            error: carried * (1.0 + 8.0 * f64::EPSILON) + 4.0 * ROUNDING * hi.abs() + danger,
-        }
+        Self { hi, lo, error: carried * (1.0 + 8.0 * f64::EPSILON) + 4.0 * ROUNDING * hi.abs() + danger }
     }
 
     /// The root of what is ≥ 0; of what may be negative, the root of what is left of it.
@@ -246,11 +201,7 @@ impl Mul for Ball {
 impl Neg for Ball {
     type Output = Self;
     fn neg(self) -> Self {
-        Self {
-            hi: -self.hi,
-            lo: -self.lo,
-            error: self.error,
-        }
+        Self { hi: -self.hi, lo: -self.lo, error: self.error }
     }
 }
 

@@ -46,10 +46,7 @@ pub(super) fn exp_and_power(x: Ball) -> (Ball, i32) {
     let rest = x.middle() - Ball::exact(powers_of_two) * Ball::LN_2;
     // |rest| ≤ 0.35, an eighth of it 0.044: 0.044¹⁷/17! < 10⁻³⁷.
     let eighth = rest.scaled(0.125);
-    let mut less_one = (1..17)
-        .rev()
-        .fold(Ball::ZERO, |sum, n| sum * eighth + INVERSE_FACTORIALS[n])
-        * eighth;
+    let mut less_one = (1..17).rev().fold(Ball::ZERO, |sum, n| sum * eighth + INVERSE_FACTORIALS[n]) * eighth;
     for _ in 0..3 {
         less_one = less_one.scaled(2.0) + less_one * less_one;
     }

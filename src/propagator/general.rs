@@ -47,30 +47,18 @@ impl General {
         let magnitude = magnitude(&l);
         let rod = aspect_ratio >= 1.0;
         let without_trace = traceless(l);
-        let x: Square = from_fn(|i| {
-            from_fn(|j| {
-                if rod {
-                    without_trace[i][j]
-                } else {
-                    -without_trace[j][i]
-                }
-            })
-        });
+        let x: Square =
+            from_fn(|i| from_fn(|j| if rod { without_trace[i][j] } else { -without_trace[j][i] }));
         let r = Ball::exact(aspect_ratio);
         let square = r * r;
         // ρ and 1 − ρ, both without cancellation.
         let difference = (r - Ball::ONE) * (r + Ball::ONE);
-        let (rho, rest) = if rod {
-            (Ball::ONE.over(square), difference.over(square))
-        } else {
-            (square, -difference)
-        };
+        let (rho, rest) =
+            if rod { (Ball::ONE.over(square), difference.over(square)) } else { (square, -difference) };
         let n: Square = from_fn(|i| from_fn(|j| x[i][j] - rho * x[j][i]));
         let forward: Square = product(|i, k| x[i][k], |k, j| x[k][j]);
-        let mixed: [Square; 2] = [
-            product(|i, k| x[i][k], |k, j| x[j][k]),
-            product(|i, k| x[k][i], |k, j| x[k][j]),
-        ];
+        let mixed: [Square; 2] =
+            [product(|i, k| x[i][k], |k, j| x[j][k]), product(|i, k| x[k][i], |k, j| x[k][j])];
         let n_squared: Square = from_fn(|i| {
             from_fn(|j| forward[i][j] - rho * (mixed[0][i][j] + mixed[1][i][j]) + rho * rho * forward[j][i])
         });
@@ -105,42 +93,26 @@ impl General {
 
     /// The time in which the strain grows by `strain`.
     pub fn time_of_strain(&self, strain: Ball) -> Time {
-        Time {
-            span: strain.over(self.magnitude) * self.slower,
-            turns: None,
-        }
+        Time { span: strain.over(self.magnitude) * self.slower, turns: None }
     }
 
     /// `time_s` seconds.
     pub fn time_of_seconds(&self, time_s: f64) -> Time {
         let span = shifted(time_s, -self.power);
-        let rounded = if shifted(span, self.power) == time_s {
-            0.0
-        } else {
-            span * f64::EPSILON
-        };
-        Time {
-            span: Ball::exact(span).widened(rounded) * self.slower,
-            turns: None,
-        }
+        let rounded = if shifted(span, self.power) == time_s { 0.0 } else { span * f64::EPSILON };
+        Time { span: Ball::exact(span).widened(rounded) * self.slower, turns: None }
     }
 
     /// The time of `turns` periods, where there is a period.
     pub fn time_of_periods(&self, turns: Ball) -> Option<Time> {
         let (period, _) = self.cubic.period()?;
-        Some(Time {
-            span: turns * period,
-            turns: Some(turns),
-        })
+        Some(Time { span: turns * period, turns: Some(turns) })
     }
 
     /// As long as rods of another aspect ratio in this flow take for `turns` of their periods.
     pub fn time_of_periods_of(&self, mean: &Self, turns: Ball) -> Option<Time> {
         let (period, _) = mean.period()?;
-        Some(Time {
-            span: turns * period * self.slower,
-            turns: None,
-        })
+        Some(Time { span: turns * period * self.slower, turns: None })
     }
 
     /// The map q = M p, up to a factor.
@@ -165,10 +137,8 @@ impl General {
     /// What moves a rod that starts along `p`, and that start times the rows' powers of two, the largest component about 1.
     pub fn rows_from(&self, p: [f64; 3], time: Time) -> (Rows, [Ball; 3]) {
         let rows = self.rows(self.reached(p), time);
-        let most = (0..3)
-            .filter(|&i| p[i] != 0.0)
-            .map(|i| rows.powers[i] + exponent(p[i]))
-            .fold(i32::MIN, i32::max);
+        let most =
+            (0..3).filter(|&i| p[i] != 0.0).map(|i| rows.powers[i] + exponent(p[i])).fold(i32::MIN, i32::max);
         let start = from_fn(|i| match p[i] {
             0.0 => Ball::ZERO,
             component => Ball::exact(component).shifted(rows.powers[i] - most),
@@ -204,10 +174,7 @@ impl General {
         let alone = match (couplings.next(), couplings.next()) {
             (alone, None) => alone,
             _ => {
-                return Rows {
-                    coefficients: [self.cubic.coefficients(time); 3],
-                    powers: [0; 3],
-                };
+                return Rows { coefficients: [self.cubic.coefficients(time); 3], powers: [0; 3] };
             }
         };
         // The first coordinate of each one's block, and by that a block's coefficients and rate.
@@ -230,19 +197,13 @@ impl General {
             }
             (block, _) => (block.map_or([Ball::ZERO; 3], |(coefficients, _)| coefficients), 0),
         });
-        Rows {
-            coefficients: first.map(|i| scaled[i].0),
-            powers: first.map(|i| scaled[i].1),
-        }
+        Rows { coefficients: first.map(|i| scaled[i].0), powers: first.map(|i| scaled[i].1) }
     }
 
     /// The roots of the two coordinates that are left without one.
     fn pair(&self, left_out: usize) -> Pair {
         let [i, j] = others(left_out);
-        Pair {
-            middle: (self.n[i][i] + self.n[j][j]).scaled(0.5),
-            square: self.squares[left_out],
-        }
+        Pair { middle: (self.n[i][i] + self.n[j][j]).scaled(0.5), square: self.squares[left_out] }
     }
 }
 
@@ -299,11 +260,7 @@ fn scaled(flow: &VelocityGradient) -> (Square, i32) {
 
 /// The exponent of the power of two below |x|, 0 for 0.
 fn exponent(x: f64) -> i32 {
-    if x == 0.0 {
-        0
-    } else {
-        libm::log2(x.abs()).floor() as i32
-    }
+    if x == 0.0 { 0 } else { libm::log2(x.abs()).floor() as i32 }
 }
 
 /// x · 2^power.
@@ -325,11 +282,7 @@ fn magnitude(l: &Square) -> Ball {
 fn traceless(mut l: Square) -> Square {
     for step in 0..2 {
         let sum = trace(&l);
-        let third = if step == 0 {
-            Ball::exact(sum.hi / 3.0)
-        } else {
-            sum.over(Ball::exact(3.0))
-        };
+        let third = if step == 0 { Ball::exact(sum.hi / 3.0) } else { sum.over(Ball::exact(3.0)) };
         for (i, row) in l.iter_mut().enumerate() {
             row[i] = row[i] - third;
         }

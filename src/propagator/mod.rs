@@ -90,16 +90,10 @@ pub struct Moved {
 pub struct Propagator(Motion);
 
 #[derive(Clone, Debug)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "rods of unequal r_e hold the large one, side by side"
-)]
+#[expect(clippy::large_enum_variant, reason = "rods of unequal r_e hold the large one, side by side")]
 enum Motion {
     /// Plane Couette flow u_2 = G x_1: the closed form.
-    Couette {
-        shear_rate_per_s: f64,
-        aspect_ratio: f64,
-    },
+    Couette { shear_rate_per_s: f64, aspect_ratio: f64 },
     /// Any flow.
     General(General),
 }
@@ -108,10 +102,7 @@ impl Propagator {
     /// The motion of rods with `aspect_ratio` > 0 in `flow`.
     pub fn new(flow: &VelocityGradient, aspect_ratio: f64) -> Self {
         match flow.shear_rate_per_s() {
-            Some(shear_rate_per_s) => Self(Motion::Couette {
-                shear_rate_per_s,
-                aspect_ratio,
-            }),
+            Some(shear_rate_per_s) => Self(Motion::Couette { shear_rate_per_s, aspect_ratio }),
             None => Self::general(flow, aspect_ratio),
         }
     }
@@ -125,10 +116,9 @@ impl Propagator {
     /// turning part of the motion, where there is one.
     pub fn period_s(&self) -> Option<f64> {
         match &self.0 {
-            Motion::Couette {
-                shear_rate_per_s,
-                aspect_ratio,
-            } => Some(jeffery::period_s(*shear_rate_per_s, *aspect_ratio)),
+            Motion::Couette { shear_rate_per_s, aspect_ratio } => {
+                Some(jeffery::period_s(*shear_rate_per_s, *aspect_ratio))
+            }
             Motion::General(general) => general.period_s(),
         }
     }
@@ -177,11 +167,7 @@ impl Propagator {
                 let time = time_beside(general, mean, span)?;
                 let (rows, start) = general.rows_from(start, time);
                 let q = general.moved(&rows, start);
-                Some(moved(
-                    &general.map_of(&rows),
-                    &q,
-                    start.map(|component| component.hi),
-                ))
+                Some(moved(&general.map_of(&rows), &q, start.map(|component| component.hi)))
             }
         }
     }
@@ -213,11 +199,7 @@ impl Propagator {
     /// The phase in plane Couette flow, and what its rounding does to the map: sixteen roundings of one evaluation, and
     /// of turns that come from seconds or strain four.
     fn phase(&self, span: Span) -> Option<(Phase, f64)> {
-        let Motion::Couette {
-            shear_rate_per_s,
-            aspect_ratio,
-        } = self.0
-        else {
+        let Motion::Couette { shear_rate_per_s, aspect_ratio } = self.0 else {
             return None;
         };
         let period = jeffery::strain_per_period(aspect_ratio);
@@ -270,23 +252,14 @@ fn normalized(q: &[Ball; 3]) -> ([f64; 3], f64) {
     let scale = 1.0 / length(0);
     let off = length(1) * scale;
     // Up to 0.1, an arcsine is less than 1.01 times its sine. The direction itself is rounded to double.
-    let error = if off < 0.1 {
-        1.01 * off + 4.0 * f64::EPSILON
-    } else {
-        f64::INFINITY
-    };
+    let error = if off < 0.1 { 1.01 * off + 4.0 * f64::EPSILON } else { f64::INFINITY };
     (q.map(|q| q[0] * scale), known(error))
 }
 
 fn moved(map: &[[Ball; 3]; 3], q: &[Ball; 3], start: [f64; 3]) -> Moved {
     let (end, error) = normalized(q);
     let largest = q.iter().fold(0.0, |largest: f64, q| largest.max(q.hi.abs()));
-    let sums = map.map(|row| {
-        row.iter()
-            .zip(start)
-            .map(|(m, p)| (m.hi * p / largest).abs())
-            .sum::<f64>()
-    });
+    let sums = map.map(|row| row.iter().zip(start).map(|(m, p)| (m.hi * p / largest).abs()).sum::<f64>());
     let length = q.map(|q| q.hi / largest);
     Moved {
         p: UnitVector3::new_unchecked(end.into()),

@@ -91,12 +91,7 @@ impl Cubic {
         let middle = (t - root).scaled(0.5);
         // The product of the pair is c − 2λm.
         let square = middle * middle - (c - (root * middle).scaled(2.0));
-        Self {
-            size,
-            of_size,
-            root,
-            pair: Pair { middle, square },
-        }
+        Self { size, of_size, root, pair: Pair { middle, square } }
     }
 
     /// 2π/ω of a pair that is certainly complex, and |λ − m|·2π/ω.
@@ -119,19 +114,11 @@ impl Cubic {
         let (rate, cosh, sinh) = self.pair.at(time);
         // The larger of both factors is taken out.
         let lead = (self.root - middle) * tau - rate * tau;
-        let (of_root, of_pair) = if lead.hi > 0.0 {
-            (Ball::ONE, exp(-lead))
-        } else {
-            (exp(lead), Ball::ONE)
-        };
+        let (of_root, of_pair) = if lead.hi > 0.0 { (Ball::ONE, exp(-lead)) } else { (exp(lead), Ball::ONE) };
         let (cosh, sinh) = (of_pair * cosh, of_pair * sinh);
         let apart = self.root - middle;
         let rest = (of_root - (cosh + sinh * apart)).over(apart * apart - square);
-        [
-            cosh - middle * sinh + rest * (middle * middle - square),
-            sinh - rest * middle.scaled(2.0),
-            rest,
-        ]
+        [cosh - middle * sinh + rest * (middle * middle - square), sinh - rest * middle.scaled(2.0), rest]
     }
 
     /// Σ (yT)ⁿ/n! modulo χ, with y in units of `size` and T = size·τ ≤ ½. |yⁿ| modulo χ grows by less than 2 a power.
@@ -151,9 +138,7 @@ impl Cubic {
         [
             s0.widened(left_out),
             s1.widened(left_out * time.most()).scaled(inverse),
-            s2.widened(left_out * time.most().powi(2))
-                .scaled(inverse)
-                .scaled(inverse),
+            s2.widened(left_out * time.most().powi(2)).scaled(inverse).scaled(inverse),
         ]
     }
 }
@@ -189,9 +174,5 @@ fn largest_root([t, c, d]: [Ball; 3]) -> Ball {
     // Within this distance the slope changes by less than half of itself, and the value is made up for twice.
     let (least, off) = (slope(root).least(), value(root).most());
     let error = 2.0 * off / least;
-    root.widened(if 16.0 * error <= least {
-        error
-    } else {
-        f64::INFINITY
-    })
+    root.widened(if 16.0 * error <= least { error } else { f64::INFINITY })
 }

@@ -15,12 +15,8 @@ fn apart(a: &UnitVector3<f64>, b: &UnitVector3<f64>) -> f64 {
 
 #[test]
 fn quarter_turns_are_exact() {
-    for (turns, cos, sin) in [
-        (0.25, 0.0, 1.0),
-        (-0.25, 0.0, -1.0),
-        (0.5, -1.0, 0.0),
-        (1e8 + 0.75, 0.0, -1.0),
-    ] {
+    for (turns, cos, sin) in [(0.25, 0.0, 1.0), (-0.25, 0.0, -1.0), (0.5, -1.0, 0.0), (1e8 + 0.75, 0.0, -1.0)]
+    {
         let phase = Phase::of_turns(turns);
         assert_eq!((phase.cos, phase.sin), (cos, sin), "{turns}");
     }
@@ -141,11 +137,9 @@ fn the_error_of_a_phase_grows_with_its_turns() {
     let flow = VelocityGradient::plane_couette(0.5).unwrap();
     let propagator = Propagator::new(&flow, 11.6);
     let strain = 1e6 * jeffery::strain_per_period(11.6);
-    for (span, roundings) in [
-        (Span::Periods(1e6, 1.0), 1.0),
-        (Span::Strain(strain, 1.0), 4.0),
-        (Span::Seconds(2.0 * strain), 4.0),
-    ] {
+    for (span, roundings) in
+        [(Span::Periods(1e6, 1.0), 1.0), (Span::Strain(strain, 1.0), 4.0), (Span::Seconds(2.0 * strain), 4.0)]
+    {
         let (_, error) = propagator.map(span).unwrap();
         let expected = roundings * TAU * 1e6 * f64::EPSILON;
         assert!((error / expected - 1.0).abs() < 1e-5, "{error} {expected}");
@@ -158,11 +152,7 @@ fn the_error_of_a_phase_grows_with_its_turns() {
 fn a_direction_and_a_map_have_no_size() {
     let ball = |hi: f64, error: f64| Ball { hi, lo: 0.0, error };
     for size in [1e-5, 1.0, 3e7] {
-        let q = [
-            ball(3.0 * size, 3e-6 * size),
-            ball(-4.0 * size, 4e-6 * size),
-            Ball::ZERO,
-        ];
+        let q = [ball(3.0 * size, 3e-6 * size), ball(-4.0 * size, 4e-6 * size), Ball::ZERO];
         let (p, error) = normalized(&q);
         let expected = [0.6, -0.8, 0.0];
         assert!((0..3).all(|k| (p[k] - expected[k]).abs() < 1e-15), "{p:?}");
@@ -194,19 +184,14 @@ fn no_strain_overflows() {
     // All three coupled: rates of 2, −1 and −1, the first along (1, 1, 1).
     let coupled = flow([[0.0, 1.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 0.0]]);
     let end = Propagator::new(&coupled, 11.6).after(&p, 1e6);
-    assert!(
-        apart(&end, &UnitVector3::new_normalize(Vector3::repeat(1.0))) < 1e-15,
-        "{end:?}"
-    );
+    assert!(apart(&end, &UnitVector3::new_normalize(Vector3::repeat(1.0))) < 1e-15, "{end:?}");
 }
 
 /// Of an axis that the flow leads nowhere else, though it leads other axes there: L_21 = ρL_12, to the bit at r_e = 2.
 #[test]
 fn a_rod_stays_on_an_axis_that_other_axes_lead_to() {
     let flow = flow([[-1.0, 1.0, 0.0], [0.25, 0.5, 0.3], [0.0, -0.2, 0.5]]);
-    let moved = Propagator::new(&flow, 2.0)
-        .moved(&Vector3::x_axis(), Span::Seconds(1e3))
-        .unwrap();
+    let moved = Propagator::new(&flow, 2.0).moved(&Vector3::x_axis(), Span::Seconds(1e3)).unwrap();
     assert!(moved.p == Vector3::x_axis() && moved.error < 1e-15, "{moved:?}");
 }
 
@@ -251,18 +236,11 @@ fn the_bound_on_a_slow_spiral_is_kept() {
             );
             let moved = moved(1e-290);
             let off = apart(&moved.p, &expected);
-            assert!(
-                off <= moved.error + 4.0 * f64::EPSILON,
-                "{k}: {off:e} beyond {:e}",
-                moved.error
-            );
+            assert!(off <= moved.error + 4.0 * f64::EPSILON, "{k}: {off:e} beyond {:e}", moved.error);
             moved.error
         })
         .collect();
-    assert!(
-        spirals[0] < 1e-15 && spirals.last().unwrap() > &1e-3,
-        "{spirals:?}"
-    );
+    assert!(spirals[0] < 1e-15 && spirals.last().unwrap() > &1e-3, "{spirals:?}");
 }
 
 #[test]

@@ -51,9 +51,5 @@ fn of_several_wrong_rods_the_first_is_named_whatever_the_threads() {
     };
     let errors: Vec<_> = (0..4).map(recorder).collect();
     assert!(errors.iter().all(|error| *error == errors[0]));
-    assert!(
-        errors[0].to_string().starts_with("rod 0, output 0 "),
-        "{}",
-        errors[0]
-    );
+    assert!(errors[0].to_string().starts_with("rod 0, output 0 "), "{}", errors[0]);
 }

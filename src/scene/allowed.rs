@@ -35,29 +35,17 @@ impl std::fmt::Display for Invalid {
 
 impl Invalid {
     pub(crate) fn new(key: &'static str, value: impl ToString, allowed: impl Into<String>) -> Self {
-        Self {
-            key,
-            value: Some(value.to_string()),
-            allowed: allowed.into(),
-        }
+        Self { key, value: Some(value.to_string()), allowed: allowed.into() }
     }
 
     pub(super) fn missing(key: &'static str, allowed: &str) -> Self {
-        Self {
-            key,
-            value: None,
-            allowed: allowed.to_owned(),
-        }
+        Self { key, value: None, allowed: allowed.to_owned() }
     }
 }
 
 /// A value outside what its key allows.
 pub(super) fn refused(key: &'static str, value: impl ToString) -> Invalid {
-    Invalid::new(
-        key,
-        value,
-        find(key).map_or_else(String::new, |key| key.holds.to_string()),
-    )
+    Invalid::new(key, value, find(key).map_or_else(String::new, |key| key.holds.to_string()))
 }
 
 /// Checks a number.

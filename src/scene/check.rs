@@ -41,10 +41,7 @@ impl Scene {
             return vec![refused];
         }
         let rest = self.check_motion().map(|_| ());
-        [self.check_particles(), rest]
-            .into_iter()
-            .filter_map(Result::err)
-            .collect()
+        [self.check_particles(), rest].into_iter().filter_map(Result::err).collect()
     }
 
     /// Checks the scene; its flow, and where rods do not move by the closed form of plane Couette flow, how they do.
@@ -66,10 +63,7 @@ impl Scene {
             return Ok(());
         };
         let names: Vec<_> = observables.iter().map(|o| o.name()).collect();
-        let allowed = format!(
-            "{} needs plane Couette flow: only ∂u_2/∂x_1 other than 0",
-            asked.name()
-        );
+        let allowed = format!("{} needs plane Couette flow: only ∂u_2/∂x_1 other than 0", asked.name());
         Err(Invalid::new("output.observables", format!("{names:?}"), allowed))
     }
 
@@ -115,12 +109,7 @@ impl Scene {
     }
 
     fn check_rods_outputs(&self) -> Result<(), Invalid> {
-        let outputs: Vec<_> = self
-            .output
-            .rods_at
-            .iter()
-            .map(|time| self.output_at(*time))
-            .collect();
+        let outputs: Vec<_> = self.output.rods_at.iter().map(|time| self.output_at(*time)).collect();
         let wrong =
             (0..outputs.len()).find(|&k| outputs[k].is_none() || k > 0 && outputs[k] == outputs[k - 1]);
         let Some(wrong) = wrong else {

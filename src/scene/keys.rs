@@ -157,13 +157,7 @@ const fn key(
     holds: Holds,
     absent: Absent,
 ) -> Key {
-    Key {
-        path,
-        meaning,
-        unit,
-        holds,
-        absent,
-    }
+    Key { path, meaning, unit, holds, absent }
 }
 
 use Absent::{Default, Other, Refused};
@@ -254,8 +248,7 @@ mod tests {
                 keys.push((name, value));
             }
             text += &format!("[{}]\n", of.path);
-            keys.iter()
-                .for_each(|(key, value)| text += &format!("{key} = {value}\n"));
+            keys.iter().for_each(|(key, value)| text += &format!("{key} = {value}\n"));
         }
         text
     }
@@ -267,12 +260,7 @@ mod tests {
             if let Default(value) = key.absent
                 && key.path != "time.outputs_per_strain"
             {
-                assert_eq!(
-                    scene_file::parse("t", &text(key.path, value)).unwrap(),
-                    without,
-                    "{}",
-                    key.path
-                );
+                assert_eq!(scene_file::parse("t", &text(key.path, value)).unwrap(), without, "{}", key.path);
             }
         }
         assert_eq!(without.outputs_per_strain(), 10);
@@ -287,9 +275,7 @@ mod tests {
                 _ => (None, "-1"),
             };
             let refused = |value: &str| {
-                let error = scene_file::parse("t", &text(key.path, value))
-                    .unwrap_err()
-                    .to_string();
+                let error = scene_file::parse("t", &text(key.path, value)).unwrap_err().to_string();
                 assert!(error.contains(&key.holds.to_string()), "{error}");
             };
             refused(wrong);

@@ -69,9 +69,7 @@ impl From<Written> for Particles {
             count: written.count,
             length_mm: written.length_mm,
             length_sd_percent: written.length_sd_percent,
-            aspect_ratio: (written.aspect_ratio)
-                .or(equivalent(physical, correlation))
-                .unwrap_or(f64::NAN),
+            aspect_ratio: (written.aspect_ratio).or(equivalent(physical, correlation)).unwrap_or(f64::NAN),
             physical_aspect_ratio: physical,
             shape_correlation: correlation,
             aspect_ratio_sd_percent: written.aspect_ratio_sd_percent,
@@ -255,11 +253,7 @@ pub struct RodsFile {
 impl RodsFile {
     /// A file of this name that has been read.
     pub fn with(file: &str, own: OwnRods) -> Self {
-        Self {
-            file: file.to_owned(),
-            crc32: None,
-            own: Some(own.into()),
-        }
+        Self { file: file.to_owned(), crc32: None, own: Some(own.into()) }
     }
 }
 

@@ -18,22 +18,13 @@ impl Scene {
             number("particles.length_sd_percent", particles.length_sd_percent),
             self.check_aspect_ratio(),
             given("particles.physical_aspect_ratio", particles.physical_aspect_ratio),
-            number(
-                "particles.aspect_ratio_sd_percent",
-                particles.aspect_ratio_sd_percent,
-            ),
+            number("particles.aspect_ratio_sd_percent", particles.aspect_ratio_sd_percent),
             self.check_orientation(),
-            given(
-                "interaction.concentration_per_cm3",
-                interaction.and_then(|i| i.concentration_per_cm3),
-            ),
+            given("interaction.concentration_per_cm3", interaction.and_then(|i| i.concentration_per_cm3)),
             self.check_box(),
             given("interaction.alpha", of_interaction(|i| i.alpha)),
             given("interaction.m", of_interaction(|i| i.m)),
-            given(
-                "interaction.min_contact_arm",
-                of_interaction(|i| i.min_contact_arm),
-            ),
+            given("interaction.min_contact_arm", of_interaction(|i| i.min_contact_arm)),
             given("time.periods", time.periods),
             given("time.strain", time.strain),
             whole("time.steps_per_period", time.steps_per_period.unwrap_or(1)),
@@ -100,10 +91,7 @@ impl Scene {
 
     fn check_observables(&self) -> Result<(), Invalid> {
         let observables = &self.output.observables;
-        let repeated = observables
-            .iter()
-            .enumerate()
-            .any(|(k, o)| observables[..k].contains(o));
+        let repeated = observables.iter().enumerate().any(|(k, o)| observables[..k].contains(o));
         if observables.is_empty() || repeated {
             let names: Vec<_> = observables.iter().map(|o| o.name()).collect();
             return Err(refused("output.observables", format!("{names:?}")));

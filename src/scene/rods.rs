@@ -55,11 +55,7 @@ impl Scene {
                     "either aspect_ratio or physical_aspect_ratio, of which {} makes {value}",
                     formula.name
                 );
-                Err(Invalid::new(
-                    "particles.aspect_ratio",
-                    particles.aspect_ratio,
-                    allowed,
-                ))
+                Err(Invalid::new("particles.aspect_ratio", particles.aspect_ratio, allowed))
             }
             None => {
                 let allowed = format!(
@@ -90,17 +86,12 @@ impl Scene {
         let mut columns = axes.chain(&own.aspect_ratio).chain(&own.length_mm);
         if let Some(column) = columns.find(|column| column.len() != count) {
             let has = column.len();
-            return refused(format!(
-                "a row for each rod: it has {has}, and particles.count is {count}"
-            ));
+            return refused(format!("a row for each rod: it has {has}, and particles.count is {count}"));
         }
         match self.misfit(own) {
-            Some(Misfit {
-                rod,
-                column,
-                value,
-                allowed,
-            }) => refused(format!("rod {rod} has {column} = {value:?}; allowed: {allowed}")),
+            Some(Misfit { rod, column, value, allowed }) => {
+                refused(format!("rod {rod} has {column} = {value:?}; allowed: {allowed}"))
+            }
             None => Ok(()),
         }
     }
@@ -121,20 +112,11 @@ impl Scene {
         let first = |values: &[f64], allowed: &dyn Fn(f64) -> bool, column, words: &str| {
             let rod = values.iter().position(|value| !allowed(*value))?;
             let (value, allowed) = (values[rod], words.to_owned());
-            Some(Misfit {
-                rod,
-                column,
-                value,
-                allowed,
-            })
+            Some(Misfit { rod, column, value, allowed })
         };
         let directions = own.p.as_ref().and_then(|[p1, p2, p3]| {
-            let squares: Vec<f64> = p1
-                .iter()
-                .zip(p2)
-                .zip(p3)
-                .map(|((a, b), c)| a * a + b * b + c * c)
-                .collect();
+            let squares: Vec<f64> =
+                p1.iter().zip(p2).zip(p3).map(|((a, b), c)| a * a + b * b + c * c).collect();
             // NaN is not within anything.
             let is_unit = |square: f64| (square - 1.0).abs() <= 16.0 * f64::EPSILON;
             first(&squares, &is_unit, "p1² + p2² + p3²", "1")
@@ -155,10 +137,7 @@ impl Scene {
 
     /// Checks that r_e has the mean that its flow allows, and stays on its side of 1.
     pub(super) fn check_particles(&self) -> Result<(), Invalid> {
-        let (r, sd) = (
-            self.particles.aspect_ratio,
-            self.particles.aspect_ratio_sd_percent,
-        );
+        let (r, sd) = (self.particles.aspect_ratio, self.particles.aspect_ratio_sd_percent);
         if self.interaction.is_some() && r <= 1.0 {
             let allowed = "interacting rods need a number > 1";
             return Err(Invalid::new("particles.aspect_ratio", r, allowed));

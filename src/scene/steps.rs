@@ -44,11 +44,7 @@ impl Scene {
 
     /// What steps are counted in.
     pub(crate) fn time_unit(&self) -> &'static str {
-        if self.time.strain.is_some() {
-            "unit of strain"
-        } else {
-            "period"
-        }
+        if self.time.strain.is_some() { "unit of strain" } else { "period" }
     }
 
     /// The strain of one step, or twice the angle in rad by which the liquid turns in it where that is larger: GΔt in plane
@@ -89,11 +85,7 @@ impl Scene {
     /// The larger of strain and turn of the liquid in a period or a unit of strain.
     pub(super) fn motion_per_unit(&self) -> f64 {
         let r = self.particles.aspect_ratio;
-        let Some(flow) = self
-            .check_flow()
-            .ok()
-            .filter(|flow| flow.shear_rate_per_s().is_none())
-        else {
+        let Some(flow) = self.check_flow().ok().filter(|flow| flow.shear_rate_per_s().is_none()) else {
             return match self.time.strain {
                 Some(_) => 1.0,
                 None => strain_per_period(r),

@@ -30,10 +30,7 @@ impl<'a> Lines<'a> {
     pub fn of(text: &'a str) -> Self {
         count(text.len());
         let after = text.match_indices('\n').map(|(at, _)| at + 1);
-        Self {
-            text,
-            starts: std::iter::once(0).chain(after).collect(),
-        }
+        Self { text, starts: std::iter::once(0).chain(after).collect() }
     }
 
     /// The number of the line of the byte `offset`, from 1.
@@ -50,10 +47,7 @@ impl<'a> Lines<'a> {
         // No further than is shown: many keys may stand in one line.
         let rest = self.text[start..].char_indices();
         let end = |(at, c): &(usize, char)| *c == '\n' || *at > 4 * SHOWN;
-        let end = rest
-            .clone()
-            .find(end)
-            .map_or(self.text.len(), |(at, _)| start + at);
+        let end = rest.clone().find(end).map_or(self.text.len(), |(at, _)| start + at);
         count(end - start);
         shortened(self.text[start..end].trim())
     }

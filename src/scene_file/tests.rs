@@ -18,10 +18,7 @@ fn refused(text: &str) -> (SceneError, usize) {
 fn of_many_unknown_keys_the_first_have_a_line_each_and_the_rest_one() {
     let keys: Vec<_> = (0..40_000).map(|k| format!("k{k} = 1")).collect();
     let in_lines = format!("{SCENE}{}\n", keys.join("\n"));
-    let in_one = SCENE.replace(
-        "shear_rate_per_s = 1",
-        &format!("shear_rate_per_s = 1, {}", keys.join(", ")),
-    );
+    let in_one = SCENE.replace("shear_rate_per_s = 1", &format!("shear_rate_per_s = 1, {}", keys.join(", ")));
     for (text, first, next) in [(in_lines, 9, 29), (in_one, 2, 2)] {
         let (error, looked_through) = refused(&text);
         assert_eq!(error.problems.len(), MOST_UNKNOWN + 1);
@@ -30,10 +27,7 @@ fn of_many_unknown_keys_the_first_have_a_line_each_and_the_rest_one() {
         let rest = format!("\ns.toml:{next}: 39980 more unknown keys from here on");
         assert!(error.to_string().ends_with(&rest), "{error}");
         // Once for the lines, and some of each line that is shown.
-        assert!(
-            looked_through < text.len() + 1000 * MOST_UNKNOWN,
-            "{looked_through}"
-        );
+        assert!(looked_through < text.len() + 1000 * MOST_UNKNOWN, "{looked_through}");
     }
     // As many as have a line of their own.
     let few = keys[..MOST_UNKNOWN].join("\n");
@@ -62,10 +56,5 @@ fn of_a_long_line_or_value_the_start_is_shown() {
     }
     // What is not long is shown whole.
     let (error, _) = refused(&SCENE.replace("count = 10", "count = \"x\""));
-    assert!(
-        error
-            .to_string()
-            .contains("particles.count = \"x\" is not allowed"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("particles.count = \"x\" is not allowed"), "{error}");
 }

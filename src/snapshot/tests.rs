@@ -4,10 +4,7 @@ use super::*;
 use crate::scene::{Interaction, Scene};
 
 fn plan(interaction: Option<Interaction>, count: usize) -> Plan {
-    let mut scene = Scene {
-        interaction,
-        ..Scene::default()
-    };
+    let mut scene = Scene { interaction, ..Scene::default() };
     scene.particles.count = count;
     scene.time.outputs_per_period = Some(4);
     scene.output.rods_at = vec![0.5, 1.0];
@@ -29,19 +26,14 @@ fn rods_that_are_not_the_plan_s_are_refused() {
         ("a collision more", |s| s.collided.push(false)),
         ("an output that is not asked for", |s| s.output = 1),
         ("a replica that is not asked for", |s| s.replica = 1),
-        ("a place less, or places of free rods", |s| {
-            match &mut s.place_in_lengths {
-                Some(places) => _ = places[0].pop(),
-                None => s.place_in_lengths = Some([(); 3].map(|()| vec![0.0; 20])),
-            }
+        ("a place less, or places of free rods", |s| match &mut s.place_in_lengths {
+            Some(places) => _ = places[0].pop(),
+            None => s.place_in_lengths = Some([(); 3].map(|()| vec![0.0; 20])),
         }),
-        (
-            "a place that is no number, or none of free rods",
-            |s| match &mut s.place_in_lengths {
-                Some(places) => places[2][7] = f64::NAN,
-                None => s.place_in_lengths = Some(Default::default()),
-            },
-        ),
+        ("a place that is no number, or none of free rods", |s| match &mut s.place_in_lengths {
+            Some(places) => places[2][7] = f64::NAN,
+            None => s.place_in_lengths = Some(Default::default()),
+        }),
     ];
     for interaction in [None, Some(Interaction::default())] {
         let plan = plan(interaction.clone(), 20);

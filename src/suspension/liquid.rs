@@ -23,10 +23,7 @@ impl Liquid {
             return (Self::Couette { volume, sign }, plan.unit().strain / steps);
         }
         let rate_per_s = flow.per_s().amax();
-        let (gradient, step) = (
-            flow.per_s() / rate_per_s,
-            plan.unit().seconds * rate_per_s / steps,
-        );
+        let (gradient, step) = (flow.per_s() / rate_per_s, plan.unit().seconds * rate_per_s / steps);
         (Self::Any(Box::new(Inflow::new(&volume, gradient, step))), step)
     }
 

@@ -32,9 +32,7 @@ impl Suspension {
 
     /// The direction of every rod now.
     pub fn directions(&self) -> Vec<Vector3<f64>> {
-        (0..self.rods.count())
-            .map(|rod| self.rods.direction(rod, self.tick))
-            .collect()
+        (0..self.rods.count()).map(|rod| self.rods.direction(rod, self.tick)).collect()
     }
 
     /// The length of every rod over the mean.
@@ -44,8 +42,6 @@ impl Suspension {
 
     /// The aspect ratio of every rod.
     pub fn aspect_ratios(&self) -> Vec<f64> {
-        (0..self.rods.count())
-            .map(|rod| self.rods.aspect_ratio(rod))
-            .collect()
+        (0..self.rods.count()).map(|rod| self.rods.aspect_ratio(rod)).collect()
     }
 }

@@ -5,10 +5,7 @@ use crate::scene::{Interaction, Scene, Time};
 
 #[test]
 fn a_state_of_other_counts_is_refused_and_changes_nothing() {
-    let mut scene = Scene {
-        interaction: Some(Interaction::default()),
-        ..Scene::default()
-    };
+    let mut scene = Scene { interaction: Some(Interaction::default()), ..Scene::default() };
     scene.particles.count = 3;
     let plan = Plan::new(&scene).unwrap();
     let mut suspension = Suspension::new(&plan, 0).unwrap();
@@ -69,10 +66,8 @@ fn a_collision_gives_both_contact_points_the_mean_velocity_along_the_line() {
 
         // By the paper's words, in units of strain: u at each contact point's centre plus r ṗ, along the line.
         let per_strain = plan.flow().per_s() / plan.flow().magnitude_per_s();
-        let (strain, spin) = (
-            0.5 * (per_strain + per_strain.transpose()),
-            0.5 * (per_strain - per_strain.transpose()),
-        );
+        let (strain, spin) =
+            (0.5 * (per_strain + per_strain.transpose()), 0.5 * (per_strain - per_strain.transpose()));
         let [a, b] = centres.map(Vector3::from);
         let met = contact(&(b - a), &start[0], &start[1], [0.0; 2]).unwrap();
         let free = start.map(|p| {

@@ -70,17 +70,10 @@ impl Inflow {
         let mut sum = 0.0;
         for axis in 0..3 {
             for at in [0.0, inflow.sides[axis]] {
-                let mut face = Face {
-                    axis,
-                    at,
-                    most: 0.0,
-                    share: 0.0,
-                };
+                let mut face = Face { axis, at, most: 0.0, share: 0.0 };
                 // A linear function is largest at a corner.
                 for corner in [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]] {
-                    face.most = face
-                        .most
-                        .max(inflow.speed_in(&face, &inflow.point(&face, corner)));
+                    face.most = face.most.max(inflow.speed_in(&face, &inflow.point(&face, corner)));
                 }
                 if face.most > 0.0 {
                     let [j, k] = across(axis);

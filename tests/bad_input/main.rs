@@ -144,10 +144,7 @@ const NOT_OBSERVABLES: &[&str] = &[
 #[test]
 fn the_scenes_to_spoil_are_good() {
     for text in [INTERACTING, EXTENSION] {
-        assert_eq!(
-            scene_file::parse("s.toml", text).map(|scene| scene.title),
-            Ok("t".to_owned())
-        );
+        assert_eq!(scene_file::parse("s.toml", text).map(|scene| scene.title), Ok("t".to_owned()));
     }
 }
 
@@ -254,10 +251,7 @@ fn any_other_mistake_is_named_with_its_line() {
     for (scene, part, replacement, start) in OTHER_MISTAKES {
         assert!(scene.contains(part), "{part}");
         let refusal = refusal(&scene.replacen(part, replacement, 1));
-        assert!(
-            refusal.starts_with(&format!("dir/s.toml:{start}")),
-            "{start}\n{refusal}"
-        );
+        assert!(refusal.starts_with(&format!("dir/s.toml:{start}")), "{start}\n{refusal}");
         assert_eq!(refusal.lines().count(), 1, "{refusal}");
     }
 }

@@ -43,23 +43,16 @@ fn all_problems_are_told_at_once() {
         assert_eq!(refusal.lines().count(), chosen.len(), "{refusal}");
         for (line, (_, _, message)) in refusal.lines().zip(chosen) {
             let message = message.split_once(": ").unwrap().1;
-            assert!(
-                line.starts_with("dir/s.toml:") && line.contains(message),
-                "{message}\n{line}"
-            );
+            assert!(line.starts_with("dir/s.toml:") && line.contains(message), "{message}\n{line}");
         }
     }
     let all = refusal(&MANY.iter().fold(INTERACTING.to_owned(), spoil));
     for (line, (_, _, message)) in all.lines().zip(MANY) {
-        assert!(
-            line.starts_with(&format!("dir/s.toml:{message}")),
-            "{message}\n{line}"
-        );
+        assert!(line.starts_with(&format!("dir/s.toml:{message}")), "{message}\n{line}");
     }
     // What does not go together, in two tables.
-    let text = INTERACTING
-        .replace("= 3.6", "= 40")
-        .replace("outputs_per_period = 10", "outputs_per_period = 7");
+    let text =
+        INTERACTING.replace("= 3.6", "= 40").replace("outputs_per_period = 10", "outputs_per_period = 7");
     let refusal = refusal(&text);
     assert_eq!(refusal.lines().count(), 2, "{refusal}");
     assert!(
@@ -76,22 +69,10 @@ fn an_unknown_key_is_told_what_it_may_have_meant() {
         ("[particles]", "[particle]", Some("particles")),
         ("title =", "alpha = 1\ntitle =", Some("interaction.alpha")),
         ("seed", "sead", Some("ensemble.seed")),
-        (
-            "steps_per_period",
-            "step_per_period",
-            Some("time.steps_per_period"),
-        ),
+        ("steps_per_period", "step_per_period", Some("time.steps_per_period")),
         // As like one as the other: the first.
-        (
-            "steps_per_period",
-            "outputs_per_x",
-            Some("time.outputs_per_period"),
-        ),
-        (
-            "m = 3",
-            "m = 3\ntitle = \"x\"",
-            Some("title, which comes before all tables"),
-        ),
+        ("steps_per_period", "outputs_per_x", Some("time.outputs_per_period")),
+        ("m = 3", "m = 3\ntitle = \"x\"", Some("title, which comes before all tables")),
         ("m = 3", "m = 3\nxyzzy = 3", None),
     ] {
         let refusal = refusal(&INTERACTING.replacen(part, replacement, 1));
@@ -159,15 +140,10 @@ fn what_is_nested_too_deep_is_refused_with_its_line() {
         for before in ["", "title = \"a.b.c\"\n[flow]\n", INTERACTING] {
             for after in ["", "\n", "\n[particles]\ncount = 0\n"] {
                 let text = format!("{before}\n{deep}{after}");
-                let line = 1 + text
-                    .lines()
-                    .position(|line| line.contains(&deep[deep.len() / 2..][..20]))
-                    .unwrap();
+                let line =
+                    1 + text.lines().position(|line| line.contains(&deep[deep.len() / 2..][..20])).unwrap();
                 let refusal = refusal(&text);
-                assert!(
-                    refusal.starts_with(&format!("dir/s.toml:{line}: ")),
-                    "{line}: {refusal}"
-                );
+                assert!(refusal.starts_with(&format!("dir/s.toml:{line}: ")), "{line}: {refusal}");
                 assert_eq!(refusal.lines().count(), 1);
             }
         }
@@ -184,23 +160,15 @@ fn r_e_is_given_once_and_a_misspelt_one_is_told_once() {
     let not_both = "particles.aspect_ratio = 11.6 is not allowed: either aspect_ratio or physical_aspect_ratio, not both";
     assert_eq!(both, format!("dir/s.toml:7: {not_both}"));
     let misspelt = told("aspect_ratio", "aspect_ration");
-    assert!(
-        misspelt.contains("did you mean particles.aspect_ratio?"),
-        "{misspelt}"
-    );
+    assert!(misspelt.contains("did you mean particles.aspect_ratio?"), "{misspelt}");
     assert_eq!(misspelt.lines().count(), 1, "{misspelt}");
     let none = told("aspect_ratio = 11.6\n", "");
-    assert!(
-        none.starts_with("dir/s.toml:4: particles.aspect_ratio is missing: "),
-        "{none}"
-    );
+    assert!(none.starts_with("dir/s.toml:4: particles.aspect_ratio is missing: "), "{none}");
 }
 
 #[test]
 fn a_gradient_that_is_no_number_is_told_beside_other_mistakes() {
-    let text = EXTENSION
-        .replace("[-0.5, 0, 0]", "[nan, 0, 0]")
-        .replace("count = 10", "count = 0");
+    let text = EXTENSION.replace("[-0.5, 0, 0]", "[nan, 0, 0]").replace("count = 10", "count = 0");
     let refusal = refusal(&text);
     let lines: Vec<_> = refusal.lines().collect();
     assert_eq!(lines.len(), 2, "{refusal}");

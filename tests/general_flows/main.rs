@@ -21,10 +21,7 @@ fn scene(rows: [[f64; 3]; 3], r: f64, sd: f64, orientation: &str, time: &str) ->
 
 /// Rods that start along p.
 fn of_a_file(p: [Vec<f64>; 3]) -> RodsFile {
-    let own = OwnRods {
-        p: Some(p),
-        ..OwnRods::default()
-    };
+    let own = OwnRods { p: Some(p), ..OwnRods::default() };
     RodsFile::with("start.csv", own)
 }
 
@@ -34,10 +31,7 @@ fn ends_or_is_refused(text: &str) -> bool {
         Ok(scene) => scene,
         Err(error) => {
             let error = error.to_string();
-            assert!(
-                error.contains("is not allowed: ") && error.len() > 60,
-                "{error}\n{text}"
-            );
+            assert!(error.contains("is not allowed: ") && error.len() > 60, "{error}\n{text}");
             return false;
         }
     };
@@ -48,10 +42,7 @@ fn ends_or_is_refused(text: &str) -> bool {
     for k in 0..results.times.len() {
         let trace = mean("a11", k) + mean("a22", k) + mean("a33", k);
         // |p|² of three rods: 2 · 4 ulp each, and the roundings of their mean.
-        assert!(
-            (trace - 1.0).abs() <= 64.0 * f64::EPSILON,
-            "{trace} at {k}\n{text}"
-        );
+        assert!((trace - 1.0).abs() <= 64.0 * f64::EPSILON, "{trace} at {k}\n{text}");
         assert!(mean("x2", k).is_finite(), "x2 at {k}\n{text}");
     }
     true
@@ -92,12 +83,8 @@ fn scenes(component: impl Strategy<Value = f64>) -> impl Strategy<Value = String
 
 /// Runs 500 scenes with such components. A tenth at least must end with numbers: where all are refused, nothing was tried.
 fn end_or_are_refused(component: impl Strategy<Value = f64>) {
-    let config = Config {
-        rng_seed: RngSeed::Fixed(1982),
-        failure_persistence: None,
-        cases: 500,
-        ..Config::default()
-    };
+    let config =
+        Config { rng_seed: RngSeed::Fixed(1982), failure_persistence: None, cases: 500, ..Config::default() };
     let ended = Cell::new(0);
     TestRunner::new(config)
         .run(&scenes(component), |scene| {
@@ -153,13 +140,7 @@ fn a_start_on_a_dividing_plane_is_refused_however_it_is_given() {
 fn a_rounded_start_of_extreme_rods_is_answered_as_far_as_it_is_known() {
     let rows = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
     for (r, known) in [(1e8, true), (1e-8, true), (1e10, false), (1e-10, false)] {
-        let text = scene(
-            rows,
-            r,
-            0.0,
-            "\"isotropic\"",
-            "strain = 2\noutputs_per_strain = 2",
-        );
+        let text = scene(rows, r, 0.0, "\"isotropic\"", "strain = 2\noutputs_per_strain = 2");
         let mut scene = scene_file::parse("s.toml", &text).unwrap();
         scene.particles.rods = Some(of_a_file([vec![0.6; 3], vec![0.0; 3], vec![0.8; 3]]));
         let plan = Plan::new(&scene).unwrap();
@@ -176,10 +157,7 @@ fn rates_beyond_all_digits_are_refused_as_such() {
         scene_file::parse("s.toml", &text).map_err(|error| error.to_string())
     };
     let error = parsed(1.0).unwrap_err();
-    assert!(
-        error.contains("the flow's rates cancel, or grow apart"),
-        "{error}"
-    );
+    assert!(error.contains("the flow's rates cancel, or grow apart"), "{error}");
     assert!(parsed(0.0).is_ok());
 }
 
@@ -189,12 +167,7 @@ fn three_real_rates_have_no_period() {
     let rows = [[-1.0, -1.0, 0.0], [-2.0, 2.0, -1.0], [0.0, -2.0, -1.0]];
     let error =
         scene_file::parse("s.toml", &scene(rows, 2.0, 0.0, "\"isotropic\"", "periods = 1")).unwrap_err();
-    assert!(
-        error
-            .to_string()
-            .contains("have no period in this flow: give strain"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("have no period in this flow: give strain"), "{error}");
 }
 
 /// A rotation in space is rounded: how far Couette flow then is from periodic is worked out, not guessed.
@@ -206,32 +179,19 @@ fn a_rounded_rotation_of_couette_flow_has_a_period_for_as_long_as_it_has() {
         along.map(|flow: f64| across.map(|gradient: f64| flow / 14f64.sqrt() * (gradient / 21f64.sqrt())));
     let parsed =
         |r: f64, time: &str| scene_file::parse("s.toml", &scene(rows, r, 0.0, "\"isotropic\"", time));
-    assert!(
-        parsed(11.6, "periods = 10").is_ok(),
-        "{:?}",
-        parsed(11.6, "periods = 10")
-    );
+    assert!(parsed(11.6, "periods = 10").is_ok(), "{:?}", parsed(11.6, "periods = 10"));
     let error = parsed(1e8, "periods = 10").unwrap_err().to_string();
-    assert!(
-        error.contains("have no period in this flow") && error.contains("give strain"),
-        "{error}"
-    );
+    assert!(error.contains("have no period in this flow") && error.contains("give strain"), "{error}");
 }
 
 /// Next to parabolic: |det A| < 16 ε, and a strain of 10⁶. Digits from 80-digit arithmetic (issue 9).
 #[test]
 fn a_nearly_parabolic_flow_is_not_taken_as_planar() {
-    let flow = VelocityGradient::new(nalgebra::Matrix3::new(
-        1.5e-7, 0.0, 0.0, 1.0, 1.5e-7, 0.0, 0.0, 0.0, -3e-7,
-    ))
-    .unwrap();
-    let moved = Propagator::new(&flow, 1e4)
-        .moved(&from_degrees(90.0, 45.0), Span::Strain(1e6, 1.0))
-        .unwrap();
-    assert!(
-        (moved.p.y.abs() - 0.804).abs() < 5e-4 && (moved.p.z - 0.595).abs() < 5e-4,
-        "{moved:?}"
-    );
+    let flow =
+        VelocityGradient::new(nalgebra::Matrix3::new(1.5e-7, 0.0, 0.0, 1.0, 1.5e-7, 0.0, 0.0, 0.0, -3e-7))
+            .unwrap();
+    let moved = Propagator::new(&flow, 1e4).moved(&from_degrees(90.0, 45.0), Span::Strain(1e6, 1.0)).unwrap();
+    assert!((moved.p.y.abs() - 0.804).abs() < 5e-4 && (moved.p.z - 0.595).abs() < 5e-4, "{moved:?}");
     assert!(moved.error < 1e-12, "{moved:?}");
 }
 
@@ -239,14 +199,11 @@ fn a_nearly_parabolic_flow_is_not_taken_as_planar() {
 #[test]
 fn a_rod_on_an_axis_of_the_flow_stays_there() {
     for theta_deg in [0.0, 180.0] {
-        let flow = VelocityGradient::new(nalgebra::Matrix3::new(
-            1.0, 0.3, 0.0, -0.2, -0.5, 0.0, 0.0, 0.0, -0.5,
-        ))
-        .unwrap();
+        let flow =
+            VelocityGradient::new(nalgebra::Matrix3::new(1.0, 0.3, 0.0, -0.2, -0.5, 0.0, 0.0, 0.0, -0.5))
+                .unwrap();
         let start = from_degrees(37.0, theta_deg);
-        let moved = Propagator::new(&flow, 11.6)
-            .moved(&start, Span::Strain(1e6, 1.0))
-            .unwrap();
+        let moved = Propagator::new(&flow, 11.6).moved(&start, Span::Strain(1e6, 1.0)).unwrap();
         // Else e^{−5·10⁵} beside e^{10⁶} is no direction at all.
         assert!(moved.p == start && moved.error < 1e-14, "{moved:?}");
     }
@@ -257,13 +214,7 @@ fn a_rod_on_an_axis_of_the_flow_stays_there() {
 fn what_comes_back_is_the_same_in_every_period() {
     let turned = [[0.0; 3], [0.0; 3], [0.0, 0.5, 0.0]];
     for orientation in ["\"isotropic\"", "{ phi_deg = 20, theta_deg = 70 }"] {
-        let text = scene(
-            turned,
-            5.0,
-            0.0,
-            orientation,
-            "periods = 3\noutputs_per_period = 8",
-        );
+        let text = scene(turned, 5.0, 0.0, orientation, "periods = 3\noutputs_per_period = 8");
         let plan = Plan::new(&scene_file::parse("s.toml", &text).unwrap()).unwrap();
         let results = ensemble::run(&plan).unwrap();
         let x2 = &results.column("x2").unwrap().mean;

@@ -110,11 +110,7 @@ const UNCOUPLED: [Answered; 13] = [
         100.0,
         [7e-16, 1.0, -5e-15],
         1861.0,
-        [
-            -std::f64::consts::FRAC_1_SQRT_2,
-            0.0,
-            -std::f64::consts::FRAC_1_SQRT_2,
-        ],
+        [-std::f64::consts::FRAC_1_SQRT_2, 0.0, -std::f64::consts::FRAC_1_SQRT_2],
     ),
 ];
 
@@ -124,9 +120,7 @@ fn coordinates_that_are_not_coupled_keep_their_digits() {
     for (rows, r, p, strain, expected) in UNCOUPLED {
         let flow = VelocityGradient::new(nalgebra::Matrix3::from_fn(|i, j| rows[i][j])).unwrap();
         let start = nalgebra::UnitVector3::new_unchecked(p.into());
-        let moved = Propagator::new(&flow, r)
-            .moved(&start, Span::Strain(strain, 1.0))
-            .unwrap();
+        let moved = Propagator::new(&flow, r).moved(&start, Span::Strain(strain, 1.0)).unwrap();
         let off = (moved.p.into_inner() - nalgebra::Vector3::from(expected)).norm();
         // The end is rounded to 4 ε; 106 bits of the largest exponent, 3e16, leave 1e-14. Terms of one block may cancel a little.
         if !(off <= moved.error && moved.error < 1e-13 && moved.condition < 1.5) {
@@ -152,10 +146,7 @@ fn a_scene_of_rates_that_nearly_meet_ends() {
     let results = ensemble::run(&plan).unwrap();
     for (name, expected) in ["x1", "x2", "x3"].iter().zip(expected) {
         let last = *results.column(name).unwrap().mean.last().unwrap();
-        assert!(
-            (last - expected.abs()).abs() <= 8.0 * f64::EPSILON,
-            "{name}: {last}"
-        );
+        assert!((last - expected.abs()).abs() <= 8.0 * f64::EPSILON, "{name}: {last}");
     }
 }
 
@@ -166,21 +157,12 @@ fn a_refused_rod_is_named_with_its_bound_and_the_time() {
     let (sine, cosine) = (135f64.to_radians().sin(), 135f64.to_radians().cos());
     let mut scene = from_file(rows, 11.6, 100.0, [cosine, sine, 0.0]);
     // The first rod lies on the flow's axis.
-    let p = [
-        vec![0.5f64.sqrt(), cosine],
-        vec![0.5f64.sqrt(), sine],
-        vec![0.0; 2],
-    ];
+    let p = [vec![0.5f64.sqrt(), cosine], vec![0.5f64.sqrt(), sine], vec![0.0; 2]];
     scene.particles.count = 2;
     scene.particles.rods = Some(of_a_file(p));
-    let error = ensemble::run(&Plan::new(&scene).unwrap())
-        .unwrap_err()
-        .to_string();
+    let error = ensemble::run(&Plan::new(&scene).unwrap()).unwrap_err().to_string();
     // The start's rounding, 4 ε, grows by e^{1.5Λ strain/√3}, which is 1e-6/4 ε = 1.1e9 at a strain of 24.4.
-    assert!(
-        error.starts_with("rod 1, output 25 (strain = 25) of replica 0, seed "),
-        "{error}"
-    );
+    assert!(error.starts_with("rod 1, output 25 (strain = 25) of replica 0, seed "), "{error}");
     for part in [
         " rad, more than the 1e-6 rad allowed",
         "r_e = 11.6",

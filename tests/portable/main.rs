@@ -1,8 +1,6 @@
 //! The same scene and seed give the same bits on every machine: no function that rounds as it likes is used, and what
 //! runs give is what is written down here.
 
-mod names;
-
 use shearbed::{Plan, Results, ensemble, scene_file};
 
 /// Scenes that use every function of `libm` that the core does, and the digest of their means: the same on every machine, so one
@@ -86,9 +84,7 @@ fn digest(results: &Results) -> u64 {
     let columns = results.series.iter().flat_map(|series| &series.columns);
     let values = columns.flat_map(|column| &column.mean);
     let bytes = values.flat_map(|value| value.to_bits().to_le_bytes());
-    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
-    })
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
 }
 
 fn run(name: &str, text: &str) -> Results {
@@ -136,11 +132,7 @@ fn another_choice_of_the_system_s_functions_changes_no_bit() {
         return;
     }
     let ended = told("results_have_the_bits_that_are_written_down");
-    assert!(
-        ended.status.success(),
-        "{}",
-        String::from_utf8_lossy(&ended.stdout)
-    );
+    assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stdout));
 }
 
 #[test]
@@ -151,7 +143,12 @@ fn the_system_s_functions_have_a_sum() {
 /// A sum of bits, which one other last bit changes.
 fn system_sines() -> u64 {
     let points = (1..100_000).map(|k| f64::from(k) * 1e-4);
-    points.fold(0, |sum: u64, x| {
-        sum.wrapping_mul(31).wrapping_add((x.sin() + x.exp()).to_bits())
-    })
+    points.fold(0, |sum: u64, x| sum.wrapping_mul(31).wrapping_add((x.sin() + x.exp()).to_bits()))
+}
+
+/// Functions that round as the platform likes are clippy's to refuse (clippy.toml); here it is seen to.
+#[test]
+#[expect(clippy::disallowed_methods, reason = "clippy must know the functions of clippy.toml")]
+fn clippy_finds_what_rounds_as_the_platform_likes() {
+    assert!((1e-3_f64.sin() - libm::sin(1e-3)).abs() < 1e-18);
 }

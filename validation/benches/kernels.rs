@@ -24,9 +24,7 @@ fn motion(c: &mut Criterion) {
     let mut group = c.benchmark_group("motion");
     group.throughput(Throughput::Elements(1));
     let phase = Phase::of_turns(0.37);
-    group.bench_function("couette", |b| {
-        b.iter(|| couette(black_box([0.6, 0.48, 0.64]), 11.6, phase))
-    });
+    group.bench_function("couette", |b| b.iter(|| couette(black_box([0.6, 0.48, 0.64]), 11.6, phase)));
     group.bench_function("phase", |b| b.iter(|| Phase::of_turns(black_box(17.37))));
     group.finish();
 }
@@ -114,9 +112,7 @@ fn steps(c: &mut Criterion) {
         scene.particles.count = count;
         let mut suspension = lab::suspension(&scene, 0);
         group.throughput(Throughput::Elements(count as u64));
-        group.bench_function(format!("core, {count} rods"), |b| {
-            b.iter(|| suspension.step().map(<[_]>::len))
-        });
+        group.bench_function(format!("core, {count} rods"), |b| b.iter(|| suspension.step().map(<[_]>::len)));
     }
     group.throughput(Throughput::Elements(100));
     group.bench_function("naive, 100 rods", |b| {
@@ -139,13 +135,5 @@ fn whole_scenes(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(
-    benches,
-    motion,
-    free,
-    search,
-    parts_of_a_step,
-    steps,
-    whole_scenes
-);
+criterion_group!(benches, motion, free, search, parts_of_a_step, steps, whole_scenes);
 criterion_main!(benches);

@@ -13,12 +13,7 @@ fn heun(problem: &Problem, p: Vector3<f64>, h: f64) -> Vector3<f64> {
 
 type Step = fn(&Problem, Vector3<f64>, f64) -> Vector3<f64>;
 
-const MINE: FixedStep<Step> = FixedStep {
-    name: "Heun",
-    order: 2,
-    keeps_length: false,
-    step: heun,
-};
+const MINE: FixedStep<Step> = FixedStep { name: "Heun", order: 2, keeps_length: false, step: heun };
 
 fn main() {
     let (problem, start) = Problem::mid_flip(11.6);

@@ -44,11 +44,7 @@ fn points(value: impl Fn(usize) -> f64) -> Vec<Datum> {
         })
     };
     let places = place(0).chain(place(1)).enumerate();
-    let point = |(k, place): (usize, Datum)| Datum {
-        value: value(k),
-        u: NOISE,
-        ..place
-    };
+    let point = |(k, place): (usize, Datum)| Datum { value: value(k), u: NOISE, ..place };
     places.map(point).collect()
 }
 
@@ -67,10 +63,7 @@ fn scenes(seed: u64, over: &[Range]) -> Result<Scenes, String> {
             source: "fig4".into(),
             text: text.into(),
             starts: Starts::default(),
-            settings: settings
-                .iter()
-                .map(|text: &String| Setting::parse(text))
-                .collect::<Result<_, _>>()?,
+            settings: settings.iter().map(|text: &String| Setting::parse(text)).collect::<Result<_, _>>()?,
             seed,
             time: TimeColumn::Strain,
         })
@@ -80,9 +73,7 @@ fn scenes(seed: u64, over: &[Range]) -> Result<Scenes, String> {
 
 fn planted(range: &Range) -> Result<f64, String> {
     let found = PLANTED.iter().find(|(key, _)| *key == range.key);
-    found
-        .map(|(_, value)| *value)
-        .ok_or_else(|| format!("{}: no planted value", range.key))
+    found.map(|(_, value)| *value).ok_or_else(|| format!("{}: no planted value", range.key))
 }
 
 /// One fit as `shearbed fit` makes it, or why it is refused.
@@ -93,11 +84,7 @@ fn whole_fit(k: u64, truth: &[f64], over: &[Range]) -> Result<Fit, String> {
     let scenes = scenes(2000 + k, over)?;
     let model = |values: &[f64]| scenes.model(&data, AS_WRITTEN, values);
     let problem = Problem {
-        measured: Measured {
-            data: &data,
-            ranges: over,
-            rods_over_measured: &[0.0, 0.0],
-        },
+        measured: Measured { data: &data, ranges: over, rods_over_measured: &[0.0, 0.0] },
         model: &model,
         most_replicas: 1000,
     };
@@ -122,9 +109,8 @@ fn main() -> Result<(), String> {
     let behind: Vec<f64> = over.iter().map(planted).collect::<Result<_, _>>()?;
     let model = scenes(1, &over)?.model(&points(|_| f64::NAN), AS_WRITTEN, &behind)?;
     let rows: Vec<_> = (0..TRUTH).into_par_iter().map(model).collect::<Result<_, _>>()?;
-    let truth: Vec<f64> = (0..rows[0].len())
-        .map(|k| rows.iter().map(|row| row[k][0]).sum::<f64>() / TRUTH as f64)
-        .collect();
+    let truth: Vec<f64> =
+        (0..rows[0].len()).map(|k| rows.iter().map(|row| row[k][0]).sum::<f64>() / TRUTH as f64).collect();
     let freedom = (truth.len() - over.len()) as f64;
     let law = ChiSquared::new(freedom).map_err(|error| error.to_string())?;
 

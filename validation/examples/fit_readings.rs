@@ -65,15 +65,11 @@ fn two_suspensions() -> Result<(), String> {
 
 fn main() -> Result<(), String> {
     two_suspensions()?;
-    let most: u64 = std::env::args()
-        .nth(1)
-        .map_or(Ok(50), |text| text.parse())
-        .map_err(|error| format!("{error}"))?;
+    let most: u64 =
+        std::env::args().nth(1).map_or(Ok(50), |text| text.parse()).map_err(|error| format!("{error}"))?;
     let default: Change = |_| ();
-    let rows: Vec<_> = (0..TRUTH)
-        .into_par_iter()
-        .map(|replica| curve(default, PLANTED, 99, replica))
-        .collect();
+    let rows: Vec<_> =
+        (0..TRUTH).into_par_iter().map(|replica| curve(default, PLANTED, 99, replica)).collect();
     let mut rng = Pcg64Dxsm::seed_from_u64(7);
     let point = |k: usize| {
         let noise: f64 = StandardNormal.sample(&mut rng);
@@ -85,10 +81,7 @@ fn main() -> Result<(), String> {
     };
     let data: Vec<Datum> = (0..POINTS).map(point).collect();
     let law = ChiSquared::new((POINTS - 1) as f64).map_err(|error| error.to_string())?;
-    println!(
-        "| open | reading | α | 95 % interval | χ² of {} | p |",
-        POINTS - 1
-    );
+    println!("| open | reading | α | 95 % interval | χ² of {} | p |", POINTS - 1);
     println!("| --- | --- | ---: | --- | ---: | ---: |");
     let all = once(("–", "this project", default)).chain(ALTERNATIVES);
     for (open, reading, change) in all {

@@ -12,20 +12,12 @@ const FINE: f64 = 0.023;
 const STRAINS: [f64; 7] = [0.092, 0.184, 0.37, 0.45, 0.55, 0.74, 1.5];
 
 /// r_e and σ in percent.
-const RODS: [(f64, f64); 6] = [
-    (3.96, 0.0),
-    (11.6, 0.0),
-    (17.0, 0.0),
-    (50.0, 0.0),
-    (100.0, 0.0),
-    (11.6, 30.0),
-];
+const RODS: [(f64, f64); 6] =
+    [(3.96, 0.0), (11.6, 0.0), (17.0, 0.0), (50.0, 0.0), (100.0, 0.0), (11.6, 30.0)];
 
 fn main() {
     let numbers = std::env::args().skip(1).map(|word| word.parse::<f64>());
-    let numbers: Vec<f64> = numbers
-        .collect::<Result<_, _>>()
-        .expect("numbers: REPLICAS [R_E...]");
+    let numbers: Vec<f64> = numbers.collect::<Result<_, _>>().expect("numbers: REPLICAS [R_E...]");
     let (replicas, asked) = match numbers.split_first() {
         Some((replicas, asked)) => (*replicas as u64, asked),
         None => (50, &[][..]),
@@ -49,12 +41,7 @@ fn main() {
                 format!("{:+.4} ± {:.4}", found.mean, found.se)
             });
             let fine = Sample::of(&fine);
-            println!(
-                "| {r} | {sd} % | {n} | {:.4} ± {:.4} | {} |",
-                fine.mean,
-                fine.se,
-                changes.join(" | ")
-            );
+            println!("| {r} | {sd} % | {n} | {:.4} ± {:.4} | {} |", fine.mean, fine.se, changes.join(" | "));
         }
     }
 }

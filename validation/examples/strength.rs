@@ -22,11 +22,7 @@ fn main() {
     let mut records: BTreeMap<&str, Record> = BTreeMap::new();
     let (mut red_runs, mut scores) = (0, Vec::new());
     for seed in first..=last {
-        let effort = Effort {
-            full,
-            seed,
-            data: None,
-        };
+        let effort = Effort { full, seed, data: None };
         let mut red = false;
         cases.retain(|case| {
             let outcome = case.run(&effort);
@@ -105,34 +101,18 @@ impl Record {
                 Verdict::Underpowered => "under-powered",
                 _ => continue,
             };
-            *self
-                .why
-                .entry(format!("{what}: {}", judged.evidence.what))
-                .or_default() += 1;
+            *self.why.entry(format!("{what}: {}", judged.evidence.what)).or_default() += 1;
         }
         for control in &outcome.controls {
             if !control.caught {
-                *self
-                    .why
-                    .entry(format!("not caught: {}", control.mistake))
-                    .or_default() += 1;
+                *self.why.entry(format!("not caught: {}", control.mistake)).or_default() += 1;
             }
             if let Some(margin) = control.margin {
-                self.controls
-                    .entry(control.mistake.to_string())
-                    .or_default()
-                    .push(margin);
+                self.controls.entry(control.mistake.to_string()).or_default().push(margin);
             }
         }
         for judged in &outcome.evidence {
-            if let Rule::Mean {
-                mean,
-                se,
-                reference,
-                allowance: 0.0,
-                ..
-            } = judged.evidence.rule
-            {
+            if let Rule::Mean { mean, se, reference, allowance: 0.0, .. } = judged.evidence.rule {
                 scores.push((mean - reference) / se);
             }
         }
@@ -142,11 +122,7 @@ impl Record {
     }
 
     fn row(&self) -> String {
-        let why: Vec<_> = self
-            .why
-            .iter()
-            .map(|(why, times)| format!("{why} ({times})"))
-            .collect();
+        let why: Vec<_> = self.why.iter().map(|(why, times)| format!("{why} ({times})")).collect();
         let controls = self.controls.iter().map(|(mistake, margins)| {
             let (drawn, still): (Vec<f64>, Vec<_>) = margins.iter().partition(|m| m.is_finite());
             let still = match still.len() {

@@ -11,7 +11,4 @@ pub mod program;
 pub mod serve;
 pub mod studies;
 
-#[cfg(test)]
-mod source;
-
 pub use shearbed_oracle as oracle;

@@ -13,9 +13,7 @@ use std::process::Command;
 /// A job whose ranks run these commands; its exit code and messages. A job that hangs is ended.
 fn job(dir: &Path, ranks: &[&str]) -> (Option<i32>, String) {
     let program = env!("CARGO_BIN_EXE_shearbed");
-    let ranks: Vec<_> = (ranks.iter())
-        .map(|command| format!("-n 1 {program} {command}"))
-        .collect();
+    let ranks: Vec<_> = (ranks.iter()).map(|command| format!("-n 1 {program} {command}")).collect();
     let output = Command::new("timeout")
         .args([&PATIENCE.as_secs().to_string(), "mpirun"])
         .args(ranks.join(" : ").split_whitespace())
@@ -25,14 +23,8 @@ fn job(dir: &Path, ranks: &[&str]) -> (Option<i32>, String) {
         .output()
         .unwrap();
     let in_time = output.status.code() != Some(124);
-    assert!(
-        in_time,
-        "this machine did not end the job within {PATIENCE:?}, or it hangs"
-    );
-    (
-        output.status.code(),
-        String::from_utf8_lossy(&output.stderr).into_owned(),
-    )
+    assert!(in_time, "this machine did not end the job within {PATIENCE:?}, or it hangs");
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
 }
 
 #[test]
@@ -40,34 +32,14 @@ fn another_input_is_told_before_anything_runs() {
     let dir = folder();
     let other = SMALL.replace("[\"projections\", \"mean_angle\"]", "[\"orbit_constant\"]");
     fs::write(dir.path().join("observables.toml"), other).unwrap();
-    fs::write(
-        dir.path().join("count.toml"),
-        SMALL.replace("count = 20", "count = 21"),
-    )
-    .unwrap();
+    fs::write(dir.path().join("count.toml"), SMALL.replace("count = 20", "count = 21")).unwrap();
     let run = "run small.toml --out x";
     let sweep = "sweep small.toml --over interaction.alpha=1,2 --out x";
     for (root, other, key) in [
-        (
-            run,
-            "run small.toml --out x --seed 2",
-            "scene.ensemble.seed is 2 there and 1",
-        ),
-        (
-            run,
-            "run small.toml --out x --replicas 7",
-            "scene.ensemble.replicas is 7 there and 3",
-        ),
-        (
-            run,
-            "run count.toml --out x",
-            "scene.particles.count is 21 there and 20",
-        ),
-        (
-            run,
-            "run observables.toml --out x",
-            "scene.output.observables is [\"orbit_constant\"] there",
-        ),
+        (run, "run small.toml --out x --seed 2", "scene.ensemble.seed is 2 there and 1"),
+        (run, "run small.toml --out x --replicas 7", "scene.ensemble.replicas is 7 there and 3"),
+        (run, "run count.toml --out x", "scene.particles.count is 21 there and 20"),
+        (run, "run observables.toml --out x", "scene.output.observables is [\"orbit_constant\"] there"),
         (run, "plan small.toml", "command is \"plan\" there and \"run\""),
         (run, "scenes", "command is \"scenes\" there and \"run\""),
         (run, sweep, "command is \"sweep\" there and \"run\""),
@@ -77,11 +49,7 @@ fn another_input_is_told_before_anything_runs() {
             "sweep small.toml --over interaction.alpha=1,3 --out x",
             "over.1 is \"interaction.alpha=1,3\" there",
         ),
-        (
-            sweep,
-            "sweep small.toml --over interaction.m=1,2 --out x",
-            "over.1 is \"interaction.m=1,2\" there",
-        ),
+        (sweep, "sweep small.toml --over interaction.m=1,2 --out x", "over.1 is \"interaction.m=1,2\" there"),
         (
             sweep,
             "sweep small.toml --over interaction.alpha=1,2 --seed 9 --out x",
@@ -115,13 +83,8 @@ fn another_input_is_told_before_anything_runs() {
 #[test]
 fn what_results_do_not_depend_on_may_differ() {
     let dir = folder();
-    let (code, message) = job(
-        dir.path(),
-        &[
-            "run small.toml --out x",
-            "run small.toml --out y --threads 1 --quiet",
-        ],
-    );
+    let (code, message) =
+        job(dir.path(), &["run small.toml --out x", "run small.toml --out y --threads 1 --quiet"]);
     assert_eq!(code, Some(0), "{message}");
     assert!(dir.path().join("x/run.json").exists() && !dir.path().join("y").exists());
 }

@@ -1,10 +1,7 @@
-//! Committed documents are fresh: those that come from the registry, and the list of dependencies.
+//! Committed documents that are made from the program are fresh.
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-use std::process::Command;
 use validation::input::{scene_keys, scenes};
-use validation::program::{dependencies, tried};
 
 /// Compares a committed file with what is made now, or writes it.
 fn fresh(file: &str, expected: &str) {
@@ -13,10 +10,7 @@ fn fresh(file: &str, expected: &str) {
         std::fs::write(&path, expected).unwrap();
     }
     let found = std::fs::read_to_string(&path).unwrap_or_default();
-    assert!(
-        found == expected,
-        "{file} is stale: UPDATE_DOCS=1 cargo test -p shearbed-suite --test docs"
-    );
+    assert!(found == expected, "{file} is stale: UPDATE_DOCS=1 cargo test -p shearbed-suite --test docs");
 }
 
 #[test]
@@ -54,97 +48,4 @@ fn the_schema_is_the_programs() {
             assert_eq!(schema_refuses, refused, "{key} = {wrong}");
         }
     }
-}
-
-/// The name of each crate that a manifest asks for, and where it is used.
-fn asked_for(manifest: &str) -> BTreeMap<String, &'static str> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(manifest);
-    let table: toml::Table = std::fs::read_to_string(path).unwrap().parse().unwrap();
-    let mut found = BTreeMap::new();
-    for (section, place) in [("dev-dependencies", "tests"), ("dependencies", "program")] {
-        for (name, entry) in table
-            .get(section)
-            .and_then(toml::Value::as_table)
-            .into_iter()
-            .flatten()
-        {
-            let optional = entry.get("optional").and_then(toml::Value::as_bool) == Some(true);
-            found.insert(name.clone(), if optional { "feature `mpi`" } else { place });
-        }
-    }
-    found.retain(|name, _| !name.starts_with("shearbed"));
-    found
-}
-
-/// The program has the page in it, and a package has no file from beside its folder.
-#[test]
-fn the_page_of_dependencies_is_the_programs() {
-    fresh("../docs/dependencies.md", dependencies::DOCUMENT);
-}
-
-#[test]
-fn the_report_and_the_page_say_the_same_of_what_was_tried() {
-    let page =
-        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/strength.md")).unwrap();
-    assert!(
-        page.contains(tried::DOCUMENT),
-        "docs/strength.md begins with the table of validation/src/tried.md"
-    );
-    let table = tried::table();
-    assert!(table.rows.len() > 5 && table.rows.iter().all(|row| row.len() == table.columns.len()));
-}
-
-#[test]
-fn every_dependency_has_a_line_and_the_crates_are_counted() {
-    let mut expected = asked_for("../Cargo.toml");
-    for (name, place) in asked_for("Cargo.toml")
-        .into_iter()
-        .chain(asked_for("oracle/Cargo.toml"))
-    {
-        let known = expected.entry(name).or_insert(place);
-        if place == "program" {
-            *known = place;
-        }
-    }
-    let mut listed = BTreeMap::new();
-    for row in dependencies::table().rows {
-        for name in row[0].split(", ") {
-            let place = row[2].clone();
-            assert_eq!(
-                listed.insert(name.trim_matches('`').to_owned(), place),
-                None,
-                "{name} twice"
-            );
-        }
-        assert!(!row[1].is_empty());
-    }
-    let expected: BTreeMap<_, _> = expected
-        .into_iter()
-        .map(|(name, place)| (name, place.to_owned()))
-        .collect();
-    assert_eq!(listed, expected);
-
-    // What cargo builds for the program, each version once; the three crates of this project are not of others.
-    let tree = Command::new(env!("CARGO"))
-        .args([
-            "tree",
-            "--locked",
-            "--package",
-            "shearbed-suite",
-            "--edges",
-            "normal,build",
-            "--prefix",
-            "none",
-        ])
-        .args(["--format", "{p}", "--target", "x86_64-unknown-linux-gnu"])
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .output()
-        .unwrap();
-    assert!(tree.status.success(), "{}", String::from_utf8_lossy(&tree.stderr));
-    let tree = String::from_utf8(tree.stdout).unwrap();
-    let crates: BTreeSet<Vec<_>> = tree
-        .lines()
-        .map(|line| line.split(' ').take(2).collect())
-        .collect();
-    assert_eq!(dependencies::crates(), Some(crates.len() - 3));
 }

@@ -28,11 +28,7 @@ fn off(ball: Ball, exact: &Big) -> f64 {
     assert!(ball.error >= 0.0, "{ball:?}");
     let apart = middle(ball) - exact;
     let apart = if apart < big(0.0) { -apart } else { apart };
-    if apart == big(0.0) {
-        0.0
-    } else {
-        (apart / big(ball.error)).to_f64().value()
-    }
+    if apart == big(0.0) { 0.0 } else { (apart / big(ball.error)).to_f64().value() }
 }
 
 /// Balls of every kind: doubles, sums of two, with errors from none to a thousandth, of sizes from 10⁻²⁰ to 10²⁰.
@@ -173,14 +169,8 @@ fn the_most_and_the_least_are_ends_of_the_ball() {
         let ball = Ball { hi, lo: 0.0, error };
         let (most, least) = (hi.abs() + error, (hi.abs() - error).max(0.0));
         // Beyond the ends, by no more than a few roundings.
-        assert!(
-            ball.most() >= most && ball.most() <= most * (1.0 + 1e-15),
-            "{ball:?}"
-        );
-        assert!(
-            ball.least() <= least && ball.least() >= least * (1.0 - 1e-15),
-            "{ball:?}"
-        );
+        assert!(ball.most() >= most && ball.most() <= most * (1.0 + 1e-15), "{ball:?}");
+        assert!(ball.least() <= least && ball.least() >= least * (1.0 - 1e-15), "{ball:?}");
     }
 }
 
@@ -223,10 +213,7 @@ fn the_root_of_what_may_be_nothing_is_as_wide_as_it_must_be() {
 #[test]
 fn what_is_as_good_as_nothing_is_known_to_be_that_small() {
     let small = exp(Ball::exact(-601.0).widened(5.0));
-    assert!(
-        small.hi == 0.0 && small.error >= (-596.0f64).exp() && small.error <= 1e-250,
-        "{small:?}"
-    );
+    assert!(small.hi == 0.0 && small.error >= (-596.0f64).exp() && small.error <= 1e-250, "{small:?}");
     let wide = exp(Ball::exact(-601.0).widened(50.0));
     assert!(wide.hi == 0.0 && wide.error >= (-551.0f64).exp(), "{wide:?}");
     let known = exp(Ball::exact(-599.0));

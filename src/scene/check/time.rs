@@ -8,15 +8,10 @@ impl Scene {
         match (time.periods, time.strain) {
             (Some(periods), None) => self.check_periods(periods, flow),
             (None, Some(strain)) => self.check_strain(strain, flow),
-            (Some(periods), Some(_)) => Err(Invalid::new(
-                "time.periods",
-                periods,
-                "either periods or strain, not both",
-            )),
-            (None, None) => Err(Invalid::missing(
-                "time.periods",
-                "periods or strain must be given",
-            )),
+            (Some(periods), Some(_)) => {
+                Err(Invalid::new("time.periods", periods, "either periods or strain, not both"))
+            }
+            (None, None) => Err(Invalid::missing("time.periods", "periods or strain must be given")),
         }
     }
 
@@ -40,11 +35,7 @@ impl Scene {
             "goes with strain; periods take",
             [
                 ("time.steps_per_strain", time.steps_per_strain, "steps_per_period"),
-                (
-                    "time.outputs_per_strain",
-                    time.outputs_per_strain,
-                    "outputs_per_period",
-                ),
+                ("time.outputs_per_strain", time.outputs_per_strain, "outputs_per_period"),
             ],
         )?;
         let outputs = self.outputs_per_period();
@@ -81,10 +72,7 @@ impl Scene {
     }
 
     fn gives_steps(&self) -> bool {
-        self.time
-            .steps_per_period
-            .or(self.time.steps_per_strain)
-            .is_some()
+        self.time.steps_per_period.or(self.time.steps_per_strain).is_some()
     }
 
     /// That a step of interacting rods, other than in plane Couette flow by periods, is short enough to be known.
@@ -111,13 +99,12 @@ impl Scene {
         }
         let error =
             step_maps(self, flow, &self.particles.extreme_aspect_ratios()).fold(0.0, |worst: f64, map| {
-                map.map_or(f64::INFINITY, |(_, error)| {
-                    if error > worst || error.is_nan() {
-                        error
-                    } else {
-                        worst
-                    }
-                })
+                map.map_or(
+                    f64::INFINITY,
+                    |(_, error)| {
+                        if error > worst || error.is_nan() { error } else { worst }
+                    },
+                )
             });
         let all = error * steps as f64 * self.time.strain.or(self.time.periods).unwrap_or(0.0);
         if all <= MAX_ERROR_RAD {
@@ -150,22 +137,14 @@ impl Scene {
     fn check_strain(&self, strain: f64, flow: &VelocityGradient) -> Result<(), Invalid> {
         let key = "time.strain";
         if flow.magnitude_per_s() == 0.0 {
-            return Err(Invalid::new(
-                key,
-                strain,
-                "this flow has no strain rate: give periods",
-            ));
+            return Err(Invalid::new(key, strain, "this flow has no strain rate: give periods"));
         }
         let time = &self.time;
         not_given(
             "goes with periods; strain takes",
             [
                 ("time.steps_per_period", time.steps_per_period, "steps_per_strain"),
-                (
-                    "time.outputs_per_period",
-                    time.outputs_per_period,
-                    "outputs_per_strain",
-                ),
+                ("time.outputs_per_period", time.outputs_per_period, "outputs_per_strain"),
             ],
         )?;
         let outputs = self.outputs_per_strain();
@@ -173,11 +152,7 @@ impl Scene {
         self.check_counted_steps(key, strain, ("time.outputs_per_strain", outputs))?;
         // A rate that overflows would take no time at all.
         let unit_s = 1.0 / flow.magnitude_per_s();
-        self.check_seconds(if unit_s > 0.0 {
-            strain * unit_s
-        } else {
-            f64::INFINITY
-        })
+        self.check_seconds(if unit_s > 0.0 { strain * unit_s } else { f64::INFINITY })
     }
 
     /// Where phases are not counted in periods they come from the time in seconds, which must not overflow.
@@ -195,10 +170,7 @@ impl Scene {
 
 /// Refuses keys of the other unit of time, and names those of the own.
 fn not_given(why: &str, keys: [(&'static str, Option<u64>, &str); 2]) -> Result<(), Invalid> {
-    match keys
-        .into_iter()
-        .find_map(|(key, value, own)| Some((key, value?, own)))
-    {
+    match keys.into_iter().find_map(|(key, value, own)| Some((key, value?, own))) {
         Some((key, value, own)) => Err(Invalid::new(key, value, format!("{why} {own}"))),
         None => Ok(()),
     }

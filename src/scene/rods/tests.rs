@@ -10,12 +10,7 @@ fn refusal(scene: &Scene) -> String {
 /// 3σ reaches 1, or 0 of discs.
 #[test]
 fn the_widest_spread_is_told_and_a_little_less_is_taken() {
-    for (mean, widest) in [
-        (4.0, 25.0),
-        (1.5, 100.0 / 9.0),
-        (0.25, 100.0 / 3.0),
-        (0.8, 25.0 / 3.0),
-    ] {
+    for (mean, widest) in [(4.0, 25.0), (1.5, 100.0 / 9.0), (0.25, 100.0 / 3.0), (0.8, 25.0 / 3.0)] {
         let mut scene = Scene::default();
         scene.particles.aspect_ratio = mean;
         for (share, taken) in [(0.999, true), (1.001, false)] {
@@ -40,11 +35,7 @@ fn an_aspect_ratio_beside_a_cylinder_is_the_one_that_its_formula_makes() {
     scene.particles.aspect_ratio = made;
     assert!(scene.checked().is_ok());
     scene.particles.aspect_ratio = made.next_up();
-    assert!(
-        refusal(&scene).contains(&format!("Cox 1971 makes {made}")),
-        "{}",
-        refusal(&scene)
-    );
+    assert!(refusal(&scene).contains(&format!("Cox 1971 makes {made}")), "{}", refusal(&scene));
 }
 
 /// Two rods in 2 cm³: H = 12.6 mm.
@@ -57,10 +48,7 @@ fn rods_that_cannot_be_are_refused_by_number() {
         place_mm: Some([(); 3].map(|()| vec![0.0, 12.5])),
     };
     let mut scene = Scene {
-        interaction: Some(Interaction {
-            concentration_per_cm3: Some(1.0),
-            ..Interaction::default()
-        }),
+        interaction: Some(Interaction { concentration_per_cm3: Some(1.0), ..Interaction::default() }),
         ..Scene::default()
     };
     scene.particles.count = 2;
@@ -87,32 +75,17 @@ fn rods_that_cannot_be_are_refused_by_number() {
             with(&|own| own.length_mm = Some(vec![1.0, 0.0])),
             "rod 1 has length_mm = 0.0; allowed: a number between 1e-50 and 1e50 times the scene's length_mm",
         ),
-        (
-            with(&|own| own.length_mm = Some(vec![f64::INFINITY, 1.0])),
-            "rod 0 has length_mm = inf; allowed: ",
-        ),
-        (
-            with(&|own| own.length_mm = Some(vec![1.0; 3])),
-            "it has 3, and particles.count is 2",
-        ),
+        (with(&|own| own.length_mm = Some(vec![f64::INFINITY, 1.0])), "rod 0 has length_mm = inf; allowed: "),
+        (with(&|own| own.length_mm = Some(vec![1.0; 3])), "it has 3, and particles.count is 2"),
         (
             with(&|own| own.place_mm.as_mut().unwrap()[1][0] = 12.7),
             "rod 0 has x2_mm = 12.7; allowed: 0 to 12.599",
         ),
-        (
-            with(&|own| own.place_mm.as_mut().unwrap()[2][1] = -1e-9),
-            "; allowed: 0 to 12.599",
-        ),
-        (
-            with(&|own| own.place_mm.as_mut().unwrap()[0][1] = f64::NAN),
-            "; allowed: 0 to 12.599",
-        ),
+        (with(&|own| own.place_mm.as_mut().unwrap()[2][1] = -1e-9), "; allowed: 0 to 12.599"),
+        (with(&|own| own.place_mm.as_mut().unwrap()[0][1] = f64::NAN), "; allowed: 0 to 12.599"),
     ] {
         let refusal = judged(own).unwrap_err();
-        assert!(
-            refusal.starts_with("particles.rods = { file = \"two.csv\" } is not allowed: "),
-            "{refusal}"
-        );
+        assert!(refusal.starts_with("particles.rods = { file = \"two.csv\" } is not allowed: "), "{refusal}");
         assert!(refusal.contains(why), "{refusal}");
     }
 }
@@ -122,10 +95,8 @@ fn a_start_has_length_1_to_a_few_roundings() {
     let start = |length: f64| -> Result<(), Invalid> {
         let mut scene = Scene::default();
         scene.particles.count = 2;
-        let own = OwnRods {
-            p: Some([vec![1.0, 0.0], vec![0.0, length], vec![0.0; 2]]),
-            ..OwnRods::default()
-        };
+        let own =
+            OwnRods { p: Some([vec![1.0, 0.0], vec![0.0, length], vec![0.0; 2]]), ..OwnRods::default() };
         scene.particles.rods = Some(RodsFile::with("two.csv", own));
         scene.checked().map(|_| ())
     };
@@ -134,9 +105,6 @@ fn a_start_has_length_1_to_a_few_roundings() {
     }
     for length in [1.0 + 1e-14, 1.0 - 1e-14, 0.0, 2.0, f64::NAN] {
         let refusal = start(length).unwrap_err().to_string();
-        assert!(
-            refusal.contains("rod 1 has p1² + p2² + p3² = "),
-            "{length}: {refusal}"
-        );
+        assert!(refusal.contains("rod 1 has p1² + p2² + p3² = "), "{length}: {refusal}");
     }
 }

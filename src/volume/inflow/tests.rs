@@ -8,20 +8,11 @@ fn flows() -> Vec<(Matrix3<f64>, [f64; 3])> {
     vec![
         (of([0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]), [2.0, 3.0, 5.0]),
         (of([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0]), [4.0; 3]),
-        (
-            of([0.5, -0.5, 0.0, 0.5, -0.5, 0.0, 0.0, 0.0, 0.0]),
-            [4.0, 2.0, 2.0],
-        ),
+        (of([0.5, -0.5, 0.0, 0.5, -0.5, 0.0, 0.0, 0.0, 0.0]), [4.0, 2.0, 2.0]),
         (of([1.0, 0.0, 0.0, 0.0, -0.5, 0.0, 0.0, 0.0, -0.5]), [4.0; 3]),
-        (
-            of([-1.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.5]),
-            [1.0, 4.0, 4.0],
-        ),
+        (of([-1.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.5]), [1.0, 4.0, 4.0]),
         (of([0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]), [4.0; 3]),
-        (
-            of([0.3, -0.5, 0.1, 0.8, 0.1, -0.2, 0.4, 0.6, -0.4]),
-            [3.0, 4.0, 5.0],
-        ),
+        (of([0.3, -0.5, 0.1, 0.8, 0.1, -0.2, 0.4, 0.6, -0.4]), [3.0, 4.0, 5.0]),
     ]
 }
 
@@ -29,10 +20,7 @@ fn flows() -> Vec<(Matrix3<f64>, [f64; 3])> {
 fn off(points: &[Vector3<f64>], expected: &[f64], sides: [f64; 3]) -> f64 {
     let mut found = vec![0.0; 64];
     points.iter().for_each(|x| found[cell(x, sides)] += 1.0);
-    let terms = found
-        .iter()
-        .zip(expected)
-        .filter(|(_, expected)| **expected > 5.0);
+    let terms = found.iter().zip(expected).filter(|(_, expected)| **expected > 5.0);
     let (square, cells) = terms.fold((0.0, 0.0), |(square, cells), (found, expected)| {
         (square + (found - expected).powi(2) / expected, cells + 1.0)
     });
@@ -45,9 +33,7 @@ fn cell(x: &Vector3<f64>, sides: [f64; 3]) -> usize {
 
 fn points(positions: &[Vec<f64>; 3]) -> Vec<Vector3<f64>> {
     let [x1, x2, x3] = positions;
-    (0..x1.len())
-        .map(|rod| Vector3::new(x1[rod], x2[rod], x3[rod]))
-        .collect()
+    (0..x1.len()).map(|rod| Vector3::new(x1[rod], x2[rod], x3[rod])).collect()
 }
 
 /// Those that come in are spread as all points of the volume are that were outside a step ago, found by trying.
@@ -71,10 +57,7 @@ fn what_comes_in_is_evenly_distributed_over_what_was_outside() {
         let off = off(&found, &expected, sides);
         // The expected numbers have a scatter too, of the same order where few are outside.
         assert!(off.abs() < 12.0, "{off}: {gradient}");
-        let wrong: Vec<_> = found
-            .iter()
-            .map(|x| (x + Vector3::from(sides) / 2.0) / 2.0)
-            .collect();
+        let wrong: Vec<_> = found.iter().map(|x| (x + Vector3::from(sides) / 2.0) / 2.0).collect();
         assert!(self::off(&wrong, &expected, sides) > 100.0);
     }
 }

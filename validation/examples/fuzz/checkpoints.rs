@@ -78,19 +78,14 @@ pub fn checkpoint() -> Target {
             match Replicas::open(&plan, &path, Duration::from_secs(3600)) {
                 Err(Refused(why)) if why.contains("kept: ") => {
                     // What all say at the end is left out.
-                    Ok(Taken::Refused(
-                        why.split(';').next().unwrap_or_default().to_owned(),
-                    ))
+                    Ok(Taken::Refused(why.split(';').next().unwrap_or_default().to_owned()))
                 }
                 Err(Refused(why)) => Err(format!("the file is not named: {why}")),
                 Ok(run) => match run.run(1, || (), |_| ()) {
                     Err(error) => Ok(Taken::Refused(error.to_string())),
                     Ok(results) => {
                         let columns = results.series.iter().flat_map(|series| &series.columns);
-                        match columns
-                            .flat_map(|column| &column.mean)
-                            .all(|mean| mean.is_finite())
-                        {
+                        match columns.flat_map(|column| &column.mean).all(|mean| mean.is_finite()) {
                             true => Ok(Taken::Accepted),
                             false => Err("a mean that is not finite".into()),
                         }

@@ -95,10 +95,7 @@ fn feed(target: &Target, count: u64, seed: u64) -> Result<(u64, BTreeMap<String,
         };
         if let Some(fault) = fault {
             keep(&files).map_err(|error| error.to_string())?;
-            return Err(format!(
-                "{}: input {k} of seed {seed}: {fault}; it is in fuzz-fault/",
-                target.name
-            ));
+            return Err(format!("{}: input {k} of seed {seed}: {fault}; it is in fuzz-fault/", target.name));
         }
     }
     BEGUN.store(0, Ordering::Relaxed);
@@ -113,10 +110,7 @@ fn keep(files: &Files) -> std::io::Result<()> {
 
 /// A reason without what is different in each: letters and blanks.
 fn kind(why: &str) -> String {
-    let words: String = why
-        .chars()
-        .map(|c| if c.is_alphabetic() { c } else { ' ' })
-        .collect();
+    let words: String = why.chars().map(|c| if c.is_alphabetic() { c } else { ' ' }).collect();
     let words: Vec<_> = words.split_whitespace().rev().take(6).collect();
     words.into_iter().rev().collect::<Vec<_>>().join(" ")
 }
@@ -153,10 +147,7 @@ fn main() {
         std::process::exit(2);
     };
     watch();
-    for target in targets()
-        .iter()
-        .filter(|target| name == "all" || name == target.name)
-    {
+    for target in targets().iter().filter(|target| name == "all" || name == target.name) {
         let start = Instant::now();
         match feed(target, count, seed) {
             Ok((accepted, reasons)) => {
@@ -188,11 +179,7 @@ fn no_input_breaks_a_reader_and_one_that_breaks_is_seen() {
     watch();
     for target in targets() {
         let (accepted, reasons) = feed(&target, 400, 1982).unwrap();
-        assert!(
-            accepted > 0 && reasons.len() > 2,
-            "{}: {accepted}, {reasons:?}",
-            target.name
-        );
+        assert!(accepted > 0 && reasons.len() > 2, "{}: {accepted}, {reasons:?}", target.name);
     }
 }
 
@@ -203,26 +190,15 @@ fn faults_are_seen() {
         corpus: vec![vec![("a", b"x = 1\n".to_vec())]],
         take: Box::new(move |_, files| take(files)),
     };
-    let panics = of(|files| {
-        if files[0].1.len() > 9 {
-            panic!("planted")
-        } else {
-            Ok(Taken::Accepted)
-        }
-    });
+    let panics = of(|files| if files[0].1.len() > 9 { panic!("planted") } else { Ok(Taken::Accepted) });
     assert!(feed(&panics, 1000, 1).unwrap_err().contains("a panic"));
     let held = of(|_| {
         std::hint::black_box(vec![1_u8; 600 << 20]);
         Ok(Taken::Accepted)
     });
     assert!(feed(&held, 1, 1).unwrap_err().contains("bytes held"));
-    let passes = of(|files| {
-        if files[0].1.contains(&b'e') {
-            Err("not finite".into())
-        } else {
-            Ok(Taken::Accepted)
-        }
-    });
+    let passes =
+        of(|files| if files[0].1.contains(&b'e') { Err("not finite".into()) } else { Ok(Taken::Accepted) });
     assert!(feed(&passes, 1000, 1).unwrap_err().contains("not finite"));
     // What the first at fault left.
     std::fs::remove_dir_all("fuzz-fault").unwrap();

@@ -153,10 +153,7 @@ impl Mutator {
         match self.below(4) {
             0 => format!("{}", self.0.random_range(-9_i64..200)),
             1 => format!("{:e}", f64::from_bits(self.0.next_u64())),
-            2 => format!(
-                "{}",
-                self.0.random::<f64>() * 10_f64.powi(self.0.random_range(-12..12))
-            ),
+            2 => format!("{}", self.0.random::<f64>() * 10_f64.powi(self.0.random_range(-12..12))),
             _ => format!("{}", self.0.next_u64()),
         }
         .into_bytes()
@@ -170,10 +167,7 @@ impl Mutator {
     /// A line goes, comes twice, moves, or comes from the other text.
     fn lines(&mut self, bytes: &mut Vec<u8>, other: &[u8]) {
         let split = |bytes: &[u8]| -> Vec<Vec<u8>> {
-            bytes
-                .split_inclusive(|b| *b == b'\n')
-                .map(<[u8]>::to_vec)
-                .collect()
+            bytes.split_inclusive(|b| *b == b'\n').map(<[u8]>::to_vec).collect()
         };
         let (mut lines, others) = (split(bytes), split(other));
         if lines.is_empty() || others.is_empty() {

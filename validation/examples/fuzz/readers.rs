@@ -37,17 +37,12 @@ pub fn put(folder: &Path, files: &Files) -> Result<(), String> {
         Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(failed(error)),
         _ => fs::create_dir_all(folder).map_err(failed)?,
     }
-    files
-        .iter()
-        .try_for_each(|(name, bytes)| fs::write(folder.join(name), bytes).map_err(failed))
+    files.iter().try_for_each(|(name, bytes)| fs::write(folder.join(name), bytes).map_err(failed))
 }
 
 /// A refusal names the file, and a line that it has.
 pub fn named(why: &str, line: Option<usize>, files: &Files, file: &str) -> Result<Taken, String> {
-    let lines = files
-        .iter()
-        .map(|(_, bytes)| 1 + bytes.iter().filter(|byte| **byte == b'\n').count())
-        .max();
+    let lines = files.iter().map(|(_, bytes)| 1 + bytes.iter().filter(|byte| **byte == b'\n').count()).max();
     if why.is_empty() || file.is_empty() || line > lines {
         return Err(format!("{file}, line {line:?} of {lines:?}: {why:?}"));
     }
@@ -57,10 +52,7 @@ pub fn named(why: &str, line: Option<usize>, files: &Files, file: &str) -> Resul
 /// Measured points with their provenance.
 pub fn data() -> Target {
     let with = |change: fn(&str) -> String, csv: &str| {
-        vec![
-            ("a.toml", change(PROVENANCE).into_bytes()),
-            ("a.csv", csv.as_bytes().to_vec()),
-        ]
+        vec![("a.toml", change(PROVENANCE).into_bytes()), ("a.csv", csv.as_bytes().to_vec())]
     };
     Target {
         name: "data",
@@ -94,10 +86,7 @@ pub fn data() -> Target {
                 .map_err(|error| format!("checked, and then: {error}"))?;
             let finite = |x: f64| x.is_finite();
             let all = curves.iter().flat_map(|curve| &curve.points);
-            match all
-                .flat_map(|point| [point.x, point.y, point.u_x, point.u_y])
-                .all(finite)
-            {
+            match all.flat_map(|point| [point.x, point.y, point.u_x, point.u_y]).all(finite) {
                 true => Ok(Taken::Accepted),
                 false => Err("a point that is not finite".into()),
             }
@@ -126,11 +115,7 @@ const FOREIGN: &str = "my-own";
 
 fn foreign() -> Vec<(&'static str, Vec<u8>)> {
     let mut files = files_of(PROBLEMS[0]);
-    let renamed = |bytes: &[u8]| {
-        String::from_utf8_lossy(bytes)
-            .replace(PROBLEMS[0], FOREIGN)
-            .into_bytes()
-    };
+    let renamed = |bytes: &[u8]| String::from_utf8_lossy(bytes).replace(PROBLEMS[0], FOREIGN).into_bytes();
     files.iter_mut().for_each(|(_, bytes)| *bytes = renamed(bytes));
     files
 }
@@ -139,11 +124,7 @@ fn foreign() -> Vec<(&'static str, Vec<u8>)> {
 pub fn problems() -> Target {
     Target {
         name: "problems",
-        corpus: PROBLEMS
-            .iter()
-            .map(|name| files_of(name))
-            .chain([foreign()])
-            .collect(),
+        corpus: PROBLEMS.iter().map(|name| files_of(name)).chain([foreign()]).collect(),
         take: Box::new(|folder, files| {
             let called = |name: &&str| {
                 let name = format!("\"name\": \"{name}\"");
@@ -154,21 +135,15 @@ pub fn problems() -> Target {
             for name in names {
                 let _ = fs::remove_dir_all(folder.join(name));
             }
-            put(
-                &folder.join(names.iter().find(|name| called(name)).unwrap_or(&FOREIGN)),
-                files,
-            )?;
+            put(&folder.join(names.iter().find(|name| called(name)).unwrap_or(&FOREIGN)), files)?;
             match problems::read(folder) {
                 Ok(found) => match found.iter().all(finite) {
                     true => Ok(Taken::Accepted),
                     false => Err("a number that is not finite".into()),
                 },
-                Err(error) => named(
-                    &error.message,
-                    Some(error.line as usize),
-                    files,
-                    &error.path.display().to_string(),
-                ),
+                Err(error) => {
+                    named(&error.message, Some(error.line as usize), files, &error.path.display().to_string())
+                }
             }
         }),
     }
@@ -201,22 +176,11 @@ pub fn answers() -> Target {
             });
             let (name, answer) = &files[0];
             put(&folder.join(name), &[("answer.csv", answer.clone())])?;
-            let asked: Vec<_> = loaded
-                .iter()
-                .filter(|loaded| loaded.problem.name == *name)
-                .cloned()
-                .collect();
+            let asked: Vec<_> =
+                loaded.iter().filter(|loaded| loaded.problem.name == *name).cloned().collect();
             let options = Options {
-                told: Told {
-                    columns: None,
-                    foreign: None,
-                    axes: Axes::default(),
-                    ends: LineEnds::default(),
-                },
-                dump: Dump {
-                    timestep_s: None,
-                    rod_axis: None,
-                },
+                told: Told { columns: None, foreign: None, axes: Axes::default(), ends: LineEnds::default() },
+                dump: Dump { timestep_s: None, rod_axis: None },
                 claim: Claim::default(),
             };
             match grade::grade(&asked, folder, &options) {
@@ -231,12 +195,7 @@ pub fn answers() -> Target {
                 }
                 Err(errors) => {
                     let first = errors.first().ok_or("refused without a reason")?;
-                    named(
-                        &first.message,
-                        Some(first.line as usize),
-                        files,
-                        &first.path.display().to_string(),
-                    )
+                    named(&first.message, Some(first.line as usize), files, &first.path.display().to_string())
                 }
             }
         }),

@@ -31,10 +31,7 @@ fn corpus() -> Vec<String> {
         ("[[1,0,0],[0,-0.5,0.25],[0,0.5,-0.5]]", ""),
         ("[[-1,-1,0],[-2,2,-1],[0,-2,-1]]", ""),
     ] {
-        for time in [
-            "periods = 1\noutputs_per_period = 8",
-            "strain = 3\noutputs_per_strain = 4",
-        ] {
+        for time in ["periods = 1\noutputs_per_period = 8", "strain = 3\noutputs_per_strain = 4"] {
             all.push(format!(
                 "title = \"t\"\n[flow]\ngradient_per_s = {gradient}\n[particles]\ncount = 9\nlength_mm = 0.7\naspect_ratio = 2\n\
                  aspect_ratio_sd_percent = 1\norientation = {{ phi_deg = 10, theta_deg = 80 }}\n[time]\n{time}\n[output]\n\
@@ -49,10 +46,7 @@ fn corpus() -> Vec<String> {
 pub fn scene() -> Target {
     Target {
         name: "scene",
-        corpus: corpus()
-            .into_iter()
-            .map(|text| vec![("scene.toml", text.into_bytes())])
-            .collect(),
+        corpus: corpus().into_iter().map(|text| vec![("scene.toml", text.into_bytes())]).collect(),
         take: Box::new(|_, files| {
             // The program refuses other bytes with the line before the core sees them.
             let Ok(text) = std::str::from_utf8(&files[0].1) else {
@@ -85,9 +79,7 @@ pub fn scene() -> Target {
 /// A value that is refused stands there with its key and what is allowed.
 fn names(message: &str) -> Result<(), String> {
     let value = message.contains("is not allowed");
-    let allowed = message
-        .split_once("is not allowed")
-        .is_none_or(|(_, rest)| rest.len() > 4);
+    let allowed = message.split_once("is not allowed").is_none_or(|(_, rest)| rest.len() > 4);
     match !message.is_empty() && (!value || message.contains(" = ")) && allowed {
         true => Ok(()),
         false => Err(format!("no key, value or what is allowed: {message:?}")),
@@ -105,11 +97,7 @@ fn run(plan: &Plan) -> Result<Taken, String> {
     };
     for output in 0..plan.outputs() {
         let mut trace = 0.0;
-        for channel in plan
-            .observables()
-            .into_iter()
-            .flat_map(|observable| observable.channels())
-        {
+        for channel in plan.observables().into_iter().flat_map(|observable| observable.channels()) {
             let mean = replica.mean(channel, output).ok_or("no mean of a channel")?;
             if !mean.is_finite() {
                 return Err(format!("{} = {mean} at output {output}", channel.name()));
@@ -128,9 +116,7 @@ fn run(plan: &Plan) -> Result<Taken, String> {
 
 /// What stands after `--over` and `--set`, on a scene.
 pub fn sweep() -> Target {
-    let text = scenes::find("fig4-n50")
-        .map(|scene| scene.text)
-        .unwrap_or_default();
+    let text = scenes::find("fig4-n50").map(|scene| scene.text).unwrap_or_default();
     let arguments = [
         "interaction.alpha=0.1:1:4",
         "interaction.update=rotation,angles",
@@ -144,9 +130,7 @@ pub fn sweep() -> Target {
     ];
     Target {
         name: "sweep",
-        corpus: arguments
-            .map(|argument| vec![("argument", argument.as_bytes().to_vec())])
-            .to_vec(),
+        corpus: arguments.map(|argument| vec![("argument", argument.as_bytes().to_vec())]).to_vec(),
         take: Box::new(move |_, files| {
             // Arguments that are no texts clap refuses.
             let Ok(argument) = std::str::from_utf8(&files[0].1) else {
@@ -161,12 +145,8 @@ pub fn sweep() -> Target {
             if axis.values.len() > 64 {
                 return Ok(Taken::Accepted);
             }
-            match points(
-                text,
-                &validation::input::start::Starts::default(),
-                &[],
-                std::slice::from_ref(&axis),
-            ) {
+            match points(text, &validation::input::start::Starts::default(), &[], std::slice::from_ref(&axis))
+            {
                 Ok(found) if found.len() != axis.values.len() => Err(format!("{} points", found.len())),
                 Ok(found) if found.len() == 1 && set.as_ref().ok() != Some(found[0].plan.scene()) => {
                     Err(format!("--set and --over make different scenes: {set:?}"))

@@ -270,10 +270,7 @@ mod tests {
                 density += c * h / h.hypot(c).powi(3) / f64::from(n);
             }
             assert!((orbit_constant_cdf(c_b, r) - (1.0 - above)).abs() < 1e-13);
-            assert!(
-                (orbit_constant_density(c, r) / density - 1.0).abs() < 1e-12,
-                "{r} {c}"
-            );
+            assert!((orbit_constant_density(c, r) / density - 1.0).abs() < 1e-12, "{r} {c}");
             // Wrong variants: the distribution of a sphere's orbits, and C for C/(1 + C).
             let of_sphere = 1.0 - 1.0 / c.hypot(1.0);
             assert!(!is_rod_or_disc(r) || (of_sphere - (1.0 - above)).abs() > 1e-7);
@@ -281,9 +278,6 @@ mod tests {
             let of_sphere = c / (1.0 + c * c).powf(1.5);
             assert!(!is_rod_or_disc(r) || (of_sphere / density - 1.0).abs() > 1e-3);
         }
-        assert_eq!(
-            (orbit_constant_cdf(0.0, 9.0), orbit_constant_cdf(1.0, 9.0)),
-            (0.0, 1.0)
-        );
+        assert_eq!((orbit_constant_cdf(0.0, 9.0), orbit_constant_cdf(1.0, 9.0)), (0.0, 1.0));
     }
 }

@@ -67,14 +67,9 @@ impl Rod {
     /// 320, and those that lie between the largest and the least of r_e⁴, 1 and the components.
     fn bits_of_the_input(&self) -> usize {
         let sizes = self.gradient_per_s.iter().flatten().filter(|x| **x != 0.0);
-        let (least, most) = sizes.fold((f64::INFINITY, 0.0f64), |(least, most), x| {
-            (least.min(x.abs()), most.max(x.abs()))
-        });
-        let spread = if most > 0.0 {
-            2.0 * (most.log2() - least.log2())
-        } else {
-            0.0
-        };
+        let (least, most) =
+            sizes.fold((f64::INFINITY, 0.0f64), |(least, most), x| (least.min(x.abs()), most.max(x.abs())));
+        let spread = if most > 0.0 { 2.0 * (most.log2() - least.log2()) } else { 0.0 };
         320 + (4.0 * self.aspect_ratio.log2().abs() + spread).ceil() as usize
     }
 
@@ -101,10 +96,7 @@ impl Rod {
 }
 
 fn big(x: f64, bits: usize) -> FBig {
-    FBig::try_from(x)
-        .expect("a finite number")
-        .with_precision(bits)
-        .value()
+    FBig::try_from(x).expect("a finite number").with_precision(bits).value()
 }
 
 fn time_s(l: &Square, aspect_ratio: f64, span: Span, bits: usize) -> FBig {
@@ -169,11 +161,7 @@ fn product(a: &Square, b: &Square) -> Square {
 
 /// The exponent of the power of two below x; the least there is for 0.
 fn exponent_of(x: &FBig) -> isize {
-    if x.repr().significand().is_zero() {
-        isize::MIN
-    } else {
-        x.repr().exponent() + x.digits() as isize - 1
-    }
+    if x.repr().significand().is_zero() { isize::MIN } else { x.repr().exponent() + x.digits() as isize - 1 }
 }
 
 /// The exponent of the power of two below the largest component.

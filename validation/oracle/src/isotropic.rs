@@ -26,11 +26,7 @@ pub fn mean_projections(aspect_ratio: f64, turns: f64) -> [f64; 3] {
     // Only |sin ωt| and |cos ωt| enter. Whole quarter turns are taken out first, so that a small one keeps its digits.
     let quarters = (4.0 * turns).round();
     let (near, far) = (TAU * (turns - 0.25 * quarters)).sin_cos();
-    let (s, c) = if quarters % 2.0 == 0.0 {
-        (near.abs(), far)
-    } else {
-        (far, near.abs())
-    };
+    let (s, c) = if quarters % 2.0 == 0.0 { (near.abs(), far) } else { (far, near.abs()) };
     // λ^½ − λ^-½ = |sin ωt|(r − 1/r): no cancellation when λ → 1.
     let half_gap = 0.5 * s * (r - r.recip());
     let lambda = (half_gap + half_gap.hypot(1.0)).powi(2);
@@ -61,12 +57,7 @@ pub fn mean_projections_polydisperse(
     if sd_percent == 0.0 {
         return mean_projections(mean_aspect_ratio, turns_of_mean_period);
     }
-    mean_over_aspect_ratios(
-        mean_aspect_ratio,
-        sd_percent,
-        turns_of_mean_period,
-        mean_projections,
-    )
+    mean_over_aspect_ratios(mean_aspect_ratio, sd_percent, turns_of_mean_period, mean_projections)
 }
 
 /// The mean of `f(r, t/T(r))` over aspect ratios r, Gaussian with a standard deviation above 0.
@@ -83,10 +74,7 @@ pub fn mean_over_aspect_ratios<const N: usize>(
         |r: f64| turns_of_mean_period * (mean_aspect_ratio + mean_aspect_ratio.recip()) / (r + r.recip());
     let sd = 0.01 * sd_percent * mean_aspect_ratio;
     let gaussian = Normal::new(mean_aspect_ratio, sd).expect("a positive standard deviation");
-    let (low, high) = (
-        (mean_aspect_ratio - 8.0 * sd).max(0.0),
-        mean_aspect_ratio + 8.0 * sd,
-    );
+    let (low, high) = ((mean_aspect_ratio - 8.0 * sd).max(0.0), mean_aspect_ratio + 8.0 * sd);
 
     let mut breaks = vec![low, high];
     breaks.extend((-6..=6).step_by(2).map(|k| mean_aspect_ratio + f64::from(k) * sd));
@@ -149,12 +137,7 @@ mod tests {
     /// ∫ (1 − z²)^½ dz/|q| = R_D(0, g, 1)/3.
     fn by_integral_over_phi(r: f64, turns: f64) -> [f64; 3] {
         let (s, c) = (TAU * turns).sin_cos();
-        let f = |phi: f64| {
-            [
-                c * phi.cos() - s / r * phi.sin(),
-                r * s * phi.cos() + c * phi.sin(),
-            ]
-        };
+        let f = |phi: f64| [c * phi.cos() - s / r * phi.sin(), r * s * phi.cos() + c * phi.sin()];
         let g = |phi: f64| f(phi).iter().map(|x| x * x).sum::<f64>();
         // Kinks at the zeros of f₁ and f₂; g has its narrow minimum and maximum on the axes of FᵀF.
         let axis = 0.5 * (2.0 * s * c * (r - r.recip())).atan2(s * s * (r * r - (r * r).recip()));
@@ -239,11 +222,7 @@ mod tests {
                     let x = 8.0 * f64::from(k) / f64::from(n);
                     let r = mean + sd * x;
                     let period_ratio = (mean + 1.0 / mean) / (r + 1.0 / r);
-                    let own = if common_period {
-                        turns
-                    } else {
-                        turns * period_ratio
-                    };
+                    let own = if common_period { turns } else { turns * period_ratio };
                     let weight = (-0.5 * x * x).exp() / TAU.sqrt() * 8.0 / f64::from(n);
                     let means = mean_projections(r, own);
                     (0..3).for_each(|i| sum[i] += weight * means[i]);
@@ -255,10 +234,7 @@ mod tests {
             let error = most_apart(exact, trapezoid(false));
             assert!(error < 1e-10, "{mean} {sd_percent} {turns} {error:e}");
             // Wrong variant: all rods with the period of the mean rod.
-            assert!(
-                most_apart(exact, trapezoid(true)) > 1e-6,
-                "{mean} {sd_percent} {turns}"
-            );
+            assert!(most_apart(exact, trapezoid(true)) > 1e-6, "{mean} {sd_percent} {turns}");
         }
     }
 

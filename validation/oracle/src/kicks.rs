@@ -14,11 +14,7 @@ fn dot(a: Vector, b: Vector) -> f64 {
 }
 
 fn cross(a: Vector, b: Vector) -> Vector {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// a·D·b.
@@ -116,10 +112,7 @@ mod tests {
     fn samples(count: usize) -> impl Iterator<Item = [Vector; 3]> {
         let mut draws = stream(3, 0, 0);
         let mut direction = move || {
-            let (height, phi) = (
-                2.0 * draws.random::<f64>() - 1.0,
-                2.0 * PI * draws.random::<f64>(),
-            );
+            let (height, phi) = (2.0 * draws.random::<f64>() - 1.0, 2.0 * PI * draws.random::<f64>());
             let radius = (1.0 - height * height).sqrt();
             [radius * phi.cos(), radius * phi.sin(), height]
         };
@@ -131,12 +124,7 @@ mod tests {
         let before = [(a, aspect_ratios[0]), (b, aspect_ratios[1])].map(|(p, r)| jeffery(p, r, GRADIENT));
         let contact = collide([0.0; 3], a, before[0], separation, b, before[1], GRADIENT).unwrap();
         let after = [contact.pdot_a_per_s, contact.pdot_b_per_s];
-        let size = |k: usize| {
-            (0..3)
-                .map(|i| (after[k][i] - before[k][i]).powi(2))
-                .sum::<f64>()
-                .sqrt()
-        };
+        let size = |k: usize| (0..3).map(|i| (after[k][i] - before[k][i]).powi(2)).sum::<f64>().sqrt();
         ([size(0), size(1)], [contact.arm_a_mm, contact.arm_b_mm])
     }
 
@@ -161,10 +149,7 @@ mod tests {
             }
         }
         assert!(compared > 15_000 && closest < 1e-11, "{compared} {closest}");
-        assert!(
-            (0.3..=1.0).contains(&sharpest),
-            "no bound, or a useless one: {sharpest}"
-        );
+        assert!((0.3..=1.0).contains(&sharpest), "no bound, or a useless one: {sharpest}");
     }
 
     #[test]
@@ -179,17 +164,11 @@ mod tests {
             // 1 − Λ = 0.4 at r_e = 2 is left out of terms in 1/Y².
             let allowed =
                 4.5 * (larger / count as f64).sqrt() + if ratio < 3.0 { 0.01 * larger } else { 0.0 };
-            assert!(
-                (larger - chance).abs() < allowed,
-                "{ratio} {scaled}: {larger} {chance}"
-            );
+            assert!((larger - chance).abs() < allowed, "{ratio} {scaled}: {larger} {chance}");
             // The tail's constant, for Y at which the next term of the series is known or below 10⁻³.
             if scaled >= 1.0 {
                 let series = chance_of_threads(scaled) * tail_of_isotropic(ratio) * 6.0 * PI;
-                assert!(
-                    (series - chance).abs() < allowed,
-                    "{ratio} {scaled}: {series} {chance}"
-                );
+                assert!((series - chance).abs() < allowed, "{ratio} {scaled}: {series} {chance}");
                 // A mean over κ of the wrong power, or a factor of π.
                 assert!((series * scaled - chance).abs() > allowed || scaled == 1.0);
                 assert!((series * 1.1 - chance).abs() > allowed);

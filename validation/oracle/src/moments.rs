@@ -14,11 +14,7 @@ fn covariance(aspect_ratio: f64, turns: f64) -> [f64; 3] {
     let r = aspect_ratio;
     let (s, c) = (TAU * turns).sin_cos();
     // q₁ = p₁ c − p₂ s/r, q₂ = r p₁ s + p₂ c.
-    [
-        c * c + (s / r).powi(2),
-        c * c + (r * s).powi(2),
-        s * c * (r - 1.0 / r),
-    ]
+    [c * c + (s / r).powi(2), c * c + (r * s).powi(2), s * c * (r - 1.0 / r)]
 }
 
 /// ⟨p_i p_j p_k p_l⟩ at `turns` = t/T of rods of one aspect ratio r_e > 0; indices 0, 1 and 2 for the axes 1, 2 and 3.
@@ -46,11 +42,7 @@ fn root([s11, s22, _]: [f64; 3], x: f64) -> f64 {
 fn inverse([s11, s22, s12]: [f64; 3], x: f64) -> [[f64; 3]; 3] {
     let det = 1.0 + x * (s11 + s22) + x * x;
     let off = s12 / det;
-    [
-        [(s11 + x) / det, off, 0.0],
-        [off, (s22 + x) / det, 0.0],
-        [0.0, 0.0, 1.0 / (1.0 + x)],
-    ]
+    [[(s11 + x) / det, off, 0.0], [off, (s22 + x) / det, 0.0], [0.0, 0.0, 1.0 / (1.0 + x)]]
 }
 
 /// ∫₀^∞ f dx with x = (y/(1 − y))²; f falls as x^-5/2, so what is left falls as (1 − y)².
@@ -80,10 +72,7 @@ mod tests {
                 ([2, 2, 1, 1], 1.0 / 15.0),
                 ([0, 1, 1, 1], 0.0),
             ] {
-                assert!(
-                    (fourth(r, 0.0, indices) - expected).abs() < 1e-12,
-                    "{r} {indices:?}"
-                );
+                assert!((fourth(r, 0.0, indices) - expected).abs() < 1e-12, "{r} {indices:?}");
             }
             assert!((second(r, 0.0, [0, 0]) - 1.0 / 3.0).abs() < 1e-12);
         }
@@ -95,14 +84,7 @@ mod tests {
         let (r, turns) = (3.0, 0.17);
         let (s, c) = (TAU * turns).sin_cos();
         let (heights, angles) = (400, 400);
-        for indices in [
-            [0, 0, 0, 0],
-            [0, 0, 1, 1],
-            [1, 1, 1, 1],
-            [0, 1, 1, 1],
-            [0, 0, 0, 1],
-            [0, 1, 2, 2],
-        ] {
+        for indices in [[0, 0, 0, 0], [0, 0, 1, 1], [1, 1, 1, 1], [0, 1, 1, 1], [0, 0, 0, 1], [0, 1, 2, 2]] {
             let mut sum = 0.0;
             for height in 0..heights {
                 // Midpoints in cos θ: second order.
@@ -116,10 +98,7 @@ mod tests {
                 }
             }
             let found = fourth(r, turns, indices);
-            assert!(
-                (found - sum / f64::from(heights * angles)).abs() < 2e-5,
-                "{indices:?}: {found}"
-            );
+            assert!((found - sum / f64::from(heights * angles)).abs() < 2e-5, "{indices:?}: {found}");
         }
     }
 
@@ -128,10 +107,7 @@ mod tests {
         for turns in [0.0, 0.1, 0.25, 0.4] {
             let trace = |i, j| (0..3).map(|k| fourth(11.6, turns, [i, j, k, k])).sum::<f64>();
             for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1)] {
-                assert!(
-                    (trace(i, j) - second(11.6, turns, [i, j])).abs() < 1e-12,
-                    "{turns} {i}{j}"
-                );
+                assert!((trace(i, j) - second(11.6, turns, [i, j])).abs() < 1e-12, "{turns} {i}{j}");
             }
             assert!((trace(0, 0) + trace(1, 1) + trace(2, 2) - 1.0).abs() < 1e-12);
         }

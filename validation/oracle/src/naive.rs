@@ -83,12 +83,8 @@ impl Naive {
             }
             values
         };
-        let aspect_ratios = gaussian(
-            ASPECT_RATIOS,
-            problem.aspect_ratio,
-            problem.aspect_ratio_sd_percent,
-            1.0,
-        );
+        let aspect_ratios =
+            gaussian(ASPECT_RATIOS, problem.aspect_ratio, problem.aspect_ratio_sd_percent, 1.0);
         let lengths_mm = gaussian(LENGTHS, problem.length_mm, problem.length_sd_percent, 0.0);
         let mut draws = stream_for(ORIENTATIONS);
         let mut orientations = Vec::new();
@@ -193,11 +189,7 @@ impl Naive {
         for i in 0..n {
             let Some(j) = neighbours[i] else { continue };
             let mutual = neighbours[j] == Some(i);
-            let draw = draws[if who == Who::PairDraws && mutual {
-                i.min(j)
-            } else {
-                i
-            }];
+            let draw = draws[if who == Who::PairDraws && mutual { i.min(j) } else { i }];
             let j = either(made, Mistake::AnyNeighbour, (i + 1) % n, j);
             let s_mm = distance_mm(self.positions_mm[i], self.seen_from(i, j));
             let p_c = collision_probability(s_mm, self.length_mm(i, j), problem.alpha, m);
@@ -226,11 +218,7 @@ impl Naive {
     /// Where rod i sees rod j.
     fn seen_from(&self, i: usize, j: usize) -> [f64; 3] {
         let images = self.problem.reading.images;
-        images.nearest_mm(
-            self.positions_mm[j],
-            self.positions_mm[i],
-            self.problem.edges_mm(),
-        )
+        images.nearest_mm(self.positions_mm[j], self.positions_mm[i], self.problem.edges_mm())
     }
 
     /// What a collision of i and j does; `None` where they make no contact.
@@ -249,12 +237,7 @@ impl Naive {
         };
         let reached = |(k, arm_mm): (usize, f64)| {
             let a_mm = self.lengths_mm[k];
-            let unit_mm = either(
-                problem.mistake,
-                Mistake::ArmsOverMeanLength,
-                problem.length_mm,
-                a_mm,
-            );
+            let unit_mm = either(problem.mistake, Mistake::ArmsOverMeanLength, problem.length_mm, a_mm);
             arm_mm.abs() >= problem.min_contact_arm * unit_mm && arm_mm.abs() <= longest * a_mm
         };
         let arms = [(i, contact.arm_a_mm), (j, contact.arm_b_mm)];

@@ -35,17 +35,9 @@ pub fn nearest_pairs(
         }
         let single = if contact(i, j) { probability(distance) } else { 0.0 };
         // Two draws for a pair of mutual neighbours.
-        let chance = if both {
-            1.0 - (1.0 - single) * (1.0 - single)
-        } else {
-            single
-        };
+        let chance = if both { 1.0 - (1.0 - single) * (1.0 - single) } else { single };
         mutual.push(both);
-        pairs.push(Pair {
-            rods: [i, j],
-            distance,
-            chance,
-        });
+        pairs.push(Pair { rods: [i, j], distance, chance });
     }
     let mut order: Vec<_> = (0..pairs.len()).collect();
     order.sort_by(|a, b| pairs[*a].distance.total_cmp(&pairs[*b].distance));
@@ -92,9 +84,8 @@ mod tests {
         let mut found = vec![vec![0.0; count]; count];
         for outcome in 0..1usize << count {
             let drawn = |i: usize| outcome >> i & 1 == 1;
-            let weight: f64 = (0..count)
-                .map(|i| if drawn(i) { chance[i] } else { 1.0 - chance[i] })
-                .product();
+            let weight: f64 =
+                (0..count).map(|i| if drawn(i) { chance[i] } else { 1.0 - chance[i] }).product();
             let mut candidates: Vec<_> = (0..count)
                 .filter(|i| drawn(*i))
                 .map(|i| (nearest(places, i).unwrap(), i))
@@ -119,19 +110,14 @@ mod tests {
             let places: Vec<_> = (0..8).map(|_| [(); 3].map(|()| draws.random::<f64>())).collect();
             let probability = |s: f64| (0.4 / (s + 0.4)).powi(2);
             let contact = |i: usize, j: usize| trial % 2 == 0 || !(i + j).is_multiple_of(3);
-            let single: Vec<_> = (0..8)
-                .map(|i| probability(nearest(&places, i).unwrap().1))
-                .collect();
+            let single: Vec<_> = (0..8).map(|i| probability(nearest(&places, i).unwrap().1)).collect();
             let mut expected = by_enumeration(&places, &single, contact);
             for pair in nearest_pairs(&places, probability, contact) {
                 let [i, j] = pair.rods;
                 let left = &mut expected[i.min(j)][i.max(j)];
                 *left -= pair.chance;
             }
-            let off = expected
-                .iter()
-                .flatten()
-                .fold(0.0f64, |worst, x| worst.max(x.abs()));
+            let off = expected.iter().flatten().fold(0.0f64, |worst, x| worst.max(x.abs()));
             assert!(off < 1e-13, "{trial}: {off}");
         }
     }

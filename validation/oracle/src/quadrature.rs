@@ -29,10 +29,7 @@ pub fn integrate(f: impl Fn(f64) -> f64, breaks: &[f64], absolute_tolerance: f64
         assert!(y.is_finite(), "integrand is {y} at {x}");
         y
     };
-    let mut sum = Integral {
-        value: 0.0,
-        error_estimate: 0.0,
-    };
+    let mut sum = Integral { value: 0.0, error_estimate: 0.0 };
     for ends in breaks.windows(2) {
         let (a, b) = (ends[0], ends[1]);
         assert!(a <= b, "breaks must ascend: {a} before {b}");
@@ -88,11 +85,7 @@ pub fn mean_angle_by_quadrature(aspect_ratio: f64) -> f64 {
 /// For 0 ≤ C ≤ ∞. Measured against 40-digit arithmetic: 2e-15 absolute for 1e-4 ≤ r_e ≤ 1e4, 2e-14 up to 1e8.
 pub fn phase_means_by_quadrature(orbit_constant: f64, aspect_ratio: f64) -> [f64; 3] {
     let (sin_beta, cos_beta) = orbit_constant.atan2(1.0).sin_cos();
-    let cos_beta = if orbit_constant.is_infinite() {
-        0.0
-    } else {
-        cos_beta
-    };
+    let cos_beta = if orbit_constant.is_infinite() { 0.0 } else { cos_beta };
     // In turns: the quarters, where a component changes sign, and the knees, where φ is 45° off an axis.
     let knee = aspect_ratio.recip().atan() / TAU;
     let mut breaks: Vec<f64> = (0..=4).map(|k| 0.25 * f64::from(k)).collect();

@@ -24,23 +24,11 @@ pub fn cases() -> Vec<Case> {
             )
             .source("eqs 7–10, A.7–A.14; docs/time-step.md")
             .equations(&["7", "8", "A.13", "A.14"])
-            .subject(Limit {
-                min_arm: 0.5,
-                change: |_| {},
-            })
-            .mistake(
-                "arms of every size",
-                Limit {
-                    min_arm: 0.0,
-                    change: |_| {},
-                },
-            )
+            .subject(Limit { min_arm: 0.5, change: |_| {} })
+            .mistake("arms of every size", Limit { min_arm: 0.0, change: |_| {} })
             .mistake(
                 "an average without the push of collisions",
-                Limit {
-                    min_arm: 0.5,
-                    change: |average| average.alpha = 1e-9,
-                },
+                Limit { min_arm: 0.5, change: |average| average.alpha = 1e-9 },
             )
             .check(averaged),
         Case::core("arm-pushed")
@@ -67,10 +55,7 @@ pub fn cases() -> Vec<Case> {
             .equations(&["A.14"])
             .subject([turn as Update, step_angles])
             .mistake("twice the same update", [turn as Update, turn])
-            .mistake(
-                "a turn by half the angle",
-                [|p, rate, time| turn(p, rate, 0.5 * time), step_angles],
-            )
+            .mistake("a turn by half the angle", [|p, rate, time| turn(p, rate, 0.5 * time), step_angles])
             .check(updates),
     ]
 }
@@ -143,20 +128,13 @@ fn updates([rotation, angles]: &[Update; 2], _: &Effort) -> Vec<Evidence> {
         let rate = direction_rate_per_s(flow.per_s(), 11.6, &p);
         for (sums, update) in off_path.iter_mut().zip([rotation, angles]) {
             for (sum, time) in sums.iter_mut().zip(TIMES) {
-                *sum += update(&p, &rate, time)
-                    .0
-                    .cross(&propagator.after(&p, time))
-                    .norm();
+                *sum += update(&p, &rate, time).0.cross(&propagator.after(&p, time)).norm();
             }
         }
     }
     // No distance at all has no order; that is not 2 either.
     let order = |[one, two]: [f64; 2]| {
-        if one > 0.0 {
-            (two / one).log2() - 2.0
-        } else {
-            f64::INFINITY
-        }
+        if one > 0.0 { (two / one).log2() - 2.0 } else { f64::INFINITY }
     };
     let because = "the next term of the series is GΔt = 10⁻⁴ times derivatives of a rate, of order 1/sin³ θ \
                    < 20";
@@ -225,13 +203,8 @@ fn pushed(kick: &Kick, _: &Effort) -> Vec<Evidence> {
         }
         let separation = ARM * p[0].into_inner() - other * p[1].into_inner() + gap * line;
         let expected = gap * gap * line.x * line.y / (2.0 * ARM * normal.norm_squared());
-        let found = arm_rate(
-            *kick,
-            p.map(UnitVector3::into_inner),
-            &separation,
-            1e-4 * ARM * ARM,
-        )
-        .unwrap_or(f64::NAN);
+        let found = arm_rate(*kick, p.map(UnitVector3::into_inner), &separation, 1e-4 * ARM * ARM)
+            .unwrap_or(f64::NAN);
         worst = larger(worst, (found / expected - 1.0).abs());
         wrong += u32::from((found > 0.0) != (line.x * line.y > 0.0));
         opening += u32::from(line.x * line.y > 0.0);

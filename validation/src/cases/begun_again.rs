@@ -45,13 +45,8 @@ fn begins_again(way: &Way, effort: &Effort) -> Vec<Evidence> {
     // 100 rods at 50 per cm³.
     let interaction = lab::interaction(&mut scene);
     (interaction.concentration_per_cm3, interaction.box_mm) = (None, Some([20.0, 10.0, 10.0]));
-    let replicas = effort.samples(Design {
-        effect: EFFECT,
-        sd: SD,
-    });
-    let differences = (0..replicas)
-        .into_par_iter()
-        .map(|replica| again_less_straight(&scene, *way, replica));
+    let replicas = effort.samples(Design { effect: EFFECT, sd: SD });
+    let differences = (0..replicas).into_par_iter().map(|replica| again_less_straight(&scene, *way, replica));
     let differences: Vec<f64> = differences.collect();
     vec![Evidence::new(
         "X̄₁ at t/T = 1½, begun again at t = T less straight on",

@@ -36,12 +36,9 @@ pub fn markdown() -> String {
 pub fn name_judges(sections: &mut Sections) {
     let about: Vec<_> = cases::all().into_iter().map(|case| case.about).collect();
     for figure in sections.figures_mut().filter(|figure| figure.cases.is_empty()) {
-        let shown: Vec<_> = FIGURES
-            .filter(|number| cites_figure(&figure.source, *number))
-            .collect();
-        let judges = about
-            .iter()
-            .filter(|about| shown.iter().any(|number| cites_figure(about.source, *number)));
+        let shown: Vec<_> = FIGURES.filter(|number| cites_figure(&figure.source, *number)).collect();
+        let judges =
+            about.iter().filter(|about| shown.iter().any(|number| cites_figure(about.source, *number)));
         figure.cases = judges.map(|about| about.name.into()).collect();
     }
 }

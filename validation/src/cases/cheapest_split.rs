@@ -44,13 +44,8 @@ const STUDY: ([u64; 2], u64) = ([100, 400], 400);
 fn study(scene: &Scene) -> Known {
     let (steps, replicas) = STUDY;
     let [coarse, fine] = steps.map(|steps| first(interacting(scene, steps, 1.0, 4, replicas), 3));
-    let differences: Vec<_> = (coarse.iter().zip(&fine))
-        .map(|(coarse, fine)| coarse - fine)
-        .collect();
-    let Estimate {
-        value: difference,
-        se,
-    } = Estimate::mean_of(&differences);
+    let differences: Vec<_> = (coarse.iter().zip(&fine)).map(|(coarse, fine)| coarse - fine).collect();
+    let Estimate { value: difference, se } = Estimate::mean_of(&differences);
     let [coarse_step, fine_step] = steps.map(|steps| 1.0 / steps as f64);
     Known {
         constants: Constants {

@@ -26,10 +26,7 @@ struct Orbit {
 
 /// Orbits as the core has them.
 fn orbit(change: Change) -> Orbit {
-    Orbit {
-        change,
-        constant: orientation::bounded_orbit_constant,
-    }
+    Orbit { change, constant: orientation::bounded_orbit_constant }
 }
 
 /// The direction after `turns` of a rod of aspect ratio r.
@@ -59,29 +56,17 @@ pub fn cases() -> Vec<Case> {
             .source("eqs 12, 13")
             .equations(&["12", "13"])
             .subject(orbit(|_| {}))
-            .mistake(
-                "r_e 10 % longer",
-                orbit(|scene| scene.particles.aspect_ratio *= 1.1),
-            )
+            .mistake("r_e 10 % longer", orbit(|scene| scene.particles.aspect_ratio *= 1.1))
             .mistake(
                 "every rod at 45°",
                 orbit(|scene| {
-                    scene.particles.orientation = Orientation::Given {
-                        phi_deg: 45.0,
-                        theta_deg: 45.0,
-                    };
+                    scene.particles.orientation = Orientation::Given { phi_deg: 45.0, theta_deg: 45.0 };
                 }),
             )
-            .mistake(
-                "rods in collision",
-                orbit(|scene| lab::interaction(scene).alpha = 0.5),
-            )
+            .mistake("rods in collision", orbit(|scene| lab::interaction(scene).alpha = 0.5))
             .mistake(
                 "C = tan θ: eq. 13 without r_e",
-                Orbit {
-                    change: |_| {},
-                    constant: |p, _| orientation::bounded_orbit_constant(p, 1.0),
-                },
+                Orbit { change: |_| {}, constant: |p, _| orientation::bounded_orbit_constant(p, 1.0) },
             )
             .check(orbit_distribution),
         Case::core("free-plateau")
@@ -117,10 +102,7 @@ pub fn cases() -> Vec<Case> {
             .subject((|_| {}) as Change)
             .mistake("r_e 1 % longer", |scene| scene.particles.aspect_ratio *= 1.01)
             .mistake("1° out of the plane", |scene| {
-                scene.particles.orientation = Orientation::Given {
-                    phi_deg: 30.0,
-                    theta_deg: 89.0,
-                };
+                scene.particles.orientation = Orientation::Given { phi_deg: 30.0, theta_deg: 89.0 };
             })
             .check(in_plane_start),
     ]
@@ -128,9 +110,7 @@ pub fn cases() -> Vec<Case> {
 
 fn exact(r: f64, p: &UnitVector3<f64>, turns: f64) -> UnitVector3<f64> {
     let flow = VelocityGradient::plane_couette(0.5).expect("a finite shear rate");
-    Propagator::new(&flow, r)
-        .after_turns(p, turns)
-        .expect("plane Couette flow has a period")
+    Propagator::new(&flow, r).after_turns(p, turns).expect("plane Couette flow has a period")
 }
 
 fn phase_means(motion: &Motion, _: &Effort) -> Vec<Evidence> {
@@ -141,13 +121,7 @@ fn phase_means(motion: &Motion, _: &Effort) -> Vec<Evidence> {
             let start = orientation::from_angles(0.0, f64::atan(c));
             let expected = closed_form::phase_means(c, r);
             let edge = (1.0 / r).atan() / TAU;
-            let breaks = [
-                0.0,
-                (0.25 * edge).min(0.05),
-                edge.min(0.1),
-                (4.0 * edge).min(0.2),
-                0.25,
-            ];
+            let breaks = [0.0, (0.25 * edge).min(0.05), edge.min(0.1), (4.0 * edge).min(0.2), 0.25];
             for (axis, expected) in expected.into_iter().enumerate() {
                 let value = |turns: f64| motion(r, &start, turns)[axis].abs();
                 let mean = 4.0 * quadrature::integrate(value, &breaks, 1e-13).value;
@@ -156,12 +130,7 @@ fn phase_means(motion: &Motion, _: &Effort) -> Vec<Evidence> {
         }
     }
     let because = "four panels to the quadrature's tolerance of 10⁻¹³, times four for the quarter period";
-    vec![Evidence::within(
-        "largest difference of a time mean",
-        worst,
-        1.6e-12,
-        because,
-    )]
+    vec![Evidence::within("largest difference of a time mean", worst, 1.6e-12, because)]
 }
 
 fn orbit_distribution(orbit: &Orbit, effort: &Effort) -> Vec<Evidence> {
@@ -175,10 +144,7 @@ fn orbit_distribution(orbit: &Orbit, effort: &Effort) -> Vec<Evidence> {
     let mut suspension = lab::stepped(&scene, 0);
     let constants = |suspension: &shearbed::Suspension| -> Vec<f64> {
         let directions = suspension.directions();
-        directions
-            .iter()
-            .map(|p| (orbit.constant)([p.x, p.y, p.z], r))
-            .collect()
+        directions.iter().map(|p| (orbit.constant)([p.x, p.y, p.z], r)).collect()
     };
     let before = constants(&suspension);
     let mut failed = false;
@@ -186,23 +152,12 @@ fn orbit_distribution(orbit: &Orbit, effort: &Effort) -> Vec<Evidence> {
         failed |= suspension.step().is_err();
     }
     let after = constants(&suspension);
-    let change = before
-        .iter()
-        .zip(&after)
-        .map(|(a, b)| (a - b).abs())
-        .fold(0.0, larger);
-    let levels = after
-        .iter()
-        .map(|&c| closed_form::orbit_constant_cdf(c, r))
-        .collect();
+    let change = before.iter().zip(&after).map(|(a, b)| (a - b).abs()).fold(0.0, larger);
+    let levels = after.iter().map(|&c| closed_form::orbit_constant_cdf(c, r)).collect();
     vec![
         Evidence::new(
             "p of C_b having the closed distribution after 137 steps",
-            lab::uniform(
-                levels,
-                distance,
-                "Kolmogorov–Smirnov; half of what eq. 13 without r_e is off by",
-            ),
+            lab::uniform(levels, distance, "Kolmogorov–Smirnov; half of what eq. 13 without r_e is off by"),
         ),
         Evidence::within(
             "largest change of a rod's C_b",
@@ -222,10 +177,7 @@ fn plateau(change: &Change, effort: &Effort) -> Vec<Evidence> {
     // A quarter period past t/T = 12, where rods in phase would be far from their mean; exp(−(t/t*)²) = 2·10⁻⁷.
     scene.time.periods = Some(12.25);
     scene.time.outputs_per_period = Some(4);
-    let (r, sd) = (
-        scene.particles.aspect_ratio,
-        0.01 * scene.particles.aspect_ratio_sd_percent,
-    );
+    let (r, sd) = (scene.particles.aspect_ratio, 0.01 * scene.particles.aspect_ratio_sd_percent);
     change(&mut scene);
     let results = ensemble::run(&lab::plan(&scene));
     // The mean over a Gaussian r_e by Hermite's three nodes, exact to σ⁴.
@@ -235,11 +187,7 @@ fn plateau(change: &Change, effort: &Effort) -> Vec<Evidence> {
     for (axis, name) in ["x1", "x2", "x3"].into_iter().enumerate() {
         let channel = results.as_ref().ok().and_then(|results| results.column(name));
         let (mean, se) = channel.map_or((f64::NAN, f64::NAN), |c| (c.mean[49], c.se[49]));
-        let sample = Sample {
-            mean,
-            se,
-            samples: scene.particles.count as u64,
-        };
+        let sample = Sample { mean, se, samples: scene.particles.count as u64 };
         evidence.push(Evidence::new(
             format!("X̄_{} at t/T = 12¼, against the phase means", axis + 1),
             sample.is(

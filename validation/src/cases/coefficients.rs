@@ -10,10 +10,7 @@ use shearbed::observable::Channel;
 use shearbed::scene::Scene;
 
 pub fn cases() -> Vec<Case> {
-    let right = Read {
-        change: |_| {},
-        place: |k| k,
-    };
+    let right = Read { change: |_| {}, place: |k| k };
     vec![
         Case::core("fourth-moments")
             .claim(
@@ -77,9 +74,7 @@ fn fourth_moments(read: &Read, effort: &Effort) -> Vec<Evidence> {
     let mut scene = a_fifth(Observable::OrientationTensor4, effort);
     (read.change)(&mut scene);
     let values = lab::per_replica(&scene, effort.samples(design), |mean| {
-        (0..15)
-            .map(|k| mean(channels[(read.place)(k)], 1))
-            .collect::<Vec<_>>()
+        (0..15).map(|k| mean(channels[(read.place)(k)], 1)).collect::<Vec<_>>()
     });
     let mut evidence: Vec<_> = channels
         .iter()
@@ -129,17 +124,11 @@ fn traces(read: &Read, effort: &Effort) -> f64 {
     let off = lab::per_replica(&scene, 1, |mean| {
         let at = |output: usize| {
             let one = |((i, j), second): (&(usize, usize), Channel)| {
-                let sum: f64 = (0..3)
-                    .map(|k| fourth(*i, *j, k).map_or(f64::NAN, |channel| mean(channel, output)))
-                    .sum();
+                let sum: f64 =
+                    (0..3).map(|k| fourth(*i, *j, k).map_or(f64::NAN, |channel| mean(channel, output))).sum();
                 (sum - mean(second, output)).abs()
             };
-            worst(
-                pairs
-                    .iter()
-                    .zip(Observable::OrientationTensor.channels())
-                    .map(one),
-            )
+            worst(pairs.iter().zip(Observable::OrientationTensor.channels()).map(one))
         };
         worst((0..=50).map(at))
     });
@@ -152,11 +141,7 @@ type Stress = fn([f64; 3]) -> [f64; 3];
 /// σ₁₂, N₁ and N₂ of the closed integral.
 fn exact_stress(turns: f64) -> [f64; 3] {
     let sheared = |i, j| moments::fourth(ASPECT_RATIO, turns, [i, j, 0, 1]);
-    [
-        sheared(0, 1),
-        sheared(1, 1) - sheared(0, 0),
-        sheared(0, 0) - sheared(2, 2),
-    ]
+    [sheared(0, 1), sheared(1, 1) - sheared(0, 0), sheared(0, 0) - sheared(2, 2)]
 }
 
 fn particle_stress(stress: &Stress, effort: &Effort) -> Vec<Evidence> {
@@ -179,10 +164,9 @@ fn particle_stress(stress: &Stress, effort: &Effort) -> Vec<Evidence> {
     let all: Vec<_> = (0..40).map(|k| exact_stress(f64::from(k) / 80.0)).collect();
     let over_half: [f64; 3] = std::array::from_fn(|k| all.iter().map(|values| values[k]).sum::<f64>() / 40.0);
     let mut evidence = Vec::new();
-    for (when, found, expected) in [
-        ("at t/T = 0.2", &fifth, exact_stress(0.2)),
-        ("in the mean over half a period", &half, over_half),
-    ] {
+    for (when, found, expected) in
+        [("at t/T = 0.2", &fifth, exact_stress(0.2)), ("in the mean over half a period", &half, over_half)]
+    {
         for (k, channel) in channels.iter().enumerate() {
             let own: Vec<f64> = found.iter().map(|values: &[f64; 3]| values[k]).collect();
             evidence.push(Evidence::new(

@@ -49,10 +49,7 @@ fn geometry(pair: &Pair) -> (Vector3<f64>, [f64; 2]) {
     let (a, b) = (pair.p[0].into_inner(), pair.p[1].into_inner());
     let c = a.dot(&b);
     let square = 1.0 - c * c;
-    let arms = [
-        (d.dot(&a) - c * d.dot(&b)) / square,
-        (c * d.dot(&a) - d.dot(&b)) / square,
-    ];
+    let arms = [(d.dot(&a) - c * d.dot(&b)) / square, (c * d.dot(&a) - d.dot(&b)) / square];
     (a.cross(&b).normalize(), arms)
 }
 
@@ -142,10 +139,8 @@ fn against_turning(rates: &AngleRates, _: &Effort) -> Vec<Evidence> {
             let ((phi_1, theta_1), (phi_0, theta_0)) =
                 (orientation::angles(&ahead), orientation::angles(&behind));
             let (phi_rate, theta_rate) = rates(&p, &rate);
-            let errors = [
-                phi_rate - (phi_1 - phi_0) / (2.0 * dt),
-                theta_rate - (theta_1 - theta_0) / (2.0 * dt),
-            ];
+            let errors =
+                [phi_rate - (phi_1 - phi_0) / (2.0 * dt), theta_rate - (theta_1 - theta_0) / (2.0 * dt)];
             for (worst, error) in worst.iter_mut().zip(errors) {
                 *worst = larger(*worst, error.abs());
             }
@@ -153,14 +148,11 @@ fn against_turning(rates: &AngleRates, _: &Effort) -> Vec<Evidence> {
     }
     let because = "the central difference's own error: Δt²/6 times a third derivative of 8(|ṗ|/sin θ)³ ≤ \
                    8·5³ at most";
-    [
-        "error of φ̇′ in rad per unit time",
-        "error of θ̇′ in rad per unit time",
-    ]
-    .into_iter()
-    .zip(worst)
-    .map(|(what, worst)| Evidence::within(what, worst, 2e-6, because))
-    .collect()
+    ["error of φ̇′ in rad per unit time", "error of θ̇′ in rad per unit time"]
+        .into_iter()
+        .zip(worst)
+        .map(|(what, worst)| Evidence::within(what, worst, 2e-6, because))
+        .collect()
 }
 
 pub fn cases() -> Vec<Case> {
@@ -174,14 +166,9 @@ pub fn cases() -> Vec<Case> {
             .mistake("the sum in place of the mean", |pair| scaled_change(pair, 2.0))
             .mistake("the kick with the wrong sign", |pair| scaled_change(pair, -1.0))
             .mistake("arms exchanged", |pair| spoilt(pair, |[a, b]| [b, a]))
-            .mistake("arms without their sign", |pair| {
-                spoilt(pair, |arms| arms.map(f64::abs))
-            })
+            .mistake("arms without their sign", |pair| spoilt(pair, |arms| arms.map(f64::abs)))
             .mistake("the liquid's velocity left out", |pair| {
-                core_rule(&Pair {
-                    u: [Vector3::zeros(); 2],
-                    ..*pair
-                })
+                core_rule(&Pair { u: [Vector3::zeros(); 2], ..*pair })
             })
             .mistake("only A moved", |pair| Some([core_rule(pair)?[0], pair.rate[1]]))
             .check(invariants),
@@ -191,12 +178,8 @@ pub fn cases() -> Vec<Case> {
             .equations(&["A.13", "A.14"])
             .subject(angle_rates as AngleRates)
             .mistake("A.13 as printed", printed_a13)
-            .mistake("only φ̇′ corrected", |p, rate| {
-                (angle_rates(p, rate).0, printed_a13(p, rate).1)
-            })
-            .mistake("only θ̇′ corrected", |p, rate| {
-                (printed_a13(p, rate).0, angle_rates(p, rate).1)
-            })
+            .mistake("only φ̇′ corrected", |p, rate| (angle_rates(p, rate).0, printed_a13(p, rate).1))
+            .mistake("only θ̇′ corrected", |p, rate| (printed_a13(p, rate).0, angle_rates(p, rate).1))
             .check(against_turning),
     ]
 }

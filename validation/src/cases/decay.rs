@@ -198,14 +198,9 @@ fn swing(mean: &dyn Fn(Channel, usize) -> f64, half_periods: usize, axis: usize)
 fn amplitudes(scene: &Scene, replicas: u64, half_periods: &[usize]) -> Vec<Vec<f64>> {
     let last = half_periods.iter().max().copied().unwrap_or(0);
     let found = per_replica(&quarters(scene.clone(), last), replicas, |mean| {
-        half_periods
-            .iter()
-            .map(|&k| swing(mean, k, 0))
-            .collect::<Vec<_>>()
+        half_periods.iter().map(|&k| swing(mean, k, 0)).collect::<Vec<_>>()
     });
-    (0..half_periods.len())
-        .map(|k| found.iter().map(|amplitudes| amplitudes[k]).collect())
-        .collect()
+    (0..half_periods.len()).map(|k| found.iter().map(|amplitudes| amplitudes[k]).collect()).collect()
 }
 
 /// The scene up to the quarter period after t = kT/2, with outputs at quarter periods.

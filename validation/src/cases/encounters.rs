@@ -18,9 +18,7 @@ pub fn cases() -> Vec<Case> {
             .source("eqs 7, 10")
             .equations(&["7", "10"])
             .subject(reach as Formula)
-            .mistake("α missing in the denominator of P_c", |r, alpha, m| {
-                alpha * r.powf(-1.0 / m)
-            })
+            .mistake("α missing in the denominator of P_c", |r, alpha, m| alpha * r.powf(-1.0 / m))
             .mistake("m = 3 whatever m is", |r, alpha, _| reach(r, alpha, 3.0))
             .mistake("s in rod radii", |r, alpha, m| 0.5 * reach(r, alpha, m))
             .mistake("the reach of 1 − R", |r, alpha, m| reach(1.0 - r, alpha, m))
@@ -80,20 +78,14 @@ fn limits(reach: &Formula, _: &Effort) -> Vec<Evidence> {
 fn frequency(change: &Change, effort: &Effort) -> Vec<Evidence> {
     // Few rods where all pairs are searched, and as many as are sorted into cells. The last is the deviation of a
     // replica's ratio: 0.172 of 14,000 replicas and 0.122 of 6,180 at seeds 9001 to 9010, and a sixth.
-    let settings = [
-        ((0.5, 3.0, 50.0), 25, 100, 0.2),
-        ((0.3, 1.7, 400.0), 300, 2, 0.14),
-    ];
+    let settings = [((0.5, 3.0, 50.0), 25, 100, 0.2), ((0.3, 1.7, 400.0), 300, 2, 0.14)];
     let evidence = settings.map(|((alpha, m, concentration), count, steps, sd)| {
         let mut scene = lab::interacting_scene(effort);
         scene.ensemble.seed = effort.seed(count as u64);
         scene.particles.count = count;
         let interaction = lab::interaction(&mut scene);
-        (
-            interaction.alpha,
-            interaction.m,
-            interaction.concentration_per_cm3,
-        ) = (alpha, m, Some(concentration));
+        (interaction.alpha, interaction.m, interaction.concentration_per_cm3) =
+            (alpha, m, Some(concentration));
         let mut model = scene.clone();
         change(&mut model);
         let design = Design { effect: 0.12, sd };
@@ -132,15 +124,8 @@ fn expected_candidates(positions: &[Vec<f64>; 3], alpha: f64, m: f64) -> f64 {
     let count = positions[0].len();
     (0..count)
         .map(|i| {
-            let square = |j: usize| {
-                (0..3)
-                    .map(|k| (positions[k][i] - positions[k][j]).powi(2))
-                    .sum::<f64>()
-            };
-            let nearest = (0..count)
-                .filter(|&j| j != i)
-                .map(square)
-                .fold(f64::INFINITY, f64::min);
+            let square = |j: usize| (0..3).map(|k| (positions[k][i] - positions[k][j]).powi(2)).sum::<f64>();
+            let nearest = (0..count).filter(|&j| j != i).map(square).fold(f64::INFINITY, f64::min);
             (alpha / (nearest.sqrt() + alpha)).powf(m)
         })
         .sum()

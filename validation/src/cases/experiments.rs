@@ -59,10 +59,7 @@ pub fn cases() -> Vec<Case> {
 /// How far curves of α = 0.05 and 5 are apart, and whether they may be fitted, of rods that start at this θ.
 fn not_fitted(theta_deg: &f64, effort: &Effort) -> Result<Vec<Evidence>, String> {
     let mut scene = lab::interacting_scene(effort);
-    scene.particles.orientation = Orientation::Given {
-        phi_deg: 0.0,
-        theta_deg: *theta_deg,
-    };
+    scene.particles.orientation = Orientation::Given { phi_deg: 0.0, theta_deg: *theta_deg };
     scene.particles.aspect_ratio = 3.96;
     scene.particles.aspect_ratio_sd_percent = 3.0;
     let text = toml::to_string(&scene).map_err(|error| error.to_string())?;
@@ -90,18 +87,12 @@ fn not_fitted(theta_deg: &f64, effort: &Effort) -> Result<Vec<Evidence>, String>
     let refused = fit.is_err_and(|error| error.contains("such rods do not disturb each other"));
     Ok(vec![
         Evidence::exact("the largest difference of X̄_i between α = 0.05 and 5", apart),
-        Evidence::exact(
-            "fits of α to it that are not refused",
-            f64::from(u8::from(!refused)),
-        ),
+        Evidence::exact("fits of α to it that are not refused", f64::from(u8::from(!refused))),
     ])
 }
 
 fn controls() -> Vec<(&'static str, Change)> {
-    vec![
-        ("α = 1", double_alpha),
-        ("rods that do not interact", |scene| scene.interaction = None),
-    ]
+    vec![("α = 1", double_alpha), ("rods that do not interact", |scene| scene.interaction = None)]
 }
 
 fn double_alpha(scene: &mut Scene) {
@@ -114,12 +105,7 @@ const SUPPLY: &str = "put the digitised points (CSV) and their provenance (TOML)
                       DIR and run `shearbed validate --data DIR`; docs/experiments.md has the format";
 
 fn no_data(what: impl Into<String>) -> Vec<Evidence> {
-    vec![Evidence::new(
-        what,
-        Rule::NoData {
-            supply: SUPPLY.into(),
-        },
-    )]
+    vec![Evidence::new(what, Rule::NoData { supply: SUPPLY.into() })]
 }
 
 /// What cannot be judged fails, and says why.
@@ -145,10 +131,7 @@ fn judged(source: &Source, effort: &Effort) -> Result<(Vec<MeasuredCurve>, usize
 
 /// The runs of the model that are compared with the points of one curve after another: `stream` tells them apart.
 fn runs(effort: &Effort, stream: u64) -> Runs {
-    Runs {
-        replicas: effort.pick(100, 2000),
-        seed: effort.seed(stream),
-    }
+    Runs { replicas: effort.pick(100, 2000), seed: effort.seed(stream) }
 }
 
 /// One goodness of fit for each scene with points.
@@ -163,20 +146,14 @@ fn agreement(source: &Source, change: Change, effort: &Effort) -> Vec<Evidence> 
     let scenes = source.scenes.iter().zip(0..);
     let mut evidence = Vec::new();
     for (scene, stream) in scenes {
-        let here: Vec<_> = curves
-            .iter()
-            .filter(|curve| curve.scene == *scene)
-            .cloned()
-            .collect();
+        let here: Vec<_> = curves.iter().filter(|curve| curve.scene == *scene).cloned().collect();
         if here.is_empty() {
             continue;
         }
-        evidence.push(
-            match experiment::compare(scene, &here, change, runs(effort, stream)) {
-                Ok(comparison) => fit(&comparison, late, source),
-                Err(error) => failed(format!("{scene}: {error}")),
-            },
-        );
+        evidence.push(match experiment::compare(scene, &here, change, runs(effort, stream)) {
+            Ok(comparison) => fit(&comparison, late, source),
+            Err(error) => failed(format!("{scene}: {error}")),
+        });
     }
     evidence
 }
@@ -198,10 +175,7 @@ fn fit(comparison: &Comparison, late: usize, source: &Source) -> Evidence {
         what += "; u_input = 0: none stated";
     }
     if late > 0 {
-        what += &format!(
-            "; {late} points of the source after t/T = {} not judged",
-            source.judged_up_to
-        );
+        what += &format!("; {late} points of the source after t/T = {} not judged", source.judged_up_to);
     }
     let rule = Rule::PValue {
         p: comparison.p,

@@ -25,11 +25,8 @@ struct Model {
     meeting: fn(&mut Scene),
 }
 
-const CORE: Model = Model {
-    directions: |suspension| suspension.directions(),
-    pair: step_of_the_core,
-    meeting: |_| {},
-};
+const CORE: Model =
+    Model { directions: |suspension| suspension.directions(), pair: step_of_the_core, meeting: |_| {} };
 
 /// What runs a scene.
 type Program = fn(&Scene) -> Ended;
@@ -167,10 +164,7 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
         }),
         scene(|scene| {
             // Every rod parallel to every other: no contact line.
-            scene.particles.orientation = Orientation::Given {
-                phi_deg: 90.0,
-                theta_deg: 0.0,
-            };
+            scene.particles.orientation = Orientation::Given { phi_deg: 90.0, theta_deg: 0.0 };
             lab::interaction(scene).alpha = 1e3;
         }),
         scene(|scene| {
@@ -196,10 +190,6 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
 
 /// The core's directions a step later, by p + ṗΔt.
 fn stepped_by_euler(suspension: &Suspension) -> Vec<Vector3<f64>> {
-    let rods = suspension
-        .directions()
-        .into_iter()
-        .zip(suspension.aspect_ratios());
-    rods.map(|(p, r)| p + 1e-3 * couette_rate(&p, shape_factor(r), 1.0))
-        .collect()
+    let rods = suspension.directions().into_iter().zip(suspension.aspect_ratios());
+    rods.map(|(p, r)| p + 1e-3 * couette_rate(&p, shape_factor(r), 1.0)).collect()
 }

@@ -73,16 +73,13 @@ pub fn cases() -> Vec<Case> {
                 let flow = VelocityGradient::new(l).expect("finite");
                 Propagator::new(&flow, r).after(p, time_s).into_inner()
             })
-            .mistake(
-                "in turned axes, where all coordinates are coupled",
-                |flow, r, p, time_s| {
-                    let turn = Rotation3::from_euler_angles(0.3, 0.5, 0.7);
-                    let l = turn * flow.per_s() * turn.transpose();
-                    let flow = VelocityGradient::new(l).expect("finite");
-                    let start = UnitVector3::new_normalize(turn * p.as_ref());
-                    turn.transpose() * Propagator::new(&flow, r).after(&start, time_s).into_inner()
-                },
-            )
+            .mistake("in turned axes, where all coordinates are coupled", |flow, r, p, time_s| {
+                let turn = Rotation3::from_euler_angles(0.3, 0.5, 0.7);
+                let l = turn * flow.per_s() * turn.transpose();
+                let flow = VelocityGradient::new(l).expect("finite");
+                let start = UnitVector3::new_normalize(turn * p.as_ref());
+                turn.transpose() * Propagator::new(&flow, r).after(&start, time_s).into_inner()
+            })
             .check(extreme_flows),
     ]
 }
@@ -105,12 +102,7 @@ fn extreme_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
     }
     let (stepped_length, stepped_orbit) = thousand_steps(motion);
     vec![
-        Evidence::within(
-            "largest ||p| − 1|",
-            larger(length, stepped_length),
-            LENGTH,
-            LENGTH_BECAUSE,
-        ),
+        Evidence::within("largest ||p| − 1|", larger(length, stepped_length), LENGTH, LENGTH_BECAUSE),
         Evidence::within(
             "largest change of C_b",
             orbit,
@@ -140,9 +132,8 @@ fn thousand_steps(motion: &Motion) -> (f64, f64) {
         for step in STEPS {
             let start = UnitVector3::new_normalize(Vector3::new(0.3, -0.5, 0.8));
             let bounded = |p: &Vector3<f64>| orientation::bounded_orbit_constant([p.x, p.y, p.z], r);
-            let end = (0..1000).fold(start.into_inner(), |p, _| {
-                motion(r, 0.5, &UnitVector3::new_unchecked(p), step)
-            });
+            let end = (0..1000)
+                .fold(start.into_inner(), |p, _| motion(r, 0.5, &UnitVector3::new_unchecked(p), step));
             length = larger(length, off_length(&end));
             drift = larger(drift, (bounded(&end) - bounded(&start)).abs());
         }

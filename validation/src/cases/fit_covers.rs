@@ -133,11 +133,7 @@ fn pool(effort: &Effort) -> Result<Pool, String> {
     };
     let replicas = at_nodes(3.6)?;
     Ok(Pool {
-        truth: Emulator::new(&basis, &replicas)
-            .at(&[PLACE])
-            .iter()
-            .copied()
-            .collect(),
+        truth: Emulator::new(&basis, &replicas).at(&[PLACE]).iter().copied().collect(),
         replicas,
         without_spread: at_nodes(0.0)?,
         basis,
@@ -155,9 +151,8 @@ fn repeat(pool: &Pool, way: Way, seed: u64, k: u64) -> Result<Fit, String> {
         Way::NoSpread => &pool.without_spread,
         _ => &pool.replicas,
     };
-    let mut drawn: Vec<Coefficients> = (0..DRAWN)
-        .map(|_| from[rng.random_range(0..from.len())].clone())
-        .collect();
+    let mut drawn: Vec<Coefficients> =
+        (0..DRAWN).map(|_| from[rng.random_range(0..from.len())].clone()).collect();
     if way == Way::SimulationExact {
         let mean = std::array::from_fn(|which| {
             let first = &drawn[0][which];
@@ -167,17 +162,9 @@ fn repeat(pool: &Pool, way: Way, seed: u64, k: u64) -> Result<Fit, String> {
         drawn = vec![mean; DRAWN];
     }
     let data = data(|k| pool.truth[k] + NOISE * noise[k]);
-    let measured = Measured {
-        data: &data,
-        ranges: std::slice::from_ref(&pool.range),
-        rods_over_measured: &[0.0],
-    };
-    fitted(
-        &measured,
-        &pool.basis,
-        &vec![(pool.range.from, pool.range.to)],
-        &drawn,
-    )
+    let measured =
+        Measured { data: &data, ranges: std::slice::from_ref(&pool.range), rods_over_measured: &[0.0] };
+    fitted(&measured, &pool.basis, &vec![(pool.range.from, pool.range.to)], &drawn)
 }
 
 /// What the cases ask of a fit.
@@ -258,16 +245,10 @@ fn covers(way: &Way, effort: &Effort) -> Vec<Evidence> {
     };
     let rule = |k: usize| {
         let shares: Vec<f64> = found.iter().map(|fit| inside(fit, k)).collect();
-        let what = format!(
-            "share of {:.0} % intervals that hold the planted α",
-            100.0 * CONFIDENCES[k]
-        );
+        let what = format!("share of {:.0} % intervals that hold the planted α", 100.0 * CONFIDENCES[k]);
         let because = "the level; the allowance is the error of a covariance estimated from 80 replicas; a curve taken for \
                        exact, or half the length, misses more than the effect";
-        Evidence::new(
-            what,
-            Sample::of(&shares).is(CONFIDENCES[k], ALLOWANCE[k], EFFECT[k], because),
-        )
+        Evidence::new(what, Sample::of(&shares).is(CONFIDENCES[k], ALLOWANCE[k], EFFECT[k], because))
     };
     let outright = match outright::off(*way == Way::StraightLines, effort) {
         Ok(outright) => outright,

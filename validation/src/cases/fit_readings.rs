@@ -87,10 +87,8 @@ fn curve(change: Change, effort: &Effort, replica: u64) -> Vec<f64> {
 
 /// Means over replicas of X̄₁ to X̄₃ of both suspensions, under a reading of the paper.
 pub fn points(change: Change, effort: &Effort, replicas: u64) -> Vec<f64> {
-    let rows: Vec<Vec<f64>> = (0..replicas)
-        .into_par_iter()
-        .map(|replica| curve(change, effort, replica))
-        .collect();
+    let rows: Vec<Vec<f64>> =
+        (0..replicas).into_par_iter().map(|replica| curve(change, effort, replica)).collect();
     let mean = |k: usize| rows.iter().map(|row| row[k]).sum::<f64>() / replicas as f64;
     (0..rows[0].len()).map(mean).collect()
 }
@@ -100,15 +98,9 @@ fn data(value: impl Fn(usize) -> f64, u: f64) -> Vec<Datum> {
     let point = |k: usize| {
         let (set, column) = (k / (TIMES * COLUMNS.len()), COLUMNS[k % COLUMNS.len()]);
         let step = (k / COLUMNS.len() % TIMES + 1) * STEPS;
-        Datum {
-            value: value(k),
-            u,
-            ..Datum::place(set, column, step as f64 / STEPS_PER_PERIOD as f64)
-        }
+        Datum { value: value(k), u, ..Datum::place(set, column, step as f64 / STEPS_PER_PERIOD as f64) }
     };
-    (0..CONCENTRATIONS.len() * TIMES * COLUMNS.len())
-        .map(point)
-        .collect()
+    (0..CONCENTRATIONS.len() * TIMES * COLUMNS.len()).map(point).collect()
 }
 
 /// The model at its nodes, which both ways read.

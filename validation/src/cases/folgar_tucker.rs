@@ -72,24 +72,14 @@ fn seven(read: &fn(f64) -> f64, effort: &Effort) -> Vec<Evidence> {
     let samples = effort.samples(rise).max(effort.samples(gap));
     let model = OF_MODEL.get(effort, (), || {
         [0.02, 1.0].map(|n_a3| {
-            let setting = Setting {
-                n_a3,
-                aspect_ratio: 11.6,
-                alpha: 0.5,
-                finer: 4,
-            };
+            let setting = Setting { n_a3, aspect_ratio: 11.6, alpha: 0.5, finer: 4 };
             let mut scene = coefficients::scene(setting, effort);
             scene.time.periods = Some(8.0);
             let windows = coefficients::windows(&scene, samples);
-            windows
-                .iter()
-                .map(|(means, _)| means.coefficient(shape_factor(11.6)))
-                .collect()
+            windows.iter().map(|(means, _)| means.coefficient(shape_factor(11.6))).collect()
         })
     });
-    let [thin, edge] = model
-        .each_ref()
-        .map(|all| all.iter().map(|c| read(*c)).collect::<Vec<f64>>());
+    let [thin, edge] = model.each_ref().map(|all| all.iter().map(|c| read(*c)).collect::<Vec<f64>>());
     let measured = folgar_tucker().rows;
     let (mut x, mut y) = (Vec::new(), Vec::new());
     measured.iter().for_each(|point| {
@@ -138,11 +128,7 @@ fn effective(estimator: &Estimator, effort: &Effort) -> Vec<Evidence> {
     let found: Vec<f64> = (0..effort.samples(design))
         .into_par_iter()
         .map(|replica| {
-            let diffusion = Diffusion {
-                shape_factor: LAMBDA,
-                c_i: PLANTED,
-                strain: STEP,
-            };
+            let diffusion = Diffusion { shape_factor: LAMBDA, c_i: PLANTED, strain: STEP };
             let mut rods = Diffusing::isotropic(RODS, diffusion, effort.seed(1 + replica));
             estimator(&rods.means(STEPS, STEP))
         })
@@ -174,19 +160,10 @@ static OF_DIFFUSION: Shared<(), (f64, Vec<Shares>)> = Shared::new();
 fn no_diffusion(turned: &Turned, effort: &Effort) -> Vec<Evidence> {
     // A pilot of 200 replicas from another seed: 0.0091 more of the rods by more than 0.1 rad, scattering by 0.0016; 0.764 fewer
     // by more than 0.01 rad, by 0.0075; 0.281 more with C_b above 0.5, by 0.052.
-    let (far, near, orbits) = (
-        Design::new(0.0075, 0.0019),
-        Design::new(0.6, 0.01),
-        Design::new(0.23, 0.062),
-    );
+    let (far, near, orbits) = (Design::new(0.0075, 0.0019), Design::new(0.6, 0.01), Design::new(0.23, 0.062));
     let samples = [far, near, orbits].map(|design| effort.samples(design));
     let samples = samples.into_iter().fold(0, u64::max);
-    let setting = Setting {
-        n_a3: 0.5,
-        aspect_ratio: 11.6,
-        alpha: 0.5,
-        finer: 2,
-    };
+    let setting = Setting { n_a3: 0.5, aspect_ratio: 11.6, alpha: 0.5, finer: 2 };
     let scene = coefficients::scene(setting, effort);
     // Orbits are steady after four periods to a tenth of what is seen; kicks are from the first on.
     let watch = Watch::new(&scene, 4.0, 1.0);
@@ -202,12 +179,7 @@ fn no_diffusion(turned: &Turned, effort: &Effort) -> Vec<Evidence> {
         Turned::ByDiffusion => diffusion(*c_i, 1 << 21),
     };
     let more = |quantity, edge, sign: f64| {
-        let signed = |all| {
-            above(all, quantity, edge)
-                .iter()
-                .map(|share| sign * share)
-                .collect::<Vec<_>>()
-        };
+        let signed = |all| above(all, quantity, edge).iter().map(|share| sign * share).collect::<Vec<_>>();
         Sample::of_differences(&signed(&found), &signed(reference))
     };
     vec![

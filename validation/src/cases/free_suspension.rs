@@ -19,9 +19,7 @@ pub fn cases() -> Vec<Case> {
             .equations(&["4", "12"])
             .subject((|_| {}) as Change)
             .mistake("r_e 5 % longer", |scene| scene.particles.aspect_ratio *= 1.05)
-            .mistake("aspect ratios spread by 3.6 %", |scene| {
-                scene.particles.aspect_ratio_sd_percent = 3.6
-            })
+            .mistake("aspect ratios spread by 3.6 %", |scene| scene.particles.aspect_ratio_sd_percent = 3.6)
             .mistake("the flow turned round", |scene| {
                 // u_1 = G x_2: axes 1 and 2 exchanged.
                 scene.flow.shear_rate_per_s = None;
@@ -37,9 +35,7 @@ pub fn cases() -> Vec<Case> {
             .equations(&["4", "11"])
             .subject((|_| {}) as Change)
             .mistake("no spread", |scene| scene.particles.aspect_ratio_sd_percent = 0.0)
-            .mistake("the spread 20 % too wide", |scene| {
-                scene.particles.aspect_ratio_sd_percent *= 1.2
-            })
+            .mistake("the spread 20 % too wide", |scene| scene.particles.aspect_ratio_sd_percent *= 1.2)
             .mistake("r_e 10 % longer", |scene| scene.particles.aspect_ratio *= 1.1)
             .check(spread_rods),
         Case::core("free-half-period")
@@ -47,9 +43,7 @@ pub fn cases() -> Vec<Case> {
             .source("eqs 4, 15, A.4")
             .equations(&["4", "15"])
             .subject((|_| {}) as Change)
-            .mistake("aspect ratios spread by 1 %", |scene| {
-                scene.particles.aspect_ratio_sd_percent = 1.0
-            })
+            .mistake("aspect ratios spread by 1 %", |scene| scene.particles.aspect_ratio_sd_percent = 1.0)
             .mistake("rods that interact", |scene| {
                 lab::interaction(scene);
             })
@@ -99,10 +93,7 @@ fn compare(
     scene.particles.count = effort.samples(DESIGN) as usize;
     scene.time.periods = Some(3.0);
     scene.time.outputs_per_period = Some(7);
-    let (r, sd) = (
-        scene.particles.aspect_ratio,
-        scene.particles.aspect_ratio_sd_percent,
-    );
+    let (r, sd) = (scene.particles.aspect_ratio, scene.particles.aspect_ratio_sd_percent);
     change(&mut scene);
     let results = ensemble::run(&lab::plan(&scene));
     let mut evidence = Vec::new();
@@ -113,12 +104,7 @@ fn compare(
             let (mean, se) = channel.map_or((f64::NAN, f64::NAN), |c| (c.mean[output], c.se[output]));
             evidence.push(Evidence::new(
                 format!("X̄_{} at t/T = {output}/7, r_e = {r}, σ = {sd} %", axis + 1),
-                Sample {
-                    mean,
-                    se,
-                    samples: scene.particles.count as u64,
-                }
-                .is(
+                Sample { mean, se, samples: scene.particles.count as u64 }.is(
                     reference,
                     0.0,
                     DESIGN.effect,
@@ -148,10 +134,5 @@ fn half_period(change: &Change, effort: &Effort) -> Vec<Evidence> {
         Err(_) => worst = f64::NAN,
     }
     let because = "the phases are equal bits; the sums of 1000 terms are rounded alike up to signs of zero";
-    vec![Evidence::within(
-        "largest |X̄_i(t + T/2) − X̄_i(t)|",
-        worst,
-        1e-14,
-        because,
-    )]
+    vec![Evidence::within("largest |X̄_i(t + T/2) − X̄_i(t)|", worst, 1e-14, because)]
 }

@@ -119,10 +119,7 @@ fn rates(problem: &Problem) -> (Matrix3<f64>, f64) {
 /// The direction by a map in double, with the core's bound.
 fn in_double(problem: &Problem, map: fn(&Matrix3<f64>, f64) -> Matrix3<f64>) -> Moved {
     let (a, time) = rates(problem);
-    Moved {
-        p: UnitVector3::new_normalize(map(&a, time) * start(problem).as_ref()),
-        ..core(problem)
-    }
+    Moved { p: UnitVector3::new_normalize(map(&a, time) * start(problem).as_ref()), ..core(problem) }
 }
 
 fn squared_exponential(a: &Matrix3<f64>, time: f64) -> Matrix3<f64> {
@@ -177,9 +174,7 @@ fn answerable(problem: &Problem) -> bool {
     let (l, time) = gradient(problem);
     let turned = (l.norm() * time).max(1.0);
     let propagator = Propagator::general(&flow(problem), problem.rod.aspect_ratio);
-    let (map, _) = propagator
-        .map(Span::Strain(problem.strain, 1.0))
-        .expect("any flow has a strain");
+    let (map, _) = propagator.map(Span::Strain(problem.strain, 1.0)).expect("any flow has a strain");
     let condition = map.norm() / (map * start(problem).as_ref()).norm();
     // The condition number itself is known to double precision only.
     condition < 1e12 && 1e3 * 2f64.powi(-106) * turned.powi(3) * condition <= MAX_ERROR_RAD
@@ -225,17 +220,8 @@ fn general_flows(motion: &Motion, effort: &Effort) -> Vec<Evidence> {
         Evidence::within("largest error over its bound", share, 1.0, "what a bound is"),
         Evidence::exact("refused, though 106 bits can answer", needless),
     ];
-    for (k, found) in decades
-        .iter()
-        .enumerate()
-        .filter(|(_, found)| found.answered + found.refused > 0)
-    {
-        let Decades {
-            answered,
-            refused,
-            worst,
-            bound,
-        } = found;
+    for (k, found) in decades.iter().enumerate().filter(|(_, found)| found.answered + found.refused > 0) {
+        let Decades { answered, refused, worst, bound } = found;
         evidence.push(Evidence::within(
             format!(
                 "worst of {answered} answers, condition number up to 10^{}; {refused} refused",

@@ -36,21 +36,9 @@ type Gradient = [[f64; 3]; 3];
 
 /// Shear that is oblique to the volume, extension, and a flow with all components, each with a volume that is no cube.
 const FLOWS: [(&str, Gradient, [f64; 3]); 3] = [
-    (
-        "oblique shear",
-        [[0.5, -0.5, 0.0], [0.5, -0.5, 0.0], [0.0; 3]],
-        [10.0, 5.0, 5.0],
-    ),
-    (
-        "extension",
-        [[1.0, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, -0.5]],
-        [5.0, 5.0, 20.0],
-    ),
-    (
-        "all components",
-        [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]],
-        [5.0, 8.0, 10.0],
-    ),
+    ("oblique shear", [[0.5, -0.5, 0.0], [0.5, -0.5, 0.0], [0.0; 3]], [10.0, 5.0, 5.0]),
+    ("extension", [[1.0, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, -0.5]], [5.0, 5.0, 20.0]),
+    ("all components", [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]], [5.0, 8.0, 10.0]),
 ];
 
 /// Steps of a quarter of a unit of strain: what comes in twice within one is below a thousandth of the volume.
@@ -66,16 +54,9 @@ fn even(subject: &Subject, effort: &Effort) -> Vec<Evidence> {
     for (name, gradient, box_mm) in FLOWS {
         let ends = ends(subject, effort, count as usize, gradient, box_mm);
         for (axis, places) in ends.into_iter().enumerate() {
-            let inside: Vec<f64> = places
-                .iter()
-                .copied()
-                .filter(|x| (0.0..1.0).contains(x))
-                .collect();
+            let inside: Vec<f64> = places.iter().copied().filter(|x| (0.0..1.0).contains(x)).collect();
             outside += places.len() - inside.len();
-            let title = format!(
-                "{name}: p of x_{k}/H_{k} being uniform after a strain of 4",
-                k = axis + 1
-            );
+            let title = format!("{name}: p of x_{k}/H_{k} being uniform after a strain of 4", k = axis + 1);
             let because = "Kolmogorov–Smirnov; each mistake moves a coordinate by more in some flow";
             evidence.push(Evidence::new(title, lab::uniform(inside, DISTANCE, because)));
         }
@@ -107,20 +88,11 @@ fn ends(
         Subject::Wrong(made) => {
             let dt_s = lab::problem(&scene, 0, *made).time_step_s();
             let mut draws = stream(effort.seed(31), 0, 0);
-            let mut places: Vec<[f64; 3]> = (0..count)
-                .map(|_| box_mm.map(|side| side * draws.random::<f64>()))
-                .collect();
+            let mut places: Vec<[f64; 3]> =
+                (0..count).map(|_| box_mm.map(|side| side * draws.random::<f64>())).collect();
             let (replacements, mut replaced) = (stream(effort.seed(31), 0, 1), 0);
             for _ in 0..STEPS {
-                carry(
-                    &mut places,
-                    gradient,
-                    box_mm,
-                    dt_s,
-                    &replacements,
-                    &mut replaced,
-                    *made,
-                );
+                carry(&mut places, gradient, box_mm, dt_s, &replacements, &mut replaced, *made);
             }
             [0, 1, 2].map(|axis| places.iter().map(|x| x[axis] / box_mm[axis]).collect())
         }

@@ -73,9 +73,7 @@ pub fn cases() -> Vec<Case> {
             .equations(&["A.1"])
             .subject(integrators::own as Integrators)
             .mistake("projected RK4 not said to keep it", || {
-                in_p(4, false, |problem, p, h| {
-                    rk4(|y| problem.rate(&y), p, h).normalize()
-                })
+                in_p(4, false, |problem, p, h| rk4(|y| problem.rate(&y), p, h).normalize())
             })
             .check(lose_length),
         Case::integrator("coarse-steps")
@@ -149,12 +147,7 @@ fn digits(rate: &Rate, _: &Effort) -> Vec<Evidence> {
             12.0 * f64::EPSILON,
             because,
         ),
-        Evidence::within(
-            "relative error of the period read off it",
-            period,
-            12.0 * f64::EPSILON,
-            because,
-        ),
+        Evidence::within("relative error of the period read off it", period, 12.0 * f64::EPSILON, because),
     ]
 }
 
@@ -169,10 +162,7 @@ fn largest_eigenvalue(r: f64) -> (f64, f64) {
         return (0.5 * (1.0 + size), first);
     }
     let cos_squared = (1.0 + 3.0 * size) / (6.0 * size);
-    (
-        (1.0 / 3.0 + size * size).sqrt(),
-        first + cos_squared.sqrt().acos(),
-    )
+    ((1.0 / 3.0 + size * size).sqrt(), first + cos_squared.sqrt().acos())
 }
 
 fn eigenvalues(slope: &Slope, _: &Effort) -> Vec<Evidence> {
@@ -202,12 +192,7 @@ fn eigenvalues(slope: &Slope, _: &Effort) -> Vec<Evidence> {
             1e-13,
             because,
         ),
-        Evidence::within(
-            "relative difference of the two where theory has it largest",
-            apart,
-            1e-13,
-            because,
-        ),
+        Evidence::within("relative difference of the two where theory has it largest", apart, 1e-13, because),
     ]
 }
 
@@ -223,9 +208,7 @@ fn lose_length(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
         off <= 4.0 * steps as f64 * f64::EPSILON
     };
     let all = subjects();
-    let losing = all
-        .iter()
-        .filter(|subject| !subject.keeps_length() && subject.theory() != Theory::Exact);
+    let losing = all.iter().filter(|subject| !subject.keeps_length() && subject.theory() != Theory::Exact);
     vec![Evidence::exact(
         "subjects that keep |p| to round-off without being said to",
         losing.filter(|subject| kept(subject.as_ref())).count() as f64,
@@ -254,12 +237,7 @@ fn index_bounds(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     let mut worst = 0.0f64;
     for subject in subjects() {
         if let Some(study) = order::study(subject.as_ref(), &problem, &start, 8) {
-            worst = larger(
-                worst,
-                study
-                    .richardson
-                    .map_or(f64::NAN, |found| found.true_error / found.index),
-            );
+            worst = larger(worst, study.richardson.map_or(f64::NAN, |found| found.true_error / found.index));
         }
     }
     vec![Evidence::within(

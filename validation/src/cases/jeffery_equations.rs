@@ -34,12 +34,8 @@ pub fn cases() -> Vec<Case> {
                 let swap = |v: &Vector3<f64>| Vector3::new(v.y, v.x, v.z);
                 swap(&rate_in_a_run(&swap(p), r, sign))
             })
-            .mistake("no vorticity", |p, r, sign| {
-                rate_in_a_run(p, r, sign) - rate_in_a_run(p, 1.0, sign)
-            })
-            .mistake("r_e for r_e² in Λ", |p, r, sign| {
-                rate_in_a_run(p, r.sqrt(), sign)
-            })
+            .mistake("no vorticity", |p, r, sign| rate_in_a_run(p, r, sign) - rate_in_a_run(p, 1.0, sign))
+            .mistake("r_e for r_e² in Λ", |p, r, sign| rate_in_a_run(p, r.sqrt(), sign))
             .mistake("the sign of G left out", |p, r, _| rate_in_a_run(p, r, 1.0))
             .check(body_frame),
         Case::core("angle-rates")
@@ -98,12 +94,7 @@ fn body_frame(rate: &Rate, _: &Effort) -> Vec<Evidence> {
         (found - printed::direction_rate_per_s(gradient, r, &p)).norm()
     });
     let because = "some dozens of roundings of numbers up to 1, in the frame of the particle and back";
-    vec![Evidence::within(
-        "largest difference of ṗ/G",
-        worst,
-        32.0 * f64::EPSILON,
-        because,
-    )]
+    vec![Evidence::within("largest difference of ṗ/G", worst, 32.0 * f64::EPSILON, because)]
 }
 
 fn rates_of_angles(rate: &Rate, _: &Effort) -> Vec<Evidence> {
@@ -122,12 +113,7 @@ fn rates_of_angles(rate: &Rate, _: &Effort) -> Vec<Evidence> {
     [("φ̇", phi_off), ("θ̇", theta_off)]
         .into_iter()
         .map(|(rate, worst)| {
-            Evidence::within(
-                format!("largest error of {rate}/G"),
-                worst,
-                32.0 * f64::EPSILON,
-                because,
-            )
+            Evidence::within(format!("largest error of {rate}/G"), worst, 32.0 * f64::EPSILON, because)
         })
         .collect()
 }
@@ -145,11 +131,8 @@ fn one_rod(change: &Change, effort: &Effort) -> Vec<Evidence> {
             scene.particles.orientation = Orientation::Given { phi_deg, theta_deg };
             scene.time.periods = Some(3.0);
             scene.time.outputs_per_period = Some(OUTPUTS as u64);
-            scene.output.observables = vec![
-                Observable::OrientationTensor,
-                Observable::MeanAngle,
-                Observable::OrbitConstant,
-            ];
+            scene.output.observables =
+                vec![Observable::OrientationTensor, Observable::MeanAngle, Observable::OrbitConstant];
             change(&mut scene);
             let (phi0, theta0) = (f64::to_radians(phi_deg), f64::to_radians(theta_deg));
             let expected = |output: usize| {

@@ -61,12 +61,12 @@ fn heavy((angles, min_arm): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
         ),
     ];
     let evidence = hills.map(|(what, hill, because)| {
-        let rule = Sample {
-            mean: hill.alpha,
-            se: hill.se,
-            samples: hill.count,
-        }
-        .is(1.0, 0.01, design.effect, because);
+        let rule = Sample { mean: hill.alpha, se: hill.se, samples: hill.count }.is(
+            1.0,
+            0.01,
+            design.effect,
+            because,
+        );
         Evidence::new(format!("Hill's exponent of {what}"), rule)
     });
     evidence.into()
@@ -100,11 +100,7 @@ fn bounded((angles, share): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
                     let pair = [directions[a].into(), directions[b].into()];
                     let sine = directions[a].cross(&directions[b]).norm();
                     let expected = kicks(separation, pair, [ratios[a], ratios[b]]);
-                    for (k, kick) in angles(collision)
-                        .into_iter()
-                        .map(|kick| kick / strain)
-                        .enumerate()
-                    {
+                    for (k, kick) in angles(collision).into_iter().map(|kick| kick / strain).enumerate() {
                         let (own, other) = (ratios[collision.rods[k]], ratios[collision.rods[1 - k]]);
                         // The arm is known to ε s/sin², and the gap's velocity to as much.
                         let scale = (1.0 + distance) * (1.0 + expected[k]) / (sine * sine * MIN_ARM);
@@ -119,10 +115,7 @@ fn bounded((angles, share): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::exact(
-            "collisions that are missing to 2000",
-            2000usize.saturating_sub(collisions) as f64,
-        ),
+        Evidence::exact("collisions that are missing to 2000", 2000usize.saturating_sub(collisions) as f64),
         Evidence::within(
             "largest difference of a kick from |g|Δt/(2|r|), over its conditioning",
             worst[0],

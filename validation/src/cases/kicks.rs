@@ -24,16 +24,11 @@ pub fn cases() -> Vec<Case> {
             .equations(&["7", "8", "9", "10", "A.7", "A.10", "A.13"])
             .subject((|fresh, chance| 2.0 * fresh.chances * chance(1.0)) as Expected)
             .mistake("one arm left out", |fresh, chance| fresh.chances * chance(1.0))
-            .mistake("not weighted with P_c", |fresh, chance| {
-                2.0 * fresh.pairs * chance(1.0)
+            .mistake("not weighted with P_c", |fresh, chance| 2.0 * fresh.pairs * chance(1.0))
+            .mistake("the arm's density at 0 without the crossing angle", |fresh, chance| {
+                2.0 * fresh.chances * chance(0.25 * PI)
             })
-            .mistake(
-                "the arm's density at 0 without the crossing angle",
-                |fresh, chance| 2.0 * fresh.chances * chance(0.25 * PI),
-            )
-            .mistake("a kick ∝ 2Δt", |fresh, chance| {
-                2.0 * fresh.chances * chance(0.5)
-            })
+            .mistake("a kick ∝ 2Δt", |fresh, chance| 2.0 * fresh.chances * chance(0.5))
             .check(formula),
         Case::core("kick-memory")
             .claim(
@@ -43,20 +38,8 @@ pub fn cases() -> Vec<Case> {
             .source("A.7–A.14; docs/time-step.md")
             .equations(&["A.13", "A.14"])
             .subject(KICKS)
-            .mistake(
-                "the gap of the opposite shear",
-                Counted {
-                    opens: |a, b| !(KICKS.opens)(a, b),
-                    ..KICKS
-                },
-            )
-            .mistake(
-                "the whole turn |ṗ′|Δt for the kick",
-                Counted {
-                    angles: |c| c.angles_rad,
-                    ..KICKS
-                },
-            )
+            .mistake("the gap of the opposite shear", Counted { opens: |a, b| !(KICKS.opens)(a, b), ..KICKS })
+            .mistake("the whole turn |ṗ′|Δt for the kick", Counted { angles: |c| c.angles_rad, ..KICKS })
             .check(memory),
     ]
 }
@@ -101,9 +84,7 @@ fn formula(expected: &Expected, effort: &Effort) -> Vec<Evidence> {
         let scaled = threshold_rad / step_strain(&scene);
         let constant = 6.0 * PI * tail_of_isotropic(scene.particles.aspect_ratio);
         let chance = |factor: f64| constant * chance_of_threads(factor * scaled);
-        let ratios: Vec<_> = (found.iter())
-            .map(|fresh| fresh.kicked / expected(fresh, &chance))
-            .collect();
+        let ratios: Vec<_> = (found.iter()).map(|fresh| fresh.kicked / expected(fresh, &chance)).collect();
         Evidence::new(
             format!(
                 "rods kicked by more than {threshold_rad} rad over those expected, {steps} steps a period"
@@ -124,10 +105,7 @@ fn first_step(scene: &Scene, replica: u64, threshold_rad: f64) -> Fresh {
     let mut suspension = lab::suspension(scene, replica);
     let pairs = pairs(&mut scene.clone(), &suspension);
     let kicks = of_one_step(&mut suspension, kicks_rad);
-    let kicked = kicks
-        .iter()
-        .filter(|kick| is_above(**kick, threshold_rad))
-        .count();
+    let kicked = kicks.iter().filter(|kick| is_above(**kick, threshold_rad)).count();
     Fresh {
         pairs: pairs.len() as f64,
         chances: pairs.iter().map(|pair| pair.chance).sum(),
@@ -163,10 +141,7 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
         scene.particles.count = 25;
         let interaction = lab::interaction(&mut scene);
         (interaction.concentration_per_cm3, interaction.alpha) = (Some(400.0), alpha);
-        let counted = Counted {
-            looks_per_period,
-            ..*counted
-        };
+        let counted = Counted { looks_per_period, ..*counted };
         rates(&scene, steps, 0..1, replicas, counted).counts
     };
     // α = 4 for the opening ones: the more collisions a pair has, the sooner its memory shows.
@@ -174,14 +149,8 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
     // 0.27 of the sum of both rates.
     let fall = Design::new(0.37, 0.29);
     let [coarse, fine] = [100, 800].map(|steps| run(4.0, steps, 1, effort.samples(fall), 1));
-    let both = Sample::of(
-        &coarse
-            .iter()
-            .chain(&fine)
-            .map(|c| 2.0 * c.opening[OVER])
-            .collect::<Vec<_>>(),
-    )
-    .mean;
+    let both =
+        Sample::of(&coarse.iter().chain(&fine).map(|c| 2.0 * c.opening[OVER]).collect::<Vec<_>>()).mean;
     let falls: Vec<_> = (coarse.iter().zip(&fine))
         .map(|(coarse, fine)| (coarse.opening[OVER] - fine.opening[OVER]) / both)
         .collect();
@@ -199,9 +168,8 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
     for (steps, stream) in [(200, 2), (400, 3)] {
         let counts = run(0.5, steps, stream, effort.samples(off), 50);
         let fresh = Sample::of(&counts.iter().map(|c| c.fresh_closing[OVER]).collect::<Vec<_>>()).mean;
-        let offs: Vec<_> = (counts.iter())
-            .map(|c| (c.closing[OVER] - c.fresh_closing[OVER]) / fresh)
-            .collect();
+        let offs: Vec<_> =
+            (counts.iter()).map(|c| (c.closing[OVER] - c.fresh_closing[OVER]) / fresh).collect();
         evidence.push(Evidence::new(
             format!(
                 "kicks > 0.1 rad of closing pairs over the formula's number, less 1; {steps} steps a \

@@ -122,10 +122,7 @@ type Shadows = fn(f64, f64) -> [f64; 3];
 
 fn observed_shadows(phi: f64, theta: f64) -> [f64; 3] {
     let p = orientation::from_angles(phi, theta);
-    let mut block = Block {
-        len: 1,
-        ..Block::default()
-    };
+    let mut block = Block { len: 1, ..Block::default() };
     for (axis, value) in block.p.iter_mut().zip([p.x, p.y, p.z]) {
         axis[0] = value;
     }
@@ -160,10 +157,7 @@ fn free_rods_keep_c(reading: &Reading, effort: &Effort) -> Vec<Evidence> {
     let r = scene.particles.aspect_ratio;
     let mut suspension = lab::suspension(&scene, 0);
     let constants = |directions: Vec<Vector3<f64>>| -> Vec<f64> {
-        directions
-            .iter()
-            .map(|p| orientation::bounded_orbit_constant([p.x, p.y, p.z], r))
-            .collect()
+        directions.iter().map(|p| orientation::bounded_orbit_constant([p.x, p.y, p.z], r)).collect()
     };
     let (mut free_change, mut colliding, mut unchanged) = (0.0f64, 0u32, 0u32);
     let mut before = constants(suspension.directions());

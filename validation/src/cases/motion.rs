@@ -91,20 +91,10 @@ pub fn cases() -> Vec<Case> {
             .mistake("Λ = 1", |flow, _, p, t| exact(flow, 1e9, p, t))
             .mistake("Λ for a disc", |flow, r, p, t| exact(flow, 1.0 / r, p, t))
             .mistake("the transposed gradient", |flow, r, p, t| {
-                exact(
-                    &VelocityGradient::new(flow.per_s().transpose()).unwrap_or(*flow),
-                    r,
-                    p,
-                    t,
-                )
+                exact(&VelocityGradient::new(flow.per_s().transpose()).unwrap_or(*flow), r, p, t)
             })
             .mistake("no vorticity", |flow, r, p, t| {
-                exact(
-                    &VelocityGradient::new(flow.strain_rate()).unwrap_or(*flow),
-                    r,
-                    p,
-                    t,
-                )
+                exact(&VelocityGradient::new(flow.strain_rate()).unwrap_or(*flow), r, p, t)
             })
             .check(integrated_motion),
         Case::core("mean-angle-quadrature")
@@ -118,9 +108,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("r_e² for r_e", |r, turns| angle_in_a_run(r * r, turns))
             .mistake("φ grows evenly", |_, turns| 2.0 * PI * turns)
             .mistake("φ from axis 2", |r, turns| FRAC_PI_2 - angle_in_a_run(r, turns))
-            .mistake("r_e a millionth too long", |r, turns| {
-                angle_in_a_run(r * (1.0 + 1e-6), turns)
-            })
+            .mistake("r_e a millionth too long", |r, turns| angle_in_a_run(r * (1.0 + 1e-6), turns))
             .check(mean_angle),
     ]
 }
@@ -128,10 +116,9 @@ pub fn cases() -> Vec<Case> {
 fn period(motion: &Motion, _: &Effort) -> Vec<Evidence> {
     let mut worst = [0.0f64; 2];
     for r in [1.01, 1.1, 1.5, 2.0, 3.96, 11.6, 14.2, 50.0, 1e3, 1e4, 1e5, 1e6] {
-        for (which, flow, start, across) in [
-            (0, couette(0.5), Vector3::x_axis(), 1),
-            (1, turned_couette(0.5), Vector3::y_axis(), 2),
-        ] {
+        for (which, flow, start, across) in
+            [(0, couette(0.5), Vector3::x_axis(), 1), (1, turned_couette(0.5), Vector3::y_axis(), 2)]
+        {
             let expected = closed_form::period_s(0.5, r);
             // The component along the flow goes from − to + only where the rod has turned round.
             let flow_component = |t: f64| motion(&flow, r, &start, t)[across];

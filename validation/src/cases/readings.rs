@@ -106,10 +106,7 @@ pub fn cases() -> Vec<Case> {
             .source("A.13; a kick ∝ 1/r has no bound")
             .equations(&["A.13"])
             .subject(shortest_arm)
-            .mistake(
-                "arms below a thousandth of the length instead",
-                instead(shortest_arm, hardly_any_arm),
-            )
+            .mistake("arms below a thousandth of the length instead", instead(shortest_arm, hardly_any_arm))
             .check(matters),
         Case::interpretation("reading-contact-lines")
             .claim("With contact lines cut at the rods' ends, rods are damped less: this reading matters.")
@@ -152,14 +149,10 @@ fn does_not_matter(model: &Model, effort: &Effort) -> Vec<Evidence> {
 /// The changes of X̄₁ at the end from the project's reading, replica by replica with the same random numbers.
 fn changes(model: Model, effort: &Effort, replicas: u64) -> Vec<f64> {
     let (changed, default) = match model {
-        Model::Core(change) => (
-            by_core(change, effort, replicas),
-            by_core(|_| (), effort, replicas),
-        ),
-        Model::Naive(change) => (
-            by_reference(change, effort, replicas),
-            by_reference(|_| (), effort, replicas),
-        ),
+        Model::Core(change) => (by_core(change, effort, replicas), by_core(|_| (), effort, replicas)),
+        Model::Naive(change) => {
+            (by_reference(change, effort, replicas), by_reference(|_| (), effort, replicas))
+        }
     };
     changed.iter().zip(&default).map(|(a, b)| a - b).collect()
 }

@@ -41,29 +41,11 @@ pub fn cases() -> Vec<Case> {
             .equations(&["7", "11"])
             .subject(TAKEN)
             .mistake("α = ½", Limits { alpha: 0.5, ..TAKEN })
-            .mistake(
-                "n = 50 per cm³",
-                Limits {
-                    concentration_per_cm3: 50.0,
-                    ..TAKEN
-                },
-            )
+            .mistake("n = 50 per cm³", Limits { concentration_per_cm3: 50.0, ..TAKEN })
             .mistake("m = 3", Limits { m: 3.0, ..TAKEN })
             .mistake("100 rods for one", Limits { count: 100, ..TAKEN })
-            .mistake(
-                "σ = 10⁻⁶ %",
-                Limits {
-                    sd_percent: 1e-6,
-                    ..TAKEN
-                },
-            )
-            .mistake(
-                "r_e = 1 + 10⁻⁶",
-                Limits {
-                    aspect_ratio: 1.0 + 1e-6,
-                    ..TAKEN
-                },
-            )
+            .mistake("σ = 10⁻⁶ %", Limits { sd_percent: 1e-6, ..TAKEN })
+            .mistake("r_e = 1 + 10⁻⁶", Limits { aspect_ratio: 1.0 + 1e-6, ..TAKEN })
             .check(reductions),
         Case::program("standard-errors")
             .claim(
@@ -93,12 +75,7 @@ pub(super) fn difference(a: &Scene, b: &Scene) -> f64 {
         return f64::NAN;
     };
     let channels = |results: &Results| -> Vec<f64> {
-        results
-            .series
-            .iter()
-            .flat_map(|series| &series.columns)
-            .flat_map(|c| c.mean.clone())
-            .collect()
+        results.series.iter().flat_map(|series| &series.columns).flat_map(|c| c.mean.clone()).collect()
     };
     let pairs = channels(&a).into_iter().zip(channels(&b));
     pairs.map(|(a, b)| (a - b).abs()).fold(0.0, larger)
@@ -136,10 +113,7 @@ fn reductions(limits: &Limits, effort: &Effort) -> Vec<Evidence> {
         Evidence::exact("α = 10⁻³⁰⁰ against free rods", difference(&alpha, &free)),
         Evidence::exact("n = 10⁻³⁰ per cm³ against free rods", difference(&thin, &free)),
         Evidence::exact("m = 10⁹ against free rods", difference(&steep, &free)),
-        Evidence::exact(
-            "one interacting rod against one free rod",
-            difference(&one, &one_free),
-        ),
+        Evidence::exact("one interacting rod against one free rod", difference(&one, &one_free)),
         Evidence::within(
             "σ = 10⁻¹² % against σ = 0",
             difference(&narrow, &uniform),
@@ -173,24 +147,12 @@ fn standard_errors(standard_error: &StandardError, effort: &Effort) -> Vec<Evide
     let directions = lab::suspension(&watched, 0).directions();
     let projections: Vec<f64> = directions.iter().map(|p| p.x.abs()).collect();
     let over_rods = run(&one).map_or(f64::NAN, |results| {
-        worst_ratio(&results, |output| {
-            (output == 0).then(|| standard_error(&projections))
-        })
+        worst_ratio(&results, |output| (output == 0).then(|| standard_error(&projections)))
     });
     let because = "two ways of summing sixteen squares";
     vec![
-        Evidence::within(
-            "relative error of the errors over replicas",
-            over_replicas,
-            1e-12,
-            because,
-        ),
-        Evidence::within(
-            "relative error of the errors over rods",
-            over_rods,
-            1e-12,
-            because,
-        ),
+        Evidence::within("relative error of the errors over replicas", over_replicas, 1e-12, because),
+        Evidence::within("relative error of the errors over rods", over_rods, 1e-12, because),
     ]
 }
 

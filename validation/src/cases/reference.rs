@@ -9,9 +9,7 @@ use shearbed::Suspension;
 use shearbed::scene::{self, Orientation, Scene};
 
 pub fn cases() -> Vec<Case> {
-    let mistakes = Mistake::ALL
-        .into_iter()
-        .map(|mistake| (name(mistake), Some(mistake)));
+    let mistakes = Mistake::ALL.into_iter().map(|mistake| (name(mistake), Some(mistake)));
     vec![
         Case::core("naive-reference")
             .claim(
@@ -84,12 +82,7 @@ impl Model {
     fn step(&mut self, length_mm: f64) -> Option<State> {
         Some(match self {
             Self::Core(core) => {
-                let pairs = core
-                    .step()
-                    .ok()?
-                    .iter()
-                    .map(|collision| collision.rods.into())
-                    .collect();
+                let pairs = core.step().ok()?.iter().map(|collision| collision.rods.into()).collect();
                 let [x1, x2, x3] = core.positions_in_lengths();
                 State {
                     places: (0..x1.len()).map(|rod| [x1[rod], x2[rod], x3[rod]]).collect(),
@@ -107,11 +100,7 @@ impl Model {
 
 fn state(naive: &Naive, length_mm: f64) -> State {
     State {
-        places: naive
-            .positions_mm
-            .iter()
-            .map(|x| x.map(|x| x / length_mm))
-            .collect(),
+        places: naive.positions_mm.iter().map(|x| x.map(|x| x / length_mm)).collect(),
         directions: naive.orientations.clone(),
         pairs: naive.last_collisions.clone(),
     }
@@ -196,10 +185,7 @@ fn compare(scene: &Scene, replica: u64, mistake: Option<Mistake>, off: &mut Off)
 fn condition(before: &State, (i, j): (usize, usize), turn: f64) -> f64 {
     let places = [i, j].map(|rod| Vector3::from(before.places[rod]));
     let (d, farthest) = (places[1] - places[0], places[0].norm().max(places[1].norm()));
-    let (a, b) = (
-        Vector3::from(before.directions[i]),
-        Vector3::from(before.directions[j]),
-    );
+    let (a, b) = (Vector3::from(before.directions[i]), Vector3::from(before.directions[j]));
     let cos = a.dot(&b);
     let square = a.cross(&b).norm_squared();
     // The contact points on both rods, from the normal equations of the shortest line.
@@ -213,12 +199,7 @@ fn apart<const K: usize>(a: &[[f64; 3]], b: &[[f64; 3]], signs: [f64; K]) -> f64
     let distance = |a: &[f64; 3], b: &[f64; 3], sign: f64| {
         (0..3).map(|k| (a[k] - sign * b[k]).powi(2)).sum::<f64>().sqrt()
     };
-    let nearest = |(a, b)| {
-        signs
-            .iter()
-            .map(|&sign| distance(a, b, sign))
-            .fold(f64::INFINITY, f64::min)
-    };
+    let nearest = |(a, b)| signs.iter().map(|&sign| distance(a, b, sign)).fold(f64::INFINITY, f64::min);
     a.iter().zip(b).map(nearest).fold(0.0, larger)
 }
 
@@ -235,11 +216,7 @@ fn in_a_box(scene: &mut Scene, sides: [f64; 3]) {
 /// Two units of strain in a flow with this gradient.
 fn in_a_flow(scene: &mut Scene, gradient_per_s: [[f64; 3]; 3]) {
     (scene.flow.shear_rate_per_s, scene.flow.gradient_per_s) = (None, Some(gradient_per_s));
-    scene.time = scene::Time {
-        strain: Some(2.0),
-        steps_per_strain: Some(10),
-        ..scene::Time::default()
-    };
+    scene.time = scene::Time { strain: Some(2.0), steps_per_strain: Some(10), ..scene::Time::default() };
 }
 
 /// Scenes of 2 to 400 rods; the small ones are dense enough to collide.
@@ -255,16 +232,11 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
     vec![
         scene(2, 1000.0, |_| {}),
         scene(3, 1000.0, |scene| scene.particles.aspect_ratio_sd_percent = 8.5),
-        scene(10, 500.0, |scene| {
-            lab::interaction(scene).update = scene::Update::Angles
-        }),
+        scene(10, 500.0, |scene| lab::interaction(scene).update = scene::Update::Angles),
         scene(50, 50.0, |scene| lab::interaction(scene).m = 1.7),
         scene(100, 50.0, |scene| scene.particles.aspect_ratio_sd_percent = 3.6),
         scene(100, 100.0, |scene| {
-            scene.particles.orientation = Orientation::Given {
-                phi_deg: 30.0,
-                theta_deg: 70.0,
-            };
+            scene.particles.orientation = Orientation::Given { phi_deg: 30.0, theta_deg: 70.0 };
             lab::interaction(scene).min_contact_arm = 0.1;
             scene.time.steps_per_period = Some(100);
         }),

@@ -34,10 +34,7 @@ pub fn cases() -> Vec<Case> {
                 "x_2 drawn at random, as eq. 14's text has it",
                 Volume::Wrong(|x, draws| *x = [root(draws), draws.random(), draws.random()]),
             )
-            .mistake(
-                "new rods keep x_1 and x_3",
-                Volume::Wrong(|x, _| x[1] = x[1].rem_euclid(1.0)),
-            )
+            .mistake("new rods keep x_1 and x_3", Volume::Wrong(|x, _| x[1] = x[1].rem_euclid(1.0)))
             .mistake(
                 "rods of the far half of axis 1 are not brought back",
                 Volume::Wrong(|x, draws| {
@@ -88,15 +85,10 @@ fn replacement(volume: &Volume, effort: &Effort) -> Vec<Evidence> {
     let places = follow(volume, effort, count as usize);
     let inside = |x: &&f64| (0.0..1.0).contains(*x);
     let outside = places.outside + places.end.iter().flatten().filter(|x| !inside(x)).count();
-    let overshoot_off = places
-        .new_x2_off
-        .iter()
-        .fold(0.0, |worst, off| larger(worst, off.abs()));
+    let overshoot_off = places.new_x2_off.iter().fold(0.0, |worst, off| larger(worst, off.abs()));
     let squares = places.new_x1.iter().map(|x| x * x).collect();
     // The test is of values in [0, 1]; those outside are counted above.
-    let end = places
-        .end
-        .map(|axis| axis.iter().filter(inside).copied().collect::<Vec<_>>());
+    let end = places.end.map(|axis| axis.iter().filter(inside).copied().collect::<Vec<_>>());
     let [x1, x2, x3] = end;
     let even = "Kolmogorov–Smirnov; long steps move x_1 by 0.12 at the least";
     vec![
@@ -110,28 +102,15 @@ fn replacement(volume: &Volume, effort: &Effort) -> Vec<Evidence> {
         Evidence::exact("new rods that kept x_1 or x_3", places.kept as f64),
         Evidence::new(
             "p of (x_1/H)² of new rods being uniform",
-            lab::uniform(
-                squares,
-                0.2,
-                "Kolmogorov–Smirnov; x_1 = HR is ¼ off, √u − u at u = ¼",
-            ),
+            lab::uniform(squares, 0.2, "Kolmogorov–Smirnov; x_1 = HR is ¼ off, √u − u at u = ¼"),
         ),
         Evidence::new(
             "p of x_3/H of new rods being uniform",
             lab::uniform(places.new_x3, 0.2, "Kolmogorov–Smirnov; half the axis is ½ off"),
         ),
-        Evidence::new(
-            "p of x_1/H being uniform after a strain of 3.7",
-            lab::uniform(x1, END, even),
-        ),
-        Evidence::new(
-            "p of x_2/H being uniform after a strain of 3.7",
-            lab::uniform(x2, END, even),
-        ),
-        Evidence::new(
-            "p of x_3/H being uniform after a strain of 3.7",
-            lab::uniform(x3, END, even),
-        ),
+        Evidence::new("p of x_1/H being uniform after a strain of 3.7", lab::uniform(x1, END, even)),
+        Evidence::new("p of x_2/H being uniform after a strain of 3.7", lab::uniform(x2, END, even)),
+        Evidence::new("p of x_3/H being uniform after a strain of 3.7", lab::uniform(x3, END, even)),
     ]
 }
 
@@ -148,9 +127,7 @@ fn follow(volume: &Volume, effort: &Effort, count: usize) -> Places {
     let mut suspension = lab::suspension(&scene, 0);
     let sides = suspension.sides_in_lengths();
     let mut draws = stream(scene.ensemble.seed, 0, 0);
-    let mut rods: Vec<[f64; 3]> = (0..count)
-        .map(|_| [(); 3].map(|()| draws.random::<f64>()))
-        .collect();
+    let mut rods: Vec<[f64; 3]> = (0..count).map(|_| [(); 3].map(|()| draws.random::<f64>())).collect();
     let mut places = Places::default();
     for _ in 0..STEPS / step {
         let before = match volume {
@@ -188,9 +165,7 @@ fn follow(volume: &Volume, effort: &Effort, count: usize) -> Places {
 
 fn in_sides(suspension: &Suspension, [h1, h2, h3]: [f64; 3]) -> Vec<[f64; 3]> {
     let [x1, x2, x3] = suspension.positions_in_lengths();
-    (0..x1.len())
-        .map(|rod| [x1[rod] / h1, x2[rod] / h2, x3[rod] / h3])
-        .collect()
+    (0..x1.len()).map(|rod| [x1[rod] / h1, x2[rod] / h2, x3[rod] / h3]).collect()
 }
 
 #[cfg(test)]

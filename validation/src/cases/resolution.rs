@@ -54,16 +54,8 @@ const LINE: f64 = 0.01;
 /// of 0.025 at r_e = 11.6 and of 0.035 at 100 (2000 replicas; a tenth more is taken). Twice the default step changes X̄₁ by
 /// 0.003, so that a correct default fails with less than the gate's level.
 const SIZES: [Size; 2] = [
-    Size {
-        aspect_ratio: 11.6,
-        coarse: 4,
-        design: Design::new(0.0195, 0.0275),
-    },
-    Size {
-        aspect_ratio: 100.0,
-        coarse: 200,
-        design: Design::new(0.051, 0.0385),
-    },
+    Size { aspect_ratio: 11.6, coarse: 4, design: Design::new(0.0195, 0.0275) },
+    Size { aspect_ratio: 100.0, coarse: 200, design: Design::new(0.051, 0.0385) },
 ];
 
 /// Which of [`SIZES`] is run, and at which steps; by default those of the scene.
@@ -74,10 +66,7 @@ struct Integrator {
 
 /// The case of the default step.
 pub fn cases() -> Vec<Case> {
-    let control = |k: usize| Integrator {
-        sizes: &SIZES[k..=k],
-        coarse: true,
-    };
+    let control = |k: usize| Integrator { sizes: &SIZES[k..=k], coarse: true };
     vec![
         Case::core("default-step-resolves")
             .claim(
@@ -86,10 +75,7 @@ pub fn cases() -> Vec<Case> {
             )
             .source("eq. 15, Fig. 7")
             .equations(&["15"])
-            .subject(Integrator {
-                sizes: &SIZES,
-                coarse: false,
-            })
+            .subject(Integrator { sizes: &SIZES, coarse: false })
             .mistake("4 steps a period at r_e = 11.6", control(0))
             .mistake("200 steps a period at r_e = 100", control(1))
             .check(|subject, effort| {
@@ -108,10 +94,7 @@ fn coarser_step(size: &Size, coarse: bool, effort: &Effort) -> Evidence {
     static DEFAULT: Shared<u64, Vec<f64>> = Shared::new();
     let fine = DEFAULT.get(effort, default, || x1(&scene, default, replicas));
     Evidence::new(
-        format!(
-            "X̄₁ at r_e = {}: {steps} steps a period less {default}",
-            size.aspect_ratio
-        ),
+        format!("X̄₁ at r_e = {}: {steps} steps a period less {default}", size.aspect_ratio),
         change(&x1(&scene, steps, replicas), &fine).is(
             0.0,
             LINE,

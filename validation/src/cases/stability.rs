@@ -24,9 +24,7 @@ pub fn cases() -> Vec<Case> {
                 in_p(4, true, |problem, p, h| rk4(|y| problem.rate(&y), p, h))
             })
             .mistake("RK4 in angles with an order 4 that is 1", || {
-                in_angles(4, |problem, y, h| {
-                    explicit_euler(|y| problem.angle_rates(&y), y, h)
-                })
+                in_angles(4, |problem, y, h| explicit_euler(|y| problem.angle_rates(&y), y, h))
             })
             .mistake("an error in place of every direction", || vec![Box::new(Refuses)])
             .check(corners),
@@ -119,9 +117,7 @@ fn tried(subject: &dyn Integrator, most_steps: u64) -> Vec<Tried> {
                     run.into_iter().for_each(|run| push(map::Run { setting, ..run }));
                 }
             }
-            _ => STEPS
-                .into_iter()
-                .for_each(|step| push(map::by_step(theory, r, step, most_steps))),
+            _ => STEPS.into_iter().for_each(|step| push(map::by_step(theory, r, step, most_steps))),
         }
         for (_, place) in map::places(r) {
             let run = map::by_duration(theory, r, 1.0, place, most_steps);

@@ -66,23 +66,20 @@ fn period(change: &Change, effort: &Effort) -> Vec<Evidence> {
     };
     // The control's frequency is 2/1.06 = 1.887. Pilots of 100 replicas scattered by 0.014 and 0.007.
     let design = Design::new(0.06, 0.017);
-    [
-        ("unequal aspect ratios", polydisperse),
-        ("collisions", interacting),
-    ]
-    .into_iter()
-    .map(|(name, kind)| {
-        let mut scene = lab::free_scene(effort);
-        kind(&mut scene);
-        scene.time.periods = Some(4.0);
-        scene.time.steps_per_period = Some(200);
-        scene.time.outputs_per_period = Some(50);
-        change(&mut scene);
-        let frequencies = per_replica(&scene, effort.samples(design), |mean| {
-            let series: Vec<f64> = (0..=200).map(|output| mean(Channel::X[0], output)).collect();
-            peak_frequency(&series, 50.0)
-        });
-        Evidence::new(
+    [("unequal aspect ratios", polydisperse), ("collisions", interacting)]
+        .into_iter()
+        .map(|(name, kind)| {
+            let mut scene = lab::free_scene(effort);
+            kind(&mut scene);
+            scene.time.periods = Some(4.0);
+            scene.time.steps_per_period = Some(200);
+            scene.time.outputs_per_period = Some(50);
+            change(&mut scene);
+            let frequencies = per_replica(&scene, effort.samples(design), |mean| {
+                let series: Vec<f64> = (0..=200).map(|output| mean(Channel::X[0], output)).collect();
+                peak_frequency(&series, 50.0)
+            });
+            Evidence::new(
             format!("frequency of X̄₁ in 1/T, {name}"),
             Sample::of(&frequencies).is(
                 2.0,
@@ -92,8 +89,8 @@ fn period(change: &Change, effort: &Effort) -> Vec<Evidence> {
                  periods; |p_1| has the period T/2",
             ),
         )
-    })
-    .collect()
+        })
+        .collect()
 }
 
 /// The frequency of the strongest line of a series near 2, per unit of time, with `per_unit` values each.
@@ -122,8 +119,7 @@ fn peak_frequency(series: &[f64], per_unit: f64) -> f64 {
         re * re + im * im
     };
     let grid = (0..=200).map(|k| 1.5 + f64::from(k) / 200.0);
-    grid.max_by(|a, b| power(*a).total_cmp(&power(*b)))
-        .unwrap_or(f64::NAN)
+    grid.max_by(|a, b| power(*a).total_cmp(&power(*b))).unwrap_or(f64::NAN)
 }
 
 /// Rods in the control volume.
@@ -182,12 +178,8 @@ fn stays_put(from: &Periods, effort: &Effort) -> Vec<Evidence> {
     let replicas = designs.map(|design| effort.samples(design)).into_iter().max();
     let drifts = per_replica(&scene, replicas.unwrap_or(0), |mean| {
         // Half a period, where free rods are back.
-        let over_ten = |channel, first| {
-            (first..first + 10)
-                .map(|output| mean(channel, output))
-                .sum::<f64>()
-                / 10.0
-        };
+        let over_ten =
+            |channel, first| (first..first + 10).map(|output| mean(channel, output)).sum::<f64>() / 10.0;
         Channel::X.map(|axis| over_ten(axis, start + 10) - over_ten(axis, start))
     });
     (0..3)
@@ -212,10 +204,7 @@ type ThetaDeg = f64;
 fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {
     let run = |steps_per_period: u64, replica: u64| {
         let mut scene = lab::interacting_scene(effort);
-        scene.particles.orientation = Orientation::Given {
-            phi_deg: 20.0,
-            theta_deg: *theta_deg,
-        };
+        scene.particles.orientation = Orientation::Given { phi_deg: 20.0, theta_deg: *theta_deg };
         scene.particles.aspect_ratio = 3.96;
         scene.particles.aspect_ratio_sd_percent = 3.0;
         lab::interaction(&mut scene).concentration_per_cm3 = Some(500.0);
@@ -243,14 +232,8 @@ fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {
         .into_par_iter()
         .map(|replica| (run(200, replica), run(800, replica)))
         .collect();
-    let most = found
-        .iter()
-        .flat_map(|(coarse, fine)| [coarse.0, fine.0])
-        .fold(0.0, larger);
-    let fall: Vec<f64> = found
-        .iter()
-        .map(|(coarse, fine)| 0.5 * coarse.1 - fine.1)
-        .collect();
+    let most = found.iter().flat_map(|(coarse, fine)| [coarse.0, fine.0]).fold(0.0, larger);
+    let fall: Vec<f64> = found.iter().map(|(coarse, fine)| 0.5 * coarse.1 - fine.1).collect();
     vec![
         Evidence::within(
             "largest |p_3| within one period",

@@ -36,10 +36,7 @@ fn steady_angle(change: &Change, effort: &Effort) -> Vec<Evidence> {
         change(&mut scene);
         let outputs = 6 * 50;
         let means = lab::per_replica(&scene, effort.samples(design), |mean| {
-            (outputs - 100..outputs)
-                .map(|output| mean(Channel::PHI, output))
-                .sum::<f64>()
-                / 100.0
+            (outputs - 100..outputs).map(|output| mean(Channel::PHI, output)).sum::<f64>() / 100.0
         });
         evidence.push(Evidence::new(
             format!("steady φ̄ in rad, r_e = {r}"),

@@ -43,9 +43,7 @@ fn euler() -> Vec<Box<dyn Integrator>> {
 }
 
 fn half_euler() -> Vec<Box<dyn Integrator>> {
-    in_angles(1, |problem, y, h| {
-        explicit_euler(|y| 0.5 * problem.angle_rates(&y), y, h)
-    })
+    in_angles(1, |problem, y, h| explicit_euler(|y| 0.5 * problem.angle_rates(&y), y, h))
 }
 
 fn rk4_in_angles() -> Vec<Box<dyn Integrator>> {
@@ -233,10 +231,7 @@ fn agrees(claimed: &Claimed, _: &Effort) -> Vec<Evidence> {
             }
         });
         Evidence::within(
-            format!(
-                "relative difference of the longest step and theory, {}",
-                subject.name()
-            ),
+            format!("relative difference of the longest step and theory, {}", subject.name()),
             worst.into_iter().fold(0.0, larger),
             claimed.found_late * (PI / 1024.0).powi(2),
             "δ² times what stretches δ: of 512 rods one is within δ = π/1024 of the extreme one, where \
@@ -272,10 +267,7 @@ fn rest(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
         }
     }
     vec![
-        Evidence::exact(
-            "rods still moving after 1000 steps of 1.02 times the limit",
-            moving,
-        ),
+        Evidence::exact("rods still moving after 1000 steps of 1.02 times the limit", moving),
         Evidence::exact("rods at rest after 1000 steps of 0.98 times the limit", resting),
     ]
 }

@@ -39,9 +39,7 @@ pub fn cases() -> Vec<Case> {
                 })
             })
             .mistake("an error that doubles whenever the step is halved", || {
-                in_p(1, false, |problem, p, h| {
-                    rk4(|y| problem.rate(&y), p, h) + Vector3::new(0.0, 0.0, 1e-9)
-                })
+                in_p(1, false, |problem, p, h| rk4(|y| problem.rate(&y), p, h) + Vector3::new(0.0, 0.0, 1e-9))
             })
             .check(orders),
         Case::integrator("subject-lengths")
@@ -86,9 +84,7 @@ pub fn cases() -> Vec<Case> {
                     (Problem::new(1.001 * problem.aspect_ratio, problem.turns), 1.0)
                 }))]
             })
-            .mistake("a tolerance 10⁸ times as large", || {
-                vec![Box::new(Spoiled(|problem| (problem, 1e8)))]
-            })
+            .mistake("a tolerance 10⁸ times as large", || vec![Box::new(Spoiled(|problem| (problem, 1e8)))])
             .mistake("the last step is left out", || {
                 vec![Box::new(Spoiled(|problem| {
                     (Problem::new(problem.aspect_ratio, 0.99 * problem.turns), 1.0)
@@ -108,11 +104,7 @@ fn orders(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
                 continue;
             };
             // Fewer than two pairs above round-off show no order at all: 0.
-            let enough = if study.judged.len() == 2 {
-                0.0
-            } else {
-                f64::from(study.theory)
-            };
+            let enough = if study.judged.len() == 2 { 0.0 } else { f64::from(study.theory) };
             worst = (study.judged.iter())
                 .map(|order| (order - f64::from(study.theory)).abs())
                 .fold(larger(worst, enough), larger);
@@ -183,10 +175,7 @@ fn adaptive(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
             let (problem, start) = Problem::mid_flip(r);
             let error = grade(subject.as_ref(), &problem, &start, Setting::Tolerance(1e-11));
             evidence.push(Evidence::within(
-                format!(
-                    "angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, {}",
-                    subject.name()
-                ), // A subject that gives up is off by as much as can be.
+                format!("angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, {}", subject.name()), // A subject that gives up is off by as much as can be.
                 error.map_or(std::f64::consts::FRAC_PI_2, |errors| errors.orientation_rad),
                 steps * 1e-11 * r,
                 "each step is off by the tolerance, in a direction of its own; their sum is a phase, which \

@@ -51,54 +51,27 @@ pub fn cases() -> Vec<Case> {
             .subject(SYMMETRIC)
             .mistake(
                 "places in another order, directions not",
-                Mapping {
-                    directions_too: false,
-                    ..SYMMETRIC
-                },
+                Mapping { directions_too: false, ..SYMMETRIC },
             )
-            .mistake(
-                "rods per area in place of volume",
-                Mapping {
-                    per_volume: 64.0,
-                    ..SYMMETRIC
-                },
-            )
+            .mistake("rods per area in place of volume", Mapping { per_volume: 64.0, ..SYMMETRIC })
             .mistake(
                 "a time step that is no share of the period",
-                Mapping {
-                    steps_per_period: 250,
-                    ..SYMMETRIC
-                },
+                Mapping { steps_per_period: 250, ..SYMMETRIC },
             )
             .mistake(
                 "turned round axis 3, not head to tail",
-                Mapping {
-                    tail_deg: [205.0, 70.0],
-                    ..SYMMETRIC
-                },
+                Mapping { tail_deg: [205.0, 70.0], ..SYMMETRIC },
             )
-            .mistake(
-                "the flow mirrored, the rods not",
-                Mapping {
-                    mirrored_phi_deg: 25.0,
-                    ..SYMMETRIC
-                },
-            )
+            .mistake("the flow mirrored, the rods not", Mapping { mirrored_phi_deg: 25.0, ..SYMMETRIC })
             .check(symmetries),
         Case::core("mirrored-flow")
             .claim("Interacting rods in the mirrored flow have the same mean projections in law.")
             .source("eqs 3, 14")
             .equations(&["3", "14"])
-            .subject(Mirror {
-                shear_rate_per_s: -0.5,
-                concentration_per_cm3: 50.0,
-            })
+            .subject(Mirror { shear_rate_per_s: -0.5, concentration_per_cm3: 50.0 })
             .mistake(
                 "a quarter of the concentration in the mirrored flow",
-                Mirror {
-                    shear_rate_per_s: -0.5,
-                    concentration_per_cm3: 12.5,
-                },
+                Mirror { shear_rate_per_s: -0.5, concentration_per_cm3: 12.5 },
             )
             .check(mirrored),
     ]
@@ -141,10 +114,7 @@ fn symmetries(mapping: &Mapping, effort: &Effort) -> Vec<Evidence> {
             "the same rods in another order, every one of them a candidate",
             relabelled(mapping.directions_too, effort),
         ),
-        Evidence::exact(
-            "lengths 8 times larger, concentration 512 times less",
-            difference(&lengths, &base),
-        ),
+        Evidence::exact("lengths 8 times larger, concentration 512 times less", difference(&lengths, &base)),
         Evidence::exact("a shear rate of 5·10⁻³¹ 1/s", difference(&times, &base)),
         Evidence::within(
             "every rod turned head to tail, interacting",
@@ -173,11 +143,7 @@ fn relabelled(directions_too: bool, effort: &Effort) -> f64 {
     // Away from the faces normal to axis 2.
     let mut places = first.positions_in_lengths().clone();
     places[1].iter_mut().for_each(|x| *x = 0.1 + 0.9 * *x);
-    let directions: Vec<_> = first
-        .directions()
-        .into_iter()
-        .map(UnitVector3::new_normalize)
-        .collect();
+    let directions: Vec<_> = first.directions().into_iter().map(UnitVector3::new_normalize).collect();
     let mut second = first.clone();
     let mut reversed = places.clone();
     reversed.iter_mut().for_each(|axis| axis.reverse());
@@ -185,9 +151,7 @@ fn relabelled(directions_too: bool, effort: &Effort) -> f64 {
     if directions_too {
         backwards.reverse();
     }
-    let placed = first
-        .place(places, &directions)
-        .and(second.place(reversed, &backwards));
+    let placed = first.place(places, &directions).and(second.place(reversed, &backwards));
     for _ in 0..10 {
         if placed.is_none() || first.step().is_err() || second.step().is_err() {
             return f64::NAN;
@@ -195,12 +159,7 @@ fn relabelled(directions_too: bool, effort: &Effort) -> f64 {
     }
     let (forth, back) = (first.directions(), second.directions());
     let distances = forth.iter().zip(back.iter().rev()).map(|(a, b)| (a - b).norm());
-    distances.fold(0.0, larger)
-        + if first.counters().collisions > 0 {
-            0.0
-        } else {
-            f64::NAN
-        }
+    distances.fold(0.0, larger) + if first.counters().collisions > 0 { 0.0 } else { f64::NAN }
 }
 
 fn mirrored(mirror: &Mirror, effort: &Effort) -> Vec<Evidence> {
@@ -217,9 +176,7 @@ fn mirrored(mirror: &Mirror, effort: &Effort) -> Vec<Evidence> {
     let replicas = designs.map(|design| effort.samples(design)).into_iter().max();
     // Every rod is back after a whole period where nothing collides: less where it was, means scatter less.
     let changes = |scene: &Scene| {
-        per_replica(scene, replicas.unwrap_or(0), |mean| {
-            Channel::X.map(|axis| mean(axis, 1) - mean(axis, 0))
-        })
+        per_replica(scene, replicas.unwrap_or(0), |mean| Channel::X.map(|axis| mean(axis, 1) - mean(axis, 0)))
     };
     let (here, there) = (changes(&straight), changes(&mirrored));
     (0..3)

@@ -65,14 +65,8 @@ fn units(unit: &UnitOf, effort: &Effort) -> Vec<Evidence> {
             "relative error in plane Couette flow, both directions, r_e from 10⁻³ to 10⁶",
             couette(effort),
         ),
-        within(
-            "relative error in flows in a plane that turn rods along ellipses",
-            elliptic(effort),
-        ),
-        within(
-            "relative error of seconds per strain in extension and shear",
-            strained(effort),
-        ),
+        within("relative error in flows in a plane that turn rods along ellipses", elliptic(effort)),
+        within("relative error of seconds per strain in extension and shear", strained(effort)),
     ]
 }
 
@@ -108,27 +102,20 @@ fn elliptic(effort: &Effort) -> Vec<Expected> {
     };
     let flows = [[1.0, 2.0], [3.0, 0.5], [2e-4, 1e-3]];
     let ratios = [0.1, 2.0, 11.6, 1e3];
-    flows
-        .iter()
-        .flat_map(|&flow| ratios.map(|r| each(flow, r)))
-        .collect()
+    flows.iter().flat_map(|&flow| ratios.map(|r| each(flow, r))).collect()
 }
 
 fn strained(effort: &Effort) -> Vec<Expected> {
     let extension = |e: f64| [[e, 0.0, 0.0], [0.0, -0.5 * e, 0.0], [0.0, 0.0, -0.5 * e]];
     let shear = |g: f64| [[0.0; 3], [0.0, 0.0, g], [0.0; 3]];
-    [
-        (extension(0.5), 0.5 * 3f64.sqrt()),
-        (extension(-7.0), 7.0 * 3f64.sqrt()),
-        (shear(0.3), 0.3),
-    ]
-    .map(|(gradient_per_s, rate_per_s)| {
-        let scene = changed(free_scene(effort), |scene| {
-            scene.flow.shear_rate_per_s = None;
-            scene.flow.gradient_per_s = Some(gradient_per_s);
-            (scene.time.periods, scene.time.strain) = (None, Some(2.0));
-        });
-        (scene, [1.0 / rate_per_s, 1.0])
-    })
-    .into()
+    [(extension(0.5), 0.5 * 3f64.sqrt()), (extension(-7.0), 7.0 * 3f64.sqrt()), (shear(0.3), 0.3)]
+        .map(|(gradient_per_s, rate_per_s)| {
+            let scene = changed(free_scene(effort), |scene| {
+                scene.flow.shear_rate_per_s = None;
+                scene.flow.gradient_per_s = Some(gradient_per_s);
+                (scene.time.periods, scene.time.strain) = (None, Some(2.0));
+            });
+            (scene, [1.0 / rate_per_s, 1.0])
+        })
+        .into()
 }

@@ -20,12 +20,7 @@ type Starts = Vec<Start>;
 type Exponent = f64;
 
 pub fn cases() -> Vec<Case> {
-    let spoiled = |of: usize, lay| {
-        vec![Start {
-            lay,
-            ..starts::ALL[of]
-        }]
-    };
+    let spoiled = |of: usize, lay| vec![Start { lay, ..starts::ALL[of] }];
     vec![
         Case::integrator("free-suspension-rates")
             .claim(
@@ -45,16 +40,11 @@ pub fn cases() -> Vec<Case> {
                         .collect()
                 }),
             )
-            .mistake(
-                "cells that are drawn from at random, not each once",
-                spoiled(1, starts::ALL[0].lay),
-            )
+            .mistake("cells that are drawn from at random, not each once", spoiled(1, starts::ALL[0].lay))
             .mistake(
                 "every rod on a lattice of its own",
                 spoiled(2, |count, unequal, rng| {
-                    (0..count)
-                        .flat_map(|_| (starts::ALL[2].lay)(1, unequal, rng))
-                        .collect()
+                    (0..count).flat_map(|_| (starts::ALL[2].lay)(1, unequal, rng)).collect()
                 }),
             )
             .check(rates),
@@ -80,12 +70,7 @@ pub fn cases() -> Vec<Case> {
 
 fn rates(starts: &Starts, effort: &Effort) -> Vec<Evidence> {
     // Rods that are stretched little, so that a thousand of them resolve what there is.
-    let free = Free {
-        scene: "a case",
-        aspect_ratio: 1.5,
-        sd_percent: 0.0,
-        turns: 0.2,
-    };
+    let free = Free { scene: "a case", aspect_ratio: 1.5, sd_percent: 0.0, turns: 0.2 };
     const TRIALS: usize = 4;
     // Pilot of 100 groups at seed 99: 0.185 for the lattice; 600 at seeds 9001 to 9008: 0.19 for random starts.
     let design = Design::new(0.4, 0.22);
@@ -172,11 +157,7 @@ fn faces(exponent: &Exponent, effort: &Effort) -> Vec<Evidence> {
         let mut suspension = lab::suspension(&scene, replica);
         let done = (0..5).all(|_| suspension.step().is_ok());
         let candidates = suspension.counters().candidates as f64 / (5 * count) as f64;
-        if done {
-            1.0 - candidates / unbounded
-        } else {
-            f64::NAN
-        }
+        if done { 1.0 - candidates / unbounded } else { f64::NAN }
     };
     // Pilot of 2,898 replicas at seeds 9001 to 9006: 0.19 where the second loss is doubled; some 0.43 where it counts
     // eight times, as the control has it.

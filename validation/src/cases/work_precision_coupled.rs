@@ -21,11 +21,7 @@ struct Beside {
 }
 
 pub fn cases() -> Vec<Case> {
-    let same = Beside {
-        free: |_| {},
-        other: |_| {},
-        mean: |_| {},
-    };
+    let same = Beside { free: |_| {}, other: |_| {}, mean: |_| {} };
     vec![
         Case::core("paths-do-not-converge")
             .claim(
@@ -35,10 +31,9 @@ pub fn cases() -> Vec<Case> {
             .source("A.13, A.14; eq. 8 without Δt")
             .equations(&["A.13", "A.14"])
             .subject((|_| {}) as Change)
-            .mistake(
-                "arms below a rod length are no contact, so that kicks are bounded",
-                |scene| lab::interaction(scene).min_contact_arm = 1.0,
-            )
+            .mistake("arms below a rod length are no contact, so that kicks are bounded", |scene| {
+                lab::interaction(scene).min_contact_arm = 1.0
+            })
             .check(paths),
         Case::program("shared-random-numbers")
             .claim(
@@ -49,26 +44,14 @@ pub fn cases() -> Vec<Case> {
             .source("eqs 4, 7, 12")
             .equations(&["4", "7"])
             .subject(same)
-            .mistake(
-                "free rods of another seed",
-                Beside {
-                    free: |scene| scene.ensemble.seed += 1,
-                    ..same
-                },
-            )
+            .mistake("free rods of another seed", Beside { free: |scene| scene.ensemble.seed += 1, ..same })
             .mistake(
                 "the other α at another seed",
-                Beside {
-                    other: |scene| scene.ensemble.seed += 1,
-                    ..same
-                },
+                Beside { other: |scene| scene.ensemble.seed += 1, ..same },
             )
             .mistake(
                 "the closed form of rods a tenth longer",
-                Beside {
-                    mean: |scene| scene.particles.aspect_ratio *= 1.1,
-                    ..same
-                },
+                Beside { mean: |scene| scene.particles.aspect_ratio *= 1.1, ..same },
             )
             .check(shared),
     ]
@@ -84,9 +67,7 @@ fn mean_squares(scene: &Scene, steps: u64, replicas: u64) -> Vec<f64> {
     };
     let (coarse, fine) = (run(steps), run(2 * steps));
     let pairs = coarse.chunks(1).zip(fine.chunks(1));
-    pairs
-        .map(|(one, other)| law::apart(one, other, 0).powi(2))
-        .collect()
+    pairs.map(|(one, other)| law::apart(one, other, 0).powi(2)).collect()
 }
 
 fn paths(change: &Change, effort: &Effort) -> Vec<Evidence> {
@@ -94,13 +75,8 @@ fn paths(change: &Change, effort: &Effort) -> Vec<Evidence> {
     // Pilot of 1,716 replicas at seeds 9001 to 9006: 0.0217 ± 0.0005, each 0.0229.
     let design = Design::new(0.018, 0.0255);
     let replicas = effort.samples(design);
-    let (coarse, fine) = (
-        mean_squares(&scene, 100, replicas),
-        mean_squares(&scene, 400, replicas),
-    );
-    let kept: Vec<_> = (fine.iter().zip(&coarse))
-        .map(|(fine, coarse)| fine - 0.5 * coarse)
-        .collect();
+    let (coarse, fine) = (mean_squares(&scene, 100, replicas), mean_squares(&scene, 400, replicas));
+    let kept: Vec<_> = (fine.iter().zip(&coarse)).map(|(fine, coarse)| fine - 0.5 * coarse).collect();
     vec![Evidence::new(
         "mean square angle (rad²) between 400 and 800 steps a period, less half of that between \
          100 and 200",
@@ -132,9 +108,7 @@ fn correlations(a: &[f64], b: &[f64]) -> Vec<f64> {
     };
     let r = correlation(a, b);
     let pairs = standard(a).into_iter().zip(standard(b));
-    pairs
-        .map(|(x, y)| r + x * y - 0.5 * r * (x * x + y * y))
-        .collect()
+    pairs.map(|(x, y)| r + x * y - 0.5 * r * (x * x + y * y)).collect()
 }
 
 fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
@@ -159,15 +133,10 @@ fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
         let own = &runs.own[..values.len()];
         let r = correlation(own, values);
         let square = move |value: f64| r * r + 2.0 * r * (value - r);
-        correlations(own, values)
-            .into_iter()
-            .map(square)
-            .collect::<Vec<_>>()
+        correlations(own, values).into_iter().map(square).collect::<Vec<_>>()
     };
     let (by_free, by_finer) = (squares(&free[..of_more as usize]), squares(&runs.finer));
-    let gains: Vec<_> = (by_free.iter().zip(&by_finer))
-        .map(|(free, finer)| free - finer)
-        .collect();
+    let gains: Vec<_> = (by_free.iter().zip(&by_finer)).map(|(free, finer)| free - finer).collect();
     let own = &runs.own[..other.len()];
     let rho = correlation(own, &other);
     // Fisher's transform, which scatters alike whatever ρ is.

@@ -23,10 +23,7 @@ pub fn open(path: &Path) -> io::Result<File> {
 /// # Errors
 ///
 /// The system's, and `InvalidInput` for anything that is not a regular file, which is named.
-#[expect(
-    clippy::disallowed_methods,
-    reason = "every other function of this crate opens files by this one"
-)]
+#[expect(clippy::disallowed_methods, reason = "every other function of this crate opens files by this one")]
 pub fn open_with(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
     without_waiting(options);
     match options.open(path) {
@@ -167,24 +164,12 @@ mod tests {
         fs::write(&path, "12345").unwrap();
         assert_eq!(bytes(&path, 5).unwrap(), b"12345");
         assert_eq!(text(&path, u64::MAX).unwrap(), "12345");
-        assert_eq!(
-            length_and_crc32(&path, 5).unwrap(),
-            (5, crc32fast::hash(b"12345"))
-        );
-        for error in [
-            bytes(&path, 4).unwrap_err(),
-            length_and_crc32(&path, 4).unwrap_err(),
-        ] {
-            assert_eq!(
-                error.to_string(),
-                "it is longer than the 4 bytes that are allowed"
-            );
+        assert_eq!(length_and_crc32(&path, 5).unwrap(), (5, crc32fast::hash(b"12345")));
+        for error in [bytes(&path, 4).unwrap_err(), length_and_crc32(&path, 4).unwrap_err()] {
+            assert_eq!(error.to_string(), "it is longer than the 4 bytes that are allowed");
         }
         fs::write(&path, b"a\nb\xff").unwrap();
-        assert_eq!(
-            text(&path, 9).unwrap_err().to_string(),
-            "it is not UTF-8 text (line 2)"
-        );
+        assert_eq!(text(&path, 9).unwrap_err().to_string(), "it is not UTF-8 text (line 2)");
     }
 
     #[test]

@@ -24,11 +24,7 @@ pub const BUILD: Build = Build {
     version: env!("CARGO_PKG_VERSION"),
     commit: env!("SHEARBED_COMMIT"),
     rustc: env!("SHEARBED_RUSTC"),
-    build: if cfg!(debug_assertions) {
-        "development"
-    } else {
-        "release"
-    },
+    build: if cfg!(debug_assertions) { "development" } else { "release" },
 };
 
 /// This build as an object, to which the rest of a record is added.

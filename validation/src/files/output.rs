@@ -57,9 +57,7 @@ pub fn probe(dir: &Path, bytes: u64) -> Result<(), OutputError> {
     }
     let here = Path::new(".");
     let existing = dir.ancestors().find(|folder| folder.exists());
-    let existing = existing
-        .filter(|folder| !folder.as_os_str().is_empty())
-        .unwrap_or(here);
+    let existing = existing.filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(here);
     let mut file = tempfile::tempfile_in(existing).map_err(at(dir))?;
     // Noise, which no file system compresses.
     let mut noise = 1_u32;
@@ -70,13 +68,10 @@ pub fn probe(dir: &Path, bytes: u64) -> Result<(), OutputError> {
     .take(1 << 16)
     .collect();
     let blocks = bytes.div_ceil(block.len() as u64);
-    (0..blocks)
-        .try_for_each(|_| file.write_all(&block))
-        .and_then(|()| file.sync_all())
-        .map_err(|error| {
-            let needed = format!("{error}; {:.1} MB are to be written there", 1e-6 * bytes as f64);
-            at(dir)(io::Error::new(error.kind(), needed))
-        })
+    (0..blocks).try_for_each(|_| file.write_all(&block)).and_then(|()| file.sync_all()).map_err(|error| {
+        let needed = format!("{error}; {:.1} MB are to be written there", 1e-6 * bytes as f64);
+        at(dir)(io::Error::new(error.kind(), needed))
+    })
 }
 
 /// Writes all files into `dir`, which is made where it does not exist. A new folder appears with all of them; in one

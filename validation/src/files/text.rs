@@ -8,10 +8,7 @@ use std::path::Path;
 /// Line feeds and tabulators are none.
 fn commands(c: char) -> bool {
     (c.is_control() && !matches!(c, '\n' | '\t'))
-        || matches!(
-            c,
-            '\u{2028}' | '\u{2029}' | '\u{fff9}'..='\u{fffb}' | '\u{fffe}' | '\u{ffff}'
-        )
+        || matches!(c, '\u{2028}' | '\u{2029}' | '\u{fff9}'..='\u{fffb}' | '\u{fffe}' | '\u{ffff}')
         || invisible(c)
 }
 
@@ -94,9 +91,7 @@ pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
     let cut = |at: usize| text.char_indices().nth(at).map_or(text.len(), |(byte, _)| byte);
     let (head, tail) = (&text[..cut(MOST / 4)], &text[cut(length - MOST / 4)..]);
     let left_out = length - MOST / 4 * 2;
-    Cow::Owned(format!(
-        "{head} … ({left_out} characters are left out here) … {tail}"
-    ))
+    Cow::Owned(format!("{head} … ({left_out} characters are left out here) … {tail}"))
 }
 
 /// A number with four decimals, or as a power of ten where it would have hundreds of digits.
@@ -111,9 +106,7 @@ pub(crate) fn four_decimals(x: f64) -> String {
 /// Numbers stay as they are.
 pub(crate) fn cell(text: &str) -> String {
     // The wide forms too, which spreadsheets in East Asia take for the narrow ones.
-    let formula = text.starts_with([
-        '=', '+', '-', '@', '\t', '\r', '\n', '|', '%', '＝', '＋', '－', '＠',
-    ]);
+    let formula = text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '|', '%', '＝', '＋', '－', '＠']);
     let number = text.parse::<f64>().is_ok();
     let mark = if formula && !number { "'" } else { "" };
     format!("{mark}{}", readable(text))
@@ -153,10 +146,7 @@ mod tests {
     fn what_commands_a_terminal_is_written_out() {
         assert_eq!(readable("α = 0.5\n\tX̄₁"), "α = 0.5\n\tX̄₁");
         let hostile = "a\u{1b}]0;x\u{7}\u{9b}2J\rb\u{202e}c\u{7f}";
-        assert_eq!(
-            readable(hostile),
-            r"a\u{1b}]0;x\u{7}\u{9b}2J\u{d}b\u{202e}c\u{7f}"
-        );
+        assert_eq!(readable(hostile), r"a\u{1b}]0;x\u{7}\u{9b}2J\u{d}b\u{202e}c\u{7f}");
         assert_eq!(line("a\nerror: b\tc"), r"a\nerror: b c");
         let unseen = "a\u{200b}b\u{ad}c\u{feff}d\u{2060}e\u{e0041}";
         assert_eq!(readable(unseen), r"a\u{200b}b\u{ad}c\u{feff}d\u{2060}e\u{e0041}");
@@ -179,10 +169,7 @@ mod tests {
 
     #[test]
     fn a_text_in_xml_is_no_markup() {
-        assert_eq!(
-            escaped("<a href=\"x\">&\u{1}"),
-            r"&lt;a href=&quot;x&quot;&gt;&amp;\u{1}"
-        );
+        assert_eq!(escaped("<a href=\"x\">&\u{1}"), r"&lt;a href=&quot;x&quot;&gt;&amp;\u{1}");
     }
 
     #[test]
@@ -190,10 +177,7 @@ mod tests {
         let text = format!("key = {} is not allowed: ü", "é".repeat(1_000_000));
         let short = shortened(&text);
         assert!(short.chars().count() < 5000);
-        assert!(
-            short.starts_with("key = é") && short.ends_with("is not allowed: ü"),
-            "{short}"
-        );
+        assert!(short.starts_with("key = é") && short.ends_with("is not allowed: ü"), "{short}");
         assert!(short.contains("(995928 characters are left out here)"), "{short}");
         assert_eq!(shortened("short"), "short");
     }
@@ -238,10 +222,7 @@ mod tests {
         ];
         let line = command(words.iter().map(|word| OsStr::from_bytes(word)));
         let script = format!("printf '%s\\0' {line}");
-        let output = std::process::Command::new("bash")
-            .args(["-c", &script])
-            .output()
-            .unwrap();
+        let output = std::process::Command::new("bash").args(["-c", &script]).output().unwrap();
         let found: Vec<_> = output.stdout.split(|byte| *byte == 0).collect();
         assert_eq!(found[..words.len()], words);
         assert!(!line.contains('\u{1b}'));
@@ -250,15 +231,6 @@ mod tests {
     #[test]
     fn no_number_has_hundreds_of_digits() {
         let shown = [0.0, -2.5, 1e11, 1e12, -1e300].map(four_decimals);
-        assert_eq!(
-            shown,
-            [
-                "0.0000",
-                "-2.5000",
-                "100000000000.0000",
-                "1.0000e12",
-                "-1.0000e300"
-            ]
-        );
+        assert_eq!(shown, ["0.0000", "-2.5000", "100000000000.0000", "1.0000e12", "-1.0000e300"]);
     }
 }

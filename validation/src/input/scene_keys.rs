@@ -12,24 +12,14 @@ pub fn rows() -> impl Iterator<Item = [String; 5]> {
             Absent::Default(value) => value.to_owned(),
             Absent::Other(words) => words.to_owned(),
         };
-        [
-            key.path.into(),
-            key.meaning.into(),
-            key.unit.into(),
-            key.holds.to_string(),
-            absent,
-        ]
+        [key.path.into(), key.meaning.into(), key.unit.into(), key.holds.to_string(), absent]
     })
 }
 
 /// As plain lines, a key each.
 pub fn text() -> String {
     let line = |[path, meaning, unit, holds, absent]: [String; 5]| {
-        let unit = if unit.is_empty() {
-            unit
-        } else {
-            format!(" [{unit}]")
-        };
+        let unit = if unit.is_empty() { unit } else { format!(" [{unit}]") };
         format!("{path}{unit}: {meaning}\n    {holds}; without it: {absent}\n")
     };
     rows().map(line).collect()
@@ -49,9 +39,7 @@ pub fn schema() -> Value {
         let within: Vec<_> = KEYS.iter().chain(&TABLES).filter(inner).collect();
         (within, table.to_owned())
     };
-    let mut whole = object(of_table("").0, &|table| {
-        object(of_table(table).0, &|_| Value::Null)
-    });
+    let mut whole = object(of_table("").0, &|table| object(of_table(table).0, &|_| Value::Null));
     whole["$schema"] = "https://json-schema.org/draft/2020-12/schema".into();
     whole["title"] = "A scene of shearbed".into();
     whole
@@ -59,11 +47,8 @@ pub fn schema() -> Value {
 
 fn object(keys: Vec<&Key>, table: &dyn Fn(&str) -> Value) -> Value {
     let name = |key: &Key| key.path.rsplit('.').next().unwrap_or_default().to_owned();
-    let required: Vec<_> = keys
-        .iter()
-        .filter(|key| key.absent == Absent::Refused)
-        .map(|key| name(key))
-        .collect();
+    let required: Vec<_> =
+        keys.iter().filter(|key| key.absent == Absent::Refused).map(|key| name(key)).collect();
     let properties: Map<_, _> = keys
         .iter()
         .map(|key| {

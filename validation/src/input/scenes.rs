@@ -85,16 +85,8 @@ mod tests {
             scene.ensemble.replicas = 2;
             scene.particles.count = scene.particles.count.min(100);
             let results = shearbed::ensemble::run(&Plan::new(&scene).unwrap()).unwrap();
-            let means = results
-                .series
-                .iter()
-                .flat_map(|s| &s.columns)
-                .flat_map(|c| &c.mean);
-            assert!(
-                means.into_iter().all(|mean| mean.is_finite()),
-                "{}",
-                built_in.name
-            );
+            let means = results.series.iter().flat_map(|s| &s.columns).flat_map(|c| &c.mean);
+            assert!(means.into_iter().all(|mean| mean.is_finite()), "{}", built_in.name);
         }
     }
 
@@ -102,22 +94,14 @@ mod tests {
     fn every_title_names_its_figure() {
         for built_in in ALL {
             let title = built_in.scene().unwrap().title;
-            let figure: String = built_in
-                .name
-                .trim_start_matches("fig")
-                .chars()
-                .take_while(char::is_ascii_digit)
-                .collect();
+            let figure: String =
+                built_in.name.trim_start_matches("fig").chars().take_while(char::is_ascii_digit).collect();
             let start = match figure.as_str() {
                 "" => "No figure".to_owned(),
                 number => format!("Fig. {number}"),
             };
             assert!(title.starts_with(&start), "{}: {title}", built_in.name);
-            assert!(
-                built_in.text.starts_with(&format!("# {start}")),
-                "{}",
-                built_in.name
-            );
+            assert!(built_in.text.starts_with(&format!("# {start}")), "{}", built_in.name);
             assert!(built_in.text.contains("ours"), "{}", built_in.name);
         }
     }

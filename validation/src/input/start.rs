@@ -26,17 +26,12 @@ struct Start {
 impl Starts {
     /// For scenes whose files are in this folder; nothing is read yet.
     pub fn beside(folder: &Path) -> Self {
-        Self {
-            folder: folder.to_owned(),
-            read: BTreeMap::new(),
-        }
+        Self { folder: folder.to_owned(), read: BTreeMap::new() }
     }
 
     /// The checksum (CRC-32) of each file that was read.
     pub fn checksums(&self) -> BTreeMap<&str, &str> {
-        (self.read.iter())
-            .map(|(file, start)| (file.as_str(), start.crc32.as_str()))
-            .collect()
+        (self.read.iter()).map(|(file, start)| (file.as_str(), start.crc32.as_str())).collect()
     }
 
     /// The files that were read.
@@ -72,9 +67,7 @@ impl Starts {
         };
         if let Some(expected) = crc32.as_deref().filter(|expected| *expected != start.crc32) {
             let found = &start.crc32;
-            return Err(refused(format!(
-                ": has crc32 = {found}; {expected:?} is allowed, or no crc32"
-            )));
+            return Err(refused(format!(": has crc32 = {found}; {expected:?} is allowed, or no crc32")));
         }
         fits(scene, &start).map_err(refused)?;
         if let Some(rods) = &mut scene.particles.rods {
@@ -88,9 +81,7 @@ impl Starts {
 fn fits(scene: &Scene, start: &Start) -> Result<(), String> {
     let (count, rows, own) = (scene.particles.count, start.lines.len(), &start.own);
     if rows != count {
-        return Err(format!(
-            ": has {rows} rows; as many as particles.count = {count} are allowed"
-        ));
+        return Err(format!(": has {rows} rows; as many as particles.count = {count} are allowed"));
     }
     match scene.misfit(own) {
         Some(misfit) => Err(format!(
@@ -110,10 +101,8 @@ mod tests {
         let text = crate::input::scenes::find(name).unwrap().text;
         let mut scene = shearbed::scene_file::parse("s", text).unwrap();
         scene.particles.count = count;
-        scene.particles.rods = Some(RodsFile {
-            own: None,
-            ..RodsFile::with("start.csv", OwnRods::default())
-        });
+        scene.particles.rods =
+            Some(RodsFile { own: None, ..RodsFile::with("start.csv", OwnRods::default()) });
         scene
     }
 
@@ -142,34 +131,19 @@ mod tests {
             Starts::beside(dir.path()).fill(&mut of_a_file(2, interacting))
         };
         for (text, said) in [
-            (
-                "length_mm\n1\n",
-                "start.csv: has 1 rows; as many as particles.count = 2",
-            ),
+            ("length_mm\n1\n", "start.csv: has 1 rows; as many as particles.count = 2"),
             ("length_mm\n1\n1\n1\n", "start.csv: has 3 rows"),
             (
                 "aspect_ratio\n2\n1\n",
                 "start.csv:3: aspect_ratio = 1.0 is not allowed: a number > 1, up to 1e100, for interacting rods",
             ),
-            (
-                "x1_mm,x2_mm,x3_mm\n1,2,3\n3,4,1\n",
-                "start.csv:3: x2_mm = 4.0 is not allowed: 0 to 3.41",
-            ),
-            (
-                "x1_mm,x2_mm,x3_mm\n1,2,-3\n3,1,1\n",
-                "start.csv:2: x3_mm = -3.0 is not allowed",
-            ),
+            ("x1_mm,x2_mm,x3_mm\n1,2,3\n3,4,1\n", "start.csv:3: x2_mm = 4.0 is not allowed: 0 to 3.41"),
+            ("x1_mm,x2_mm,x3_mm\n1,2,-3\n3,1,1\n", "start.csv:2: x3_mm = -3.0 is not allowed"),
         ] {
             let refused = fill(text, true).unwrap_err();
-            assert!(
-                refused.starts_with("particles.rods: ") && refused.contains(said),
-                "{refused}"
-            );
+            assert!(refused.starts_with("particles.rods: ") && refused.contains(said), "{refused}");
         }
         // Free rods may be discs, and are nowhere.
-        assert_eq!(
-            fill("aspect_ratio,x1_mm,x2_mm,x3_mm\n2,1,2,3\n0.5,3,4,1\n", false),
-            Ok(())
-        );
+        assert_eq!(fill("aspect_ratio,x1_mm,x2_mm,x3_mm\n2,1,2,3\n0.5,3,4,1\n", false), Ok(()));
     }
 }

@@ -36,10 +36,7 @@ impl Evidence {
 
     /// `rule` applied to what `what` says.
     pub fn new(what: impl Into<String>, rule: Rule) -> Self {
-        Self {
-            what: what.into(),
-            rule,
-        }
+        Self { what: what.into(), rule }
     }
 }
 
@@ -82,9 +79,7 @@ impl About {
     /// What it can be chosen by: what it judges, and its equations as `eq-15`.
     pub fn tags(&self) -> Vec<String> {
         let equations = self.equations.iter().map(|number| format!("eq-{number}"));
-        std::iter::once(self.judges.tag().to_owned())
-            .chain(equations)
-            .collect()
+        std::iter::once(self.judges.tag().to_owned()).chain(equations).collect()
     }
 }
 
@@ -161,13 +156,7 @@ pub struct Draft(About);
 
 impl Draft {
     fn new(name: &'static str, judges: Judges) -> Self {
-        Self(About {
-            name,
-            judges,
-            claim: "",
-            source: "",
-            equations: &[],
-        })
+        Self(About { name, judges, claim: "", source: "", equations: &[] })
     }
 
     /// The claim, in one sentence.
@@ -190,11 +179,7 @@ impl Draft {
 
     /// What is judged: a function, a scene, a model.
     pub fn subject<S>(self, subject: S) -> Subjected<S> {
-        Subjected {
-            about: self.0,
-            subject,
-            mistakes: Vec::new(),
-        }
+        Subjected { about: self.0, subject, mistakes: Vec::new() }
     }
 }
 
@@ -224,9 +209,7 @@ impl<S: Send + Sync + 'static> Subjected<S> {
         Case {
             about: self.about,
             check: bind(self.subject),
-            controls: (self.mistakes.into_iter())
-                .map(|(name, broken)| (name, bind(broken)))
-                .collect(),
+            controls: (self.mistakes.into_iter()).map(|(name, broken)| (name, bind(broken))).collect(),
             uncaught: match self.about.judges {
                 Judges::Measurement => Verdict::Underpowered,
                 _ => Verdict::Fail,
@@ -249,48 +232,26 @@ mod tests {
     #[test]
     fn a_case_passes_only_with_its_controls_caught() {
         let verdict = |subject, broken: Vec<(&'static str, f64)>| {
-            let case = Case::core("a")
-                .claim("c")
-                .subject(subject)
-                .mistakes(broken)
-                .check(is_three);
+            let case = Case::core("a").claim("c").subject(subject).mistakes(broken).check(is_three);
             case.run(&Effort::gate()).verdict
         };
         assert_eq!(verdict(3.0, vec![("four", 4.0)]), Verdict::Pass);
         assert_eq!(verdict(4.0, vec![("four", 4.0)]), Verdict::Fail);
-        assert_eq!(
-            verdict(3.0, vec![("four", 4.0), ("not broken", 3.0)]),
-            Verdict::Fail
-        );
-        assert_eq!(
-            verdict(3.0, vec![]),
-            Verdict::Fail,
-            "a case without a control is no case"
-        );
+        assert_eq!(verdict(3.0, vec![("four", 4.0), ("not broken", 3.0)]), Verdict::Fail);
+        assert_eq!(verdict(3.0, vec![]), Verdict::Fail, "a case without a control is no case");
         assert_eq!(verdict(f64::NAN, vec![("four", 4.0)]), Verdict::Fail);
-        assert_eq!(
-            verdict(7.0, vec![("four", 4.0)]),
-            Verdict::Fail,
-            "an error is no result"
-        );
+        assert_eq!(verdict(7.0, vec![("four", 4.0)]), Verdict::Fail, "an error is no result");
         assert_eq!(
             verdict(3.0, vec![("no number", f64::NAN)]),
             Verdict::Fail,
             "a check that breaks has caught nothing"
         );
-        assert_eq!(
-            verdict(3.0, vec![("an error", 7.0)]),
-            Verdict::Fail,
-            "nor has an error"
-        );
+        assert_eq!(verdict(3.0, vec![("an error", 7.0)]), Verdict::Fail, "nor has an error");
     }
 
     #[test]
     fn measured_points_that_are_too_few_are_no_fault() {
-        let case = Case::measurement("a")
-            .subject(3.0)
-            .mistake("not broken", 3.0)
-            .check(is_three);
+        let case = Case::measurement("a").subject(3.0).mistake("not broken", 3.0).check(is_three);
         assert_eq!(case.run(&Effort::gate()).verdict, Verdict::Underpowered);
     }
 }

@@ -63,20 +63,13 @@ impl Estimate {
         let n = without.len() as f64;
         let mean = without.mean();
         let square: f64 = without.iter().map(|s| (s - mean).powi(2)).sum();
-        Self {
-            value,
-            se: ((n - 1.0) / n * square).sqrt(),
-        }
+        Self { value, se: ((n - 1.0) / n * square).sqrt() }
     }
 }
 
 /// The larger of two errors; NaN stays.
 pub fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() {
-        f64::NAN
-    } else {
-        a.max(b)
-    }
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
 /// The largest of errors, 0 where there are none; NaN stays.

@@ -205,10 +205,7 @@ mod tests {
         };
         for (text, marks) in [
             ("eqs 4, 12, Fig. 6 (top)", "4 12 F6"),
-            (
-                "method of solution, eqs 5–9, 11, 14, A.7–A.14",
-                "5 9 11 14 A.7 A.14",
-            ),
+            ("method of solution, eqs 5–9, 11, 14, A.7–A.14", "5 9 11 14 A.7 A.14"),
             ("text after eqs 12 and 13. 5 rods", "12 13"),
             ("(eq. 15): 3 checks of `fig4 eq. 2` at t/T = 2", "15 `fig4 eq. 2"),
             ("Figs 7 to 10, r_e = 11.6; A.4.", "F7 F10 A.4"),
@@ -247,10 +244,7 @@ mod tests {
             ("x_1x_2 and ∂u_i/∂x_j", "x₁x₂ and ∂uᵢ/∂xⱼ"),
             ("P_c > R, 1/(2r_e)", "P_c > R, 1/(2rₑ)"),
             ("r_e² − 1", "rₑ² − 1"),
-            (
-                "min_contact_arm, t_over_T, a_, _b, _",
-                "min_contact_arm, t_over_T, a_, _b, _",
-            ),
+            ("min_contact_arm, t_over_T, a_, _b, _", "min_contact_arm, t_over_T, a_, _b, _"),
             ("", ""),
         ] {
             assert_eq!(unicode(text), typeset);

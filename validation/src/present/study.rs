@@ -77,28 +77,19 @@ pub struct Exhibit {
 impl Exhibit {
     /// A picture beside its table.
     pub fn both(figure: ReportFigure, table: ReportTable) -> Self {
-        Self {
-            figure: Some(figure),
-            table: Some(table),
-        }
+        Self { figure: Some(figure), table: Some(table) }
     }
 }
 
 impl From<ReportFigure> for Exhibit {
     fn from(figure: ReportFigure) -> Self {
-        Self {
-            figure: Some(figure),
-            table: None,
-        }
+        Self { figure: Some(figure), table: None }
     }
 }
 
 impl From<ReportTable> for Exhibit {
     fn from(table: ReportTable) -> Self {
-        Self {
-            figure: None,
-            table: Some(table),
-        }
+        Self { figure: None, table: Some(table) }
     }
 }
 

@@ -257,10 +257,7 @@ impl ReportTable {
         let widths: Vec<_> = (0..self.columns.len()).map(width).collect();
         let mut text = format!("{}\n\n", self.title);
         for cells in lines() {
-            let padded = cells
-                .iter()
-                .zip(&widths)
-                .map(|(cell, width)| format!("{cell:<width$}  "));
+            let padded = cells.iter().zip(&widths).map(|(cell, width)| format!("{cell:<width$}  "));
             text.push_str(padded.collect::<String>().trim_end());
             text.push('\n');
         }
@@ -279,10 +276,6 @@ impl ReportTable {
             format!("| {} |\n", cells.join(" | "))
         };
         let rows: String = self.rows.iter().map(|row| line(row)).collect();
-        format!(
-            "{}|{}\n{rows}",
-            line(&self.columns),
-            " --- |".repeat(self.columns.len())
-        )
+        format!("{}|{}\n{rows}", line(&self.columns), " --- |".repeat(self.columns.len()))
     }
 }

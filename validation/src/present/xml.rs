@@ -3,10 +3,7 @@
 /// Every tag is closed, in order, no text has a bare `<`, `>` or `&`, and every character is one that XML 1.0 allows.
 pub(crate) fn is_well_formed(xml: &str) -> bool {
     let allowed = |c: char| !c.is_control() || matches!(c, '\t' | '\n' | '\r');
-    if !xml
-        .chars()
-        .all(|c| allowed(c) && !matches!(c, '\u{fffe}' | '\u{ffff}'))
-    {
+    if !xml.chars().all(|c| allowed(c) && !matches!(c, '\u{fffe}' | '\u{ffff}')) {
         return false;
     }
     let mut open = Vec::new();

@@ -35,22 +35,14 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     probe(&args.out, 0)?;
     let author = Author::new("bench", json!({ "cases": args.cases }), args.force);
     author.check(&args.out, &[""; 0])?;
-    let effort = Effort {
-        full: true,
-        ..Effort::gate()
-    };
+    let effort = Effort { full: true, ..Effort::gate() };
     let (mut files, mut tables) = (Vec::new(), String::new());
     for study in studies::ALL {
         if !(study.benches)().iter().any(|name| wanted(name)) {
             continue;
         }
-        let found = on_threads(None, || {
-            study.found(&Extent {
-                effort: &effort,
-                wanted: &wanted,
-                finished: &|| (),
-            })
-        })?;
+        let found =
+            on_threads(None, || study.found(&Extent { effort: &effort, wanted: &wanted, finished: &|| () }))?;
         let Some(found) = found.map_err(Failure::Failed)? else {
             continue;
         };
@@ -68,11 +60,7 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     if args.quiet {
         return Ok(());
     }
-    print(&format!(
-        "{tables}in {}: {}\n",
-        args.out.shown(),
-        names.join(", ")
-    ))
+    print(&format!("{tables}in {}: {}\n", args.out.shown(), names.join(", ")))
 }
 
 /// Refuses names that no bench has.

@@ -25,9 +25,7 @@ pub(super) fn check(checkpoint: &Path, out: &Path) -> Result<PathBuf, Failure> {
             out.shown()
         )));
     }
-    let of_results = ENDINGS
-        .iter()
-        .any(|end| file.extension().is_some_and(|own| own == *end));
+    let of_results = ENDINGS.iter().any(|end| file.extension().is_some_and(|own| own == *end));
     if of_results && file.starts_with(&folder) {
         return Err(refused(
             "the results may take that name; choose a checkpoint outside the output folder, or a name without .csv, .svg, .json or \

@@ -35,42 +35,25 @@ pub(super) fn chosen(names: &[String], tags: &[String]) -> Result<Vec<Case>, Fai
 }
 
 fn unknown(flag: &str, word: &str, what: &str, known: &[String]) -> Failure {
-    let mut near: Vec<_> = known
-        .iter()
-        .map(|name| (strsim::jaro_winkler(word, name), name))
-        .collect();
+    let mut near: Vec<_> = known.iter().map(|name| (strsim::jaro_winkler(word, name), name)).collect();
     near.retain(|(likeness, _)| *likeness >= NEAR);
     near.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let near: Vec<_> = near
-        .iter()
-        .take(MOST_SUGGESTED)
-        .map(|(_, name)| name.as_str())
-        .collect();
+    let near: Vec<_> = near.iter().take(MOST_SUGGESTED).map(|(_, name)| name.as_str()).collect();
     let suggested = match near.split_first() {
         None => String::new(),
         Some((nearest, [])) => format!("; did you mean {nearest}?"),
         Some((nearest, rest)) => {
-            format!(
-                "; did you mean {nearest}? Others that are near: {}",
-                rest.join(", ")
-            )
+            format!("; did you mean {nearest}? Others that are near: {}", rest.join(", "))
         }
     };
-    Failure::Input(format!(
-        "{flag} {word}: {what}{suggested}. `shearbed validate --list` has all"
-    ))
+    Failure::Input(format!("{flag} {word}: {what}{suggested}. `shearbed validate --list` has all"))
 }
 
 /// The cases, one a line: name, tags, claim.
 pub(super) fn list(cases: &[Case]) -> String {
     let line = |case: &Case| {
         let about = &case.about;
-        format!(
-            "{:<28} [{}]\n    {}\n",
-            about.name,
-            about.tags().join(" "),
-            about.claim
-        )
+        format!("{:<28} [{}]\n    {}\n", about.name, about.tags().join(" "), about.claim)
     };
     let cases_by_line: String = cases.iter().map(line).collect();
     format!(
@@ -95,10 +78,7 @@ mod tests {
     fn cases_are_chosen_by_name_and_by_tag() {
         assert_eq!(names(&["jeffery-period"], &[]).unwrap(), ["jeffery-period"]);
         let measured = names(&[], &["measurement"]).unwrap();
-        assert!(
-            measured.contains(&"okagawa-mason-1973") && measured.len() < 10,
-            "{measured:?}"
-        );
+        assert!(measured.contains(&"okagawa-mason-1973") && measured.len() < 10, "{measured:?}");
         assert!(names(&[], &["eq-A.13"]).unwrap().contains(&"corrected-a13"));
         assert_eq!(names(&[], &[]).unwrap().len(), cases::all().len());
     }
@@ -112,9 +92,6 @@ mod tests {
         assert!(error.contains("did you mean measurement?"), "{error}");
         // What is like nothing gets no guess.
         let error = names(&["zzz"], &[]).unwrap_err();
-        assert!(
-            error.contains("zzz") && !error.contains("did you mean"),
-            "{error}"
-        );
+        assert!(error.contains("zzz") && !error.contains("did you mean"), "{error}");
     }
 }

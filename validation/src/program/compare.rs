@@ -113,10 +113,7 @@ pub(super) fn compare(args: &Args) -> Result<(), Failure> {
     }
     text += &speeds(&a, &b).text();
     if a.origin.processor != b.origin.processor {
-        text += &format!(
-            "Times are of two processors: {} and {}.\n",
-            a.origin.processor, b.origin.processor
-        );
+        text += &format!("Times are of two processors: {} and {}.\n", a.origin.processor, b.origin.processor);
     }
     print(&text)
 }
@@ -145,10 +142,7 @@ fn parse(text: &str) -> Result<Report, String> {
     for (what, names) in [("case", cases), ("study", studies)] {
         let mut seen = BTreeSet::new();
         if let Some(twice) = names.into_iter().find(|name| !seen.insert(*name)) {
-            return Err(format!(
-                "the {what} {} is there twice; once is allowed",
-                snippet(twice)
-            ));
+            return Err(format!("the {what} {} is there twice; once is allowed", snippet(twice)));
         }
     }
     Ok(report)
@@ -166,10 +160,7 @@ fn verdicts(a: &Report, b: &Report) -> String {
             None => lines.push(format!("{}: {} → not in B", before.name, before.verdict)),
         }
     }
-    let new = b
-        .cases
-        .iter()
-        .filter(|case| !a.cases.iter().any(|other| other.name == case.name));
+    let new = b.cases.iter().filter(|case| !a.cases.iter().any(|other| other.name == case.name));
     lines.extend(new.map(|case| format!("{}: not in A → {}", case.name, case.verdict)));
     match lines.is_empty() {
         true => format!("Verdicts: none of {} changed.\n", a.cases.len()),
@@ -211,11 +202,7 @@ fn by(a: &Line, b: &Line) -> Option<String> {
         (Some(before), Some(after)) => {
             let tolerance = a.tolerance.unwrap_or(0.0).abs();
             let change = after.abs() - before.abs();
-            let beyond = if tolerance > 0.0 {
-                change.abs() > PART * tolerance
-            } else {
-                change != 0.0
-            };
+            let beyond = if tolerance > 0.0 { change.abs() > PART * tolerance } else { change != 0.0 };
             beyond.then(|| match before == 0.0 {
                 true => "from 0".into(),
                 false => format!("× {:.3}", after.abs() / before.abs()),
@@ -258,9 +245,7 @@ fn speeds(a: &Report, b: &Report) -> ReportTable {
         Some((study.name.as_str(), study.seconds, other.seconds))
     });
     let both: Vec<Row> = cases.chain(studies).collect();
-    let total = both
-        .iter()
-        .fold((0.0, 0.0), |sum, row| (sum.0 + row.1, sum.1 + row.2));
+    let total = both.iter().fold((0.0, 0.0), |sum, row| (sum.0 + row.1, sum.1 + row.2));
     let ratio = |row: &Row| row.2 / row.1;
     let far = |row: &&Row| row.1.min(row.2) > LEAST_SECONDS && !(0.67..1.5).contains(&ratio(row));
     let mut rows: Vec<Row> = both.iter().filter(far).copied().collect();
@@ -318,20 +303,14 @@ mod tests {
         };
         // √2 · 0.1 is a standard error of the difference.
         assert_eq!(by(&mean(1.0), &mean(1.5)), None);
-        assert_eq!(
-            by(&mean(1.0), &mean(1.6)).as_deref(),
-            Some("+4.2 standard errors")
-        );
+        assert_eq!(by(&mean(1.0), &mean(1.6)).as_deref(), Some("+4.2 standard errors"));
         let within = |error: Option<f64>| {
             line(serde_json::json!({
                 "what": "synthetic", "error": error, "tolerance": 1e-12, "judged_by": { "rule": "within" },
             }))
         };
         assert_eq!(by(&within(Some(1e-14)), &within(Some(1.5e-14))), None);
-        assert_eq!(
-            by(&within(Some(1e-14)), &within(Some(4e-14))).as_deref(),
-            Some("× 4.000")
-        );
+        assert_eq!(by(&within(Some(1e-14)), &within(Some(4e-14))).as_deref(), Some("× 4.000"));
         assert!(by(&within(Some(0.0)), &within(None)).is_some());
     }
 }

@@ -72,9 +72,7 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
         true => {
             let warnings = [plan.warnings(), vec![coarse(&named.scene)]].concat();
             scene::warn(&named.source, &warnings);
-            on_threads(args.threads, || {
-                interacting(&named.scene, replicas, warnings, args)
-            })?
+            on_threads(args.threads, || interacting(&named.scene, replicas, warnings, args))?
         }
         // Milliseconds: no work for many.
         false if cluster::is_root() => free(&named.scene).map(Some),
@@ -110,11 +108,7 @@ struct Done {
 fn done(tables: Vec<ReportTable>, files: Vec<(&str, Result<String, String>)>) -> Result<Done, Failure> {
     let written = |(name, text): (&str, Result<String, String>)| Ok((name.to_owned(), text?));
     let files: Result<_, _> = files.into_iter().map(written).collect();
-    Ok(Done {
-        tables,
-        files: files.map_err(Failure::Failed)?,
-        wrong: None,
-    })
+    Ok(Done { tables, files: files.map_err(Failure::Failed)?, wrong: None })
 }
 
 /// Every fixed-step subject on one rod of the scene's mean aspect ratio, from its start, through its periods.
@@ -195,16 +189,7 @@ fn interacting(
     tables.extend((constants.iter()).map(|constants| suspensions::tables::splits(constants, &splits)));
     let csv = suspensions::export::law_csv(&law);
     let blocks = suspensions::export::replicas_csv(&law);
-    let json = build::json(&Written {
-        warnings,
-        law,
-        constants,
-        splits,
-    });
-    let files = vec![
-        ("converge.csv", csv),
-        ("replicas.csv", blocks),
-        ("converge.json", json),
-    ];
+    let json = build::json(&Written { warnings, law, constants, splits });
+    let files = vec![("converge.csv", csv), ("replicas.csv", blocks), ("converge.json", json)];
     done(tables, files).map(Some)
 }

@@ -64,35 +64,23 @@ impl Facts {
                 formula: correlation.formula().formula,
                 by: correlation.formula().name,
             }),
-            rods: (plan.rods_out() > 0).then(|| RodsOut {
-                rows: plan.rods_out(),
-                most_bytes: rods::most_bytes(plan, false),
-            }),
+            rods: (plan.rods_out() > 0)
+                .then(|| RodsOut { rows: plan.rods_out(), most_bytes: rods::most_bytes(plan, false) }),
         }
     }
 
     /// In a line.
     pub(super) fn text(&self) -> String {
         let mut parts = Vec::new();
-        parts.extend(
-            self.period_s
-                .map(|period| format!("T = {} s", four_decimals(period))),
-        );
-        parts.extend(
-            self.strain_per_step
-                .map(|strain| format!("GΔt = {}", four_decimals(strain))),
-        );
+        parts.extend(self.period_s.map(|period| format!("T = {} s", four_decimals(period))));
+        parts.extend(self.strain_per_step.map(|strain| format!("GΔt = {}", four_decimals(strain))));
         parts.push(format!("Λ = {:.6}", self.shape_factor));
         let of_box = self.concentration_per_cm3;
         parts.extend(of_box.map(|n| format!("n = {} per cm³", four_decimals(n))));
         let dilute = self.n_a3.zip(self.regime);
         parts.extend(dilute.map(|(n_a3, regime)| format!("n a³ = {n_a3:.3e} ({regime})")));
         parts.extend(self.equivalent.as_ref().map(|found| {
-            let Equivalent {
-                aspect_ratio,
-                formula,
-                by,
-            } = found;
+            let Equivalent { aspect_ratio, formula, by } = found;
             format!("r_e = {} ({by}: {formula})", four_decimals(*aspect_ratio))
         }));
         let rods = self.rods.as_ref().map(|rods| {
@@ -128,11 +116,7 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
             Some(_) => "box_mm",
             None => "concentration_per_cm3",
         };
-        let lengths = if scene.particles.rods.is_some() {
-            "rods"
-        } else {
-            "length_mm"
-        };
+        let lengths = if scene.particles.rods.is_some() { "rods" } else { "length_mm" };
         warnings.push(format!(
             "interaction.{volume} and particles.{lengths} give n a³ = {shown}: {regime}. The model is for \
              dilute suspensions, n a³ < 1, in which two rods meet at a time"
@@ -181,13 +165,9 @@ mod tests {
     fn a_scene_that_ends_between_outputs_says_so() {
         let mut scene = scenes::find("fig4-n50").unwrap().scene().unwrap();
         let told = |scene: &shearbed::Scene| cut_short(&Plan::new(scene).unwrap());
-        for (periods, last) in [
-            (6.0, None),
-            (0.3, None),
-            (0.0, None),
-            (0.35, Some("0.34")),
-            (0.005, Some("at 0;")),
-        ] {
+        for (periods, last) in
+            [(6.0, None), (0.3, None), (0.0, None), (0.35, Some("0.34")), (0.005, Some("at 0;"))]
+        {
             scene.time.periods = Some(periods);
             let told = told(&scene);
             assert_eq!(told.is_some(), last.is_some(), "{periods}: {told:?}");

@@ -39,19 +39,14 @@ impl Finished {
         let path = path.display().to_string();
         let (cases, studies) = (state.cases.len(), state.studies.len());
         if cases + studies > 0 && !quiet {
-            print(&format!(
-                "goes on from {path}: {cases} cases and {studies} studies are finished\n"
-            ))?;
+            print(&format!("goes on from {path}: {cases} cases and {studies} studies are finished\n"))?;
         }
         on_stop(move || {
             Some(format!(
                 "finished cases and studies are kept in {path}, and the same command goes on from there"
             ))
         });
-        Ok(Self {
-            file,
-            state: Mutex::new(state),
-        })
+        Ok(Self { file, state: Mutex::new(state) })
     }
 
     /// How a case ended, where it is finished.
@@ -105,30 +100,16 @@ mod tests {
             y: vec![f64::INFINITY, 2.0],
             half_band: Some(vec![0.5, 0.25]),
         };
-        let points = Points {
-            x_error: Some(vec![1.0]),
-            ..Points::default()
-        };
-        let map = Map {
-            cells: vec![vec![0, 1]],
-            limit: vec![(0.5, 1.0)],
-            ..Map::default()
-        };
+        let points = Points { x_error: Some(vec![1.0]), ..Points::default() };
+        let map = Map { cells: vec![vec![0, 1]], limit: vec![(0.5, 1.0)], ..Map::default() };
         let figure = Figure {
             curves: vec![curve],
             points: vec![points],
             x_span: Some((0.0, 1.0)),
-            grid: Some(Grid {
-                maps: vec![map],
-                ..Grid::default()
-            }),
+            grid: Some(Grid { maps: vec![map], ..Grid::default() }),
             ..Figure::default()
         };
-        let figure = ReportFigure {
-            figure,
-            cases: vec!["kick-bound".into()],
-            ..ReportFigure::default()
-        };
+        let figure = ReportFigure { figure, cases: vec!["kick-bound".into()], ..ReportFigure::default() };
         Found {
             answer: "Yes.".into(),
             exhibits: vec![
@@ -136,10 +117,7 @@ mod tests {
                 of_words("words", "Words", "", &["word"], vec![vec!["1".into()]]).into(),
             ],
             files: vec![("curves/fig5.csv".into(), "x\n".into())],
-            plans: vec![ScenePlan {
-                seed: u64::MAX,
-                ..ScenePlan::default()
-            }],
+            plans: vec![ScenePlan { seed: u64::MAX, ..ScenePlan::default() }],
         }
     }
 

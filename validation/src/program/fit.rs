@@ -93,23 +93,14 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     let author = Author::new("fit", asked.clone(), args.force);
     author.check(&out, &[FIT, "residuals.csv", "profiles.csv", "design.csv"])?;
     let bar = progress(0, "runs", args.quiet);
-    let watch = Watch {
-        planned: &|runs| bar.inc_length(runs),
-        done: &|| bar.inc(1),
-    };
+    let watch = Watch { planned: &|runs| bar.inc_length(runs), done: &|| bar.inc(1) };
     let done = on_threads(args.threads, || work(args, &input, &watch))?;
     bar.finish_and_clear();
     let done = done?;
     let times: Vec<&str> = input.scenes.sets.iter().map(|set| set.time.name()).collect();
     let mut files: Vec<Output> = vec![
-        (
-            "residuals.csv".into(),
-            report::residuals_csv(&done.report, &times).map_err(Failure::Failed)?,
-        ),
-        (
-            "profiles.csv".into(),
-            report::profiles_csv(&done.fit).map_err(Failure::Failed)?,
-        ),
+        ("residuals.csv".into(), report::residuals_csv(&done.report, &times).map_err(Failure::Failed)?),
+        ("profiles.csv".into(), report::profiles_csv(&done.fit).map_err(Failure::Failed)?),
     ];
     if args.design {
         let text = report::design_csv(&done.fit, &done.candidates, &times);
@@ -118,9 +109,7 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     for (stem, figure) in &done.figures {
         files.push((format!("{stem}.svg"), plot::svg(figure).map_err(Failure::Failed)?));
     }
-    let names: Vec<&str> = std::iter::once(FIT)
-        .chain(files.iter().map(|(name, _)| name.as_str()))
-        .collect();
+    let names: Vec<&str> = std::iter::once(FIT).chain(files.iter().map(|(name, _)| name.as_str())).collect();
     let record = record(&asked, &done, &names)?;
     let names = names.join(", ");
     files.push((FIT.into(), record));
@@ -129,9 +118,8 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     if args.quiet {
         return Ok(());
     }
-    let design = (done.report.design.as_ref()).map_or(String::new(), |steps| {
-        terminal::design(&done.fit, steps, &times) + "\n"
-    });
+    let design = (done.report.design.as_ref())
+        .map_or(String::new(), |steps| terminal::design(&done.fit, steps, &times) + "\n");
     print(&format!(
         "{}\n\n{}\n{design}in {}: {names}\n",
         terminal::sentence(&done.fit, &done.report),
@@ -147,18 +135,12 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let rods: Vec<f64> = (scenes.sets.iter().enumerate())
         .map(|(set, _)| {
             let middle: Vec<f64> = args.over.iter().map(|range| range.from).collect();
-            let count = scenes
-                .scene(set, &middle)
-                .map_or(f64::NAN, |scene| scene.particles.count as f64);
+            let count = scenes.scene(set, &middle).map_or(f64::NAN, |scene| scene.particles.count as f64);
             args.rods.map_or(0.0, |rods| count / rods as f64)
         })
         .collect();
     let problem = Problem {
-        measured: Measured {
-            data,
-            ranges: &args.over,
-            rods_over_measured: &rods,
-        },
+        measured: Measured { data, ranges: &args.over, rods_over_measured: &rods },
         model: &model,
         most_replicas: args.replicas,
     };
@@ -176,9 +158,7 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
         report.design = Some(found.steps);
         candidates = found.candidates;
     }
-    let best = scenes
-        .plans(&fit.values(&fit.best.place), data, AS_WRITTEN)
-        .map_err(stopped)?;
+    let best = scenes.plans(&fit.values(&fit.best.place), data, AS_WRITTEN).map_err(stopped)?;
     let mut warnings: Vec<String> = best.iter().flat_map(Plan::warnings).collect();
     warnings.extend(best.iter().filter_map(|plan| not_slender(plan.scene())));
     warnings.dedup();
@@ -188,12 +168,7 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let curves = pictures::best_curves(&fit, &places, &drawn, watch).map_err(stopped)?;
     let times: Vec<&str> = scenes.sets.iter().map(|set| set.time.name()).collect();
     let figures = pictures::figures(&fit, &report, data, (&places, &curves), &input.names, &times);
-    Ok(Done {
-        fit,
-        report,
-        figures,
-        candidates,
-    })
+    Ok(Done { fit, report, figures, candidates })
 }
 
 /// The largest r_e whose measured points the paper leaves out.
@@ -241,7 +216,5 @@ fn record(asked: &Value, done: &Done, files: &[&str]) -> Result<String, Failure>
         record[key] = value.clone();
     }
     record["files"] = json!(files);
-    serde_json::to_string_pretty(&record)
-        .map(|text| text + "\n")
-        .map_err(failed)
+    serde_json::to_string_pretty(&record).map(|text| text + "\n").map_err(failed)
 }

@@ -32,9 +32,7 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
         (Some(command), reference, _) => program(args, command, reference.as_deref())?,
         (None, Some(reference), Some(mine)) => files(args, reference, mine)?,
         _ => {
-            return Err(Failure::Input(
-                "REF and MINE, or --command, are asked for".to_owned(),
-            ));
+            return Err(Failure::Input("REF and MINE, or --command, are asked for".to_owned()));
         }
     };
     let pictures = pictures(&report, &wanted).map_err(Failure::Failed)?;
@@ -51,18 +49,11 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     Author::new("grade", inputs, args.force).write(&args.out, files)?;
     if !args.quiet {
         let place = args.out.join("grade.html");
-        print(&format!(
-            "{}\nreport: {}\n",
-            grade::terminal(&report),
-            place.shown()
-        ))?;
+        print(&format!("{}\nreport: {}\n", grade::terminal(&report), place.shown()))?;
     }
     match report.passes(args.all) {
         true => Ok(()),
-        false => Err(Failure::Failed(format!(
-            "not every problem passed: {}",
-            report.headline()
-        ))),
+        false => Err(Failure::Failed(format!("not every problem passed: {}", report.headline()))),
     }
 }
 
@@ -89,10 +80,7 @@ fn options(args: &Args) -> Options {
                 false => LineEnds::Unix,
             },
         },
-        dump: Dump {
-            timestep_s: args.timestep_s,
-            rod_axis: args.rod_axis,
-        },
+        dump: Dump { timestep_s: args.timestep_s, rod_axis: args.rod_axis },
         claim: Claim { order: args.order },
     }
 }
@@ -120,9 +108,9 @@ fn chosen(args: &Args, mut all: Vec<LoadedProblem>) -> Result<Vec<LoadedProblem>
         of_kind && asked_for(args, &loaded.problem.name)
     });
     match all.is_empty() {
-        true => Err(Failure::Input(
-            "no problem is left to grade: --kind and --problem leave none".to_owned(),
-        )),
+        true => {
+            Err(Failure::Input("no problem is left to grade: --kind and --problem leave none".to_owned()))
+        }
         false => Ok(all),
     }
 }
@@ -150,12 +138,7 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
         let lines: Vec<_> = errors.iter().map(ToString::to_string).collect();
         Failure::Input(lines.join("\n"))
     })?;
-    let report = report(
-        reference.shown(),
-        mine.shown(),
-        problems,
-        unknown_folders(mine, &names),
-    );
+    let report = report(reference.shown(), mine.shown(), problems, unknown_folders(mine, &names));
     let inputs = inputs::of_files(args, reference, mine, &wanted)?;
     Ok((report, wanted, inputs))
 }
@@ -164,17 +147,11 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
 fn unknown_folders(mine: &Path, names: &[String]) -> Vec<String> {
     let entries = std::fs::read_dir(mine).into_iter().flatten().flatten();
     let folders = entries.filter(|entry| entry.path().is_dir());
-    let mut unknown: Vec<_> = folders
-        .map(|entry| entry.file_name().to_string_lossy().into_owned())
-        .collect();
+    let mut unknown: Vec<_> = folders.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
     unknown.retain(|name| !names.contains(name));
     unknown.sort();
-    let remark = |name: String| {
-        format!(
-            "{}: no problem has this name; it was not read",
-            mine.join(name).shown()
-        )
-    };
+    let remark =
+        |name: String| format!("{}: no problem has this name; it was not read", mine.join(name).shown());
     unknown.into_iter().map(remark).collect()
 }
 
@@ -230,26 +207,15 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     let program = Program::start(command, timeout).map_err(Failure::Input)?;
     let mode = live::mode(&program);
     let claim = Claim { order: args.order };
-    let problems: Vec<_> = wanted
-        .iter()
-        .map(|problem| live::grade(&program, problem, mode, claim))
-        .collect();
-    let observed = problems
-        .iter()
-        .filter(|graded| graded.verdict == grade::Verdict::Pass);
-    let theory = live::theory(
-        mode == Mode::Tolerance,
-        observed.filter_map(|graded| graded.observed_order).next(),
-    );
+    let problems: Vec<_> = wanted.iter().map(|problem| live::grade(&program, problem, mode, claim)).collect();
+    let observed = problems.iter().filter(|graded| graded.verdict == grade::Verdict::Pass);
+    let theory =
+        live::theory(mode == Mode::Tolerance, observed.filter_map(|graded| graded.observed_order).next());
     let program = program.with_theory(theory);
     let studies = (!args.brief && program.given_up().is_none()).then(|| live::studies(&program, &echo()));
     let mut remarks: Vec<_> = studies.iter().flat_map(live::Studies::left_out).collect();
     remarks.extend(program.breaches());
-    remarks.extend(
-        program
-            .given_up()
-            .map(|reason| format!("the program was given up: {reason}")),
-    );
+    remarks.extend(program.given_up().map(|reason| format!("the program was given up: {reason}")));
     if let Err(end) = program.close() {
         remarks.push(format!("the program's end: {end}"));
     }
@@ -264,8 +230,5 @@ fn echo() -> String {
     let words = super::program::again();
     let words: Vec<_> = words.iter().map(|word| word.to_string_lossy()).collect();
     let quoted = shlex::try_join(words.iter().map(|word| word.as_ref()));
-    format!(
-        "{} grade --echo",
-        quoted.unwrap_or_else(|_| "shearbed".to_owned())
-    )
+    format!("{} grade --echo", quoted.unwrap_or_else(|_| "shearbed".to_owned()))
 }

@@ -75,9 +75,7 @@ fn needed(plan: &Plan, threads: u64, vtk: bool, beside: u64) -> u64 {
     let rods = rods::most_bytes(plan, vtk).saturating_mul(2);
     let replicas = threads.min(plan.scene().ensemble.replicas);
     let rest = replicas * beside + threads * THREAD + PROGRAM + tables::most_memory(plan);
-    memory::bytes(plan, threads)
-        .saturating_add(rest)
-        .saturating_add(rods)
+    memory::bytes(plan, threads).saturating_add(rest).saturating_add(rods)
 }
 
 /// Refuses every rod at every time that is asked for, where it is they that do not fit.
@@ -142,21 +140,14 @@ mod tests {
         let one = needed(&plan, 1, false, 0);
         assert!((1.0e9..1.2e9).contains(&(one as f64)), "{one}");
         assert_eq!(fits(&plan, 1, false, one, 0), Ok(()));
-        assert!(
-            fits(&plan, 1, false, one, 1).is_err(),
-            "what is held beside counts"
-        );
+        assert!(fits(&plan, 1, false, one, 1).is_err(), "what is held beside counts");
         let refused = fits(&plan, 2, false, one, 0).unwrap_err();
         assert!(
             refused.starts_with("particles.count = 10000000: 2 at a time of 3 replicas")
                 && refused.contains("fewer --threads"),
             "{refused}"
         );
-        assert!(
-            fits(&plan, 1, false, one - 1, 0)
-                .unwrap_err()
-                .contains("fewer: one replica needs 1.")
-        );
+        assert!(fits(&plan, 1, false, one - 1, 0).unwrap_err().contains("fewer: one replica needs 1."));
     }
 
     #[test]

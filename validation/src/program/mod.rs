@@ -6,7 +6,6 @@ mod choice;
 mod cite;
 mod compare;
 mod converge;
-pub mod dependencies;
 mod duration;
 mod facts;
 mod finished;
@@ -29,7 +28,6 @@ mod sweep;
 mod tables;
 mod terminal;
 mod threads;
-pub mod tried;
 mod validate;
 
 use crate::files::text::readable;
@@ -163,9 +161,7 @@ pub fn call(arguments: Vec<OsString>) -> Result<(), (String, u8)> {
 /// What `shearbed plot` draws of these folders; on error, why not.
 pub fn figure(dirs: &[PathBuf], channel: Option<&str>) -> Result<Figure, String> {
     let drawn = plot::figure(dirs, channel);
-    drawn
-        .map(|(figure, _)| figure)
-        .map_err(|failure| failure.message_and_code().0)
+    drawn.map(|(figure, _)| figure).map_err(|failure| failure.message_and_code().0)
 }
 
 fn with_name(arguments: Vec<OsString>) -> Vec<OsString> {
@@ -192,10 +188,7 @@ fn told(error: &clap::Error) -> ExitCode {
 impl Command {
     /// Whether ranks share its work; such a command tells them its input itself.
     fn is_shared(&self) -> bool {
-        matches!(
-            self,
-            Self::Run(_) | Self::Validate(_) | Self::Sweep(_) | Self::Converge(_)
-        )
+        matches!(self, Self::Run(_) | Self::Validate(_) | Self::Sweep(_) | Self::Converge(_))
     }
 }
 

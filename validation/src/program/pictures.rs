@@ -25,11 +25,7 @@ pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<
         curves,
         ..Figure::default()
     };
-    let time_name = if results.time_name == "strain" {
-        "strain"
-    } else {
-        "t/T"
-    };
+    let time_name = if results.time_name == "strain" { "strain" } else { "t/T" };
     let against_time = |channels: &[Column]| {
         let curve = |channel: &Column| Curve {
             label: channel.name.clone(),
@@ -37,27 +33,17 @@ pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<
             y: channel.mean.clone(),
             half_band: half_widths.map(|factor| channel.se.iter().map(|se| factor * se).collect()),
         };
-        figure(
-            time_name,
-            y_name(series.observable),
-            channels.iter().map(curve).collect(),
-        )
+        figure(time_name, y_name(series.observable), channels.iter().map(curve).collect())
     };
     match (series.observable, series.columns.split_first()) {
         (Observable::OrbitConstant, Some((mean, density))) => {
             let ends = [0, results.times.len().saturating_sub(1)];
             let curves = ends.map(|output| Curve {
                 label: format!("{time_name} = {}", results.times[output]),
-                x: (0..density.len())
-                    .map(|bin| (bin as f64 + 0.5) / density.len() as f64)
-                    .collect(),
+                x: (0..density.len()).map(|bin| (bin as f64 + 0.5) / density.len() as f64).collect(),
                 y: density.iter().map(|channel| channel.mean[output]).collect(),
-                half_band: half_widths.map(|factor| {
-                    density
-                        .iter()
-                        .map(|channel| factor * channel.se[output])
-                        .collect()
-                }),
+                half_band: half_widths
+                    .map(|factor| density.iter().map(|channel| factor * channel.se[output]).collect()),
             });
             let density = figure("C_b = C/(1 + C)", "density", curves.into());
             vec![

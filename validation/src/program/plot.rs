@@ -40,11 +40,7 @@ fn picture(text: &str) -> Result<PathBuf, String> {
 pub(super) fn plot(args: &Args) -> Result<(), Failure> {
     let (figure, runs) = figure(&args.dirs, args.channel.as_deref())?;
     write(&args.out, &figure, args.force)?;
-    print(&format!(
-        "{} of {runs} runs in {}\n",
-        figure.y_name,
-        args.out.shown()
-    ))
+    print(&format!("{} of {runs} runs in {}\n", figure.y_name, args.out.shown()))
 }
 
 /// A channel of every folder, the first that there is where none is asked for, and how many runs that is of.

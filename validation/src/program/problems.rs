@@ -45,9 +45,7 @@ pub(super) fn problems(args: &Args) -> Result<(), Failure> {
 }
 
 fn list() -> String {
-    let width = (problems::all().iter().map(|def| def.name.len()))
-        .max()
-        .unwrap_or(0);
+    let width = (problems::all().iter().map(|def| def.name.len())).max().unwrap_or(0);
     let line = |def: &problems::ProblemDef| format!("{:<width$}  {}\n", def.name, def.title);
     problems::all().iter().map(line).collect()
 }

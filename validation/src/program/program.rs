@@ -28,7 +28,5 @@ pub(super) fn words() -> Vec<OsString> {
 /// The words that start this program again.
 pub(super) fn again() -> Vec<OsString> {
     let own = || std::env::current_exe().map_or_else(|_| "shearbed".into(), Into::into);
-    GIVEN
-        .get()
-        .map_or_else(|| vec![own()], |words| words.program.clone())
+    GIVEN.get().map_or_else(|| vec![own()], |words| words.program.clone())
 }

@@ -67,10 +67,8 @@ struct Times(Vec<f64>);
 pub(super) fn reference(args: &Args) -> Result<(), Failure> {
     let rate = args.shear_rate_per_s;
     let couette = [[0.0; 3], [rate, 0.0, 0.0], [0.0; 3]];
-    let motion = Motion {
-        gradient_per_s: args.gradient_per_s.unwrap_or(couette),
-        aspect_ratio: args.aspect_ratio,
-    };
+    let motion =
+        Motion { gradient_per_s: args.gradient_per_s.unwrap_or(couette), aspect_ratio: args.aspect_ratio };
     let direction = match args.start {
         From::Isotropic => None,
         From::Angles { phi_deg, theta_deg } => Some(Direction::Angles { phi_deg, theta_deg }),
@@ -94,10 +92,7 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
 fn start_of(args: &Args, direction: Option<Direction>) -> Result<Start, Failure> {
     let sd = args.aspect_ratio_sd_percent;
     match direction {
-        None => Ok(Start::Isotropic {
-            aspect_ratio_sd_percent: sd,
-            fourth: args.fourth,
-        }),
+        None => Ok(Start::Isotropic { aspect_ratio_sd_percent: sd, fourth: args.fourth }),
         Some(_) if sd != 0.0 => Err(isotropic_only(&format!("--aspect-ratio-sd-percent {sd}"))),
         Some(_) if args.fourth => Err(isotropic_only("--fourth")),
         Some(direction) => Ok(Start::Rod(direction)),
@@ -110,10 +105,8 @@ fn values(args: &Args, motion: &Motion, start: Start, times: &[f64]) -> Result<S
     let header: Vec<_> = names.collect();
     let mut text = header.join(",") + "\n";
     for row in &table.rows {
-        let fields: Vec<_> = row
-            .iter()
-            .map(|value| value.map_or(String::new(), |x| format!("{x:?}")))
-            .collect();
+        let fields: Vec<_> =
+            row.iter().map(|value| value.map_or(String::new(), |x| format!("{x:?}"))).collect();
         text += &(fields.join(",") + "\n");
     }
     Ok(text)
@@ -123,10 +116,7 @@ fn constants_csv(constants: &[Constant]) -> String {
     let mut text = String::from("quantity,value,unit,equation\n");
     for constant in constants {
         let value = digits(&constant.value, 25);
-        text += &format!(
-            "{},{value},{},\"{}\"\n",
-            constant.quantity, constant.unit, constant.equation
-        );
+        text += &format!("{},{value},{},\"{}\"\n", constant.quantity, constant.unit, constant.equation);
     }
     text
 }
@@ -154,9 +144,7 @@ fn no_couette(flag: &str) -> Failure {
 }
 
 fn isotropic_only(flag: &str) -> Failure {
-    Failure::Input(format!(
-        "{flag}: is of many rods; only --start isotropic is allowed with it"
-    ))
+    Failure::Input(format!("{flag}: is of many rods; only --start isotropic is allowed with it"))
 }
 
 fn refused(args: &Args, why: NoValue) -> Failure {
@@ -182,11 +170,7 @@ fn number(text: &str, allowed: impl Fn(f64) -> bool, words: &str) -> Result<f64,
 }
 
 fn aspect_ratio(text: &str) -> Result<f64, String> {
-    number(
-        text,
-        |r| (1e-100..=1e100).contains(&r),
-        "a number from 1e-100 to 1e100",
-    )
+    number(text, |r| (1e-100..=1e100).contains(&r), "a number from 1e-100 to 1e100")
 }
 
 fn rate(text: &str) -> Result<f64, String> {
@@ -195,11 +179,7 @@ fn rate(text: &str) -> Result<f64, String> {
 }
 
 fn deviation(text: &str) -> Result<f64, String> {
-    number(
-        text,
-        |sd| (0.0..100.0).contains(&sd),
-        "a number from 0 to below 100",
-    )
+    number(text, |sd| (0.0..100.0).contains(&sd), "a number from 0 to below 100")
 }
 
 fn unit(text: &str) -> Result<Unit, String> {
@@ -243,10 +223,7 @@ fn times(text: &str) -> Result<Times, String> {
     let [from, to, count] = parts[..] else {
         return Err(refuse());
     };
-    let count = count
-        .parse::<u64>()
-        .ok()
-        .filter(|count| (1..=MOST).contains(count));
+    let count = count.parse::<u64>().ok().filter(|count| (1..=MOST).contains(count));
     let (Some(from), Some(to), Some(count)) = (decimal(from), decimal(to), count) else {
         return Err(refuse());
     };

@@ -34,19 +34,12 @@ pub(super) fn files(plan: &Plan, results: &Results, vtk: bool) -> Vec<Output> {
     if vtk {
         let at = |output: usize| {
             let all = results.snapshots.iter();
-            all.filter(|snapshot| snapshot.output == output)
-                .collect::<Vec<_>>()
+            all.filter(|snapshot| snapshot.output == output).collect::<Vec<_>>()
         };
         let time_s = |output: usize| results.times[output] * results.unit.seconds;
         let steps = outputs.iter().enumerate();
         let parts: Vec<_> = steps
-            .map(|(k, &output)| {
-                (
-                    format!("rods_{k:04}.vtp"),
-                    time_s(output),
-                    polydata(&at(output), scene),
-                )
-            })
+            .map(|(k, &output)| (format!("rods_{k:04}.vtp"), time_s(output), polydata(&at(output), scene)))
             .collect();
         files.push(("rods.pvd".to_owned(), collection(&parts)));
         files.extend(parts.into_iter().map(|(name, _, text)| (name, text)));
@@ -117,12 +110,7 @@ fn polydata(snapshots: &[&Snapshot], scene: &Scene) -> String {
          NumberOfPolys=\"0\">\n<CellData Vectors=\"p\">\n{}{}{}{}{}</CellData>\n<Points>\n{}</Points>\n<Lines>\n{}{}\
          </Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n",
         2 * count,
-        array(
-            "Float64",
-            "p",
-            3,
-            of_each(&|snapshot, rod| vector(direction(snapshot, rod)))
-        ),
+        array("Float64", "p", 3, of_each(&|snapshot, rod| vector(direction(snapshot, rod)))),
         array(
             "Float64",
             "aspect_ratio",
@@ -141,12 +129,7 @@ fn polydata(snapshots: &[&Snapshot], scene: &Scene) -> String {
             1,
             of_each(&|snapshot, rod| format!("{}\n", u8::from(snapshot.collided[rod])))
         ),
-        array(
-            "Int64",
-            "replica",
-            1,
-            of_each(&|snapshot, _| format!("{}\n", snapshot.replica))
-        ),
+        array("Int64", "replica", 1, of_each(&|snapshot, _| format!("{}\n", snapshot.replica))),
         array("Float64", "ends_mm", 3, ends),
         array("Int64", "connectivity", 1, ends_of_lines),
         array("Int64", "offsets", 1, offsets),

@@ -55,10 +55,7 @@ pub(super) struct Args {
 fn reads_no_result(starts: &Starts, out: &Path, names: &[impl AsRef<Path>]) -> Result<(), Failure> {
     let there = |path: PathBuf| path.canonicalize().ok();
     let results: Vec<_> = names.iter().filter_map(|name| there(out.join(name))).collect();
-    match starts
-        .files()
-        .find(|file| there(file.clone()).is_some_and(|file| results.contains(&file)))
-    {
+    match starts.files().find(|file| there(file.clone()).is_some_and(|file| results.contains(&file))) {
         Some(file) => Err(Failure::Input(format!(
             "--out {}: a result would replace {}, which particles.rods reads: choose another folder",
             out.display(),
@@ -104,10 +101,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let beside = args.checkpoint.as_ref().map_or(0, |_| Halfway::bytes(&plan));
     memory::check_beside(&plan, args.threads, args.vtk, &named.source, beside)?;
-    let out = args
-        .out
-        .clone()
-        .unwrap_or_else(|| Path::new("out").join(&named.stem));
+    let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&named.stem));
     agree("run", json!({ "scene": plan.scene().resolved() }))?;
     let path = args.checkpoint.as_deref();
     let path = path.map(|path| checkpoint::check(path, &out)).transpose()?;
@@ -120,10 +114,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         author.check(&out, &names)?;
     }
     scene::warn(&named.source, &facts::warnings(&plan));
-    let mut seconds = Seconds {
-        plan: start.elapsed().as_secs_f64(),
-        ..Seconds::default()
-    };
+    let mut seconds = Seconds { plan: start.elapsed().as_secs_f64(), ..Seconds::default() };
 
     let checkpoint = kept(args, &plan, path.as_deref())?;
     let bar = progress(scene.ensemble.replicas, "replicas", args.quiet);
@@ -136,10 +127,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
                 threads,
                 || bar.inc(1),
                 |saved| match saved {
-                    Ok(progress) => log(
-                        &format!("kept in {}: {progress}", kept.path().display()),
-                        args.quiet,
-                    ),
+                    Ok(progress) => {
+                        log(&format!("kept in {}: {progress}", kept.path().display()), args.quiet)
+                    }
                     Err(error) => {
                         let lost = format!("{error}; the run goes on, and what comes is not kept");
                         scene::warn("--checkpoint", [&lost]);
@@ -204,10 +194,7 @@ fn names(plan: &Plan, vtk: bool) -> Vec<String> {
 fn files(plan: &Plan, results: &Results) -> Result<Vec<Output>, String> {
     let mut files = Vec::new();
     for series in &results.series {
-        files.push((
-            format!("{}.csv", series.observable.name()),
-            tables::csv(results, series)?,
-        ));
+        files.push((format!("{}.csv", series.observable.name()), tables::csv(results, series)?));
         for (stem, figure) in pictures::figures(plan.scene(), results, series) {
             files.push((format!("{stem}.svg"), plot::svg(&figure)?));
         }

@@ -38,10 +38,8 @@ pub(super) struct Ensemble {
 
 impl Ensemble {
     fn settings(&self) -> impl Iterator<Item = (&'static str, Setting)> {
-        let given = [
-            ("--replicas", "ensemble.replicas", self.replicas),
-            ("--seed", "ensemble.seed", self.seed),
-        ];
+        let given =
+            [("--replicas", "ensemble.replicas", self.replicas), ("--seed", "ensemble.seed", self.seed)];
         given.into_iter().filter_map(|(flag, key, value)| {
             let value = Value::Integer(value? as i64);
             let key = key.to_owned();
@@ -88,9 +86,7 @@ impl Named {
                 .map(|setting| format!(" --set {}={}", setting.key, sweep::shown(&setting.value)));
             Failure::Input(format!("{}{}: {error}", self.source, said.collect::<String>()))
         })?;
-        self.starts
-            .fill(&mut self.scene)
-            .map_err(|error| refused(&self.source, &error))?;
+        self.starts.fill(&mut self.scene).map_err(|error| refused(&self.source, &error))?;
         self.settings = settings;
         Ok(self)
     }
@@ -106,35 +102,17 @@ pub(super) fn load(given: &OsStr) -> Result<Named, Failure> {
     let source = path.shown();
     let built_in = scenes::find(&source).filter(|_| !path.exists() || path.is_dir());
     if let Some(built_in) = built_in {
-        let scene = built_in
-            .scene()
-            .map_err(|error| Failure::Input(error.to_string()))?;
+        let scene = built_in.scene().map_err(|error| Failure::Input(error.to_string()))?;
         let stem = source.clone();
         let text = built_in.text.to_owned();
-        return Ok(Named {
-            scene,
-            text,
-            settings: Vec::new(),
-            source,
-            starts: Starts::default(),
-            stem,
-        });
+        return Ok(Named { scene, text, settings: Vec::new(), source, starts: Starts::default(), stem });
     }
     let text = read(path)?;
     let mut scene = scene_file::parse(&source, &text).map_err(|error| Failure::Input(error.to_string()))?;
     let mut starts = Starts::beside(path.parent().unwrap_or(Path::new("")));
-    starts
-        .fill(&mut scene)
-        .map_err(|error| refused(&source, &error))?;
+    starts.fill(&mut scene).map_err(|error| refused(&source, &error))?;
     let stem = path.file_stem().unwrap_or(given).to_string_lossy().into_owned();
-    Ok(Named {
-        scene,
-        text,
-        settings: Vec::new(),
-        source,
-        starts,
-        stem,
-    })
+    Ok(Named { scene, text, settings: Vec::new(), source, starts, stem })
 }
 
 /// Says on standard error, from the root, what the reader of the results should know before trusting them.
@@ -155,11 +133,7 @@ const MOST_BYTES: u64 = 64 << 20;
 fn read(path: &Path) -> Result<String, Failure> {
     let source = path.shown();
     bounded::text(path, MOST_BYTES).map_err(|error| {
-        let known = if path.exists() {
-            String::new()
-        } else {
-            built_in_names(&source.to_string())
-        };
+        let known = if path.exists() { String::new() } else { built_in_names(&source.to_string()) };
         Failure::Input(format!("{source}: cannot be read: {error}{known}"))
     })
 }

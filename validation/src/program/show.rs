@@ -61,24 +61,16 @@ pub(super) fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
         None => {
             let names: Vec<_> = scenes::ALL.iter().map(|built_in| built_in.name).collect();
             let names = names.join(", ");
-            Err(Failure::Input(format!(
-                "--show {name}: no built-in scene has this name; there are {names}"
-            )))
+            Err(Failure::Input(format!("--show {name}: no built-in scene has this name; there are {names}")))
         }
     }
 }
 
 fn table() -> Result<String, Failure> {
-    let width = scenes::ALL
-        .iter()
-        .map(|built_in| built_in.name.len())
-        .max()
-        .unwrap_or(0);
+    let width = scenes::ALL.iter().map(|built_in| built_in.name.len()).max().unwrap_or(0);
     let mut lines = String::new();
     for built_in in scenes::ALL {
-        let scene = built_in
-            .scene()
-            .map_err(|error| Failure::Input(error.to_string()))?;
+        let scene = built_in.scene().map_err(|error| Failure::Input(error.to_string()))?;
         lines.push_str(&format!("{:<width$}  {}\n", built_in.name, scene.title));
     }
     Ok(lines)

@@ -64,11 +64,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
                 points[0].plan.time_name()
             )));
         }
-        let at = format!(
-            "{}: --over {}",
-            named.source,
-            sweep::described(&args.over, &point.values)
-        );
+        let at = format!("{}: --over {}", named.source, sweep::described(&args.over, &point.values));
         memory::check(&point.plan, args.threads, false, &at)?;
     }
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("sweep-{}", named.stem)));
@@ -85,9 +81,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
         let bytes = (points.iter()).map(|point| tables::most_bytes(&point.plan)).sum();
         probe(&out, bytes)?;
         let points = Points {
-            described: (points.iter())
-                .map(|point| sweep::described(&args.over, &point.values))
-                .collect(),
+            described: (points.iter()).map(|point| sweep::described(&args.over, &point.values)).collect(),
             tables: (points[0].plan.observables().iter())
                 .map(|observable| format!("{}.csv", observable.name()))
                 .collect(),
@@ -100,17 +94,12 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let more = warned.len().saturating_sub(MOST_WARNINGS);
     scene::warn(
         &named.source,
-        (more > 0)
-            .then(|| format!("and {more} more points with warnings: sweep.json has them all"))
-            .iter(),
+        (more > 0).then(|| format!("and {more} more points with warnings: sweep.json has them all")).iter(),
     );
     let new = jobs.len() - usize::from(checked.is_some());
     let finished = total - new;
     if finished > 0 && !args.quiet {
-        print(&format!(
-            "goes on from {}: {finished} of {total} points are finished\n",
-            out.display()
-        ))?;
+        print(&format!("goes on from {}: {finished} of {total} points are finished\n", out.display()))?;
     }
     let mut ended = finished;
     let bar = progress(jobs.len() as u64, "points", args.quiet);
@@ -136,10 +125,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
             _ => {
                 folder.keep(k, tables)?;
                 ended += 1;
-                let line = format!(
-                    "kept in {}: {ended} of {total} points are finished",
-                    out.display()
-                );
+                let line = format!("kept in {}: {ended} of {total} points are finished", out.display());
                 log(&line, args.quiet);
                 Ok(())
             }
@@ -171,9 +157,7 @@ fn warnings(points: &[Point], over: &[Axis]) -> Vec<String> {
     let of_point = |point: &Point| {
         let at = sweep::described(over, &point.values);
         let warnings = facts::warnings(&point.plan).into_iter();
-        warnings
-            .map(|warning| format!("--over {at}: {warning}"))
-            .collect::<Vec<_>>()
+        warnings.map(|warning| format!("--over {at}: {warning}")).collect::<Vec<_>>()
     };
     points.iter().flat_map(of_point).collect()
 }
@@ -192,9 +176,7 @@ fn check(axes: &[Axis]) -> Result<(), Failure> {
 /// The points to run: those that are missing; where others are finished, the first of these comes before them, to be
 /// compared with what is kept: a program whose numbers have changed is to be noticed.
 fn jobs(finished: &[usize], points: usize) -> (Option<usize>, Vec<usize>) {
-    let missing: Vec<_> = (0..points)
-        .filter(|k| finished.binary_search(k).is_err())
-        .collect();
+    let missing: Vec<_> = (0..points).filter(|k| finished.binary_search(k).is_err()).collect();
     let checked = finished.first().copied().filter(|_| !missing.is_empty());
     (checked, checked.into_iter().chain(missing).collect())
 }
@@ -230,15 +212,13 @@ fn table(rows: &[Vec<String>], swept: usize) -> String {
         Ok(number) if column >= swept => text::four_decimals(number),
         _ => text.clone(),
     };
-    let cells: Vec<Vec<_>> = (rows.iter())
-        .map(|row| (0..columns).map(|c| short(c, &row[c])).collect())
-        .collect();
+    let cells: Vec<Vec<_>> =
+        (rows.iter()).map(|row| (0..columns).map(|c| short(c, &row[c])).collect()).collect();
     let width = |c: usize| cells.iter().map(|row| row[c].chars().count()).max().unwrap_or(0);
     let widths: Vec<_> = (0..columns).map(width).collect();
     let line = |row: &Vec<String>| {
-        let cells: Vec<_> = (row.iter().zip(&widths))
-            .map(|(cell, width)| format!("{cell:>width$}"))
-            .collect();
+        let cells: Vec<_> =
+            (row.iter().zip(&widths)).map(|(cell, width)| format!("{cell:>width$}")).collect();
         cells.join("  ") + "\n"
     };
     cells.iter().map(line).collect()

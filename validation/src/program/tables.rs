@@ -15,10 +15,7 @@ pub(super) fn csv(results: &Results, series: &Series) -> Result<String, String> 
     writer.write_record(header).map_err(|error| error.to_string())?;
     for (k, time) in results.times.iter().enumerate() {
         let times = times.iter().map(|(_, unit)| time * unit);
-        let values = series
-            .columns
-            .iter()
-            .flat_map(|channel| [channel.mean[k], channel.se[k]]);
+        let values = series.columns.iter().flat_map(|channel| [channel.mean[k], channel.se[k]]);
         let row: Vec<f64> = times.chain(values).collect();
         writer.serialize(row).map_err(|error| error.to_string())?;
     }
@@ -28,11 +25,7 @@ pub(super) fn csv(results: &Results, series: &Series) -> Result<String, String> 
 
 /// The columns of the time, the scene's own first, and what a unit of that is in each.
 pub(super) fn times(results: &Results) -> Vec<(&'static str, f64)> {
-    let all = [
-        (results.time_name, 1.0),
-        ("time_s", results.unit.seconds),
-        ("strain", results.unit.strain),
-    ];
+    let all = [(results.time_name, 1.0), ("time_s", results.unit.seconds), ("strain", results.unit.strain)];
     let columns = if results.time_name == "strain" { 2 } else { 3 };
     all[..columns].to_vec()
 }
@@ -46,11 +39,7 @@ fn most_of_each(plan: &Plan) -> impl Iterator<Item = (u64, u64)> {
     let rows = plan.outputs() as u64 + 1;
     plan.observables().into_iter().map(move |observable| {
         // Of a density only the ends are drawn.
-        let drawn = if observable == Observable::OrbitConstant {
-            1
-        } else {
-            observable.width()
-        };
+        let drawn = if observable == Observable::OrbitConstant { 1 } else { observable.width() };
         let table = rows * NUMBER * (3 + 2 * observable.width() as u64);
         (table, rows * POINT * drawn as u64)
     })
@@ -95,9 +84,7 @@ pub(super) fn summary(results: &Results) -> String {
             let value = |k: usize| format!("{:.4} ± {:.4}", channel.mean[k], channel.se[k]);
             let order = |a: &usize, b: &usize| channel.mean[*a].total_cmp(&channel.mean[*b]);
             let extreme = |k: Option<usize>| {
-                k.map_or_else(String::new, |k| {
-                    format!("{:.4} at {}", channel.mean[k], shortest(time(k)))
-                })
+                k.map_or_else(String::new, |k| format!("{:.4} at {}", channel.mean[k], shortest(time(k))))
             };
             let outputs = 0..channel.mean.len();
             text += &format!(

@@ -14,13 +14,10 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
         return Ok(());
     }
     let mut stdout = io::stdout().lock();
-    match stdout
-        .write_all(readable(text).as_bytes())
-        .and_then(|()| stdout.flush())
-    {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Input(format!(
-            "standard output: cannot be written: {error}"
-        ))),
+    match stdout.write_all(readable(text).as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Failure::Input(format!("standard output: cannot be written: {error}")))
+        }
         _ => Ok(()),
     }
 }
@@ -50,10 +47,7 @@ pub(super) fn progress(steps: u64, what: &str, quiet: bool) -> ProgressBar {
             (0, _) | (_, None) => format!("{elapsed:.0} s so far"),
             (done, Some(all)) => {
                 let rate = done as f64 / elapsed.max(1e-9);
-                format!(
-                    "{rate:.2} a second, {:.0} s left",
-                    all.saturating_sub(done) as f64 / rate
-                )
+                format!("{rate:.2} a second, {:.0} s left", all.saturating_sub(done) as f64 / rate)
             }
         };
         // Where even this cannot be written, there is no bar.

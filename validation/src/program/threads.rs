@@ -55,20 +55,9 @@ mod tests {
         for (text, count) in [("1024", Some(1024)), ("3", Some(3)), ("0", None), ("", None)] {
             assert!(of(text).is_ok_and(|found| found == count), "{text}");
         }
-        for text in [
-            "1025",
-            "100000",
-            "99999999999999999999999",
-            "many",
-            "-1",
-            "1.5",
-            " 3",
-        ] {
+        for text in ["1025", "100000", "99999999999999999999999", "many", "-1", "1.5", " 3"] {
             let (message, code) = of(text).err().unwrap().message_and_code();
-            assert!(
-                message.starts_with(&format!("RAYON_NUM_THREADS = {text} is not allowed")),
-                "{message}"
-            );
+            assert!(message.starts_with(&format!("RAYON_NUM_THREADS = {text} is not allowed")), "{message}");
             assert_eq!(code, 2);
         }
     }

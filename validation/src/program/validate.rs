@@ -12,7 +12,6 @@ use crate::judge::accept::Verdict;
 use crate::judge::case::{Case, Effort, GATE_SEED, Outcome};
 use crate::present::report::{self, CaseRow, ReportStudy, Sections};
 use crate::present::study::Extent;
-use crate::program::{dependencies, tried};
 use crate::studies;
 use crate::studies::figures;
 use serde_json::json;
@@ -99,11 +98,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
         Some(path) => Some(Finished::open(path, input, args.quiet)?),
         None => None,
     };
-    let effort = Effort {
-        full: args.full,
-        seed: args.seed,
-        data: args.data,
-    };
+    let effort = Effort { full: args.full, seed: args.seed, data: args.data };
     let (outcomes, sections) = on_threads(args.threads, || {
         let outcomes = outcomes(&chosen, &effort, kept.as_ref(), args.quiet)?;
         let sections = match args.cases.is_empty() && args.tags.is_empty() {
@@ -117,12 +112,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     };
     let report = report::build(outcomes, sections, &effort, command(super::program::words()));
     let mut files = report.data().map_err(Failure::Failed)?;
-    let pages = [
-        report.html().map_err(Failure::Failed)?,
-        report.json(),
-        report.markdown(),
-        report.junit(),
-    ];
+    let pages = [report.html().map_err(Failure::Failed)?, report.json(), report.markdown(), report.junit()];
     files.extend(PAGES.map(str::to_owned).into_iter().zip(pages));
     author.write(&args.out, files)?;
     let red: String = report.cases.iter().map(CaseRow::reasons).collect();
@@ -137,20 +127,13 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     }
     match report.exit_code() {
         0 => Ok(()),
-        _ => Err(Failure::Failed(format!(
-            "not every case passed: {}",
-            report.headline()
-        ))),
+        _ => Err(Failure::Failed(format!("not every case passed: {}", report.headline()))),
     }
 }
 
 /// Runs every study and gathers what the report shows beside its cases on the root; nothing elsewhere.
 fn gather(effort: &Effort, kept: Option<&Finished>, quiet: bool) -> Result<Option<Sections>, Failure> {
-    let mut sections = Sections {
-        equations: catalogue::equations(),
-        tables: vec![tried::table(), dependencies::table()],
-        ..Default::default()
-    };
+    let mut sections = Sections { equations: catalogue::equations(), ..Default::default() };
     for study in studies::ALL {
         if let Some((found, seconds)) = kept.and_then(|kept| kept.study(study.name)) {
             sections.add(ReportStudy::new(&study, found, seconds));
@@ -166,11 +149,7 @@ fn gather(effort: &Effort, kept: Option<&Finished>, quiet: bool) -> Result<Optio
         };
         let bar = progress(work, "replicas", quiet || work == 0);
         let start = Instant::now();
-        let found = study.found(&Extent {
-            effort,
-            wanted: &|_| true,
-            finished: &|| bar.inc(1),
-        });
+        let found = study.found(&Extent { effort, wanted: &|_| true, finished: &|| bar.inc(1) });
         bar.finish_and_clear();
         if let Some(found) = found.map_err(Failure::Failed)? {
             let measured = (found, start.elapsed().as_secs_f64());
@@ -199,12 +178,7 @@ fn outcomes(
         }
         bar.set_message(case.about.name);
         let outcome = case.run(effort);
-        Ok((
-            outcome.verdict,
-            outcome.evidence,
-            outcome.controls,
-            outcome.seconds,
-        ))
+        Ok((outcome.verdict, outcome.evidence, outcome.controls, outcome.seconds))
     };
     let arrived = |k: usize, found: &Ended| {
         if !quiet {

@@ -38,11 +38,7 @@ mod tests {
         let mut names = BTreeSet::new();
         for study in ALL {
             assert!(names.insert(study.name), "{} twice", study.name);
-            assert!(
-                study.question.ends_with('?') && !study.cases.is_empty(),
-                "{}",
-                study.name
-            );
+            assert!(study.question.ends_with('?') && !study.cases.is_empty(), "{}", study.name);
             for case in study.cases {
                 assert!(known.contains(case), "{}: {case}", study.name);
             }

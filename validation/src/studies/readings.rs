@@ -48,18 +48,9 @@ fn run(extent: &Extent) -> Result<Option<Found>, String> {
     let change = |row: &&ReadingRow| row.changes.as_ref().map_or(0.0, |changes| changes[0].value.abs());
     let largest = rows.iter().max_by(|a, b| change(a).total_cmp(&change(b)));
     let answer = largest.map_or(String::new(), |row| {
-        format!(
-            "X̄₁ at t/T = 1 changes most, by {:.3}, with {}: {}.",
-            change(&row),
-            row.open,
-            row.reading
-        )
+        format!("X̄₁ at t/T = 1 changes most, by {:.3}, with {}: {}.", change(&row), row.open, row.reading)
     });
-    Ok(Some(Found {
-        answer,
-        exhibits: vec![table(&rows).into()],
-        ..Default::default()
-    }))
+    Ok(Some(Found { answer, exhibits: vec![table(&rows).into()], ..Default::default() }))
 }
 
 /// The seed of all replicas.
@@ -131,20 +122,12 @@ pub const ALTERNATIVES: [(&str, &str, Change); 17] = [
 pub fn measure(effort: &Effort) -> Option<Vec<ReadingRow>> {
     let replicas = effort.pick(200, 2000);
     let default: Change = |_| ();
-    let changes: Vec<_> = once(default)
-        .chain(ALTERNATIVES.map(|(.., change)| change))
-        .collect();
+    let changes: Vec<_> = once(default).chain(ALTERNATIVES.map(|(.., change)| change)).collect();
     let job = |k: usize| Ok::<_, Infallible>(traces(changes[k], replicas));
     let Ok(shared) = cluster::share(changes.len(), job, |_, _| Ok(()));
     let all = shared?;
     let (default, others) = all.split_first()?;
-    let row = |open, reading, values, changes| ReadingRow {
-        open,
-        reading,
-        replicas,
-        values,
-        changes,
-    };
+    let row = |open, reading, values, changes| ReadingRow { open, reading, replicas, values, changes };
     let each = |estimate: &dyn Fn(Quantity) -> Estimate| QUANTITIES.map(|(_, q)| estimate(q)).to_vec();
     let values = |traces: &[Trace]| each(&|quantity| value(quantity, traces));
     let mut rows = vec![row("–", "this project", values(default), None)];

@@ -40,9 +40,7 @@ fn run(extent: &Extent) -> Result<Option<Found>, String> {
 /// The study's answer: how many of the checks that have a target meet it.
 fn answer(checks: &[Check]) -> String {
     let judged = checks.iter().filter(|check| check.target != Target::None);
-    let (met, all) = judged.fold((0, 0), |(met, all), check| {
-        (met + usize::from(check.met()), all + 1)
-    });
+    let (met, all) = judged.fold((0, 0), |(met, all), check| (met + usize::from(check.met()), all + 1));
     format!("{met} of {all} targets are met on this machine; times depend on what else runs on it.")
 }
 
@@ -59,17 +57,9 @@ pub struct Amount {
 
 impl Amount {
     /// For `shearbed bench`.
-    pub const FULL: Self = Self {
-        repeats: 7,
-        free_rods: 10_000_000,
-        seconds: 0.2,
-    };
+    pub const FULL: Self = Self { repeats: 7, free_rods: 10_000_000, seconds: 0.2 };
     /// For the report of every day.
-    pub const QUICK: Self = Self {
-        repeats: 3,
-        free_rods: 2_000_000,
-        seconds: 0.02,
-    };
+    pub const QUICK: Self = Self { repeats: 3, free_rods: 2_000_000, seconds: 0.02 };
 }
 
 /// What was measured.
@@ -149,13 +139,7 @@ mod tests {
     use super::*;
 
     fn check(measured: f64, target: Target) -> Check {
-        Check {
-            what: "",
-            measured,
-            target,
-            unit: "",
-            behind: String::new(),
-        }
+        Check { what: "", measured, target, unit: "", behind: String::new() }
     }
 
     #[test]

@@ -8,21 +8,15 @@ use std::time::{Duration, Instant};
 #[test]
 fn bad_input_on_one_rank_ends_the_job() {
     let dir = folder();
-    for command in [
-        "run long.toml",
-        "converge long.toml",
-        "sweep long.toml --over interaction.alpha=1,2,3,4",
-    ] {
+    for command in ["run long.toml", "converge long.toml", "sweep long.toml --over interaction.alpha=1,2,3,4"]
+    {
         let other = command.replace("long.toml", "missing.toml");
         let job = format!(
             "-n 3 shearbed {command} --out x --threads 1 : -n 1 shearbed {other} --out x --threads 1"
         );
         let (code, message) = shearbed(dir.path(), &job);
         assert_eq!(code, Some(2), "{message}");
-        assert!(
-            message.contains("error: rank 3 of 4: missing.toml: cannot be read"),
-            "{message}"
-        );
+        assert!(message.contains("error: rank 3 of 4: missing.toml: cannot be read"), "{message}");
     }
     assert!(!dir.path().join("x/sweep.csv").exists() && !dir.path().join("x/run.json").exists());
 }
@@ -32,11 +26,7 @@ fn bad_input_on_all_ranks_is_told_once() {
     let dir = folder();
     let (code, message) = shearbed(dir.path(), "-n 4 shearbed run missing.toml");
     assert_eq!(code, Some(2), "{message}");
-    assert_eq!(
-        message.matches("missing.toml: cannot be read").count(),
-        1,
-        "{message}"
-    );
+    assert_eq!(message.matches("missing.toml: cannot be read").count(), 1, "{message}");
     assert!(message.contains("error: rank 0 of 4: missing.toml"), "{message}");
 }
 
@@ -50,20 +40,14 @@ fn a_root_that_cannot_write_ends_the_job() {
     fs::write(dir.path().join("x/points"), "in the way").unwrap();
     let (code, message) = shearbed(dir.path(), &format!("-n 4 shearbed {over} --threads 1"));
     assert_eq!(code, Some(2), "{message}");
-    assert!(
-        message.contains("error: rank 0 of 4: x/points/1: cannot be written"),
-        "{message}"
-    );
+    assert!(message.contains("error: rank 0 of 4: x/points/1: cannot be written"), "{message}");
 }
 
 #[test]
 fn a_rank_that_dies_ends_the_job() {
     for dies in [0, 3] {
         let dir = folder();
-        let mut job = Running::start(mpirun(
-            dir.path(),
-            "-n 4 shearbed run long.toml --out x --threads 1",
-        ));
+        let mut job = Running::start(mpirun(dir.path(), "-n 4 shearbed run long.toml --out x --threads 1"));
         // All ranks have agreed on their input when the root warns, and the work takes hours.
         while !job.message().contains("warning: long.toml") {}
         kill(children(job.id())[dies], "-9");
@@ -74,11 +58,7 @@ fn a_rank_that_dies_ends_the_job() {
 
 /// A failing job's exit code and message.
 fn shearbed(dir: &Path, arguments: &str) -> (Option<i32>, String) {
-    let mut job = mpirun(dir, arguments)
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let mut job = mpirun(dir, arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
     let status = end_of(&mut job);
     (status.code(), text(&job.wait_with_output().unwrap().stderr))
 }

@@ -43,24 +43,17 @@ fn folder() -> TempDir {
     write("one.toml", ONE);
     // Hours on one core, with a warning before the work: for jobs that are to fail on the way.
     let long = seven().replace("replicas = 7", "replicas = 10000000");
-    write(
-        "long.toml",
-        &long.replace("concentration_per_cm3 = 50", "concentration_per_cm3 = 5000"),
-    );
+    write("long.toml", &long.replace("concentration_per_cm3 = 50", "concentration_per_cm3 = 5000"));
     dir
 }
 
 /// A job, on any number of cores, by root too.
 fn mpirun(dir: &Path, arguments: &str) -> Command {
     let mut command = Command::new("mpirun");
-    (command.args(
-        arguments
-            .split_whitespace()
-            .map(|word| if word == "shearbed" { PROGRAM } else { word }),
-    ))
-    .envs(["OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"].map(|name| (name, "1")))
-    .env("OMPI_MCA_rmaps_base_oversubscribe", "1")
-    .current_dir(dir);
+    (command.args(arguments.split_whitespace().map(|word| if word == "shearbed" { PROGRAM } else { word })))
+        .envs(["OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"].map(|name| (name, "1")))
+        .env("OMPI_MCA_rmaps_base_oversubscribe", "1")
+        .current_dir(dir);
     command
 }
 
@@ -77,21 +70,14 @@ fn both(dir: &Path, ranks: usize, arguments: &str) -> [BTreeMap<String, Vec<u8>>
         .output()
         .unwrap();
     assert!(alone.status.success(), "{}", text(&alone.stderr));
-    let shared = mpirun(
-        dir,
-        &format!("-n {ranks} shearbed {arguments} --out shared --threads 1"),
-    )
-    .output()
-    .unwrap();
+    let shared =
+        mpirun(dir, &format!("-n {ranks} shearbed {arguments} --out shared --threads 1")).output().unwrap();
     assert!(shared.status.success(), "{}", text(&shared.stderr));
     // Only the root prints. Cases are printed as they end.
     let lines = |output: &Output| {
         let printed = text(&output.stdout).replace("shared", "alone");
-        let mut lines: Vec<_> = printed
-            .lines()
-            .filter(|line| !line.ends_with(" s"))
-            .map(str::to_owned)
-            .collect();
+        let mut lines: Vec<_> =
+            printed.lines().filter(|line| !line.ends_with(" s")).map(str::to_owned).collect();
         lines.sort();
         lines
     };
@@ -119,25 +105,16 @@ fn strip(value: &mut Value, without: &[&str]) {
 
 #[test]
 fn a_run_has_the_bytes_of_one_process() {
-    for (scene, ranks) in [
-        ("small.toml", 4),
-        ("small.toml", 3),
-        ("small.toml --replicas 2", 4),
-        ("one.toml", 2),
-    ] {
+    for (scene, ranks) in
+        [("small.toml", 4), ("small.toml", 3), ("small.toml --replicas 2", 4), ("one.toml", 2)]
+    {
         let dir = folder();
         let [mut alone, mut shared] = both(dir.path(), ranks, &format!("run {scene}"));
         let without = ["seconds", "threads", "ranks", "command"];
-        assert_eq!(
-            record(&mut shared, "run.json", &without),
-            record(&mut alone, "run.json", &without)
-        );
+        assert_eq!(record(&mut shared, "run.json", &without), record(&mut alone, "run.json", &without));
         // It has the checksum of run.json.
         assert!(
-            [&mut alone, &mut shared]
-                .map(|files| files.remove("shearbed.json"))
-                .iter()
-                .all(Option::is_some)
+            [&mut alone, &mut shared].map(|files| files.remove("shearbed.json")).iter().all(Option::is_some)
         );
         assert!(alone.len() >= 2, "{:?}", alone.keys());
         assert_eq!(shared, alone, "{scene} on {ranks} ranks");
@@ -161,16 +138,11 @@ fn a_killed_job_is_gone_on_with_by_one_process() {
     fs::write(dir.path().join("small.toml"), scene).unwrap();
     let over = "sweep small.toml --over interaction.alpha=0.1:2:20 --replicas 100";
     let points = dir.path().join("shared/points");
-    let mut job = mpirun(
-        dir.path(),
-        &format!("-n 4 shearbed {over} --out shared --threads 1"),
-    )
-    .stderr(Stdio::null())
-    .spawn()
-    .unwrap();
-    wait_for("a point is finished", || {
-        fs::read_dir(&points).is_ok_and(|points| points.count() > 1)
-    });
+    let mut job = mpirun(dir.path(), &format!("-n 4 shearbed {over} --out shared --threads 1"))
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    wait_for("a point is finished", || fs::read_dir(&points).is_ok_and(|points| points.count() > 1));
     // A job that has ended by now, which it has only on a machine that keeps this test waiting, was not killed.
     if let Some(rank) = children(job.id()).get(2) {
         kill(*rank, "-9");
@@ -184,10 +156,7 @@ fn a_killed_job_is_gone_on_with_by_one_process() {
             .status();
         assert!(ended.unwrap().success());
     }
-    assert_eq!(
-        files(&dir.path().join("shared")),
-        files(&dir.path().join("alone"))
-    );
+    assert_eq!(files(&dir.path().join("shared")), files(&dir.path().join("alone")));
 }
 
 #[test]
@@ -200,9 +169,7 @@ fn other_ranks_need_the_scene_and_write_nothing() {
         ("converge small.toml", "converge.csv"),
     ] {
         let rank = format!("shearbed {command} --out {written}-x --threads 1");
-        let job = mpirun(root.path(), &format!("-n 1 {rank} : -n 2 -wdir {folder} {rank}"))
-            .output()
-            .unwrap();
+        let job = mpirun(root.path(), &format!("-n 1 {rank} : -n 2 -wdir {folder} {rank}")).output().unwrap();
         assert!(job.status.success(), "{}", text(&job.stderr));
         let written = root.path().join(format!("{written}-x")).join(written);
         assert!(written.exists(), "{}", written.display());
@@ -222,13 +189,8 @@ fn converge_has_the_bytes_of_one_process() {
 }
 
 /// Tables and figures of the report that hold times.
-const TIMED: [&str; 5] = [
-    "work-precision",
-    "exact-against-adaptive",
-    "speed",
-    "suspension-starts",
-    "suspension-splits",
-];
+const TIMED: [&str; 5] =
+    ["work-precision", "exact-against-adaptive", "speed", "suspension-starts", "suspension-splits"];
 
 /// All of the report but times, and what is measured in times.
 #[test]
@@ -238,10 +200,7 @@ fn validate_has_the_numbers_of_one_process() {
     let cases = "validate --case jeffery-period --case contact-rule --case collision-frequency --case okagawa-mason-1973 \
                  --case free-amplitude";
     let [mut alone, mut shared] = both(dir.path(), 4, cases);
-    assert_eq!(
-        record(&mut shared, "report.json", &without),
-        record(&mut alone, "report.json", &without)
-    );
+    assert_eq!(record(&mut shared, "report.json", &without), record(&mut alone, "report.json", &without));
 
     // Everything: cases, figures, readings. What error against run time shows is a matter of times.
     let dir = folder();
@@ -253,11 +212,7 @@ fn validate_has_the_numbers_of_one_process() {
         }
         for list in ["tables", "figures"] {
             let kept = record[list].as_array_mut().unwrap();
-            kept.retain(|item| {
-                !TIMED
-                    .iter()
-                    .any(|name| item["name"].as_str().unwrap().contains(name))
-            });
+            kept.retain(|item| !TIMED.iter().any(|name| item["name"].as_str().unwrap().contains(name)));
             assert!(!kept.is_empty());
         }
     };
@@ -266,10 +221,7 @@ fn validate_has_the_numbers_of_one_process() {
     timed(&mut b);
     assert!(a == b, "the reports differ");
     let curves = |files: BTreeMap<String, Vec<u8>>| -> BTreeMap<_, _> {
-        files
-            .into_iter()
-            .filter(|(name, _)| name.starts_with("curves/figure"))
-            .collect()
+        files.into_iter().filter(|(name, _)| name.starts_with("curves/figure")).collect()
     };
     assert_eq!(curves(shared), curves(alone));
 }

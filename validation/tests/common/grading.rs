@@ -86,22 +86,15 @@ impl Graded {
 /// The names of all problems.
 pub fn names() -> Vec<String> {
     let entries = fs::read_dir(REFERENCE.path()).unwrap();
-    entries
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect()
+    entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
 }
 
 /// problem.json, and the certified rows with their header.
 pub fn problem(name: &str) -> (Value, Vec<Vec<String>>) {
     let dir = REFERENCE.path().join(name);
     let text = fs::read_to_string(dir.join("certified.csv")).unwrap();
-    let rows = text
-        .lines()
-        .map(|line| line.split(',').map(str::to_owned).collect());
-    (
-        serde_json::from_str(&fs::read_to_string(dir.join("problem.json")).unwrap()).unwrap(),
-        rows.collect(),
-    )
+    let rows = text.lines().map(|line| line.split(',').map(str::to_owned).collect());
+    (serde_json::from_str(&fs::read_to_string(dir.join("problem.json")).unwrap()).unwrap(), rows.collect())
 }
 
 /// Rows as CSV.
@@ -152,9 +145,7 @@ pub fn off_by(name: &str, part: f64) -> Vec<Vec<String>> {
             }
             "absolute" => row[1] = format!("{:e}", number(1) + tolerance),
             "relative" => {
-                let of_a: Vec<_> = (0..columns.len())
-                    .filter(|k| columns[*k].starts_with("a_"))
-                    .collect();
+                let of_a: Vec<_> = (0..columns.len()).filter(|k| columns[*k].starts_with("a_")).collect();
                 let length = of_a.iter().map(|k| number(*k).powi(2)).sum::<f64>().sqrt();
                 row[of_a[0]] = format!("{:e}", number(of_a[0]) + tolerance * length);
             }

@@ -114,16 +114,10 @@ pub fn shearbed(dir: &Path, arguments: &str) -> Ended {
 pub fn limited(dir: &Path, limits: &str, arguments: &str) -> Ended {
     let script = format!("{limits}; exec {} {arguments}", env!("CARGO_BIN_EXE_shearbed"));
     let seconds = PATIENCE.as_secs();
-    let ended = told(
-        Command::new("timeout")
-            .args([&seconds.to_string(), "bash", "-c", &script])
-            .current_dir(dir),
-    );
+    let ended =
+        told(Command::new("timeout").args([&seconds.to_string(), "bash", "-c", &script]).current_dir(dir));
     let in_time = ended.code != Some(124);
-    assert!(
-        in_time,
-        "this machine did not end `{arguments}` within {seconds} s, or it was not refused"
-    );
+    assert!(in_time, "this machine did not end `{arguments}` within {seconds} s, or it was not refused");
     ended
 }
 
@@ -147,10 +141,7 @@ pub fn wait_for(what: &str, mut holds: impl FnMut() -> bool) {
     let start = Instant::now();
     while !holds() {
         let seconds = PATIENCE.as_secs();
-        assert!(
-            start.elapsed() < PATIENCE,
-            "this machine did not see within {seconds} s that {what}"
-        );
+        assert!(start.elapsed() < PATIENCE, "this machine did not see within {seconds} s that {what}");
         sleep(Duration::from_millis(5));
     }
 }
@@ -158,9 +149,7 @@ pub fn wait_for(what: &str, mut holds: impl FnMut() -> bool) {
 /// The names in a folder, in order.
 pub fn names(dir: &Path) -> Vec<String> {
     let entries = fs::read_dir(dir).unwrap();
-    let mut names: Vec<_> = entries
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
+    let mut names: Vec<_> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
     names
 }

@@ -19,11 +19,7 @@ pub fn python(module: &str) -> Option<String> {
 
 /// Whether a program can be run, and ends well.
 pub fn runs(program: &str, arguments: &[&str]) -> bool {
-    let quiet = Command::new(program)
-        .args(arguments)
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .status();
+    let quiet = Command::new(program).args(arguments).stdout(Stdio::null()).stderr(Stdio::null()).status();
     quiet.is_ok_and(|status| status.success())
 }
 
@@ -32,16 +28,8 @@ pub const ONE_THREAD: [(&str, &str); 1] = [("OPENBLAS_NUM_THREADS", "1")];
 
 /// Runs a program that must end well.
 pub fn run(program: &str, arguments: &[&Path]) {
-    let output = Command::new(program)
-        .args(arguments)
-        .envs(ONE_THREAD)
-        .output()
-        .unwrap();
-    assert!(
-        output.status.success(),
-        "{program} {arguments:?}: {}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    let output = Command::new(program).args(arguments).envs(ONE_THREAD).output().unwrap();
+    assert!(output.status.success(), "{program} {arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
 }
 
 /// Says in one line what was not run, and why.

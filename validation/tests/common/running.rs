@@ -34,11 +34,7 @@ impl Running {
     fn with(mut command: Command, (stderr, end): (Told, OwnedFd)) -> Self {
         let (stdout, own) = Told::open();
         let child = command.stdout(Stdio::from(own)).stderr(Stdio::from(end)).spawn();
-        Self {
-            child: child.unwrap(),
-            stdout,
-            stderr,
-        }
+        Self { child: child.unwrap(), stdout, stderr }
     }
 
     /// The process's number.
@@ -81,11 +77,7 @@ impl Running {
     /// Lets the program go on where it was held, and waits for its end.
     pub fn end(mut self) -> Ended {
         let [stderr, stdout] = [&mut self.stderr, &mut self.stdout].map(Told::rest);
-        Ended {
-            code: self.child.wait().unwrap().code(),
-            stdout,
-            stderr,
-        }
+        Ended { code: self.child.wait().unwrap().code(), stdout, stderr }
     }
 }
 
@@ -102,10 +94,7 @@ impl Told {
     fn open() -> (Self, OwnedFd) {
         let (own, end) = UnixStream::pair().unwrap();
         own.set_read_timeout(Some(PATIENCE)).unwrap();
-        let told = Self {
-            stream: BufReader::new(own),
-            filler: 0,
-        };
+        let told = Self { stream: BufReader::new(own), filler: 0 };
         (told, end.into())
     }
 

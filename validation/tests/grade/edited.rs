@@ -27,11 +27,7 @@ fn an_edited_built_in_problem_is_refused_with_file_key_found_and_expected() {
         ("mid-flip-2", "aspect_ratio", json!(-1.0)),
         ("mid-flip-2", "aspect_ratio", json!(2.5)),
         ("mid-flip-2", "because", json!("I say so")),
-        (
-            "spiral",
-            "gradient_per_s",
-            json!([[0, 0, 0], [0.5, 0, 0], [0, 0, 0]]),
-        ),
+        ("spiral", "gradient_per_s", json!([[0, 0, 0], [0.5, 0, 0], [0, 0, 0]])),
         ("mid-flip-2", "kind", json!("tensor")),
         ("isotropic-3", "metric", json!("angle")),
         ("contact-rule", "metric", json!("angle")),
@@ -65,10 +61,8 @@ fn a_turned_table_of_a_built_in_problem_is_refused_with_its_place() {
         let reference = some(dir.path(), &["shear-plane"]);
         let path = reference.join("shear-plane").join(file);
         let turned = fs::read_to_string(&path).unwrap();
-        let mut rows: Vec<Vec<String>> = turned
-            .lines()
-            .map(|line| line.split(',').map(str::to_owned).collect())
-            .collect();
+        let mut rows: Vec<Vec<String>> =
+            turned.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect();
         // Turned by a right angle in the shear plane: |p| stays.
         let from = if file == "start.csv" { 1 } else { 2 };
         let row = &mut rows[line - 1];
@@ -111,11 +105,7 @@ fn a_problem_of_another_name_is_foreign_in_every_report() {
     // Another name in problem.json than that of the folder would look for its answers elsewhere.
     edit(&reference, "my-own", "name", json!("../mine"));
     let ended = files(&reference, &mine, &[]);
-    assert!(
-        ended.code == Some(2) && ended.words.contains("name"),
-        "{}",
-        ended.words
-    );
+    assert!(ended.code == Some(2) && ended.words.contains("name"), "{}", ended.words);
 }
 
 /// Values that a key may be given by mistake or on purpose.
@@ -133,17 +123,7 @@ fn values() -> Vec<Value> {
         "../x",
     ];
     let numbers = [0.0, -1.0, 0.5, 1.0, 1e-300, 1e308, -1e308];
-    let columns = [
-        "time_s",
-        "rod",
-        "snapshot",
-        "p1",
-        "a11",
-        "x1",
-        "x1_se",
-        "a_pdot1_per_s",
-        "b_phi_rad",
-    ];
+    let columns = ["time_s", "rod", "snapshot", "p1", "a11", "x1", "x1_se", "a_pdot1_per_s", "b_phi_rad"];
     let mut all: Vec<Value> = texts.map(Value::from).into();
     all.extend(numbers.map(Value::from));
     all.extend([
@@ -155,32 +135,18 @@ fn values() -> Vec<Value> {
         json!([1.0, 0.5]),
         json!([1.0, 2.0]),
     ]);
-    all.extend([
-        json!(columns),
-        json!(columns[..2]),
-        json!(["time_s", "p1", "p2", "p3"]),
-    ]);
+    all.extend([json!(columns), json!(columns[..2]), json!(["time_s", "p1", "p2", "p3"])]);
     let small = [[1e-300, 0.0, 0.0], [0.0; 3], [0.0; 3]];
     all.extend([[[0.0; 3]; 3], [[1e308; 3]; 3], small].map(|matrix| json!(matrix)));
-    all.push(
-        json!({"count": 100, "length_mm": 0.7, "concentration_per_cm3": 50.0, "alpha": 0.5, "m": 3.0,
-        "steps_per_period": 200, "certified_replicas": 20000, "largest_standard_error": 1e300}),
-    );
+    all.push(json!({"count": 100, "length_mm": 0.7, "concentration_per_cm3": 50.0, "alpha": 0.5, "m": 3.0,
+        "steps_per_period": 200, "certified_replicas": 20000, "largest_standard_error": 1e300}));
     all
 }
 
 fn options() -> Options {
     Options {
-        told: Told {
-            columns: None,
-            foreign: None,
-            axes: Axes::default(),
-            ends: LineEnds::Unix,
-        },
-        dump: Dump {
-            timestep_s: None,
-            rod_axis: None,
-        },
+        told: Told { columns: None, foreign: None, axes: Axes::default(), ends: LineEnds::Unix },
+        dump: Dump { timestep_s: None, rod_axis: None },
         claim: Claim { order: None },
     }
 }
@@ -192,11 +158,7 @@ fn judged(loaded: &LoadedProblem, mine: &Path) -> Result<(), String> {
         let mut rows = vec![loaded.problem.columns.clone()];
         for row in &loaded.certified.rows {
             let value = |(k, x): (usize, &f64)| {
-                if k < keys {
-                    x.to_string()
-                } else {
-                    (x + moved).to_string()
-                }
+                if k < keys { x.to_string() } else { (x + moved).to_string() }
             };
             rows.push(row.iter().enumerate().map(value).collect());
         }
@@ -262,18 +224,13 @@ fn no_value_of_any_key_panics_or_is_taken_silently() {
     }
     std::panic::set_hook(hook);
     assert!(wrong.is_empty(), "{} of them:\n{}", wrong.len(), wrong.join("\n"));
-    assert!(
-        refused > 10_000 && foreign > 100,
-        "{refused} refused, {foreign} foreign"
-    );
+    assert!(refused > 10_000 && foreign > 100, "{refused} refused, {foreign} foreign");
 }
 
 #[test]
 fn what_is_exported_is_read_as_built_in() {
     let found = problems::read(REFERENCE.path()).unwrap();
-    let foreign = found
-        .iter()
-        .filter(|loaded| loaded.origin != problems::Origin::BuiltIn);
+    let foreign = found.iter().filter(|loaded| loaded.origin != problems::Origin::BuiltIn);
     assert_eq!(foreign.count(), 0);
     assert_eq!(found.len(), problems::all().len());
 }

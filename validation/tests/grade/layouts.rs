@@ -49,10 +49,9 @@ fn separators_heads_and_digits_of_labels_change_nothing() {
 #[test]
 fn axes_in_another_order_are_put_back() {
     let dir = tempfile::tempdir().unwrap();
-    for (name, file) in [
-        ("couette-turned", "time_s,rod,p2,-p1,p3"),
-        ("isotropic-11.6", "time_s,a22,a11,a33,-a12,a23,-a13"),
-    ] {
+    for (name, file) in
+        [("couette-turned", "time_s,rod,p2,-p1,p3"), ("isotropic-11.6", "time_s,a22,a11,a33,-a12,a23,-a13")]
+    {
         let (_, rows) = problem(name);
         let place = |wanted: &str| rows[0].iter().position(|name| name == wanted).unwrap();
         let mut told: Vec<Vec<String>> = vec![rows[0].clone()];
@@ -89,11 +88,7 @@ fn layouts_of_other_programs_are_read_as_they_are() {
         let dir = tempfile::tempdir().unwrap();
         let ending = sample.split('.').next_back().unwrap();
         fs::create_dir(dir.path().join(problem)).unwrap();
-        fs::copy(
-            layouts.join(sample),
-            dir.path().join(problem).join(format!("answer.{ending}")),
-        )
-        .unwrap();
+        fs::copy(layouts.join(sample), dir.path().join(problem).join(format!("answer.{ending}"))).unwrap();
         let found = files(REFERENCE.path(), dir.path(), more);
         assert_eq!(found.verdict(problem), verdict, "{sample}: {}", found.words);
         // A closure is near the truth; columns in a wrong order are not.
@@ -121,16 +116,11 @@ fn a_dump_without_times_and_shapes_is_told_what_it_does_not_say() {
     let dir = tempfile::tempdir().unwrap();
     write(dir.path(), "shear-plane", "answer.dump", dump);
     let only = ["--problem", "shear-plane"];
-    for (more, reason) in [
-        (&["--rod-axis", "x"][..], "--timestep-s"),
-        (&["--timestep-s", "1e-5"], "--rod-axis"),
-    ] {
+    for (more, reason) in
+        [(&["--rod-axis", "x"][..], "--timestep-s"), (&["--timestep-s", "1e-5"], "--rod-axis")]
+    {
         let ended = files(REFERENCE.path(), dir.path(), &[&only[..], more].concat());
-        assert!(
-            ended.code == Some(2) && ended.words.contains(reason),
-            "{}",
-            ended.words
-        );
+        assert!(ended.code == Some(2) && ended.words.contains(reason), "{}", ended.words);
     }
     let told = ["--rod-axis", "x", "--timestep-s", "1e-5"];
     let ended = files(REFERENCE.path(), dir.path(), &[&only[..], &told].concat());
@@ -144,19 +134,11 @@ fn fiberpy_has_23_before_13() {
     let (_, rows) = problem("isotropic-3");
     let place = |wanted: &str| rows[0].iter().position(|name| name == wanted).unwrap();
     let ours = ["time_s", "a33", "a11", "a22", "a13", "a12", "a23"].map(place);
-    let told: Vec<Vec<String>> = (rows[1..].iter())
-        .map(|row| ours.iter().map(|at| row[*at].clone()).collect())
-        .collect();
+    let told: Vec<Vec<String>> =
+        (rows[1..].iter()).map(|row| ours.iter().map(|at| row[*at].clone()).collect()).collect();
     let dir = tempfile::tempdir().unwrap();
     write(dir.path(), "isotropic-3", "answer.csv", text(&told));
-    let more = [
-        "--layout",
-        "fiberpy",
-        "--axes",
-        "vorticity,gradient,flow",
-        "--problem",
-        "isotropic-3",
-    ];
+    let more = ["--layout", "fiberpy", "--axes", "vorticity,gradient,flow", "--problem", "isotropic-3"];
     let ended = files(REFERENCE.path(), dir.path(), &more);
     assert_eq!(ended.verdict("isotropic-3"), "PASS", "{}", ended.words);
 }

@@ -10,19 +10,11 @@ fn free(turns: f64, sd_percent: &str) -> Vec<String> {
     let output = Command::new(env!("CARGO_BIN_EXE_shearbed"))
         .args(["reference", "--aspect-ratio", "11.6", "--shear-rate-per-s", "0.5"])
         .args(["--times", &format!("{turns}:{turns}:1")])
-        .args(
-            (sd_percent != "0")
-                .then_some(["--aspect-ratio-sd-percent", sd_percent])
-                .into_iter()
-                .flatten(),
-        )
+        .args((sd_percent != "0").then_some(["--aspect-ratio-sd-percent", sd_percent]).into_iter().flatten())
         .output()
         .unwrap();
     let table = String::from_utf8(output.stdout).unwrap();
-    let row = table
-        .lines()
-        .nth(1)
-        .unwrap_or_else(|| panic!("{}", String::from_utf8_lossy(&output.stderr)));
+    let row = table.lines().nth(1).unwrap_or_else(|| panic!("{}", String::from_utf8_lossy(&output.stderr)));
     row.split(',').skip(3).take(3).map(str::to_owned).collect()
 }
 
@@ -56,10 +48,7 @@ fn ensembles_of_free_rods_and_with_columns_exchanged_are_named_and_others_not() 
         let exchanged = with(&|row| [row[3].clone(), row[1].clone(), row[5].clone()]);
         let none = with(&|_| ["0", "0", "0"].map(String::from));
         for (found, expected) in [
-            (
-                of_free(sd_percent),
-                "these are the means of free rods, without collisions, to 0.",
-            ),
+            (of_free(sd_percent), "these are the means of free rods, without collisions, to 0."),
             (exchanged, "these are the means of x1 and x2 exchanged, to "),
             (none, "these are the means of p_i without its modulus"),
         ] {
@@ -73,19 +62,9 @@ fn ensembles_of_free_rods_and_with_columns_exchanged_are_named_and_others_not() 
         }
         // Means of nothing that is known.
         let found = with(&|_| ["0.3", "0.3", "0.3"].map(String::from));
-        assert_eq!(
-            (found.verdict(name), found.diagnosis(name)),
-            ("FAIL", ""),
-            "{}",
-            found.words
-        );
+        assert_eq!((found.verdict(name), found.diagnosis(name)), ("FAIL", ""), "{}", found.words);
         // The right ones.
         let found = with(&|row| [row[1].clone(), row[3].clone(), row[5].clone()]);
-        assert_eq!(
-            (found.verdict(name), found.diagnosis(name)),
-            ("PASS", ""),
-            "{}",
-            found.words
-        );
+        assert_eq!((found.verdict(name), found.diagnosis(name)), ("PASS", ""), "{}", found.words);
     }
 }

@@ -14,9 +14,8 @@ fn turning(factor: f64) -> Vec<Vec<String>> {
     let r = told["aspect_ratio"].as_f64().unwrap();
     let rate = told["gradient_per_s"][1][0].as_f64().unwrap() / (r + 1.0 / r);
     let start = fs::read_to_string(REFERENCE.path().join(NAME).join("start.csv")).unwrap();
-    let start: Vec<Vec<f64>> = (start.lines().skip(1))
-        .map(|line| line.split(',').map(number).collect())
-        .collect();
+    let start: Vec<Vec<f64>> =
+        (start.lines().skip(1)).map(|line| line.split(',').map(number).collect()).collect();
     for row in rows.iter_mut().skip(1) {
         let p = &start[row[1].parse::<usize>().unwrap()];
         let (s, c) = (factor * rate * number(&row[0])).sin_cos();
@@ -64,19 +63,12 @@ fn phase_orbit_and_length_are_what_was_lost() {
 
 #[test]
 fn a_diagnosis_is_given_on_a_curve_and_not_near_it() {
-    for (factor, expected) in [
-        (0.5, "half the shear rate"),
-        (2.0, "twice the shear rate"),
-        (0.51, ""),
-        (1.98, ""),
-        (0.9, ""),
-    ] {
+    for (factor, expected) in
+        [(0.5, "half the shear rate"), (2.0, "twice the shear rate"), (0.51, ""), (1.98, ""), (0.9, "")]
+    {
         let found = graded(NAME, &turning(factor));
         let said = found.diagnosis(NAME);
-        assert!(
-            said.contains(expected) && said.is_empty() == expected.is_empty(),
-            "{factor}: {said}"
-        );
+        assert!(said.contains(expected) && said.is_empty() == expected.is_empty(), "{factor}: {said}");
     }
     // Of a tensor one column alone lies on the curve of half the shear rate, a₁₁ at half the time; the others are right.
     let (told, mut rows) = problem("isotropic-3");
@@ -87,10 +79,7 @@ fn a_diagnosis_is_given_on_a_curve_and_not_near_it() {
         row[1] = a11(r, turns).to_string();
     }
     let found = graded("isotropic-3", &rows);
-    assert_eq!(
-        (found.verdict("isotropic-3"), found.diagnosis("isotropic-3")),
-        ("FAIL", "")
-    );
+    assert_eq!((found.verdict("isotropic-3"), found.diagnosis("isotropic-3")), ("FAIL", ""));
 }
 
 /// a₁₁ of isotropic rods at t/T.
@@ -98,10 +87,7 @@ fn a11(r: f64, turns: f64) -> f64 {
     use validation::oracle::reference::big::{Bits, double};
     use validation::oracle::reference::isotropic::Covariance;
     use validation::oracle::reference::motion::{Motion, Unit};
-    let motion = Motion {
-        gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]],
-        aspect_ratio: r,
-    };
+    let motion = Motion { gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]], aspect_ratio: r };
     let covariance = Covariance::at(&motion, &Bits(64).of(turns), Unit::Period).unwrap();
     double(&covariance.second()[0])
 }
@@ -111,9 +97,7 @@ fn both_rods_of_a_contact_are_judged() {
     for rod in ["a_", "b_"] {
         let (told, mut rows) = problem("contact-rule");
         let tolerance = told["tolerance"].as_f64().unwrap();
-        let of_rod: Vec<_> = (0..rows[0].len())
-            .filter(|k| rows[0][*k].starts_with(rod))
-            .collect();
+        let of_rod: Vec<_> = (0..rows[0].len()).filter(|k| rows[0][*k].starts_with(rod)).collect();
         let row = &mut rows[500];
         let number = |row: &[String], k: usize| row[k].parse::<f64>().unwrap();
         let length = of_rod.iter().map(|k| number(row, *k).powi(2)).sum::<f64>().sqrt();

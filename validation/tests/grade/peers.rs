@@ -38,18 +38,9 @@ fn numpy_rk4_passes_with_order_4_and_euler_fails_with_order_1() {
     // Whatever moves; contacts take no steps.
     let still = ["log-rolling", "contact-rule", "contact-angles"];
     for name in names().iter().filter(|name| !ensembles.contains(&name.as_str())) {
-        let expected = if still.contains(&name.as_str()) {
-            "PASS"
-        } else {
-            "FAIL"
-        };
+        let expected = if still.contains(&name.as_str()) { "PASS" } else { "FAIL" };
         assert_eq!(euler.verdict(name), expected, "{}", euler.words);
-        assert_eq!(
-            euler.diagnosis(name),
-            "",
-            "Euler's is no known mistake: {}",
-            euler.words
-        );
+        assert_eq!(euler.diagnosis(name), "", "Euler's is no known mistake: {}", euler.words);
         // It steps over every flip of these.
         let diverges = ["mid-flip-10000", "ten-thousand-periods"].contains(&name.as_str());
         if expected == "FAIL" && !diverges {
@@ -57,15 +48,7 @@ fn numpy_rk4_passes_with_order_4_and_euler_fails_with_order_1() {
         }
     }
     let live = format!("'{python}' '{}' --live", script.display());
-    let live = graded(&[
-        "--command",
-        &live,
-        "--brief",
-        "--order",
-        "4",
-        "--timeout",
-        "100000",
-    ]);
+    let live = graded(&["--command", &live, "--brief", "--order", "4", "--timeout", "100000"]);
     assert_eq!(live.code, Some(0), "{}", live.words);
 }
 
@@ -76,16 +59,7 @@ fn c_compiled_with_cc_passes_with_order_4() {
     }
     let dir = tempfile::tempdir().unwrap();
     let program = dir.path().join("c_rk4");
-    run(
-        "cc",
-        &[
-            Path::new("-O2"),
-            Path::new("-o"),
-            &program,
-            &peers().join("c_rk4.c"),
-            Path::new("-lm"),
-        ],
-    );
+    run("cc", &[Path::new("-O2"), Path::new("-o"), &program, &peers().join("c_rk4.c"), Path::new("-lm")]);
     let command = format!("'{}'", program.display());
     let some = ["mid-flip-11.6", "poles", "spiral"].map(|name| ["--problem", name]);
     let asked = ["--command", &command, "--order", "4", "--timeout", "100000"];
@@ -93,48 +67,29 @@ fn c_compiled_with_cc_passes_with_order_4() {
     assert_eq!(found.code, Some(0), "{}", found.words);
     assert!((found.order("mid-flip-11.6") - 4.0).abs() < 0.2);
     let live = &found.grade.as_ref().unwrap()["live"];
-    for title in [
-        "Error against steps, mid-flip-11.6",
-        "Error against run time, one rod",
-    ] {
+    for title in ["Error against steps, mid-flip-11.6", "Error against run time, one rod"] {
         assert!(found.html.as_ref().unwrap().contains(title), "{title}");
     }
     assert!(
-        live["work_precision"]["pipe_s"]
-            .as_f64()
-            .is_some_and(|seconds| seconds > 0.0),
+        live["work_precision"]["pipe_s"].as_f64().is_some_and(|seconds| seconds > 0.0),
         "{}",
         found.words
     );
     // As the project's own RK4 in p: the longest step with which every rod of r_e = 11.6 turns.
     let limits = live["limits"].as_array().unwrap();
-    let turning = limits
-        .iter()
-        .find(|limit| limit["property"] == "turning" && limit["aspect_ratio"] == 11.6)
-        .unwrap();
+    let turning =
+        limits.iter().find(|limit| limit["property"] == "turning" && limit["aspect_ratio"] == 11.6).unwrap();
     let own = own_turning_limit();
-    assert!(
-        (turning["strain"]["at"].as_f64().unwrap() / own - 1.0).abs() < 1e-3,
-        "{turning} {own}"
-    );
+    assert!((turning["strain"]["at"].as_f64().unwrap() / own - 1.0).abs() < 1e-3, "{turning} {own}");
 }
 
 /// Of the subject `RK4 in p`, by the same ladder.
 fn own_turning_limit() -> f64 {
     use validation::studies::stability::limits::{Ladder, Limit, Property, bisect, holds};
     let subjects = validation::studies::integrators::all();
-    let rk4 = subjects
-        .iter()
-        .find(|subject| subject.name() == "RK4 in p")
-        .unwrap();
-    let ladder = Ladder {
-        least: 0.01,
-        most: 100.0,
-        factor: 1.25,
-    };
-    match bisect(ladder, |strain| {
-        holds(rk4.as_ref(), Property::Turning, 11.6, strain)
-    }) {
+    let rk4 = subjects.iter().find(|subject| subject.name() == "RK4 in p").unwrap();
+    let ladder = Ladder { least: 0.01, most: 100.0, factor: 1.25 };
+    match bisect(ladder, |strain| holds(rk4.as_ref(), Property::Turning, 11.6, strain)) {
         Limit::At(strain) => strain,
         other => panic!("{other:?}"),
     }
@@ -147,29 +102,9 @@ fn javascript_has_order_2() {
     }
     let script = peers().join("midpoint.js");
     let command = format!("node '{}'", script.display());
-    let of = [
-        "--problem",
-        "mid-flip-2",
-        "--problem",
-        "mid-flip-11.6",
-        "--problem",
-        "spiral",
-    ];
-    let found = graded(
-        &[
-            &[
-                "--command",
-                &command,
-                "--brief",
-                "--order",
-                "2",
-                "--timeout",
-                "20",
-            ][..],
-            &of,
-        ]
-        .concat(),
-    );
+    let of = ["--problem", "mid-flip-2", "--problem", "mid-flip-11.6", "--problem", "spiral"];
+    let found =
+        graded(&[&["--command", &command, "--brief", "--order", "2", "--timeout", "20"][..], &of].concat());
     for name in ["mid-flip-2", "mid-flip-11.6", "spiral"] {
         assert!((found.order(name) - 2.0).abs() < 0.2, "{name}: {}", found.words);
         assert!(found.of(name)["length_drift"].as_f64().unwrap() < 1e-14);
@@ -195,17 +130,11 @@ fn judge_fiberoripy(found: &Graded) {
     }
     // It claims success and has lost the fibre.
     let fibre = found.of("mid-flip-10000");
-    assert!(
-        fibre["verdict"] == "FAIL" && fibre["error"].as_f64().unwrap() > 0.01,
-        "{fibre:#}"
-    );
+    assert!(fibre["verdict"] == "FAIL" && fibre["error"].as_f64().unwrap() > 0.01, "{fibre:#}");
     for (name, error) in CLOSURES {
         let of = found.of(name);
         assert_eq!(of["verdict"], "FAIL");
-        assert!(
-            (of["error"].as_f64().unwrap() / error - 1.0).abs() < 0.01,
-            "{name} {error}: {of:#}"
-        );
+        assert!((of["error"].as_f64().unwrap() / error - 1.0).abs() < 0.01, "{name} {error}: {of:#}");
         assert_eq!(of["diagnosis"], Value::Null);
     }
 }
@@ -215,40 +144,21 @@ const CLOSURES: [(&str, f64); 2] = [("isotropic-3", 0.01503), ("isotropic-11.6",
 
 #[test]
 fn fiberoripy_is_right_until_rods_are_fibres_and_its_closure_is_no_solution() {
-    judge_fiberoripy(&files(
-        REFERENCE.path(),
-        &peers().join("recorded/fiberoripy-1.4.0"),
-        &[],
-    ));
+    judge_fiberoripy(&files(REFERENCE.path(), &peers().join("recorded/fiberoripy-1.4.0"), &[]));
     let Some(python) = python("fiberoripy") else {
-        return skipped(
-            "fiberoripy",
-            "no python3 with fiberoripy: only its recorded answers were graded",
-        );
+        return skipped("fiberoripy", "no python3 with fiberoripy: only its recorded answers were graded");
     };
     let script = peers().join("fiberoripy_peer.py");
     let dir = tempfile::tempdir().unwrap();
     // It needs minutes for the others.
-    let names = [
-        "mid-flip-2",
-        "mid-flip-11.6",
-        "mid-flip-10000",
-        "isotropic-3",
-        "isotropic-11.6",
-    ];
+    let names = ["mid-flip-2", "mid-flip-11.6", "mid-flip-10000", "isotropic-3", "isotropic-11.6"];
     let reference = some(&dir.path().join("ref"), &names);
     let mine = dir.path().join("mine");
     run(&python, &[&script, &reference, &mine]);
     judge_fiberoripy(&files(REFERENCE.path(), &mine, &[]));
     let command = format!("'{python}' '{}' --live", script.display());
     let of = ["--problem", "mid-flip-2", "--problem", "mid-flip-10000"];
-    let live = graded(
-        &[
-            &["--command", &command, "--brief", "--timeout", "100000"][..],
-            &of,
-        ]
-        .concat(),
-    );
+    let live = graded(&[&["--command", &command, "--brief", "--timeout", "100000"][..], &of].concat());
     assert_eq!(live.verdict("mid-flip-2"), "PASS", "{}", live.words);
     assert_eq!(live.verdict("mid-flip-10000"), "FAIL", "{}", live.words);
     let note = live.of("mid-flip-10000")["note"].as_str().unwrap();

@@ -8,24 +8,14 @@ use std::fs;
 
 /// A line of the NumPy code, what it is replaced by, the problem that shows it, and the name it must get.
 const PLANTED: &[(&str, &str, &str, &str)] = &[
-    (
-        "(r_e**2 * L - L.T)",
-        "(r_e**2 * L.T - L)",
-        "mid-flip-11.6",
-        "a transposed gradient",
-    ),
+    ("(r_e**2 * L - L.T)", "(r_e**2 * L.T - L)", "mid-flip-11.6", "a transposed gradient"),
     (
         "    L = np.array(gradient, dtype=float)\n",
         "    L, r_e = np.array(gradient, dtype=float), max(r_e, 1 / r_e)\n",
         "disc-0.1",
         "Λ without its sign",
     ),
-    (
-        "(r_e**2 * L - L.T) / (r_e**2 + 1)",
-        "L",
-        "mid-flip-11.6",
-        "no 1/r_e",
-    ),
+    ("(r_e**2 * L - L.T) / (r_e**2 + 1)", "L", "mid-flip-11.6", "no 1/r_e"),
     (
         "return q / np",
         "q[:, [0, 1]] = q[:, [1, 0]]\n    return q / np",
@@ -50,12 +40,7 @@ const PLANTED: &[(&str, &str, &str, &str)] = &[
         "mid-flip-11.6",
         "r_p for r_e (r_e taken as r_p of Cox 1971)",
     ),
-    (
-        "    A, start =",
-        "    time *= (r_e + 1 / r_e) / r_e\n    A, start =",
-        "mid-flip-2",
-        "T without 1/r_e",
-    ),
+    ("    A, start =", "    time *= (r_e + 1 / r_e) / r_e\n    A, start =", "mid-flip-2", "T without 1/r_e"),
     (
         "return q / np",
         "q[:, 2] *= -1\n    return q / np",
@@ -68,12 +53,7 @@ const PLANTED: &[(&str, &str, &str, &str)] = &[
         "mid-flip-11.6",
         "p that is not normalised",
     ),
-    (
-        "line * ((mean - v) / s)",
-        "line * ((v - mean) / s)",
-        "contact-rule",
-        "a kick with the wrong sign",
-    ),
+    ("line * ((mean - v) / s)", "line * ((v - mean) / s)", "contact-rule", "a kick with the wrong sign"),
     (") / math.sin(theta)\n", ")\n", "contact-angles", ""),
     (
         "/ math.sin(theta)\n    theta_rate = (rate[0] * math.cos(phi) + rate[1] * math.sin(phi)) * math.cos(theta) - rate[2] * math.sin(theta)",
@@ -128,14 +108,7 @@ fn each_planted_mistake_gets_its_own_name_and_the_unspoilt_code_none() {
     let dir = tempfile::tempdir().unwrap();
     let code = fs::read_to_string(peers().join("numpy_rk4.py")).unwrap();
     // Rods, tensors and contacts that show the mistakes, and no more.
-    let all = [
-        "mid-flip-2",
-        "mid-flip-11.6",
-        "disc-0.1",
-        "isotropic-3",
-        "contact-rule",
-        "contact-angles",
-    ];
+    let all = ["mid-flip-2", "mid-flip-11.6", "disc-0.1", "isotropic-3", "contact-rule", "contact-angles"];
     let mut jobs = vec![("unspoilt".to_owned(), code.clone(), &all[..])];
     let planted: Vec<_> = PLANTED.iter().chain(PLANTED_IN_MEANS).collect();
     for (k, (line, mistake, shows, _)) in planted.iter().enumerate() {
@@ -162,25 +135,17 @@ fn each_planted_mistake_gets_its_own_name_and_the_unspoilt_code_none() {
     for name in all {
         assert_eq!(unspoilt.of(name)["diagnosis"], Value::Null);
     }
-    planted
-        .par_iter()
-        .enumerate()
-        .for_each(|(k, (_, mistake, shows, expected))| {
-            let spoilt = judge(&format!("spoilt-{k}"));
-            assert_eq!(
-                (spoilt.code, spoilt.verdict(shows)),
-                (Some(1), "FAIL"),
-                "{mistake}: {}",
-                spoilt.words
-            );
-            let diagnosis = spoilt.diagnosis(shows);
-            // Half of the printed A.13 is a mistake that nobody has named.
-            assert!(
-                diagnosis.contains(expected) && diagnosis.is_empty() == expected.is_empty(),
-                "{mistake}: {diagnosis:?} for {expected}: {}",
-                spoilt.words
-            );
-            let several = |text: &str| text.contains(" or of ");
-            assert_eq!(several(diagnosis), several(expected), "{mistake}: {diagnosis}");
-        });
+    planted.par_iter().enumerate().for_each(|(k, (_, mistake, shows, expected))| {
+        let spoilt = judge(&format!("spoilt-{k}"));
+        assert_eq!((spoilt.code, spoilt.verdict(shows)), (Some(1), "FAIL"), "{mistake}: {}", spoilt.words);
+        let diagnosis = spoilt.diagnosis(shows);
+        // Half of the printed A.13 is a mistake that nobody has named.
+        assert!(
+            diagnosis.contains(expected) && diagnosis.is_empty() == expected.is_empty(),
+            "{mistake}: {diagnosis:?} for {expected}: {}",
+            spoilt.words
+        );
+        let several = |text: &str| text.contains(" or of ");
+        assert_eq!(several(diagnosis), several(expected), "{mistake}: {diagnosis}");
+    });
 }

@@ -9,10 +9,7 @@ use std::process::Command;
 fn blocks(language: &str) -> Vec<String> {
     let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/grading.md")).unwrap();
     let parts = page.split("```").skip(1).step_by(2);
-    parts
-        .filter_map(|block| block.strip_prefix(&format!("{language}\n")))
-        .map(str::to_owned)
-        .collect()
+    parts.filter_map(|block| block.strip_prefix(&format!("{language}\n"))).map(str::to_owned).collect()
 }
 
 #[test]
@@ -26,27 +23,16 @@ fn the_quick_start_runs_as_it_is_written() {
     assert_eq!(commands.len(), 3);
     for (needs, commands) in ["python3", "c++", "awk"].into_iter().zip(commands) {
         // awk has no --version everywhere.
-        let there = if needs == "awk" {
-            runs("awk", &["BEGIN {}"])
-        } else {
-            runs(needs, &["--version"])
-        };
+        let there = if needs == "awk" { runs("awk", &["BEGIN {}"]) } else { runs(needs, &["--version"]) };
         if !there {
             skipped("quick start", &format!("no {needs}"));
             continue;
         }
         let mut shell = Command::new("sh");
-        let output = shell
-            .args(["-ec", &commands])
-            .env("PATH", &path)
-            .current_dir(dir.path())
-            .output()
-            .unwrap();
+        let output =
+            shell.args(["-ec", &commands]).env("PATH", &path).current_dir(dir.path()).output().unwrap();
         let words =
             String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
-        assert!(
-            output.status.success() && words.contains("PASS"),
-            "{needs}: {words}"
-        );
+        assert!(output.status.success() && words.contains("PASS"), "{needs}: {words}");
     }
 }

@@ -33,85 +33,29 @@ fn bad_answers_are_refused_with_file_line_and_column() {
         rows.join("\n")
     };
     let cases: Vec<(Vec<u8>, &str, &str)> = vec![
-        (
-            lines[..lines.len() - 1].join("\n").into(),
-            ":16:1",
-            "ends without time_s = ",
-        ),
-        (
-            with(5, lines[3]).into(),
-            ":5:2",
-            "the same time_s and rod as in line 4",
-        ),
-        (
-            field(3, 4, "1e400").into(),
-            ":3:4",
-            "1e400 is too large for a double",
-        ),
+        (lines[..lines.len() - 1].join("\n").into(), ":16:1", "ends without time_s = "),
+        (with(5, lines[3]).into(), ":5:2", "the same time_s and rod as in line 4"),
+        (field(3, 4, "1e400").into(), ":3:4", "1e400 is too large for a double"),
         (field(3, 4, "0.5x").into(), ":3:4", "\"0.5x\" is no number"),
         (field(3, 4, "").into(), ":3:4", "\"\" is no number"),
         (field(3, 1, "nan").into(), ":3:1", "nan is no finite number"),
-        (
-            field(3, 1, "1.0").into(),
-            ":3:1",
-            "time_s = 1 is not asked for; the nearest",
-        ),
-        (
-            field(3, 2, "4").into(),
-            ":3:2",
-            "rod = 4; whole numbers from 0 to 3",
-        ),
+        (field(3, 1, "1.0").into(), ":3:1", "time_s = 1 is not asked for; the nearest"),
+        (field(3, 2, "4").into(), ":3:2", "rod = 4; whole numbers from 0 to 3"),
         (field(3, 2, "0.5").into(), ":3:2", "rod = 0.5; whole numbers"),
-        (
-            with(3, "1,2,3,4").into(),
-            ":3:5",
-            "4 fields; the first line has 5",
-        ),
-        (
-            with(3, "1,2,3,4,5,6").into(),
-            ":3:5",
-            "6 fields; the first line has 5",
-        ),
-        (
-            with(1, "time_s,rod,p1,p2,q").into(),
-            ":1:5",
-            "column \"q\" is not asked for",
-        ),
-        (
-            with(1, "time_s,rod,p1,p2,p2").into(),
-            ":1:5",
-            "column \"p2\" is there twice",
-        ),
-        (
-            with(1, "time_s,rod,p1,p2,-").into(),
-            ":1",
-            "column \"p3\" is missing",
-        ),
+        (with(3, "1,2,3,4").into(), ":3:5", "4 fields; the first line has 5"),
+        (with(3, "1,2,3,4,5,6").into(), ":3:5", "6 fields; the first line has 5"),
+        (with(1, "time_s,rod,p1,p2,q").into(), ":1:5", "column \"q\" is not asked for"),
+        (with(1, "time_s,rod,p1,p2,p2").into(), ":1:5", "column \"p2\" is there twice"),
+        (with(1, "time_s,rod,p1,p2,-").into(), ":1", "column \"p3\" is missing"),
         (lines[1..].join("\n").into(), ":1", "there is no header"),
         (other.into(), ":2:1", "is not asked for"),
         (Vec::new(), ":1:1", "the file is empty"),
-        (
-            swapped.join("\n").into(),
-            ":4:2",
-            "out of order: rows must ascend in time_s and rod",
-        ),
+        (swapped.join("\n").into(), ":4:2", "out of order: rows must ascend in time_s and rod"),
         (shuffled.join("\n").into(), ":3:2", "out of order"),
         (by_rod.into(), ":6:1", "out of order"),
-        (
-            good.replace('\n', "\r\n").into(),
-            ":1:5",
-            "ends in CR LF: write LF alone",
-        ),
-        (
-            with(7, &format!("{}\r", lines[6])).into(),
-            ":7:5",
-            "--windows-text",
-        ),
-        (
-            format!("\u{feff}{good}").into(),
-            ":1:1",
-            "begins with a byte order mark",
-        ),
+        (good.replace('\n', "\r\n").into(), ":1:5", "ends in CR LF: write LF alone"),
+        (with(7, &format!("{}\r", lines[6])).into(), ":7:5", "--windows-text"),
+        (format!("\u{feff}{good}").into(), ":1:1", "begins with a byte order mark"),
         (lines[..2].join("\n").into(), ":2:1", "ends without time_s = "),
         (b"time_s,rod,p1,p2,p3\n\xff\n".to_vec(), ":2", "no UTF-8 text"),
         ("1".repeat(1 << 20).into(), ":1", "longer than 65536 bytes"),
@@ -144,53 +88,25 @@ fn another_format_and_wrong_folders_are_refused() {
     write(&mine, "mid-flip-2", "answer.csv", text(&problem("mid-flip-2").1));
     assert_eq!(files(&reference, &mine, &[]).code, Some(0));
     write(&mine, "mid-flip-2", "answer.txt", "");
-    assert!(
-        files(&reference, &mine, &[])
-            .words
-            .contains("one of them is allowed")
-    );
+    assert!(files(&reference, &mine, &[]).words.contains("one of them is allowed"));
     fs::remove_file(mine.join("mid-flip-2/answer.txt")).unwrap();
     write(&mine, "mid-flip-2", "steps-0.csv", "");
-    assert!(
-        files(&reference, &mine, &[])
-            .words
-            .contains("a whole number from 1 is allowed")
-    );
+    assert!(files(&reference, &mine, &[]).words.contains("a whole number from 1 is allowed"));
     fs::remove_file(mine.join("mid-flip-2/steps-0.csv")).unwrap();
     let json = reference.join("mid-flip-2/problem.json");
-    let changed = fs::read_to_string(&json)
-        .unwrap()
-        .replace("\"format\": 1", "\"format\": 2");
+    let changed = fs::read_to_string(&json).unwrap().replace("\"format\": 1", "\"format\": 2");
     fs::write(&json, changed).unwrap();
     let ended = files(&reference, &mine, &[]);
-    assert!(
-        ended.code == Some(2) && ended.words.contains("problem.json:2"),
-        "{}",
-        ended.words
-    );
+    assert!(ended.code == Some(2) && ended.words.contains("problem.json:2"), "{}", ended.words);
     for (reference, mine, more, reason) in [
         (REFERENCE.path(), Path::new("/no/such"), &[][..], "no such folder"),
         (Path::new("/no/such"), &mine, &[], "/no/such"),
-        (
-            REFERENCE.path(),
-            &mine,
-            &["--problem", "mid-flip-3"],
-            "no problem has this name; there are",
-        ),
-        (
-            REFERENCE.path(),
-            &mine,
-            &["--axes", "up"],
-            "gradient, flow and vorticity are allowed",
-        ),
+        (REFERENCE.path(), &mine, &["--problem", "mid-flip-3"], "no problem has this name; there are"),
+        (REFERENCE.path(), &mine, &["--axes", "up"], "gradient, flow and vorticity are allowed"),
         (REFERENCE.path(), &mine, &["--order", "-1"], "a positive number"),
     ] {
         let ended = files(reference, mine, more);
-        assert!(
-            ended.code == Some(2) && ended.words.contains(reason),
-            "{reason}: {}",
-            ended.words
-        );
+        assert!(ended.code == Some(2) && ended.words.contains(reason), "{reason}: {}", ended.words);
     }
 }
 
@@ -199,11 +115,7 @@ fn a_program_that_runs_is_asked_about_rods_alone() {
     for more in [["--problem", "isotropic-3"], ["--kind", "contact"]] {
         let ended = graded(&[&["--command", "true", "--brief"][..], &more].concat());
         let told = ended.words.contains(more[0]) && ended.words.contains("asked about single rods only");
-        assert!(
-            ended.code == Some(2) && told && ended.grade.is_none(),
-            "{}",
-            ended.words
-        );
+        assert!(ended.code == Some(2) && told && ended.grade.is_none(), "{}", ended.words);
     }
 }
 
@@ -230,9 +142,6 @@ fn ten_million_rows_are_refused_at_the_first_that_nobody_asked_for() {
         );
         let output = Command::new("sh").args(["-c", &command]).output().unwrap();
         let words = String::from_utf8_lossy(&output.stderr);
-        assert!(
-            output.status.code() == Some(2) && words.contains(place),
-            "{words}"
-        );
+        assert!(output.status.code() == Some(2) && words.contains(place), "{words}");
     }
 }

@@ -25,10 +25,7 @@ fn half_the_tolerance_passes_and_twice_fails_in_every_problem_and_metric() {
             let drift = found["orbit_drift"].as_f64().unwrap_or(0.0);
             assert!(part > 0.0 || drift < 1e-8, "{found:#}");
             let ratio = found["error"].as_f64().unwrap() / found["tolerance"].as_f64().unwrap();
-            assert!(
-                (ratio - part).abs() < 0.02 + 0.01 * part,
-                "{part} {ratio}: {found:#}"
-            );
+            assert!((ratio - part).abs() < 0.02 + 0.01 * part, "{part} {ratio}: {found:#}");
         }
     }
 }
@@ -43,10 +40,7 @@ fn what_is_not_finite_is_an_answer_that_fails() {
         let ended = files(REFERENCE.path(), dir.path(), &[]);
         let found = ended.of("mid-flip-2");
         let expected = format!("{}:3: a value is not finite", file.display());
-        assert_eq!(
-            (ended.code, &found["verdict"], &found["error"]),
-            (Some(1), &"FAIL".into(), &Value::Null)
-        );
+        assert_eq!((ended.code, &found["verdict"], &found["error"]), (Some(1), &"FAIL".into(), &Value::Null));
         assert_eq!(found["note"], expected);
     }
 }
@@ -57,47 +51,22 @@ fn orders_are_read_from_steps_and_judged_against_a_claim() {
     // Errors of 4096, 256, 16 tolerances, and one below it.
     for (steps, part) in [(100, 4096.0), (200, 256.0), (400, 16.0), (800, 0.9)] {
         let file = format!("steps-{steps}.csv");
-        write(
-            dir.path(),
-            "mid-flip-100",
-            &file,
-            text(&off_by("mid-flip-100", part)),
-        );
+        write(dir.path(), "mid-flip-100", &file, text(&off_by("mid-flip-100", part)));
     }
     let ended = files(REFERENCE.path(), dir.path(), &["--order", "4"]);
     let found = ended.of("mid-flip-100");
-    assert_eq!(
-        (&found["verdict"], &found["steps"]),
-        (&"PASS".into(), &800.into()),
-        "{found:#}"
-    );
+    assert_eq!((&found["verdict"], &found["steps"]), (&"PASS".into(), &800.into()), "{found:#}");
     assert!((found["observed_order"].as_f64().unwrap() - 4.0).abs() < 1e-3);
     // The picture has the program's curve in bold black, and ours in grey.
     let html = ended.html.as_deref().unwrap();
     let picture = html.split_once("<svg").unwrap().1.split_once("</svg>").unwrap().0;
     assert!(picture.contains("Error against steps, mid-flip-100") && picture.contains("RK4 in p"));
-    assert!(
-        picture.contains("error (rad) against steps: the graded program, "),
-        "first, and so bold"
-    );
-    let line = |stroke: &str| {
-        picture
-            .match_indices(stroke)
-            .map(|(at, _)| at)
-            .collect::<Vec<_>>()
-    };
+    assert!(picture.contains("error (rad) against steps: the graded program, "), "first, and so bold");
+    let line = |stroke: &str| picture.match_indices(stroke).map(|(at, _)| at).collect::<Vec<_>>();
     let (bold, grey) = (line("stroke=\"#000000\" stroke-width=\"24\""), line("#9A9A9A"));
-    assert!(
-        !bold.is_empty() && grey.len() >= 4,
-        "{} {}",
-        bold.len(),
-        grey.len()
-    );
+    assert!(!bold.is_empty() && grey.len() >= 4, "{} {}", bold.len(), grey.len());
     let ended = files(REFERENCE.path(), dir.path(), &["--order", "3"]);
-    assert_eq!(
-        ended.of("mid-flip-100")["note"],
-        "observed order +4.00 where 3 is claimed"
-    );
+    assert_eq!(ended.of("mid-flip-100")["note"], "observed order +4.00 where 3 is claimed");
     assert_eq!(ended.code, Some(1));
     // It diverges.
     for (steps, part) in [(100, 16.0), (200, 256.0), (400, 4096.0)] {
@@ -133,12 +102,7 @@ fn too_little_data_and_errors_that_are_none_do_not_pass() {
         (-0.5 * allowed, "a standard error above 0"),
         (0.0, "a standard error above 0"),
     ] {
-        write(
-            dir.path(),
-            "lee-springer",
-            "answer.csv",
-            text(&off_in_a_mean(se, 0.0)),
-        );
+        write(dir.path(), "lee-springer", "answer.csv", text(&off_in_a_mean(se, 0.0)));
         let ended = files(REFERENCE.path(), dir.path(), &[]);
         let found = ended.of("lee-springer");
         let verdict = if words.is_empty() { "PASS" } else { "FAIL" };
@@ -155,23 +119,11 @@ fn a_mean_that_is_off_by_four_of_its_errors_fails() {
     let allowed = problem["ensemble"]["largest_standard_error"].as_f64().unwrap();
     // Of the certified means the errors are up to 2.3e-4.
     let sigma = |parts: f64| parts * (0.9 * allowed).hypot(2.3e-4);
-    for (se, off, verdict) in [
-        (0.002, 0.008, "FAIL"),
-        (0.9 * allowed, sigma(4.0), "FAIL"),
-        (0.9 * allowed, sigma(3.0), "PASS"),
-    ] {
-        write(
-            dir.path(),
-            "lee-springer",
-            "answer.csv",
-            text(&off_in_a_mean(se, off)),
-        );
+    for (se, off, verdict) in
+        [(0.002, 0.008, "FAIL"), (0.9 * allowed, sigma(4.0), "FAIL"), (0.9 * allowed, sigma(3.0), "PASS")]
+    {
+        write(dir.path(), "lee-springer", "answer.csv", text(&off_in_a_mean(se, off)));
         let ended = files(REFERENCE.path(), dir.path(), &[]);
-        assert_eq!(
-            ended.verdict("lee-springer"),
-            verdict,
-            "{se} {off}: {}",
-            ended.words
-        );
+        assert_eq!(ended.verdict("lee-springer"), verdict, "{se} {off}: {}", ended.words);
     }
 }

@@ -10,10 +10,7 @@ use std::time::Duration;
 /// Acts as a program that is to be graded. Where its name does not say when, it does what that says from its third answer on.
 pub fn program(name: &str, pids: Option<&str>) -> ExitCode {
     let note = |pid: u32| {
-        let file = fs::OpenOptions::new()
-            .create(true)
-            .append(true)
-            .open(pids.unwrap());
+        let file = fs::OpenOptions::new().create(true).append(true).open(pids.unwrap());
         writeln!(file.unwrap(), "{pid}").unwrap();
     };
     note(std::process::id());
@@ -97,11 +94,7 @@ fn answer(name: &str, request: &Value, count: u64) -> Value {
     }
     let square = number(&request["aspect_ratio"]).powi(2);
     let a = (square * l - l.transpose()) / (square + 1.0);
-    let finer = if name == "ends_after_a_right_answer" {
-        1024
-    } else {
-        1
-    };
+    let finer = if name == "ends_after_a_right_answer" { 1024 } else { 1 };
     let steps = finer * request["steps"].as_u64().unwrap();
     let h = number(&request["end_s"]) / steps as f64;
     let rate = |p: Vector3<f64>| a * p - p * p.dot(&(a * p));
@@ -120,13 +113,7 @@ fn answer(name: &str, request: &Value, count: u64) -> Value {
     let rods = request["start"].as_array().unwrap();
     let mut p: Vec<_> = (rods.iter())
         .map(|p| (0..steps).fold(Vector3::from_fn(|i, _| number(&p[i])), |p, _| rk4(p)))
-        .map(|p| {
-            if name == "is_off_by_1e-8" {
-                off_by_1e_8(p)
-            } else {
-                p
-            }
-        })
+        .map(|p| if name == "is_off_by_1e-8" { off_by_1e_8(p) } else { p })
         .map(|p| json!([p.x, p.y, p.z]))
         .collect();
     match name {

@@ -33,15 +33,7 @@ const PROBLEMS: [&str; 3] = ["mid-flip-2", "sphere", "spiral"];
 
 fn shearbed(command: &str, out: &Path, timeout_s: &str, problems: &[&str]) -> (Option<i32>, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_shearbed"))
-        .args([
-            "grade",
-            "--brief",
-            "--timeout",
-            timeout_s,
-            "--command",
-            command,
-            "--out",
-        ])
+        .args(["grade", "--brief", "--timeout", timeout_s, "--command", command, "--out"])
         .arg(out)
         .args(problems.iter().flat_map(|name| ["--problem", name]))
         .output()
@@ -54,12 +46,7 @@ fn judge(case: &Case) -> Result<(), Failed> {
     let dir = tempfile::tempdir()?;
     let pids = dir.path().join("pids");
     let own = std::env::current_exe()?;
-    let command = format!(
-        "'{}' --program {} '{}'",
-        own.display(),
-        case.program,
-        pids.display()
-    );
+    let command = format!("'{}' --program {} '{}'", own.display(), case.program, pids.display());
     // Those that answer have time to, however busy the machine is; the others must run out of it.
     let runs_out = case.verdict == "NOT REACHED";
     // One problem shows what is wrong; several that all is right, and that a program is given up.
@@ -85,10 +72,7 @@ fn judge(case: &Case) -> Result<(), Failed> {
             let within = |k: usize| errors[k] <= found["tolerance"].as_f64().unwrap();
             let order = |k: usize| (errors[k + 1] / errors[k]).log2();
             let steady = || (1..3).all(|k| (order(k) - order(0)).abs() < 0.1);
-            check(
-                within(0) && (within(1) || errors.len() == 4 && steady()),
-                "the last ones",
-            )?;
+            check(within(0) && (within(1) || errors.len() == 4 && steady()), "the last ones")?;
         }
     }
     let said = format!("{} {} {}", found["note"], found["diagnosis"], grade["remarks"]);
@@ -150,31 +134,14 @@ fn cannot_be_started() -> Result<(), Failed> {
 fn ends_with_shearbed() -> Result<(), Failed> {
     let dir = tempfile::tempdir()?;
     let pids = dir.path().join("pids");
-    let command = format!(
-        "'{}' --program hangs_with_a_child '{}'",
-        std::env::current_exe()?.display(),
-        pids.display()
-    );
+    let command =
+        format!("'{}' --program hangs_with_a_child '{}'", std::env::current_exe()?.display(), pids.display());
     let mut shearbed = Command::new(env!("CARGO_BIN_EXE_shearbed"))
-        .args([
-            "grade",
-            "--timeout",
-            "1000",
-            "--quiet",
-            "--command",
-            &command,
-            "--out",
-        ])
+        .args(["grade", "--timeout", "1000", "--quiet", "--command", &command, "--out"])
         .arg(dir.path().join("out"))
         .stderr(Stdio::null())
         .spawn()?;
-    let started = || {
-        fs::read_to_string(&pids)
-            .unwrap_or_default()
-            .split_whitespace()
-            .count()
-            == 2
-    };
+    let started = || fs::read_to_string(&pids).unwrap_or_default().split_whitespace().count() == 2;
     if !comes(started) {
         shearbed.kill()?;
         return Err("the program's child has not started".into());

@@ -61,11 +61,7 @@ fn error(loaded: &LoadedProblem, gradient: &[Vector; 3], step: Step, steps_per_s
             let q = [row[2], row[3], row[4]];
             let across = [0, 1, 2].map(|i| p[(i + 1) % 3] * q[(i + 2) % 3] - p[(i + 2) % 3] * q[(i + 1) % 3]);
             let sine = across.iter().map(|x| x * x).sum::<f64>().sqrt();
-            worst = worst.max(if sine.is_nan() {
-                f64::INFINITY
-            } else {
-                sine.min(1.0).asin()
-            });
+            worst = worst.max(if sine.is_nan() { f64::INFINITY } else { sine.min(1.0).asin() });
         }
         worst
     };
@@ -93,11 +89,7 @@ fn a_right_code_in_doubles_passes_and_wrong_ones_fail() {
         let transposed = [0, 1, 2].map(|i| [0, 1, 2].map(|j| l[j][i]));
         let halved = l.map(|row| row.map(|x| 0.5 * x));
         // Euler's method comes to 2e-3 as well where its steps are short enough; the others are as wrong with few.
-        let coarse = if name == "mid-flip-10000" {
-            10.0
-        } else {
-            steps_per_strain
-        };
+        let coarse = if name == "mid-flip-10000" { 10.0 } else { steps_per_strain };
         let wrong = [
             ("Euler", error(loaded, &l, euler, coarse)),
             ("transposed", error(loaded, &transposed, rk4, coarse)),
@@ -158,10 +150,7 @@ fn standard_errors(loaded: &LoadedProblem, replicas: u64, mistake: Option<Mistak
     for (at, row) in loaded.certified.rows.iter().enumerate() {
         for axis in 0..3 {
             let mean = traces.iter().map(|trace| trace[at][axis]).sum::<f64>() / n;
-            let squares = traces
-                .iter()
-                .map(|trace| (trace[at][axis] - mean).powi(2))
-                .sum::<f64>();
+            let squares = traces.iter().map(|trace| (trace[at][axis] - mean).powi(2)).sum::<f64>();
             let se = (squares / (n - 1.0) / n).sqrt();
             worst = worst.max((mean - row[1 + 2 * axis]).abs() / se.hypot(row[2 + 2 * axis]));
             largest = largest.max(se);
@@ -176,10 +165,7 @@ fn the_naive_reference_agrees_with_certified_ensembles_and_wrong_ones_do_not() {
     let mistakes = [Mistake::ProbabilityExponent, Mistake::ProbabilityComplement];
     assert_eq!(of_kind(Kind::Ensemble).count(), mistakes.len());
     for (loaded, mistake) in of_kind(Kind::Ensemble).zip(mistakes) {
-        let (tolerance, ensemble) = (
-            loaded.problem.tolerance,
-            loaded.problem.ensemble.as_ref().unwrap(),
-        );
+        let (tolerance, ensemble) = (loaded.problem.tolerance, loaded.problem.ensemble.as_ref().unwrap());
         const REPLICAS: u64 = 160;
         let (error, se) = standard_errors(loaded, REPLICAS, None);
         assert!(error <= tolerance, "{error}");

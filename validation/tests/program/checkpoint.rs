@@ -37,15 +37,7 @@ fn results(dir: &Path) -> (BTreeMap<String, Vec<u8>>, serde_json::Value) {
     // It has the checksum of run.json.
     all.remove("shearbed.json").unwrap();
     let record: serde_json::Value = serde_json::from_slice(&record).unwrap();
-    (
-        all,
-        serde_json::json!([
-            record["counters"],
-            record["scene"],
-            record["seed"],
-            record["files"]
-        ]),
-    )
+    (all, serde_json::json!([record["counters"], record["scene"], record["seed"], record["files"]]))
 }
 
 /// Kills a run again and again and lets it end then: the same files. Each life is held where it first says that more of the run is
@@ -106,9 +98,9 @@ fn a_run_that_is_killed_goes_on_to_the_same_bits() {
         let again = shearbed(dir.path(), &format!("{run} --force"));
         let replicas = ["700 of 700", "1 of 1", "2 of 2"];
         assert!(
-            replicas.iter().any(|done| again
-                .stdout
-                .contains(&format!("{done} replicas are done, 0 halfway"))),
+            replicas
+                .iter()
+                .any(|done| again.stdout.contains(&format!("{done} replicas are done, 0 halfway"))),
             "{}",
             again.stdout
         );
@@ -117,10 +109,8 @@ fn a_run_that_is_killed_goes_on_to_the_same_bits() {
             results(&dir.path().join(format!("{name}-whole"))),
             "{name}"
         );
-        let beside: Vec<_> = files(&dir.path().join("kept"))
-            .into_keys()
-            .filter(|file| file.contains('.'))
-            .collect();
+        let beside: Vec<_> =
+            files(&dir.path().join("kept")).into_keys().filter(|file| file.contains('.')).collect();
         assert_eq!(beside, [""; 0], "nothing is left beside it");
     }
 }
@@ -145,30 +135,17 @@ fn a_signal_keeps_the_run_and_says_how_to_go_on() {
         assert!(first.starts_with("kept in kept: "), "{first}");
         running.signal(signal);
         let ended = running.end();
-        let last = ended
-            .stderr
-            .lines()
-            .find(|line| line.starts_with("error: "))
-            .unwrap();
+        let last = ended.stderr.lines().find(|line| line.starts_with("error: ")).unwrap();
         assert_eq!(ended.code, Some(code), "{last}");
-        let (_, how) = last
-            .split_once("files that were not complete were not written; ")
-            .unwrap();
+        let (_, how) = last.split_once("files that were not complete were not written; ").unwrap();
         let way = "; the run is kept in kept, and the same command goes on from there";
         let progress = how.strip_suffix(way).unwrap_or_else(|| panic!("{last}"));
         assert!(progress.contains(" of 10000000 replicas are done, "), "{last}");
-        assert!(
-            !progress.starts_with("0 of") || !progress.ends_with(" 0 halfway"),
-            "{last}"
-        );
+        assert!(!progress.starts_with("0 of") || !progress.ends_with(" 0 halfway"), "{last}");
         kept = progress.to_owned();
     }
     let found = files(dir.path());
-    assert!(
-        !found.keys().any(|name| name.starts_with('.')),
-        "{:?}",
-        found.keys()
-    );
+    assert!(!found.keys().any(|name| name.starts_with('.')), "{:?}", found.keys());
 }
 
 #[test]
@@ -180,62 +157,34 @@ fn a_checkpoint_of_other_work_is_refused() {
     for (change, key) in [
         ("--seed 2", "scene.ensemble.seed was 1 and is 2 now"),
         ("--replicas 4", "scene.ensemble.replicas was 3 and is 4 now"),
-        (
-            "--set interaction.alpha=0.6",
-            "scene.interaction.alpha was 0.5 and is 0.6 now",
-        ),
+        ("--set interaction.alpha=0.6", "scene.interaction.alpha was 0.5 and is 0.6 now"),
     ] {
         let other = shearbed(dir.path(), &format!("{run}2 {change}"));
         assert_eq!(other.code, Some(2), "{}", other.stderr);
-        assert!(
-            other
-                .stderr
-                .starts_with("error: --checkpoint kept: is of other work: "),
-            "{}",
-            other.stderr
-        );
+        assert!(other.stderr.starts_with("error: --checkpoint kept: is of other work: "), "{}", other.stderr);
         assert!(other.stderr.contains(key), "{}", other.stderr);
     }
-    let other = shearbed(
-        dir.path(),
-        "validate --case jeffery-period --checkpoint kept --out x2",
-    );
+    let other = shearbed(dir.path(), "validate --case jeffery-period --checkpoint kept --out x2");
     assert!(other.stderr.contains("is of other work"), "{}", other.stderr);
-    assert_eq!(
-        (other.code, fs::read(dir.path().join("kept")).unwrap()),
-        (Some(2), kept.clone())
-    );
+    assert_eq!((other.code, fs::read(dir.path().join("kept")).unwrap()), (Some(2), kept.clone()));
     let mut damaged = kept;
     let at = damaged.len() / 2;
     damaged[at] ^= 4;
     fs::write(dir.path().join("kept"), &damaged).unwrap();
     let other = shearbed(dir.path(), &run.replace("--out x", "--out x2"));
     assert_eq!(other.code, Some(2));
-    assert!(
-        other.stderr.contains("is damaged: its checksum is"),
-        "{}",
-        other.stderr
-    );
+    assert!(other.stderr.contains("is damaged: its checksum is"), "{}", other.stderr);
     assert!(!dir.path().join("x2").exists());
     for (wrong, allowed) in [
-        (
-            "--checkpoint k --every 0",
-            "seconds from 0.01 to 86400 are allowed",
-        ),
-        (
-            "--checkpoint k --every NaN",
-            "seconds from 0.01 to 86400 are allowed",
-        ),
+        ("--checkpoint k --every 0", "seconds from 0.01 to 86400 are allowed"),
+        ("--checkpoint k --every NaN", "seconds from 0.01 to 86400 are allowed"),
         ("--every 5", "--checkpoint <FILE>"),
         ("--checkpoint /proc/k", "/proc/k: cannot be written"),
         ("--checkpoint .", "is --out x2, or a folder above it"),
         ("--checkpoint x2", "is --out x2, or a folder above it"),
         ("--checkpoint x2/run.json", "the results may take that name"),
         ("--checkpoint no/../x2/a.csv", "the results may take that name"),
-        (
-            "--checkpoint small.toml",
-            "small.toml: is no checkpoint of shearbed",
-        ),
+        ("--checkpoint small.toml", "small.toml: is no checkpoint of shearbed"),
     ] {
         let refused = shearbed(dir.path(), &format!("run small.toml --out x2 {wrong}"));
         assert_eq!(refused.code, Some(2), "{wrong}: {}", refused.stderr);
@@ -258,23 +207,12 @@ fn finished_cases_are_not_run_again() {
     let first = shearbed(dir.path(), &format!("{two} --out first"));
     assert_eq!(first.code, Some(0), "{}", first.stderr);
     let more = shearbed(dir.path(), &format!("{two} --case kick-bound --out more"));
-    assert!(
-        more.stdout
-            .contains("goes on from kept: 2 cases and 0 studies are finished"),
-        "{}",
-        more.stdout
-    );
+    assert!(more.stdout.contains("goes on from kept: 2 cases and 0 studies are finished"), "{}", more.stdout);
     let [first, more] = ["first", "more"].map(|out| cases(&dir.path().join(out)));
     // Times too: they have not been taken again.
     assert_eq!(first.len() + 1, more.len());
-    assert!(
-        first.iter().all(|case| more.contains(case)),
-        "{first:#?}\n{more:#?}"
-    );
-    let fresh = shearbed(
-        dir.path(),
-        "validate --case kick-bound --case jeffery-period --out fresh",
-    );
+    assert!(first.iter().all(|case| more.contains(case)), "{first:#?}\n{more:#?}");
+    let fresh = shearbed(dir.path(), "validate --case kick-bound --case jeffery-period --out fresh");
     assert_eq!(fresh.code, Some(0));
     for mut case in cases(&dir.path().join("fresh")) {
         let same = |other: &&serde_json::Value| other["name"] == case["name"];
@@ -285,9 +223,5 @@ fn finished_cases_are_not_run_again() {
     }
     let other = shearbed(dir.path(), &format!("{two} --seed 2"));
     assert_eq!(other.code, Some(2));
-    assert!(
-        other.stderr.contains("seed was 1 and is 2 now"),
-        "{}",
-        other.stderr
-    );
+    assert!(other.stderr.contains("seed was 1 and is 2 now"), "{}", other.stderr);
 }

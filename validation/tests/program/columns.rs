@@ -92,11 +92,7 @@ fn turned(p: [f64; 3], time_s: f64) -> State {
     let (phi0, theta0) = (p[1].atan2(p[0]), p[2].acos());
     let (phi, theta) = angles_at(phi0, theta0, R, time_s / period_s(RATE_PER_S, R));
     let c = orbit_constant_from_angles(phi, theta, R);
-    State {
-        time_s,
-        p: direction([phi, theta]),
-        c_b: c / (1.0 + c),
-    }
+    State { time_s, p: direction([phi, theta]), c_b: c / (1.0 + c) }
 }
 
 fn couette(time_s: f64) -> State {
@@ -107,21 +103,15 @@ fn couette(time_s: f64) -> State {
 fn other_axes(time_s: f64) -> State {
     let exchanged = |[p1, p2, p3]: [f64; 3]| [p3, p2, p1];
     let state = turned(exchanged(direction(START_DEG.map(f64::to_radians))), time_s);
-    State {
-        p: exchanged(state.p),
-        ..state
-    }
+    State { p: exchanged(state.p), ..state }
 }
 
 /// What stands under a heading; `None` where there is no closed form by this name.
 fn expected(heading: &str, state: &State) -> Option<f64> {
     let [p1, p2, p3] = state.p;
     let product = |axes: &str| {
-        let axes = axes
-            .chars()
-            .map(|axis| axis.to_digit(10).map(|axis| axis as usize - 1));
-        axes.map(|axis| axis.map(|axis| state.p[axis]))
-            .product::<Option<f64>>()
+        let axes = axes.chars().map(|axis| axis.to_digit(10).map(|axis| axis as usize - 1));
+        axes.map(|axis| axis.map(|axis| state.p[axis])).product::<Option<f64>>()
     };
     Some(match heading {
         "t_over_T" => state.time_s / period_s(RATE_PER_S, R),
@@ -150,11 +140,7 @@ fn expected(heading: &str, state: &State) -> Option<f64> {
         _ => match heading.strip_prefix("density_from_") {
             Some(from) => {
                 let bin = (20.0 * from.parse::<f64>().ok()?).round() / 20.0;
-                if (bin..bin + 0.05).contains(&state.c_b) {
-                    20.0
-                } else {
-                    0.0
-                }
+                if (bin..bin + 0.05).contains(&state.c_b) { 20.0 } else { 0.0 }
             }
             None => product(heading.strip_prefix('a')?)?,
         },
@@ -218,10 +204,7 @@ impl Run {
                 "rods.csv" => 3 * self.rods_at_s.len(),
                 _ => self.rows,
             };
-            assert!(
-                numbers >= self.numbers * rows && numbers.is_multiple_of(rows),
-                "{name}: {numbers}"
-            );
+            assert!(numbers >= self.numbers * rows && numbers.is_multiple_of(rows), "{name}: {numbers}");
         }
     }
 }
@@ -244,10 +227,7 @@ fn a_table_with_a_mistake_does_not_pass() {
     let seen = |table: &str| !run.wrong("orientation_tensor.csv", table).0.is_empty();
     let renamed = |from: &str, to: &str| {
         let (head, rows) = table.split_once('\n').unwrap();
-        format!(
-            "{}\n{rows}",
-            head.replace(from, "kept").replace(to, from).replace("kept", to)
-        )
+        format!("{}\n{rows}", head.replace(from, "kept").replace(to, from).replace("kept", to))
     };
     assert!(!seen(table));
     for (from, to) in [

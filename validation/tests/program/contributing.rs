@@ -24,27 +24,18 @@ fn the_example_of_a_case_is_one() {
 fn the_example_of_a_study_is_one() {
     let page = include_str!("../../../CONTRIBUTING.md");
     assert!(page.contains(include_str!("example_study.rs")));
-    let extent = Extent {
-        effort: &Effort::gate(),
-        wanted: &|name| name == STUDY.name,
-        finished: &|| (),
-    };
+    let extent = Extent { effort: &Effort::gate(), wanted: &|name| name == STUDY.name, finished: &|| () };
     let found = (STUDY.run)(&extent).unwrap().unwrap();
     let table = found.exhibits[0].table.as_ref().unwrap();
     assert_eq!(table.rows.len(), 3);
     // X̄₁ of isotropic rods has a variance of 1/12: 0.289; 400 replicas know a standard deviation to 3.5 %, and correct code is
     // outside six of these at one seed in 10⁹.
     for row in &table.data {
-        let Datum::Number(scaled) = row[2] else {
-            panic!("{row:?}")
-        };
+        let Datum::Number(scaled) = row[2] else { panic!("{row:?}") };
         assert!((scaled * 12f64.sqrt() - 1.0).abs() < 0.21, "{row:?}");
     }
     plot::svg(&found.exhibits[0].figure.as_ref().unwrap().figure).unwrap();
-    let others = Extent {
-        wanted: &|name| name != STUDY.name,
-        ..extent
-    };
+    let others = Extent { wanted: &|name| name != STUDY.name, ..extent };
     assert_eq!((STUDY.run)(&others), Ok(None));
 }
 
@@ -54,13 +45,7 @@ fn the_example_of_an_observable_fits_the_code() {
     let page = include_str!("../../../CONTRIBUTING.md");
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let (mut file, mut lines, mut added) = (String::new(), 0, 0);
-    let diff = page
-        .split("```diff\n")
-        .nth(1)
-        .unwrap()
-        .split("```")
-        .next()
-        .unwrap();
+    let diff = page.split("```diff\n").nth(1).unwrap().split("```").next().unwrap();
     for line in diff.lines() {
         if let Some(name) = line.strip_prefix("+++ ") {
             file = fs::read_to_string(root.join(name)).unwrap();

@@ -19,11 +19,8 @@ fn long(dir: &Path) {
 fn a_signal_ends_a_run_with_a_message_and_leaves_nothing() {
     let dir = folder();
     long(dir.path());
-    for (signal, code, name) in [
-        ("-INT", 130, "SIGINT"),
-        ("-TERM", 143, "SIGTERM"),
-        ("-HUP", 129, "SIGHUP"),
-    ] {
+    for (signal, code, name) in [("-INT", 130, "SIGINT"), ("-TERM", 143, "SIGTERM"), ("-HUP", 129, "SIGHUP")]
+    {
         let mut running = Running::start(command(dir.path(), "run long.toml --threads 1 --out x"));
         let first = running.message();
         assert!(first.starts_with("warning: long.toml: "), "{first}");
@@ -31,14 +28,9 @@ fn a_signal_ends_a_run_with_a_message_and_leaves_nothing() {
         let ended = running.end();
         let message = ended.stderr;
         assert_eq!(ended.code, Some(code), "{message}");
-        assert!(
-            message.starts_with(&format!("error: stopped by {name}:")),
-            "{message}"
-        );
-        let names: Vec<_> = fs::read_dir(dir.path())
-            .unwrap()
-            .map(|entry| entry.unwrap().file_name())
-            .collect();
+        assert!(message.starts_with(&format!("error: stopped by {name}:")), "{message}");
+        let names: Vec<_> =
+            fs::read_dir(dir.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         assert_eq!(names.len(), 2, "{names:?}");
     }
 }
@@ -58,18 +50,9 @@ fn a_sweep_that_was_told_to_end_goes_on() {
         running.signal("-TERM");
         let ended = running.end();
         assert_eq!(ended.code, Some(143));
-        assert!(
-            ended.stderr.contains("the same command goes on"),
-            "{}",
-            ended.stderr
-        );
+        assert!(ended.stderr.contains("the same command goes on"), "{}", ended.stderr);
         let left = files(&dir.path().join("x"));
-        assert!(
-            left.keys()
-                .all(|name| !name.contains("/.") && !name.starts_with('.')),
-            "{:?}",
-            left.keys()
-        );
+        assert!(left.keys().all(|name| !name.contains("/.") && !name.starts_with('.')), "{:?}", left.keys());
     }
 }
 
@@ -77,20 +60,10 @@ fn a_sweep_that_was_told_to_end_goes_on() {
 fn a_reader_that_goes_away_is_no_error() {
     let dir = folder();
     let program = env!("CARGO_BIN_EXE_shearbed");
-    for arguments in [
-        "scenes",
-        "plan fig4-n50",
-        "--help",
-        "run small.toml",
-        "scenes --show fig5",
-    ] {
+    for arguments in ["scenes", "plan fig4-n50", "--help", "run small.toml", "scenes --show fig5"] {
         // The reader is gone before the first line.
         let script = format!("{program} {arguments} | true; echo ${{PIPESTATUS[0]}}");
-        let output = Command::new("bash")
-            .args(["-c", &script])
-            .current_dir(dir.path())
-            .output()
-            .unwrap();
+        let output = Command::new("bash").args(["-c", &script]).current_dir(dir.path()).output().unwrap();
         assert_eq!(String::from_utf8(output.stdout).unwrap(), "0\n", "{arguments}");
         assert_eq!(String::from_utf8(output.stderr).unwrap(), "", "{arguments}");
     }
@@ -104,26 +77,14 @@ fn what_cannot_be_written_is_told() {
     let full = fs::File::options().write(true).open("/dev/full").unwrap();
     let output = command(dir.path(), "scenes").stdout(full).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
-    assert!(
-        String::from_utf8(output.stderr)
-            .unwrap()
-            .contains("standard output: cannot be written")
-    );
+    assert!(String::from_utf8(output.stderr).unwrap().contains("standard output: cannot be written"));
     // Nobody, not even root, makes files there.
-    for arguments in [
-        "run small.toml",
-        "sweep small.toml --over interaction.alpha=1,2",
-        "validate",
-        "bench",
-    ] {
+    for arguments in ["run small.toml", "sweep small.toml --over interaction.alpha=1,2", "validate", "bench"]
+    {
         for out in ["/proc", "/proc/x"] {
             let run = shearbed(dir.path(), &format!("{arguments} --out {out}"));
             assert_eq!(run.code, Some(2), "{}", run.stderr);
-            assert!(
-                run.stderr.contains(&format!("{out}: cannot be written")),
-                "{}",
-                run.stderr
-            );
+            assert!(run.stderr.contains(&format!("{out}: cannot be written")), "{}", run.stderr);
         }
     }
 }
@@ -140,9 +101,6 @@ fn a_folder_that_vanishes_ends_a_sweep() {
     let ended = running.end();
     let message = ended.stderr;
     assert_eq!(ended.code, Some(2), "{message}");
-    assert!(
-        message.contains("x: cannot be written: the folder of the sweep has gone"),
-        "{message}"
-    );
+    assert!(message.contains("x: cannot be written: the folder of the sweep has gone"), "{message}");
     assert!(!dir.path().join("x").exists());
 }

@@ -38,13 +38,7 @@ fn synthesise(data: &Path, folder: &str, scene_name: &str, observables: &[&str],
         let unit: f64 = StandardNormal.sample(&mut stream);
         u * unit
     };
-    let mut lines = vec![
-        observables
-            .iter()
-            .map(|name| format!("{name},"))
-            .collect::<Vec<_>>()
-            .join(","),
-    ];
+    let mut lines = vec![observables.iter().map(|name| format!("{name},")).collect::<Vec<_>>().join(",")];
     lines.push(vec!["X,Y"; observables.len()].join(","));
     for k in 1..=TIMES {
         let output = 10 * k;
@@ -83,15 +77,9 @@ standard_uncertainty = {U_Y}
 }
 
 fn run(case: &str, data: Option<&Path>) -> Outcome {
-    let effort = Effort {
-        data: data.map(Path::to_owned),
-        ..Effort::gate()
-    };
+    let effort = Effort { data: data.map(Path::to_owned), ..Effort::gate() };
     let all = cases::all();
-    all.iter()
-        .find(|found| found.about.name == case)
-        .unwrap()
-        .run(&effort)
+    all.iter().find(|found| found.about.name == case).unwrap().run(&effort)
 }
 
 /// A folder with a synthetic Fig. 4 of this α.
@@ -114,11 +102,7 @@ fn validate(case: &str, data: Option<&Path>) -> (Option<i32>, String, serde_json
     let ended = command.output().unwrap();
     let text = [ended.stdout, ended.stderr].concat();
     let report = fs::read_to_string(dir.path().join("out/report/report.json")).unwrap_or("null".to_owned());
-    (
-        ended.status.code(),
-        String::from_utf8(text).unwrap(),
-        serde_json::from_str(&report).unwrap(),
-    )
+    (ended.status.code(), String::from_utf8(text).unwrap(), serde_json::from_str(&report).unwrap())
 }
 
 #[test]
@@ -155,15 +139,7 @@ fn one_alpha_for_both_aspect_ratios() {
 fn the_alpha_of_a_synthetic_experiment_is_found() {
     let data = okagawa(&["fig4-n100"], 0.6);
     let curves = experiment::read(data.path(), &OKAGAWA_MASON).unwrap();
-    let fit = experiment::alpha(
-        &curves,
-        |_| {},
-        Runs {
-            replicas: 100,
-            seed: 1,
-        },
-    )
-    .unwrap();
+    let fit = experiment::alpha(&curves, |_| {}, Runs { replicas: 100, seed: 1 }).unwrap();
     assert!((fit.alpha - 0.6).abs() < 3.0 * fit.se && fit.se < 0.05, "{fit:?}");
     assert_eq!(fit.points, TIMES);
 }
@@ -179,10 +155,7 @@ fn without_points_there_is_no_verdict_and_no_failure() {
             let (code, text, report) = validate(case, data);
             assert_eq!(code, Some(0), "{text}");
             assert!(text.contains("no data"), "{text}");
-            assert_eq!(
-                (&report["summary"]["nodata"], &report["summary"]["pass"]),
-                (&1.into(), &0.into())
-            );
+            assert_eq!((&report["summary"]["nodata"], &report["summary"]["pass"]), (&1.into(), &0.into()));
         }
     }
 }
@@ -191,13 +164,7 @@ fn without_points_there_is_no_verdict_and_no_failure() {
 fn points_for_a_picture_are_in_the_models_units() {
     assert_eq!(experiment::points_for(None, "fig5").unwrap(), []);
     let dir = tempfile::tempdir().unwrap();
-    synthesise(
-        dir.path(),
-        "anczurowski-cox-mason-1967",
-        "fig5",
-        &["x1", "x3"],
-        0.5,
-    );
+    synthesise(dir.path(), "anczurowski-cox-mason-1967", "fig5", &["x1", "x3"], 0.5);
     let points = experiment::points_for(Some(dir.path()), "fig5").unwrap();
     assert_eq!(points.len(), 2 * TIMES);
     assert_eq!((points[0].observable, points[TIMES].observable), ("x1", "x3"));
@@ -214,10 +181,7 @@ fn a_bad_file_stops_the_program_before_any_case_runs() {
     fs::write(&csv, text + "\n1.0,0.3x").unwrap();
     let (code, text, report) = validate("jeffery-period", Some(data.path()));
     assert_eq!((code, report), (Some(2), serde_json::Value::Null));
-    assert!(
-        text.contains("fig4-n50.csv:18: column x1 Y: `0.3x` is not allowed"),
-        "{text}"
-    );
+    assert!(text.contains("fig4-n50.csv:18: column x1 Y: `0.3x` is not allowed"), "{text}");
     assert!(!text.contains("pass"), "{text}");
 }
 
@@ -246,27 +210,13 @@ fn points_of_rods_in_the_shear_plane_are_not_fitted() {
     let plane = "{ phi_deg = 0, theta_deg = 90 }";
     fs::write(dir.path().join("plane.toml"), scene(plane, interaction)).unwrap();
     fs::write(dir.path().join("free.toml"), scene(plane, "")).unwrap();
-    fs::write(
-        dir.path().join("random.toml"),
-        scene("\"isotropic\"", interaction),
-    )
-    .unwrap();
+    fs::write(dir.path().join("random.toml"), scene("\"isotropic\"", interaction)).unwrap();
     let points = "t_over_T,x1,x1_u\n0.1,0.7,0.05\n0.2,0.5,0.05\n0.4,0.4,0.05\n";
     fs::write(dir.path().join("points.csv"), points).unwrap();
     let fit = |arguments: &str| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_shearbed"));
         let done = command
-            .args([
-                "fit",
-                "--data",
-                "points.csv",
-                "--replicas",
-                "20",
-                "--quiet",
-                "--out",
-                "out",
-                "--force",
-            ])
+            .args(["fit", "--data", "points.csv", "--replicas", "20", "--quiet", "--out", "out", "--force"])
             .args(arguments.split_whitespace())
             .current_dir(dir.path())
             .output()
@@ -278,10 +228,7 @@ fn points_of_rods_in_the_shear_plane_are_not_fitted() {
         assert_eq!(code, Some(2), "{told}");
         let key = key.split('=').next().unwrap();
         let said = format!("plane.toml: --over {key}: all rods start parallel in the shear plane");
-        assert!(
-            told.contains(&said) && told.contains("(r_e = 3.96; Results, after Fig. 5)"),
-            "{told}"
-        );
+        assert!(told.contains(&said) && told.contains("(r_e = 3.96; Results, after Fig. 5)"), "{told}");
         assert!(!dir.path().join("out").exists());
     }
     // What the points do tell is fitted; of random rods so short, with a warning.
@@ -289,8 +236,5 @@ fn points_of_rods_in_the_shear_plane_are_not_fitted() {
     assert!(code == Some(0) && !told.contains("3.96"), "{told}");
     let (code, told) = fit("random.toml --over interaction.alpha=0.05:5");
     assert_eq!(code, Some(0), "{told}");
-    assert!(
-        told.contains("Lee & Springer leave out their measured points of r_e = 3.96"),
-        "{told}"
-    );
+    assert!(told.contains("Lee & Springer leave out their measured points of r_e = 3.96"), "{told}");
 }

@@ -28,11 +28,7 @@ fn points_of(dir: &Path, set: &str, file: &str) {
     for (k, row) in csv.records().skip(1).enumerate() {
         let row = row.unwrap();
         let x1: f64 = row[3].parse().unwrap();
-        text += &format!(
-            "{},{},0.01\n",
-            &row[0],
-            x1 + 0.01 * quantiles[(7 * k + 3) % quantiles.len()]
-        );
+        text += &format!("{},{},0.01\n", &row[0], x1 + 0.01 * quantiles[(7 * k + 3) % quantiles.len()]);
     }
     fs::write(dir.join(file), text).unwrap();
 }
@@ -73,19 +69,12 @@ fn the_planted_alpha_is_found_and_everything_is_written() {
     assert!(record["chi2"].as_f64().unwrap() > 0.0);
     assert!((0.0..=1.0).contains(&record["p_value"].as_f64().unwrap()));
     assert_eq!(record["residuals"].as_array().unwrap().len(), 20);
-    let squares = |rows: &[&Value]| {
-        rows.iter()
-            .map(|row| row["u"][0].as_f64().unwrap().powi(2))
-            .sum::<f64>()
-    };
+    let squares = |rows: &[&Value]| rows.iter().map(|row| row["u"][0].as_f64().unwrap().powi(2)).sum::<f64>();
     let (all, parts) = record["budget"].as_array().unwrap().split_last().unwrap();
     assert!((squares(&[all]) / squares(&parts.iter().collect::<Vec<_>>()) - 1.0).abs() < 1e-9);
     assert!((squares(&[all]).sqrt() / u - 1.0).abs() < 1e-9);
     let shifts = record["shifts"].as_array().unwrap();
-    let named: Vec<_> = shifts
-        .iter()
-        .map(|shift| shift["change"].as_str().unwrap())
-        .collect();
+    let named: Vec<_> = shifts.iter().map(|shift| shift["change"].as_str().unwrap()).collect();
     assert_eq!(named, ["half the time step", "twice the rods"]);
 
     let written = files(&dir.path().join("one"));
@@ -129,8 +118,7 @@ fn what_the_points_do_not_say_is_warned_of() {
     );
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     assert!(
-        done.stderr
-            .contains("interaction.alpha: its 95 % interval reaches the upper end of its range, 0.3"),
+        done.stderr.contains("interaction.alpha: its 95 % interval reaches the upper end of its range, 0.3"),
         "{}",
         done.stderr
     );
@@ -146,10 +134,7 @@ fn a_spread_of_lengths_is_fitted_and_found_to_be_untold() {
     let dir = folder();
     points_of(dir.path(), "particles.length_sd_percent=20", "points.csv");
     let fit = "fit small.toml --data points.csv --replicas 50 --over interaction.alpha=0.1:2";
-    let done = shearbed(
-        dir.path(),
-        &format!("{fit} --over particles.length_sd_percent=10:30 --out both"),
-    );
+    let done = shearbed(dir.path(), &format!("{fit} --over particles.length_sd_percent=10:30 --out both"));
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     assert!(
         done.stderr.contains(
@@ -162,10 +147,7 @@ fn a_spread_of_lengths_is_fitted_and_found_to_be_untold() {
     let alpha = &json(&dir.path().join("both/fit.json"))["parameters"]["interaction.alpha"];
     let bound = |name: &str| alpha[name].as_f64().unwrap();
     assert!(bound("low_95") < 0.5 && 0.5 < bound("high_95"), "{alpha}");
-    let refused = shearbed(
-        dir.path(),
-        &format!("{fit} --over particles.length_sd_percent=0:40 --out not"),
-    );
+    let refused = shearbed(dir.path(), &format!("{fit} --over particles.length_sd_percent=0:40 --out not"));
     assert_eq!(refused.code, Some(2), "{}", refused.stderr);
     assert!(
         refused.stderr.contains("particles.length_sd_percent = 40") && !dir.path().join("not").exists(),
@@ -197,11 +179,7 @@ fn two_sets_have_values_of_their_own() {
                 --over 2:interaction.alpha=1.2:4.8 --replicas 20 --out own";
     let done = shearbed(dir.path(), args);
     assert_eq!(done.code, Some(0), "{}", done.stderr);
-    assert!(
-        done.stdout.starts_with("alpha_1 = ") && done.stdout.contains("; alpha_2 = "),
-        "{}",
-        done.stdout
-    );
+    assert!(done.stdout.starts_with("alpha_1 = ") && done.stdout.contains("; alpha_2 = "), "{}", done.stdout);
     let record = json(&dir.path().join("own/fit.json"));
     assert_eq!(record["degrees_of_freedom"], 38);
     for (key, planted) in [("1:interaction.alpha", 0.8), ("2:interaction.alpha", 2.4)] {
@@ -213,16 +191,8 @@ fn two_sets_have_values_of_their_own() {
     }
     // Each set tells its own value, and the points of one say nothing of the other.
     let apart = record["parameters"]["2:interaction.alpha"]["low_95"].as_f64();
-    assert!(
-        apart > record["parameters"]["1:interaction.alpha"]["high_95"].as_f64(),
-        "{record:#}"
-    );
-    for file in [
-        "profile_alpha_1.svg",
-        "profile_alpha_2.svg",
-        "points_2.svg",
-        "region_alpha_1_alpha_2.svg",
-    ] {
+    assert!(apart > record["parameters"]["1:interaction.alpha"]["high_95"].as_f64(), "{record:#}");
+    for file in ["profile_alpha_1.svg", "profile_alpha_2.svg", "points_2.svg", "region_alpha_1_alpha_2.svg"] {
         assert!(dir.path().join("own").join(file).is_file(), "{file}");
     }
 }
@@ -243,11 +213,8 @@ fn a_second_minimum_of_the_range_is_no_answer() {
          125.7,0.3413,0.02\n",
     )
     .unwrap();
-    fs::write(
-        dir.path().join("three.csv"),
-        "t_s,x1,x1_u\n14,0.2,0.02\n70,0.45,0.02\n146,0.35,0.02\n",
-    )
-    .unwrap();
+    fs::write(dir.path().join("three.csv"), "t_s,x1,x1_u\n14,0.2,0.02\n70,0.45,0.02\n146,0.35,0.02\n")
+        .unwrap();
     let fit = |data: &str, over: &str| {
         let arguments =
             format!("fit free.toml --data {data}.csv --over particles.{over} --out out --quiet --force");
@@ -309,38 +276,20 @@ fn rods_that_start_alike_are_fitted_through_the_kinks_of_their_projections() {
 #[test]
 fn bad_input_ends_with_two_and_leaves_nothing() {
     let dir = folder();
-    fs::write(
-        dir.path().join("copy.csv"),
-        "t_over_T,x1,x1_u\n0.1,0.4,0.01\n0.5,0.3,0.01\n",
-    )
-    .unwrap();
+    fs::write(dir.path().join("copy.csv"), "t_over_T,x1,x1_u\n0.1,0.4,0.01\n0.5,0.3,0.01\n").unwrap();
     fs::write(
         dir.path().join("vague.csv"),
         "t_over_T,t_over_T_u,x1,x1_u\n0.2,0.1,0.3,0.01\n0.5,0.3,0.3,0.01\n",
     )
     .unwrap();
-    fs::write(
-        dir.path().join("good.csv"),
-        "t_over_T,x1,x1_u\n0.2,0.3,0.01\n0.5,0.3,0.01\n0.8,0.3,0.01\n",
-    )
-    .unwrap();
-    fs::write(
-        dir.path().join("bad.csv"),
-        "t_over_T,x1,x1_u\n0.2,0.3,0.01\n0.5,zero,0.01\n",
-    )
-    .unwrap();
-    fs::write(
-        dir.path().join("late.csv"),
-        "t_over_T,x1,x1_u\n0.2,0.3,0.01\n1.5,0.3,0.01\n",
-    )
-    .unwrap();
+    fs::write(dir.path().join("good.csv"), "t_over_T,x1,x1_u\n0.2,0.3,0.01\n0.5,0.3,0.01\n0.8,0.3,0.01\n")
+        .unwrap();
+    fs::write(dir.path().join("bad.csv"), "t_over_T,x1,x1_u\n0.2,0.3,0.01\n0.5,zero,0.01\n").unwrap();
+    fs::write(dir.path().join("late.csv"), "t_over_T,x1,x1_u\n0.2,0.3,0.01\n1.5,0.3,0.01\n").unwrap();
     fs::write(dir.path().join("one.csv"), "t_over_T,x1,x1_u\n0.2,0.3,0.01\n").unwrap();
     let good = "--data good.csv";
     for (arguments, named) in [
-        (
-            "--data none.csv --over interaction.alpha=0.1:1".to_owned(),
-            "none.csv: cannot be read",
-        ),
+        ("--data none.csv --over interaction.alpha=0.1:1".to_owned(), "none.csv: cannot be read"),
         (
             "--data bad.csv --over interaction.alpha=0.1:1".into(),
             "bad.csv:3: column x1: `zero` is not allowed",
@@ -369,59 +318,20 @@ fn bad_input_ends_with_two_and_leaves_nothing() {
             format!("{good} --over interaction.alpha=0.1:1 --set ensemble.replicas=7"),
             "--set ensemble.replicas: a fit takes its own ensemble",
         ),
-        (
-            "--data one.csv --over interaction.alpha=0.1:1".into(),
-            "1 points for 1 parameters",
-        ),
-        (
-            "--data other=good.csv --over interaction.alpha=0.1:1".into(),
-            "other: cannot be read",
-        ),
-        (
-            format!("{good} --over interaction.alpha=1:0.1"),
-            "FROM < TO is allowed",
-        ),
-        (
-            format!("{good} --over interaction.alpha=0.1:1:5"),
-            "\"1:5\" is no end of a range",
-        ),
-        (
-            format!("{good} --over interaction.alpa=0.1:1"),
-            "unknown key `alpa`",
-        ),
-        (
-            format!("{good} --over interaction.alpha=-1:1"),
-            "interaction.alpha = -1",
-        ),
+        ("--data one.csv --over interaction.alpha=0.1:1".into(), "1 points for 1 parameters"),
+        ("--data other=good.csv --over interaction.alpha=0.1:1".into(), "other: cannot be read"),
+        (format!("{good} --over interaction.alpha=1:0.1"), "FROM < TO is allowed"),
+        (format!("{good} --over interaction.alpha=0.1:1:5"), "\"1:5\" is no end of a range"),
+        (format!("{good} --over interaction.alpa=0.1:1"), "unknown key `alpa`"),
+        (format!("{good} --over interaction.alpha=-1:1"), "interaction.alpha = -1"),
         (format!("{good} --over particles.count=10:15"), "a whole number"),
-        (
-            format!("{good} --over ensemble.seed=1:5"),
-            "ensemble is nothing that points tell",
-        ),
-        (
-            format!("{good} --over interaction.alpha=0.1:1 --over interaction.alpha=0.1:2"),
-            "both set it",
-        ),
-        (
-            format!("{good} --over interaction.alpha=0.1:1 --set interaction.alpha=1"),
-            "both set it",
-        ),
-        (
-            format!("{good} --over interaction.alpha=0.1:1 --replicas 5"),
-            "a whole number from 20",
-        ),
-        (
-            format!("{good} --over interaction.alpha=0.1:1 --rods 0"),
-            "a whole number from 1",
-        ),
-        (
-            format!("{good} --over interaction.alpha=0.1:1 --over 1:interaction.alpha=0.1:2"),
-            "both set it",
-        ),
-        (
-            format!("{good} --over 2:interaction.alpha=0.1:1"),
-            "there is no set 2; --data is given 1 times",
-        ),
+        (format!("{good} --over ensemble.seed=1:5"), "ensemble is nothing that points tell"),
+        (format!("{good} --over interaction.alpha=0.1:1 --over interaction.alpha=0.1:2"), "both set it"),
+        (format!("{good} --over interaction.alpha=0.1:1 --set interaction.alpha=1"), "both set it"),
+        (format!("{good} --over interaction.alpha=0.1:1 --replicas 5"), "a whole number from 20"),
+        (format!("{good} --over interaction.alpha=0.1:1 --rods 0"), "a whole number from 1"),
+        (format!("{good} --over interaction.alpha=0.1:1 --over 1:interaction.alpha=0.1:2"), "both set it"),
+        (format!("{good} --over 2:interaction.alpha=0.1:1"), "there is no set 2; --data is given 1 times"),
         (good.into(), "--over"),
     ] {
         let done = shearbed(dir.path(), &format!("fit small.toml {arguments} --out out"));

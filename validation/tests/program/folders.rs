@@ -60,18 +60,11 @@ fn a_damaged_point_does_not_reach_the_table() {
             let run = shearbed(dir.path(), &format!("{SWEEP} --out damaged"));
             assert_eq!(run.code, Some(2), "{what}: {}", run.stderr);
             assert!(run.stderr.contains("damaged/points/3"), "{what}: {}", run.stderr);
-            assert!(
-                run.stderr.contains("remove damaged/points/3 to have"),
-                "{}",
-                run.stderr
-            );
+            assert!(run.stderr.contains("remove damaged/points/3 to have"), "{}", run.stderr);
             assert_eq!(files(&out), before, "{what}");
             // What the message asks for helps.
             fs::remove_dir_all(out.join("points/3")).unwrap();
-            assert_eq!(
-                shearbed(dir.path(), &format!("{SWEEP} --out damaged")).code,
-                Some(0)
-            );
+            assert_eq!(shearbed(dir.path(), &format!("{SWEEP} --out damaged")).code, Some(0));
             assert_eq!(files(&out), good, "{what}");
             fs::remove_dir_all(out).unwrap();
         }
@@ -83,12 +76,7 @@ fn a_damaged_point_does_not_reach_the_table() {
     }
     let run = shearbed(dir.path(), &format!("{SWEEP} --out good"));
     assert_eq!(run.code, Some(2), "{}", run.stderr);
-    assert!(
-        run.stderr
-            .contains("good/points/1: not as it was written: point was"),
-        "{}",
-        run.stderr
-    );
+    assert!(run.stderr.contains("good/points/1: not as it was written: point was"), "{}", run.stderr);
 }
 
 #[test]
@@ -96,10 +84,7 @@ fn two_sweeps_started_together_do_not_mix() {
     let dir = folder();
     let of_seed = |seed: u32, out: &str| format!("{SWEEP} --seed {seed} --out {out}");
     for seed in [1, 2] {
-        assert_eq!(
-            shearbed(dir.path(), &of_seed(seed, &seed.to_string())).code,
-            Some(0)
-        );
+        assert_eq!(shearbed(dir.path(), &of_seed(seed, &seed.to_string())).code, Some(0));
     }
     let alone = ["1", "2"].map(|name| files(&dir.path().join(name)));
     for round in 0..20 {
@@ -116,9 +101,7 @@ fn two_sweeps_started_together_do_not_mix() {
             [Some(2), Some(0)] => assert_eq!(found, alone[1]),
             _ => panic!("round {round}: {codes:?}"),
         }
-        let told = both
-            .map(|output| String::from_utf8(output.stderr).unwrap())
-            .concat();
+        let told = both.map(|output| String::from_utf8(output.stderr).unwrap()).concat();
         let reasons = [
             "another shearbed is at work in this folder",
             "results of `shearbed sweep` from other input are kept here",
@@ -139,10 +122,7 @@ fn two_runs_into_one_folder_do_not_mix_their_files() {
         all
     };
     for seed in [1, 2] {
-        assert_eq!(
-            shearbed(dir.path(), &of_seed(seed, &seed.to_string())).code,
-            Some(0)
-        );
+        assert_eq!(shearbed(dir.path(), &of_seed(seed, &seed.to_string())).code, Some(0));
     }
     let alone = ["1", "2"].map(tables);
     assert_ne!(alone[0], alone[1]);
@@ -157,11 +137,7 @@ fn two_runs_into_one_folder_do_not_mix_their_files() {
         let record: serde_json::Value = serde_json::from_slice(&found["run.json"]).unwrap();
         let seed = record["seed"].as_u64().unwrap() as usize;
         assert_eq!(tables(&out), alone[seed - 1], "round {round}");
-        assert!(
-            found.keys().all(|name| !name.starts_with('.')),
-            "{:?}",
-            found.keys()
-        );
+        assert!(found.keys().all(|name| !name.starts_with('.')), "{:?}", found.keys());
     }
 }
 
@@ -245,34 +221,20 @@ fn runs_and_fits_leave_each_others_folders_alone() {
         "fit",
         &format!("{another}over.1.to was 5.0 and is 6.0 now"),
     );
-    fs::write(
-        dir.path().join("points.csv"),
-        points.replace("0.5,0.3", "0.5,0.31"),
-    )
-    .unwrap();
-    unchanged(
-        dir.path(),
-        &format!("{fit} --out fit"),
-        "fit",
-        &format!("{another}data.1.crc32 was"),
-    );
+    fs::write(dir.path().join("points.csv"), points.replace("0.5,0.3", "0.5,0.31")).unwrap();
+    unchanged(dir.path(), &format!("{fit} --out fit"), "fit", &format!("{another}data.1.crc32 was"));
 
     // Forced, they leave nothing of the other behind; what is the user's stays.
     for (forced, out, record) in [(run, "fit", "run.json"), (fit, "run", "fit.json")] {
         fs::write(dir.path().join(out).join("notes.txt"), "the user's own").unwrap();
         let done = shearbed(dir.path(), &format!("{forced} --force --out {out}"));
         assert_eq!(done.code, Some(0), "{}", done.stderr);
-        assert_eq!(
-            shearbed(dir.path(), &format!("{forced} --out new-{out}")).code,
-            Some(0)
-        );
+        assert_eq!(shearbed(dir.path(), &format!("{forced} --out new-{out}")).code, Some(0));
         let mut names = files(&dir.path().join(out));
         assert!(names.contains_key(record) && names.remove("notes.txt").is_some());
         assert_eq!(
             names.keys().collect::<Vec<_>>(),
-            files(&dir.path().join(format!("new-{out}")))
-                .keys()
-                .collect::<Vec<_>>()
+            files(&dir.path().join(format!("new-{out}"))).keys().collect::<Vec<_>>()
         );
     }
 }

@@ -18,11 +18,7 @@ fn titles_and_file_names_command_nothing() {
     let scene = SMALL.replace("A small scene", TITLE);
     let name = "\u{1b}]0;x\u{7}=1.toml";
     fs::write(dir.path().join(name), &scene).unwrap();
-    fs::write(
-        dir.path().join("\u{1b}[2Jbad.toml"),
-        scene.replace("count = 20", "count = 0"),
-    )
-    .unwrap();
+    fs::write(dir.path().join("\u{1b}[2Jbad.toml"), scene.replace("count = 20", "count = 0")).unwrap();
     let sweep = ["sweep", name, "--over", "interaction.alpha=1,2", "--out", "s"];
     for (arguments, code) in [
         (&["run", name, "--out", "x"][..], 0),
@@ -50,10 +46,7 @@ fn titles_and_file_names_command_nothing() {
     for (name, bytes) in files(&dir.path().join("x")) {
         let text = String::from_utf8(bytes).unwrap();
         if name.ends_with(".svg") {
-            assert!(
-                !commands_a_terminal(&text) && !text.contains('\u{fffe}'),
-                "{name}: {text}"
-            );
+            assert!(!commands_a_terminal(&text) && !text.contains('\u{fffe}'), "{name}: {text}");
             assert!(!text.contains("<script") && text.contains("&lt;script"), "{name}");
         }
     }
@@ -63,26 +56,13 @@ fn titles_and_file_names_command_nothing() {
 fn no_cell_of_a_table_is_a_formula() {
     let dir = folder();
     let titles = r#"title="=cmd|' /C calc'!A0","@SUM(A1)","+1+2","-3-4","plain\u001b""#;
-    let output = command(dir.path(), "sweep small.toml --out x --over")
-        .arg(titles)
-        .output()
-        .unwrap();
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    let output = command(dir.path(), "sweep small.toml --out x --over").arg(titles).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = fs::read_to_string(dir.path().join("x/sweep.csv")).unwrap();
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let rows: Vec<_> = reader.records().map(Result::unwrap).collect();
     let titles: Vec<_> = rows.iter().map(|row| &row[0]).collect();
-    let expected = [
-        "'=cmd|' /C calc'!A0",
-        "'@SUM(A1)",
-        "'+1+2",
-        "'-3-4",
-        r"plain\u{1b}",
-    ];
+    let expected = ["'=cmd|' /C calc'!A0", "'@SUM(A1)", "'+1+2", "'-3-4", r"plain\u{1b}"];
     assert_eq!(titles, expected);
     // A negative number is a number.
     let over = "sweep extension --over particles.orientation={phi_deg=-30,theta_deg=60} --over ensemble.seed=1,2 --out y";
@@ -101,11 +81,7 @@ fn a_long_line_is_not_echoed_whole() {
         let run = shearbed(dir.path(), "run long.toml");
         assert_eq!(run.code, Some(2));
         assert!(run.stderr.len() < 4000, "{}", run.stderr.len());
-        assert!(
-            run.stderr.starts_with("error: long.toml:"),
-            "{}",
-            &run.stderr[..200]
-        );
+        assert!(run.stderr.starts_with("error: long.toml:"), "{}", &run.stderr[..200]);
         assert!(run.stderr.contains("xxx …") || run.stderr.contains("yyy …"));
     }
 }
@@ -113,26 +89,13 @@ fn a_long_line_is_not_echoed_whole() {
 #[test]
 fn threads_of_the_environment_have_the_limit_of_the_option() {
     let dir = folder();
-    for arguments in [
-        "run small.toml",
-        "bench --case re11.6",
-        "validate --case jeffery-period",
-    ] {
-        let output = command(dir.path(), arguments)
-            .env("RAYON_NUM_THREADS", "100000")
-            .output()
-            .unwrap();
+    for arguments in ["run small.toml", "bench --case re11.6", "validate --case jeffery-period"] {
+        let output = command(dir.path(), arguments).env("RAYON_NUM_THREADS", "100000").output().unwrap();
         let message = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(2), "{arguments}: {message}");
-        assert!(
-            message.contains("RAYON_NUM_THREADS = 100000 is not allowed"),
-            "{message}"
-        );
+        assert!(message.contains("RAYON_NUM_THREADS = 100000 is not allowed"), "{message}");
     }
-    let output = command(dir.path(), "run small.toml")
-        .env("RAYON_NUM_THREADS", "3")
-        .output()
-        .unwrap();
+    let output = command(dir.path(), "run small.toml").env("RAYON_NUM_THREADS", "3").output().unwrap();
     assert!(output.status.success());
     let record = fs::read_to_string(dir.path().join("out/small/run.json")).unwrap();
     assert!(record.contains("\"threads\": 3"), "{record}");
@@ -142,10 +105,7 @@ fn threads_of_the_environment_have_the_limit_of_the_option() {
 fn a_number_of_threads_that_is_none_is_refused() {
     let dir = folder();
     for text in ["abc", "-1", "1.5"] {
-        let output = command(dir.path(), "run small.toml")
-            .env("RAYON_NUM_THREADS", text)
-            .output()
-            .unwrap();
+        let output = command(dir.path(), "run small.toml").env("RAYON_NUM_THREADS", text).output().unwrap();
         let message = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(2), "{text}: {message}");
         let expected = format!("RAYON_NUM_THREADS = {text} is not allowed: a whole number from 1 to 1024");
@@ -158,11 +118,7 @@ fn a_number_of_threads_that_is_none_is_refused() {
 #[test]
 fn a_small_stack_is_enough() {
     let dir = folder();
-    for arguments in [
-        "plan small.toml",
-        "run small.toml",
-        "validate --case jeffery-period",
-    ] {
+    for arguments in ["plan small.toml", "run small.toml", "validate --case jeffery-period"] {
         let ended = limited(dir.path(), "ulimit -s 64", arguments);
         assert_eq!(ended.code, Some(0), "{arguments}: {}", ended.stderr);
     }
@@ -178,12 +134,7 @@ fn a_limit_on_memory_is_heeded_before_the_work() {
     for arguments in ["run big.toml", "converge big.toml", "plan big.toml"] {
         let ended = limited(dir.path(), "ulimit -v 1000000", arguments);
         let shown = ended.stdout.contains("\n20000000 rods, ");
-        assert_eq!(
-            shown,
-            arguments.starts_with("plan"),
-            "{arguments}: {}",
-            ended.stdout
-        );
+        assert_eq!(shown, arguments.starts_with("plan"), "{arguments}: {}", ended.stdout);
         let message = ended.stderr;
         assert_eq!(ended.code, Some(2), "{arguments}: {message}");
         assert!(message.contains("particles.count = 20000000"), "{message}");

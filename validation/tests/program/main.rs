@@ -16,6 +16,7 @@ mod experiments;
 mod fit;
 mod folders;
 mod hostile;
+mod order;
 mod overwrite;
 mod plot;
 mod problems;

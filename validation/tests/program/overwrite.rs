@@ -6,42 +6,23 @@ use std::fs;
 #[test]
 fn a_name_with_a_dot_keeps_it_in_the_folder() {
     let dir = unequal();
-    assert_eq!(
-        shearbed(dir.path(), "run fig8-a0.36 --replicas 1 --quiet").code,
-        Some(0)
-    );
+    assert_eq!(shearbed(dir.path(), "run fig8-a0.36 --replicas 1 --quiet").code, Some(0));
     assert_eq!(names(&dir.path().join("out")), ["fig8-a0.36"]);
 }
 
 #[test]
 fn a_run_that_ends_badly_leaves_what_was_complete() {
     let dir = unequal();
-    assert_eq!(
-        shearbed(dir.path(), "run small.toml --quiet --out a").code,
-        Some(0)
-    );
-    let before: Vec<_> = names(&dir.path().join("a"))
-        .iter()
-        .map(|name| read(&dir.path().join("a").join(name)))
-        .collect();
-    fs::write(
-        dir.path().join("small.toml"),
-        UNEQUAL.replace("aspect_ratio = 11.6", "aspect_ratio = 1e200"),
-    )
-    .unwrap();
+    assert_eq!(shearbed(dir.path(), "run small.toml --quiet --out a").code, Some(0));
+    let before: Vec<_> =
+        names(&dir.path().join("a")).iter().map(|name| read(&dir.path().join("a").join(name))).collect();
+    fs::write(dir.path().join("small.toml"), UNEQUAL.replace("aspect_ratio = 11.6", "aspect_ratio = 1e200"))
+        .unwrap();
     let ended = shearbed(dir.path(), "run small.toml --quiet --out a");
     assert_eq!(ended.code, Some(2));
-    assert!(
-        ended
-            .stderr
-            .contains("particles.aspect_ratio = 1e200 is not allowed"),
-        "{}",
-        ended.stderr
-    );
-    let after: Vec<_> = names(&dir.path().join("a"))
-        .iter()
-        .map(|name| read(&dir.path().join("a").join(name)))
-        .collect();
+    assert!(ended.stderr.contains("particles.aspect_ratio = 1e200 is not allowed"), "{}", ended.stderr);
+    let after: Vec<_> =
+        names(&dir.path().join("a")).iter().map(|name| read(&dir.path().join("a").join(name))).collect();
     assert_eq!(before, after);
 }
 
@@ -53,10 +34,7 @@ fn a_file_that_cannot_be_replaced_leaves_all_as_it_was() {
     fs::write(out.join("projections.csv"), "old").unwrap();
     let ended = shearbed(dir.path(), "run small.toml --out out --force");
     assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""));
-    assert_eq!(
-        ended.stderr,
-        "error: out/run.json: cannot be written: is a directory\n"
-    );
+    assert_eq!(ended.stderr, "error: out/run.json: cannot be written: is a directory\n");
     assert_eq!(names(&out), ["projections.csv", "run.json"]);
     assert_eq!(read(&out.join("projections.csv")), "old");
 }
@@ -68,25 +46,16 @@ fn another_run_is_overwritten_only_by_force() {
     assert_eq!(run("").code, Some(0));
     let kept = || -> Vec<_> {
         let dir = dir.path().join("a");
-        names(&dir)
-            .into_iter()
-            .map(|name| (read(&dir.join(&name)), name))
-            .collect()
+        names(&dir).into_iter().map(|name| (read(&dir.join(&name)), name)).collect()
     };
     let tables = || -> Vec<_> {
-        kept()
-            .into_iter()
-            .filter(|(_, name)| name.ends_with(".csv") || name.ends_with(".svg"))
-            .collect()
+        kept().into_iter().filter(|(_, name)| name.ends_with(".csv") || name.ends_with(".svg")).collect()
     };
     let (before, before_tables) = (kept(), tables());
     for (arguments, what) in [
         ("--seed 2", "scene.ensemble.seed was 1 and is 2 now"),
         ("--replicas 4", "scene.ensemble.replicas was 3 and is 4 now"),
-        (
-            "--set interaction.alpha=0.4",
-            "scene.interaction.alpha was 0.5 and is 0.4 now",
-        ),
+        ("--set interaction.alpha=0.4", "scene.interaction.alpha was 0.5 and is 0.4 now"),
     ] {
         let ended = run(arguments);
         assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""));
@@ -112,31 +81,18 @@ fn another_run_is_overwritten_only_by_force() {
 
     // Another version, what is no record, and what was changed since.
     let path = |name: &str| dir.path().join("a").join(name);
-    let (_, record) = before
-        .iter()
-        .map(|(text, name)| (name, text))
-        .find(|(name, _)| *name == "shearbed.json")
-        .unwrap();
+    let (_, record) =
+        before.iter().map(|(text, name)| (name, text)).find(|(name, _)| *name == "shearbed.json").unwrap();
     let put = |text: &str| fs::write(path("shearbed.json"), text).unwrap();
     put("{");
-    assert!(
-        run("")
-            .stderr
-            .contains("a/shearbed.json: is no record of results")
-    );
+    assert!(run("").stderr.contains("a/shearbed.json: is no record of results"));
     put(&record.replace("\"version\": \"0.1.0\"", "\"version\": \"0.0.9\""));
     let said = run("").stderr;
-    assert!(
-        said.contains("version was \"0.0.9\" and is \"0.1.0\" now"),
-        "{said}"
-    );
+    assert!(said.contains("version was \"0.0.9\" and is \"0.1.0\" now"), "{said}");
     assert_eq!(run("--force").code, Some(0));
     fs::write(path("projections.csv"), "edited").unwrap();
     let said = run("").stderr;
-    assert!(
-        said.contains("a/projections.csv: was changed after `shearbed run` wrote it"),
-        "{said}"
-    );
+    assert!(said.contains("a/projections.csv: was changed after `shearbed run` wrote it"), "{said}");
     assert_eq!(read(&path("projections.csv")), "edited");
 }
 
@@ -156,19 +112,13 @@ fn what_a_command_did_not_write_stays() {
         ("run small.toml --out r", "r/projections.csv"),
         ("run small.toml --out q", "q/mean_angle.svg"),
         ("validate --case jeffery-period --out v", "v/report.md"),
-        (
-            "sweep small.toml --over interaction.alpha=1,2 --out s",
-            "s/sweep.csv",
-        ),
+        ("sweep small.toml --over interaction.alpha=1,2 --out s", "s/sweep.csv"),
         ("reference --aspect-ratio 2 --times 0:1:3 --out x.csv", "x.csv"),
     ] {
         put(mine);
         let (code, said) = ended(command);
         assert_eq!(code, Some(2), "{command}: {said}");
-        assert!(
-            said.contains(&format!("{mine}: is here already")),
-            "{command}: {said}"
-        );
+        assert!(said.contains(&format!("{mine}: is here already")), "{command}: {said}");
         assert_eq!(read(&dir.path().join(mine)), "mine");
         assert_eq!(ended(&format!("{command} --force")).0, Some(0), "{command}");
         assert_ne!(read(&dir.path().join(mine)), "mine", "{command}");
@@ -201,16 +151,9 @@ fn of_two_runs_into_one_new_folder_one_is_refused() {
         runs.map(|run| run.join().unwrap())
     });
     let codes = ended.each_ref().map(|ended| ended.code);
-    assert!(
-        codes == [Some(0), Some(2)] || codes == [Some(2), Some(0)],
-        "{codes:?}"
-    );
+    assert!(codes == [Some(0), Some(2)] || codes == [Some(2), Some(0)], "{codes:?}");
     let refused = ended.iter().find(|ended| ended.code == Some(2)).unwrap();
-    assert!(
-        refused.stderr.contains("from other input are kept here"),
-        "{}",
-        refused.stderr
-    );
+    assert!(refused.stderr.contains("from other input are kept here"), "{}", refused.stderr);
 }
 
 #[cfg(unix)]
@@ -223,30 +166,18 @@ fn a_file_is_written_where_a_link_leads_and_a_pipe_keeps_nobody_waiting() {
     fs::write(dir.path().join("target.csv"), "old").unwrap();
     for (link, target) in [("link.csv", "target.csv"), ("dangling.csv", "new.csv")] {
         std::os::unix::fs::symlink(target, dir.path().join(link)).unwrap();
-        assert_eq!(
-            shearbed(dir.path(), &format!("{} --force", reference(link))).code,
-            Some(0)
-        );
+        assert_eq!(shearbed(dir.path(), &format!("{} --force", reference(link))).code, Some(0));
         assert!(dir.path().join(link).is_symlink());
         assert_eq!(read(&dir.path().join(target)), expected);
     }
     let mkfifo = |name: &str| {
         let pipe = dir.path().join(name);
         fs::create_dir_all(pipe.parent().unwrap()).unwrap();
-        assert!(
-            std::process::Command::new("mkfifo")
-                .arg(&pipe)
-                .status()
-                .unwrap()
-                .success()
-        );
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
     };
     // A pipe that nobody reads or writes keeps no command waiting, wherever it lies.
     for (pipe, arguments) in [
-        (
-            "pipe",
-            "reference --aspect-ratio 2 --times 0:1:3 --force --out pipe",
-        ),
+        ("pipe", "reference --aspect-ratio 2 --times 0:1:3 --force --out pipe"),
         ("p.svg", "plot a --out p.svg"),
         ("lock/.shearbed-lock", "run small.toml --out lock"),
         (".new.shearbed-part/.shearbed-lock", "run small.toml --out new"),
@@ -255,19 +186,10 @@ fn a_file_is_written_where_a_link_leads_and_a_pipe_keeps_nobody_waiting() {
         (".checkpoint-k3.part", "run small.toml --out k --checkpoint k3"),
         ("scene.toml", "run scene.toml --out k"),
         ("r/report.json", "compare r/report.json r/report.json"),
-        (
-            "s/shearbed.json",
-            "sweep small.toml --over interaction.alpha=1,2 --out s",
-        ),
-        (
-            "d/d.csv",
-            "fit small.toml --data d/d.csv --over interaction.alpha=0.1:1",
-        ),
+        ("s/shearbed.json", "sweep small.toml --over interaction.alpha=1,2 --out s"),
+        ("d/d.csv", "fit small.toml --data d/d.csv --over interaction.alpha=0.1:1"),
     ] {
-        assert_eq!(
-            shearbed(dir.path(), "run small.toml --quiet --out a").code,
-            Some(0)
-        );
+        assert_eq!(shearbed(dir.path(), "run small.toml --quiet --out a").code, Some(0));
         mkfifo(pipe);
         let ended = limited(dir.path(), "true", arguments);
         assert_eq!(ended.code, Some(2), "{arguments}: {}", ended.stderr);
@@ -287,34 +209,22 @@ fn a_study_spares_what_it_did_not_write_and_a_run() {
     let dir = unequal();
     let out = dir.path().join("a");
     let converge = |scene: &str, out: &str| {
-        shearbed(
-            dir.path(),
-            &format!("converge {scene} --quiet --replicas 2 --out {out}"),
-        )
+        shearbed(dir.path(), &format!("converge {scene} --quiet --replicas 2 --out {out}"))
     };
     fs::create_dir(&out).unwrap();
     fs::write(out.join("replicas.csv"), "mine").unwrap();
     let ended = converge("fig6-uniform", "a");
     assert_eq!(ended.code, Some(2));
-    assert!(
-        ended.stderr.contains("a/replicas.csv: is here already"),
-        "{}",
-        ended.stderr
-    );
+    assert!(ended.stderr.contains("a/replicas.csv: is here already"), "{}", ended.stderr);
     fs::remove_file(out.join("replicas.csv")).unwrap();
     assert_eq!(converge("fig6-uniform", "a").code, Some(0));
     assert_eq!(names(&out), ["converge.csv", "converge.json", "shearbed.json"]);
-    assert_eq!(
-        shearbed(dir.path(), "run small.toml --quiet --out b").code,
-        Some(0)
-    );
+    assert_eq!(shearbed(dir.path(), "run small.toml --quiet --out b").code, Some(0));
     let before = names(&dir.path().join("b"));
     let ended = converge("fig6-uniform", "b");
     assert_eq!(ended.code, Some(2));
     assert!(
-        ended
-            .stderr
-            .contains("b/shearbed.json: results of `shearbed run` are kept here"),
+        ended.stderr.contains("b/shearbed.json: results of `shearbed run` are kept here"),
         "{}",
         ended.stderr
     );
@@ -328,25 +238,13 @@ fn a_point_of_a_sweep_and_a_checkpoint_are_no_place_for_a_run() {
         let ended = shearbed(dir.path(), arguments);
         (ended.code, ended.stderr)
     };
-    assert_eq!(
-        ended("sweep small.toml --over interaction.alpha=0.1,0.2 --out w --quiet").0,
-        Some(0)
-    );
+    assert_eq!(ended("sweep small.toml --over interaction.alpha=0.1,0.2 --out w --quiet").0, Some(0));
     let before = read(&dir.path().join("w/points/1/projections.csv"));
     let (code, said) = ended("run small.toml --quiet --out w/points/1 --seed 77");
-    assert!(
-        code == Some(2) && said.contains("w/points/1/point.json: is here already"),
-        "{said}"
-    );
+    assert!(code == Some(2) && said.contains("w/points/1/point.json: is here already"), "{said}");
     assert_eq!(read(&dir.path().join("w/points/1/projections.csv")), before);
     fs::create_dir(dir.path().join("d")).unwrap();
     let (code, said) = ended("run small.toml --quiet --out d --checkpoint d/projections.csv");
-    assert!(
-        code == Some(2) && said.contains("the results may take that name"),
-        "{said}"
-    );
-    assert_eq!(
-        ended("run small.toml --quiet --out d --checkpoint d/kept").0,
-        Some(0)
-    );
+    assert!(code == Some(2) && said.contains("the results may take that name"), "{said}");
+    assert_eq!(ended("run small.toml --quiet --out d --checkpoint d/kept").0, Some(0));
 }

@@ -6,29 +6,18 @@ use crate::common::{limited, read, shearbed, unequal};
 fn one_picture_is_drawn_from_several_runs_and_from_a_sweep() {
     let dir = unequal();
     for (seed, out) in [(1, "a"), (2, "b")] {
-        let ended = shearbed(
-            dir.path(),
-            &format!("run small.toml --seed {seed} --out {out} --quiet"),
-        );
+        let ended = shearbed(dir.path(), &format!("run small.toml --seed {seed} --out {out} --quiet"));
         assert_eq!(ended.code, Some(0), "{}", ended.stderr);
     }
-    assert_eq!(
-        shearbed(dir.path(), "plot a b --y x2 --out two.svg").code,
-        Some(0)
-    );
+    assert_eq!(shearbed(dir.path(), "plot a b --y x2 --out two.svg").code, Some(0));
     let picture = read(&dir.path().join("two.svg"));
     for text in [">\na\n<", ">\nb\n<", "95 % band", "t/T"] {
         assert!(picture.contains(text), "{text}");
     }
     // The same picture in pixels: a PNG of the view box's size, that is read back.
-    assert_eq!(
-        shearbed(dir.path(), "plot a b --y x2 --out two.png").code,
-        Some(0)
-    );
+    assert_eq!(shearbed(dir.path(), "plot a b --y x2 --out two.png").code, Some(0));
     let file = std::fs::File::open(dir.path().join("two.png")).unwrap();
-    let mut reader = png::Decoder::new(std::io::BufReader::new(file))
-        .read_info()
-        .unwrap();
+    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
     let (width, height) = reader.info().size();
     assert!(picture.contains(&format!("viewBox=\"0 0 {width} {height}\"")));
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
@@ -40,28 +29,15 @@ fn one_picture_is_drawn_from_several_runs_and_from_a_sweep() {
     assert_eq!(shearbed(dir.path(), titled).code, Some(0));
     let ended = shearbed(dir.path(), "plot c --out c.png");
     assert_eq!(ended.code, Some(0), "{}", ended.stderr);
-    assert!(
-        ended.stderr.contains("no letters for \"ежинрст\""),
-        "{}",
-        ended.stderr
-    );
+    assert!(ended.stderr.contains("no letters for \"ежинрст\""), "{}", ended.stderr);
     let sweep = "sweep small.toml --over interaction.alpha=0.1,0.2 --quiet --out s";
     assert_eq!(shearbed(dir.path(), sweep).code, Some(0));
     assert_eq!(shearbed(dir.path(), "plot s --out s.svg").code, Some(0));
     assert!(read(&dir.path().join("s.svg")).contains("interaction.alpha=0.2"));
     for (arguments, words) in [
-        (
-            "plot a --y x9",
-            "--y x9: a has no such channel; there are x1, x2, x3, x1x2,",
-        ),
-        (
-            "plot nowhere",
-            "nowhere: neither run.json nor sweep.json is in it",
-        ),
-        (
-            "plot a --out picture.gif",
-            "a name that ends in .svg or .png is allowed",
-        ),
+        ("plot a --y x9", "--y x9: a has no such channel; there are x1, x2, x3, x1x2,"),
+        ("plot nowhere", "nowhere: neither run.json nor sweep.json is in it"),
+        ("plot a --out picture.gif", "a name that ends in .svg or .png is allowed"),
     ] {
         let ended = shearbed(dir.path(), arguments);
         assert_eq!(ended.code, Some(2), "{arguments}");
@@ -89,28 +65,13 @@ fn what_was_not_written_so_is_not_drawn() {
     let first = table.lines().next().unwrap();
     let edited = cells[3].replace(|c: char| c.is_ascii_digit(), "1");
     for (text, said) in [
-        (
-            with(3, "NaN"),
-            "a/projections.csv:3: x1 = \"NaN\" is not allowed: a finite number",
-        ),
-        (
-            with(3, "-inf"),
-            "a/projections.csv:3: x1 = \"-inf\" is not allowed",
-        ),
-        (
-            with(0, "-1"),
-            "a/projections.csv:3: t_over_T = \"-1\" is not allowed",
-        ),
-        (
-            table.replacen("x2,", "x1,", 1),
-            "a/projections.csv:1: column \"x1\" is there twice",
-        ),
+        (with(3, "NaN"), "a/projections.csv:3: x1 = \"NaN\" is not allowed: a finite number"),
+        (with(3, "-inf"), "a/projections.csv:3: x1 = \"-inf\" is not allowed"),
+        (with(0, "-1"), "a/projections.csv:3: t_over_T = \"-1\" is not allowed"),
+        (table.replacen("x2,", "x1,", 1), "a/projections.csv:1: column \"x1\" is there twice"),
         (format!("{first}\n"), "a/projections.csv:1: has a header alone"),
         (String::new(), "a/projections.csv:1: is empty"),
-        (
-            with(3, &edited),
-            "a/projections.csv: was changed after it was written",
-        ),
+        (with(3, &edited), "a/projections.csv: was changed after it was written"),
     ] {
         std::fs::write(dir.path().join("a/projections.csv"), text).unwrap();
         let ended = shearbed(dir.path(), "plot a --out a.svg");
@@ -124,18 +85,10 @@ fn what_was_not_written_so_is_not_drawn() {
     let other = if whole[at..].starts_with('1') { "2" } else { "1" };
     std::fs::write(&point, format!("{}{other}{}", &whole[..at], &whole[at + 1..])).unwrap();
     let ended = shearbed(dir.path(), "plot s --out t.svg");
-    assert!(
-        ended.stderr.contains("s/points/3/projections.csv: was changed"),
-        "{}",
-        ended.stderr
-    );
+    assert!(ended.stderr.contains("s/points/3/projections.csv: was changed"), "{}", ended.stderr);
     std::fs::remove_dir_all(dir.path().join("s/points/3")).unwrap();
     let ended = shearbed(dir.path(), "plot s --out t.svg");
-    assert!(
-        ended.stderr.contains("s/points/3/point.json: cannot be read"),
-        "{}",
-        ended.stderr
-    );
+    assert!(ended.stderr.contains("s/points/3/point.json: cannot be read"), "{}", ended.stderr);
     assert!(!dir.path().join("t.svg").exists());
 }
 

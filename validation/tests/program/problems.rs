@@ -33,10 +33,8 @@ fn an_export_is_what_is_read_and_is_not_written_over_foreign_files() {
     for name in ["mid-flip-2", "mid-flip-11.6", "mid-flip-100", "mid-flip-10000"] {
         assert!(names.contains(&name));
     }
-    let expected: BTreeMap<_, _> = FILES
-        .iter()
-        .map(|(name, text)| (name.clone(), text.clone().into_bytes()))
-        .collect();
+    let expected: BTreeMap<_, _> =
+        FILES.iter().map(|(name, text)| (name.clone(), text.clone().into_bytes())).collect();
     assert_eq!(files(&reference), expected);
     assert_eq!(problems::read(&reference).unwrap().len(), names.len());
     // Over its own export: the same again.
@@ -46,16 +44,10 @@ fn an_export_is_what_is_read_and_is_not_written_over_foreign_files() {
         fs::write(reference.join("poles/start.csv"), "changed").unwrap();
         let error = problems::export(&reference, false).unwrap_err().to_string();
         assert!(error.contains(foreign) && error.contains("--force"), "{error}");
-        assert_eq!(
-            fs::read_to_string(reference.join("poles/start.csv")).unwrap(),
-            "changed"
-        );
+        assert_eq!(fs::read_to_string(reference.join("poles/start.csv")).unwrap(), "changed");
         problems::export(&reference, true).unwrap();
         assert_eq!(fs::read_to_string(reference.join(foreign)).unwrap(), "mine");
-        assert_eq!(
-            fs::read_to_string(reference.join("poles/start.csv")).unwrap(),
-            FILES["poles/start.csv"]
-        );
+        assert_eq!(fs::read_to_string(reference.join("poles/start.csv")).unwrap(), FILES["poles/start.csv"]);
         fs::remove_file(reference.join(foreign)).unwrap();
     }
 }
@@ -67,11 +59,7 @@ fn every_problem_holds_to_the_schema_and_spoilt_ones_do_not() {
     let mut count = 0;
     for (name, text) in FILES.iter().filter(|(name, _)| name.ends_with("problem.json")) {
         let problem: Value = serde_json::from_str(text).unwrap();
-        assert!(
-            schema.is_valid(&problem),
-            "{name}: {:?}",
-            schema.iter_errors(&problem).next()
-        );
+        assert!(schema.is_valid(&problem), "{name}: {:?}", schema.iter_errors(&problem).next());
         count += 1;
         let spoilt: [(&str, Value); 7] = [
             ("format", 2.into()),
@@ -104,63 +92,25 @@ fn spoilt_folders_are_refused_with_their_place() {
     let json = &FILES["poles/problem.json"];
     let row = certified.lines().nth(2).unwrap();
     for (file, spoilt, place, words) in [
-        (
-            "problem.json",
-            json.replace("\"format\": 1", "\"format\": 2"),
-            ":2:",
-            "reads 1",
-        ),
-        (
-            "problem.json",
-            json.replace("\"title\"", "\"titel\""),
-            ":4:",
-            "titel",
-        ),
+        ("problem.json", json.replace("\"format\": 1", "\"format\": 2"), ":2:", "reads 1"),
+        ("problem.json", json.replace("\"title\"", "\"titel\""), ":4:", "titel"),
         ("problem.json", json[..json.len() / 2].into(), ":", "EOF"),
-        (
-            "problem.json",
-            json.replace("\"tolerance\": ", "\"tolerance\": -"),
-            "",
-            "tolerance",
-        ),
+        ("problem.json", json.replace("\"tolerance\": ", "\"tolerance\": -"), "", "tolerance"),
         ("start.csv", start.replace("rod,p1", "rod,p"), ":1:", "header"),
-        (
-            "start.csv",
-            start.replace("\n1,", "\n2,"),
-            ":3:1:",
-            "rod 1 is next",
-        ),
+        ("start.csv", start.replace("\n1,", "\n2,"), ":3:1:", "rod 1 is next"),
         ("start.csv", start.replacen("1.0", "1.1", 1), ":2:2:", "|p|"),
         ("start.csv", start.replacen("1.0", "1e400", 1), ":2:4:", "1e400"),
-        (
-            "certified.csv",
-            certified.replace(&format!("{row}\n"), ""),
-            ":3:2:",
-            "rod",
-        ),
-        (
-            "certified.csv",
-            certified.replace(row, &format!("{row},1")),
-            ":3:",
-            "fields",
-        ),
+        ("certified.csv", certified.replace(&format!("{row}\n"), ""), ":3:2:", "rod"),
+        ("certified.csv", certified.replace(row, &format!("{row},1")), ":3:", "fields"),
         ("certified.csv", format!("{certified}{row}\n"), "", "rows"),
-        (
-            "certified.csv",
-            certified.replacen("e-1", "x", 1),
-            ":",
-            "no finite number",
-        ),
+        ("certified.csv", certified.replacen("e-1", "x", 1), ":", "no finite number"),
         ("certified.csv", String::new(), ":1:", "header"),
     ] {
         let path = dir.path().join("poles").join(file);
         fs::write(&path, &spoilt).unwrap();
         let error = problems::read(dir.path()).unwrap_err().to_string();
         let expected = format!("{}{place}", path.display());
-        assert!(
-            error.starts_with(&expected) && error.contains(words),
-            "{error} | {expected} | {words}"
-        );
+        assert!(error.starts_with(&expected) && error.contains(words), "{error} | {expected} | {words}");
         fs::write(&path, &FILES[&format!("poles/{file}")]).unwrap();
     }
     problems::read(dir.path()).unwrap();
@@ -173,14 +123,10 @@ fn spoilt_folders_are_refused_with_their_place() {
 fn exact_answers_have_more_digits_than_a_double() {
     for def in problems::all() {
         let table = &FILES[&format!("{}/certified.csv", def.name)];
-        let digits = table
-            .lines()
-            .skip(1)
-            .flat_map(|row| row.split(',').skip(1))
-            .map(|field| {
-                let mantissa = field.split('e').next().unwrap_or_default();
-                mantissa.chars().filter(char::is_ascii_digit).count()
-            });
+        let digits = table.lines().skip(1).flat_map(|row| row.split(',').skip(1)).map(|field| {
+            let mantissa = field.split('e').next().unwrap_or_default();
+            mantissa.chars().filter(char::is_ascii_digit).count()
+        });
         let most = digits.max().unwrap();
         match def.name {
             "log-rolling" => assert_eq!(most, 1),

@@ -8,12 +8,7 @@ use std::process::Command;
 
 /// What git prints in a folder, or nothing.
 fn git(dir: &Path, arguments: &[&str]) -> Option<String> {
-    let output = Command::new("git")
-        .arg("-C")
-        .arg(dir)
-        .args(arguments)
-        .output()
-        .ok()?;
+    let output = Command::new("git").arg("-C").arg(dir).args(arguments).output().ok()?;
     let text = String::from_utf8(output.stdout).ok()?;
     output.status.success().then(|| text.trim().to_owned())
 }
@@ -24,17 +19,7 @@ fn every_record_names_the_commit_of_the_build() {
     // Not that of the folder where the program is started.
     for arguments in [
         &["init", "-q"][..],
-        &[
-            "-c",
-            "user.name=a",
-            "-c",
-            "user.email=a",
-            "commit",
-            "-q",
-            "--allow-empty",
-            "-m",
-            "other",
-        ],
+        &["-c", "user.name=a", "-c", "user.email=a", "commit", "-q", "--allow-empty", "-m", "other"],
     ] {
         git(dir.path(), arguments);
     }
@@ -45,19 +30,11 @@ fn every_record_names_the_commit_of_the_build() {
     let commit = commit.unwrap_or_else(|| "unknown".to_owned());
     for (arguments, record, within) in [
         ("run small.toml --out a", "a/run.json", ""),
-        (
-            "sweep small.toml --over interaction.alpha=1,2 --out b",
-            "b/sweep.json",
-            "",
-        ),
+        ("sweep small.toml --over interaction.alpha=1,2 --out b", "b/sweep.json", ""),
         ("converge extension --out c", "c/converge.json", ""),
         ("converge free.toml --out c", "c/converge.json", ""),
         ("converge small.toml --replicas 2 --out d", "d/converge.json", ""),
-        (
-            "validate --case jeffery-period --out e",
-            "e/report.json",
-            "/origin",
-        ),
+        ("validate --case jeffery-period --out e", "e/report.json", "/origin"),
     ] {
         let run = shearbed(dir.path(), arguments);
         let Ok(text) = fs::read_to_string(dir.path().join(record)) else {
@@ -69,10 +46,7 @@ fn every_record_names_the_commit_of_the_build() {
         let found = record["commit"].as_str().unwrap();
         assert_eq!(found.trim_end_matches("-dirty"), commit, "{arguments}");
         assert_eq!(record["version"], env!("CARGO_PKG_VERSION"));
-        assert!(
-            record["rustc"].as_str().unwrap().starts_with("rustc "),
-            "{arguments}"
-        );
+        assert!(record["rustc"].as_str().unwrap().starts_with("rustc "), "{arguments}");
         assert!(["release", "development"].contains(&record["build"].as_str().unwrap()));
     }
 }
@@ -82,23 +56,14 @@ fn the_command_is_as_it_was_called_and_a_shell_repeats_it() {
     let dir = folder();
     let out = "it's $HOME; `a b`";
     let arguments = ["validate", "--case", "jeffery-period", "--quiet", "--out", out];
-    assert!(
-        command(dir.path(), "")
-            .args(arguments)
-            .status()
-            .unwrap()
-            .success()
-    );
+    assert!(command(dir.path(), "").args(arguments).status().unwrap().success());
     let written = |name: &str| fs::read_to_string(dir.path().join(out).join(name)).unwrap();
     let report: Value = serde_json::from_str(&written("report.json")).unwrap();
     let line = report["origin"]["command"].as_str().unwrap().to_owned();
     assert!(line.starts_with(env!("CARGO_BIN_EXE_shearbed")), "{line}");
     assert!(written("report.md").contains(&format!("`` {line} ``")), "{line}");
     fs::remove_dir_all(dir.path().join(out)).unwrap();
-    let again = Command::new("bash")
-        .args(["-c", &line])
-        .current_dir(dir.path())
-        .status();
+    let again = Command::new("bash").args(["-c", &line]).current_dir(dir.path()).status();
     assert!(again.unwrap().success());
     assert!(dir.path().join(out).join("report.json").exists());
 }
@@ -110,11 +75,7 @@ fn the_build_script_knows_its_own_checkout_alone() {
     let script = dir.path().join("script");
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("build.rs");
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let built = Command::new(rustc)
-        .args(["--edition", "2024", "-o"])
-        .arg(&script)
-        .arg(source)
-        .status();
+    let built = Command::new(rustc).args(["--edition", "2024", "-o"]).arg(&script).arg(source).status();
     assert!(built.unwrap().success());
     let commit = |root: &Path| {
         let output = Command::new(&script)
@@ -124,9 +85,7 @@ fn the_build_script_knows_its_own_checkout_alone() {
             .output()
             .unwrap();
         let text = String::from_utf8(output.stdout).unwrap();
-        let line = text
-            .lines()
-            .find_map(|line| line.strip_prefix("cargo::rustc-env=SHEARBED_COMMIT="));
+        let line = text.lines().find_map(|line| line.strip_prefix("cargo::rustc-env=SHEARBED_COMMIT="));
         line.unwrap().to_owned()
     };
     let project = |root: &Path| {
@@ -179,22 +138,15 @@ fn a_record_says_which_stages_ran_and_why_as_the_plan_does() {
         let record: Value = serde_json::from_str(&text).unwrap();
         let stages = record["plan"].as_array().unwrap();
         let kept = |name: &str| stages.iter().find(|stage| stage["stage"] == name).unwrap()["kept"] == moved;
-        assert!(
-            kept("translation") && kept("neighbours") && kept("contacts"),
-            "{text}"
-        );
+        assert!(kept("translation") && kept("neighbours") && kept("contacts"), "{text}");
         // One line each, as `shearbed plan` prints it.
         let lines = record["plan_text"].as_str().unwrap().lines();
-        let lines: Vec<_> = lines
-            .filter(|line| line.starts_with("keep ") || line.starts_with("drop "))
-            .collect();
+        let lines: Vec<_> =
+            lines.filter(|line| line.starts_with("keep ") || line.starts_with("drop ")).collect();
         for (stage, line) in stages.iter().zip(&lines) {
             let reason = stage["reason"].as_str().unwrap();
             let word = if stage["kept"] == true { "keep " } else { "drop " };
-            assert!(
-                line.starts_with(word) && line.ends_with(reason),
-                "{line}: {stage}"
-            );
+            assert!(line.starts_with(word) && line.ends_with(reason), "{line}: {stage}");
         }
         assert!(stages.len() > 10 && lines.len() == stages.len());
     }

@@ -27,34 +27,22 @@ fn columns_and_known_values() {
     let header = "time_s,t_over_T,strain,p1,p2,p3,phi_rad,theta_rad,c_b";
     assert_eq!(rod[0].join(","), header);
     let half_pi = std::f64::consts::FRAC_PI_2.to_string();
-    assert_eq!(
-        rod[1].join(","),
-        format!("0.0,0.0,0.0,1.0,0.0,0.0,0.0,{half_pi},1.0")
-    );
+    assert_eq!(rod[1].join(","), format!("0.0,0.0,0.0,1.0,0.0,0.0,0.0,{half_pi},1.0"));
     // A quarter of T = 2π·2.5/0.5.
     assert_eq!(rod[2][0], (2.5 * std::f64::consts::PI).to_string());
-    assert_eq!(
-        rod[2][3..],
-        ["0.0", "1.0", "0.0", &half_pi, &half_pi, "1.0"].map(String::from)
-    );
+    assert_eq!(rod[2][3..], ["0.0", "1.0", "0.0", &half_pi, &half_pi, "1.0"].map(String::from));
     let isotropic = rows("--aspect-ratio 3 --times 0:0:1");
     let header = "time_s,t_over_T,strain,x1,x2,x3,a11,a22,a33,a12,a13,a23";
     assert_eq!(isotropic[0].join(","), header);
     let third = (1.0f64 / 3.0).to_string();
     let halves = ["0.5"; 3];
     assert_eq!(isotropic[1][3..6], halves.map(String::from));
-    assert_eq!(
-        isotropic[1][6..],
-        [&third, &third, &third, "0.0", "0.0", "0.0"].map(String::from)
-    );
+    assert_eq!(isotropic[1][6..], [&third, &third, &third, "0.0", "0.0", "0.0"].map(String::from));
     // Along the flow a sphere's double period and a rod's whole ones are back at the start.
     let late = rows("--aspect-ratio 1e100 --start 30,45 --times 1e6:1e6:1");
     let start = rows("--aspect-ratio 1e100 --start 30,45 --times 0:0:1");
     assert_eq!(late[1][3..], start[1][3..]);
-    assert_ne!(
-        late[1][3..],
-        rows("--aspect-ratio 1e100 --start 30,45 --times 0.1:0.1:1")[1][3..]
-    );
+    assert_ne!(late[1][3..], rows("--aspect-ratio 1e100 --start 30,45 --times 0.1:0.1:1")[1][3..]);
 }
 
 #[test]
@@ -83,10 +71,7 @@ fn unequal_rods_reduce_to_equal_ones_and_discs_mirror_rods() {
         let nearly = at(&format!("--aspect-ratio {r} --aspect-ratio-sd-percent 1e-4"));
         let unequal = at(&format!("--aspect-ratio {r} --aspect-ratio-sd-percent 3"));
         // Of second order: (2π r_e σ)² with σ = 1e-6, and the rounding to eleven decimals.
-        assert!(
-            equal.iter().zip(&nearly).all(|(a, b)| (a - b).abs() < 1e-8),
-            "{equal:?} {nearly:?}"
-        );
+        assert!(equal.iter().zip(&nearly).all(|(a, b)| (a - b).abs() < 1e-8), "{equal:?} {nearly:?}");
         assert!(equal.iter().zip(&unequal).any(|(a, b)| (a - b).abs() > 1e-4));
     }
 }
@@ -98,16 +83,8 @@ fn constants_and_explanations_name_their_equations() {
     assert!(value("period").starts_with("6.283185307179586476925287e0"));
     assert!(value("mean_angle").starts_with("7.85398163397448309615660"));
     assert!(value("plateau_a22").starts_with("3.33333333333333333333"));
-    assert!(
-        constants
-            .iter()
-            .skip(1)
-            .all(|row| row[3].contains(char::is_numeric))
-    );
-    for arguments in [
-        "--aspect-ratio 3 --explain",
-        "--aspect-ratio 3 --explain --start 0,0",
-    ] {
+    assert!(constants.iter().skip(1).all(|row| row[3].contains(char::is_numeric)));
+    for arguments in ["--aspect-ratio 3 --explain", "--aspect-ratio 3 --explain --start 0,0"] {
         let (code, out, _) = reference(arguments);
         assert!(code == Some(0) && out.contains("A.4") && out.contains("t_over_T"));
     }
@@ -117,55 +94,19 @@ fn constants_and_explanations_name_their_equations() {
 fn bad_input_is_refused_with_key_value_and_what_is_allowed() {
     let times = "--times 0:1:2";
     for (arguments, words) in [
-        (
-            "--aspect-ratio 0 --times 0:1:2",
-            ["'0'", "--aspect-ratio", "1e-100"],
-        ),
-        (
-            "--aspect-ratio 1e101 --times 0:1:2",
-            ["'1e101'", "--aspect-ratio", "1e100"],
-        ),
-        (
-            "--aspect-ratio nan --times 0:1:2",
-            ["'nan'", "--aspect-ratio", "allowed"],
-        ),
+        ("--aspect-ratio 0 --times 0:1:2", ["'0'", "--aspect-ratio", "1e-100"]),
+        ("--aspect-ratio 1e101 --times 0:1:2", ["'1e101'", "--aspect-ratio", "1e100"]),
+        ("--aspect-ratio nan --times 0:1:2", ["'nan'", "--aspect-ratio", "allowed"]),
         ("--aspect-ratio 3", ["--times", "required", "FROM:TO:COUNT"]),
-        (
-            "--aspect-ratio 3 --times 0:1",
-            ["'0:1'", "--times", "COUNT from 1"],
-        ),
-        (
-            "--aspect-ratio 3 --times 1:0:3",
-            ["'1:0:3'", "--times", "FROM ≤ TO"],
-        ),
-        (
-            "--aspect-ratio 3 --times 0:1:0",
-            ["'0:1:0'", "--times", "COUNT from 1"],
-        ),
-        (
-            "--aspect-ratio 3 --times 0:inf:2",
-            ["'0:inf:2'", "--times", "finite"],
-        ),
-        (
-            "--aspect-ratio 3 --times 0:1:2 --unit h",
-            ["'h'", "--unit", "strain"],
-        ),
-        (
-            "--aspect-ratio 3 --times 0:1:2 --start 0,181",
-            ["'0,181'", "--start", "0 to 180"],
-        ),
-        (
-            "--aspect-ratio 3 --times 0:1:2 --start up",
-            ["'up'", "--start", "isotropic"],
-        ),
-        (
-            "--aspect-ratio 3 --times 0:1:2 --shear-rate-per-s 0",
-            ["'0'", "--shear-rate", "1e-100"],
-        ),
-        (
-            "--aspect-ratio 3 --times 0:1:2 --gradient-per-s 1,2",
-            ["'1,2'", "--gradient", "nine"],
-        ),
+        ("--aspect-ratio 3 --times 0:1", ["'0:1'", "--times", "COUNT from 1"]),
+        ("--aspect-ratio 3 --times 1:0:3", ["'1:0:3'", "--times", "FROM ≤ TO"]),
+        ("--aspect-ratio 3 --times 0:1:0", ["'0:1:0'", "--times", "COUNT from 1"]),
+        ("--aspect-ratio 3 --times 0:inf:2", ["'0:inf:2'", "--times", "finite"]),
+        ("--aspect-ratio 3 --times 0:1:2 --unit h", ["'h'", "--unit", "strain"]),
+        ("--aspect-ratio 3 --times 0:1:2 --start 0,181", ["'0,181'", "--start", "0 to 180"]),
+        ("--aspect-ratio 3 --times 0:1:2 --start up", ["'up'", "--start", "isotropic"]),
+        ("--aspect-ratio 3 --times 0:1:2 --shear-rate-per-s 0", ["'0'", "--shear-rate", "1e-100"]),
+        ("--aspect-ratio 3 --times 0:1:2 --gradient-per-s 1,2", ["'1,2'", "--gradient", "nine"]),
         (
             "--aspect-ratio 3 --times 0:1:2 --gradient-per-s 1,0,0,0,-1,0,0,0,0",
             ["--unit", "period", "allowed"],
@@ -174,25 +115,16 @@ fn bad_input_is_refused_with_key_value_and_what_is_allowed() {
             "--aspect-ratio 3 --times 0:1e9:2 --unit s --gradient-per-s 1,0,0,0,-1,0,0,0,0",
             ["--times", "5000", "allowed"],
         ),
-        (
-            "--aspect-ratio 3 --times 0:1:2 --start 0,9 --fourth",
-            ["--fourth", "isotropic", "allowed"],
-        ),
+        ("--aspect-ratio 3 --times 0:1:2 --start 0,9 --fourth", ["--fourth", "isotropic", "allowed"]),
         (
             "--aspect-ratio 1.1 --times 0:1:2 --aspect-ratio-sd-percent 2",
             ["sd-percent 2", "eight", "allowed"],
         ),
-        (
-            "--aspect-ratio 3 --times 0:1e308:2 --shear-rate-per-s 1e-9",
-            ["--times", "finite", "allowed"],
-        ),
+        ("--aspect-ratio 3 --times 0:1e308:2 --shear-rate-per-s 1e-9", ["--times", "finite", "allowed"]),
     ] {
         let (code, out, error) = reference(arguments);
         assert_eq!((code, out.as_str()), (Some(2), ""), "{arguments}");
-        assert!(
-            words.iter().all(|word| error.contains(word)),
-            "{arguments}: {error}"
-        );
+        assert!(words.iter().all(|word| error.contains(word)), "{arguments}: {error}");
     }
     // The same without a mistake.
     assert_eq!(reference(&format!("--aspect-ratio 3 {times}")).0, Some(0));
@@ -205,10 +137,7 @@ fn a_file_appears_whole_or_not_at_all() {
     let arguments = format!("--aspect-ratio 3 --times 0:1:3 --out {}", path.display());
     let (code, out, _) = reference(&arguments);
     assert_eq!((code, out.as_str()), (Some(0), ""));
-    assert_eq!(
-        fs::read_to_string(&path).unwrap(),
-        reference("--aspect-ratio 3 --times 0:1:3").1
-    );
+    assert_eq!(fs::read_to_string(&path).unwrap(), reference("--aspect-ratio 3 --times 0:1:3").1);
     fs::remove_file(&path).unwrap();
     fs::create_dir(&path).unwrap();
     let (code, _, error) = reference(&arguments);

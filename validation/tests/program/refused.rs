@@ -43,13 +43,7 @@ fn bad_input_ends_with_2_and_a_message() {
     put("latin.toml", b"title = \"a\"\n# n = 50 cm\xb3\n");
     put("zero.toml", UNEQUAL.replace("count = 20", "count = 0").as_bytes());
     put("wide.toml", UNEQUAL.replace("= 3.6", "= 40").as_bytes());
-    put(
-        "sphere.toml",
-        UNEQUAL
-            .replace("= 11.6", "= 1")
-            .replace("= 3.6", "= 0")
-            .as_bytes(),
-    );
+    put("sphere.toml", UNEQUAL.replace("= 11.6", "= 1").replace("= 3.6", "= 0").as_bytes());
     let before = names(dir.path());
     for (arguments, message) in REJECTED {
         let ended = shearbed(dir.path(), arguments);
@@ -93,10 +87,7 @@ fn a_study_of_rods_that_meet_needs_shear_by_periods() {
         "strain = 2\nsteps_per_strain = 10",
     );
     let elliptic = UNEQUAL
-        .replace(
-            "shear_rate_per_s = 0.5",
-            "gradient_per_s = [[0, -0.2, 0], [0.5, 0, 0], [0, 0, 0]]",
-        )
+        .replace("shear_rate_per_s = 0.5", "gradient_per_s = [[0, -0.2, 0], [0.5, 0, 0], [0, 0, 0]]")
         .replace("\"orbit_constant\", ", "");
     for (name, scene, advice) in [
         ("strain.toml", by_strain, "time.steps_per_strain=10,20,40"),
@@ -105,29 +96,19 @@ fn a_study_of_rods_that_meet_needs_shear_by_periods() {
         fs::write(dir.path().join(name), scene).unwrap();
         let plan = shearbed(dir.path(), &format!("plan {name}"));
         assert_eq!(plan.code, Some(0), "{}", plan.stderr);
-        assert!(
-            plan.stdout
-                .contains("converge: plane Couette flow by periods only\n"),
-            "{}",
-            plan.stdout
-        );
+        assert!(plan.stdout.contains("converge: plane Couette flow by periods only\n"), "{}", plan.stdout);
         let before = names(dir.path());
         let ended = shearbed(dir.path(), &format!("converge {name}"));
         assert_eq!(ended.code, Some(2), "{}", ended.stderr);
         assert!(
-            ended
-                .stderr
-                .contains(&format!("{name}: converge of interacting rods needs")),
+            ended.stderr.contains(&format!("{name}: converge of interacting rods needs")),
             "{}",
             ended.stderr
         );
         assert!(ended.stderr.contains(advice), "{}", ended.stderr);
         assert_eq!(names(dir.path()), before);
         // The advice can be followed.
-        let sweep = shearbed(
-            dir.path(),
-            &format!("sweep {name} --over {advice} --out s-{name} --quiet"),
-        );
+        let sweep = shearbed(dir.path(), &format!("sweep {name} --over {advice} --out s-{name} --quiet"));
         assert_eq!(sweep.code, Some(0), "{}", sweep.stderr);
     }
 }

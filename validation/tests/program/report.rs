@@ -12,23 +12,15 @@ const CHOSEN: [&str; 3] = ["jeffery-period", "planar-projections", "free-half-pe
 
 static REPORT: LazyLock<Report> = LazyLock::new(|| {
     let effort: Effort = Effort::gate();
-    let few = Replicas {
-        interacting: 2,
-        free: 2,
-    };
+    let few = Replicas { interacting: 2, free: 2 };
     let finished = std::sync::atomic::AtomicU64::new(0);
     let count = || {
         finished.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
     };
     let drawn = figures::draw(&effort, few, &count).unwrap().unwrap();
     assert_eq!(finished.into_inner(), figures::work(few).unwrap());
-    let chosen = cases::all()
-        .into_iter()
-        .filter(|case| CHOSEN.contains(&case.about.name));
-    let mut sections = Sections {
-        equations: catalogue::equations(),
-        ..Default::default()
-    };
+    let chosen = cases::all().into_iter().filter(|case| CHOSEN.contains(&case.about.name));
+    let mut sections = Sections { equations: catalogue::equations(), ..Default::default() };
     sections.add(ReportStudy::new(&figures::STUDY, drawn, 0.0));
     catalogue::name_judges(&mut sections);
     let outcomes = chosen.map(|case| case.run(&effort)).collect();
@@ -43,11 +35,7 @@ fn a_real_report_is_whole() {
     // Anchors are unique, and every link leads to one.
     let anchors: Vec<&str> = quoted(&html, " id=\"");
     for anchor in &anchors {
-        assert_eq!(
-            anchors.iter().filter(|other| *other == anchor).count(),
-            1,
-            "{anchor}"
-        );
+        assert_eq!(anchors.iter().filter(|other| *other == anchor).count(), 1, "{anchor}");
     }
     let links = quoted(&html, "href=\"");
     let files = report.data().unwrap();
@@ -93,15 +81,9 @@ fn every_figure_has_its_numbers() {
         assert!(csv.lines().count() > 20 && !csv.contains("NaN"), "{name}");
         let picture = &figure.figure;
         assert!(!picture.title.is_empty() && !figure.caption.is_empty(), "{name}");
-        assert!(
-            picture.x_name.ends_with(')') && picture.y_name.ends_with(')'),
-            "{name}: units"
-        );
+        assert!(picture.x_name.ends_with(')') && picture.y_name.ends_with(')'), "{name}: units");
         for case in &figure.cases {
-            assert!(
-                cases::all().iter().any(|known| known.about.name == case),
-                "{case}"
-            );
+            assert!(cases::all().iter().any(|known| known.about.name == case), "{case}");
         }
     }
     // Free rods of one size keep their amplitude, and it is about 1/2.

@@ -8,40 +8,19 @@ use std::path::Path;
 #[test]
 fn chosen_cases_are_run_and_reported() {
     let dir = unequal();
-    let ended = shearbed(
-        dir.path(),
-        "validate --case jeffery-period --data . --threads 2 --out report",
-    );
+    let ended = shearbed(dir.path(), "validate --case jeffery-period --data . --threads 2 --out report");
     assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""));
     let lines: Vec<_> = ended.stdout.lines().collect();
-    assert!(
-        lines[0].starts_with("pass            jeffery-period "),
-        "{lines:?}"
-    );
+    assert!(lines[0].starts_with("pass            jeffery-period "), "{lines:?}");
     assert!(lines[2].starts_with("Passed: core 1 of 1. 0 fail, "), "{lines:?}");
-    assert_eq!(
-        lines[3],
-        format!("report: {}", Path::new("report/report.html").display())
-    );
+    assert_eq!(lines[3], format!("report: {}", Path::new("report/report.html").display()));
     let report = dir.path().join("report");
-    assert_eq!(
-        names(&report),
-        [
-            "junit.xml",
-            "report.html",
-            "report.json",
-            "report.md",
-            "shearbed.json"
-        ]
-    );
+    assert_eq!(names(&report), ["junit.xml", "report.html", "report.json", "report.md", "shearbed.json"]);
     let json: Value = serde_json::from_str(&read(&report.join("report.json"))).unwrap();
     assert_eq!(json["cases"].as_array().map(Vec::len), Some(1));
 
     let quiet = shearbed(dir.path(), "validate --case jeffery-period --quiet");
-    assert_eq!(
-        (quiet.code, quiet.stdout + &quiet.stderr),
-        (Some(0), String::new())
-    );
+    assert_eq!((quiet.code, quiet.stdout + &quiet.stderr), (Some(0), String::new()));
     assert!(dir.path().join("out/report/report.html").is_file());
 }
 
@@ -53,16 +32,8 @@ fn two_reports_are_compared() {
     let text = read(&dir.path().join("a/report.json"));
     let same = shearbed(dir.path(), "compare a/report.json a/report.json");
     assert_eq!(same.code, Some(0), "{}", same.stderr);
-    assert!(
-        same.stdout.contains("Verdicts: none of 1 changed."),
-        "{}",
-        same.stdout
-    );
-    assert!(
-        same.stdout.contains("No error moved beyond its noise."),
-        "{}",
-        same.stdout
-    );
+    assert!(same.stdout.contains("Verdicts: none of 1 changed."), "{}", same.stdout);
+    assert!(same.stdout.contains("No error moved beyond its noise."), "{}", same.stdout);
     // A spoilt report: another verdict, and an error that is no longer what it was.
     let mut spoilt: Value = serde_json::from_str(&text).unwrap();
     spoilt["cases"][0]["verdict"] = "fail".into();
@@ -73,11 +44,7 @@ fn two_reports_are_compared() {
     assert!(other.contains("Errors that moved"), "{other}");
     let bad = shearbed(dir.path(), "compare a/report.json small.toml");
     assert_eq!(bad.code, Some(2));
-    assert!(
-        bad.stderr.contains("small.toml: is no report.json"),
-        "{}",
-        bad.stderr
-    );
+    assert!(bad.stderr.contains("small.toml: is no report.json"), "{}", bad.stderr);
     assert!(read(&dir.path().join("a/junit.xml")).contains("name=\"jeffery-period\""));
 }
 
@@ -85,12 +52,7 @@ fn two_reports_are_compared() {
 fn a_build_says_how_it_is_cited() {
     let text = shearbed(unequal().path(), "cite").stdout;
     let version = format!("version = {{{}}}", env!("CARGO_PKG_VERSION"));
-    for words in [
-        "@software{shearbed,",
-        &version,
-        "note    = {commit ",
-        "@article{lee-springer-1982,",
-    ] {
+    for words in ["@software{shearbed,", &version, "note    = {commit ", "@article{lee-springer-1982,"] {
         assert!(text.contains(words), "{text}");
     }
     assert_eq!(text.matches('{').count(), text.matches('}').count());

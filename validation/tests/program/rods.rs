@@ -36,11 +36,7 @@ fn every_rod_has_a_row_with_its_place_in_the_volume() {
     let done = shearbed(dir.path(), "run asked.toml --out a --quiet");
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     let path = dir.path().join("a/rods.csv");
-    assert!(
-        fs::read_to_string(&path)
-            .unwrap()
-            .starts_with(&format!("{COLUMNS}\n"))
-    );
+    assert!(fs::read_to_string(&path).unwrap().starts_with(&format!("{COLUMNS}\n")));
     let rows = rows(&path);
     assert_eq!(rows.len(), 3 * 3 * 20);
     // (20/50 per cm³)^⅓ in mm, and T = 2π(r_e + 1/r_e)/G.
@@ -48,17 +44,11 @@ fn every_rod_has_a_row_with_its_place_in_the_volume() {
     let period_s = std::f64::consts::TAU * (11.6 + 1.0 / 11.6) / 0.5;
     for (k, row) in rows.iter().enumerate() {
         let (replica, time, rod) = (k / 60, k / 20 % 3, k % 20);
-        assert_eq!(
-            (number(row, "replica"), number(row, "rod")),
-            (replica as f64, rod as f64)
-        );
+        assert_eq!((number(row, "replica"), number(row, "rod")), (replica as f64, rod as f64));
         let time_s = 0.5 * time as f64 * period_s;
         assert!((number(row, "time_s") - time_s).abs() < 1e-12 * period_s);
         assert!((number(row, "strain") - 0.5 * time_s).abs() < 1e-12 * period_s);
-        assert_eq!(
-            (number(row, "aspect_ratio"), number(row, "length_mm")),
-            (11.6, 0.72)
-        );
+        assert_eq!((number(row, "aspect_ratio"), number(row, "length_mm")), (11.6, 0.72));
         for axis in ["x1_mm", "x2_mm", "x3_mm"] {
             assert!((0.0..=side_mm).contains(&number(row, axis)), "{row:?}");
         }
@@ -67,10 +57,7 @@ fn every_rod_has_a_row_with_its_place_in_the_volume() {
         assert!(["0", "1"].contains(&row["collided"].as_str()) && (time > 0 || row["collided"] == "0"));
     }
     // The other tables have the bytes that they have without.
-    assert_eq!(
-        shearbed(dir.path(), "run small.toml --out b --quiet").code,
-        Some(0)
-    );
+    assert_eq!(shearbed(dir.path(), "run small.toml --out b --quiet").code, Some(0));
     for name in ["projections.csv", "mean_angle.csv"] {
         let read = |run: &str| fs::read(dir.path().join(run).join(name)).unwrap();
         assert_eq!(read("a"), read("b"));
@@ -78,15 +65,9 @@ fn every_rod_has_a_row_with_its_place_in_the_volume() {
     assert!(!dir.path().join("b/rods.csv").exists());
     let plan = shearbed(dir.path(), "plan asked.toml").stdout;
     let bytes = fs::metadata(&path).unwrap().len() as f64;
-    let line = plan
-        .lines()
-        .find(|line| line.starts_with("rods.csv: 180 rows, at most "))
-        .unwrap();
+    let line = plan.lines().find(|line| line.starts_with("rods.csv: 180 rows, at most ")).unwrap();
     let most: f64 = line.split(' ').nth(5).unwrap().parse().unwrap();
-    assert!(
-        bytes <= 1e6 * most + 5e3 && bytes > 0.3e6 * most,
-        "{bytes} of {line}"
-    );
+    assert!(bytes <= 1e6 * most + 5e3 && bytes > 0.3e6 * most, "{bytes} of {line}");
 }
 
 #[test]
@@ -98,11 +79,7 @@ fn free_rods_have_no_place() {
     let rows = rows(&dir.path().join("a/rods.csv"));
     assert_eq!(rows.len(), 180);
     for row in &rows {
-        assert!(
-            ["x1_mm", "x2_mm", "x3_mm"]
-                .iter()
-                .all(|axis| row[*axis].is_empty())
-        );
+        assert!(["x1_mm", "x2_mm", "x3_mm"].iter().all(|axis| row[*axis].is_empty()));
         assert_eq!(row["collided"], "0");
     }
 }
@@ -110,40 +87,22 @@ fn free_rods_have_no_place() {
 /// What stands between the tags of an array.
 fn array(text: &str, name: &str) -> Vec<f64> {
     let start = text.find(&format!("Name=\"{name}\"")).unwrap();
-    let values = text[start..]
-        .split_once('>')
-        .unwrap()
-        .1
-        .split_once('<')
-        .unwrap()
-        .0;
-    values
-        .split_whitespace()
-        .map(|value| value.parse().unwrap())
-        .collect()
+    let values = text[start..].split_once('>').unwrap().1.split_once('<').unwrap().0;
+    values.split_whitespace().map(|value| value.parse().unwrap()).collect()
 }
 
 #[test]
 fn lines_for_paraview_are_the_rows_of_the_table() {
     let dir = folder();
     fs::write(dir.path().join("asked.toml"), asked()).unwrap();
-    assert_eq!(
-        shearbed(dir.path(), "run asked.toml --out a --vtk --quiet").code,
-        Some(0)
-    );
+    assert_eq!(shearbed(dir.path(), "run asked.toml --out a --vtk --quiet").code, Some(0));
     let read = |name: &str| fs::read_to_string(dir.path().join("a").join(name)).unwrap();
     let rows = rows(&dir.path().join("a/rods.csv"));
     let collection = read("rods.pvd");
     for time in 0..3 {
         let name = format!("rods_{time:04}.vtp");
-        let own: Vec<_> = (0..180)
-            .filter(|k| k / 20 % 3 == time)
-            .map(|k| &rows[k])
-            .collect();
-        let listed = format!(
-            "<DataSet timestep=\"{}\" part=\"0\" file=\"{name}\"/>",
-            own[0]["time_s"]
-        );
+        let own: Vec<_> = (0..180).filter(|k| k / 20 % 3 == time).map(|k| &rows[k]).collect();
+        let listed = format!("<DataSet timestep=\"{}\" part=\"0\" file=\"{name}\"/>", own[0]["time_s"]);
         assert!(collection.contains(&listed), "{collection}");
         let text = read(&name);
         assert!(text.contains("NumberOfPoints=\"120\"") && text.contains("NumberOfLines=\"60\""));
@@ -151,14 +110,9 @@ fn lines_for_paraview_are_the_rows_of_the_table() {
         let (collided, r) = (array(&text, "collided"), array(&text, "aspect_ratio"));
         let counting: Vec<f64> = (0..120).map(f64::from).collect();
         assert_eq!(array(&text, "connectivity"), counting);
-        assert_eq!(
-            array(&text, "offsets"),
-            (1..=60).map(|k| 2.0 * f64::from(k)).collect::<Vec<_>>()
-        );
+        assert_eq!(array(&text, "offsets"), (1..=60).map(|k| 2.0 * f64::from(k)).collect::<Vec<_>>());
         for (k, row) in own.iter().enumerate() {
-            for (axis, (x, p_name)) in [("x1_mm", "p1"), ("x2_mm", "p2"), ("x3_mm", "p3")]
-                .iter()
-                .enumerate()
+            for (axis, (x, p_name)) in [("x1_mm", "p1"), ("x2_mm", "p2"), ("x3_mm", "p3")].iter().enumerate()
             {
                 let (tail, head) = (ends[6 * k + axis], ends[6 * k + 3 + axis]);
                 assert!((0.5 * (tail + head) - number(row, x)).abs() < 1e-14 * 10.0);
@@ -170,10 +124,7 @@ fn lines_for_paraview_are_the_rows_of_the_table() {
     }
     assert!(!dir.path().join("a/rods_0003.vtp").exists());
     // A run without them leaves none that would pass for its own.
-    assert_eq!(
-        shearbed(dir.path(), "run asked.toml --out a --quiet --force").code,
-        Some(0)
-    );
+    assert_eq!(shearbed(dir.path(), "run asked.toml --out a --quiet --force").code, Some(0));
     assert!(!dir.path().join("a/rods.pvd").exists());
 }
 
@@ -186,19 +137,13 @@ fn what_cannot_be_written_is_refused_by_its_key() {
         assert_eq!(done.code, Some(2), "{arguments}: {}", done.stdout);
         assert!(done.stderr.contains(said), "{}", done.stderr);
     };
-    refused(
-        SMALL,
-        "run s.toml --vtk",
-        "s.toml: --vtk: output.rods_at is missing",
-    );
+    refused(SMALL, "run s.toml --vtk", "s.toml: --vtk: output.rods_at is missing");
     refused(
         &asked(),
         "sweep s.toml --over particles.count=2,3",
         "s.toml: output.rods_at: a sweep keeps no rods",
     );
-    let many = asked()
-        .replace("count = 20", "count = 100000")
-        .replace("replicas = 3", "replicas = 10000000");
+    let many = asked().replace("count = 20", "count = 100000").replace("replicas = 3", "replicas = 10000000");
     refused(
         &many,
         "run s.toml",

@@ -33,12 +33,8 @@ fn a_run_writes_a_table_and_a_picture_of_each_observable_and_a_record() {
         .collect();
     insta::assert_snapshot!(columns.concat());
     let record: Value = serde_json::from_str(&read(&out.join("run.json"))).unwrap();
-    let files: Vec<_> = record["files"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|name| name.as_str().unwrap())
-        .collect();
+    let files: Vec<_> =
+        record["files"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
     assert!(files.iter().all(|name| out.join(name).is_file()));
     // And run.json and shearbed.json.
     assert_eq!(files.len() + 2, names(&out).len());
@@ -49,9 +45,8 @@ fn what_a_run_prints_is_in_its_tables() {
     let dir = unequal();
     let printed = shearbed(dir.path(), "run small.toml").stdout;
     let table = read(&dir.path().join("out/small/projections.csv"));
-    let x1: Vec<f64> = (table.lines().skip(1))
-        .map(|line| line.split(',').nth(3).unwrap().parse().unwrap())
-        .collect();
+    let x1: Vec<f64> =
+        (table.lines().skip(1)).map(|line| line.split(',').nth(3).unwrap().parse().unwrap()).collect();
     let line = printed.lines().find(|line| line.starts_with("x1 ")).unwrap();
     let least = x1.iter().copied().fold(f64::INFINITY, f64::min);
     for number in [x1[0], x1[4], least] {
@@ -67,11 +62,7 @@ fn what_a_run_prints_is_in_its_tables() {
 fn the_scene_in_run_json_gives_the_same_bits() {
     let dir = unequal();
     assert_eq!(
-        shearbed(
-            dir.path(),
-            "run small.toml --replicas 4 --seed 7 --threads 2 --out a"
-        )
-        .code,
+        shearbed(dir.path(), "run small.toml --replicas 4 --seed 7 --threads 2 --out a").code,
         Some(0)
     );
     let record: Value = serde_json::from_str(&read(&dir.path().join("a/run.json"))).unwrap();
@@ -86,10 +77,7 @@ fn the_scene_in_run_json_gives_the_same_bits() {
         let file = dir.path().join(format!("a/{}.csv", series.observable.name()));
         let mut reader = csv::Reader::from_path(file).unwrap();
         for (k, row) in reader.deserialize::<Vec<f64>>().enumerate() {
-            let channels = series
-                .columns
-                .iter()
-                .flat_map(|channel| [channel.mean[k], channel.se[k]]);
+            let channels = series.columns.iter().flat_map(|channel| [channel.mean[k], channel.se[k]]);
             let time = results.times[k];
             // T = 2π(r_e + 1/r_e)/G.
             let period_s = 2.0 * std::f64::consts::TAU * (11.6 + 1.0 / 11.6);
@@ -137,10 +125,7 @@ fn extreme_scenes_end_well_with_finite_tables() {
             text.replace(old, new)
         });
         fs::write(dir.path().join("extreme.toml"), text).unwrap();
-        let ended = shearbed(
-            dir.path(),
-            &format!("run extreme.toml --threads 1 --quiet --out {k}"),
-        );
+        let ended = shearbed(dir.path(), &format!("run extreme.toml --threads 1 --quiet --out {k}"));
         assert_eq!(ended.code, Some(0), "{changes:?}: {}", ended.stderr);
         let known = [
             "warning: extreme.toml: time.steps_per_period = ",
@@ -155,10 +140,7 @@ fn extreme_scenes_end_well_with_finite_tables() {
             if name.ends_with(".csv") {
                 let mut reader = csv::Reader::from_path(dir.path().join(format!("{k}/{name}"))).unwrap();
                 let rows: Vec<Vec<f64>> = reader.deserialize().map(Result::unwrap).collect();
-                assert!(
-                    rows.iter().flatten().all(|value| value.is_finite()),
-                    "{name}: {changes:?}"
-                );
+                assert!(rows.iter().flatten().all(|value| value.is_finite()), "{name}: {changes:?}");
             }
         }
     }
@@ -168,15 +150,9 @@ fn extreme_scenes_end_well_with_finite_tables() {
 fn quiet_prints_nothing() {
     let dir = unequal();
     let ended = shearbed(dir.path(), "run extension --quiet");
-    assert_eq!(
-        (ended.code, ended.stdout + &ended.stderr),
-        (Some(0), String::new())
-    );
+    assert_eq!((ended.code, ended.stdout + &ended.stderr), (Some(0), String::new()));
     let table = read(&dir.path().join("out/extension/projections.csv"));
-    assert!(
-        table.starts_with("strain,time_s,x1,x1_se,x2,x2_se,x3,x3_se\n0.0,0.0,"),
-        "{table}"
-    );
+    assert!(table.starts_with("strain,time_s,x1,x1_se,x2,x2_se,x3,x3_se\n0.0,0.0,"), "{table}");
 }
 
 #[test]
@@ -187,10 +163,7 @@ fn a_step_that_is_too_long_is_warned_of_wherever_it_is_used() {
     let warning = "time.steps_per_period = 100 does not resolve the motion: the strain per step is 0.734, above 0.370; \
                    200 steps a period resolve it (the default)";
     let ended = shearbed(dir.path(), "plan coarse.toml");
-    assert_eq!(
-        ended.stdout.lines().last(),
-        Some(format!("warning: {warning}").as_str())
-    );
+    assert_eq!(ended.stdout.lines().last(), Some(format!("warning: {warning}").as_str()));
     let ended = shearbed(dir.path(), "run coarse.toml --quiet --out a");
     assert_eq!((ended.code, ended.stdout.as_str()), (Some(0), ""));
     assert_eq!(ended.stderr, format!("warning: coarse.toml: {warning}\n"));

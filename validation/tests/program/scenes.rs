@@ -9,11 +9,7 @@ fn a_file_wins_over_a_built_in_scene_and_a_folder_does_not() {
     fs::create_dir(dir.path().join("fig5")).unwrap();
     assert!(shearbed(dir.path(), "plan fig5").stdout.starts_with("Fig. 5"));
     fs::rename(dir.path().join("small.toml"), dir.path().join("fig12")).unwrap();
-    assert!(
-        shearbed(dir.path(), "plan fig12")
-            .stdout
-            .starts_with("A small scene")
-    );
+    assert!(shearbed(dir.path(), "plan fig12").stdout.starts_with("A small scene"));
 }
 
 #[test]

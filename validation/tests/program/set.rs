@@ -17,34 +17,18 @@ fn keys_are_set_on_the_command_line_as_a_file_would() {
     let text =
         text.split("[output]").next().unwrap().to_owned() + "[output]\nobservables = [\"mean_angle\"]\n";
     fs::write(dir.path().join("other.toml"), text).unwrap();
-    assert_eq!(
-        shearbed(dir.path(), "run other.toml --quiet --out b").code,
-        Some(0)
-    );
+    assert_eq!(shearbed(dir.path(), "run other.toml --quiet --out b").code, Some(0));
     assert_eq!(
         names(&dir.path().join("a")),
         ["mean_angle.csv", "mean_angle.svg", "run.json", "shearbed.json"]
     );
-    assert_eq!(
-        read(&dir.path().join("a/mean_angle.csv")),
-        read(&dir.path().join("b/mean_angle.csv"))
-    );
-    assert!(
-        shearbed(dir.path(), "plan small.toml --set particles.count=7")
-            .stdout
-            .contains("\n7 rods, ")
-    );
+    assert_eq!(read(&dir.path().join("a/mean_angle.csv")), read(&dir.path().join("b/mean_angle.csv")));
+    assert!(shearbed(dir.path(), "plan small.toml --set particles.count=7").stdout.contains("\n7 rods, "));
 
     for (set, message) in [
-        (
-            "--set alpha=1",
-            "small.toml --set alpha=1: alpha = 1: unknown key `alpha`, expected one of",
-        ),
+        ("--set alpha=1", "small.toml --set alpha=1: alpha = 1: unknown key `alpha`, expected one of"),
         ("--set alpha=1", "; did you mean interaction.alpha?"),
-        (
-            "--set particles.count=0",
-            "particles.count = 0 is not allowed: a whole number from 1 to",
-        ),
+        ("--set particles.count=0", "particles.count = 0 is not allowed: a whole number from 1 to"),
         ("--set particles.count=1,2", "\"1,2\" is no value"),
         ("--set particles.count=1:3:3", "\"1:3:3\" is no value"),
         ("--set particles.count", "KEY=VALUE is allowed"),
@@ -80,19 +64,13 @@ fn keys_are_set_on_the_command_line_as_a_file_would() {
 #[test]
 fn a_sweep_and_a_study_set_keys_as_a_run_does() {
     let dir = unequal();
-    fs::write(
-        dir.path().join("other.toml"),
-        UNEQUAL.replace("count = 20", "count = 7"),
-    )
-    .unwrap();
+    fs::write(dir.path().join("other.toml"), UNEQUAL.replace("count = 20", "count = 7")).unwrap();
     let succeeds = |arguments: &str| {
         let ended = shearbed(dir.path(), arguments);
         assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""), "{arguments}");
     };
     let over = "--over interaction.alpha=0.25,0.5 --quiet";
-    succeeds(&format!(
-        "sweep small.toml {over} --set particles.count=7 --out a"
-    ));
+    succeeds(&format!("sweep small.toml {over} --set particles.count=7 --out a"));
     succeeds(&format!("sweep other.toml {over} --out b"));
     succeeds(&format!("sweep small.toml {over} --out c"));
     let rows = |out: &str| read(&dir.path().join(out).join("sweep.csv"));
@@ -102,10 +80,7 @@ fn a_sweep_and_a_study_set_keys_as_a_run_does() {
     let ended = shearbed(dir.path(), &format!("sweep small.toml {over} --out a"));
     assert_eq!(ended.code, Some(2));
     assert!(ended.stderr.contains("particles.count"), "{}", ended.stderr);
-    let ended = shearbed(
-        dir.path(),
-        &format!("sweep small.toml {over} --set interaction.alpha=1 --out d"),
-    );
+    let ended = shearbed(dir.path(), &format!("sweep small.toml {over} --set interaction.alpha=1 --out d"));
     assert_eq!(ended.code, Some(2));
     let said = "--set interaction.alpha and --over interaction.alpha: both set it";
     assert!(ended.stderr.contains(said), "{}", ended.stderr);

@@ -9,10 +9,7 @@ fn every_formula_is_listed_with_its_value_and_source_the_spread_first() {
     let done = shearbed(Path::new("."), "shape --physical 20");
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     let first = done.stdout.lines().next().unwrap();
-    assert_eq!(
-        first,
-        "a cylinder of r = 20: r_e from 14.096 to 14.328, a spread of 1.6 %"
-    );
+    assert_eq!(first, "a cylinder of r = 20: r_e from 14.096 to 14.328, a spread of 1.6 %");
     for text in [
         "14.160  Goldsmith",
         "14.328  Cox",
@@ -49,11 +46,7 @@ fn bad_input_says_what_is_allowed() {
     ] {
         let done = shearbed(Path::new("."), &format!("shape {bad}"));
         assert_eq!(done.code, Some(2), "{bad}");
-        let named = if bad.is_empty() {
-            "--physical"
-        } else {
-            "a number from 2 to 1000 is allowed"
-        };
+        let named = if bad.is_empty() { "--physical" } else { "a number from 2 to 1000 is allowed" };
         assert!(done.stderr.contains(named), "{bad}: {}", done.stderr);
         assert!(done.stdout.is_empty());
     }
@@ -67,13 +60,7 @@ fn a_cylinder_is_given_by_its_own_aspect_ratio_and_a_formula() {
     fs::write(dir.path().join("c.toml"), &text).unwrap();
     let planned = shearbed(dir.path(), "plan c.toml");
     // 24.8/√(ln 20) = 14.32850.
-    assert!(
-        planned
-            .stdout
-            .contains("r_e = 14.3285 (Cox 1971: 1.24 r/√(ln r))"),
-        "{}",
-        planned.stdout
-    );
+    assert!(planned.stdout.contains("r_e = 14.3285 (Cox 1971: 1.24 r/√(ln r))"), "{}", planned.stdout);
     assert_eq!(shearbed(dir.path(), "run c.toml --out a --quiet").code, Some(0));
     let read = |name: &str| fs::read_to_string(dir.path().join(name)).unwrap();
     let record: serde_json::Value = serde_json::from_str(&read("a/run.json")).unwrap();
@@ -84,11 +71,7 @@ fn a_cylinder_is_given_by_its_own_aspect_ratio_and_a_formula() {
     assert_eq!(particles["physical_aspect_ratio"], 20.0);
     assert!(particles["aspect_ratio"].is_null());
     // The same scene by its r_e has the same bits, and so has that of run.json.
-    fs::write(
-        dir.path().join("r.toml"),
-        SMALL.replace("11.6", &format!("{found:?}")),
-    )
-    .unwrap();
+    fs::write(dir.path().join("r.toml"), SMALL.replace("11.6", &format!("{found:?}"))).unwrap();
     assert_eq!(shearbed(dir.path(), "run r.toml --out b --quiet").code, Some(0));
     assert_eq!(read("a/projections.csv"), read("b/projections.csv"));
     let again: shearbed::Scene = serde_json::from_value(record["scene"].clone()).unwrap();
@@ -98,18 +81,12 @@ fn a_cylinder_is_given_by_its_own_aspect_ratio_and_a_formula() {
             format!("aspect_ratio = 3\n{cylinder}"),
             "c.toml:7: particles.aspect_ratio = 3 is not allowed: either",
         ),
-        (
-            String::new(),
-            "c.toml:4: particles.aspect_ratio is missing: a number from",
-        ),
+        (String::new(), "c.toml:4: particles.aspect_ratio is missing: a number from"),
         (
             "physical_aspect_ratio = 20".into(),
             "particles.shape_correlation is missing: physical_aspect_ratio = 20 takes \"gold",
         ),
-        (
-            "shape_correlation = \"cox\"".into(),
-            "particles.aspect_ratio is missing",
-        ),
+        ("shape_correlation = \"cox\"".into(), "particles.aspect_ratio is missing"),
         (
             "aspect_ratio = 3\nshape_correlation = \"cox\"".into(),
             "particles.shape_correlation = \"cox\" is not allowed: it goes with",
@@ -127,11 +104,7 @@ fn a_cylinder_is_given_by_its_own_aspect_ratio_and_a_formula() {
             "particles.shape_correlation = \"coxx\" is not allowed: \"goldsmith-mason\", \"cox\", ",
         ),
     ] {
-        fs::write(
-            dir.path().join("c.toml"),
-            SMALL.replace("aspect_ratio = 11.6", &change),
-        )
-        .unwrap();
+        fs::write(dir.path().join("c.toml"), SMALL.replace("aspect_ratio = 11.6", &change)).unwrap();
         let done = shearbed(dir.path(), "plan c.toml");
         assert_eq!(done.code, Some(2), "{change}");
         assert!(done.stderr.contains(said), "{change}: {}", done.stderr);

@@ -5,14 +5,9 @@ use crate::common::{Ended, FREE, shearbed};
 #[test]
 fn an_unknown_bench_is_refused_with_those_there_are() {
     let dir = tempfile::tempdir().unwrap();
-    let Ended {
-        code, stderr: error, ..
-    } = shearbed(dir.path(), "bench --case re3");
+    let Ended { code, stderr: error, .. } = shearbed(dir.path(), "bench --case re3");
     assert_eq!(code, Some(2));
-    for text in [
-        "--case re3",
-        "re2, re11.6, re100, re10000, fig6-uniform, fig6-polydisperse, fig7-n50",
-    ] {
+    for text in ["--case re3", "re2, re11.6, re100, re10000, fig6-uniform, fig6-polydisperse, fig7-n50"] {
         assert!(error.contains(text), "{error}");
     }
     assert!(!dir.path().join("out").exists());
@@ -22,11 +17,7 @@ fn an_unknown_bench_is_refused_with_those_there_are() {
 fn a_free_scene_shows_every_order_as_theory() {
     let dir = tempfile::tempdir().unwrap();
     std::fs::write(dir.path().join("free.toml"), FREE).unwrap();
-    let Ended {
-        code,
-        stdout: text,
-        stderr: error,
-    } = shearbed(dir.path(), "converge free.toml");
+    let Ended { code, stdout: text, stderr: error } = shearbed(dir.path(), "converge free.toml");
     assert_eq!(code, Some(0), "{error}");
     assert_eq!(text.matches("as theory").count(), 7, "{text}");
     let out = dir.path().join("out/converge-free");
@@ -46,64 +37,36 @@ fn a_free_scene_starts_where_it_says() {
         )
     };
     std::fs::write(dir.path().join("one.toml"), scene("periods = 2")).unwrap();
-    let Ended {
-        code,
-        stdout: text,
-        stderr: error,
-    } = shearbed(dir.path(), "converge one.toml");
+    let Ended { code, stdout: text, stderr: error } = shearbed(dir.path(), "converge one.toml");
     assert_eq!(code, Some(0), "{error}");
-    for words in [
-        "r_e = 3 from φ = 0.1745 and θ = 1.0472 rad (the scene's own start) over 2.",
-        "as theory",
-    ] {
+    for words in ["r_e = 3 from φ = 0.1745 and θ = 1.0472 rad (the scene's own start) over 2.", "as theory"]
+    {
         assert!(text.contains(words), "{text}");
     }
     std::fs::write(dir.path().join("strain.toml"), scene("strain = 2")).unwrap();
-    let Ended {
-        code, stderr: error, ..
-    } = shearbed(dir.path(), "converge strain.toml");
+    let Ended { code, stderr: error, .. } = shearbed(dir.path(), "converge strain.toml");
     assert_eq!(code, Some(2));
-    assert!(
-        error.contains("time: the subjects turn rods through periods; periods is needed"),
-        "{error}"
-    );
+    assert!(error.contains("time: the subjects turn rods through periods; periods is needed"), "{error}");
 }
 
 #[test]
 fn a_free_scene_in_another_flow_is_refused() {
     let dir = tempfile::tempdir().unwrap();
-    let Ended {
-        code, stderr: error, ..
-    } = shearbed(dir.path(), "converge extension");
+    let Ended { code, stderr: error, .. } = shearbed(dir.path(), "converge extension");
     assert_eq!(code, Some(2));
-    assert!(
-        error.contains("extension: flow:") && error.contains("shear_rate_per_s"),
-        "{error}"
-    );
+    assert!(error.contains("extension: flow:") && error.contains("shear_rate_per_s"), "{error}");
 }
 
 #[test]
 fn an_interacting_scene_shows_steps_rods_and_replicas() {
     let dir = tempfile::tempdir().unwrap();
-    let Ended {
-        code,
-        stdout: text,
-        stderr: error,
-    } = shearbed(dir.path(), "converge fig4-n50 --replicas 4 --out here");
+    let Ended { code, stdout: text, stderr: error } =
+        shearbed(dir.path(), "converge fig4-n50 --replicas 4 --out here");
     assert_eq!(code, Some(0), "{error}");
-    for head in [
-        "steps per period",
-        "rods",
-        "Paths do not converge",
-        "deviation √M",
-        "not readable",
-    ] {
+    for head in ["steps per period", "rods", "Paths do not converge", "deviation √M", "not readable"] {
         assert!(text.contains(head), "{text}");
     }
-    assert!(
-        !text.contains("cheapest"),
-        "four replicas are too few to judge a bias by: {text}"
-    );
+    assert!(!text.contains("cheapest"), "four replicas are too few to judge a bias by: {text}");
     let here = dir.path().join("here");
     let csv = std::fs::read_to_string(here.join("converge.csv")).unwrap();
     assert!(

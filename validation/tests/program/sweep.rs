@@ -22,14 +22,8 @@ const GRID: &str = "--over interaction.alpha=0.1:0.3:3 --over interaction.update
 #[test]
 fn a_row_is_the_last_output_of_a_run_with_these_keys() {
     let dir = folder();
-    let text = succeeds(
-        dir.path(),
-        &format!("sweep small.toml {GRID} --seed 7 --threads 2"),
-    );
-    assert!(
-        text.contains("points: 6, of which 0 were finished before"),
-        "{text}"
-    );
+    let text = succeeds(dir.path(), &format!("sweep small.toml {GRID} --seed 7 --threads 2"));
+    assert!(text.contains("points: 6, of which 0 were finished before"), "{text}");
     let out = dir.path().join("out/sweep-small");
     let csv = fs::read_to_string(out.join("sweep.csv")).unwrap();
     let rows: Vec<_> = csv.lines().collect();
@@ -37,14 +31,7 @@ fn a_row_is_the_last_output_of_a_run_with_these_keys() {
         rows[0],
         "interaction.alpha,interaction.update,t_over_T,time_s,strain,x1,x1_se,x2,x2_se,x3,x3_se,phi,phi_se"
     );
-    let points = [
-        "0.1,rotation",
-        "0.1,angles",
-        "0.2,rotation",
-        "0.2,angles",
-        "0.3,rotation",
-        "0.3,angles",
-    ];
+    let points = ["0.1,rotation", "0.1,angles", "0.2,rotation", "0.2,angles", "0.3,rotation", "0.3,angles"];
     assert_eq!(rows.len(), 1 + points.len());
     for (k, (row, point)) in rows[1..].iter().zip(points).enumerate() {
         // The same point by hand, as a scene of its own.
@@ -87,14 +74,8 @@ fn a_killed_sweep_goes_on_to_the_same_bytes() {
     fs::write(killed.join("points/.12.part/projections.csv"), "half a ta").unwrap();
 
     let text = succeeds(dir.path(), &format!("{sweep} 2"));
-    assert!(
-        text.starts_with("goes on from killed: 3 of 12 points are finished\n"),
-        "{text}"
-    );
-    assert!(
-        text.contains("points: 12, of which 3 were finished before"),
-        "{text}"
-    );
+    assert!(text.starts_with("goes on from killed: 3 of 12 points are finished\n"), "{text}");
+    assert!(text.contains("points: 12, of which 3 were finished before"), "{text}");
     succeeds(dir.path(), &format!("{sweep} 1").replace("killed", "whole"));
     assert_eq!(files(&killed), files(&dir.path().join("whole")));
     // Once more: nothing is left to do, and nothing changes.
@@ -114,14 +95,8 @@ fn another_sweep_in_the_folder_is_refused_and_left_as_it_is() {
     let kept_before = kept.clone();
     for (arguments, named) in [
         (sweep("--over interaction.alpha=0.1:0.3:3"), "over was"),
-        (
-            sweep(&format!("{GRID} --seed 2")),
-            "scene.ensemble.seed was 1 and is 2 now",
-        ),
-        (
-            sweep(&format!("{GRID} --replicas 4")),
-            "scene.ensemble.replicas was 3 and is 4 now",
-        ),
+        (sweep(&format!("{GRID} --seed 2")), "scene.ensemble.seed was 1 and is 2 now"),
+        (sweep(&format!("{GRID} --replicas 4")), "scene.ensemble.replicas was 3 and is 4 now"),
     ] {
         let message = refused(dir.path(), &arguments);
         assert!(
@@ -132,16 +107,9 @@ fn another_sweep_in_the_folder_is_refused_and_left_as_it_is() {
         );
         assert!(message.contains("nothing was changed"), "{message}");
     }
-    fs::write(
-        dir.path().join("small.toml"),
-        SMALL.replace("count = 20", "count = 21"),
-    )
-    .unwrap();
+    fs::write(dir.path().join("small.toml"), SMALL.replace("count = 20", "count = 21")).unwrap();
     let message = refused(dir.path(), &first);
-    assert!(
-        message.contains("scene.particles.count was 20 and is 21 now"),
-        "{message}"
-    );
+    assert!(message.contains("scene.particles.count was 20 and is 21 now"), "{message}");
     fs::write(dir.path().join("small.toml"), SMALL).unwrap();
     assert_eq!(files(&here), kept);
 
@@ -149,11 +117,7 @@ fn another_sweep_in_the_folder_is_refused_and_left_as_it_is() {
     let record = fs::read_to_string(here.join("shearbed.json")).unwrap();
     let version = format!("\"version\": \"{}\"", env!("CARGO_PKG_VERSION"));
     assert!(record.contains(&version));
-    fs::write(
-        here.join("shearbed.json"),
-        record.replace(&version, "\"version\": \"0.0.1\""),
-    )
-    .unwrap();
+    fs::write(here.join("shearbed.json"), record.replace(&version, "\"version\": \"0.0.1\"")).unwrap();
     assert!(refused(dir.path(), &first).contains("version was \"0.0.1\" and is"));
     fs::write(here.join("shearbed.json"), record).unwrap();
     fs::remove_dir_all(here.join("points/6")).unwrap();
@@ -164,20 +128,14 @@ fn another_sweep_in_the_folder_is_refused_and_left_as_it_is() {
     // As that build would have kept it.
     let [sum, own] = [&table, &other].map(|text| {
         let bytes = text.len();
-        format!(
-            "\"bytes\": {bytes},\n      \"crc32\": \"{:08x}\"",
-            crc32fast::hash(text.as_bytes())
-        )
+        format!("\"bytes\": {bytes},\n      \"crc32\": \"{:08x}\"", crc32fast::hash(text.as_bytes()))
     });
     let kept = here.join("points/1/point.json");
     let text = fs::read_to_string(&kept).unwrap();
     assert!(text.contains(&sum), "{text}");
     fs::write(&kept, text.replace(&sum, &own)).unwrap();
     let message = refused(dir.path(), &first);
-    assert!(
-        message.contains("here/points/1: run again, this point has other numbers"),
-        "{message}"
-    );
+    assert!(message.contains("here/points/1: run again, this point has other numbers"), "{message}");
     assert!(!here.join("points/6").exists());
 
     // Files of unknown origin.
@@ -239,46 +197,24 @@ fn bad_input_is_refused_before_anything_runs() {
         ("alpha=1,2", "unknown key `alpha`, expected one of"),
         ("title.x=1,2", "is no table"),
         ("interaction.alpha=1:2", "neither FROM:TO:COUNT nor a list"),
-        (
-            "interaction.alpha=1:2:0",
-            "a whole number from 2 to 100000 is allowed",
-        ),
+        ("interaction.alpha=1:2:0", "a whole number from 2 to 100000 is allowed"),
         ("interaction.alpha", "KEY=FROM:TO:COUNT or KEY=A,B,C is allowed"),
-        (
-            "output.observables=[\"projections\"],[\"mean_angle\"]",
-            "all points have the same columns",
-        ),
-        (
-            "interaction.alpha=1,2 --over interaction.alpha=3",
-            "both set it; one of the two is allowed",
-        ),
-        (
-            "ensemble.seed=1,2 --seed 3",
-            "--seed ensemble.seed and --over ensemble.seed: both set it",
-        ),
+        ("output.observables=[\"projections\"],[\"mean_angle\"]", "all points have the same columns"),
+        ("interaction.alpha=1,2 --over interaction.alpha=3", "both set it; one of the two is allowed"),
+        ("ensemble.seed=1,2 --seed 3", "--seed ensemble.seed and --over ensemble.seed: both set it"),
         (
             "ensemble.replicas=1,2 --replicas 3",
             "--replicas ensemble.replicas and --over ensemble.replicas: both set it",
         ),
-        (
-            "interaction.alpha=0:1:1000 --over interaction.m=1:2:1000",
-            "more than 100000 points",
-        ),
+        ("interaction.alpha=0:1:1000 --over interaction.m=1:2:1000", "more than 100000 points"),
     ] {
         let message = refused(dir.path(), &format!("sweep small.toml --over {over}"));
         assert!(message.contains(named), "{over}: {message}");
     }
     assert!(refused(dir.path(), "sweep small.toml").contains("--over <KEY=VALUES>"));
     // A scene file that is wrong has a line.
-    fs::write(
-        dir.path().join("small.toml"),
-        SMALL.replace("count = 20", "count = 0"),
-    )
-    .unwrap();
+    fs::write(dir.path().join("small.toml"), SMALL.replace("count = 20", "count = 0")).unwrap();
     let message = refused(dir.path(), "sweep small.toml --over interaction.alpha=1,2");
-    assert!(
-        message.contains("small.toml:5: particles.count = 0 is not allowed"),
-        "{message}"
-    );
+    assert!(message.contains("small.toml:5: particles.count = 0 is not allowed"), "{message}");
     assert!(!dir.path().join("out").exists());
 }

@@ -23,11 +23,7 @@ impl Naive {
                 continue;
             };
             for (rod, pdot) in [(i, contact.pdot_a_per_s), (j, contact.pdot_b_per_s)] {
-                let free = jeffery(
-                    self.orientations[rod],
-                    self.aspect_ratios[rod],
-                    problem.gradient_per_s(),
-                );
+                let free = jeffery(self.orientations[rod], self.aspect_ratios[rod], problem.gradient_per_s());
                 change_per_s[rod] += (vector(pdot) - vector(free)) * pair.chance;
             }
         }
@@ -47,8 +43,7 @@ mod tests {
 
     fn apart(a: &Naive, b: &Naive) -> f64 {
         let rods = a.orientations.iter().zip(&b.orientations);
-        rods.map(|(a, b)| (vector(*a) - vector(*b)).norm())
-            .fold(0.0, f64::max)
+        rods.map(|(a, b)| (vector(*a) - vector(*b)).norm()).fold(0.0, f64::max)
     }
 
     /// Two rods, always each other's nearest, over one short step: the mean over the draws is between the free
@@ -78,16 +73,10 @@ mod tests {
                     [&free, &collided, &averaged].map(|run| vector(run.orientations[rod]));
                 let expected = free + (collided - free) * (1.0 - missed * missed);
                 // GΔt = 7·10⁻⁴, kicks of some ten times that: what is left out is of the second order.
-                assert!(
-                    (averaged - expected).norm() < 1e-4 * (collided - free).norm() + 1e-6,
-                    "{replica}"
-                );
+                assert!((averaged - expected).norm() < 1e-4 * (collided - free).norm() + 1e-6, "{replica}");
             }
         }
-        assert!(
-            (20..50).contains(&turned),
-            "some make contact, some have too short an arm: {turned}"
-        );
+        assert!((20..50).contains(&turned), "some make contact, some have too short an arm: {turned}");
     }
 
     #[test]

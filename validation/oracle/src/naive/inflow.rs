@@ -38,14 +38,7 @@ pub(super) fn inside(x_mm: [f64; 3], edges_mm: [f64; 3]) -> bool {
 /// A face of the volume: its normal axis, and whether it is the one away from the origin.
 type Face = (usize, bool);
 
-const FACES: [Face; 6] = [
-    (0, false),
-    (0, true),
-    (1, false),
-    (1, true),
-    (2, false),
-    (2, true),
-];
+const FACES: [Face; 6] = [(0, false), (0, true), (1, false), (1, true), (2, false), (2, true)];
 
 /// A place on a face, at these shares of its edges.
 fn place((axis, far): Face, shares: [f64; 2], edges_mm: [f64; 3]) -> [f64; 3] {
@@ -106,12 +99,7 @@ pub(super) fn come_in(
     let weight = |face: Face| {
         let area: f64 = (0..3).filter(|k| *k != face.0).map(|k| edges_mm[k]).product();
         let most = most(face);
-        either(
-            made,
-            Mistake::FacesByArea,
-            if most > 0.0 { area } else { 0.0 },
-            area * most,
-        )
+        either(made, Mistake::FacesByArea, if most > 0.0 { area } else { 0.0 }, area * most)
     };
     let all: f64 = FACES.into_iter().map(weight).sum();
     loop {
@@ -124,12 +112,7 @@ pub(super) fn come_in(
         let Some(face) = face else { continue };
         let entry_mm = place(face, [j, k], edges_mm);
         let let_in = kept * most(face) < inflow(face, gradient, entry_mm);
-        if !either(
-            made,
-            Mistake::InflowUniform,
-            inflow(face, gradient, entry_mm) > 0.0,
-            let_in,
-        ) {
+        if !either(made, Mistake::InflowUniform, inflow(face, gradient, entry_mm) > 0.0, let_in) {
             continue;
         }
         // not the whole step: who stood on a face was inside

@@ -4,11 +4,7 @@ use super::reading::Images;
 
 /// P_c (eq. 7) at centre distance s.
 pub fn collision_probability(s_mm: f64, a_mm: f64, alpha: f64, m: f64) -> f64 {
-    if alpha == 0.0 {
-        0.0
-    } else {
-        (alpha / (s_mm / a_mm + alpha)).powf(m)
-    }
+    if alpha == 0.0 { 0.0 } else { (alpha / (s_mm / a_mm + alpha)).powf(m) }
 }
 
 /// Nearest other rod; the lower index where two are equally near.

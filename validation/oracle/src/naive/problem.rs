@@ -200,12 +200,7 @@ impl Problem {
             return [[0.0; 3], [self.shear_rate_per_s, 0.0, 0.0], [0.0; 3]];
         };
         let transposed = [0, 1, 2].map(|i| [0, 1, 2].map(|j| gradient_per_s[j][i]));
-        either(
-            self.mistake,
-            Mistake::GradientTransposed,
-            transposed,
-            gradient_per_s,
-        )
+        either(self.mistake, Mistake::GradientTransposed, transposed, gradient_per_s)
     }
 }
 

@@ -12,11 +12,7 @@ use rand::RngExt;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn fibres(count: usize, alpha: f64, change: impl FnOnce(&mut Problem)) -> Problem {
-    let mut problem = Problem {
-        count,
-        alpha,
-        ..Problem::paper(1, 0)
-    };
+    let mut problem = Problem { count, alpha, ..Problem::paper(1, 0) };
     change(&mut problem);
     problem
 }
@@ -39,13 +35,7 @@ fn streams_match_reference_output() {
     let state = |k| GOLDEN.wrapping_mul(k).wrapping_add(1234567);
     assert_eq!([1, 2, 3].map(|k| mix(state(k))), published);
     // computed apart, in unlimited integers, from the protocol and the definition of PCG-DXSM
-    let fresh = || {
-        stream(
-            0xFEDC_BA98_7654_3210,
-            0x0123_4567_89AB_CDEF,
-            0xF0E1_D2C3_B4A5_9687,
-        )
-    };
+    let fresh = || stream(0xFEDC_BA98_7654_3210, 0x0123_4567_89AB_CDEF, 0xF0E1_D2C3_B4A5_9687);
     let expected: [u64; 3] = [11167359422600035530, 6655880631465208119, 3148222621115903633];
     let mut draws = fresh();
     assert_eq!([0; 3].map(|_| draws.random::<u64>()), expected);
@@ -71,10 +61,7 @@ fn the_start_follows_the_protocol() {
     let drawn = normal.sample_iter(stream(1, 0, 0));
     let drawn = drawn.take(50 + naive.redraws as usize);
     assert!(naive.redraws > 0);
-    assert_eq!(
-        drawn.filter(|&r| r > 1.0).collect::<Vec<f64>>(),
-        naive.aspect_ratios
-    );
+    assert_eq!(drawn.filter(|&r| r > 1.0).collect::<Vec<f64>>(), naive.aspect_ratios);
 }
 
 #[test]
@@ -175,10 +162,7 @@ fn each_rod_turns_with_its_own_aspect_ratio() {
 fn only_an_arm_below_the_least_is_no_contact() {
     // arms of 2 and 3 mm, a = 0.5 mm
     let least = |least| hand_pair(|p| (p.length_mm, p.min_contact_arm) = (0.5, least));
-    assert_eq!(
-        [0.0, 4.0, 4.000001, 6.5].map(|x| least(x).collisions),
-        [1, 1, 0, 0]
-    );
+    assert_eq!([0.0, 4.0, 4.000001, 6.5].map(|x| least(x).collisions), [1, 1, 0, 0]);
 }
 
 #[test]
@@ -208,11 +192,9 @@ fn a_rod_draws_by_its_own_length() {
         naive.last_collisions
     };
     let (least, most) = (1.0 - 1e-9, 1.0 + 1e-9);
-    for (factors, taken) in [
-        ([most, least], vec![(0, 1)]),
-        ([least, most], vec![(1, 0)]),
-        ([least, least], vec![]),
-    ] {
+    for (factors, taken) in
+        [([most, least], vec![(0, 1)]), ([least, most], vec![(1, 0)]), ([least, least], vec![])]
+    {
         let [a, b] = [0, 1].map(|rod| factors[rod] * needed[rod]);
         assert_eq!(reached(Length::Own, [a, b]), taken);
         assert_eq!(reached(Length::Partners, [b, a]), taken);
@@ -246,10 +228,7 @@ fn taken(x1_mm: &[f64], parallel: [usize; 2], change: impl FnOnce(&mut Problem))
 fn who_collides_by_chance() {
     // s/a = 1/2, alpha = 1/2: P_c = (1/2)^m
     assert_eq!(collision_probability(0.36, 0.72, 0.5, 3.0), 0.125);
-    assert_eq!(
-        [0.0, 0.36].map(|s| collision_probability(s, 0.72, 0.0, 3.0)),
-        [0.0; 2]
-    );
+    assert_eq!([0.0, 0.36].map(|s| collision_probability(s, 0.72, 0.0, 3.0)), [0.0; 2]);
     // P_c = R at s = a alpha (R^(-1/m) - 1); the smaller draw of a pair decides
     let mut draws = stream(1, 0, 3);
     let r = uniform(&mut draws).min(uniform(&mut draws));
@@ -300,11 +279,7 @@ fn replaced([h1, h2, h3]: [f64; 3], box_mm: Option<[f64; 3]>) {
                 expected = [x1, expected[1].rem_euclid(h2), h3 * uniform(&mut draws)];
             }
             assert!(far(&[expected], &[*new]) < 1e-12);
-            assert!(
-                new.iter()
-                    .zip([h1, h2, h3])
-                    .all(|(x, edge)| (0.0..edge).contains(x))
-            );
+            assert!(new.iter().zip([h1, h2, h3]).all(|(x, edge)| (0.0..edge).contains(x)));
         }
     }
     assert!(leavers > 100);
@@ -340,8 +315,5 @@ fn every_mistake_changes_a_run() {
 
 #[test]
 fn projections_are_means_of_moduli() {
-    assert_eq!(
-        mean_projections(&[[0.6, -0.8, 0.0], [-1.0, 0.0, 0.0]]),
-        [0.8, 0.4, 0.0]
-    );
+    assert_eq!(mean_projections(&[[0.6, -0.8, 0.0], [-1.0, 0.0, 0.0]]), [0.8, 0.4, 0.0]);
 }

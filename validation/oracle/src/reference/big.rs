@@ -54,12 +54,7 @@ pub fn decimal(text: &str) -> Option<Big> {
     // The double's grammar and range: of two parsers the stricter.
     text.parse::<f64>().ok().filter(|x| x.is_finite())?;
     let exact = DBig::from_str(text.trim_start_matches('+')).ok()?;
-    Some(
-        exact
-            .with_rounding::<HalfEven>()
-            .with_base_and_precision::<2>(400)
-            .value(),
-    )
+    Some(exact.with_rounding::<HalfEven>().with_base_and_precision::<2>(400).value())
 }
 
 /// `x` with `digits` significant decimal digits, as `1.2345e-6`, without zeros at their end; 0 as `0`.
@@ -114,14 +109,9 @@ mod tests {
 
     #[test]
     fn numbers_are_read_and_written_exactly() {
-        for (text, expected) in [
-            ("0.1", 0.1),
-            ("-1e-300", -1e-300),
-            ("+2.5", 2.5),
-            ("1e3", 1000.0),
-            ("0", 0.0),
-            (" 7 ", 7.0),
-        ] {
+        for (text, expected) in
+            [("0.1", 0.1), ("-1e-300", -1e-300), ("+2.5", 2.5), ("1e3", 1000.0), ("0", 0.0), (" 7 ", 7.0)]
+        {
             assert_eq!(double(&decimal(text).unwrap()), expected, "{text}");
         }
         for text in ["", "nan", "inf", "1e400", "0x10", "1,5", "1_0", "--1"] {
@@ -141,9 +131,6 @@ mod tests {
             let decimal = x.clone().with_base_and_precision::<10>(22).value();
             assert_eq!(digits(&x, 22), format!("{decimal:e}"), "{k}");
         }
-        assert_eq!(
-            (magnitude(1.0), magnitude(0.3), magnitude(-1000.0), magnitude(0.0)),
-            (0, 2, 10, 0)
-        );
+        assert_eq!((magnitude(1.0), magnitude(0.3), magnitude(-1000.0), magnitude(0.0)), (0, 2, 10, 0));
     }
 }

@@ -20,12 +20,7 @@ pub struct Constant {
 }
 
 fn constant(quantity: &'static str, value: Big, unit: &'static str, equation: &'static str) -> Constant {
-    Constant {
-        quantity,
-        value,
-        unit,
-        equation,
-    }
+    Constant { quantity, value, unit, equation }
 }
 
 /// Those of plane Couette flow for one r_e; `start` of one rod, or none for rods that are isotropic at t = 0.
@@ -41,12 +36,7 @@ pub fn constants(motion: &Motion, start: Option<Direction>) -> Option<Vec<Consta
         constant("period", &strain / &rate, "s", "15"),
         constant("strain_per_period", strain.clone(), "1", "15"),
         constant("angular_velocity", two_pi * &rate / strain, "1/s", "A.4, 15"),
-        constant(
-            "lambda",
-            (&square - BITS.of(1.0)) / (&square + BITS.of(1.0)),
-            "1",
-            "A.1",
-        ),
+        constant("lambda", (&square - BITS.of(1.0)) / (&square + BITS.of(1.0)), "1", "A.1"),
         constant("mean_angle", mean_angle(&r), "rad", "19"),
     ];
     let (names, values, equation) = match start {
@@ -67,17 +57,9 @@ pub fn constants(motion: &Motion, start: Option<Direction>) -> Option<Vec<Consta
     Some(all)
 }
 
-const PHASE_MEANS: [&str; 6] = [
-    "mean_x1", "mean_x2", "mean_x3", "mean_a11", "mean_a22", "mean_a33",
-];
-const PLATEAUS: [&str; 6] = [
-    "plateau_x1",
-    "plateau_x2",
-    "plateau_x3",
-    "plateau_a11",
-    "plateau_a22",
-    "plateau_a33",
-];
+const PHASE_MEANS: [&str; 6] = ["mean_x1", "mean_x2", "mean_x3", "mean_a11", "mean_a22", "mean_a33"];
+const PLATEAUS: [&str; 6] =
+    ["plateau_x1", "plateau_x2", "plateau_x3", "plateau_a11", "plateau_a22", "plateau_a33"];
 
 /// ⟨φ⟩ of eq. 19, rad: (2/π)[π²/8 + ∫₁^{r_e} ln x/(x² − 1) dx] = π/4 + (2/π) χ₂((r_e − 1)/(r_e + 1)).
 ///
@@ -249,10 +231,7 @@ mod tests {
                 let long: f64 = q.iter().map(|x| x * x).sum();
                 (0..3).for_each(|i| squares[i] += q[i] * q[i] / long / f64::from(n));
             }
-            assert!(
-                (0..3).all(|i| apart(&found[3 + i], squares[i]) < 1e-12),
-                "{r} {c}"
-            );
+            assert!((0..3).all(|i| apart(&found[3 + i], squares[i]) < 1e-12), "{r} {c}");
             let sum = &found[3] + &found[4] + &found[5] - BITS.of(1.0);
             assert!(apart(&sum, 0.0) < 1e-50);
         }

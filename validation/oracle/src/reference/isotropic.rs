@@ -136,10 +136,7 @@ mod tests {
     const COUETTE: [[f64; 3]; 3] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]];
 
     fn at(gradient_per_s: [[f64; 3]; 3], aspect_ratio: f64, time: f64, unit: Unit) -> Covariance {
-        let motion = Motion {
-            gradient_per_s,
-            aspect_ratio,
-        };
+        let motion = Motion { gradient_per_s, aspect_ratio };
         Covariance::at(&motion, &Bits(100).of(time), unit).unwrap()
     }
 
@@ -151,10 +148,8 @@ mod tests {
     fn projections_are_carlsons_integrals() {
         for (u, v) in spread(20) {
             let (r, turns) = (1e4f64.powf(2.0 * u - 1.0), 3.0 * v);
-            let (found, expected) = (
-                at(COUETTE, r, turns, Unit::Period).projections(),
-                mean_projections(r, turns),
-            );
+            let (found, expected) =
+                (at(COUETTE, r, turns, Unit::Period).projections(), mean_projections(r, turns));
             let wrong = mean_projections(r, 1.01 * turns);
             for i in 0..3 {
                 // What is claimed of the doubles' formula.
@@ -167,9 +162,7 @@ mod tests {
     /// A mean over isotropic starts of the moving rods: z = cos θ₀ by Clenshaw-Curtis, φ₀ by the trapezoid rule, which
     /// converges geometrically.
     fn by_rods(motion: &Motion, time_s: f64, f: impl Fn([f64; 3]) -> f64) -> f64 {
-        let map = motion
-            .map(&Bits(100).of(time_s), Unit::Second, Bits(100))
-            .unwrap();
+        let map = motion.map(&Bits(100).of(time_s), Unit::Second, Bits(100)).unwrap();
         let map = map.map(|row| row.map(|x| double(&x)));
         let n = 400;
         let over_phi = |z: f64| {
@@ -197,10 +190,7 @@ mod tests {
             (SPIRAL, 3.0, 1.5),
             ([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]], 1e4, 0.7),
         ] {
-            let motion = Motion {
-                gradient_per_s,
-                aspect_ratio,
-            };
+            let motion = Motion { gradient_per_s, aspect_ratio };
             let covariance = at(gradient_per_s, aspect_ratio, time_s, Unit::Second);
             let transposed = [0, 1, 2].map(|i| [0, 1, 2].map(|j| gradient_per_s[j][i]));
             let wrong = at(transposed, aspect_ratio, time_s, Unit::Second).second();
@@ -214,10 +204,7 @@ mod tests {
             assert!(caught || gradient_per_s[0][0] == 1.0, "the transposed gradient");
             for (found, indices) in covariance.fourth().iter().zip(QUADRUPLES) {
                 let expected = by_rods(&motion, time_s, |p| indices.iter().map(|i| p[i - 1]).product());
-                assert!(
-                    (double(found) - expected).abs() < 1e-12,
-                    "{aspect_ratio} {indices:?}"
-                );
+                assert!((double(found) - expected).abs() < 1e-12, "{aspect_ratio} {indices:?}");
             }
         }
     }
@@ -246,11 +233,7 @@ mod tests {
             for (found, (i, j)) in second.iter().zip(PAIRS) {
                 let contracted = [1, 2, 3].map(|k| entry([i + 1, j + 1, k, k]));
                 let apart = contracted[0] + contracted[1] + contracted[2] - found;
-                assert!(
-                    double(&apart).abs() < most,
-                    "{r} {time} {i} {j} {:e}",
-                    double(&apart)
-                );
+                assert!(double(&apart).abs() < most, "{r} {time} {i} {j} {:e}", double(&apart));
             }
         }
     }

@@ -34,12 +34,7 @@ impl Motion {
     /// G (1/s), where the flow is u₂ = G x₁ and nothing else.
     pub fn couette(&self) -> Option<f64> {
         let rate = self.gradient_per_s[1][0];
-        let others = self
-            .gradient_per_s
-            .as_flattened()
-            .iter()
-            .filter(|x| **x != 0.0)
-            .count();
+        let others = self.gradient_per_s.as_flattened().iter().filter(|x| **x != 0.0).count();
         (rate != 0.0 && others == 1).then_some(rate)
     }
 
@@ -98,11 +93,7 @@ impl Motion {
     pub fn strain(&self, time: f64, unit: Unit) -> f64 {
         let bits = Bits(64);
         let seconds = self.convert(&bits.of(time), unit, Unit::Second, bits);
-        let squares = self
-            .gradient_per_s
-            .as_flattened()
-            .iter()
-            .map(|x| bits.of(*x).sqr());
+        let squares = self.gradient_per_s.as_flattened().iter().map(|x| bits.of(*x).sqr());
         let norm = squares.fold(bits.of(0.0), |sum, x| sum + x).sqrt();
         seconds.map_or(f64::INFINITY, |seconds| double(&(norm * seconds)).abs())
     }
@@ -115,12 +106,7 @@ impl Motion {
         match self.couette() {
             Some(rate) => {
                 let turns = bits.round(self.convert(time, unit, Unit::Period, bits)?);
-                Some(couette_map(
-                    &bits.of(self.aspect_ratio),
-                    &turns,
-                    rate.signum(),
-                    bits,
-                ))
+                Some(couette_map(&bits.of(self.aspect_ratio), &turns, rate.signum(), bits))
             }
             None => {
                 let seconds = self.convert(time, unit, Unit::Second, bits)?;
@@ -194,34 +180,23 @@ mod tests {
     use super::*;
 
     fn apart(a: &Matrix, b: &Matrix) -> f64 {
-        let differences = (0..9)
-            .map(|k| (k / 3, k % 3))
-            .map(|(i, j)| double(&(&a[i][j] - &b[i][j])).abs());
+        let differences = (0..9).map(|k| (k / 3, k % 3)).map(|(i, j)| double(&(&a[i][j] - &b[i][j])).abs());
         differences.fold(0.0, f64::max)
     }
 
     #[test]
     fn the_exponential_is_the_closed_form_in_couette_flow() {
         let bits = Bits(300);
-        for (rate, aspect_ratio, strain) in [
-            (0.5, 11.6, 100.0),
-            (-3.0, 0.2, 7.0),
-            (1.0, 1.0, 30.0),
-            (1e10, 1e4, 0.3),
-        ] {
-            let motion = Motion {
-                gradient_per_s: [[0.0; 3], [rate, 0.0, 0.0], [0.0; 3]],
-                aspect_ratio,
-            };
+        for (rate, aspect_ratio, strain) in
+            [(0.5, 11.6, 100.0), (-3.0, 0.2, 7.0), (1.0, 1.0, 30.0), (1e10, 1e4, 0.3)]
+        {
+            let motion = Motion { gradient_per_s: [[0.0; 3], [rate, 0.0, 0.0], [0.0; 3]], aspect_ratio };
             let seconds = bits.of(strain) / bits.of(rate.abs());
             let closed = motion.map(&seconds, Unit::Second, bits).unwrap();
             let series = exponential(&motion.generator(&seconds, bits), strain, bits);
             // 300 bits less some for entries of r_e and a hundred squarings.
             assert!(apart(&closed, &series) < 1e-75, "{rate} {aspect_ratio}");
-            let wrong = Motion {
-                aspect_ratio: aspect_ratio * (1.0 + f64::EPSILON),
-                ..motion
-            };
+            let wrong = Motion { aspect_ratio: aspect_ratio * (1.0 + f64::EPSILON), ..motion };
             let wrong = exponential(&wrong.generator(&seconds, bits), strain, bits);
             assert!(apart(&closed, &wrong) > 1e-30 || aspect_ratio == 1.0);
         }
@@ -248,10 +223,7 @@ mod tests {
     #[test]
     fn units_of_time_agree_with_eq_15_and_the_strain() {
         let bits = Bits(200);
-        let motion = |gradient_per_s| Motion {
-            gradient_per_s,
-            aspect_ratio: 2.0,
-        };
+        let motion = |gradient_per_s| Motion { gradient_per_s, aspect_ratio: 2.0 };
         let couette = motion([[0.0; 3], [-0.5, 0.0, 0.0], [0.0; 3]]);
         let one = bits.of(1.0);
         let seconds = couette.convert(&one, Unit::Period, Unit::Second, bits).unwrap();

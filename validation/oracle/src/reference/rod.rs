@@ -55,9 +55,7 @@ pub fn at(motion: &Motion, start: Direction, time: &Big, unit: Unit) -> Option<R
     };
     let round = |x: Big| Bits(128).round(x);
     Some(Rod {
-        c_b: motion
-            .couette()
-            .map(|_| round(c_b(&start.p, motion.aspect_ratio, bits))),
+        c_b: motion.couette().map(|_| round(c_b(&start.p, motion.aspect_ratio, bits))),
         p: p.map(round),
         phi: phi.map(round),
         theta: round(theta),
@@ -90,10 +88,7 @@ struct Start {
 impl Start {
     fn new(direction: Direction, bits: Bits) -> Self {
         match direction {
-            Direction::Vector(p) => Self {
-                p: p.map(|x| bits.of(x)),
-                along: None,
-            },
+            Direction::Vector(p) => Self { p: p.map(|x| bits.of(x)), along: None },
             Direction::Angles { phi_deg, theta_deg } => {
                 let (sine, cosine) = bits.of(theta_deg).sin_cos_unit(360);
                 let (across, along) = bits.of(phi_deg).sin_cos_unit(360);
@@ -115,10 +110,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     fn couette(aspect_ratio: f64) -> Motion {
-        Motion {
-            gradient_per_s: [[0.0; 3], [0.5, 0.0, 0.0], [0.0; 3]],
-            aspect_ratio,
-        }
+        Motion { gradient_per_s: [[0.0; 3], [0.5, 0.0, 0.0], [0.0; 3]], aspect_ratio }
     }
 
     fn rod(aspect_ratio: f64, phi_deg: f64, theta_deg: f64, turns: f64) -> Rod {
@@ -129,11 +121,8 @@ mod tests {
     #[test]
     fn angles_and_orbits_are_those_of_a_4_a_5_and_eq_13() {
         for (u, v) in spread(100) {
-            let (r, phi_deg, theta_deg) = (
-                100f64.powf(2.0 * u - 1.0),
-                720.0 * (v - 0.5),
-                180.0 * (7.0 * u + v).fract(),
-            );
+            let (r, phi_deg, theta_deg) =
+                (100f64.powf(2.0 * u - 1.0), 720.0 * (v - 0.5), 180.0 * (7.0 * u + v).fract());
             let found = rod(r, phi_deg, theta_deg, 3.0 * v);
             let (phi0, theta0) = (phi_deg.to_radians(), theta_deg.to_radians());
             let (phi, theta) = angles_at(phi0, theta0, r, 3.0 * v);
@@ -143,10 +132,7 @@ mod tests {
                 let turns = (double(found.phi.as_ref().unwrap()) - phi) / TAU;
                 (turns - turns.round()).abs() * TAU
             };
-            assert!(
-                apart(phi) < tolerance && (double(&found.theta) - theta).abs() < tolerance,
-                "{r}"
-            );
+            assert!(apart(phi) < tolerance && (double(&found.theta) - theta).abs() < tolerance, "{r}");
             // Wrong variant: half a turn less.
             assert!(apart(angles_at(phi0, theta0, r, 3.0 * v - 0.5).0) > 1.0);
             let c = orbit_constant_from_angles(phi0, theta0, r);

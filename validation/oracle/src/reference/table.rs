@@ -57,11 +57,7 @@ pub enum NoValue {
 
 /// The columns for a start.
 pub fn columns(start: Start) -> Vec<Column> {
-    let column = |name: &str, unit, equation| Column {
-        name: name.into(),
-        unit,
-        equation,
-    };
+    let column = |name: &str, unit, equation| Column { name: name.into(), unit, equation };
     let mut columns = vec![
         column("time_s", "s", "time"),
         column("t_over_T", "1", "15: T = 2π(r_e + 1/r_e)/|G|, of the mean r_e"),
@@ -71,17 +67,9 @@ pub fn columns(start: Start) -> Vec<Column> {
         Start::Rod(_) => {
             let motion = "A.4, A.5 (A.1): p = q/|q|, q = exp((W + ΛD)t) p(0)";
             columns.extend(["p1", "p2", "p3"].map(|name| column(name, "1", motion)));
-            columns.push(column(
-                "phi_rad",
-                "rad",
-                "A.4: from axis 1 towards axis 2, in (−π, π]",
-            ));
+            columns.push(column("phi_rad", "rad", "A.4: from axis 1 towards axis 2, in (−π, π]"));
             columns.push(column("theta_rad", "rad", "A.5: from axis 3, in [0, π]"));
-            columns.push(column(
-                "c_b",
-                "1",
-                "13, 18: C/(1 + C), C = (r_e²p_1² + p_2²)^½/(r_e|p_3|)",
-            ));
+            columns.push(column("c_b", "1", "13, 18: C/(1 + C), C = (r_e²p_1² + p_2²)^½/(r_e|p_3|)"));
         }
         Start::Isotropic { fourth: true, .. } => {
             let name = |q: [usize; 4]| format!("a{}{}{}{}", q[0], q[1], q[2], q[3]);
@@ -104,10 +92,7 @@ pub fn columns(start: Start) -> Vec<Column> {
 /// Values at `times`, doubles in `unit`, each correctly rounded but for means over unequal rods (`unequal.rs`).
 pub fn table(motion: &Motion, start: Start, times: &[f64], unit: Unit) -> Result<Table, NoValue> {
     let rows = times.par_iter().map(|time| row(motion, start, *time, unit));
-    Ok(Table {
-        columns: columns(start),
-        rows: rows.collect::<Result<_, _>>()?,
-    })
+    Ok(Table { columns: columns(start), rows: rows.collect::<Result<_, _>>()? })
 }
 
 fn row(motion: &Motion, start: Start, time: f64, unit: Unit) -> Result<Vec<Option<f64>>, NoValue> {
@@ -120,9 +105,7 @@ fn row(motion: &Motion, start: Start, time: f64, unit: Unit) -> Result<Vec<Optio
     }
     let mut row = Vec::new();
     for other in [Unit::Second, Unit::Period, Unit::Strain] {
-        let value = motion
-            .convert(&exact, unit, other, Bits(128))
-            .map(|value| number(&value));
+        let value = motion.convert(&exact, unit, other, Bits(128)).map(|value| number(&value));
         if value.is_some_and(|value| !value.is_finite()) {
             return Err(NoValue::Time);
         }
@@ -134,10 +117,7 @@ fn row(motion: &Motion, start: Start, time: f64, unit: Unit) -> Result<Vec<Optio
             row.extend(rod.p.iter().map(|x| Some(number(x))));
             row.extend([rod.phi, Some(rod.theta), rod.c_b].map(|x| x.as_ref().map(number)));
         }
-        Start::Isotropic {
-            aspect_ratio_sd_percent,
-            fourth,
-        } if aspect_ratio_sd_percent != 0.0 => {
+        Start::Isotropic { aspect_ratio_sd_percent, fourth } if aspect_ratio_sd_percent != 0.0 => {
             let turns = row[1].filter(|_| !fourth).ok_or(NoValue::Unequal)?;
             let sense = motion.couette().ok_or(NoValue::Unequal)?.signum();
             let means = unequal::means(motion.aspect_ratio, aspect_ratio_sd_percent, sense * turns);

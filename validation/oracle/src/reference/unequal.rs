@@ -57,16 +57,12 @@ pub fn means_to_22_digits(
     let node = |k: i64| {
         // Exact: few bits.
         let r = k as f64 * step;
-        let motion = Motion {
-            gradient_per_s: [[0.0; 3], [shear_rate_per_s, 0.0, 0.0], [0.0; 3]],
-            aspect_ratio: r,
-        };
+        let motion =
+            Motion { gradient_per_s: [[0.0; 3], [shear_rate_per_s, 0.0, 0.0], [0.0; 3]], aspect_ratio: r };
         let z = (BITS.of(r) - &mean) / &sd;
         let weight = (-(z.sqr() / BITS.of(2.0))).exp();
         let covariance = Covariance::at(&motion, &BITS.of(time_s), Unit::Second);
-        let means = covariance
-            .expect("seconds have a meaning in every flow")
-            .projections();
+        let means = covariance.expect("seconds have a meaning in every flow").projections();
         let [x1, x2, x3] = means.map(|mean| mean * &weight);
         [x1, x2, x3, weight]
     };

@@ -22,10 +22,7 @@ pub(super) fn spread_damping(factor: &Factor, effort: &Effort) -> Vec<Evidence> 
         // Half a period is 20 outputs; the window closest to the predicted time.
         let middle = (end * 40.0).round() as usize;
         let harmonic = |from: usize, value: &dyn Fn(usize) -> f64| {
-            (from..from + 20)
-                .map(|k| value(k) * (TAU * k as f64 / 20.0).cos())
-                .sum::<f64>()
-                / 10.0
+            (from..from + 20).map(|k| value(k) * (TAU * k as f64 / 20.0).cos()).sum::<f64>() / 10.0
         };
         let quadrature = |k: usize| isotropic::mean_projections_polydisperse(r, sd, k as f64 / 40.0)[0];
         let first = harmonic(0, &|k| isotropic::mean_projections(r, k as f64 / 40.0)[0]);
@@ -59,10 +56,7 @@ pub(super) fn spread_damping(factor: &Factor, effort: &Effort) -> Vec<Evidence> 
 
 pub(super) fn in_plane_start(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let mut scene = lab::free_scene(effort);
-    scene.particles.orientation = Orientation::Given {
-        phi_deg: 30.0,
-        theta_deg: 90.0,
-    };
+    scene.particles.orientation = Orientation::Given { phi_deg: 30.0, theta_deg: 90.0 };
     scene.particles.count = 3;
     scene.time.periods = Some(2.0);
     let r = scene.particles.aspect_ratio;

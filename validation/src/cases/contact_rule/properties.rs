@@ -6,25 +6,19 @@ type Property = fn(ContactRule, &Pair) -> Option<f64>;
 
 /// Each invariant with its violation, 0 where it holds.
 pub(super) const PROPERTIES: [(&str, Property); 11] = [
-    (
-        "velocity normal to the contact line unchanged (eq. 5, A.9)",
-        |rule, pair| {
-            let after = rule(pair)?;
-            let (line, _) = geometry(pair);
-            let change = |k: usize| {
-                let dv = contact_velocities(pair, &after)[k] - contact_velocities(pair, &pair.rate)[k];
-                (dv - line * line.dot(&dv)).norm()
-            };
-            Some(larger(change(0), change(1)))
-        },
-    ),
-    (
-        "velocities along the contact line equal (eq. 6, A.10)",
-        |rule, pair| {
-            let [a, b] = contact_velocities(pair, &rule(pair)?);
-            Some(geometry(pair).0.dot(&(a - b)).abs())
-        },
-    ),
+    ("velocity normal to the contact line unchanged (eq. 5, A.9)", |rule, pair| {
+        let after = rule(pair)?;
+        let (line, _) = geometry(pair);
+        let change = |k: usize| {
+            let dv = contact_velocities(pair, &after)[k] - contact_velocities(pair, &pair.rate)[k];
+            (dv - line * line.dot(&dv)).norm()
+        };
+        Some(larger(change(0), change(1)))
+    }),
+    ("velocities along the contact line equal (eq. 6, A.10)", |rule, pair| {
+        let [a, b] = contact_velocities(pair, &rule(pair)?);
+        Some(geometry(pair).0.dot(&(a - b)).abs())
+    }),
     ("their sum kept (eq. 6)", |rule, pair| {
         let sum = |rate: &[Vector3<f64>; 2]| {
             let [a, b] = contact_velocities(pair, rate);
@@ -32,21 +26,15 @@ pub(super) const PROPERTIES: [(&str, Property); 11] = [
         };
         Some((sum(&rule(pair)?) - sum(&pair.rate)).abs())
     }),
-    (
-        "ṗ′ normal to p, and |p| = 1 after either update",
-        |rule, pair| {
-            let after = rule(pair)?;
-            let off = |k: usize| {
-                let lengths = [
-                    turn(&pair.p[k], &after[k], 0.1).0,
-                    step_angles(&pair.p[k], &after[k], 0.1).0,
-                ];
-                let stretched = lengths.iter().map(|p| (p.norm() - 1.0).abs()).fold(0.0, larger);
-                stretched + after[k].dot(&pair.p[k]).abs()
-            };
-            Some(larger(off(0), off(1)))
-        },
-    ),
+    ("ṗ′ normal to p, and |p| = 1 after either update", |rule, pair| {
+        let after = rule(pair)?;
+        let off = |k: usize| {
+            let lengths = [turn(&pair.p[k], &after[k], 0.1).0, step_angles(&pair.p[k], &after[k], 0.1).0];
+            let stretched = lengths.iter().map(|p| (p.norm() - 1.0).abs()).fold(0.0, larger);
+            stretched + after[k].dot(&pair.p[k]).abs()
+        };
+        Some(larger(off(0), off(1)))
+    }),
     ("A and B exchanged", |rule, pair| {
         let swapped = Pair {
             x: [pair.x[1], pair.x[0]],

@@ -11,17 +11,10 @@ pub(super) fn dies_out(change: &Change, effort: &Effort) -> Vec<Evidence> {
     };
     let found = |scene: &Scene, design| amplitudes(scene, effort.samples(design), &[0, 2, 4, 8]);
     // Pilots of 300 replicas: 0.136 ± 0.035 (mean and deviation); 0.017 ± 0.033; 0.107 ± 0.024, 0.066 ± 0.023 and 0.080 ± 0.028.
-    let (both, added, alone) = (
-        Design::new(0.13, 0.042),
-        Design::new(0.013, 0.036),
-        Design::new(0.06, 0.032),
-    );
+    let (both, added, alone) =
+        (Design::new(0.13, 0.042), Design::new(0.013, 0.036), Design::new(0.06, 0.032));
     let spread = found(&scene(3.6), both);
-    let margin: Vec<f64> = spread[0]
-        .iter()
-        .zip(&spread[3])
-        .map(|(first, last)| first / E - last)
-        .collect();
+    let margin: Vec<f64> = spread[0].iter().zip(&spread[3]).map(|(first, last)| first / E - last).collect();
     let mut evidence = vec![Evidence::new(
         "1/e of the first amplitude less that at t/T = 4, n = 50 per cm³, σ = 3.6 %",
         Sample::of(&margin).exceeds(
@@ -83,11 +76,8 @@ pub(super) fn on_all_axes(axes: &Axes, effort: &Effort) -> Vec<Evidence> {
         .map(|(i, j, design)| {
             let mean = Sample::of(&left[j]).mean;
             // a − b² to first order in each replica's deviation: its mean is that of the means.
-            let difference: Vec<f64> = left[i]
-                .iter()
-                .zip(&left[j])
-                .map(|(a, b)| a - 2.0 * mean * b + mean * mean)
-                .collect();
+            let difference: Vec<f64> =
+                left[i].iter().zip(&left[j]).map(|(a, b)| a - 2.0 * mean * b + mean * mean).collect();
             Evidence::new(
                 format!(
                     "share of the amplitude left at t/T = 2, X̄_{} less the square of that of X̄_{}",

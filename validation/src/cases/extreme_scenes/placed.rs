@@ -37,11 +37,7 @@ pub(super) fn step_of_the_core(scene: &Scene, placed: &Placed) -> Stepped {
     let mut suspension = lab::suspension(scene, 0);
     let middle = 0.5 * suspension.sides_in_lengths()[1];
     let along = placed.arm * first().into_inner();
-    let at = [
-        vec![0.0, along.x],
-        vec![middle, middle + BESIDE],
-        vec![0.0, along.z],
-    ];
+    let at = [vec![0.0, along.x], vec![middle, middle + BESIDE], vec![0.0, along.z]];
     if suspension.place(at, &[first(), placed.second]).is_none() {
         return Stepped::Free;
     }

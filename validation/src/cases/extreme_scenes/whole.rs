@@ -20,11 +20,7 @@ pub(super) struct Ended {
 
 impl Ended {
     /// It stopped, or had a result that is no number: it is counted, and says nothing else.
-    const LOST: Self = Self {
-        trace: 0.0,
-        finite: false,
-        last_x1: 1.0,
-    };
+    const LOST: Self = Self { trace: 0.0, finite: false, last_x1: 1.0 };
 }
 
 /// Runs a scene as the program does.
@@ -37,28 +33,16 @@ pub(super) fn whole_run(scene: &Scene) -> Ended {
     let mut channels = results.series.iter().flat_map(|series| &series.columns);
     let finite =
         channels.all(|channel| (channel.mean.iter().chain(&channel.se)).all(|value| value.is_finite()));
-    let mean = |name: &str, output: usize| {
-        results
-            .column(name)
-            .map_or(f64::NAN, |channel| channel.mean[output])
-    };
+    let mean =
+        |name: &str, output: usize| results.column(name).map_or(f64::NAN, |channel| channel.mean[output]);
     if !finite {
         return Ended::LOST;
     }
     let trace = |output: usize| {
-        (["a11", "a22", "a33"]
-            .map(|name| mean(name, output))
-            .iter()
-            .sum::<f64>()
-            - 1.0)
-            .abs()
+        (["a11", "a22", "a33"].map(|name| mean(name, output)).iter().sum::<f64>() - 1.0).abs()
     };
     let last = results.times.len() - 1;
-    Ended {
-        trace: (0..=last).map(trace).fold(0.0, larger),
-        finite,
-        last_x1: mean("x1", last),
-    }
+    Ended { trace: (0..=last).map(trace).fold(0.0, larger), finite, last_x1: mean("x1", last) }
 }
 
 /// One rod at the end of a scene by q = exp(At) p as it stands: no growth is shifted away, no turn taken out.
@@ -74,11 +58,7 @@ pub(super) fn by_exponential(scene: &Scene, rescaled: bool) -> Ended {
     if !p.norm_squared().is_finite() {
         return Ended::LOST;
     }
-    Ended {
-        trace: (p.norm_squared() - 1.0).abs(),
-        finite: true,
-        last_x1: p.x.abs(),
-    }
+    Ended { trace: (p.norm_squared() - 1.0).abs(), finite: true, last_x1: p.x.abs() }
 }
 
 /// What is enough where there are very many outputs.
@@ -101,14 +81,9 @@ pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence
                 scene.time.outputs_per_period = Some(4);
             }));
         }
-        for (phi_deg, theta_deg) in [
-            (0.0, 0.0),
-            (0.0, 180.0),
-            (0.0, 90.0),
-            (180.0, 90.0),
-            (90.0, 90.0),
-            (0.0, 1e-300),
-        ] {
+        for (phi_deg, theta_deg) in
+            [(0.0, 0.0), (0.0, 180.0), (0.0, 90.0), (180.0, 90.0), (90.0, 90.0), (0.0, 1e-300)]
+        {
             scenes.push(scene(&|scene| {
                 scene.particles.aspect_ratio = r;
                 scene.particles.orientation = Orientation::Given { phi_deg, theta_deg };
@@ -159,11 +134,6 @@ pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence
     vec![
         Evidence::exact("scenes that stopped or had a result that is not finite", failed),
         Evidence::within("largest |tr⟨pp⟩ − 1|", trace, TRACE, TRACE_BECAUSE),
-        Evidence::within(
-            "largest |X̄₁ − 1| at the end of an extension",
-            apart,
-            LENGTH,
-            LENGTH_BECAUSE,
-        ),
+        Evidence::within("largest |X̄₁ − 1| at the end of an extension", apart, LENGTH, LENGTH_BECAUSE),
     ]
 }

@@ -52,30 +52,17 @@ fn simulated(effort: &Effort) -> Result<Simulated, String> {
     let value = |node: &[f64]| vec![11.35 + 0.25 * node[0]];
     let at_nodes = coefficients(&basis, &model, value, 0..REPLICAS, &|| ())?;
     let own = model(&[OWN])?;
-    let at_own = |replica| {
-        Ok(DVector::from_iterator(
-            POINTS,
-            own(replica)?.iter().map(|point| point[0]),
-        ))
-    };
+    let at_own = |replica| Ok(DVector::from_iterator(POINTS, own(replica)?.iter().map(|point| point[0])));
     let at_own = (0..REPLICAS).map(at_own).collect::<Result<_, String>>()?;
     let curve = Emulator::new(&basis, &at_nodes).at(&[PLACE]);
     for (point, value) in points.iter_mut().zip(curve.iter()) {
         point.value = *value;
     }
-    let measured = Measured {
-        data: &points,
-        ranges: std::slice::from_ref(&range),
-        rods_over_measured: &[0.0],
-    };
+    let measured =
+        Measured { data: &points, ranges: std::slice::from_ref(&range), rods_over_measured: &[0.0] };
     let fit = fitted(&measured, &basis, &vec![(range.from, range.to)], &at_nodes)?;
     let uncertainty = fit.best.covariance()[(0, 0)].sqrt();
-    Ok(Simulated {
-        influence: &fit.best.influence / uncertainty,
-        basis,
-        at_nodes,
-        at_own,
-    })
+    Ok(Simulated { influence: &fit.best.influence / uncertainty, basis, at_nodes, at_own })
 }
 
 /// What the r_e of such points is off by, over the replicas; straight lines between the nodes are a mistake.
@@ -89,12 +76,7 @@ pub fn off(straight: bool, effort: &Effort) -> Result<Evidence, String> {
     let off = |(own, at_nodes): (&DVector<f64>, &Coefficients)| {
         (&simulated.influence * (own - at_nodes[0].tr_mul(&terms)))[0]
     };
-    let off: Vec<f64> = simulated
-        .at_own
-        .iter()
-        .zip(&simulated.at_nodes)
-        .map(off)
-        .collect();
+    let off: Vec<f64> = simulated.at_own.iter().zip(&simulated.at_nodes).map(off).collect();
     Ok(Evidence::new(
         "r_e of points simulated at that r_e itself, less it, in standard uncertainties",
         Sample::of(&off).is(

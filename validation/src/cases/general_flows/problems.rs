@@ -34,10 +34,7 @@ pub enum Kind {
 
 /// The first `count` random problems of a seed.
 pub fn random(kind: Kind, seed: u64, count: u64) -> Vec<Problem> {
-    (0..count)
-        .into_par_iter()
-        .map(|index| one(kind, seed, index))
-        .collect()
+    (0..count).into_par_iter().map(|index| one(kind, seed, index)).collect()
 }
 
 fn one(kind: Kind, seed: u64, index: u64) -> Problem {
@@ -70,10 +67,7 @@ fn drawn(kind: Kind, rng: &mut impl Rng) -> Option<Problem> {
     if kind == Kind::Hard || rng.random_range(0..3) == 0 {
         // From the end backwards: the start that the flow turns most of the way, where the condition number is largest; and
         // starts at any distance from it, for the condition numbers between.
-        let back = Rod {
-            gradient_per_s: rod.gradient_per_s.map(|row| row.map(|x| -x)),
-            ..rod
-        };
+        let back = Rod { gradient_per_s: rod.gradient_per_s.map(|row| row.map(|x| -x)), ..rod };
         let most = Vector3::from(back.settled(Span::Strain(strain))?);
         let beside = Vector3::from_fn(|_, _| signed(rng)) * size(rng, -17.0, 0.0);
         rod.p = match rng.random_range(0..4) {
@@ -179,11 +173,7 @@ fn turned(rng: &mut impl Rng, l: Matrix3<f64>) -> Matrix3<f64> {
 /// A swirl beside an extension along its axis, the one 10⁻¹⁶ to 10¹⁶ times the other.
 fn spiral(rng: &mut impl Rng) -> Matrix3<f64> {
     let ratio = size(rng, -16.0, 16.0);
-    let (swirl, e) = if ratio > 1.0 {
-        (1.0, 1.0 / ratio)
-    } else {
-        (ratio, 1.0)
-    };
+    let (swirl, e) = if ratio > 1.0 { (1.0, 1.0 / ratio) } else { (ratio, 1.0) };
     let e = e * signed(rng).signum();
     Matrix3::new(-0.5 * e, -swirl, 0.0, swirl, -0.5 * e, 0.0, 0.0, 0.0, e)
 }
@@ -191,11 +181,7 @@ fn spiral(rng: &mut impl Rng) -> Matrix3<f64> {
 /// Three real rates, two of which nearly meet.
 fn real(rng: &mut impl Rng) -> Matrix3<f64> {
     let (a, gap) = (signed(rng), size(rng, -17.0, 0.0));
-    let coupled = if rng.random_range(0..2) == 0 {
-        0.0
-    } else {
-        signed(rng)
-    };
+    let coupled = if rng.random_range(0..2) == 0 { 0.0 } else { signed(rng) };
     Matrix3::new(a + gap, coupled, 0.0, 0.0, a, 0.0, 0.0, 0.0, -2.0 * a)
 }
 
@@ -204,11 +190,7 @@ fn planar(rng: &mut impl Rng) -> Matrix3<f64> {
     let back = signed(rng).signum() * size(rng, -17.0, 0.0);
     Matrix3::new(
         0.0,
-        if rng.random_range(0..2) == 0 {
-            back
-        } else {
-            back - 1.0
-        },
+        if rng.random_range(0..2) == 0 { back } else { back - 1.0 },
         0.0,
         1.0,
         0.0,

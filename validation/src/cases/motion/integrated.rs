@@ -4,30 +4,12 @@ use super::*;
 
 pub(super) fn integrated_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
     let flows = [
-        (
-            "plane Couette flow",
-            [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]],
-        ),
-        (
-            "planar extension",
-            [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 0.0]],
-        ),
-        (
-            "uniaxial extension",
-            [[-0.5, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -0.5]],
-        ),
-        (
-            "elliptic planar flow",
-            [[0.0, -1.0, 0.0], [0.4, 0.0, 0.0], [0.0, 0.0, 0.0]],
-        ),
-        (
-            "spiral, all nine components",
-            [[0.1, -0.9, 0.3], [0.8, 0.2, -0.4], [-0.2, 0.5, -0.3]],
-        ),
-        (
-            "three real rates, all nine components",
-            [[0.9, 0.3, 0.1], [0.4, -0.2, 0.2], [0.1, 0.3, -0.7]],
-        ),
+        ("plane Couette flow", [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]]),
+        ("planar extension", [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 0.0]]),
+        ("uniaxial extension", [[-0.5, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -0.5]]),
+        ("elliptic planar flow", [[0.0, -1.0, 0.0], [0.4, 0.0, 0.0], [0.0, 0.0, 0.0]]),
+        ("spiral, all nine components", [[0.1, -0.9, 0.3], [0.8, 0.2, -0.4], [-0.2, 0.5, -0.3]]),
+        ("three real rates, all nine components", [[0.9, 0.3, 0.1], [0.4, -0.2, 0.2], [0.1, 0.3, -0.7]]),
     ];
     let mut evidence = Vec::new();
     for (name, rows) in flows {
@@ -87,10 +69,7 @@ const GROWTH: f64 = 11.6 * 11.6;
 
 /// The direction, and how many steps were taken.
 fn integrate(rows: [[f64; 3]; 3], r: f64, start: &UnitVector3<f64>, time: f64) -> (UnitVector3<f64>, u32) {
-    let system = Jeffery {
-        rows,
-        shape: (r * r - 1.0) / (r * r + 1.0),
-    };
+    let system = Jeffery { rows, shape: (r * r - 1.0) / (r * r + 1.0) };
     let mut solver = Dop853::new(system, 0.0, time, time, start.into_inner(), TOLERANCE, TOLERANCE);
     // Steps, not dense output: the last one ends at `time`.
     solver.set_output(OutputType::Sparse);

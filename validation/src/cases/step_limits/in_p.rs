@@ -10,21 +10,14 @@ pub(super) fn at_least(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
             continue;
         };
         let found =
-            RATIOS.map(
-                |r| match bisect(ONE_STEP, |h| holds(subject.as_ref(), Property::Order, r, h)) {
-                    Limit::At(strain) => strain,
-                    _ => f64::NAN,
-                },
-            );
-        let least = RATIOS
-            .iter()
-            .zip(found)
-            .map(|(r, found)| theory::runge_kutta_order_at_least(order, *r) / found);
+            RATIOS.map(|r| match bisect(ONE_STEP, |h| holds(subject.as_ref(), Property::Order, r, h)) {
+                Limit::At(strain) => strain,
+                _ => f64::NAN,
+            });
+        let least =
+            RATIOS.iter().zip(found).map(|(r, found)| theory::runge_kutta_order_at_least(order, *r) / found);
         evidence.push(Evidence::within(
-            format!(
-                "bound over the longest step without overtaking, {}",
-                subject.name()
-            ),
+            format!("bound over the longest step without overtaking, {}", subject.name()),
             least.fold(0.0, larger),
             1.0 + 1e-6,
             "a bound from below: too few rods find a step too long, which is no excuse; the bisection \
@@ -32,10 +25,7 @@ pub(super) fn at_least(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
         ));
         if order == 4 {
             let apart = |first: &f64, found: f64| (found / first - 1.0).abs();
-            let off = classical
-                .iter()
-                .zip(found)
-                .map(|(first, found)| apart(first, found));
+            let off = classical.iter().zip(found).map(|(first, found)| apart(first, found));
             evidence.push(Evidence::within(
                 format!("relative difference to the first of order 4, {}", subject.name()),
                 off.fold(0.0, larger),
@@ -62,20 +52,14 @@ pub(super) fn near_a_sphere(subjects: &Integrators, _: &Effort) -> Vec<Evidence>
         let found = |property, ladder| bisect(ladder, |h| holds(subject.as_ref(), property, r, h));
         evidence.push(Evidence::within(
             "relative difference of the longest step that turns and 2√6",
-            off(
-                found(Property::Turning, ONE_STEP),
-                theory::rk4_turning_of_a_sphere(),
-            ),
+            off(found(Property::Turning, ONE_STEP), theory::rk4_turning_of_a_sphere()),
             2e-5,
             "rates of rods of r_e = 1 + 10⁻⁵ differ by Λ = 10⁻⁵, and of 512 rods one is within δ = \
              π/1024 of the fastest: δ² = 10⁻⁵",
         ));
         evidence.push(Evidence::within(
             "relative difference of the longest step with a bounded length and 4√2",
-            off(
-                found(Property::Length, TEN_PERIODS),
-                theory::rk4_length_of_a_sphere(),
-            ),
+            off(found(Property::Length, TEN_PERIODS), theory::rk4_length_of_a_sphere()),
             3e-3,
             "|R|² = 1 + 0.89(y² − 8): in the 22 steps of ten periods |p| grows to 1.5 at y² = 8.04, \
              which is 0.26 % more",
@@ -88,10 +72,7 @@ pub(super) fn frozen(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     let mut worst = 0.0f64;
     for subject in subjects() {
         for r in [1.5, 2.0, 3.0, 11.6, 100.0] {
-            let ladder = crate::studies::stability::limits::Ladder {
-                least: 1.0,
-                ..TEN_PERIODS
-            };
+            let ladder = crate::studies::stability::limits::Ladder { least: 1.0, ..TEN_PERIODS };
             let frozen = 2.785 * theory::euler_order(r);
             worst = larger(
                 worst,

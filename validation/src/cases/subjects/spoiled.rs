@@ -19,12 +19,7 @@ pub(in crate::cases) fn in_p(
     keeps_length: bool,
     step: fn(&Problem, Vector3<f64>, f64) -> Vector3<f64>,
 ) -> Vec<Box<dyn Integrator>> {
-    vec![Box::new(FixedStep {
-        name: "in p",
-        order,
-        keeps_length,
-        step,
-    })]
+    vec![Box::new(FixedStep { name: "in p", order, keeps_length, step })]
 }
 
 /// The exact propagator with the phase as it comes.

@@ -56,10 +56,7 @@ impl Checkpoint {
         identity["build"] = build::record();
         // As text: what was written and read again is compared with the same.
         let identity = serde_json::from_str(&identity.to_string()).unwrap_or(identity);
-        Ok(Self {
-            file: Replaced::claim(path)?,
-            identity,
-        })
+        Ok(Self { file: Replaced::claim(path)?, identity })
     }
 
     /// Its file.

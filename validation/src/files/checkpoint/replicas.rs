@@ -91,22 +91,11 @@ impl Replicas {
         let misfit = |why: &str| file.refused(&format!("is damaged: {why}"));
         kept.tally.check(plan).map_err(misfit)?;
         let left = kept.tally.replicas()..plan.scene().ensemble.replicas;
-        if !kept
-            .done
-            .keys()
-            .chain(kept.halfway.keys())
-            .all(|replica| left.contains(replica))
-        {
+        if !kept.done.keys().chain(kept.halfway.keys()).all(|replica| left.contains(replica)) {
             return Err(misfit("a replica in it is not left to be done"));
         }
-        kept.done
-            .values()
-            .try_for_each(|done| done.check(plan))
-            .map_err(misfit)?;
-        kept.halfway
-            .values()
-            .try_for_each(|halfway| halfway.check(plan))
-            .map_err(misfit)?;
+        kept.done.values().try_for_each(|done| done.check(plan)).map_err(misfit)?;
+        kept.halfway.values().try_for_each(|halfway| halfway.check(plan)).map_err(misfit)?;
         file.write(&kept)?;
         let replicas = Arc::new(Self {
             plan: plan.clone(),
@@ -262,9 +251,7 @@ impl Replicas {
     /// Saves again and again until the run has ended.
     fn keep(&self, saved: &impl Fn(Result<Progress, OutputError>)) {
         loop {
-            let wait = self
-                .told
-                .wait_timeout_while(self.state(), self.every, |state| !state.ended);
+            let wait = self.told.wait_timeout_while(self.state(), self.every, |state| !state.ended);
             if wait.unwrap_or_else(PoisonError::into_inner).0.ended {
                 return;
             }
@@ -288,10 +275,7 @@ impl Replicas {
         let silent =
             |state: &mut State| !state.ended && state.in_work.values().any(|answered| *answered < round);
         state = match patience {
-            None => self
-                .told
-                .wait_while(state, silent)
-                .unwrap_or_else(PoisonError::into_inner),
+            None => self.told.wait_while(state, silent).unwrap_or_else(PoisonError::into_inner),
             Some(patience) => {
                 let wait = self.told.wait_timeout_while(state, patience, silent);
                 wait.unwrap_or_else(PoisonError::into_inner).0

@@ -22,10 +22,5 @@ pub(crate) fn last_words() -> Option<String> {
 
 /// That a checkpoint stays, where there is one.
 pub(crate) fn stays(path: &Path) -> Option<String> {
-    path.exists().then(|| {
-        format!(
-            "{} stays as it is, and the same command goes on from there",
-            path.shown()
-        )
-    })
+    path.exists().then(|| format!("{} stays as it is, and the same command goes on from there", path.shown()))
 }

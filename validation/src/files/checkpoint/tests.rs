@@ -31,10 +31,7 @@ fn kept() -> (TempDir, PathBuf) {
 fn refused(path: &Path, bytes: &[u8], seed: u64) -> String {
     fs::write(path, bytes).unwrap();
     let Refused(why) = opened(path, seed).read::<Vec<f64>>().unwrap_err();
-    assert!(
-        why.starts_with(&format!("--checkpoint {}: ", path.display())),
-        "{why}"
-    );
+    assert!(why.starts_with(&format!("--checkpoint {}: ", path.display())), "{why}");
     assert_eq!(fs::read(path).unwrap(), bytes);
     why
 }
@@ -86,17 +83,11 @@ fn other_work_and_other_formats_are_refused_by_name() {
     assert!(refused(&path, &summed(other), 1).contains("has the format 1, of another version"));
     for build in ["version", "commit"] {
         let own = json!(crate::files::build::record()[build]).to_string();
-        let at = whole
-            .windows(own.len())
-            .position(|bytes| bytes == own.as_bytes())
-            .unwrap();
+        let at = whole.windows(own.len()).position(|bytes| bytes == own.as_bytes()).unwrap();
         let mut other = whole.clone();
         other[at + 1] = b'Z';
         let why = refused(&path, &summed(other), 1);
-        assert!(
-            why.contains(&format!("is of other work: build.{build} was \"Z")),
-            "{why}"
-        );
+        assert!(why.contains(&format!("is of other work: build.{build} was \"Z")), "{why}");
     }
     // The checksum is right, and what it sums up is not the state.
     let mut cut = whole.clone();
@@ -112,16 +103,11 @@ fn one_process_at_a_time_and_files_alone() {
     let (dir, path) = kept();
     let held = opened(&path, 1);
     let Refused(why) = Checkpoint::open(&path, "test", json!({})).err().unwrap();
-    assert!(
-        why.contains("another shearbed is at work with this file"),
-        "{why}"
-    );
+    assert!(why.contains("another shearbed is at work with this file"), "{why}");
     drop(held);
     let Refused(why) = opened(dir.path(), 1).read::<Vec<f64>>().unwrap_err();
     assert!(why.contains("it is a folder; a regular file is needed"), "{why}");
-    let Refused(why) = Checkpoint::open(Path::new(".."), "test", json!({}))
-        .err()
-        .unwrap();
+    let Refused(why) = Checkpoint::open(Path::new(".."), "test", json!({})).err().unwrap();
     assert!(why.contains("the name of a file is allowed"), "{why}");
     #[cfg(target_os = "linux")]
     assert!(Checkpoint::open(Path::new("/proc/x"), "test", json!({})).is_err());
@@ -168,11 +154,7 @@ fn nothing_that_is_done_is_run_again() {
         file.write(&kept).unwrap();
         drop(file);
         let run = Replicas::open(&plan, &path, std::time::Duration::from_millis(10)).unwrap();
-        let of_run = |done, halfway| Progress {
-            done,
-            halfway,
-            all: 6,
-        };
+        let of_run = |done, halfway| Progress { done, halfway, all: 6 };
         assert_eq!(run.progress(), of_run(2, 1));
         let finished = AtomicU64::new(0);
         let last = std::sync::Mutex::new(None);
@@ -180,9 +162,7 @@ fn nothing_that_is_done_is_run_again() {
             finished.fetch_add(1, Ordering::Relaxed);
         };
         assert_eq!(
-            run.run(threads, count, |saved| *last.lock().unwrap() =
-                Some(saved.unwrap()))
-                .unwrap(),
+            run.run(threads, count, |saved| *last.lock().unwrap() = Some(saved.unwrap())).unwrap(),
             expected,
             "{threads}"
         );
@@ -197,10 +177,7 @@ struct Full(usize);
 
 impl Write for Full {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0 = self
-            .0
-            .checked_sub(bytes.len())
-            .ok_or(io::ErrorKind::StorageFull)?;
+        self.0 = self.0.checked_sub(bytes.len()).ok_or(io::ErrorKind::StorageFull)?;
         Ok(bytes.len())
     }
 
@@ -232,8 +209,5 @@ fn a_signal_tells_of_the_file_that_is_there() {
     assert_eq!(super::stays(&path), None);
     std::fs::write(&path, "").unwrap();
     let said = super::stays(&path).unwrap();
-    assert!(
-        said.ends_with("kept stays as it is, and the same command goes on from there"),
-        "{said}"
-    );
+    assert!(said.ends_with("kept stays as it is, and the same command goes on from there"), "{said}");
 }

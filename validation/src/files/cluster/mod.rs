@@ -86,9 +86,6 @@ mod tests {
         let expected = "rank 2 has another input: scene.ensemble.seed is 2 there and 1 on rank 0";
         assert!(error.starts_with(expected), "{error}");
         let error = all_as_first(&[input(1), json!({ "command": "plan" })]).unwrap_err();
-        assert!(
-            error.contains(r#"command is "plan" there and "run" on rank 0"#),
-            "{error}"
-        );
+        assert!(error.contains(r#"command is "plan" there and "run" on rank 0"#), "{error}");
     }
 }

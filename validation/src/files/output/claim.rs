@@ -75,11 +75,7 @@ impl Claim {
             };
             at(dir)(reason)
         })?;
-        let claim = Self {
-            dir: dir.to_owned(),
-            made,
-            lock: Some(lock),
-        };
+        let claim = Self { dir: dir.to_owned(), made, lock: Some(lock) };
         let _writing = writing();
         claim.put_right()?;
         Ok(claim)
@@ -193,7 +189,15 @@ impl Lock {
         let start = Instant::now();
         let path = dir.join(name);
         let file = loop {
-            fs::create_dir_all(dir).map_err(&at)?;
+            match fs::create_dir_all(dir) {
+                // Another process had the folder, and removed it just now.
+                Err(error)
+                    if error.kind() == io::ErrorKind::AlreadyExists && dir.symlink_metadata().is_err() =>
+                {
+                    continue;
+                }
+                made => made.map_err(&at)?,
+            }
             let mut options = OpenOptions::new();
             options.write(true).create(true).truncate(false);
             let file = match bounded::open_with(&path, &mut options) {

@@ -23,15 +23,8 @@ const FORMAT: u32 = 1;
 const MOST_BYTES: u64 = 64 << 20;
 
 /// What commands left as their record before there was this one, and what a point of a sweep has.
-const OTHERS: [&str; 7] = [
-    "run.json",
-    "fit.json",
-    "sweep.json",
-    "converge.json",
-    "report.json",
-    "grade.json",
-    "point.json",
-];
+const OTHERS: [&str; 7] =
+    ["run.json", "fit.json", "sweep.json", "converge.json", "report.json", "grade.json", "point.json"];
 
 /// What stands in `shearbed.json`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -88,9 +81,9 @@ impl Record {
             .map_err(|error| format!("is no record of results that `shearbed` wrote: {error}"))?;
         match record.format {
             FORMAT => Ok(Some(record)),
-            other => Err(format!(
-                "has the format {other}, of another version of shearbed; {FORMAT} is allowed"
-            )),
+            other => {
+                Err(format!("has the format {other}, of another version of shearbed; {FORMAT} is allowed"))
+            }
         }
     }
 
@@ -163,11 +156,7 @@ impl Author {
         inputs["version"] = BUILD.version.into();
         // As text: what was written and read again is compared with the same.
         let inputs = serde_json::from_str(&inputs.to_string()).unwrap_or(inputs);
-        Self {
-            command,
-            inputs,
-            force,
-        }
+        Self { command, inputs, force }
     }
 
     /// Whether this command has written a folder, from the same input.
@@ -298,9 +287,8 @@ mod tests {
 
     fn names(dir: &Path) -> Vec<String> {
         let entries = fs::read_dir(dir).unwrap();
-        let mut names: Vec<_> = entries
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect();
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
         names.sort();
         names
     }
@@ -335,16 +323,11 @@ mod tests {
             shown("user.csv: was not written by `shearbed run`")
         );
         fs::write(dir.join("a.csv"), "of b.csv\n").unwrap();
-        assert_eq!(
-            refused(dir, &own, &["a.csv"]),
-            shown("a.csv: was changed after `shearbed run` wrote it")
-        );
+        assert_eq!(refused(dir, &own, &["a.csv"]), shown("a.csv: was changed after `shearbed run` wrote it"));
         // What was changed does not go either where it is no longer written.
         own.write(dir, files(&["d.csv"])).unwrap();
         assert_eq!(names(dir), ["a.csv", "b", "d.csv", "shearbed.json", "user.csv"]);
-        Author::new("fit", json!({}), true)
-            .write(dir, files(&["e.csv"]))
-            .unwrap();
+        Author::new("fit", json!({}), true).write(dir, files(&["e.csv"])).unwrap();
         assert_eq!(names(dir), ["a.csv", "b", "e.csv", "shearbed.json", "user.csv"]);
     }
 

@@ -25,25 +25,16 @@ impl Replaced {
         let name = name.to_string_lossy();
         let parent = path.parent().filter(|dir| !dir.as_os_str().is_empty());
         let dir = parent.unwrap_or(Path::new("."));
-        let lock = Lock::new(
-            dir,
-            &format!(".checkpoint-{name}.lock"),
-            Duration::ZERO,
-            |reason| {
-                at(path)(match reason.kind() {
-                    io::ErrorKind::WouldBlock => io::Error::new(
-                        reason.kind(),
-                        "another shearbed is at work with this file; wait for it, or give another",
-                    ),
-                    _ => reason,
-                })
-            },
-        )?;
-        Ok(Self {
-            path: path.to_owned(),
-            part: dir.join(format!(".checkpoint-{name}.part")),
-            _lock: lock,
-        })
+        let lock = Lock::new(dir, &format!(".checkpoint-{name}.lock"), Duration::ZERO, |reason| {
+            at(path)(match reason.kind() {
+                io::ErrorKind::WouldBlock => io::Error::new(
+                    reason.kind(),
+                    "another shearbed is at work with this file; wait for it, or give another",
+                ),
+                _ => reason,
+            })
+        })?;
+        Ok(Self { path: path.to_owned(), part: dir.join(format!(".checkpoint-{name}.part")), _lock: lock })
     }
 
     /// The file.
@@ -66,11 +57,7 @@ impl Replaced {
             file.into_inner().map_err(io::IntoInnerError::into_error)
         };
         match written() {
-            Ok(file) => Ok(Part {
-                of: self,
-                file,
-                _writing: writing,
-            }),
+            Ok(file) => Ok(Part { of: self, file, _writing: writing }),
             Err(error) => Err(self.given_up(error)),
         }
     }

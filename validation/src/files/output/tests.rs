@@ -5,12 +5,7 @@ fn contents(dir: &Path) -> BTreeMap<String, Option<String>> {
     fs::read_dir(dir)
         .unwrap()
         .map(|entry| entry.unwrap())
-        .map(|entry| {
-            (
-                entry.file_name().into_string().unwrap(),
-                fs::read_to_string(entry.path()).ok(),
-            )
-        })
+        .map(|entry| (entry.file_name().into_string().unwrap(), fs::read_to_string(entry.path()).ok()))
         .collect()
 }
 
@@ -37,11 +32,8 @@ fn a_target_that_is_a_folder_leaves_everything_as_it_was() {
     fs::write(dir.path().join("x"), "old").unwrap();
     fs::create_dir(dir.path().join("y")).unwrap();
     let before = contents(dir.path());
-    let error = write_all(
-        dir.path(),
-        &[output("x", "new"), output("y", "new"), output("z", "new")],
-    )
-    .unwrap_err();
+    let error =
+        write_all(dir.path(), &[output("x", "new"), output("y", "new"), output("z", "new")]).unwrap_err();
     assert_eq!(error.path, dir.path().join("y"));
     assert_eq!(contents(dir.path()), before);
 }
@@ -65,4 +57,20 @@ fn a_folder_that_is_a_file_is_named() {
         assert_eq!(write_all(&dir, &[output("x", "")]).unwrap_err().path, dir);
     }
     assert_eq!(fs::read_to_string(&file).unwrap(), "old");
+}
+
+/// Claims of one folder make it and remove it, each by itself, and none is in the way of another.
+#[test]
+fn a_folder_that_others_make_and_remove_is_claimed() {
+    let dir = tempfile::tempdir().unwrap();
+    let shared = dir.path().join("shared");
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                for _ in 0..1000 {
+                    Claim::new(&shared, Duration::from_secs(600)).unwrap();
+                }
+            });
+        }
+    });
 }

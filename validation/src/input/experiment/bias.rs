@@ -21,17 +21,12 @@ pub struct Bias {
 /// A model cannot be shown to be better than what it is compared with: σ_E is taken no larger than σ_M. `None` for
 /// fewer than two pairs, or where a value is not positive.
 pub fn bias(pairs: &[(f64, f64)], sigma_e: f64) -> Option<Bias> {
-    let positive = pairs
-        .iter()
-        .all(|&(model, experiment)| model > 0.0 && experiment > 0.0);
+    let positive = pairs.iter().all(|&(model, experiment)| model > 0.0 && experiment > 0.0);
     if pairs.len() < 2 || !positive {
         return None;
     }
     let n = pairs.len() as f64;
-    let logs: Vec<f64> = pairs
-        .iter()
-        .map(|(model, experiment)| (model / experiment).ln())
-        .collect();
+    let logs: Vec<f64> = pairs.iter().map(|(model, experiment)| (model / experiment).ln()).collect();
     let mean = logs.iter().sum::<f64>() / n;
     let variance = logs.iter().map(|log| (log - mean).powi(2)).sum::<f64>() / (n - 1.0);
     let experiment = (sigma_e * sigma_e).min(variance / 2.0);

@@ -69,18 +69,9 @@ pub fn alpha(curves: &[MeasuredCurve], change: Change, runs: Runs) -> Result<Alp
     names.dedup();
     for (k, name) in names.into_iter().enumerate() {
         // Scenes are independent: each has random numbers of its own.
-        let runs = Runs {
-            seed: runs.seed ^ k as u64,
-            ..runs
-        };
-        let here: Vec<_> = curves
-            .iter()
-            .filter(|curve| curve.scene == name)
-            .cloned()
-            .collect();
-        start = built_in(name)?
-            .interaction
-            .map_or(f64::NAN, |interaction| interaction.alpha);
+        let runs = Runs { seed: runs.seed ^ k as u64, ..runs };
+        let here: Vec<_> = curves.iter().filter(|curve| curve.scene == name).cloned().collect();
+        start = built_in(name)?.interaction.map_or(f64::NAN, |interaction| interaction.alpha);
         let assessed = Assessed::new(name, &here, change, runs)?;
         let slope = assessed.slope(
             &here,
@@ -122,12 +113,8 @@ impl Assessed {
         change(&mut scene);
         let places = places(curves, &scene)?;
         let model = model::run(&scene, &places, replicas, 1)?;
-        let mut assessed = Self {
-            error: DVector::zeros(places.len()),
-            points: Vec::new(),
-            solver: None,
-            scene,
-        };
+        let mut assessed =
+            Self { error: DVector::zeros(places.len()), points: Vec::new(), solver: None, scene };
         // What points share is a covariance: a step or a wrong input moves them together.
         let step = assessed.step_error(&model, &places, replicas)?;
         let inputs = assessed.input_errors(curves, replicas)?;
@@ -140,10 +127,8 @@ impl Assessed {
         }
         causes.push(step.transpose());
         causes.extend(inputs.iter().map(|input| input.transpose()));
-        let mut covariance = Covariance {
-            own: DVector::zeros(places.len()),
-            shared: DMatrix::from_rows(&causes),
-        };
+        let mut covariance =
+            Covariance { own: DVector::zeros(places.len()), shared: DMatrix::from_rows(&causes) };
         for (k, measured) in measured(curves).enumerate() {
             let reading = measured.u_y.powi(2) + model.time_variance[k];
             let interpolation = model.interpolation[k].powi(2);
@@ -194,10 +179,7 @@ impl Assessed {
                 let found = curve.provenance.inputs.iter().find(|(input, _)| *input == index);
                 found.map_or(0.0, |(_, u)| *u)
             };
-            let u: Vec<f64> = curves
-                .iter()
-                .flat_map(|c| c.points.iter().map(move |_| stated(c)))
-                .collect();
+            let u: Vec<f64> = curves.iter().flat_map(|c| c.points.iter().map(move |_| stated(c))).collect();
             if u.iter().any(|u| *u > 0.0) {
                 let slope = self.slope(curves, value, 0.1, replicas)?;
                 errors.push(slope.component_mul(&DVector::from_vec(u)));
@@ -256,10 +238,7 @@ fn places(curves: &[MeasuredCurve], scene: &Scene) -> Result<Vec<MeasuredAt>, St
 /// scaled. Curves of a scene are of the same rods.
 fn rods(spread: &DMatrix<f64>, curves: &[MeasuredCurve], count: usize) -> DMatrix<f64> {
     let factors = curves.iter().flat_map(|curve| {
-        let factor = curve
-            .provenance
-            .rods
-            .map_or(0.0, |rods| (count as f64 / rods).sqrt());
+        let factor = curve.provenance.rods.map_or(0.0, |rods| (count as f64 / rods).sqrt());
         curve.points.iter().map(move |_| factor)
     });
     let mut scaled = spread.clone();

@@ -99,14 +99,7 @@ mod tests {
     fn what_cannot_be_solved_is_not() {
         for own in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             let own = DVector::from_vec(vec![1.0, own]);
-            assert!(
-                Covariance {
-                    own,
-                    shared: noise(1, 2)
-                }
-                .solver()
-                .is_none()
-            );
+            assert!(Covariance { own, shared: noise(1, 2) }.solver().is_none());
         }
         let own = DVector::from_vec(vec![1.0, 1.0]);
         let shared = DMatrix::from_element(1, 2, f64::NAN);

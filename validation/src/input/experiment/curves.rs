@@ -28,20 +28,14 @@ pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, D
     let datasets = match provenance.csv {
         Layout::WebPlotDigitizer => table::webplotdigitizer(&file, &text)?,
         Layout::Columns => {
-            let ys: Vec<_> = provenance
-                .curves
-                .iter()
-                .map(|key| column(&provenance, key))
-                .collect();
+            let ys: Vec<_> = provenance.curves.iter().map(|key| column(&provenance, key)).collect();
             table::columns(&file, &text, provenance.x.quantity.column(), &ys)?
         }
     };
     let axis = &provenance.x;
     let period = |key: &Key| {
         let scene = scenes::find(key.scene).and_then(|built_in| built_in.scene().ok());
-        scene.map_or(f64::NAN, |scene| {
-            axis.quantity.per_period(scene.particles.aspect_ratio)
-        })
+        scene.map_or(f64::NAN, |scene| axis.quantity.per_period(scene.particles.aspect_ratio))
     };
     let shortest = provenance.curves.iter().map(period).fold(f64::INFINITY, f64::min);
     if axis.standard_uncertainty > MOST_UNCERTAIN * shortest {
@@ -69,15 +63,11 @@ pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, D
         };
         // A name is needed only where there are several.
         let only = wanted.is_none() && datasets.len() == 1;
-        let dataset = datasets
-            .iter()
-            .find(|dataset| only || Some(&dataset.name) == wanted.as_ref());
+        let dataset = datasets.iter().find(|dataset| only || Some(&dataset.name) == wanted.as_ref());
         let dataset = dataset.ok_or_else(|| {
             let wanted = wanted.unwrap_or_else(|| "missing".to_owned());
-            let message = format!(
-                "curve.dataset = {wanted} is not allowed: {} has {names}",
-                csv_path.display()
-            );
+            let message =
+                format!("curve.dataset = {wanted} is not allowed: {} has {names}", csv_path.display());
             DataError::at(&path.display().to_string(), key.line, message)
         })?;
         convert(&file, key, dataset, &provenance, source)
@@ -145,12 +135,7 @@ fn convert(
     };
     let mut points: Vec<_> = dataset.rows.iter().map(point).collect();
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    Ok(MeasuredCurve {
-        scene: key.scene,
-        channel: key.channel,
-        points,
-        provenance: provenance.clone(),
-    })
+    Ok(MeasuredCurve { scene: key.scene, channel: key.channel, points, provenance: provenance.clone() })
 }
 
 /// Refuses a value beyond the reference points by more than reading off at an end explains.

@@ -20,20 +20,12 @@ pub struct DataError {
 impl DataError {
     /// An error about a whole file or folder.
     pub(crate) fn whole(file: &Path, message: impl Into<String>) -> Self {
-        Self {
-            file: file.shown(),
-            line: None,
-            message: message.into(),
-        }
+        Self { file: file.shown(), line: None, message: message.into() }
     }
 
     /// An error in a line.
     pub(crate) fn at(file: &str, line: usize, message: impl Into<String>) -> Self {
-        Self {
-            file: file.to_owned(),
-            line: Some(line),
-            message: message.into(),
-        }
+        Self { file: file.to_owned(), line: Some(line), message: message.into() }
     }
 }
 

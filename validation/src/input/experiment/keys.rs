@@ -17,22 +17,11 @@ pub(super) struct Table<'a> {
 impl<'a> Table<'a> {
     /// The table of a whole file.
     pub(super) fn of_file(file: &'a str, text: &'a str, entries: &'a DeTable<'a>) -> Self {
-        Self {
-            file,
-            text,
-            path: String::new(),
-            line: 1,
-            entries,
-        }
+        Self { file, text, path: String::new(), line: 1, entries }
     }
 
     fn inner(&self, key: &str, offset: usize, entries: &'a DeTable<'a>) -> Self {
-        Self {
-            path: format!("{}{key}.", self.path),
-            line: line_of(self.text, offset),
-            entries,
-            ..*self
-        }
+        Self { path: format!("{}{key}.", self.path), line: line_of(self.text, offset), entries, ..*self }
     }
 
     /// The line of a key, or of its table where it is missing.
@@ -77,9 +66,7 @@ impl<'a> Table<'a> {
         holds: impl Fn(f64) -> bool,
     ) -> Result<f64, DataError> {
         let number = self.entries.get(key).and_then(|value| number(value.get_ref()));
-        number
-            .filter(|number| holds(*number))
-            .ok_or_else(|| self.refused(key, allowed))
+        number.filter(|number| holds(*number)).ok_or_else(|| self.refused(key, allowed))
     }
 
     /// Every number of an array of numbers.
@@ -114,22 +101,11 @@ impl<'a> Table<'a> {
 
     /// Refuses keys that are none of these.
     pub(super) fn only(&self, known: &[&str]) -> Result<(), DataError> {
-        let unknown = self
-            .entries
-            .keys()
-            .find(|name| !known.contains(&name.get_ref().as_ref()));
+        let unknown = self.entries.keys().find(|name| !known.contains(&name.get_ref().as_ref()));
         unknown.map_or(Ok(()), |name| {
-            let message = format!(
-                "{}{} is no key here; there are {}",
-                self.path,
-                name.get_ref(),
-                known.join(", ")
-            );
-            Err(DataError::at(
-                self.file,
-                line_of(self.text, name.span().start),
-                message,
-            ))
+            let message =
+                format!("{}{} is no key here; there are {}", self.path, name.get_ref(), known.join(", "));
+            Err(DataError::at(self.file, line_of(self.text, name.span().start), message))
         })
     }
 }

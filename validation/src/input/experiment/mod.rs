@@ -102,9 +102,7 @@ pub fn read(data: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, DataErro
     let paths = files(&folder)?;
     let with = |extension: &str| {
         let extension = extension.to_owned();
-        paths
-            .iter()
-            .filter(move |path| path.extension().is_some_and(|found| *found == *extension))
+        paths.iter().filter(move |path| path.extension().is_some_and(|found| *found == *extension))
     };
     if let Some(alone) = with("csv").find(|path| !path.with_extension("toml").is_file()) {
         let message = "it has no provenance file of the same name beside it, ending in .toml";
@@ -114,16 +112,11 @@ pub fn read(data: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, DataErro
     for path in with("toml") {
         let new = curves::read(path, source)?;
         let again = |curve: &&MeasuredCurve| {
-            found
-                .iter()
-                .any(|old| (old.scene, old.channel) == (curve.scene, curve.channel))
+            found.iter().any(|old| (old.scene, old.channel) == (curve.scene, curve.channel))
         };
         if let Some(curve) = new.iter().find(again) {
             let name = OBSERVABLES[curve.channel];
-            let message = format!(
-                "{name} of {} is in another file already: points count once",
-                curve.scene
-            );
+            let message = format!("{name} of {} is in another file already: points count once", curve.scene);
             return Err(DataError::whole(path, message));
         }
         found.extend(new);
@@ -143,10 +136,7 @@ pub fn check(data: &Path) -> Result<(), DataError> {
     for folder in inside.iter().filter(|path| strange(path)) {
         unread.extend(files(folder)?);
     }
-    match unread
-        .iter()
-        .find(|path| path.extension().is_some_and(|extension| extension == "csv"))
-    {
+    match unread.iter().find(|path| path.extension().is_some_and(|extension| extension == "csv")) {
         Some(path) => {
             let message = format!("no source has this folder; there are {}", folders.join(", "));
             Err(DataError::whole(path, message))
@@ -176,10 +166,7 @@ pub fn digest(data: &Path) -> Result<BTreeMap<String, u32>, DataError> {
 /// Every measured point under the conditions of a scene, for pictures; none without data.
 pub fn points_for(data: Option<&Path>, scene_name: &str) -> Result<Vec<Measured>, DataError> {
     let mut points = Vec::new();
-    for source in SOURCES
-        .iter()
-        .filter(|source| source.scenes.contains(&scene_name))
-    {
+    for source in SOURCES.iter().filter(|source| source.scenes.contains(&scene_name)) {
         let curves = data.map_or(Ok(Vec::new()), |data| read(data, source))?;
         let here = curves.into_iter().filter(|curve| curve.scene == scene_name);
         points.extend(here.flat_map(|curve| curve.points));
@@ -191,9 +178,8 @@ pub fn points_for(data: Option<&Path>, scene_name: &str) -> Result<Vec<Measured>
 fn files(folder: &Path) -> Result<Vec<PathBuf>, DataError> {
     let refused = |error: std::io::Error| unreadable(folder, &error);
     let entries = std::fs::read_dir(folder).map_err(refused)?;
-    let mut paths = entries
-        .map(|entry| Ok(entry.map_err(refused)?.path()))
-        .collect::<Result<Vec<_>, DataError>>()?;
+    let mut paths =
+        entries.map(|entry| Ok(entry.map_err(refused)?.path())).collect::<Result<Vec<_>, DataError>>()?;
     paths.sort();
     Ok(paths)
 }

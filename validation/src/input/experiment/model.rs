@@ -65,9 +65,8 @@ pub(super) fn run(scene: &Scene, places: &[MeasuredAt], replicas: u64, finer: u6
         })
         .collect::<Result<Vec<Vec<f64>>, String>>()?;
     let n = rows.len() as f64;
-    let means: Vec<f64> = (0..EACH * places.len())
-        .map(|k| rows.iter().map(|row| row[k]).sum::<f64>() / n)
-        .collect();
+    let means: Vec<f64> =
+        (0..EACH * places.len()).map(|k| rows.iter().map(|row| row[k]).sum::<f64>() / n).collect();
     let spread = DMatrix::from_fn(rows.len(), places.len(), |r, k| {
         (rows[r][EACH * k] - means[EACH * k]) / (n - 1.0).sqrt()
     });
@@ -89,14 +88,10 @@ pub(super) fn run(scene: &Scene, places: &[MeasuredAt], replicas: u64, finer: u6
 pub(crate) fn interpolate(outputs: usize, at: f64, order: usize, value: impl Fn(usize) -> f64) -> f64 {
     let at = at.clamp(0.0, (outputs - 1) as f64);
     let order = order.min(outputs);
-    let first = (at.floor() as usize + 1)
-        .saturating_sub(order / 2)
-        .min(outputs - order);
+    let first = (at.floor() as usize + 1).saturating_sub(order / 2).min(outputs - order);
     let weight = |k: usize| -> f64 {
         let others = (first..first + order).filter(|other| *other != k);
-        others
-            .map(|other| (at - other as f64) / (k as f64 - other as f64))
-            .product()
+        others.map(|other| (at - other as f64) / (k as f64 - other as f64)).product()
     };
     (first..first + order).map(|k| weight(k) * value(k)).sum()
 }
@@ -122,11 +117,7 @@ mod tests {
     #[test]
     fn finer_steps_are_other_steps_at_the_same_times() {
         let scene = crate::judge::lab::interacting_scene(&crate::judge::case::Effort::gate());
-        let place = |turns| MeasuredAt {
-            turns,
-            u_turns: 0.0,
-            channel: 0,
-        };
+        let place = |turns| MeasuredAt { turns, u_turns: 0.0, channel: 0 };
         let at = |finer| run(&scene, &[place(0.0), place(0.3)], 4, finer).unwrap().value;
         let (coarse, fine) = (at(1), at(2));
         assert_eq!(coarse[0], fine[0], "the same rods at the start");

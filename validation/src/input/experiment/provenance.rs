@@ -99,14 +99,10 @@ type Input = (&'static str, fn(&mut Scene) -> Option<&mut f64>);
 /// What the experiment's conditions are known to only so well.
 pub(super) const INPUTS: [Input; 5] = [
     ("alpha", |scene| Some(&mut scene.interaction.as_mut()?.alpha)),
-    ("concentration_per_cm3", |scene| {
-        scene.interaction.as_mut()?.concentration_per_cm3.as_mut()
-    }),
+    ("concentration_per_cm3", |scene| scene.interaction.as_mut()?.concentration_per_cm3.as_mut()),
     ("length_mm", |scene| Some(&mut scene.particles.length_mm)),
     ("aspect_ratio", |scene| Some(&mut scene.particles.aspect_ratio)),
-    ("aspect_ratio_sd_percent", |scene| {
-        Some(&mut scene.particles.aspect_ratio_sd_percent)
-    }),
+    ("aspect_ratio_sd_percent", |scene| Some(&mut scene.particles.aspect_ratio_sd_percent)),
 ];
 
 /// Everything a provenance file says.

@@ -55,10 +55,7 @@ pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenanc
         csv,
         rods,
         x: axis(&all.table("x", "the table [x] of the time axis")?, time)?,
-        y: axis(
-            &all.table("y", "the table [y] of the axis of projections")?,
-            projection,
-        )?,
+        y: axis(&all.table("y", "the table [y] of the axis of projections")?, projection)?,
         curves,
         inputs: inputs(&all)?,
     })
@@ -95,12 +92,7 @@ fn axis<Q>(
     table: &Table<'_>,
     quantity: fn(&Table<'_>) -> Result<Q, DataError>,
 ) -> Result<Axis<Q>, DataError> {
-    table.only(&[
-        "quantity",
-        "shear_rate_per_s",
-        "calibration",
-        "standard_uncertainty",
-    ])?;
+    table.only(&["quantity", "shear_rate_per_s", "calibration", "standard_uncertainty"])?;
     let axis = Axis {
         quantity: quantity(table)?,
         calibration: table.numbers("calibration", CALIBRATION)?,
@@ -152,10 +144,7 @@ fn curves(all: &Table<'_>, csv: Layout, source: &Source) -> Result<Vec<Key>, Dat
         table.only(&["scene", "observable", "dataset"])?;
         let scenes = format!("a scene of {}: {}", source.folder, source.scenes.join(", "));
         let name = table.text("scene", &scenes)?;
-        let scene = source
-            .scenes
-            .iter()
-            .find(|scene| **scene == name && scenes::find(scene).is_some());
+        let scene = source.scenes.iter().find(|scene| **scene == name && scenes::find(scene).is_some());
         let scene = scene.ok_or_else(|| table.refused("scene", &scenes))?;
         let names = "\"x1\", \"x2\" or \"x3\"";
         let observable = table.text("observable", names)?;

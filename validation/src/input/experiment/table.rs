@@ -34,25 +34,18 @@ const MOST_LINES: usize = 20_000;
 
 /// Line by line, so that every error has the line that an editor shows.
 fn records(file: &str, text: &str) -> Result<Vec<Record>, DataError> {
-    let lines = text
-        .lines()
-        .enumerate()
-        .filter(|(_, line)| !line.trim().is_empty());
+    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     lines
         .map(|(index, text)| {
             let mut cells = StringRecord::new();
-            let mut reader = ReaderBuilder::new()
-                .has_headers(false)
-                .trim(Trim::All)
-                .from_reader(text.as_bytes());
+            let mut reader =
+                ReaderBuilder::new().has_headers(false).trim(Trim::All).from_reader(text.as_bytes());
             let line = index + 1;
             if line > MOST_LINES {
                 let message = format!("more than {MOST_LINES} lines; at most so many are allowed");
                 return Err(DataError::at(file, line, message));
             }
-            reader
-                .read_record(&mut cells)
-                .map_err(|error| DataError::at(file, line, error.to_string()))?;
+            reader.read_record(&mut cells).map_err(|error| DataError::at(file, line, error.to_string()))?;
             Ok(Record { line, cells })
         })
         .collect()
@@ -116,11 +109,7 @@ pub(crate) fn columns(file: &str, text: &str, x: &str, ys: &[String]) -> Result<
             let point = DataRow {
                 line: *line,
                 x: read(x_place)?,
-                y: if cells[y_place].is_empty() {
-                    f64::NAN
-                } else {
-                    read(y_place)?
-                },
+                y: if cells[y_place].is_empty() { f64::NAN } else { read(y_place)? },
                 u_x: own(u_x_place)?,
                 u_y: own(u_y_place)?,
             };
@@ -128,10 +117,7 @@ pub(crate) fn columns(file: &str, text: &str, x: &str, ys: &[String]) -> Result<
                 rows.push(point);
             }
         }
-        datasets.push(Dataset {
-            name: y.clone(),
-            rows,
-        });
+        datasets.push(Dataset { name: y.clone(), rows });
     }
     Ok(datasets)
 }
@@ -172,26 +158,15 @@ pub(super) fn webplotdigitizer(file: &str, text: &str) -> Result<Vec<Dataset>, D
         None => (vec![""], &records),
     };
     if let Some(k) = (1..names.len()).find(|k| names[..*k].contains(&names[*k])) {
-        let message = format!(
-            "dataset `{}` is there twice: each needs a name of its own",
-            names[k]
-        );
+        let message = format!("dataset `{}` is there twice: each needs a name of its own", names[k]);
         return Err(DataError::at(file, first.line, message));
     }
-    let mut datasets: Vec<Dataset> = names
-        .iter()
-        .map(|name| Dataset {
-            name: (*name).to_owned(),
-            rows: Vec::new(),
-        })
-        .collect();
+    let mut datasets: Vec<Dataset> =
+        names.iter().map(|name| Dataset { name: (*name).to_owned(), rows: Vec::new() }).collect();
     for Record { line, cells } in body {
         if cells.len() > 2 * datasets.len() {
-            let message = format!(
-                "{} cells; two for each dataset are allowed: {}",
-                cells.len(),
-                2 * datasets.len()
-            );
+            let message =
+                format!("{} cells; two for each dataset are allowed: {}", cells.len(), 2 * datasets.len());
             return Err(DataError::at(file, *line, message));
         }
         for (k, dataset) in datasets.iter_mut().enumerate() {
@@ -204,13 +179,7 @@ pub(super) fn webplotdigitizer(file: &str, text: &str) -> Result<Vec<Dataset>, D
             let read =
                 |axis: &str, cell: &str| number(file, *line, &format!("{} {axis}", dataset.name), cell);
             let (x, y) = (read("X", x)?, read("Y", y)?);
-            dataset.rows.push(DataRow {
-                line: *line,
-                x,
-                y,
-                u_x: None,
-                u_y: None,
-            });
+            dataset.rows.push(DataRow { line: *line, x, y, u_x: None, u_y: None });
         }
     }
     Ok(datasets)

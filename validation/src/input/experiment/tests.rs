@@ -57,10 +57,7 @@ fn xy(curve: &MeasuredCurve) -> Vec<(f64, f64)> {
 #[test]
 fn the_measured_rods_may_be_stated_to_be_the_scenes() {
     let stated = PROVENANCE.replace("csv = \"columns\"", "csv = \"columns\"\naspect_ratio = 11.6");
-    assert_eq!(
-        curves(&stated, POINTS)[0].points,
-        curves(PROVENANCE, POINTS)[0].points
-    );
+    assert_eq!(curves(&stated, POINTS)[0].points, curves(PROVENANCE, POINTS)[0].points);
 }
 
 #[test]
@@ -68,11 +65,7 @@ fn columns_are_sorted_and_a_point_may_have_its_own_uncertainty() {
     let found = curves(PROVENANCE, POINTS);
     assert_eq!(found.len(), 1);
     assert_eq!(xy(&found[0]), [(0.25, 0.1), (0.5, 0.4), (1.5, 0.3)]);
-    let u: Vec<_> = found[0]
-        .points
-        .iter()
-        .map(|point| (point.u_x, point.u_y))
-        .collect();
+    let u: Vec<_> = found[0].points.iter().map(|point| (point.u_x, point.u_y)).collect();
     assert_eq!(u, [(0.01, 0.002), (0.01, 0.005), (0.01, 0.005)]);
     assert_eq!(found[0].points[0].label, "Okagawa & Mason (1973), Fig. S");
     assert_eq!(found[0].provenance.tool, "none");
@@ -81,16 +74,10 @@ fn columns_are_sorted_and_a_point_may_have_its_own_uncertainty() {
 #[test]
 fn several_columns_may_have_blanks() {
     let three = PROVENANCE.to_owned() + "[[curve]]\nscene = \"fig4-n50\"\nobservable = \"x3\"\n";
-    let found = curves(
-        &three,
-        "\u{feff}x3,t_over_T,x1,t_over_T_u\r\n0.2,0.5,,0.02\r\n0.3,0.6,0.4,\r\n",
-    );
+    let found = curves(&three, "\u{feff}x3,t_over_T,x1,t_over_T_u\r\n0.2,0.5,,0.02\r\n0.3,0.6,0.4,\r\n");
     assert_eq!(xy(&found[0]), [(0.6, 0.4)]);
     assert_eq!(xy(&found[1]), [(0.5, 0.2), (0.6, 0.3)]);
-    assert_eq!(
-        (found[1].channel, found[1].points[0].u_x, found[1].points[1].u_x),
-        (2, 0.02, 0.01)
-    );
+    assert_eq!((found[1].channel, found[1].points[0].u_x, found[1].points[1].u_x), (2, 0.02, 0.01));
 }
 
 #[test]
@@ -125,10 +112,7 @@ fn exports_of_webplotdigitizer_are_read() {
     assert_eq!(xy(&found[0]), [(0.25, 0.1), (0.5, 0.4)]);
     let two = one.clone()
         + "dataset = \"n = 50\"\n[[curve]]\nscene = \"fig4-n100\"\nobservable = \"x1\"\ndataset = \"n = 100\"\n";
-    let found = curves(
-        &two,
-        "n = 100,,n = 50,\nX,Y,X,Y\n0.1,0.2,0.5,0.4\n0.3,0.4,,\n0.2,0.3\n",
-    );
+    let found = curves(&two, "n = 100,,n = 50,\nX,Y,X,Y\n0.1,0.2,0.5,0.4\n0.3,0.4,,\n0.2,0.3\n");
     assert_eq!((found[0].scene, xy(&found[0])), ("fig4-n50", vec![(0.5, 0.4)]));
     assert_eq!(found[1].scene, "fig4-n100");
     assert_eq!(xy(&found[1]), [(0.1, 0.2), (0.2, 0.3), (0.3, 0.4)]);

@@ -38,12 +38,7 @@ pub fn folgar_tucker() -> Published<Measured, Coefficient> {
     Published {
         origin: Measured,
         source: "F. Folgar & C. L. Tucker, J. Reinforced Plastics and Composites 3 (1984) 98, as in fiberoripy dc16f7c",
-        rows: numbers(text)
-            .map(|row| Coefficient {
-                phi_rp: row[0],
-                c_i: row[1],
-            })
-            .collect(),
+        rows: numbers(text).map(|row| Coefficient { phi_rp: row[0], c_i: row[1] }).collect(),
     }
 }
 
@@ -62,18 +57,14 @@ pub fn sph_fibres() -> Published<Simulated, Run> {
     Published {
         origin: Simulated,
         source: "N. Meyer et al., J. Composites Science 4 (2020) 77, as in fiberoripy 8478bc4",
-        rows: texts
-            .map(|text| numbers(text).map(|row| [row[0], row[1]]).collect())
-            .into(),
+        rows: texts.map(|text| numbers(text).map(|row| [row[0], row[1]]).collect()).into(),
     }
 }
 
 /// The numbers of every row but the head; what is no number is NaN, and a test says that there is none.
 fn numbers(text: &'static str) -> impl Iterator<Item = Vec<f64>> {
     let number = |cell: &str| cell.parse().unwrap_or(f64::NAN);
-    text.lines()
-        .skip(1)
-        .map(move |line| line.split(',').map(number).collect())
+    text.lines().skip(1).map(move |line| line.split(',').map(number).collect())
 }
 
 /// The strain of the first maximum of a_11 after the start: the first half turn of rods along axis 1. It is the largest value
@@ -81,15 +72,8 @@ fn numbers(text: &'static str) -> impl Iterator<Item = Vec<f64>> {
 pub fn first_half_turn(run: &Run) -> Option<f64> {
     let low = run.iter().position(|row| row[1] < 0.25)?;
     let rises = low + run[low..].iter().position(|row| row[1] > 0.3)?;
-    let falls = rises
-        + run[rises..]
-            .iter()
-            .position(|row| row[1] < 0.25)
-            .unwrap_or(run.len() - rises);
-    run[rises..falls]
-        .iter()
-        .max_by(|a, b| a[1].total_cmp(&b[1]))
-        .map(|row| row[0])
+    let falls = rises + run[rises..].iter().position(|row| row[1] < 0.25).unwrap_or(run.len() - rises);
+    run[rises..falls].iter().max_by(|a, b| a[1].total_cmp(&b[1])).map(|row| row[0])
 }
 
 #[cfg(test)]
@@ -100,13 +84,7 @@ mod tests {
     fn the_shipped_sets_are_whole() {
         let measured = folgar_tucker();
         assert_eq!(measured.rows.len(), 7);
-        assert_eq!(
-            measured.rows[6],
-            Coefficient {
-                phi_rp: 2.56,
-                c_i: 0.0165
-            }
-        );
+        assert_eq!(measured.rows[6], Coefficient { phi_rp: 2.56, c_i: 0.0165 });
         for run in sph_fibres().rows {
             assert_eq!(run.len(), 1003);
             assert_eq!(run[0], [0.0, 1.0]);
@@ -120,10 +98,7 @@ mod tests {
         // A rod in the shear plane from axis 1: a_11 = 1/(1 + r_e² tan² ωt), with ω = 1/(r_e + 1/r_e).
         let r_e: f64 = 4.0;
         let a11 = |t: f64| 1.0 / (1.0 + (r_e * (t / (r_e + 1.0 / r_e)).tan()).powi(2));
-        let run: Run = (0..2000)
-            .map(|k| 0.01 * f64::from(k))
-            .map(|t| [t, a11(t)])
-            .collect();
+        let run: Run = (0..2000).map(|k| 0.01 * f64::from(k)).map(|t| [t, a11(t)]).collect();
         let half = std::f64::consts::PI * 4.25;
         // Outputs are 0.01 apart.
         assert!((first_half_turn(&run).unwrap() - half).abs() <= 0.01);

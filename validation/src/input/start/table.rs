@@ -30,10 +30,7 @@ impl<const K: usize> Group<K> {
         match missing {
             None => Ok(Self(Some(places.map(Option::unwrap_or_default)))),
             Some(_) if places.iter().all(Option::is_none) => Ok(Self(None)),
-            Some((name, _)) => Err(format!(
-                "1: column {name} is missing; {} go together",
-                names.join(", ")
-            )),
+            Some((name, _)) => Err(format!("1: column {name} is missing; {} go together", names.join(", "))),
         }
     }
 
@@ -59,20 +56,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), String> {
     let head = reader.headers().map_err(in_words)?.clone();
     let known = || (P.iter().chain(&PLACE).chain(&ASPECT_RATIO).chain(&LENGTH)).chain([&ROD]);
     for (k, name) in head.iter().enumerate() {
-        if !known()
-            .chain(&ONE_VALUE)
-            .chain(&OTHERS)
-            .any(|known| *known == name)
-        {
+        if !known().chain(&ONE_VALUE).chain(&OTHERS).any(|known| *known == name) {
             let name = snippet(name);
             return Err(format!(
                 "1: unknown column {name:?}; allowed are those of rods.csv, apart by commas: {}",
-                known()
-                    .chain(&ONE_VALUE)
-                    .chain(&OTHERS)
-                    .copied()
-                    .collect::<Vec<_>>()
-                    .join(", ")
+                known().chain(&ONE_VALUE).chain(&OTHERS).copied().collect::<Vec<_>>().join(", ")
             ));
         }
         if head.iter().take(k).any(|other| other == name) {
@@ -93,11 +81,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), String> {
         let line = record.position().map_or(0, |position| at.line(position.byte()));
         let not_allowed = |place: usize, allowed: &str| match record.get(place).unwrap_or_default() {
             "" => format!("{line}: {} is empty: {allowed} is allowed", &head[place]),
-            cell => format!(
-                "{line}: {} = {} is not allowed: {allowed}",
-                &head[place],
-                snippet(cell)
-            ),
+            cell => format!("{line}: {} = {} is not allowed: {allowed}", &head[place], snippet(cell)),
         };
         let number = |place: usize| {
             let parsed = record.get(place).unwrap_or_default().parse().ok();
@@ -124,17 +108,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<(OwnRods, Vec<u64>), String> {
         let empty = |places: &[usize; 3]| places.iter().all(|place| record.get(*place) == Some(""));
         if !places.0.as_ref().is_some_and(empty) {
             if own.place_mm.is_none() && !lines.is_empty() && places.0.is_some() {
-                return Err(format!(
-                    "{line}: the rods before have no place: all have one, or none"
-                ));
+                return Err(format!("{line}: the rods before have no place: all have one, or none"));
             }
             if let Some(x) = places.values(number)? {
                 push(&mut own.place_mm, x);
             }
         } else if own.place_mm.is_some() {
-            return Err(format!(
-                "{line}: the rods before have a place: all have one, or none"
-            ));
+            return Err(format!("{line}: the rods before have a place: all have one, or none"));
         }
         if let Some([r]) = shape.values(positive)? {
             own.aspect_ratio.get_or_insert_default().push(r);
@@ -156,20 +136,13 @@ struct Place<'a> {
 
 impl<'a> Place<'a> {
     fn new(bytes: &'a [u8]) -> Self {
-        Self {
-            bytes,
-            line: 1,
-            offset: 0,
-        }
+        Self { bytes, line: 1, offset: 0 }
     }
 
     /// The line of what stands at this place, or after line ends there; places must grow.
     fn line(&mut self, byte: u64) -> u64 {
         let start = (byte as usize).min(self.bytes.len());
-        let blank = self.bytes[start..]
-            .iter()
-            .take_while(|byte| matches!(byte, b'\r' | b'\n'))
-            .count();
+        let blank = self.bytes[start..].iter().take_while(|byte| matches!(byte, b'\r' | b'\n')).count();
         let passed = &self.bytes[self.offset.min(start + blank)..start + blank];
         self.line += passed.iter().filter(|byte| **byte == b'\n').count() as u64;
         self.offset = start + blank;
@@ -196,12 +169,7 @@ struct Order {
 
 impl Order {
     fn new(place: impl Fn(&str) -> Option<usize>) -> Self {
-        Self {
-            rod: place(ROD),
-            one_value: ONE_VALUE.map(place),
-            last: None,
-            first: None,
-        }
+        Self { rod: place(ROD), one_value: ONE_VALUE.map(place), last: None, first: None }
     }
 
     /// Takes the next row; `number` reads a column of it.
@@ -229,9 +197,7 @@ impl Order {
             return Ok(());
         };
         if !(rod >= 0.0 && rod.fract() == 0.0) {
-            return Err(format!(
-                "{line}: rod = {rod} is not allowed: a whole number from 0 on"
-            ));
+            return Err(format!("{line}: rod = {rod} is not allowed: a whole number from 0 on"));
         }
         match self.last.replace(rod) {
             Some(last) if rod <= last => Err(format!(
@@ -271,10 +237,7 @@ mod tests {
 
         let text = "length_mm,x2_mm,x1_mm,x3_mm,aspect_ratio\n0.5,2,1,3,11\n0.7,5,4,6,12\n";
         let (own, lines) = read(text.as_bytes()).unwrap();
-        assert_eq!(
-            (own.length_mm, own.aspect_ratio),
-            (Some(vec![0.5, 0.7]), Some(vec![11.0, 12.0]))
-        );
+        assert_eq!((own.length_mm, own.aspect_ratio), (Some(vec![0.5, 0.7]), Some(vec![11.0, 12.0])));
         let places = [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]].map(Vec::from);
         assert_eq!((own.place_mm, own.p, lines), (Some(places), None, vec![2, 3]));
         // As rods.csv has free rods.
@@ -301,56 +264,29 @@ mod tests {
             ("p1,p2\n1,0\n", "1: column p3 is missing; p1, p2, p3 go together"),
             ("x1_mm\n1\n", "1: column x2_mm is missing"),
             ("rod,time_s\n0,0\n", "1: no column of what a rod is"),
-            (
-                "length_mm\n1\n0\n",
-                "3: length_mm = 0 is not allowed: a finite number > 0",
-            ),
+            ("length_mm\n1\n0\n", "3: length_mm = 0 is not allowed: a finite number > 0"),
             ("length_mm\n-1\n", "2: length_mm = -1 is not allowed"),
-            (
-                "length_mm\nNaN\n",
-                "2: length_mm = NaN is not allowed: a finite number",
-            ),
+            ("length_mm\nNaN\n", "2: length_mm = NaN is not allowed: a finite number"),
             ("aspect_ratio\n-2\n", "2: aspect_ratio = -2 is not allowed"),
-            (
-                "x1_mm,x2_mm,x3_mm\n1,2,3\n,,\n",
-                "3: the rods before have a place",
-            ),
-            (
-                "x1_mm,x2_mm,x3_mm\n,,\n1,2,3\n",
-                "3: the rods before have no place",
-            ),
-            (
-                "x1_mm,x2_mm,x3_mm\n1,,3\n",
-                "2: x2_mm is empty: a finite number is allowed",
-            ),
+            ("x1_mm,x2_mm,x3_mm\n1,2,3\n,,\n", "3: the rods before have a place"),
+            ("x1_mm,x2_mm,x3_mm\n,,\n1,2,3\n", "3: the rods before have no place"),
+            ("x1_mm,x2_mm,x3_mm\n1,,3\n", "2: x2_mm is empty: a finite number is allowed"),
             ("p1,p2,p3,p1\n1,0,0,1\n", "1: column p1 is there twice"),
             ("p1,p2,p3,theta\n1,0,0,1\n", "1: unknown column \"theta\""),
             ("p1,p2,p3\n1,0,0\n1,zero,0\n", "3: p2 = zero is not allowed"),
             ("p1,p2,p3\n1,0,nan\n", "2: p3 = nan is not allowed"),
             ("p1,p2,p3\n1,0,1e999\n", "2: p3 = 1e999 is not allowed"),
-            (
-                "p1,p2,p3\n1,0,0\n0.6,0.8,0.1\n",
-                "3: p = (0.6, 0.8, 0.1) has length 1.00498",
-            ),
+            ("p1,p2,p3\n1,0,0\n0.6,0.8,0.1\n", "3: p = (0.6, 0.8, 0.1) has length 1.00498"),
             ("p1,p2,p3\n0,0,0\n", "2: p = (0, 0, 0) has length 0"),
             ("p1,p2,p3\n1,0\n", "2: not a table in CSV"),
             (
                 "rod,p1,p2,p3\n2,1,0,0\n1,0,1,0\n",
                 "3: rod = 1 is not allowed after rod 2: each rod has one row; sort the rows by rod",
             ),
-            (
-                "rod,p1,p2,p3\n1,1,0,0\n1,0,1,0\n",
-                "3: rod = 1 is not allowed after rod 1",
-            ),
-            (
-                "rod,p1,p2,p3\n0.5,1,0,0\n",
-                "2: rod = 0.5 is not allowed: a whole number from 0 on",
-            ),
+            ("rod,p1,p2,p3\n1,1,0,0\n1,0,1,0\n", "3: rod = 1 is not allowed after rod 1"),
+            ("rod,p1,p2,p3\n0.5,1,0,0\n", "2: rod = 0.5 is not allowed: a whole number from 0 on"),
             ("rod,p1,p2,p3\n-1,1,0,0\n", "2: rod = -1 is not allowed"),
-            (
-                "replica,p1,p2,p3\n0,1,0,0\n0,1,0,0\n1,0,1,0\n",
-                "4: replica = 1 is not allowed: line 2 has 0",
-            ),
+            ("replica,p1,p2,p3\n0,1,0,0\n0,1,0,0\n1,0,1,0\n", "4: replica = 1 is not allowed: line 2 has 0"),
             (
                 "time_s,p1,p2,p3\n0,1,0,0\n73.7,0,1,0\n",
                 "3: time_s = 73.7 is not allowed: line 2 has 0, and a start has the rods of one replica at one time",

@@ -107,20 +107,12 @@ pub enum Rule {
 impl Rule {
     /// Nothing off at all.
     pub fn exact(error: f64) -> Self {
-        Self::Within {
-            error,
-            tolerance: 0.0,
-            because: "exact".into(),
-        }
+        Self::Within { error, tolerance: 0.0, because: "exact".into() }
     }
 
     /// |error| ≤ tolerance, and why.
     pub fn within(error: f64, tolerance: f64, because: impl Into<Text>) -> Self {
-        Self::Within {
-            error,
-            tolerance,
-            because: because.into(),
-        }
+        Self::Within { error, tolerance, because: because.into() }
     }
 
     /// Whether the rule shares in the family-wise false-alarm rate.
@@ -143,15 +135,8 @@ impl Rule {
     pub fn tolerance(&self) -> f64 {
         match self {
             Self::Within { tolerance, .. } => *tolerance,
-            Self::Mean {
-                se,
-                samples,
-                allowance,
-                ..
-            } => student(LEVEL, *samples) * se + allowance,
-            Self::Above {
-                se, samples, bound, ..
-            } => bound + student(LEVEL, *samples) * se,
+            Self::Mean { se, samples, allowance, .. } => student(LEVEL, *samples) * se + allowance,
+            Self::Above { se, samples, bound, .. } => bound + student(LEVEL, *samples) * se,
             Self::PValue { .. } => LEVEL,
             Self::NoData { .. } => f64::NAN,
         }
@@ -173,23 +158,10 @@ impl Rule {
     /// `None` where nothing is drawn, or no effect is told.
     pub fn margin(&self) -> Option<f64> {
         match self {
-            Self::Mean {
-                se,
-                samples,
-                allowance,
-                ..
-            } => Some(-noncentral(
-                student(LEVEL, *samples),
-                (self.error() - allowance) / se,
-                *samples,
-            )),
-            Self::Above {
-                mean,
-                se,
-                samples,
-                bound,
-                ..
-            } => {
+            Self::Mean { se, samples, allowance, .. } => {
+                Some(-noncentral(student(LEVEL, *samples), (self.error() - allowance) / se, *samples))
+            }
+            Self::Above { mean, se, samples, bound, .. } => {
                 // Values that do not scatter fail at every seed.
                 if *se == 0.0 && mean <= bound {
                     return Some(f64::INFINITY);
@@ -199,9 +171,7 @@ impl Rule {
                 let t = if self.has_enough() { critical } else { -critical };
                 Some(noncentral(t, (mean - bound) / se, *samples))
             }
-            Self::PValue {
-                distance, samples, ..
-            } => {
+            Self::PValue { distance, samples, .. } => {
                 let distance = distance.as_ref()?;
                 Some(2.0 * (distance * (*samples as f64).sqrt() - massart(LEVEL)))
             }
@@ -212,12 +182,9 @@ impl Rule {
     /// Whether the sample shows the effect that it is meant to show.
     fn has_enough(&self) -> bool {
         match self {
-            Self::Mean {
-                se, samples, effect, ..
+            Self::Mean { se, samples, effect, .. } | Self::Above { se, samples, effect, .. } => {
+                se * needed_noncentrality(LEVEL, MISS, *samples) <= *effect
             }
-            | Self::Above {
-                se, samples, effect, ..
-            } => se * needed_noncentrality(LEVEL, MISS, *samples) <= *effect,
             Self::PValue { samples, enough, .. } => samples >= enough,
             Self::Within { .. } | Self::NoData { .. } => true,
         }
@@ -226,13 +193,7 @@ impl Rule {
     /// Whether the mean may be above its bound, for all that the sample shows.
     fn is_hidden(&self) -> bool {
         match self {
-            Self::Above {
-                mean,
-                se,
-                samples,
-                bound,
-                ..
-            } => mean + student(LEVEL, *samples) * se >= *bound,
+            Self::Above { mean, se, samples, bound, .. } => mean + student(LEVEL, *samples) * se >= *bound,
             _ => false,
         }
     }

@@ -118,10 +118,7 @@ mod tests {
             let found = below as f64 / f64::from(trials);
             let expected = upper_tail(-noncentral(t, noncentrality, samples));
             // Five standard errors of a share, and the approximation's own error in the middle of the distribution.
-            assert!(
-                (found - expected).abs() < 5.0 * 0.0036 + 0.005,
-                "{found} {expected}"
-            );
+            assert!((found - expected).abs() < 5.0 * 0.0036 + 0.005, "{found} {expected}");
         }
     }
 
@@ -136,10 +133,7 @@ mod tests {
         const MISS: f64 = 0.05;
         const TRIALS: u32 = 20_000;
         for ratio in [0.4, 0.8] {
-            let design = Design {
-                effect: ratio,
-                sd: 1.0,
-            };
+            let design = Design { effect: ratio, sd: 1.0 };
             let samples = design.samples_at(LEVEL, MISS);
             let mut rng = Pcg64Dxsm::seed_from_u64(2);
             let (mut far, mut wide, mut blind, mut blind_of_half) = (0, 0, 0, 0);
@@ -157,18 +151,10 @@ mod tests {
             let share = |count: u32| f64::from(count) / f64::from(TRIALS);
             // Five standard errors of a share of 20,000: 0.005 at 0.02, 0.008 at 0.05.
             assert!((share(far) - LEVEL).abs() < 0.005, "{ratio}: far {}", share(far));
-            assert!(
-                (share(wide) - LEVEL).abs() < 0.008,
-                "{ratio}: wide {}",
-                share(wide)
-            );
+            assert!((share(wide) - LEVEL).abs() < 0.008, "{ratio}: wide {}", share(wide));
             assert!(share(blind) < MISS + 0.008, "{ratio}: blind {}", share(blind));
             // And the sample is not much larger than needed: half the effect is often missed.
-            assert!(
-                share(blind_of_half) > 0.15,
-                "{ratio}: half {}",
-                share(blind_of_half)
-            );
+            assert!(share(blind_of_half) > 0.15, "{ratio}: half {}", share(blind_of_half));
         }
     }
 }

@@ -1,15 +1,7 @@
 use super::*;
 
 fn mean(mean: f64, se: f64, allowance: f64) -> Verdict {
-    judge(&Rule::Mean {
-        mean,
-        se,
-        samples: 400,
-        reference: 1.0,
-        allowance,
-        effect: 0.1,
-        because: "".into(),
-    })
+    judge(&Rule::Mean { mean, se, samples: 400, reference: 1.0, allowance, effect: 0.1, because: "".into() })
 }
 
 #[test]
@@ -18,24 +10,13 @@ fn a_mean_needs_closeness_and_enough_data() {
     assert_eq!(mean(1.06, 0.01, 0.0), Verdict::Fail);
     assert_eq!(mean(1.06, 0.01, 0.03), Verdict::Pass);
     assert_eq!(mean(1.02, 0.1, 0.0), Verdict::Underpowered);
-    assert_eq!(
-        mean(2.0, 0.1, 0.0),
-        Verdict::Fail,
-        "little data is no excuse for a large error"
-    );
+    assert_eq!(mean(2.0, 0.1, 0.0), Verdict::Fail, "little data is no excuse for a large error");
     assert_eq!(mean(f64::NAN, 0.01, 0.0), Verdict::Fail);
 }
 
 /// A mean of 400 values that is to exceed 0, and by 0.1 surely does.
 fn above_zero(mean: f64, se: f64) -> Rule {
-    Rule::Above {
-        mean,
-        se,
-        samples: 400,
-        bound: 0.0,
-        effect: 0.1,
-        because: "".into(),
-    }
+    Rule::Above { mean, se, samples: 400, bound: 0.0, effect: 0.1, because: "".into() }
 }
 
 #[test]
@@ -73,28 +54,14 @@ fn tolerances_are_closed_and_nan_fails() {
 
 #[test]
 fn a_p_value_needs_samples() {
-    let p = |p, samples| {
-        judge(&Rule::PValue {
-            p,
-            samples,
-            enough: 100,
-            distance: None,
-            because: "".into(),
-        })
-    };
+    let p = |p, samples| judge(&Rule::PValue { p, samples, enough: 100, distance: None, because: "".into() });
     assert_eq!(p(0.5, 100), Verdict::Pass);
     assert_eq!(p(0.5, 99), Verdict::Underpowered);
     assert_eq!(p(1e-7, 1000), Verdict::Fail);
 }
 
 fn distance(distance: Option<f64>, samples: u64) -> Rule {
-    Rule::PValue {
-        p: 0.0,
-        samples,
-        enough: 1,
-        distance,
-        because: "".into(),
-    }
+    Rule::PValue { p: 0.0, samples, enough: 1, distance, because: "".into() }
 }
 
 fn of_a_million(mean: f64, reference: f64) -> Rule {
@@ -136,24 +103,15 @@ fn margins_by_hand() {
     // Seven off, of which one is allowed, at errors of ½.
     near(of_a_million(10.0, 3.0).margin(), 12.0 - critical);
     near(of_a_million(-4.0, 3.0).margin(), 12.0 - critical);
-    let below = Rule::Above {
-        mean: 1.0,
-        se: 0.5,
-        samples: 1_000_000,
-        bound: 3.0,
-        effect: 100.0,
-        because: "".into(),
-    };
+    let below =
+        Rule::Above { mean: 1.0, se: 0.5, samples: 1_000_000, bound: 3.0, effect: 100.0, because: "".into() };
     near(below.margin(), critical + 4.0);
     // Massart's bound: twice √n d beyond that of the level.
     let margin = |samples| distance(Some(0.5), samples).margin().unwrap();
     assert!((margin(400) - margin(100) - 10.0).abs() < 1e-12);
     let at_the_level = distance(Some(massart(LEVEL) / 10.0), 100);
     assert!(at_the_level.margin().unwrap().abs() < 1e-12);
-    assert_eq!(
-        (distance(None, 10).margin(), Rule::exact(1.0).margin()),
-        (None, None)
-    );
+    assert_eq!((distance(None, 10).margin(), Rule::exact(1.0).margin()), (None, None));
 }
 
 /// What a sample is sized for, and what its rule then misses, are one number.

@@ -20,11 +20,7 @@ pub const GATE_SEED: u64 = 1;
 impl Effort {
     /// That of `cargo test`.
     pub fn gate() -> Self {
-        Self {
-            full: false,
-            seed: GATE_SEED,
-            data: None,
-        }
+        Self { full: false, seed: GATE_SEED, data: None }
     }
 
     /// `quick` for the gate, `full` for `--full`.

@@ -61,9 +61,7 @@ impl Control {
             mistake: mistake.into(),
             caught: !failed.is_empty(),
             drawn,
-            margin: (failed.iter().filter(|_| drawn))
-                .filter_map(|rule| rule.margin())
-                .reduce(f64::max),
+            margin: (failed.iter().filter(|_| drawn)).filter_map(|rule| rule.margin()).reduce(f64::max),
         }
     }
 }

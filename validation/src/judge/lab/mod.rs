@@ -27,20 +27,14 @@ pub fn changed(mut scene: Scene, change: impl FnOnce(&mut Scene)) -> Scene {
 pub fn free_scene(effort: &Effort) -> Scene {
     Scene {
         title: "a case".to_owned(),
-        ensemble: Ensemble {
-            replicas: 1,
-            seed: effort.seed(0),
-        },
+        ensemble: Ensemble { replicas: 1, seed: effort.seed(0) },
         ..Scene::default()
     }
 }
 
 /// The same rods at 50 per cm³ with α = 0.5 and m = 3 (Fig. 6, bottom).
 pub fn interacting_scene(effort: &Effort) -> Scene {
-    Scene {
-        interaction: Some(Interaction::default()),
-        ..free_scene(effort)
-    }
+    Scene { interaction: Some(Interaction::default()), ..free_scene(effort) }
 }
 
 /// The interaction of a scene; the paper's where it had none.
@@ -60,8 +54,6 @@ pub fn suspension(scene: &Scene, replica: u64) -> Suspension {
 
 /// The suspension of a scene whose rods cannot meet, carried and stepped all the same.
 pub fn stepped(scene: &Scene, replica: u64) -> Suspension {
-    let plan = plan(scene)
-        .keeping(Stage::Contacts)
-        .expect("a case's scene has an interaction");
+    let plan = plan(scene).keeping(Stage::Contacts).expect("a case's scene has an interaction");
     Suspension::new(&plan, replica).expect("the plan keeps its steps")
 }

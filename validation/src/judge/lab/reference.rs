@@ -22,10 +22,9 @@ pub fn problem(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> Problem
         aspect_ratio_sd_percent: particles.aspect_ratio_sd_percent,
         orientation: match particles.orientation {
             Orientation::Random(_) => Start::Isotropic,
-            Orientation::Given { phi_deg, theta_deg } => Start::Fixed {
-                phi_rad: phi_deg.to_radians(),
-                theta_rad: theta_deg.to_radians(),
-            },
+            Orientation::Given { phi_deg, theta_deg } => {
+                Start::Fixed { phi_rad: phi_deg.to_radians(), theta_rad: theta_deg.to_radians() }
+            }
         },
         concentration_per_cm3: interaction.concentration_per_cm3.unwrap_or(f64::NAN),
         box_mm: interaction.box_mm,

@@ -21,10 +21,7 @@ pub fn per_replica<T: Send>(
         // A run that stopped fails whatever is asked of it: every mean is NaN.
         let found = run_replica(&plan, replica).ok();
         value(&|channel, output| {
-            found
-                .as_ref()
-                .and_then(|found| found.mean(channel, output))
-                .unwrap_or(f64::NAN)
+            found.as_ref().and_then(|found| found.mean(channel, output)).unwrap_or(f64::NAN)
         })
     };
     (0..replicas).into_par_iter().map(of_replica).collect()
@@ -40,11 +37,5 @@ pub fn uniform(values: Vec<f64>, distance: f64, because: impl Into<Text>) -> Rul
         .ok()
         .and_then(|unit| ks_onesample(values, &unit, method, NaNPolicy::Propogate).ok())
         .unwrap_or((f64::NAN, f64::NAN));
-    Rule::PValue {
-        p,
-        samples,
-        enough,
-        distance: Some(distance),
-        because: because.into(),
-    }
+    Rule::PValue { p, samples, enough, distance: Some(distance), because: because.into() }
 }

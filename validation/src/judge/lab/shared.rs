@@ -22,10 +22,7 @@ impl<K: Ord, T> Default for Shared<K, T> {
 impl<K: Ord, T> Shared<K, T> {
     /// Nothing yet.
     pub const fn new() -> Self {
-        Self(Mutex::new(Kept {
-            run: (0, false),
-            values: BTreeMap::new(),
-        }))
+        Self(Mutex::new(Kept { run: (0, false), values: BTreeMap::new() }))
     }
 
     /// The value with this `key`, which must depend on the key and the effort alone; another run forgets it.
@@ -57,19 +54,10 @@ mod tests {
     fn every_key_and_every_effort_is_worked_out_anew() {
         let shared = Shared::new();
         let mut runs = 0;
-        for (seed, full, key) in [
-            (1, false, 0),
-            (1, false, 0),
-            (1, false, 1),
-            (2, false, 0),
-            (2, true, 0),
-            (2, true, 0),
-        ] {
-            let effort = Effort {
-                full,
-                seed,
-                data: None,
-            };
+        for (seed, full, key) in
+            [(1, false, 0), (1, false, 0), (1, false, 1), (2, false, 0), (2, true, 0), (2, true, 0)]
+        {
+            let effort = Effort { full, seed, data: None };
             let found = shared.get(&effort, key, || {
                 runs += 1;
                 (seed, key)

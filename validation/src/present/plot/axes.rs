@@ -58,9 +58,8 @@ where
     DB::ErrorType: 'static,
 {
     let looks = looks(figure);
-    let curves: Vec<_> = (figure.curves.iter())
-        .map(|c| placed(figure, &c.x, &c.y, None, c.half_band.as_deref()))
-        .collect();
+    let curves: Vec<_> =
+        (figure.curves.iter()).map(|c| placed(figure, &c.x, &c.y, None, c.half_band.as_deref())).collect();
     let points: Vec<_> = (figure.points.iter())
         .map(|p| placed(figure, &p.x, &p.y, p.x_error.as_deref(), p.y_error.as_deref()))
         .collect();
@@ -144,10 +143,7 @@ where
     let right = (24 * FINE).max(legend.width());
     let (across, up) = (WIDTH - left - right - 16 * FINE, AXES_HEIGHT - bottom);
     let name_size = fit(&figure.x_name, across).min(fit(&figure.y_name, up));
-    let (x_name, y_name) = (
-        cut(&figure.x_name, across, name_size),
-        cut(&figure.y_name, up, name_size),
-    );
+    let (x_name, y_name) = (cut(&figure.x_name, across, name_size), cut(&figure.y_name, up, name_size));
     let mut chart = ChartBuilder::on(area)
         .margin_top(10 * FINE)
         .margin_right(right)

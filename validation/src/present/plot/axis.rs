@@ -33,11 +33,7 @@ impl Axis {
         if low > high {
             (low, high) = (0.0, 1.0);
         }
-        if log {
-            logarithmic(low, high)
-        } else {
-            linear(low, high, margin)
-        }
+        if log { logarithmic(low, high) } else { linear(low, high, margin) }
     }
 }
 
@@ -83,16 +79,8 @@ fn linear(low: f64, high: f64, margin: f64) -> Axis {
         .map(|k| k as f64 * step)
         .collect::<Vec<_>>();
     let largest = ticks.iter().fold(0.0_f64, |max, tick| max.max(tick.abs()));
-    let ticks = ticks
-        .into_iter()
-        .map(|tick| (tick, linear_label(tick, step, largest)))
-        .collect();
-    Axis {
-        low,
-        high,
-        ticks,
-        between: Vec::new(),
-    }
+    let ticks = ticks.into_iter().map(|tick| (tick, linear_label(tick, step, largest))).collect();
+    Axis { low, high, ticks, between: Vec::new() }
 }
 
 /// The least 1, 2 or 5 times a power of ten that is not below `least`.
@@ -125,11 +113,7 @@ fn logarithmic(low: f64, high: f64) -> Axis {
         high = -one_two_five_below(-(high + 0.1));
     }
     let stride = ((high - low) / 8.0).ceil().max(1.0) as i32;
-    let factors: &[f64] = if high - low > 2.5 {
-        &[1.0]
-    } else {
-        &[1.0, 2.0, 5.0]
-    };
+    let factors: &[f64] = if high - low > 2.5 { &[1.0] } else { &[1.0, 2.0, 5.0] };
     let exponents = || low.floor() as i32..=high.ceil() as i32;
     let inside = |tick: &f64| (low - 1e-9..=high + 1e-9).contains(tick);
     let between = exponents()
@@ -143,19 +127,11 @@ fn logarithmic(low: f64, high: f64) -> Axis {
         .filter(|exponent| exponent % stride == 0)
         .flat_map(|exponent| factors.iter().map(move |f| (*f, exponent)))
         .map(|(factor, exponent)| {
-            (
-                f64::from(exponent) + factor.log10(),
-                logarithmic_label(factor, exponent, plain),
-            )
+            (f64::from(exponent) + factor.log10(), logarithmic_label(factor, exponent, plain))
         })
         .filter(|(tick, _)| inside(tick))
         .collect();
-    Axis {
-        low,
-        high,
-        ticks,
-        between,
-    }
+    Axis { low, high, ticks, between }
 }
 
 /// The largest logarithm of 1, 2 or 5 times a power of ten that is not above `logarithm`.
@@ -247,17 +223,10 @@ mod tests {
                 for log in [false, true] {
                     let axis = Axis::over([a, b].into_iter().map(|v| place(v, log)), log, 0.05);
                     assert!(axis.low < axis.high, "{a} {b} {log}");
-                    assert!(
-                        (1..20).contains(&axis.ticks.len()),
-                        "{a} {b} {log}: {:?}",
-                        axis.ticks
-                    );
+                    assert!((1..20).contains(&axis.ticks.len()), "{a} {b} {log}: {:?}", axis.ticks);
                 }
             }
         }
-        assert_eq!(
-            labels(&[0.5, 0.5 + 1e-14], false),
-            ["0.46", "0.48", "0.50", "0.52", "0.54"]
-        );
+        assert_eq!(labels(&[0.5, 0.5 + 1e-14], false), ["0.46", "0.48", "0.50", "0.52", "0.54"]);
     }
 }

@@ -18,9 +18,7 @@ fn attribute<'a>(tag: &'a str, name: &str) -> Option<&'a str> {
 }
 
 fn number(tag: &str, name: &str) -> f64 {
-    attribute(tag, name)
-        .and_then(|text| text.parse().ok())
-        .unwrap_or(0.0)
+    attribute(tag, name).and_then(|text| text.parse().ok()).unwrap_or(0.0)
 }
 
 /// Every text of a picture.
@@ -28,10 +26,7 @@ pub(super) fn boxes(svg: &str) -> Vec<Box> {
     let of = |part: &str| {
         let (tag, rest) = part.split_once('>')?;
         let text = rest.split("</text>").next()?.trim();
-        let text = text
-            .replace("&lt;", "<")
-            .replace("&gt;", ">")
-            .replace("&amp;", "&");
+        let text = text.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
         let (x, y, size) = (number(tag, "x"), number(tag, "y"), number(tag, "font-size"));
         let width = f64::from(text_width(&text, (size / f64::from(FINE)).round()));
         // Letters stand from 0.76 of their size above the line to a quarter below.
@@ -52,13 +47,7 @@ pub(super) fn boxes(svg: &str) -> Vec<Box> {
             true => (x + across.0, x + across.1, y - along.1, y - along.0),
             false => (x + along.0, x + along.1, y + across.0, y + across.1),
         };
-        Some(Box {
-            text,
-            left,
-            right,
-            top,
-            bottom,
-        })
+        Some(Box { text, left, right, top, bottom })
     };
     svg.split("<text").skip(1).filter_map(of).collect()
 }

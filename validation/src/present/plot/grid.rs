@@ -57,12 +57,8 @@ impl Layout {
 
 /// The classes that occur, in rows no wider than the figure.
 fn keys(grid: &Grid) -> Vec<Vec<(usize, i32)>> {
-    let occurs = |class: &usize| {
-        grid.maps
-            .iter()
-            .flat_map(|map| map.cells.iter().flatten())
-            .any(|c| c == class)
-    };
+    let occurs =
+        |class: &usize| grid.maps.iter().flat_map(|map| map.cells.iter().flatten()).any(|c| c == class);
     let mut rows: Vec<Vec<(usize, i32)>> = vec![Vec::new()];
     let mut x = MARGIN;
     for class in (0..grid.classes.len()).filter(occurs) {
@@ -138,14 +134,8 @@ where
     canvas.draw(&Rectangle::new(corners, CLASSES[class % CLASSES.len()].filled()))?;
     let centre = (x + width / 2, y + height / 2);
     for stroke in glyph(class) {
-        let path: Vec<_> = stroke
-            .iter()
-            .map(|(dx, dy)| (centre.0 + dx, centre.1 + dy))
-            .collect();
-        canvas.draw(&PathElement::new(
-            path,
-            class_ink(class).stroke_width(FINE as u32),
-        ))?;
+        let path: Vec<_> = stroke.iter().map(|(dx, dy)| (centre.0 + dx, centre.1 + dy)).collect();
+        canvas.draw(&PathElement::new(path, class_ink(class).stroke_width(FINE as u32)))?;
     }
     Ok(())
 }
@@ -170,11 +160,7 @@ where
     for (row, (name, classes)) in grid.rows.iter().zip(&map.cells).enumerate() {
         let (_, y) = at(0, row as i32);
         let x = cells.0 - GAP / 2 - text_width(name, SMALL);
-        canvas.draw(&Text::new(
-            name.as_str(),
-            (x.max(left), y + 2 * FINE),
-            text(SMALL),
-        ))?;
+        canvas.draw(&Text::new(name.as_str(), (x.max(left), y + 2 * FINE), text(SMALL)))?;
         for (column, class) in classes.iter().enumerate() {
             let corner = at(column as i32, row as i32);
             square(canvas, *class, corner, (layout.cell_width, CELL_HEIGHT))?;
@@ -188,10 +174,7 @@ where
     }
     // A column's value is at its middle; what is beyond the picture is cut.
     let width = grid.columns.len() as f64;
-    let inside = map
-        .limit
-        .iter()
-        .filter(|(column, _)| (-0.5..=width - 0.5).contains(column));
+    let inside = map.limit.iter().filter(|(column, _)| (-0.5..=width - 0.5).contains(column));
     let path: Vec<_> = inside
         .map(|(column, row)| {
             let x = f64::from(cells.0) + (column + 0.5) * f64::from(layout.cell_width);

@@ -65,10 +65,7 @@ impl Legend {
         let band = figure.curves.iter().any(|curve| curve.half_band.is_some());
         let above = series.into_iter().map(|(_, mark, label)| (mark, label));
         let above = above.chain(band.then(|| (Mark::Band, "95 % band".to_string())));
-        Self {
-            rows: rows(above),
-            beside,
-        }
+        Self { rows: rows(above), beside }
     }
 
     /// The rows above the axes.
@@ -114,9 +111,8 @@ impl Legend {
     where
         DB::ErrorType: 'static,
     {
-        let mut wanted: Vec<_> = (self.beside.iter())
-            .map(|(series, mark, label)| (end(*series), *mark, label))
-            .collect();
+        let mut wanted: Vec<_> =
+            (self.beside.iter()).map(|(series, mark, label)| (end(*series), *mark, label)).collect();
         let ends = || wanted.iter().map(|entry| entry.0);
         let apart_by = ends().max().unwrap_or(0) - ends().min().unwrap_or(0);
         // Where most ends are closer than their labels can be, the order in which they were given says more.

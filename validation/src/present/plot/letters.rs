@@ -65,11 +65,7 @@ pub(super) struct Line {
 
 impl Line {
     pub(super) fn of(text: &str, bold: bool) -> Self {
-        let mut line = Self {
-            outline: PathBuilder::new(),
-            width: 0.0,
-            missing: Vec::new(),
-        };
+        let mut line = Self { outline: PathBuilder::new(), width: 0.0, missing: Vec::new() };
         let mut last: Option<(Glyph, f32)> = None;
         for letter in text.chars() {
             match (Glyph::of(letter, bold), last) {

@@ -145,12 +145,7 @@ impl Parts {
         let head = MARGIN + title.len() as i32 * ROW + if grid.is_some() { 0 } else { legend.height() };
         let axes = AXES_HEIGHT.max(legend.height_beside() + style::AXES_FRAME);
         let body = grid.as_ref().map_or(axes, |layout| layout.height);
-        Self {
-            title,
-            legend,
-            grid,
-            height: head + body,
-        }
+        Self { title, legend, grid, height: head + body }
     }
 
     fn draw<DB: DrawingBackend>(&self, figure: &Figure, backend: DB) -> Drawn
@@ -179,17 +174,10 @@ impl Parts {
 pub fn svg_of_one(figure: &Figure) -> Result<String, String> {
     let drawn = svg(figure)?;
     let looks = style::looks(figure);
-    let (own, grey) = (
-        style::curve_stroke(looks[0]),
-        "stroke=\"#9A9A9A\" stroke-width=\"4\"",
-    );
+    let (own, grey) = (style::curve_stroke(looks[0]), "stroke=\"#9A9A9A\" stroke-width=\"4\"");
     let bold = format!("stroke=\"#000000\" stroke-width=\"{}\"", 3 * style::CURVE_WIDTH);
-    let others = looks[1..figure.curves.len()]
-        .iter()
-        .map(|look| style::curve_stroke(*look));
-    Ok(others.fold(drawn.replace(&own, &bold), |drawn, stroke| {
-        drawn.replace(&stroke, grey)
-    }))
+    let others = looks[1..figure.curves.len()].iter().map(|look| style::curve_stroke(*look));
+    Ok(others.fold(drawn.replace(&own, &bold), |drawn, stroke| drawn.replace(&stroke, grey)))
 }
 
 fn typeset(figure: &Figure) -> Figure {
@@ -199,11 +187,7 @@ fn typeset(figure: &Figure) -> Figure {
     let texts = [&mut figure.title, &mut figure.x_name, &mut figure.y_name];
     let maps = figure.grid.iter_mut().flat_map(|grid| {
         let titles = grid.maps.iter_mut().map(|map| &mut map.title);
-        let names = grid
-            .rows
-            .iter_mut()
-            .chain(&mut grid.columns)
-            .chain(&mut grid.classes);
+        let names = grid.rows.iter_mut().chain(&mut grid.columns).chain(&mut grid.classes);
         titles.chain(names)
     });
     for text in texts.into_iter().chain(curves).chain(points).chain(maps) {
@@ -217,13 +201,7 @@ fn typeset(figure: &Figure) -> Figure {
 fn finish(figure: &Figure, drawing: &str, height: i32) -> String {
     let labels: Vec<_> = (figure.curves.iter().map(|c| c.label.as_str()))
         .chain(figure.points.iter().map(|p| p.label.as_str()))
-        .chain(
-            figure
-                .grid
-                .iter()
-                .flat_map(|grid| &grid.maps)
-                .map(|map| map.title.as_str()),
-        )
+        .chain(figure.grid.iter().flat_map(|grid| &grid.maps).map(|map| map.title.as_str()))
         .collect();
     let open = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"{}\" height=\"{}\" \
@@ -231,21 +209,14 @@ fn finish(figure: &Figure, drawing: &str, height: i32) -> String {
         WIDTH / FINE,
         height / FINE,
         escaped(&figure.title),
-        escaped(&format!(
-            "{} against {}: {}",
-            figure.y_name,
-            figure.x_name,
-            labels.join(", ")
-        )),
+        escaped(&format!("{} against {}: {}", figure.y_name, figure.x_name, labels.join(", "))),
     );
     let body = drawing.split_once('>').map_or("", |(_, body)| body);
     let looks = style::looks(figure);
-    let dashed = looks[..figure.curves.len()]
-        .iter()
-        .fold(body.to_string(), |body, look| {
-            let stroke = style::curve_stroke(*look);
-            let dashes = style::dashes(*look);
-            body.replace(&stroke, &format!("{stroke} stroke-linejoin=\"round\"{dashes}"))
-        });
+    let dashed = looks[..figure.curves.len()].iter().fold(body.to_string(), |body, look| {
+        let stroke = style::curve_stroke(*look);
+        let dashes = style::dashes(*look);
+        body.replace(&stroke, &format!("{stroke} stroke-linejoin=\"round\"{dashes}"))
+    });
     open + &dashed
 }

@@ -57,9 +57,8 @@ fn encoded(pixels: &Pixmap) -> Result<Vec<u8>, png::EncodingError> {
     }));
     let mut writer = encoder.write_header()?;
     // White is drawn first: no pixel is transparent.
-    let rgb: Vec<u8> = (pixels.pixels().iter())
-        .flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()])
-        .collect();
+    let rgb: Vec<u8> =
+        (pixels.pixels().iter()).flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect();
     writer.write_image_data(&rgb)?;
     writer.finish()?;
     Ok(bytes)
@@ -222,9 +221,8 @@ impl DrawingBackend for &mut Sheet<'_> {
             FontTransform::Rotate270 => 270.0,
         };
         let (x, y) = (x as f32, y as f32);
-        let place = Transform::from_rotate_at(turn, x, y)
-            .pre_translate(x + along, y + down)
-            .pre_scale(size, -size);
+        let place =
+            Transform::from_rotate_at(turn, x, y).pre_translate(x + along, y + down).pre_scale(size, -size);
         self.fill(line.outline.finish(), style.color(), place)
     }
 }

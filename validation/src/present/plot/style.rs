@@ -60,26 +60,17 @@ const THEORY: usize = 42;
 /// The look of every curve and then of all points: that of the integrator that the label names, or the first that nobody
 /// in the figure has.
 pub(super) fn looks(figure: &Figure) -> Vec<usize> {
-    let labels = figure
-        .curves
-        .iter()
-        .map(|c| &c.label)
-        .chain(figure.points.iter().map(|p| &p.label));
+    let labels = figure.curves.iter().map(|c| &c.label).chain(figure.points.iter().map(|p| &p.label));
     let named = |label: &String| {
         let (name, theory) = match label.strip_suffix(", theory") {
             Some(name) => (name, THEORY),
             None => (label.as_str(), 0),
         };
-        NAMED
-            .iter()
-            .position(|known| *known == name)
-            .map(|look| look + theory)
+        NAMED.iter().position(|known| *known == name).map(|look| look + theory)
     };
     let known: Vec<_> = labels.map(named).collect();
     let mut free = (0..).filter(|look| !known.contains(&Some(*look)));
-    (known.iter())
-        .map(|look| look.or_else(|| free.next()).unwrap_or(0))
-        .collect()
+    (known.iter()).map(|look| look.or_else(|| free.next()).unwrap_or(0)).collect()
 }
 
 /// The colour of a look. Each has a colour of its own, if only by its last bits, so that `curve_stroke` names one curve.
@@ -268,17 +259,11 @@ mod tests {
     #[test]
     fn texts_are_wrapped_at_words() {
         let room = text_width("a picture of", TEXT) + 1;
-        assert_eq!(
-            wrap("a picture of two words", room, TEXT),
-            ["a picture of", "two words"]
-        );
+        assert_eq!(wrap("a picture of two words", room, TEXT), ["a picture of", "two words"]);
         assert!(wrap("", room, TEXT).is_empty());
         let cut = &wrap("incomprehensibilities", room, TEXT)[0];
         assert!(cut.starts_with("incomp") && cut.ends_with('…') && text_width(cut, TEXT) <= room);
         let long = wrap(&"word ".repeat(100), room, TEXT);
-        assert!(
-            long.len() == MOST_LINES && long[MOST_LINES - 1].ends_with('…'),
-            "{long:?}"
-        );
+        assert!(long.len() == MOST_LINES && long[MOST_LINES - 1].ends_with('…'), "{long:?}");
     }
 }

@@ -10,9 +10,7 @@ fn wave(label: &str, phase: f64) -> Curve {
     let x: Vec<f64> = (0..=300).map(|k| 0.02 * f64::from(k)).collect();
     Curve {
         label: label.into(),
-        y: x.iter()
-            .map(|x| 0.5 + (-0.3 * x).exp() * (6.0 * x + phase).sin() / 3.0)
-            .collect(),
+        y: x.iter().map(|x| 0.5 + (-0.3 * x).exp() * (6.0 * x + phase).sin() / 3.0).collect(),
         half_band: Some(vec![0.03; x.len()]),
         x,
     }
@@ -24,11 +22,7 @@ pub(super) fn synthetic() -> Figure {
             .into(),
         x_name: "t/T (periods)".into(),
         y_name: "mean axial projection X̄₁ (–)".into(),
-        curves: vec![
-            wave("n = 20 cm⁻³", 0.0),
-            wave("n = 50 cm⁻³", 1.0),
-            wave("free", 2.0),
-        ],
+        curves: vec![wave("n = 20 cm⁻³", 0.0), wave("n = 50 cm⁻³", 1.0), wave("free", 2.0)],
         points: vec![Points {
             label: "synthetic points".into(),
             x: vec![0.5, 1.5, f64::NAN],
@@ -57,16 +51,8 @@ fn a_figure_is_well_formed_and_names_everything() {
     ] {
         assert!(svg.contains(text), "no {text} in {svg}");
     }
-    assert_eq!(
-        svg.matches("<polygon").count(),
-        3 + 2 + 1,
-        "bands, points, legend"
-    );
-    assert_eq!(
-        svg.matches("stroke-dasharray").count(),
-        4,
-        "two curves and their legends"
-    );
+    assert_eq!(svg.matches("<polygon").count(), 3 + 2 + 1, "bands, points, legend");
+    assert_eq!(svg.matches("stroke-dasharray").count(), 4, "two curves and their legends");
 }
 
 #[test]
@@ -106,10 +92,7 @@ fn odd_data_draw_what_can_be_drawn() {
                     ..Default::default()
                 };
                 let svg = svg(&figure).unwrap();
-                assert!(
-                    is_well_formed(&svg) && !svg.contains("NaN"),
-                    "{values:?} {log}: {svg}"
-                );
+                assert!(is_well_formed(&svg) && !svg.contains("NaN"), "{values:?} {log}: {svg}");
             }
         }
     }
@@ -120,11 +103,7 @@ fn odd_data_draw_what_can_be_drawn() {
 fn a_power_law_is_straight_on_logarithmic_axes() {
     let x: Vec<f64> = (0..=4).map(|k| 10f64.powi(-k)).collect();
     let figure = Figure {
-        curves: vec![Curve {
-            y: x.iter().map(|x| 3.0 * x * x).collect(),
-            x,
-            ..Default::default()
-        }],
+        curves: vec![Curve { y: x.iter().map(|x| 3.0 * x * x).collect(), x, ..Default::default() }],
         x_log: true,
         y_log: true,
         ..Default::default()
@@ -160,9 +139,7 @@ fn no_text_leaves_its_picture_or_overlaps_another() {
             ..synthetic()
         };
         figure.points.clear();
-        figure.curves = (0..count)
-            .map(|k| wave(&long(&k.to_string()), 0.1 * f64::from(k)))
-            .collect();
+        figure.curves = (0..count).map(|k| wave(&long(&k.to_string()), 0.1 * f64::from(k))).collect();
         let svg = svg(&figure).unwrap();
         let faults = boxes::faults(&svg);
         assert!(faults.is_empty(), "{count}: {faults:#?}");
@@ -171,17 +148,9 @@ fn no_text_leaves_its_picture_or_overlaps_another() {
     let svg = svg(&many()).unwrap();
     let place = svg.split("<text x=\"").nth(1).unwrap().split('"').next().unwrap();
     let moved = |to: &str| svg.replacen(&format!("<text x=\"{place}\""), &format!("<text x=\"{to}\""), 1);
-    assert!(
-        boxes::faults(&moved("2200"))
-            .iter()
-            .any(|fault| fault.starts_with("outside"))
-    );
+    assert!(boxes::faults(&moved("2200")).iter().any(|fault| fault.starts_with("outside")));
     let twice = format!("{svg}<text{}", svg.split("<text").nth(1).unwrap());
-    assert!(
-        boxes::faults(&twice)
-            .iter()
-            .any(|fault| fault.starts_with("overlap"))
-    );
+    assert!(boxes::faults(&twice).iter().any(|fault| fault.starts_with("overlap")));
 }
 
 #[test]
@@ -193,26 +162,17 @@ fn few_points_are_shown_and_theory_has_none() {
     figure.curves[0].label += ", theory";
     assert_eq!(markers(&figure), 6 * 4);
     figure.curves.truncate(2);
-    figure.curves[1] = Curve {
-        half_band: None,
-        ..wave("many points", 0.0)
-    };
+    figure.curves[1] = Curve { half_band: None, ..wave("many points", 0.0) };
     assert_eq!(markers(&figure), 0);
 }
 
 /// Every picture of the paper's figures, with the titles and names that the report has.
 #[test]
 fn no_text_of_the_papers_figures_leaves_its_picture_or_overlaps_another() {
-    let few = crate::studies::figures::Replicas {
-        interacting: 2,
-        free: 2,
-    };
-    let drawn = crate::studies::figures::draw(&crate::judge::case::Effort::gate(), few, &|| ())
-        .unwrap()
-        .unwrap();
-    let figures: Vec<_> = (drawn.exhibits.iter())
-        .filter_map(|exhibit| exhibit.figure.as_ref())
-        .collect();
+    let few = crate::studies::figures::Replicas { interacting: 2, free: 2 };
+    let drawn =
+        crate::studies::figures::draw(&crate::judge::case::Effort::gate(), few, &|| ()).unwrap().unwrap();
+    let figures: Vec<_> = (drawn.exhibits.iter()).filter_map(|exhibit| exhibit.figure.as_ref()).collect();
     assert!(figures.len() > 8);
     for figure in figures {
         let faults = boxes::faults(&svg(&figure.figure).unwrap());
@@ -222,20 +182,11 @@ fn no_text_of_the_papers_figures_leaves_its_picture_or_overlaps_another() {
 
 #[test]
 fn an_integrator_looks_the_same_in_every_picture() {
-    let alone = Figure {
-        curves: vec![many().curves[3].clone()],
-        ..many()
-    };
+    let alone = Figure { curves: vec![many().curves[3].clone()], ..many() };
     assert_eq!(style::looks(&many())[3], style::looks(&alone)[0]);
     let theory = Figure {
-        curves: vec![Curve {
-            label: "explicit Euler in angles, theory".into(),
-            ..Default::default()
-        }],
-        points: vec![Points {
-            label: "explicit Euler in angles".into(),
-            ..Default::default()
-        }],
+        curves: vec![Curve { label: "explicit Euler in angles, theory".into(), ..Default::default() }],
+        points: vec![Points { label: "explicit Euler in angles".into(), ..Default::default() }],
         ..Default::default()
     };
     let looks = style::looks(&theory);
@@ -245,18 +196,12 @@ fn an_integrator_looks_the_same_in_every_picture() {
     };
     assert_eq!(hue(looks[0]), hue(looks[1]));
     // Others take what nobody has.
-    let mixed = Figure {
-        curves: vec![many().curves[0].clone(), wave("mine", 0.0)],
-        ..Default::default()
-    };
+    let mixed = Figure { curves: vec![many().curves[0].clone(), wave("mine", 0.0)], ..Default::default() };
     assert_eq!(style::looks(&mixed), [0, 1]);
 }
 
 #[test]
 fn an_axis_covers_what_it_is_asked_to() {
-    let figure = Figure {
-        y_span: Some((0.0, 1.0)),
-        ..synthetic()
-    };
+    let figure = Figure { y_span: Some((0.0, 1.0)), ..synthetic() };
     assert!(svg(&figure).unwrap().contains(">\n1.0\n<"));
 }

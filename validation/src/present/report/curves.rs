@@ -13,18 +13,9 @@ pub(super) fn csv(figure: &ReportFigure) -> Result<String, String> {
         return cells(picture, grid);
     }
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let header = [
-        "series",
-        &cell(&picture.x_name),
-        &cell(&picture.y_name),
-        "± x",
-        "± y",
-    ];
+    let header = ["series", &cell(&picture.x_name), &cell(&picture.y_name), "± x", "± y"];
     writer.write_record(header).map_err(|error| error.to_string())?;
-    let curves = picture
-        .curves
-        .iter()
-        .map(|c| (&c.label, &c.x, &c.y, None, c.half_band.as_ref()));
+    let curves = picture.curves.iter().map(|c| (&c.label, &c.x, &c.y, None, c.half_band.as_ref()));
     let points =
         (picture.points.iter()).map(|p| (&p.label, &p.x, &p.y, p.x_error.as_ref(), p.y_error.as_ref()));
     for (label, x, y, x_half, y_half) in curves.chain(points) {
@@ -53,17 +44,8 @@ fn cells(picture: &Figure, grid: &Grid) -> Result<String, String> {
     });
     let columns = vec![
         words("series", |cell: &Cell| cell.0),
-        words(picture.x_name.as_str(), |cell: &Cell| {
-            grid.values[cell.1].as_str()
-        }),
-        words(
-            if picture.y_name.is_empty() {
-                "row"
-            } else {
-                &picture.y_name
-            },
-            |cell: &Cell| cell.2,
-        ),
+        words(picture.x_name.as_str(), |cell: &Cell| grid.values[cell.1].as_str()),
+        words(if picture.y_name.is_empty() { "row" } else { &picture.y_name }, |cell: &Cell| cell.2),
         words("found", |cell: &Cell| grid.classes[cell.3].as_str()),
     ];
     ReportTable::new(["", ""], "", cells, columns).csv()

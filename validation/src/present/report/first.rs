@@ -93,24 +93,17 @@ fn count(part: &Part) -> String {
 /// stability.
 pub(super) fn thumbnails(report: &Report) -> Result<Vec<Thumbnail<'_>>, String> {
     let wanted = ["fig4", "work-precision-re11.6", "stability-steps"];
-    let figures = wanted
-        .iter()
-        .filter_map(|name| report.sections.figures().find(|figure| figure.name == *name));
+    let figures =
+        wanted.iter().filter_map(|name| report.sections.figures().find(|figure| figure.name == *name));
     figures
         .map(|figure| {
             let mut small: Figure = figure.figure.clone();
             if let Some(grid) = &mut small.grid {
                 // One with a line of theory, and with more than one way to be wrong.
-                let shown = grid
-                    .maps
-                    .iter()
-                    .position(|map| map.title == "implicit midpoint in p");
+                let shown = grid.maps.iter().position(|map| map.title == "implicit midpoint in p");
                 grid.maps = grid.maps.drain(..).skip(shown.unwrap_or(0)).take(1).collect();
             }
-            Ok(Thumbnail {
-                name: &figure.name,
-                svg: plot::svg(&small)?,
-            })
+            Ok(Thumbnail { name: &figure.name, svg: plot::svg(&small)? })
         })
         .collect()
 }
@@ -121,11 +114,5 @@ pub(super) fn closest(report: &Report) -> Vec<Closest<'_>> {
     let passing = report.cases.iter().filter(|row| row.verdict == Verdict::Pass);
     let mut used: Vec<_> = passing.filter_map(|row| Some((row.worst()?.used, row))).collect();
     used.sort_by(|a, b| b.0.total_cmp(&a.0));
-    used.into_iter()
-        .take(SHOWN)
-        .map(|(used, row)| Closest {
-            name: &row.name,
-            used: share(used),
-        })
-        .collect()
+    used.into_iter().take(SHOWN).map(|(used, row)| Closest { name: &row.name, used: share(used) }).collect()
 }

@@ -37,25 +37,19 @@ fn digits(value: f64, digits: i32) -> String {
 }
 
 fn trimmed(number: &str) -> &str {
-    if number.contains('.') {
-        number.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        number
-    }
+    if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
 }
 
 /// The error and the tolerance of a line.
 pub(super) fn bounds(line: &Line) -> (String, String) {
     match line.judged_by {
         Rule::NoData { .. } => ("–".into(), "–".into()),
-        Rule::PValue { .. } => (
-            format!("p = {}", number(line.error)),
-            format!("p ≥ {}", number(line.tolerance)),
-        ),
-        Rule::Above { .. } => (
-            format!("mean {}", number(line.error)),
-            format!("> {}", number(line.tolerance)),
-        ),
+        Rule::PValue { .. } => {
+            (format!("p = {}", number(line.error)), format!("p ≥ {}", number(line.tolerance)))
+        }
+        Rule::Above { .. } => {
+            (format!("mean {}", number(line.error)), format!("> {}", number(line.tolerance)))
+        }
         _ => (number(line.error), number(line.tolerance)),
     }
 }
@@ -75,15 +69,7 @@ pub(super) fn share(used: f64) -> String {
 /// The numbers behind a rule, where there are more than its error and tolerance.
 pub(super) fn detail(rule: &Rule) -> String {
     match rule {
-        Rule::Mean {
-            mean,
-            se,
-            samples,
-            reference,
-            allowance,
-            effect,
-            ..
-        } => {
+        Rule::Mean { mean, se, samples, reference, allowance, effect, .. } => {
             let allowance = match *allowance {
                 0.0 => String::new(),
                 allowance => format!(", allowance {}", number(allowance)),
@@ -97,14 +83,7 @@ pub(super) fn detail(rule: &Rule) -> String {
                 number(*effect)
             )
         }
-        Rule::Above {
-            mean,
-            se,
-            samples,
-            bound,
-            effect,
-            ..
-        } => format!(
+        Rule::Above { mean, se, samples, bound, effect, .. } => format!(
             "mean {} ± {} (standard error of {samples}), must exceed {}, and does so by {} or more",
             digits(*mean, 6),
             number(*se),
@@ -149,12 +128,7 @@ pub(super) fn utc(since_1970: u64) -> String {
     let date = day - (153 * month + 2) / 5 + 1;
     let month = if month < 10 { month + 3 } else { month - 9 };
     let year = 400 * era + year + u64::from(month <= 2);
-    format!(
-        "{year:04}-{month:02}-{date:02}T{:02}:{:02}:{:02}Z",
-        second / 3600,
-        second / 60 % 60,
-        second % 60
-    )
+    format!("{year:04}-{month:02}-{date:02}T{:02}:{:02}:{:02}Z", second / 3600, second / 60 % 60, second % 60)
 }
 
 #[cfg(test)]

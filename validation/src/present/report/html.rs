@@ -19,9 +19,7 @@ pub(super) fn write(report: &Report) -> Result<String, String> {
     let mut environment = Environment::new();
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
     let anchors = Anchors::of(report);
-    environment.add_filter("prose", move |text: &str| {
-        Value::from_safe_string(anchors.html(text))
-    });
+    environment.add_filter("prose", move |text: &str| Value::from_safe_string(anchors.html(text)));
     let attention = (report.cases.iter())
         .filter(|row| matches!(row.verdict, Verdict::Fail | Verdict::Underpowered))
         .map(case_link);
@@ -36,7 +34,6 @@ pub(super) fn write(report: &Report) -> Result<String, String> {
         closest: closest(report),
         studies: studies(report)?,
         groups: groups(report),
-        tables: report.sections.tables.iter().map(table).collect(),
         equations: equations(report),
         plans: &report.sections.plans,
         false_alarm: number(report.summary.false_alarm),
@@ -72,10 +69,7 @@ fn case<'a>(report: &'a Report, row: &'a CaseRow) -> CaseView<'a> {
         .filter(|equation| equation.cases.contains(&row.name))
         .map(|equation| format!(" eq-{}", equation.number));
     let figures = report.sections.figures().filter(|f| f.cases.contains(&row.name));
-    let used = row
-        .worst()
-        .filter(|_| row.verdict != Verdict::NoData)
-        .map(|line| line.used);
+    let used = row.worst().filter(|_| row.verdict != Verdict::NoData).map(|line| line.used);
     CaseView {
         name: &row.name,
         claim: &row.claim,
@@ -107,9 +101,7 @@ fn case<'a>(report: &'a Report, row: &'a CaseRow) -> CaseView<'a> {
 fn bar(used: f64) -> f64 {
     match used.is_nan() {
         true => 100.0,
-        false => (20.0 * (used.max(1e-300).log10() + 4.0))
-            .clamp(0.0, 100.0)
-            .round(),
+        false => (20.0 * (used.max(1e-300).log10() + 4.0)).clamp(0.0, 100.0).round(),
     }
 }
 
@@ -173,9 +165,7 @@ fn figure<'a>(report: &'a Report, figure: &'a ReportFigure) -> Result<FigureView
 fn equations(report: &Report) -> Vec<EquationView<'_>> {
     let caught = |cases: &[String]| {
         let rows = report.cases.iter().filter(|row| cases.contains(&row.name));
-        let controls = rows
-            .flat_map(|row| &row.controls)
-            .filter(|control| control.caught);
+        let controls = rows.flat_map(|row| &row.controls).filter(|control| control.caught);
         controls.map(|control| control.mistake.as_ref()).collect()
     };
     let equations = report.sections.equations.iter();

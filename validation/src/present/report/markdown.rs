@@ -18,7 +18,6 @@ pub(super) fn write(report: &Report) -> String {
              its p-value and the smallest allowed. To repeat one case: \
              `cargo run --release -- validate --case NAME`.\n\n";
     text += &report.sections.studies.iter().map(study).collect::<String>();
-    text += &report.sections.tables.iter().map(section).collect::<String>();
     if !report.sections.equations.is_empty() {
         text += &section(&equation_table(&report.sections.equations));
     }
@@ -100,12 +99,7 @@ pub(crate) fn equation_table(equations: &[ReportEquation]) -> ReportTable {
         &["equation", "says", "code, in `src/`", "cases"],
         (equations.iter())
             .map(|e| {
-                vec![
-                    e.number.clone(),
-                    e.says.clone(),
-                    code(&e.code).join(", "),
-                    code(&e.cases).join(", "),
-                ]
+                vec![e.number.clone(), e.says.clone(), code(&e.code).join(", "), code(&e.cases).join(", ")]
             })
             .collect(),
     )

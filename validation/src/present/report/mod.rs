@@ -109,18 +109,13 @@ pub fn build(outcomes: Vec<Outcome>, sections: Sections, effort: &Effort, comman
             fail: count(Verdict::Fail),
             underpowered: count(Verdict::Underpowered),
             nodata: count(Verdict::NoData),
-            parts: Judges::ALL
-                .iter()
-                .filter_map(|judges| Part::of(*judges, &outcomes))
-                .collect(),
+            parts: Judges::ALL.iter().filter_map(|judges| Part::of(*judges, &outcomes)).collect(),
             false_alarm: outcomes.iter().map(Outcome::false_alarm).sum(),
             seed: effort.seed,
             full: effort.full,
             seconds: outcomes.iter().map(|o| o.seconds).sum(),
         },
-        cases: (outcomes.into_iter())
-            .map(|outcome| CaseRow::new(outcome, effort))
-            .collect(),
+        cases: (outcomes.into_iter()).map(|outcome| CaseRow::new(outcome, effort)).collect(),
         origin: Origin::here(command, &sections.plans),
         sections,
     }

@@ -60,9 +60,7 @@ fn seeds(plans: &[ScenePlan]) -> String {
     for plan in plans {
         scenes.entry(plan.seed).or_default().push(&plan.scene);
     }
-    let of_scenes = scenes
-        .iter()
-        .map(|(seed, names)| format!("; {seed} of the scenes {}", names.join(", ")));
+    let of_scenes = scenes.iter().map(|(seed, names)| format!("; {seed} of the scenes {}", names.join(", ")));
     let of_scenes: String = of_scenes.collect();
     format!("fixed in the source of each case{of_scenes}. No result depends on the number of threads.")
 }
@@ -96,16 +94,9 @@ mod tests {
 
     #[test]
     fn scenes_are_listed_by_their_seeds() {
-        let plan = |scene: &str, seed| ScenePlan {
-            scene: scene.into(),
-            seed,
-            ..Default::default()
-        };
+        let plan = |scene: &str, seed| ScenePlan { scene: scene.into(), seed, ..Default::default() };
         let text = seeds(&[plan("a", 2), plan("b", 1), plan("c", 2)]);
-        assert!(
-            text.contains("; 1 of the scenes b; 2 of the scenes a, c."),
-            "{text}"
-        );
+        assert!(text.contains("; 1 of the scenes b; 2 of the scenes a, c."), "{text}");
     }
 
     #[test]

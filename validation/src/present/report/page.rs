@@ -20,7 +20,6 @@ pub(super) struct Page<'a> {
     pub(super) closest: Vec<Closest<'a>>,
     pub(super) studies: Vec<StudyView<'a>>,
     pub(super) groups: Vec<Group<'a>>,
-    pub(super) tables: Vec<TableView<'a>>,
     pub(super) equations: Vec<EquationView<'a>>,
     pub(super) plans: &'a [ScenePlan],
     pub(super) false_alarm: String,

@@ -18,10 +18,7 @@ impl Anchors {
         let figures: Vec<_> = sections.figures().map(|figure| figure.name.clone()).collect();
         let cases = report.cases.iter().map(|row| format!("case-{}", row.name));
         let equations = (sections.equations.iter()).map(|e| format!("equation-{}", e.number));
-        Self {
-            known: cases.chain(equations).collect(),
-            figures,
-        }
+        Self { known: cases.chain(equations).collect(), figures }
     }
 
     /// A text as HTML.
@@ -43,9 +40,7 @@ impl Anchors {
     /// The first figure of this number: `fig4-n20` or `fig5`.
     fn figure(&self, number: &str) -> Option<&String> {
         let is = |name: &&String| {
-            let rest = name
-                .strip_prefix("fig")
-                .and_then(|name| name.strip_prefix(number));
+            let rest = name.strip_prefix("fig").and_then(|name| name.strip_prefix(number));
             rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
         };
         self.figures.iter().find(is)
@@ -85,10 +80,7 @@ mod tests {
             figures: ["fig4-n20", "fig4-n50", "fig10"].map(String::from).into(),
         };
         for (text, html) in [
-            (
-                "`a` & `b`",
-                "<a href=\"#case-a\"><code>a</code></a> &amp; <code>b</code>",
-            ),
+            ("`a` & `b`", "<a href=\"#case-a\"><code>a</code></a> &amp; <code>b</code>"),
             ("eqs 5, A.7", "eqs 5, <a href=\"#equation-A.7\">A.7</a>"),
             ("Fig. 4", "Fig. <a href=\"#figure-fig4-n20\">4</a>"),
             ("Fig. 1", "Fig. 1"),

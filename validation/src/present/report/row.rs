@@ -59,11 +59,7 @@ impl Line {
 
     /// Worse verdicts first, then what is nearest to its bound; what cannot be compared is worst.
     fn badness(&self) -> (u8, f64) {
-        let used = if self.used.is_nan() {
-            f64::INFINITY
-        } else {
-            self.used
-        };
+        let used = if self.used.is_nan() { f64::INFINITY } else { self.used };
         (severity(self.verdict), used)
     }
 }
@@ -146,12 +142,7 @@ impl CaseRow {
                 Verdict::Fail => "failed",
                 _ => "too little data",
             };
-            text += &format!(
-                "  {how}: {}: {}\n    because: {}\n",
-                line.what,
-                line.numbers(),
-                line.because
-            );
+            text += &format!("  {how}: {}: {}\n    because: {}\n", line.what, line.numbers(), line.because);
         }
         for control in self.controls.iter().filter(|control| !control.caught) {
             text += &format!(
@@ -161,10 +152,7 @@ impl CaseRow {
         }
         match text.is_empty() && !bad(self.verdict) {
             true => text,
-            false => format!(
-                "{}: {}\n{text}  repeat: {}\n",
-                self.name, self.claim, self.command
-            ),
+            false => format!("{}: {}\n{text}  repeat: {}\n", self.name, self.claim, self.command),
         }
     }
 }

@@ -62,8 +62,6 @@ impl ReportStudy {
 pub struct Sections {
     /// The studies.
     pub studies: Vec<ReportStudy>,
-    /// Tables of no study.
-    pub tables: Vec<ReportTable>,
     /// Every equation of the paper.
     pub equations: Vec<ReportEquation>,
     /// Every scene behind a study.
@@ -90,8 +88,7 @@ impl Sections {
 
     /// All tables.
     pub fn tables(&self) -> impl Iterator<Item = &ReportTable> {
-        let of_studies = self.exhibits().filter_map(|exhibit| exhibit.table.as_ref());
-        of_studies.chain(&self.tables)
+        self.exhibits().filter_map(|exhibit| exhibit.table.as_ref())
     }
 
     fn exhibits(&self) -> impl Iterator<Item = &Exhibit> {

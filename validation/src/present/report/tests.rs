@@ -12,11 +12,7 @@ use crate::present::table::{number, words};
 use crate::present::xml::is_well_formed;
 use synthetic::synthetic;
 
-const EFFORT: Effort = Effort {
-    full: false,
-    seed: GATE_SEED,
-    data: None,
-};
+const EFFORT: Effort = Effort { full: false, seed: GATE_SEED, data: None };
 
 fn outcome(
     name: &'static str,
@@ -42,12 +38,7 @@ fn outcome(
         verdict,
         evidence: rules.into_iter().enumerate().map(judged).collect(),
         controls: (controls.iter())
-            .map(|&(mistake, caught)| Control {
-                mistake: mistake.into(),
-                caught,
-                drawn: false,
-                margin: None,
-            })
+            .map(|&(mistake, caught)| Control { mistake: mistake.into(), caught, drawn: false, margin: None })
             .collect(),
         seconds: 1.25,
     }
@@ -91,36 +82,21 @@ fn counts_and_exit_code() {
         let outcomes = vec![outcome("synthetic", verdict, vec![], &[])];
         build(outcomes, Sections::default(), &EFFORT, String::new()).exit_code()
     };
-    let verdicts = [
-        Verdict::Pass,
-        Verdict::Fail,
-        Verdict::Underpowered,
-        Verdict::NoData,
-    ];
+    let verdicts = [Verdict::Pass, Verdict::Fail, Verdict::Underpowered, Verdict::NoData];
     assert_eq!(verdicts.map(only), [0, 1, 1, 0]);
-    assert_eq!(
-        build(vec![], Sections::default(), &EFFORT, String::new()).exit_code(),
-        0
-    );
+    assert_eq!(build(vec![], Sections::default(), &EFFORT, String::new()).exit_code(), 0);
 }
 
 #[test]
 fn the_worst_evidence_is_shown() {
     let worst: Vec<_> = synthetic().cases.iter().map(|row| row.worst).collect();
     // Of the passing ones what is nearest to its bound, of the failing ones what cannot be compared.
-    assert_eq!(
-        worst,
-        [Some(2), Some(0), Some(1), Some(0), None, Some(0), Some(0)]
-    );
+    assert_eq!(worst, [Some(2), Some(0), Some(1), Some(0), None, Some(0), Some(0)]);
 }
 
 #[test]
 fn a_command_repeats_the_run() {
-    let effort = Effort {
-        full: true,
-        seed: GATE_SEED,
-        data: Some("my data".into()),
-    };
+    let effort = Effort { full: true, seed: GATE_SEED, data: Some("my data".into()) };
     let row = CaseRow::new(outcome("synthetic", Verdict::Pass, vec![], &[]), &effort);
     let command = "cargo run --release -- validate --case synthetic --full --data 'my data'";
     assert_eq!(row.command, command);
@@ -132,10 +108,7 @@ fn json_has_numbers_as_numbers() {
     assert_eq!(report["summary"]["fail"], 3);
     assert_eq!(report["cases"][0]["evidence"][2]["error"], 2.5e-13);
     assert_eq!(report["cases"][0]["evidence"][2]["judged_by"]["rule"], "within");
-    assert!(
-        report["cases"][2]["evidence"][1]["error"].is_null(),
-        "NaN is null"
-    );
+    assert!(report["cases"][2]["evidence"][1]["error"].is_null(), "NaN is null");
     assert_eq!(report["cases"][3]["controls"][1]["caught"], false);
     assert_eq!(report["figures"][0]["figure"]["curves"][0]["y"][0], 0.0);
 }
@@ -146,10 +119,7 @@ fn json_is_as_its_schema_says() {
         serde_json::from_str(include_str!("../../../schemas/report.schema.json")).unwrap();
     let validator = jsonschema::validator_for(&schema).unwrap();
     let mut report: serde_json::Value = serde_json::from_str(&synthetic().json()).unwrap();
-    let errors: Vec<_> = validator
-        .iter_errors(&report)
-        .map(|error| error.to_string())
-        .collect();
+    let errors: Vec<_> = validator.iter_errors(&report).map(|error| error.to_string()).collect();
     assert!(errors.is_empty(), "{errors:#?}");
     // Controls: what is not in the form is refused.
     report["cases"][0]["verdict"] = "perhaps".into();
@@ -164,10 +134,7 @@ fn json_is_as_its_schema_says() {
 fn junit_counts_what_is_red() {
     let junit = synthetic().junit();
     assert!(is_well_formed(&junit), "{junit}");
-    assert!(
-        junit.contains("tests=\"7\" failures=\"4\" errors=\"0\" skipped=\"1\""),
-        "{junit}"
-    );
+    assert!(junit.contains("tests=\"7\" failures=\"4\" errors=\"0\" skipped=\"1\""), "{junit}");
     assert_eq!(junit.matches("<testcase ").count(), 7);
     assert_eq!(junit.matches("<failure ").count(), 4);
     assert_eq!(junit.matches("<skipped ").count(), 1);
@@ -177,14 +144,8 @@ fn junit_counts_what_is_red() {
 #[test]
 fn a_one_sided_rule_uses_less_of_its_bound_the_farther_it_is() {
     let used = |mean| {
-        let rule = Rule::Above {
-            mean,
-            se: 0.0,
-            samples: 100,
-            bound: 0.1,
-            effect: 0.2,
-            because: "synthetic".into(),
-        };
+        let rule =
+            Rule::Above { mean, se: 0.0, samples: 100, bound: 0.1, effect: 0.2, because: "synthetic".into() };
         let row = CaseRow::new(outcome("synthetic", Verdict::Pass, vec![rule], &[]), &EFFORT);
         row.evidence[0].used
     };

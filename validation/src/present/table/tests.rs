@@ -10,11 +10,7 @@ fn a_column_is_declared_once_and_written_everywhere() {
         vec![
             field("n", |r: &Row| r.0),
             number("x (s)", |x| format!("{x:.1}"), |r: &Row| r.1),
-            estimate(
-                "y",
-                |y, se| format!("{y} ± {se}"),
-                |r: &Row| r.1.map(|x| (2.0, x)),
-            ),
+            estimate("y", |y, se| format!("{y} ± {se}"), |r: &Row| r.1.map(|x| (2.0, x))),
             words("said", |r: &Row| if r.0 == 1 { "=1" } else { "a, b" }),
         ],
     );
@@ -25,9 +21,5 @@ fn a_column_is_declared_once_and_written_everywhere() {
         "n,x (s),y,± y,said\n1,0.30000000000000004,2.0,0.30000000000000004,'=1\n2,,,,\"a, b\"\n"
     );
     assert!(table.text().starts_with("Synthetic\n\nn  x (s)  y"));
-    assert!(
-        table
-            .markdown()
-            .contains("| 1 | 0.3 | 2 ± 0.30000000000000004 | =1 |")
-    );
+    assert!(table.markdown().contains("| 1 | 0.3 | 2 ± 0.30000000000000004 | =1 |"));
 }

@@ -56,10 +56,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
             )));
         }
         let key = &range.key;
-        if let Some(table) = NOT_FITTED
-            .iter()
-            .find(|table| key.split('.').next() == Some(table))
-        {
+        if let Some(table) = NOT_FITTED.iter().find(|table| key.split('.').next() == Some(table)) {
             return Err(Failure::Input(format!(
                 "--over {key}: {table} is nothing that points tell; keys of flow, particles and interaction are allowed"
             )));
@@ -134,23 +131,14 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
             memory::check(&plan, args.threads, false, &stem)?;
         }
     }
-    Ok(Input {
-        scenes,
-        data,
-        names,
-        files,
-        stem,
-    })
+    Ok(Input { scenes, data, names, files, stem })
 }
 
 /// That each key of a set's scene is set by one flag.
 fn one_owner(args: &Args, set: usize) -> Result<(), Failure> {
     let over = args.over.iter().filter(|range| range.is_of(set));
     let over = over.map(|range| ("--over", range.key.as_str()));
-    let given = args
-        .settings
-        .iter()
-        .map(|setting| ("--set", setting.key.as_str()));
+    let given = args.settings.iter().map(|setting| ("--set", setting.key.as_str()));
     let seed = args.seed.map(|_| ("--seed", "ensemble.seed"));
     let owners: Vec<_> = over.chain(given).chain(seed).collect();
     sweep::one_owner(&owners).map_err(Failure::Input)
@@ -183,11 +171,7 @@ fn within_scene(
             named.source
         ))
     })?;
-    let key = if scene.time.strain.is_some() {
-        "strain"
-    } else {
-        "periods"
-    };
+    let key = if scene.time.strain.is_some() { "strain" } else { "periods" };
     let (most, what) = match (scene.time.strain, time.per_unit(&plan)) {
         (None, Some(period)) => (0.25 * period, "a quarter of a period"),
         _ => (end, "the scene's length"),

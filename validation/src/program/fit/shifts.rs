@@ -23,28 +23,15 @@ pub(super) fn shifts(
 ) -> Result<Vec<Shift>, String> {
     let values = fit.values(&fit.best.place);
     let scenes = &input.scenes;
-    let best: Vec<Scene> = (0..scenes.sets.len())
-        .map(|set| scenes.scene(set, &values))
-        .collect::<Result<_, _>>()?;
+    let best: Vec<Scene> =
+        (0..scenes.sets.len()).map(|set| scenes.scene(set, &values)).collect::<Result<_, _>>()?;
     if best.iter().all(|scene| scene.interaction.is_none()) {
         return Ok(Vec::new());
     }
-    let half_the_step = Variant {
-        steps: 2,
-        ..AS_WRITTEN
-    };
-    let twice_the_rods = Variant {
-        rods: 2,
-        ..AS_WRITTEN
-    };
-    let one_aspect_ratio = Variant {
-        one_aspect_ratio: true,
-        ..AS_WRITTEN
-    };
-    let mut variants = vec![
-        ("half the time step", half_the_step),
-        ("twice the rods", twice_the_rods),
-    ];
+    let half_the_step = Variant { steps: 2, ..AS_WRITTEN };
+    let twice_the_rods = Variant { rods: 2, ..AS_WRITTEN };
+    let one_aspect_ratio = Variant { one_aspect_ratio: true, ..AS_WRITTEN };
+    let mut variants = vec![("half the time step", half_the_step), ("twice the rods", twice_the_rods)];
     let fitted = fit.ranges.iter().any(|range| range.key == SPREAD);
     if !fitted && (best.iter()).any(|scene| scene.particles.aspect_ratio_sd_percent > 0.0) {
         variants.push((ONE_ASPECT_RATIO, one_aspect_ratio));
@@ -77,12 +64,7 @@ pub(super) fn taken_as_known(report: &Report) -> Vec<String> {
                 )
             })
         };
-        report
-            .order
-            .iter()
-            .enumerate()
-            .filter_map(one)
-            .collect::<Vec<_>>()
+        report.order.iter().enumerate().filter_map(one).collect::<Vec<_>>()
     };
     without.flat_map(large).collect()
 }

@@ -35,12 +35,7 @@ pub(crate) struct Args {
     )]
     pub(super) columns: Option<Vec<String>>,
     /// What the program's axes 1, 2, 3 are, as flow,gradient,vorticity; -flow is against the flow
-    #[arg(
-        long,
-        value_name = "AXES",
-        default_value = "gradient,flow,vorticity",
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "AXES", default_value = "gradient,flow,vorticity", allow_hyphen_values = true)]
     pub(super) axes: Axes,
     /// The layout of a known program's tables
     #[arg(long, value_name = "PROGRAM")]
@@ -91,8 +86,5 @@ fn positive(text: &str) -> Result<f64, String> {
 }
 
 fn body_axis(text: &str) -> Result<usize, String> {
-    ["x", "y", "z"]
-        .iter()
-        .position(|axis| *axis == text)
-        .ok_or_else(|| "x, y and z are allowed".to_owned())
+    ["x", "y", "z"].iter().position(|axis| *axis == text).ok_or_else(|| "x, y and z are allowed".to_owned())
 }

@@ -66,9 +66,7 @@ fn of_groups(root: &Path, groups: &str) -> Option<u64> {
                 continue;
             };
             let stat = text("memory.stat").unwrap_or_default();
-            let freed = stat
-                .lines()
-                .find_map(|line| line.strip_prefix(reclaimable)?.parse().ok());
+            let freed = stat.lines().find_map(|line| line.strip_prefix(reclaimable)?.parse().ok());
             let used = used.saturating_sub(freed.unwrap_or(0));
             least = least.into_iter().chain([most.saturating_sub(used)]).min();
         }
@@ -117,24 +115,10 @@ mod tests {
         };
         let of = |groups: &str| of_groups(root.path(), groups);
         assert_eq!(of("0::/a/b\n"), None);
-        group(
-            "a/b",
-            [
-                ("memory.max", "max\n"),
-                ("memory.current", "5\n"),
-                ("memory.stat", ""),
-            ],
-        );
+        group("a/b", [("memory.max", "max\n"), ("memory.current", "5\n"), ("memory.stat", "")]);
         assert_eq!(of("0::/a/b\n"), None);
         let stat = "anon 30\ninactive_file 15\n";
-        group(
-            "a",
-            [
-                ("memory.max", "100\n"),
-                ("memory.current", "40\n"),
-                ("memory.stat", stat),
-            ],
-        );
+        group("a", [("memory.max", "100\n"), ("memory.current", "40\n"), ("memory.stat", stat)]);
         assert_eq!(of("0::/a/b\n"), Some(75));
         // The files of version 1 lie elsewhere; in a container the path may be that of the host.
         let v1 = [

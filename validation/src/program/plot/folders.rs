@@ -51,10 +51,7 @@ pub(super) fn runs_in(dir: &Path) -> Result<Vec<Run>, Failure> {
             sums: record.files,
         }]),
         "sweep" => points(dir, &record),
-        other => Err(refused(
-            &path,
-            &format!("is of `shearbed {other}`; `run` and `sweep` are allowed"),
-        )),
+        other => Err(refused(&path, &format!("is of `shearbed {other}`; `run` and `sweep` are allowed"))),
     }
 }
 
@@ -75,12 +72,7 @@ fn points(dir: &Path, record: &Record) -> Result<Vec<Run>, Failure> {
     let of_points = (record.files.keys()).filter_map(|name| Some((name, name.strip_suffix(POINT)?)));
     let point = |(name, folder): (&String, &str)| {
         let point: PointRecord = json(dir, name, record)?;
-        Ok(Run {
-            label: point.point,
-            scene: scene.clone(),
-            dir: dir.join(folder),
-            sums: point.files,
-        })
+        Ok(Run { label: point.point, scene: scene.clone(), dir: dir.join(folder), sums: point.files })
     };
     of_points.map(point).collect()
 }
@@ -89,10 +81,7 @@ fn scene(dir: &Path, name: &str, record: &Record) -> Result<Scene, Failure> {
     let mut whole: Value = json(dir, name, record)?;
     serde_json::from_value(whole["scene"].take()).map_err(|error| {
         let path = dir.join(name);
-        Failure::Input(format!(
-            "{}: scene: is no scene of this version: {error}",
-            path.shown()
-        ))
+        Failure::Input(format!("{}: scene: is no scene of this version: {error}", path.shown()))
     })
 }
 

@@ -57,11 +57,9 @@ pub(super) fn channel(run: &Run, wanted: Option<&str>, left: &mut usize) -> Resu
         });
     }
     Err(Failure::Input(match wanted {
-        Some(wanted) => format!(
-            "--y {wanted}: {} has no such channel; there are {}",
-            run.dir.shown(),
-            known.join(", ")
-        ),
+        Some(wanted) => {
+            format!("--y {wanted}: {} has no such channel; there are {}", run.dir.shown(), known.join(", "))
+        }
         None => format!("{}: no table in it has a column to draw", run.dir.shown()),
     }))
 }
@@ -88,10 +86,7 @@ impl<R: Read> Table<R> {
         }
         let twice = (1..header.len()).find(|k| header.iter().take(*k).any(|other| other == &header[*k]));
         match twice {
-            Some(k) => Err(format!(
-                ":1: column {} is there twice; once is allowed",
-                snippet(&header[k])
-            )),
+            Some(k) => Err(format!(":1: column {} is there twice; once is allowed", snippet(&header[k]))),
             None => Ok(Self { reader, header }),
         }
     }
@@ -153,9 +148,7 @@ impl<R: Read> Table<R> {
 fn no_table(error: csv::Error) -> String {
     let line = error.position().map_or(1, csv::Position::line);
     match error.kind() {
-        csv::ErrorKind::UnequalLengths {
-            expected_len, len, ..
-        } => {
+        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
             format!(":{line}: {len} cells; the header has {expected_len}")
         }
         _ => format!(":{line}: is no table in CSV: {error}"),
@@ -196,16 +189,8 @@ mod tests {
         for (text, left, said) in [
             (String::new(), 9, ":1: is empty"),
             (head.into(), 9, ":1: has a header alone"),
-            (
-                "t,x1,x1_se,x1\n0,1,1,1\n".into(),
-                9,
-                ":1: column \"x1\" is there twice",
-            ),
-            (
-                format!("{head}0,NaN,0\n"),
-                9,
-                ":2: x1 = \"NaN\" is not allowed: a finite number",
-            ),
+            ("t,x1,x1_se,x1\n0,1,1,1\n".into(), 9, ":1: column \"x1\" is there twice"),
+            (format!("{head}0,NaN,0\n"), 9, ":2: x1 = \"NaN\" is not allowed: a finite number"),
             (format!("{head}0,1,0\n1,-inf,0\n"), 9, ":3: x1 = \"-inf\""),
             (format!("{head}0,1,inf\n"), 9, ":2: x1_se = \"inf\""),
             (format!("{head}0,1,-1\n"), 9, ":2: x1_se = \"-1\""),
@@ -215,11 +200,7 @@ mod tests {
                 9,
                 ":3: t_over_T = \"1\" is not allowed: a finite number above",
             ),
-            (
-                format!("{head}0,one,0\n"),
-                9,
-                ":2: x1 = \"one\" is not allowed: a number",
-            ),
+            (format!("{head}0,one,0\n"), 9, ":2: x1 = \"one\" is not allowed: a number"),
             (format!("{head}0,1\n"), 9, ":2: 2 cells; the header has 3"),
             (format!("{head}0,1,0\n1,1,0\n"), 1, &format!(":3: {more}")),
         ] {

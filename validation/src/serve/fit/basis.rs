@@ -45,12 +45,7 @@ impl Basis {
             let less = missed.row(term) - nearest.row(row);
             missed.set_row(term, &less);
         }
-        Self {
-            missed,
-            project,
-            degrees,
-            nodes,
-        }
+        Self { missed, project, degrees, nodes }
     }
 
     /// Every term at a place of the box.
@@ -87,11 +82,8 @@ fn grid(axes: usize, along: usize) -> Vec<Vec<usize>> {
 
 fn terms(degrees: &[Vec<usize>], place: &[f64]) -> DVector<f64> {
     let values: Vec<_> = place.iter().map(|x| chebyshev(*x)).collect();
-    let term = |degrees: &Vec<usize>| {
-        (degrees.iter().zip(&values))
-            .map(|(degree, of)| of[*degree].0)
-            .product()
-    };
+    let term =
+        |degrees: &Vec<usize>| (degrees.iter().zip(&values)).map(|(degree, of)| of[*degree].0).product();
     DVector::from_iterator(degrees.len(), degrees.iter().map(term))
 }
 
@@ -101,20 +93,14 @@ fn chebyshev(x: f64) -> [(f64, f64); 7] {
     all[1] = (x, 1.0);
     for k in 2..all.len() {
         let ((before, slope_before), (last, slope)) = (all[k - 2], all[k - 1]);
-        all[k] = (
-            2.0 * x * last - before,
-            2.0 * last + 2.0 * x * slope - slope_before,
-        );
+        all[k] = (2.0 * x * last - before, 2.0 * last + 2.0 * x * slope - slope_before);
     }
     all
 }
 
 /// The terms at the nodes, a row for each node.
 fn design(degrees: &[Vec<usize>], nodes: &[Vec<f64>]) -> DMatrix<f64> {
-    let rows: Vec<_> = nodes
-        .iter()
-        .map(|node| terms(degrees, node).transpose())
-        .collect();
+    let rows: Vec<_> = nodes.iter().map(|node| terms(degrees, node).transpose()).collect();
     DMatrix::from_rows(&rows)
 }
 
@@ -136,11 +122,7 @@ mod tests {
     fn cubic(place: &[f64]) -> (f64, Vec<f64>) {
         let [x, y, z] = std::array::from_fn(|k| place.get(k).copied().unwrap_or(0.0));
         let value = 1.0 + x - 2.0 * y + x * y * z + 0.5 * x.powi(3) - y * y * x;
-        let slopes = [
-            1.0 + y * z + 1.5 * x * x - y * y,
-            -2.0 + x * z - 2.0 * y * x,
-            x * y,
-        ];
+        let slopes = [1.0 + y * z + 1.5 * x * x - y * y, -2.0 + x * z - 2.0 * y * x, x * y];
         (value, slopes[..place.len()].to_vec())
     }
 
@@ -170,10 +152,7 @@ mod tests {
         let basis = Basis::new(1);
         let quartic = DVector::from_iterator(
             7,
-            basis
-                .nodes
-                .iter()
-                .map(|node| 8.0 * node[0].powi(4) - 8.0 * node[0].powi(2) + 1.0),
+            basis.nodes.iter().map(|node| 8.0 * node[0].powi(4) - 8.0 * node[0].powi(2) + 1.0),
         );
         let missed = &basis.missed * &basis.project * &quartic;
         assert!((missed[4] - 1.0).abs() < 1e-14, "{missed}");
@@ -186,10 +165,7 @@ mod tests {
     fn the_corners_are_nodes() {
         for parameters in 1..=MOST_PARAMETERS {
             let basis = Basis::new(parameters);
-            let corners = basis
-                .nodes
-                .iter()
-                .filter(|node| node.iter().all(|x| x.abs() == 1.0));
+            let corners = basis.nodes.iter().filter(|node| node.iter().all(|x| x.abs() == 1.0));
             assert_eq!(corners.count(), 1 << parameters);
         }
     }

@@ -35,12 +35,7 @@ impl Best {
     pub(super) fn with_noise(&self) -> Self {
         let surface = self.surface.with_noise();
         let (place, chi_square) = minimise(&surface, &vec![None; self.place.len()], &[&self.place]);
-        Self {
-            place,
-            chi_square,
-            surface,
-            ..self.clone()
-        }
+        Self { place, chi_square, surface, ..self.clone() }
     }
 
     /// The largest share that a cause has in the variance of a parameter.
@@ -58,11 +53,8 @@ const STAYS: f64 = 1e-3;
 pub fn best(data: &[Datum], emulator: &Emulator, rods_over_measured: &[f64]) -> Option<Best> {
     let parameters = emulator.basis.nodes[0].len();
     let mut place = vec![0.0; parameters];
-    let total = |causes: &Causes| {
-        causes
-            .iter()
-            .fold(DMatrix::zeros(data.len(), data.len()), |sum, one| sum + one)
-    };
+    let total =
+        |causes: &Causes| causes.iter().fold(DMatrix::zeros(data.len(), data.len()), |sum, one| sum + one);
     for _ in 0..ROUNDS {
         let causes = causes(data, emulator, &place, rods_over_measured);
         let surface = ChiSquare::new(data, emulator, &total(&causes), &place)?;
@@ -85,15 +77,6 @@ pub fn best(data: &[Datum], emulator: &Emulator, rods_over_measured: &[f64]) -> 
     let own = (&told - surface.noise(&place)).cholesky();
     let solver = own.or_else(|| told.cholesky())?;
     let influence = solver.solve(&weighted.transpose());
-    let spread = (causes.iter())
-        .map(|cause| &influence * cause * influence.transpose())
-        .collect();
-    Some(Best {
-        place,
-        chi_square,
-        surface,
-        causes,
-        spread,
-        influence,
-    })
+    let spread = (causes.iter()).map(|cause| &influence * cause * influence.transpose()).collect();
+    Some(Best { place, chi_square, surface, causes, spread, influence })
 }

@@ -32,19 +32,10 @@ pub struct Shift {
 pub fn parts(fit: &Fit) -> Vec<Part> {
     let u = |spread: &DMatrix<f64>| -> Vec<f64> {
         let diagonal = spread.diagonal();
-        (0..diagonal.len())
-            .map(|axis| diagonal[axis].max(0.0).sqrt() * fit.scale(axis))
-            .collect()
+        (0..diagonal.len()).map(|axis| diagonal[axis].max(0.0).sqrt() * fit.scale(axis)).collect()
     };
-    let own = CAUSES
-        .iter()
-        .zip(&fit.best.spread)
-        .map(|(source, spread)| Part { source, u: u(spread) });
-    own.chain([Part {
-        source: "all of these",
-        u: u(&fit.best.covariance()),
-    }])
-    .collect()
+    let own = CAUSES.iter().zip(&fit.best.spread).map(|(source, spread)| Part { source, u: u(spread) });
+    own.chain([Part { source: "all of these", u: u(&fit.best.covariance()) }]).collect()
 }
 
 /// The most replicas by which a shift is measured.
@@ -66,32 +57,18 @@ pub fn shift(
     let pair = |replica: u64| {
         let (before, after): (Vec<Prediction>, _) = (own(replica)?, changed(replica)?);
         (watch.done)();
-        let difference = before
-            .iter()
-            .zip(&after)
-            .map(|(before, after)| after[0] - before[0]);
+        let difference = before.iter().zip(&after).map(|(before, after)| after[0] - before[0]);
         // The points stay: where the model rises, the estimate goes the other way.
         Ok(-&fit.best.influence * DVector::from_iterator(before.len(), difference))
     };
-    let moves: Vec<DVector<f64>> = (0..replicas)
-        .into_par_iter()
-        .map(pair)
-        .collect::<Result<_, String>>()?;
+    let moves: Vec<DVector<f64>> = (0..replicas).into_par_iter().map(pair).collect::<Result<_, String>>()?;
     let n = moves.len() as f64;
-    let mean = moves
-        .iter()
-        .fold(DVector::zeros(fit.sides.len()), |sum, one| sum + one)
-        / n;
+    let mean = moves.iter().fold(DVector::zeros(fit.sides.len()), |sum, one| sum + one) / n;
     let square = moves
         .iter()
-        .fold(DVector::zeros(fit.sides.len()), |sum: DVector<f64>, one| {
-            sum + (one - &mean).map(|d| d * d)
-        });
-    let scaled = |vector: &DVector<f64>| {
-        (0..vector.len())
-            .map(|axis| vector[axis] * fit.scale(axis))
-            .collect()
-    };
+        .fold(DVector::zeros(fit.sides.len()), |sum: DVector<f64>, one| sum + (one - &mean).map(|d| d * d));
+    let scaled =
+        |vector: &DVector<f64>| (0..vector.len()).map(|axis| vector[axis] * fit.scale(axis)).collect();
     Ok(Shift {
         change,
         shift: scaled(&mean),

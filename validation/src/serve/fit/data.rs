@@ -31,15 +31,7 @@ pub struct Datum {
 impl Datum {
     /// A place where a point could be: without a line, a value and uncertainties.
     pub fn place(set: usize, column: &str, time: f64) -> Self {
-        Self {
-            set,
-            line: 0,
-            column: column.into(),
-            time,
-            value: f64::NAN,
-            u_time: 0.0,
-            u: f64::NAN,
-        }
+        Self { set, line: 0, column: column.into(), time, value: f64::NAN, u_time: 0.0, u: f64::NAN }
     }
 }
 
@@ -96,11 +88,7 @@ pub struct Points {
 
 /// Every column that can be measured: the channels of all observables.
 fn measurable() -> Vec<String> {
-    Observable::ALL
-        .iter()
-        .flat_map(|observable| observable.channels())
-        .map(Channel::name)
-        .collect()
+    Observable::ALL.iter().flat_map(|observable| observable.channels()).map(Channel::name).collect()
 }
 
 /// Reads the file `path` as data set number `set`. Every point needs an uncertainty `NAME_u`; blank points were not
@@ -109,15 +97,10 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
     let text = read_text(path)?;
     let file = path.display().to_string();
     let first = text.lines().position(|line| !line.trim().is_empty()).unwrap_or(0);
-    let header: Vec<&str> = (text.lines().nth(first).unwrap_or_default().split(','))
-        .map(str::trim)
-        .collect();
+    let header: Vec<&str> = (text.lines().nth(first).unwrap_or_default().split(',')).map(str::trim).collect();
     let refused = |message: String| DataError::at(&file, first + 1, message);
     let times = TimeColumn::ALL.map(TimeColumn::name).join(", ");
-    let here: Vec<_> = TimeColumn::ALL
-        .into_iter()
-        .filter(|time| header.contains(&time.name()))
-        .collect();
+    let here: Vec<_> = TimeColumn::ALL.into_iter().filter(|time| header.contains(&time.name())).collect();
     let [time] = here[..] else {
         let found = here.iter().map(|time| time.name()).collect::<Vec<_>>().join(", ");
         return Err(refused(format!(
@@ -145,14 +128,9 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
         }
     }
     if columns.is_empty() {
-        return Err(refused(
-            "no column of measured values; x1, x2, x3 … are allowed".into(),
-        ));
+        return Err(refused("no column of measured values; x1, x2, x3 … are allowed".into()));
     }
-    if let Some(bare) = columns
-        .iter()
-        .find(|name| !header.contains(&format!("{name}_u").as_str()))
-    {
+    if let Some(bare) = columns.iter().find(|name| !header.contains(&format!("{name}_u").as_str())) {
         return Err(refused(format!(
             "column {bare}_u is missing: one standard deviation of each {bare} is needed"
         )));
@@ -236,9 +214,7 @@ fn allowed(column: &str) -> (f64, f64) {
 fn allowed_moment(axes: &str) -> (f64, f64) {
     let exponents = ['1', '2', '3'].map(|axis| axes.matches(axis).count() as i32);
     let all = axes.len() as f64;
-    let square: f64 = (exponents.iter())
-        .map(|e| (f64::from(*e) / all).powi(*e))
-        .product();
+    let square: f64 = (exponents.iter()).map(|e| (f64::from(*e) / all).powi(*e)).product();
     let most = square.sqrt();
     match exponents.iter().all(|e| e % 2 == 0) {
         true => (0.0, most),
@@ -271,10 +247,7 @@ fn check(file: &str, points: &[Datum]) -> Result<(), DataError> {
 
 /// Every data set and column, in order.
 pub(super) fn kinds(data: &[Datum]) -> Vec<(usize, String)> {
-    let mut kinds: Vec<_> = data
-        .iter()
-        .map(|datum| (datum.set, datum.column.clone()))
-        .collect();
+    let mut kinds: Vec<_> = data.iter().map(|datum| (datum.set, datum.column.clone())).collect();
     kinds.sort();
     kinds.dedup();
     kinds
@@ -308,10 +281,7 @@ mod tests {
         ];
         assert_eq!(short, expected);
         assert!(found.points.iter().all(|point| point.set == 3));
-        assert_eq!(
-            read_of("strain,phi,phi_u\n1,0.7,0.1\n").unwrap().time,
-            TimeColumn::Strain
-        );
+        assert_eq!(read_of("strain,phi,phi_u\n1,0.7,0.1\n").unwrap().time, TimeColumn::Strain);
     }
 
     /// Against the largest products of a fine grid of directions.
@@ -345,10 +315,7 @@ mod tests {
             let (least, most) = allowed(&name);
             assert!(least < most && least.is_finite() && most.is_finite(), "{name}");
         }
-        let bins = measurable()
-            .iter()
-            .filter(|name| name.starts_with("density"))
-            .count();
+        let bins = measurable().iter().filter(|name| name.starts_with("density")).count();
         assert_eq!(bins as f64, DENSITY_BINS);
         assert_eq!(allowed("x3"), (0.0, 1.0));
         assert_eq!(allowed("x1x2"), (0.0, 1.0));
@@ -372,11 +339,7 @@ mod tests {
             ("t_s,x1,x1_u\n1,0.5,0.1\n\n1,0.5,0.2\n", 4, "in line 2 already"),
             ("t_s,x1,x1_u,x1\n1,0.5,0.1,2\n", 1, "twice"),
             ("t_s,x1,x1_u\n1,0.5\n", 2, "2 cells"),
-            (
-                "t_s,x1,x1_u\n1,1e300,0.1\n",
-                2,
-                "column x1: `1e300` is not allowed",
-            ),
+            ("t_s,x1,x1_u\n1,1e300,0.1\n", 2, "column x1: `1e300` is not allowed"),
             ("t_s,x1,x1_u\n1,1e153,0.1\n", 2, "a value from 0 to 1"),
             ("t_s,x1,x1_u\n1,1.01,0.1\n", 2, "column x1: `1.01` is not allowed"),
             ("t_s,x1,x1_u\n1,0.5,0.1\n2,-0.01,0.1\n", 3, "a value from 0 to 1"),
@@ -386,10 +349,7 @@ mod tests {
             ("t_s,x1,x1_u\n1,0.5,1e-200\n", 2, "1e-12 to 1"),
         ] {
             let error = read_of(text).unwrap_err();
-            assert!(
-                error.contains(&format!("points.csv:{line}: ")),
-                "{text:?}: {error}"
-            );
+            assert!(error.contains(&format!("points.csv:{line}: ")), "{text:?}: {error}");
             assert!(error.contains(named), "{text:?}: {error}");
         }
     }

@@ -163,15 +163,10 @@ pub fn design(fit: &Fit, scenes: &Scenes, data: &[Datum], watch: &Watch<'_>) -> 
 fn places(scenes: &Scenes, best: &[f64], data: &[Datum]) -> Result<Vec<Datum>, String> {
     let mut all = Vec::new();
     let kinds = super::data::kinds(data);
-    let times = TIMES
-        .min(MOST_CANDIDATES / (kinds.len() * CONCENTRATIONS.len()))
-        .max(1);
+    let times = TIMES.min(MOST_CANDIDATES / (kinds.len() * CONCENTRATIONS.len())).max(1);
     for (set, column) in kinds {
         let end = scenes.end(set, best)?;
-        let here = || {
-            data.iter()
-                .filter(|datum| (datum.set, &datum.column) == (set, &column))
-        };
+        let here = || data.iter().filter(|datum| (datum.set, &datum.column) == (set, &column));
         let middle = |of: fn(&Datum) -> f64| {
             let mut all: Vec<f64> = here().map(of).collect();
             all.sort_by(f64::total_cmp);
@@ -213,11 +208,7 @@ fn weighted(fit: &Fit) -> (Vec<Vec<f64>>, Vec<f64>) {
 }
 
 fn deviations(covariance: &DMatrix<f64>) -> Vec<f64> {
-    covariance
-        .diagonal()
-        .iter()
-        .map(|square| square.max(0.0).sqrt())
-        .collect()
+    covariance.diagonal().iter().map(|square| square.max(0.0).sqrt()).collect()
 }
 
 /// What the measured points leave, what as many more would, and the best points by turns.
@@ -232,20 +223,14 @@ pub(super) fn steps(known: &Known, candidates: &[Candidate], data: &[Datum]) -> 
     }
     for (set, concentration_per_cm3) in kinds {
         let is_here = |one: &Candidate| (one.set, one.concentration_per_cm3) == (set, concentration_per_cm3);
-        let here: Vec<usize> = (0..candidates.len())
-            .filter(|k| is_here(&candidates[*k]))
-            .collect();
+        let here: Vec<usize> = (0..candidates.len()).filter(|k| is_here(&candidates[*k])).collect();
         let points = data.iter().filter(|datum| datum.set == set).count();
         let mut after = known.clone();
         for point in 0..points {
             let k = here[((2 * point + 1) * here.len() / (2 * points)).min(here.len() - 1)];
             after.measure(k, candidates[k].u.powi(2));
         }
-        let added = Added::AsMany {
-            set,
-            points,
-            concentration_per_cm3,
-        };
+        let added = Added::AsMany { set, points, concentration_per_cm3 };
         steps.push(Step::of(added, &after));
     }
     let mut left = known.clone();
@@ -269,14 +254,8 @@ impl Step {
     fn of(added: Added, known: &Known) -> Self {
         let correlations = correlation_of(&known.parameters);
         let pairs = (0..correlations.nrows()).flat_map(|i| (0..i).map(move |j| (i, j)));
-        let correlation = pairs
-            .map(|pair| correlations[pair])
-            .max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let correlation = pairs.map(|pair| correlations[pair]).max_by(|a, b| a.abs().total_cmp(&b.abs()));
         let u = deviations(&known.parameters);
-        Self {
-            added,
-            u,
-            correlation,
-        }
+        Self { added, u, correlation }
     }
 }

@@ -50,14 +50,8 @@ pub fn look_elsewhere(problem: &Problem<'_>, fit: &Fit, watch: &Watch<'_>) -> Re
     let values = fit.values(&fit.best.place);
     let mut warnings = Vec::new();
     for (axis, range) in fit.ranges.iter().enumerate() {
-        let line = Line {
-            problem,
-            watch,
-            values: &values,
-            axis,
-            range,
-            replicas: fit.emulator.replicas() as u64,
-        };
+        let line =
+            Line { problem, watch, values: &values, axis, range, replicas: fit.emulator.replicas() as u64 };
         let best = range.scaled(values[axis]);
         let own = line.run(best, line.replicas)?;
         let told = fit.best.chi_square;
@@ -148,15 +142,8 @@ impl Line<'_> {
         let (mean, se, covariance) = self.covariance(&rows);
         let data = self.problem.measured.data;
         let error = DVector::from_fn(data.len(), |i, _| data[i].value) - &mean;
-        let solver = covariance
-            .cholesky()
-            .ok_or("the covariance of the points is not positive")?;
-        Ok(Tried {
-            at,
-            chi_square: error.dot(&solver.solve(&error)),
-            mean,
-            se,
-        })
+        let solver = covariance.cholesky().ok_or("the covariance of the points is not positive")?;
+        Ok(Tried { at, chi_square: error.dot(&solver.solve(&error)), mean, se })
     }
 
     /// Means over replicas with their standard errors, and the covariance of what was measured less those: as that of a fit, but for the polynomials.
@@ -164,20 +151,14 @@ impl Line<'_> {
         let measured = &self.problem.measured;
         let (points, n) = (measured.data.len(), rows.len() as f64);
         let mean = |which: usize| {
-            DVector::from_fn(points, |point, _| {
-                rows.iter().map(|row| row[point][which]).sum::<f64>() / n
-            })
+            DVector::from_fn(points, |point, _| rows.iter().map(|row| row[point][which]).sum::<f64>() / n)
         };
         let [at, before, after] = [0, 1, 2].map(mean);
         let away = DMatrix::from_fn(rows.len(), points, |row, point| rows[row][point][0] - at[point]);
         let of_replica = away.tr_mul(&away) / (n - 1.0);
         let set = |point: usize| measured.data[point].set;
         let covariance = DMatrix::from_fn(points, points, |i, j| {
-            let rods = if set(i) == set(j) {
-                measured.rods_over_measured[set(i)]
-            } else {
-                0.0
-            };
+            let rods = if set(i) == set(j) { measured.rods_over_measured[set(i)] } else { 0.0 };
             let own: &Datum = &measured.data[i];
             let reading = own.u.powi(2) + ((before[i] - at[i]).powi(2) + (after[i] - at[i]).powi(2)) / 6.0;
             of_replica[(i, j)] * (rods + 1.0 / n) + if i == j { reading } else { 0.0 }
@@ -187,22 +168,17 @@ impl Line<'_> {
 
     /// Places along the range, close enough that none of the curves is missed in between; whether they are.
     fn scan(&self) -> Result<(Vec<Tried>, bool), String> {
-        let (from, to) = (
-            self.range.scaled(self.range.from),
-            self.range.scaled(self.range.to),
-        );
+        let (from, to) = (self.range.scaled(self.range.from), self.range.scaled(self.range.to));
         let place = |k: usize| from + (to - from) * k as f64 / PARTS as f64;
-        let mut tried: Vec<Tried> = (0..=PARTS)
-            .map(|k| self.run(place(k), self.few()))
-            .collect::<Result<_, _>>()?;
+        let mut tried: Vec<Tried> =
+            (0..=PARTS).map(|k| self.run(place(k), self.few())).collect::<Result<_, _>>()?;
         let data = self.problem.measured.data;
         for _ in 0..HALVED {
             let enough: Vec<f64> = (0..data.len())
                 .map(|point| {
                     let all = tried.iter().map(|tried| tried.mean[point]);
-                    let (least, most) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), x| {
-                        (l.min(x), m.max(x))
-                    });
+                    let (least, most) =
+                        all.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), x| (l.min(x), m.max(x)));
                     data[point].u.max(SHARE * (most - least))
                 })
                 .collect();

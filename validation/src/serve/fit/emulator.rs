@@ -110,14 +110,10 @@ impl Emulator {
         let terms = self.basis.missed.tr_mul(&self.basis.terms(place));
         let n = self.replicas() as f64;
         let zero = DVector::zeros(self.points());
-        let squares = (self.deviations.iter()).fold(zero, |sum, one| {
-            sum + one.tr_mul(&terms).map(|deviation| deviation * deviation)
-        });
+        let squares = (self.deviations.iter())
+            .fold(zero, |sum, one| sum + one.tr_mul(&terms).map(|deviation| deviation * deviation));
         let own = |lack: f64, squares: f64| {
-            lack.signum()
-                * (lack * lack - CERTAIN.powi(2) * squares / (n * (n - 1.0)))
-                    .max(0.0)
-                    .sqrt()
+            lack.signum() * (lack * lack - CERTAIN.powi(2) * squares / (n * (n - 1.0))).max(0.0).sqrt()
         };
         self.mean().tr_mul(&terms).zip_map(&squares, own)
     }
@@ -129,18 +125,14 @@ impl Emulator {
         let terms = self.mean().nrows();
         let one = |deviation: &DMatrix<f64>| deviation * inverse * deviation.transpose();
         let all: Vec<DMatrix<f64>> = self.deviations.par_iter().map(one).collect();
-        let sum = all
-            .iter()
-            .fold(DMatrix::zeros(terms, terms), |sum, one| sum + one);
+        let sum = all.iter().fold(DMatrix::zeros(terms, terms), |sum, one| sum + one);
         sum / (n * (n - 1.0))
     }
 
     /// The covariance of one replica's predictions, points × points.
     pub fn covariance(&self, place: &[f64]) -> DMatrix<f64> {
         let terms = self.basis.terms(place);
-        let rows: Vec<_> = (self.deviations.iter())
-            .map(|one| one.tr_mul(&terms).transpose())
-            .collect();
+        let rows: Vec<_> = (self.deviations.iter()).map(|one| one.tr_mul(&terms).transpose()).collect();
         let spread = DMatrix::from_rows(&rows);
         spread.tr_mul(&spread) / (self.deviations.len() as f64 - 1.0)
     }

@@ -33,9 +33,7 @@ fn model(slope: f64, seed: u64) -> impl Fn(&[f64]) -> Result<Replica, String> + 
     move |values| {
         let mean: Vec<f64> = curve(slope, values[0]).collect();
         let here = values.iter().fold(seed, |hash, value| {
-            (hash ^ value.to_bits())
-                .wrapping_mul(0x9E37_79B9_7F4A_7C15)
-                .rotate_left(29)
+            (hash ^ value.to_bits()).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29)
         });
         Ok(Box::new(move |replica| {
             let mut rng = Pcg64Dxsm::seed_from_u64(here.wrapping_add(replica));
@@ -61,29 +59,15 @@ fn points(seed: u64) -> Vec<Datum> {
 
 fn fit(data: &[Datum], slope: f64, seed: u64) -> Fit {
     let (ranges, basis) = (ranges(), Basis::new(1));
-    let found = coefficients(
-        &basis,
-        &model(slope, seed),
-        |node| node.to_vec(),
-        0..REPLICAS,
-        &|| (),
-    );
-    let measured = Measured {
-        data,
-        ranges: &ranges,
-        rods_over_measured: &[0.0],
-    };
+    let found = coefficients(&basis, &model(slope, seed), |node| node.to_vec(), 0..REPLICAS, &|| ());
+    let measured = Measured { data, ranges: &ranges, rods_over_measured: &[0.0] };
     fitted(&measured, &basis, &vec![(-1.0, 1.0)], &found.unwrap()).unwrap()
 }
 
 /// The control: the noise in the slopes is taken for the points' word.
 fn believed(fit: &Fit) -> Fit {
     let best = fit.best.with_noise();
-    Fit {
-        profiles: vec![profile(&best, 0)],
-        best,
-        ..fit.clone()
-    }
+    Fit { profiles: vec![profile(&best, 0)], best, ..fit.clone() }
 }
 
 /// Whether the intervals of 68 and 95 % hold the planted value, and the p-value.
@@ -105,11 +89,7 @@ const REPLICAS: u64 = 100;
 
 #[test]
 fn the_noise_of_replicas_makes_no_interval_short() {
-    let count = Design {
-        effect: EFFECT,
-        sd: (0.68_f64 * 0.32).sqrt(),
-    }
-    .samples();
+    let count = Design { effect: EFFECT, sd: (0.68_f64 * 0.32).sqrt() }.samples();
     let one = |k: u64| {
         let fit = fit(&points(1000 + k), SLOPE, 5000 + k);
         (asked(&fit), asked(&believed(&fit)), fit.feigned())
@@ -118,29 +98,14 @@ fn the_noise_of_replicas_makes_no_interval_short() {
     let feigned = all.iter().map(|(_, _, feigned)| feigned).sum::<f64>() / count as f64;
     assert!((0.33..0.5).contains(&feigned), "{feigned}");
     for (which, confidence) in [0.68, 0.95].into_iter().enumerate() {
-        let own = share(
-            all.iter().map(|(own, ..)| own.0[which]),
-            confidence,
-            ALLOWANCE,
-            EFFECT,
-        );
+        let own = share(all.iter().map(|(own, ..)| own.0[which]), confidence, ALLOWANCE, EFFECT);
         assert_eq!(judge(&own), Verdict::Pass, "{own:?}");
     }
-    let believed = share(
-        all.iter().map(|(_, believed, _)| believed.0[0]),
-        0.68,
-        ALLOWANCE,
-        EFFECT,
-    );
+    let believed = share(all.iter().map(|(_, believed, _)| believed.0[0]), 0.68, ALLOWANCE, EFFECT);
     assert_eq!(judge(&believed), Verdict::Fail, "{believed:?}");
     // χ² is neither too large nor too kind.
     for above in [0.05, 0.95] {
-        let own = share(
-            all.iter().map(|(own, ..)| own.1 > above),
-            1.0 - above,
-            ALLOWANCE,
-            EFFECT,
-        );
+        let own = share(all.iter().map(|(own, ..)| own.1 > above), 1.0 - above, ALLOWANCE, EFFECT);
         assert_eq!(judge(&own), Verdict::Pass, "{own:?}");
     }
 }
@@ -158,8 +123,5 @@ fn the_noise_of_a_flat_model_is_all_of_its_slopes() {
     let differences: Vec<f64> = all.iter().map(|(added, all)| all - added).collect();
     let seen = Sample::of(&differences);
     let mean = all.iter().map(|(_, all)| all).sum::<f64>() / SEEDS as f64;
-    assert!(
-        seen.mean.abs() < 4.0 * seen.se && seen.se < 0.05 * mean,
-        "{seen:?} {mean}"
-    );
+    assert!(seen.mean.abs() < 4.0 * seen.se && seen.se < 0.05 * mean, "{seen:?} {mean}");
 }

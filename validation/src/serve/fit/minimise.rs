@@ -42,11 +42,7 @@ fn descend(surface: &ChiSquare, fixed: &[Option<f64>], free: &[usize], start: Ve
         let slope = DVector::from_iterator(moving.len(), moving.iter().map(|k| gradient[*k]));
         let damped = DMatrix::from_fn(moving.len(), moving.len(), |i, j| {
             let own = curvature[(moving[i], moving[j])];
-            if i == j {
-                own * (1.0 + damping) + f64::MIN_POSITIVE
-            } else {
-                own
-            }
+            if i == j { own * (1.0 + damping) + f64::MIN_POSITIVE } else { own }
         });
         let Some(step) = damped.cholesky().map(|solver| solver.solve(&slope)) else {
             damping *= 10.0;
@@ -56,11 +52,7 @@ fn descend(surface: &ChiSquare, fixed: &[Option<f64>], free: &[usize], start: Ve
         for (k, step) in moving.iter().zip(step.iter()) {
             next[*k] = (next[*k] - step).clamp(-1.0, 1.0);
         }
-        let moved = next
-            .iter()
-            .zip(&place)
-            .map(|(a, b)| (a - b).abs())
-            .fold(0.0, f64::max);
+        let moved = next.iter().zip(&place).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         let found = surface.at(&next);
         if found < value {
             (place, value) = (next, found);
@@ -78,10 +70,7 @@ fn descend(surface: &ChiSquare, fixed: &[Option<f64>], free: &[usize], start: Ve
 
 fn best_of_grid(surface: &ChiSquare, fixed: &[Option<f64>], free: &[usize]) -> Vec<f64> {
     let along = STARTS[free.len()];
-    let mut best = (
-        f64::INFINITY,
-        fixed.iter().map(|fixed| fixed.unwrap_or(0.0)).collect::<Vec<_>>(),
-    );
+    let mut best = (f64::INFINITY, fixed.iter().map(|fixed| fixed.unwrap_or(0.0)).collect::<Vec<_>>());
     for k in 0..along.pow(free.len() as u32) {
         let mut place = best.1.clone();
         for (digit, axis) in free.iter().enumerate() {

@@ -21,9 +21,7 @@ const WIDE: f64 = 1.96;
 pub fn places(data: &[Datum]) -> Vec<Datum> {
     let mut all = Vec::new();
     for (set, column) in kinds(data) {
-        let here = data
-            .iter()
-            .filter(|datum| (datum.set, &datum.column) == (set, &column));
+        let here = data.iter().filter(|datum| (datum.set, &datum.column) == (set, &column));
         let last = here.map(|datum| datum.time).fold(0.0, f64::max);
         all.extend((0..=TIMES).map(|k| Datum::place(set, &column, last * k as f64 / TIMES as f64)));
     }
@@ -41,10 +39,7 @@ fn mean(model: &Model<'_>, values: &[f64], replicas: u64, watch: &Watch<'_>) -> 
         (watch.done)();
         found
     };
-    let rows: Vec<_> = (0..replicas)
-        .into_par_iter()
-        .map(one)
-        .collect::<Result<_, String>>()?;
+    let rows: Vec<_> = (0..replicas).into_par_iter().map(one).collect::<Result<_, String>>()?;
     let n = rows.len() as f64;
     let of = |place: usize| {
         let mean = rows.iter().map(|row| row[place][0]).sum::<f64>() / n;
@@ -69,13 +64,8 @@ pub fn best_curves(
     for (length, way) in axes.eigenvalues.iter().zip(axes.eigenvectors.column_iter()) {
         let side = |sign: f64| {
             let step = sign * length.max(0.0).sqrt();
-            let place: Vec<f64> = fit
-                .best
-                .place
-                .iter()
-                .zip(way.iter())
-                .map(|(p, way)| p + step * way)
-                .collect();
+            let place: Vec<f64> =
+                fit.best.place.iter().zip(way.iter()).map(|(p, way)| p + step * way).collect();
             mean(model, &fit.values(&place), replicas, watch)
         };
         let (above, below) = (side(1.0)?, side(-1.0)?);
@@ -99,18 +89,11 @@ pub fn figures(
 ) -> Vec<(String, Figure)> {
     let mut all = Vec::new();
     for (set, name) in names.iter().enumerate() {
-        let of_set: Vec<_> = kinds(data)
-            .into_iter()
-            .filter(|kind| kind.0 == set)
-            .map(|kind| kind.1)
-            .collect();
+        let of_set: Vec<_> =
+            kinds(data).into_iter().filter(|kind| kind.0 == set).map(|kind| kind.1).collect();
         let here = |datum: &Datum, column: &String| datum.set == set && datum.column == *column;
         let curve = |column: &String| {
-            let own: Vec<_> = places
-                .iter()
-                .zip(curves)
-                .filter(|(place, _)| here(place, column))
-                .collect();
+            let own: Vec<_> = places.iter().zip(curves).filter(|(place, _)| here(place, column)).collect();
             Curve {
                 label: format!("{column}, best fit"),
                 x: own.iter().map(|(place, _)| place.time).collect(),
@@ -129,11 +112,7 @@ pub fn figures(
                 y_error: Some(each(&|k| data[k].u)),
             }
         };
-        let stem = if names.len() == 1 {
-            String::new()
-        } else {
-            format!("_{}", set + 1)
-        };
+        let stem = if names.len() == 1 { String::new() } else { format!("_{}", set + 1) };
         all.push((
             format!("points{stem}"),
             Figure {
@@ -172,9 +151,7 @@ fn profile_of(fit: &Fit, axis: usize) -> (String, Figure) {
     let (range, profile) = (&fit.ranges[axis], &fit.profiles[axis]);
     let [(_, inner), (_, outer)] = levels();
     // Far beyond the 95 % interval there is nothing to see.
-    let near: Vec<usize> = (0..profile.place.len())
-        .filter(|k| profile.rise[*k] <= 3.0 * outer)
-        .collect();
+    let near: Vec<usize> = (0..profile.place.len()).filter(|k| profile.rise[*k] <= 3.0 * outer).collect();
     let x: Vec<f64> = near.iter().map(|k| fit.value(axis, profile.place[*k])).collect();
     let ends = [x.first(), x.last()].map(|end| end.copied().unwrap_or(f64::NAN));
     let level = |name: &str, level: f64| Curve {
@@ -228,8 +205,5 @@ fn region_of(fit: &Fit, axes: [usize; 2]) -> (String, Figure) {
         }],
         ..Figure::default()
     };
-    (
-        format!("region_{}_{}", fit.ranges[a].name(), fit.ranges[b].name()),
-        figure,
-    )
+    (format!("region_{}_{}", fit.ranges[a].name(), fit.ranges[b].name()), figure)
 }

@@ -92,13 +92,10 @@ pub fn profile(best: &Best, axis: usize) -> Profile {
     let even = (0..PLACES).map(|k| -1.0 + 2.0 * k as f64 / (PLACES - 1) as f64);
     let mut place: Vec<f64> = even.chain([best.place[axis]]).collect();
     place.sort_by(f64::total_cmp);
-    let mut found: Vec<Rise> = (place.iter())
-        .map(|place| Rise::along(best, axis, *place, &[&best.place]))
-        .collect();
+    let mut found: Vec<Rise> =
+        (place.iter()).map(|place| Rise::along(best, axis, *place, &[&best.place])).collect();
     let last = place.len() - 1;
-    let pairs = (0..last)
-        .map(|k| (k, k + 1))
-        .chain((0..last).rev().map(|k| (k + 1, k)));
+    let pairs = (0..last).map(|k| (k, k + 1)).chain((0..last).rev().map(|k| (k + 1, k)));
     for (from, to) in pairs.filter(|_| best.place.len() > 1) {
         let next = Rise::along(best, axis, place[to], &[&found[from].at]);
         if next.own < found[to].own {
@@ -139,9 +136,7 @@ const JUMP: f64 = 0.01;
 
 /// Where a profile is below `level`: from its outermost crossing on either side, so that a second valley is inside.
 pub fn interval(best: &Best, axis: usize, profile: &Profile, level: f64) -> Interval {
-    let inside: Vec<usize> = (0..profile.place.len())
-        .filter(|k| profile.rise[*k] <= level)
-        .collect();
+    let inside: Vec<usize> = (0..profile.place.len()).filter(|k| profile.rise[*k] <= level).collect();
     let last = profile.place.len() - 1;
     let (first_in, last_in) = match (inside.first(), inside.last()) {
         (Some(first), Some(last)) => (*first, *last),
@@ -171,12 +166,7 @@ pub fn interval(best: &Best, axis: usize, profile: &Profile, level: f64) -> Inte
         true => (1.0, false),
         false => crossing(last_in, last_in + 1),
     };
-    Interval {
-        low,
-        high,
-        open,
-        jumps: [low_jumps, high_jumps],
-    }
+    Interval { low, high, open, jumps: [low_jumps, high_jumps] }
 }
 
 /// Where the region of two parameters, `axes`, ends in every direction from the best place: a closed curve, cut at the edges
@@ -209,11 +199,7 @@ pub fn contour(best: &Best, axes: [usize; 2], level: f64) -> Vec<[f64; 2]> {
         let (mut inner, mut outer) = (0.0, most);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (inner + outer);
-            *(if rise(point(middle)) <= level {
-                &mut inner
-            } else {
-                &mut outer
-            }) = middle;
+            *(if rise(point(middle)) <= level { &mut inner } else { &mut outer }) = middle;
         }
         point(inner)
     };

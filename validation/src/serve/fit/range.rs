@@ -27,10 +27,7 @@ impl Range {
         let (set, text) = match text.split_once(':') {
             Some((set, rest)) if !set.contains('=') => {
                 let number = set.trim().parse().ok().filter(|number| *number > 0);
-                (
-                    Some(number.ok_or_else(|| format!("{set:?} is no set of points; {SHAPE}"))?),
-                    rest,
-                )
+                (Some(number.ok_or_else(|| format!("{set:?} is no set of points; {SHAPE}"))?), rest)
             }
             _ => (None, text),
         };
@@ -38,33 +35,24 @@ impl Range {
         let (from, to) = (ends.split_once(':')).ok_or_else(|| format!("{ends:?} is no range; {SHAPE}"))?;
         let number = |text: &str| match text.trim().parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(number),
-            _ => Err(format!(
-                "{text:?} is no end of a range; a finite number is allowed: {SHAPE}"
-            )),
+            _ => Err(format!("{text:?} is no end of a range; a finite number is allowed: {SHAPE}")),
         };
         let (from, to) = (number(from)?, number(to)?);
         match from < to {
-            true => Ok(Self {
-                key: key.to_owned(),
-                set,
-                from,
-                to,
-            }),
+            true => Ok(Self { key: key.to_owned(), set, from, to }),
             false => Err(format!("{from}:{to} is no range; FROM < TO is allowed")),
         }
     }
 
     /// As it is given: `interaction.alpha`, `2:interaction.alpha`.
     pub fn label(&self) -> String {
-        self.set
-            .map_or_else(|| self.key.clone(), |set| format!("{set}:{}", self.key))
+        self.set.map_or_else(|| self.key.clone(), |set| format!("{set}:{}", self.key))
     }
 
     /// The last word of the key, for sentences and names of files: `alpha`, `alpha_2`.
     pub fn name(&self) -> String {
         let last = self.key.rsplit('.').next().unwrap_or(&self.key);
-        self.set
-            .map_or_else(|| last.to_owned(), |set| format!("{last}_{set}"))
+        self.set.map_or_else(|| last.to_owned(), |set| format!("{last}_{set}"))
     }
 
     /// Whether the scene of this set, counted from 0, has it.
@@ -84,11 +72,7 @@ impl Range {
 
     /// The value of a place on that scale, never outside the range.
     pub fn value(&self, scaled: f64) -> f64 {
-        let value = if self.is_logarithmic() {
-            scaled.exp()
-        } else {
-            scaled
-        };
+        let value = if self.is_logarithmic() { scaled.exp() } else { scaled };
         value.clamp(self.from, self.to)
     }
 
@@ -124,15 +108,9 @@ mod tests {
         let of_all = Range::parse("interaction.alpha=0.05:5").unwrap();
         let own = Range::parse("2:interaction.alpha=0.05:5").unwrap();
         assert_eq!((own.set, own.key.as_str()), (Some(2), "interaction.alpha"));
-        assert_eq!(
-            (own.label().as_str(), own.name().as_str()),
-            ("2:interaction.alpha", "alpha_2")
-        );
+        assert_eq!((own.label().as_str(), own.name().as_str()), ("2:interaction.alpha", "alpha_2"));
         assert_eq!([0, 1, 2].map(|set| own.is_of(set)), [false, true, false]);
-        assert_eq!(
-            (of_all.label().as_str(), of_all.is_of(7)),
-            ("interaction.alpha", true)
-        );
+        assert_eq!((of_all.label().as_str(), of_all.is_of(7)), ("interaction.alpha", true));
     }
 
     #[test]

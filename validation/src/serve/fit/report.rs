@@ -105,12 +105,7 @@ pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
     let pairs: Vec<_> = residuals.iter().map(|r| (r.simulated, r.measured)).collect();
     let relative = |r: &Residual| (r.u / r.measured).powi(2);
     let sigma_e = (residuals.iter().map(relative).sum::<f64>() / residuals.len() as f64).sqrt();
-    let rows = |matrix: &DMatrix<f64>| {
-        matrix
-            .row_iter()
-            .map(|row| row.iter().copied().collect())
-            .collect()
-    };
+    let rows = |matrix: &DMatrix<f64>| matrix.row_iter().map(|row| row.iter().copied().collect()).collect();
     Report {
         warnings: warnings(fit, &parameters, &correlation, p_value),
         parameters,
@@ -140,10 +135,7 @@ fn warnings(
     let mut all = Vec::new();
     for range in &fit.ranges {
         let found = &parameters[&range.label()];
-        let ends = [
-            (found.ends_at_edge[0], "lower", range.from),
-            (found.ends_at_edge[1], "upper", range.to),
-        ];
+        let ends = [(found.ends_at_edge[0], "lower", range.from), (found.ends_at_edge[1], "upper", range.to)];
         if found.ends_at_edge == [true, true] {
             all.push(format!(
                 "{}: its 95 % interval is its whole range, {} to {}: the points say nothing of it there",
@@ -179,10 +171,7 @@ fn warnings(
              too small; the intervals say nothing then"
         ));
     }
-    for (cause, what) in [
-        (REPLICAS, "more --replicas make"),
-        (EMULATOR, "a narrower --over range makes"),
-    ] {
+    for (cause, what) in [(REPLICAS, "more --replicas make"), (EMULATOR, "a narrower --over range makes")] {
         // Noise of the replicas is in the curves and in their slopes.
         let share = match cause {
             REPLICAS => fit.best.share(cause).max(fit.feigned()),
@@ -202,27 +191,13 @@ fn warnings(
 /// `residuals.csv`: each point with the best model.
 pub fn residuals_csv(report: &Report, times: &[&str]) -> Result<String, String> {
     let mut rows = vec![
-        [
-            "set",
-            "time_unit",
-            "time",
-            "column",
-            "measured",
-            "simulated",
-            "residual",
-            "u",
-        ]
-        .map(String::from)
-        .to_vec(),
+        ["set", "time_unit", "time", "column", "measured", "simulated", "residual", "u"]
+            .map(String::from)
+            .to_vec(),
     ];
     rows.extend(report.residuals.iter().map(|r| {
         let numbers = [r.measured, r.simulated, r.residual, r.u].map(|number| number.to_string());
-        let place = [
-            r.set.to_string(),
-            times[r.set].to_owned(),
-            r.time.to_string(),
-            r.column.clone(),
-        ];
+        let place = [r.set.to_string(), times[r.set].to_owned(), r.time.to_string(), r.column.clone()];
         place.into_iter().chain(numbers).collect()
     }));
     csv_of(&rows)
@@ -233,11 +208,7 @@ pub fn profiles_csv(fit: &Fit) -> Result<String, String> {
     let mut rows = vec![["parameter", "value", "rise_of_chi2"].map(String::from).to_vec()];
     for (axis, profile) in fit.profiles.iter().enumerate() {
         rows.extend(profile.place.iter().zip(&profile.rise).map(|(place, rise)| {
-            vec![
-                fit.ranges[axis].label(),
-                fit.value(axis, *place).to_string(),
-                rise.to_string(),
-            ]
+            vec![fit.ranges[axis].label(), fit.value(axis, *place).to_string(), rise.to_string()]
         }));
     }
     csv_of(&rows)
@@ -246,15 +217,7 @@ pub fn profiles_csv(fit: &Fit) -> Result<String, String> {
 /// `design.csv`: each point that could be measured, what the measured ones leave of it, and what it would leave of the
 /// parameters.
 pub fn design_csv(fit: &Fit, candidates: &[Candidate], times: &[&str]) -> Result<String, String> {
-    let head = [
-        "set",
-        "time_unit",
-        "time",
-        "column",
-        "concentration_per_cm3",
-        "u",
-        "spread",
-    ];
+    let head = ["set", "time_unit", "time", "column", "concentration_per_cm3", "u", "spread"];
     let own = (fit.ranges.iter()).map(|range| format!("u_{}_with_it", range.name()));
     let mut rows: Vec<Vec<String>> = vec![head.into_iter().map(String::from).chain(own).collect()];
     rows.extend(candidates.iter().map(|one| {
@@ -266,10 +229,7 @@ pub fn design_csv(fit: &Fit, candidates: &[Candidate], times: &[&str]) -> Result
             one.concentration_per_cm3.map_or(String::new(), |n| n.to_string()),
         ];
         let numbers = [one.u, one.spread].into_iter().chain(one.leaves.iter().copied());
-        place
-            .into_iter()
-            .chain(numbers.map(|number| number.to_string()))
-            .collect()
+        place.into_iter().chain(numbers.map(|number| number.to_string())).collect()
     }));
     csv_of(&rows)
 }

@@ -40,11 +40,7 @@ pub struct Variant {
 }
 
 /// The scene as it is written.
-pub const AS_WRITTEN: Variant = Variant {
-    steps: 1,
-    rods: 1,
-    one_aspect_ratio: false,
-};
+pub const AS_WRITTEN: Variant = Variant { steps: 1, rods: 1, one_aspect_ratio: false };
 
 /// Several scenes with parameters that they share or have each for itself.
 #[derive(Clone, Debug)]
@@ -82,11 +78,7 @@ const KINKED: u64 = 5000;
 impl Scenes {
     /// Checks every scene at all corners of the ranges. On error, which scene, which values, and why.
     pub fn new(sets: Vec<Set>, ranges: Vec<Range>) -> Result<Self, String> {
-        let mut scenes = Self {
-            steps: vec![0; sets.len()],
-            sets,
-            ranges,
-        };
+        let mut scenes = Self { steps: vec![0; sets.len()], sets, ranges };
         for set in 0..scenes.sets.len() {
             for corner in scenes.corners() {
                 let scene = scenes.scene(set, &corner)?;
@@ -99,10 +91,8 @@ impl Scenes {
 
     /// Refuses to fit the interaction of rods that never disturb each other: what their curves say of it is nothing.
     fn says_something(&self, set: usize, scene: &Scene) -> Result<(), String> {
-        let fitted = self
-            .ranges
-            .iter()
-            .find(|range| range.is_of(set) && range.key.starts_with("interaction."));
+        let fitted =
+            self.ranges.iter().find(|range| range.is_of(set) && range.key.starts_with("interaction."));
         match (fitted, apart(scene)) {
             (Some(range), Some(why)) => Err(format!(
                 "{}: --over {}: {why}: such rods do not disturb each other in this model, but by the error of a time step, and points of \
@@ -162,24 +152,10 @@ impl Scenes {
 
     /// The scene of a set with these values, as its file has it otherwise.
     pub fn scene(&self, set: usize, values: &[f64]) -> Result<Scene, String> {
-        let Set {
-            source,
-            text,
-            starts,
-            settings,
-            seed,
-            ..
-        } = &self.sets[set];
-        let own = || {
-            self.ranges
-                .iter()
-                .zip(values)
-                .filter(|(range, _)| range.is_of(set))
-        };
-        let fitted = own().map(|(range, value)| Setting {
-            key: range.key.clone(),
-            value: Value::Float(*value),
-        });
+        let Set { source, text, starts, settings, seed, .. } = &self.sets[set];
+        let own = || self.ranges.iter().zip(values).filter(|(range, _)| range.is_of(set));
+        let fitted =
+            own().map(|(range, value)| Setting { key: range.key.clone(), value: Value::Float(*value) });
         let settings: Vec<_> = settings.iter().cloned().chain(fitted).collect();
         let said = || {
             let pairs = own().map(|(range, value)| format!(" {}={value}", range.label()));
@@ -196,9 +172,7 @@ impl Scenes {
     /// The plans of all scenes with these values that reach the last of these times (in the unit of each set), with an
     /// output in every step.
     pub fn plans(&self, values: &[f64], data: &[Datum], variant: Variant) -> Result<Vec<Plan>, String> {
-        (0..self.sets.len())
-            .map(|set| self.plan(set, values, data, variant))
-            .collect()
+        (0..self.sets.len()).map(|set| self.plan(set, values, data, variant)).collect()
     }
 
     fn plan(&self, set: usize, values: &[f64], data: &[Datum], variant: Variant) -> Result<Plan, String> {
@@ -209,9 +183,7 @@ impl Scenes {
             refused("has no period: times as t_s or strain are allowed, not t_over_T".into())
         })?;
         let here = data.iter().filter(|datum| datum.set == set);
-        let last = here
-            .map(|datum| (datum.time + OUTER * datum.u_time) / per_unit)
-            .fold(0.0, f64::max);
+        let last = here.map(|datum| (datum.time + OUTER * datum.u_time) / per_unit).fold(0.0, f64::max);
         // One output more than the last point needs, for the cubic.
         let kinked = scene.interaction.is_none() && scene.particles.common_start_deg().is_some();
         let by_strain = scene.time.strain.is_some();
@@ -233,10 +205,8 @@ impl Scenes {
         }
         let needed = |observable: &Observable| {
             let mut channels = observable.channels();
-            channels.any(|channel| {
-                data.iter()
-                    .any(|datum| datum.set == set && datum.column == channel.name())
-            })
+            channels
+                .any(|channel| data.iter().any(|datum| datum.set == set && datum.column == channel.name()))
         };
         scene.output.observables = Observable::ALL.into_iter().filter(needed).collect();
         scene.output.rods_at.clear();
@@ -307,18 +277,12 @@ mod tests {
     fn parallel_rods_do_not_disturb_each_other_while_they_are_alike() {
         let said = |theta_deg: f64, sd: f64| {
             let mut scene = Scene::default();
-            scene.particles.orientation = Orientation::Given {
-                phi_deg: 30.0,
-                theta_deg,
-            };
+            scene.particles.orientation = Orientation::Given { phi_deg: 30.0, theta_deg };
             scene.particles.aspect_ratio_sd_percent = sd;
             apart(&scene).is_some()
         };
         assert!([0.0, 45.0, 90.0, 180.0].iter().all(|theta| said(*theta, 0.0)));
-        assert_eq!(
-            [0.0, 45.0, 90.0].map(|theta| said(theta, 3.6)),
-            [true, false, true]
-        );
+        assert_eq!([0.0, 45.0, 90.0].map(|theta| said(theta, 3.6)), [true, false, true]);
         assert_eq!(apart(&Scene::default()), None);
     }
 }

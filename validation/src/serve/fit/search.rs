@@ -63,10 +63,7 @@ pub struct Watch<'a> {
 
 impl Watch<'_> {
     /// Nobody is told.
-    pub const SILENT: Self = Self {
-        planned: &|_| (),
-        done: &|| (),
-    };
+    pub const SILENT: Self = Self { planned: &|_| (), done: &|| () };
 }
 
 /// A fit.
@@ -150,9 +147,7 @@ pub fn search(problem: &Problem<'_>, watch: &Watch<'_>) -> Result<Fit, String> {
 }
 
 fn whole(ranges: &[Range]) -> Sides {
-    (ranges.iter())
-        .map(|range| (range.scaled(range.from), range.scaled(range.to)))
-        .collect()
+    (ranges.iter()).map(|range| (range.scaled(range.from), range.scaled(range.to))).collect()
 }
 
 /// The values of the parameters at a place of a box.
@@ -208,10 +203,8 @@ fn other_sides(fit: &Fit, whole: &Sides) -> Option<Sides> {
                 true => at(place + place.signum()),
                 false => at(place + 0.25 * (place - centre)),
             };
-            let wanted = (
-                end(far.low, far.open[0]).max(whole[axis].0),
-                end(far.high, far.open[1]).min(whole[axis].1),
-            );
+            let wanted =
+                (end(far.low, far.open[0]).max(whole[axis].0), end(far.high, far.open[1]).min(whole[axis].1));
             let wider = wanted.0 < low && far.open[0] || wanted.1 > high && far.open[1];
             change |= wider || wanted.1 - wanted.0 < WORTH * (high - low);
             wanted
@@ -277,20 +270,14 @@ impl Fit {
     /// The covariance of the parameters in their units, of the linear theory.
     pub fn covariance(&self) -> DMatrix<f64> {
         let scales = DVector::from_fn(self.sides.len(), |axis, _| self.scale(axis));
-        self.best
-            .covariance()
-            .component_mul(&(&scales * scales.transpose()))
+        self.best.covariance().component_mul(&(&scales * scales.transpose()))
     }
 
     /// The interval of a parameter at a confidence, in the parameter's unit. It is open at an end that is the edge of the
     /// parameter's range.
     pub fn interval(&self, axis: usize, confidence: f64) -> Interval {
         let found = interval(&self.best, axis, &self.profiles[axis], rise_of(confidence));
-        Interval {
-            low: self.value(axis, found.low),
-            high: self.value(axis, found.high),
-            ..found
-        }
+        Interval { low: self.value(axis, found.low), high: self.value(axis, found.high), ..found }
     }
 
     /// Whether every profile rises through the ends of its intervals without a jump, and those of 68 % lie inside those of 95 %.

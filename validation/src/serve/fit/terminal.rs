@@ -33,43 +33,26 @@ pub fn sentence(fit: &Fit, report: &Report) -> String {
 
 /// The budget and the shifts, for the terminal.
 pub fn table(fit: &Fit, report: &Report) -> String {
-    let names: String = fit
-        .ranges
-        .iter()
-        .map(|range| format!("  {:>18}", range.name()))
-        .collect();
+    let names: String = fit.ranges.iter().map(|range| format!("  {:>18}", range.name())).collect();
     let numbers = |all: &[f64]| all.iter().map(|u| format!("  {u:>18.2e}")).collect::<String>();
     let mut text = format!("{:<34}{names}\n", "standard uncertainty by");
     for part in &report.budget {
         text += &format!("{:<34}{}\n", part.source, numbers(&part.u));
     }
     for shift in &report.shifts {
-        let both = shift
-            .shift
-            .iter()
-            .zip(&shift.se)
-            .map(|(shift, se)| format!("{shift:.1e} ± {se:.0e}"));
+        let both = shift.shift.iter().zip(&shift.se).map(|(shift, se)| format!("{shift:.1e} ± {se:.0e}"));
         let both: String = both.map(|text| format!("  {text:>18}")).collect();
         text += &format!("{:<34}{both}\n", format!("shift by {}", shift.change));
     }
-    format!(
-        "{text}runs: {}, replicas at each value: {}\n",
-        report.runs, report.replicas
-    )
+    format!("{text}runs: {}, replicas at each value: {}\n", report.runs, report.replicas)
 }
 
 /// What further points would leave, for the terminal. `times` are the units of the sets' times.
 pub fn design(fit: &Fit, steps: &[Step], times: &[&str]) -> String {
     let head = "what further points would leave".to_owned();
     let all: Vec<String> = (steps.iter()).map(|step| added(&step.added, times)).collect();
-    let wide = all
-        .iter()
-        .map(|text| text.chars().count())
-        .fold(head.len(), usize::max);
-    let names = fit
-        .ranges
-        .iter()
-        .map(|range| format!("  {:>12}", format!("u({})", range.name())));
+    let wide = all.iter().map(|text| text.chars().count()).fold(head.len(), usize::max);
+    let names = fit.ranges.iter().map(|range| format!("  {:>12}", format!("u({})", range.name())));
     let mut text = format!("{head:<wide$}{}", names.collect::<String>());
     if fit.ranges.len() > 1 {
         text += "  correlation";
@@ -90,22 +73,12 @@ fn added(added: &Added, times: &[&str]) -> String {
     let at = |n: &Option<f64>| n.map_or(String::new(), |n| format!(", {n} per cm³"));
     match added {
         Added::Nothing => "the measured points".into(),
-        Added::AsMany {
-            set,
-            points,
-            concentration_per_cm3: n,
-        } => format!("{points} more{}, evenly over the scene{}", of_set(set), at(n)),
-        Added::Point {
-            set,
-            concentration_per_cm3: n,
-            column,
-            time,
-        } => format!(
-            "the best next point: {column}{} at {} = {time:.2}{}",
-            of_set(set),
-            times[*set],
-            at(n)
-        ),
+        Added::AsMany { set, points, concentration_per_cm3: n } => {
+            format!("{points} more{}, evenly over the scene{}", of_set(set), at(n))
+        }
+        Added::Point { set, concentration_per_cm3: n, column, time } => {
+            format!("the best next point: {column}{} at {} = {time:.2}{}", of_set(set), times[*set], at(n))
+        }
     }
 }
 

@@ -65,11 +65,7 @@ fn ranges(over: &[&str]) -> Vec<Range> {
 fn fit(data: &[Datum], over: &[&str], seed: u64, scatter: f64, most_replicas: u64) -> Fit {
     let model = model(seed, scatter);
     let problem = Problem {
-        measured: Measured {
-            data,
-            ranges: &ranges(over),
-            rods_over_measured: &[0.0],
-        },
+        measured: Measured { data, ranges: &ranges(over), rods_over_measured: &[0.0] },
         model: &model,
         most_replicas,
     };
@@ -92,18 +88,12 @@ fn without_noise_the_planted_values_are_found() {
     let found = fit(&exact(0.8, 1.0), &ONE, 1, 1e-9, 100);
     let interval = found.interval(0, 0.68);
     let value = found.value(0, found.best.place[0]);
-    assert!(
-        (value - 0.8).abs() < 0.01 * (interval.high - interval.low),
-        "{value} {interval:?}"
-    );
+    assert!((value - 0.8).abs() < 0.01 * (interval.high - interval.low), "{value} {interval:?}");
     let found = fit(&exact(0.3, 1.1), &TWO, 1, 1e-9, 100);
     for (axis, planted) in [0.3, 1.1].into_iter().enumerate() {
         let interval = found.interval(axis, 0.68);
         let value = found.value(axis, found.best.place[axis]);
-        assert!(
-            (value - planted).abs() < 0.01 * (interval.high - interval.low),
-            "{value} {interval:?}"
-        );
+        assert!((value - planted).abs() < 0.01 * (interval.high - interval.low), "{value} {interval:?}");
     }
 }
 
@@ -113,10 +103,7 @@ fn without_noise_the_planted_values_are_found() {
 fn the_levels_of_a_profile_are_those_of_its_intervals() {
     let [(inner, low), (outer, high)] = levels();
     assert_eq!((inner, outer), (0.68, 0.95));
-    assert!(
-        (low - 0.988_946).abs() < 1e-5 && (high - 3.841_459).abs() < 1e-5,
-        "{low} {high}"
-    );
+    assert!((low - 0.988_946).abs() < 1e-5 && (high - 3.841_459).abs() < 1e-5, "{low} {high}");
 }
 
 #[test]
@@ -124,11 +111,7 @@ fn another_minimum_of_the_range_is_seen() {
     let (data, model) = (points(0.3, 1.0, 0.01, 1), model(1, 1e-9));
     let look = |fit: &Fit| {
         let problem = Problem {
-            measured: Measured {
-                data: &data,
-                ranges: &fit.ranges,
-                rods_over_measured: &[0.0],
-            },
+            measured: Measured { data: &data, ranges: &fit.ranges, rods_over_measured: &[0.0] },
             model: &model,
             most_replicas: 20,
         };
@@ -136,15 +119,9 @@ fn another_minimum_of_the_range_is_seen() {
     };
     let found = fit(&data, &TWO, 1, 1e-9, 20);
     assert_eq!(look(&found), Ok(Vec::new()));
-    let over = |over: [&str; 2]| Fit {
-        ranges: ranges(&over),
-        ..found.clone()
-    };
+    let over = |over: [&str; 2]| Fit { ranges: ranges(&over), ..found.clone() };
     let said = look(&over(["a.rate=0.05:5", "a.frequency=0.95:9.4"])).unwrap_err();
-    assert!(
-        said.contains("a.frequency") && said.contains("as well by 8.99"),
-        "{said}"
-    );
+    assert!(said.contains("a.frequency") && said.contains("as well by 8.99"), "{said}");
     let unsearched = look(&over(["a.rate=0.05:5", "a.frequency=-900:1.25"]));
     assert!(unsearched.is_err() || unsearched.is_ok_and(|warnings| warnings[0].contains("too fast")));
     let mut off = found;
@@ -174,11 +151,7 @@ fn repeats(count: u64, over: &[&str], scatter: f64, most_replicas: u64) -> Vec<R
             })
         };
         let law = ChiSquared::new((TIMES - over.len()) as f64).unwrap();
-        Repeat {
-            inside: within(1.0),
-            inside_half: within(0.5),
-            p: law.sf(found.best.chi_square),
-        }
+        Repeat { inside: within(1.0), inside_half: within(0.5), p: law.sf(found.best.chi_square) }
     };
     use rayon::prelude::*;
     (0..count).into_par_iter().map(one).collect()
@@ -206,35 +179,16 @@ const EFFECT: f64 = 0.27;
 
 #[test]
 fn intervals_hold_the_planted_value_as_often_as_they_say() {
-    let enough = Design {
-        effect: EFFECT,
-        sd: (0.68_f64 * 0.32).sqrt(),
-    }
-    .samples();
+    let enough = Design { effect: EFFECT, sd: (0.68_f64 * 0.32).sqrt() }.samples();
     // Sampling noise that replicas do not quite outgrow, so that leaving it out would show. The case `fit-covers` has one key.
     let found = repeats(enough, &TWO, 0.02, 40);
     for (which, confidence) in [(0, 0.68), (1, 0.95)] {
-        let rule = share(
-            found.iter().map(|repeat| repeat.inside[which]),
-            confidence,
-            ALLOWANCE,
-            EFFECT,
-        );
+        let rule = share(found.iter().map(|repeat| repeat.inside[which]), confidence, ALLOWANCE, EFFECT);
         assert_eq!(judge(&rule), Verdict::Pass, "{rule:?}");
-        let half = share(
-            found.iter().map(|repeat| repeat.inside_half[which]),
-            confidence,
-            ALLOWANCE,
-            EFFECT,
-        );
+        let half = share(found.iter().map(|repeat| repeat.inside_half[which]), confidence, ALLOWANCE, EFFECT);
         assert_eq!(judge(&half), Verdict::Fail, "{half:?}");
     }
-    let rule = share(
-        found.iter().map(|repeat| repeat.p >= 0.05),
-        0.95,
-        ALLOWANCE,
-        EFFECT,
-    );
+    let rule = share(found.iter().map(|repeat| repeat.p >= 0.05), 0.95, ALLOWANCE, EFFECT);
     assert_eq!(judge(&rule), Verdict::Pass, "{rule:?}");
 }
 
@@ -275,9 +229,7 @@ fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
     let mean = offsets.iter().sum::<f64>() / replicas as f64;
     let square: f64 = offsets.iter().map(|offset| (offset - mean).powi(2)).sum();
     let shared = square / (replicas * (replicas - 1)) as f64;
-    let v = DMatrix::from_fn(TIMES, TIMES, |i, j| {
-        shared + if i == j { 0.05 * 0.05 } else { 0.0 }
-    });
+    let v = DMatrix::from_fn(TIMES, TIMES, |i, j| shared + if i == j { 0.05 * 0.05 } else { 0.0 });
     let x = DMatrix::from_fn(TIMES, 2, |i, j| if j == 0 { 1.0 } else { 1.0 + data[i].time });
     let d = DVector::from_iterator(TIMES, data.iter().map(|datum| datum.value - mean));
     let inverse = v.try_inverse().unwrap();
@@ -293,14 +245,8 @@ fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
         let u = fit.best.covariance()[(axis, axis)].sqrt() * fit.scale(axis);
         assert!(close(u, se), "{axis}: {u} {se}");
         let ends = fit.interval(axis, 0.95);
-        assert!(
-            close(ends.low, expected[axis] - 1.959_964 * se),
-            "{axis}: {ends:?} {se}"
-        );
-        assert!(
-            close(ends.high, expected[axis] + 1.959_964 * se),
-            "{axis}: {ends:?} {se}"
-        );
+        assert!(close(ends.low, expected[axis] - 1.959_964 * se), "{axis}: {ends:?} {se}");
+        assert!(close(ends.high, expected[axis] + 1.959_964 * se), "{axis}: {ends:?} {se}");
     }
 
     // The band of the best curve is what the covariance leaves of a + b (1 + t), beside the replicas' own.
@@ -309,22 +255,13 @@ fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
         let row = x.row(k);
         let variance = shared + (row * &covariance * row.transpose())[(0, 0)];
         let expected = 1.959_964 * variance.sqrt();
-        assert!(
-            (half_band / expected - 1.0).abs() < 0.03,
-            "{k}: {half_band} {expected}"
-        );
+        assert!((half_band / expected - 1.0).abs() < 0.03, "{k}: {half_band} {expected}");
         let simulated = fit.emulator.at(&fit.best.place)[k];
         assert!((value - simulated).abs() < 1e-3, "{k}: {value} {simulated}");
     }
     for (k, row) in residuals(&fit, &data).iter().enumerate() {
-        assert_eq!(
-            (row.measured, row.residual),
-            (data[k].value, data[k].value - row.simulated)
-        );
-        assert!(
-            (row.simulated - curves[k].0).abs() < 1e-3 && row.u >= 0.05,
-            "{row:?}"
-        );
+        assert_eq!((row.measured, row.residual), (data[k].value, data[k].value - row.simulated));
+        assert!((row.simulated - curves[k].0).abs() < 1e-3 && row.u >= 0.05, "{row:?}");
     }
 
     // The region of both is an ellipse, and closed.
@@ -332,19 +269,13 @@ fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
     let inverse = covariance.try_inverse().unwrap();
     let ring = contour(&fit.best, [0, 1], level);
     let [first, last] = [ring[0], ring[ring.len() - 1]];
-    assert!(
-        (first[0] - last[0]).abs().max((first[1] - last[1]).abs()) < 1e-12,
-        "{first:?} {last:?}"
-    );
+    assert!((first[0] - last[0]).abs().max((first[1] - last[1]).abs()) < 1e-12, "{first:?} {last:?}");
     for point in &ring {
         let values = fit.values(point);
         let away = DVector::from_fn(2, |k, _| values[k] - expected[k]);
         let rise = (away.transpose() * &inverse * &away)[0];
         // Ends are known to 0.02 of a standard uncertainty, as above, and this level is at 1.5 of them.
-        assert!(
-            (rise / level - 1.0).abs() < 2.0 * 0.02 / 1.5,
-            "{point:?}: {rise} {level}"
-        );
+        assert!((rise / level - 1.0).abs() < 2.0 * 0.02 / 1.5, "{point:?}: {rise} {level}");
     }
     // A level beyond the box ends at its edges.
     for [x, y] in contour(&fit.best, [0, 1], 1e6) {

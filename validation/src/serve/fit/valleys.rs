@@ -12,31 +12,21 @@ fn ranges(over: [&str; 2]) -> Vec<Range> {
 
 fn points(values: &[(f64, f64)]) -> Vec<Datum> {
     (values.iter().enumerate())
-        .map(|(k, (value, u))| Datum {
-            value: *value,
-            u: *u,
-            ..Datum::place(0, "x1", k as f64)
-        })
+        .map(|(k, (value, u))| Datum { value: *value, u: *u, ..Datum::place(0, "x1", k as f64) })
         .collect()
 }
 
 /// b² tells the size of b, a b its sign given that of a, and a is hardly told: as a passes 0, b changes its sign.
 fn two_signs(values: &[f64]) -> Result<Replica, String> {
     let (a, b) = (values[0], values[1]);
-    Ok(Box::new(move |_| {
-        Ok([b * b, a * b, a].map(|value| [value; 3]).to_vec())
-    }))
+    Ok(Box::new(move |_| Ok([b * b, a * b, a].map(|value| [value; 3]).to_vec())))
 }
 
 fn of_two_signs() -> Fit {
     let (ranges, basis) = (ranges(["a.a=-1:1", "a.b=-1:1"]), Basis::new(2));
     let found = coefficients(&basis, &two_signs, |node| node.to_vec(), 0..2, &|| ()).unwrap();
     let data = points(&[(0.49, 0.01), (-0.35, 0.05), (-0.5, 0.6)]);
-    let measured = Measured {
-        data: &data,
-        ranges: &ranges,
-        rods_over_measured: &[0.0],
-    };
+    let measured = Measured { data: &data, ranges: &ranges, rods_over_measured: &[0.0] };
     fitted(&measured, &basis, &vec![(-1.0, 1.0); 2], &found).unwrap()
 }
 

@@ -47,14 +47,7 @@ impl<'a> Collector<'a> {
             _ => rods,
         };
         let rows = problem.certified.rows.len();
-        Self {
-            problem,
-            rods,
-            ahead,
-            lines: vec![None; ahead + rows],
-            last: 0,
-            rows: vec![Vec::new(); rows],
-        }
+        Self { problem, rods, ahead, lines: vec![None; ahead + rows], last: 0, rows: vec![Vec::new(); rows] }
     }
 
     /// Adds the row with these keys. `Err` has the key that is wrong, and why.
@@ -86,10 +79,7 @@ impl<'a> Collector<'a> {
                 true => Ok(found as usize),
                 false => Err((
                     key,
-                    format!(
-                        "{name} = {found}; whole numbers from 0 to {} are asked for",
-                        count - 1
-                    ),
+                    format!("{name} = {found}; whole numbers from 0 to {} are asked for", count - 1),
                 )),
             }
         };
@@ -118,10 +108,7 @@ impl<'a> Collector<'a> {
             _ if found == 0.0 => Ok(None),
             Some(at) => Err((
                 0,
-                format!(
-                    "time_s = {found} is not asked for; the nearest that is asked for is {}",
-                    times[at]
-                ),
+                format!("time_s = {found} is not asked for; the nearest that is asked for is {}", times[at]),
             )),
             None => Err((0, format!("time_s = {found} is not asked for"))),
         }
@@ -133,14 +120,9 @@ impl<'a> Collector<'a> {
         if let Some(first) = lines.iter().position(Option::is_none) {
             let names = self.problem.problem.kind.keys();
             let keys = &self.problem.certified.rows[first];
-            let key: Vec<_> = (names.iter().zip(keys))
-                .map(|(name, key)| format!("{name} = {key}"))
-                .collect();
-            let message = format!(
-                "ends without {} ({missing} of {} rows are missing)",
-                key.join(", "),
-                lines.len()
-            );
+            let key: Vec<_> = (names.iter().zip(keys)).map(|(name, key)| format!("{name} = {key}")).collect();
+            let message =
+                format!("ends without {} ({missing} of {} rows are missing)", key.join(", "), lines.len());
             return Err(ReadError::at(path, last, 1, message));
         }
         Ok(Answer {

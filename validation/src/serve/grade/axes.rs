@@ -10,10 +10,7 @@ pub struct Axes {
 
 impl Default for Axes {
     fn default() -> Self {
-        Self {
-            theirs: [0, 1, 2],
-            sign: [1.0; 3],
-        }
+        Self { theirs: [0, 1, 2], sign: [1.0; 3] }
     }
 }
 
@@ -26,19 +23,14 @@ impl std::str::FromStr for Axes {
         let words: Vec<_> = text.split(',').map(str::trim).collect();
         for (k, word) in words.iter().enumerate() {
             let (sign, name) = word.strip_prefix('-').map_or((1.0, *word), |name| (-1.0, name));
-            let ours = ["gradient", "flow", "vorticity"]
-                .iter()
-                .position(|axis| *axis == name);
+            let ours = ["gradient", "flow", "vorticity"].iter().position(|axis| *axis == name);
             match ours {
                 Some(ours) if found[ours].is_none() => found[ours] = Some((k, sign)),
                 _ => return Err(allowed()),
             }
         }
         match (found, words.len()) {
-            ([Some(a), Some(b), Some(c)], 3) => Ok(Self {
-                theirs: [a.0, b.0, c.0],
-                sign: [a.1, b.1, c.1],
-            }),
+            ([Some(a), Some(b), Some(c)], 3) => Ok(Self { theirs: [a.0, b.0, c.0], sign: [a.1, b.1, c.1] }),
             _ => Err(allowed()),
         }
     }
@@ -53,34 +45,21 @@ impl Axes {
     /// The program's name of one of the problem's columns, and the sign that its values get: `p1` is `p2` where the
     /// program's second axis is the gradient. Columns without an axis keep their names.
     pub fn theirs(&self, column: &str) -> (String, f64) {
-        let tail = ["_se", "_per_s"]
-            .into_iter()
-            .find(|tail| column.ends_with(tail))
-            .unwrap_or("");
+        let tail = ["_se", "_per_s"].into_iter().find(|tail| column.ends_with(tail)).unwrap_or("");
         let stem = &column[..column.len() - tail.len()];
         let axis = |digit: u8| usize::from(digit.wrapping_sub(b'1'));
-        let digits = stem
-            .bytes()
-            .rev()
-            .take_while(|byte| (b'1'..=b'3').contains(byte))
-            .count();
+        let digits = stem.bytes().rev().take_while(|byte| (b'1'..=b'3').contains(byte)).count();
         let name = &stem[..stem.len() - digits];
         match stem.as_bytes()[name.len()..] {
             [i, j] => {
                 let (a, b) = (self.theirs[axis(i)], self.theirs[axis(j)]);
                 let sign = self.sign[axis(i)] * self.sign[axis(j)];
-                (
-                    format!("{name}{}{}{tail}", a.min(b) + 1, a.max(b) + 1),
-                    sign_of(sign, tail),
-                )
+                (format!("{name}{}{}{tail}", a.min(b) + 1, a.max(b) + 1), sign_of(sign, tail))
             }
             // x1 is a mean of |p_1|.
             [i] => {
                 let sign = if name == "x" { 1.0 } else { self.sign[axis(i)] };
-                (
-                    format!("{name}{}{tail}", self.theirs[axis(i)] + 1),
-                    sign_of(sign, tail),
-                )
+                (format!("{name}{}{tail}", self.theirs[axis(i)] + 1), sign_of(sign, tail))
             }
             _ => (column.to_owned(), 1.0),
         }
@@ -116,13 +95,7 @@ mod tests {
             assert_eq!(axes.theirs(ours), (theirs.to_owned(), sign));
             assert_eq!(Axes::default().theirs(ours), (ours.to_owned(), 1.0));
         }
-        for wrong in [
-            "",
-            "flow",
-            "flow,flow,vorticity",
-            "flow,gradient,up",
-            "flow,gradient,vorticity,flow",
-        ] {
+        for wrong in ["", "flow", "flow,flow,vorticity", "flow,gradient,up", "flow,gradient,vorticity,flow"] {
             assert!(wrong.parse::<Axes>().is_err(), "{wrong}");
         }
     }

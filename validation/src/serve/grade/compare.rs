@@ -36,44 +36,26 @@ pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
     let certified = |row: usize| &loaded.certified.rows[row][keys..];
     let error_of = |row: usize| match loaded.problem.metric {
         Metric::Angle => direction_error(&answer.rows[row], certified(row)),
-        Metric::Absolute => largest(
-            answer.rows[row]
-                .iter()
-                .zip(certified(row))
-                .map(|(a, b)| (a - b).abs()),
-        ),
+        Metric::Absolute => largest(answer.rows[row].iter().zip(certified(row)).map(|(a, b)| (a - b).abs())),
         Metric::Relative => relative(names, &answer.rows[row], certified(row)),
         Metric::StandardErrors => standard_errors(names, &answer.rows[row], certified(row)),
     };
-    let worst = (0..answer.rows.len())
-        .map(|row| (row, error_of(row)))
-        .reduce(|a, b| {
-            let worse = b.1.is_nan() || b.1 > a.1;
-            if worse && !a.1.is_nan() { b } else { a }
-        });
+    let worst = (0..answer.rows.len()).map(|row| (row, error_of(row))).reduce(|a, b| {
+        let worse = b.1.is_nan() || b.1 > a.1;
+        if worse && !a.1.is_nan() { b } else { a }
+    });
     let (row, error) = worst.unwrap_or((0, f64::NAN));
     let largest_se = largest_standard_error(names, answer);
-    let enough = loaded
-        .problem
-        .ensemble
-        .as_ref()
-        .map_or(f64::INFINITY, |ensemble| ensemble.largest_standard_error);
+    let enough =
+        loaded.problem.ensemble.as_ref().map_or(f64::INFINITY, |ensemble| ensemble.largest_standard_error);
     let directions = loaded.problem.metric == Metric::Angle;
     Compared {
         error,
         row,
         remark: remark(loaded, answer, row, error, largest_se),
-        length_drift: directions.then(|| {
-            largest(
-                answer
-                    .rows
-                    .iter()
-                    .map(|p| (Vector3::from_row_slice(p).norm() - 1.0).abs()),
-            )
-        }),
-        orbit_drift: couette_per_s(loaded)
-            .filter(|_| directions)
-            .map(|_| orbit_drift(loaded, answer)),
+        length_drift: directions
+            .then(|| largest(answer.rows.iter().map(|p| (Vector3::from_row_slice(p).norm() - 1.0).abs()))),
+        orbit_drift: couette_per_s(loaded).filter(|_| directions).map(|_| orbit_drift(loaded, answer)),
         phase_lost_per_period: couette_per_s(loaded)
             .filter(|_| directions)
             .and_then(|rate| phase_lost(loaded, answer, rate)),
@@ -83,13 +65,7 @@ pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
 
 /// The largest, or NaN where one is.
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |a: f64, b| {
-        if a.is_nan() || b.is_nan() {
-            f64::NAN
-        } else {
-            a.max(b)
-        }
-    })
+    values.fold(0.0, |a: f64, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) })
 }
 
 fn direction_error(p: &[f64], certified: &[f64]) -> f64 {
@@ -145,9 +121,7 @@ fn without_error(loaded: &LoadedProblem, answer: &Answer) -> Option<String> {
         let (_, se) = with_errors(names).find(|(_, se)| values[*se] <= 0.0)?;
         let place = format!("{}:{}", answer.path.display(), answer.lines[row]);
         let (name, found) = (&names[se], values[se]);
-        Some(format!(
-            "{place}: {name} = {found}; the mean of a random sample has a standard error above 0"
-        ))
+        Some(format!("{place}: {name} = {found}; the mean of a random sample has a standard error above 0"))
     };
     answer.rows.iter().enumerate().find_map(none)
 }
@@ -182,10 +156,7 @@ fn remark(
         let trace = values[a] + values[b] + values[c];
         // Six printed digits and an integrator's drift are less.
         if (trace - 1.0).abs() > 1e-3 {
-            return Some(format!(
-                "{}: the trace is {trace:.4}; are the columns in another order?",
-                place()
-            ));
+            return Some(format!("{}: the trace is {trace:.4}; are the columns in another order?", place()));
         }
     }
     None
@@ -225,7 +196,5 @@ fn phase_lost(loaded: &LoadedProblem, answer: &Answer, shear_rate_per_s: f64) ->
         let q = &loaded.certified.rows[*row][2..];
         q[0].hypot(q[1]) > 1e-6
     });
-    turning
-        .map(lost)
-        .reduce(|a, b| if b.abs() > a.abs() { b } else { a })
+    turning.map(lost).reduce(|a, b| if b.abs() > a.abs() { b } else { a })
 }

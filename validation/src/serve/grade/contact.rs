@@ -9,13 +9,7 @@ const MISTAKES: [(&str, Variant); 4] = [
     ("a kick with the wrong sign", kicked(-1.0)),
     ("no kick", kicked(0.0)),
     ("a kick to the other rod's velocity, not to the mean", kicked(2.0)),
-    (
-        "A.13 as printed",
-        Variant {
-            kick: 1.0,
-            printed: true,
-        },
-    ),
+    ("A.13 as printed", Variant { kick: 1.0, printed: true }),
 ];
 
 const fn kicked(kick: f64) -> Variant {
@@ -33,10 +27,7 @@ pub(super) fn near(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) ->
         let mut largest: f64 = 0.0;
         for (values, pair) in answer.rows.iter().zip(&inputs.rows) {
             let half = values.len() / 2;
-            for (k, expected) in answers(&gradient, &pair[1..], step_s, *variant)
-                .iter()
-                .enumerate()
-            {
+            for (k, expected) in answers(&gradient, &pair[1..], step_s, *variant).iter().enumerate() {
                 let found = values.get(k * half..(k + 1) * half)?;
                 let square = |of: &dyn Fn(usize) -> f64| (0..half).map(|i| of(i).powi(2)).sum::<f64>();
                 let off = square(&|i| found[i] - expected[i]) / square(&|i| expected[i]);

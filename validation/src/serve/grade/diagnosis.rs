@@ -56,15 +56,10 @@ pub(super) fn said(mut near: Vec<(f64, String)>, tolerance: f64) -> Option<Strin
     // Plane Couette flow is its own mirror image in axis 3: a reversal in the start is one in the answer.
     let found: Vec<_> = near.iter().map(|(_, name)| name.clone()).collect();
     near.retain(|(_, name)| {
-        !name
-            .strip_suffix(mistakes::IN_THE_START)
-            .is_some_and(|name| found.iter().any(|other| other == name))
+        !name.strip_suffix(mistakes::IN_THE_START).is_some_and(|name| found.iter().any(|other| other == name))
     });
     let names: Vec<_> = near.into_iter().map(|(_, name)| name).collect();
-    Some(format!(
-        "this is the curve of {}, to {nearest:.0e}",
-        names.join(" or of ")
-    ))
+    Some(format!("this is the curve of {}, to {nearest:.0e}", names.join(" or of ")))
 }
 
 /// The largest of the distances; `None` where one is missing or not finite.
@@ -78,11 +73,7 @@ fn rods(loaded: &LoadedProblem, answer: &Answer, setting: &Setting, mistake: &Mi
     let of_row = |(row, values): (usize, &Vec<f64>)| {
         let time = loaded.problem.times_s[row / count];
         let expected = mistake.direction(setting, &Vector3::from(loaded.start[row % count]), time)?;
-        Some(apart(
-            &Vector3::from_row_slice(values),
-            &expected,
-            mistake.has_length,
-        ))
+        Some(apart(&Vector3::from_row_slice(values), &expected, mistake.has_length))
     };
     largest(answer.rows.iter().enumerate().map(of_row))
 }

@@ -57,10 +57,7 @@ const ENDINGS: [&str; 5] = ["csv", "txt", "dat", "dump", "lammpstrj"];
 
 fn find(dir: &Path) -> Result<Found, ReadError> {
     let failed = |error: std::io::Error| ReadError::whole(dir, format!("cannot be read: {error}"));
-    let mut found = Found {
-        answer: None,
-        steps: Vec::new(),
-    };
+    let mut found = Found { answer: None, steps: Vec::new() };
     if !dir.exists() {
         return Ok(found);
     }
@@ -70,24 +67,15 @@ fn find(dir: &Path) -> Result<Found, ReadError> {
     }
     paths.sort();
     for path in paths {
-        let ending = path
-            .extension()
-            .and_then(|ending| ending.to_str())
-            .unwrap_or_default();
-        let stem = path
-            .file_stem()
-            .and_then(|stem| stem.to_str())
-            .unwrap_or_default();
+        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+        let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
         if !ENDINGS.contains(&ending) {
             continue;
         }
         if stem == "answer" {
             if let Some(other) = &found.answer {
                 let other = other.display();
-                return Err(ReadError::whole(
-                    &path,
-                    format!("there is {other} too; one of them is allowed"),
-                ));
+                return Err(ReadError::whole(&path, format!("there is {other} too; one of them is allowed")));
             }
             found.answer = Some(path);
         } else if let Some(number) = stem.strip_prefix("steps-") {
@@ -138,11 +126,7 @@ fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer, claim: Cl
     let compared = compare(loaded, answer);
     let within = compared.error <= loaded.problem.tolerance && !compared.too_little_data;
     let off = order_off(graded.observed_order, claim);
-    graded.verdict = if within && off.is_none() {
-        Verdict::Pass
-    } else {
-        Verdict::Fail
-    };
+    graded.verdict = if within && off.is_none() { Verdict::Pass } else { Verdict::Fail };
     graded.error = compared.error.is_finite().then_some(compared.error);
     graded.length_drift = compared.length_drift.filter(|drift| drift.is_finite());
     graded.orbit_drift = compared.orbit_drift.filter(|drift| drift.is_finite());
@@ -150,9 +134,7 @@ fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer, claim: Cl
     graded.diagnosis = diagnose(loaded, answer, compared.error);
     graded.note = match within {
         true => off,
-        false => compared
-            .remark
-            .or_else(|| Some(place(loaded, answer, compared.row))),
+        false => compared.remark.or_else(|| Some(place(loaded, answer, compared.row))),
     };
 }
 
@@ -167,11 +149,7 @@ pub(super) fn order_off(observed: Option<f64>, claim: Claim) -> Option<String> {
 fn place(loaded: &LoadedProblem, answer: &Answer, row: usize) -> String {
     let keys = loaded.problem.kind.keys();
     let values = &loaded.certified.rows[row];
-    let key: Vec<_> = keys
-        .iter()
-        .zip(values)
-        .map(|(name, value)| format!("{name} = {value}"))
-        .collect();
+    let key: Vec<_> = keys.iter().zip(values).map(|(name, value)| format!("{name} = {value}")).collect();
     let unit = match loaded.problem.metric {
         Metric::Angle => "rad",
         Metric::Absolute => "absolute",

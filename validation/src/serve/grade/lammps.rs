@@ -41,12 +41,7 @@ fn columns(header: &str) -> Result<Columns, String> {
         .or_else(of_compute)
         .ok_or("no quaternion: columns quatw quati quatj quatk or c_ID[1] to c_ID[4] are asked for")?;
     let shape = || Some([at("shapex")?, at("shapey")?, at("shapez")?]);
-    Ok(Columns {
-        count: names.len(),
-        id: at("id").ok_or("no column id")?,
-        quaternion,
-        shape: shape(),
-    })
+    Ok(Columns { count: names.len(), id: at("id").ok_or("no column id")?, quaternion, shape: shape() })
 }
 
 /// Reads a dump whose first line has been read. Rod k is the atom with the (k+1)-th smallest id.
@@ -101,17 +96,13 @@ pub(super) fn read(
 }
 
 fn value(lines: &mut Lines) -> Result<f64, ReadError> {
-    let line = lines
-        .next_line()?
-        .ok_or_else(|| lines.error(0, "the dump ends here"))?;
+    let line = lines.next_line()?.ok_or_else(|| lines.error(0, "the dump ends here"))?;
     number(line.trim()).map_err(|message| lines.error(1, message))
 }
 
 fn skip(lines: &mut Lines, count: usize) -> Result<(), ReadError> {
     for _ in 0..count {
-        lines
-            .next_line()?
-            .ok_or_else(|| lines.error(0, "the dump ends here"))?;
+        lines.next_line()?.ok_or_else(|| lines.error(0, "the dump ends here"))?;
     }
     Ok(())
 }
@@ -128,16 +119,10 @@ fn snapshot(
     // LAMMPS writes atoms in any order: by id they are the rods.
     let mut found = Vec::new();
     for _ in 0..atoms {
-        let line = lines
-            .next_line()?
-            .ok_or_else(|| lines.error(0, "the dump ends here"))?;
+        let line = lines.next_line()?.ok_or_else(|| lines.error(0, "the dump ends here"))?;
         let fields: Vec<_> = line.split_whitespace().collect();
         if fields.len() != columns.count {
-            let message = format!(
-                "{} fields; the snapshot has {} columns",
-                fields.len(),
-                columns.count
-            );
+            let message = format!("{} fields; the snapshot has {} columns", fields.len(), columns.count);
             return Err(lines.error(fields.len(), message));
         }
         let at = |column: usize| number(fields[column]).map_err(|message| lines.error(column + 1, message));

@@ -42,9 +42,7 @@ pub enum Foreign {
 impl Foreign {
     fn columns(self) -> &'static [&'static str] {
         match self {
-            Self::Fiberoripy => &[
-                "time_s", "a11", "a12", "a13", "a21", "a22", "a23", "a31", "a32", "a33",
-            ],
+            Self::Fiberoripy => &["time_s", "a11", "a12", "a13", "a21", "a22", "a23", "a31", "a32", "a33"],
             Self::Fiberpy => &["time_s", "a11", "a22", "a33", "a12", "a23", "a13"],
             Self::Openfoam => &["time_s", "a11", "a12", "a13", "a22", "a23", "a33"],
         }
@@ -81,25 +79,19 @@ pub struct Told {
 impl Layout {
     /// The layout of a file with this first line. `Err` has the field from 1, or 0, and what is wrong.
     pub fn find(first: &str, problem: &Problem, told: &Told) -> Result<Self, (usize, String)> {
-        let separator = [',', ';', '\t']
-            .into_iter()
-            .find(|letter| first.contains(*letter))
-            .unwrap_or(' ');
+        let separator = [',', ';', '\t'].into_iter().find(|letter| first.contains(*letter)).unwrap_or(' ');
         let header: Vec<_> = split(first.trim_start_matches('#').trim(), separator).collect();
         let first_is_row = header.iter().all(|field| field.parse::<f64>().is_ok());
         let wants_tensor = problem.kind == Kind::Tensor;
         let names: Vec<String> = match (&told.columns, told.foreign, first_is_row) {
             (Some(columns), _, _) => columns.clone(),
             (None, Some(foreign), _) => foreign.columns().iter().map(|name| (*name).to_owned()).collect(),
-            (None, None, false) => header
-                .iter()
-                .map(|name| known(name.trim_matches('"')).to_owned())
-                .collect(),
-            (None, None, true) if wants_tensor && header.len() == 10 => Foreign::Fiberoripy
-                .columns()
-                .iter()
-                .map(|name| (*name).to_owned())
-                .collect(),
+            (None, None, false) => {
+                header.iter().map(|name| known(name.trim_matches('"')).to_owned()).collect()
+            }
+            (None, None, true) if wants_tensor && header.len() == 10 => {
+                Foreign::Fiberoripy.columns().iter().map(|name| (*name).to_owned()).collect()
+            }
             (None, None, true) => {
                 let message = format!(
                     "there is no header; it must be {:?}, or --columns or --layout must say what the columns are",
@@ -109,16 +101,9 @@ impl Layout {
             }
         };
         if names.len() != header.len() {
-            return Err((
-                0,
-                format!("{} fields where {} columns are named", header.len(), names.len()),
-            ));
+            return Err((0, format!("{} fields where {} columns are named", header.len(), names.len())));
         }
-        Ok(Self {
-            separator,
-            fields: fields(&names, problem, told.axes)?,
-            first_is_row,
-        })
+        Ok(Self { separator, fields: fields(&names, problem, told.axes)?, first_is_row })
     }
 
     /// The fields of a row.
@@ -130,24 +115,14 @@ impl Layout {
 fn split(line: &str, separator: char) -> impl Iterator<Item = &str> {
     // White space may be several blanks; empty fields between commas are fields.
     let blank = separator == ' ';
-    let parts = line.split(move |letter: char| {
-        if blank {
-            letter.is_whitespace()
-        } else {
-            letter == separator
-        }
-    });
-    parts
-        .map(str::trim)
-        .filter(move |part| !blank || !part.is_empty())
+    let parts =
+        line.split(move |letter: char| if blank { letter.is_whitespace() } else { letter == separator });
+    parts.map(str::trim).filter(move |part| !blank || !part.is_empty())
 }
 
 fn fields(names: &[String], problem: &Problem, axes: Axes) -> Result<Vec<Field>, (usize, String)> {
     let keys = problem.kind.keys();
-    let theirs: Vec<_> = problem.columns[keys.len()..]
-        .iter()
-        .map(|column| axes.theirs(column))
-        .collect();
+    let theirs: Vec<_> = problem.columns[keys.len()..].iter().map(|column| axes.theirs(column)).collect();
     let mut fields = Vec::new();
     for (k, name) in names.iter().enumerate() {
         let mirrored: String = match name.strip_prefix('a') {
@@ -177,13 +152,9 @@ fn fields(names: &[String], problem: &Problem, axes: Axes) -> Result<Vec<Field>,
     }
     let there = |wanted: &str, is: &dyn Fn(&Field) -> bool| match fields.iter().any(is) {
         true => Ok(()),
-        false => Err((
-            0,
-            format!(
-                "column {wanted:?} is missing; asked for are {}",
-                problem.columns.join(",")
-            ),
-        )),
+        false => {
+            Err((0, format!("column {wanted:?} is missing; asked for are {}", problem.columns.join(","))))
+        }
     };
     for (k, key) in keys.iter().enumerate() {
         // One rod needs no number.

@@ -21,10 +21,7 @@ pub(super) fn projections(map: &Matrix3<f64>) -> Option<Vector3<f64>> {
     let (sigma, inverse) = (map * map.transpose(), back.transpose() * back);
     // The integrand rises as x^½ and falls as x^(−3/2).
     let steps = |range: f64| (range / STEP).ceil() as i32;
-    let (left, right) = (
-        steps(sigma.trace().ln() + 70.0),
-        steps(inverse.trace().ln() + 25.0),
-    );
+    let (left, right) = (steps(sigma.trace().ln() + 70.0), steps(inverse.trace().ln() + 25.0));
     let at = |k: i32| {
         let x = (STEP * f64::from(k)).exp();
         let determinant = ((x + inverse.trace()) * x + sigma.trace()) * x + 1.0;
@@ -55,10 +52,7 @@ fn over_shapes(problem: &Problem, of: impl Fn(f64) -> Option<Vector3<f64>>) -> O
 
 fn setting(problem: &Problem, aspect_ratio: f64) -> Setting {
     let l = &problem.gradient_per_s;
-    Setting {
-        gradient_per_s: Matrix3::from_fn(|i, j| l[i][j]),
-        aspect_ratio,
-    }
+    Setting { gradient_per_s: Matrix3::from_fn(|i, j| l[i][j]), aspect_ratio }
 }
 
 /// ⟨|p_i|⟩ of free rods by a mistake.
@@ -74,9 +68,7 @@ fn by_mistake(problem: &Problem, mistake: &Mistake, time_s: f64) -> Option<Vecto
 }
 
 fn free(problem: &Problem, time_s: f64) -> Option<Vector3<f64>> {
-    over_shapes(problem, |r| {
-        projections(&right_map(&setting(problem, r), time_s)?)
-    })
+    over_shapes(problem, |r| projections(&right_map(&setting(problem, r), time_s)?))
 }
 
 fn free_of_one_shape(problem: &Problem, time_s: f64) -> Option<Vector3<f64>> {
@@ -98,12 +90,7 @@ pub(super) fn unequal(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64)
         Some(largest)
     };
     let mut near: Vec<_> = (mistakes::all().into_par_iter())
-        .filter_map(|mistake| {
-            Some((
-                distance(&|time| by_mistake(problem, &mistake, time))?,
-                mistake.name,
-            ))
-        })
+        .filter_map(|mistake| Some((distance(&|time| by_mistake(problem, &mistake, time))?, mistake.name)))
         .collect();
     if let Some(distance) = distance(&|time| free_of_one_shape(problem, time)) {
         near.push((distance, ONE_SHAPE.to_owned()));
@@ -143,10 +130,7 @@ pub(super) fn ensemble(loaded: &LoadedProblem, answer: &Answer) -> Option<String
     };
     let mut known = vec![
         ("free rods, without collisions", exact(&free)),
-        (
-            "p_i without its modulus, whose mean is 0",
-            exact(&|_, _| Some(Vector3::zeros())),
-        ),
+        ("p_i without its modulus, whose mean is 0", exact(&|_, _| Some(Vector3::zeros()))),
         ("x1 and x2 exchanged", exchanged([1, 0, 2])),
         ("x1 and x3 exchanged", exchanged([2, 1, 0])),
         ("x2 and x3 exchanged", exchanged([0, 2, 1])),
@@ -154,10 +138,7 @@ pub(super) fn ensemble(loaded: &LoadedProblem, answer: &Answer) -> Option<String
         ("x3, x1, x2 in place of x1, x2, x3", exchanged([2, 0, 1])),
     ];
     if problem.aspect_ratio_sd_percent > 0.0 {
-        known.push((
-            "free rods of one r_e, without collisions",
-            exact(&free_of_one_shape),
-        ));
+        known.push(("free rods of one r_e, without collisions", exact(&free_of_one_shape)));
     }
     let off = |rows: &Vec<Vec<f64>>| {
         let rows = answer.rows.iter().zip(rows);
@@ -170,10 +151,7 @@ pub(super) fn ensemble(loaded: &LoadedProblem, answer: &Answer) -> Option<String
         .collect();
     let (_, nearest) = near.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
     let names: Vec<_> = near.iter().map(|(name, _)| *name).collect();
-    Some(format!(
-        "these are the means of {}, to {nearest:.1} standard errors",
-        names.join(" or of ")
-    ))
+    Some(format!("these are the means of {}, to {nearest:.1} standard errors", names.join(" or of ")))
 }
 
 #[cfg(test)]
@@ -216,10 +194,7 @@ mod tests {
             let expected = mean_projections_polydisperse(11.6, 3.6, turns);
             assert!(off(free(&problem, time_s), expected) < 2e-9, "{turns}");
             let wrong = mean_projections_polydisperse(11.6, 3.7, turns);
-            assert!(
-                turns < 0.2 || off(free(&problem, time_s), wrong) > 1e-6,
-                "{turns}"
-            );
+            assert!(turns < 0.2 || off(free(&problem, time_s), wrong) > 1e-6, "{turns}");
         }
     }
 }

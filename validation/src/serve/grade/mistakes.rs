@@ -31,11 +31,7 @@ pub struct Mistake {
 
 enum Kind {
     /// q = R M S p(0), with another map M, and with R and S for the components of answer and start.
-    Linear {
-        map: Map,
-        start: Matrix3<f64>,
-        end: Matrix3<f64>,
-    },
+    Linear { map: Map, start: Matrix3<f64>, end: Matrix3<f64> },
     /// Anything else.
     Curve(Curve),
 }
@@ -71,23 +67,14 @@ pub fn right_map(setting: &Setting, time_s: f64) -> Option<Matrix3<f64>> {
 
 fn unimodular(map: Matrix3<f64>) -> Option<Matrix3<f64>> {
     let scaled = map / map.determinant().cbrt();
-    scaled
-        .iter()
-        .all(|component| component.is_finite())
-        .then_some(scaled)
+    scaled.iter().all(|component| component.is_finite()).then_some(scaled)
 }
 
 /// exp(At) for A as it stands.
 fn map_of(a: &Matrix3<f64>, time_s: f64) -> Option<Matrix3<f64>> {
     // r_e = √3 has Λ = ½: this flow has the strain rate 2 sym A, and so W + ΛD = A.
     let gradient_per_s = 0.5 * (a - a.transpose()) + (a + a.transpose());
-    right_map(
-        &Setting {
-            gradient_per_s,
-            aspect_ratio: 3f64.sqrt(),
-        },
-        time_s,
-    )
+    right_map(&Setting { gradient_per_s, aspect_ratio: 3f64.sqrt() }, time_s)
 }
 
 fn shape(aspect_ratio: f64) -> f64 {
@@ -108,11 +95,7 @@ fn linear(
     Mistake {
         name: name.to_owned(),
         has_length: false,
-        kind: Kind::Linear {
-            map: Box::new(map),
-            start: Matrix3::identity(),
-            end: Matrix3::identity(),
-        },
+        kind: Kind::Linear { map: Box::new(map), start: Matrix3::identity(), end: Matrix3::identity() },
     }
 }
 
@@ -132,35 +115,20 @@ fn rate(name: &str, a: fn(Matrix3<f64>, Matrix3<f64>, f64) -> Matrix3<f64>) -> M
 
 /// The right motion with components changed at its ends.
 fn components(name: String, start: Matrix3<f64>, end: Matrix3<f64>) -> Mistake {
-    Mistake {
-        name,
-        has_length: false,
-        kind: Kind::Linear {
-            map: Box::new(right_map),
-            start,
-            end,
-        },
-    }
+    Mistake { name, has_length: false, kind: Kind::Linear { map: Box::new(right_map), start, end } }
 }
 
 fn curve(
     name: &str,
     of: impl Fn(&Setting, &Vector3<f64>, f64) -> Option<Vector3<f64>> + Send + Sync + 'static,
 ) -> Mistake {
-    Mistake {
-        name: name.to_owned(),
-        has_length: false,
-        kind: Kind::Curve(Box::new(of)),
-    }
+    Mistake { name: name.to_owned(), has_length: false, kind: Kind::Curve(Box::new(of)) }
 }
 
 /// Every known mistake about free rods.
 pub fn all() -> Vec<Mistake> {
     let mut all = vec![
-        moved("a transposed gradient", |s| Setting {
-            gradient_per_s: s.gradient_per_s.transpose(),
-            ..s
-        }),
+        moved("a transposed gradient", |s| Setting { gradient_per_s: s.gradient_per_s.transpose(), ..s }),
         moved("Λ without its sign", |s| Setting {
             aspect_ratio: s.aspect_ratio.max(1.0 / s.aspect_ratio),
             ..s
@@ -199,24 +167,15 @@ pub fn all() -> Vec<Mistake> {
             Some(right_map(setting, time)? * by_angles(p, f64::to_degrees))
         }),
         curve("degrees for radians in the answer", |setting, p, time| {
-            Some(by_angles(
-                &(right_map(setting, time)? * p).normalize(),
-                f64::to_degrees,
-            ))
+            Some(by_angles(&(right_map(setting, time)? * p).normalize(), f64::to_degrees))
         }),
         curve("radians for degrees in the start", |setting, p, time| {
             Some(right_map(setting, time)? * by_angles(p, f64::to_radians))
         }),
         curve("radians for degrees in the answer", |setting, p, time| {
-            Some(by_angles(
-                &(right_map(setting, time)? * p).normalize(),
-                f64::to_radians,
-            ))
+            Some(by_angles(&(right_map(setting, time)? * p).normalize(), f64::to_radians))
         }),
-        Mistake {
-            has_length: true,
-            ..linear("p that is not normalised", right_map)
-        },
+        Mistake { has_length: true, ..linear("p that is not normalised", right_map) },
     ];
     all.extend(permuted());
     all.extend(physical::all());
@@ -224,10 +183,7 @@ pub fn all() -> Vec<Mistake> {
 }
 
 fn scaled(setting: Setting, factor: f64) -> Setting {
-    Setting {
-        gradient_per_s: factor * setting.gradient_per_s,
-        ..setting
-    }
+    Setting { gradient_per_s: factor * setting.gradient_per_s, ..setting }
 }
 
 /// ωt = Gt/(r_e + 1/r_e).

@@ -122,8 +122,7 @@ impl Graded {
 
     /// The observed order with its sign.
     fn order_text(&self) -> String {
-        self.observed_order
-            .map_or("–".into(), |order| format!("{order:+.2}"))
+        self.observed_order.map_or("–".into(), |order| format!("{order:+.2}"))
     }
 
     /// What the program was set to.

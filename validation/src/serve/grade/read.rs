@@ -40,15 +40,9 @@ pub fn read(
         let (keys, values) =
             fields(&line, &layout, problem).map_err(|(at, message)| lines.error(at, message))?;
         let place = |key: usize| {
-            layout
-                .fields
-                .iter()
-                .position(|field| *field == Field::Key(key))
-                .map_or(0, |at| at + 1)
+            layout.fields.iter().position(|field| *field == Field::Key(key)).map_or(0, |at| at + 1)
         };
-        collector
-            .add(last, &keys, values)
-            .map_err(|(key, message)| lines.error(place(key), message))?;
+        collector.add(last, &keys, values).map_err(|(key, message)| lines.error(place(key), message))?;
     }
 }
 
@@ -83,10 +77,7 @@ fn fields(
     }
     if count != layout.fields.len() {
         let message = format!("{count} fields; the first line has {}", layout.fields.len());
-        return Err((
-            count.min(layout.fields.len()) + usize::from(count < layout.fields.len()),
-            message,
-        ));
+        return Err((count.min(layout.fields.len()) + usize::from(count < layout.fields.len()), message));
     }
     for (column, at, other) in again {
         let sign = layout.fields.iter().find_map(|field| match field {
@@ -95,10 +86,7 @@ fn fields(
         });
         let off = (values[at] - sign.unwrap_or(1.0) * other).abs();
         if off > SYMMETRIC {
-            return Err((
-                column,
-                format!("the tensor is not symmetric: its two halves are {off:.1e} apart"),
-            ));
+            return Err((column, format!("the tensor is not symmetric: its two halves are {off:.1e} apart")));
         }
     }
     Ok((keys, values))

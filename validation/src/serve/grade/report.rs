@@ -28,10 +28,7 @@ pub struct Report {
 
 impl Report {
     fn count(&self, verdict: Verdict) -> usize {
-        self.problems
-            .iter()
-            .filter(|graded| graded.verdict == verdict)
-            .count()
+        self.problems.iter().filter(|graded| graded.verdict == verdict).count()
     }
 
     /// Whether a problem passes, and none fails or was not reached. A missing answer is neither, as a case without data is
@@ -44,13 +41,8 @@ impl Report {
 
     /// The counts in words.
     pub fn headline(&self) -> String {
-        let [pass, fail, missing, late] = [
-            Verdict::Pass,
-            Verdict::Fail,
-            Verdict::Missing,
-            Verdict::NotReached,
-        ]
-        .map(|v| self.count(v));
+        let [pass, fail, missing, late] =
+            [Verdict::Pass, Verdict::Fail, Verdict::Missing, Verdict::NotReached].map(|v| self.count(v));
         let mut words = format!("{pass} of {} problems pass", self.problems.len());
         if fail > 0 {
             words += &format!(", {fail} FAIL");
@@ -61,10 +53,7 @@ impl Report {
         if late > 0 {
             words += &format!(", {late} NOT REACHED (time ran out: not passed)");
         }
-        let foreign = self
-            .problems
-            .iter()
-            .filter(|graded| graded.reference == Origin::Foreign);
+        let foreign = self.problems.iter().filter(|graded| graded.reference == Origin::Foreign);
         match foreign.count() {
             0 => {}
             count => {
@@ -168,18 +157,10 @@ pub fn terminal(report: &Report) -> String {
 pub fn markdown(report: &Report) -> String {
     let mut text = String::from("# Grades\n");
     for (k, table) in tables(report).iter().enumerate() {
-        text += &format!(
-            "\n## {}\n\n{}\n\n{}",
-            table.title,
-            table.caption,
-            table.cells_as_markdown()
-        );
+        text += &format!("\n## {}\n\n{}\n\n{}", table.title, table.caption, table.cells_as_markdown());
         if k == 0 {
             text += "\n";
-            text += &lines(report)
-                .iter()
-                .map(|line| format!("- {line}\n"))
-                .collect::<String>();
+            text += &lines(report).iter().map(|line| format!("- {line}\n")).collect::<String>();
         }
     }
     text
@@ -205,11 +186,7 @@ pub fn junit(report: &Report) -> String {
                 number(Some(graded.tolerance)),
                 words(graded).join("; ")
             );
-            let element = if graded.verdict == Verdict::Missing {
-                "skipped"
-            } else {
-                "failure"
-            };
+            let element = if graded.verdict == Verdict::Missing { "skipped" } else { "failure" };
             xml += &format!("<{element} message=\"{}\"></{element}>", escaped(&message));
         }
         xml += "</testcase>\n";
@@ -242,10 +219,7 @@ mod tests {
                 graded("a", Verdict::Pass, Some(1e-10)),
                 bad,
                 graded("c", Verdict::Missing, None),
-                Graded {
-                    reference: Origin::Foreign,
-                    ..graded("d", Verdict::NotReached, Some(1e-3))
-                },
+                Graded { reference: Origin::Foreign, ..graded("d", Verdict::NotReached, Some(1e-3)) },
             ],
             live: None,
             remarks: vec!["a remark".into()],

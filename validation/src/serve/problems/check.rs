@@ -22,22 +22,14 @@ fn form(kind: Kind) -> (Metric, [f64; 2], Columns) {
             &[&["a11", "a22", "a33", "a12", "a13", "a23"], &["x1", "x2", "x3"]],
         ),
         Kind::Contact => (Metric::Relative, [LEAST, 0.1], &[&RATES, &ANGLES]),
-        Kind::Ensemble => (
-            Metric::StandardErrors,
-            [1.0, 10.0],
-            &[&["x1", "x1_se", "x2", "x2_se", "x3", "x3_se"]],
-        ),
+        Kind::Ensemble => {
+            (Metric::StandardErrors, [1.0, 10.0], &[&["x1", "x1_se", "x2", "x2_se", "x3", "x3_se"]])
+        }
     }
 }
 
-const RATES: [&str; 6] = [
-    "a_pdot1_per_s",
-    "a_pdot2_per_s",
-    "a_pdot3_per_s",
-    "b_pdot1_per_s",
-    "b_pdot2_per_s",
-    "b_pdot3_per_s",
-];
+const RATES: [&str; 6] =
+    ["a_pdot1_per_s", "a_pdot2_per_s", "a_pdot3_per_s", "b_pdot1_per_s", "b_pdot2_per_s", "b_pdot3_per_s"];
 const ANGLES: [&str; 8] = [
     "a_phi_rate_per_s",
     "a_theta_rate_per_s",
@@ -75,18 +67,11 @@ pub(super) fn check(folder: &Path, problem: &Problem) -> Result<(), Refused> {
     let kind = word(&problem.kind);
     if problem.metric != metric {
         let (found, due) = (word(&problem.metric), word(&metric));
-        return Err((
-            "metric",
-            format!("{found}: a problem of the kind {kind} has the metric {due}"),
-        ));
+        return Err(("metric", format!("{found}: a problem of the kind {kind} has the metric {due}")));
     }
     between("tolerance", problem.tolerance, [least, most])?;
     columns(problem, lists)?;
-    problem
-        .gradient_per_s
-        .iter()
-        .flatten()
-        .try_for_each(|x| between("gradient_per_s", *x, [-MOST, MOST]))?;
+    problem.gradient_per_s.iter().flatten().try_for_each(|x| between("gradient_per_s", *x, [-MOST, MOST]))?;
     between("aspect_ratio", problem.aspect_ratio, RATIOS)?;
     spread(problem)?;
     times(problem)?;
@@ -100,10 +85,7 @@ fn word<T: serde::Serialize>(value: &T) -> String {
 fn between(key: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(), Refused> {
     match (least..=most).contains(&found) {
         true => Ok(()),
-        false => Err((
-            key,
-            format!("{found:e}: a number from {least:e} to {most:e} is allowed"),
-        )),
+        false => Err((key, format!("{found:e}: a number from {least:e} to {most:e} is allowed"))),
     }
 }
 
@@ -189,20 +171,10 @@ fn times(problem: &Problem) -> Result<(), Refused> {
                 .to_owned(),
         ));
     }
-    let rate = problem
-        .gradient_per_s
-        .iter()
-        .flatten()
-        .fold(0.0, |a: f64, b| a.max(b.abs()));
-    match times
-        .iter()
-        .all(|time| *time <= 1e300 && time * rate <= MOST_STRAIN)
-    {
+    let rate = problem.gradient_per_s.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
+    match times.iter().all(|time| *time <= 1e300 && time * rate <= MOST_STRAIN) {
         true => Ok(()),
-        false => Err((
-            "times_s",
-            format!("a strain of at most {MOST_STRAIN:e} is allowed"),
-        )),
+        false => Err(("times_s", format!("a strain of at most {MOST_STRAIN:e} is allowed"))),
     }
 }
 
@@ -230,21 +202,13 @@ fn ensemble(problem: &Problem) -> Result<(), Refused> {
     let numbers = [
         ("count", *count as f64, [1.0, MOST]),
         ("length_mm", *length_mm, [1.0 / MOST, MOST]),
-        (
-            "concentration_per_cm3",
-            *concentration_per_cm3,
-            [1.0 / MOST, 1e300],
-        ),
+        ("concentration_per_cm3", *concentration_per_cm3, [1.0 / MOST, 1e300]),
         ("alpha", *alpha, [1.0 / MOST, MOST]),
         ("m", *m, [1.0 / MOST, MOST]),
         ("steps_per_period", *steps_per_period as f64, [1.0, MOST]),
         ("certified_replicas", *certified_replicas as f64, [2.0, 1e15]),
         // Means of |p_i| are between 0 and 1.
-        (
-            "largest_standard_error",
-            *largest_standard_error,
-            [1.0 / MOST, 0.1],
-        ),
+        ("largest_standard_error", *largest_standard_error, [1.0 / MOST, 0.1]),
     ];
     numbers.into_iter().try_for_each(|(name, found, range)| {
         between(KEY, found, range).map_err(|(key, message)| (key, format!("{name} = {message}")))
@@ -288,10 +252,7 @@ fn certified(problem: &Problem, values: &[f64]) -> Result<(), String> {
     };
     match problem.kind {
         Kind::Rods => unit(values),
-        Kind::Contact => match values
-            .chunks(values.len() / 2)
-            .all(|rod| rod.iter().any(|x| *x != 0.0))
-        {
+        Kind::Contact => match values.chunks(values.len() / 2).all(|rod| rod.iter().any(|x| *x != 0.0)) {
             true => Ok(()),
             false => Err("all values of a rod are 0: there is no relative error".to_owned()),
         },

@@ -26,30 +26,19 @@ type Pair = [f64; 14];
 
 pub(super) fn problems() -> Vec<ProblemDef> {
     vec![
-        ProblemDef::new(
-            "contact-rule",
-            "Two rods in, both ṗ′ out: A.7 to A.13",
-            |def| {
-                let columns = ["a_pdot1_per_s", "a_pdot2_per_s", "a_pdot3_per_s"];
-                let equation = "A.1, A.7 to A.12, and ṗ′ = V′_r/r";
-                built(def, None, &columns, equation, |rod, _| rod.rate.to_vec())
-            },
-        ),
+        ProblemDef::new("contact-rule", "Two rods in, both ṗ′ out: A.7 to A.13", |def| {
+            let columns = ["a_pdot1_per_s", "a_pdot2_per_s", "a_pdot3_per_s"];
+            let equation = "A.1, A.7 to A.12, and ṗ′ = V′_r/r";
+            built(def, None, &columns, equation, |rod, _| rod.rate.to_vec())
+        }),
         ProblemDef::new(
             "contact-angles",
             "Two rods in, their angles after a step out: A.13 and A.14, corrected",
             |def| {
                 let step_s = period_s(ASPECT_RATIO) / 200.0;
-                let columns = [
-                    "a_phi_rate_per_s",
-                    "a_theta_rate_per_s",
-                    "a_phi_rad",
-                    "a_theta_rad",
-                ];
+                let columns = ["a_phi_rate_per_s", "a_theta_rate_per_s", "a_phi_rad", "a_theta_rad"];
                 let equation = "A.1, A.7 to A.12, A.13 corrected, A.14";
-                built(def, Some(step_s), &columns, equation, move |rod, step| {
-                    angles(rod, step)
-                })
+                built(def, Some(step_s), &columns, equation, move |rod, step| angles(rod, step))
             },
         ),
     ]
@@ -80,9 +69,7 @@ fn built(
         std::iter::once(snapshot.to_string()).chain(values).collect()
     };
     let certified = pairs.par_iter().enumerate().map(row).collect();
-    let worst = (pairs.par_iter())
-        .map(|pair| condition(pair, step_s))
-        .reduce(|| 0.0, f64::max);
+    let worst = (pairs.par_iter()).map(|pair| condition(pair, step_s)).reduce(|| 0.0, f64::max);
     let columns_of_b = columns_of_a.iter().map(|name| name.replacen("a_", "b_", 1));
     let columns = std::iter::once("snapshot".into())
         .chain(columns_of_a.iter().map(|name| (*name).to_owned()))
@@ -203,11 +190,7 @@ fn touched(pair: &[Big; 14]) -> [Touched; 2] {
 fn jeffery(p: &Vector, r: &Big) -> Vector {
     let (rate, square) = (BITS.of(COUETTE[1][0]), r.sqr());
     let whole = &square + BITS.of(1.0);
-    let pull = [
-        -(&rate * &p[1] / &whole),
-        &rate * square * &p[0] / whole,
-        BITS.of(0.0),
-    ];
+    let pull = [-(&rate * &p[1] / &whole), &rate * square * &p[0] / whole, BITS.of(0.0)];
     let along = dot(p, &pull);
     [0, 1, 2].map(|i| &pull[i] - &p[i] * &along)
 }

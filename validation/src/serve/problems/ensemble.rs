@@ -19,11 +19,9 @@ const ASPECT_RATIO: f64 = 11.6;
 
 pub(super) fn problems() -> Vec<ProblemDef> {
     vec![
-        ProblemDef::new(
-            "lee-springer",
-            "Colliding rods of one aspect ratio, 50 per cm³",
-            |def| built(def, 0.0, EQUAL),
-        ),
+        ProblemDef::new("lee-springer", "Colliding rods of one aspect ratio, 50 per cm³", |def| {
+            built(def, 0.0, EQUAL)
+        }),
         ProblemDef::new(
             "lee-springer-unequal",
             "Colliding rods of unequal aspect ratios, 50 per cm³",
@@ -36,17 +34,10 @@ pub(super) fn problems() -> Vec<ProblemDef> {
 const FALSE_ALARM_RATE: f64 = 5e-3;
 
 fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
-    let rows: Vec<Vec<&str>> = table
-        .lines()
-        .skip(1)
-        .map(|line| line.split(',').collect())
-        .collect();
+    let rows: Vec<Vec<&str>> = table.lines().skip(1).map(|line| line.split(',').collect()).collect();
     let time_s = |row: &Vec<&str>| row[0].parse().map(|turns: f64| turns * period_s(ASPECT_RATIO));
-    let times_s: Vec<f64> = rows
-        .iter()
-        .map(time_s)
-        .collect::<Result<_, _>>()
-        .expect("a shipped table has numbers");
+    let times_s: Vec<f64> =
+        rows.iter().map(time_s).collect::<Result<_, _>>().expect("a shipped table has numbers");
     let certified = rows.iter().zip(&times_s).map(|(row, time)| {
         let values = row[1..].iter().map(|text| (*text).to_owned());
         std::iter::once(format!("{time:?}")).chain(values).collect()

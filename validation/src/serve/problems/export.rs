@@ -8,13 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The files of a problem's folder.
-pub const FILES: [&str; 5] = [
-    "problem.json",
-    "start.csv",
-    "inputs.csv",
-    "certified.csv",
-    "README.md",
-];
+pub const FILES: [&str; 5] = ["problem.json", "start.csv", "inputs.csv", "certified.csv", "README.md"];
 
 /// The JSON Schema of `problem.json`.
 pub const SCHEMA: &str = include_str!("../../../schemas/problem.schema.json");
@@ -130,8 +124,5 @@ pub fn files(built: &Built) -> Vec<Output> {
 fn csv<T: AsRef<str>>(columns: &[T], rows: &[Vec<String>]) -> String {
     let header: Vec<_> = columns.iter().map(AsRef::as_ref).collect();
     let lines = rows.iter().map(|row| row.join(","));
-    std::iter::once(header.join(","))
-        .chain(lines)
-        .map(|line| line + "\n")
-        .collect()
+    std::iter::once(header.join(",")).chain(lines).map(|line| line + "\n").collect()
 }

@@ -200,12 +200,7 @@ impl ProblemDef {
         title: &'static str,
         build: impl Fn(&Self) -> Built + Send + Sync + 'static,
     ) -> Self {
-        Self {
-            name,
-            title,
-            build: Box::new(build),
-            built: OnceLock::new(),
-        }
+        Self { name, title, build: Box::new(build), built: OnceLock::new() }
     }
 
     /// The problem with its certified answer, which is computed once.
@@ -238,10 +233,7 @@ impl Built {
                 columns: INPUT_COLUMNS.map(String::from).into(),
                 rows: self.inputs.iter().enumerate().map(numbered).collect(),
             }),
-            certified: Table {
-                columns: self.problem.columns.clone(),
-                rows: rows.collect(),
-            },
+            certified: Table { columns: self.problem.columns.clone(), rows: rows.collect() },
         }
     }
 }
@@ -249,12 +241,7 @@ impl Built {
 /// Every problem.
 pub fn all() -> &'static [ProblemDef] {
     static ALL: LazyLock<Vec<ProblemDef>> = LazyLock::new(|| {
-        let kinds = [
-            rods::problems(),
-            tensor::problems(),
-            contact::problems(),
-            ensemble::problems(),
-        ];
+        let kinds = [rods::problems(), tensor::problems(), contact::problems(), ensemble::problems()];
         kinds.into_iter().flatten().collect()
     });
     &ALL

@@ -33,12 +33,7 @@ pub(super) fn origin(loaded: &LoadedProblem, json: &str) -> Result<Origin, ReadE
             rows: rows.map(|(rod, p)| vec![rod as f64, p[0], p[1], p[2]]).collect(),
         }
     };
-    same(
-        &path("start.csv"),
-        name,
-        &starts(&loaded.start),
-        &starts(&own.start),
-    )?;
+    same(&path("start.csv"), name, &starts(&loaded.start), &starts(&own.start))?;
     if let (Some(found), Some(due)) = (&loaded.inputs, &own.inputs) {
         same(&path("inputs.csv"), name, found, due)?;
     }
@@ -56,23 +51,16 @@ fn differs(name: &str, due: &str) -> String {
 fn same(path: &Path, name: &str, found: &Table, due: &Table) -> Result<(), ReadError> {
     for (at, (row, own)) in found.rows.iter().zip(&due.rows).enumerate() {
         if let Some(k) = (0..row.len()).find(|k| row[*k] != own[*k]) {
-            let message = format!(
-                "{} = {}: {}",
-                found.columns[k],
-                row[k],
-                differs(name, &own[k].to_string())
-            );
+            let message =
+                format!("{} = {}: {}", found.columns[k], row[k], differs(name, &own[k].to_string()));
             return Err(ReadError::at(path, at as u64 + 2, k as u64 + 1, message));
         }
     }
     match found.rows.len() == due.rows.len() {
         true => Ok(()),
         false => {
-            let message = format!(
-                "{} rows: {}",
-                found.rows.len(),
-                differs(name, &due.rows.len().to_string())
-            );
+            let message =
+                format!("{} rows: {}", found.rows.len(), differs(name, &due.rows.len().to_string()));
             Err(ReadError::whole(path, message))
         }
     }

@@ -26,10 +26,8 @@ pub(super) fn page(built: &Built) -> String {
         problem.tolerance,
         problem.because
     );
-    page += &format!(
-        "The certified values in `certified.csv` come from: {}.\n",
-        problem.equations.join("; ")
-    );
+    page +=
+        &format!("The certified values in `certified.csv` come from: {}.\n", problem.equations.join("; "));
     page
 }
 

@@ -51,14 +51,8 @@ fn read_one(dir: &Path) -> Result<LoadedProblem, ReadError> {
     let columns: Vec<_> = problem.columns.iter().map(String::as_str).collect();
     let certified_path = dir.join("certified.csv");
     let certified = table::read(&certified_path, &columns)?;
-    let mut loaded = LoadedProblem {
-        dir: dir.to_owned(),
-        origin: Origin::Foreign,
-        problem,
-        start,
-        inputs,
-        certified,
-    };
+    let mut loaded =
+        LoadedProblem { dir: dir.to_owned(), origin: Origin::Foreign, problem, start, inputs, certified };
     check_keys(&certified_path, &loaded)?;
     check::tables(&loaded)?;
     loaded.origin = origin(&loaded, &json)?;
@@ -74,12 +68,7 @@ pub(super) fn line_of(json: &str, key: &str) -> u64 {
 
 fn problem(path: &Path, text: &str) -> Result<Problem, ReadError> {
     let wrong = |error: serde_json::Error| {
-        ReadError::at(
-            path,
-            error.line() as u64,
-            error.column() as u64,
-            check::cut(&error.to_string()),
-        )
+        ReadError::at(path, error.line() as u64, error.column() as u64, check::cut(&error.to_string()))
     };
     // The version first: another format may have other keys.
     let value: serde_json::Value = serde_json::from_str(text).map_err(wrong)?;

@@ -17,94 +17,45 @@ pub(super) fn problems() -> Vec<ProblemDef> {
     };
     vec![
         mid_flip("mid-flip-2", "A short rod, r_e = 2, seen during three flips", 2.0),
-        mid_flip(
-            "mid-flip-11.6",
-            "The paper's rod, r_e = 11.6, seen during three flips",
-            11.6,
-        ),
-        mid_flip(
-            "mid-flip-100",
-            "A long rod, r_e = 100, seen during three flips",
-            100.0,
-        ),
-        mid_flip(
-            "mid-flip-10000",
-            "A fibre, r_e = 10⁴, seen during three flips",
-            1e4,
-        ),
+        mid_flip("mid-flip-11.6", "The paper's rod, r_e = 11.6, seen during three flips", 11.6),
+        mid_flip("mid-flip-100", "A long rod, r_e = 100, seen during three flips", 100.0),
+        mid_flip("mid-flip-10000", "A fibre, r_e = 10⁴, seen during three flips", 1e4),
         mid_flip("disc-0.1", "A disc, r_e = 0.1, seen in three of its turns", 0.1),
         mid_flip("sphere", "A sphere, r_e = 1, turns at G/2", 1.0),
-        ProblemDef::new(
-            "log-rolling",
-            "A rod along the vorticity axis stays there",
-            |def| built(def, log_rolling()),
-        ),
-        ProblemDef::new("shear-plane", "Rods in the shear plane stay in it", |def| {
-            built(def, shear_plane())
+        ProblemDef::new("log-rolling", "A rod along the vorticity axis stays there", |def| {
+            built(def, log_rolling())
         }),
-        ProblemDef::new("poles", "Rods at and beside both poles of (φ, θ)", |def| {
-            built(def, poles())
+        ProblemDef::new("shear-plane", "Rods in the shear plane stay in it", |def| built(def, shear_plane())),
+        ProblemDef::new("poles", "Rods at and beside both poles of (φ, θ)", |def| built(def, poles())),
+        ProblemDef::new("ten-thousand-periods", "A rod after 1 to 10⁴ periods", |def| built(def, long())),
+        ProblemDef::new("planar-extension", "Rods in planar extension turn to the stretched axis", |def| {
+            built(def, extension([1.0, -1.0, 0.0], "planar extension, u_1 = x_1, u_2 = -x_2"))
         }),
-        ProblemDef::new("ten-thousand-periods", "A rod after 1 to 10⁴ periods", |def| {
-            built(def, long())
-        }),
-        ProblemDef::new(
-            "planar-extension",
-            "Rods in planar extension turn to the stretched axis",
-            |def| {
-                built(
-                    def,
-                    extension([1.0, -1.0, 0.0], "planar extension, u_1 = x_1, u_2 = -x_2"),
-                )
-            },
-        ),
         ProblemDef::new(
             "uniaxial-extension",
             "Rods in uniaxial extension turn to the stretched axis",
-            |def| {
-                built(
-                    def,
-                    extension([-0.5, -0.5, 1.0], "uniaxial extension along axis 3"),
-                )
-            },
+            |def| built(def, extension([-0.5, -0.5, 1.0], "uniaxial extension along axis 3")),
         ),
-        ProblemDef::new("couette-turned", "Plane Couette flow turned in space", |def| {
-            built(def, turned())
+        ProblemDef::new("couette-turned", "Plane Couette flow turned in space", |def| built(def, turned())),
+        ProblemDef::new("couette-mirrored", "Plane Couette flow with gradient and flow exchanged", |def| {
+            built(def, mirrored())
         }),
-        ProblemDef::new(
-            "couette-mirrored",
-            "Plane Couette flow with gradient and flow exchanged",
-            |def| built(def, mirrored()),
-        ),
-        ProblemDef::new("spiral", "A general gradient: rods spiral into an axis", |def| {
-            built(def, spiral())
-        }),
+        ProblemDef::new("spiral", "A general gradient: rods spiral into an axis", |def| built(def, spiral())),
     ]
 }
 
 fn built(def: &ProblemDef, asked: Asked) -> Built {
-    let motion = Motion {
-        gradient_per_s: asked.gradient_per_s,
-        aspect_ratio: asked.aspect_ratio,
-    };
+    let motion = Motion { gradient_per_s: asked.gradient_per_s, aspect_ratio: asked.aspect_ratio };
     let end_s = asked.times_s.last().copied().unwrap_or_default();
     let (tolerance, because) = match motion.couette() {
         Some(rate) => (
             tolerance::couette(asked.aspect_ratio, rate * end_s),
             tolerance::because_couette(asked.aspect_ratio),
         ),
-        None => (
-            tolerance::general(&motion, &asked.start, end_s),
-            tolerance::BECAUSE_GENERAL.to_owned(),
-        ),
+        None => (tolerance::general(&motion, &asked.start, end_s), tolerance::BECAUSE_GENERAL.to_owned()),
     };
-    let rows = asked
-        .times_s
-        .iter()
-        .flat_map(|time| (0..).zip(&asked.start).map(move |rod| (*time, rod)));
-    let certified = rows
-        .map(|(time, (rod, start))| certified(&motion, time, rod, *start))
-        .collect();
+    let rows = asked.times_s.iter().flat_map(|time| (0..).zip(&asked.start).map(move |rod| (*time, rod)));
+    let certified = rows.map(|(time, (rod, start))| certified(&motion, time, rod, *start)).collect();
     Built {
         problem: Problem {
             format: FORMAT,
@@ -132,12 +83,7 @@ fn built(def: &ProblemDef, asked: Asked) -> Built {
 }
 
 fn certified(motion: &Motion, time_s: f64, rod: usize, start: [f64; 3]) -> Vec<String> {
-    let at = rod::at(
-        motion,
-        Direction::Vector(start),
-        &Bits(64).of(time_s),
-        Unit::Second,
-    );
+    let at = rod::at(motion, Direction::Vector(start), &Bits(64).of(time_s), Unit::Second);
     let at = at.expect("seconds have a meaning in every flow");
     let mut row = vec![format!("{time_s:?}"), rod.to_string()];
     row.extend(at.p.iter().map(|x| digits(x, DIGITS)));

@@ -43,12 +43,7 @@ impl ReadError {
 
     /// About a place in a file.
     pub fn at(path: &Path, line: u64, column: u64, message: impl Into<String>) -> Self {
-        Self {
-            path: path.to_owned(),
-            line,
-            column,
-            message: message.into(),
-        }
+        Self { path: path.to_owned(), line, column, message: message.into() }
     }
 }
 
@@ -79,11 +74,7 @@ fn parse(path: &Path, text: &str, columns: &[&str]) -> Result<Table, ReadError> 
     let mut lines = (1..).zip(text.lines());
     let header = lines.next().map_or("", |(_, header)| header);
     if header != columns.join(",") {
-        let message = format!(
-            "the header is {:?}; it must be {:?}",
-            cut(header),
-            columns.join(",")
-        );
+        let message = format!("the header is {:?}; it must be {:?}", cut(header), columns.join(","));
         return Err(ReadError::at(path, 1, 0, message));
     }
     let row = |(line, text): (u64, &str)| {
@@ -94,12 +85,7 @@ fn parse(path: &Path, text: &str, columns: &[&str]) -> Result<Table, ReadError> 
         }
         let number = |(column, field): (u64, &&str)| match field.parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(number),
-            _ => Err(ReadError::at(
-                path,
-                line,
-                column,
-                format!("{:?} is no finite number", cut(field)),
-            )),
+            _ => Err(ReadError::at(path, line, column, format!("{:?} is no finite number", cut(field)))),
         };
         (1..).zip(&fields).map(number).collect()
     };
@@ -107,8 +93,5 @@ fn parse(path: &Path, text: &str, columns: &[&str]) -> Result<Table, ReadError> 
     if rows.is_empty() {
         return Err(ReadError::at(path, 1, 0, "there is no row below the header"));
     }
-    Ok(Table {
-        columns: columns.iter().map(|column| (*column).to_owned()).collect(),
-        rows,
-    })
+    Ok(Table { columns: columns.iter().map(|column| (*column).to_owned()).collect(), rows })
 }

@@ -17,14 +17,10 @@ pub(super) fn problems() -> Vec<ProblemDef> {
         ProblemDef::new("isotropic-11.6", "a_ij(t) of isotropic rods, r_e = 11.6", |def| {
             moments(def, COUETTE, 11.6, couette_times(11.6))
         }),
-        ProblemDef::new(
-            "isotropic-extension",
-            "a_ij(t) of isotropic rods in uniaxial extension",
-            |def| {
-                let extension = [[-0.5, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, 1.0]];
-                moments(def, extension, 11.6, vec![0.25, 0.5, 1.0, 2.0, 3.0])
-            },
-        ),
+        ProblemDef::new("isotropic-extension", "a_ij(t) of isotropic rods in uniaxial extension", |def| {
+            let extension = [[-0.5, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, 1.0]];
+            moments(def, extension, 11.6, vec![0.25, 0.5, 1.0, 2.0, 3.0])
+        }),
         ProblemDef::new(
             "unequal-rods",
             "Mean projections of isotropic rods of unequal aspect ratios",
@@ -40,10 +36,7 @@ fn couette_times(aspect_ratio: f64) -> Vec<f64> {
 }
 
 fn moments(def: &ProblemDef, gradient_per_s: [[f64; 3]; 3], aspect_ratio: f64, times_s: Vec<f64>) -> Built {
-    let motion = Motion {
-        gradient_per_s,
-        aspect_ratio,
-    };
+    let motion = Motion { gradient_per_s, aspect_ratio };
     let end_s = times_s.last().copied().unwrap_or_default();
     let of_rods = match motion.couette() {
         Some(rate) => tolerance::couette(aspect_ratio, rate * end_s),
@@ -63,9 +56,7 @@ fn moments(def: &ProblemDef, gradient_per_s: [[f64; 3]; 3], aspect_ratio: f64, t
                  t = 0, exact (elliptic integrals). A closure approximation of a_ijkl misses these values by the error of the \
                  closure; a code that follows rods needs a quadrature over their starts that has converged."
             ),
-            columns: ["time_s", "a11", "a22", "a33", "a12", "a13", "a23"]
-                .map(String::from)
-                .into(),
+            columns: ["time_s", "a11", "a22", "a33", "a12", "a13", "a23"].map(String::from).into(),
             because: because(of_rods),
             equations: vec![
                 "A.4, A.5, 12: a_ij = ½∫ (adj M)_ij (det M)^(-3/2) dx, M = (F Fᵀ)⁻¹ + x, F = exp((W + ΛD)t)"
@@ -80,10 +71,7 @@ fn moments(def: &ProblemDef, gradient_per_s: [[f64; 3]; 3], aspect_ratio: f64, t
 
 fn unequal_rods(def: &ProblemDef) -> Built {
     const SD_PERCENT: f64 = 3.6;
-    let motion = Motion {
-        gradient_per_s: COUETTE,
-        aspect_ratio: 11.6,
-    };
+    let motion = Motion { gradient_per_s: COUETTE, aspect_ratio: 11.6 };
     let turns = [0.25, 0.5, 0.75, 1.0, 2.0, 3.0];
     let times_s = turns.map(|turns| turns * period_s(motion.aspect_ratio)).to_vec();
     let strain = motion.strain(times_s[turns.len() - 1], Unit::Second);
@@ -148,9 +136,7 @@ fn because(tolerance: f64) -> String {
 /// Directions all round, none of them on an axis.
 fn all_round() -> Vec<[f64; 3]> {
     let thetas = (0..8).map(|i| 0.1 + 0.19 * f64::from(i));
-    thetas
-        .flat_map(|theta| (0..6).map(move |k| direction(0.2 + f64::from(k), theta)))
-        .collect()
+    thetas.flat_map(|theta| (0..6).map(move |k| direction(0.2 + f64::from(k), theta))).collect()
 }
 
 #[cfg(test)]
@@ -177,10 +163,7 @@ mod tests {
             let by_doubles = |sd_percent| mean_projections_polydisperse(r, sd_percent, time / period_s(r));
             let off = |expected: [f64; 3]| {
                 let found = row[1..].iter().map(|x| x.parse::<f64>().unwrap());
-                found
-                    .zip(expected)
-                    .map(|(a, b)| (a - b).abs())
-                    .fold(0.0, f64::max)
+                found.zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
             };
             // What is claimed of the quadrature in doubles.
             assert!(off(by_doubles(sd_percent)) < 2e-12, "{time}");

@@ -71,9 +71,7 @@ fn growth(map: &[[f64; 3]; 3], p: [f64; 3]) -> f64 {
     let carried = image(map, p);
     let q = unit(carried);
     // Two directions across p.
-    let axis = (0..3)
-        .min_by(|i, j| p[*i].abs().total_cmp(&p[*j].abs()))
-        .unwrap_or(0);
+    let axis = (0..3).min_by(|i, j| p[*i].abs().total_cmp(&p[*j].abs())).unwrap_or(0);
     let mut other = [0.0; 3];
     other[axis] = 1.0;
     let first = unit(cross(p, other));
@@ -127,13 +125,7 @@ mod tests {
 
     #[test]
     fn numbers_are_rounded_up_to_one_digit() {
-        for (x, expected) in [
-            (4.1e-11, 5e-11),
-            (9.2e-3, 1e-2),
-            (1.0, 1.0),
-            (0.55, 0.6),
-            (123.0, 200.0),
-        ] {
+        for (x, expected) in [(4.1e-11, 5e-11), (9.2e-3, 1e-2), (1.0, 1.0), (0.55, 0.6), (123.0, 200.0)] {
             assert_eq!(rounded_up(x), expected);
         }
     }
@@ -141,18 +133,11 @@ mod tests {
     #[test]
     fn the_closed_form_in_couette_flow_is_the_integral() {
         for aspect_ratio in [0.3, 1.0, 3.0] {
-            let motion = Motion {
-                gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]],
-                aspect_ratio,
-            };
+            let motion = Motion { gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]], aspect_ratio };
             let period = double(&motion.strain_per_period(Bits(64)));
             // In the shear plane, seen where it turns fastest: the bound is met to a digit's rounding and the Frobenius
             // norm of two directions.
-            let start = if aspect_ratio < 1.0 {
-                [0.0, 1.0, 0.0]
-            } else {
-                [1.0, 0.0, 0.0]
-            };
+            let start = if aspect_ratio < 1.0 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
             let ratio = general(&motion, &[start], period) / couette(aspect_ratio, period);
             assert!((0.5..=3.0).contains(&ratio), "{aspect_ratio} {ratio}");
         }

@@ -21,10 +21,7 @@ impl Axis {
         let (key, values) = key_and_text(text, shape)?;
         let range = split(values, ':');
         let values = match range.as_slice() {
-            [_] => split(values, ',')
-                .into_iter()
-                .map(value)
-                .collect::<Result<_, _>>()?,
+            [_] => split(values, ',').into_iter().map(value).collect::<Result<_, _>>()?,
             [from, to, count] => evenly(from, to, count)?,
             _ => return Err(format!("{values:?} is neither FROM:TO:COUNT nor a list; {shape}")),
         };
@@ -46,10 +43,7 @@ impl Setting {
     /// Reads what stands after `--set`: a key, and one value as it may stand in a list after `--over`.
     pub fn parse(text: &str) -> Result<Self, String> {
         let (key, text) = key_and_text(text, "KEY=VALUE is allowed, as interaction.alpha=0.5")?;
-        Ok(Self {
-            key: key.to_owned(),
-            value: value(text)?,
-        })
+        Ok(Self { key: key.to_owned(), value: value(text)? })
     }
 
     /// The key with its value.
@@ -114,9 +108,7 @@ fn value(text: &str) -> Result<Value, String> {
         _ if text.starts_with(char::is_alphabetic) && text.chars().all(word) => {
             Ok(Value::String(text.to_owned()))
         }
-        _ => Err(format!(
-            "{text:?} is no value; numbers, words and what a scene file allows are"
-        )),
+        _ => Err(format!("{text:?} is no value; numbers, words and what a scene file allows are")),
     }
 }
 
@@ -124,9 +116,7 @@ fn value(text: &str) -> Result<Value, String> {
 fn evenly(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
     let number = |text: &str| match text.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
-        _ => Err(format!(
-            "{text:?} is no end of a range; a finite number is allowed"
-        )),
+        _ => Err(format!("{text:?} is no end of a range; a finite number is allowed")),
     };
     let (a, b) = (number(from)?, number(to)?);
     let steps = match count.parse::<usize>() {
@@ -162,9 +152,7 @@ fn evenly(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
 /// Digits after the point; `None` where there is an exponent or too many.
 fn decimals(text: &str) -> Option<u32> {
     let digits = text.split_once('.').map_or("", |(_, digits)| digits);
-    let plain = text
-        .chars()
-        .all(|c| c.is_ascii_digit() || matches!(c, '.' | '-' | '+'));
+    let plain = text.chars().all(|c| c.is_ascii_digit() || matches!(c, '.' | '-' | '+'));
     (plain && digits.len() <= 12).then_some(digits.len() as u32)
 }
 
@@ -201,10 +189,7 @@ mod tests {
         let deep = |parts| format!("{}=1", vec!["a"; parts].join("."));
         assert!(Axis::parse(&deep(3)).is_ok() && Setting::parse(&deep(3)).is_ok());
         for parts in [4, 30_000] {
-            for error in [
-                Axis::parse(&deep(parts)).unwrap_err(),
-                Setting::parse(&deep(parts)).unwrap_err(),
-            ] {
+            for error in [Axis::parse(&deep(parts)).unwrap_err(), Setting::parse(&deep(parts)).unwrap_err()] {
                 assert!(error.contains(&format!("it has {parts} parts, and at most 3 are allowed")));
             }
         }
@@ -212,11 +197,8 @@ mod tests {
 
     #[test]
     fn ends_of_a_range_without_a_short_decimal_are_the_numbers_given() {
-        for (from, to) in [
-            ("1e-300", "1e300"),
-            ("0.1234567890123456", "7.7"),
-            ("99999999999999999", "1e17"),
-        ] {
+        for (from, to) in [("1e-300", "1e300"), ("0.1234567890123456", "7.7"), ("99999999999999999", "1e17")]
+        {
             let values = shown_values(&format!("a={from}:{to}:4"));
             let read = |text: &str| text.parse::<f64>().unwrap();
             assert_eq!((read(&values[0]), read(&values[3])), (read(from), read(to)));
@@ -228,18 +210,12 @@ mod tests {
         let values = Axis::parse("particles.count=10:25:4").unwrap().values;
         assert_eq!(values, [10, 15, 20, 25].map(Value::Integer));
         let values = Axis::parse("particles.count=10:20:4").unwrap().values;
-        assert_eq!(
-            (&values[0], &values[1]),
-            (&Value::Integer(10), &Value::Float(40.0 / 3.0))
-        );
+        assert_eq!((&values[0], &values[1]), (&Value::Integer(10), &Value::Float(40.0 / 3.0)));
     }
 
     #[test]
     fn lists_hold_numbers_words_and_tables() {
-        assert_eq!(
-            shown_values("interaction.update=rotation, angles"),
-            ["rotation", "angles"]
-        );
+        assert_eq!(shown_values("interaction.update=rotation, angles"), ["rotation", "angles"]);
         assert_eq!(shown_values("a=1,2.50,\"x,y:z\""), ["1", "2.5", "x,y:z"]);
         let values = Axis::parse("particles.orientation=isotropic,{ phi_deg = 0, theta_deg = 90 }").unwrap();
         assert_eq!(values.values.len(), 2);

@@ -33,9 +33,7 @@ impl Identity {
         identity["scene"] = json!(scene.resolved());
         identity["over"] = over.collect();
         identity["warnings"] = json!(warnings);
-        let starts = points
-            .iter()
-            .filter_map(|point| point.plan.scene().particles.rods.as_ref());
+        let starts = points.iter().filter_map(|point| point.plan.scene().particles.rods.as_ref());
         let starts: BTreeMap<_, _> = starts.map(|rods| (&rods.file, &rods.crc32)).collect();
         if !starts.is_empty() {
             identity["starts_crc32"] = json!(starts);
@@ -89,13 +87,7 @@ impl<'a> Folder<'a> {
         // Without a record, points are of unknown origin too.
         let names = ["sweep.json", "sweep.csv", "points"];
         author.check(dir, if own { &names[..2] } else { &names })?;
-        let folder = Self {
-            dir: dir.to_owned(),
-            author,
-            identity: identity.text(),
-            points,
-            claim,
-        };
+        let folder = Self { dir: dir.to_owned(), author, identity: identity.text(), points, claim };
         if !own {
             folder.begin()?;
         }
@@ -106,10 +98,7 @@ impl<'a> Folder<'a> {
     /// Makes the folder this sweep's: what another one left in it goes.
     fn begin(&self) -> Result<(), OutputError> {
         let points = self.dir.join("points");
-        let failed = |reason| OutputError {
-            path: points.clone(),
-            reason,
-        };
+        let failed = |reason| OutputError { path: points.clone(), reason };
         for entry in fs::read_dir(&points).into_iter().flatten() {
             let path = entry.map_err(failed)?.path();
             if path.join(POINT).is_file() {
@@ -151,10 +140,7 @@ impl<'a> Folder<'a> {
             return Ok(());
         }
         let gone = "the folder of the sweep has gone";
-        Err(OutputError {
-            path: self.dir.clone(),
-            reason: io::Error::new(io::ErrorKind::NotFound, gone),
-        })
+        Err(OutputError { path: self.dir.clone(), reason: io::Error::new(io::ErrorKind::NotFound, gone) })
     }
 
     /// Which point it is, and the lengths and checksums of its tables.
@@ -173,9 +159,7 @@ impl<'a> Folder<'a> {
         };
         let record = read(POINT)?;
         let table = |name: &String| Ok((name.clone(), read(name)?));
-        let tables = (self.points.tables.iter())
-            .map(table)
-            .collect::<Result<Vec<_>, Refused>>()?;
+        let tables = (self.points.tables.iter()).map(table).collect::<Result<Vec<_>, Refused>>()?;
         let own = self.record(k, &tables);
         if own == record {
             return Ok(tables);
@@ -183,10 +167,9 @@ impl<'a> Folder<'a> {
         let [found, own] =
             [&record, &own].map(|text| serde_json::from_str::<Value>(text).unwrap_or_default());
         let why = match difference(&found, &own) {
-            Some((key, kept, own)) => format!(
-                "{}: not as it was written: {key} was {kept} and is {own} now",
-                dir.shown()
-            ),
+            Some((key, kept, own)) => {
+                format!("{}: not as it was written: {key} was {kept} and is {own} now", dir.shown())
+            }
             None => format!("{}: not as it was written", dir.join(POINT).shown()),
         };
         Err(self.damaged(k, &why))
@@ -236,9 +219,7 @@ impl<'a> Folder<'a> {
         let text = csv(&rows).map_err(|error| Refused::Other(format!("{}: {error}", path.shown())))?;
         let table = ("sweep.csv".to_owned(), text);
         let identity = ("sweep.json".to_owned(), self.identity.clone());
-        let record = self
-            .author
-            .record(&[vec![table.clone(), identity], sums].concat());
+        let record = self.author.record(&[vec![table.clone(), identity], sums].concat());
         self.claim.write_all(&[table, (RECORD.to_owned(), record)], &[])?;
         Ok(rows)
     }

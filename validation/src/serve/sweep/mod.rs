@@ -45,9 +45,7 @@ pub fn points(text: &str, starts: &Starts, fixed: &[Setting], axes: &[Axis]) -> 
 /// A point in words: `interaction.alpha=0.3 particles.count=10`.
 pub fn described(axes: &[Axis], values: &[Value]) -> String {
     let pairs = axes.iter().zip(values);
-    let words: Vec<_> = pairs
-        .map(|(axis, value)| format!("{}={}", axis.key, shown(value)))
-        .collect();
+    let words: Vec<_> = pairs.map(|(axis, value)| format!("{}={}", axis.key, shown(value))).collect();
     words.join(" ")
 }
 
@@ -64,9 +62,7 @@ pub fn one_owner(flags: &[(&str, &str)]) -> Result<(), String> {
                 true => "both set it".to_owned(),
                 false => format!("both set {}", if key.len() > other.len() { key } else { other }),
             };
-            return Err(format!(
-                "{flag} {key} and {first} {other}: {both}; one of the two is allowed"
-            ));
+            return Err(format!("{flag} {key} and {first} {other}: {both}; one of the two is allowed"));
         }
     }
     Ok(())
@@ -108,9 +104,7 @@ fn with<'a>(base: &Table, settings: impl Iterator<Item = (&'a str, Value)>) -> R
     let text = toml::to_string(&table).map_err(|error| error.to_string())?;
     // The lines of this text are nobody's.
     scene_file::parse("", &text).map_err(|error| {
-        let messages: Vec<_> = (error.problems.into_iter())
-            .map(|problem| problem.message)
-            .collect();
+        let messages: Vec<_> = (error.problems.into_iter()).map(|problem| problem.message).collect();
         messages.join("; ")
     })
 }
@@ -150,22 +144,15 @@ mod tests {
     fn the_grid_is_full_and_its_numbers_reach_the_scene_bit_for_bit() {
         let over = ["interaction.alpha=0.1:0.7:7", "particles.count=10,20"];
         let axes = over.map(|text| Axis::parse(text).unwrap());
-        let found = points(
-            text(),
-            &Starts::default(),
-            &[Setting::parse("ensemble.replicas=3").unwrap()],
-            &axes,
-        )
-        .unwrap();
+        let found =
+            points(text(), &Starts::default(), &[Setting::parse("ensemble.replicas=3").unwrap()], &axes)
+                .unwrap();
         assert_eq!(found.len(), 14);
         for (k, point) in found.iter().enumerate() {
             let scene = point.plan.scene();
             let alpha = (k / 2 + 1) as f64 / 10.0;
             assert_eq!(scene.interaction.as_ref().unwrap().alpha, alpha);
-            assert_eq!(
-                (scene.particles.count, scene.ensemble.replicas),
-                (10 * (k % 2 + 1), 3)
-            );
+            assert_eq!((scene.particles.count, scene.ensemble.replicas), (10 * (k % 2 + 1), 3));
         }
     }
 
@@ -175,10 +162,7 @@ mod tests {
             let flags: Vec<_> = keys.iter().map(|key| ("--over", *key)).collect();
             one_owner(&flags)
         };
-        assert_eq!(
-            over(&["ensemble.seed", "ensemble.replicas", "ensemble_x", "e"]),
-            Ok(())
-        );
+        assert_eq!(over(&["ensemble.seed", "ensemble.replicas", "ensemble_x", "e"]), Ok(()));
         for keys in [
             ["particles", "particles.count"],
             ["particles.count", "particles"],

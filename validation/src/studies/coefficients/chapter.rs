@@ -31,9 +31,7 @@ fn run(extent: &Extent) -> Result<Option<Found>, String> {
     let amount = extent.effort.pick(Amount::QUICK, Amount::FULL);
     let rows = rows(amount, extent.effort);
     let base: Vec<_> = show::base(&rows, amount.finer);
-    let logarithms: Vec<_> = (base.iter())
-        .map(|row| (row.setting.n_a3.ln(), row.c_i.value.ln()))
-        .collect();
+    let logarithms: Vec<_> = (base.iter()).map(|row| (row.setting.n_a3.ln(), row.c_i.value.ln())).collect();
     let answer = base.iter().find(|row| row.setting.n_a3 == 0.2).map_or(String::new(), |row| {
         format!(
             "C_I = {:.5} ± {:.5} at n a³ = 0.2, r_e = 11.6, α = 0.5 with {} times the default's steps, growing as (n a³)^{:.2}; a \
@@ -53,27 +51,16 @@ fn run(extent: &Extent) -> Result<Option<Found>, String> {
         ("folgar-tucker.csv".into(), table.csv()?),
         ("kicks-and-diffusion.csv".into(), tail.csv()?),
         ("steady-orbits.csv".into(), apart.csv()?),
-        (
-            "folgar-tucker.json".into(),
-            build::json(&serde_json::json!({ "rows": rows }))?,
-        ),
+        ("folgar-tucker.json".into(), build::json(&serde_json::json!({ "rows": rows }))?),
     ];
-    let [jumped, orbits] = finest
-        .map(jumps::figures)
-        .map_or([None, None], |both| both.map(Some));
+    let [jumped, orbits] = finest.map(jumps::figures).map_or([None, None], |both| both.map(Some));
     Ok(Some(Found {
         answer: answer + &finest.map_or(String::new(), told),
         exhibits: vec![
             Exhibit::both(show::against_concentration(&rows, amount.finer), table),
             show::figure(&rows, amount.finer).into(),
-            Exhibit {
-                figure: jumped,
-                table: Some(tail),
-            },
-            Exhibit {
-                figure: orbits,
-                table: Some(apart),
-            },
+            Exhibit { figure: jumped, table: Some(tail) },
+            Exhibit { figure: orbits, table: Some(apart) },
             show::stress(&rows).into(),
         ],
         files,

@@ -98,11 +98,7 @@ mod tests {
     #[test]
     fn directions_are_forgotten_at_twice_the_diffusivity() {
         // Without strain (Λ = 0) the liquid turns rods about axis 3 alone, and ⟨p₃⟩ falls as exp(−2 C_I γ).
-        let diffusion = Diffusion {
-            shape_factor: 0.0,
-            c_i: 0.1,
-            strain: 0.01,
-        };
+        let diffusion = Diffusion { shape_factor: 0.0, c_i: 0.1, strain: 0.01 };
         let mut rods = Diffusing::isotropic(20_000, diffusion, 1);
         rods.rods.fill(Vector3::z());
         (0..500).for_each(|_| rods.step());

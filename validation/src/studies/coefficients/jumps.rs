@@ -41,9 +41,9 @@ impl Quantity {
     /// The values above which rods are counted.
     pub fn edges(self) -> Vec<f64> {
         match self {
-            Self::Angle | Self::Change => vec![
-                1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0,
-            ],
+            Self::Angle | Self::Change => {
+                vec![1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0]
+            }
             Self::Orbit | Self::Phase => (0..100).map(|k| 0.01 * f64::from(k)).collect(),
         }
     }
@@ -79,12 +79,7 @@ impl Watch {
         let strain = period / scene.steps_per_unit() as f64;
         let steps = (1.0 / strain).round().max(1.0);
         let jumps = |periods: f64| (periods * period / (steps * strain)).ceil() as u64;
-        Self {
-            steps: steps as u64,
-            strain,
-            before: jumps(before),
-            jumps: jumps(periods),
-        }
+        Self { steps: steps as u64, strain, before: jumps(before), jumps: jumps(periods) }
     }
 
     /// Strain of a jump.
@@ -115,11 +110,7 @@ pub fn diffused(
     (effort, stream): (&Effort, u64),
 ) -> Vec<Shares> {
     let aspect_ratio = scene.particles.aspect_ratio;
-    let diffusion = Diffusion {
-        shape_factor: shape_factor(aspect_ratio),
-        c_i,
-        strain: watch.strain,
-    };
+    let diffusion = Diffusion { shape_factor: shape_factor(aspect_ratio), c_i, strain: watch.strain };
     let one = |replica| {
         let mut rods = Diffusing::isotropic(scene.particles.count, diffusion, effort.seed(stream + replica));
         observed(aspect_ratio, watch, || {
@@ -200,10 +191,7 @@ pub fn apart(one: &[Shares], other: &[Shares], quantity: Quantity, seed: u64) ->
         // Sums in another order differ by rounding.
         distance(&all) > found - 1e-12
     });
-    Apart {
-        distance: found,
-        p: (1 + as_far.count()) as f64 / (1 + DEALS) as f64,
-    }
+    Apart { distance: found, p: (1 + as_far.count()) as f64 / (1 + DEALS) as f64 }
 }
 
 /// A suspension, and diffusion of the C_I that was measured of it.
@@ -223,9 +211,7 @@ pub struct Compared {
 
 /// Compares the suspensions whose C_I is known to be above 0: there is no diffusion of another.
 pub fn compared(rows: &[&Coefficients], effort: &Effort) -> Vec<Compared> {
-    let diffusive = rows
-        .iter()
-        .filter(|row| row.c_i.readable() && row.c_i.value > 0.0);
+    let diffusive = rows.iter().filter(|row| row.c_i.readable() && row.c_i.value > 0.0);
     let compare = |row: &&Coefficients| {
         let scene = scene(row.setting, effort);
         let watch = Watch::new(&scene, row.periods as f64, row.periods as f64);

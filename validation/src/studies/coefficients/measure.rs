@@ -26,12 +26,7 @@ pub struct Setting {
 }
 
 const fn setting(n_a3: f64, aspect_ratio: f64, alpha: f64, finer: u64) -> Setting {
-    Setting {
-        n_a3,
-        aspect_ratio,
-        alpha,
-        finer,
-    }
+    Setting { n_a3, aspect_ratio, alpha, finer }
 }
 
 /// The suspensions of `shearbed bench`: the time step first, then the rest at the step [`Amount`] says.
@@ -78,17 +73,9 @@ pub struct Amount {
 
 impl Amount {
     /// Of the report.
-    pub const QUICK: Self = Self {
-        settings: &QUICK,
-        finer: 4,
-        replicas: 12,
-    };
+    pub const QUICK: Self = Self { settings: &QUICK, finer: 4, replicas: 12 };
     /// Of `shearbed bench`.
-    pub const FULL: Self = Self {
-        settings: &FULL,
-        finer: 8,
-        replicas: 48,
-    };
+    pub const FULL: Self = Self { settings: &FULL, finer: 8, replicas: 48 };
 }
 
 /// What was found of a suspension.
@@ -123,16 +110,12 @@ const RODS: usize = 100;
 /// Measures one suspension after the other.
 pub fn rows(amount: Amount, effort: &Effort) -> Vec<Coefficients> {
     let settings = amount.settings.iter();
-    settings
-        .map(|setting| row(*setting, amount.replicas, effort))
-        .collect()
+    settings.map(|setting| row(*setting, amount.replicas, effort)).collect()
 }
 
 /// Periods until the state is steady and as many of the window: collisions are as many in each suspension.
 fn periods(setting: Setting) -> u64 {
-    (1.0 / (setting.n_a3 * setting.alpha / 0.5))
-        .ceil()
-        .clamp(5.0, 50.0) as u64
+    (1.0 / (setting.n_a3 * setting.alpha / 0.5)).ceil().clamp(5.0, 50.0) as u64
 }
 
 /// The scene of a suspension.
@@ -147,11 +130,8 @@ pub fn scene(setting: Setting, effort: &Effort) -> Scene {
     scene.time.periods = Some(2.0 * periods(setting) as f64);
     scene.time.outputs_per_period = Some(OUTPUTS as u64);
     scene.time.steps_per_period = Some(setting.finer * scene.resolving_steps());
-    scene.output.observables = vec![
-        Observable::Projections,
-        Observable::OrientationTensor,
-        Observable::OrientationTensor4,
-    ];
+    scene.output.observables =
+        vec![Observable::Projections, Observable::OrientationTensor, Observable::OrientationTensor4];
     scene
 }
 
@@ -162,10 +142,7 @@ pub(crate) fn windows(scene: &Scene, replicas: u64) -> Vec<(Means, [f64; 9])> {
     let channels = Channels::new();
     lab::per_replica(scene, replicas, |mean| {
         let means = channels.window(mean, half..2 * half, strain);
-        (
-            means,
-            std::array::from_fn(|k| mean(Channel::X[0], k * OUTPUTS / 4)),
-        )
+        (means, std::array::from_fn(|k| mean(Channel::X[0], k * OUTPUTS / 4)))
     })
 }
 
@@ -173,9 +150,7 @@ fn row(setting: Setting, replicas: u64, effort: &Effort) -> Coefficients {
     let (means, quarters): (Vec<_>, Vec<_>) = windows(&scene(setting, effort), replicas).into_iter().unzip();
     let factor = shape_factor(setting.aspect_ratio);
     let of = |value: &dyn Fn(&Means) -> f64| {
-        let without: Vec<_> = (0..means.len())
-            .map(|k| value(&Means::of(&means, Some(k))))
-            .collect();
+        let without: Vec<_> = (0..means.len()).map(|k| value(&Means::of(&means, Some(k)))).collect();
         Estimate::jackknife(value(&Means::of(&means, None)), &without)
     };
     let own = |i: usize, j: usize| of(&|means| means.gain(factor)[(i, j)] / means.diffusion()[(i, j)]);
@@ -198,9 +173,7 @@ fn damping(quarters: &[[f64; 9]]) -> Option<Estimate> {
         let kept = || quarters.iter().enumerate().filter(|(k, _)| Some(*k) != without);
         let count = kept().count() as f64;
         let mean = |place: usize| kept().map(|(_, x)| x[place]).sum::<f64>() / count;
-        damping_rate(&std::array::from_fn(
-            |place| if place < 9 { mean(place) } else { 0.0 },
-        ))
+        damping_rate(&std::array::from_fn(|place| if place < 9 { mean(place) } else { 0.0 }))
     };
     let without: Vec<_> = (0..quarters.len()).map(|k| rate(Some(k))).collect();
     let found = Estimate::jackknife(rate(None), &without);

@@ -50,11 +50,7 @@ fn settings<'a>() -> Vec<Column<'a, Coefficients>> {
 pub(super) fn coefficients(rows: &[Coefficients]) -> ReportTable {
     let replicas = rows.first().map_or(0, |row| row.replicas);
     let mut columns = settings();
-    columns.push(number(
-        "φ r_p",
-        |x| format!("{x:.4}"),
-        |row: &Coefficients| row.phi_rp,
-    ));
+    columns.push(number("φ r_p", |x| format!("{x:.4}"), |row: &Coefficients| row.phi_rp));
     columns.push(of("C_I", |row| row.c_i));
     for (k, name) in ["of 11", "of 22", "of 33", "of 12"].into_iter().enumerate() {
         columns.push(of(name, move |row| row.own[k]));
@@ -82,10 +78,7 @@ pub(super) fn coefficients(rows: &[Coefficients]) -> ReportTable {
 /// The rods' steady stress.
 pub(super) fn stress(rows: &[Coefficients]) -> ReportTable {
     let mut columns = settings();
-    for (k, name) in ["σ_12/(μ_fiber G)", "N_1/(μ_fiber G)", "N_2/(μ_fiber G)"]
-        .into_iter()
-        .enumerate()
-    {
+    for (k, name) in ["σ_12/(μ_fiber G)", "N_1/(μ_fiber G)", "N_2/(μ_fiber G)"].into_iter().enumerate() {
         columns.push(of(name, move |row| row.stress[k]));
     }
     ReportTable::new(
@@ -118,9 +111,7 @@ pub(super) fn against_concentration(rows: &[Coefficients], finer: u64) -> Report
     kinds.dedup();
     let of_kind = |own: &(f64, f64)| {
         let these: Vec<_> = at_step.iter().copied().filter(|row| kind(row) == *own).collect();
-        points(format!("r_e = {}, α = {}", own.0, own.1), &these, |row| {
-            row.setting.n_a3
-        })
+        points(format!("r_e = {}, α = {}", own.0, own.1), &these, |row| row.setting.n_a3)
     };
     ReportFigure {
         name: "effective-ci".into(),
@@ -144,11 +135,7 @@ pub(super) fn against_concentration(rows: &[Coefficients], finer: u64) -> Report
 
 /// C_I against φ r_p, beside measured values of far denser suspensions.
 pub(super) fn figure(rows: &[Coefficients], finer: u64) -> ReportFigure {
-    let model = points(
-        "this model, r_e = 11.6, α = 0.5".into(),
-        &base(rows, finer),
-        |row| row.phi_rp,
-    );
+    let model = points("this model, r_e = 11.6, α = 0.5".into(), &base(rows, finer), |row| row.phi_rp);
     let measured = folgar_tucker().rows;
     let seven = Points {
         label: "measured: Folgar & Tucker 1984, n a³ > 3".into(),

@@ -6,9 +6,8 @@ use crate::present::table::{Column, ReportTable, estimate, number};
 
 /// Abscissas against time. Rods are where they were every half period, so whole and half periods alone would show free
 /// ones as still.
-const PERIODS: [f64; 17] = [
-    0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0, 2.75, 3.0, 3.75, 4.0, 4.75, 5.0, 5.75, 6.0,
-];
+const PERIODS: [f64; 17] =
+    [0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0, 2.75, 3.0, 3.75, 4.0, 4.75, 5.0, 5.75, 6.0];
 
 /// A row for each point of the first series, or against time for each of [`PERIODS`]; a column for each series.
 pub(super) fn table(figure: &ReportFigure) -> ReportTable {
@@ -40,12 +39,7 @@ fn series(figure: &Figure) -> Vec<Curve> {
 }
 
 fn column<'a>(curve: Curve) -> Column<'a, f64> {
-    let Curve {
-        label,
-        x,
-        y,
-        half_band,
-    } = curve;
+    let Curve { label, x, y, half_band } = curve;
     let near = move |wanted: &f64| {
         let apart = |k: &usize| (x[*k] - wanted).abs();
         let nearest = (0..x.len()).min_by(|a, b| apart(a).total_cmp(&apart(b)));
@@ -57,10 +51,6 @@ fn column<'a>(curve: Curve) -> Column<'a, f64> {
             |y, half| format!("{y:.3} ± {half:.3}"),
             move |wanted| near(wanted).map(|k| (y[k], half[k])),
         ),
-        None => number(
-            label,
-            |y| format!("{y:.3}"),
-            move |wanted| near(wanted).map(|k| y[k]),
-        ),
+        None => number(label, |y| format!("{y:.3}"), move |wanted| near(wanted).map(|k| y[k])),
     }
 }

@@ -11,17 +11,12 @@ pub(super) fn measured(scene: &str, effort: &Effort, figure: &mut Figure) -> Res
         return Ok("Measured points: none supplied.".into());
     }
     for observable in ["x1", "x2", "x3"] {
-        let here: Vec<_> = all
-            .iter()
-            .filter(|point| point.observable == observable)
-            .collect();
+        let here: Vec<_> = all.iter().filter(|point| point.observable == observable).collect();
         let mut labels: Vec<&str> = here.iter().map(|point| point.label.as_str()).collect();
         labels.dedup();
         for label in labels {
             let points = here.iter().copied().filter(|point| point.label == label);
-            figure
-                .points
-                .push(series(label, observable, &points.collect::<Vec<_>>()));
+            figure.points.push(series(label, observable, &points.collect::<Vec<_>>()));
         }
     }
     Ok("Measured points have bars of 95 %.".into())
@@ -46,14 +41,8 @@ mod tests {
 
     #[test]
     fn a_synthetic_point_has_bars_of_95_percent() {
-        let point = Measured {
-            label: "synthetic".into(),
-            observable: "x3",
-            x: 1.0,
-            y: 0.25,
-            u_x: 0.01,
-            u_y: 0.02,
-        };
+        let point =
+            Measured { label: "synthetic".into(), observable: "x3", x: 1.0, y: 0.25, u_x: 0.01, u_y: 0.02 };
         let points = series("synthetic", "x3", &[&point]);
         assert_eq!(points.label, "X̄_3, synthetic");
         assert_eq!((points.x, points.y), (vec![1.0], vec![0.25]));

@@ -22,10 +22,7 @@ pub struct Replicas {
 impl Replicas {
     /// The number for a quick or a full run. The quick run of an interacting scene is the scene as its file says.
     pub fn of(effort: &Effort) -> Self {
-        Self {
-            interacting: effort.pick(100, 1000),
-            free: effort.pick(20, 200),
-        }
+        Self { interacting: effort.pick(100, 1000), free: effort.pick(20, 200) }
     }
 }
 

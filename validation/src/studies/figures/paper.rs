@@ -24,13 +24,7 @@ pub(super) fn figures(runs: &Runs, effort: &Effort) -> Result<Vec<ReportFigure>,
 
 /// A figure of the paper; the catalogue knows the cases that cite it.
 fn figure(name: &str, source: &str, figure: Figure, caption: String) -> ReportFigure {
-    ReportFigure {
-        name: name.into(),
-        figure,
-        caption,
-        source: source.into(),
-        cases: Vec::new(),
-    }
+    ReportFigure { name: name.into(), figure, caption, source: source.into(), cases: Vec::new() }
 }
 
 fn against_time(title: String, y_name: &str, curves: Vec<Curve>) -> Figure {
@@ -46,20 +40,13 @@ fn against_time(title: String, y_name: &str, curves: Vec<Curve>) -> Figure {
 }
 
 fn projections(run: &Run) -> Vec<Curve> {
-    let channels = [
-        ("x1", "X̄₁ (gradient)"),
-        ("x2", "X̄₂ (flow)"),
-        ("x3", "X̄₃ (vorticity)"),
-    ];
+    let channels = [("x1", "X̄₁ (gradient)"), ("x2", "X̄₂ (flow)"), ("x3", "X̄₃ (vorticity)")];
     channels.map(|(channel, label)| run.curve(channel, label)).into()
 }
 
 fn fig4(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
-    let mut drawn = against_time(
-        "Fig. 4: X̄₁ at three concentrations, α = 0.5".into(),
-        PROJECTION,
-        Vec::new(),
-    );
+    let mut drawn =
+        against_time("Fig. 4: X̄₁ at three concentrations, α = 0.5".into(), PROJECTION, Vec::new());
     let mut supplied = String::new();
     for n in [20, 50, 100] {
         let scene = format!("fig4-n{n}");
@@ -84,11 +71,7 @@ pub(super) fn answer(runs: &Runs) -> Result<String, String> {
         let run = runs.get(&format!("fig4-n{n}"))?;
         let output = run.times().iter().position(|t| (t - 2.0).abs() < 1e-9);
         let sample = run.sample("x1", |x1| output.map_or(f64::NAN, x1));
-        Ok::<_, String>(format!(
-            "{:.3} ± {:.3} at n = {n}",
-            sample.mean,
-            sample.half_width()
-        ))
+        Ok::<_, String>(format!("{:.3} ± {:.3} at n = {n}", sample.mean, sample.half_width()))
     };
     Ok(format!(
         "In Fig. 4 X̄₁ at its maximum at t/T = 2 is {}, {} and {} per cm³ (95 %); measured points are needed to say whether \
@@ -165,11 +148,7 @@ type Compared = &'static [(&'static str, &'static str)];
 const AMPLITUDES: [(u32, Compared, &str, &str); 4] = [
     (
         7,
-        &[
-            ("fig7-n20", "n = 20 cm⁻³"),
-            ("fig7-n50", "n = 50 cm⁻³"),
-            ("fig7-n100", "n = 100 cm⁻³"),
-        ],
+        &[("fig7-n20", "n = 20 cm⁻³"), ("fig7-n50", "n = 50 cm⁻³"), ("fig7-n100", "n = 100 cm⁻³")],
         "A₁ and the concentration",
         "The amplitude decays faster where n is larger. A₁ is the height of a maximum of X̄₁ above the mean of the minima \
          on its two sides: the paper defines it in a drawing that is not at hand, and this reading gives free rods of \
@@ -177,11 +156,7 @@ const AMPLITUDES: [(u32, Compared, &str, &str); 4] = [
     ),
     (
         8,
-        &[
-            ("fig8-a0.36", "a = 0.36 mm"),
-            ("fig8-a0.72", "a = 0.72 mm"),
-            ("fig8-a1.44", "a = 1.44 mm"),
-        ],
+        &[("fig8-a0.36", "a = 0.36 mm"), ("fig8-a0.72", "a = 0.72 mm"), ("fig8-a1.44", "a = 1.44 mm")],
         "A₁ and the rod length, n = 50 cm⁻³",
         "Longer rods of the same shape meet more often, and the amplitude decays faster.",
     ),
@@ -225,19 +200,14 @@ fn amplitudes(runs: &Runs) -> Result<Vec<ReportFigure>, String> {
 const STEADY_PERIODS: f64 = 3.0;
 
 fn fig11(runs: &Runs) -> Result<ReportFigure, String> {
-    let mut steady = Points {
-        label: "steady φ̄, interacting rods".into(),
-        ..Default::default()
-    };
+    let mut steady = Points { label: "steady φ̄, interacting rods".into(), ..Default::default() };
     let mut errors = Vec::new();
     for name in ["5", "10", "11.6", "14.2", "20", "30", "50"] {
         let run = runs.get(&format!("fig11-re{name}"))?;
         let times = run.times();
         let first = times.last().copied().unwrap_or(0.0) - STEADY_PERIODS;
         let late: Vec<usize> = (0..times.len()).filter(|k| times[*k] > first + 1e-9).collect();
-        let sample = run.sample("phi", |phi| {
-            late.iter().map(|k| phi(*k)).sum::<f64>() / late.len() as f64
-        });
+        let sample = run.sample("phi", |phi| late.iter().map(|k| phi(*k)).sum::<f64>() / late.len() as f64);
         steady.x.push(run.scene().particles.aspect_ratio);
         steady.y.push(sample.mean);
         errors.push(sample.half_width());
@@ -267,11 +237,7 @@ fn fig11(runs: &Runs) -> Result<ReportFigure, String> {
 
 fn fig12(runs: &Runs) -> Result<ReportFigure, String> {
     let run = runs.get("fig12")?;
-    let channels = [
-        ("x1x2", "x_1x_2 plane"),
-        ("x2x3", "x_2x_3 plane"),
-        ("x1x3", "x_1x_3 plane"),
-    ];
+    let channels = [("x1x2", "x_1x_2 plane"), ("x2x3", "x_2x_3 plane"), ("x1x3", "x_1x_3 plane")];
     let curves = channels.map(|(channel, label)| run.curve(channel, label));
     let mut drawn = against_time(
         "Fig. 12: planar projections, n = 50 cm⁻³, σ = 3.6 %".into(),

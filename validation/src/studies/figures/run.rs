@@ -34,16 +34,10 @@ impl Run {
         let channel = Channel::named(channel);
         let observed = |replica: &Replica| channel.is_some_and(|channel| replica.mean(channel, 0).is_some());
         let mean = |replica: &Replica, output| {
-            channel
-                .and_then(|channel| replica.mean(channel, output))
-                .unwrap_or(f64::NAN)
+            channel.and_then(|channel| replica.mean(channel, output)).unwrap_or(f64::NAN)
         };
         let replicas = self.replicas.iter().filter(|replica| observed(replica));
-        Sample::of(
-            &replicas
-                .map(|replica| value(&|output| mean(replica, output)))
-                .collect::<Vec<_>>(),
-        )
+        Sample::of(&replicas.map(|replica| value(&|output| mean(replica, output))).collect::<Vec<_>>())
     }
 
     /// A channel's mean against t/T with its 95 % band.
@@ -56,10 +50,7 @@ impl Run {
 
 /// A curve through samples, with a band of 95 % by Student's t.
 pub(super) fn with_band(label: impl Into<String>, samples: impl Iterator<Item = (f64, Sample)>) -> Curve {
-    let mut curve = Curve {
-        label: label.into(),
-        ..Default::default()
-    };
+    let mut curve = Curve { label: label.into(), ..Default::default() };
     let mut band = Vec::new();
     for (x, sample) in samples {
         curve.x.push(x);
@@ -105,8 +96,7 @@ impl Runs {
     /// The run of a scene.
     pub(super) fn get(&self, name: &str) -> Result<&Run, String> {
         let run = self.0.get(name);
-        run.map(Arc::as_ref)
-            .ok_or_else(|| format!("{name}: no figure's scene has this name"))
+        run.map(Arc::as_ref).ok_or_else(|| format!("{name}: no figure's scene has this name"))
     }
 }
 
@@ -118,10 +108,7 @@ fn replicas(plan: &Plan) -> Result<Vec<Replica>, String> {
 
 /// Whether two scenes differ in nothing but their titles.
 fn same(a: &Scene, b: &Scene) -> bool {
-    let untitled = |scene: &Scene| Scene {
-        title: String::new(),
-        ..scene.clone()
-    };
+    let untitled = |scene: &Scene| Scene { title: String::new(), ..scene.clone() };
     untitled(a) == untitled(b)
 }
 
@@ -147,10 +134,7 @@ pub(super) fn shown((name, plan): &(&'static str, Plan)) -> ScenePlan {
         scene: (*name).into(),
         title: plan.scene().title.clone(),
         seed: ensemble.seed,
-        command: format!(
-            "cargo run --release -- run {name} --replicas {}",
-            ensemble.replicas
-        ),
+        command: format!("cargo run --release -- run {name} --replicas {}", ensemble.replicas),
         text: plan.to_string(),
     }
 }

@@ -38,9 +38,7 @@ impl Integrator for DormandPrince {
         let mut solver = Dop853::new(*problem, 0.0, end, end, start.into_inner(), tolerance, tolerance);
         // Steps, not dense output: the last one ends at `end`.
         solver.set_output(OutputType::Sparse);
-        solver
-            .integrate()
-            .map_err(|error| Failure::Gave(error.to_string()))?;
+        solver.integrate().map_err(|error| Failure::Gave(error.to_string()))?;
         solver.y_out().last().copied().ok_or(Failure::NotFinite)
     }
 }
@@ -81,10 +79,8 @@ impl Integrator for Radau {
     ) -> Result<Vector3<f64>, Failure> {
         let (tolerance, end) = (setting.tolerance()?, problem.strain());
         // One tolerance for each component: version 0.7 rescales a single one as often as there are components.
-        let method = ImplicitRungeKutta::radau5()
-            .rtol([tolerance; 3])
-            .atol([tolerance; 3])
-            .max_steps(MOST_STEPS);
+        let method =
+            ImplicitRungeKutta::radau5().rtol([tolerance; 3]).atol([tolerance; 3]).max_steps(MOST_STEPS);
         let solution = IVP::ode(problem, 0.0, end, start.into_inner().into())
             .method(method)
             .solve()

@@ -106,10 +106,7 @@ mod tests {
                 let end = ClosedForm.advance(&problem, &start, Setting::Once);
                 let off = end.map(|end| super::super::apart_rad(&end, &problem.reference(&start)));
                 // The phase is rounded to ε, and φ moves by max(r_e, 1/r_e) times that.
-                assert!(
-                    off.is_ok_and(|off| off < 32.0 * f64::EPSILON * r.max(1.0 / r)),
-                    "{r} {theta}"
-                );
+                assert!(off.is_ok_and(|off| off < 32.0 * f64::EPSILON * r.max(1.0 / r)), "{r} {theta}");
             }
         }
     }

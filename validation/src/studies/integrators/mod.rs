@@ -167,12 +167,9 @@ mod tests {
         assert_eq!(said, ["–", "20 steps", "tolerance 1e-8"]);
         assert_eq!(Setting::Steps(1).steps(), Ok(1));
         assert_eq!(Setting::Tolerance(1e-300).tolerance(), Ok(1e-300));
-        for setting in [
-            Setting::Once,
-            Setting::Steps(0),
-            Setting::Tolerance(0.0),
-            Setting::Tolerance(f64::NAN),
-        ] {
+        for setting in
+            [Setting::Once, Setting::Steps(0), Setting::Tolerance(0.0), Setting::Tolerance(f64::NAN)]
+        {
             assert_eq!(setting.steps(), Err(Failure::Setting));
             assert_eq!(setting.tolerance(), Err(Failure::Setting));
         }
@@ -184,11 +181,7 @@ mod tests {
         let said: Vec<_> = own()
             .iter()
             .map(|subject| {
-                format!(
-                    "{}{}",
-                    subject.name(),
-                    if subject.keeps_length() { " |p| = 1" } else { "" }
-                )
+                format!("{}{}", subject.name(), if subject.keeps_length() { " |p| = 1" } else { "" })
             })
             .collect();
         let expected = [
@@ -219,12 +212,7 @@ mod tests {
             let errors = grade(subject.as_ref(), &problem, &start, own).unwrap();
             assert!(errors.orientation_rad < 5e-3, "{}: {errors:?}", subject.name());
             let refused = grade(subject.as_ref(), &problem, &start, other);
-            assert_eq!(
-                refused.is_err(),
-                subject.theory() != Theory::Exact,
-                "{}",
-                subject.name()
-            );
+            assert_eq!(refused.is_err(), subject.theory() != Theory::Exact, "{}", subject.name());
         }
     }
 }

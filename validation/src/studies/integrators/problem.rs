@@ -23,12 +23,7 @@ impl Problem {
     /// A rod of `aspect_ratio` > 0 over `turns` periods.
     pub fn new(aspect_ratio: f64, turns: f64) -> Self {
         let square = aspect_ratio * aspect_ratio;
-        Self {
-            aspect_ratio,
-            turns,
-            long: 1.0 / (1.0 + 1.0 / square),
-            short: 1.0 / (1.0 + square),
-        }
+        Self { aspect_ratio, turns, long: 1.0 / (1.0 + 1.0 / square), short: 1.0 / (1.0 + square) }
     }
 
     /// From φ = 0.2, θ = 1 through a whole period, two flips, into the third to φ = 2π + 1: whoever has the phase or
@@ -115,11 +110,7 @@ impl Problem {
 
 fn direction(phi: f64, theta: f64) -> UnitVector3<f64> {
     let in_plane = theta.sin();
-    UnitVector3::new_normalize(Vector3::new(
-        in_plane * phi.cos(),
-        in_plane * phi.sin(),
-        theta.cos(),
-    ))
+    UnitVector3::new_normalize(Vector3::new(in_plane * phi.cos(), in_plane * phi.sin(), theta.cos()))
 }
 
 #[cfg(test)]
@@ -133,11 +124,7 @@ mod tests {
             let (problem, start) = Problem::into_flip(11.6, 0.7, 0.4, turns);
             let end = problem.reference(&start);
             assert!((end.y / end.x - 1f64.tan()).abs() < 1e-11, "{turns}: {end:?}");
-            assert!(
-                (turns..turns + 0.5).contains(&problem.turns),
-                "{turns}: {}",
-                problem.turns
-            );
+            assert!((turns..turns + 0.5).contains(&problem.turns), "{turns}: {}", problem.turns);
         }
     }
 

@@ -76,12 +76,7 @@ fn dexp_inverse(u: &Vector3<f64>, omega: Vector3<f64>) -> Vector3<f64> {
 
 pub(super) fn all() -> Vec<Box<dyn Integrator>> {
     let on_sphere = |name, order, step: fn(&Problem, Vector3<f64>, f64) -> Vector3<f64>| {
-        Box::new(FixedStep {
-            name,
-            order,
-            keeps_length: true,
-            step,
-        }) as Box<dyn Integrator>
+        Box::new(FixedStep { name, order, keeps_length: true, step }) as Box<dyn Integrator>
     };
     vec![
         on_sphere("implicit midpoint in p", 2, implicit_midpoint),
@@ -109,11 +104,7 @@ mod tests {
 
     #[test]
     fn the_rotation_vector_turns_at_the_rate_asked_for() {
-        let (u, omega, dt) = (
-            Vector3::new(0.02, -0.03, 0.01),
-            Vector3::new(-0.5, 0.2, 0.7),
-            1e-5,
-        );
+        let (u, omega, dt) = (Vector3::new(0.02, -0.03, 0.01), Vector3::new(-0.5, 0.2, 0.7), 1e-5);
         let rate = dexp_inverse(&u, omega) * dt;
         let turned = |u| Rotation3::new(u).into_inner();
         let found = (turned(u + rate) - turned(u - rate)) * turned(-u) / (2.0 * dt);

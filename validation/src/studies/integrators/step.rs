@@ -93,8 +93,6 @@ fn last<const N: usize>(
     let h = problem.strain() / steps as f64;
     // A rod that is lost stays lost: no more steps are spent on it.
     (0..steps)
-        .try_fold(first, |state, _| {
-            Some(step(problem, state, h)).filter(|state| state.sum().is_finite())
-        })
+        .try_fold(first, |state, _| Some(step(problem, state, h)).filter(|state| state.sum().is_finite()))
         .ok_or(Failure::NotFinite)
 }

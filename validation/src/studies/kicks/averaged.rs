@@ -29,11 +29,7 @@ pub fn apart(scene: &Scene, steps: u64, change: fn(&mut Problem), replica: u64) 
     for _ in 0..steps {
         averaged.step_averaged();
         if core.step().is_err() {
-            return Apart {
-                x1: f64::NAN,
-                square: f64::NAN,
-                averaged_x1: f64::NAN,
-            };
+            return Apart { x1: f64::NAN, square: f64::NAN, averaged_x1: f64::NAN };
         }
     }
     let rods: Vec<_> = core.directions().into_iter().zip(averaged.orientations).collect();

@@ -28,9 +28,7 @@ pub const STUDY: Study = Study {
 fn run(extent: &Extent) -> Result<Option<Found>, String> {
     let limit = study::measure(extent.effort)?;
     let mut tables = tables::tables(&limit).into_iter();
-    let first = tables
-        .next()
-        .map(|table| Exhibit::both(tables::figure(&limit), table));
+    let first = tables.next().map(|table| Exhibit::both(tables::figure(&limit), table));
     Ok(Some(Found {
         answer: answer(&limit),
         exhibits: first.into_iter().chain(tables.map(Exhibit::from)).collect(),
@@ -47,11 +45,7 @@ fn answer(limit: &Limit) -> String {
     let words = |row: &super::StepCounts| format!("{:.3} ± {:.3}", rate(row).mean, rate(row).se);
     format!(
         "{}: closing pairs kick a rod by more than 0.1 rad {} times a period at {} steps, {} times at {} steps.",
-        if stay {
-            "Jumps are left"
-        } else {
-            "No jumps are seen"
-        },
+        if stay { "Jumps are left" } else { "No jumps are seen" },
         words(coarse),
         coarse.steps_per_period,
         words(fine),

@@ -45,11 +45,7 @@ pub struct Counted {
 }
 
 /// Kicks, by what the gap does.
-pub const KICKS: Counted = Counted {
-    angles: kicks_rad,
-    opens: is_opening,
-    looks_per_period: 200,
-};
+pub const KICKS: Counted = Counted { angles: kicks_rad, opens: is_opening, looks_per_period: 200 };
 
 /// GΔt of a scene in plane Couette flow.
 pub fn step_strain(scene: &Scene) -> f64 {
@@ -80,26 +76,18 @@ pub fn count(scene: &Scene, replica: u64, periods: Range<u64>, counted: Counted)
     let mut chances = [[0.0; 4]; 2];
     for step in 0..periods.end * steps {
         let within = step >= periods.start * steps;
-        let directions = if within {
-            suspension.directions()
-        } else {
-            Vec::new()
-        };
+        let directions = if within { suspension.directions() } else { Vec::new() };
         if within && step % (steps / counted.looks_per_period).max(1) == 0 {
             chances = mean_chances(&directions, &aspect_ratios, strain, counted.opens);
         }
         let Ok(collisions) = suspension.step() else {
-            return Counts {
-                closing: [f64::NAN; 4],
-                ..counts
-            };
+            return Counts { closing: [f64::NAN; 4], ..counts };
         };
         for collision in collisions.iter().filter(|_| within) {
             let [a, b] = collision.rods.map(|rod| directions[rod]);
             counts.add((counted.opens)(&a, &b), (counted.angles)(collision));
-            for (fresh, chances) in [&mut counts.fresh_closing, &mut counts.fresh_opening]
-                .into_iter()
-                .zip(chances)
+            for (fresh, chances) in
+                [&mut counts.fresh_closing, &mut counts.fresh_opening].into_iter().zip(chances)
             {
                 for (fresh, chance) in fresh.iter_mut().zip(chances) {
                     *fresh += 2.0 * chance;
@@ -148,11 +136,7 @@ fn mean_chances(
 
 impl Counts {
     fn add(&mut self, opening: bool, angles: [f64; 2]) {
-        let side = if opening {
-            &mut self.opening
-        } else {
-            &mut self.closing
-        };
+        let side = if opening { &mut self.opening } else { &mut self.closing };
         for (count, threshold) in side.iter_mut().zip(THRESHOLDS_RAD) {
             *count += angles.iter().filter(|angle| **angle > threshold).count() as f64;
         }
@@ -223,9 +207,7 @@ pub fn rates(
 
 /// The kicks of one step from a fresh start: isotropic rods at random places.
 pub fn of_one_step(suspension: &mut Suspension, angles: Angles) -> Vec<f64> {
-    (suspension.step()).map_or(vec![f64::NAN], |collisions| {
-        collisions.iter().flat_map(angles).collect()
-    })
+    (suspension.step()).map_or(vec![f64::NAN], |collisions| collisions.iter().flat_map(angles).collect())
 }
 
 #[cfg(test)]
@@ -250,11 +232,7 @@ mod tests {
     fn a_window_is_part_of_the_run() {
         let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
         lab::interaction(&mut scene).concentration_per_cm3 = Some(400.0);
-        let turns = |periods| {
-            rates(&scene, 50, periods, 2, KICKS)
-                .mean(|counts| counts.turns)
-                .mean
-        };
+        let turns = |periods| rates(&scene, 50, periods, 2, KICKS).mean(|counts| counts.turns).mean;
         let (both, parts) = (turns(0..2), [turns(0..1), turns(1..2)]);
         assert!((2.0 * both - parts[0] - parts[1]).abs() < 1e-12 && parts[0] != parts[1]);
     }

@@ -42,9 +42,7 @@ pub fn measure(effort: &Effort) -> Result<Limit, String> {
     let steps = steps.into_iter().filter(|steps| *steps <= finest);
     let averaged_finest = effort.pick(800, 6400);
     let averaged_steps = [100, 200, 400, 800, 1600, 3200, 6400];
-    let averaged_steps = averaged_steps
-        .into_iter()
-        .filter(|steps| *steps <= averaged_finest);
+    let averaged_steps = averaged_steps.into_iter().filter(|steps| *steps <= averaged_finest);
     let mut dense = lab::interacting_scene(effort);
     let interaction = lab::interaction(&mut dense);
     (interaction.concentration_per_cm3, interaction.alpha) = (Some(400.0), 2.0);
@@ -53,12 +51,8 @@ pub fn measure(effort: &Effort) -> Result<Limit, String> {
     // The second is the rods' radius.
     let arms = [0.25, 0.5 / 11.6, 0.0];
     Ok(Limit {
-        steps: steps
-            .map(|steps| rates(&scene, steps, 0..2, replicas[0], KICKS))
-            .collect(),
-        dense: dense_steps
-            .map(|steps| rates(&dense, steps, 0..1, replicas[1], KICKS))
-            .collect(),
+        steps: steps.map(|steps| rates(&scene, steps, 0..2, replicas[0], KICKS)).collect(),
+        dense: dense_steps.map(|steps| rates(&dense, steps, 0..1, replicas[1], KICKS)).collect(),
         periods: (0..6)
             .map(|period| rates(&scene, PERIODS_AT, period..period + 1, replicas[0], KICKS))
             .collect(),
@@ -91,14 +85,8 @@ fn tails(scene: &Scene, replicas: u64) -> Vec<(String, Exponent)> {
     let fresh = tail::hill(tail::fresh(&with(200, 0.0), 400 * replicas, kicks_rad), 2.0);
     let mut tails = vec![("fresh arms, kicks over GΔt".to_owned(), fresh)];
     for steps in [100, 400, 1600] {
-        tails.push((
-            format!("two periods, {steps} steps a period, rad"),
-            run(steps, 0.0),
-        ));
+        tails.push((format!("two periods, {steps} steps a period, rad"), run(steps, 0.0)));
     }
-    tails.push((
-        "400 steps, min_contact_arm = 0.05, rad".to_owned(),
-        run(400, 0.05),
-    ));
+    tails.push(("400 steps, min_contact_arm = 0.05, rad".to_owned(), run(400, 0.05)));
     tails
 }

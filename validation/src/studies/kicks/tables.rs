@@ -11,11 +11,7 @@ use crate::present::table::{Column, ReportTable, estimate, field, number, words}
 /// A value with two digits of its error.
 fn value(mean: f64, se: f64) -> String {
     let digits = (1.0 - se.log10().floor()).clamp(0.0, 9.0) as usize;
-    if se > 0.0 && se.is_finite() {
-        format!("{mean:.digits$} ± {se:.digits$}")
-    } else {
-        format!("{mean}")
-    }
+    if se > 0.0 && se.is_finite() { format!("{mean:.digits$} ± {se:.digits$}") } else { format!("{mean}") }
 }
 
 fn pair(sample: Sample) -> (f64, f64) {
@@ -39,14 +35,7 @@ fn sides<'a>() -> [Column<'a, &'a StepCounts>; 5] {
 
 /// The study in words.
 pub fn tables(study: &Limit) -> Vec<ReportTable> {
-    vec![
-        steps(study),
-        dense(study),
-        periods(study),
-        exponents(study),
-        averages(study),
-        update(study),
-    ]
+    vec![steps(study), dense(study), periods(study), exponents(study), averages(study), update(study)]
 }
 
 fn steps(study: &Limit) -> ReportTable {
@@ -73,9 +62,7 @@ fn steps(study: &Limit) -> ReportTable {
 }
 
 fn dense(study: &Limit) -> ReportTable {
-    let mut columns = vec![field("steps per period", |row: &&StepCounts| {
-        row.steps_per_period
-    })];
+    let mut columns = vec![field("steps per period", |row: &&StepCounts| row.steps_per_period)];
     columns.extend(sides());
     ReportTable::new(
         ["kick-rates-dense", "Kicks where rods collide often"],
@@ -91,9 +78,7 @@ fn dense(study: &Limit) -> ReportTable {
 
 fn periods(study: &Limit) -> ReportTable {
     let mut columns = vec![
-        words("t/T", |row: &&StepCounts| {
-            format!("{} to {}", row.periods.start, row.periods.end)
-        }),
+        words("t/T", |row: &&StepCounts| format!("{} to {}", row.periods.start, row.periods.end)),
         mean("> 0.1 rad", |c| c.all(1)),
         mean("> 1 rad", |c| c.all(2)),
     ];
@@ -121,11 +106,7 @@ fn exponents(study: &Limit) -> ReportTable {
             words("kicks", |t: &&Tail| t.0.as_str()),
             field("threshold", |t: &&Tail| t.1.threshold),
             field("above it", |t: &&Tail| t.1.count),
-            estimate(
-                "exponent",
-                |a, se| format!("{a:.3} ± {se:.3}"),
-                |t: &&Tail| (t.1.alpha, t.1.se),
-            ),
+            estimate("exponent", |a, se| format!("{a:.3} ± {se:.3}"), |t: &&Tail| (t.1.alpha, t.1.se)),
         ],
     )
 }
@@ -181,9 +162,7 @@ pub fn figure(study: &Limit) -> ReportFigure {
         let samples: Vec<_> = study.steps.iter().map(value).collect();
         plot::Points {
             label: label.into(),
-            x: (study.steps.iter())
-                .map(|row| row.steps_per_period as f64)
-                .collect(),
+            x: (study.steps.iter()).map(|row| row.steps_per_period as f64).collect(),
             y: samples.iter().map(|sample| sample.mean).collect(),
             y_error: Some(samples.iter().map(|sample| 1.96 * sample.se).collect()),
             ..Default::default()

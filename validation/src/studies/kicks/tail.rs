@@ -26,12 +26,7 @@ pub fn hill(values: impl IntoIterator<Item = f64>, threshold: f64) -> Exponent {
         .collect();
     let count = logarithms.len() as u64;
     let alpha = count as f64 / logarithms.iter().sum::<f64>();
-    Exponent {
-        threshold,
-        count,
-        alpha,
-        se: alpha / (count as f64).sqrt(),
-    }
+    Exponent { threshold, count, alpha, se: alpha / (count as f64).sqrt() }
 }
 
 /// Kicks over GΔt in the first step of many replicas, where the arms of all pairs are fresh.
@@ -71,9 +66,6 @@ mod tests {
             assert!((found.alpha / alpha - 1.0).abs() < 1e-4, "{found:?}");
             assert!((found.se - found.alpha / 1e5f64.sqrt()).abs() < 1e-15);
         }
-        assert!(
-            hill([f64::NAN], 1.0).alpha.is_nan(),
-            "a run that stopped is no tail"
-        );
+        assert!(hill([f64::NAN], 1.0).alpha.is_nan(), "a run that stopped is no tail");
     }
 }

@@ -18,9 +18,7 @@ pub fn table(rows: &[ReadingRow]) -> ReportTable {
         ));
         let signed = |x: f64, se: f64| format!("{x:+.4} ± {se:.4}").replace('-', "−");
         columns.push(estimate("change", signed, move |row: &&ReadingRow| {
-            row.changes
-                .as_ref()
-                .map(|changes| (changes[k].value, changes[k].se))
+            row.changes.as_ref().map(|changes| (changes[k].value, changes[k].se))
         }));
     }
     ReportTable::new(
@@ -45,13 +43,8 @@ mod tests {
     #[test]
     fn a_table_has_a_cell_for_every_column() {
         let estimate = Estimate { value: 0.5, se: 0.01 };
-        let row = |changes| ReadingRow {
-            open: "a",
-            reading: "b",
-            replicas: 7,
-            values: vec![estimate; 4],
-            changes,
-        };
+        let row =
+            |changes| ReadingRow { open: "a", reading: "b", replicas: 7, values: vec![estimate; 4], changes };
         let table = table(&[row(None), row(Some(vec![estimate; 4]))]);
         assert!(table.rows.iter().all(|cells| cells.len() == table.columns.len()));
         assert_eq!(table.rows[1][2..4], ["0.5000 ± 0.0100", "+0.5000 ± 0.0100"]);

@@ -19,10 +19,7 @@ fn the_jackknife_of_a_mean_is_its_standard_error() {
     // 1, 2, 6: mean 3, variance 7, standard error √(7/3)
     let traces = [1.0, 2.0, 6.0].map(|x| [x; QUARTERS + 2]);
     let default = [1.0, 1.0, 1.0].map(|x| [x; QUARTERS + 2]);
-    for (estimate, mean) in [
-        (value(|x| x[4], &traces), 3.0),
-        (change(|x| x[4], &default, &traces), 2.0),
-    ] {
+    for (estimate, mean) in [(value(|x| x[4], &traces), 3.0), (change(|x| x[4], &default, &traces), 2.0)] {
         assert!((estimate.value - mean).abs() < 1e-14);
         assert!((estimate.se - (7.0f64 / 3.0).sqrt()).abs() < 1e-14);
     }
@@ -32,10 +29,7 @@ fn the_jackknife_of_a_mean_is_its_standard_error() {
 
 #[test]
 fn the_problem_is_that_of_fig_7() {
-    let scene = crate::input::scenes::find("fig7-n50")
-        .expect("built in")
-        .scene()
-        .expect("valid");
+    let scene = crate::input::scenes::find("fig7-n50").expect("built in").scene().expect("valid");
     let (ours, rods) = (Problem::paper(SEED, 0), &scene.particles);
     let theirs = scene.interaction.as_ref().expect("interacting");
     assert_eq!(
@@ -58,8 +52,5 @@ fn the_problem_is_that_of_fig_7() {
     );
     assert_eq!(scene.flow.shear_rate_per_s, Some(ours.shear_rate_per_s));
     assert_eq!(theirs.concentration_per_cm3, Some(ours.concentration_per_cm3));
-    assert_eq!(
-        (rods.count, scene.steps_per_unit() as usize),
-        (ours.count, ours.steps_per_period)
-    );
+    assert_eq!((rods.count, scene.steps_per_unit() as usize), (ours.count, ours.steps_per_period));
 }

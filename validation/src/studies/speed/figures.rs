@@ -9,16 +9,10 @@ pub fn figures(speed: &Speed) -> Vec<ReportFigure> {
     let y = |steps: &[Step], of: fn(&Step) -> Option<f64>| -> Vec<f64> {
         steps.iter().map(|step| of(step).unwrap_or(f64::NAN)).collect()
     };
-    let curve = |label: &str, x: Vec<f64>, y| Curve {
-        label: label.into(),
-        x,
-        y,
-        half_band: None,
-    };
+    let curve = |label: &str, x: Vec<f64>, y| Curve { label: label.into(), x, y, half_band: None };
     let rods: Vec<_> = speed.by_rods.iter().map(|step| step.rods as f64).collect();
-    let concentrations: Vec<_> = (speed.by_concentration.iter())
-        .map(|step| step.concentration_per_cm3)
-        .collect();
+    let concentrations: Vec<_> =
+        (speed.by_concentration.iter()).map(|step| step.concentration_per_cm3).collect();
     let figure = |name: &str, title: &str, x_name: &str, curves, caption: &str| ReportFigure {
         name: name.into(),
         figure: Figure {
@@ -49,11 +43,7 @@ pub fn figures(speed: &Speed) -> Vec<ReportFigure> {
             "speed-concentration",
             "Time of a step against the concentration, 1000 rods",
             "n (per cm³)",
-            vec![curve(
-                "core",
-                concentrations,
-                y(&speed.by_concentration, |step| Some(step.core_ns)),
-            )],
+            vec![curve("core", concentrations, y(&speed.by_concentration, |step| Some(step.core_ns)))],
             "One core. Dilute, nobody is near; dense, most rods make a candidate and the contacts cost.",
         ),
     ]

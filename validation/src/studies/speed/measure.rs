@@ -24,40 +24,22 @@ const NAIVE_RODS: usize = 10_000;
 pub fn measure(amount: Amount) -> Result<Speed, String> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let one = pool(1)?;
-    let by_rods: Vec<_> = (RODS.iter())
-        .map(|rods| one.install(|| step(*rods, 50.0, amount)))
-        .collect::<Result<_, _>>()?;
+    let by_rods: Vec<_> =
+        (RODS.iter()).map(|rods| one.install(|| step(*rods, 50.0, amount))).collect::<Result<_, _>>()?;
     let by_concentration = (CONCENTRATIONS_PER_CM3.iter())
         .map(|n| one.install(|| step(1000, *n, amount)))
         .collect::<Result<_, _>>()?;
     let all = pool(threads)?;
     let mut checks = vec![
-        free(
-            "free rods of one r_e, per rod and output",
-            0.0,
-            Target::AtMost(3.0),
-            &one,
-            amount,
-        ),
-        free(
-            "free rods of unequal r_e, per rod and output",
-            3.6,
-            Target::None,
-            &one,
-            amount,
-        ),
+        free("free rods of one r_e, per rod and output", 0.0, Target::AtMost(3.0), &one, amount),
+        free("free rods of unequal r_e, per rod and output", 3.6, Target::None, &one, amount),
         memory_rate(&all, amount),
     ];
     checks.extend(against_naive(&by_rods));
     checks.push(replicas(&one, &all, threads, amount)?);
     checks.push(one_large_run(&one, &all, amount)?);
     checks.push(held());
-    Ok(Speed {
-        threads,
-        checks,
-        by_rods,
-        by_concentration,
-    })
+    Ok(Speed { threads, checks, by_rods, by_concentration })
 }
 
 fn pool(threads: usize) -> Result<rayon::ThreadPool, String> {
@@ -68,9 +50,7 @@ fn pool(threads: usize) -> Result<rayon::ThreadPool, String> {
 /// The least of several measurements in seconds, after one to warm up.
 fn least(amount: Amount, mut measure: impl FnMut() -> f64) -> f64 {
     measure();
-    (0..amount.repeats)
-        .map(|_| measure())
-        .fold(f64::INFINITY, f64::min)
+    (0..amount.repeats).map(|_| measure()).fold(f64::INFINITY, f64::min)
 }
 
 fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
@@ -108,27 +88,13 @@ fn step(rods: usize, concentration_per_cm3: f64, amount: Amount) -> Result<Step,
     }
     let per_rod = |seconds: f64, steps: u64| 1e9 * seconds / (steps as f64 * rods as f64);
     let naive_ns = (rods <= NAIVE_RODS && concentration_per_cm3 == 50.0).then(|| {
-        let mut naive = Naive::new(Problem {
-            count: rods,
-            ..Problem::paper(1, 0)
-        });
+        let mut naive = Naive::new(Problem { count: rods, ..Problem::paper(1, 0) });
         let once = seconds(|| naive.step());
         let count = (amount.seconds / once).clamp(1.0, 1e6) as u64;
-        let repeats = Amount {
-            repeats: if once > 0.1 { 1 } else { amount.repeats },
-            ..amount
-        };
-        per_rod(
-            least(repeats, || seconds(|| (0..count).for_each(|_| naive.step()))),
-            count,
-        )
+        let repeats = Amount { repeats: if once > 0.1 { 1 } else { amount.repeats }, ..amount };
+        per_rod(least(repeats, || seconds(|| (0..count).for_each(|_| naive.step()))), count)
     });
-    Ok(Step {
-        rods,
-        concentration_per_cm3,
-        core_ns: per_rod(core, count),
-        naive_ns,
-    })
+    Ok(Step { rods, concentration_per_cm3, core_ns: per_rod(core, count), naive_ns })
 }
 
 fn free_plan(rods: usize, outputs: u64, sd_percent: f64) -> Plan {
@@ -156,20 +122,14 @@ fn free(
         measured: 1e9 * least / (plan.outputs() as f64 * 1e4),
         target,
         unit: "ns",
-        behind: format!(
-            "10⁴ rods, {} outputs, projections, one core, rods drawn anew",
-            plan.outputs()
-        ),
+        behind: format!("10⁴ rods, {} outputs, projections, one core, rods drawn anew", plan.outputs()),
     }
 }
 
 /// Bytes of directions per second that outputs are made from, over the rate at which the same arrays are summed.
 fn memory_rate(all: &rayon::ThreadPool, amount: Amount) -> Check {
     let bytes = 24.0 * amount.free_rods as f64;
-    let (few, many) = (
-        free_plan(amount.free_rods, 1, 0.0),
-        free_plan(amount.free_rods, 33, 0.0),
-    );
+    let (few, many) = (free_plan(amount.free_rods, 1, 0.0), free_plan(amount.free_rods, 33, 0.0));
     let run = |plan: &Plan| least(amount, || all.install(|| seconds(|| run_replica(plan, 0))));
     // The difference: drawing the rods is left out.
     let per_output = (run(&many) - run(&few)) / (many.outputs() - few.outputs()) as f64;
@@ -219,10 +179,7 @@ fn replicas(
         measured: alone / shared / threads as f64,
         target: Target::AtLeast(0.9),
         unit: "×",
-        behind: format!(
-            "{alone:.3} s on one, {shared:.3} s on {threads}, {} replicas",
-            64 * threads
-        ),
+        behind: format!("{alone:.3} s on one, {shared:.3} s on {threads}, {} replicas", 64 * threads),
     })
 }
 

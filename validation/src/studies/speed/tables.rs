@@ -26,14 +26,8 @@ pub fn table(speed: &Speed) -> ReportTable {
         vec![
             words("what", |check: &&Check| check.what),
             words("target", target),
-            words("measured", |check: &&Check| {
-                format!("{:.3} {}", check.measured, check.unit)
-            }),
-            number(
-                "measured / target",
-                |ratio| format!("{ratio:.2}"),
-                |check: &&Check| check.over_target(),
-            ),
+            words("measured", |check: &&Check| format!("{:.3} {}", check.measured, check.unit)),
+            number("measured / target", |ratio| format!("{ratio:.2}"), |check: &&Check| check.over_target()),
             words("met", met),
             words("behind it", |check: &&Check| check.behind.as_str()),
         ],

@@ -40,16 +40,9 @@ fn run(_: &Extent) -> Result<Option<Found>, String> {
     for figure in figures::figures(&subjects) {
         let beside = limits.iter().position(|table| table.name == figure.name);
         let table = beside.map(|beside| limits.remove(beside));
-        exhibits.push(Exhibit {
-            figure: Some(figure),
-            table,
-        });
+        exhibits.push(Exhibit { figure: Some(figure), table });
     }
     exhibits.extend(limits.into_iter().map(Exhibit::from));
     exhibits.push(corners_table::table().into());
-    Ok(Some(Found {
-        answer,
-        exhibits,
-        ..Default::default()
-    }))
+    Ok(Some(Found { answer, exhibits, ..Default::default() }))
 }

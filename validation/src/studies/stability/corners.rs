@@ -20,22 +20,8 @@ pub fn exact(aspect_ratio: f64, shear_rate_per_s: f64, p: &UnitVector3<f64>, tur
 pub const SHEAR_RATES: [f64; 3] = [1e-30, 0.5, 1e30];
 
 /// Durations in periods.
-pub const TURNS: [f64; 14] = [
-    1e-9,
-    1e-6,
-    1e-3,
-    0.25,
-    1.0 / 3.0,
-    0.37,
-    0.5,
-    1.0,
-    10.0,
-    1e3,
-    1e6,
-    1e8,
-    1e8 + 0.25,
-    1e8 + 0.37,
-];
+pub const TURNS: [f64; 14] =
+    [1e-9, 1e-6, 1e-3, 0.25, 1.0 / 3.0, 0.37, 0.5, 1.0, 10.0, 1e3, 1e6, 1e8, 1e8 + 0.25, 1e8 + 0.37];
 
 /// The largest errors over shear rates, durations and starts. NaN stays.
 #[derive(Clone, Copy, Debug)]
@@ -50,11 +36,7 @@ pub struct Worst {
 
 /// The worst at this aspect ratio.
 pub fn worst(aspect_ratio: f64, motion: &Motion) -> Worst {
-    let mut worst = Worst {
-        length: 0.0,
-        orbit: 0.0,
-        angle: 0.0,
-    };
+    let mut worst = Worst { length: 0.0, orbit: 0.0, angle: 0.0 };
     for turns in TURNS {
         for (_, end) in map::places(aspect_ratio) {
             let start = end.before(turns).direction(aspect_ratio);

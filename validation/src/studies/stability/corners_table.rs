@@ -22,11 +22,7 @@ pub fn table() -> ReportTable {
             number("r_e", ratio, |row: &Row| row.0),
             number("||p| − 1| / ε", one, |row: &Row| row.1.length / f64::EPSILON),
             number("change of C_b / ε", one, |row: &Row| row.1.orbit / f64::EPSILON),
-            number(
-                "angle to the closed form over its bound",
-                |x| format!("{x:.2}"),
-                |row: &Row| row.1.angle,
-            ),
+            number("angle to the closed form over its bound", |x| format!("{x:.2}"), |row: &Row| row.1.angle),
         ],
     )
 }

@@ -35,29 +35,17 @@ pub fn ends(subjects: &[Box<dyn Integrator>]) -> [ReportTable; 2] {
             std::iter::once(ratio(r)).chain(ends).collect()
         };
         let columns: Vec<_> = std::iter::once("r_e".to_owned()).chain(names).collect();
-        of_words(
-            words[0],
-            words[1],
-            caption,
-            &columns,
-            ASPECT_RATIOS.map(row).into(),
-        )
+        of_words(words[0], words[1], caption, &columns, ASPECT_RATIOS.map(row).into())
     };
     [
         table(
-            [
-                "stability-steps-end",
-                "The longest step that is right, and what comes after it",
-            ],
+            ["stability-steps-end", "The longest step that is right, and what comes after it"],
             "Of the steps 10⁻⁹, 10⁻⁸, … 10³ T; subjects without steps go the length of a step at once.",
             of(subjects, |theory| theory != Theory::Adaptive),
             &by_step,
         ),
         table(
-            [
-                "stability-tolerances-end",
-                "The loosest tolerance that is right, and what comes after it",
-            ],
+            ["stability-tolerances-end", "The loosest tolerance that is right, and what comes after it"],
             "Of the tolerances 10⁻¹², 10⁻¹⁰, 10⁻⁸, 10⁻⁶, 10⁻⁴, 10⁻², 10⁻¹.",
             of(subjects, |theory| theory == Theory::Adaptive),
             &by_tolerance,
@@ -76,16 +64,8 @@ mod tests {
     fn a_row_of_cells_says_where_it_leaves() {
         let (problem, end) = (map::by_step(Theory::Exact, 2.0, 1.0, 1), Place::mid_flip(2.0));
         let right = problem.of(&integrators::ExactPropagator);
-        let wrong = map::Run {
-            end: end.before(0.1),
-            ..problem
-        };
-        let late = map::Run {
-            turns: 1.1,
-            end,
-            ..problem
-        }
-        .of(&integrators::ExactPropagator);
+        let wrong = map::Run { end: end.before(0.1), ..problem };
+        let late = map::Run { turns: 1.1, end, ..problem }.of(&integrators::ExactPropagator);
         assert_eq!((right.found, late.found), (Found::RoundOff, Found::RoundOff));
         assert!(wrong.of(&integrators::ExactPropagator).found.is_right());
         let bad = Cell::not_run("many".into());

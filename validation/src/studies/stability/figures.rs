@@ -76,9 +76,7 @@ fn figure(
 }
 
 fn measured(subject: &dyn Integrator, property: Property) -> plot::Points {
-    let x: Vec<f64> = vec![
-        1.01, 1.05, 1.2, 1.5, 2.0, 2.5, 3.0, 5.0, 11.6, 30.0, 100.0, 1e3, 1e4,
-    ];
+    let x: Vec<f64> = vec![1.01, 1.05, 1.2, 1.5, 2.0, 2.5, 3.0, 5.0, 11.6, 30.0, 100.0, 1e3, 1e4];
     plot::Points {
         label: subject.name().into(),
         y: (x.iter())

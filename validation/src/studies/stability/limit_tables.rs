@@ -10,18 +10,10 @@ use crate::studies::integrators::{Integrator, Theory};
 pub const LIMIT_RATIOS: [f64; 9] = [1.01, 1.5, 2.0, 2.5, 3.0, 11.6, 100.0, 1e4, 1e5];
 
 /// The steps GΔt tried for what one step decides.
-pub const ONE_STEP: Ladder = Ladder {
-    least: 0.1,
-    most: 1e3,
-    factor: 1.1,
-};
+pub const ONE_STEP: Ladder = Ladder { least: 0.1, most: 1e3, factor: 1.1 };
 
 /// The steps GΔt tried for what ten periods decide.
-pub const TEN_PERIODS: Ladder = Ladder {
-    least: 0.02,
-    most: 20.0,
-    factor: 1.25,
-};
+pub const TEN_PERIODS: Ladder = Ladder { least: 0.02, most: 20.0, factor: 1.25 };
 
 /// A table for each property.
 pub fn limits(subjects: &[Box<dyn Integrator>]) -> Vec<ReportTable> {
@@ -29,15 +21,7 @@ pub fn limits(subjects: &[Box<dyn Integrator>]) -> Vec<ReportTable> {
         limit_table(name, title, caption, property, &LIMIT_RATIOS, ONE_STEP, subjects)
     };
     let ten = |name, title, caption: &str, property| {
-        limit_table(
-            name,
-            title,
-            caption,
-            property,
-            &LIMIT_RATIOS[..7],
-            TEN_PERIODS,
-            subjects,
-        )
+        limit_table(name, title, caption, property, &LIMIT_RATIOS[..7], TEN_PERIODS, subjects)
     };
     vec![
         one(
@@ -99,9 +83,7 @@ fn limit_table(
             continue;
         }
         rows.push([vec![subject.name().into()], found.into_iter().map(text).collect()].concat());
-        let theory = THEORIES
-            .iter()
-            .find(|theory| theory.0 == subject.name() && theory.1 == property);
+        let theory = THEORIES.iter().find(|theory| theory.0 == subject.name() && theory.1 == property);
         if let Some((_, _, theory)) = theory {
             let expected = |r: &f64| match theory(*r) {
                 limit if limit.is_finite() => format!("{limit:.4}"),
@@ -115,10 +97,7 @@ fn limit_table(
     of_words(
         name,
         title,
-        &format!(
-            "{caption} Fixed-step subjects that are not listed have no limit up to {:.0}.",
-            ladder.most
-        ),
+        &format!("{caption} Fixed-step subjects that are not listed have no limit up to {:.0}.", ladder.most),
         &columns,
         rows,
     )

@@ -143,11 +143,7 @@ fn near_plane(
     let starts: Vec<_> = rods.map(start).collect();
     let ends = subject.advance_all(&one_step(aspect_ratio, strain), &starts, one(subject));
     let ends = ends.unwrap_or(vec![Vector3::repeat(f64::NAN); starts.len()]);
-    starts
-        .into_iter()
-        .map(UnitVector3::into_inner)
-        .zip(ends)
-        .collect()
+    starts.into_iter().map(UnitVector3::into_inner).zip(ends).collect()
 }
 
 fn one_step(aspect_ratio: f64, strain: f64) -> Problem {

@@ -136,25 +136,13 @@ impl Run {
         } else {
             Found::Accurate
         };
-        Cell {
-            found,
-            error_rad: Some(error),
-            length: Some(length),
-            orbit: Some(orbit.abs()),
-            reason: None,
-        }
+        Cell { found, error_rad: Some(error), length: Some(length), orbit: Some(orbit.abs()), reason: None }
     }
 }
 
 impl Cell {
     fn without(found: Found, reason: Option<String>) -> Self {
-        Self {
-            found,
-            error_rad: None,
-            length: None,
-            orbit: None,
-            reason,
-        }
+        Self { found, error_rad: None, length: None, orbit: None, reason }
     }
 
     /// Not run, and why.
@@ -164,24 +152,10 @@ impl Cell {
 }
 
 /// The aspect ratios of the map: nearly a sphere, rods up to 10⁸, discs down to 10⁻⁸.
-pub const ASPECT_RATIOS: [f64; 11] = [
-    1e-8,
-    1e-4,
-    0.1,
-    1.0 + 1e-12,
-    1.01,
-    2.0,
-    11.6,
-    100.0,
-    1e4,
-    1e6,
-    1e8,
-];
+pub const ASPECT_RATIOS: [f64; 11] = [1e-8, 1e-4, 0.1, 1.0 + 1e-12, 1.01, 2.0, 11.6, 100.0, 1e4, 1e6, 1e8];
 
 /// The steps of the map in periods.
-pub const STEPS: [f64; 13] = [
-    1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3,
-];
+pub const STEPS: [f64; 13] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3];
 
 /// The tolerances of the map.
 pub const TOLERANCES: [f64; 7] = [1e-1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
@@ -211,12 +185,7 @@ pub fn by_step(theory: Theory, aspect_ratio: f64, step: f64, most_steps: u64) ->
         }
     };
     let end = Place::mid_flip(aspect_ratio);
-    Run {
-        aspect_ratio,
-        turns,
-        end,
-        setting,
-    }
+    Run { aspect_ratio, turns, end, setting }
 }
 
 /// A run of `periods` periods and a flip to a place at a setting; `None`, with the reason, where it takes too many steps.
@@ -239,12 +208,7 @@ pub fn by_duration(
             Setting::Steps(steps.ceil() as u64)
         }
     };
-    Ok(Run {
-        aspect_ratio,
-        turns,
-        end,
-        setting,
-    })
+    Ok(Run { aspect_ratio, turns, end, setting })
 }
 
 /// GΔt of the runs by start and by duration: a tenth of explicit Euler's limit, below every other's.

@@ -48,10 +48,7 @@ pub fn answer(figures: &[ReportFigure]) -> String {
     reached.sort_unstable();
     let words = |(columns, name): &(usize, &str)| match columns {
         0 => format!("{name} at none of the steps tried"),
-        columns => format!(
-            "{name} up to GΔt = {:.2}",
-            strain(STRAINS.start() + *columns as i32 - 1)
-        ),
+        columns => format!("{name} up to GΔt = {:.2}", strain(STRAINS.start() + *columns as i32 - 1)),
     };
     match (reached.first(), reached.last()) {
         (Some(worst), Some(best)) => format!(
@@ -65,21 +62,12 @@ pub fn answer(figures: &[ReportFigure]) -> String {
 
 /// The maps as pictures.
 pub fn figures(subjects: &[Box<dyn Integrator>]) -> Vec<ReportFigure> {
-    [
-        steps(subjects),
-        tolerances(subjects),
-        starts(subjects),
-        durations(subjects),
-    ]
-    .map(Panels::figure)
-    .into()
+    [steps(subjects), tolerances(subjects), starts(subjects), durations(subjects)].map(Panels::figure).into()
 }
 
 pub(super) fn of(subjects: &[Box<dyn Integrator>], which: impl Fn(Theory) -> bool) -> Vec<&dyn Integrator> {
     let subjects = subjects.iter().map(AsRef::as_ref);
-    subjects
-        .filter(|subject: &&dyn Integrator| which(subject.theory()))
-        .collect()
+    subjects.filter(|subject: &&dyn Integrator| which(subject.theory())).collect()
 }
 
 fn steps(subjects: &[Box<dyn Integrator>]) -> Panels<'static> {
@@ -133,11 +121,7 @@ fn tolerances(subjects: &[Box<dyn Integrator>]) -> Panels<'static> {
     let panel = |subject: &dyn Integrator| Panel {
         title: subject.name().into(),
         cells: ASPECT_RATIOS
-            .map(|r| {
-                tolerances_from_fine()
-                    .map(|t| with_tolerance(subject, r, t))
-                    .collect()
-            })
+            .map(|r| tolerances_from_fine().map(|t| with_tolerance(subject, r, t)).collect())
             .into(),
         limit: Vec::new(),
     };
@@ -148,10 +132,7 @@ fn tolerances(subjects: &[Box<dyn Integrator>]) -> Panels<'static> {
         columns: tolerances_from_fine().map(power).collect(),
         values: tolerances_from_fine().map(|t| format!("{t:e}")).collect(),
         rows: ASPECT_RATIOS.map(ratio).into(),
-        panels: of(subjects, |theory| theory == Theory::Adaptive)
-            .into_iter()
-            .map(panel)
-            .collect(),
+        panels: of(subjects, |theory| theory == Theory::Adaptive).into_iter().map(panel).collect(),
     }
 }
 
@@ -182,10 +163,7 @@ fn starts(subjects: &[Box<dyn Integrator>]) -> Panels<'static> {
     };
     let places = map::places(2.0).into_iter().map(|(name, _)| name);
     Panels {
-        words: [
-            "stability-starts",
-            "Stability at the poles, in the flip, and on orbits from C = 0 to ∞",
-        ],
+        words: ["stability-starts", "Stability at the poles, in the flip, and on orbits from C = 0 to ∞"],
         caption: format!(
             "The end of one period and a flip. Places: {}. GΔt = {}, tolerance {:.0e}.",
             places
@@ -198,11 +176,7 @@ fn starts(subjects: &[Box<dyn Integrator>]) -> Panels<'static> {
             map::TOLERANCE
         ),
         axes: ["place", ""],
-        columns: places
-            .clone()
-            .enumerate()
-            .map(|(k, _)| (k + 1).to_string())
-            .collect(),
+        columns: places.clone().enumerate().map(|(k, _)| (k + 1).to_string()).collect(),
         values: places.map(String::from).collect(),
         rows: names(subjects),
         panels: [1e-8, 1.0 + 1e-12, 11.6, 1e8].map(panel).into(),
@@ -216,10 +190,7 @@ fn durations(subjects: &[Box<dyn Integrator>]) -> Panels<'static> {
         PERIODS.map(found).into()
     };
     Panels {
-        words: [
-            "stability-durations",
-            "Stability over up to 10⁸ periods at r_e = 11.6",
-        ],
+        words: ["stability-durations", "Stability over up to 10⁸ periods at r_e = 11.6"],
         caption: format!(
             "GΔt = {}, tolerance {:.0e}; at most {} steps, so longer runs of methods with steps are not run.",
             map::STRAIN_PER_STEP,

@@ -18,33 +18,19 @@ impl Place {
     pub fn new(c: f64, z: f64, [x, y]: [f64; 2], aspect_ratio: f64) -> Self {
         let (cos, sin) = (x, y / aspect_ratio);
         let length = cos.hypot(sin);
-        Self {
-            c,
-            z,
-            cos: cos / length,
-            sin: sin / length,
-        }
+        Self { c, z, cos: cos / length, sin: sin / length }
     }
 
     /// φ = 1 and θ = 1: in the flip of a rod, and of a disc.
     pub fn mid_flip(aspect_ratio: f64) -> Self {
         let (sin, cos) = 1f64.sin_cos();
-        Self::new(
-            1f64.tan() * cos.hypot(sin / aspect_ratio),
-            1.0,
-            [cos, sin],
-            aspect_ratio,
-        )
+        Self::new(1f64.tan() * cos.hypot(sin / aspect_ratio), 1.0, [cos, sin], aspect_ratio)
     }
 
     /// `turns` periods earlier. Whole turns change nothing, and are taken out exactly.
     pub fn before(&self, turns: f64) -> Self {
         let (sin, cos) = (TAU * (turns - turns.round())).sin_cos();
-        Self {
-            cos: self.cos * cos + self.sin * sin,
-            sin: self.sin * cos - self.cos * sin,
-            ..*self
-        }
+        Self { cos: self.cos * cos + self.sin * sin, sin: self.sin * cos - self.cos * sin, ..*self }
     }
 
     /// The direction there.
@@ -91,9 +77,6 @@ mod tests {
         assert!(along.y == 1.0 && (along.z / 1e-298 - 1.0).abs() < 1e-15);
         let thin = at(1e-300, 1.0, [1.0, 0.0]);
         assert_eq!((thin.x, thin.z), (1e-300, 1.0));
-        assert_eq!(
-            Place::new(1.0, 0.0, [1.0, 1.0], 3.0).bounded_orbit_constant(),
-            1.0
-        );
+        assert_eq!(Place::new(1.0, 0.0, [1.0, 1.0], 3.0).bounded_orbit_constant(), 1.0);
     }
 }

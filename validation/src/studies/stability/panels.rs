@@ -57,14 +57,8 @@ impl Panels<'_> {
 
 impl Found {
     /// What a map tells apart.
-    const CLASSES: [&'static str; 6] = [
-        "right",
-        "stable but wrong",
-        "length lost",
-        "not finite",
-        "refused",
-        "not run",
-    ];
+    const CLASSES: [&'static str; 6] =
+        ["right", "stable but wrong", "length lost", "not finite", "refused", "not run"];
 
     /// Its place among [`Self::CLASSES`].
     fn class(self) -> usize {

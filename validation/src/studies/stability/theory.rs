@@ -13,11 +13,7 @@ pub const THEORIES: [LimitTheory; 6] = [
     ("explicit Euler in angles", Property::Turning, euler_turning),
     ("Lie-group midpoint", Property::Turning, euler_turning),
     ("explicit Euler in angles", Property::Side, euler_side),
-    (
-        "implicit midpoint in p",
-        Property::Side,
-        implicit_midpoint_one_solution,
-    ),
+    ("implicit midpoint in p", Property::Side, implicit_midpoint_one_solution),
 ];
 
 /// |Λ| = |r_e² − 1|/(r_e² + 1).
@@ -129,13 +125,9 @@ mod tests {
 
     #[test]
     fn discs_are_rods_turned_by_a_right_angle() {
-        for theory in [
-            euler_order,
-            euler_turning,
-            euler_side,
-            implicit_midpoint_order,
-            implicit_midpoint_side,
-        ] {
+        for theory in
+            [euler_order, euler_turning, euler_side, implicit_midpoint_order, implicit_midpoint_side]
+        {
             for r in [1.1, 3.0, 50.0] {
                 assert!((theory(r) / theory(1.0 / r) - 1.0).abs() < 1e-12 || theory(r) == f64::INFINITY);
             }

@@ -13,12 +13,7 @@ pub const FREE: Study = Study {
     name: "free-suspensions",
     title: "Free suspensions: error against run time",
     question: "How must free rods be laid for X̄₁ to reach an error soonest?",
-    cases: &[
-        "free-suspension-rates",
-        "free-isotropic",
-        "free-polydisperse",
-        "replicas-are-independent",
-    ],
+    cases: &["free-suspension-rates", "free-isotropic", "free-polydisperse", "replicas-are-independent"],
     command: "cargo run --release -- bench --case fig6-uniform --case fig6-polydisperse",
     benches: || free::SCENES.map(|free| free.scene.to_owned()).into(),
     shared: false,
@@ -53,12 +48,8 @@ struct Benches<'a> {
 fn run_free(extent: &Extent) -> Result<Option<Found>, String> {
     let amount = extent.effort.pick(free::Extent::QUICK, free::Extent::FULL);
     let budget = extent.effort.pick(Budget::QUICK, Budget::FULL);
-    let chosen = free::SCENES
-        .into_iter()
-        .filter(|free| (extent.wanted)(free.scene));
-    let benches: Vec<_> = chosen
-        .map(|free| free.bench(&starts::ALL, amount, budget))
-        .collect();
+    let chosen = free::SCENES.into_iter().filter(|free| (extent.wanted)(free.scene));
+    let benches: Vec<_> = chosen.map(|free| free.bench(&starts::ALL, amount, budget)).collect();
     let Some(first) = benches.first() else {
         return Ok(None);
     };
@@ -79,10 +70,7 @@ fn run_free(extent: &Extent) -> Result<Option<Found>, String> {
         exhibits,
         files: vec![
             ("suspensions.csv".into(), export::free_csv(&benches)?),
-            (
-                "suspensions.json".into(),
-                build::json(&Benches { benches: &benches })?,
-            ),
+            ("suspensions.json".into(), build::json(&Benches { benches: &benches })?),
         ],
         ..Default::default()
     }))
@@ -96,10 +84,7 @@ fn run_interacting(extent: &Extent) -> Result<Option<Found>, String> {
     let budget = extent.effort.pick(Budget::QUICK, Budget::FULL);
     let study = study::run(amount, budget)?;
     let mut law = law_tables::law(&study.law, study.strain_per_period).into_iter();
-    let mut exhibits = vec![Exhibit::both(
-        figures::interacting(&study),
-        tables::answers(&study),
-    )];
+    let mut exhibits = vec![Exhibit::both(figures::interacting(&study), tables::answers(&study))];
     exhibits.extend((law.next()).map(|steps| Exhibit::both(figures::steps(&study.law), steps)));
     exhibits.extend(law.map(Exhibit::from));
     exhibits.push(tables::coupled(&study.coupled).into());

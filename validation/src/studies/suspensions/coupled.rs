@@ -84,11 +84,7 @@ pub fn measure(scene: &Scene, replicas: u64) -> Result<Coupled, String> {
         other_alpha: correlation(&at(&own, k), &at(&other, k)),
         free: correlation(&at(&own, k), &at(&free, k)),
     };
-    Ok(Coupled {
-        steps_per_period: steps,
-        replicas,
-        rows: (0..QUARTERS as usize).map(row).collect(),
-    })
+    Ok(Coupled { steps_per_period: steps, replicas, rows: (0..QUARTERS as usize).map(row).collect() })
 }
 
 /// X̄₁ at every quarter of a period of a scene, α times a factor.
@@ -99,13 +95,7 @@ pub fn interacting(
     quarters: u64,
     replicas: u64,
 ) -> Result<Values, String> {
-    let mut job = Job::new(
-        scene,
-        steps,
-        scene.particles.count,
-        replicas,
-        quarters.div_ceil(4),
-    );
+    let mut job = Job::new(scene, steps, scene.particles.count, replicas, quarters.div_ceil(4));
     job.marks = (1..=quarters).map(|quarter| quarter * steps / 4).collect();
     if let Some(interaction) = &mut job.scene.interaction {
         interaction.alpha *= alpha;
@@ -144,9 +134,7 @@ pub fn free_mean(scene: &Scene, turns: f64) -> f64 {
 /// The mean of `x1` less what the free rods beside were off their own known mean, in the best proportion.
 pub fn controlled(x1: &[f64], free: &[f64], free_mean: f64) -> Estimate {
     let share = covariance(x1, free) / covariance(free, free);
-    let corrected: Vec<_> = (x1.iter().zip(free))
-        .map(|(x1, free)| x1 - share * (free - free_mean))
-        .collect();
+    let corrected: Vec<_> = (x1.iter().zip(free)).map(|(x1, free)| x1 - share * (free - free_mean)).collect();
     Estimate::mean_of(&corrected)
 }
 

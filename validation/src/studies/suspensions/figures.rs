@@ -10,10 +10,7 @@ use crate::present::study::ReportFigure;
 /// A free suspension: a curve for each start.
 pub fn free(bench: &Bench) -> ReportFigure {
     let curves = (bench.curves.iter()).map(|curve| Curve {
-        label: format!(
-            "{}: N^({:+.2} ± {:.2})",
-            curve.start, curve.exponent, curve.exponent_se
-        ),
+        label: format!("{}: N^({:+.2} ± {:.2})", curve.start, curve.exponent, curve.exponent_se),
         x: curve.points.iter().map(|point| point.seconds.least).collect(),
         y: curve.points.iter().map(|point| point.error).collect(),
         half_band: None,
@@ -50,20 +47,14 @@ pub fn interacting(study: &Interacting) -> ReportFigure {
         let splits: Vec<_> = errors().map(|error| constants.cheapest(scope, error)).collect();
         Curve {
             label: label.into(),
-            x: splits
-                .iter()
-                .map(|s| s.rod_steps() as f64 * study.rod_step_s)
-                .collect(),
+            x: splits.iter().map(|s| s.rod_steps() as f64 * study.rod_step_s).collect(),
             y: splits.iter().map(|split| split.error()).collect(),
             half_band: None,
         }
     };
     let mut curves = Vec::new();
     if let Some(Scope::OwnRods(rods)) = own {
-        curves.push(rule(
-            Scope::OwnRods(rods),
-            &format!("cheapest, counted from Δt → 0 with {rods} rods"),
-        ));
+        curves.push(rule(Scope::OwnRods(rods), &format!("cheapest, counted from Δt → 0 with {rods} rods")));
         curves.push(rule(Scope::Unbounded, "cheapest, counted from Δt → 0 and N → ∞"));
         let steps = 200.0;
         let replicas: Vec<f64> = (0..=40).map(|k| 10f64.powf(0.1 * f64::from(k))).collect();
@@ -71,10 +62,7 @@ pub fn interacting(study: &Interacting) -> ReportFigure {
         let bias = constants.bias(Scope::Unbounded, steps, rods);
         curves.push(Curve {
             label: "200 steps, the scene's rods, more and more replicas".into(),
-            x: replicas
-                .iter()
-                .map(|m| m * rods * steps * study.rod_step_s)
-                .collect(),
+            x: replicas.iter().map(|m| m * rods * steps * study.rod_step_s).collect(),
             y: replicas
                 .iter()
                 .map(|m| bias.hypot((constants.variance_per_rod / (rods * m)).sqrt()))
@@ -82,9 +70,8 @@ pub fn interacting(study: &Interacting) -> ReportFigure {
             half_band: None,
         });
     }
-    let realised: Vec<_> = (study.answers.iter())
-        .filter_map(|answer| Some((answer.seconds, answer.realised?.error)))
-        .collect();
+    let realised: Vec<_> =
+        (study.answers.iter()).filter_map(|answer| Some((answer.seconds, answer.realised?.error))).collect();
     ReportFigure {
         name: format!("suspension-splits-{}", study.scene),
         figure: Figure {
@@ -116,10 +103,7 @@ pub fn interacting(study: &Interacting) -> ReportFigure {
 pub fn steps(law: &Law) -> ReportFigure {
     let inverse = |steps: u64| 1.0 / steps as f64;
     let line = law.steps_line.as_ref().map(|line| {
-        let coarsest = law
-            .steps
-            .get(law.line_from)
-            .map_or(0.0, |s| inverse(s.steps_per_period));
+        let coarsest = law.steps.get(law.line_from).map_or(0.0, |s| inverse(s.steps_per_period));
         Curve {
             label: "first order".into(),
             x: vec![0.0, coarsest],

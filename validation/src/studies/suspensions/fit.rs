@@ -45,9 +45,7 @@ impl Means {
     /// The means over replicas of samples whose members with one index share their random numbers. The correlation
     /// is taken as the same for every two samples: that of what they share.
     pub fn of(samples: &[Vec<f64>]) -> Self {
-        let variances: Vec<_> = (samples.iter())
-            .map(|sample| super::covariance(sample, sample))
-            .collect();
+        let variances: Vec<_> = (samples.iter()).map(|sample| super::covariance(sample, sample)).collect();
         let scale = |i: usize, j: usize| (variances[i] * variances[j]).sqrt();
         let (mut shared, mut pairs) = (0.0, 0.0);
         for i in 0..samples.len() {
@@ -66,9 +64,7 @@ impl Means {
             correlation * scale(i, j) / most
         };
         Self {
-            values: (samples.iter())
-                .map(|sample| sample.iter().sum::<f64>() / sample.len() as f64)
-                .collect(),
+            values: (samples.iter()).map(|sample| sample.iter().sum::<f64>() / sample.len() as f64).collect(),
             covariance: DMatrix::from_fn(samples.len(), samples.len(), of_means),
             fewest: samples.iter().map(Vec::len).min().unwrap_or(0),
         }
@@ -133,10 +129,7 @@ impl Means {
             }
             inside
         };
-        Some(Order {
-            order: best,
-            se: 0.5 * (end(high) - end(low)),
-        })
+        Some(Order { order: best, se: 0.5 * (end(high) - end(low)) })
     }
 
     /// The levels from `first` on.
@@ -183,22 +176,16 @@ mod tests {
     #[test]
     fn a_clear_order_is_found_and_a_hidden_one_is_not() {
         for order in [1.0, 2.0] {
-            let found = Means::of(&samples(order, 1e-4 * H[1].powf(order) / H[1], 1))
-                .order(&H)
-                .unwrap();
-            assert!(
-                (found.order - order).abs() < 4.0 * found.se && found.se < 0.1,
-                "{found:?}"
-            );
+            let found = Means::of(&samples(order, 1e-4 * H[1].powf(order) / H[1], 1)).order(&H).unwrap();
+            assert!((found.order - order).abs() < 4.0 * found.se && found.se < 0.1, "{found:?}");
         }
         assert_eq!(Means::of(&samples(1.0, 0.3, 1)).order(&H), None);
     }
 
     #[test]
     fn the_line_s_errors_are_those_of_repeats() {
-        let lines: Vec<_> = (0..300)
-            .map(|seed| Means::of(&samples(1.0, 0.05, seed)).line(&H).unwrap())
-            .collect();
+        let lines: Vec<_> =
+            (0..300).map(|seed| Means::of(&samples(1.0, 0.05, seed)).line(&H).unwrap()).collect();
         let slopes: Vec<_> = lines.iter().map(|line| line.slope).collect();
         let Estimate { value: mean, se } = Estimate::mean_of(&slopes);
         assert!((mean - 1.0).abs() < 4.0 * se, "{mean} {se}");

@@ -30,18 +30,8 @@ pub struct Free {
 
 /// The free suspensions of the paper's Fig. 6, shortly before the end of the first period.
 pub const SCENES: [Free; 2] = [
-    Free {
-        scene: "fig6-uniform",
-        aspect_ratio: 11.6,
-        sd_percent: 0.0,
-        turns: 0.95,
-    },
-    Free {
-        scene: "fig6-polydisperse",
-        aspect_ratio: 11.6,
-        sd_percent: 3.6,
-        turns: 0.95,
-    },
+    Free { scene: "fig6-uniform", aspect_ratio: 11.6, sd_percent: 0.0, turns: 0.95 },
+    Free { scene: "fig6-polydisperse", aspect_ratio: 11.6, sd_percent: 3.6, turns: 0.95 },
 ];
 
 /// One number of rods.
@@ -95,15 +85,9 @@ pub struct Extent {
 
 impl Extent {
     /// For the report of every day.
-    pub const QUICK: Self = Self {
-        half_decades: 10,
-        trials: 32,
-    };
+    pub const QUICK: Self = Self { half_decades: 10, trials: 32 };
     /// For `shearbed bench` and full reports.
-    pub const FULL: Self = Self {
-        half_decades: 12,
-        trials: 64,
-    };
+    pub const FULL: Self = Self { half_decades: 12, trials: 64 };
 }
 
 /// Trials are put into so many groups, and the spread of their exponents is the error.
@@ -157,9 +141,7 @@ impl Free {
         Bench {
             free: *self,
             exact: self.exact(),
-            curves: (starts.iter())
-                .map(|start| self.curve(start, extent, budget))
-                .collect(),
+            curves: (starts.iter()).map(|start| self.curve(start, extent, budget)).collect(),
         }
     }
 
@@ -169,13 +151,7 @@ impl Free {
         let mut tried = Vec::new();
         for count in counts {
             let (rods, errors) = self.errors(start, count, extent.trials, SEED);
-            let once = || {
-                self.mean(&(start.lay)(
-                    count,
-                    self.unequal(),
-                    &mut generator(SEED, count, 0),
-                ))
-            };
+            let once = || self.mean(&(start.lay)(count, self.unequal(), &mut generator(SEED, count, 0)));
             points.push(Point {
                 rods,
                 error: root_mean_square(&errors),
@@ -220,9 +196,8 @@ pub fn exponents(tried: &[(usize, Vec<f64>)], groups: usize) -> Vec<f64> {
             let size = errors.len() / groups;
             root_mean_square(&errors[group * size..][..size]).ln()
         };
-        let points: Vec<_> = (tried.iter())
-            .map(|(rods, errors)| ((*rods as f64).ln(), of_group(errors)))
-            .collect();
+        let points: Vec<_> =
+            (tried.iter()).map(|(rods, errors)| ((*rods as f64).ln(), of_group(errors))).collect();
         super::slope(&points)
     };
     (0..groups).map(slope).collect()

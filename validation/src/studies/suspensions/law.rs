@@ -41,10 +41,7 @@ pub enum Replicas {
 
 impl Replicas {
     /// For `shearbed converge`: about three minutes of one core.
-    pub const CONVERGE: Self = Self::Within {
-        rod_steps: 400_000_000,
-        most: 20_000,
-    };
+    pub const CONVERGE: Self = Self::Within { rod_steps: 400_000_000, most: 20_000 };
 
     fn of(self, steps_per_period: u64, rods: usize) -> u64 {
         match self {
@@ -132,10 +129,7 @@ pub fn jobs(scene: &Scene, replicas: Replicas) -> Vec<Job> {
     };
     let mut jobs: Vec<_> = with_own(STEPS_PER_PERIOD.into(), own_steps)
         .into_iter()
-        .map(|steps| Job {
-            followed: FOLLOWED.min(replicas.of(steps, own_rods)),
-            ..job(steps, own_rods)
-        })
+        .map(|steps| Job { followed: FOLLOWED.min(replicas.of(steps, own_rods)), ..job(steps, own_rods) })
         .collect();
     let rods = RODS.iter().filter(|rods| **rods != own_rods);
     jobs.extend(rods.map(|rods| job(own_steps, *rods)));
@@ -150,9 +144,8 @@ pub fn run(jobs: &[Job], finished: &(dyn Fn() + Sync)) -> Result<Vec<Vec<Trace>>
 /// Reads what the jobs of [`jobs`] found.
 pub fn read(scene: &Scene, jobs: &[Job], found: &[Vec<Trace>]) -> Law {
     let (own_steps, own_rods) = (scene.steps_per_unit(), scene.particles.count);
-    let x1: Vec<Vec<f64>> = (found.iter())
-        .map(|traces| traces.iter().map(|trace| trace.looks[0].x1).collect())
-        .collect();
+    let x1: Vec<Vec<f64>> =
+        (found.iter()).map(|traces| traces.iter().map(|trace| trace.looks[0].x1).collect()).collect();
     let chosen = |which: &dyn Fn(&Job) -> bool| -> Vec<usize> {
         let mut chosen: Vec<_> = (0..jobs.len()).filter(|k| which(&jobs[*k])).collect();
         chosen.sort_by_key(|k| (jobs[*k].scene.particles.count, jobs[*k].scene.steps_per_unit()));
@@ -163,22 +156,14 @@ pub fn read(scene: &Scene, jobs: &[Job], found: &[Vec<Trace>]) -> Law {
     let samples = |which: &[usize]| which.iter().map(|k| sample(&jobs[*k], &x1[*k])).collect();
     let of = |which: &[usize]| Means::of(&which.iter().map(|k| x1[*k].clone()).collect::<Vec<_>>());
 
-    let (means, h) = (
-        of(&steps),
-        steps.iter().map(|k| 1.0 / jobs[*k].scene.steps_per_unit() as f64),
-    );
+    let (means, h) = (of(&steps), steps.iter().map(|k| 1.0 / jobs[*k].scene.steps_per_unit() as f64));
     let h: Vec<f64> = h.collect();
     let changes: Vec<_> = (steps.windows(2).enumerate())
         .map(|(k, pair)| change(&means, k, &found[pair[0]], &found[pair[1]]))
         .collect();
     let strain = strain_per_period(scene.particles.aspect_ratio);
-    let resolved_from = h
-        .iter()
-        .position(|h| strain * h <= 1.0)
-        .unwrap_or(h.len().saturating_sub(1));
-    let known = changes[resolved_from.min(changes.len())..]
-        .iter()
-        .filter(|change| change.x1.readable());
+    let resolved_from = h.iter().position(|h| strain * h <= 1.0).unwrap_or(h.len().saturating_sub(1));
+    let known = changes[resolved_from.min(changes.len())..].iter().filter(|change| change.x1.readable());
     let order = match known.count() {
         0 | 1 => None,
         _ => means.from(resolved_from).order(&h[resolved_from..]),
@@ -186,9 +171,7 @@ pub fn read(scene: &Scene, jobs: &[Job], found: &[Vec<Trace>]) -> Law {
     let (line_from, steps_line) = first_order(&means, &h, resolved_from);
 
     let of_rods = of(&rods);
-    let counts: Vec<f64> = (rods.iter())
-        .map(|k| jobs[*k].scene.particles.count as f64)
-        .collect();
+    let counts: Vec<f64> = (rods.iter()).map(|k| jobs[*k].scene.particles.count as f64).collect();
     let against = |exponent: f64| {
         let x: Vec<_> = counts.iter().map(|count| count.powf(exponent)).collect();
         of_rods.line(&x)
@@ -263,9 +246,7 @@ fn furthest(coarse: &[Trace], fine: &[Trace], share: impl Fn(&Trace, usize) -> f
     };
     let places = (0..PLACES).map(at);
     let none = Estimate { value: 0.0, se: 0.0 };
-    places
-        .max_by(|a, b| apart(a).total_cmp(&apart(b)))
-        .unwrap_or(none)
+    places.max_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(none)
 }
 
 /// The root mean square angle between rod i of one and rod i + `shift` of the other, replica by replica.

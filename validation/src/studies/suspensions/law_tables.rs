@@ -64,10 +64,7 @@ fn steps(law: &Law, strain: f64) -> ReportTable {
         None => "–",
     };
     ReportTable::new(
-        [
-            "steps",
-            "X̄₁ at t/T = 1 against the steps per period: convergence in law",
-        ],
+        ["steps", "X̄₁ at t/T = 1 against the steps per period: convergence in law"],
         format!(
             "Differences are to the next finer step at the same seeds; not readable: below two standard errors. The last \
              two columns: the difference of the distribution functions of |p_1| and of C_b, of nine places where it is \
@@ -77,11 +74,7 @@ fn steps(law: &Law, strain: f64) -> ReportTable {
         rows,
         vec![
             field("steps per period", |r: &Row| r.0.steps_per_period),
-            number(
-                "GΔt",
-                |x| format!("{x:.3}"),
-                move |r: &Row| strain / r.0.steps_per_period as f64,
-            ),
+            number("GΔt", |x| format!("{x:.3}"), move |r: &Row| strain / r.0.steps_per_period as f64),
             field("replicas", |r: &Row| r.0.replicas),
             number("X̄₁", five, |r: &Row| r.0.x1),
             number("± se", five, |r: &Row| r.0.se),
@@ -97,10 +90,7 @@ fn paths(law: &Law) -> ReportTable {
     type Row<'a> = (&'a [JobMean], &'a Change);
     let three = |x: f64| format!("{x:.3}");
     ReportTable::new(
-        [
-            "paths",
-            "Paths do not converge: the same rods at two steps, t/T = 1",
-        ],
+        ["paths", "Paths do not converge: the same rods at two steps, t/T = 1"],
         "A rod's direction is the exact motion plus kicks ∝ Δt/r at contact arms r down to 0. Halving Δt doubles the \
          collisions and halves what each does, but other draws decide which arms are met: the large kicks, at a rate \
          that does not depend on Δt, come at other times to other rods. So the angle between the same rod at two steps \
@@ -166,10 +156,9 @@ fn rods(law: &Law) -> ReportTable {
 
 fn replicas(law: &Law) -> ReportTable {
     let exponent = match &law.replicas_exponent {
-        Some(exponent) => format!(
-            "The exponent of M is {:+.3} ± {:.3}; by theory −½.",
-            exponent.value, exponent.se
-        ),
+        Some(exponent) => {
+            format!("The exponent of M is {:+.3} ± {:.3}; by theory −½.", exponent.value, exponent.se)
+        }
         None => "Fewer than 1024 replicas: the exponent of M is not read.".into(),
     };
     ReportTable::new(

@@ -106,9 +106,7 @@ impl Constants {
         let best = 3f64.sqrt() * self.steps_bias / target;
         let tried: Vec<f64> = match scope {
             Scope::OwnRods(_) => vec![best.max(fewest)],
-            Scope::Unbounded => (0..400)
-                .map(|k| best.max(fewest) * 1.01f64.powi(k - 50))
-                .collect(),
+            Scope::Unbounded => (0..400).map(|k| best.max(fewest) * 1.01f64.powi(k - 50)).collect(),
         };
         let splits = tried.into_iter().map(|steps| steps.max(fewest).ceil());
         let splits = splits.filter_map(|steps| self.filled(scope, target, steps));
@@ -161,9 +159,7 @@ impl Split {
 
     /// Rods times steps over a period: what it costs.
     pub fn rod_steps(&self) -> u64 {
-        (self.rods as u64)
-            .saturating_mul(self.replicas)
-            .saturating_mul(self.steps_per_period)
+        (self.rods as u64).saturating_mul(self.replicas).saturating_mul(self.steps_per_period)
     }
 
     /// The split of a scene as a job.
@@ -188,14 +184,8 @@ impl Split {
         Ok(Realised {
             split: *self,
             repeats,
-            bias: Estimate {
-                value: off,
-                se: se.hypot(reference.se),
-            },
-            scatter: Estimate {
-                value: deviation,
-                se: deviation / (2.0 * (repeats as f64 - 1.0)).sqrt(),
-            },
+            bias: Estimate { value: off, se: se.hypot(reference.se) },
+            scatter: Estimate { value: deviation, se: deviation / (2.0 * (repeats as f64 - 1.0)).sqrt() },
             error: (mean_square - reference.se.powi(2)).max(0.0).sqrt(),
         })
     }
@@ -214,25 +204,15 @@ pub fn reference(scene: &Scene, steps: u64, rods: usize, replicas: u64) -> Resul
             coupled::controlled(&x1, &free, coupled::free_mean(scene, 1.0))
         }
     };
-    Ok(JobMean {
-        steps_per_period: steps,
-        rods,
-        replicas,
-        x1: found.value,
-        se: found.se,
-    })
+    Ok(JobMean { steps_per_period: steps, rods, replicas, x1: found.value, se: found.se })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const SYNTHETIC: Constants = Constants {
-        steps_bias: 0.6,
-        fewest_steps: 100,
-        rods_bias: 0.04,
-        variance_per_rod: 0.1,
-    };
+    const SYNTHETIC: Constants =
+        Constants { steps_bias: 0.6, fewest_steps: 100, rods_bias: 0.04, variance_per_rod: 0.1 };
 
     /// Every split on a fine grid, to be cheaper than none.
     fn by_trial(scope: Scope, target: f64) -> f64 {

@@ -30,11 +30,7 @@ pub struct Start {
 
 /// Every start, in the order of the tables.
 pub const ALL: [Start; 3] = [
-    Start {
-        name: "random",
-        exponents: [-0.5, -0.5],
-        lay: random,
-    },
+    Start { name: "random", exponents: [-0.5, -0.5], lay: random },
     Start {
         name: "stratified",
         // A Lipschitz function varies by N^(−1/d) in one of N cells: N^(−½−1/d).
@@ -92,10 +88,7 @@ fn own(unequal: bool, mut quantile: impl FnMut() -> f64) -> f64 {
 
 fn rod([r4, r5, quantile]: [f64; 3]) -> Rod {
     let p = isotropic(r4, r5);
-    Rod {
-        p: [p.x, p.y, p.z],
-        quantile,
-    }
+    Rod { p: [p.x, p.y, p.z], quantile }
 }
 
 /// A rotation, every one equally likely: four normal numbers are an isotropic quaternion.
@@ -121,10 +114,7 @@ mod tests {
                         assert!((x * x + y * y + z * z - 1.0).abs() < 1e-14);
                         assert!(unequal && (0.0..1.0).contains(&rod.quantile) || rod.quantile == 0.5);
                         let of_rod = [x.abs(), y.abs(), z.abs(), 3.0 * x * y + 0.5, rod.quantile];
-                        moments
-                            .iter_mut()
-                            .zip(of_rod)
-                            .for_each(|(sum, value)| *sum += value);
+                        moments.iter_mut().zip(of_rod).for_each(|(sum, value)| *sum += value);
                         rods += 1.0;
                     }
                 }
@@ -142,11 +132,7 @@ mod tests {
         let mut cells: Vec<_> = (rods.iter())
             .map(|rod| {
                 let around = rod.p[1].atan2(rod.p[0]).rem_euclid(std::f64::consts::TAU);
-                let parts = [
-                    around / std::f64::consts::TAU,
-                    0.5 * (1.0 - rod.p[2]),
-                    rod.quantile,
-                ];
+                let parts = [around / std::f64::consts::TAU, 0.5 * (1.0 - rod.p[2]), rod.quantile];
                 parts.map(|part| (10.0 * part) as u32)
             })
             .collect();

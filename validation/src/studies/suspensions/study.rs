@@ -31,10 +31,7 @@ pub struct Extent {
 impl Extent {
     /// For the report of every day: seconds.
     pub const QUICK: Self = Self {
-        replicas: Replicas::Within {
-            rod_steps: 10_000_000,
-            most: 2000,
-        },
+        replicas: Replicas::Within { rod_steps: 10_000_000, most: 2000 },
         reference: (800, 400),
         unbounded: None,
         repeats: [16, 0, 0],
@@ -42,10 +39,7 @@ impl Extent {
     };
     /// For `shearbed bench` and full reports: a minute or two.
     pub const FULL: Self = Self {
-        replicas: Replicas::Within {
-            rod_steps: 100_000_000,
-            most: 20_000,
-        },
+        replicas: Replicas::Within { rod_steps: 100_000_000, most: 20_000 },
         reference: (3200, 5000),
         unbounded: Some((800, 100_000, 8)),
         repeats: [64, 16, 8],
@@ -109,10 +103,7 @@ pub fn run(extent: Extent, budget: Budget) -> Result<Interacting, String> {
             let judge = reference
                 .filter(|reference| repeats > 0 && off_at_most(&constants, scope, reference) < target);
             let realised = judge.map(|reference| {
-                let reference = Estimate {
-                    value: reference.x1,
-                    se: reference.se,
-                };
+                let reference = Estimate { value: reference.x1, se: reference.se };
                 split.realise(&scene, repeats, reference)
             });
             answers.push(Answer {

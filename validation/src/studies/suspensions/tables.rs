@@ -10,18 +10,12 @@ use crate::studies::work_precision::tables::{NOT_REACHED, time};
 /// Free suspensions: what each start reaches, and when.
 pub fn free(benches: &[Bench]) -> ReportTable {
     type Of<'a> = (&'a Bench, &'a StartCurve);
-    let rows = benches
-        .iter()
-        .flat_map(|bench| bench.curves.iter().map(move |c| (bench, c)));
+    let rows = benches.iter().flat_map(|bench| bench.curves.iter().map(move |c| (bench, c)));
     let mut columns: Vec<Column<Of>> = vec![
         words("scene", |r: &Of| r.0.free.scene),
         words("start", |r: &Of| r.1.start),
         number("theory", |x| format!("{x:+.2}"), |r: &Of| r.1.theory),
-        estimate(
-            "exponent",
-            |x, se| format!("{x:+.2} ± {se:.2}"),
-            |r: &Of| (r.1.exponent, r.1.exponent_se),
-        ),
+        estimate("exponent", |x, se| format!("{x:+.2} ± {se:.2}"), |r: &Of| (r.1.exponent, r.1.exponent_se)),
     ];
     columns.extend(TARGETS.map(|target| {
         let reached = move |r: &Of| match r.1.cheapest(target) {
@@ -31,10 +25,7 @@ pub fn free(benches: &[Bench]) -> ReportTable {
         words(format!("error {target:.0e}"), reached)
     }));
     ReportTable::new(
-        [
-            "suspension-starts",
-            "Free suspensions: the time for an error of X̄₁, by how the rods are laid",
-        ],
+        ["suspension-starts", "Free suspensions: the time for an error of X̄₁, by how the rods are laid"],
         "Isotropic rods without collisions at t/T = 0.95, against the closed form; root mean square over trials. The \
          exponent is of the number of rods in the error, over 10³ rods and more. No time step is taken: the whole \
          error is that of the sample (`free-suspension-rates`).",
@@ -74,10 +65,7 @@ fn split_columns<'a, R>(of: impl Fn(&R) -> Split + Copy + 'a) -> Vec<Column<'a, 
 /// What to run for an error, for any scene.
 pub fn splits(constants: &Constants, splits: &[Split]) -> ReportTable {
     ReportTable::new(
-        [
-            "splits",
-            "The cheapest steps, rods and replicas for an error of X̄₁ at t/T = 1",
-        ],
+        ["splits", "The cheapest steps, rods and replicas for an error of X̄₁ at t/T = 1"],
         rule(constants),
         splits,
         split_columns(|split: &&Split| **split),
@@ -111,10 +99,7 @@ pub fn answers(study: &Interacting) -> ReportTable {
     ReportTable::new(
         [
             "suspension-splits",
-            &format!(
-                "Interacting rods ({}): the cheapest split for an error of X̄₁ at t/T = 1",
-                study.scene
-            ),
+            &format!("Interacting rods ({}): the cheapest split for an error of X̄₁ at t/T = 1", study.scene),
         ],
         format!(
             "{} A rod's step takes {} on one core. The error includes the bias of the steps; the second half counts that \
@@ -132,10 +117,7 @@ pub fn answers(study: &Interacting) -> ReportTable {
 pub fn coupled(coupled: &Coupled) -> ReportTable {
     let two = |x: f64| format!("{x:.2}");
     ReportTable::new(
-        [
-            "suspension-coupled",
-            "Shared random numbers: by what factor fewer runs are needed",
-        ],
+        ["suspension-coupled", "Shared random numbers: by what factor fewer runs are needed"],
         format!(
             "Levels in Δt ({} and {} steps per period, same seeds) are tied by their starts alone: the gain with coarse \
              runs at an eighth of the cost, and the most that coarse runs for nothing could give; below 1 it costs more \

@@ -41,9 +41,7 @@ fn run(extent: &Extent) -> Result<Option<Found>, String> {
     let chosen = (ASPECT_RATIOS.into_iter()).filter(|r| (extent.wanted)(&work_precision::name(*r)));
     let budget = extent.effort.pick(Budget::QUICK, Budget::FULL);
     let subjects = integrators::all();
-    let benches: Vec<_> = chosen
-        .map(|r| work_precision::run(r, &subjects, budget))
-        .collect();
+    let benches: Vec<_> = chosen.map(|r| work_precision::run(r, &subjects, budget)).collect();
     if benches.is_empty() {
         return Ok(None);
     }

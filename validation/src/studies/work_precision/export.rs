@@ -20,11 +20,7 @@ pub fn bench_csv(benches: &[Bench]) -> Result<String, String> {
     type Row<'a> = (&'a Bench, &'a str, &'a Point);
     let points = benches.iter().flat_map(|bench| {
         let curves = bench.curves.iter();
-        curves.flat_map(move |c| {
-            c.points
-                .iter()
-                .map(move |point| (bench, c.subject.as_str(), point))
-        })
+        curves.flat_map(move |c| c.points.iter().map(move |point| (bench, c.subject.as_str(), point)))
     });
     let mut columns: Vec<Column<Row>> = vec![
         field("case", |r: &Row| r.0.name.as_str()),

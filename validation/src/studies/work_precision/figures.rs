@@ -55,10 +55,7 @@ pub fn orders(orders: &Orders) -> ReportFigure {
         label: study.subject.clone(),
         x: study.halvings.iter().map(|h| h.steps as f64).collect(),
         y: (study.halvings.iter())
-            .map(|h| {
-                h.errors
-                    .map_or(f64::NAN, |errors| errors.orientation_rad.max(LEAST))
-            })
+            .map(|h| h.errors.map_or(f64::NAN, |errors| errors.orientation_rad.max(LEAST)))
             .collect(),
         half_band: None,
     };
@@ -84,11 +81,7 @@ fn line(curve: &IntegratorCurve) -> plot::Curve {
         label: curve.subject.clone(),
         x: curve.points.iter().map(|point| point.seconds.least).collect(),
         y: (curve.points.iter())
-            .map(|point| {
-                point
-                    .errors
-                    .map_or(f64::NAN, |errors| errors.orientation_rad.max(LEAST))
-            })
+            .map(|point| point.errors.map_or(f64::NAN, |errors| errors.orientation_rad.max(LEAST)))
             .collect(),
         half_band: None,
     }
@@ -96,23 +89,12 @@ fn line(curve: &IntegratorCurve) -> plot::Curve {
 
 fn single(curve: &IntegratorCurve) -> plot::Points {
     let line = line(curve);
-    plot::Points {
-        label: line.label,
-        x: line.x,
-        y: line.y,
-        ..Default::default()
-    }
+    plot::Points { label: line.label, x: line.x, y: line.y, ..Default::default() }
 }
 
 fn failed(curves: &[IntegratorCurve]) -> plot::Points {
     let points = curves.iter().flat_map(|curve| &curve.points);
-    let x: Vec<_> = (points.filter(|point| point.errors.is_none()))
-        .map(|point| point.seconds.least)
-        .collect();
-    plot::Points {
-        label: "failed".into(),
-        y: vec![FAILED; x.len()],
-        x,
-        ..Default::default()
-    }
+    let x: Vec<_> =
+        (points.filter(|point| point.errors.is_none())).map(|point| point.seconds.least).collect();
+    plot::Points { label: "failed".into(), y: vec![FAILED; x.len()], x, ..Default::default() }
 }

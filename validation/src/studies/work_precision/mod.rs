@@ -68,18 +68,14 @@ pub fn run(aspect_ratio: f64, subjects: &[Box<dyn Integrator>], budget: Budget) 
         name: name(aspect_ratio),
         aspect_ratio,
         turns: problem.turns,
-        curves: (subjects.iter())
-            .map(|subject| curve(subject.as_ref(), aspect_ratio, budget))
-            .collect(),
+        curves: (subjects.iter()).map(|subject| curve(subject.as_ref(), aspect_ratio, budget)).collect(),
     }
 }
 
 /// Runs every subject of the project at every aspect ratio of the benches.
 pub fn run_all(budget: Budget) -> Vec<Bench> {
     let subjects = integrators::all();
-    (ASPECT_RATIOS.iter())
-        .map(|aspect_ratio| run(*aspect_ratio, &subjects, budget))
-        .collect()
+    (ASPECT_RATIOS.iter()).map(|aspect_ratio| run(*aspect_ratio, &subjects, budget)).collect()
 }
 
 /// One subject's curve: settings from coarse to fine until a run takes longer than half the budget, as the next would
@@ -94,21 +90,12 @@ pub fn curve(subject: &dyn Integrator, aspect_ratio: f64, budget: Budget) -> Int
             Ok(errors) => (Some(errors), None),
             Err(failure) => (None, Some(failure.to_string())),
         };
-        points.push(Point {
-            setting,
-            errors,
-            failure,
-            seconds,
-        });
+        points.push(Point { setting, errors, failure, seconds });
         if seconds.least > 0.5 * budget.seconds_per_run {
             break;
         }
     }
-    IntegratorCurve {
-        subject: subject.name().into(),
-        theory: subject.theory(),
-        points,
-    }
+    IntegratorCurve { subject: subject.name().into(), theory: subject.theory(), points }
 }
 
 /// 16, 32, … 2³⁰ steps, or tolerances from 10⁻² to 10⁻¹⁴.
@@ -116,9 +103,7 @@ fn settings(theory: Theory) -> Vec<Setting> {
     match theory {
         Theory::Exact => vec![Setting::Once],
         Theory::Order(_) => (4..=30).map(|power| Setting::Steps(1 << power)).collect(),
-        Theory::Adaptive => (2..=14)
-            .map(|power| Setting::Tolerance(10f64.powi(-power)))
-            .collect(),
+        Theory::Adaptive => (2..=14).map(|power| Setting::Tolerance(10f64.powi(-power))).collect(),
     }
 }
 
@@ -132,11 +117,7 @@ impl Point {
 impl IntegratorCurve {
     /// The cheapest point with at most this error. The next finer one must have it too, lest a chance crossing count.
     pub fn cheapest(&self, error_rad: f64) -> Option<&Point> {
-        let reaches = |k: usize| {
-            self.points
-                .get(k)
-                .is_none_or(|point| point.error_rad() <= error_rad)
-        };
+        let reaches = |k: usize| self.points.get(k).is_none_or(|point| point.error_rad() <= error_rad);
         (0..self.points.len())
             .filter(|k| reaches(*k) && reaches(*k + 1))
             .map(|k| &self.points[k])
@@ -181,10 +162,7 @@ mod tests {
     use crate::studies::integrators::{Failure, FixedStep};
     use nalgebra::{UnitVector3, Vector3};
 
-    const QUICK: Budget = Budget {
-        seconds_per_run: 1e-4,
-        runs: 1,
-    };
+    const QUICK: Budget = Budget { seconds_per_run: 1e-4, runs: 1 };
 
     fn point(error: Option<f64>, seconds: f64) -> Point {
         let errors = error.map(|orientation_rad| Errors {
@@ -193,12 +171,7 @@ mod tests {
             phase_turns: 0.0,
             length: 0.0,
         });
-        Point {
-            setting: Setting::Once,
-            errors,
-            failure: None,
-            seconds: Seconds::same(seconds),
-        }
+        Point { setting: Setting::Once, errors, failure: None, seconds: Seconds::same(seconds) }
     }
 
     #[test]
@@ -260,12 +233,7 @@ mod tests {
         assert_eq!((found.points.len(), found.failures()), (13, 13));
 
         // What failed is in every writing.
-        let bench = Bench {
-            name: name(2.0),
-            aspect_ratio: 2.0,
-            turns: 1.0,
-            curves: vec![found],
-        };
+        let bench = Bench { name: name(2.0), aspect_ratio: 2.0, turns: 1.0, curves: vec![found] };
         let benches = [bench];
         let csv = export::bench_csv(&benches).unwrap();
         assert_eq!(csv.matches(",too stiff,").count(), 13, "{csv}");
@@ -275,10 +243,7 @@ mod tests {
                 .contains("\"failure\": \"too stiff\"")
         );
         let tables = tables::cheapest(&benches).text() + &tables::every_subject(&benches[0]).text();
-        assert!(
-            tables.contains("not reached") && tables.contains("13 of 13"),
-            "{tables}"
-        );
+        assert!(tables.contains("not reached") && tables.contains("13 of 13"), "{tables}");
         let figure = &figures::figures(&benches)[0].figure;
         assert_eq!(figure.points[0].x.len(), 13);
     }
@@ -289,11 +254,6 @@ mod tests {
         let bench = run(2.0, &subjects, QUICK);
         let table = tables::every_subject(&bench);
         let names: Vec<_> = table.rows.iter().map(|row| row[0].as_str()).collect();
-        assert!(
-            names
-                .iter()
-                .copied()
-                .eq(subjects.iter().map(|subject| subject.name()))
-        );
+        assert!(names.iter().copied().eq(subjects.iter().map(|subject| subject.name())));
     }
 }

@@ -92,11 +92,9 @@ pub fn of_scene(scene: &Scene) -> Option<Orders> {
     let periods = scene.time.periods?;
     let (phi, theta, whose) = match scene.particles.common_start_deg() {
         // The flow turned round is its own mirror image, φ ↔ −φ.
-        Some([phi_deg, theta_deg]) => (
-            shear_rate.signum() * phi_deg.to_radians(),
-            theta_deg.to_radians(),
-            "the scene's own start",
-        ),
+        Some([phi_deg, theta_deg]) => {
+            (shear_rate.signum() * phi_deg.to_radians(), theta_deg.to_radians(), "the scene's own start")
+        }
         None if scene.particles.rods.is_some() => (0.2, 1.0, "as the scene's starts are many"),
         None => (0.2, 1.0, "as the scene draws its starts at random"),
     };
@@ -171,15 +169,9 @@ fn round_off(problem: &Problem) -> f64 {
 }
 
 fn judged(halvings: &[Halving], floor: f64) -> Vec<f64> {
-    let above = |halving: &&Halving| {
-        halving
-            .errors
-            .is_some_and(|errors| errors.orientation_rad > floor)
-    };
+    let above = |halving: &&Halving| halving.errors.is_some_and(|errors| errors.orientation_rad > floor);
     // From the first run at round-off on, whatever follows is noise.
-    let orders: Vec<f64> = (halvings.iter().take_while(above))
-        .filter_map(|halving| halving.order)
-        .collect();
+    let orders: Vec<f64> = (halvings.iter().take_while(above)).filter_map(|halving| halving.order).collect();
     orders[orders.len().saturating_sub(2)..].to_vec()
 }
 
@@ -219,12 +211,8 @@ mod tests {
     use super::*;
 
     fn synthetic(errors: &[f64]) -> Vec<Halving> {
-        let of = |orientation_rad| Errors {
-            orientation_rad,
-            orbit_constant: 0.0,
-            phase_turns: 0.0,
-            length: 0.0,
-        };
+        let of =
+            |orientation_rad| Errors { orientation_rad, orbit_constant: 0.0, phase_turns: 0.0, length: 0.0 };
         (0..errors.len())
             .map(|k| Halving {
                 steps: 8 << k,

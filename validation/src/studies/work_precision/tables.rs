@@ -21,18 +21,10 @@ pub(super) fn cheapest(benches: &[Bench]) -> ReportTable {
     type Row<'a> = (&'a Bench, f64, Chosen<'a>, Chosen<'a>);
     let row = |bench, target| -> Row {
         let steps = |theory| theory != Theory::Exact;
-        (
-            bench,
-            target,
-            Bench::cheapest(bench, target, |_| true),
-            Bench::cheapest(bench, target, steps),
-        )
+        (bench, target, Bench::cheapest(bench, target, |_| true), Bench::cheapest(bench, target, steps))
     };
     ReportTable::new(
-        [
-            "work-precision",
-            "For an error: the cheapest subject and its time",
-        ],
+        ["work-precision", "For an error: the cheapest subject and its time"],
         "One rod into the middle of its third flip. A point counts where the next finer one reaches the error too.",
         (benches.iter()).flat_map(|bench| TARGETS_RAD.map(|target| row(bench, target))),
         vec![
@@ -57,10 +49,7 @@ pub(super) fn ratio(benches: &[Bench]) -> ReportTable {
         (named(found), timed(found))
     };
     ReportTable::new(
-        [
-            "exact-against-adaptive",
-            "The exact propagator against the cheapest adaptive subject",
-        ],
+        ["exact-against-adaptive", "The exact propagator against the cheapest adaptive subject"],
         "The propagator's time for round-off error over the cheapest adaptive subject's for 10⁻⁶ rad.",
         benches.iter(),
         vec![
@@ -71,17 +60,11 @@ pub(super) fn ratio(benches: &[Bench]) -> ReportTable {
                 move |b: &&Bench| exact(b).map(|point| point.error_rad()),
             )
             .or(NOT_REACHED),
-            number("its time", time, move |b: &&Bench| {
-                exact(b).map(|point| point.seconds.least)
-            })
-            .or(NOT_REACHED),
+            number("its time", time, move |b: &&Bench| exact(b).map(|point| point.seconds.least))
+                .or(NOT_REACHED),
             words("adaptive, for 1e-6", move |b: &&Bench| adaptive(b).0),
             number("its time for 1e-6", time, move |b: &&Bench| adaptive(b).1).or(NOT_REACHED),
-            number(
-                "ratio",
-                |ratio| format!("1/{:.0}", 1.0 / ratio),
-                |b: &&Bench| b.exact_over_adaptive(),
-            ),
+            number("ratio", |ratio| format!("1/{:.0}", 1.0 / ratio), |b: &&Bench| b.exact_over_adaptive()),
         ],
     )
 }
@@ -99,15 +82,9 @@ pub(super) fn every_subject(bench: &Bench) -> ReportTable {
         .or(NOT_REACHED)
     }));
     columns.extend([
-        number("best (rad)", e, move |c: &&IntegratorCurve| {
-            best(c).map(|b| b.1.orientation_rad)
-        }),
-        number("C_b", e, move |c: &&IntegratorCurve| {
-            best(c).map(|b| b.1.orbit_constant)
-        }),
-        number("t/T", e, move |c: &&IntegratorCurve| {
-            best(c).map(|b| b.1.phase_turns)
-        }),
+        number("best (rad)", e, move |c: &&IntegratorCurve| best(c).map(|b| b.1.orientation_rad)),
+        number("C_b", e, move |c: &&IntegratorCurve| best(c).map(|b| b.1.orbit_constant)),
+        number("t/T", e, move |c: &&IntegratorCurve| best(c).map(|b| b.1.phase_turns)),
         words("setting", move |c: &&IntegratorCurve| {
             best(c).map_or("failed".into(), |b| b.0.setting.to_string())
         }),
@@ -115,9 +92,7 @@ pub(super) fn every_subject(bench: &Bench) -> ReportTable {
             let seconds = best(c).map(|b| b.0.seconds);
             seconds.map_or(NONE.into(), |s| format!("{} to {}", time(s.least), time(s.most)))
         }),
-        words("failed", |c: &&IntegratorCurve| {
-            format!("{} of {}", c.failures(), c.points.len())
-        }),
+        words("failed", |c: &&IntegratorCurve| format!("{} of {}", c.failures(), c.points.len())),
     ]);
     ReportTable::new(
         [
@@ -143,10 +118,7 @@ pub fn orders(orders: &Orders) -> ReportTable {
     };
     let e = |error: f64| format!("{error:.1e}");
     ReportTable::new(
-        [
-            "orders",
-            "Observed order, Richardson's value and grid convergence index",
-        ],
+        ["orders", "Observed order, Richardson's value and grid convergence index"],
         format!(
             "{}. The core itself takes no step for a free rod: these are the orders of integrators that do. Orders of the \
              angle's error on the last two pairs above round-off, negative where it grows; the rest is of |p_1|, from \
@@ -169,11 +141,7 @@ pub fn orders(orders: &Orders) -> ReportTable {
                 |o| format!("{o:+.3}"),
                 |s: &&Convergence| s.richardson.map(|r| r.order),
             ),
-            number(
-                "at Δt = 0",
-                |v| format!("{v:.12}"),
-                |s: &&Convergence| s.richardson.map(|r| r.value),
-            ),
+            number("at Δt = 0", |v| format!("{v:.12}"), |s: &&Convergence| s.richardson.map(|r| r.value)),
             number("off by", e, |s: &&Convergence| s.richardson.map(|r| r.error)),
             number("index", e, |s: &&Convergence| s.richardson.map(|r| r.index)),
             number("error", e, |s: &&Convergence| s.richardson.map(|r| r.true_error)),
@@ -193,11 +161,7 @@ pub(crate) fn time(seconds: f64) -> String {
         _ => (1.0, "s"),
     };
     let number = seconds * scale;
-    let digits = if number < 9.995 {
-        2
-    } else {
-        usize::from(number < 99.95)
-    };
+    let digits = if number < 9.995 { 2 } else { usize::from(number < 99.95) };
     format!("{number:.digits$} {unit}")
 }
 
@@ -207,12 +171,7 @@ mod tests {
 
     #[test]
     fn times_have_three_digits() {
-        let expected = [
-            (4.31e-8, "43.1 ns"),
-            (9.999e-6, "10.0 µs"),
-            (0.1234, "123 ms"),
-            (2.5, "2.50 s"),
-        ];
+        let expected = [(4.31e-8, "43.1 ns"), (9.999e-6, "10.0 µs"), (0.1234, "123 ms"), (2.5, "2.50 s")];
         for (seconds, text) in expected {
             assert_eq!(time(seconds), text);
         }

@@ -15,15 +15,9 @@ pub struct Budget {
 
 impl Budget {
     /// For `shearbed bench`.
-    pub const FULL: Self = Self {
-        seconds_per_run: 0.1,
-        runs: 9,
-    };
+    pub const FULL: Self = Self { seconds_per_run: 0.1, runs: 9 };
     /// For the report of every day.
-    pub const QUICK: Self = Self {
-        seconds_per_run: 0.01,
-        runs: 5,
-    };
+    pub const QUICK: Self = Self { seconds_per_run: 0.01, runs: 5 };
 }
 
 /// What a run took, in seconds.
@@ -40,11 +34,7 @@ pub struct Seconds {
 impl Seconds {
     /// One measurement.
     pub fn same(seconds: f64) -> Self {
-        Self {
-            least: seconds,
-            most: seconds,
-            measurements: 1,
-        }
+        Self { least: seconds, most: seconds, measurements: 1 }
     }
 }
 

@@ -12,19 +12,13 @@ fn a_design_lists_what_each_further_point_would_leave() {
     let fit = "fit small.toml --data points.csv --over interaction.alpha=0.05:5 --replicas 60 --out own";
     let done = shearbed(dir.path(), &format!("{fit} --design"));
     assert_eq!(done.code, Some(0), "{}", done.stderr);
-    assert!(
-        done.stdout.contains("the best next point: x1 at t_over_T = "),
-        "{}",
-        done.stdout
-    );
+    assert!(done.stdout.contains("the best next point: x1 at t_over_T = "), "{}", done.stdout);
     let record = json(&dir.path().join("own/fit.json"));
     let steps = record["design"].as_array().unwrap();
     let u = |step: &Value| step["u"][0].as_f64().unwrap();
     // One standard deviation of the likelihood, near that of the linear theory.
     let now = u(&steps[0]);
-    let linear = record["parameters"]["interaction.alpha"]["standard_uncertainty"]
-        .as_f64()
-        .unwrap();
+    let linear = record["parameters"]["interaction.alpha"]["standard_uncertainty"].as_f64().unwrap();
     assert!((now / linear - 1.0).abs() < 0.2, "{now} {linear}");
     let mut csv = csv::Reader::from_path(dir.path().join("own/design.csv")).unwrap();
     let head = csv.headers().unwrap().clone();
@@ -37,10 +31,7 @@ fn a_design_lists_what_each_further_point_would_leave() {
         let (left, spread) = (number("u_alpha_with_it"), number("spread"));
         // Never more than before, and never less than by a point that follows α alone.
         let least = now * (1.0 - spread.powi(2) / (spread.powi(2) + number("u").powi(2))).sqrt();
-        assert!(
-            left <= now && left >= least * (1.0 - 1e-9),
-            "{row:?} {now} {least}"
-        );
+        assert!(left <= now && left >= least * (1.0 - 1e-9), "{row:?} {now} {least}");
         if left < best.0 {
             best = (left, number("time"));
         }
@@ -90,28 +81,18 @@ fn rods_that_start_as_a_file_says_are_fitted() {
     let alpha = &record["parameters"]["interaction.alpha"];
     let number = |key: &str| alpha[key].as_f64().unwrap();
     // Correct code is outside four standard uncertainties at one seed in 16 000.
-    assert!(
-        (number("estimate") - 0.8).abs() < 4.0 * number("standard_uncertainty"),
-        "{alpha}"
-    );
+    assert!((number("estimate") - 0.8).abs() < 4.0 * number("standard_uncertainty"), "{alpha}");
     // Twice the rods would need twice the rows.
     assert_eq!(record["shifts"].as_array().unwrap().len(), 1);
 
     // Another file of starts is another fit.
-    fs::write(
-        dir.path().join("scenes/start.csv"),
-        rows.replace("p1,p2,p3", "p2,p1,p3"),
-    )
-    .unwrap();
+    fs::write(dir.path().join("scenes/start.csv"), rows.replace("p1,p2,p3", "p2,p1,p3")).unwrap();
     let other = shearbed(dir.path(), &format!("{fit} --out own"));
     assert_eq!(other.code, Some(2));
     assert!(other.stderr.contains("start"), "{}", other.stderr);
     // A file that is not as the scene needs it, with what is wrong.
-    fs::write(
-        dir.path().join("scenes/start.csv"),
-        rows.lines().take(count).collect::<Vec<_>>().join("\n"),
-    )
-    .unwrap();
+    fs::write(dir.path().join("scenes/start.csv"), rows.lines().take(count).collect::<Vec<_>>().join("\n"))
+        .unwrap();
     let short = shearbed(dir.path(), &format!("{fit} --out other"));
     assert_eq!(short.code, Some(2));
     assert!(short.stderr.contains("has 19 rows"), "{}", short.stderr);

@@ -33,10 +33,7 @@ fn two_parameters_have_intervals_that_end_apart_or_no_answer() {
     for (key, planted) in [("interaction.alpha", 0.8), ("interaction.m", 3.0)] {
         let found = &record["parameters"][key];
         let number = |key: &str| found[key].as_f64().unwrap();
-        assert!(
-            number("low_95") < planted && planted < number("high_95"),
-            "{found}"
-        );
+        assert!(number("low_95") < planted && planted < number("high_95"), "{found}");
         let edge = |k: usize| found["ends_at_edge"][k].as_bool().unwrap();
         assert!(edge(0) || number("low_95") < number("low_68"), "{found}");
         assert!(edge(1) || number("high_68") < number("high_95"), "{found}");
@@ -53,8 +50,7 @@ fn a_spread_that_is_taken_as_known_is_said_where_it_counts() {
     let done = shearbed(dir.path(), &format!("{fit} {spread}3.6 --out one"));
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     assert!(
-        done.stderr
-            .contains("interaction.alpha: with rods of one r_e it would be about")
+        done.stderr.contains("interaction.alpha: with rods of one r_e it would be about")
             && done.stderr.contains("larger"),
         "{}",
         done.stderr

@@ -22,10 +22,7 @@ fn a_full_disk_is_found_before_the_work() {
         let ended = limited(dir.path(), "trap '' XFSZ; ulimit -f 100", arguments);
         let message = ended.stderr;
         assert_eq!(ended.code, Some(2), "{arguments}: {message}");
-        assert!(
-            message.contains("x: cannot be written: File too large"),
-            "{message}"
-        );
+        assert!(message.contains("x: cannot be written: File too large"), "{message}");
         assert!(message.contains("MB are to be written there"), "{message}");
         assert!(!dir.path().join("x").exists(), "{arguments}");
     }
@@ -60,27 +57,14 @@ fn what_a_killed_run_left_is_put_right_by_the_next() {
     for name in ["projections.csv", "run.json"] {
         fs::rename(x.join(name), ready.join(name)).unwrap();
     }
-    let limited = shearbed(
-        dir.path(),
-        "sweep small.toml --over interaction.alpha=1,2 --out x/points/no",
-    );
+    let limited = shearbed(dir.path(), "sweep small.toml --over interaction.alpha=1,2 --out x/points/no");
     assert_eq!(limited.code, Some(0), "{}", limited.stderr);
     fs::remove_dir_all(x.join("points")).unwrap();
     assert!(ready.exists());
     fs::write(x.join("sweep.json"), "no record").unwrap();
-    assert_eq!(
-        shearbed(
-            dir.path(),
-            "sweep small.toml --over interaction.alpha=1,2 --out x"
-        )
-        .code,
-        Some(2)
-    );
+    assert_eq!(shearbed(dir.path(), "sweep small.toml --over interaction.alpha=1,2 --out x").code, Some(2));
     assert!(!ready.exists());
-    assert_eq!(
-        fs::read(x.join("projections.csv")).unwrap(),
-        whole["projections.csv"]
-    );
+    assert_eq!(fs::read(x.join("projections.csv")).unwrap(), whole["projections.csv"]);
     assert!(x.join("run.json").exists());
 }
 
@@ -108,10 +92,7 @@ fn a_run_killed_at_any_moment_leaves_a_whole_set_or_none() {
         child.kill().unwrap();
         child.wait().unwrap();
         if x.exists() {
-            let found: Vec<_> = files(&x)
-                .into_keys()
-                .filter(|name| !name.starts_with('.'))
-                .collect();
+            let found: Vec<_> = files(&x).into_keys().filter(|name| !name.starts_with('.')).collect();
             assert_eq!(found, names, "round {round}");
             fs::remove_dir_all(&x).unwrap();
         }
@@ -127,10 +108,7 @@ fn a_signal_before_the_checkpoint_is_opened_says_that_it_stays() {
     let lock = fs::File::create(dir.path().join("x/.shearbed-lock")).unwrap();
     lock.lock().unwrap();
     for (there, said) in [
-        (
-            true,
-            "kept stays as it is, and the same command goes on from there",
-        ),
+        (true, "kept stays as it is, and the same command goes on from there"),
         (false, "nothing else is kept"),
     ] {
         if there {

@@ -8,35 +8,24 @@ use std::path::Path;
 /// Free rods of one replica, from `start` on.
 fn from(start: &str) -> String {
     let text = free(&asked()).replace("orientation = \"isotropic\"", start);
-    text.replace("replicas = 3", "replicas = 1")
-        .replace("rods_at = [0, 0.5, 1]", "rods_at = [0.25, 0.75]")
+    text.replace("replicas = 3", "replicas = 1").replace("rods_at = [0, 0.5, 1]", "rods_at = [0.25, 0.75]")
 }
 
 /// The rows of one time as a file of its own.
 fn one_time(from: &Path, to: &Path, first: usize) {
     let text = fs::read_to_string(from).unwrap();
     let lines: Vec<_> = text.lines().collect();
-    fs::write(
-        to,
-        [&lines[..1], &lines[1 + first..21 + first]].concat().join("\n"),
-    )
-    .unwrap();
+    fs::write(to, [&lines[..1], &lines[1 + first..21 + first]].concat().join("\n")).unwrap();
 }
 
 #[test]
 fn rods_that_were_written_go_on_as_they_would_have() {
-    for flow in [
-        "shear_rate_per_s = 0.5",
-        "gradient_per_s = [[0, 0, 0], [0.5, 0, 0.1], [0, 0, 0]]",
-    ] {
+    for flow in ["shear_rate_per_s = 0.5", "gradient_per_s = [[0, 0, 0], [0.5, 0, 0.1], [0, 0, 0]]"] {
         let dir = folder();
         let at = |name: &str| dir.path().join(name);
         let with = |text: String| text.replace("shear_rate_per_s = 0.5", flow);
         fs::write(at("whole.toml"), with(from("orientation = \"isotropic\""))).unwrap();
-        assert_eq!(
-            shearbed(dir.path(), "run whole.toml --out whole --quiet").code,
-            Some(0)
-        );
+        assert_eq!(shearbed(dir.path(), "run whole.toml --out whole --quiet").code, Some(0));
         one_time(&at("whole/rods.csv"), &at("start.csv"), 0);
         let rest = with(from("rods = { file = \"start.csv\" }")).replace("[0.25, 0.75]", "[0, 0.5]");
         fs::write(at("rest.toml"), &rest).unwrap();
@@ -46,10 +35,7 @@ fn rods_that_were_written_go_on_as_they_would_have() {
         for (a, b) in whole.iter().zip(&rest_rows) {
             for p in ["p1", "p2", "p3"] {
                 // A start is rounded, and half a turn magnifies that by r_e² at most.
-                assert!(
-                    (number(a, p) - number(b, p)).abs() < 135.0 * 4.0 * f64::EPSILON,
-                    "{a:?} {b:?}"
-                );
+                assert!((number(a, p) - number(b, p)).abs() < 135.0 * 4.0 * f64::EPSILON, "{a:?} {b:?}");
             }
         }
         // What was run can be run again: run.json has the file's digest, and another file is refused.
@@ -58,21 +44,14 @@ fn rods_that_were_written_go_on_as_they_would_have() {
         let rods = &record["scene"]["particles"]["rods"];
         assert_eq!(rods["file"], "start.csv");
         let digest = rods["crc32"].as_str().unwrap();
-        let pinned = rest.replace(
-            "\"start.csv\" }",
-            &format!("\"start.csv\", crc32 = \"{digest}\" }}"),
-        );
+        let pinned = rest.replace("\"start.csv\" }", &format!("\"start.csv\", crc32 = \"{digest}\" }}"));
         fs::write(at("rest.toml"), pinned).unwrap();
-        assert_eq!(
-            shearbed(dir.path(), "run rest.toml --out rest --quiet").code,
-            Some(0)
-        );
+        assert_eq!(shearbed(dir.path(), "run rest.toml --out rest --quiet").code, Some(0));
         one_time(&at("whole/rods.csv"), &at("start.csv"), 20);
         let done = shearbed(dir.path(), "run rest.toml --out rest --quiet");
         assert_eq!(done.code, Some(2));
         assert!(
-            done.stderr
-                .contains("rest.toml: particles.rods: start.csv: has crc32 = "),
+            done.stderr.contains("rest.toml: particles.rods: start.csv: has crc32 = "),
             "{}",
             done.stderr
         );
@@ -81,9 +60,7 @@ fn rods_that_were_written_go_on_as_they_would_have() {
         let done = shearbed(dir.path(), "run rest.toml --out rest --quiet");
         assert!(
             done.code == Some(2)
-                && done
-                    .stderr
-                    .contains("results of `shearbed run` from other input are kept here"),
+                && done.stderr.contains("results of `shearbed run` from other input are kept here"),
             "{}",
             done.stderr
         );
@@ -96,10 +73,7 @@ fn a_sweep_starts_from_a_file_and_knows_it_again() {
     let at = |name: &str| dir.path().join(name);
     fs::create_dir(at("below")).unwrap();
     fs::write(at("all.toml"), free(&asked())).unwrap();
-    assert_eq!(
-        shearbed(dir.path(), "run all.toml --out all --quiet").code,
-        Some(0)
-    );
+    assert_eq!(shearbed(dir.path(), "run all.toml --out all --quiet").code, Some(0));
     one_time(&at("all/rods.csv"), &at("below/start.csv"), 0);
     let scene = from("rods = { file = \"start.csv\" }").replace("rods_at = [0.25, 0.75]\n", "");
     fs::write(at("below/s.toml"), &scene).unwrap();
@@ -109,20 +83,13 @@ fn a_sweep_starts_from_a_file_and_knows_it_again() {
     assert!(done.stdout.contains(words), "{}", done.stdout);
     let sweep = "sweep below/s.toml --over flow.shear_rate_per_s=0.5,1 --out x --quiet";
     assert_eq!(shearbed(dir.path(), sweep).code, Some(0));
-    assert_eq!(
-        shearbed(dir.path(), "run below/s.toml --out one --quiet").code,
-        Some(0)
-    );
+    assert_eq!(shearbed(dir.path(), "run below/s.toml --out one --quiet").code, Some(0));
     let one = fs::read_to_string(at("one/projections.csv")).unwrap();
     assert_eq!(fs::read_to_string(at("x/points/1/projections.csv")).unwrap(), one);
     // Another start is another sweep.
     one_time(&at("all/rods.csv"), &at("below/start.csv"), 20);
     let done = shearbed(dir.path(), sweep);
-    assert!(
-        done.code == Some(2) && done.stderr.contains("rods.crc32 was"),
-        "{}",
-        done.stderr
-    );
+    assert!(done.code == Some(2) && done.stderr.contains("rods.crc32 was"), "{}", done.stderr);
 }
 
 #[test]
@@ -131,11 +98,7 @@ fn a_start_that_does_not_fit_is_refused_with_file_and_line() {
     let refused = |start: &str, said: &str| {
         fs::write(dir.path().join("start.csv"), start).unwrap();
         fs::write(dir.path().join("s.toml"), from("rods = { file = \"start.csv\" }")).unwrap();
-        for command in [
-            "run s.toml",
-            "plan s.toml",
-            "sweep s.toml --over particles.length_mm=1,2",
-        ] {
+        for command in ["run s.toml", "plan s.toml", "sweep s.toml --over particles.length_mm=1,2"] {
             let done = shearbed(dir.path(), command);
             assert_eq!(done.code, Some(2), "{command}");
             assert!(done.stderr.contains(said), "{}", done.stderr);
@@ -143,25 +106,11 @@ fn a_start_that_does_not_fit_is_refused_with_file_and_line() {
         assert!(!dir.path().join("out").exists());
     };
     let key = "s.toml: particles.rods: start.csv";
-    refused(
-        "p1,p2,p3\n1,0,0\n",
-        &format!("{key}: has 1 rows; as many as particles.count = 20"),
-    );
-    refused(
-        "p1,p2,p3\n1,0,0\n1,1,0\n",
-        &format!("{key}:3: p = (1, 1, 0) has length 1.414"),
-    );
-    fs::write(
-        dir.path().join("gone.toml"),
-        from("rods = { file = \"gone.csv\" }"),
-    )
-    .unwrap();
+    refused("p1,p2,p3\n1,0,0\n", &format!("{key}: has 1 rows; as many as particles.count = 20"));
+    refused("p1,p2,p3\n1,0,0\n1,1,0\n", &format!("{key}:3: p = (1, 1, 0) has length 1.414"));
+    fs::write(dir.path().join("gone.toml"), from("rods = { file = \"gone.csv\" }")).unwrap();
     let done = shearbed(dir.path(), "plan gone.toml");
-    assert!(
-        done.code == Some(2) && done.stderr.contains("gone.csv: cannot be read"),
-        "{}",
-        done.stderr
-    );
+    assert!(done.code == Some(2) && done.stderr.contains("gone.csv: cannot be read"), "{}", done.stderr);
     // A whole file.
     let rods = "0,0,1\n".repeat(20);
     fs::write(dir.path().join("start.csv"), format!("p1,p2,p3\n{rods}")).unwrap();
@@ -177,10 +126,7 @@ fn a_suspension_of_unequal_rods_begins_again_from_its_own_table() {
     let unequal = asked()
         .replace("length_mm = 0.72", "length_mm = 0.72\nlength_sd_percent = 20")
         .replace("concentration_per_cm3 = 50", "box_mm = [10, 8, 5]")
-        .replace(
-            "aspect_ratio = 11.6",
-            "aspect_ratio = 11.6\naspect_ratio_sd_percent = 8.5",
-        )
+        .replace("aspect_ratio = 11.6", "aspect_ratio = 11.6\naspect_ratio_sd_percent = 8.5")
         .replace("replicas = 3", "replicas = 1");
     fs::write(at("all.toml"), &unequal).unwrap();
     let done = shearbed(dir.path(), "run all.toml --out all --quiet --vtk");
@@ -226,26 +172,14 @@ fn a_suspension_of_unequal_rods_begins_again_from_its_own_table() {
     }
     // A place that the box does not have, and a concentration that it contradicts.
     for (from, to, said) in [
-        (
-            "[10, 8, 5]",
-            "[10, 8, 1]",
-            "again.toml: particles.rods: start.csv:",
-        ),
-        (
-            "box_mm",
-            "concentration_per_cm3 = 60\nbox_mm",
-            "20 rods in [10.0, 8.0, 5.0] mm are 50 per cm³",
-        ),
+        ("[10, 8, 5]", "[10, 8, 1]", "again.toml: particles.rods: start.csv:"),
+        ("box_mm", "concentration_per_cm3 = 60\nbox_mm", "20 rods in [10.0, 8.0, 5.0] mm are 50 per cm³"),
     ] {
         let text = fs::read_to_string(at("again.toml")).unwrap();
         fs::write(at("wrong.toml"), text.replace(from, to)).unwrap();
         let done = shearbed(dir.path(), "run wrong.toml --out wrong --quiet");
         let said = said.replace("again.toml", "wrong.toml");
-        assert!(
-            done.code == Some(2) && done.stderr.contains(&said),
-            "{}",
-            done.stderr
-        );
+        assert!(done.code == Some(2) && done.stderr.contains(&said), "{}", done.stderr);
         assert!(!at("wrong").exists());
     }
 }
@@ -258,25 +192,16 @@ fn other_numbers_of_rods_have_the_concentration_of_the_box() {
     // 20 rods in 10 × 8 × 5 mm³ are 50 per cm³.
     let cube = asked().replace("rods_at = [0, 0.5, 1]", "rods_at = [0, 0.5]");
     for (name, interaction) in [
-        (
-            "box",
-            "box_mm = [7.368062997280773, 7.368062997280773, 7.368062997280773]",
-        ),
+        ("box", "box_mm = [7.368062997280773, 7.368062997280773, 7.368062997280773]"),
         (
             "both",
             "concentration_per_cm3 = 50\nbox_mm = [7.368062997280773, 7.368062997280773, 7.368062997280773]",
         ),
         ("cube", "concentration_per_cm3 = 50"),
     ] {
-        fs::write(
-            at(&format!("{name}.toml")),
-            cube.replace("concentration_per_cm3 = 50", interaction),
-        )
-        .unwrap();
-        let done = shearbed(
-            dir.path(),
-            &format!("converge {name}.toml --replicas 2 --out {name} --quiet"),
-        );
+        fs::write(at(&format!("{name}.toml")), cube.replace("concentration_per_cm3 = 50", interaction))
+            .unwrap();
+        let done = shearbed(dir.path(), &format!("converge {name}.toml --replicas 2 --out {name} --quiet"));
         assert_eq!(done.code, Some(0), "{name}: {}", done.stderr);
     }
     // X̄₁ of each row. Collisions magnify a rounding of the side; another concentration would be off by 0.05 and more.
@@ -317,9 +242,7 @@ fn rods_at_a_face_and_results_beside_their_input() {
     let done = shearbed(dir.path(), "run s.toml --out . --force --quiet");
     assert!(
         done.code == Some(2)
-            && done
-                .stderr
-                .contains("rods.csv, which particles.rods reads: choose another folder"),
+            && done.stderr.contains("rods.csv, which particles.rods reads: choose another folder"),
         "{}",
         done.stderr
     );
@@ -344,8 +267,5 @@ fn rods_at_a_face_and_results_beside_their_input() {
         "{told}"
     );
     let told = plan("--set interaction.box_mm=[100,100,0.5]");
-    assert!(
-        told.contains("0.5 mm is less than a rod's length, 0.72 mm"),
-        "{told}"
-    );
+    assert!(told.contains("0.5 mm is less than a rod's length, 0.72 mm"), "{told}");
 }

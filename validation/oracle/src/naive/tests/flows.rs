@@ -24,16 +24,9 @@ fn shear_brings_rods_in_as_it_does_liquid() {
     let shear = [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]];
     let means = |made| {
         let all = entries(shear, made);
-        assert!(
-            all.iter()
-                .all(|x| inside(*x, EDGES_MM) && x[1] <= x[0] * DT_S * (1.0 + 1e-12))
-        );
+        assert!(all.iter().all(|x| inside(*x, EDGES_MM) && x[1] <= x[0] * DT_S * (1.0 + 1e-12)));
         let way = |x: &[f64; 3]| x[1] / (x[0] * DT_S);
-        [
-            mean(all.iter().map(|x| x[0])),
-            mean(all.iter().map(way)),
-            mean(all.iter().map(|x| x[2] / 4.0)),
-        ]
+        [mean(all.iter().map(|x| x[0])), mean(all.iter().map(way)), mean(all.iter().map(|x| x[2] / 4.0))]
     };
     // standard errors of 0.0017 and 0.002
     let near = |found: [f64; 3], expected: [f64; 3]| (0..3).all(|k| (found[k] - expected[k]).abs() < 0.01);
@@ -43,10 +36,7 @@ fn shear_brings_rods_in_as_it_does_liquid() {
     // transposed, liquid comes in along the other axis
     let draws = stream(9, 0, 4);
     let problem = Problem {
-        other_flow: Some(OtherFlow {
-            gradient_per_s: shear,
-            steps_per_strain: 10,
-        }),
+        other_flow: Some(OtherFlow { gradient_per_s: shear, steps_per_strain: 10 }),
         mistake: Some(Mistake::GradientTransposed),
         ..Problem::paper(1, 0)
     };
@@ -72,10 +62,6 @@ fn extension_brings_rods_in_through_both_faces() {
 
 #[test]
 fn places_go_with_the_liquid() {
-    let there = carried(
-        matrix([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0; 3]]),
-        [1.0, 0.0, 3.0],
-        FRAC_PI_2,
-    );
+    let there = carried(matrix([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0; 3]]), [1.0, 0.0, 3.0], FRAC_PI_2);
     assert!(far(&[there], &[[0.0, 1.0, 3.0]]) < 1e-14);
 }

@@ -13,11 +13,7 @@ fn a_mutual_pair_may_have_one_draw() {
         // 0 and 1 are mutual: the limit is that of the smaller draw, or of the lower index
         for (who, r) in [(Who::EachDraws, r[0].min(r[1])), (Who::PairDraws, r[0])] {
             let count = |factor| taken(&[0.0, far_mm(r) * factor], [0, 0], change(who)).len();
-            assert_eq!(
-                [1.0 - 1e-9, 1.0 + 1e-9].map(count),
-                [1, 0],
-                "{who:?}, seed {seed}"
-            );
+            assert_eq!([1.0 - 1e-9, 1.0 + 1e-9].map(count), [1, 0], "{who:?}, seed {seed}");
         }
         second_draw_decides += usize::from(r[1] < r[0]);
         // 2's nearest is 1, whose nearest is 0, to which it is parallel: 2 draws for itself
@@ -65,10 +61,7 @@ fn the_nearest_rod_may_be_an_image() {
         // and seen from the other side
         assert_eq!(nearest(&positions_mm, 1, Images::All, [10.0; 3]), Some(0));
     }
-    assert_eq!(
-        Images::All.nearest_mm([9.0, 1.0, 4.0], [1.0, 9.0, 6.0], [10.0; 3]),
-        [-1.0, 11.0, 4.0]
-    );
+    assert_eq!(Images::All.nearest_mm([9.0, 1.0, 4.0], [1.0, 9.0, 6.0], [10.0; 3]), [-1.0, 11.0, 4.0]);
 }
 
 #[test]
@@ -104,10 +97,7 @@ fn a_kick_is_added_to_the_exact_step() {
 fn contacts_that_change_nothing_cost_nothing_beside_the_exact_step() {
     let away = |update| {
         let in_plane = |p: &mut Problem| {
-            p.orientation = Start::Fixed {
-                phi_rad: 0.3,
-                theta_rad: FRAC_PI_2,
-            };
+            p.orientation = Start::Fixed { phi_rad: 0.3, theta_rad: FRAC_PI_2 };
             // rods of many aspect ratios do not stay parallel
             (p.aspect_ratio_sd_percent, p.update) = (10.0, update);
         };
@@ -121,9 +111,7 @@ fn contacts_that_change_nothing_cost_nothing_beside_the_exact_step() {
 
 #[test]
 fn a_scaled_overshoot_is_that_of_the_new_place() {
-    let mut naive = Naive::new(fibres(50, 0.0, |p| {
-        p.reading.replacement = Replacement::ScaledOvershoot
-    }));
+    let mut naive = Naive::new(fibres(50, 0.0, |p| p.reading.replacement = Replacement::ScaledOvershoot));
     let (mut draws, dt) = (stream(1, 0, 4), naive.problem.time_step_s());
     let mut leavers = 0;
     for _ in 0..200 {
@@ -172,30 +160,12 @@ fn every_reading_changes_a_run() {
     };
     let default = Reading::default();
     for reading in [
-        Reading {
-            who: Who::PairDraws,
-            ..default
-        },
-        Reading {
-            who: Who::IndexOrder,
-            ..default
-        },
-        Reading {
-            lines: Lines::CutAtEnds,
-            ..default
-        },
-        Reading {
-            images: Images::FlowAndVorticity,
-            ..default
-        },
-        Reading {
-            images: Images::All,
-            ..default
-        },
-        Reading {
-            replacement: Replacement::ScaledOvershoot,
-            ..default
-        },
+        Reading { who: Who::PairDraws, ..default },
+        Reading { who: Who::IndexOrder, ..default },
+        Reading { lines: Lines::CutAtEnds, ..default },
+        Reading { images: Images::FlowAndVorticity, ..default },
+        Reading { images: Images::All, ..default },
+        Reading { replacement: Replacement::ScaledOvershoot, ..default },
     ] {
         assert_ne!(state(reading), state(default), "{reading:?}");
     }

@@ -5,17 +5,12 @@ use approx::assert_relative_eq;
 /// Three synthetic points of the scene Fig. 4 at n = 100, with the values `y` at early times, in seconds.
 fn synthetic(y: [f64; 3]) -> MeasuredCurve {
     let axis_s = Axis {
-        quantity: Time::Seconds {
-            shear_rate_per_s: 0.5,
-        },
+        quantity: Time::Seconds { shear_rate_per_s: 0.5 },
         calibration: vec![0.0, 100.0],
         standard_uncertainty: 0.5,
     };
-    let axis_y = Axis {
-        quantity: Projection::Fraction,
-        calibration: vec![0.0, 1.0],
-        standard_uncertainty: 0.005,
-    };
+    let axis_y =
+        Axis { quantity: Projection::Fraction, calibration: vec![0.0, 1.0], standard_uncertainty: 0.005 };
     let point = |(x, y): (f64, f64)| Measured {
         label: "synthetic".to_owned(),
         observable: "x2",
@@ -45,16 +40,7 @@ fn synthetic(y: [f64; 3]) -> MeasuredCurve {
 }
 
 fn compared(curve: &MeasuredCurve) -> Comparison {
-    compare(
-        curve.scene,
-        std::slice::from_ref(curve),
-        |_| {},
-        Runs {
-            replicas: 20,
-            seed: 1,
-        },
-    )
-    .unwrap()
+    compare(curve.scene, std::slice::from_ref(curve), |_| {}, Runs { replicas: 20, seed: 1 }).unwrap()
 }
 
 /// The index of an input.
@@ -90,23 +76,11 @@ fn the_terms_add_up() {
         assert!(point.u_d > 0.005 && point.u_num > 0.0 && point.u_input > 0.0);
     }
     let errors: Vec<_> = comparison.points.iter().map(|point| point.error).collect();
-    assert_relative_eq!(
-        comparison.mean_error,
-        errors.iter().sum::<f64>() / 3.0,
-        max_relative = 1e-12
-    );
+    assert_relative_eq!(comparison.mean_error, errors.iter().sum::<f64>() / 3.0, max_relative = 1e-12);
     let squares = errors.iter().map(|error| error * error).sum::<f64>();
     assert_relative_eq!(comparison.rms_error, (squares / 3.0).sqrt(), max_relative = 1e-12);
-    let within = comparison
-        .points
-        .iter()
-        .filter(|point| point.error.abs() <= 2.0 * point.u_val)
-        .count();
-    assert_relative_eq!(
-        comparison.within_two_u_val,
-        within as f64 / 3.0,
-        max_relative = 1e-12
-    );
+    let within = comparison.points.iter().filter(|point| point.error.abs() <= 2.0 * point.u_val).count();
+    assert_relative_eq!(comparison.within_two_u_val, within as f64 / 3.0, max_relative = 1e-12);
 }
 
 #[test]
@@ -129,12 +103,8 @@ fn each_source_of_uncertainty_counts() {
     let sharp_in_y = u_d(&|curve| curve.points[2].u_y = 1e-9);
     assert_relative_eq!(none, sharp_in_time + sharp_in_y, max_relative = 1e-6);
     assert_eq!(u(&|_| {}, |point| point.u_input), 0.0);
-    let u_input = |sd: f64| {
-        u(
-            &|curve| curve.provenance.inputs = vec![(input("alpha"), sd)],
-            |point| point.u_input,
-        )
-    };
+    let u_input =
+        |sd: f64| u(&|curve| curve.provenance.inputs = vec![(input("alpha"), sd)], |point| point.u_input);
     assert_relative_eq!(u_input(0.2), 2.0 * u_input(0.1), max_relative = 1e-9);
 }
 
@@ -147,9 +117,7 @@ fn the_early_motion_of_slender_rods_knows_the_strain_only() {
         curve.provenance.inputs = vec![(input("aspect_ratio"), 1.0)];
         compared(&curve).points[0].u_input
     };
-    let seconds = Time::Seconds {
-        shear_rate_per_s: 0.5,
-    };
+    let seconds = Time::Seconds { shear_rate_per_s: 0.5 };
     let (in_seconds, in_periods) = (u_input(seconds), u_input(Time::Periods));
     assert!(in_seconds < 0.5 * in_periods, "{in_seconds} {in_periods}");
 }

@@ -6,9 +6,7 @@ use crate::present::plot::style::looks;
 
 /// Width, height and pixels as a reader of the file has them.
 fn read(bytes: &[u8]) -> (usize, usize, Vec<[u8; 3]>) {
-    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
-        .read_info()
-        .unwrap();
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
     let frame = reader.next_frame(&mut pixels).unwrap();
     assert_eq!(frame.color_type, png::ColorType::Rgb);
@@ -18,18 +16,9 @@ fn read(bytes: &[u8]) -> (usize, usize, Vec<[u8; 3]>) {
 
 /// The part of a text's box that has ink of letters.
 fn inked(text: &Box, width: usize, pixels: &[[u8; 3]]) -> f64 {
-    let (columns, rows) = (
-        text.left as usize..text.right as usize,
-        text.top as usize..text.bottom as usize,
-    );
-    let dark = rows
-        .clone()
-        .flat_map(|row| columns.clone().map(move |column| row * width + column));
-    let dark = dark.filter(|at| {
-        pixels
-            .get(*at)
-            .is_some_and(|rgb| rgb.iter().all(|part| *part < 90))
-    });
+    let (columns, rows) = (text.left as usize..text.right as usize, text.top as usize..text.bottom as usize);
+    let dark = rows.clone().flat_map(|row| columns.clone().map(move |column| row * width + column));
+    let dark = dark.filter(|at| pixels.get(*at).is_some_and(|rgb| rgb.iter().all(|part| *part < 90)));
     dark.count() as f64 / (columns.len() * rows.len()) as f64
 }
 
@@ -40,20 +29,13 @@ fn a_png_shows_what_the_svg_does() {
         let file = png(&figure).unwrap();
         assert!(file.missing.is_empty(), "{:?}", file.missing);
         let (width, height, pixels) = read(&file.bytes);
-        assert!(
-            drawing.contains(&format!("viewBox=\"0 0 {width} {height}\"")),
-            "{width} {height}"
-        );
+        assert!(drawing.contains(&format!("viewBox=\"0 0 {width} {height}\"")), "{width} {height}");
         for look in &looks(&figure)[..figure.curves.len()] {
             let RGBColor(red, green, blue) = style::colour(*look);
             let count = pixels.iter().filter(|rgb| **rgb == [red, green, blue]).count();
             // Half the sample beside its label, where no other curve lies over it.
             let least = 18 * FINE * CURVE_WIDTH as i32 / 2;
-            assert!(
-                count as i32 > least,
-                "{}: {count} pixels of look {look}",
-                figure.title
-            );
+            assert!(count as i32 > least, "{}: {count} pixels of look {look}", figure.title);
         }
         // Where the SVG has a text there is ink, and that of a text, not of a bar; a minus alone has little.
         let mut texts = boxes(&drawing);
@@ -71,10 +53,7 @@ fn a_png_shows_what_the_svg_does() {
 
 #[test]
 fn letters_are_drawn_or_named() {
-    let titled = |title: &str| Figure {
-        title: title.into(),
-        ..Figure::default()
-    };
+    let titled = |title: &str| Figure { title: title.into(), ..Figure::default() };
     let drawn = |title: &str| png(&titled(title)).unwrap();
     assert!(drawn("X̄₁ ≤ 3·10⁻⁶ cm⁻³").missing.is_empty());
     assert_eq!(drawn("стержни, 棒").missing.len(), 8);
@@ -91,10 +70,7 @@ fn a_dashed_curve_has_gaps() {
         y: vec![y, y],
         half_band: None,
     };
-    let figure = Figure {
-        curves: vec![level("whole", 0.2), level("dashed", 0.8)],
-        ..Figure::default()
-    };
+    let figure = Figure { curves: vec![level("whole", 0.2), level("dashed", 0.8)], ..Figure::default() };
     let (_, _, pixels) = read(&png(&figure).unwrap().bytes);
     let looks = looks(&figure);
     let [whole, dashed] = [looks[0], looks[1]].map(|look| {

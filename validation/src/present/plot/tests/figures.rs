@@ -33,9 +33,7 @@ pub fn many() -> Figure {
 pub fn maps() -> Figure {
     let map = |k: usize| Map {
         title: format!("explicit Euler in angles {k}"),
-        cells: (0..10)
-            .map(|r| (0..17).map(|c| (r + c + k) % 6).collect())
-            .collect(),
+        cells: (0..10).map(|r| (0..17).map(|c| (r + c + k) % 6).collect()).collect(),
         limit: vec![(3.0, 0.0), (4.0, 9.0)],
     };
     Figure {
@@ -43,25 +41,10 @@ pub fn maps() -> Figure {
         x_name: "step GΔt".into(),
         y_name: "aspect ratio r_e".into(),
         grid: Some(Grid {
-            classes: [
-                "right",
-                "stable but wrong",
-                "length lost",
-                "not finite",
-                "refused",
-                "not run",
-            ]
-            .map(String::from)
-            .into(),
-            columns: (0..17)
-                .map(|k| {
-                    if k % 4 == 2 {
-                        decade(k / 4 - 1)
-                    } else {
-                        String::new()
-                    }
-                })
-                .collect(),
+            classes: ["right", "stable but wrong", "length lost", "not finite", "refused", "not run"]
+                .map(String::from)
+                .into(),
+            columns: (0..17).map(|k| if k % 4 == 2 { decade(k / 4 - 1) } else { String::new() }).collect(),
             values: vec![String::new(); 17],
             rows: (0..10).map(|k| power_of_ten(k - 5)).collect(),
             maps: (0..7).map(map).collect(),

@@ -9,16 +9,7 @@ fn html_stands_alone() {
     assert!(is_well_formed(&html), "{html}");
     // One script, in the page itself.
     assert_eq!(html.matches("<script").count(), 1);
-    for load in [
-        "<script ",
-        "<link",
-        "<img",
-        "<iframe",
-        "src=",
-        "@import",
-        "url(",
-        "href=\"http",
-    ] {
+    for load in ["<script ", "<link", "<img", "<iframe", "src=", "@import", "url(", "href=\"http"] {
         assert!(!html.contains(load), "{load}");
     }
     assert!(html.contains(&report.headline()));
@@ -89,15 +80,9 @@ fn hostile_texts_are_harmless_in_every_writing() {
     let markdown = report.markdown();
     assert!(!control(&markdown), "{markdown}");
     let made = markdown.lines().last().unwrap();
-    assert!(
-        made.contains("by ````` \\u{1b}]0;x") && made.contains("*c* ````` (shearbed"),
-        "{made}"
-    );
+    assert!(made.contains("by ````` \\u{1b}]0;x") && made.contains("*c* ````` (shearbed"), "{made}");
     // Outside of code nothing is markup.
-    let outside: String = markdown
-        .lines()
-        .filter(|line| !line.starts_with("Made "))
-        .collect();
+    let outside: String = markdown.lines().filter(|line| !line.starts_with("Made ")).collect();
     for part in outside.split('`').step_by(2) {
         // An escaped bracket begins no link.
         let links = part.replace("\\[", "").contains('[');
@@ -125,27 +110,13 @@ fn the_first_screen_says_where_to_look() {
     let report = synthetic();
     let html = report.html().unwrap();
     let first = html.split("<section").next().unwrap();
-    for name in [
-        "synthetic-fail",
-        "synthetic-blind",
-        "synthetic-empty",
-        "synthetic-underpowered",
-    ] {
+    for name in ["synthetic-fail", "synthetic-blind", "synthetic-empty", "synthetic-underpowered"] {
         assert!(first.contains(&format!("href=\"#case-{name}\"")), "{name}");
     }
     // Of those that pass, the one that uses most of its tolerance comes first: 0.25, and the p-value 2·10⁻⁶/0.31.
-    let (pass, p_value) = (
-        first.find("#case-synthetic-pass"),
-        first.find("#case-synthetic-p-value"),
-    );
+    let (pass, p_value) = (first.find("#case-synthetic-pass"), first.find("#case-synthetic-p-value"));
     assert!(pass.unwrap() < p_value.unwrap());
     // What passes is folded, what is red is open.
-    assert!(
-        html.contains("id=\"case-synthetic-pass\" data-tags=\"core eq-A.4 pass\">"),
-        "{html}"
-    );
-    assert!(
-        html.contains("id=\"case-synthetic-fail\" data-tags=\"core fail\" open=\"\">"),
-        "{html}"
-    );
+    assert!(html.contains("id=\"case-synthetic-pass\" data-tags=\"core eq-A.4 pass\">"), "{html}");
+    assert!(html.contains("id=\"case-synthetic-fail\" data-tags=\"core fail\" open=\"\">"), "{html}");
 }

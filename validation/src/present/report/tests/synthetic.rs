@@ -27,20 +27,8 @@ pub fn synthetic() -> Report {
             &[("sign of the spin", true), ("factor < 2", false)],
         ),
         outcome("synthetic-empty", Verdict::Fail, vec![], &[]),
-        outcome(
-            "synthetic-underpowered",
-            Verdict::Underpowered,
-            vec![mean(0.02)],
-            &caught,
-        ),
-        outcome(
-            "synthetic-no-data",
-            Verdict::NoData,
-            vec![Rule::NoData {
-                supply: supply.into(),
-            }],
-            &[],
-        ),
+        outcome("synthetic-underpowered", Verdict::Underpowered, vec![mean(0.02)], &caught),
+        outcome("synthetic-no-data", Verdict::NoData, vec![Rule::NoData { supply: supply.into() }], &[]),
     ];
     let x: Vec<f64> = (0..=60).map(|k| 0.1 * f64::from(k)).collect();
     let figure = ReportFigure {

@@ -51,19 +51,14 @@ fn further_points_leave_what_the_textbook_says_and_the_best_are_the_ends() {
         let expected = inverse(&measured + information(added));
         for axis in 0..2 {
             let expected = expected[(axis, axis)].sqrt();
-            assert!(
-                (step.u[axis] / expected - 1.0).abs() < 1e-10,
-                "{step:?} {expected}"
-            );
+            assert!((step.u[axis] / expected - 1.0).abs() < 1e-10, "{step:?} {expected}");
         }
         let r = expected[(0, 1)] / (expected[(0, 0)] * expected[(1, 1)]).sqrt();
         assert!((step.correlation.unwrap() - r).abs() < 1e-10, "{step:?} {r}");
     };
     is(&steps[0], &[]);
     // Ten more, evenly over 21 times.
-    let evenly: Vec<f64> = [1, 3, 5, 7, 9, 11, 13, 15, 17, 19]
-        .map(|k: usize| times[k])
-        .to_vec();
+    let evenly: Vec<f64> = [1, 3, 5, 7, 9, 11, 13, 15, 17, 19].map(|k: usize| times[k]).to_vec();
     is(&steps[1], &evenly);
     // The measured ones are near one end; the best next ones are at the other.
     let time_of = |step: &Step| match &step.added {

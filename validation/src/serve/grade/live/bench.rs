@@ -36,9 +36,7 @@ pub fn echo(input: impl BufRead, mut output: impl Write) -> Result<(), String> {
         let line = line.map_err(|error| error.to_string())?;
         let request: serde_json::Value = serde_json::from_str(&line).map_err(|error| error.to_string())?;
         let answer = serde_json::json!({"id": request["id"], "p": request["start"]});
-        writeln!(output, "{answer}")
-            .and_then(|()| output.flush())
-            .map_err(|error| error.to_string())?;
+        writeln!(output, "{answer}").and_then(|()| output.flush()).map_err(|error| error.to_string())?;
     }
     Ok(())
 }
@@ -52,18 +50,14 @@ fn pipe_s(echo: &str, timeout: Duration) -> Option<f64> {
         start: vec![[0.36, 0.48, 0.8]],
         end_s: 1.0,
     };
-    let times: Option<Vec<_>> = (0..ECHOES)
-        .map(|_| Some(program.ask(&question, Setting::Steps(1)).ok()?.1))
-        .collect();
+    let times: Option<Vec<_>> =
+        (0..ECHOES).map(|_| Some(program.ask(&question, Setting::Steps(1)).ok()?.1)).collect();
     times?.into_iter().min().map(|least| least.as_secs_f64())
 }
 
 /// Measures the program, the pipe and the project's own integrators on the same rod.
 pub fn bench(program: &Program, echo: &str) -> Bench {
-    let budget = Budget {
-        seconds_per_run: 0.1,
-        runs: 3,
-    };
+    let budget = Budget { seconds_per_run: 0.1, runs: 3 };
     Bench {
         aspect_ratio: ASPECT_RATIO,
         program: curve(program, ASPECT_RATIO, budget),
@@ -99,12 +93,7 @@ impl Bench {
             if let ([only], [error]) = (&x[..], &y[..]) {
                 (x, y) = (vec![*only, 1.5 * only], vec![*error; 2]);
             }
-            plot::Curve {
-                label: curve.subject.clone(),
-                x,
-                y,
-                half_band: None,
-            }
+            plot::Curve { label: curve.subject.clone(), x, y, half_band: None }
         };
         plot::svg_of_one(&plot::Figure {
             title: format!("Error against run time, one rod, r_e = {}", self.aspect_ratio),
@@ -136,24 +125,16 @@ impl Bench {
         let program = row(&self.without_pipe(), self.program.subject.clone());
         let ours = self.ours.iter().map(|curve| row(curve, curve.subject.clone()));
         let pipe = match self.pipe_s {
-            Some(seconds) => format!(
-                "The pipe itself, {} a request by an echo program, is taken off.",
-                time(seconds)
-            ),
+            Some(seconds) => {
+                format!("The pipe itself, {} a request by an echo program, is taken off.", time(seconds))
+            }
             None => "The pipe's own cost could not be measured and is in the program's times.".to_owned(),
         };
         of_words(
             "grade-work-precision",
             &format!("Time for an error, one rod of r_e = {}", self.aspect_ratio),
             &format!("{pipe} Times not longer than the pipe's are not known better than a tenth of it."),
-            &[
-                "program",
-                "1e-3 rad",
-                "1e-6 rad",
-                "1e-9 rad",
-                "best (rad)",
-                "failed",
-            ],
+            &["program", "1e-3 rad", "1e-6 rad", "1e-9 rad", "best (rad)", "failed"],
             std::iter::once(program).chain(ours).collect(),
         )
     }

@@ -35,10 +35,7 @@ pub fn mode(program: &Program) -> Mode {
         start: vec![[1.0, 0.0, 0.0]],
         end_s: 1.0,
     };
-    let refused = matches!(
-        program.ask(&question, Setting::Steps(8)),
-        Err(super::program::Asked::Says(_))
-    );
+    let refused = matches!(program.ask(&question, Setting::Steps(8)), Err(super::program::Asked::Says(_)));
     match refused && program.ask(&question, Setting::Tolerance(1e-3)).is_ok() {
         true => Mode::Tolerance,
         false => Mode::Steps,
@@ -60,12 +57,7 @@ impl Rung {
             lines: vec![0; p.len()],
             rows: p.into_iter().map(Vec::from).collect(),
         };
-        Self {
-            setting,
-            compared: compare(problem, &answer),
-            answer,
-            took,
-        }
+        Self { setting, compared: compare(problem, &answer), answer, took }
     }
 
     fn error(&self) -> f64 {
@@ -93,9 +85,7 @@ pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Clai
         end = jumps::judged(&rungs, of.tolerance, ask);
     }
     let mut graded = Graded::without_answer(&problem);
-    let errors = rungs
-        .iter()
-        .filter_map(|rung| Some((rung.setting.steps().ok()?, rung.error())));
+    let errors = rungs.iter().filter_map(|rung| Some((rung.setting.steps().ok()?, rung.error())));
     let errors: Vec<_> = errors.collect();
     (graded.orders, graded.observed_order) = orders(&errors, of.tolerance);
     graded.errors = errors;

@@ -42,10 +42,7 @@ impl std::fmt::Display for Trouble {
             ),
             Self::Ended(how, words) if words.is_empty() => write!(f, "the program ended: {how}"),
             Self::Ended(how, words) => {
-                write!(
-                    f,
-                    "the program ended: {how}; its last words on standard error: {words}"
-                )
+                write!(f, "the program ended: {how}; its last words on standard error: {words}")
             }
             Self::TooLong(line) => write!(
                 f,
@@ -79,16 +76,10 @@ impl Pipe {
     pub fn start(words: &[String]) -> Result<Self, String> {
         let (program, arguments) = words.split_first().ok_or("the command is empty")?;
         let mut command = Command::new(program);
-        command
-            .args(arguments)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped());
+        command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
-        let mut child = command
-            .spawn()
-            .map_err(|error| format!("{program}: cannot be started: {error}"))?;
+        let mut child = command.spawn().map_err(|error| format!("{program}: cannot be started: {error}"))?;
         signals::running().insert(child.id());
         let (stdin, stdout, stderr) = (child.stdin.take(), child.stdout.take(), child.stderr.take());
         let (requests, to_write) = mpsc::channel();
@@ -105,15 +96,7 @@ impl Pipe {
                 drop::<Sender<()>>(saying);
             });
         }
-        Ok(Self {
-            child,
-            requests: Some(requests),
-            lines,
-            last_words,
-            all_said,
-            heard: 0,
-            status: None,
-        })
+        Ok(Self { child, requests: Some(requests), lines, last_words, all_said, heard: 0, status: None })
     }
 
     /// Sends a line. A program that does not read it is noticed when its answer does not come.
@@ -168,10 +151,9 @@ impl Pipe {
             return Ok(());
         };
         match self.counted(heard) {
-            Ok((line, text)) => Err(format!(
-                "line {line} of standard output answers nothing: {}",
-                excerpt(&text)
-            )),
+            Ok((line, text)) => {
+                Err(format!("line {line} of standard output answers nothing: {}", excerpt(&text)))
+            }
             Err(trouble) => Err(trouble.to_string()),
         }
     }
@@ -259,11 +241,7 @@ fn read_lines(stdout: ChildStdout, heard: SyncSender<Heard>) {
             Ok(0) | Err(_) => return,
             Ok(_) => {
                 let too_long = line.len() > LONGEST_LINE;
-                let sent = heard.send(if too_long {
-                    Heard::TooLong
-                } else {
-                    Heard::Line(line)
-                });
+                let sent = heard.send(if too_long { Heard::TooLong } else { Heard::Line(line) });
                 if too_long || sent.is_err() {
                     return;
                 }

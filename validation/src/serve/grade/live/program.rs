@@ -84,10 +84,7 @@ impl Program {
             name: command.to_owned(),
             theory: Theory::Order(0),
             timeout,
-            state: Mutex::new(State {
-                pipe: Some(pipe),
-                ..State::default()
-            }),
+            state: Mutex::new(State { pipe: Some(pipe), ..State::default() }),
         })
     }
 
@@ -276,15 +273,10 @@ impl Integrator for Program {
 
 #[test]
 fn ids_ascend_and_their_gaps_are_not_all_alike() {
-    let ids: Vec<_> = std::iter::successors(Some(0), |id| Some(next_id(*id)))
-        .take(100)
-        .collect();
+    let ids: Vec<_> = std::iter::successors(Some(0), |id| Some(next_id(*id))).take(100).collect();
     let gaps = ids.windows(2).map(|pair| pair[1] - pair[0]);
     let gaps: std::collections::BTreeSet<_> = gaps.collect();
-    assert!(
-        gaps.len() > 50 && gaps.iter().all(|gap| (1..=1000).contains(gap)),
-        "{gaps:?}"
-    );
+    assert!(gaps.len() > 50 && gaps.iter().all(|gap| (1..=1000).contains(gap)), "{gaps:?}");
 }
 
 #[test]

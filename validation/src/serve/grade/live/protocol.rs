@@ -62,25 +62,16 @@ pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
             all.map(Answer::Directions)
         }
         Some(Value::Array(found)) => Err(format!("{} rods where {rods} were asked", found.len())),
-        Some(other) => Err(format!(
-            "\"p\" is {}; a list of directions is allowed",
-            excerpt(&other.to_string())
-        )),
+        Some(other) => {
+            Err(format!("\"p\" is {}; a list of directions is allowed", excerpt(&other.to_string())))
+        }
         None => Err(format!("neither \"p\" nor \"error\": {}", excerpt(line))),
     }
 }
 
 fn direction(rod: usize, value: &Value) -> Result<[f64; 3], String> {
-    let wrong = || {
-        format!(
-            "rod {rod} is {}; three numbers are allowed",
-            excerpt(&value.to_string())
-        )
-    };
-    let components = value
-        .as_array()
-        .filter(|found| found.len() == 3)
-        .ok_or_else(wrong)?;
+    let wrong = || format!("rod {rod} is {}; three numbers are allowed", excerpt(&value.to_string()));
+    let components = value.as_array().filter(|found| found.len() == 3).ok_or_else(wrong)?;
     let mut p = [0.0; 3];
     for (slot, component) in p.iter_mut().zip(components) {
         *slot = match component {
@@ -116,19 +107,8 @@ fn parse(line: &str) -> Result<Line, String> {
         Err(error) => error,
     };
     // The longer words first: what is left of them is no word of its own.
-    let words = [
-        "-Infinity",
-        "Infinity",
-        "-inf",
-        "inf",
-        "-NaN",
-        "NaN",
-        "-nan",
-        "nan",
-    ];
-    let without = words
-        .iter()
-        .fold(line.to_owned(), |text, word| text.replace(word, "null"));
+    let words = ["-Infinity", "Infinity", "-inf", "inf", "-NaN", "NaN", "-nan", "nan"];
+    let without = words.iter().fold(line.to_owned(), |text, word| text.replace(word, "null"));
     match serde_json::from_str(&without) {
         Ok(value) => Ok(value),
         Err(_) => Err(format!("no JSON ({error}): {}", excerpt(line))),
@@ -160,10 +140,7 @@ mod tests {
     #[test]
     fn answers_are_read() {
         let p = Answer::Directions(vec![[1.0, 0.0, -2.5]]);
-        assert_eq!(
-            read(r#"{"id": 3, "p": [[1, 0.0, -2.5]], "more": {}}"#, 3, 1),
-            Ok(p)
-        );
+        assert_eq!(read(r#"{"id": 3, "p": [[1, 0.0, -2.5]], "more": {}}"#, 3, 1), Ok(p));
         let refused = Ok(Answer::Error("too stiff".into()));
         assert_eq!(read(r#"{"id": 3, "error": "too stiff"}"#, 3, 1), refused);
         for line in [
@@ -171,9 +148,7 @@ mod tests {
             r#"{"id":3,"p":[[-Infinity,0,1]]}"#,
             r#"{"id":3,"p":[[null,0,1]]}"#,
         ] {
-            let Ok(Answer::Directions(p)) = read(line, 3, 1) else {
-                panic!("{line}")
-            };
+            let Ok(Answer::Directions(p)) = read(line, 3, 1) else { panic!("{line}") };
             assert!(p[0][0].is_nan() && p[0][2] == 1.0);
         }
     }
@@ -196,10 +171,7 @@ mod tests {
             (r#"{"id": 3, "p": [[1e400,0,0]]}"#, "no JSON"),
             (r#"{"id": 3, "error": 5}"#, "a text is allowed"),
             (r#"{"id": 4, "p": [[0,0,1]], "id": 3}"#, "duplicate field `id`"),
-            (
-                r#"{"id": 3, "p": [[0,0,1]], "p": [[1,0,0]]}"#,
-                "duplicate field `p`",
-            ),
+            (r#"{"id": 3, "p": [[0,0,1]], "p": [[1,0,0]]}"#, "duplicate field `p`"),
             (r#"{"id": 3, "error": "x", "p": [[1,0,0]]}"#, "both"),
         ] {
             let found = read(line, 3, 1).unwrap_err();

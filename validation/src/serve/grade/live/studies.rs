@@ -55,11 +55,7 @@ const TOLERANCES: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10];
 const MOST_STEPS: u64 = 20_000;
 
 /// Rungs from a step that every consistent method takes up to a hundred times 1/G.
-const LADDER: Ladder = Ladder {
-    least: 0.01,
-    most: 100.0,
-    factor: 1.25,
-};
+const LADDER: Ladder = Ladder { least: 0.01, most: 100.0, factor: 1.25 };
 
 /// Measures, each study for no longer than an answer may take.
 pub fn studies(program: &Program, echo: &str) -> Studies {
@@ -105,12 +101,8 @@ impl Studies {
     /// What was measured as tables.
     pub fn tables(&self) -> Vec<ReportTable> {
         let mut tables: Vec<_> = self.work_precision.iter().map(Bench::table).collect();
-        tables.extend(
-            self.limits
-                .iter()
-                .filter(|limits| !limits.is_empty())
-                .map(|limits| limit_table(limits)),
-        );
+        tables
+            .extend(self.limits.iter().filter(|limits| !limits.is_empty()).map(|limits| limit_table(limits)));
         tables.extend(self.map.iter().map(|rows| self.map_table(rows)));
         tables
     }
@@ -136,17 +128,12 @@ impl Studies {
         let adaptive =
             (self.work_precision.as_ref()).is_some_and(|bench| bench.program.theory == Theory::Adaptive);
         let heads: Vec<_> = match adaptive {
-            true => TOLERANCES
-                .iter()
-                .map(|tolerance| format!("tolerance {tolerance:.0e}"))
-                .collect(),
+            true => TOLERANCES.iter().map(|tolerance| format!("tolerance {tolerance:.0e}")).collect(),
             false => STEPS.iter().map(|step| format!("Δt = {step} T")).collect(),
         };
         let row = |row: &MapRow| {
             let signs = row.found.iter().map(|found| found.sign().to_owned());
-            std::iter::once(row.aspect_ratio.to_string())
-                .chain(signs)
-                .collect()
+            std::iter::once(row.aspect_ratio.to_string()).chain(signs).collect()
         };
         let mut map = of_words(
             "grade-stability",

@@ -10,20 +10,12 @@ pub(super) fn all() -> Vec<Mistake> {
         ("Cox 1971", |r| 1.24 * r / r.ln().sqrt()),
         ("Goldsmith & Mason 1967", |r| 0.742 * r - 0.0017 * r * r),
         ("Harris & Pittman 1975", |r| 1.14 * r.powf(0.844)),
-        ("Zhang et al. 2011", |r| {
-            0.404 + r * (0.764 + r * (-0.00467 + r * 0.000035))
-        }),
+        ("Zhang et al. 2011", |r| 0.404 + r * (0.764 + r * (-0.00467 + r * 0.000035))),
     ];
     (formulas.into_iter())
         .flat_map(|(who, formula)| {
-            let twice = move |s: Setting| Setting {
-                aspect_ratio: formula(s.aspect_ratio),
-                ..s
-            };
-            let not = move |s: Setting| Setting {
-                aspect_ratio: inverse(formula, s.aspect_ratio),
-                ..s
-            };
+            let twice = move |s: Setting| Setting { aspect_ratio: formula(s.aspect_ratio), ..s };
+            let not = move |s: Setting| Setting { aspect_ratio: inverse(formula, s.aspect_ratio), ..s };
             [
                 valid(&format!("r_p for r_e (r_e taken as r_p of {who})"), twice),
                 valid(&format!("r_p for r_e (r_p whose r_e by {who} was asked)"), not),

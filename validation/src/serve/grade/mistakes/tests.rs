@@ -9,10 +9,7 @@ use std::f64::consts::TAU;
 fn couette(aspect_ratio: f64) -> Setting {
     let mut gradient_per_s = Matrix3::zeros();
     gradient_per_s[(1, 0)] = 0.5;
-    Setting {
-        gradient_per_s,
-        aspect_ratio,
-    }
+    Setting { gradient_per_s, aspect_ratio }
 }
 
 /// RK4 of ṗ = Ap − p (p·Ap) with many steps: shares nothing with the maps above.
@@ -29,26 +26,12 @@ fn integrated(a: &Matrix3<f64>, p: Vector3<f64>, time: f64) -> Vector3<f64> {
 fn the_maps_are_exponentials_of_any_traceless_matrix() {
     for (k, (u, v)) in spread(20).enumerate() {
         let x = |n: f64| (n * (u + 0.3) + 7.0 * v).sin();
-        let mut a = Matrix3::new(
-            x(1.0),
-            x(2.0),
-            x(3.0),
-            x(4.0),
-            x(5.0),
-            x(6.0),
-            x(7.0),
-            x(8.0),
-            0.0,
-        );
+        let mut a = Matrix3::new(x(1.0), x(2.0), x(3.0), x(4.0), x(5.0), x(6.0), x(7.0), x(8.0), 0.0);
         a[(2, 2)] = -a[(0, 0)] - a[(1, 1)];
         let p = Vector3::new(x(9.0), x(10.0), 1.0).normalize();
         let found = map_of(&a, 1.5).unwrap() * p;
         let expected = integrated(&a, p, 1.5);
-        assert!(
-            apart_rad(&found, &expected) < 1e-12,
-            "{k} {}",
-            apart_rad(&found, &expected)
-        );
+        assert!(apart_rad(&found, &expected) < 1e-12, "{k} {}", apart_rad(&found, &expected));
         // The growth too: |q| obeys d ln|q|/dt = p·Ap; det M = 1 fixes it.
         assert!((map_of(&a, 1.5).unwrap() - (a * 1.5).exp()).norm() < 1e-12 * (a * 1.5).exp().norm());
     }
@@ -59,10 +42,7 @@ fn every_mistake_differs_from_the_truth_somewhere_and_from_the_others() {
     let settings = [couette(11.6), couette(0.3)];
     let p = Vector3::new(0.3, 0.5, 0.8).normalize();
     let curve_of = |mistake: &Mistake| -> Vec<Option<Vector3<f64>>> {
-        settings
-            .iter()
-            .flat_map(|s| [1.0, 7.3, 19.0].map(|t| mistake.direction(s, &p, t)))
-            .collect()
+        settings.iter().flat_map(|s| [1.0, 7.3, 19.0].map(|t| mistake.direction(s, &p, t))).collect()
     };
     let truth = Mistake {
         name: "none".into(),
@@ -78,9 +58,7 @@ fn every_mistake_differs_from_the_truth_somewhere_and_from_the_others() {
                 (a, b) => a.is_some() != b.is_some(),
             });
             // Plane Couette flow is its own mirror image in axis 3.
-            let mirrored = [&all[a].name, &all[b].name]
-                .iter()
-                .all(|name| name.starts_with("axis 3"));
+            let mirrored = [&all[a].name, &all[b].name].iter().all(|name| name.starts_with("axis 3"));
             assert!(far || mirrored, "{} = {}", all[a].name, all[b].name);
         }
     }
@@ -113,10 +91,7 @@ fn tensors_of_isotropic_rods_are_means_over_directions() {
             mean /= f64::from(n * m);
             // The midpoint rule is of order 2 in 1/n, the map stretches by r_e.
             let off = (found - mean).amax();
-            assert!(
-                off < 4.0 * (r.max(1.0 / r) / f64::from(n)).powi(2),
-                "{r} {time} {off}"
-            );
+            assert!(off < 4.0 * (r.max(1.0 / r) / f64::from(n)).powi(2), "{r} {time} {off}");
             assert!((found.trace() - 1.0).abs() < 1e-13);
         }
     }

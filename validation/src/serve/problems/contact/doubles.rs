@@ -15,10 +15,7 @@ pub(crate) struct Variant {
 }
 
 /// The rule, with A.13 corrected.
-pub(crate) const RIGHT: Variant = Variant {
-    kick: 1.0,
-    printed: false,
-};
+pub(crate) const RIGHT: Variant = Variant { kick: 1.0, printed: false };
 
 /// For rods a and b of a pair (of each the centre in mm, the axis and r_e): ṗ′ in 1/s, or with Δt in s the four numbers of
 /// A.13 and A.14.
@@ -36,16 +33,10 @@ pub(crate) fn answers(
 
 /// p and ṗ′ in 1/s of both rods; of each centre, axis and r_e are given.
 fn rates(gradient: &Matrix3<f64>, pair: &[f64], kick: f64) -> [(Vector3<f64>, Vector3<f64>); 2] {
-    let (w, d) = (
-        0.5 * (gradient - gradient.transpose()),
-        0.5 * (gradient + gradient.transpose()),
-    );
+    let (w, d) = (0.5 * (gradient - gradient.transpose()), 0.5 * (gradient + gradient.transpose()));
     let rod = |of: &[f64]| {
-        let (x, p, r_e) = (
-            Vector3::from_row_slice(&of[..3]),
-            Vector3::from_row_slice(&of[3..6]).normalize(),
-            of[6],
-        );
+        let (x, p, r_e) =
+            (Vector3::from_row_slice(&of[..3]), Vector3::from_row_slice(&of[3..6]).normalize(), of[6]);
         let shape = (r_e * r_e - 1.0) / (r_e * r_e + 1.0);
         let free = w * p + shape * (d * p - p * p.dot(&(d * p)));
         (x, p, free)
@@ -62,10 +53,7 @@ fn rates(gradient: &Matrix3<f64>, pair: &[f64], kick: f64) -> [(Vector3<f64>, Ve
     };
     let (v_a, v_b) = (along(&a, arm_a), along(&b, arm_b));
     let mean = 0.5 * (v_a + v_b);
-    [
-        (a.1, a.2 + line * (kick * (mean - v_a) / arm_a)),
-        (b.1, b.2 + line * (kick * (mean - v_b) / arm_b)),
-    ]
+    [(a.1, a.2 + line * (kick * (mean - v_a) / arm_a)), (b.1, b.2 + line * (kick * (mean - v_b) / arm_b))]
 }
 
 /// φ̇′, θ̇′ in 1/s by A.13, corrected or as printed, and φ and θ in rad after a step by A.14.
@@ -77,10 +65,5 @@ fn angles(p: &Vector3<f64>, rate: &Vector3<f64>, step_s: f64, printed: bool) -> 
         false => (around / theta.sin(), across * theta.cos() - rate.z * theta.sin()),
         true => (around, across * theta.sin() - rate.z * theta.cos()),
     };
-    vec![
-        phi_rate,
-        theta_rate,
-        phi + phi_rate * step_s,
-        theta + theta_rate * step_s,
-    ]
+    vec![phi_rate, theta_rate, phi + phi_rate * step_s, theta + theta_rate * step_s]
 }

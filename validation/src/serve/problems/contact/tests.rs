@@ -38,10 +38,7 @@ fn worst(pairs: &[Pair], sign: f64) -> f64 {
 #[test]
 fn the_naive_reference_passes_and_a_wrong_one_fails() {
     let pairs = pairs();
-    let tolerance = crate::serve::problems::named("contact-rule")
-        .unwrap()
-        .problem
-        .tolerance;
+    let tolerance = crate::serve::problems::named("contact-rule").unwrap().problem.tolerance;
     assert_eq!(pairs.len(), SNAPSHOTS);
     let error = worst(&pairs, 1.0);
     assert!(error < tolerance, "{error:e} {tolerance:e}");
@@ -61,9 +58,7 @@ fn condition_in_many_digits(pair: &Pair, step: &Big, answer: Answer) -> f64 {
         let mut moved = exact.clone();
         moved[at] += &exact[at] * &small;
         for (rod, after) in of(&moved).iter().enumerate() {
-            let change: Vec<_> = (after.iter().zip(&before[rod]))
-                .map(|(x, y)| (x - y) / &small)
-                .collect();
+            let change: Vec<_> = (after.iter().zip(&before[rod])).map(|(x, y)| (x - y) / &small).collect();
             sums[rod] += norm(&change) / norm(&before[rod]);
         }
     }
@@ -74,10 +69,7 @@ fn condition_in_many_digits(pair: &Pair, step: &Big, answer: Answer) -> f64 {
 fn condition_numbers_are_those_of_the_certified_answers() {
     let step_s = period_s(ASPECT_RATIO) / 200.0;
     for pair in &pairs()[..20] {
-        for (step_s, answer) in [
-            (None, (|rod, _| rod.rate.to_vec()) as Answer),
-            (Some(step_s), angles),
-        ] {
+        for (step_s, answer) in [(None, (|rod, _| rod.rate.to_vec()) as Answer), (Some(step_s), angles)] {
             let expected = condition_in_many_digits(pair, &BITS.of(step_s.unwrap_or_default()), answer);
             let found = condition(pair, step_s);
             // ε^(2/3) κ², κ up to a thousand; the tolerance is rounded up to one digit.

@@ -17,16 +17,8 @@ struct Sided<'a> {
 fn sides(all: &[Compared]) -> Vec<Sided<'_>> {
     let both = |of| {
         [
-            Sided {
-                of,
-                turned_by: "kicks",
-                shares: &of.kicks,
-            },
-            Sided {
-                of,
-                turned_by: "diffusion",
-                shares: &of.diffusion,
-            },
+            Sided { of, turned_by: "kicks", shares: &of.kicks },
+            Sided { of, turned_by: "diffusion", shares: &of.diffusion },
         ]
     };
     all.iter().flat_map(both).collect()
@@ -35,11 +27,7 @@ fn sides(all: &[Compared]) -> Vec<Sided<'_>> {
 /// In per cent of the rods, with two digits of the standard error.
 fn per_cent<'a>(name: impl Into<String>, quantity: Quantity, edge: f64) -> Column<'a, Sided<'a>> {
     let digits = |x: f64, se: f64| {
-        let places = if se > 0.0 {
-            (1.0 - se.log10().floor()).clamp(0.0, 4.0) as usize
-        } else {
-            0
-        };
+        let places = if se > 0.0 { (1.0 - se.log10().floor()).clamp(0.0, 4.0) as usize } else { 0 };
         format!("{x:.places$} ± {se:.places$}")
     };
     estimate(name, digits, move |side: &Sided<'_>| {
@@ -79,9 +67,7 @@ pub(in crate::studies::coefficients) fn tables(all: &[Compared], effort: &Effort
         (Quantity::Orbit, "C_b"),
         (Quantity::Phase, "the phase of φ"),
     ];
-    let rows = all
-        .iter()
-        .flat_map(|one| quantities.map(|(quantity, name)| (one, quantity, name)));
+    let rows = all.iter().flat_map(|one| quantities.map(|(quantity, name)| (one, quantity, name)));
     let rows: Vec<_> = rows
         .map(|(one, quantity, name)| {
             let seed = effort.seed(super::STREAM - 1);
@@ -96,16 +82,8 @@ pub(in crate::studies::coefficients) fn tables(all: &[Compared], effort: &Effort
         vec![
             field("steps ×", |(one, ..): &(&Compared, _, _)| one.setting.finer),
             words("distribution of", |(_, name, _): &(_, &'static str, _)| *name),
-            number(
-                "distance",
-                |x| format!("{x:.3}"),
-                |(_, _, apart): &(_, _, Apart)| apart.distance,
-            ),
-            number(
-                "p",
-                |p| format!("{p:.3}"),
-                |(_, _, apart): &(_, _, Apart)| apart.p,
-            ),
+            number("distance", |x| format!("{x:.3}"), |(_, _, apart): &(_, _, Apart)| apart.distance),
+            number("p", |p| format!("{p:.3}"), |(_, _, apart): &(_, _, Apart)| apart.p),
         ],
     );
     [jumps, distances]
@@ -126,16 +104,10 @@ fn curve(label: impl Into<String>, all: &[Shares], quantity: Quantity) -> Curve 
 
 /// The tail of the jumps, and the steady orbits.
 pub(in crate::studies::coefficients) fn figures(one: &Compared) -> [ReportFigure; 2] {
-    let labels = [
-        "kicks".to_owned(),
-        format!("diffusion of C_I = {:.1e}", one.c_i.value),
-    ];
+    let labels = ["kicks".to_owned(), format!("diffusion of C_I = {:.1e}", one.c_i.value)];
     let curves = |quantity| {
         let [kicks, diffusion] = &labels;
-        vec![
-            curve(kicks, &one.kicks, quantity),
-            curve(diffusion, &one.diffusion, quantity),
-        ]
+        vec![curve(kicks, &one.kicks, quantity), curve(diffusion, &one.diffusion, quantity)]
     };
     let mut jumps = curves(Quantity::Angle);
     let x: Vec<f64> = (0..=60).map(|k| 10f64.powf(0.05 * f64::from(k) - 2.85)).collect();

@@ -12,10 +12,7 @@ pub fn against_naive(by_rods: &[Step]) -> Vec<Check> {
             measured: naive / step.core_ns,
             target: Target::AtLeast(target),
             unit: "×",
-            behind: format!(
-                "{:.1} ns and {naive:.0} ns per rod and step, one core",
-                step.core_ns
-            ),
+            behind: format!("{:.1} ns and {naive:.0} ns per rod and step, one core", step.core_ns),
         })
     };
     let growth = at(100).zip(at(1_000_000)).map(|(few, many)| Check {
@@ -26,16 +23,8 @@ pub fn against_naive(by_rods: &[Step]) -> Vec<Check> {
         behind: format!("{:.1} ns and {:.1} ns, one core", few.core_ns, many.core_ns),
     });
     [
-        ratio(
-            "a step of 100 rods: the naive reference's time over the core's",
-            100,
-            8.0,
-        ),
-        ratio(
-            "a step of 10⁴ rods: the naive reference's time over the core's",
-            10_000,
-            300.0,
-        ),
+        ratio("a step of 100 rods: the naive reference's time over the core's", 100, 8.0),
+        ratio("a step of 10⁴ rods: the naive reference's time over the core's", 10_000, 300.0),
         growth,
     ]
     .into_iter()

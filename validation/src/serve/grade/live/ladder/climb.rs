@@ -74,10 +74,7 @@ pub(super) fn climb(
     // There is no finer setting by which the last one could be confirmed.
     match within(&rungs, tolerance) {
         true => (rungs, End::Reached),
-        false => (
-            rungs,
-            End::Wrong(says.unwrap_or_else(|| "there is no finer setting".to_owned())),
-        ),
+        false => (rungs, End::Wrong(says.unwrap_or_else(|| "there is no finer setting".to_owned()))),
     }
 }
 
@@ -131,9 +128,7 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration) -> Opt
     let more = (errors[3] / tolerance).powf(1.0 / order);
     let needed_s = last.took.as_secs_f64() * more;
     (doubles && needed_s > 4.0 * timeout.as_secs_f64()).then(|| {
-        End::OutOfTime(format!(
-            "those would take some {needed_s:.0e} s, which --timeout does not allow"
-        ))
+        End::OutOfTime(format!("those would take some {needed_s:.0e} s, which --timeout does not allow"))
     })
 }
 
@@ -147,11 +142,7 @@ fn steady_order(rungs: &[Rung]) -> Option<f64> {
 
 fn settings(problem: &LoadedProblem, mode: Mode) -> Vec<Setting> {
     let of = &problem.problem;
-    let largest = of
-        .gradient_per_s
-        .iter()
-        .flatten()
-        .fold(0.0, |a: f64, b| a.max(b.abs()));
+    let largest = of.gradient_per_s.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
     let strain = largest * of.times_s[0];
     let coarsest = (strain.ceil() as u64).next_power_of_two().max(8);
     match mode {

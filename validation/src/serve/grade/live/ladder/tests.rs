@@ -59,17 +59,10 @@ fn a_steady_order_or_a_second_rung_tells_an_answer_from_a_chance_crossing() {
     };
     // 0.3/16⁵ is within 10⁻⁶: the sixth rung. Where orders wander, one more.
     assert_eq!(asked(&|k| 0.3 * 16f64.powi(-k)), Some(6));
-    assert_eq!(
-        asked(&|k| 0.3 * 16f64.powi(-k) * if k % 2 == 0 { 1.0 } else { 1.2 }),
-        Some(7)
-    );
+    assert_eq!(asked(&|k| 0.3 * 16f64.powi(-k) * if k % 2 == 0 { 1.0 } else { 1.2 }), Some(7));
     // Zeros crossed by chance, among coarse and fine steps.
     let crossing = |k: i32| {
-        if k == 2 || k == 8 {
-            0.0
-        } else {
-            0.3 * 2f64.powi(-k)
-        }
+        if k == 2 || k == 8 { 0.0 } else { 0.3 * 2f64.powi(-k) }
     };
     assert_eq!(asked(&crossing), None);
     assert_eq!(asked(&|_| f64::NAN), None);
@@ -95,10 +88,7 @@ fn settings_that_are_not_finite_are_named() {
     let all = ladder(|k| (if k < 2 { f64::NAN } else { 1e-9 }, 1.0));
     assert_eq!(not_finite(&all[2..]), None);
     let words = not_finite(&all).unwrap();
-    assert!(
-        words.starts_with("with ") && words.contains('8') && words.contains("16"),
-        "{words}"
-    );
+    assert!(words.starts_with("with ") && words.contains('8') && words.contains("16"), "{words}");
     assert!(!words.contains("32"), "{words}");
 }
 
@@ -129,11 +119,7 @@ fn what_may_yet_come_within_the_tolerance_is_asked_on() {
     let unstable = |k: i32| if k < 9 { f64::NAN } else { second(k) };
     assert_eq!(climbed(|k| (unstable(k), seconds(k))), None);
     let missed = |k: i32| {
-        if k < 9 {
-            1.5 + 1e-4 * f64::from(k)
-        } else {
-            second(k)
-        }
+        if k < 9 { 1.5 + 1e-4 * f64::from(k) } else { second(k) }
     };
     assert_eq!(climbed(|k| (missed(k), seconds(k))), None);
     // A pause of the machine; what takes long to start.
@@ -186,21 +172,10 @@ fn answers_that_are_wrong_at_some_numbers_of_steps_are_no_methods() {
         let right = |steps: u64| 0.5 * (steps as f64 / 16.0).powf(-order);
         let jumps = |found: End| matches!(&found, End::Jumps(words) if words.contains("does not jump"));
         for wild in [1.2, f64::NAN] {
-            let below = judged(|steps, _| {
-                if steps < 512 && steps > 8 {
-                    wild
-                } else {
-                    right(steps)
-                }
-            });
+            let below = judged(|steps, _| if steps < 512 && steps > 8 { wild } else { right(steps) });
             assert!(jumps(below), "{order} {wild}");
-            let third = judged(|steps, asked| {
-                if asked % 3 == 0 && steps > 100 {
-                    wild
-                } else {
-                    right(steps)
-                }
-            });
+            let third =
+                judged(|steps, asked| if asked % 3 == 0 && steps > 100 { wild } else { right(steps) });
             assert!(order > 5.0 || jumps(third), "{order} {wild}");
         }
         let once = judged(|steps, _| if steps == 512 { 1.2 } else { right(steps) });
@@ -212,12 +187,8 @@ fn answers_that_are_wrong_at_some_numbers_of_steps_are_no_methods() {
 fn a_tolerance_far_worse_than_both_its_neighbours_is_no_methods() {
     let judged = |spoilt: i32, error: f64| {
         let of = |k: i32| if k == spoilt { error } else { 3.0 * 10f64.powi(-k) };
-        let rungs: Vec<_> = (2..=9)
-            .map(|k| rung(Setting::Tolerance(10f64.powi(-k)), of(k), 0.0))
-            .collect();
-        jumps::judged(&rungs, TOLERANCE, |_| {
-            Err(Asked::Says("it is not asked".to_owned()))
-        })
+        let rungs: Vec<_> = (2..=9).map(|k| rung(Setting::Tolerance(10f64.powi(-k)), of(k), 0.0)).collect();
+        jumps::judged(&rungs, TOLERANCE, |_| Err(Asked::Says("it is not asked".to_owned())))
     };
     assert_eq!(judged(0, 0.0), End::Reached);
     // Coarse tolerances miss the motion.
