@@ -2,25 +2,25 @@
 //!
 //! # The model on one page
 //!
-//! The liquid moves as u = L·x with a constant velocity gradient L (eqs 2 and 3, [`flow`]). A rod's centre
-//! moves with the liquid; its direction p (|p| = 1, p ≡ −p, [`orientation`]) turns by Jeffery's equation
-//! ṗ = W·p + Λ(D·p − p p·D·p) ([`jeffery`]), whose exact solution over any time is p = q/|q| with
-//! q = exp((W + ΛD)t) p(0) ([`propagator`]). In plane Couette flow u_2 = G x_1 it has the period
+//! The liquid moves as u = L·x with a constant velocity gradient L (eqs 2 and 3, [`model::flow`]). A rod's centre
+//! moves with the liquid; its direction p (|p| = 1, p ≡ −p, [`model::orientation`]) turns by Jeffery's equation
+//! ṗ = W·p + Λ(D·p − p p·D·p) ([`model::jeffery`]), whose exact solution over any time is p = q/|q| with
+//! q = exp((W + ΛD)t) p(0) ([`motion`]). In plane Couette flow u_2 = G x_1 it has the period
 //! T = 2π(r_e + 1/r_e)/G (eq. 15).
 //!
-//! In each time step every rod finds its nearest neighbour in the control volume ([`neighbours`],
-//! [`volume`]) and draws a random number R. Where P_c = (α/(s/a + α))^m > R (eqs 7 and 8, [`collision`])
-//! the two rods collide: the velocities of their contact points along the contact line ([`contact`])
+//! In each time step every rod finds its nearest neighbour in the control volume ([`model::neighbours`],
+//! [`model::volume`]) and draws a random number R. Where P_c = (α/(s/a + α))^m > R (eqs 7 and 8, [`model::collision`])
+//! the two rods collide: the velocities of their contact points along the contact line ([`model::contact`])
 //! become their mean (eqs 5 and 6), and for that step each rod turns accordingly (A.7 to A.14). All other
 //! rods take Jeffery's exact motion ([`suspension`]).
 //!
 //! What comes out are means over rods against time ([`observable`]): projections (eqs 4 and 21), the mean
-//! angle (eq. 18), the orbit constant (eq. 13), ⟨pp⟩; or one's own ([`own`]).
+//! angle (eq. 18), the orbit constant (eq. 13), ⟨pp⟩; or one's own ([`run::own`]).
 //!
 //! # Data goes one way
 //!
-//! A scene file ([`scene_file`]) is a [`Scene`]; a [`Plan`] says which stages it needs and drops the rest;
-//! [`ensemble::run`] runs the plan's replicas, each by [`run::run_replica`], and returns [`Results`].
+//! A scene file ([`scene::parse`]) is a [`Scene`]; a [`Plan`] says which stages it needs and drops the rest;
+//! [`run::ensemble::run`] runs the plan's replicas, each by [`run::run_replica`], and returns [`Results`].
 //!
 //! ```
 //! let text = r#"
@@ -36,9 +36,9 @@
 //! periods = 1
 //! outputs_per_period = 4
 //! "#;
-//! let scene = shearbed::scene_file::parse("free.toml", text)?;
+//! let scene = shearbed::scene::parse("free.toml", text)?;
 //! let plan = shearbed::Plan::new(&scene)?;
-//! let results = shearbed::ensemble::run(&plan)?;
+//! let results = shearbed::run::ensemble::run(&plan)?;
 //! // Free rods of one aspect ratio are back after half a period, because p ≡ −p.
 //! let x1 = &results.column("x1").expect("projections are the default").mean;
 //! assert!((x1[2] - x1[0]).abs() < 1e-12);
@@ -47,41 +47,20 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods, clippy::disallowed_types))]
 #![forbid(unsafe_code)]
 
-mod border;
-mod chunks;
-pub mod collision;
-pub mod contact;
-pub mod ensemble;
-pub mod flow;
-pub mod free;
-mod gaussian;
-pub mod jeffery;
-pub mod memory;
-pub mod neighbours;
+pub mod model;
+pub mod motion;
 pub mod observable;
-pub mod orientation;
-pub mod own;
-pub mod phase;
 pub mod plan;
-pub mod propagator;
-pub mod random;
-pub mod resume;
-mod rods;
 pub mod run;
 pub mod scene;
-pub mod scene_file;
-pub mod shape;
-pub mod snapshot;
 pub mod suspension;
-pub mod volume;
-pub mod work;
 
 /// The vectors and matrices of this crate's interface.
 pub use nalgebra;
 
-pub use ensemble::Results;
 pub use observable::Observable;
 pub use plan::Plan;
+pub use run::ensemble::Results;
 pub use scene::Scene;
 pub use suspension::Suspension;
 

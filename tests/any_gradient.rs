@@ -1,8 +1,10 @@
 //! Rods that interact in other flows than plane Couette flow by periods.
 
+use shearbed::run::ensemble;
 use shearbed::run::{go_on, run_replica};
+use shearbed::scene;
 use shearbed::scene::Update;
-use shearbed::{Plan, Results, Scene, ensemble, scene_file};
+use shearbed::{Plan, Results, Scene};
 
 const SHEAR: &str = "[[0, 0, 0], [0.5, 0, 0], [0, 0, 0]]";
 const EXTENSION: &str = "[[0.5, 0, 0], [0, -0.5, 0], [0, 0, 0]]";
@@ -19,7 +21,7 @@ fn text(gradient: &str, particles: &str, alpha: f64, time: &str) -> String {
 }
 
 fn scene(gradient: &str, particles: &str, alpha: f64, time: &str) -> Scene {
-    scene_file::parse("s.toml", &text(gradient, particles, alpha, time)).unwrap()
+    scene::parse("s.toml", &text(gradient, particles, alpha, time)).unwrap()
 }
 
 fn run(scene: &Scene) -> Results {
@@ -62,7 +64,7 @@ fn many_unequal_rods_that_do_not_meet_are_free() {
     let time = "strain = 0.4\nsteps_per_strain = 10\noutputs_per_strain = 5\n[output]\nrods_at = [0.4]";
     let text =
         |alpha: f64| text(EXTENSION, rods, alpha, time).replace("\n[output]\nobservables", "\nobservables");
-    let [free, stepped] = [0.0, 1e-300].map(|alpha| run(&scene_file::parse("s.toml", &text(alpha)).unwrap()));
+    let [free, stepped] = [0.0, 1e-300].map(|alpha| run(&scene::parse("s.toml", &text(alpha)).unwrap()));
     assert_eq!((free.counters.steps, stepped.counters.collisions), (0, 0));
     for (free, stepped) in free.snapshots[0].p.iter().zip(&stepped.snapshots[0].p) {
         let off = free.iter().zip(stepped).map(|(free, stepped)| (free - stepped).abs());
@@ -177,7 +179,7 @@ fn what_cannot_be_stepped_is_refused() {
     let in_box = |sides: &str| {
         let text = text(GENERAL, rods, 0.5, "strain = 1")
             .replace("concentration_per_cm3 = 1000", &format!("box_mm = {sides}"));
-        scene_file::parse("s.toml", &text).map(|_| ()).map_err(|refused| refused.to_string())
+        scene::parse("s.toml", &text).map(|_| ()).map_err(|refused| refused.to_string())
     };
     let refused = in_box("[1e103, 1e103, 1e103]").unwrap_err();
     assert!(
@@ -222,7 +224,7 @@ fn what_cannot_be_stepped_is_refused() {
             "time.strain = 1e4 is not allowed: at most 1e9 steps in all, not 2e9",
         ),
     ] {
-        let parsed = scene_file::parse("s.toml", &text(gradient, rods, 0.5, time));
+        let parsed = scene::parse("s.toml", &text(gradient, rods, 0.5, time));
         match (parsed, why) {
             (Ok(scene), "") => drop(run(&scene)),
             (Err(refused), _) => assert!(!why.is_empty() && refused.to_string().contains(why), "{refused}"),

@@ -1,8 +1,10 @@
 //! The same scene and seed give the same bits: on any number of threads, and for a replica run alone.
 
 use shearbed::observable::Channel;
+use shearbed::run::ensemble;
 use shearbed::run::run_replica;
-use shearbed::{Observable, Plan, Results, Scene, ensemble, scene_file};
+use shearbed::scene;
+use shearbed::{Observable, Plan, Results, Scene};
 
 fn scene(replicas: u64, seed: u64) -> Scene {
     let text = format!(
@@ -27,7 +29,7 @@ replicas = {replicas}
 seed = {seed}
 "#
     );
-    scene_file::parse("scene.toml", &text).unwrap()
+    scene::parse("scene.toml", &text).unwrap()
 }
 
 fn plan(replicas: u64, seed: u64) -> Plan {

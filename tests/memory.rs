@@ -1,10 +1,11 @@
 //! What a run holds in memory, counted by the allocator.
 
 use peak_alloc::PeakAlloc;
-use shearbed::resume::Halfway;
+use shearbed::run::resume::Halfway;
 use shearbed::run::{self, run_replica};
+use shearbed::run::{ensemble, memory};
 use shearbed::scene::{Interaction, Isotropic, Orientation, Scene};
-use shearbed::{Plan, Suspension, ensemble, memory};
+use shearbed::{Plan, Suspension};
 
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;

@@ -1,8 +1,10 @@
 //! Plans, printed; and that no stage, where it is left out, would have changed a bit of the results.
 
 use shearbed::plan::Stage;
+use shearbed::run::ensemble;
+use shearbed::scene;
 use shearbed::scene::resolved_strain;
-use shearbed::{Observable, Plan, Results, Scene, ensemble, scene_file};
+use shearbed::{Observable, Plan, Results, Scene};
 
 const FREE: &str = r#"
 title = "rods in plane Couette flow"
@@ -40,7 +42,7 @@ strain = 4
 "#;
 
 fn scene(text: &str) -> Scene {
-    scene_file::parse("scene.toml", text).unwrap()
+    scene::parse("scene.toml", text).unwrap()
 }
 
 fn plan(text: &str) -> Plan {
@@ -242,7 +244,7 @@ fn the_stress_of_rods_that_are_not_slender_is_warned_of() {
 
 #[test]
 fn long_rods_need_more_steps_than_there_may_be_and_say_what_to_set() {
-    let refusal = |text: &str| scene_file::parse("s.toml", text).unwrap_err().to_string();
+    let refusal = |text: &str| scene::parse("s.toml", text).unwrap_err().to_string();
     assert_eq!(
         refusal(&turning(1e6, "")),
         "s.toml:10: time.steps_per_period is missing: at aspect_ratio = 1000000 some 7.0e7 steps a period resolve the \

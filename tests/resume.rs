@@ -1,11 +1,12 @@
 //! A replica that was stopped and gone on from gives the bits of one that was not.
 
 use serde_json::{Value, json};
-use shearbed::ensemble::Tally;
-use shearbed::resume::Halfway;
+use shearbed::Plan;
+use shearbed::run::ensemble::Tally;
+use shearbed::run::resume::Halfway;
 use shearbed::run::{Replica, go_on, run_replica};
-use shearbed::work::RunError;
-use shearbed::{Plan, scene_file};
+use shearbed::scene;
+use shearbed::suspension::RunError;
 
 /// A plan of `count` rods, with tables and keys put in.
 fn plan(count: usize, flow: &str, interaction: &str, time: &str, replicas: u64) -> Plan {
@@ -14,7 +15,7 @@ fn plan(count: usize, flow: &str, interaction: &str, time: &str, replicas: u64) 
          aspect_ratio_sd_percent = 3.6\norientation = \"isotropic\"\n{interaction}\n[time]\n{time}\n\
          [ensemble]\nreplicas = {replicas}\nseed = 5\n[output]\nobservables = [\"projections\", \"orientation_tensor\"]\n"
     );
-    Plan::new(&scene_file::parse("s.toml", &text).unwrap()).unwrap()
+    Plan::new(&scene::parse("s.toml", &text).unwrap()).unwrap()
 }
 
 const COUETTE: &str = "gradient_per_s = [[0,0,0],[-0.5,0,0],[0,0,0]]";

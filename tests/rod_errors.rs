@@ -1,9 +1,10 @@
 //! Standard errors over the rods of one replica, beside two passes over its rods.
 
 use shearbed::observable::{Block, Observable, Sum};
+use shearbed::run::ensemble;
 use shearbed::scene::{Orientation, Scene};
-use shearbed::snapshot::Snapshot;
-use shearbed::{Plan, Results, ensemble};
+use shearbed::suspension::snapshot::Snapshot;
+use shearbed::{Plan, Results};
 
 /// Every observable that any flow has.
 const OF_ANY_FLOW: [Observable; 5] = [

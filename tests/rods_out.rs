@@ -1,7 +1,9 @@
 //! Every rod at the times that a scene asks for.
 
+use shearbed::run::ensemble;
+use shearbed::scene;
 use shearbed::suspension::Collision;
-use shearbed::{Plan, Results, Scene, Suspension, ensemble, scene_file};
+use shearbed::{Plan, Results, Scene, Suspension};
 
 const SCENE: &str = r#"
 title = "rods out"
@@ -24,7 +26,7 @@ seed = 5
 const INTERACTING: &str = "[interaction]\nconcentration_per_cm3 = 200\nalpha = 0.5\n";
 
 fn scene(text: &str) -> Scene {
-    scene_file::parse("s.toml", text).unwrap()
+    scene::parse("s.toml", text).unwrap()
 }
 
 fn run(scene: &Scene) -> Results {
@@ -104,7 +106,7 @@ fn who_collided_is_who_did_in_the_last_step_and_places_are_those_of_the_step() {
 fn times_that_are_no_outputs_are_refused_with_what_is() {
     let refused = |rods_at: &str| {
         let text = format!("{SCENE}[output]\nrods_at = {rods_at}\n");
-        scene_file::parse("s.toml", &text).unwrap_err().to_string()
+        scene::parse("s.toml", &text).unwrap_err().to_string()
     };
     let key = "s.toml:18: output.rods_at = ";
     for (given, allowed) in [

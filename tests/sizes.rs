@@ -1,9 +1,11 @@
 //! Rods of unequal length, and control volumes with three sides.
 
 use shearbed::plan::Stage;
+use shearbed::run::ensemble;
 use shearbed::run::{go_on, run_replica};
+use shearbed::scene;
 use shearbed::scene::{OwnRods, RodsFile};
-use shearbed::{Plan, Results, Scene, Suspension, ensemble, scene_file};
+use shearbed::{Plan, Results, Scene, Suspension};
 
 fn text(length: &str, interaction: &str) -> String {
     format!(
@@ -14,11 +16,11 @@ fn text(length: &str, interaction: &str) -> String {
 }
 
 fn scene(length: &str, interaction: &str) -> Scene {
-    scene_file::parse("s.toml", &text(length, interaction)).unwrap()
+    scene::parse("s.toml", &text(length, interaction)).unwrap()
 }
 
 fn refusal(length: &str, interaction: &str) -> String {
-    let refused = scene_file::parse("s.toml", &text(length, interaction));
+    let refused = scene::parse("s.toml", &text(length, interaction));
     refused.expect_err("it is refused").to_string()
 }
 

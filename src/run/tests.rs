@@ -1,5 +1,5 @@
 use super::*;
-use crate::scene_file;
+use crate::scene;
 
 fn plan(count: usize, replicas: u64) -> Plan {
     let text = format!(
@@ -8,7 +8,7 @@ fn plan(count: usize, replicas: u64) -> Plan {
          [ensemble]\nreplicas = {replicas}\nseed = 7\n[output]\n\
          observables = [\"projections\", \"orbit_constant\", \"orientation_tensor\"]\n"
     );
-    Plan::new(&scene_file::parse("s.toml", &text).unwrap()).unwrap()
+    Plan::new(&scene::parse("s.toml", &text).unwrap()).unwrap()
 }
 
 /// A run whose propagation puts a rod along `wrong` at an output.

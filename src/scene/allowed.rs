@@ -38,18 +38,18 @@ impl Invalid {
         Self { key, value: Some(value.to_string()), allowed: allowed.into() }
     }
 
-    pub(super) fn missing(key: &'static str, allowed: &str) -> Self {
+    pub(crate) fn missing(key: &'static str, allowed: &str) -> Self {
         Self { key, value: None, allowed: allowed.to_owned() }
     }
 }
 
 /// A value outside what its key allows.
-pub(super) fn refused(key: &'static str, value: impl ToString) -> Invalid {
+pub(crate) fn refused(key: &'static str, value: impl ToString) -> Invalid {
     Invalid::new(key, value, find(key).map_or_else(String::new, |key| key.holds.to_string()))
 }
 
 /// Checks a number.
-pub(super) fn number(key: &'static str, value: f64) -> Result<(), Invalid> {
+pub(crate) fn number(key: &'static str, value: f64) -> Result<(), Invalid> {
     match find(key) {
         Some(known) if known.holds.allows(value) => Ok(()),
         _ => Err(refused(key, value)),
@@ -57,7 +57,7 @@ pub(super) fn number(key: &'static str, value: f64) -> Result<(), Invalid> {
 }
 
 /// Checks a whole number.
-pub(super) fn whole(key: &'static str, value: u64) -> Result<(), Invalid> {
+pub(crate) fn whole(key: &'static str, value: u64) -> Result<(), Invalid> {
     match find(key).map(|key| key.holds) {
         Some(Holds::Whole { least, most }) if (least..=most).contains(&value) => Ok(()),
         _ => Err(refused(key, value)),

@@ -1,7 +1,7 @@
 //! The one table of a scene's keys: what each means, its unit, what it may hold and what it is where it is not given.
 
+use crate::model::shape::{ALLOWED, Correlation};
 use crate::observable::Observable;
-use crate::shape::{ALLOWED, Correlation};
 
 /// A table of a scene file, or one of its keys.
 ///
@@ -222,7 +222,7 @@ pub(crate) fn required(table: &str) -> impl Iterator<Item = &'static Key> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene_file;
+    use crate::scene;
 
     /// The least text with every required key, and `line` in its table.
     fn text(path: &str, value: &str) -> String {
@@ -255,12 +255,12 @@ mod tests {
 
     #[test]
     fn a_default_is_what_a_scene_without_the_key_has() {
-        let without = scene_file::parse("t", &text("", "")).unwrap();
+        let without = scene::parse("t", &text("", "")).unwrap();
         for key in &KEYS {
             if let Default(value) = key.absent
                 && key.path != "time.outputs_per_strain"
             {
-                assert_eq!(scene_file::parse("t", &text(key.path, value)).unwrap(), without, "{}", key.path);
+                assert_eq!(scene::parse("t", &text(key.path, value)).unwrap(), without, "{}", key.path);
             }
         }
         assert_eq!(without.outputs_per_strain(), 10);
@@ -275,7 +275,7 @@ mod tests {
                 _ => (None, "-1"),
             };
             let refused = |value: &str| {
-                let error = scene_file::parse("t", &text(key.path, value)).unwrap_err().to_string();
+                let error = scene::parse("t", &text(key.path, value)).unwrap_err().to_string();
                 assert!(error.contains(&key.holds.to_string()), "{error}");
             };
             refused(wrong);

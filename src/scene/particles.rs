@@ -1,6 +1,6 @@
 //! `[particles]`: the rods, how long and how slender they are, and where they point at the start.
 
-use crate::shape::Correlation;
+use crate::model::shape::Correlation;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -171,7 +171,7 @@ impl Particles {
 }
 
 /// r_e of a cylinder by a formula, where both are given and it gives one.
-pub(super) fn equivalent(physical: Option<f64>, correlation: Option<Correlation>) -> Option<f64> {
+pub(crate) fn equivalent(physical: Option<f64>, correlation: Option<Correlation>) -> Option<f64> {
     correlation?.formula().equivalent(physical?)
 }
 

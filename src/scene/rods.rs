@@ -32,7 +32,7 @@ const OWN_LENGTHS: std::ops::RangeInclusive<f64> = 1e-50..=1e50;
 
 impl Scene {
     /// Checks that r_e is given once: by itself, or by a cylinder and a formula that gives one for it.
-    pub(super) fn check_shape(&self) -> Result<(), Invalid> {
+    pub(crate) fn check_shape(&self) -> Result<(), Invalid> {
         let particles = &self.particles;
         let key = "particles.shape_correlation";
         let (r, formula) = match (particles.physical_aspect_ratio, particles.shape_correlation) {
@@ -68,7 +68,7 @@ impl Scene {
     }
 
     /// Checks that the rods of a file are there, and can be those of the scene.
-    pub(super) fn check_own_rods(&self) -> Result<(), Invalid> {
+    pub(crate) fn check_own_rods(&self) -> Result<(), Invalid> {
         let Some(RodsFile { file, own, .. }) = &self.particles.rods else {
             return Ok(());
         };
@@ -136,7 +136,7 @@ impl Scene {
     }
 
     /// Checks that r_e has the mean that its flow allows, and stays on its side of 1.
-    pub(super) fn check_particles(&self) -> Result<(), Invalid> {
+    pub(crate) fn check_particles(&self) -> Result<(), Invalid> {
         let (r, sd) = (self.particles.aspect_ratio, self.particles.aspect_ratio_sd_percent);
         if self.interaction.is_some() && r <= 1.0 {
             let allowed = "interacting rods need a number > 1";

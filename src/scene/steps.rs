@@ -1,9 +1,9 @@
 //! The steps of interacting rods: how many by default, and which is too long.
 
-use super::{OUTPUTS_PER_STRAIN, Scene};
-use crate::flow::VelocityGradient;
-use crate::jeffery::strain_per_period;
-use crate::propagator::{Propagator, Span};
+use super::{Invalid, OUTPUTS_PER_STRAIN, Scene, refused};
+use crate::model::flow::VelocityGradient;
+use crate::model::jeffery::strain_per_period;
+use crate::motion::{Propagator, Span};
 use nalgebra::Matrix3;
 
 /// Steps per period come in multiples of this, so that the default outputs fall on steps.
@@ -16,6 +16,49 @@ pub fn resolved_strain(aspect_ratio: f64) -> f64 {
 }
 
 impl Scene {
+    /// The number of outputs, the one at t = 0 included.
+    pub(crate) fn outputs(&self) -> usize {
+        let duration = self.time.strain.or(self.time.periods).unwrap_or(0.0);
+        let all = duration * self.outputs_per_unit() as f64;
+        // The slack takes in a product that was rounded down.
+        1 + (all * (1.0 + 4.0 * f64::EPSILON)).floor() as usize
+    }
+
+    /// Outputs per unit of time.
+    pub(crate) fn outputs_per_unit(&self) -> u64 {
+        match self.time.strain {
+            Some(_) => self.outputs_per_strain(),
+            None => self.outputs_per_period(),
+        }
+    }
+
+    /// The output at this time; `None` where it is farther than 1e-5 of their distance from all.
+    pub(crate) fn output_at(&self, time: f64) -> Option<usize> {
+        let place = time * self.outputs_per_unit() as f64;
+        let near = (place - place.round()).abs() <= 1e-5 && place.round() < self.outputs() as f64;
+        near.then_some(place.round() as usize)
+    }
+
+    /// The gradient of the scene's liquid.
+    pub(crate) fn check_flow(&self) -> Result<VelocityGradient, Invalid> {
+        match (self.flow.shear_rate_per_s, self.flow.gradient_per_s) {
+            (Some(g), None) => {
+                VelocityGradient::plane_couette(g).ok_or_else(|| refused("flow.shear_rate_per_s", g))
+            }
+            (None, Some(rows)) => VelocityGradient::new(Matrix3::from_fn(|i, j| rows[i][j]))
+                .ok_or_else(|| refused("flow.gradient_per_s", format!("{rows:?}"))),
+            (Some(g), Some(_)) => Err(Invalid::new(
+                "flow.shear_rate_per_s",
+                g,
+                "either shear_rate_per_s or gradient_per_s, not both",
+            )),
+            (None, None) => Err(Invalid::missing(
+                "flow.shear_rate_per_s",
+                "shear_rate_per_s or gradient_per_s must be given",
+            )),
+        }
+    }
+
     /// Steps per period of the mean aspect ratio or per unit of strain, as the time is given; by default
     /// [`Scene::resolving_steps`].
     pub fn steps_per_unit(&self) -> u64 {
@@ -83,7 +126,7 @@ impl Scene {
     }
 
     /// The larger of strain and turn of the liquid in a period or a unit of strain.
-    pub(super) fn motion_per_unit(&self) -> f64 {
+    pub(crate) fn motion_per_unit(&self) -> f64 {
         let r = self.particles.aspect_ratio;
         let Some(flow) = self.check_flow().ok().filter(|flow| flow.shear_rate_per_s().is_none()) else {
             return match self.time.strain {

@@ -1,8 +1,8 @@
 //! How the liquid moves: rods' rates, velocities past one another, and places.
 
-use crate::jeffery::{couette_rate, rate};
+use crate::model::jeffery::{couette_rate, rate};
+use crate::model::volume::{COUETTE_NUMBERS, ControlVolume, INFLOW_NUMBERS, Inflow};
 use crate::plan::Plan;
-use crate::volume::{COUETTE_NUMBERS, ControlVolume, INFLOW_NUMBERS, Inflow};
 use nalgebra::Vector3;
 use rand_pcg::Pcg64Dxsm;
 

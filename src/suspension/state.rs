@@ -1,7 +1,7 @@
 //! What can be asked of a suspension.
 
 use super::Suspension;
-use crate::work::Counters;
+use crate::model::work::Counters;
 use nalgebra::Vector3;
 
 impl Suspension {

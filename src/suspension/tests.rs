@@ -60,7 +60,8 @@ fn a_collision_gives_both_contact_points_the_mean_velocity_along_the_line() {
         let [side, ..] = suspension.sides_in_lengths();
         let centres = [[0.4, 0.5, 0.5], [0.55, 0.45, 0.6]].map(|x| x.map(|x| x * side));
         let places = [0, 1, 2].map(|axis| vec![centres[0][axis], centres[1][axis]]);
-        let start = [(0.3, 1.0), (2.0, 0.7)].map(|(phi, theta)| crate::orientation::from_angles(phi, theta));
+        let start =
+            [(0.3, 1.0), (2.0, 0.7)].map(|(phi, theta)| crate::model::orientation::from_angles(phi, theta));
         suspension.place(places, &start).unwrap();
         assert_eq!(suspension.step().unwrap().len(), 1);
 

@@ -4,11 +4,13 @@ mod uncoupled;
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
-use shearbed::flow::VelocityGradient;
-use shearbed::orientation::from_degrees;
-use shearbed::propagator::{Propagator, Span};
+use shearbed::Plan;
+use shearbed::model::flow::VelocityGradient;
+use shearbed::model::orientation::from_degrees;
+use shearbed::motion::{Propagator, Span};
+use shearbed::run::ensemble;
+use shearbed::scene;
 use shearbed::scene::{OwnRods, RodsFile};
-use shearbed::{Plan, ensemble, scene_file};
 use std::cell::Cell;
 
 fn scene(rows: [[f64; 3]; 3], r: f64, sd: f64, orientation: &str, time: &str) -> String {
@@ -27,7 +29,7 @@ fn of_a_file(p: [Vec<f64>; 3]) -> RodsFile {
 
 /// Finite means with ⟨pp⟩ of trace 1, or a refusal that says why; whether it was not refused.
 fn ends_or_is_refused(text: &str) -> bool {
-    let scene = match scene_file::parse("s.toml", text) {
+    let scene = match scene::parse("s.toml", text) {
         Ok(scene) => scene,
         Err(error) => {
             let error = error.to_string();
@@ -112,7 +114,7 @@ fn a_start_on_a_dividing_plane_is_refused_however_it_is_given() {
     let rows = [[0.25, 0.75, 0.0], [0.75, 0.25, 0.0], [0.0, 0.0, -0.5]];
     let parsed = |sd: f64, start: &str, strain: f64| {
         let time = format!("strain = {strain}\noutputs_per_strain = 1");
-        scene_file::parse("s.toml", &scene(rows, 11.6, sd, start, &time))
+        scene::parse("s.toml", &scene(rows, 11.6, sd, start, &time))
     };
     let start = "{ phi_deg = 135, theta_deg = 90 }";
     for sd in [0.0, 1.0] {
@@ -141,7 +143,7 @@ fn a_rounded_start_of_extreme_rods_is_answered_as_far_as_it_is_known() {
     let rows = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
     for (r, known) in [(1e8, true), (1e-8, true), (1e10, false), (1e-10, false)] {
         let text = scene(rows, r, 0.0, "\"isotropic\"", "strain = 2\noutputs_per_strain = 2");
-        let mut scene = scene_file::parse("s.toml", &text).unwrap();
+        let mut scene = scene::parse("s.toml", &text).unwrap();
         scene.particles.rods = Some(of_a_file([vec![0.6; 3], vec![0.0; 3], vec![0.8; 3]]));
         let plan = Plan::new(&scene).unwrap();
         assert_eq!(ensemble::run(&plan).is_ok(), known, "{r:e}");
@@ -154,7 +156,7 @@ fn rates_beyond_all_digits_are_refused_as_such() {
     let parsed = |coupling: f64| {
         let rows = [[0.0, 1e200, 0.0], [0.0, 0.0, 0.0], [coupling, 0.0, 1.0]];
         let text = scene(rows, 1e91, 0.0, "\"isotropic\"", "periods = 2");
-        scene_file::parse("s.toml", &text).map_err(|error| error.to_string())
+        scene::parse("s.toml", &text).map_err(|error| error.to_string())
     };
     let error = parsed(1.0).unwrap_err();
     assert!(error.contains("the flow's rates cancel, or grow apart"), "{error}");
@@ -165,8 +167,7 @@ fn rates_beyond_all_digits_are_refused_as_such() {
 #[test]
 fn three_real_rates_have_no_period() {
     let rows = [[-1.0, -1.0, 0.0], [-2.0, 2.0, -1.0], [0.0, -2.0, -1.0]];
-    let error =
-        scene_file::parse("s.toml", &scene(rows, 2.0, 0.0, "\"isotropic\"", "periods = 1")).unwrap_err();
+    let error = scene::parse("s.toml", &scene(rows, 2.0, 0.0, "\"isotropic\"", "periods = 1")).unwrap_err();
     assert!(error.to_string().contains("have no period in this flow: give strain"), "{error}");
 }
 
@@ -177,8 +178,7 @@ fn a_rounded_rotation_of_couette_flow_has_a_period_for_as_long_as_it_has() {
     let (along, across) = ([1.0, 2.0, 3.0], [4.0, 1.0, -2.0]);
     let rows =
         along.map(|flow: f64| across.map(|gradient: f64| flow / 14f64.sqrt() * (gradient / 21f64.sqrt())));
-    let parsed =
-        |r: f64, time: &str| scene_file::parse("s.toml", &scene(rows, r, 0.0, "\"isotropic\"", time));
+    let parsed = |r: f64, time: &str| scene::parse("s.toml", &scene(rows, r, 0.0, "\"isotropic\"", time));
     assert!(parsed(11.6, "periods = 10").is_ok(), "{:?}", parsed(11.6, "periods = 10"));
     let error = parsed(1e8, "periods = 10").unwrap_err().to_string();
     assert!(error.contains("have no period in this flow") && error.contains("give strain"), "{error}");
@@ -215,7 +215,7 @@ fn what_comes_back_is_the_same_in_every_period() {
     let turned = [[0.0; 3], [0.0; 3], [0.0, 0.5, 0.0]];
     for orientation in ["\"isotropic\"", "{ phi_deg = 20, theta_deg = 70 }"] {
         let text = scene(turned, 5.0, 0.0, orientation, "periods = 3\noutputs_per_period = 8");
-        let plan = Plan::new(&scene_file::parse("s.toml", &text).unwrap()).unwrap();
+        let plan = Plan::new(&scene::parse("s.toml", &text).unwrap()).unwrap();
         let results = ensemble::run(&plan).unwrap();
         let x2 = &results.column("x2").unwrap().mean;
         assert_eq!(x2.len(), 25);

@@ -1,9 +1,10 @@
 //! Flows whose axes do not couple, and a rod that is refused.
 
 use super::{of_a_file, scene};
-use shearbed::flow::VelocityGradient;
-use shearbed::propagator::{Propagator, Span};
-use shearbed::{Plan, ensemble, scene_file};
+use shearbed::Plan;
+use shearbed::model::flow::VelocityGradient;
+use shearbed::motion::{Propagator, Span};
+use shearbed::run::ensemble;
 
 /// ∂u_i/∂x_j, r_e, start, strain and the direction there.
 type Answered = ([[f64; 3]; 3], f64, [f64; 3], f64, [f64; 3]);
@@ -134,7 +135,7 @@ fn coordinates_that_are_not_coupled_keep_their_digits() {
 fn from_file(rows: [[f64; 3]; 3], r: f64, strain: f64, p: [f64; 3]) -> shearbed::Scene {
     let time = format!("strain = {strain}\noutputs_per_strain = 1");
     let text = scene(rows, r, 0.0, "\"isotropic\"", &time);
-    let mut scene = scene_file::parse("s.toml", &text).unwrap();
+    let mut scene = shearbed::scene::parse("s.toml", &text).unwrap();
     scene.particles.rods = Some(of_a_file(p.map(|component| vec![component; 3])));
     scene
 }

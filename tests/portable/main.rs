@@ -1,7 +1,9 @@
 //! The same scene and seed give the same bits on every machine: no function that rounds as it likes is used, and what
 //! runs give is what is written down here.
 
-use shearbed::{Plan, Results, ensemble, scene_file};
+use shearbed::run::ensemble;
+use shearbed::scene;
+use shearbed::{Plan, Results};
 
 /// Scenes that use every function of `libm` that the core does, and the digest of their means: the same on every machine, so one
 /// that differs is a mistake of that machine's build, or a change of the model that has to be said.
@@ -88,7 +90,7 @@ fn digest(results: &Results) -> u64 {
 }
 
 fn run(name: &str, text: &str) -> Results {
-    let scene = scene_file::parse(name, &format!("title = \"{name}\"\n{text}")).unwrap();
+    let scene = scene::parse(name, &format!("title = \"{name}\"\n{text}")).unwrap();
     ensemble::run(&Plan::new(&scene).unwrap()).unwrap()
 }
 

@@ -43,7 +43,7 @@ fn the_schema_is_the_programs() {
             let Ok(table) = text.parse::<toml::Table>() else {
                 continue;
             };
-            let refused = shearbed::scene_file::parse("t", &text).is_err();
+            let refused = shearbed::scene::parse("t", &text).is_err();
             let schema_refuses = !serde_json::to_value(table).is_ok_and(|value| schema.is_valid(&value));
             assert_eq!(schema_refuses, refused, "{key} = {wrong}");
         }

@@ -1,7 +1,7 @@
 //! What goes together of shapes and starts, at both sides of each limit.
 
+use crate::model::shape::Correlation;
 use crate::scene::{Interaction, Invalid, OwnRods, RodsFile, Scene};
-use crate::shape::Correlation;
 
 fn refusal(scene: &Scene) -> String {
     scene.checked().expect_err("it is refused").to_string()

@@ -3,10 +3,11 @@
 use crate::{Taken, Target};
 use serde::Serialize;
 use serde_json::json;
-use shearbed::ensemble::Tally;
-use shearbed::resume::Halfway;
+use shearbed::Plan;
+use shearbed::run::ensemble::Tally;
+use shearbed::run::resume::Halfway;
 use shearbed::run::{Replica, go_on, run_replica};
-use shearbed::{Plan, scene_file};
+use shearbed::scene;
 use std::collections::BTreeMap;
 use std::fs;
 use std::time::Duration;
@@ -42,7 +43,7 @@ struct Kept {
 
 /// Checkpoints of a run, half of them with a checksum that is right: what they say is then to be refused, or gone on from.
 pub fn checkpoint() -> Target {
-    let scene = scene_file::parse("rods", RODS).expect("it is a scene");
+    let scene = scene::parse("rods", RODS).expect("it is a scene");
     let plan = Plan::new(&scene).expect("it can be run");
     // The first replicas added up, one that waits for its turn, and one in the middle.
     let kept = |added: u64| {

@@ -1,8 +1,10 @@
 //! Scene files and arguments of `sweep`.
 
 use crate::{Taken, Target};
+use shearbed::Plan;
+use shearbed::run::memory;
 use shearbed::run::run_replica;
-use shearbed::{Plan, memory, scene_file};
+use shearbed::scene;
 use validation::input::scenes;
 use validation::serve::sweep::{Axis, Setting, points, scene_with};
 
@@ -52,7 +54,7 @@ pub fn scene() -> Target {
             let Ok(text) = std::str::from_utf8(&files[0].1) else {
                 return Ok(Taken::Refused("not UTF-8".into()));
             };
-            match scene_file::parse("scene.toml", text) {
+            match scene::parse("scene.toml", text) {
                 Err(error) => {
                     let lines = text.lines().count() + 1;
                     for problem in &error.problems {

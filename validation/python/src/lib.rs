@@ -10,8 +10,10 @@ use pyo3::{create_exception, wrap_pyfunction};
 use rayon::prelude::*;
 use shearbed::run::{Replica, run_replica};
 use shearbed::scene::KEYS;
-use shearbed::work::RunError;
-use shearbed::{Plan, Results, Scene, ensemble, scene_file};
+use shearbed::suspension::RunError;
+use shearbed::{Plan, Results, Scene};
+use shearbed::run::ensemble;
+use shearbed::scene;
 use std::ffi::OsString;
 use std::ops::Range;
 use std::path::Path;
@@ -28,7 +30,7 @@ create_exception!(
 
 fn plan(name: &str, text: &str, replicas: Option<u64>, seed: Option<u64>) -> PyResult<Plan> {
     let refused = |error: &dyn std::fmt::Display| SceneError::new_err(error.to_string());
-    let mut scene = scene_file::parse(name, text).map_err(|error| refused(&error))?;
+    let mut scene = scene::parse(name, text).map_err(|error| refused(&error))?;
     let folder = Path::new(name).parent().unwrap_or(Path::new(""));
     validation::input::start::Starts::beside(folder)
         .fill(&mut scene)

@@ -3,7 +3,7 @@
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use shearbed::snapshot::Snapshot;
+use shearbed::suspension::snapshot::Snapshot;
 use shearbed::{Plan, Results};
 
 /// The columns of `rods.csv`, with NaN where its cells are empty; `None` where no rods are asked for.

@@ -10,10 +10,10 @@ use crate::oracle::naive::Problem;
 use crate::studies::kicks::averaged::{Apart, apart, scene};
 use nalgebra::{UnitVector3, Vector3};
 use rayon::prelude::*;
-use shearbed::collision::{share_velocity, step_angles, turn};
-use shearbed::contact::contact;
-use shearbed::orientation::from_angles;
-use shearbed::propagator::Propagator;
+use shearbed::model::collision::{share_velocity, step_angles, turn};
+use shearbed::model::contact::contact;
+use shearbed::model::orientation::from_angles;
+use shearbed::motion::Propagator;
 
 pub fn cases() -> Vec<Case> {
     vec![
@@ -105,7 +105,7 @@ fn updates([rotation, angles]: &[Update; 2], _: &Effort) -> Vec<Evidence> {
         rotation(p, rate, time).0.cross(&angles(p, rate, time).0).norm()
     };
     const TIMES: [f64; 2] = [1e-4, 2e-4];
-    let flow = shearbed::flow::VelocityGradient::plane_couette(1.0).expect("finite");
+    let flow = shearbed::model::flow::VelocityGradient::plane_couette(1.0).expect("finite");
     let propagator = Propagator::new(&flow, 11.6);
     let mut same = 0.0f64;
     let mut distance = 0.0;
@@ -171,7 +171,7 @@ type Kick = fn([Vector3<f64>; 2]) -> Vector3<f64>;
 
 /// How A's arm changes per time when a collision turns A alone, by the core: contact, kick, turn, and contact again.
 fn arm_rate(kick: Kick, p: [Vector3<f64>; 2], separation: &Vector3<f64>, time: f64) -> Option<f64> {
-    let flow = shearbed::flow::VelocityGradient::plane_couette(1.0)?;
+    let flow = shearbed::model::flow::VelocityGradient::plane_couette(1.0)?;
     let units = p.map(UnitVector3::new_unchecked);
     let before = contact(separation, &p[0], &p[1], [0.0; 2])?;
     let free = units.map(|p| direction_rate_per_s(flow.per_s(), LONG, &p));

@@ -10,11 +10,11 @@ use crate::judge::lab::{self, Change, per_replica};
 use crate::judge::statistics::{Sample, larger};
 use crate::oracle::{closed_form, isotropic, quadrature};
 use nalgebra::UnitVector3;
-use shearbed::ensemble;
-use shearbed::flow::VelocityGradient;
+use shearbed::model::flow::VelocityGradient;
+use shearbed::model::orientation;
+use shearbed::motion::Propagator;
 use shearbed::observable::Channel;
-use shearbed::orientation;
-use shearbed::propagator::Propagator;
+use shearbed::run::ensemble;
 use shearbed::scene::Orientation;
 use std::f64::consts::{PI, SQRT_2, TAU};
 

@@ -6,7 +6,7 @@ use crate::judge::lab::{self, Change};
 use crate::judge::statistics::{Sample, larger};
 use crate::oracle::naive::collision_probability;
 use rayon::prelude::*;
-use shearbed::collision::reach;
+use shearbed::model::collision::reach;
 
 pub fn cases() -> Vec<Case> {
     vec![

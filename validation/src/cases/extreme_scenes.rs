@@ -11,9 +11,10 @@ use crate::judge::lab;
 use crate::judge::statistics::larger;
 use crate::studies::stability::map::ASPECT_RATIOS;
 use nalgebra::{Matrix3, Vector3};
-use shearbed::jeffery::{couette_rate, shape_factor, strain_per_period};
+use shearbed::model::jeffery::{couette_rate, shape_factor, strain_per_period};
+use shearbed::run::ensemble;
 use shearbed::scene::{Orientation, Scene, Update};
-use shearbed::{Observable, Suspension, ensemble};
+use shearbed::{Observable, Suspension};
 
 /// What steps rods, and what a control puts in its place.
 struct Model {

@@ -6,11 +6,11 @@ use crate::studies::integrators::{ClosedForm, Integrator, Problem, Setting};
 use crate::studies::stability::corners;
 use crate::studies::stability::map::{ASPECT_RATIOS, STEPS};
 use nalgebra::{Matrix3, Rotation3, UnitVector3, Vector3};
-use shearbed::flow::VelocityGradient;
-use shearbed::jeffery::shape_factor;
-use shearbed::orientation;
-use shearbed::phase::Phase;
-use shearbed::propagator::Propagator;
+use shearbed::model::flow::VelocityGradient;
+use shearbed::model::jeffery::shape_factor;
+use shearbed::model::orientation;
+use shearbed::model::phase::Phase;
+use shearbed::motion::Propagator;
 use std::f64::consts::TAU;
 
 /// The direction after a number of turns, of a rod of aspect ratio r at the shear rate G.
@@ -38,7 +38,7 @@ pub fn cases() -> Vec<Case> {
                 Vector3::new(p.x * cos - p.y / r * sin, r * p.x * sin + p.y * cos, p.z).normalize()
             })
             .mistake("G t for G t/T", |r, g, p, turns| {
-                corners::exact(r, g, p, turns * shearbed::jeffery::strain_per_period(r))
+                corners::exact(r, g, p, turns * shearbed::model::jeffery::strain_per_period(r))
             })
             .mistake("through tan θ and φ (A.4, A.5)", |r, _, p, turns| {
                 let end = ClosedForm.advance(&Problem::new(r, turns), p, Setting::Once);

@@ -9,7 +9,7 @@ use crate::studies::coefficients::jumps::{Quantity, Shares, Watch, above, diffus
 use crate::studies::coefficients::{self, Diffusing, Diffusion, Means, Setting};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
-use shearbed::jeffery::shape_factor;
+use shearbed::model::jeffery::shape_factor;
 
 pub fn cases() -> Vec<Case> {
     vec![

@@ -5,7 +5,7 @@ use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{self, Change};
 use crate::judge::statistics::{Sample, larger};
 use crate::oracle::isotropic;
-use shearbed::ensemble;
+use shearbed::run::ensemble;
 use shearbed::scene::Scene;
 
 pub fn cases() -> Vec<Case> {

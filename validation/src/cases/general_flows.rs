@@ -7,10 +7,10 @@ use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::Shared;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use problems::{Kind, Problem, random};
-use shearbed::flow::VelocityGradient;
-use shearbed::free::MAX_ERROR_RAD;
-use shearbed::jeffery::shape_factor;
-use shearbed::propagator::{Moved, Propagator, Span};
+use shearbed::model::flow::VelocityGradient;
+use shearbed::model::jeffery::shape_factor;
+use shearbed::motion::{Moved, Propagator, Span};
+use shearbed::plan::free::MAX_ERROR_RAD;
 use std::sync::Arc;
 
 /// What moves a rod and says how well.

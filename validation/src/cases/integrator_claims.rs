@@ -18,7 +18,7 @@ type Slope = fn(&Problem, &Vector3<f64>) -> Matrix3<f64>;
 
 pub fn cases() -> Vec<Case> {
     let through_shape: Rate = |problem, p| {
-        let shape = shearbed::jeffery::shape_factor(problem.aspect_ratio);
+        let shape = shearbed::model::jeffery::shape_factor(problem.aspect_ratio);
         let pull = Vector3::new(-0.5 * (1.0 - shape) * p.y, 0.5 * (1.0 + shape) * p.x, 0.0);
         pull - p * (shape * p.x * p.y)
     };
@@ -56,11 +56,11 @@ pub fn cases() -> Vec<Case> {
             .equations(&["A.1"])
             .subject((|problem: &Problem, p: &Vector3<f64>| problem.rate_slope(p)) as Slope)
             .mistake("the pull along p left out of the slope", |problem, p| {
-                let shape = shearbed::jeffery::shape_factor(problem.aspect_ratio);
+                let shape = shearbed::model::jeffery::shape_factor(problem.aspect_ratio);
                 problem.rate_slope(p) + p * Vector3::new(shape * p.y, shape * p.x, 0.0).transpose()
             })
             .mistake("twice the pull along p", |problem, p| {
-                let shape = shearbed::jeffery::shape_factor(problem.aspect_ratio);
+                let shape = shearbed::model::jeffery::shape_factor(problem.aspect_ratio);
                 problem.rate_slope(p) - p * Vector3::new(shape * p.y, shape * p.x, 0.0).transpose()
             })
             .mistake("a rod 1 % longer", |problem, p| {
@@ -170,7 +170,7 @@ fn eigenvalues(slope: &Slope, _: &Effort) -> Vec<Evidence> {
     for r in [1e-4, 0.1, 0.8, 1.01, 1.5, 2.0, 11.6, 1e4] {
         let problem = Problem::new(r, 1.0);
         let largest = |phi: f64, theta: f64| {
-            let p = shearbed::orientation::from_angles(phi, theta).into_inner();
+            let p = shearbed::model::orientation::from_angles(phi, theta).into_inner();
             let values = slope(&problem, &p).complex_eigenvalues();
             values.iter().map(|value| value.norm()).fold(0.0, larger)
         };

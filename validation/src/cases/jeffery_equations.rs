@@ -7,10 +7,11 @@ use crate::judge::statistics::larger;
 use crate::oracle::{closed_form, jeffery as printed};
 use crate::studies::integrators::apart_rad;
 use nalgebra::{Matrix3, Vector3};
-use shearbed::jeffery::{couette_rate, shape_factor};
-use shearbed::orientation;
+use shearbed::Observable;
+use shearbed::model::jeffery::{couette_rate, shape_factor};
+use shearbed::model::orientation;
+use shearbed::run::ensemble;
 use shearbed::scene::{Orientation, Scene};
-use shearbed::{Observable, ensemble};
 
 /// ṗ per unit of strain of a rod along p with the aspect ratio r, by the sign of G.
 type Rate = fn(&Vector3<f64>, f64, f64) -> Vector3<f64>;

@@ -8,10 +8,10 @@ use crate::judge::lab;
 use crate::judge::statistics::larger;
 use crate::studies::integrators::rk4;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
-use shearbed::flow::VelocityGradient;
+use shearbed::model::flow::VelocityGradient;
+use shearbed::model::orientation;
+use shearbed::motion::Propagator;
 use shearbed::observable::{Block, Observable, Sum};
-use shearbed::orientation;
-use shearbed::propagator::Propagator;
 
 pub fn cases() -> Vec<Case> {
     vec![

@@ -10,10 +10,10 @@ use crate::oracle::{closed_form, quadrature};
 use nalgebra::{Matrix3, SVector, UnitVector3, Vector3};
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, System};
-use shearbed::flow::VelocityGradient;
-use shearbed::orientation;
-use shearbed::phase::Phase;
-use shearbed::propagator::{self, Propagator};
+use shearbed::model::flow::VelocityGradient;
+use shearbed::model::orientation;
+use shearbed::model::phase::Phase;
+use shearbed::motion::{self, Propagator};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 
 /// The direction after a time in s, of a rod of some aspect ratio in some flow.
@@ -233,7 +233,7 @@ type Angle = fn(f64, f64) -> f64;
 
 /// That of a run: the propagator's map of a rod that starts along axis 1, and the angle that `mean_angle` averages.
 fn angle_in_a_run(r: f64, turns: f64) -> f64 {
-    let [p1, p2, _] = propagator::couette([1.0, 0.0, 0.0], r, Phase::of_turns(turns));
+    let [p1, p2, _] = motion::couette([1.0, 0.0, 0.0], r, Phase::of_turns(turns));
     orientation::folded_phi(p1, p2)
 }
 

@@ -2,8 +2,8 @@
 
 use crate::input::published::{SPH_ASPECT_RATIO, first_half_turn, sph_fibres};
 use crate::judge::case::{Case, Evidence};
-use shearbed::jeffery::strain_per_period;
-use shearbed::shape::spread;
+use shearbed::model::jeffery::strain_per_period;
+use shearbed::model::shape::spread;
 
 /// The least and the greatest strain of half a turn of a cylinder of this physical aspect ratio.
 type HalfTurn = fn(f64) -> (f64, f64);

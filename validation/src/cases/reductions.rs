@@ -3,8 +3,8 @@
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{self, per_replica};
 use crate::judge::statistics::{Sample, larger};
-use shearbed::ensemble::{self, Results};
 use shearbed::observable::Channel;
+use shearbed::run::ensemble::{self, Results};
 use shearbed::scene::Scene;
 
 /// How far each limit is taken.

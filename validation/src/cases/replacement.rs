@@ -8,7 +8,7 @@ use crate::oracle::naive::stream;
 use rand::RngExt;
 use rand_pcg::Pcg64Dxsm;
 use shearbed::Suspension;
-use shearbed::jeffery::strain_per_period;
+use shearbed::model::jeffery::strain_per_period;
 
 pub fn cases() -> Vec<Case> {
     vec![

@@ -5,7 +5,7 @@ use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{self, Shared};
 use crate::judge::statistics::Sample;
-use shearbed::jeffery::strain_per_period;
+use shearbed::model::jeffery::strain_per_period;
 use shearbed::observable::Channel;
 use shearbed::scene::Scene;
 

@@ -248,7 +248,7 @@ fn rest(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
         for r in [2.0, 11.6, 100.0] {
             let limit = theory::euler_turning(r);
             for k in 0..32 {
-                let start = shearbed::orientation::from_angles(PI * f64::from(k) / 32.0, FRAC_PI_2);
+                let start = shearbed::model::orientation::from_angles(PI * f64::from(k) / 32.0, FRAC_PI_2);
                 // The angle of the last of many steps, head or tail alike.
                 let last = |strain: f64| {
                     let steps = |steps: u64| {

@@ -1,7 +1,7 @@
 //! The built-in scenes: the paper's figures, one file each in `validation/scenes/`, declared once here.
 
 use shearbed::Scene;
-use shearbed::scene_file::{self, SceneError};
+use shearbed::scene::{self, SceneError};
 
 /// A scene that is part of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,7 +15,7 @@ pub struct BuiltIn {
 impl BuiltIn {
     /// Reads and checks the scene.
     pub fn scene(&self) -> Result<Scene, SceneError> {
-        scene_file::parse(&format!("{}.toml", self.name), self.text)
+        scene::parse(&format!("{}.toml", self.name), self.text)
     }
 }
 
@@ -84,7 +84,7 @@ mod tests {
             let mut scene = built_in.scene().unwrap();
             scene.ensemble.replicas = 2;
             scene.particles.count = scene.particles.count.min(100);
-            let results = shearbed::ensemble::run(&Plan::new(&scene).unwrap()).unwrap();
+            let results = shearbed::run::ensemble::run(&Plan::new(&scene).unwrap()).unwrap();
             let means = results.series.iter().flat_map(|s| &s.columns).flat_map(|c| &c.mean);
             assert!(means.into_iter().all(|mean| mean.is_finite()), "{}", built_in.name);
         }

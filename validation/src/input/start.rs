@@ -99,7 +99,7 @@ mod tests {
     fn of_a_file(count: usize, interacting: bool) -> Scene {
         let name = if interacting { "fig4-n50" } else { "extension" };
         let text = crate::input::scenes::find(name).unwrap().text;
-        let mut scene = shearbed::scene_file::parse("s", text).unwrap();
+        let mut scene = shearbed::scene::parse("s", text).unwrap();
         scene.particles.count = count;
         scene.particles.rods =
             Some(RodsFile { own: None, ..RodsFile::with("start.csv", OwnRods::default()) });

@@ -15,7 +15,7 @@ use crate::studies::work_precision::order::{self, Found};
 use crate::studies::work_precision::{export, tables};
 use serde::Serialize;
 use serde_json::json;
-use shearbed::jeffery::strain_per_period;
+use shearbed::model::jeffery::strain_per_period;
 use shearbed::plan::Stage;
 use shearbed::scene::{MAX_REPLICAS, resolved_strain};
 use shearbed::{Plan, Scene};

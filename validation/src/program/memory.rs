@@ -5,7 +5,8 @@ mod available;
 use super::{Failure, rods, tables, threads};
 use crate::studies::suspensions::job::{Job, Look};
 use available::available;
-use shearbed::{Plan, memory};
+use shearbed::Plan;
+use shearbed::run::memory;
 
 /// What the program takes beside its work, and what the allocator does not give back.
 const PROGRAM: u64 = 32 << 20;

@@ -1,7 +1,7 @@
 //! Results as pictures: each observable's means against time with 95 % bands.
 
 use crate::present::plot::{Curve, Figure};
-use shearbed::ensemble::{Column, Series};
+use shearbed::run::ensemble::{Column, Series};
 use shearbed::{Observable, Results, Scene};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 

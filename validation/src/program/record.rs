@@ -4,8 +4,8 @@ use super::facts::{Facts, warnings};
 use crate::files::build::{BUILD, Build};
 use crate::files::text::command;
 use serde::Serialize;
+use shearbed::model::work::Counters;
 use shearbed::plan::Entry;
-use shearbed::work::Counters;
 use shearbed::{Plan, Results, Scene};
 
 /// Wall times in seconds.

@@ -2,7 +2,7 @@
 
 use crate::files::output::Output;
 use shearbed::nalgebra::Vector3;
-use shearbed::snapshot::Snapshot;
+use shearbed::suspension::snapshot::Snapshot;
 use shearbed::{Plan, Results, Scene};
 use std::fmt::Write;
 

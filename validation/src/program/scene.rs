@@ -8,8 +8,9 @@ use crate::files::text::line;
 use crate::input::scenes;
 use crate::input::start::Starts;
 use crate::serve::sweep::{self, Axis, Setting};
+use shearbed::Scene;
+use shearbed::scene;
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
-use shearbed::{Scene, scene_file};
 use std::ffi::{OsStr, OsString};
 use std::io::Write;
 use std::path::Path;
@@ -108,7 +109,7 @@ pub(super) fn load(given: &OsStr) -> Result<Named, Failure> {
         return Ok(Named { scene, text, settings: Vec::new(), source, starts: Starts::default(), stem });
     }
     let text = read(path)?;
-    let mut scene = scene_file::parse(&source, &text).map_err(|error| Failure::Input(error.to_string()))?;
+    let mut scene = scene::parse(&source, &text).map_err(|error| Failure::Input(error.to_string()))?;
     let mut starts = Starts::beside(path.parent().unwrap_or(Path::new("")));
     starts.fill(&mut scene).map_err(|error| refused(&source, &error))?;
     let stem = path.file_stem().unwrap_or(given).to_string_lossy().into_owned();

@@ -1,7 +1,7 @@
 //! `shearbed shape`.
 
 use super::{Failure, print};
-use shearbed::shape::{ALLOWED, Correlation, FORMULAS, spread};
+use shearbed::model::shape::{ALLOWED, Correlation, FORMULAS, spread};
 
 /// Arguments of `shape`.
 #[derive(clap::Args)]

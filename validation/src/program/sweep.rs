@@ -9,7 +9,7 @@ use crate::files::output::{Author, Output};
 use crate::files::text;
 use crate::files::text::Shown;
 use crate::serve::sweep::{self, Axis, Folder, Identity, Point, Points};
-use shearbed::ensemble;
+use shearbed::run::ensemble;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `sweep`.

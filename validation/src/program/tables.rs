@@ -1,6 +1,6 @@
 //! Results as tables: CSV for files, a short one for the terminal.
 
-use shearbed::ensemble::{Column, Series};
+use shearbed::run::ensemble::{Column, Series};
 use shearbed::{Observable, Plan, Results};
 
 /// An observable's file: the time, also in s and as strain, then each channel with its standard error. Every number is

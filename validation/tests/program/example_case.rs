@@ -10,7 +10,7 @@ pub fn cases() -> Vec<Case> {
             .claim("The core's period is T = 2π(r_e + 1/r_e)/G.")
             .source("eq. 15")
             .equations(&["15"])
-            .subject(shearbed::jeffery::period_s as Period)
+            .subject(shearbed::model::jeffery::period_s as Period)
             .mistake("r_e − 1/r_e", |g, r| std::f64::consts::TAU * (r - 1.0 / r) / g)
             .check(period),
     ]

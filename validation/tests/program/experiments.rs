@@ -4,7 +4,8 @@
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;
-use shearbed::{Plan, ensemble};
+use shearbed::Plan;
+use shearbed::run::ensemble;
 use std::fs;
 use std::path::Path;
 use std::process::Command;

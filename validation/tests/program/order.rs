@@ -1,4 +1,4 @@
-//! The suite's wings need each other one way, in the order of `lib.rs`, and the architecture's page names each.
+//! The wings of the core and of the suite need each other one way, in the order of `lib.rs`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -40,19 +40,21 @@ fn later<'a>(order: &[&str], module: &str, source: &'a str) -> Vec<&'a str> {
 
 #[test]
 fn no_wing_needs_one_that_is_declared_after_it() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let lib = fs::read_to_string(root.join("lib.rs")).unwrap();
-    let order = declared(&lib);
-    assert_eq!(order.len(), 8, "{order:?}");
-    for wing in &order {
-        let sources = sources(&root.join(wing));
-        assert!(!sources.is_empty());
-        for path in sources {
-            let text = fs::read_to_string(&path).unwrap();
-            assert_eq!(later(&order, wing, &text), [""; 0], "{}", path.display());
+    for (folder, wings) in [("src", 8), ("../src", 7)] {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+        let lib = fs::read_to_string(root.join("lib.rs")).unwrap();
+        let order = declared(&lib);
+        assert_eq!(order.len(), wings, "{order:?}");
+        for wing in &order {
+            let sources = sources(&root.join(wing));
+            assert!(!sources.is_empty());
+            for path in sources {
+                let text = fs::read_to_string(&path).unwrap();
+                assert_eq!(later(&order, wing, &text), [""; 0], "{}", path.display());
+            }
         }
     }
     // One that needs a wing above it is found.
     let wrong = "use crate::files::text;\nuse crate::program::run;\n#[cfg(test)]\nmod tests {}";
-    assert_eq!(later(&order, "judge", wrong), ["program"]);
+    assert_eq!(later(&["files", "judge", "program"], "judge", wrong), ["program"]);
 }

@@ -70,7 +70,7 @@ fn the_scene_in_run_json_gives_the_same_bits() {
     let scene: shearbed::Scene = serde_json::from_value(record["scene"].clone()).unwrap();
     let plan = shearbed::Plan::new(&scene).unwrap();
     assert_eq!(record["plan_text"], plan.to_string());
-    let results = shearbed::ensemble::run(&plan).unwrap();
+    let results = shearbed::run::ensemble::run(&plan).unwrap();
     assert_eq!(record["counters"]["collisions"], results.counters.collisions);
     // Every number of the tables reads back as the same bits.
     for series in &results.series {

@@ -3,9 +3,9 @@
 use crate::judge::case::Effort;
 use crate::judge::lab;
 use nalgebra::{UnitVector3, Vector3};
-use shearbed::collision::share_velocity;
-use shearbed::contact::contact;
-use shearbed::jeffery::{couette_rate, shape_factor, strain_per_period};
+use shearbed::model::collision::share_velocity;
+use shearbed::model::contact::contact;
+use shearbed::model::jeffery::{couette_rate, shape_factor, strain_per_period};
 use shearbed::scene::Scene;
 
 /// Two rods put down by hand.

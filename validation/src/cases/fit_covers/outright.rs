@@ -12,7 +12,7 @@ use crate::serve::fit::emulator::{Coefficients, Emulator, coefficients};
 use crate::serve::fit::scenes::AS_WRITTEN;
 use crate::serve::fit::search::{Measured, fitted};
 use nalgebra::{DMatrix, DVector};
-use shearbed::jeffery::strain_per_period;
+use shearbed::model::jeffery::strain_per_period;
 
 const RANGE: &str = "particles.aspect_ratio=11.1:11.6";
 /// The rods' r_e, and its place between the ends of the range, −1 and 1.

@@ -4,9 +4,10 @@
 use crate::judge::case::{Effort, Evidence};
 use crate::judge::lab;
 use crate::oracle::exponential::{Rod, Span};
-use shearbed::orientation::from_degrees;
+use shearbed::model::orientation::from_degrees;
+use shearbed::run::ensemble;
 use shearbed::scene::{Orientation, Scene};
-use shearbed::{Observable, Plan, ensemble};
+use shearbed::{Observable, Plan};
 
 /// Runs a scene of one rod: |p_i| at its end and the bound on its error, `None` where it is refused.
 pub type Run = fn(&Scene) -> Option<([f64; 3], f64)>;

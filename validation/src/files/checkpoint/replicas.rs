@@ -7,10 +7,10 @@ use super::{Checkpoint, Refused, on_stop, stays};
 use crate::files::output::OutputError;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
-use shearbed::ensemble::Tally;
-use shearbed::resume::Halfway;
+use shearbed::run::ensemble::Tally;
+use shearbed::run::resume::Halfway;
 use shearbed::run::{Replica, go_on};
-use shearbed::work::RunError;
+use shearbed::suspension::RunError;
 use shearbed::{Plan, Results};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -141,7 +141,7 @@ impl Replicas {
 
     /// Runs what is left. `finished` is called after each replica; `saved` after each checkpoint with something new, the last
     /// one at the end of the run, or with the reason why it could not be written: the run ends after that call. The results are
-    /// the bits of [`shearbed::ensemble::run`].
+    /// the bits of [`shearbed::run::ensemble::run`].
     pub fn run(
         &self,
         threads: usize,

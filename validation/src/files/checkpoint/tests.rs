@@ -116,9 +116,9 @@ fn one_process_at_a_time_and_files_alone() {
 /// As a checkpoint of a run has it.
 #[derive(serde::Serialize)]
 struct Kept {
-    tally: shearbed::ensemble::Tally,
+    tally: shearbed::run::ensemble::Tally,
     done: std::collections::BTreeMap<u64, shearbed::run::Replica>,
-    halfway: std::collections::BTreeMap<u64, shearbed::resume::Halfway>,
+    halfway: std::collections::BTreeMap<u64, shearbed::run::resume::Halfway>,
 }
 
 /// Replica 0 is added up, 2 waits for its turn, 3 is halfway.
@@ -132,7 +132,7 @@ fn nothing_that_is_done_is_run_again() {
     scene.ensemble.replicas = 6;
     scene.time.periods = Some(0.5);
     let plan = lab::plan(&scene);
-    let mut tally = shearbed::ensemble::Tally::new(&plan);
+    let mut tally = shearbed::run::ensemble::Tally::new(&plan);
     tally.add(run_replica(&plan, 0).unwrap());
     let mut looks = 0;
     let mut halfway = Vec::new();
@@ -146,7 +146,7 @@ fn nothing_that_is_done_is_run_again() {
         done: [(2, run_replica(&plan, 2).unwrap())].into(),
         halfway: [(3, halfway.remove(0))].into(),
     };
-    let expected = shearbed::ensemble::run(&plan).unwrap();
+    let expected = shearbed::run::ensemble::run(&plan).unwrap();
     for threads in [1, 2, 4, 9] {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("kept");

@@ -1,11 +1,12 @@
 //! The replicas of one scene over ranks.
 
 use super::{share, size};
-use shearbed::work::RunError;
-use shearbed::{Plan, Results, ensemble};
+use shearbed::run::ensemble;
+use shearbed::suspension::RunError;
+use shearbed::{Plan, Results};
 
 /// Runs every replica of a plan, each rank its part of them on the threads of the current rayon pool; `finished` is
-/// called after each replica of this rank. On the root the results, bit for bit those of [`shearbed::ensemble::run`];
+/// called after each replica of this rank. On the root the results, bit for bit those of [`shearbed::run::ensemble::run`];
 /// elsewhere none.
 pub fn ensemble(plan: &Plan, finished: impl Fn() + Sync) -> Result<Option<Results>, RunError> {
     let mut root = true;

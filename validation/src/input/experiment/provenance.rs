@@ -1,7 +1,8 @@
 //! Where measured points come from: what the TOML file beside each CSV file says.
 
 use serde::Serialize;
-use shearbed::{Scene, jeffery};
+use shearbed::Scene;
+use shearbed::model::jeffery;
 
 /// How the CSV file is laid out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

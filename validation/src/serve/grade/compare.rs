@@ -4,8 +4,8 @@ use super::answer::Answer;
 use crate::serve::problems::{LoadedProblem, Metric};
 use crate::studies::integrators::apart_rad;
 use nalgebra::{Matrix3, Vector3};
-use shearbed::flow::VelocityGradient;
-use shearbed::{jeffery, orientation};
+use shearbed::model::flow::VelocityGradient;
+use shearbed::model::{jeffery, orientation};
 use std::f64::consts::{PI, TAU};
 
 /// What an answer comes to.

@@ -5,7 +5,7 @@ use crate::present::plot::{Curve, Figure};
 use crate::serve::problems::{Kind, LoadedProblem};
 use crate::studies::integrators::{self, Integrator, Problem, Setting, Theory};
 use nalgebra::{Matrix3, UnitVector3, Vector3};
-use shearbed::flow::VelocityGradient;
+use shearbed::model::flow::VelocityGradient;
 use std::f64::consts::TAU;
 
 /// More steps than this are not taken by the project's own integrators: they draw a background.

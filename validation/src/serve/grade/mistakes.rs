@@ -5,8 +5,8 @@
 mod physical;
 
 use nalgebra::{Matrix3, Vector3};
-use shearbed::flow::VelocityGradient;
-use shearbed::propagator::{Propagator, Span};
+use shearbed::model::flow::VelocityGradient;
+use shearbed::motion::{Propagator, Span};
 
 /// What a free rod moves in.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,7 +8,8 @@ pub use axis::{Axis, MAX_POINTS, Setting, shown};
 pub use folder::{Folder, Identity, POINT, Points};
 
 use crate::input::start::Starts;
-use shearbed::{Plan, Scene, scene_file};
+use shearbed::scene;
+use shearbed::{Plan, Scene};
 use toml::{Table, Value};
 
 /// A point of the grid.
@@ -103,7 +104,7 @@ fn with<'a>(base: &Table, settings: impl Iterator<Item = (&'a str, Value)>) -> R
     }
     let text = toml::to_string(&table).map_err(|error| error.to_string())?;
     // The lines of this text are nobody's.
-    scene_file::parse("", &text).map_err(|error| {
+    scene::parse("", &text).map_err(|error| {
         let messages: Vec<_> = (error.problems.into_iter()).map(|problem| problem.message).collect();
         messages.join("; ")
     })

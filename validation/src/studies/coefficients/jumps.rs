@@ -16,8 +16,8 @@ use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
-use shearbed::jeffery::{shape_factor, strain_per_period};
-use shearbed::orientation::bounded_orbit_constant;
+use shearbed::model::jeffery::{shape_factor, strain_per_period};
+use shearbed::model::orientation::bounded_orbit_constant;
 use shearbed::scene::Scene;
 use std::f64::consts::FRAC_PI_2;
 

@@ -8,7 +8,7 @@ use crate::studies::readings::damping_rate;
 use nalgebra::Matrix3;
 use serde::Serialize;
 use shearbed::Observable;
-use shearbed::jeffery::{shape_factor, strain_per_period};
+use shearbed::model::jeffery::{shape_factor, strain_per_period};
 use shearbed::observable::Channel;
 use shearbed::scene::Scene;
 

@@ -7,7 +7,8 @@ use crate::present::plot::Curve;
 use crate::present::study::ScenePlan;
 use shearbed::observable::Channel;
 use shearbed::run::Replica;
-use shearbed::{Plan, Scene, ensemble};
+use shearbed::run::ensemble;
+use shearbed::{Plan, Scene};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

@@ -2,8 +2,8 @@
 
 use super::{Failure, Integrator, Problem, Setting, Theory};
 use nalgebra::{UnitVector3, Vector3};
-use shearbed::phase::Phase;
-use shearbed::propagator::couette;
+use shearbed::model::phase::Phase;
+use shearbed::motion::couette;
 use std::f64::consts::{PI, TAU};
 
 /// The core's propagator: p = q/|q| with q linear in p(0).

@@ -17,7 +17,7 @@ use crate::oracle::kicks::chance_of_pair;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use shearbed::Suspension;
-use shearbed::jeffery::strain_per_period;
+use shearbed::model::jeffery::strain_per_period;
 use shearbed::scene::Scene;
 use shearbed::suspension::Collision;
 use std::ops::Range;

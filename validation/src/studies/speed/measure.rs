@@ -10,8 +10,9 @@ use crate::oracle::naive::{Naive, Problem};
 use naive::against_naive;
 use rayon::prelude::*;
 use shearbed::run::run_replica;
+use shearbed::run::{ensemble, memory};
 use shearbed::scene::Scene;
-use shearbed::{Plan, Suspension, ensemble, memory};
+use shearbed::{Plan, Suspension};
 use std::hint::black_box;
 use std::time::Instant;
 

@@ -3,8 +3,8 @@
 use super::map;
 use crate::judge::statistics::larger;
 use nalgebra::{UnitVector3, Vector3};
-use shearbed::flow::VelocityGradient;
-use shearbed::propagator::Propagator;
+use shearbed::model::flow::VelocityGradient;
+use shearbed::motion::Propagator;
 
 /// The direction after a number of turns, of a rod of aspect ratio r at the shear rate G.
 pub type Motion = dyn Fn(f64, f64, &UnitVector3<f64>, f64) -> Vector3<f64>;

@@ -112,8 +112,10 @@ pub fn holds(subject: &dyn Integrator, property: Property, aspect_ratio: f64, st
         }
         Property::Solvable => (0..=64).all(|i| {
             (0..=16).all(|j| {
-                let p =
-                    shearbed::orientation::from_angles(PI * f64::from(i) / 64.0, PI * f64::from(j) / 16.0);
+                let p = shearbed::model::orientation::from_angles(
+                    PI * f64::from(i) / 64.0,
+                    PI * f64::from(j) / 16.0,
+                );
                 let end = subject.advance(&one_step(aspect_ratio, strain), &p, one(subject));
                 end.is_ok_and(|p| p.iter().all(|component| component.is_finite()))
             })

@@ -8,7 +8,7 @@ use super::theory::THEORIES;
 use crate::present::plot::{Map, decade, power_of_ten};
 use crate::present::study::ReportFigure;
 use crate::studies::integrators::{Integrator, Setting, Theory};
-use shearbed::jeffery::strain_per_period;
+use shearbed::model::jeffery::strain_per_period;
 
 /// Steps that a run of the maps over steps and over starts may take; ten times as many over durations.
 pub const MOST_STEPS: u64 = 20_000;

@@ -8,8 +8,8 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 use serde::Serialize;
-use shearbed::phase::Phase;
-use shearbed::propagator::couette;
+use shearbed::model::phase::Phase;
+use shearbed::motion::couette;
 use statrs::distribution::{ContinuousCDF, Normal};
 
 /// The errors of X̄₁ for which the cheapest start is sought.

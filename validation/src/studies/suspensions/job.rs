@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use shearbed::orientation::bounded_orbit_constant;
+use shearbed::model::orientation::bounded_orbit_constant;
 use shearbed::{Plan, Scene, Suspension};
 
 /// Where distribution functions are looked at: 0.1, 0.2, … 0.9.

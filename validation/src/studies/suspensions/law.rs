@@ -9,7 +9,7 @@ use super::{Estimate, correlation};
 use crate::studies::integrators::apart_rad;
 use nalgebra::Vector3;
 use serde::Serialize;
-use shearbed::jeffery::strain_per_period;
+use shearbed::model::jeffery::strain_per_period;
 use shearbed::{Plan, Scene};
 
 /// Steps per period that are tried.

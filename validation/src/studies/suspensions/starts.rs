@@ -5,7 +5,7 @@ use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;
-use shearbed::orientation::isotropic;
+use shearbed::model::orientation::isotropic;
 
 /// A rod: its direction, and the quantile of its aspect ratio in (0, 1).
 #[derive(Clone, Copy, Debug, PartialEq)]

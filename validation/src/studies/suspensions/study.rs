@@ -8,7 +8,7 @@ use super::split::{self, Constants, Realised, Scope, Split, TARGETS};
 use crate::input::scenes;
 use crate::studies::work_precision::{Budget, measure};
 use serde::Serialize;
-use shearbed::jeffery::strain_per_period;
+use shearbed::model::jeffery::strain_per_period;
 
 /// The built-in scene that is studied: the paper's Fig. 7, rods of one size.
 pub const SCENE: &str = "fig7-n50";

@@ -1,0 +1,241 @@
+//! When two rods collide and what a collision does (eqs 5 to 10, A.7 to A.14).
+
+use crate::model::contact::Contact;
+use crate::model::orientation::{angles, from_angles};
+use nalgebra::{UnitVector3, Vector3};
+
+/// The reach s*/a = α(R^{−1/m} − 1) in rod lengths, where P_c = (α/(s/a + α))^m is R (eq. 7; eq. 10 with m = 3): P_c > R
+/// is the same as s < s* (eqs 8 and 9). α > 0 and m > 0 are real. Infinite for R = 0.
+#[inline]
+pub fn reach(r: f64, alpha: f64, m: f64) -> f64 {
+    alpha * libm::expm1(-libm::log(r) / m)
+}
+
+/// The reach of eqs 8 and 9 for given α and m, with a bound on it that costs no logarithm.
+///
+/// ```
+/// let reach = shearbed::model::collision::Reach::new(0.5, 3.0);
+/// assert!((reach.of(0.125) - 0.5).abs() < 1e-15); // P_c = 1/8 at s = α
+/// ```
+#[derive(Clone, Debug)]
+pub struct Reach {
+    alpha: f64,
+    m: f64,
+    /// s*(k/BINS), not below s* of any R in the bin.
+    bounds: Vec<f64>,
+}
+
+const BINS: usize = 256;
+
+impl Reach {
+    /// The reach for α > 0 and m > 0.
+    pub fn new(alpha: f64, m: f64) -> Self {
+        // s* falls with R. The slack covers a logarithm that is not monotonic in its last digits.
+        let bound = |bin: usize| reach(bin as f64 / BINS as f64, alpha, m) * (1.0 + 1e-12);
+        Self { alpha, m, bounds: (0..BINS).map(bound).collect() }
+    }
+
+    /// s*(R) in rod lengths, for R in [0, 1).
+    pub fn of(&self, r: f64) -> f64 {
+        reach(r, self.alpha, self.m)
+    }
+
+    /// A number not below s*(R), for R in [0, 1): s* itself where a bound would be loose.
+    #[inline]
+    pub fn bound(&self, r: f64) -> f64 {
+        match (r * BINS as f64) as usize {
+            0 => self.of(r),
+            bin => self.bounds[bin],
+        }
+    }
+}
+
+/// The direction rates ṗ′ of both rods after a collision, from those before it (eqs 5 and 6, A.7 to A.12).
+///
+/// `relative_velocity` is u(x_B) − u(x_A), `rates` are ṗ_A and ṗ_B; all in one unit of length and time. The
+/// contact points' velocities along ℓ become their mean; what is normal to ℓ stays. As ℓ is normal to both
+/// rods, only ṗ·ℓ changes: ṗ′_A = ṗ_A + ℓ (v̄ − v_A)/r_A.
+pub fn share_velocity(
+    contact: &Contact,
+    relative_velocity: &Vector3<f64>,
+    rates: [Vector3<f64>; 2],
+) -> [Vector3<f64>; 2] {
+    let line = contact.line.as_ref();
+    let [arm_a, arm_b] = contact.arms;
+    let gap = line.dot(relative_velocity) + arm_b * line.dot(&rates[1]) - arm_a * line.dot(&rates[0]);
+    [rates[0] + line * (0.5 * gap / arm_a), rates[1] - line * (0.5 * gap / arm_b)]
+}
+
+/// (φ̇′, θ̇′) of a rod with direction `p` whose direction moves at `rate` = V̂′_r/r (A.13, corrected:
+/// the printed φ̇′ lacks 1/sin θ, and in the printed θ̇′ sin θ and cos θ are exchanged).
+pub fn angle_rates(p: &UnitVector3<f64>, rate: &Vector3<f64>) -> (f64, f64) {
+    let (phi, theta) = angles(p);
+    let (sin_phi, cos_phi) = libm::sincos(phi);
+    let (sin_theta, cos_theta) = libm::sincos(theta);
+    (
+        (-rate.x * sin_phi + rate.y * cos_phi) / sin_theta,
+        rate.x * cos_theta * cos_phi + rate.y * cos_theta * sin_phi - rate.z * sin_theta,
+    )
+}
+
+/// The direction after turning for `time` at the angular velocity p × `rate`, and the angle turned in rad:
+/// A.14 without its pole.
+pub fn turn(p: &UnitVector3<f64>, rate: &Vector3<f64>, time: f64) -> (UnitVector3<f64>, f64) {
+    let speed = norm(rate);
+    if speed == 0.0 {
+        return (*p, 0.0);
+    }
+    let angle = speed * time;
+    let (sin, cos) = libm::sincos(angle);
+    let turned = p.as_ref() * cos + rate * (sin / speed);
+    (UnitVector3::new_normalize(turned), angle)
+}
+
+/// The direction after A.14 to the letter: φ′ = φ + φ̇′Δt, θ′ = θ + θ̇′Δt, and the angle |ṗ′|Δt in rad.
+///
+/// At the pole, where φ has no value, the rod turns as in [`turn`].
+pub fn step_angles(p: &UnitVector3<f64>, rate: &Vector3<f64>, time: f64) -> (UnitVector3<f64>, f64) {
+    if p.x == 0.0 && p.y == 0.0 {
+        return turn(p, rate, time);
+    }
+    let (phi, theta) = angles(p);
+    let (phi_rate, theta_rate) = angle_rates(p, rate);
+    let stepped = from_angles(phi + phi_rate * time, theta + theta_rate * time);
+    (stepped, norm(rate) * time)
+}
+
+/// Where a rod is that moved freely from `p` to `end` in the step and is turned besides by the `change` of its rate: about p × change
+/// by |change|·time.
+pub fn kick(end: &Vector3<f64>, p: &Vector3<f64>, change: &Vector3<f64>, time: f64) -> UnitVector3<f64> {
+    let speed = norm(change);
+    if speed == 0.0 {
+        return UnitVector3::new_normalize(*end);
+    }
+    let (sin, cos) = libm::sincos(speed * time);
+    // A change of rate is normal to p, so this has length 1 to round-off.
+    let axis = p.cross(&(change / speed)).normalize();
+    // Rodrigues' formula.
+    let turned = end * cos + axis.cross(end) * sin + axis * (axis.dot(end) * (1.0 - cos));
+    UnitVector3::new_normalize(turned)
+}
+
+/// |v| without overflow in the squares: a kick ∝ 1/r has no bound.
+pub(crate) fn norm(v: &Vector3<f64>) -> f64 {
+    let largest = v.amax();
+    if largest > 0.0 && largest.is_finite() { largest * (v / largest).norm() } else { largest }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn the_reach_inverts_the_probability() {
+        let probability = |distance: f64, alpha: f64, m: f64| (alpha / (distance + alpha)).powf(m);
+        // By hand: P_c = 1/8 at s = α for m = 3, and R = 1 reaches nothing.
+        assert_relative_eq!(reach(0.125, 0.5, 3.0), 0.5, max_relative = 1e-15);
+        assert_eq!(reach(1.0, 0.5, 3.0), 0.0);
+        for (alpha, m) in [(0.5, 3.0), (0.01, 0.1), (7.0, 50.0), (0.3, 1.7)] {
+            for r in [1e-3, 0.1, 0.5, 0.999] {
+                assert_relative_eq!(probability(reach(r, alpha, m), alpha, m), r, max_relative = 1e-12);
+            }
+        }
+        assert_eq!(reach(0.0, 0.5, 3.0), f64::INFINITY);
+    }
+
+    #[test]
+    fn the_bound_is_above_the_reach_and_not_far() {
+        for (alpha, m) in [(0.5, 3.0), (1e-6, 0.1), (7.0, 50.0)] {
+            let table = Reach::new(alpha, m);
+            for r in (0..10_000).map(|k| f64::from(k) / 10_000.0) {
+                let (reach, bound) = (table.of(r), table.bound(r));
+                assert!(bound >= reach, "{r}: {bound} < {reach}");
+                let next = reach_of_previous_bin(r, alpha, m);
+                assert!(bound <= next * (1.0 + 1e-11), "{r}: {bound} > {next}");
+            }
+        }
+    }
+
+    fn reach_of_previous_bin(r: f64, alpha: f64, m: f64) -> f64 {
+        reach((r - 1.0 / BINS as f64).max(0.0), alpha, m)
+    }
+
+    #[test]
+    fn a_collision_worked_by_hand() {
+        // A along axis 1 and B along axis 2 pass with arms 2 and −3; ℓ is axis 3. Only the liquid moves:
+        // B's point at 10 along ℓ, A's at 0. Both get 5: A turns at 5/2, B at −5/−3.
+        let contact = Contact { line: Vector3::z_axis(), arms: [2.0, -3.0] };
+        let [a, b] = share_velocity(&contact, &Vector3::new(1.0, 1.0, 10.0), [Vector3::zeros(); 2]);
+        assert_relative_eq!(a, Vector3::new(0.0, 0.0, 2.5));
+        assert_relative_eq!(b, Vector3::new(0.0, 0.0, 5.0 / 3.0), max_relative = 1e-15);
+    }
+
+    #[test]
+    fn turning_is_by_the_angle_and_towards_the_rate() {
+        let (p, angle) = turn(&Vector3::x_axis(), &Vector3::new(0.0, 2.0, 0.0), 0.25);
+        assert_eq!(angle, 0.5);
+        assert_relative_eq!(
+            p.into_inner(),
+            Vector3::new(0.5f64.cos(), 0.5f64.sin(), 0.0),
+            max_relative = 1e-15
+        );
+        let (p, angle) = turn(&Vector3::x_axis(), &Vector3::new(0.0, 1e300, 0.0), 1.0);
+        assert!((p.norm() - 1.0).abs() < 1e-15 && angle == 1e300);
+    }
+
+    #[test]
+    fn a_kick_turns_the_end_of_a_free_step() {
+        let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
+        // About x × y = z by 0.5: x goes towards y, and z stays.
+        let of = |end: Vector3<f64>| kick(&end, &x, &(2.0 * y), 0.25).into_inner();
+        let (sin, cos) = 0.5f64.sin_cos();
+        assert_relative_eq!(of(x), Vector3::new(cos, sin, 0.0), max_relative = 1e-15);
+        assert_relative_eq!(of(y), Vector3::new(-sin, cos, 0.0), max_relative = 1e-15);
+        assert_relative_eq!(of(z), z);
+        assert_eq!(kick(&y, &x, &Vector3::zeros(), 0.25), Vector3::y_axis());
+        // A rod that did not move by itself turns as by its whole rate.
+        let (turned, _) = turn(&Vector3::x_axis(), &(2.0 * y), 0.25);
+        assert_relative_eq!(of(x), turned.into_inner(), max_relative = 1e-15);
+    }
+
+    #[test]
+    fn a_length_is_known_from_nothing_to_infinity() {
+        assert_eq!(norm(&Vector3::zeros()), 0.0);
+        assert_eq!(norm(&Vector3::new(0.0, f64::INFINITY, 1.0)), f64::INFINITY);
+        assert_relative_eq!(norm(&Vector3::new(3e300, -4e300, 0.0)), 5e300, max_relative = 1e-15);
+        // A rod that nothing turns stays where it is.
+        assert_eq!(turn(&Vector3::x_axis(), &Vector3::zeros(), 1.0), (Vector3::x_axis(), 0.0));
+    }
+
+    #[test]
+    fn a_step_of_the_angles_is_by_their_rates_but_at_the_pole() {
+        let rate = Vector3::new(0.6, 0.0, 0.0);
+        assert_eq!(step_angles(&Vector3::z_axis(), &rate, 0.5), turn(&Vector3::z_axis(), &rate, 0.5));
+        // By hand, where one of p_1 and p_2 is 0 and θ̇ = 0: φ̇ = −ṗ_1/sin θ at φ = 90°, ṗ_2/sin θ at φ = 0.
+        for (phi, rate, phi_rate) in [
+            (std::f64::consts::FRAC_PI_2, Vector3::new(0.6, 0.0, 0.0), -0.6 / 0.4f64.sin()),
+            (0.0, Vector3::new(0.0, 0.6, 0.0), 0.6 / 0.4f64.sin()),
+        ] {
+            let mut p = from_angles(phi, 0.4).into_inner();
+            // To the last digit in the plane.
+            p.iter_mut().filter(|x| x.abs() < 1e-15).for_each(|x| *x = 0.0);
+            let (stepped, angle) = step_angles(&UnitVector3::new_unchecked(p), &rate, 0.5);
+            let expected = from_angles(phi + 0.5 * phi_rate, 0.4);
+            assert_relative_eq!(stepped.into_inner(), expected.into_inner(), max_relative = 1e-14);
+            assert_relative_eq!(angle, 0.3, max_relative = 1e-15);
+        }
+    }
+
+    #[test]
+    fn both_updates_agree_over_a_short_step() {
+        let p = from_angles(0.4, 1.1);
+        let rate = Vector3::new(0.3, -0.8, 0.5).cross(&p);
+        let dt = 1e-4;
+        let apart = turn(&p, &rate, dt).0.into_inner() - step_angles(&p, &rate, dt).0.into_inner();
+        assert!(apart.norm() < 1e-7);
+        let apart =
+            turn(&p, &rate, 10.0 * dt).0.into_inner() - step_angles(&p, &rate, 10.0 * dt).0.into_inner();
+        assert!(apart.norm() > 1e-9, "they are different updates");
+    }
+}

@@ -1,0 +1,74 @@
+//! Jeffery's motion of a free spheroid: shape factor, period, and the rate at which a direction turns.
+//!
+//! Jeffery (1922) as printed in the appendix of Lee & Springer (1982). Nothing here takes a step: the exact
+//! motion over a finite time is in [`crate::motion`].
+
+use nalgebra::{Matrix3, Vector3};
+use std::f64::consts::TAU;
+
+/// Λ = (r_e² − 1)/(r_e² + 1): 1 for a thread, 0 for a sphere, −1 for a disc.
+pub fn shape_factor(aspect_ratio: f64) -> f64 {
+    // In r and 1/r, which do not overflow; the difference of squares keeps the digits near r = 1.
+    let inverse = 1.0 / aspect_ratio;
+    (aspect_ratio - inverse) / (aspect_ratio + inverse)
+}
+
+/// The period T = 2π(r_e + 1/r_e)/|G| of a rod in plane Couette flow, in s (eq. 15, A.6).
+pub fn period_s(shear_rate_per_s: f64, aspect_ratio: f64) -> f64 {
+    strain_per_period(aspect_ratio) / shear_rate_per_s.abs()
+}
+
+/// The shear strain |G|T = 2π(r_e + 1/r_e) in one period of a rod in plane Couette flow (eq. 15, A.6).
+pub fn strain_per_period(aspect_ratio: f64) -> f64 {
+    TAU * (aspect_ratio + 1.0 / aspect_ratio)
+}
+
+/// ṗ = ω × p per unit of strain in plane Couette flow u_2 = ±x_1 (`sign` of G) at Λ = `shape_factor`: A.1 for the
+/// direction alone, without the spin about it, and with A.2 and A.3 the rates of its angles.
+pub fn couette_rate(p: &Vector3<f64>, shape_factor: f64, sign: f64) -> Vector3<f64> {
+    let (half, stretch) = (0.5 * sign, shape_factor * sign * p.x * p.y);
+    Vector3::new(
+        half * (shape_factor - 1.0) * p.y - stretch * p.x,
+        half * (shape_factor + 1.0) * p.x - stretch * p.y,
+        -stretch * p.z,
+    )
+}
+
+/// ṗ = W·p + Λ(D·p − p p·D·p) in a liquid with this gradient, in its unit of time.
+pub fn rate(gradient: &Matrix3<f64>, p: &Vector3<f64>, shape_factor: f64) -> Vector3<f64> {
+    let (along, across) = (gradient * p, gradient.tr_mul(p));
+    let stretch = 0.5 * shape_factor * (along + across);
+    0.5 * (along - across) + stretch - p * p.dot(&stretch)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::flow::VelocityGradient;
+    use crate::model::orientation;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(crate::fixed_seed(256))]
+
+        #[test]
+        fn the_rates_are_those_of_the_tensors(
+            phi in 0.0f64..6.2, theta in 0.1f64..3.0, r in 0.1f64..50.0, rows in prop::array::uniform9(-1.0f64..1.0)
+        ) {
+            let (p, factor) = (orientation::from_angles(phi, theta).into_inner(), shape_factor(r));
+            for flow in [
+                VelocityGradient::plane_couette(1.0).unwrap(),
+                VelocityGradient::plane_couette(-1.0).unwrap(),
+                VelocityGradient::new(Matrix3::from_row_slice(&rows)).unwrap(),
+            ] {
+                let stretch = flow.strain_rate() * p;
+                let expected = flow.vorticity() * p + factor * (stretch - p * p.dot(&stretch));
+                let found = rate(flow.per_s(), &p, factor);
+                prop_assert!((found - expected).norm() < 3e-15 && found.dot(&p).abs() < 3e-15);
+                if let Some(sign) = flow.shear_rate_per_s() {
+                    prop_assert!((couette_rate(&p, factor, sign) - expected).norm() < 1e-15);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! The physics of the paper, each formula in a plain function: flow, directions, Jeffery's equation, contacts and collisions,
+//! the control volume, nearest neighbours, random numbers. Nothing here knows a scene.
+
+pub(crate) mod chunks;
+pub mod collision;
+pub mod contact;
+pub mod flow;
+pub(crate) mod gaussian;
+pub mod jeffery;
+pub mod neighbours;
+pub mod orientation;
+pub mod phase;
+pub mod random;
+pub mod shape;
+pub mod volume;
+pub mod work;

@@ -1,0 +1,104 @@
+//! Nearest neighbours of a few rods, by looking at all pairs.
+
+use super::Nearest;
+use crate::model::work::Counters;
+
+/// Tells rods that have somebody near from those that have not, over all pairs, in whole numbers of a small unit.
+///
+/// The buffers are kept from step to step.
+#[derive(Clone, Debug)]
+pub(super) struct Pairs {
+    /// Units per length.
+    per_length: f64,
+    /// The rods' coordinates in units, twice over: the partner `k` places on is a slice.
+    units: [Vec<i16>; 3],
+    /// The least distance, in the largest of its three components, to the partners ahead and behind.
+    ahead: Vec<i16>,
+    behind: Vec<i16>,
+}
+
+impl Pairs {
+    pub fn new(sides: [f64; 3]) -> Self {
+        Self {
+            per_length: f64::from(i16::MAX) / sides.into_iter().fold(0.0, f64::max),
+            units: [const { Vec::new() }; 3],
+            ahead: Vec::new(),
+            behind: Vec::new(),
+        }
+    }
+
+    /// As [`super::Neighbours::each_nearest`], in the order of rods.
+    pub fn each_nearest(
+        &mut self,
+        positions: &[Vec<f64>; 3],
+        reach: impl Fn(usize) -> f64,
+        work: &mut Counters,
+        mut found: impl FnMut(Nearest),
+    ) {
+        let count = positions[0].len();
+        self.find_least(positions);
+        work.pairs_screened += (self.ahead.len() * (count / 2)) as u64;
+        for rod in 0..count {
+            let least = self.ahead[rod].min(self.behind[rod]).min(self.behind[rod + count]);
+            let reach = reach(rod);
+            // Both coordinates were rounded down: the difference is off by less than one unit.
+            if f64::from(least) > reach * self.per_length + 1.0 {
+                continue;
+            }
+            work.distances += count as u64;
+            if let Some(nearest) = nearest(positions, rod, reach) {
+                found(nearest);
+            }
+        }
+    }
+
+    fn find_least(&mut self, positions: &[Vec<f64>; 3]) {
+        let count = positions[0].len();
+        // Whole lanes: the rods beyond the last are the first again.
+        let whole = count.next_multiple_of(LANES);
+        for (units, x) in self.units.iter_mut().zip(positions) {
+            units.clear();
+            units.extend(x.iter().map(|x| ((x * self.per_length) as i16).max(0)));
+            while units.len() < whole + count {
+                units.extend_from_within(..count);
+            }
+        }
+        self.ahead.clear();
+        self.ahead.resize(whole, i16::MAX);
+        self.behind.clear();
+        self.behind.resize(whole + count, i16::MAX);
+        let own = self.units.each_ref().map(|units| &units[..whole]);
+        for ahead in 1..=count / 2 {
+            let other = self.units.each_ref().map(|units| &units[ahead..ahead + whole]);
+            let behind = &mut self.behind[ahead..ahead + whole];
+            let least = &mut self.ahead[..whole];
+            for rod in 0..whole {
+                let apart = |axis: usize| {
+                    let difference = own[axis][rod].wrapping_sub(other[axis][rod]);
+                    difference.max(difference.wrapping_neg())
+                };
+                let apart = apart(0).max(apart(1)).max(apart(2));
+                least[rod] = least[rod].min(apart);
+                behind[rod] = behind[rod].min(apart);
+            }
+        }
+    }
+}
+
+/// Numbers of 16 bits that one instruction handles on every machine.
+const LANES: usize = 8;
+
+/// The nearest other rod closer than `reach`, of equally near ones the lowest index.
+fn nearest(positions: &[Vec<f64>; 3], rod: usize, reach: f64) -> Option<Nearest> {
+    let mut best = None;
+    let mut best_square = reach * reach;
+    let [x1, x2, x3] = positions;
+    for (other, ((y1, y2), y3)) in x1.iter().zip(x2).zip(x3).enumerate() {
+        let square = (y1 - x1[rod]).powi(2) + (y2 - x2[rod]).powi(2) + (y3 - x3[rod]).powi(2);
+        if square < best_square && other != rod {
+            best = Some(other);
+            best_square = square;
+        }
+    }
+    best.map(|other| Nearest { rod: rod as u32, other: other as u32, square: best_square })
+}

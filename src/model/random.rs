@@ -1,0 +1,113 @@
+//! Random streams: one per replica and purpose, so that leaving a draw out moves no other draw.
+
+use crate::model::chunks::CHUNK;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Dxsm;
+use rayon::prelude::*;
+
+/// What a stream is drawn for. Each purpose has its own stream, which exists only where it is drawn from.
+///
+/// ```
+/// use shearbed::model::random::{Purpose, stream};
+/// // The same stream for the same seed, replica and purpose.
+/// assert_eq!(stream(1, 0, Purpose::Positions), stream(1, 0, Purpose::Positions));
+/// assert_ne!(stream(1, 0, Purpose::Positions), stream(1, 0, Purpose::Collisions));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// Gaussian aspect ratios (eq. 11).
+    AspectRatios = 0,
+    /// Isotropic starting directions (eq. 12).
+    Orientations = 1,
+    /// Starting positions (eq. 12).
+    Positions = 2,
+    /// One R per rod and step (eqs 8 and 9).
+    Collisions = 3,
+    /// New positions of rods that left the control volume (eq. 14).
+    Replacements = 4,
+    /// Gaussian lengths.
+    Lengths = 5,
+}
+
+/// The PCG64-DXSM stream of one replica and purpose.
+///
+/// The 32 seed bytes are a SplitMix64 hash of (seed, replica, purpose): PCG streams that differ in a few
+/// bits of their state only would be correlated.
+pub fn stream(seed: u64, replica: u64, purpose: Purpose) -> Pcg64Dxsm {
+    let key = [replica, purpose as u64]
+        .iter()
+        .fold(mix(seed.wrapping_add(GOLDEN)), |key, word| mix((key ^ word).wrapping_add(GOLDEN)));
+    let mut bytes = [0; 32];
+    for (k, word) in bytes.chunks_exact_mut(8).enumerate() {
+        let step = GOLDEN.wrapping_mul(k as u64 + 1);
+        word.copy_from_slice(&mix(key.wrapping_add(step)).to_le_bytes());
+    }
+    Pcg64Dxsm::from_seed(bytes)
+}
+
+/// Fills `out` with the stream's next uniform numbers from [0, 1), a chunk per thread where there are many.
+pub(crate) fn fill_uniform(rng: &mut Pcg64Dxsm, out: &mut [f64]) {
+    if out.len() <= CHUNK {
+        out.fill_with(|| rng.random());
+        return;
+    }
+    out.par_chunks_mut(CHUNK).enumerate().for_each(|(k, chunk)| {
+        let mut rng = ahead(rng, (k * CHUNK) as u64);
+        chunk.fill_with(|| rng.random());
+    });
+    *rng = ahead(rng, out.len() as u64);
+}
+
+/// The stream after `count` more numbers.
+pub(crate) fn ahead(rng: &Pcg64Dxsm, count: impl Into<u128>) -> Pcg64Dxsm {
+    let mut rng = rng.clone();
+    rng.advance(count.into());
+    rng
+}
+
+const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
+
+/// The output function of SplitMix64 (Steele, Lea & Flood 2014).
+fn mix(mut z: u64) -> u64 {
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::RngExt;
+
+    #[test]
+    fn mix_is_splitmix64() {
+        // First outputs of the published generator for the seed 1234567.
+        let published = [6457827717110365317, 3203168211198807973, 9817491932198370423];
+        for (k, expected) in published.into_iter().enumerate() {
+            let state = 1234567u64.wrapping_add(GOLDEN.wrapping_mul(k as u64 + 1));
+            assert_eq!(mix(state), expected);
+        }
+    }
+
+    #[test]
+    fn every_coordinate_of_the_key_changes_the_stream() {
+        let first = |seed, replica, purpose| stream(seed, replica, purpose).random::<u64>();
+        let base = first(1, 2, Purpose::Positions);
+        assert_eq!(base, first(1, 2, Purpose::Positions));
+        assert_ne!(base, first(2, 2, Purpose::Positions));
+        assert_ne!(base, first(1, 1, Purpose::Positions));
+        assert_ne!(base, first(2, 1, Purpose::Positions));
+        assert_ne!(base, first(1, 2, Purpose::Collisions));
+    }
+
+    #[test]
+    fn chunks_continue_the_stream() {
+        let count = 2 * CHUNK + 17;
+        let start = stream(5, 6, Purpose::Collisions);
+        let (mut one, mut many) = (start.clone(), start);
+        let mut drawn = vec![0.0; count];
+        fill_uniform(&mut many, &mut drawn);
+        assert!(drawn.iter().all(|r| *r == one.random::<f64>()));
+        assert_eq!(one.random::<u64>(), many.random::<u64>());
+    }
+}

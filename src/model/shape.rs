@@ -1,0 +1,158 @@
+//! Equivalent aspect ratios: a cylinder of length over diameter r turns in shear as an ellipsoid of r_e does (Bretherton
+//! 1962), and these formulas say which.
+
+use serde::{Deserialize, Serialize};
+
+/// Which of [`FORMULAS`], by the name that a scene gives.
+///
+/// ```
+/// use shearbed::model::shape::Correlation;
+/// assert_eq!(Correlation::Cox.formula().formula, "1.24 r/√(ln r)");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Correlation {
+    /// Goldsmith & Mason 1967.
+    GoldsmithMason,
+    /// Cox 1971.
+    Cox,
+    /// Harris & Pittman 1975.
+    HarrisPittman,
+    /// Zhang et al. 2011.
+    Zhang,
+}
+
+impl Correlation {
+    /// The names, in the order of [`FORMULAS`].
+    pub const NAMES: [&str; 4] = ["goldsmith-mason", "cox", "harris-pittman", "zhang"];
+
+    /// Its formula.
+    pub fn formula(self) -> &'static Formula {
+        &FORMULAS[self as usize]
+    }
+
+    /// Its name in a scene.
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+}
+
+/// A published formula for r_e of a cylinder.
+///
+/// ```
+/// let cylinder = shearbed::model::shape::FORMULAS.map(|formula| formula.equivalent(20.0));
+/// assert!(cylinder.iter().flatten().all(|r_e| (14.0..14.4).contains(r_e)));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Formula {
+    /// Who gave it, and when.
+    pub name: &'static str,
+    /// As it is written.
+    pub formula: &'static str,
+    /// Its range of validity, as stated.
+    pub range: &'static str,
+    /// Where it was first published.
+    pub source: &'static str,
+    /// Where this project read it: none of the sources was at hand.
+    pub read_in: &'static str,
+    value: fn(f64) -> f64,
+}
+
+/// The least and the most r: shorter cylinders are none of what the formulas are for, longer ones no experiment's.
+pub const ALLOWED: (f64, f64) = (2.0, 1000.0);
+
+/// Every formula.
+pub const FORMULAS: [Formula; 4] = [
+    Formula {
+        name: "Goldsmith & Mason 1967",
+        formula: "0.742 r - 0.0017 r²",
+        range: "not stated (called a coarse approximation)",
+        source: "H. L. Goldsmith & S. G. Mason, in: Rheology, Theory and Applications 4 (1967)",
+        read_in: "nilsmeyerkit/pysph, commit 8d54b3c",
+        value: |r| 0.742 * r - 0.0017 * r * r,
+    },
+    Formula {
+        name: "Cox 1971",
+        formula: "1.24 r/√(ln r)",
+        range: "long slender bodies",
+        source: "R. G. Cox, J. Fluid Mech. 45 (1971) 625",
+        read_in: "meyer-nils/fiberoripy, aspect_ratios.py",
+        value: |r| 1.24 * r / libm::log(r).sqrt(),
+    },
+    Formula {
+        name: "Harris & Pittman 1975",
+        formula: "1.14 r^0.844",
+        range: "not stated",
+        source: "J. B. Harris & J. F. T. Pittman, J. Colloid Interface Sci. 50 (1975)",
+        read_in: "a third party's digest only (UNCHECKED)",
+        value: |r| 1.14 * libm::pow(r, 0.844),
+    },
+    Formula {
+        name: "Zhang et al. 2011",
+        formula: "0.000035 r³ - 0.00467 r² + 0.764 r + 0.404",
+        range: "not stated",
+        source: "D. Zhang et al., J. Manuf. Sci. Eng. 133 (2011) 051002",
+        read_in: "meyer-nils/fiberoripy, aspect_ratios.py",
+        value: |r| ((0.000_035 * r - 0.004_67) * r + 0.764) * r + 0.404,
+    },
+];
+
+impl Formula {
+    /// r_e of a cylinder of aspect ratio r; none where the formula cannot mean it: where r_e is above r, which no long
+    /// cylinder's is, or falls as r grows.
+    pub fn equivalent(&self, r: f64) -> Option<f64> {
+        let value = (self.value)(r);
+        let rises = (self.value)(1.001 * r) > value;
+        (value > 0.0 && value <= r && rises).then_some(value)
+    }
+}
+
+/// The least and the greatest r_e that the formulas give; none where none of them gives one.
+pub fn spread(r: f64) -> Option<(f64, f64)> {
+    let values: Vec<f64> = FORMULAS.iter().filter_map(|formula| formula.equivalent(r)).collect();
+    let least = values.iter().copied().reduce(f64::min)?;
+    Some((least, values.iter().copied().fold(least, f64::max)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn at_twenty_by_hand() {
+        // 0.742·20 − 0.0017·400; 24.8/√2.995732; 1.14·e^(0.844·2.995732); 0.28 − 1.868 + 15.28 + 0.404.
+        let by_hand = [14.16, 14.328_44, 14.288_0, 14.096];
+        for (formula, expected) in FORMULAS.iter().zip(by_hand) {
+            let found = formula.equivalent(20.0).unwrap();
+            assert!((found - expected).abs() < 2e-3, "{}: {found}", formula.name);
+        }
+        let (least, most) = spread(20.0).unwrap();
+        assert!((least - 14.096).abs() < 1e-3 && (most - 14.328).abs() < 1e-3);
+    }
+
+    #[test]
+    fn a_correlation_is_the_formula_of_its_name() {
+        for (correlation, formula, name) in [
+            (Correlation::GoldsmithMason, "Goldsmith & Mason 1967", "goldsmith-mason"),
+            (Correlation::Cox, "Cox 1971", "cox"),
+            (Correlation::HarrisPittman, "Harris & Pittman 1975", "harris-pittman"),
+            (Correlation::Zhang, "Zhang et al. 2011", "zhang"),
+        ] {
+            assert_eq!((correlation.formula().name, correlation.name()), (formula, name));
+        }
+    }
+
+    #[test]
+    fn where_a_formula_cannot_mean_it_there_is_none() {
+        let given = |r: f64| FORMULAS.map(|formula| formula.equivalent(r).is_some());
+        // 1.24/√(ln r) > 1 below r = e^1.5376 = 4.65; 1.14 r^−0.156 > 1 below 2.32.
+        assert_eq!(given(2.0), [true, false, false, true]);
+        assert_eq!(given(4.6), [true, false, true, true]);
+        assert_eq!(given(4.7), [true; 4]);
+        // The parabola falls from r = 0.742/0.0034 = 218.2 on; the cubic is above r from 172 on.
+        assert_eq!(given(171.0), [true; 4]);
+        assert_eq!(given(175.0), [true, true, true, false]);
+        assert_eq!(given(218.0), [true, true, true, false]);
+        assert_eq!(given(219.0), [false, true, true, false]);
+    }
+}

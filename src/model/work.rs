@@ -1,0 +1,59 @@
+//! What was done, counted.
+
+#[cfg(test)]
+mod tests;
+
+use serde::{Deserialize, Serialize};
+
+/// What was done: counts of work, the same on every machine.
+///
+/// ```
+/// use shearbed::scene::{Interaction, Scene};
+/// let scene = Scene { interaction: Some(Interaction::default()), ..Scene::default() };
+/// let results = shearbed::run::ensemble::run(&shearbed::Plan::new(&scene)?)?;
+/// let done = results.counters;
+/// assert!(done.collisions <= done.candidates && done.draws == 100 * done.steps);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counters {
+    /// Time steps.
+    pub steps: u64,
+    /// Random numbers R drawn for collisions (eq. 8).
+    pub draws: u64,
+    /// Pairs of rods of which one was told to be too far away in low precision.
+    pub pairs_screened: u64,
+    /// Cells looked into.
+    pub cells: u64,
+    /// Distances between rods computed.
+    pub distances: u64,
+    /// Pairs with P_c > R.
+    pub candidates: u64,
+    /// Pairs that collided.
+    pub collisions: u64,
+    /// Rods replaced in the control volume (eq. 14).
+    pub replacements: u64,
+    /// Directions computed for outputs.
+    pub directions: u64,
+    /// Aspect ratios drawn again because they fell on the wrong side of 1.
+    pub aspect_ratios_redrawn: u64,
+    /// Lengths drawn again because they were not positive.
+    pub lengths_redrawn: u64,
+}
+
+impl Counters {
+    /// Adds another run's counts.
+    pub fn add(&mut self, other: &Self) {
+        self.steps += other.steps;
+        self.draws += other.draws;
+        self.pairs_screened += other.pairs_screened;
+        self.cells += other.cells;
+        self.distances += other.distances;
+        self.candidates += other.candidates;
+        self.collisions += other.collisions;
+        self.replacements += other.replacements;
+        self.directions += other.directions;
+        self.aspect_ratios_redrawn += other.aspect_ratios_redrawn;
+        self.lengths_redrawn += other.lengths_redrawn;
+    }
+}

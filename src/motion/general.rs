@@ -1,0 +1,306 @@
+//! A free rod in any velocity gradient: the matrix that moves it, and what its exponential is made of.
+//!
+//! With Λ = (r_e² − 1)/(r_e² + 1), A = W + ΛD = (L − ρLᵀ)/(1 + ρ) for rods, ρ = 1/r_e²; a disc is the rod of 1/r_e in the
+//! flow −Lᵀ. Nothing cancels in N = L − ρLᵀ for long rods, and its invariants are polynomials in ρ whose coefficients come
+//! from L alone. A multiple of 1 in L changes |q| only and is taken out.
+//!
+//! Coordinates that N does not couple are blocks, each with an exponential of its own. One of them all would lose the digits of a
+//! block that the start has little of, beside the rounding of another, and those of blocks whose rates nearly meet.
+
+use super::ball::Ball;
+use super::functions::exp_and_power;
+use super::modes::{Cubic, Pair, Time};
+use crate::model::flow::VelocityGradient;
+use nalgebra::Matrix3;
+use std::array::from_fn;
+
+pub(super) type Square = [[Ball; 3]; 3];
+
+/// N of one flow and one aspect ratio, with what its exponential needs.
+#[derive(Clone, Debug)]
+pub(super) struct General {
+    n: Square,
+    n_squared: Square,
+    /// L was multiplied by two to this power, so that its largest component is about 1.
+    power: i32,
+    /// 1/(1 + ρ): A = N · this.
+    slower: Ball,
+    /// (2 D:D)^½ of L as it was scaled.
+    magnitude: Ball,
+    /// The roots of all three coordinates.
+    cubic: Cubic,
+    /// Δ of the roots m ± √Δ of the two coordinates that are left without the first, second or third.
+    squares: [Ball; 3],
+}
+
+/// exp(Nτ) by rows, up to a factor, of the coordinates that a start reaches.
+pub(super) struct Rows {
+    /// a₀, a₁ and a₂ of each row's block.
+    coefficients: Square,
+    /// The power of two that is left out of each row.
+    powers: [i32; 3],
+}
+
+impl General {
+    pub fn new(flow: &VelocityGradient, aspect_ratio: f64) -> Self {
+        let (l, power) = scaled(flow);
+        let magnitude = magnitude(&l);
+        let rod = aspect_ratio >= 1.0;
+        let without_trace = traceless(l);
+        let x: Square =
+            from_fn(|i| from_fn(|j| if rod { without_trace[i][j] } else { -without_trace[j][i] }));
+        let r = Ball::exact(aspect_ratio);
+        let square = r * r;
+        // ρ and 1 − ρ, both without cancellation.
+        let difference = (r - Ball::ONE) * (r + Ball::ONE);
+        let (rho, rest) =
+            if rod { (Ball::ONE.over(square), difference.over(square)) } else { (square, -difference) };
+        let n: Square = from_fn(|i| from_fn(|j| x[i][j] - rho * x[j][i]));
+        let forward: Square = product(|i, k| x[i][k], |k, j| x[k][j]);
+        let mixed: [Square; 2] =
+            [product(|i, k| x[i][k], |k, j| x[j][k]), product(|i, k| x[k][i], |k, j| x[k][j])];
+        let n_squared: Square = from_fn(|i| {
+            from_fn(|j| forward[i][j] - rho * (mixed[0][i][j] + mixed[1][i][j]) + rho * rho * forward[j][i])
+        });
+        // λ³ − tλ² + cλ − d.
+        let t = rest * trace(&x);
+        let trace_of_square = (Ball::ONE + rho * rho) * trace(&forward) - rho.scaled(2.0) * trace(&mixed[0]);
+        let c = (t * t - trace_of_square).scaled(0.5);
+        let (determinant, with_transpose) = determinants(&x);
+        let d = rest * ((Ball::ONE + rho + rho * rho) * determinant - rho * with_transpose);
+        Self {
+            n,
+            n_squared,
+            power,
+            slower: Ball::ONE.over(Ball::ONE + rho),
+            magnitude,
+            cubic: Cubic::new(t, c, d),
+            squares: from_fn(|left_out| square_of_pair(&l, others(left_out), rho, rest)),
+        }
+    }
+
+    /// The period in units in which L is about 1, where there is one, and by how much the rest of the motion grows
+    /// against the turning in it: |ln| of the ratio.
+    pub fn period(&self) -> Option<(Ball, f64)> {
+        let (period, drift) = self.cubic.period()?;
+        Some((period.over(self.slower), drift))
+    }
+
+    /// The period in s.
+    pub fn period_s(&self) -> Option<f64> {
+        self.period().map(|(period, _)| shifted(period.hi, self.power))
+    }
+
+    /// The time in which the strain grows by `strain`.
+    pub fn time_of_strain(&self, strain: Ball) -> Time {
+        Time { span: strain.over(self.magnitude) * self.slower, turns: None }
+    }
+
+    /// `time_s` seconds.
+    pub fn time_of_seconds(&self, time_s: f64) -> Time {
+        let span = shifted(time_s, -self.power);
+        let rounded = if shifted(span, self.power) == time_s { 0.0 } else { span * f64::EPSILON };
+        Time { span: Ball::exact(span).widened(rounded) * self.slower, turns: None }
+    }
+
+    /// The time of `turns` periods, where there is a period.
+    pub fn time_of_periods(&self, turns: Ball) -> Option<Time> {
+        let (period, _) = self.cubic.period()?;
+        Some(Time { span: turns * period, turns: Some(turns) })
+    }
+
+    /// As long as rods of another aspect ratio in this flow take for `turns` of their periods.
+    pub fn time_of_periods_of(&self, mean: &Self, turns: Ball) -> Option<Time> {
+        let (period, _) = mean.period()?;
+        Some(Time { span: turns * period * self.slower, turns: None })
+    }
+
+    /// The map q = M p, up to a factor.
+    pub fn map(&self, time: Time) -> Square {
+        let rows = self.rows([true; 3], time);
+        let most = rows.powers.into_iter().fold(i32::MIN, i32::max);
+        let map = self.map_of(&rows);
+        from_fn(|i| map[i].map(|component| component.shifted(rows.powers[i] - most)))
+    }
+
+    /// The map of the coordinates that `rows` reach, without the powers of two; its other columns mean nothing.
+    pub fn map_of(&self, rows: &Rows) -> Square {
+        from_fn(|i| {
+            let [a0, a1, a2] = rows.coefficients[i];
+            from_fn(|j| {
+                let one = if i == j { a0 } else { Ball::ZERO };
+                one + a1 * self.n[i][j] + a2 * self.n_squared[i][j]
+            })
+        })
+    }
+
+    /// What moves a rod that starts along `p`, and that start times the rows' powers of two, the largest component about 1.
+    pub fn rows_from(&self, p: [f64; 3], time: Time) -> (Rows, [Ball; 3]) {
+        let rows = self.rows(self.reached(p), time);
+        let most =
+            (0..3).filter(|&i| p[i] != 0.0).map(|i| rows.powers[i] + exponent(p[i])).fold(i32::MIN, i32::max);
+        let start = from_fn(|i| match p[i] {
+            0.0 => Ball::ZERO,
+            component => Ball::exact(component).shifted(rows.powers[i] - most),
+        });
+        (rows, start)
+    }
+
+    /// Where a start of [`Self::rows_from`] goes, up to a factor.
+    pub fn moved(&self, rows: &Rows, start: [Ball; 3]) -> [Ball; 3] {
+        let once = times(&self.n, start);
+        let twice = times(&self.n_squared, start);
+        from_fn(|i| {
+            let [a0, a1, a2] = rows.coefficients[i];
+            a0 * start[i] + a1 * once[i] + a2 * twice[i]
+        })
+    }
+
+    /// The coordinates that a rod along `p` can reach: one on an axis that is one of the flow's stays there.
+    fn reached(&self, p: [f64; 3]) -> [bool; 3] {
+        let mut reached = p.map(|component| component != 0.0);
+        for _ in 0..2 {
+            reached = from_fn(|i| reached[i] || (0..3).any(|j| reached[j] && !self.n[i][j].is_zero()));
+        }
+        reached
+    }
+
+    /// exp(Nτ) of the reached coordinates, block by block.
+    fn rows(&self, reached: [bool; 3], time: Time) -> Rows {
+        let mut couplings = (0..3).filter(|&left_out| {
+            let [i, j] = others(left_out);
+            reached[i] && reached[j] && !(self.n[i][j].is_zero() && self.n[j][i].is_zero())
+        });
+        let alone = match (couplings.next(), couplings.next()) {
+            (alone, None) => alone,
+            _ => {
+                return Rows { coefficients: [self.cubic.coefficients(time); 3], powers: [0; 3] };
+            }
+        };
+        // The first coordinate of each one's block, and by that a block's coefficients and rate.
+        let first: [usize; 3] = from_fn(|i| match alone {
+            Some(alone) if i != alone => others(alone)[0],
+            _ => i,
+        });
+        let blocks: [Option<([Ball; 3], Ball)>; 3] = from_fn(|i| {
+            (first[i] == i && reached[i]).then(|| match alone {
+                Some(alone) if i != alone => self.pair(alone).coefficients(time),
+                _ => ([Ball::ONE, Ball::ZERO, Ball::ZERO], self.n[i][i]),
+            })
+        });
+        let rate = |i: usize| blocks[i].map_or(f64::NEG_INFINITY, |(_, rate)| rate.hi);
+        let fastest = (1..3).fold(0, |a, b| if rate(b) > rate(a) { b } else { a });
+        let scaled: [([Ball; 3], i32); 3] = from_fn(|i| match (blocks[i], blocks[fastest]) {
+            (Some((coefficients, rate)), Some((_, largest))) if i != fastest => {
+                let (factor, power) = exp_and_power((rate - largest) * time.span);
+                (coefficients.map(|a| a * factor), power)
+            }
+            (block, _) => (block.map_or([Ball::ZERO; 3], |(coefficients, _)| coefficients), 0),
+        });
+        Rows { coefficients: first.map(|i| scaled[i].0), powers: first.map(|i| scaled[i].1) }
+    }
+
+    /// The roots of the two coordinates that are left without one.
+    fn pair(&self, left_out: usize) -> Pair {
+        let [i, j] = others(left_out);
+        Pair { middle: (self.n[i][i] + self.n[j][j]).scaled(0.5), square: self.squares[left_out] }
+    }
+}
+
+/// The two coordinates beside one.
+fn others(left_out: usize) -> [usize; 2] {
+    [[1, 2], [0, 2], [0, 1]][left_out]
+}
+
+/// Δ of two coordinates: with h = (L_ii − L_jj)/2, (1 − ρ)²(h² + L_ij L_ji) − ρ(L_ij − L_ji)², which cancels neither for long rods nor
+/// near spheres.
+fn square_of_pair(l: &Square, [i, j]: [usize; 2], rho: Ball, rest: Ball) -> Ball {
+    let half = (l[i][i] - l[j][j]).scaled(0.5);
+    let turning = l[i][j] - l[j][i];
+    rest * rest * (half * half + l[i][j] * l[j][i]) - rho * turning * turning
+}
+
+fn times(matrix: &Square, p: [Ball; 3]) -> [Ball; 3] {
+    from_fn(|i| matrix[i][0] * p[0] + matrix[i][1] * p[1] + matrix[i][2] * p[2])
+}
+
+fn product(a: impl Fn(usize, usize) -> Ball, b: impl Fn(usize, usize) -> Ball) -> Square {
+    from_fn(|i| from_fn(|j| a(i, 0) * b(0, j) + a(i, 1) * b(1, j) + a(i, 2) * b(2, j)))
+}
+
+fn trace(x: &Square) -> Ball {
+    x[0][0] + x[1][1] + x[2][2]
+}
+
+/// det X and tr(adj(X) Xᵀ).
+fn determinants(x: &Square) -> (Ball, Ball) {
+    let cofactor = |i: usize, j: usize| {
+        let (a, b) = ((i + 1) % 3, (i + 2) % 3);
+        let (c, d) = ((j + 1) % 3, (j + 2) % 3);
+        x[a][c] * x[b][d] - x[a][d] * x[b][c]
+    };
+    let sum = |terms: [Ball; 3]| terms[0] + terms[1] + terms[2];
+    let determinant = sum(from_fn(|i| x[0][i] * cofactor(0, i)));
+    let with_transpose = sum(from_fn(|i| sum(from_fn(|j| cofactor(j, i) * x[i][j]))));
+    (determinant, with_transpose)
+}
+
+/// L times a power of two that makes its largest component about 1, and the power's exponent.
+fn scaled(flow: &VelocityGradient) -> (Square, i32) {
+    let l = flow.per_s();
+    let power = -exponent(l.amax());
+    let component = |i: usize, j: usize| {
+        let component = l[(i, j)];
+        let scaled = shifted(component, power);
+        let lost = shifted(scaled, -power) != component;
+        Ball::exact(scaled).widened(if lost { 1e-320 } else { 0.0 })
+    };
+    (from_fn(|i| from_fn(|j| component(i, j))), power)
+}
+
+/// The exponent of the power of two below |x|, 0 for 0.
+fn exponent(x: f64) -> i32 {
+    if x == 0.0 { 0 } else { libm::log2(x.abs()).floor() as i32 }
+}
+
+/// x · 2^power.
+fn shifted(x: f64, power: i32) -> f64 {
+    libm::scalbn(x, power)
+}
+
+/// (2 D:D)^½ = (Σ (L_ij + L_ji)²/2)^½.
+fn magnitude(l: &Square) -> Ball {
+    let squares = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
+    let sum = squares.fold(Ball::ZERO, |sum, (i, j)| {
+        let twice = l[i][j] + l[j][i];
+        sum + twice * twice
+    });
+    sum.scaled(0.5).sqrt()
+}
+
+/// L less a third of its trace, in two steps: where a third is a double, nothing is rounded.
+fn traceless(mut l: Square) -> Square {
+    for step in 0..2 {
+        let sum = trace(&l);
+        let third = if step == 0 { Ball::exact(sum.hi / 3.0) } else { sum.over(Ball::exact(3.0)) };
+        for (i, row) in l.iter_mut().enumerate() {
+            row[i] = row[i] - third;
+        }
+    }
+    l
+}
+
+/// The middle of a map as doubles, its largest component about 1, and its error against its own size.
+pub(super) fn rounded(map: &Square) -> (Matrix3<f64>, f64) {
+    let middle = Matrix3::from_fn(|i, j| map[i][j].hi);
+    let power = -exponent(middle.amax());
+    let error = Matrix3::from_fn(|i, j| shifted(map[i][j].error, power));
+    let middle = middle.map(|component| shifted(component, power));
+    let relative = error.norm() / middle.norm();
+    (middle, known(relative))
+}
+
+/// An error that is no number is one without bound.
+pub(super) fn known(error: f64) -> f64 {
+    if error.is_nan() { f64::INFINITY } else { error }
+}

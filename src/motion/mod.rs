@@ -1,0 +1,271 @@
+//! The exact motion of a free rod over any time, with a bound on its error.
+//!
+//! Jeffery's equation is linear in disguise: p(t) = q/|q| with q = exp(At) p(0) and A = W + ΛD (the trace of
+//! A changes |q| only and is left out). Plane Couette flow along the axes has its closed form; every other flow goes
+//! through numbers of 106 bits that know their error (`general.rs`), taking L, r_e and p as exact.
+
+mod ball;
+mod functions;
+mod general;
+mod modes;
+#[cfg(test)]
+mod tests;
+
+use crate::model::flow::VelocityGradient;
+use crate::model::jeffery;
+use crate::model::phase::Phase;
+use ball::Ball;
+use general::{General, known, rounded};
+use nalgebra::{Matrix3, UnitVector3, Vector3};
+use std::f64::consts::TAU;
+
+/// The direction after the phase `phase` of a free rod in plane Couette flow with G > 0, p = q/|q| (`turned`).
+#[inline(always)]
+pub fn couette(p: [f64; 3], aspect_ratio: f64, phase: Phase) -> [f64; 3] {
+    let q = turned(p, aspect_ratio, phase);
+    let scale = 1.0 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2]).sqrt();
+    [q[0] * scale, q[1] * scale, q[2] * scale]
+}
+
+/// A.4 and A.5 as a linear map: q = (p₁ cos ωt − (p₂/r_e) sin ωt, r_e p₁ sin ωt + p₂ cos ωt, p₃).
+#[inline(always)]
+fn turned(p: [f64; 3], aspect_ratio: f64, phase: Phase) -> [f64; 3] {
+    let inverse = 1.0 / aspect_ratio;
+    let q1 = p[0] * phase.cos - p[1] * inverse * phase.sin;
+    let q2 = aspect_ratio * p[0] * phase.sin + p[1] * phase.cos;
+    [q1, q2, p[2]]
+}
+
+/// How long a rod moves: a number ≥ 0 over another, in some unit.
+///
+/// ```
+/// use shearbed::motion::Span;
+/// // A third of a period, without rounding the third.
+/// let third = Span::Periods(1.0, 3.0);
+/// assert_ne!(third, Span::Periods(1.0 / 3.0, 1.0));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Span {
+    /// Seconds.
+    Seconds(f64),
+    /// Units of strain, (2 D:D)^½ t, as a quotient.
+    Strain(f64, f64),
+    /// Periods of the propagator's own aspect ratio, as a quotient.
+    Periods(f64, f64),
+}
+
+/// Where a rod went.
+///
+/// ```
+/// use shearbed::model::flow::VelocityGradient;
+/// use shearbed::{nalgebra::{Matrix3, Vector3}, motion::{Propagator, Span}};
+/// // Planar extension along axis 1 draws a rod there, and the error is known.
+/// let gradient = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, 0.0));
+/// let flow = VelocityGradient::new(gradient).expect("finite");
+/// let start = shearbed::model::orientation::from_degrees(45.0, 90.0);
+/// let moved = Propagator::new(&flow, 20.0).moved(&start, Span::Strain(8.0, 1.0)).expect("no period is asked for");
+/// assert!(moved.p.x > 0.999 && moved.error < 1e-15);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moved {
+    /// Its direction.
+    pub p: UnitVector3<f64>,
+    /// A bound on the angle in rad to the true direction of a rod that started along exactly `p`; infinite where nothing
+    /// is known.
+    pub error: f64,
+    /// ‖\|M\|\|p\|‖/‖M p‖ of the map q = M p: by how much more than they are, relative errors of the start's components may
+    /// turn the end.
+    pub condition: f64,
+}
+
+/// The exact motion of rods of one aspect ratio in one flow.
+///
+/// ```
+/// use shearbed::model::flow::VelocityGradient;
+/// use shearbed::{nalgebra::Vector3, motion::{Propagator, Span}};
+/// let flow = VelocityGradient::plane_couette(0.5).expect("finite");
+/// let rods = Propagator::new(&flow, 11.6);
+/// let half = rods.moved(&Vector3::x_axis(), Span::Periods(1.0, 2.0)).expect("this flow has a period");
+/// assert!((half.p.x + 1.0).abs() < 1e-15); // p ≡ −p
+/// ```
+#[derive(Clone, Debug)]
+pub struct Propagator(Motion);
+
+#[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "rods of unequal r_e hold the large one, side by side")]
+enum Motion {
+    /// Plane Couette flow u_2 = G x_1: the closed form.
+    Couette { shear_rate_per_s: f64, aspect_ratio: f64 },
+    /// Any flow.
+    General(General),
+}
+
+impl Propagator {
+    /// The motion of rods with `aspect_ratio` > 0 in `flow`.
+    pub fn new(flow: &VelocityGradient, aspect_ratio: f64) -> Self {
+        match flow.shear_rate_per_s() {
+            Some(shear_rate_per_s) => Self(Motion::Couette { shear_rate_per_s, aspect_ratio }),
+            None => Self::general(flow, aspect_ratio),
+        }
+    }
+
+    /// The same by the way of all flows, for plane Couette flow too.
+    pub fn general(flow: &VelocityGradient, aspect_ratio: f64) -> Self {
+        Self(Motion::General(General::new(flow, aspect_ratio)))
+    }
+
+    /// The period in s after which every direction is back where it was, but for [`Self::drift_per_period`]: that of the
+    /// turning part of the motion, where there is one.
+    pub fn period_s(&self) -> Option<f64> {
+        match &self.0 {
+            Motion::Couette { shear_rate_per_s, aspect_ratio } => {
+                Some(jeffery::period_s(*shear_rate_per_s, *aspect_ratio))
+            }
+            Motion::General(general) => general.period_s(),
+        }
+    }
+
+    /// By which part what turns grows in a period against what does not: 0 where every direction comes back.
+    pub fn drift_per_period(&self) -> Option<f64> {
+        match &self.0 {
+            Motion::Couette { .. } => Some(0.0),
+            Motion::General(general) => general.period().map(|(_, drift)| drift),
+        }
+    }
+
+    /// The linear map q = M p, scaled by an arbitrary positive factor, and a bound on its error against its size (in
+    /// Frobenius's norm), the rounding to double left out; `None` where the span is in periods and there is none.
+    pub fn map(&self, span: Span) -> Option<(Matrix3<f64>, f64)> {
+        match &self.0 {
+            Motion::Couette { aspect_ratio, .. } => {
+                let (phase, error) = self.phase(span)?;
+                let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+                let columns = axes.map(|axis| Vector3::from(turned(axis, *aspect_ratio, phase)));
+                Some((Matrix3::from_columns(&columns), error))
+            }
+            Motion::General(general) => Some(rounded(&general.map(time(general, span)?))),
+        }
+    }
+
+    /// Where a rod goes that starts along `p`; `None` where the span is in periods and there is none.
+    pub fn moved(&self, p: &UnitVector3<f64>, span: Span) -> Option<Moved> {
+        self.moved_beside(self, p, span)
+    }
+
+    /// The same over periods of `mean`, in whose flow the rod is.
+    pub(crate) fn moved_beside(&self, mean: &Self, p: &UnitVector3<f64>, span: Span) -> Option<Moved> {
+        match &self.0 {
+            Motion::Couette { aspect_ratio, .. } => {
+                let (phase, error) = self.phase(span)?;
+                let end = couette([p.x, p.y, p.z], *aspect_ratio, phase);
+                Some(Moved {
+                    p: UnitVector3::new_unchecked(end.into()),
+                    error: error * aspect_ratio.max(1.0 / aspect_ratio),
+                    condition: aspect_ratio.max(1.0 / aspect_ratio),
+                })
+            }
+            Motion::General(general) => {
+                let start = [p.x, p.y, p.z];
+                let time = time_beside(general, mean, span)?;
+                let (rows, start) = general.rows_from(start, time);
+                let q = general.moved(&rows, start);
+                Some(moved(&general.map_of(&rows), &q, start.map(|component| component.hi)))
+            }
+        }
+    }
+
+    /// The direction alone of a rod in the flow of `mean` that started along `p`, and the bound on the error that the map gives it;
+    /// the span's periods are those of `mean`. `None` where it has none.
+    pub(crate) fn direction_beside(&self, mean: &Self, p: [f64; 3], span: Span) -> Option<([f64; 3], f64)> {
+        match &self.0 {
+            Motion::General(general) => {
+                let time = time_beside(general, mean, span)?;
+                let (rows, start) = general.rows_from(p, time);
+                Some(normalized(&general.moved(&rows, start)))
+            }
+            Motion::Couette { aspect_ratio, .. } => {
+                let (phase, error) = self.phase(span)?;
+                Some((couette(p, *aspect_ratio, phase), error))
+            }
+        }
+    }
+
+    /// [`Self::map`] over periods of `mean`, for propagators of any flow.
+    pub(crate) fn map_beside(&self, mean: &Self, span: Span) -> Option<(Matrix3<f64>, f64)> {
+        match &self.0 {
+            Motion::General(general) => Some(rounded(&general.map(time_beside(general, mean, span)?))),
+            Motion::Couette { .. } => self.map(span),
+        }
+    }
+
+    /// The phase in plane Couette flow, and what its rounding does to the map: sixteen roundings of one evaluation, and
+    /// of turns that come from seconds or strain four.
+    fn phase(&self, span: Span) -> Option<(Phase, f64)> {
+        let Motion::Couette { shear_rate_per_s, aspect_ratio } = self.0 else {
+            return None;
+        };
+        let period = jeffery::strain_per_period(aspect_ratio);
+        let (turns, roundings) = match span {
+            Span::Seconds(time_s) => (time_s * shear_rate_per_s.abs() / period, 4.0),
+            Span::Strain(ticks, each) => (ticks / each / period, 4.0),
+            Span::Periods(ticks, each) => (ticks / each, 1.0),
+        };
+        let error = f64::EPSILON * (16.0 + TAU * roundings * turns);
+        Some((Phase::of_turns(turns * shear_rate_per_s.signum()), error))
+    }
+
+    /// The direction of a rod `time_s` ≥ 0 seconds after it pointed along `p`.
+    pub fn after(&self, p: &UnitVector3<f64>, time_s: f64) -> UnitVector3<f64> {
+        self.moved(p, Span::Seconds(time_s)).map_or(*p, |moved| moved.p)
+    }
+
+    /// The direction of a rod `turns` periods after it pointed along `p`; `None` where there is no period.
+    pub fn after_turns(&self, p: &UnitVector3<f64>, turns: f64) -> Option<UnitVector3<f64>> {
+        self.moved(p, Span::Periods(turns, 1.0)).map(|moved| moved.p)
+    }
+}
+
+fn quotient(ticks: f64, each: f64) -> Ball {
+    Ball::exact(ticks).over(Ball::exact(each))
+}
+
+fn time_beside(general: &General, mean: &Propagator, span: Span) -> Option<modes::Time> {
+    match (span, &mean.0) {
+        (Span::Periods(ticks, each), Motion::General(mean)) => {
+            general.time_of_periods_of(mean, quotient(ticks, each))
+        }
+        _ => time(general, span),
+    }
+}
+
+fn time(general: &General, span: Span) -> Option<modes::Time> {
+    match span {
+        Span::Seconds(time_s) => Some(general.time_of_seconds(time_s)),
+        Span::Strain(ticks, each) => Some(general.time_of_strain(quotient(ticks, each))),
+        Span::Periods(ticks, each) => general.time_of_periods(quotient(ticks, each)),
+    }
+}
+
+/// q/|q|, and the bound on the angle to the truth: sin of it is at most the error's length over that of q.
+fn normalized(q: &[Ball; 3]) -> ([f64; 3], f64) {
+    let largest = q.iter().fold(0.0, |largest: f64, q| largest.max(q.hi.abs()));
+    let q = q.map(|q| [q.hi / largest, q.error / largest]);
+    let length = |k: usize| (q[0][k] * q[0][k] + q[1][k] * q[1][k] + q[2][k] * q[2][k]).sqrt();
+    let scale = 1.0 / length(0);
+    let off = length(1) * scale;
+    // Up to 0.1, an arcsine is less than 1.01 times its sine. The direction itself is rounded to double.
+    let error = if off < 0.1 { 1.01 * off + 4.0 * f64::EPSILON } else { f64::INFINITY };
+    (q.map(|q| q[0] * scale), known(error))
+}
+
+fn moved(map: &[[Ball; 3]; 3], q: &[Ball; 3], start: [f64; 3]) -> Moved {
+    let (end, error) = normalized(q);
+    let largest = q.iter().fold(0.0, |largest: f64, q| largest.max(q.hi.abs()));
+    let sums = map.map(|row| row.iter().zip(start).map(|(m, p)| (m.hi * p / largest).abs()).sum::<f64>());
+    let length = q.map(|q| q.hi / largest);
+    Moved {
+        p: UnitVector3::new_unchecked(end.into()),
+        error,
+        condition: known(Vector3::from(sums).norm() / Vector3::from(length).norm()),
+    }
+}

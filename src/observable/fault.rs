@@ -1,0 +1,193 @@
+//! The border of the core: nothing leaves a run that is no result. Every rod must have a direction, every sum must be
+//! finite, and the traces of ⟨pp⟩ and ⟨pppp⟩ must be 1.
+
+use crate::observable::{Block, Channel, Observable, Sum, TRACES, lane_sum};
+
+/// How far the mean of |p|² over a block may be from 1: p = q/|q| is rounded some ten times on its way, each time by ε/2 of
+/// itself at most, and counts twice; the sum over 128 rods in 8 lanes is rounded 24 times.
+const DIRECTION: f64 = 32.0 * f64::EPSILON;
+
+/// How far the trace of ⟨pp⟩ may be from 1: 10⁸ rods are summed in lanes of 16, blocks of 512 and 1526 chunks, each sum
+/// rounded by ε/2 of itself at most.
+const TRACE: f64 = 4096.0 * f64::EPSILON;
+
+/// What is wrong with a replica at one output.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Fault {
+    /// Counted from the first rod that was looked at; `None` where it is not one rod's.
+    pub rod: Option<usize>,
+    pub cause: String,
+}
+
+/// Refuses a block in which a rod has no direction: one that is longer or shorter by more than 5e-13, or not a number. All
+/// rods are told by one sum, which costs less than to compare each.
+#[inline]
+pub(crate) fn directions(block: &Block) -> Result<(), Fault> {
+    let [p1, p2, p3] = &block.p;
+    let square = |k: usize| p1[k] * p1[k] + p2[k] * p2[k] + p3[k] * p3[k];
+    let count = block.len as f64;
+    // NaN is not within anything.
+    match (lane_sum(block.len, square) - count).abs() <= count * DIRECTION {
+        true => Ok(()),
+        false => Err(farthest(block, square)),
+    }
+}
+
+/// The rod whose |p|² is farthest from 1.
+fn farthest(block: &Block, square: impl Fn(usize) -> f64) -> Fault {
+    let off = |rod: &usize| match (square(*rod) - 1.0).abs() {
+        off if off.is_nan() => f64::INFINITY,
+        off => off,
+    };
+    let rods = 0..block.len;
+    let first_of_equals = |a, b| if off(&b) > off(&a) { b } else { a };
+    let rod = rods.reduce(first_of_equals).unwrap_or(0);
+    let [p1, p2, p3] = block.p.each_ref().map(|axis| axis[rod]);
+    Fault {
+        rod: Some(rod),
+        cause: format!(
+            "its direction came out as ({p1}, {p2}, {p3}), whose length is not 1: the motion of r_e = {} in this flow is \
+             out of reach of double precision",
+            block.aspect_ratio[rod]
+        ),
+    }
+}
+
+/// Refuses sums of an observable, to which this block was the last to be added, that are not finite.
+#[inline]
+pub(crate) fn sums(observable: Observable, block: &Block, sums: &[Sum]) -> Result<(), Fault> {
+    if sums.iter().all(Sum::is_finite) {
+        return Ok(());
+    }
+    let name = |k: usize| observable.channels().nth(k).map_or_else(String::new, Channel::name);
+    let culprit = (0..block.len).find_map(|rod| {
+        let mut own = vec![Sum::default(); sums.len()];
+        observable.add(&alone(block, rod), &mut own);
+        let channel = own.iter().position(|sum| !sum.value.is_finite())?;
+        Some((rod, channel, own[channel].value))
+    });
+    Err(match culprit {
+        Some((rod, channel, value)) => Fault {
+            rod: Some(rod),
+            cause: format!("its {} came out as {value}, at r_e = {}", name(channel), block.aspect_ratio[rod]),
+        },
+        None => Fault { rod: None, cause: format!("the sum of {} is not finite", observable.name()) },
+    })
+}
+
+/// Refuses sums of ⟨pp⟩ or ⟨pppp⟩ over `count` rods whose trace, over all pairs of indices, is not 1.
+pub(crate) fn trace(observable: Observable, sums: &[Sum], count: usize) -> Result<(), Fault> {
+    let (sum, tensor): (f64, _) = match observable {
+        Observable::OrientationTensor => (sums[..3].iter().map(|sum| sum.value).sum(), "⟨pp⟩"),
+        Observable::OrientationTensor4 => {
+            (TRACES.iter().map(|(k, times)| times * sums[*k].value).sum(), "⟨pppp⟩")
+        }
+        _ => return Ok(()),
+    };
+    let trace = sum / count as f64;
+    match (trace - 1.0).abs() <= TRACE {
+        true => Ok(()),
+        false => Err(Fault { rod: None, cause: format!("the trace of {tensor} came out as {trace}, not 1") }),
+    }
+}
+
+/// One rod of a block as a block.
+fn alone(block: &Block, rod: usize) -> Block {
+    let mut one = Block { len: 1, ..Block::default() };
+    for (axis, from) in one.p.iter_mut().zip(&block.p) {
+        axis[0] = from[rod];
+    }
+    one.aspect_ratio[0] = block.aspect_ratio[rod];
+    one.weight[0] = block.weight[rod];
+    one
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::orientation::from_angles;
+
+    /// A block of directions all over the sphere.
+    fn block(len: usize) -> Block {
+        let mut block = Block { len, ..Block::default() };
+        for rod in 0..len {
+            let p = from_angles(2.4 * rod as f64, 0.1 + 3.0 * rod as f64 / len as f64);
+            for (axis, value) in block.p.iter_mut().zip([p.x, p.y, p.z]) {
+                axis[rod] = value;
+            }
+        }
+        block
+    }
+
+    #[test]
+    fn good_directions_pass_and_any_other_is_named() {
+        for len in [1, 7, 8, 100, 128] {
+            assert_eq!(directions(&block(len)), Ok(()));
+            for wrong in [
+                [0.0; 3],
+                [f64::NAN, 0.0, 1.0],
+                [f64::INFINITY, 0.0, 0.0],
+                [0.6, 0.8, 1e-5],
+                [1.0 - 1e-12, 0.0, 0.0],
+            ] {
+                let rod = len / 2;
+                let mut spoiled = block(len);
+                (0..3).for_each(|axis| spoiled.p[axis][rod] = wrong[axis]);
+                let fault = directions(&spoiled).unwrap_err();
+                assert_eq!(fault.rod, Some(rod), "{wrong:?}");
+                assert!(fault.cause.contains("whose length is not 1"));
+            }
+        }
+        // What lies behind the block's end is nobody's.
+        let mut short = block(10);
+        short.len = 9;
+        short.p[0][9] = f64::NAN;
+        assert_eq!(directions(&short), Ok(()));
+    }
+
+    #[test]
+    fn sums_that_are_not_finite_name_the_rod_and_its_channel() {
+        let good = block(20);
+        for observable in Observable::ALL {
+            let mut found = vec![Sum::default(); observable.width()];
+            observable.add(&good, &mut found);
+            assert_eq!(sums(observable, &good, &found), Ok(()));
+            assert_eq!(trace(observable, &found, 20), Ok(()));
+        }
+        let mut spoiled = block(20);
+        spoiled.p[2][13] = f64::NAN;
+        let mut found = vec![Sum::default(); 3];
+        Observable::Projections.add(&spoiled, &mut found);
+        let fault = sums(Observable::Projections, &spoiled, &found).unwrap_err();
+        assert_eq!(fault.rod, Some(13));
+        assert_eq!(fault.cause, "its x3 came out as NaN, at r_e = 1");
+        // No rod of this block did it.
+        let fault = sums(Observable::Projections, &good, &found).unwrap_err();
+        assert_eq!((fault.rod, fault.cause.as_str()), (None, "the sum of projections is not finite"));
+    }
+
+    #[test]
+    fn a_trace_that_is_not_one_is_refused() {
+        let good = block(128);
+        let mut found = vec![Sum::default(); 6];
+        Observable::OrientationTensor.add(&good, &mut found);
+        assert_eq!(trace(Observable::OrientationTensor, &found, 128), Ok(()));
+        // A rod that was lost on the way, and digits that were.
+        assert!(trace(Observable::OrientationTensor, &found, 129).is_err());
+        found[1].value += 1e-9;
+        let fault = trace(Observable::OrientationTensor, &found, 128).unwrap_err();
+        assert!(fault.cause.starts_with("the trace of ⟨pp⟩ came out as 1.0000000000"));
+        found[1].value = f64::NAN;
+        assert!(trace(Observable::OrientationTensor, &found, 128).is_err());
+        // ⟨pppp⟩: each component of its trace counts.
+        let mut found = vec![Sum::default(); 15];
+        Observable::OrientationTensor4.add(&good, &mut found);
+        assert_eq!(trace(Observable::OrientationTensor4, &found, 128), Ok(()));
+        for k in [0, 3, 5, 10, 12, 14] {
+            let mut spoiled = found.clone();
+            spoiled[k].value += 1e-9;
+            let fault = trace(Observable::OrientationTensor4, &spoiled, 128).unwrap_err();
+            assert!(fault.cause.starts_with("the trace of ⟨pppp⟩"), "{k}");
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! Where free rods are at each output of a scene, other than in plane Couette flow by periods: worked out once for all
+//! replicas, and refused where it is not known.
+
+use crate::model::flow::VelocityGradient;
+use crate::model::orientation::from_degrees;
+use crate::motion::{Propagator, Span};
+use crate::scene::{Invalid, Scene};
+use nalgebra::{Matrix3, UnitVector3};
+use rayon::prelude::*;
+
+/// The largest angle in rad by which a direction may be off before a scene is refused: far below what any mean of rods
+/// resolves, far above round-off.
+pub const MAX_ERROR_RAD: f64 = 1e-6;
+/// The relative error of a component of a direction that is given in degrees, with room: sine, cosine, product, length.
+const ROUNDING_OF_START: f64 = 4.0 * f64::EPSILON;
+
+/// The motion of a scene's free rods.
+#[derive(Clone, Debug)]
+pub(crate) struct FreeMotion {
+    pub way: Way,
+    /// The bound on the error of a direction in rad. Random directions, and each rod's own: of the map, relative to its size.
+    pub error_rad: f64,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) enum Way {
+    /// All rods start alike and are alike: their direction at each output, periodically.
+    Alike(Vec<[f64; 3]>),
+    /// All rods are alike: the map to each output, periodically.
+    Maps(Vec<Matrix3<f64>>),
+    /// A propagator for each rod, or one where they are alike; spans to each output, the propagator that has their periods, and whether
+    /// the starts are rounded from others, as random ones are not: they are the doubles that were drawn.
+    Each { mean: Box<Propagator>, spans: Vec<Span>, rounded: bool },
+}
+
+impl FreeMotion {
+    /// The motion of the scene's rods in `flow`; the error names the scene's duration.
+    pub fn new(scene: &Scene, flow: &VelocityGradient) -> Result<Self, Invalid> {
+        let particles = &scene.particles;
+        let r = particles.aspect_ratio;
+        let mean = Propagator::general(flow, r);
+        let mut spans = spans(scene);
+        if scene.time.periods.is_some() && mean.drift_per_period() == Some(0.0) {
+            // What comes back exactly is worked out once.
+            spans.truncate(scene.outputs_per_period() as usize);
+        }
+        // Each start of a file has an error of its own, which a map does not tell.
+        let each = particles.own().is_some_and(|own| own.p.is_some());
+        let start = particles.common_start_deg();
+        let start = start.map(|[phi_deg, theta_deg]| from_degrees(phi_deg, theta_deg));
+        if each || particles.of_several_shapes() {
+            let mut error_rad = 0.0f64;
+            for r in particles.extreme_aspect_ratios() {
+                let propagator = Propagator::general(flow, r);
+                let errors = at_each(scene, &self::spans(scene), |span| {
+                    let (error, of_start) = match start {
+                        Some(start) => {
+                            let (_, error, of_start) = directed(&propagator, &mean, &start, span)?;
+                            (error, of_start)
+                        }
+                        None => (propagator.map_beside(&mean, span)?.1, 0.0),
+                    };
+                    Some(((), error, of_start))
+                })?;
+                error_rad = error_rad.max(errors.1);
+            }
+            let mean = Box::new(Propagator::new(flow, r));
+            let spans = self::spans(scene);
+            let rounded = each || start.is_some();
+            return Ok(Self { way: Way::Each { mean, spans, rounded }, error_rad });
+        }
+        let (way, error_rad) = match start {
+            Some(start) => {
+                let (ends, error) = at_each(scene, &spans, |span| directed(&mean, &mean, &start, span))?;
+                (Way::Alike(ends), error)
+            }
+            None => {
+                let (maps, error) = at_each(scene, &spans, |span| {
+                    let (map, error) = mean.map(span)?;
+                    Some((map, error, 0.0))
+                })?;
+                (Way::Maps(maps), error)
+            }
+        };
+        Ok(Self { way, error_rad })
+    }
+}
+
+/// Where a rod that starts along `start` goes, with its error and what of it is the rounding of the start; the span's periods are
+/// those of `mean`.
+pub(crate) fn directed(
+    propagator: &Propagator,
+    mean: &Propagator,
+    start: &UnitVector3<f64>,
+    span: Span,
+) -> Option<([f64; 3], f64, f64)> {
+    let moved = propagator.moved_beside(mean, start, span)?;
+    let rounding = ROUNDING_OF_START * moved.condition;
+    Some((moved.p.into_inner().into(), moved.error + rounding, rounding))
+}
+
+/// What `motion` gives at each span with its error and the start's part in it, and the largest error.
+fn at_each<T: Send>(
+    scene: &Scene,
+    spans: &[Span],
+    motion: impl Fn(Span) -> Option<(T, f64, f64)> + Sync,
+) -> Result<(Vec<T>, f64), Invalid> {
+    // Not into an option at once, which holds all of it twice.
+    let all: Vec<_> = spans.par_iter().map(|&span| motion(span)).collect();
+    let all: Option<Vec<_>> = all.into_iter().collect();
+    // A scene in periods has been checked to have one.
+    let all = all.unwrap_or_default();
+    let worst = all.iter().map(|(_, error, of_start)| (*error, *of_start));
+    let (error, of_start) =
+        worst.fold((0.0, 0.0), |worst, next| if next.0 > worst.0 || next.0.is_nan() { next } else { worst });
+    // An error that is no number is not known to be small.
+    if error.is_nan() || error > MAX_ERROR_RAD {
+        return Err(unknown(scene, error, of_start));
+    }
+    let mut values: Vec<_> = all.into_iter().map(|(value, ..)| value).collect();
+    // They are collected where the errors were, and would keep that room.
+    values.shrink_to_fit();
+    Ok((values, error))
+}
+
+fn unknown(scene: &Scene, error: f64, of_start: f64) -> Invalid {
+    let (key, value) = match scene.time.strain {
+        Some(strain) => ("time.strain", strain),
+        None => ("time.periods", scene.time.periods.unwrap_or(0.0)),
+    };
+    let cause = cause(error, of_start);
+    Invalid::new(
+        key,
+        value,
+        format!(
+            "so long that directions of rods of r_e = {} in this flow would be known to {error:.1e} rad only, not to \
+             {MAX_ERROR_RAD:e}: {cause}; give a shorter time, another start or other rods",
+            scene.particles.aspect_ratio
+        ),
+    )
+}
+
+/// Why a direction is not known: the part of the start's rounding in the error, or that of the rates.
+fn cause(error: f64, of_start: f64) -> &'static str {
+    if of_start > 0.5 * error {
+        "this flow amplifies the rounding of the start beyond 1e-6 rad"
+    } else {
+        "the flow's rates cancel, or grow apart, beyond the 32 digits that they are worked out in"
+    }
+}
+
+/// What is wrong with a rod of aspect ratio `r` whose bound on the error of its direction is `error` rad, `of_start` of it from the
+/// rounding of the start.
+pub(crate) fn refused_direction(r: f64, error: f64, of_start: f64) -> String {
+    let bound = match error.is_finite() {
+        true => format!("{error:.2e} rad"),
+        false => "infinite".into(),
+    };
+    format!(
+        "the bound on the error of its direction is {bound}, more than the {MAX_ERROR_RAD:e} rad allowed, at r_e = {r}: {}; \
+         give a shorter time, another start or other rods",
+        cause(error, of_start)
+    )
+}
+
+/// The times of the outputs.
+fn spans(scene: &Scene) -> Vec<Span> {
+    let outputs = 0..scene.outputs();
+    match scene.time.strain {
+        Some(_) => {
+            let each = scene.outputs_per_strain() as f64;
+            outputs.map(|k| Span::Strain(k as f64, each)).collect()
+        }
+        None => {
+            let each = scene.outputs_per_period() as f64;
+            outputs.map(|k| Span::Periods(k as f64, each)).collect()
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! The plan of a scene: which stages run, which are left out, and why.
+
+mod check;
+pub mod free;
+mod stages;
+mod warnings;
+
+pub use stages::{Entry, Stage};
+
+use crate::model::flow::VelocityGradient;
+use crate::model::jeffery::strain_per_period;
+use crate::observable::Observable;
+use crate::plan::free::FreeMotion;
+use crate::scene::{Invalid, Scene};
+use stages::entries;
+pub(crate) use stages::no_interaction;
+use std::fmt;
+use std::sync::Arc;
+
+/// The units in which outputs and steps are counted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Clock {
+    /// Ticks per period of the mean aspect ratio: steps where there are steps, else outputs.
+    Periods { ticks: u64 },
+    /// Ticks per unit of strain: outputs.
+    Strain { ticks: u64 },
+}
+
+/// What a unit of time is.
+///
+/// ```
+/// let unit = shearbed::Plan::new(&shearbed::Scene::default())?.unit();
+/// assert_eq!(unit.strain, shearbed::model::jeffery::strain_per_period(11.6));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unit {
+    /// In s.
+    pub seconds: f64,
+    /// In shear strain.
+    pub strain: f64,
+}
+
+/// What will run for a scene: the scene, checked, and its stages.
+///
+/// ```
+/// let plan = shearbed::Plan::new(&shearbed::Scene::default())?;
+/// assert_eq!((plan.steps(), plan.outputs()), (0, 51)); // free rods take no steps
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Plan {
+    scene: Scene,
+    flow: VelocityGradient,
+    /// Where rods that do not meet are, but in plane Couette flow by periods.
+    free: Option<Arc<FreeMotion>>,
+    entries: Vec<Entry>,
+}
+
+impl Plan {
+    /// Checks the scene and decides what it needs.
+    ///
+    /// # Errors
+    ///
+    /// The first value, or combination of values, that is not allowed.
+    pub fn new(scene: &Scene) -> Result<Self, Invalid> {
+        let (flow, free) = scene.checked()?;
+        Ok(Self { scene: scene.clone(), flow, free: free.map(Arc::new), entries: entries(scene) })
+    }
+
+    /// The same plan with `stage`, and what it needs, kept although the scene does not need it: for tests
+    /// that leaving it out changes nothing, and for measuring what it would cost. `None` where the scene
+    /// lacks what the stage works on: no `[interaction]` table, or free rods in other than plane Couette flow by periods.
+    pub fn keeping(&self, stage: Stage) -> Option<Self> {
+        let needs: &[Stage] = match stage {
+            Stage::Translation => &[Stage::Positions],
+            Stage::Neighbours => &[Stage::Translation, Stage::Positions],
+            Stage::CollisionDraws => &[Stage::Translation, Stage::Positions],
+            Stage::Contacts => {
+                &[Stage::CollisionDraws, Stage::Neighbours, Stage::Translation, Stage::Positions]
+            }
+            _ => &[],
+        };
+        let in_volume = stage == Stage::Positions || !needs.is_empty();
+        if in_volume && (self.scene.interaction.is_none() || self.free.is_some()) {
+            return None;
+        }
+        let mut plan = self.clone();
+        for entry in &mut plan.entries {
+            if entry.stage == stage || needs.contains(&entry.stage) {
+                entry.kept = true;
+                entry.reason = "kept by request".to_owned();
+            }
+        }
+        Some(plan)
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The imposed flow.
+    pub fn flow(&self) -> &VelocityGradient {
+        &self.flow
+    }
+
+    /// The bound on the error of free rods' directions in rad, where they do not move by the closed form of plane Couette
+    /// flow. Random directions: of the map that moves them, relative to its size.
+    pub fn error_rad(&self) -> Option<f64> {
+        self.free.as_ref().map(|free| free.error_rad)
+    }
+
+    pub(crate) fn free(&self) -> Option<&Arc<FreeMotion>> {
+        self.free.as_ref()
+    }
+
+    /// The stages, kept and dropped, in the order in which they run.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// Whether a stage runs.
+    pub fn keeps(&self, stage: Stage) -> bool {
+        self.entries.iter().any(|entry| entry.stage == stage && entry.kept)
+    }
+
+    /// The observables to compute, in the order of the scene.
+    pub fn observables(&self) -> Vec<Observable> {
+        let kept = self.entries.iter().filter(|entry| entry.kept);
+        kept.filter_map(|entry| match entry.stage {
+            Stage::Observe(observable) => Some(observable),
+            _ => None,
+        })
+        .collect()
+    }
+
+    /// The number of outputs, the one at t = 0 included.
+    pub fn outputs(&self) -> usize {
+        self.scene.outputs()
+    }
+
+    /// The number of time steps; 0 where the exact motion goes straight to each output.
+    pub fn steps(&self) -> u64 {
+        if self.keeps(Stage::Translation) { (self.outputs() as u64 - 1) * self.ticks_per_output() } else { 0 }
+    }
+
+    /// The name of the time column: `t_over_T`, or `strain` where the scene's time is a strain.
+    pub fn time_name(&self) -> &'static str {
+        if self.scene.time.strain.is_some() { "strain" } else { "t_over_T" }
+    }
+
+    /// The seconds, and the shear strain ∫(2D:D)^½ dt, of one unit of [`Plan::times`].
+    pub fn unit(&self) -> Unit {
+        let seconds = self.scene.seconds_per_unit(&self.flow);
+        let strain = match (self.scene.time.strain, self.flow.shear_rate_per_s()) {
+            (Some(_), _) => 1.0,
+            (None, Some(_)) => strain_per_period(self.scene.particles.aspect_ratio),
+            (None, None) => seconds * self.flow.magnitude_per_s(),
+        };
+        Unit { seconds, strain }
+    }
+
+    /// The times of the outputs, in periods or units of strain.
+    pub fn times(&self) -> Vec<f64> {
+        let per_unit = self.scene.outputs_per_unit();
+        (0..self.outputs()).map(|k| k as f64 / per_unit as f64).collect()
+    }
+
+    /// The outputs at which every rod is wanted, in the order of time.
+    pub fn rods_outputs(&self) -> Vec<usize> {
+        let times = self.scene.output.rods_at.iter();
+        times.filter_map(|time| self.scene.output_at(*time)).collect()
+    }
+
+    /// All rods that are wanted: of each replica at each of these outputs.
+    pub fn rods_out(&self) -> u64 {
+        let of_replica = self.scene.output.rods_at.len() as u64 * self.scene.particles.count as u64;
+        of_replica.saturating_mul(self.scene.ensemble.replicas)
+    }
+
+    pub(crate) fn clock(&self) -> Clock {
+        match self.scene.time.strain {
+            Some(_) => Clock::Strain { ticks: self.scene.outputs_per_strain() },
+            None => Clock::Periods { ticks: self.scene.outputs_per_period() * self.ticks_per_output() },
+        }
+    }
+
+    /// Steps between outputs; 1 where no steps are taken.
+    pub(crate) fn ticks_per_output(&self) -> u64 {
+        if self.keeps(Stage::Translation) {
+            self.scene.steps_per_unit() / self.scene.outputs_per_unit()
+        } else {
+            1
+        }
+    }
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let scene = &self.scene;
+        writeln!(f, "{}", scene.title)?;
+        let duration = match scene.time.strain {
+            Some(strain) => format!("strain {strain}"),
+            None => format!("t/T = {}", scene.time.periods.unwrap_or(0.0)),
+        };
+        let steps = match self.steps() {
+            0 => "no time steps: the exact motion goes straight to each output".to_owned(),
+            steps => counted(steps, "time step"),
+        };
+        writeln!(
+            f,
+            "{}, {}, {duration}, {}, {steps}",
+            counted(scene.particles.count as u64, "rod"),
+            counted(scene.ensemble.replicas, "replica"),
+            counted(self.outputs() as u64, "output"),
+        )?;
+        for entry in &self.entries {
+            let verb = if entry.kept { "keep" } else { "drop" };
+            writeln!(f, "{verb} {:<18} {}", entry.stage, entry.reason)?;
+        }
+        for warning in self.warnings() {
+            writeln!(f, "warning: {warning}")?;
+        }
+        Ok(())
+    }
+}
+
+fn counted(count: u64, what: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {what}{plural}")
+}

@@ -1,0 +1,289 @@
+//! Replicas over all cores, and the means and standard errors over them.
+
+#[cfg(test)]
+mod tests;
+
+use crate::model::work::Counters;
+use crate::observable::{self, Observable, Sum};
+use crate::plan::{Plan, Unit};
+use crate::run::{Replica, run_replica};
+use crate::suspension::RunError;
+use crate::suspension::snapshot::Snapshot;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// A channel of an observable against time: a column of its table.
+///
+/// ```
+/// let plan = shearbed::Plan::new(&shearbed::Scene::default())?;
+/// let results = shearbed::run::ensemble::run(&plan)?;
+/// let x1 = results.column("x1").expect("projections are the default");
+/// assert!((x1.mean[0] - 0.5).abs() < 4.0 * x1.se[0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// The mean over rods and replicas, per output.
+    pub mean: Vec<f64>,
+    /// The standard error of the mean: over replicas, or over rods where there is one replica. NaN where
+    /// there is one replica of one rod.
+    pub se: Vec<f64>,
+}
+
+/// An observable against time.
+///
+/// ```
+/// let plan = shearbed::Plan::new(&shearbed::Scene::default())?;
+/// let results = shearbed::run::ensemble::run(&plan)?;
+/// let names: Vec<_> = results.series[0].columns.iter().map(|column| &column.name[..]).collect();
+/// assert_eq!(names, ["x1", "x2", "x3"]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Which observable.
+    pub observable: Observable,
+    /// Its columns, in the order of [`Observable::channels`].
+    pub columns: Vec<Column>,
+}
+
+/// The results of a scene.
+///
+/// ```
+/// let plan = shearbed::Plan::new(&shearbed::Scene::default())?;
+/// let results = shearbed::run::ensemble::run(&plan)?;
+/// assert_eq!((results.time_name, results.times.len()), ("t_over_T", 51));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Results {
+    /// `t_over_T` or `strain`.
+    pub time_name: &'static str,
+    /// The outputs' times.
+    pub times: Vec<f64>,
+    /// What their unit is.
+    pub unit: Unit,
+    /// One per observable, in the order of the plan.
+    pub series: Vec<Series>,
+    /// Every rod at each output that the scene asks for them: replica by replica, and in each in the order of time.
+    pub snapshots: Vec<Snapshot>,
+    /// Work over all replicas.
+    pub counters: Counters,
+}
+
+impl Results {
+    /// The column with this name.
+    pub fn column(&self, name: &str) -> Option<&Column> {
+        let mut all = self.series.iter().flat_map(|series| &series.columns);
+        all.find(|column| column.name == name)
+    }
+}
+
+/// Runs every replica of the plan on the threads of the current rayon pool. The results are the same bits for any number of
+/// threads. To be told of each replica, or to run them elsewhere: [`fold`] and [`replicas_of`].
+///
+/// # Errors
+///
+/// The first replica that stopped, or had a result that is none.
+pub fn run(plan: &Plan) -> Result<Results, RunError> {
+    fold(plan, |replicas| replicas_of(plan, replicas, &|| ()))
+}
+
+/// Runs some replicas of the plan on the threads of the current rayon pool, and returns them in order; `finished`
+/// is called after each.
+///
+/// # Errors
+///
+/// As [`run()`].
+pub fn replicas_of(
+    plan: &Plan,
+    replicas: Range<u64>,
+    finished: &(impl Fn() + Sync),
+) -> Result<Vec<Replica>, RunError> {
+    let one = |replica| {
+        let result = run_replica(plan, replica);
+        finished();
+        result
+    };
+    replicas.into_par_iter().map(one).collect()
+}
+
+/// The results of a plan whose replicas `run` runs, a range of them at a time and wherever it likes, as long as it
+/// returns them in order. The results' bits do not depend on where.
+///
+/// # Errors
+///
+/// The first of `run`.
+pub fn fold<E>(
+    plan: &Plan,
+    mut run: impl FnMut(Range<u64>) -> Result<Vec<Replica>, E>,
+) -> Result<Results, E> {
+    let mut tally = Tally::new(plan);
+    in_batches(plan, width(plan), |replicas| {
+        // Elsewhere than on the root of a job none comes back.
+        run(replicas).map(|replicas| replicas.into_iter().for_each(|replica| tally.add(replica)))
+    })?;
+    Ok(tally.results(plan))
+}
+
+/// All replicas of a plan, as many at a time as may wait to be added where each output has `width` sums.
+pub(crate) fn in_batches<E>(
+    plan: &Plan,
+    width: usize,
+    mut each: impl FnMut(Range<u64>) -> Result<(), E>,
+) -> Result<(), E> {
+    let replicas = plan.scene().ensemble.replicas;
+    let mut first = 0;
+    while first < replicas {
+        let last = replicas.min(first + batch(plan, width));
+        each(first..last)?;
+        first = last;
+    }
+    Ok(())
+}
+
+/// Sums per output.
+pub(crate) fn width(plan: &Plan) -> usize {
+    observable::width(&plan.observables())
+}
+
+/// Replicas held in memory at a time: about 256 MB of sums, of which each output has `width`.
+pub(crate) fn batch(plan: &Plan, width: usize) -> u64 {
+    let bytes = plan.outputs() * width * size_of::<Sum>();
+    ((256 << 20) / bytes.max(1)).clamp(1, 4096) as u64
+}
+
+/// Replicas added up, one after the other: running means and squared deviations (Welford 1962).
+///
+/// ```
+/// use shearbed::{Plan, Scene, run::run_replica};
+/// use shearbed::run::ensemble::Tally;
+/// let plan = Plan::new(&Scene::default())?;
+/// let mut tally = Tally::new(&plan);
+/// tally.add(run_replica(&plan, 0)?);
+/// assert_eq!(tally.results(&plan), shearbed::run::ensemble::run(&plan)?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Tally {
+    replicas: u64,
+    counters: Counters,
+    mean: Vec<f64>,
+    deviation: Vec<f64>,
+    /// Standard errors over the rods of one replica.
+    over_rods: Vec<f64>,
+    /// Every rod at the outputs for which the scene asks for them.
+    snapshots: Vec<Snapshot>,
+}
+
+impl Tally {
+    /// Of no replica of the plan.
+    pub fn new(plan: &Plan) -> Self {
+        Self::of(plan.outputs() * width(plan))
+    }
+
+    /// Of so many sums of no replica.
+    pub(crate) fn of(len: usize) -> Self {
+        Self {
+            replicas: 0,
+            counters: Counters::default(),
+            mean: vec![0.0; len],
+            deviation: vec![0.0; len],
+            over_rods: vec![f64::NAN; len],
+            snapshots: Vec::new(),
+        }
+    }
+
+    /// How many replicas are in it: the first ones.
+    pub fn replicas(&self) -> u64 {
+        self.replicas
+    }
+
+    /// Whether it can be one of the plan.
+    ///
+    /// # Errors
+    ///
+    /// What of it cannot be.
+    pub fn check(&self, plan: &Plan) -> Result<(), &'static str> {
+        let len = plan.outputs() * width(plan);
+        if [&self.mean, &self.deviation, &self.over_rods].map(Vec::len) != [len; 3]
+            || self.replicas > plan.scene().ensemble.replicas
+        {
+            return Err("its means are not those of this scene");
+        }
+        let rods_at = plan.rods_outputs().len() as u64;
+        if !Snapshot::all_fit(&self.snapshots, self.replicas * rods_at, plan) {
+            return Err("its rods are not those of this scene");
+        }
+        let deviations = self.deviation.iter().all(|x| x.is_finite() && *x >= 0.0);
+        if !deviations || !self.mean.iter().all(|x| x.is_finite()) {
+            return Err("a mean in it is no number");
+        }
+        Ok(())
+    }
+
+    /// Adds the next replica.
+    pub fn add(&mut self, replica: Replica) {
+        self.counters.add(&replica.counters);
+        self.add_sums(replica.rods, &replica.sums);
+        self.snapshots.extend(replica.snapshots);
+    }
+
+    /// Adds the sums of the next replica over so many rods.
+    pub(crate) fn add_sums(&mut self, rods: usize, sums: &[Sum]) {
+        let n = rods as f64;
+        self.replicas += 1;
+        let replicas = self.replicas as f64;
+        for (k, sum) in sums.iter().enumerate() {
+            let value = sum.value / n;
+            let change = value - self.mean[k];
+            self.mean[k] += change / replicas;
+            self.deviation[k] += change * (value - self.mean[k]);
+            if let Some(spread) = &sum.spread {
+                self.over_rods[k] = spread.standard_error();
+            }
+        }
+    }
+
+    fn se(&self, k: usize) -> f64 {
+        let replicas = self.replicas as f64;
+        if self.replicas > 1 {
+            (self.deviation[k] / (replicas - 1.0) / replicas).sqrt()
+        } else {
+            self.over_rods[k]
+        }
+    }
+
+    /// The sums at a place of every output, of which each has `width`.
+    pub(crate) fn column(&self, name: String, place: usize, width: usize) -> Column {
+        let all = || (place..self.mean.len()).step_by(width);
+        Column { name, mean: all().map(|k| self.mean[k]).collect(), se: all().map(|k| self.se(k)).collect() }
+    }
+
+    /// What the replicas in it come to.
+    pub fn results(self, plan: &Plan) -> Results {
+        let width = width(plan);
+        let mut start = 0;
+        let series = (plan.observables().into_iter())
+            .map(|observable| {
+                let channels = observable.channels().enumerate();
+                let columns =
+                    channels.map(|(place, channel)| self.column(channel.name(), start + place, width));
+                let columns = columns.collect();
+                start += observable.width();
+                Series { observable, columns }
+            })
+            .collect();
+        Results {
+            time_name: plan.time_name(),
+            times: plan.times(),
+            unit: plan.unit(),
+            series,
+            snapshots: self.snapshots,
+            counters: self.counters,
+        }
+    }
+}

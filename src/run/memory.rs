@@ -1,0 +1,67 @@
+//! What a run holds in memory, so that one that would not fit can say so before it starts.
+
+use crate::model::collision::reach;
+use crate::motion::Propagator;
+use crate::observable::Sum;
+use crate::plan::free::Way;
+use crate::plan::{Plan, Stage};
+use crate::run::ensemble::{batch, width};
+use crate::suspension::BYTES_OF_A_CANDIDATE;
+use crate::suspension::snapshot::Snapshot;
+use std::f64::consts::PI;
+
+/// About the most bytes that a run of the plan holds, with `at_once` replicas at a time.
+///
+/// Per rod of an interacting scene: its direction (24) and the step it dates from (4), position (24), R (8), aspect
+/// ratio (8), and in the search its copy in the order of space (32), cell (4), the cell's start (4) and a place on the
+/// list of those that need a search (4). Beside it, lists of who collides.
+pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
+    let scene = plan.scene();
+    let replicas = scene.ensemble.replicas.min(at_once.max(1));
+    let kept = |stage, bytes| if plan.keeps(stage) { bytes } else { 0 };
+    // A propagator for each rod, and what all replicas share for each output.
+    let maps = match plan.free().map(|free| &free.way) {
+        None => [0, 0],
+        Some(Way::Each { spans, .. }) => {
+            let each = if plan.keeps(Stage::AspectRatios) { size_of::<Propagator>() } else { 0 };
+            [each, size_of_val(&spans[..])]
+        }
+        Some(Way::Maps(maps)) => [0, size_of_val(&maps[..])],
+        Some(Way::Alike(ends)) => [0, size_of_val(&ends[..])],
+    };
+    let per_rod = 24
+        + maps[0]
+        + kept(Stage::AspectRatios, 8)
+        + kept(Stage::Lengths, 8)
+        + kept(Stage::Positions, 24)
+        + kept(Stage::CollisionDraws, 8)
+        + kept(Stage::Neighbours, 44)
+        + kept(Stage::Contacts, 4);
+    let width = width(plan);
+    let per_output = width * size_of::<Sum>();
+    let waiting = scene.ensemble.replicas.min(batch(plan, width));
+    let lists = BYTES_OF_A_CANDIDATE as f64 * candidates(plan) * scene.particles.count as f64;
+    let rods = replicas * (lists as u64 + (scene.particles.count * per_rod) as u64) + maps[1] as u64;
+    // Sums of replicas that wait to be added in order, and three running moments of 8 bytes.
+    let sums = plan.outputs() as u64 * (waiting * per_output as u64 + 3 * 8 * width as u64);
+    // Every rod that is wanted is held to the end.
+    let of_rod = Snapshot::bytes_per_rod(plan) as u64;
+    (rods + sums).saturating_add(plan.rods_out().saturating_mul(of_rod))
+}
+
+/// The share of rods that make a candidate in a step: s* is farther than the nearest of rods scattered at random,
+/// ∫ 1 − exp(−4π n s*(R)³/3) dR.
+fn candidates(plan: &Plan) -> f64 {
+    const POINTS: usize = 64;
+    let scene = plan.scene();
+    let Some(interaction) = (scene.interaction.as_ref()).filter(|_| plan.keeps(Stage::Contacts)) else {
+        return 0.0;
+    };
+    let n = scene.concentration().unwrap_or(0.0) * scene.particles.mean_cube();
+    let hit = |r: f64| {
+        let reach = reach(r, interaction.alpha, interaction.m);
+        -libm::expm1(-4.0 / 3.0 * PI * n * reach.powi(3))
+    };
+    let points = (0..POINTS).map(|k| hit((k as f64 + 0.5) / POINTS as f64));
+    points.sum::<f64>() / POINTS as f64
+}

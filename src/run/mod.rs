@@ -1,0 +1,320 @@
+//! One replica of a scene, from its plan to the sums of its observables.
+
+pub mod ensemble;
+pub mod memory;
+pub mod own;
+pub mod resume;
+#[cfg(test)]
+mod tests;
+
+use crate::model::chunks::{CHUNK, of_chunks};
+use crate::model::work::Counters;
+use crate::observable::fault::{self, Fault};
+use crate::observable::{BLOCK, Block, Channel, Observable, Sum, width};
+use crate::plan::{Plan, Stage};
+use crate::run::resume::{Halfway, Placed};
+use crate::suspension::RunError;
+use crate::suspension::Suspension;
+use crate::suspension::rods::Rods;
+use crate::suspension::snapshot::Snapshot;
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// The sums of one replica.
+///
+/// ```
+/// use shearbed::{Plan, Scene, observable::Channel};
+/// let replica = shearbed::run::run_replica(&Plan::new(&Scene::default())?, 0)?;
+/// assert!((0.0..=1.0).contains(&replica.mean(Channel::X[0], 0).expect("an output")));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Replica {
+    observables: Vec<Observable>,
+    pub(crate) rods: usize,
+    /// Per output, the channels of every observable of the plan, one after the other: sums over rods.
+    pub(crate) sums: Vec<Sum>,
+    /// Every rod at each output that the scene asks for them.
+    pub snapshots: Vec<Snapshot>,
+    /// What was done.
+    pub counters: Counters,
+}
+
+impl Replica {
+    /// Whether it can be one of the plan.
+    ///
+    /// # Errors
+    ///
+    /// What of it cannot be.
+    pub fn check(&self, plan: &Plan) -> Result<(), &'static str> {
+        let own = self.observables == plan.observables()
+            && self.rods == plan.scene().particles.count
+            && self.sums.len() == plan.outputs() * width(&self.observables);
+        let spread = plan.keeps(Stage::RodErrors);
+        if !own || !self.sums.iter().all(|sum| sum.is_over(self.rods, spread)) {
+            return Err("its sums are not those of this scene");
+        }
+        if !Snapshot::all_fit(&self.snapshots, plan.rods_outputs().len() as u64, plan) {
+            return Err("its rods are not those of this scene");
+        }
+        Ok(())
+    }
+
+    /// The mean of a channel over the rods at an output; `None` where the scene does not observe it or has no such output.
+    pub fn mean(&self, channel: Channel, output: usize) -> Option<f64> {
+        let place = channel.place(&self.observables)?;
+        let sum = self.sums.get(output * width(&self.observables) + place)?;
+        Some(sum.value / self.rods as f64)
+    }
+}
+
+/// Runs one replica. Its bits depend on the scene, the seed and `replica` only.
+///
+/// # Errors
+///
+/// A kick that overflows, or a direction or a sum that is no result.
+pub fn run_replica(plan: &Plan, replica: u64) -> Result<Replica, RunError> {
+    go_on(plan, replica, None, |_| ())
+}
+
+/// Runs one replica from its start or from halfway. `look` is called between its steps, for free rods between outputs, with
+/// what makes the state to go on from. The bits are those of [`run_replica`].
+///
+/// # Errors
+///
+/// As [`run_replica`], and what is halfway of no replica of this plan.
+pub fn go_on(
+    plan: &Plan,
+    replica: u64,
+    from: Option<Halfway>,
+    mut look: impl FnMut(&dyn Fn() -> Halfway),
+) -> Result<Replica, RunError> {
+    if let Some(from) = &from {
+        let refused = |cause| RunError::Misfit { replica, cause };
+        from.check(plan).map_err(refused)?;
+    }
+    let mut recorder = Recorder::new(plan, replica);
+    let rods = from.and_then(|from| {
+        recorder.done = from.outputs(plan);
+        recorder.sums[..from.sums.len()].copy_from_slice(&from.sums);
+        recorder.snapshots = from.snapshots;
+        from.rods
+    });
+    let suspension = match rods {
+        Some(rods) => rods.suspension(plan, replica),
+        None => Suspension::new(plan, replica),
+    };
+    let mut counters = match suspension {
+        Some(suspension) => stepped(plan, suspension, &mut recorder, &mut look)?,
+        None => straight(plan, replica, &mut recorder, &mut look)?,
+    };
+    counters.directions = (plan.outputs() * plan.scene().particles.count) as u64;
+    Ok(Replica {
+        observables: plan.observables(),
+        rods: plan.scene().particles.count,
+        sums: recorder.sums,
+        snapshots: recorder.snapshots,
+        counters,
+    })
+}
+
+/// Free rods: the exact motion straight to each output. A block of rods is read once for many outputs.
+fn straight(
+    plan: &Plan,
+    replica: u64,
+    recorder: &mut Recorder,
+    look: &mut impl FnMut(&dyn Fn() -> Halfway),
+) -> Result<Counters, RunError> {
+    let (rods, counters) = Rods::draw(plan, replica);
+    for first in (recorder.done..plan.outputs()).step_by(OUTPUTS) {
+        let outputs = first..plan.outputs().min(first + OUTPUTS);
+        recorder.record(outputs, |first, output, block| rods.orient(first, output as u64, block))?;
+        look(&|| recorder.halfway(None));
+    }
+    let asked = plan.rods_outputs().into_iter();
+    recorder.snapshots = asked
+        .map(|output| {
+            Snapshot::of_free(&rods, replica, output)
+                .map_err(|fault| refused(plan, replica, 0, output, fault))
+        })
+        .collect::<Result<_, _>>()?;
+    Ok(counters)
+}
+
+/// Outputs for which a block of rods is read once.
+const OUTPUTS: usize = 64;
+
+/// Interacting rods: steps from output to output.
+fn stepped(
+    plan: &Plan,
+    mut suspension: Suspension,
+    recorder: &mut Recorder,
+    look: &mut impl FnMut(&dyn Fn() -> Halfway),
+) -> Result<Counters, RunError> {
+    let (asked, per_output) = (plan.rods_outputs(), plan.ticks_per_output());
+    for output in recorder.done..plan.outputs() {
+        while suspension.tick() < output as u64 * per_output {
+            suspension.step()?;
+            look(&|| recorder.halfway(Some(suspension.placed())));
+        }
+        let (rods, tick) = (&suspension.rods, suspension.tick());
+        recorder.record(output..output + 1, |first, _, block| rods.orient(first, tick, block))?;
+        if asked.contains(&output) {
+            let snapshot = Snapshot::of_suspension(&suspension, recorder.replica, output);
+            let snapshot = snapshot.map_err(|fault| recorder.refused(0, output, fault))?;
+            recorder.snapshots.push(snapshot);
+        }
+    }
+    Ok(suspension.counters)
+}
+
+struct Recorder<'a> {
+    plan: &'a Plan,
+    replica: u64,
+    observables: Vec<(Observable, usize)>,
+    width: usize,
+    empty: Sum,
+    sums: Vec<Sum>,
+    /// Outputs that are done: the first ones.
+    done: usize,
+    snapshots: Vec<Snapshot>,
+}
+
+impl<'a> Recorder<'a> {
+    fn new(plan: &'a Plan, replica: u64) -> Self {
+        let mut width = 0;
+        let observables = plan
+            .observables()
+            .into_iter()
+            .map(|observable| {
+                let start = width;
+                width += observable.width();
+                (observable, start)
+            })
+            .collect();
+        let empty = Sum::none(plan.keeps(Stage::RodErrors));
+        Self {
+            plan,
+            replica,
+            observables,
+            width,
+            empty,
+            sums: vec![empty; width * plan.outputs()],
+            done: 0,
+            snapshots: Vec::new(),
+        }
+    }
+
+    /// What is done, with the rods where they interact.
+    fn halfway(&self, rods: Option<Placed>) -> Halfway {
+        Halfway {
+            sums: self.sums[..self.done * self.width].to_vec(),
+            snapshots: self.snapshots.clone(),
+            rods,
+        }
+    }
+
+    /// Sums the observables of all rods at these outputs; `orient(first, output, block)` fills a block with the
+    /// directions of the rods from `first` on, or says which is not known. Large runs: sums over chunks, and then their sum in order.
+    fn record(
+        &mut self,
+        outputs: Range<usize>,
+        orient: impl Fn(usize, usize, &mut Block) -> Result<(), Fault> + Sync,
+    ) -> Result<(), RunError> {
+        let count = self.plan.scene().particles.count;
+        let done = outputs.end;
+        let mut sums = std::mem::take(&mut self.sums);
+        let own = &mut sums[self.width * outputs.start..self.width * outputs.end];
+        if count <= CHUNK {
+            self.add(0..count, outputs.clone(), &orient, own)?;
+        } else {
+            let parts = of_chunks(count, |part| {
+                let mut sums = vec![self.empty; own.len()];
+                self.add(part, outputs.clone(), &orient, &mut sums)?;
+                Ok(sums)
+            });
+            for part in parts {
+                own.iter_mut().zip(&part?).for_each(|(sum, part)| sum.merge(part));
+            }
+        }
+        for (output, sums) in outputs.zip(own.chunks(self.width)) {
+            for (observable, start) in &self.observables {
+                fault::trace(*observable, &sums[*start..], count)
+                    .map_err(|fault| self.refused(0, output, fault))?;
+            }
+        }
+        self.sums = sums;
+        self.done = done;
+        Ok(())
+    }
+
+    fn add(
+        &self,
+        part: Range<usize>,
+        outputs: Range<usize>,
+        orient: impl Fn(usize, usize, &mut Block) -> Result<(), Fault>,
+        sums: &mut [Sum],
+    ) -> Result<(), RunError> {
+        let mut block = Block::default();
+        for first in part.step_by(BLOCK) {
+            for (output, sums) in outputs.clone().zip(sums.chunks_mut(self.width)) {
+                let refused = |fault| self.refused(first, output, fault);
+                orient(first, output, &mut block).map_err(refused)?;
+                fault::directions(&block).map_err(refused)?;
+                for (observable, start) in &self.observables {
+                    let sums = &mut sums[*start..][..observable.width()];
+                    observable.add(&block, sums);
+                    fault::sums(*observable, &block, sums).map_err(refused)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn refused(&self, first: usize, output: usize, fault: Fault) -> RunError {
+        refused(self.plan, self.replica, first, output, fault)
+    }
+}
+
+/// The error of a fault in a block whose first rod is `first`.
+pub(crate) fn refused(plan: &Plan, replica: u64, first: usize, output: usize, fault: Fault) -> RunError {
+    RunError::NoResult {
+        rod: fault.rod.map(|rod| first + rod),
+        output,
+        time_name: plan.time_name(),
+        time: plan.times()[output],
+        seed: plan.scene().ensemble.seed,
+        replica,
+        cause: fault.cause,
+    }
+}
+
+/// Hands every rod of a replica at every output to `look`: output by output, the rods in blocks, with the first one's number.
+pub(crate) fn each_block(
+    plan: &Plan,
+    replica: u64,
+    mut look: impl FnMut(usize, usize, &Block) -> Result<(), RunError>,
+) -> Result<(), RunError> {
+    let mut block = Block::default();
+    let mut blocks = |output: usize, rods: &Rods, tick: u64| {
+        (0..rods.count()).step_by(BLOCK).try_for_each(|first| {
+            rods.orient(first, tick, &mut block)
+                .and_then(|()| fault::directions(&block))
+                .map_err(|fault| refused(plan, replica, first, output, fault))?;
+            look(output, first, &block)
+        })
+    };
+    let (mut outputs, per_output) = (0..plan.outputs(), plan.ticks_per_output());
+    match Suspension::new(plan, replica) {
+        Some(mut suspension) => outputs.try_for_each(|output| {
+            while suspension.tick() < output as u64 * per_output {
+                suspension.step()?;
+            }
+            blocks(output, &suspension.rods, suspension.tick())
+        }),
+        None => {
+            let (rods, _) = Rods::draw(plan, replica);
+            outputs.try_for_each(|output| blocks(output, &rods, output as u64))
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! A replica in the middle of its work, to be kept and gone on from, bit for bit as if it had not stopped.
+//!
+//! Kept is what the plan, the seed and the replica's number do not give: the sums so far and, where rods interact, their
+//! directions, positions and counts of work. Random streams are not: how many numbers were drawn is among the counts.
+
+use crate::model::random::{Purpose, ahead, stream};
+use crate::model::work::Counters;
+use crate::observable::{Sum, width};
+use crate::plan::{Plan, Stage};
+use crate::suspension::Suspension;
+use crate::suspension::snapshot::Snapshot;
+use serde::{Deserialize, Serialize};
+
+/// A replica in the middle of its work.
+///
+/// ```
+/// use shearbed::scene::{Interaction, Scene};
+/// let scene = Scene { interaction: Some(Interaction::default()), ..Scene::default() };
+/// let plan = shearbed::Plan::new(&scene)?;
+/// let mut kept = None;
+/// let whole = shearbed::run::go_on(&plan, 0, None, |state| kept = Some(state()))?;
+/// assert_eq!(shearbed::run::go_on(&plan, 0, kept, |_| ())?, whole);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Halfway {
+    /// Sums of the outputs that are done.
+    pub(crate) sums: Vec<Sum>,
+    /// Every rod at those of these outputs for which the scene asks for them; free rods are there at the end alone.
+    pub(crate) snapshots: Vec<Snapshot>,
+    /// The rods, where they interact.
+    pub(crate) rods: Option<Placed>,
+}
+
+/// Interacting rods at a tick.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Placed {
+    counters: Counters,
+    /// Each rod's direction at its tick `since`.
+    directions: [Vec<f64>; 3],
+    since: Vec<u32>,
+    /// In rod lengths.
+    positions: [Vec<f64>; 3],
+}
+
+/// By how much a squared length may be off 1: far above round-off, far below what any mean shows.
+const LENGTH: f64 = 1e-9;
+
+impl Halfway {
+    /// Bytes that one of the plan holds at most.
+    pub fn bytes(plan: &Plan) -> u64 {
+        let sums = plan.outputs() * width(&plan.observables()) * size_of::<Sum>();
+        // Of free rods it holds neither directions nor snapshots.
+        let of_rod = match plan.keeps(Stage::Translation) {
+            true => 48 + 4 + plan.rods_outputs().len() * Snapshot::bytes_per_rod(plan),
+            false => 0,
+        };
+        (sums + plan.scene().particles.count * of_rod) as u64
+    }
+
+    /// Outputs that are done.
+    pub(crate) fn outputs(&self, plan: &Plan) -> usize {
+        self.sums.len() / width(&plan.observables()).max(1)
+    }
+
+    /// Whether it can be one of a replica of the plan.
+    ///
+    /// # Errors
+    ///
+    /// What of it cannot be.
+    pub fn check(&self, plan: &Plan) -> Result<(), &'static str> {
+        let width = width(&plan.observables());
+        let (rods, spread) = (plan.scene().particles.count, plan.keeps(Stage::RodErrors));
+        let whole = self.sums.len().is_multiple_of(width.max(1)) && self.outputs(plan) <= plan.outputs();
+        if !whole || !self.sums.iter().all(|sum| sum.is_over(rods, spread)) {
+            return Err("its sums are not those of this scene");
+        }
+        let reached = |output: &&usize| plan.keeps(Stage::Translation) && **output < self.outputs(plan);
+        let asked = plan.rods_outputs().iter().filter(reached).count() as u64;
+        if !Snapshot::all_fit(&self.snapshots, asked, plan) {
+            return Err("its rods are not at the times of this scene");
+        }
+        match &self.rods {
+            Some(placed) if plan.keeps(Stage::Translation) => placed.check(plan, self.outputs(plan)),
+            None if !plan.keeps(Stage::Translation) => Ok(()),
+            _ => Err("it has rods where the scene has none, or none where it has"),
+        }
+    }
+}
+
+impl Placed {
+    /// Suspension of the replica as it was kept; `None` for a plan that takes no steps.
+    pub(crate) fn suspension(self, plan: &Plan, replica: u64) -> Option<Suspension> {
+        let mut suspension = Suspension::new(plan, replica)?;
+        let rng = |purpose, drawn: u128| ahead(&stream(plan.scene().ensemble.seed, replica, purpose), drawn);
+        let Self { counters, directions, since, positions } = self;
+        if let Some(draws) = &mut suspension.draws {
+            *draws = rng(Purpose::Collisions, counters.draws.into());
+        }
+        let drawn = suspension.numbers_per_replacement() * u128::from(counters.replacements);
+        suspension.replacements = rng(Purpose::Replacements, drawn);
+        suspension.rods.restore(directions, since);
+        suspension.positions = positions;
+        suspension.tick = counters.steps;
+        suspension.counters = counters;
+        Some(suspension)
+    }
+
+    fn check(&self, plan: &Plan, outputs: usize) -> Result<(), &'static str> {
+        let count = plan.scene().particles.count;
+        let tick = self.counters.steps;
+        let per_output = plan.ticks_per_output();
+        let last = outputs as u64 * per_output;
+        if tick > last || tick + per_output < last || tick > plan.steps() {
+            return Err("its outputs are not those of its steps");
+        }
+        let most = tick.saturating_mul(count as u64);
+        let drawn = if plan.keeps(Stage::CollisionDraws) { most } else { 0 };
+        if self.counters.draws != drawn || self.counters.replacements > most {
+            return Err("it has drawn other numbers than its steps draw");
+        }
+        let dated = if plan.keeps(Stage::Contacts) { count } else { 0 };
+        let axes = || self.directions.iter().chain(&self.positions);
+        if self.since.len() != dated || axes().any(|axis| axis.len() != count) {
+            return Err("it has another number of rods");
+        }
+        let [p1, p2, p3] = &self.directions;
+        let mut squares = p1.iter().zip(p2).zip(p3).map(|((a, b), c)| a * a + b * b + c * c);
+        if !squares.all(|square| (square - 1.0).abs() <= LENGTH) {
+            return Err("a direction in it has not the length 1");
+        }
+        if self.since.iter().any(|since| u64::from(*since) > tick) {
+            return Err("a collision in it has yet to come");
+        }
+        let sides = plan.scene().volume().map_or([f64::INFINITY; 3], |volume| volume.sides());
+        let within = |(axis, side): (&Vec<f64>, f64)| axis.iter().all(|x| (0.0..=side).contains(x));
+        if !self.positions.iter().zip(sides).all(within) {
+            return Err("a position in it is outside the control volume");
+        }
+        Ok(())
+    }
+}
+
+impl Suspension {
+    /// Its rods, to be kept.
+    pub(crate) fn placed(&self) -> Placed {
+        let (directions, since) = self.rods.kept();
+        Placed { counters: self.counters, directions, since, positions: self.positions.clone() }
+    }
+}

@@ -1,0 +1,303 @@
+//! Interacting rods in the control volume, step by step (the paper's method of solution).
+
+mod error;
+mod liquid;
+pub(crate) mod rods;
+pub mod snapshot;
+mod state;
+#[cfg(test)]
+mod tests;
+
+pub use error::RunError;
+
+use crate::model::collision::{Reach, kick, norm, share_velocity, step_angles, turn};
+use crate::model::contact::contact;
+use crate::model::jeffery::shape_factor;
+use crate::model::neighbours::{Nearest, Neighbours};
+use crate::model::random::{Purpose, fill_uniform, stream};
+use crate::model::work::Counters;
+use crate::plan::{Plan, Stage};
+use crate::scene::Update;
+use crate::suspension::rods::Rods;
+use liquid::Liquid;
+use nalgebra::{UnitVector3, Vector3};
+use rand_pcg::Pcg64Dxsm;
+use rayon::prelude::*;
+
+/// A collision of the last step.
+///
+/// ```
+/// use shearbed::scene::{Interaction, Scene};
+/// let scene = Scene { interaction: Some(Interaction::default()), ..Scene::default() };
+/// let plan = shearbed::Plan::new(&scene)?;
+/// let mut suspension = shearbed::Suspension::new(&plan, 0).expect("rods that interact");
+/// for collision in suspension.step()? {
+///     assert!(collision.rods[0] != collision.rods[1] && collision.kicks_rad[0] >= 0.0);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Collision {
+    /// The rod that drew R, and its nearest neighbour.
+    pub rods: [usize; 2],
+    /// |ṗ′|Δt: the angles in rad by which the two turned.
+    pub angles_rad: [f64; 2],
+    /// |ṗ′ − ṗ|Δt: what of it the collision did, in rad.
+    pub kicks_rad: [f64; 2],
+}
+
+/// One replica of an interacting scene: lengths in mean rod lengths.
+///
+/// Inside a step: neighbours, draws and contacts from the state at its start; then every orientation
+/// moves; then every position, with replacements.
+///
+/// ```
+/// use shearbed::scene::{Interaction, Scene};
+/// let scene = Scene { interaction: Some(Interaction::default()), ..Scene::default() };
+/// let plan = shearbed::Plan::new(&scene)?;
+/// let mut suspension = shearbed::Suspension::new(&plan, 0).expect("rods that interact");
+/// suspension.step()?;
+/// assert_eq!((suspension.tick(), suspension.directions().len()), (1, 100));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Suspension {
+    pub(crate) rods: Rods,
+    pub(crate) counters: Counters,
+    /// Empty arrays where the plan drops them.
+    pub(crate) positions: [Vec<f64>; 3],
+    sides: [f64; 3],
+    liquid: Liquid,
+    neighbours: Option<Neighbours>,
+    pub(crate) draws: Option<Pcg64Dxsm>,
+    pub(crate) replacements: Pcg64Dxsm,
+    contacts: bool,
+    reach: Reach,
+    rule: Rule,
+    pub(crate) tick: u64,
+    /// R of every rod in this step.
+    drawn: Vec<f64>,
+    candidates: Vec<Candidate>,
+    collisions: Vec<Collision>,
+    /// For error messages.
+    seed: u64,
+    replica: u64,
+}
+
+/// The square of a distance, the rod that drew R, its nearest neighbour.
+type Candidate = (f64, u32, u32);
+
+/// From so many candidates on, their contacts are computed on all threads.
+const MANY: usize = 1024;
+
+/// What a collision does to its two rods.
+struct Turns {
+    ends: [UnitVector3<f64>; 2],
+    angles_rad: [f64; 2],
+    kicks_rad: [f64; 2],
+    arms: [f64; 2],
+}
+
+/// Bytes for a rod with a neighbour near enough to collide with: as found and as a candidate, what the collision would do
+/// to both rods, and half a collision; each list has as much room again.
+pub(crate) const BYTES_OF_A_CANDIDATE: usize = 2 * size_of::<Nearest>()
+    + 2 * size_of::<Candidate>()
+    + size_of::<Option<Turns>>()
+    + size_of::<Collision>();
+
+#[derive(Clone, Copy, Debug)]
+struct Rule {
+    update: Update,
+    min_arm: f64,
+    /// Δt in the liquid's unit of time; |G|Δt in plane Couette flow.
+    step: f64,
+}
+
+impl Suspension {
+    /// The state of one replica at t = 0. `None` for a plan that takes no steps.
+    pub fn new(plan: &Plan, replica: u64) -> Option<Self> {
+        let scene = plan.scene();
+        let interaction = scene.interaction.as_ref().filter(|_| plan.keeps(Stage::Translation))?;
+        let (rods, counters) = Rods::draw(plan, replica);
+        let count = rods.count();
+        let volume = scene.volume()?;
+        let (liquid, step) = Liquid::of(plan, volume);
+        let seed = scene.ensemble.seed;
+        let rng = |purpose| stream(seed, replica, purpose);
+        Some(Self {
+            rods,
+            counters,
+            positions: match scene.particles.own().and_then(|own| own.place_mm.as_ref()) {
+                Some(places) => volume.within(places, scene.particles.length_mm),
+                None => volume.draw_positions(count, &rng(Purpose::Positions)),
+            },
+            sides: volume.sides(),
+            liquid,
+            neighbours: plan.keeps(Stage::Neighbours).then(|| Neighbours::new(volume.sides(), count)),
+            draws: plan.keeps(Stage::CollisionDraws).then(|| rng(Purpose::Collisions)),
+            replacements: rng(Purpose::Replacements),
+            contacts: plan.keeps(Stage::Contacts),
+            reach: Reach::new(interaction.alpha, interaction.m),
+            rule: Rule { update: interaction.update, min_arm: interaction.min_contact_arm, step },
+            tick: 0,
+            drawn: Vec::new(),
+            candidates: Vec::new(),
+            collisions: Vec::new(),
+            seed,
+            replica,
+        })
+    }
+
+    /// Puts the rods at places inside the volume, in rod lengths (three arrays of coordinates), and along
+    /// directions: a state of one's own. `None`, and nothing changed, where a count is not that of the rods.
+    pub fn place(&mut self, places: [Vec<f64>; 3], directions: &[UnitVector3<f64>]) -> Option<()> {
+        let count = self.rods.count();
+        if directions.len() != count || places.iter().any(|axis| axis.len() != count) {
+            return None;
+        }
+        self.positions = places;
+        for (rod, p) in directions.iter().enumerate() {
+            self.rods.set(rod, p, self.tick);
+        }
+        Some(())
+    }
+
+    /// Takes one step and returns its collisions, closest pair first.
+    ///
+    /// # Errors
+    ///
+    /// A kick that overflows; the suspension is then in the middle of its step.
+    pub fn step(&mut self) -> Result<&[Collision], RunError> {
+        self.find_candidates();
+        self.collide()?;
+        self.rods.advance(self.tick);
+        self.tick += 1;
+        self.counters.steps += 1;
+        self.counters.replacements +=
+            (self.liquid).carry(&mut self.positions, self.rule.step, &mut self.replacements);
+        Ok(&self.collisions)
+    }
+
+    /// Every rod draws R; its nearest neighbour within the reach of R makes a candidate (eqs 8 and 9).
+    fn find_candidates(&mut self) {
+        self.candidates.clear();
+        if let Some(draws) = &mut self.draws {
+            self.drawn.resize(self.rods.count(), 0.0);
+            fill_uniform(draws, &mut self.drawn);
+            self.counters.draws += self.drawn.len() as u64;
+        }
+        let (Some(neighbours), false) = (&mut self.neighbours, self.drawn.is_empty()) else {
+            return;
+        };
+        // The bound first: most rods have no neighbour that near, and need no logarithm.
+        let rods = &self.rods;
+        let bound = |rod: usize| self.reach.bound(self.drawn[rod]) * rods.length(rod);
+        let mut work = self.counters;
+        neighbours.each_nearest(&self.positions, bound, &mut work, |nearest| {
+            let rod = nearest.rod as usize;
+            if nearest.square < (self.reach.of(self.drawn[rod]) * rods.length(rod)).powi(2) {
+                self.candidates.push((nearest.square, nearest.rod, nearest.other));
+            }
+        });
+        self.counters = work;
+        self.counters.candidates += self.candidates.len() as u64;
+    }
+
+    /// Takes candidates closest first (ties: lower index), each rod in one collision at most.
+    fn collide(&mut self) -> Result<(), RunError> {
+        self.collisions.clear();
+        if !self.contacts {
+            return Ok(());
+        }
+        let mut candidates = std::mem::take(&mut self.candidates);
+        let closest_first = |a: &Candidate, b: &Candidate| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        if candidates.len() <= MANY {
+            candidates.sort_unstable_by(closest_first);
+            for &(_, a, b) in &candidates {
+                if self.both_free(a, b)
+                    && let Some(turns) = self.turns(a, b)
+                {
+                    self.take(a, b, turns)?;
+                }
+            }
+        } else {
+            candidates.par_sort_unstable_by(closest_first);
+            // From the state at the start of the step, so in any order.
+            let turns: Vec<_> = candidates.par_iter().map(|&(_, a, b)| self.turns(a, b)).collect();
+            for (&(_, a, b), turns) in candidates.iter().zip(turns) {
+                if let (true, Some(turns)) = (self.both_free(a, b), turns) {
+                    self.take(a, b, turns)?;
+                }
+            }
+        }
+        self.candidates = candidates;
+        self.counters.collisions += self.collisions.len() as u64;
+        Ok(())
+    }
+
+    /// Whether neither rod has collided in this step.
+    fn both_free(&self, a: u32, b: u32) -> bool {
+        ![a, b].iter().any(|&rod| self.rods.turned_after(rod as usize, self.tick))
+    }
+
+    /// Where a collision would leave both rods, and the contact's arms; `None` without a contact.
+    fn turns(&self, a: u32, b: u32) -> Option<Turns> {
+        let pair = [a as usize, b as usize];
+        let p = pair.map(|rod| self.rods.direction(rod, self.tick));
+        let separation = self.position(pair[1]) - self.position(pair[0]);
+        let min_arms = pair.map(|rod| self.rule.min_arm * self.rods.length(rod));
+        let contact = contact(&separation, &p[0], &p[1], min_arms)?;
+        let rate = |k: usize| {
+            let factor = shape_factor(self.rods.aspect_ratio(pair[k]));
+            self.liquid.rate(&p[k], factor)
+        };
+        let relative_velocity = self.liquid.velocity(&separation);
+        let free = [rate(0), rate(1)];
+        let rates = share_velocity(&contact, &relative_velocity, free);
+        let turned = [0, 1].map(|k| {
+            let start = UnitVector3::new_unchecked(p[k]);
+            match self.rule.update {
+                Update::Rotation => turn(&start, &rates[k], self.rule.step),
+                Update::Angles => step_angles(&start, &rates[k], self.rule.step),
+                Update::Kick => {
+                    let end = self.rods.after_step(pair[k], self.tick);
+                    let change = rates[k] - free[k];
+                    let end = kick(&end, &p[k], &change, self.rule.step);
+                    (end, norm(&rates[k]) * self.rule.step)
+                }
+            }
+        });
+        Some(Turns {
+            ends: turned.map(|(end, _)| end),
+            angles_rad: turned.map(|(_, angle)| angle),
+            kicks_rad: [0, 1].map(|k| norm(&(rates[k] - free[k])) * self.rule.step),
+            arms: contact.arms,
+        })
+    }
+
+    fn take(&mut self, a: u32, b: u32, turns: Turns) -> Result<(), RunError> {
+        let rods = [a as usize, b as usize];
+        for (k, end) in turns.ends.iter().enumerate() {
+            if !end.iter().all(|component| component.is_finite()) {
+                return Err(self.non_finite(rods[k], turns.arms[k], turns.angles_rad[k]));
+            }
+            self.rods.set(rods[k], end, self.tick + 1);
+        }
+        self.collisions.push(Collision { rods, angles_rad: turns.angles_rad, kicks_rad: turns.kicks_rad });
+        Ok(())
+    }
+
+    fn non_finite(&self, rod: usize, arm: f64, angle_rad: f64) -> RunError {
+        RunError::NonFinite {
+            rod,
+            step: self.tick,
+            seed: self.seed,
+            replica: self.replica,
+            cause: format!("a contact arm of {arm:e} rod lengths turned it by {angle_rad:e} rad"),
+        }
+    }
+
+    fn position(&self, rod: usize) -> Vector3<f64> {
+        Vector3::new(self.positions[0][rod], self.positions[1][rod], self.positions[2][rod])
+    }
+}

@@ -1,0 +1,304 @@
+//! The rods' directions: each rod keeps the direction it had after its last collision, and the exact
+//! motion takes it from there to whatever time is asked for. A free rod is never stepped.
+
+mod draw;
+
+use crate::model::chunks::{CHUNK, over_chunks};
+use crate::model::jeffery::strain_per_period;
+use crate::model::phase::{Phase, nearest_whole};
+use crate::model::work::Counters;
+use crate::motion::{Propagator, couette};
+use crate::observable::fault::Fault;
+use crate::observable::{BLOCK, Block};
+use crate::plan::free::{FreeMotion, MAX_ERROR_RAD, Way, directed, refused_direction};
+use crate::plan::{Clock, Plan, Stage};
+use crate::scene::step_maps;
+use draw::{draw_directions, draw_lengths, draw_shapes};
+use nalgebra::{Matrix3, UnitVector3, Vector3};
+use std::cell::Cell;
+use std::sync::Arc;
+
+/// Directions and aspect ratios of one replica's rods, as structure of arrays.
+#[derive(Clone, Debug)]
+pub(crate) struct Rods {
+    /// Each rod's direction at its tick `since`; now, where the motion goes by steps.
+    p: [Vec<f64>; 3],
+    /// Empty where no rod can collide: every rod then counts from tick 0.
+    since: Vec<u32>,
+    shapes: Shapes,
+    /// Over the mean; empty where all rods have the same, or nothing asks.
+    lengths: Vec<f64>,
+    /// One over the mean of their cubes.
+    per_cube: f64,
+    motion: Motion,
+}
+
+#[derive(Clone, Debug)]
+enum Shapes {
+    Shared(f64),
+    Each(Vec<f64>),
+}
+
+#[derive(Clone, Debug)]
+enum Motion {
+    /// Plane Couette flow: phases from ticks.
+    Couette(Ticks),
+    /// Anything else where rods meet: the map q = M p of one step, for each rod or one for all.
+    Steps(Vec<Matrix3<f64>>),
+    /// Anything else as the plan has it; where rods are moved one by one with a propagator for each, or one for all.
+    Free { motion: Arc<FreeMotion>, propagators: Vec<Propagator> },
+}
+
+impl Rods {
+    /// Draws the rods of a replica; also counts what was drawn again.
+    pub fn draw(plan: &Plan, replica: u64) -> (Self, Counters) {
+        let (shapes, aspect_ratios_redrawn) = draw_shapes(plan, replica);
+        let (lengths, lengths_redrawn) = draw_lengths(plan, replica);
+        let motion = choose_motion(plan, &shapes);
+        let since =
+            if plan.keeps(Stage::Contacts) { vec![0; plan.scene().particles.count] } else { Vec::new() };
+        let rods = Self {
+            p: draw_directions(plan, replica),
+            since,
+            shapes,
+            per_cube: lengths.len() as f64 / lengths.iter().map(|length| length.powi(3)).sum::<f64>(),
+            lengths,
+            motion,
+        };
+        let counters = Counters { aspect_ratios_redrawn, lengths_redrawn, ..Counters::default() };
+        (rods, counters)
+    }
+
+    pub fn count(&self) -> usize {
+        self.p[0].len()
+    }
+
+    pub fn aspect_ratio(&self, rod: usize) -> f64 {
+        match &self.shapes {
+            Shapes::Shared(r) => *r,
+            Shapes::Each(r) => r[rod],
+        }
+    }
+
+    /// The rod's length over the mean.
+    #[inline]
+    pub fn length(&self, rod: usize) -> f64 {
+        self.lengths.get(rod).copied().unwrap_or(1.0)
+    }
+
+    /// Every rod's length over the mean; none where all have the same.
+    pub fn lengths(&self) -> &[f64] {
+        &self.lengths
+    }
+
+    /// Whether the rod was turned by a collision in the step that ends after `tick`.
+    pub fn turned_after(&self, rod: usize, tick: u64) -> bool {
+        u64::from(self.since[rod]) > tick
+    }
+
+    /// Puts the rod along `p` at `tick`.
+    pub fn set(&mut self, rod: usize, p: &UnitVector3<f64>, tick: u64) {
+        for (axis, value) in self.p.iter_mut().zip([p.x, p.y, p.z]) {
+            axis[rod] = value;
+        }
+        self.since[rod] = tick as u32;
+    }
+
+    /// Each rod's direction after its last collision, and the tick of that.
+    pub fn kept(&self) -> ([Vec<f64>; 3], Vec<u32>) {
+        (self.p.clone(), self.since.clone())
+    }
+
+    /// Puts all rods where [`Rods::kept`] had them.
+    pub fn restore(&mut self, p: [Vec<f64>; 3], since: Vec<u32>) {
+        self.p = p;
+        self.since = since;
+    }
+
+    /// The direction of one of the rods that meet at `tick`.
+    pub fn direction(&self, rod: usize, tick: u64) -> Vector3<f64> {
+        let p = self.p.each_ref().map(|axis| axis[rod]);
+        let Motion::Couette(clock) = &self.motion else {
+            return p.into();
+        };
+        let r = self.aspect_ratio(rod);
+        let phase = clock.phase(self.elapsed(rod, tick), clock.periods(&self.shapes, r));
+        couette(p, r, phase).into()
+    }
+
+    /// Where one of the rods that meet at `tick` is a step later by itself.
+    pub fn after_step(&self, rod: usize, tick: u64) -> Vector3<f64> {
+        match &self.motion {
+            Motion::Steps(maps) => mapped(map_of(maps, rod), self.p.each_ref().map(|axis| axis[rod])).into(),
+            _ => self.direction(rod, tick + 1),
+        }
+    }
+
+    /// Moves the rods over the step from `tick` on that no collision has moved, where the motion goes by steps.
+    pub fn advance(&mut self, tick: u64) {
+        let Self { p, since, motion: Motion::Steps(maps), .. } = self else {
+            return;
+        };
+        over_chunks(p, |chunk, [p1, p2, p3]| {
+            let axes = p1.iter_mut().zip(p2).zip(p3);
+            for (rod, ((p1, p2), p3)) in (chunk * CHUNK..).zip(axes) {
+                if since.get(rod).is_none_or(|since| u64::from(*since) <= tick) {
+                    [*p1, *p2, *p3] = mapped(map_of(maps, rod), [*p1, *p2, *p3]);
+                }
+            }
+        });
+    }
+
+    /// Fills `block` with the directions at `tick` (for flows other than plane Couette flow: at that
+    /// output) of up to [`BLOCK`] rods from `first` on.
+    ///
+    /// # Errors
+    ///
+    /// The first rod of the block whose direction is not known to [`MAX_ERROR_RAD`].
+    pub fn orient(&self, first: usize, tick: u64, block: &mut Block) -> Result<(), Fault> {
+        block.len = BLOCK.min(self.count() - first);
+        let rods = first..first + block.len;
+        match &self.shapes {
+            Shapes::Shared(r) => block.aspect_ratio[..block.len].fill(*r),
+            Shapes::Each(r) => block.aspect_ratio[..block.len].copy_from_slice(&r[rods.clone()]),
+        }
+        if let Some(lengths) = self.lengths.get(rods.clone()) {
+            for (weight, length) in block.weight.iter_mut().zip(lengths) {
+                *weight = self.per_cube * length.powi(3);
+            }
+        }
+        let from = self.p.each_ref().map(|axis| &axis[rods.clone()]);
+        match (&self.motion, &self.shapes) {
+            (Motion::Couette(clock), Shapes::Shared(r)) if self.since.is_empty() => {
+                let phase = clock.phase(tick as f64, clock.sign);
+                block.turn(from, |_, p, _| couette(p, *r, phase));
+            }
+            (Motion::Couette(clock), shapes) if self.since.is_empty() => {
+                block.turn(from, |_, p, r| couette(p, r, clock.phase(tick as f64, clock.periods(shapes, r))));
+            }
+            (Motion::Couette(clock), shapes) => {
+                let mut elapsed = [0.0; BLOCK];
+                for (elapsed, since) in elapsed.iter_mut().zip(&self.since[rods]) {
+                    // At most 10⁹ steps, and none ahead of the present.
+                    *elapsed = f64::from((tick as u32).wrapping_sub(*since) as i32);
+                }
+                block.turn(from, |k, p, r| couette(p, r, clock.phase(elapsed[k], clock.periods(shapes, r))));
+            }
+            (Motion::Steps(_), _) => block.turn(from, |_, p, _| p),
+            (Motion::Free { motion, propagators }, _) => match &motion.way {
+                Way::Alike(ends) => {
+                    let end = ends[tick as usize % ends.len()];
+                    block.turn(from, |_, _, _| end);
+                }
+                Way::Maps(maps) => {
+                    let map = &maps[tick as usize % maps.len()];
+                    block.turn(from, |_, p, _| mapped(map, p));
+                }
+                Way::Each { mean, spans, rounded } => {
+                    let span = spans[tick as usize];
+                    let of_rod = |rod: usize| match &propagators[..] {
+                        [all] => all,
+                        each => &each[rod],
+                    };
+                    let unknown = Cell::new(None);
+                    block.turn(from, |k, p, r| {
+                        let propagator = of_rod(first + k);
+                        let found = if *rounded {
+                            let start = UnitVector3::new_unchecked(p.into());
+                            directed(propagator, mean, &start, span)
+                        } else {
+                            let found = propagator.direction_beside(mean, p, span);
+                            found.map(|(end, error)| (end, error, 0.0))
+                        };
+                        let (end, error, of_start) = found.unwrap_or(([f64::NAN; 3], f64::INFINITY, 0.0));
+                        if error <= MAX_ERROR_RAD {
+                            return end;
+                        }
+                        unknown.set(unknown.get().or(Some((k, r, error, of_start))));
+                        [f64::NAN; 3]
+                    });
+                    if let Some((rod, r, error, of_start)) = unknown.get() {
+                        return Err(Fault { rod: Some(rod), cause: refused_direction(r, error, of_start) });
+                    }
+                }
+            },
+        }
+        Ok(())
+    }
+
+    /// Ticks since the rod's last collision.
+    fn elapsed(&self, rod: usize, tick: u64) -> f64 {
+        let since = self.since.get(rod).copied().map_or(0, u64::from);
+        (tick - since) as f64
+    }
+}
+
+/// What turns ticks into phases in plane Couette flow.
+#[derive(Clone, Copy, Debug)]
+struct Ticks {
+    per_period: f64,
+    /// GT of the mean aspect ratio, with the sign of G.
+    strain_per_period: f64,
+    sign: f64,
+}
+
+impl Ticks {
+    /// How often a rod of aspect ratio `r` turns, with the sign of G, while the mean rod turns once.
+    #[inline(always)]
+    fn periods(&self, shapes: &Shapes, r: f64) -> f64 {
+        match shapes {
+            Shapes::Shared(_) => self.sign,
+            Shapes::Each(_) => self.strain_per_period / strain_per_period(r),
+        }
+    }
+
+    /// The phase after `ticks` (a whole number) of a rod that turns `periods` times while the mean rod turns once. Whole
+    /// mean periods and the rest are taken apart, so that no digits of the phase are lost to the number of turns.
+    #[inline(always)]
+    fn phase(&self, ticks: f64, periods: f64) -> Phase {
+        let whole = nearest_whole(ticks / self.per_period);
+        let rest = (ticks - whole * self.per_period) / self.per_period;
+        let turns = whole * periods;
+        Phase::of_part(turns - nearest_whole(turns) + rest * periods)
+    }
+}
+
+/// The map of a rod, where each has one or all the same.
+#[inline]
+fn map_of(maps: &[Matrix3<f64>], rod: usize) -> &Matrix3<f64> {
+    maps.get(rod).unwrap_or(&maps[0])
+}
+
+#[inline]
+fn mapped(map: &Matrix3<f64>, p: [f64; 3]) -> [f64; 3] {
+    (map * Vector3::from(p)).normalize().into()
+}
+
+fn choose_motion(plan: &Plan, shapes: &Shapes) -> Motion {
+    let flow = plan.flow();
+    if let (Some(g), Clock::Periods { ticks }) = (flow.shear_rate_per_s(), plan.clock()) {
+        let strain = strain_per_period(plan.scene().particles.aspect_ratio);
+        return Motion::Couette(Ticks {
+            per_period: ticks as f64,
+            strain_per_period: strain * g.signum(),
+            sign: g.signum(),
+        });
+    }
+    let Some(motion) = plan.free().cloned() else {
+        let shapes = match shapes {
+            Shapes::Shared(r) => std::slice::from_ref(r),
+            Shapes::Each(all) => all,
+        };
+        // A plan has been checked to have them.
+        let maps = step_maps(plan.scene(), flow, shapes).flatten();
+        return Motion::Steps(maps.map(|(map, _)| map).collect());
+    };
+    let propagators = match (&motion.way, shapes) {
+        (Way::Each { .. }, Shapes::Each(aspect_ratios)) => {
+            aspect_ratios.iter().map(|&r| Propagator::new(flow, r)).collect()
+        }
+        (Way::Each { .. }, Shapes::Shared(r)) => vec![Propagator::new(flow, *r)],
+        _ => Vec::new(),
+    };
+    Motion::Free { motion, propagators }
+}

@@ -1,0 +1,119 @@
+//! The rods of one replica as they are at one output, where a scene asks for them.
+
+#[cfg(test)]
+mod tests;
+
+use crate::observable::fault::Fault;
+use crate::observable::{BLOCK, Block};
+use crate::plan::{Plan, Stage};
+use crate::scene::Scene;
+use crate::suspension::Suspension;
+use crate::suspension::rods::Rods;
+use serde::{Deserialize, Serialize};
+
+/// Every rod of one replica at one output, as structure of arrays.
+///
+/// ```
+/// use shearbed::{Plan, Scene};
+/// let mut scene = Scene::default();
+/// scene.output.rods_at = vec![1.0];
+/// let results = shearbed::run::ensemble::run(&Plan::new(&scene)?)?;
+/// assert_eq!(results.snapshots[0].p[0].len(), 100);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Snapshot {
+    /// The replica, from 0.
+    pub replica: u64,
+    /// The output, from 0.
+    pub output: usize,
+    /// p₁, p₂ and p₃.
+    pub p: [Vec<f64>; 3],
+    /// r_e.
+    pub aspect_ratio: Vec<f64>,
+    /// Lengths over the mean; `None` where all are equal.
+    pub length: Option<Vec<f64>>,
+    /// Where the rods' centres are in the control volume, in mean rod lengths; `None` for free rods, which have no place.
+    pub place_in_lengths: Option<[Vec<f64>; 3]>,
+    /// Whether the rod collided in the step that ended at this output; free rods never do.
+    pub collided: Vec<bool>,
+}
+
+impl Snapshot {
+    /// The length of a rod, whose scene this is.
+    pub fn length_mm(&self, scene: &Scene, rod: usize) -> f64 {
+        scene.particles.length_mm * self.length.as_ref().map_or(1.0, |lengths| lengths[rod])
+    }
+
+    /// Where the centre of a rod is in the control volume; `None` for free rods.
+    pub fn place_mm(&self, scene: &Scene, rod: usize) -> Option<[f64; 3]> {
+        let (places, sides) = (self.place_in_lengths.as_ref()?, scene.sides_mm()?);
+        // What is rounded stays inside.
+        let place = |axis: usize| (places[axis][rod] * scene.particles.length_mm).min(sides[axis]);
+        Some(std::array::from_fn(place))
+    }
+
+    /// Bytes that one of the plan holds of each rod: its direction, aspect ratio, whether it collided, where rods interact its
+    /// place, and where they differ its length.
+    pub(crate) fn bytes_per_rod(plan: &Plan) -> usize {
+        let placed = if plan.keeps(Stage::Translation) { 3 } else { 0 };
+        let numbers = 4 + placed + usize::from(plan.keeps(Stage::Lengths));
+        numbers * size_of::<f64>() + 1
+    }
+
+    /// Whether these can be of the plan, and are so many.
+    pub(crate) fn all_fit(snapshots: &[Self], count: u64, plan: &Plan) -> bool {
+        snapshots.len() as u64 == count && snapshots.iter().all(|snapshot| snapshot.fits(plan))
+    }
+
+    fn fits(&self, plan: &Plan) -> bool {
+        let count = plan.scene().particles.count;
+        let places = self.place_in_lengths.iter().flatten();
+        let mut axes = (self.p.iter().chain(places).chain(&self.length)).chain([&self.aspect_ratio]);
+        let whole = |axis: &Vec<f64>| axis.len() == count && axis.iter().all(|x| x.is_finite());
+        self.place_in_lengths.is_some() == plan.keeps(Stage::Translation)
+            && self.length.is_some() == plan.keeps(Stage::Lengths)
+            && axes.all(whole)
+            && self.collided.len() == count
+            && plan.rods_outputs().contains(&self.output)
+            && self.replica < plan.scene().ensemble.replicas
+    }
+
+    /// Free rods at an output; a rod whose direction is not known is an error.
+    pub(crate) fn of_free(rods: &Rods, replica: u64, output: usize) -> Result<Self, Fault> {
+        Self::of(rods, replica, output, output as u64)
+    }
+
+    /// The rods of a suspension at an output, which is now.
+    pub(crate) fn of_suspension(suspension: &Suspension, replica: u64, output: usize) -> Result<Self, Fault> {
+        let (rods, tick) = (&suspension.rods, suspension.tick());
+        let collided = |rod| tick > 0 && rods.turned_after(rod, tick - 1);
+        Ok(Self {
+            place_in_lengths: Some(suspension.positions_in_lengths().clone()),
+            collided: (0..rods.count()).map(collided).collect(),
+            ..Self::of(rods, replica, output, tick)?
+        })
+    }
+
+    fn of(rods: &Rods, replica: u64, output: usize, tick: u64) -> Result<Self, Fault> {
+        let count = rods.count();
+        let mut p = [(); 3].map(|()| Vec::with_capacity(count));
+        let mut block = Block::default();
+        for first in (0..count).step_by(BLOCK) {
+            rods.orient(first, tick, &mut block)
+                .map_err(|fault| Fault { rod: fault.rod.map(|rod| first + rod), ..fault })?;
+            for (axis, from) in p.iter_mut().zip(&block.p) {
+                axis.extend_from_slice(&from[..block.len]);
+            }
+        }
+        Ok(Self {
+            replica,
+            output,
+            p,
+            aspect_ratio: (0..count).map(|rod| rods.aspect_ratio(rod)).collect(),
+            length: (!rods.lengths().is_empty()).then(|| rods.lengths().to_vec()),
+            place_in_lengths: None,
+            collided: vec![false; count],
+        })
+    }
+}
