@@ -50,10 +50,10 @@
 pub mod model;
 pub mod motion;
 pub mod observable;
-pub mod plan;
-pub mod run;
 pub mod scene;
+pub mod plan;
 pub mod suspension;
+pub mod run;
 
 /// The vectors and matrices of this crate's interface.
 pub use nalgebra;

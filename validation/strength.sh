@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Takes the numbers of docs/strength.md afresh, as for a release: false alarms, intervals of fits, mutated inputs, kills, mutants.
-# What each prints is kept in out/strength. What turned red stands in the tables of the first three; a reader at fault, a run that a kill
-# harmed and a mutant that nothing caught end it. Half a day on two cores.
-# Usage: bash validation/strength.sh [SEEDS [SEEDS OF --full [FITS [INPUTS [KILLS]]]]]     (200 20 800 1000000 100)
+# Takes the numbers of docs/strength.md afresh, as for a release: false alarms, intervals of fits, mutated inputs, mutants.
+# What each prints is kept in out/strength. What turned red stands in the tables of the first three; a reader at fault, a
+# mutant that nothing caught end it. Half a day on two cores.
+# Usage: bash validation/strength.sh [SEEDS [SEEDS OF --full [FITS [INPUTS]]]]     (200 20 800 1000000)
 set -euo pipefail
 cd "$(dirname "$0")/.."
-seeds=${1:-200} full=${2:-20} fits=${3:-800} inputs=${4:-1000000} kills=${5:-100}
+seeds=${1:-200} full=${2:-20} fits=${3:-800} inputs=${4:-1000000}
 kept=out/strength
 mkdir -p "$kept"
 cargo build --release --locked --quiet --workspace --bins --examples
@@ -17,7 +17,7 @@ keep() {
 keep seeds strength "$seeds"
 keep seeds-full strength "$full" full
 keep fits fit_covers "$fits"
-for readers in scene sweep checkpoint data problems answers; do
+for readers in scene sweep checkpoint data problems answers fits plots; do
   keep "inputs-$readers" fuzz "$readers" "$inputs" 21
 done
 echo "strength: mutants"

@@ -2,13 +2,13 @@
 //! the report, and the program's commands. Each wing may use those before it.
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
-pub mod cases;
 pub mod files;
 pub mod input;
 pub mod judge;
 pub mod present;
-pub mod program;
-pub mod serve;
 pub mod studies;
+pub mod serve;
+pub mod cases;
+pub mod program;
 
 pub use shearbed_oracle as oracle;

@@ -8,12 +8,12 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use pyo3::{create_exception, wrap_pyfunction};
 use rayon::prelude::*;
+use shearbed::run::ensemble;
 use shearbed::run::{Replica, run_replica};
+use shearbed::scene;
 use shearbed::scene::KEYS;
 use shearbed::suspension::RunError;
 use shearbed::{Plan, Results, Scene};
-use shearbed::run::ensemble;
-use shearbed::scene;
 use std::ffi::OsString;
 use std::ops::Range;
 use std::path::Path;
@@ -56,12 +56,7 @@ fn keys() -> Vec<(&'static str, &'static str)> {
 fn describe(name: &str, text: &str) -> PyResult<(String, String, Vec<String>, Option<String>)> {
     let plan = plan(name, text, None, None)?;
     let start = plan.scene().particles.rods.as_ref().map(|rods| rods.file.clone());
-    Ok((
-        toml_of(&plan.scene().resolved())?,
-        plan.to_string(),
-        plan.warnings(),
-        start,
-    ))
+    Ok((toml_of(&plan.scene().resolved())?, plan.to_string(), plan.warnings(), start))
 }
 
 /// Why a run gave no results.
@@ -156,9 +151,7 @@ fn folded(plan: &Plan, stop: &AtomicBool, done: &AtomicU64) -> Result<Results, S
         done.fetch_add(1, Ordering::Relaxed);
         Ok(replica)
     };
-    ensemble::fold(plan, |replicas: Range<u64>| {
-        replicas.into_par_iter().map(one).collect()
-    })
+    ensemble::fold(plan, |replicas: Range<u64>| replicas.into_par_iter().map(one).collect())
 }
 
 fn dictionary<'py>(py: Python<'py>, plan: &Plan, results: Results) -> PyResult<Bound<'py, PyDict>> {

@@ -36,9 +36,6 @@ pub fn columns<'py>(py: Python<'py>, plan: &Plan, results: &Results) -> PyResult
     for (axis, name) in ["p1", "p2", "p3"].into_iter().enumerate() {
         all.set_item(name, each(&|shot, rod| shot.p[axis][rod]))?;
     }
-    all.set_item(
-        "collided",
-        each(&|shot, rod| f64::from(u8::from(shot.collided[rod]))),
-    )?;
+    all.set_item("collided", each(&|shot, rod| f64::from(u8::from(shot.collided[rod]))))?;
     Ok(Some(all))
 }

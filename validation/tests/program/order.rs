@@ -24,11 +24,12 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// The modules that a source names as `crate::module`, out of its tests.
+/// The modules that a source names as `crate::module`, out of its tests and comments.
 fn named(source: &str) -> impl Iterator<Item = &str> {
     let code = source.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
+    let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
     let word = |rest: &'_ str| rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
-    code.split("crate::").skip(1).map(move |rest| &rest[..word(rest)])
+    lines.flat_map(move |line| line.split("crate::").skip(1).map(move |rest| &rest[..word(rest)]))
 }
 
 /// What a source of a module names that is declared after it.
