@@ -1,6 +1,6 @@
 //! The channels of observables, and their names.
 
-use super::{BINS, Observable};
+use super::Observable;
 
 /// One number of an observable: a column of its table.
 ///
@@ -32,22 +32,7 @@ impl Channel {
 
     /// The name of its column.
     pub fn name(self) -> String {
-        let fixed: &[&str] = match self.observable {
-            Observable::Projections => &["x1", "x2", "x3"],
-            Observable::PlanarProjections => &["x1x2", "x2x3", "x1x3"],
-            Observable::MeanAngle => &["phi"],
-            Observable::OrbitConstant => &["c_b"],
-            Observable::OrientationTensor => &["a11", "a22", "a33", "a12", "a13", "a23"],
-            Observable::OrientationTensor4 => &[
-                "a1111", "a1112", "a1113", "a1122", "a1123", "a1133", "a1222", "a1223", "a1233", "a1333",
-                "a2222", "a2223", "a2233", "a2333", "a3333",
-            ],
-            Observable::ParticleStress => &["s12_per_mu_fiber_g", "n1_per_mu_fiber_g", "n2_per_mu_fiber_g"],
-        };
-        match fixed.get(self.index) {
-            Some(&name) => name.to_owned(),
-            None => format!("density_from_{:.2}", (self.index - 1) as f64 / BINS as f64),
-        }
+        self.observable.columns()[self.index].to_owned()
     }
 
     /// The channel whose column has this name.

@@ -1,7 +1,7 @@
-//! The border of the core: nothing leaves a run that is no result. Every rod must have a direction, every sum must be
+//! Nothing leaves a run that is no result. Every rod must have a direction, every sum must be
 //! finite, and the traces of ⟨pp⟩ and ⟨pppp⟩ must be 1.
 
-use crate::observable::{Block, Channel, Observable, Sum, TRACES, lane_sum};
+use crate::observable::{Block, Observe, Sum, lane_sum};
 
 /// How far the mean of |p|² over a block may be from 1: p = q/|q| is rounded some ten times on its way, each time by ε/2 of
 /// itself at most, and counts twice; the sum over 128 rods in 8 lanes is rounded 24 times.
@@ -55,11 +55,10 @@ fn farthest(block: &Block, square: impl Fn(usize) -> f64) -> Fault {
 
 /// Refuses sums of an observable, to which this block was the last to be added, that are not finite.
 #[inline]
-pub(crate) fn sums(observable: Observable, block: &Block, sums: &[Sum]) -> Result<(), Fault> {
+pub(crate) fn sums(observable: &dyn Observe, block: &Block, sums: &[Sum]) -> Result<(), Fault> {
     if sums.iter().all(Sum::is_finite) {
         return Ok(());
     }
-    let name = |k: usize| observable.channels().nth(k).map_or_else(String::new, Channel::name);
     let culprit = (0..block.len).find_map(|rod| {
         let mut own = vec![Sum::default(); sums.len()];
         observable.add(&alone(block, rod), &mut own);
@@ -69,20 +68,20 @@ pub(crate) fn sums(observable: Observable, block: &Block, sums: &[Sum]) -> Resul
     Err(match culprit {
         Some((rod, channel, value)) => Fault {
             rod: Some(rod),
-            cause: format!("its {} came out as {value}, at r_e = {}", name(channel), block.aspect_ratio[rod]),
+            cause: format!(
+                "its {} came out as {value}, at r_e = {}",
+                observable.columns()[channel],
+                block.aspect_ratio[rod]
+            ),
         },
         None => Fault { rod: None, cause: format!("the sum of {} is not finite", observable.name()) },
     })
 }
 
-/// Refuses sums of ⟨pp⟩ or ⟨pppp⟩ over `count` rods whose trace, over all pairs of indices, is not 1.
-pub(crate) fn trace(observable: Observable, sums: &[Sum], count: usize) -> Result<(), Fault> {
-    let (sum, tensor): (f64, _) = match observable {
-        Observable::OrientationTensor => (sums[..3].iter().map(|sum| sum.value).sum(), "⟨pp⟩"),
-        Observable::OrientationTensor4 => {
-            (TRACES.iter().map(|(k, times)| times * sums[*k].value).sum(), "⟨pppp⟩")
-        }
-        _ => return Ok(()),
+/// Refuses sums over `count` rods of a tensor whose trace, over all pairs of indices, is not 1.
+pub(crate) fn trace(observable: &dyn Observe, sums: &[Sum], count: usize) -> Result<(), Fault> {
+    let Some((tensor, sum)) = observable.trace(sums) else {
+        return Ok(());
     };
     let trace = sum / count as f64;
     match (trace - 1.0).abs() <= TRACE {
@@ -106,6 +105,7 @@ fn alone(block: &Block, rod: usize) -> Block {
 mod tests {
     use super::*;
     use crate::model::orientation::from_angles;
+    use crate::observable::Observable;
 
     /// A block of directions all over the sphere.
     fn block(len: usize) -> Block {
@@ -151,18 +151,18 @@ mod tests {
         for observable in Observable::ALL {
             let mut found = vec![Sum::default(); observable.width()];
             observable.add(&good, &mut found);
-            assert_eq!(sums(observable, &good, &found), Ok(()));
-            assert_eq!(trace(observable, &found, 20), Ok(()));
+            assert_eq!(sums(&*observable, &good, &found), Ok(()));
+            assert_eq!(trace(&*observable, &found, 20), Ok(()));
         }
         let mut spoiled = block(20);
         spoiled.p[2][13] = f64::NAN;
         let mut found = vec![Sum::default(); 3];
         Observable::Projections.add(&spoiled, &mut found);
-        let fault = sums(Observable::Projections, &spoiled, &found).unwrap_err();
+        let fault = sums(&*Observable::Projections, &spoiled, &found).unwrap_err();
         assert_eq!(fault.rod, Some(13));
         assert_eq!(fault.cause, "its x3 came out as NaN, at r_e = 1");
         // No rod of this block did it.
-        let fault = sums(Observable::Projections, &good, &found).unwrap_err();
+        let fault = sums(&*Observable::Projections, &good, &found).unwrap_err();
         assert_eq!((fault.rod, fault.cause.as_str()), (None, "the sum of projections is not finite"));
     }
 
@@ -171,22 +171,22 @@ mod tests {
         let good = block(128);
         let mut found = vec![Sum::default(); 6];
         Observable::OrientationTensor.add(&good, &mut found);
-        assert_eq!(trace(Observable::OrientationTensor, &found, 128), Ok(()));
+        assert_eq!(trace(&*Observable::OrientationTensor, &found, 128), Ok(()));
         // A rod that was lost on the way, and digits that were.
-        assert!(trace(Observable::OrientationTensor, &found, 129).is_err());
+        assert!(trace(&*Observable::OrientationTensor, &found, 129).is_err());
         found[1].value += 1e-9;
-        let fault = trace(Observable::OrientationTensor, &found, 128).unwrap_err();
+        let fault = trace(&*Observable::OrientationTensor, &found, 128).unwrap_err();
         assert!(fault.cause.starts_with("the trace of ⟨pp⟩ came out as 1.0000000000"));
         found[1].value = f64::NAN;
-        assert!(trace(Observable::OrientationTensor, &found, 128).is_err());
+        assert!(trace(&*Observable::OrientationTensor, &found, 128).is_err());
         // ⟨pppp⟩: each component of its trace counts.
         let mut found = vec![Sum::default(); 15];
         Observable::OrientationTensor4.add(&good, &mut found);
-        assert_eq!(trace(Observable::OrientationTensor4, &found, 128), Ok(()));
+        assert_eq!(trace(&*Observable::OrientationTensor4, &found, 128), Ok(()));
         for k in [0, 3, 5, 10, 12, 14] {
             let mut spoiled = found.clone();
             spoiled[k].value += 1e-9;
-            let fault = trace(Observable::OrientationTensor4, &spoiled, 128).unwrap_err();
+            let fault = trace(&*Observable::OrientationTensor4, &spoiled, 128).unwrap_err();
             assert!(fault.cause.starts_with("the trace of ⟨pppp⟩"), "{k}");
         }
     }

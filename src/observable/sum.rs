@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// The sum of a value over rods, and how far the rods' values differ where standard errors over rods are wanted.
 ///
 /// ```
-/// use shearbed::observable::{Block, Observable, Sum};
+/// use shearbed::observable::{Block, Observable, Observe, Sum};
 /// let mut block = Block { len: 1, ..Block::default() };
 /// block.p.iter_mut().zip([0.6, -0.8, 0.0]).for_each(|(axis, p)| axis[0] = p);
 /// let mut sums = [Sum::default(); 3];
@@ -82,7 +82,7 @@ impl Sum {
 
     /// Adds the values f(0), …, f(len − 1) of a block's rods.
     #[inline]
-    pub(super) fn add_each(&mut self, len: usize, f: impl Fn(usize) -> f64) {
+    pub fn add_each(&mut self, len: usize, f: impl Fn(usize) -> f64) {
         let Some(spread) = &mut self.spread else {
             self.value += lane_sum(len, f);
             return;

@@ -29,6 +29,9 @@ fn one_rod_by_hand() {
     let roots = [13f64, 45.0, 40.0].map(f64::sqrt);
     close(observe(Observable::PlanarProjections), sevenths(&roots));
     close(observe(Observable::MeanAngle), vec![1.5f64.atan()]);
+    // (4 − 9)/(4 + 9).
+    close(observe(Observable::Cos2Phi), vec![-5.0 / 13.0]);
+    assert_eq!(observe_rod(Observable::Cos2Phi, [0.0, 0.0, 1.0]), [0.0]);
     let tensor = [4.0, 9.0, 36.0, -6.0, 12.0, -18.0].map(|x| x / 49.0);
     close(observe(Observable::OrientationTensor), tensor.to_vec());
     // By exponents of 2/7, −3/7 and 6/7: 1111, 1112, 1113, 1122, 1123, 1133, 1222, 1223, 1233, 1333, 2222, …

@@ -2,7 +2,6 @@
 
 mod time;
 
-use crate::Observable;
 use crate::model::flow::VelocityGradient;
 use crate::model::volume::MAX_STEP;
 use crate::motion::Propagator;
@@ -53,10 +52,8 @@ impl Scene {
 
     /// Orbit constants (eq. 13), shear stress and normal stress differences are those of plane Couette flow along the axes.
     fn check_observed(&self, flow: &VelocityGradient) -> Result<(), Invalid> {
-        let needs_couette =
-            |o: &&Observable| matches!(o, Observable::OrbitConstant | Observable::ParticleStress);
         let observables = &self.output.observables;
-        let asked = observables.iter().find(needs_couette);
+        let asked = observables.iter().find(|o| o.needs_couette());
         let Some(asked) = asked.filter(|_| flow.shear_rate_per_s().is_none()) else {
             return Ok(());
         };

@@ -138,11 +138,6 @@ pub(super) fn entries(scene: &Scene) -> Vec<Entry> {
     for &observable in &scene.output.observables {
         add(Stage::Observe(observable), true, "asked for by the scene");
     }
-    for observable in Observable::ALL {
-        if !scene.output.observables.contains(&observable) {
-            add(Stage::Observe(observable), false, "not asked for");
-        }
-    }
     if !scene.output.rods_at.is_empty() {
         add(Stage::Rods, true, "asked for by output.rods_at");
     }

@@ -239,7 +239,7 @@ impl<'a> Recorder<'a> {
         }
         for (output, sums) in outputs.zip(own.chunks(self.width)) {
             for (observable, start) in &self.observables {
-                fault::trace(*observable, &sums[*start..], count)
+                fault::trace(&**observable, &sums[*start..], count)
                     .map_err(|fault| self.refused(0, output, fault))?;
             }
         }
@@ -264,7 +264,7 @@ impl<'a> Recorder<'a> {
                 for (observable, start) in &self.observables {
                     let sums = &mut sums[*start..][..observable.width()];
                     observable.add(&block, sums);
-                    fault::sums(*observable, &block, sums).map_err(refused)?;
+                    fault::sums(&**observable, &block, sums).map_err(refused)?;
                 }
             }
         }

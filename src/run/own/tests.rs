@@ -1,19 +1,31 @@
 //! Against what the core observes itself.
 
 use super::*;
+use crate::observable::Block;
 use crate::scene::{Interaction, Scene};
 use approx::assert_relative_eq;
 
 /// |p_1| to |p_3|, and r_e.
 struct Own;
 
-impl OwnObservable for Own {
-    fn columns(&self) -> Vec<String> {
-        ["x1", "x2", "x3", "r_e"].map(str::to_owned).to_vec()
+impl Observe for Own {
+    fn name(&self) -> &'static str {
+        "own"
     }
 
-    fn values(&self, p: [f64; 3], aspect_ratio: f64, values: &mut [f64]) {
-        values.copy_from_slice(&[p[0].abs(), p[1].abs(), p[2].abs(), aspect_ratio]);
+    fn label(&self) -> &'static str {
+        "of one's own"
+    }
+
+    fn columns(&self) -> &[&'static str] {
+        &["x1", "x2", "x3", "r_e"]
+    }
+
+    fn add(&self, block: &Block, sums: &mut [Sum]) {
+        for (sum, p) in sums.iter_mut().zip(&block.p) {
+            sum.add_each(block.len, |i| p[i].abs());
+        }
+        sums[3].add_each(block.len, |i| block.aspect_ratio[i]);
     }
 }
 
@@ -51,13 +63,21 @@ fn what_the_core_observes_too_is_the_same() {
 /// No number for any rod.
 struct Broken;
 
-impl OwnObservable for Broken {
-    fn columns(&self) -> Vec<String> {
-        vec!["inverse".to_owned()]
+impl Observe for Broken {
+    fn name(&self) -> &'static str {
+        "broken"
     }
 
-    fn values(&self, _: [f64; 3], _: f64, values: &mut [f64]) {
-        values[0] = f64::INFINITY;
+    fn label(&self) -> &'static str {
+        "nothing"
+    }
+
+    fn columns(&self) -> &[&'static str] {
+        &["inverse"]
+    }
+
+    fn add(&self, block: &Block, sums: &mut [Sum]) {
+        sums[0].add_each(block.len, |_| f64::INFINITY);
     }
 }
 

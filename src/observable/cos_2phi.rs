@@ -1,0 +1,28 @@
+//! ⟨cos 2φ⟩ = ⟨(p₁² − p₂²)/(p₁² + p₂²)⟩, −1 along the flow and 1 along the gradient. A rod along the vorticity axis, which
+//! has no φ, counts as 0.
+
+use super::{Block, Observe, Sum};
+
+pub(super) struct Cos2Phi;
+
+impl Observe for Cos2Phi {
+    fn name(&self) -> &'static str {
+        "cos_2phi"
+    }
+
+    fn label(&self) -> &'static str {
+        "mean of cos 2φ"
+    }
+
+    fn columns(&self) -> &[&'static str] {
+        &["cos_2phi"]
+    }
+
+    fn add(&self, block: &Block, sums: &mut [Sum]) {
+        let [p1, p2, _] = &block.p;
+        sums[0].add_each(block.len, |i| {
+            let [a, b] = [p1[i] * p1[i], p2[i] * p2[i]];
+            if a + b > 0.0 { (a - b) / (a + b) } else { 0.0 }
+        });
+    }
+}

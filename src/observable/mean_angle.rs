@@ -1,0 +1,25 @@
+//! The mean of φ folded into [0, π/2] (eq. 18), in radians.
+
+use super::{Block, Observe, Sum};
+use crate::model::orientation::folded_phi;
+
+pub(super) struct MeanAngle;
+
+impl Observe for MeanAngle {
+    fn name(&self) -> &'static str {
+        "mean_angle"
+    }
+
+    fn label(&self) -> &'static str {
+        "mean angle φ (rad)"
+    }
+
+    fn columns(&self) -> &[&'static str] {
+        &["phi"]
+    }
+
+    fn add(&self, block: &Block, sums: &mut [Sum]) {
+        let [p1, p2, _] = &block.p;
+        sums[0].add_each(block.len, |i| folded_phi(p1[i], p2[i]));
+    }
+}

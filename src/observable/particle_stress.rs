@@ -1,0 +1,32 @@
+//! What dilute slender rods add to the stress in plane Couette flow, over μ_fiber G: shear stress σ₁₂ and normal stress
+//! differences N₁ = σ₂₂ − σ₁₁ (flow less gradient) and N₂ = σ₁₁ − σ₃₃ of σ_ij = μ_fiber ⟨p_i p_j p_k p_l⟩ D_kl, which is
+//! μ_fiber G ⟨p_i p_j p₁p₂⟩ (Batchelor 1970; docs/coefficients.md). μ_fiber ∝ n⟨a³⟩, and rods count by their cubed length.
+
+use super::{Block, Observe, Sum};
+
+pub(super) struct ParticleStress;
+
+impl Observe for ParticleStress {
+    fn name(&self) -> &'static str {
+        "particle_stress"
+    }
+
+    fn label(&self) -> &'static str {
+        "stress of the rods over μ_fiber G"
+    }
+
+    fn columns(&self) -> &[&'static str] {
+        &["s12_per_mu_fiber_g", "n1_per_mu_fiber_g", "n2_per_mu_fiber_g"]
+    }
+
+    fn add(&self, block: &Block, sums: &mut [Sum]) {
+        let ([p1, p2, p3], weight) = (&block.p, &block.weight);
+        sums[0].add_each(block.len, |i| weight[i] * (p1[i] * p2[i]).powi(2));
+        sums[1].add_each(block.len, |i| weight[i] * (p1[i] * p2[i] * (p2[i] * p2[i] - p1[i] * p1[i])));
+        sums[2].add_each(block.len, |i| weight[i] * (p1[i] * p2[i] * (p1[i] * p1[i] - p3[i] * p3[i])));
+    }
+
+    fn needs_couette(&self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,25 @@
+//! Means of |p_i| (eq. 4; with the signs, random rods would give 0).
+
+use super::{Block, Observe, Sum};
+
+pub(super) struct Projections;
+
+impl Observe for Projections {
+    fn name(&self) -> &'static str {
+        "projections"
+    }
+
+    fn label(&self) -> &'static str {
+        "mean projection on an axis"
+    }
+
+    fn columns(&self) -> &[&'static str] {
+        &["x1", "x2", "x3"]
+    }
+
+    fn add(&self, block: &Block, sums: &mut [Sum]) {
+        for (sum, p) in sums.iter_mut().zip(&block.p) {
+            sum.add_each(block.len, |i| p[i].abs());
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! The observables that a scene can name.
+
+use super::{Channel, Observe};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::ops::Deref;
+
+macro_rules! observables {
+    ($($(#[$doc:meta])* $variant:ident: $module:ident,)*) => {
+        /// What can be observed: what each is, is said by its [`Observe`]. Each has a file of results of its own, named as its key.
+        ///
+        /// ```
+        /// use shearbed::Observable;
+        /// let names: Vec<_> = Observable::Projections.channels().map(|channel| channel.name()).collect();
+        /// assert_eq!(names, ["x1", "x2", "x3"]);
+        /// ```
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Observable {
+            $($(#[$doc])* $variant,)*
+        }
+
+        impl Observable {
+            /// Every observable.
+            pub const ALL: [Self; [$(stringify!($variant)),*].len()] = [$(Self::$variant),*];
+        }
+
+        impl Deref for Observable {
+            type Target = dyn Observe;
+
+            fn deref(&self) -> &Self::Target {
+                match self {
+                    $(Self::$variant => &super::$module::$variant,)*
+                }
+            }
+        }
+    };
+}
+
+observables! {
+    /// Means of |p_i| (eq. 4).
+    Projections: projections,
+    /// Mean projections on planes (eq. 21).
+    PlanarProjections: planar_projections,
+    /// The mean of φ folded into [0, π/2] (eq. 18), in radians.
+    MeanAngle: mean_angle,
+    /// ⟨cos 2φ⟩.
+    Cos2Phi: cos_2phi,
+    /// Mean and density of C_b = C/(1 + C) (eq. 13).
+    OrbitConstant: orbit_constant,
+    /// ⟨pp⟩.
+    OrientationTensor: orientation_tensor,
+    /// ⟨pppp⟩: its 15 components that differ.
+    OrientationTensor4: orientation_tensor_4,
+    /// What dilute slender rods add to the stress in plane Couette flow.
+    ParticleStress: particle_stress,
+}
+
+impl Observable {
+    /// Its channels, in the order of its columns.
+    pub fn channels(self) -> impl Iterator<Item = Channel> {
+        (0..self.width()).map(move |index| Channel::new(self, index))
+    }
+
+    /// How many channels there are.
+    pub fn width(self) -> usize {
+        self.columns().len()
+    }
+}
+
+impl Serialize for Observable {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+impl<'de> Deserialize<'de> for Observable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        let found = Self::ALL.into_iter().find(|observable| observable.name() == name);
+        found.ok_or_else(|| serde::de::Error::custom(format!("there is no observable {name:?}")))
+    }
+}
