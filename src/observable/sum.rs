@@ -72,14 +72,6 @@ impl Sum {
         }
     }
 
-    /// Adds the value of one rod.
-    pub(crate) fn add_one(&mut self, value: f64) {
-        self.value += value;
-        if let Some(spread) = &mut self.spread {
-            spread.add(&[value]);
-        }
-    }
-
     /// Adds the values f(0), …, f(len − 1) of a block's rods.
     #[inline]
     pub fn add_each(&mut self, len: usize, f: impl Fn(usize) -> f64) {

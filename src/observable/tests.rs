@@ -64,7 +64,7 @@ fn lanes_sum_every_rod_once() {
         assert_eq!(lane_sum(len, |i| (i + 1) as f64), (len * (len + 1) / 2) as f64);
     }
     let mut sum = Sum::none(true);
-    sum.add_one(1.0);
+    sum.add_each(1, |_| 1.0);
     sum.add_each(3, |i| i as f64);
     // 1, 0, 1 and 2: squared deviations 0 + 1 + 0 + 1 from their mean of 1, over 4 − 1 and over 4.
     let error = sum.spread.map(|spread| spread.standard_error());

@@ -10,7 +10,7 @@ fn sum(value: f64) -> Sum {
 /// With errors over these rods.
 fn over(rods: &[f64]) -> Sum {
     let mut sum = Sum::none(true);
-    rods.iter().for_each(|value| sum.add_one(*value));
+    rods.iter().for_each(|value| sum.add_each(1, |_| *value));
     sum
 }
 

@@ -99,7 +99,7 @@ fn holds(holds: &Holds) -> Value {
         }),
         Holds::OneOf(words) => json!({ "enum": words }),
         Holds::Observables => {
-            let names = Observable::ALL.map(Observable::name);
+            let names = Observable::ALL.map(|observable| observable.name());
             json!({ "type": "array", "items": { "enum": names }, "minItems": 1, "uniqueItems": true })
         }
         Holds::Times => {

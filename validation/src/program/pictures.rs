@@ -8,9 +8,9 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 /// The stems of the names of an observable's pictures.
 pub(super) fn stems(observable: Observable) -> Vec<String> {
     let stem = observable.name().to_owned();
-    match observable {
-        Observable::OrbitConstant => vec![stem.clone(), format!("{stem}_density")],
-        _ => vec![stem],
+    match observable.is_density() {
+        true => vec![stem.clone(), format!("{stem}_density")],
+        false => vec![stem],
     }
 }
 
@@ -33,10 +33,10 @@ pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<
             y: channel.mean.clone(),
             half_band: half_widths.map(|factor| channel.se.iter().map(|se| factor * se).collect()),
         };
-        figure(time_name, y_name(series.observable), channels.iter().map(curve).collect())
+        figure(time_name, series.observable.label(), channels.iter().map(curve).collect())
     };
-    match (series.observable, series.columns.split_first()) {
-        (Observable::OrbitConstant, Some((mean, density))) => {
+    match (series.observable.is_density(), series.columns.split_first()) {
+        (true, Some((mean, density))) => {
             let ends = [0, results.times.len().saturating_sub(1)];
             let curves = ends.map(|output| Curve {
                 label: format!("{time_name} = {}", results.times[output]),
@@ -52,18 +52,6 @@ pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<
             ]
         }
         _ => vec![(stem.to_owned(), against_time(&series.columns))],
-    }
-}
-
-fn y_name(observable: Observable) -> &'static str {
-    match observable {
-        Observable::Projections => "mean projection on an axis",
-        Observable::PlanarProjections => "mean projection on a plane",
-        Observable::MeanAngle => "mean angle φ (rad)",
-        Observable::OrbitConstant => "mean C_b",
-        Observable::OrientationTensor => "mean of p_i p_j",
-        Observable::OrientationTensor4 => "mean of p_i p_j p_k p_l",
-        Observable::ParticleStress => "stress of the rods over μ_fiber G",
     }
 }
 

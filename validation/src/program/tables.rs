@@ -1,7 +1,7 @@
 //! Results as tables: CSV for files, a short one for the terminal.
 
 use shearbed::run::ensemble::{Column, Series};
-use shearbed::{Observable, Plan, Results};
+use shearbed::{Plan, Results};
 
 /// An observable's file: the time, also in s and as strain, then each channel with its standard error. Every number is
 /// the shortest text that reads back as the same bits.
@@ -39,7 +39,7 @@ fn most_of_each(plan: &Plan) -> impl Iterator<Item = (u64, u64)> {
     let rows = plan.outputs() as u64 + 1;
     plan.observables().into_iter().map(move |observable| {
         // Of a density only the ends are drawn.
-        let drawn = if observable == Observable::OrbitConstant { 1 } else { observable.width() };
+        let drawn = if observable.is_density() { 1 } else { observable.width() };
         let table = rows * NUMBER * (3 + 2 * observable.width() as u64);
         (table, rows * POINT * drawn as u64)
     })
@@ -133,8 +133,8 @@ fn sparkline(means: &[f64]) -> String {
 
 /// Every channel but the many of a density.
 fn shown(series: &Series) -> &[Column] {
-    match (series.observable, series.columns.as_slice()) {
-        (Observable::OrbitConstant, [mean, ..]) => std::slice::from_ref(mean),
+    match (series.observable.is_density(), series.columns.as_slice()) {
+        (true, [mean, ..]) => std::slice::from_ref(mean),
         (_, all) => all,
     }
 }
