@@ -24,7 +24,7 @@ const INTERACTING: &str =
     "[interaction]\nconcentration_per_cm3 = 50\nalpha = 0.5\n[ensemble]\nreplicas = 3\n";
 const ALL_OBSERVABLES: &str = r#"
 [output]
-observables = ["orbit_constant", "projections", "orientation_tensor", "mean_angle", "planar_projections",
+observables = ["orbit_constant", "projections", "orientation_tensor", "mean_angle", "cos_2phi", "planar_projections",
     "orientation_tensor_4", "particle_stress"]
 "#;
 

@@ -86,11 +86,16 @@ impl Plan {
             return None;
         }
         let mut plan = self.clone();
+        let reason = || "kept by request".to_owned();
         for entry in &mut plan.entries {
             if entry.stage == stage || needs.contains(&entry.stage) {
                 entry.kept = true;
-                entry.reason = "kept by request".to_owned();
+                entry.reason = reason();
             }
+        }
+        // An observable that the scene does not ask for has no entry.
+        if !plan.keeps(stage) {
+            plan.entries.push(Entry { stage, kept: true, reason: reason() });
         }
         Some(plan)
     }

@@ -15,6 +15,7 @@ mod scenes;
 
 use mutate::Mutator;
 use peak_alloc::PeakAlloc;
+use rustix::time::{ClockId, clock_gettime};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -25,8 +26,11 @@ use std::time::{Duration, Instant};
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;
 
-/// Seconds after which one input is a hang: a thousand times what the slowest takes.
-const HANG_S: u64 = 60;
+/// Seconds of the process's own time after which one input is a hang, whatever else the machine does: a thousand times what the
+/// slowest takes.
+const HANG_S: i64 = 60;
+/// Seconds by the clock after which one input waits for what does not come.
+const WAIT_S: u64 = 3600;
 /// Bytes that one input may take: scenes that need more are not run, and no file here has a megabyte.
 const MEMORY: usize = 512 << 20;
 
@@ -123,13 +127,14 @@ static AT_WORK: Mutex<Vec<(&str, Vec<u8>)>> = Mutex::new(Vec::new());
 /// Ends the process where one input takes too long.
 fn watch() {
     std::thread::spawn(|| {
-        let mut last = (0, Instant::now());
+        let worked_s = || clock_gettime(ClockId::ProcessCPUTime).tv_sec;
+        let mut last = (0, worked_s(), Instant::now());
         loop {
             std::thread::sleep(Duration::from_secs(1));
             let begun = BEGUN.load(Ordering::Relaxed);
             if begun != last.0 {
-                last = (begun, Instant::now());
-            } else if begun > 0 && last.1.elapsed().as_secs() > HANG_S {
+                last = (begun, worked_s(), Instant::now());
+            } else if begun > 0 && (worked_s() - last.1 > HANG_S || last.2.elapsed().as_secs() > WAIT_S) {
                 let kept = AT_WORK.lock().is_ok_and(|files| keep(&files).is_ok());
                 let place = if kept { "; it is in fuzz-fault/" } else { "" };
                 eprintln!("input {} hangs{place}", begun - 1);

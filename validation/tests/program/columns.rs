@@ -43,10 +43,10 @@ shear_rate_per_s = 0.5
 periods = 1.5
 outputs_per_period = 12
 [output]
-observables = ["projections", "planar_projections", "mean_angle", "orbit_constant", "orientation_tensor", "orientation_tensor_4", "particle_stress"]
+observables = ["projections", "planar_projections", "mean_angle", "cos_2phi", "orbit_constant", "orientation_tensor", "orientation_tensor_4", "particle_stress"]
 rods_at = [0.25, 1]
 "#,
-        tables: 8,
+        tables: 9,
         rows: 19,
         numbers: 5,
         step_s: period_s / 12.0,
@@ -131,6 +131,7 @@ fn expected(heading: &str, state: &State) -> Option<f64> {
         "x1x3" => p1.hypot(p3),
         // Folded into [0, π/2].
         "phi" => p2.abs().atan2(p1.abs()),
+        "cos_2phi" => (2.0 * p2.atan2(p1)).cos(),
         "c_b" => state.c_b,
         "s12_per_mu_fiber_g" => p1 * p1 * p2 * p2,
         "n1_per_mu_fiber_g" => p1 * p2 * (p2 * p2 - p1 * p1),
