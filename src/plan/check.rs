@@ -5,7 +5,7 @@ mod time;
 use crate::model::flow::VelocityGradient;
 use crate::model::volume::MAX_STEP;
 use crate::motion::Propagator;
-use crate::plan::free::{FreeMotion, MAX_ERROR_RAD};
+use crate::plan::free::MAX_ERROR_RAD;
 use crate::plan::no_interaction;
 use crate::scene::{Interaction, Invalid, MAX_PER_UNIT, Scene, resolved_strain, step_maps};
 
@@ -23,7 +23,8 @@ const MAX_CROSSINGS: f64 = 30.0;
 const MAX_DRIFT: f64 = 1e-6;
 
 impl Scene {
-    /// Every value that its key does not allow; where there is none, what does not go together.
+    /// Every value that its key does not allow; where there is none, what does not go together. What a file says of rods is
+    /// looked at where it has been read. Whether double precision reaches the rods' motion is seen by [`Plan::new`] alone.
     pub fn problems(&self) -> Vec<Invalid> {
         match self.out_of_range() {
             wrong if wrong.is_empty() => self.at_odds(),
@@ -34,20 +35,10 @@ impl Scene {
     /// What does not go together: of the particles, and of the rest the first, for what is wrong there follows from
     /// one to the next. Every value is one that its key allows.
     fn at_odds(&self) -> Vec<Invalid> {
-        if let Err(refused) = self.check_shape() {
+        if let Err(refused) = self.check_shape().and_then(|()| self.check_own_rods()) {
             return vec![refused];
         }
-        let rest = self.check_motion().map(|_| ());
-        [self.check_particles(), rest].into_iter().filter_map(Result::err).collect()
-    }
-
-    /// Checks the scene; its flow, and where rods do not move by the closed form of plane Couette flow, how they do.
-    pub(crate) fn checked(&self) -> Result<(VelocityGradient, Option<FreeMotion>), Invalid> {
-        self.out_of_range().into_iter().next().map_or(Ok(()), Err)?;
-        self.check_shape()?;
-        self.check_particles()?;
-        self.check_own_rods()?;
-        self.check_motion()
+        [self.check_particles(), self.check_motion()].into_iter().filter_map(Result::err).collect()
     }
 
     /// Orbit constants (eq. 13), shear stress and normal stress differences are those of plane Couette flow along the axes.
@@ -62,7 +53,7 @@ impl Scene {
         Err(Invalid::new("output.observables", format!("{names:?}"), allowed))
     }
 
-    fn check_motion(&self) -> Result<(VelocityGradient, Option<FreeMotion>), Invalid> {
+    fn check_motion(&self) -> Result<(), Invalid> {
         let flow = self.check_flow()?;
         self.check_observed(&flow)?;
         if let Some(interaction) = &self.interaction {
@@ -70,14 +61,11 @@ impl Scene {
         }
         self.check_time(&flow)?;
         self.check_rods_outputs()?;
-        if flow.shear_rate_per_s().is_some() && self.time.strain.is_none() {
-            return Ok((flow, None));
+        let turns_in_closed_form = flow.shear_rate_per_s().is_some() && self.time.strain.is_none();
+        match turns_in_closed_form || no_interaction(self).is_some() {
+            true => Ok(()),
+            false => self.check_steps(&flow),
         }
-        if no_interaction(self).is_none() {
-            self.check_steps(&flow)?;
-            return Ok((flow, None));
-        }
-        Ok((flow, Some(FreeMotion::new(self, &flow)?)))
     }
 
     fn check_rods_outputs(&self) -> Result<(), Invalid> {

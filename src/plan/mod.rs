@@ -64,8 +64,15 @@ impl Plan {
     ///
     /// The first value, or combination of values, that is not allowed.
     pub fn new(scene: &Scene) -> Result<Self, Invalid> {
-        let (flow, free) = scene.checked()?;
-        Ok(Self { scene: scene.clone(), flow, free: free.map(Arc::new), entries: entries(scene) })
+        scene.problems().into_iter().next().map_or(Ok(()), Err)?;
+        scene.check_rods_are_read()?;
+        let flow = scene.check_flow()?;
+        let closed_form = flow.shear_rate_per_s().is_some() && scene.time.strain.is_none();
+        let free = match closed_form || no_interaction(scene).is_none() {
+            true => None,
+            false => Some(Arc::new(FreeMotion::new(scene, &flow)?)),
+        };
+        Ok(Self { scene: scene.clone(), flow, free, entries: entries(scene) })
     }
 
     /// The same plan with `stage`, and what it needs, kept although the scene does not need it: for tests

@@ -67,6 +67,14 @@ pub fn parse(file: &str, text: &str) -> Result<Scene, SceneError> {
     })
 }
 
+/// What [`crate::Plan::new`] found in a scene that was read from this text, at the line of its key.
+pub fn located(file: &str, text: &str, invalid: Invalid) -> SceneError {
+    let lines = Lines::of(text);
+    let keys = DeTable::parse(text).map(|document| keys(text, "", document.get_ref(), &mut Vec::new()));
+    let (offset, message) = as_written(&keys.unwrap_or_default(), invalid);
+    SceneError { file: file.to_owned(), problems: vec![Problem { line: lines.number(offset), message }] }
+}
+
 /// The most unknown keys of which each has a line; the rest have one together.
 const MOST_UNKNOWN: usize = 20;
 

@@ -14,7 +14,7 @@ mod rods;
 mod steps;
 pub use allowed::Invalid;
 pub(crate) use allowed::refused;
-pub use file::{Problem, SceneError, parse};
+pub use file::{Problem, SceneError, located, parse};
 pub use keys::{Absent, Holds, KEYS, Key, MAX_COUNT, MAX_PER_UNIT, MAX_REPLICAS, MAX_SEED, TABLES};
 pub(crate) use keys::{find, required};
 pub use particles::{Isotropic, Orientation, OwnRods, Particles, RodsFile};

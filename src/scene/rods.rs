@@ -67,20 +67,23 @@ impl Scene {
         }
     }
 
+    /// Refuses a file of rods that nothing has read.
+    pub(crate) fn check_rods_are_read(&self) -> Result<(), Invalid> {
+        match &self.particles.rods {
+            Some(RodsFile { file, own: None, .. }) => Err(refused_file(
+                file,
+                "a file's rods where something has read it, as `shearbed run`, `plan` and `sweep` do".into(),
+            )),
+            _ => Ok(()),
+        }
+    }
+
     /// Checks that the rods of a file are there, and can be those of the scene.
     pub(crate) fn check_own_rods(&self) -> Result<(), Invalid> {
-        let Some(RodsFile { file, own, .. }) = &self.particles.rods else {
+        let Some(RodsFile { file, own: Some(own), .. }) = &self.particles.rods else {
             return Ok(());
         };
-        let refused = |allowed: String| {
-            let value = format!("{{ file = {file:?} }}");
-            Err(Invalid::new("particles.rods", value, allowed))
-        };
-        let Some(own) = own else {
-            return refused(
-                "a file's rods where something has read it, as `shearbed run`, `plan` and `sweep` do".into(),
-            );
-        };
+        let refused = |allowed: String| Err(refused_file(file, allowed));
         let count = self.particles.count;
         let axes = own.p.iter().chain(&own.place_mm).flatten();
         let mut columns = axes.chain(&own.aspect_ratio).chain(&own.length_mm);
@@ -163,4 +166,8 @@ impl Scene {
         }
         Ok(())
     }
+}
+
+fn refused_file(file: &str, allowed: String) -> Invalid {
+    Invalid::new("particles.rods", format!("{{ file = {file:?} }}"), allowed)
 }

@@ -10,7 +10,7 @@ use shearbed::model::orientation::from_degrees;
 use shearbed::motion::{Propagator, Span};
 use shearbed::run::ensemble;
 use shearbed::scene;
-use shearbed::scene::{OwnRods, RodsFile};
+use shearbed::scene::{OwnRods, RodsFile, SceneError};
 use std::cell::Cell;
 
 fn scene(rows: [[f64; 3]; 3], r: f64, sd: f64, orientation: &str, time: &str) -> String {
@@ -27,17 +27,22 @@ fn of_a_file(p: [Vec<f64>; 3]) -> RodsFile {
     RodsFile::with("start.csv", own)
 }
 
+/// The plan of a scene file, or what is refused of it, each with its line.
+fn planned(text: &str) -> Result<Plan, SceneError> {
+    let scene = scene::parse("s.toml", text)?;
+    Plan::new(&scene).map_err(|invalid| scene::located("s.toml", text, invalid))
+}
+
 /// Finite means with ⟨pp⟩ of trace 1, or a refusal that says why; whether it was not refused.
 fn ends_or_is_refused(text: &str) -> bool {
-    let scene = match scene::parse("s.toml", text) {
-        Ok(scene) => scene,
+    let plan = match planned(text) {
+        Ok(plan) => plan,
         Err(error) => {
             let error = error.to_string();
             assert!(error.contains("is not allowed: ") && error.len() > 60, "{error}\n{text}");
             return false;
         }
     };
-    let plan = Plan::new(&scene).unwrap();
     assert!(plan.error_rad().is_none_or(|error| error <= 1e-6), "{text}");
     let results = ensemble::run(&plan).unwrap();
     let mean = |name: &str, k: usize| results.column(name).unwrap().mean[k];
@@ -112,24 +117,24 @@ fn any_gradient_of_mixed_sizes_ends_or_is_refused() {
 #[test]
 fn a_start_on_a_dividing_plane_is_refused_however_it_is_given() {
     let rows = [[0.25, 0.75, 0.0], [0.75, 0.25, 0.0], [0.0, 0.0, -0.5]];
-    let parsed = |sd: f64, start: &str, strain: f64| {
+    let text = |sd: f64, start: &str, strain: f64| {
         let time = format!("strain = {strain}\noutputs_per_strain = 1");
-        scene::parse("s.toml", &scene(rows, 11.6, sd, start, &time))
+        scene(rows, 11.6, sd, start, &time)
     };
     let start = "{ phi_deg = 135, theta_deg = 90 }";
     for sd in [0.0, 1.0] {
         // Far beyond the limit, and a little.
         for strain in [100.0, 27.0] {
-            let error = parsed(sd, start, strain).unwrap_err().to_string();
+            let error = planned(&text(sd, start, strain)).unwrap_err().to_string();
             let cause = "this flow amplifies the rounding of the start beyond 1e-6 rad";
             assert!(error.contains(cause), "{sd}: {error}");
         }
-        assert!(parsed(sd, start, 5.0).is_ok(), "{sd}");
+        assert!(planned(&text(sd, start, 5.0)).is_ok(), "{sd}");
         // Random starts are the doubles that were drawn.
-        let random = Plan::new(&parsed(sd, "\"isotropic\"", 100.0).unwrap()).unwrap();
+        let random = planned(&text(sd, "\"isotropic\"", 100.0)).unwrap();
         assert!(ensemble::run(&random).is_ok(), "{sd}");
 
-        let mut given = parsed(sd, "\"isotropic\"", 100.0).unwrap();
+        let mut given = scene::parse("s.toml", &text(sd, "\"isotropic\"", 100.0)).unwrap();
         let (sine, cosine) = (135f64.to_radians().sin(), 135f64.to_radians().cos());
         given.particles.rods = Some(of_a_file([vec![cosine; 3], vec![sine; 3], vec![0.0; 3]]));
         let refused = Plan::new(&given).map(|plan| ensemble::run(&plan));
@@ -156,7 +161,7 @@ fn rates_beyond_all_digits_are_refused_as_such() {
     let parsed = |coupling: f64| {
         let rows = [[0.0, 1e200, 0.0], [0.0, 0.0, 0.0], [coupling, 0.0, 1.0]];
         let text = scene(rows, 1e91, 0.0, "\"isotropic\"", "periods = 2");
-        scene::parse("s.toml", &text).map_err(|error| error.to_string())
+        planned(&text).map_err(|error| error.to_string())
     };
     let error = parsed(1.0).unwrap_err();
     assert!(error.contains("the flow's rates cancel, or grow apart"), "{error}");

@@ -4,7 +4,7 @@ use crate::model::shape::Correlation;
 use crate::scene::{Interaction, Invalid, OwnRods, RodsFile, Scene};
 
 fn refusal(scene: &Scene) -> String {
-    scene.checked().expect_err("it is refused").to_string()
+    crate::Plan::new(&scene).expect_err("it is refused").to_string()
 }
 
 /// 3σ reaches 1, or 0 of discs.
@@ -15,7 +15,7 @@ fn the_widest_spread_is_told_and_a_little_less_is_taken() {
         scene.particles.aspect_ratio = mean;
         for (share, taken) in [(0.999, true), (1.001, false)] {
             scene.particles.aspect_ratio_sd_percent = widest * share;
-            assert_eq!(scene.checked().is_ok(), taken, "{mean}: {share}");
+            assert_eq!(crate::Plan::new(&scene).is_ok(), taken, "{mean}: {share}");
         }
         let told = format!("with mean {mean} below {widest:.4}, three standard deviations");
         assert!(refusal(&scene).contains(&told), "{}", refusal(&scene));
@@ -23,7 +23,7 @@ fn the_widest_spread_is_told_and_a_little_less_is_taken() {
     let mut scene = Scene::default();
     scene.particles.aspect_ratio = 4.0;
     scene.particles.aspect_ratio_sd_percent = 25.0;
-    assert!(scene.checked().is_err(), "the limit itself");
+    assert!(crate::Plan::new(&scene).is_err(), "the limit itself");
 }
 
 #[test]
@@ -33,7 +33,7 @@ fn an_aspect_ratio_beside_a_cylinder_is_the_one_that_its_formula_makes() {
     scene.particles.shape_correlation = Some(Correlation::Cox);
     let made = Correlation::Cox.formula().equivalent(20.0).unwrap();
     scene.particles.aspect_ratio = made;
-    assert!(scene.checked().is_ok());
+    assert!(crate::Plan::new(&scene).is_ok());
     scene.particles.aspect_ratio = made.next_up();
     assert!(refusal(&scene).contains(&format!("Cox 1971 makes {made}")), "{}", refusal(&scene));
 }
@@ -54,7 +54,7 @@ fn rods_that_cannot_be_are_refused_by_number() {
     scene.particles.count = 2;
     let mut judged = |own: OwnRods| {
         scene.particles.rods = Some(RodsFile::with("two.csv", own));
-        scene.checked().map(|_| ()).map_err(|invalid| invalid.to_string())
+        crate::Plan::new(&scene).map(|_| ()).map_err(|invalid| invalid.to_string())
     };
     assert_eq!(judged(sound.clone()), Ok(()));
     let with = |change: &dyn Fn(&mut OwnRods)| {
@@ -98,7 +98,7 @@ fn a_start_has_length_1_to_a_few_roundings() {
         let own =
             OwnRods { p: Some([vec![1.0, 0.0], vec![0.0, length], vec![0.0; 2]]), ..OwnRods::default() };
         scene.particles.rods = Some(RodsFile::with("two.csv", own));
-        scene.checked().map(|_| ())
+        crate::Plan::new(&scene).map(|_| ())
     };
     for length in [1.0, 1.0 + 4.0 * f64::EPSILON, 1.0 - 4.0 * f64::EPSILON] {
         assert_eq!(start(length), Ok(()), "{length}");

@@ -37,7 +37,7 @@ fn plan(name: &str, text: &str, replicas: Option<u64>, seed: Option<u64>) -> PyR
         .map_err(|error| refused(&format!("{name}: {error}")))?;
     scene.ensemble.replicas = replicas.unwrap_or(scene.ensemble.replicas);
     scene.ensemble.seed = seed.unwrap_or(scene.ensemble.seed);
-    Plan::new(&scene).map_err(|error| SceneError::new_err(format!("{name}: {error}")))
+    Plan::new(&scene).map_err(|invalid| refused(&scene::located(name, text, invalid)))
 }
 
 fn toml_of(scene: &Scene) -> PyResult<String> {

@@ -15,10 +15,10 @@ use crate::studies::work_precision::order::{self, Found};
 use crate::studies::work_precision::{export, tables};
 use serde::Serialize;
 use serde_json::json;
+use shearbed::Scene;
 use shearbed::model::jeffery::strain_per_period;
 use shearbed::plan::Stage;
 use shearbed::scene::{MAX_REPLICAS, resolved_strain};
-use shearbed::{Plan, Scene};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `converge`.
@@ -48,7 +48,7 @@ pub(super) struct Args {
 pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let named = args.chosen.load(&Ensemble::default(), &[])?;
     let at = |message: String| format!("{}: {message}", named.source);
-    let plan = Plan::new(&named.scene).map_err(|error| Failure::Input(at(error.to_string())))?;
+    let plan = named.plan()?;
     if plan.keeps(Stage::Contacts) && !law::judges(&plan) {
         let (key, steps) = (named.scene.steps_key(), named.scene.steps_per_unit());
         return Err(Failure::Input(at(format!(

@@ -1,9 +1,9 @@
 //! Results as pictures: each observable's means against time with 95 % bands.
 
+use crate::judge::statistics::student;
 use crate::present::plot::{Curve, Figure};
 use shearbed::run::ensemble::{Column, Series};
 use shearbed::{Observable, Results, Scene};
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// The stems of the names of an observable's pictures.
 pub(super) fn stems(observable: Observable) -> Vec<String> {
@@ -62,6 +62,5 @@ pub(super) fn half_widths(scene: &Scene) -> Option<f64> {
         1 => scene.particles.count as u64,
         replicas => replicas,
     };
-    let student = StudentsT::new(0.0, 1.0, samples.checked_sub(1)? as f64).ok()?;
-    Some(student.inverse_cdf(0.975))
+    (samples > 1).then(|| student(0.05, samples))
 }

@@ -91,8 +91,8 @@ fn kept(args: &Args, plan: &Plan, path: Option<&Path>) -> Result<Option<Arc<Repl
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let start = Instant::now();
     let named = args.chosen.load(&args.ensemble, &[])?;
+    let plan = named.plan()?;
     let scene = named.scene;
-    let plan = Plan::new(&scene).map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
     if args.vtk && plan.rods_outputs().is_empty() {
         return Err(Failure::Input(format!(
             "{}: --vtk: output.rods_at is missing: the times at which rods are to be written",

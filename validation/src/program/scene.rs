@@ -8,9 +8,9 @@ use crate::files::text::line;
 use crate::input::scenes;
 use crate::input::start::Starts;
 use crate::serve::sweep::{self, Axis, Setting};
-use shearbed::Scene;
 use shearbed::scene;
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
+use shearbed::{Plan, Scene};
 use std::ffi::{OsStr, OsString};
 use std::io::Write;
 use std::path::Path;
@@ -77,18 +77,27 @@ pub(super) struct Named {
 }
 
 impl Named {
+    /// Its plan; an error names the line of the key, or the keys that were set.
+    pub(super) fn plan(&self) -> Result<Plan, Failure> {
+        Plan::new(&self.scene).map_err(|invalid| match self.settings.is_empty() {
+            true => Failure::Input(scene::located(&self.source, &self.text, invalid).to_string()),
+            false => self.refused(&invalid.to_string()),
+        })
+    }
+
+    fn refused(&self, error: &str) -> Failure {
+        let set = |setting: &Setting| format!(" --set {}={}", setting.key, sweep::shown(&setting.value));
+        let set: String = self.settings.iter().map(set).collect();
+        Failure::Input(format!("{}{set}: {error}", self.source))
+    }
+
     fn with(mut self, settings: Vec<Setting>) -> Result<Self, Failure> {
         if settings.is_empty() {
             return Ok(self);
         }
-        self.scene = sweep::scene_with(&self.text, &settings).map_err(|error| {
-            let said = settings
-                .iter()
-                .map(|setting| format!(" --set {}={}", setting.key, sweep::shown(&setting.value)));
-            Failure::Input(format!("{}{}: {error}", self.source, said.collect::<String>()))
-        })?;
-        self.starts.fill(&mut self.scene).map_err(|error| refused(&self.source, &error))?;
         self.settings = settings;
+        self.scene = sweep::scene_with(&self.text, &self.settings).map_err(|error| self.refused(&error))?;
+        self.starts.fill(&mut self.scene).map_err(|error| refused(&self.source, &error))?;
         Ok(self)
     }
 }

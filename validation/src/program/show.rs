@@ -5,7 +5,6 @@ use super::facts::{self, Facts};
 use super::scene::{Chosen, Ensemble};
 use super::{Failure, memory, print};
 use crate::input::{scene_keys, scenes};
-use shearbed::Plan;
 
 /// Arguments of `plan`.
 #[derive(clap::Args)]
@@ -29,8 +28,7 @@ pub(super) struct ScenesArgs {
 /// Prints a scene's plan. Fails where `run` would for want of memory.
 pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
     let named = args.chosen.load(&Ensemble::default(), &[])?;
-    let plan =
-        Plan::new(&named.scene).map_err(|error| Failure::Input(format!("{}: {error}", named.source)))?;
+    let plan = named.plan()?;
     // The plan ends with its own warnings, and all of them come last.
     let said = |warnings: Vec<String>| -> String {
         let lines = warnings.iter().map(|warning| format!("warning: {warning}\n"));

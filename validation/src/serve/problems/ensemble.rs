@@ -6,7 +6,7 @@
 
 use super::asked::{AXES, COUETTE, period_s};
 use super::{Built, Ensemble, FORMAT, Kind, Metric, Problem, ProblemDef};
-use statrs::distribution::{ContinuousCDF, StudentsT};
+use crate::judge::statistics::student;
 
 /// Columns `t_over_T,x1,x1_se,x2,x2_se,x3,x3_se`.
 const EQUAL: &str = include_str!("data/fig7-n50.csv");
@@ -44,9 +44,7 @@ fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
     });
     // Two problems, three means a time, two sides.
     let level = FALSE_ALARM_RATE / (2.0 * 3.0 * rows.len() as f64);
-    let freedom = (LEAST - 1) as f64;
-    let student = StudentsT::new(0.0, 1.0, freedom).expect("degrees of freedom above 0");
-    let critical = (100.0 * student.inverse_cdf(1.0 - 0.5 * level)).ceil() / 100.0;
+    let critical = (100.0 * student(level, LEAST)).ceil() / 100.0;
     Built {
         certified: certified.collect(),
         problem: Problem {
@@ -67,9 +65,10 @@ fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
             metric: Metric::StandardErrors,
             tolerance: critical,
             because: format!(
-                "Student's t with {freedom} degrees of freedom ({LEAST} replicas, the fewest allowed) at the level at which a right \
+                "Student's t with {} degrees of freedom ({LEAST} replicas, the fewest allowed) at the level at which a right \
                  answer fails one of the {} comparisons of both such problems with a probability of {FALSE_ALARM_RATE:e}; rounded up \
                  to hundredths.",
+                LEAST - 1,
                 2 * 3 * rows.len()
             ),
             equations: vec![format!(
