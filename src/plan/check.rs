@@ -24,7 +24,7 @@ const MAX_DRIFT: f64 = 1e-6;
 
 impl Scene {
     /// Every value that its key does not allow; where there is none, what does not go together. What a file says of rods is
-    /// looked at where it has been read. Whether double precision reaches the rods' motion is seen by [`Plan::new`] alone.
+    /// looked at where it has been read. Whether double precision reaches the rods' motion is seen by [`crate::Plan::new`] alone.
     pub fn problems(&self) -> Vec<Invalid> {
         match self.out_of_range() {
             wrong if wrong.is_empty() => self.at_odds(),

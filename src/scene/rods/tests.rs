@@ -4,7 +4,7 @@ use crate::model::shape::Correlation;
 use crate::scene::{Interaction, Invalid, OwnRods, RodsFile, Scene};
 
 fn refusal(scene: &Scene) -> String {
-    crate::Plan::new(&scene).expect_err("it is refused").to_string()
+    crate::Plan::new(scene).expect_err("it is refused").to_string()
 }
 
 /// 3σ reaches 1, or 0 of discs.

@@ -227,7 +227,7 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
 
 /// This program as an echo.
 fn echo() -> String {
-    let words = super::program::again();
+    let words = super::words::again();
     let words: Vec<_> = words.iter().map(|word| word.to_string_lossy()).collect();
     let quoted = shlex::try_join(words.iter().map(|word| word.as_ref()));
     format!("{} grade --echo", quoted.unwrap_or_else(|_| "shearbed".to_owned()))

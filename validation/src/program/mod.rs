@@ -16,7 +16,7 @@ mod memory;
 mod pictures;
 mod plot;
 mod problems;
-mod program;
+mod words;
 mod record;
 mod reference;
 mod rods;
@@ -132,7 +132,7 @@ pub fn main() -> ExitCode {
 /// The same in a process of another program, and without ranks: `program` are the words that start it, `arguments` what
 /// follows them. The exit code.
 pub fn main_of(program: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
-    program::give(program, arguments.clone());
+    words::give(program, arguments.clone());
     let cli = match Cli::try_parse_from(with_name(arguments)) {
         Ok(cli) => cli,
         Err(error) => {
@@ -195,7 +195,7 @@ impl Command {
 fn command(command: Command) -> Result<(), Failure> {
     threads::check()?;
     if !command.is_shared() {
-        let words = program::words();
+        let words = words::words();
         let name = words.get(1).map(|word| word.to_string_lossy().into_owned());
         agree(&name.unwrap_or_default(), json!({}))?;
         if !cluster::is_root() {

@@ -52,7 +52,7 @@ pub(super) fn json(
 ) -> Result<String, String> {
     let record = Record {
         build: BUILD,
-        command: command(super::program::words()),
+        command: command(super::words::words()),
         scene: plan.scene().resolved(),
         facts: Facts::of(plan),
         seed: plan.scene().ensemble.seed,

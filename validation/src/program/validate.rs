@@ -110,7 +110,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let (Some(outcomes), Some(sections)) = (outcomes, sections) else {
         return Ok(());
     };
-    let report = report::build(outcomes, sections, &effort, command(super::program::words()));
+    let report = report::build(outcomes, sections, &effort, command(super::words::words()));
     let mut files = report.data().map_err(Failure::Failed)?;
     let pages = [report.html().map_err(Failure::Failed)?, report.json(), report.markdown(), report.junit()];
     files.extend(PAGES.map(str::to_owned).into_iter().zip(pages));

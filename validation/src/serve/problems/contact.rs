@@ -38,7 +38,7 @@ pub(super) fn problems() -> Vec<ProblemDef> {
                 let step_s = period_s(ASPECT_RATIO) / 200.0;
                 let columns = ["a_phi_rate_per_s", "a_theta_rate_per_s", "a_phi_rad", "a_theta_rad"];
                 let equation = "A.1, A.7 to A.12, A.13 corrected, A.14";
-                built(def, Some(step_s), &columns, equation, move |rod, step| angles(rod, step))
+                built(def, Some(step_s), &columns, equation, angles)
             },
         ),
     ]
