@@ -64,7 +64,7 @@ fn with_right_sums(files: &Files) -> Vec<(&'static str, Vec<u8>)> {
         return all;
     };
     for (name, bytes) in files.iter().filter(|(name, _)| *name != RECORD) {
-        if let Some(sums) = value["files"].as_object_mut() {
+        if let Some(sums) = value.get_mut("files").and_then(Value::as_object_mut) {
             sums.insert((*name).to_owned(), json!(Sum::of(bytes)));
         }
     }
