@@ -19,7 +19,7 @@
 //!
 //! # Data goes one way
 //!
-//! A scene file ([`scene::parse`]) is a [`Scene`]; a [`Plan`] says which stages it needs and drops the rest;
+//! A scene file ([`scene::parse`]) is a [`Scene`]; a [`Plan`] checks it, says which stages it needs and drops the rest;
 //! [`run::ensemble::run`] runs the plan's replicas, each by [`run::run_replica`], and returns [`Results`].
 //!
 //! ```
@@ -61,7 +61,7 @@ pub use nalgebra;
 pub use observable::Observable;
 pub use plan::Plan;
 pub use run::ensemble::Results;
-pub use scene::Scene;
+pub use scene::{Error, Scene};
 pub use suspension::Suspension;
 
 /// Property tests draw the same examples in every run: a failure is the code's, not the day's.

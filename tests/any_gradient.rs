@@ -179,7 +179,7 @@ fn what_cannot_be_stepped_is_refused() {
     let in_box = |sides: &str| {
         let text = text(GENERAL, rods, 0.5, "strain = 1")
             .replace("concentration_per_cm3 = 1000", &format!("box_mm = {sides}"));
-        scene::parse("s.toml", &text).map(|_| ()).map_err(|refused| refused.to_string())
+        Plan::parse("s.toml", &text).map(|_| ()).map_err(|refused| refused.to_string())
     };
     let refused = in_box("[1e103, 1e103, 1e103]").unwrap_err();
     assert!(
@@ -224,9 +224,9 @@ fn what_cannot_be_stepped_is_refused() {
             "time.strain = 1e4 is not allowed: at most 1e9 steps in all, not 2e9",
         ),
     ] {
-        let parsed = scene::parse("s.toml", &text(gradient, rods, 0.5, time));
+        let parsed = Plan::parse("s.toml", &text(gradient, rods, 0.5, time));
         match (parsed, why) {
-            (Ok(scene), "") => drop(run(&scene)),
+            (Ok(plan), "") => drop(run(plan.scene())),
             (Err(refused), _) => assert!(!why.is_empty() && refused.to_string().contains(why), "{refused}"),
             (Ok(_), _) => panic!("not refused: {why}"),
         }

@@ -67,8 +67,8 @@ fn a_large_run_gives_the_same_bits_on_any_number_of_threads() {
         let mut scene = scene(1, 1);
         scene.particles.count = 150_000;
         scene.particles.aspect_ratio_sd_percent = sd;
-        scene.time.periods = Some(periods);
-        scene.time.outputs_per_period = Some(100);
+        scene.time.duration = periods;
+        scene.time.outputs_per_unit = Some(100);
         if !interacting {
             scene.interaction = None;
         }
@@ -154,7 +154,7 @@ fn the_work_of_many_rods_is_known() {
     for concentration_per_cm3 in [0.5, 50.0, 5000.0] {
         let mut scene = scene(1, 1);
         scene.particles.count = 2000;
-        scene.time.periods = Some(0.1);
+        scene.time.duration = 0.1;
         let interaction = scene.interaction.as_mut().unwrap();
         interaction.concentration_per_cm3 = Some(concentration_per_cm3);
         let counters = run_on(2, &Plan::new(&scene).unwrap()).counters;

@@ -29,8 +29,8 @@ fn many_rods(count: usize, concentration_per_cm3: Option<f64>) -> Plan {
     };
     scene.particles.count = count;
     scene.particles.aspect_ratio_sd_percent = 3.6;
-    scene.time.periods = Some(0.05);
-    scene.time.outputs_per_period = Some(20);
+    scene.time.duration = 0.05;
+    scene.time.outputs_per_unit = Some(20);
     Plan::new(&scene).unwrap()
 }
 
@@ -97,7 +97,7 @@ fn a_run_holds_what_it_says_and_its_steps_allocate_nothing() {
     // Rods, rods that are wanted, and sums are what is held.
     for (count, rods_at) in [(1000, vec![]), (1000, vec![0.0, 0.025]), (2, vec![])] {
         let mut scene = many_rods(count, Some(50.0).filter(|_| count > 2)).scene().clone();
-        scene.time.outputs_per_period = Some(if count > 2 { 40 } else { 40_000 });
+        scene.time.outputs_per_unit = Some(if count > 2 { 40 } else { 40_000 });
         scene.output.rods_at = rods_at;
         let plan = Plan::new(&scene).unwrap();
         let mut held = 0.0f64;
@@ -115,11 +115,11 @@ fn others() -> [(&'static str, Scene); 6] {
         scene
     };
     [
-        ("sums", scene(|scene| scene.time.outputs_per_period = Some(50_000))),
+        ("sums", scene(|scene| scene.time.outputs_per_unit = Some(50_000))),
         (
             "sums of replicas that wait",
             scene(|scene| {
-                scene.time.outputs_per_period = Some(2000);
+                scene.time.outputs_per_unit = Some(2000);
                 scene.ensemble.replicas = 100;
             }),
         ),
@@ -127,7 +127,7 @@ fn others() -> [(&'static str, Scene); 6] {
             "every rod at many outputs",
             scene(|scene| {
                 scene.particles.count = 1000;
-                scene.time.outputs_per_period = Some(100);
+                scene.time.outputs_per_unit = Some(100);
                 scene.output.rods_at = (0..=100).map(|k| f64::from(k) / 100.0).collect();
                 scene.ensemble.replicas = 2;
             }),
@@ -150,7 +150,7 @@ fn others() -> [(&'static str, Scene); 6] {
             "propagators",
             scene(|scene| {
                 in_extension(scene);
-                scene.time.outputs_per_strain = Some(5);
+                scene.time.outputs_per_unit = Some(5);
                 scene.particles.count = 20_000;
                 scene.particles.aspect_ratio_sd_percent = 3.6;
             }),
@@ -160,8 +160,8 @@ fn others() -> [(&'static str, Scene); 6] {
 
 /// Planar extension with 50 000 outputs.
 fn in_extension(scene: &mut Scene) {
-    scene.flow.shear_rate_per_s = None;
-    scene.flow.gradient_per_s = Some([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]]);
-    (scene.time.periods, scene.time.strain) = (None, Some(1.0));
-    scene.time.outputs_per_strain = Some(50_000);
+    scene.flow =
+        shearbed::scene::Flow::Gradient { gradient_per_s: [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]] };
+    scene.time = shearbed::scene::Time::strain(1.0);
+    scene.time.outputs_per_unit = Some(50_000);
 }

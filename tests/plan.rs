@@ -190,7 +190,7 @@ fn steps_resolve_the_motion_by_default() {
     for (r, steps) in [(3.96, 100), (11.6, 200), (17.0, 450), (50.0, 3500), (100.0, 7000)] {
         let plan = plan(&turning(r, ""));
         assert_eq!((plan.steps(), plan.outputs()), (steps, 51), "{r}");
-        assert_eq!(plan.scene().resolved().time.steps_per_period, Some(steps));
+        assert_eq!(plan.scene().resolved().time.steps_per_unit, Some(steps));
         assert_eq!(plan.warnings(), Vec::<String>::new());
     }
     // Outputs that are given fall on steps.
@@ -244,7 +244,7 @@ fn the_stress_of_rods_that_are_not_slender_is_warned_of() {
 
 #[test]
 fn long_rods_need_more_steps_than_there_may_be_and_say_what_to_set() {
-    let refusal = |text: &str| scene::parse("s.toml", text).unwrap_err().to_string();
+    let refusal = |text: &str| Plan::parse("s.toml", text).unwrap_err().to_string();
     assert_eq!(
         refusal(&turning(1e6, "")),
         "s.toml:10: time.steps_per_period is missing: at aspect_ratio = 1000000 some 7.0e7 steps a period resolve the \
@@ -296,8 +296,9 @@ fn the_error_of_free_rods_is_known_and_small_but_where_the_form_is_closed() {
 fn the_unit_of_a_period_is_the_same_in_any_axes() {
     let straight = plan(FREE);
     let mut turned = straight.scene().clone();
-    let shear_rate_per_s = turned.flow.shear_rate_per_s.take().unwrap();
-    turned.flow.gradient_per_s = Some([[0.0; 3], [0.0; 3], [0.0, shear_rate_per_s, 0.0]]);
+    let shear_rate_per_s = turned.flow.shear_rate_per_s().unwrap();
+    turned.flow =
+        scene::Flow::Gradient { gradient_per_s: [[0.0; 3], [0.0; 3], [0.0, shear_rate_per_s, 0.0]] };
     let (unit, of_turned) = (straight.unit(), Plan::new(&turned).unwrap().unit());
     assert!((of_turned.seconds / unit.seconds - 1.0).abs() < 1e-14, "{of_turned:?}");
     assert!((of_turned.strain / unit.strain - 1.0).abs() < 1e-14, "{of_turned:?}");
@@ -307,10 +308,10 @@ fn the_unit_of_a_period_is_the_same_in_any_axes() {
 #[test]
 fn a_duration_is_a_number_of_seconds() {
     let mut scene = plan(FREE).scene().clone();
-    scene.flow.shear_rate_per_s = Some(1e-304);
-    (scene.time.periods, scene.time.outputs_per_period) = (Some(1.0), Some(1));
+    scene.flow = scene::Flow::Shear { shear_rate_per_s: 1e-304 };
+    (scene.time.duration, scene.time.outputs_per_unit) = (1.0, Some(1));
     assert!(Plan::new(&scene).is_ok());
-    scene.time.periods = Some(1e5);
+    scene.time.duration = 1e5;
     let refused = Plan::new(&scene).unwrap_err().to_string();
     assert!(refused.contains("finite number of seconds"), "{refused}");
 }
@@ -323,6 +324,6 @@ fn a_control_volume_has_a_side() {
         let interaction = scene.interaction.as_mut().unwrap();
         interaction.concentration_per_cm3 = Some(concentration_per_cm3);
         let refused = Plan::new(&scene).unwrap_err();
-        assert_eq!(refused.key, "interaction.concentration_per_cm3", "{refused}");
+        assert!(refused.to_string().starts_with("interaction.concentration_per_cm3 = "), "{refused}");
     }
 }

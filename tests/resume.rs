@@ -1,12 +1,12 @@
 //! A replica that was stopped and gone on from gives the bits of one that was not.
 
 use serde_json::{Value, json};
+use shearbed::Error;
 use shearbed::Plan;
 use shearbed::run::ensemble::Tally;
 use shearbed::run::resume::Halfway;
 use shearbed::run::{Replica, go_on, run_replica};
 use shearbed::scene;
-use shearbed::suspension::RunError;
 
 /// A plan of `count` rods, with tables and keys put in.
 fn plan(count: usize, flow: &str, interaction: &str, time: &str, replicas: u64) -> Plan {
@@ -101,7 +101,7 @@ fn what_is_of_no_replica_of_the_plan_is_refused() {
         let state: Halfway = serde_json::from_value(state).unwrap();
         let cause = state.check(plan).unwrap_err();
         let error = go_on(plan, 2, Some(state), |_| ()).unwrap_err();
-        assert_eq!(error, RunError::Misfit { replica: 2, cause });
+        assert_eq!(error, Error::Misfit { replica: 2, cause });
         cause
     };
     assert!(refused(&plans[1], interacting.clone()).contains("has rods"));

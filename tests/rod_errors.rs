@@ -2,6 +2,7 @@
 
 use shearbed::observable::{Block, Observable, Sum};
 use shearbed::run::ensemble;
+use shearbed::scene::Time;
 use shearbed::scene::{Orientation, Scene};
 use shearbed::suspension::snapshot::Snapshot;
 use shearbed::{Plan, Results};
@@ -23,10 +24,10 @@ fn alike(orientation: [f64; 2]) -> Orientation {
 /// 500 rods of r_e = 5 drawn out by planar extension: nearly all lie along axis 1 after a strain of 30.
 fn drawn_out(count: usize) -> Scene {
     let mut scene = Scene::default();
-    scene.flow.shear_rate_per_s = None;
-    scene.flow.gradient_per_s = Some([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]]);
-    (scene.time.periods, scene.time.strain) = (None, Some(40.0));
-    scene.time.outputs_per_strain = Some(1);
+    scene.flow =
+        shearbed::scene::Flow::Gradient { gradient_per_s: [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]] };
+    scene.time = shearbed::scene::Time::strain(40.0);
+    scene.time.outputs_per_unit = Some(1);
     scene.particles.count = count;
     scene.particles.aspect_ratio = 5.0;
     scene.output.observables = OF_ANY_FLOW.to_vec();
@@ -37,8 +38,8 @@ fn drawn_out(count: usize) -> Scene {
 /// 500 rods of unequal r_e that start alike, a millionth of a period later.
 fn hardly_apart() -> Scene {
     let mut scene = Scene::default();
-    scene.time.periods = Some(2e-6);
-    scene.time.outputs_per_period = Some(1_000_000);
+    scene.time.duration = 2e-6;
+    scene.time.outputs_per_unit = Some(1_000_000);
     scene.particles.count = 500;
     scene.particles.aspect_ratio_sd_percent = 3.6;
     scene.particles.orientation = alike([20.0, 60.0]);
@@ -121,12 +122,11 @@ fn errors_of_rods_that_are_nearly_alike_are_those_of_two_passes() {
 fn rods_alike_have_no_error_at_all() {
     let mut scene = hardly_apart();
     scene.particles.aspect_ratio_sd_percent = 0.0;
-    scene.time.outputs_per_period = Some(40);
-    scene.time.periods = Some(1.0);
+    scene.time.outputs_per_unit = Some(40);
+    scene.time.duration = 1.0;
     scene.output.rods_at = Vec::new();
     let mut by_strain = scene.clone();
-    (by_strain.time.periods, by_strain.time.outputs_per_period) = (None, None);
-    (by_strain.time.strain, by_strain.time.outputs_per_strain) = (Some(20.0), Some(2));
+    by_strain.time = Time { outputs_per_unit: Some(2), ..Time::strain(20.0) };
     for scene in [scene, by_strain] {
         let results = run(&scene, 1);
         let columns = results.series.iter().flat_map(|series| &series.columns);

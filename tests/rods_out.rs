@@ -106,7 +106,7 @@ fn who_collided_is_who_did_in_the_last_step_and_places_are_those_of_the_step() {
 fn times_that_are_no_outputs_are_refused_with_what_is() {
     let refused = |rods_at: &str| {
         let text = format!("{SCENE}[output]\nrods_at = {rods_at}\n");
-        scene::parse("s.toml", &text).unwrap_err().to_string()
+        Plan::parse("s.toml", &text).unwrap_err().to_string()
     };
     let key = "s.toml:18: output.rods_at = ";
     for (given, allowed) in [
@@ -141,7 +141,7 @@ fn rods_stay_rods_and_discs_discs() {
         scene.particles.aspect_ratio = mean;
         scene.particles.aspect_ratio_sd_percent = 0.999 * widest;
         scene.ensemble.replicas = 1;
-        scene.time.outputs_per_period = Some(1);
+        scene.time.outputs_per_unit = Some(1);
         scene.output.rods_at = vec![0.0];
         let results = run(&scene);
         let drawn = &results.snapshots[0].aspect_ratio;

@@ -20,7 +20,7 @@ fn scene(length: &str, interaction: &str) -> Scene {
 }
 
 fn refusal(length: &str, interaction: &str) -> String {
-    let refused = scene::parse("s.toml", &text(length, interaction));
+    let refused = Plan::parse("s.toml", &text(length, interaction));
     refused.expect_err("it is refused").to_string()
 }
 
@@ -108,7 +108,7 @@ fn lengths_have_the_spread_that_is_asked_for_and_move_no_other_draw() {
 fn the_plan_leaves_the_lengths_of_free_rods_out() {
     let mut free = scene("length_mm = 0.72\nlength_sd_percent = 30", DENSE);
     free.interaction = None;
-    free.time.steps_per_period = None;
+    free.time.steps_per_unit = None;
     let kept = |scene: &Scene| Plan::new(scene).unwrap().keeps(Stage::Lengths);
     assert!(kept(&free), "for the stress");
     free.output.observables.pop();

@@ -4,7 +4,7 @@
 use crate::model::flow::VelocityGradient;
 use crate::model::orientation::from_degrees;
 use crate::motion::{Propagator, Span};
-use crate::scene::{Invalid, Scene};
+use crate::scene::{Invalid, Scene, TimeUnit};
 use nalgebra::{Matrix3, UnitVector3};
 use rayon::prelude::*;
 
@@ -40,9 +40,9 @@ impl FreeMotion {
         let r = particles.aspect_ratio;
         let mean = Propagator::general(flow, r);
         let mut spans = spans(scene);
-        if scene.time.periods.is_some() && mean.drift_per_period() == Some(0.0) {
+        if scene.time.unit == TimeUnit::Period && mean.drift_per_period() == Some(0.0) {
             // What comes back exactly is worked out once.
-            spans.truncate(scene.outputs_per_period() as usize);
+            spans.truncate(scene.outputs_per_unit() as usize);
         }
         // Each start of a file has an error of its own, which a map does not tell.
         let each = particles.own().is_some_and(|own| own.p.is_some());
@@ -124,14 +124,10 @@ fn at_each<T: Send>(
 }
 
 fn unknown(scene: &Scene, error: f64, of_start: f64) -> Invalid {
-    let (key, value) = match scene.time.strain {
-        Some(strain) => ("time.strain", strain),
-        None => ("time.periods", scene.time.periods.unwrap_or(0.0)),
-    };
     let cause = cause(error, of_start);
     Invalid::new(
-        key,
-        value,
+        scene.time.unit.duration_key(),
+        scene.time.duration,
         format!(
             "so long that directions of rods of r_e = {} in this flow would be known to {error:.1e} rad only, not to \
              {MAX_ERROR_RAD:e}: {cause}; give a shorter time, another start or other rods",
@@ -165,15 +161,6 @@ pub(crate) fn refused_direction(r: f64, error: f64, of_start: f64) -> String {
 
 /// The times of the outputs.
 fn spans(scene: &Scene) -> Vec<Span> {
-    let outputs = 0..scene.outputs();
-    match scene.time.strain {
-        Some(_) => {
-            let each = scene.outputs_per_strain() as f64;
-            outputs.map(|k| Span::Strain(k as f64, each)).collect()
-        }
-        None => {
-            let each = scene.outputs_per_period() as f64;
-            outputs.map(|k| Span::Periods(k as f64, each)).collect()
-        }
-    }
+    let each = scene.outputs_per_unit() as f64;
+    (0..scene.outputs()).map(|k| scene.time.unit.span(k as f64, each)).collect()
 }

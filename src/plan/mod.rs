@@ -11,7 +11,8 @@ use crate::model::flow::VelocityGradient;
 use crate::model::jeffery::strain_per_period;
 use crate::observable::Observable;
 use crate::plan::free::FreeMotion;
-use crate::scene::{Invalid, Scene};
+use crate::scene::document::Document;
+use crate::scene::{Error, Scene, TimeUnit, of_document};
 use stages::entries;
 pub(crate) use stages::no_interaction;
 use std::fmt;
@@ -62,17 +63,37 @@ impl Plan {
     ///
     /// # Errors
     ///
-    /// The first value, or combination of values, that is not allowed.
-    pub fn new(scene: &Scene) -> Result<Self, Invalid> {
-        scene.problems().into_iter().next().map_or(Ok(()), Err)?;
-        scene.check_rods_are_read()?;
-        let flow = scene.check_flow()?;
-        let closed_form = flow.shear_rate_per_s().is_some() && scene.time.strain.is_none();
-        let free = match closed_form || no_interaction(scene).is_none() {
+    /// [`Error::Scene`] with every value that its key does not allow; or if there is none, values that do not go together.
+    pub fn new(scene: &Scene) -> Result<Self, Error> {
+        let one = |invalid| Error::Scene(vec![invalid]);
+        let invalid = check::invalid(scene);
+        if !invalid.is_empty() {
+            return Err(Error::Scene(invalid));
+        }
+        check::rods::check_rods_are_read(scene).map_err(one)?;
+        let flow = check::gradient(scene).map_err(one)?;
+        let free = match check::closed_form(scene, &flow) || no_interaction(scene).is_none() {
             true => None,
-            false => Some(Arc::new(FreeMotion::new(scene, &flow)?)),
+            false => Some(Arc::new(FreeMotion::new(scene, &flow).map_err(one)?)),
         };
         Ok(Self { scene: scene.clone(), flow, free, entries: entries(scene) })
+    }
+
+    /// Reads a scene file's text and plans it; `file` names the text in errors.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Text`]: every mistake that can be seen at once, each with its line.
+    ///
+    /// ```
+    /// let text = "title = 't'\nflow = { shear_rate_per_s = 1 }\ntime = { periods = 1e9 }\n[particles]\ncount = 10\nlength_mm = 1\n\
+    ///     aspect_ratio = 5\norientation = 'isotropic'\n";
+    /// let error = shearbed::Plan::parse("s.toml", text).unwrap_err().to_string();
+    /// assert!(error.starts_with("s.toml:3: time.periods = 1e9 is not allowed: at most 1e6 outputs in all"), "{error}");
+    /// ```
+    pub fn parse(file: &str, text: &str) -> Result<Self, Error> {
+        let document = Document::parse(file, text)?;
+        Self::new(&of_document(&document)?).map_err(|error| document.located(error))
     }
 
     /// The same plan with `stage`, and what it needs, kept although the scene does not need it: for tests
@@ -159,16 +180,19 @@ impl Plan {
 
     /// The name of the time column: `t_over_T`, or `strain` where the scene's time is a strain.
     pub fn time_name(&self) -> &'static str {
-        if self.scene.time.strain.is_some() { "strain" } else { "t_over_T" }
+        match self.scene.time.unit {
+            TimeUnit::Period => "t_over_T",
+            TimeUnit::Strain => "strain",
+        }
     }
 
     /// The seconds, and the shear strain ∫(2D:D)^½ dt, of one unit of [`Plan::times`].
     pub fn unit(&self) -> Unit {
         let seconds = self.scene.seconds_per_unit(&self.flow);
-        let strain = match (self.scene.time.strain, self.flow.shear_rate_per_s()) {
-            (Some(_), _) => 1.0,
-            (None, Some(_)) => strain_per_period(self.scene.particles.aspect_ratio),
-            (None, None) => seconds * self.flow.magnitude_per_s(),
+        let strain = match (self.scene.time.unit, self.flow.shear_rate_per_s()) {
+            (TimeUnit::Strain, _) => 1.0,
+            (TimeUnit::Period, Some(_)) => strain_per_period(self.scene.particles.aspect_ratio),
+            (TimeUnit::Period, None) => seconds * self.flow.magnitude_per_s(),
         };
         Unit { seconds, strain }
     }
@@ -192,9 +216,10 @@ impl Plan {
     }
 
     pub(crate) fn clock(&self) -> Clock {
-        match self.scene.time.strain {
-            Some(_) => Clock::Strain { ticks: self.scene.outputs_per_strain() },
-            None => Clock::Periods { ticks: self.scene.outputs_per_period() * self.ticks_per_output() },
+        let outputs = self.scene.outputs_per_unit();
+        match self.scene.time.unit {
+            TimeUnit::Strain => Clock::Strain { ticks: outputs },
+            TimeUnit::Period => Clock::Periods { ticks: outputs * self.ticks_per_output() },
         }
     }
 
@@ -212,9 +237,9 @@ impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let scene = &self.scene;
         writeln!(f, "{}", scene.title)?;
-        let duration = match scene.time.strain {
-            Some(strain) => format!("strain {strain}"),
-            None => format!("t/T = {}", scene.time.periods.unwrap_or(0.0)),
+        let duration = match scene.time.unit {
+            TimeUnit::Strain => format!("strain {}", scene.time.duration),
+            TimeUnit::Period => format!("t/T = {}", scene.time.duration),
         };
         let steps = match self.steps() {
             0 => "no time steps: the exact motion goes straight to each output".to_owned(),

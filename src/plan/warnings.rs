@@ -41,9 +41,9 @@ impl Plan {
             format!(
                 "{} = {steps} does not resolve the motion: {what} is {motion:.3}, above {resolved:.3}; {} \
                  steps a {} resolve it (the default)",
-                self.scene.steps_key(),
+                self.scene.time.unit.steps_key(),
                 self.scene.resolving_steps(),
-                self.scene.time_unit()
+                self.scene.time.unit
             )
         })
     }

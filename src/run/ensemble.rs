@@ -7,7 +7,7 @@ use crate::model::work::Counters;
 use crate::observable::{self, Observable, Sum};
 use crate::plan::{Plan, Unit};
 use crate::run::{Replica, run_replica};
-use crate::suspension::RunError;
+use crate::scene::Error;
 use crate::suspension::snapshot::Snapshot;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -88,7 +88,7 @@ impl Results {
 /// # Errors
 ///
 /// The first replica that stopped, or had a result that is none.
-pub fn run(plan: &Plan) -> Result<Results, RunError> {
+pub fn run(plan: &Plan) -> Result<Results, Error> {
     fold(plan, |replicas| replicas_of(plan, replicas, &|| ()))
 }
 
@@ -102,7 +102,7 @@ pub fn replicas_of(
     plan: &Plan,
     replicas: Range<u64>,
     finished: &(impl Fn() + Sync),
-) -> Result<Vec<Replica>, RunError> {
+) -> Result<Vec<Replica>, Error> {
     let one = |replica| {
         let result = run_replica(plan, replica);
         finished();

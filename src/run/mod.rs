@@ -13,7 +13,7 @@ use crate::observable::fault::{self, Fault};
 use crate::observable::{BLOCK, Block, Channel, Observable, Sum, width};
 use crate::plan::{Plan, Stage};
 use crate::run::resume::{Halfway, Placed};
-use crate::suspension::RunError;
+use crate::scene::Error;
 use crate::suspension::Suspension;
 use crate::suspension::rods::Rods;
 use crate::suspension::snapshot::Snapshot;
@@ -73,7 +73,7 @@ impl Replica {
 /// # Errors
 ///
 /// A kick that overflows, or a direction or a sum that is no result.
-pub fn run_replica(plan: &Plan, replica: u64) -> Result<Replica, RunError> {
+pub fn run_replica(plan: &Plan, replica: u64) -> Result<Replica, Error> {
     go_on(plan, replica, None, |_| ())
 }
 
@@ -88,9 +88,9 @@ pub fn go_on(
     replica: u64,
     from: Option<Halfway>,
     mut look: impl FnMut(&dyn Fn() -> Halfway),
-) -> Result<Replica, RunError> {
+) -> Result<Replica, Error> {
     if let Some(from) = &from {
-        let refused = |cause| RunError::Misfit { replica, cause };
+        let refused = |cause| Error::Misfit { replica, cause };
         from.check(plan).map_err(refused)?;
     }
     let mut recorder = Recorder::new(plan, replica);
@@ -124,7 +124,7 @@ fn straight(
     replica: u64,
     recorder: &mut Recorder,
     look: &mut impl FnMut(&dyn Fn() -> Halfway),
-) -> Result<Counters, RunError> {
+) -> Result<Counters, Error> {
     let (rods, counters) = Rods::draw(plan, replica);
     for first in (recorder.done..plan.outputs()).step_by(OUTPUTS) {
         let outputs = first..plan.outputs().min(first + OUTPUTS);
@@ -150,7 +150,7 @@ fn stepped(
     mut suspension: Suspension,
     recorder: &mut Recorder,
     look: &mut impl FnMut(&dyn Fn() -> Halfway),
-) -> Result<Counters, RunError> {
+) -> Result<Counters, Error> {
     let (asked, per_output) = (plan.rods_outputs(), plan.ticks_per_output());
     for output in recorder.done..plan.outputs() {
         while suspension.tick() < output as u64 * per_output {
@@ -220,7 +220,7 @@ impl<'a> Recorder<'a> {
         &mut self,
         outputs: Range<usize>,
         orient: impl Fn(usize, usize, &mut Block) -> Result<(), Fault> + Sync,
-    ) -> Result<(), RunError> {
+    ) -> Result<(), Error> {
         let count = self.plan.scene().particles.count;
         let done = outputs.end;
         let mut sums = std::mem::take(&mut self.sums);
@@ -254,7 +254,7 @@ impl<'a> Recorder<'a> {
         outputs: Range<usize>,
         orient: impl Fn(usize, usize, &mut Block) -> Result<(), Fault>,
         sums: &mut [Sum],
-    ) -> Result<(), RunError> {
+    ) -> Result<(), Error> {
         let mut block = Block::default();
         for first in part.step_by(BLOCK) {
             for (output, sums) in outputs.clone().zip(sums.chunks_mut(self.width)) {
@@ -271,14 +271,14 @@ impl<'a> Recorder<'a> {
         Ok(())
     }
 
-    fn refused(&self, first: usize, output: usize, fault: Fault) -> RunError {
+    fn refused(&self, first: usize, output: usize, fault: Fault) -> Error {
         refused(self.plan, self.replica, first, output, fault)
     }
 }
 
 /// The error of a fault in a block whose first rod is `first`.
-pub(crate) fn refused(plan: &Plan, replica: u64, first: usize, output: usize, fault: Fault) -> RunError {
-    RunError::NoResult {
+pub(crate) fn refused(plan: &Plan, replica: u64, first: usize, output: usize, fault: Fault) -> Error {
+    Error::NoResult {
         rod: fault.rod.map(|rod| first + rod),
         output,
         time_name: plan.time_name(),
@@ -293,8 +293,8 @@ pub(crate) fn refused(plan: &Plan, replica: u64, first: usize, output: usize, fa
 pub(crate) fn each_block(
     plan: &Plan,
     replica: u64,
-    mut look: impl FnMut(usize, usize, &Block) -> Result<(), RunError>,
-) -> Result<(), RunError> {
+    mut look: impl FnMut(usize, usize, &Block) -> Result<(), Error>,
+) -> Result<(), Error> {
     let mut block = Block::default();
     let mut blocks = |output: usize, rods: &Rods, tick: u64| {
         (0..rods.count()).step_by(BLOCK).try_for_each(|first| {

@@ -7,7 +7,7 @@ use crate::observable::{Observe, Sum, fault};
 use crate::plan::Plan;
 use crate::run::ensemble::{Column, Tally, in_batches};
 use crate::run::{each_block, refused};
-use crate::suspension::RunError;
+use crate::scene::Error;
 use rayon::prelude::*;
 
 /// Runs every replica of the plan, as [`crate::run::ensemble::run`] does, and returns the columns of an observable of one's own, one value
@@ -16,7 +16,7 @@ use rayon::prelude::*;
 /// # Errors
 ///
 /// As [`crate::run::ensemble::run`], and a value that is not finite.
-pub fn observe(plan: &Plan, own: &dyn Observe) -> Result<Vec<Column>, RunError> {
+pub fn observe(plan: &Plan, own: &dyn Observe) -> Result<Vec<Column>, Error> {
     let names = own.columns();
     let width = names.len();
     let mut tally = Tally::of(plan.outputs() * width);
@@ -32,7 +32,7 @@ pub fn observe(plan: &Plan, own: &dyn Observe) -> Result<Vec<Column>, RunError> 
 }
 
 /// The sums of one replica, output by output.
-fn one(plan: &Plan, own: &dyn Observe, replica: u64) -> Result<Vec<Sum>, RunError> {
+fn one(plan: &Plan, own: &dyn Observe, replica: u64) -> Result<Vec<Sum>, Error> {
     let width = own.columns().len();
     let mut sums = vec![Sum::none(true); plan.outputs() * width];
     each_block(plan, replica, |output, first, block| {

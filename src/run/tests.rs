@@ -12,7 +12,7 @@ fn plan(count: usize, replicas: u64) -> Plan {
 }
 
 /// A run whose propagation puts a rod along `wrong` at an output.
-fn broken(count: usize, rod: usize, at: usize, wrong: [f64; 3]) -> Result<(), RunError> {
+fn broken(count: usize, rod: usize, at: usize, wrong: [f64; 3]) -> Result<(), Error> {
     let plan = plan(count, 2);
     let (rods, _) = Rods::draw(&plan, 1);
     Recorder::new(&plan, 1).record(0..plan.outputs(), |first, output, block| {

@@ -1,56 +1,57 @@
-//! The one table of a scene's keys: what each means, its unit, what it may hold and what it is where it is not given.
+//! What a key of a scene is: its meaning, unit, allowed values and default. The rows are in `table!` blocks, one for each table.
 
-use crate::model::shape::{ALLOWED, Correlation};
+use super::{Ensemble, FlowKeys, Interaction, Invalid, Output, Particles, TimeKeys};
 use crate::observable::Observable;
 
 /// A table of a scene file, or one of its keys.
 ///
 /// ```
-/// let alpha = shearbed::scene::KEYS.iter().find(|key| key.path == "interaction.alpha").unwrap();
+/// let alpha = shearbed::scene::keys().find(|key| key.path == "interaction.alpha").unwrap();
 /// assert_eq!(alpha.holds.to_string(), "a finite number ≥ 0");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Key {
-    /// Its path, as `particles.count`.
+    /// Its table and name, as `particles.count`.
     pub path: &'static str,
     /// What it means.
     pub meaning: &'static str,
     /// Its unit; empty where it has none.
     pub unit: &'static str,
-    /// What it may hold.
+    /// The allowed values.
     pub holds: Holds,
-    /// What it is where it is not given.
+    /// Its value where it is not given.
     pub absent: Absent,
 }
 
-/// What a key is where it is not given.
+/// The value of a key that is not given.
 ///
 /// ```
-/// use shearbed::scene::{Absent, KEYS};
-/// let m = KEYS.iter().find(|key| key.path == "interaction.m").unwrap();
+/// use shearbed::scene::{Absent, keys};
+/// let m = keys().find(|key| key.path == "interaction.m").unwrap();
 /// assert_eq!(m.absent, Absent::Default("3"));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Absent {
-    /// It must be given: in every scene, or in a table that is there.
-    Refused,
+    /// It is required: in every scene, or in a table that is there.
+    Required,
     /// It has this value, as TOML.
     Default(&'static str),
-    /// It is worked out, or another key takes its place.
+    /// It is computed, or another key takes its place: in words.
     Other(&'static str),
 }
 
-/// What a key may hold.
+/// The allowed values of a key.
 ///
 /// ```
-/// use shearbed::scene::{Holds, KEYS};
-/// let length = KEYS.iter().find(|key| key.path == "particles.length_mm").unwrap();
+/// use shearbed::scene::{Holds, keys};
+/// let length = keys().find(|key| key.path == "particles.length_mm").unwrap();
 /// assert_eq!(length.holds, Holds::Positive);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Holds {
-    /// Keys of its own, some of them needed.
+    /// A table of keys, in words.
     Table(&'static str),
     /// A text.
     Text,
@@ -89,7 +90,7 @@ pub enum Holds {
 }
 
 impl Holds {
-    /// Whether a number is one of those allowed; what holds no number allows none.
+    /// True if the number is allowed; false for keys that do not hold a number.
     pub fn allows(&self, value: f64) -> bool {
         value.is_finite()
             && match *self {
@@ -144,150 +145,298 @@ pub const MAX_PER_UNIT: u64 = 10_000_000;
 /// The largest seed: the largest integer of a TOML file.
 pub const MAX_SEED: u64 = i64::MAX as u64;
 
-const PER_UNIT: Holds = whole(1, MAX_PER_UNIT);
-
-const fn whole(least: u64, most: u64) -> Holds {
+pub(super) const fn whole(least: u64, most: u64) -> Holds {
     Holds::Whole { least, most }
 }
 
-const fn key(
-    path: &'static str,
-    meaning: &'static str,
-    unit: &'static str,
-    holds: Holds,
-    absent: Absent,
-) -> Key {
-    Key { path, meaning, unit, holds, absent }
+/// Steps or outputs per unit of time.
+pub(super) const PER_UNIT: Holds = whole(1, MAX_PER_UNIT);
+
+/// Declares a table of a scene, a row for each key: field, type, value in `Default`, then unit, allowed values, value of a scene file
+/// without the key, and meaning. Makes the struct, its `KEYS`, its reader (`read`), its check (`check`) and its `Serialize`. Keys of type
+/// `Option` are written where they are `Some`; `unwritten if` says when another key is left out.
+macro_rules! table {
+    (
+        $(#[$meta:meta])*
+        $visibility:vis struct $name:ident in $table:literal {
+            $($field:ident: $type:ty = $value:expr, $unit:literal, $holds:expr, $absent:expr,
+                $meaning:literal $(, unwritten if $unwritten:expr)?;)*
+        }
+    ) => {
+        $(#[$meta])*
+        #[derive(Clone, Debug, PartialEq)]
+        $visibility struct $name {
+            $(#[doc = $meaning] pub $field: $type,)*
+        }
+
+        impl Default for $name {
+            fn default() -> Self {
+                Self { $($field: $value,)* }
+            }
+        }
+
+        impl $name {
+            pub(in crate::scene) const KEYS: &[$crate::scene::Key] = &[$($crate::scene::Key {
+                path: concat!($table, ".", stringify!($field)),
+                meaning: $meaning,
+                unit: $unit,
+                holds: $holds,
+                absent: $absent,
+            }),*];
+
+            /// Reads every key; `None` where one of them is refused.
+            pub(in crate::scene) fn read_keys(reader: &mut $crate::scene::read::Reader<'_>) -> Option<Self> {
+                $(let $field = reader.key(concat!($table, ".", stringify!($field)), $value);)*
+                Some(Self { $($field: $field?,)* })
+            }
+
+            /// Checks each value by itself.
+            pub(in crate::scene) fn check(&self, wrong: &mut Vec<$crate::scene::Invalid>) {
+                $($crate::scene::keys::check(concat!($table, ".", stringify!($field)), &self.$field, wrong);)*
+            }
+        }
+
+        impl serde::Serialize for $name {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                use serde::ser::SerializeMap;
+                let mut map = serializer.serialize_map(None)?;
+                $(if $crate::scene::keys::Field::is_given(&self.$field) $(&& !$unwritten(self))? {
+                    map.serialize_entry(stringify!($field), &self.$field)?;
+                })*
+                map.end()
+            }
+        }
+    };
+}
+pub(super) use table;
+
+/// A table of a scene with its keys.
+///
+/// ```
+/// let [flow, ..] = &shearbed::scene::TABLES;
+/// assert_eq!((flow.key.path, flow.keys[0].path), ("flow", "flow.shear_rate_per_s"));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Table {
+    /// The table itself.
+    pub key: Key,
+    /// Its keys.
+    pub keys: &'static [Key],
 }
 
-use Absent::{Default, Other, Refused};
-use Holds::{NotNegative, OneOf, Positive, Table, Text};
+const fn of(
+    path: &'static str,
+    meaning: &'static str,
+    words: &'static str,
+    absent: Absent,
+    keys: &'static [Key],
+) -> Table {
+    Table { key: Key { path, meaning, unit: "", holds: Holds::Table(words), absent }, keys }
+}
+
+use Absent::{Other, Required};
+
+/// The one key that is in no table.
+pub(super) const TITLE: Key = Key {
+    path: "title",
+    meaning: "a line that says what the scene is",
+    unit: "",
+    holds: Holds::Text,
+    absent: Required,
+};
 
 /// The tables of a scene.
 #[rustfmt::skip]
-pub const TABLES: [Key; 6] = [
-    key("flow", "the imposed velocity gradient", "", Table("a table [flow] with shear_rate_per_s or gradient_per_s"), Refused),
-    key("particles", "the rods", "", Table("a table [particles] with count, length_mm, aspect_ratio and orientation"), Refused),
-    key("interaction", "how rods meet", "", Table("a table [interaction] with concentration_per_cm3 or box_mm, and alpha, or none for free rods"), Other("free rods")),
-    key("time", "how long, and how finely", "", Table("a table [time] with periods or strain"), Refused),
-    key("ensemble", "replicas and seed", "", Table("a table [ensemble]"), Other("its keys' defaults")),
-    key("output", "what is observed", "", Table("a table [output]"), Other("its keys' defaults")),
+pub const TABLES: [Table; 6] = [
+    of("flow", "the imposed velocity gradient", "a table [flow] with shear_rate_per_s or gradient_per_s", Required, FlowKeys::KEYS),
+    of("particles", "the rods", "a table [particles] with count, length_mm, aspect_ratio and orientation", Required, Particles::KEYS),
+    of("interaction", "how rods meet", "a table [interaction] with concentration_per_cm3 or box_mm, and alpha, or none for free rods", Other("free rods"), Interaction::KEYS),
+    of("time", "how long, and how finely", "a table [time] with periods or strain", Required, TimeKeys::KEYS),
+    of("ensemble", "replicas and seed", "a table [ensemble]", Other("its keys' defaults"), Ensemble::KEYS),
+    of("output", "what is observed", "a table [output]", Other("its keys' defaults"), Output::KEYS),
 ];
 
 /// The keys of a scene, in the order of the tables.
-#[rustfmt::skip]
-pub const KEYS: [Key; 28] = [
-    key("title", "a line that says what the scene is", "", Text, Refused),
-    key("flow.shear_rate_per_s", "G of plane Couette flow u_2 = G x_1", "1/s", Positive, Other("gradient_per_s")),
-    key("flow.gradient_per_s", "row i and column j hold ∂u_i/∂x_j", "1/s", Holds::Gradient, Other("shear_rate_per_s")),
-    key("particles.count", "N, rods in the control volume", "", whole(1, MAX_COUNT as u64), Refused),
-    key("particles.length_mm", "a, the full length of a rod, or its mean", "mm", Positive, Refused),
-    key("particles.length_sd_percent", "standard deviation of a Gaussian length, in percent of its mean; below 33.3333", "%", NotNegative, Default("0")),
-    key("particles.aspect_ratio", "r_e, or its mean; below 1 a disc; interacting rods need more than 1", "", Holds::Between { least: 1e-100, most: 1e100 }, Other("physical_aspect_ratio")),
-    key("particles.physical_aspect_ratio", "length over diameter of a cylinder, of which shape_correlation makes r_e", "", Holds::Between { least: ALLOWED.0, most: ALLOWED.1 }, Other("aspect_ratio")),
-    key("particles.shape_correlation", "the formula for r_e of a cylinder, as `shearbed shape` lists them", "", OneOf(&Correlation::NAMES), Other("goes with physical_aspect_ratio")),
-    key("particles.aspect_ratio_sd_percent", "σ of a Gaussian r_e, in percent of its mean (eq. 11)", "%", NotNegative, Default("0")),
-    key("particles.orientation", "the directions at t = 0; φ from axis 1 to axis 2, θ from axis 3; used where a file of rods has none", "degrees", Holds::Orientation, Other("\"isotropic\" with rods, else it must be given")),
-    key("particles.rods", "a CSV file beside the scene with a row for each rod, with columns of rods.csv; missing ones are drawn", "", Holds::Rods, Other("all is drawn")),
-    key("interaction.concentration_per_cm3", "n, rods per volume", "1/cm³", Positive, Other("box_mm")),
-    key("interaction.box_mm", "sides of the control volume along the axes (eqs 12, 14): count and box give n; where it is given too, it agrees to 1e-3", "mm", Holds::Sides, Other("a cube")),
-    key("interaction.alpha", "α of P_c = (α/(s/a + α))^m (eq. 7); 0: no rods collide", "", NotNegative, Refused),
-    key("interaction.m", "m of eq. 7", "", Positive, Default("3")),
-    key("interaction.update", "how a colliding rod takes its step; angles: A.14 to the letter; kick: as a free rod, then the change", "", OneOf(&["rotation", "angles", "kick"]), Default("\"rotation\"")),
-    key("interaction.min_contact_arm", "a shorter contact arm is no contact", "lengths of its own rod", NotNegative, Default("0")),
-    key("time.periods", "how long, in periods T of the mean aspect ratio", "T", NotNegative, Other("strain")),
-    key("time.strain", "how long, in shear strain ∫(2D:D)^½ dt: for flows without a period", "", NotNegative, Other("periods")),
-    key("time.steps_per_period", "steps of interacting rods", "", PER_UNIT, Other("as many as resolve the motion")),
-    key("time.steps_per_strain", "steps of interacting rods per unit of strain", "", PER_UNIT, Other("as many as resolve the motion")),
-    key("time.outputs_per_period", "outputs; of interacting rods a divisor of the steps", "", PER_UNIT, Other("50, or the largest divisor below")),
-    key("time.outputs_per_strain", "outputs per unit of strain; of interacting rods a divisor of the steps", "", PER_UNIT, Other("10, or the largest divisor below")),
-    key("ensemble.replicas", "independent runs of the scene", "", whole(1, MAX_REPLICAS), Default("1")),
-    key("ensemble.seed", "the seed of all random numbers", "", whole(0, MAX_SEED), Default("1")),
-    key("output.observables", "what is observed: each has a file of its own", "", Holds::Observables, Default("[\"projections\"]")),
-    key("output.rods_at", "when rods.csv has every rod: t/T, or strain where the time is one", "T or strain", Holds::Times, Default("[]")),
-];
+pub fn keys() -> impl Iterator<Item = &'static Key> + Clone {
+    const TITLES: &[Key] = &[TITLE];
+    const ALL: &[Table] = &TABLES;
+    TITLES.iter().chain(ALL.iter().flat_map(|table| table.keys))
+}
 
 /// The table or key with this path.
 pub(crate) fn find(path: &str) -> Option<&'static Key> {
-    KEYS.iter().chain(&TABLES).find(|key| key.path == path)
+    const ALL: &[Table] = &TABLES;
+    keys().chain(ALL.iter().map(|table| &table.key)).find(|key| key.path == path)
 }
 
-/// What must be there: tables and keys of the whole file, or keys of a table that is there.
-pub(crate) fn required(table: &str) -> impl Iterator<Item = &'static Key> {
-    let within = move |key: &&Key| key.path.rsplit_once('.').map_or("", |(table, _)| table) == table;
-    let needed = |key: &&Key| key.absent == Refused;
-    KEYS.iter().chain(&TABLES).filter(within).filter(needed)
+/// A type that a key can have.
+pub(super) trait Field: serde::de::DeserializeOwned {
+    /// The value from TOML; `None` where it has another type.
+    fn from_toml(value: toml::Value) -> Option<Self> {
+        value.try_into().ok()
+    }
+
+    /// True if a key that allows `holds` allows it.
+    fn allowed(&self, _holds: &Holds) -> bool {
+        true
+    }
+
+    /// In an error.
+    fn shown(&self) -> String {
+        String::new()
+    }
+
+    /// False for a key that is left out.
+    fn is_given(&self) -> bool {
+        true
+    }
+
+    /// The value where a scene file lacks the key.
+    fn absent(default: Self) -> Self {
+        default
+    }
+}
+
+/// Checks a value by itself.
+pub(super) fn check(path: &'static str, value: &impl Field, wrong: &mut Vec<Invalid>) {
+    if let Some(key) = find(path).filter(|key| !value.allowed(&key.holds)) {
+        wrong.push(Invalid::new(path, value.shown(), key.holds.to_string()));
+    }
+}
+
+/// A value that its key does not allow.
+pub(crate) fn refused(key: &'static str, value: impl ToString) -> Invalid {
+    Invalid::new(key, value, find(key).map_or_else(String::new, |key| key.holds.to_string()))
+}
+
+impl<T: Field> Field for Option<T> {
+    fn from_toml(value: toml::Value) -> Option<Self> {
+        T::from_toml(value).map(Some)
+    }
+
+    fn allowed(&self, holds: &Holds) -> bool {
+        self.as_ref().is_none_or(|value| value.allowed(holds))
+    }
+
+    fn shown(&self) -> String {
+        self.as_ref().map_or_else(String::new, T::shown)
+    }
+
+    fn is_given(&self) -> bool {
+        self.is_some()
+    }
+
+    fn absent(_: Self) -> Self {
+        None
+    }
+}
+
+impl Field for f64 {
+    fn allowed(&self, holds: &Holds) -> bool {
+        holds.allows(*self)
+    }
+
+    fn shown(&self) -> String {
+        self.to_string()
+    }
+}
+
+impl Field for u64 {
+    fn allowed(&self, holds: &Holds) -> bool {
+        matches!(holds, Holds::Whole { least, most } if (least..=most).contains(&self))
+    }
+
+    fn shown(&self) -> String {
+        self.to_string()
+    }
+}
+
+impl Field for usize {
+    fn allowed(&self, holds: &Holds) -> bool {
+        (*self as u64).allowed(holds)
+    }
+
+    fn shown(&self) -> String {
+        self.to_string()
+    }
+}
+
+impl Field for String {}
+impl Field for super::Update {}
+impl Field for super::RodsFile {}
+impl Field for crate::model::shape::Correlation {}
+
+impl Field for super::Orientation {
+    fn allowed(&self, _: &Holds) -> bool {
+        match self {
+            Self::Random(_) => true,
+            Self::Given { phi_deg, theta_deg } => phi_deg.is_finite() && (0.0..=180.0).contains(theta_deg),
+        }
+    }
+
+    fn shown(&self) -> String {
+        match self {
+            Self::Random(_) => "\"isotropic\"".to_owned(),
+            Self::Given { phi_deg, theta_deg } => {
+                format!("{{ phi_deg = {phi_deg}, theta_deg = {theta_deg} }}")
+            }
+        }
+    }
+}
+
+impl Field for [f64; 3] {
+    /// Three of a list: reading into an array would ignore what follows.
+    fn from_toml(value: toml::Value) -> Option<Self> {
+        Vec::from_toml(value)?.try_into().ok()
+    }
+
+    fn allowed(&self, _: &Holds) -> bool {
+        self.iter().all(|side| side.is_finite() && *side > 0.0)
+    }
+
+    fn shown(&self) -> String {
+        format!("{self:?}")
+    }
+}
+
+impl Field for [[f64; 3]; 3] {
+    fn from_toml(value: toml::Value) -> Option<Self> {
+        let rows: Option<Vec<[f64; 3]>> =
+            Vec::<toml::Value>::from_toml(value)?.into_iter().map(Field::from_toml).collect();
+        rows?.try_into().ok()
+    }
+
+    fn allowed(&self, _: &Holds) -> bool {
+        self.iter().flatten().all(|component| component.is_finite())
+    }
+
+    fn shown(&self) -> String {
+        format!("{self:?}")
+    }
+}
+
+impl Field for Vec<toml::Value> {}
+
+/// Times of outputs: that they are outputs depends on other keys.
+impl Field for Vec<f64> {
+    fn allowed(&self, _: &Holds) -> bool {
+        self.iter().all(|time| time.is_finite() && *time >= 0.0) && self.is_sorted_by(|a, b| a < b)
+    }
+
+    fn shown(&self) -> String {
+        format!("{self:?}")
+    }
+}
+
+impl Field for Vec<Observable> {
+    fn allowed(&self, _: &Holds) -> bool {
+        !self.is_empty() && self.iter().enumerate().all(|(k, one)| !self[..k].contains(one))
+    }
+
+    fn shown(&self) -> String {
+        format!("{:?}", self.iter().map(|one| one.name()).collect::<Vec<_>>())
+    }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene;
-
-    /// The least text with every required key, and `line` in its table.
-    fn text(path: &str, value: &str) -> String {
-        let (table, name) = path.rsplit_once('.').unwrap_or(("", path));
-        let mut text = "title = \"t\"\n".to_owned();
-        for of in &TABLES {
-            let mut keys: Vec<(&str, &str)> = match of.path {
-                "flow" => vec![("shear_rate_per_s", "1")],
-                "particles" => {
-                    vec![
-                        ("count", "10"),
-                        ("length_mm", "1"),
-                        ("aspect_ratio", "5"),
-                        ("orientation", "\"isotropic\""),
-                    ]
-                }
-                "interaction" => vec![("concentration_per_cm3", "1"), ("alpha", "1")],
-                "time" => vec![("periods", "1")],
-                _ => Vec::new(),
-            };
-            if of.path == table {
-                keys.retain(|(known, _)| *known != name);
-                keys.push((name, value));
-            }
-            text += &format!("[{}]\n", of.path);
-            keys.iter().for_each(|(key, value)| text += &format!("{key} = {value}\n"));
-        }
-        text
-    }
-
-    #[test]
-    fn a_default_is_what_a_scene_without_the_key_has() {
-        let without = scene::parse("t", &text("", "")).unwrap();
-        for key in &KEYS {
-            if let Default(value) = key.absent
-                && key.path != "time.outputs_per_strain"
-            {
-                assert_eq!(scene::parse("t", &text(key.path, value)).unwrap(), without, "{}", key.path);
-            }
-        }
-        assert_eq!(without.outputs_per_strain(), 10);
-    }
-
-    #[test]
-    fn what_a_key_does_not_hold_is_refused_with_what_it_holds() {
-        for key in KEYS.iter().filter(|key| key.path != "title") {
-            let (most, wrong) = match key.holds {
-                Holds::Whole { least, most } => (Some((least, most)), "-1"),
-                Holds::Between { .. } => (None, "1e101"),
-                _ => (None, "-1"),
-            };
-            let refused = |value: &str| {
-                let error = scene::parse("t", &text(key.path, value)).unwrap_err().to_string();
-                assert!(error.contains(&key.holds.to_string()), "{error}");
-            };
-            refused(wrong);
-            refused("1979-05-27");
-            if let Some((least, most)) = most {
-                if least > 0 {
-                    refused("0");
-                }
-                if most < MAX_SEED {
-                    refused(&(most + 1).to_string());
-                }
-            }
-        }
-    }
-}
+mod tests;

@@ -1,29 +1,35 @@
-//! A scene: what a scene file says, checked. Units stand in the names of the keys.
+//! A scene: the content of a scene file, with units in the names of the keys.
 
 use crate::model::volume::ControlVolume;
 use crate::observable::Observable;
-use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
-mod allowed;
-mod file;
+pub mod document;
+mod error;
 mod keys;
+mod flow;
+mod time;
 mod particles;
-mod ranges;
+mod read;
 mod rods;
 mod steps;
-pub use allowed::Invalid;
-pub(crate) use allowed::refused;
-pub use file::{Problem, SceneError, located, parse};
-pub use keys::{Absent, Holds, KEYS, Key, MAX_COUNT, MAX_PER_UNIT, MAX_REPLICAS, MAX_SEED, TABLES};
-pub(crate) use keys::{find, required};
+pub use error::{Error, Invalid, Problem};
+pub use flow::Flow;
+use flow::FlowKeys;
+pub use keys::{Absent, Holds, Key, MAX_COUNT, MAX_PER_UNIT, MAX_REPLICAS, MAX_SEED, TABLES, Table, keys};
+use keys::{Absent::Default as Otherwise, Absent::Other, Absent::Required, table, whole};
+pub(crate) use keys::{find, refused};
+pub(crate) use particles::equivalent;
 pub use particles::{Isotropic, Orientation, OwnRods, Particles, RodsFile};
+pub use read::{of_document, parse};
 pub use rods::Misfit;
 pub use steps::resolved_strain;
 pub(crate) use steps::step_maps;
+use time::TimeKeys;
+pub use time::{Time, TimeUnit};
 
-/// A whole scene. The tables and keys are those of the scene file ([`KEYS`]). In code, start from the default and say
-/// what differs; [`crate::Plan::new`] checks it.
+/// A whole scene. The tables and keys are those of the scene file ([`keys()`]). In code, start from the default and change what
+/// differs; [`crate::Plan::new`] checks it.
 ///
 /// ```
 /// use shearbed::scene::{Interaction, Particles, Scene};
@@ -33,10 +39,9 @@ pub(crate) use steps::step_maps;
 ///     ..Scene::default()
 /// };
 /// assert!(shearbed::Plan::new(&scene)?.steps() > 0);
-/// # Ok::<(), shearbed::scene::Invalid>(())
+/// # Ok::<(), shearbed::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Scene {
     /// A line that says what the scene is.
     pub title: String,
@@ -50,77 +55,41 @@ pub struct Scene {
     /// How long, and how finely.
     pub time: Time,
     /// Replicas and seed.
-    #[serde(default)]
     pub ensemble: Ensemble,
     /// What is observed.
-    #[serde(default)]
     pub output: Output,
 }
 
-/// `[flow]`: one of the two keys.
-///
-/// ```
-/// use shearbed::scene::{Flow, Scene};
-/// // Planar extension in place of shear: it has no period, so its time is given in strain.
-/// let flow = Flow { shear_rate_per_s: None, gradient_per_s: Some([[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]]) };
-/// let mut scene = Scene { flow, ..Scene::default() };
-/// (scene.time.periods, scene.time.strain) = (None, Some(3.0));
-/// assert!(shearbed::Plan::new(&scene).is_ok());
-/// ```
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Flow {
-    /// G of plane Couette flow u_2 = G x_1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub shear_rate_per_s: Option<f64>,
-    /// Row i and column j hold ∂u_i/∂x_j.
-    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "three_by_three")]
-    pub gradient_per_s: Option<[[f64; 3]; 3]>,
+impl<'de> Deserialize<'de> for Scene {
+    /// By the keys of a scene file, as [`parse`].
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let document = document::Document::of(toml::Table::deserialize(deserializer)?);
+        of_document(&document).map_err(|error| serde::de::Error::custom(error.messages().join("; ")))
+    }
 }
 
-/// Three of a list. Reading into an array would stop after three and let what follows pass.
-fn three_of<T, E: Error>(list: Vec<T>, allowed: &str) -> Result<[T; 3], E> {
-    list.try_into().map_err(|_| E::custom(allowed))
-}
-
-fn three_by_three<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[[f64; 3]; 3]>, D::Error> {
-    let allowed = "three rows of three numbers are allowed";
-    let rows = Vec::<Vec<f64>>::deserialize(deserializer)?;
-    let rows: Result<Vec<_>, _> = rows.into_iter().map(|row| three_of(row, allowed)).collect();
-    three_of(rows?, allowed).map(Some)
-}
-
-fn three_numbers<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[f64; 3]>, D::Error> {
-    three_of(Vec::deserialize(deserializer)?, "three numbers are allowed").map(Some)
-}
-
-/// `[interaction]`: with `concentration_per_cm3` or `box_mm`.
-///
-/// ```
-/// use shearbed::scene::Interaction;
-/// let crowded = Interaction { concentration_per_cm3: Some(2000.0), ..Interaction::default() };
-/// assert_eq!((crowded.alpha, crowded.m), (0.5, 3.0));
-/// ```
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Interaction {
-    /// n, rods per volume; without it the box gives it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub concentration_per_cm3: Option<f64>,
-    /// H₁, H₂ and H₃, the sides of the control volume (eqs 12 and 14); without them it is a cube.
-    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "three_numbers")]
-    pub box_mm: Option<[f64; 3]>,
-    /// α of eq. 7; 0 means that no rods collide.
-    pub alpha: f64,
-    /// m of eq. 7, any positive number.
-    #[serde(default = "three")]
-    pub m: f64,
-    /// How a colliding rod takes its step.
-    #[serde(default)]
-    pub update: Update,
-    /// A contact arm |r| below this many lengths of its own rod is no contact.
-    #[serde(default)]
-    pub min_contact_arm: f64,
+table! {
+    /// `[interaction]`: with `concentration_per_cm3` or `box_mm`. By default 50 rods per cm³, with the paper's α = 0.5 and m = 3.
+    ///
+    /// ```
+    /// use shearbed::scene::Interaction;
+    /// let crowded = Interaction { concentration_per_cm3: Some(2000.0), ..Interaction::default() };
+    /// assert_eq!((crowded.alpha, crowded.m), (0.5, 3.0));
+    /// ```
+    pub struct Interaction in "interaction" {
+        concentration_per_cm3: Option<f64> = Some(50.0), "1/cm³", Holds::Positive, Other("box_mm"),
+            "n, rods per volume";
+        box_mm: Option<[f64; 3]> = None, "mm", Holds::Sides, Other("a cube"),
+            "sides of the control volume along the axes (eqs 12, 14): count and box give n; where it is given too, it agrees to 1e-3";
+        alpha: f64 = 0.5, "", Holds::NotNegative, Required,
+            "α of P_c = (α/(s/a + α))^m (eq. 7); 0: no rods collide";
+        m: f64 = 3.0, "", Holds::Positive, Otherwise("3"),
+            "m of eq. 7";
+        update: Update = Update::Rotation, "", Holds::OneOf(&["rotation", "angles", "kick"]), Otherwise("\"rotation\""),
+            "how a colliding rod takes its step; angles: A.14 to the letter; kick: as a free rod, then the change";
+        min_contact_arm: f64 = 0.0, "lengths of its own rod", Holds::NotNegative, Otherwise("0"),
+            "a shorter contact arm is no contact";
+    }
 }
 
 /// How a colliding rod takes its step.
@@ -142,50 +111,37 @@ pub enum Update {
     Kick,
 }
 
-/// `[time]`: `periods` of the mean aspect ratio, or `strain`.
-///
-/// ```
-/// use shearbed::scene::Time;
-/// let two_periods = Time { periods: Some(2.0), outputs_per_period: Some(100), ..Time::default() };
-/// assert_eq!(two_periods.strain, None);
-/// ```
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Time {
-    /// Duration in periods T of the mean aspect ratio.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub periods: Option<f64>,
-    /// Duration in shear strain ∫(2D:D)^½ dt.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub strain: Option<f64>,
-    /// Steps per period of an interacting scene; by default as many as resolve the motion.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub steps_per_period: Option<u64>,
-    /// Steps per unit of strain of an interacting scene; by default as many as resolve the motion.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub steps_per_strain: Option<u64>,
-    /// Outputs per period; 50 by default.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub outputs_per_period: Option<u64>,
-    /// Outputs per unit of strain; 10 by default.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub outputs_per_strain: Option<u64>,
+table! {
+    /// `[ensemble]`.
+    ///
+    /// ```
+    /// use shearbed::scene::{Ensemble, Scene};
+    /// let scene = Scene { ensemble: Ensemble { replicas: 4, seed: 2 }, ..Scene::default() };
+    /// assert!(shearbed::Plan::new(&scene).is_ok());
+    /// ```
+    pub struct Ensemble in "ensemble" {
+        replicas: u64 = 1, "", whole(1, MAX_REPLICAS), Otherwise("1"),
+            "independent runs of the scene";
+        seed: u64 = 1, "", whole(0, MAX_SEED), Otherwise("1"),
+            "the seed of all random numbers";
+    }
 }
 
-/// `[ensemble]`.
-///
-/// ```
-/// use shearbed::scene::{Ensemble, Scene};
-/// let scene = Scene { ensemble: Ensemble { replicas: 4, seed: 2 }, ..Scene::default() };
-/// assert!(shearbed::Plan::new(&scene).is_ok());
-/// ```
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Ensemble {
-    /// Independent runs of the scene.
-    pub replicas: u64,
-    /// The seed of all random streams.
-    pub seed: u64,
+table! {
+    /// `[output]`.
+    ///
+    /// ```
+    /// use shearbed::{Observable, scene::Output};
+    /// let output = Output { observables: vec![Observable::OrientationTensor], ..Output::default() };
+    /// assert!(output.rods_at.is_empty());
+    /// ```
+    pub struct Output in "output" {
+        observables: Vec<Observable> = vec![Observable::Projections], "", Holds::Observables, Otherwise("[\"projections\"]"),
+            "what is observed: each has a file of its own";
+        rods_at: Vec<f64> = Vec::new(), "T or strain", Holds::Times, Otherwise("[]"),
+            "when rods.csv has every rod: t/T, or strain where the time is one",
+            unwritten if |output: &Output| output.rods_at.is_empty();
+    }
 }
 
 /// Free rods of the paper's Fig. 6 for one period.
@@ -196,80 +152,20 @@ impl Default for Scene {
             flow: Flow::default(),
             particles: Particles::default(),
             interaction: None,
-            time: Time { periods: Some(1.0), ..Time::default() },
+            time: Time::default(),
             ensemble: Ensemble::default(),
             output: Output::default(),
         }
     }
 }
 
-/// G = 0.5 1/s.
-impl Default for Flow {
-    fn default() -> Self {
-        Self { shear_rate_per_s: Some(0.5), gradient_per_s: None }
-    }
-}
-
-/// 50 rods per cm³, with the paper's α = 0.5 and m = 3.
-impl Default for Interaction {
-    fn default() -> Self {
-        Self {
-            concentration_per_cm3: Some(50.0),
-            box_mm: None,
-            alpha: 0.5,
-            m: three(),
-            update: Update::default(),
-            min_contact_arm: 0.0,
-        }
-    }
-}
-
-impl Default for Ensemble {
-    fn default() -> Self {
-        Self { replicas: 1, seed: 1 }
-    }
-}
-
-/// `[output]`.
-///
-/// ```
-/// use shearbed::{Observable, scene::Output};
-/// let output = Output { observables: vec![Observable::OrientationTensor], ..Output::default() };
-/// assert!(output.rods_at.is_empty());
-/// ```
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Output {
-    /// What is observed.
-    pub observables: Vec<Observable>,
-    /// When every rod is written: times of outputs, in the unit of [`crate::Plan::times`].
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub rods_at: Vec<f64>,
-}
-
-impl Default for Output {
-    fn default() -> Self {
-        Self { observables: vec![Observable::Projections], rods_at: Vec::new() }
-    }
-}
-
-/// Outputs per unit of strain by default.
-const OUTPUTS_PER_STRAIN: u64 = 10;
-
-fn three() -> f64 {
-    3.0
-}
-
 impl Scene {
     /// The same scene with every default that is used written out.
     pub fn resolved(&self) -> Self {
         let mut scene = self.clone();
-        match scene.time.strain {
-            Some(_) => scene.time.outputs_per_strain = Some(self.outputs_per_strain()),
-            None => scene.time.outputs_per_period = Some(self.outputs_per_period()),
-        }
+        scene.time.outputs_per_unit = Some(self.outputs_per_unit());
         if scene.interaction.is_some() {
-            scene.set_steps_per_unit(self.steps_per_unit());
+            scene.time.steps_per_unit = Some(self.steps_per_unit());
         }
         scene
     }
@@ -318,23 +214,30 @@ impl Scene {
         }
     }
 
-    /// Outputs per period, given or by default: 50, or where rods interact the largest divisor of the
-    /// steps per period up to 50.
-    pub fn outputs_per_period(&self) -> u64 {
-        let steps = self.steps_per_unit().max(1);
-        self.time.outputs_per_period.unwrap_or_else(|| {
-            let divides = |k: &u64| self.interaction.is_none() || steps.is_multiple_of(*k);
-            (1..=50).rev().find(divides).unwrap_or(1)
+    /// Outputs per unit of time, given or by default: 50 a period or 10 a unit of strain, or where rods interact the largest divisor of
+    /// the steps up to that.
+    pub fn outputs_per_unit(&self) -> u64 {
+        self.time.outputs_per_unit.unwrap_or_else(|| {
+            let most = self.time.unit.default_outputs();
+            let steps = self.interaction.as_ref().map(|_| self.steps_per_unit().max(1));
+            let divides = |k: &u64| steps.is_none_or(|steps| steps.is_multiple_of(*k));
+            (1..=most).rev().find(divides).unwrap_or(1)
         })
     }
 
-    /// Outputs per unit of strain, given or by default: 10, or where rods interact the largest divisor of the steps per unit of
-    /// strain up to 10.
-    pub fn outputs_per_strain(&self) -> u64 {
-        self.time.outputs_per_strain.unwrap_or_else(|| {
-            let steps = self.time.steps_per_strain.filter(|_| self.interaction.is_some());
-            let divides = |k: &u64| steps.is_none_or(|steps| steps.is_multiple_of(*k));
-            (1..=OUTPUTS_PER_STRAIN).rev().find(divides).unwrap_or(1)
-        })
+    /// Every value that its key does not allow.
+    pub(crate) fn out_of_range(&self) -> Vec<Invalid> {
+        let mut wrong = Vec::new();
+        FlowKeys::from(self.flow.clone()).check(&mut wrong);
+        self.particles.check(&mut wrong);
+        if self.particles.physical_aspect_ratio.is_some() {
+            // What a correlation makes of it is checked with the correlation.
+            wrong.retain(|invalid| invalid.key != "particles.aspect_ratio");
+        }
+        self.interaction.iter().for_each(|interaction| interaction.check(&mut wrong));
+        TimeKeys::from(self.time.clone()).check(&mut wrong);
+        self.ensemble.check(&mut wrong);
+        self.output.check(&mut wrong);
+        wrong
     }
 }

@@ -1,101 +1,63 @@
 //! `[particles]`: the rods, how long and how slender they are, and where they point at the start.
 
-use crate::model::shape::Correlation;
+use super::keys::{
+    Absent::Default as Otherwise, Absent::Other, Absent::Required, Holds, MAX_COUNT, find, table, whole,
+};
+use super::read::Reader;
+use crate::model::shape::{ALLOWED, Correlation};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// `[particles]`.
-///
-/// ```
-/// use shearbed::scene::{Particles, Scene};
-/// let particles = Particles { count: 1000, aspect_ratio: 20.0, ..Particles::default() };
-/// assert!(shearbed::Plan::new(&Scene { particles, ..Scene::default() }).is_ok());
-/// ```
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(from = "Written", into = "Written")]
-pub struct Particles {
-    /// N, the rods in the control volume.
-    pub count: usize,
-    /// a, the full length of a rod, or its mean.
-    pub length_mm: f64,
-    /// The standard deviation of a Gaussian length in percent of its mean, independent of r_e.
-    pub length_sd_percent: f64,
-    /// r_e, or its mean: as given, or what the correlation makes of the physical aspect ratio.
-    pub aspect_ratio: f64,
-    /// Length over diameter of a cylinder, given in place of r_e.
-    pub physical_aspect_ratio: Option<f64>,
-    /// Which formula makes r_e of it.
-    pub shape_correlation: Option<Correlation>,
-    /// σ of the Gaussian r_e in percent of its mean (eq. 11).
-    pub aspect_ratio_sd_percent: f64,
-    /// The directions at t = 0.
-    pub orientation: Orientation,
-    /// Rods of which a file says what each is: what it has is taken, what it lacks is drawn as the other keys say.
-    pub rods: Option<RodsFile>,
-}
-
-/// As it stands in a file: r_e, or what it is made of.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Written {
-    count: usize,
-    length_mm: f64,
-    #[serde(default, skip_serializing_if = "is_zero")]
-    length_sd_percent: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    aspect_ratio: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    physical_aspect_ratio: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    shape_correlation: Option<Correlation>,
-    #[serde(default)]
-    aspect_ratio_sd_percent: f64,
-    #[serde(default)]
-    orientation: Orientation,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    rods: Option<RodsFile>,
-}
-
-/// Rods of one length are written as before there were others.
-fn is_zero(percent: &f64) -> bool {
-    *percent == 0.0
-}
-
-/// Without any r_e it is NaN, which is refused.
-impl From<Written> for Particles {
-    fn from(written: Written) -> Self {
-        let (physical, correlation) = (written.physical_aspect_ratio, written.shape_correlation);
-        Self {
-            count: written.count,
-            length_mm: written.length_mm,
-            length_sd_percent: written.length_sd_percent,
-            aspect_ratio: (written.aspect_ratio).or(equivalent(physical, correlation)).unwrap_or(f64::NAN),
-            physical_aspect_ratio: physical,
-            shape_correlation: correlation,
-            aspect_ratio_sd_percent: written.aspect_ratio_sd_percent,
-            orientation: written.orientation,
-            rods: written.rods,
-        }
-    }
-}
-
-impl From<Particles> for Written {
-    fn from(particles: Particles) -> Self {
-        Self {
-            count: particles.count,
-            length_mm: particles.length_mm,
-            length_sd_percent: particles.length_sd_percent,
-            aspect_ratio: Some(particles.aspect_ratio).filter(|_| particles.physical_aspect_ratio.is_none()),
-            physical_aspect_ratio: particles.physical_aspect_ratio,
-            shape_correlation: particles.shape_correlation,
-            aspect_ratio_sd_percent: particles.aspect_ratio_sd_percent,
-            orientation: particles.orientation,
-            rods: particles.rods,
-        }
+table! {
+    /// `[particles]`. By default a hundred rods of 0.72 mm with r_e = 11.6, in random directions.
+    ///
+    /// ```
+    /// use shearbed::scene::{Particles, Scene};
+    /// let particles = Particles { count: 1000, aspect_ratio: 20.0, ..Particles::default() };
+    /// assert!(shearbed::Plan::new(&Scene { particles, ..Scene::default() }).is_ok());
+    /// ```
+    pub struct Particles in "particles" {
+        count: usize = 100, "", whole(1, MAX_COUNT as u64), Required,
+            "N, rods in the control volume";
+        length_mm: f64 = 0.72, "mm", Holds::Positive, Required,
+            "a, the full length of a rod, or its mean";
+        length_sd_percent: f64 = 0.0, "%", Holds::NotNegative, Otherwise("0"),
+            "standard deviation of a Gaussian length, in percent of its mean; below 33.3333",
+            unwritten if |particles: &Particles| particles.length_sd_percent == 0.0;
+        aspect_ratio: f64 = 11.6, "", Holds::Between { least: 1e-100, most: 1e100 }, Other("physical_aspect_ratio"),
+            "r_e, or its mean; below 1 a disc; interacting rods need more than 1",
+            unwritten if |particles: &Particles| particles.physical_aspect_ratio.is_some();
+        physical_aspect_ratio: Option<f64> = None, "", Holds::Between { least: ALLOWED.0, most: ALLOWED.1 }, Other("aspect_ratio"),
+            "length over diameter of a cylinder, of which shape_correlation makes r_e";
+        shape_correlation: Option<Correlation> = None, "", Holds::OneOf(&Correlation::NAMES), Other("goes with physical_aspect_ratio"),
+            "the formula for r_e of a cylinder, as `shearbed shape` lists them";
+        aspect_ratio_sd_percent: f64 = 0.0, "%", Holds::NotNegative, Otherwise("0"),
+            "σ of a Gaussian r_e, in percent of its mean (eq. 11)";
+        orientation: Orientation = Orientation::default(), "degrees", Holds::Orientation, Other("\"isotropic\" with rods, else it must be given"),
+            "the directions at t = 0; φ from axis 1 to axis 2, θ from axis 3; used where a file of rods has none";
+        rods: Option<RodsFile> = None, "", Holds::Rods, Other("all is drawn"),
+            "a CSV file beside the scene with a row for each rod, with columns of rods.csv; missing ones are drawn";
     }
 }
 
 impl Particles {
+    /// r_e is given once, by itself or by a cylinder and a formula; directions are given, or a file of rods.
+    pub(super) fn read(reader: &mut Reader<'_>) -> Option<Self> {
+        let r_e = "particles.aspect_ratio";
+        let allowed = |key| find(key).map_or_else(String::new, |key| key.holds.to_string());
+        let or_cylinder = format!("{}; or physical_aspect_ratio and shape_correlation", allowed(r_e));
+        let given = reader.one_of([r_e, "particles.physical_aspect_ratio"], &or_cylinder);
+        let start = ["particles.orientation", "particles.rods"];
+        if !start.iter().any(|key| reader.has(key) || reader.means(key)) {
+            reader.refuse(start[0], &allowed(start[0]));
+        }
+        let mut particles = Self::read_keys(reader)?;
+        if given != Some(r_e) {
+            let r_e = equivalent(particles.physical_aspect_ratio, particles.shape_correlation);
+            particles.aspect_ratio = r_e.unwrap_or(f64::NAN);
+        }
+        Some(particles)
+    }
     /// ⟨a³⟩ over the cube of `length_mm`: of the rods of a file, or 1 + 3σ² of Gaussian lengths.
     pub fn mean_cube(&self) -> f64 {
         match self.own().and_then(|own| own.length_mm.as_ref()) {
@@ -173,23 +135,6 @@ impl Particles {
 /// r_e of a cylinder by a formula, where both are given and it gives one.
 pub(crate) fn equivalent(physical: Option<f64>, correlation: Option<Correlation>) -> Option<f64> {
     correlation?.formula().equivalent(physical?)
-}
-
-/// A hundred rods of 0.72 mm with r_e = 11.6, in random directions.
-impl Default for Particles {
-    fn default() -> Self {
-        Self {
-            count: 100,
-            length_mm: 0.72,
-            length_sd_percent: 0.0,
-            aspect_ratio: 11.6,
-            physical_aspect_ratio: None,
-            shape_correlation: None,
-            aspect_ratio_sd_percent: 0.0,
-            orientation: Orientation::default(),
-            rods: None,
-        }
-    }
 }
 
 /// The directions at t = 0.

@@ -1,9 +1,9 @@
 //! The steps of interacting rods: how many by default, and which is too long.
 
-use super::{Invalid, OUTPUTS_PER_STRAIN, Scene, refused};
+use super::{Scene, TimeUnit};
 use crate::model::flow::VelocityGradient;
 use crate::model::jeffery::strain_per_period;
-use crate::motion::{Propagator, Span};
+use crate::motion::Propagator;
 use nalgebra::Matrix3;
 
 /// Steps per period come in multiples of this, so that the default outputs fall on steps.
@@ -18,18 +18,9 @@ pub fn resolved_strain(aspect_ratio: f64) -> f64 {
 impl Scene {
     /// The number of outputs, the one at t = 0 included.
     pub(crate) fn outputs(&self) -> usize {
-        let duration = self.time.strain.or(self.time.periods).unwrap_or(0.0);
-        let all = duration * self.outputs_per_unit() as f64;
+        let all = self.time.duration * self.outputs_per_unit() as f64;
         // The slack takes in a product that was rounded down.
         1 + (all * (1.0 + 4.0 * f64::EPSILON)).floor() as usize
-    }
-
-    /// Outputs per unit of time.
-    pub(crate) fn outputs_per_unit(&self) -> u64 {
-        match self.time.strain {
-            Some(_) => self.outputs_per_strain(),
-            None => self.outputs_per_period(),
-        }
     }
 
     /// The output at this time; `None` where it is farther than 1e-5 of their distance from all.
@@ -39,55 +30,9 @@ impl Scene {
         near.then_some(place.round() as usize)
     }
 
-    /// The gradient of the scene's liquid.
-    pub(crate) fn check_flow(&self) -> Result<VelocityGradient, Invalid> {
-        match (self.flow.shear_rate_per_s, self.flow.gradient_per_s) {
-            (Some(g), None) => {
-                VelocityGradient::plane_couette(g).ok_or_else(|| refused("flow.shear_rate_per_s", g))
-            }
-            (None, Some(rows)) => VelocityGradient::new(Matrix3::from_fn(|i, j| rows[i][j]))
-                .ok_or_else(|| refused("flow.gradient_per_s", format!("{rows:?}"))),
-            (Some(g), Some(_)) => Err(Invalid::new(
-                "flow.shear_rate_per_s",
-                g,
-                "either shear_rate_per_s or gradient_per_s, not both",
-            )),
-            (None, None) => Err(Invalid::missing(
-                "flow.shear_rate_per_s",
-                "shear_rate_per_s or gradient_per_s must be given",
-            )),
-        }
-    }
-
-    /// Steps per period of the mean aspect ratio or per unit of strain, as the time is given; by default
-    /// [`Scene::resolving_steps`].
+    /// Steps per unit of time; by default [`Scene::resolving_steps`].
     pub fn steps_per_unit(&self) -> u64 {
-        let given = match self.time.strain {
-            Some(_) => self.time.steps_per_strain,
-            None => self.time.steps_per_period,
-        };
-        given.unwrap_or_else(|| self.resolving_steps())
-    }
-
-    /// Gives the steps per period or per unit of strain.
-    pub fn set_steps_per_unit(&mut self, steps: u64) {
-        match self.time.strain {
-            Some(_) => self.time.steps_per_strain = Some(steps),
-            None => self.time.steps_per_period = Some(steps),
-        }
-    }
-
-    /// The key that gives them.
-    pub fn steps_key(&self) -> &'static str {
-        match self.time.strain {
-            Some(_) => "time.steps_per_strain",
-            None => "time.steps_per_period",
-        }
-    }
-
-    /// What steps are counted in.
-    pub(crate) fn time_unit(&self) -> &'static str {
-        if self.time.strain.is_some() { "unit of strain" } else { "period" }
+        self.time.steps_per_unit.unwrap_or_else(|| self.resolving_steps())
     }
 
     /// The strain of one step, or twice the angle in rad by which the liquid turns in it where that is larger: GΔt in plane
@@ -99,10 +44,11 @@ impl Scene {
     /// The smallest number of steps (a multiple of the outputs, where they are given, and for periods of 50) with a strain per
     /// step of at most [`resolved_strain`] of the rods' mean r_e: 200 a period at r_e = 11.6. `u64::MAX` where there is none.
     pub fn resolving_steps(&self) -> u64 {
-        let unit = match self.time.strain {
-            Some(_) => self.time.outputs_per_strain.unwrap_or(OUTPUTS_PER_STRAIN).max(1),
-            None => {
-                let outputs = self.time.outputs_per_period.unwrap_or(1).max(1);
+        let outputs = self.time.outputs_per_unit;
+        let unit = match self.time.unit {
+            TimeUnit::Strain => outputs.unwrap_or(self.time.unit.default_outputs()).max(1),
+            TimeUnit::Period => {
+                let outputs = outputs.unwrap_or(1).max(1);
                 (outputs / common_divisor(outputs, MULTIPLE)).saturating_mul(MULTIPLE)
             }
         };
@@ -119,25 +65,27 @@ impl Scene {
 
     /// The seconds of a period of the mean aspect ratio or of a unit of strain, as the time is given; NaN where there is no period.
     pub(crate) fn seconds_per_unit(&self, flow: &VelocityGradient) -> f64 {
-        match self.time.strain {
-            Some(_) => 1.0 / flow.magnitude_per_s(),
-            None => (Propagator::new(flow, self.particles.aspect_ratio).period_s()).unwrap_or(f64::NAN),
+        match self.time.unit {
+            TimeUnit::Strain => 1.0 / flow.magnitude_per_s(),
+            TimeUnit::Period => {
+                (Propagator::new(flow, self.particles.aspect_ratio).period_s()).unwrap_or(f64::NAN)
+            }
         }
     }
 
     /// The larger of strain and turn of the liquid in a period or a unit of strain.
     pub(crate) fn motion_per_unit(&self) -> f64 {
         let r = self.particles.aspect_ratio;
-        let Some(flow) = self.check_flow().ok().filter(|flow| flow.shear_rate_per_s().is_none()) else {
-            return match self.time.strain {
-                Some(_) => 1.0,
-                None => strain_per_period(r),
+        let Some(flow) = self.flow.gradient().filter(|flow| flow.shear_rate_per_s().is_none()) else {
+            return match self.time.unit {
+                TimeUnit::Strain => 1.0,
+                TimeUnit::Period => strain_per_period(r),
             };
         };
         let (strain_per_s, turn_per_s) = (flow.magnitude_per_s(), flow.turn_per_s());
-        match self.time.strain {
-            Some(_) => (turn_per_s / strain_per_s).max(1.0),
-            None => strain_per_s.max(turn_per_s) * self.seconds_per_unit(&flow),
+        match self.time.unit {
+            TimeUnit::Strain => (turn_per_s / strain_per_s).max(1.0),
+            TimeUnit::Period => strain_per_s.max(turn_per_s) * self.seconds_per_unit(&flow),
         }
     }
 }
@@ -150,10 +98,7 @@ pub(crate) fn step_maps<'a>(
     aspect_ratios: &'a [f64],
 ) -> impl Iterator<Item = Option<(Matrix3<f64>, f64)>> + 'a {
     let steps = scene.steps_per_unit() as f64;
-    let span = match scene.time.strain {
-        Some(_) => Span::Strain(1.0, steps),
-        None => Span::Periods(1.0, steps),
-    };
+    let span = scene.time.unit.span(1.0, steps);
     let mean = Propagator::general(flow, scene.particles.aspect_ratio);
     let of = move |r: &f64| Propagator::general(flow, *r).map_beside(&mean, span);
     aspect_ratios.iter().map(of)

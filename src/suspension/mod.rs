@@ -1,14 +1,11 @@
 //! Interacting rods in the control volume, step by step (the paper's method of solution).
 
-mod error;
 mod liquid;
 pub(crate) mod rods;
 pub mod snapshot;
 mod state;
 #[cfg(test)]
 mod tests;
-
-pub use error::RunError;
 
 use crate::model::collision::{Reach, kick, norm, share_velocity, step_angles, turn};
 use crate::model::contact::contact;
@@ -17,7 +14,7 @@ use crate::model::neighbours::{Nearest, Neighbours};
 use crate::model::random::{Purpose, fill_uniform, stream};
 use crate::model::work::Counters;
 use crate::plan::{Plan, Stage};
-use crate::scene::Update;
+use crate::scene::{Error, Update};
 use crate::suspension::rods::Rods;
 use liquid::Liquid;
 use nalgebra::{UnitVector3, Vector3};
@@ -167,7 +164,7 @@ impl Suspension {
     /// # Errors
     ///
     /// A kick that overflows; the suspension is then in the middle of its step.
-    pub fn step(&mut self) -> Result<&[Collision], RunError> {
+    pub fn step(&mut self) -> Result<&[Collision], Error> {
         self.find_candidates();
         self.collide()?;
         self.rods.advance(self.tick);
@@ -204,7 +201,7 @@ impl Suspension {
     }
 
     /// Takes candidates closest first (ties: lower index), each rod in one collision at most.
-    fn collide(&mut self) -> Result<(), RunError> {
+    fn collide(&mut self) -> Result<(), Error> {
         self.collisions.clear();
         if !self.contacts {
             return Ok(());
@@ -275,7 +272,7 @@ impl Suspension {
         })
     }
 
-    fn take(&mut self, a: u32, b: u32, turns: Turns) -> Result<(), RunError> {
+    fn take(&mut self, a: u32, b: u32, turns: Turns) -> Result<(), Error> {
         let rods = [a as usize, b as usize];
         for (k, end) in turns.ends.iter().enumerate() {
             if !end.iter().all(|component| component.is_finite()) {
@@ -287,8 +284,8 @@ impl Suspension {
         Ok(())
     }
 
-    fn non_finite(&self, rod: usize, arm: f64, angle_rad: f64) -> RunError {
-        RunError::NonFinite {
+    fn non_finite(&self, rod: usize, arm: f64, angle_rad: f64) -> Error {
+        Error::NonFinite {
             rod,
             step: self.tick,
             seed: self.seed,

@@ -46,15 +46,9 @@ fn a_collision_gives_both_contact_points_the_mean_velocity_along_the_line() {
             }),
             ..Scene::default()
         };
-        scene.flow.shear_rate_per_s = None;
-        scene.flow.gradient_per_s = Some(gradient);
+        scene.flow = crate::scene::Flow::Gradient { gradient_per_s: gradient };
         scene.particles.count = 2;
-        scene.time = Time {
-            strain: Some(1.0),
-            steps_per_strain: Some(STEPS),
-            outputs_per_strain: Some(1),
-            ..Time::default()
-        };
+        scene.time = Time { steps_per_unit: Some(STEPS), outputs_per_unit: Some(1), ..Time::strain(1.0) };
         let plan = Plan::new(&scene).unwrap();
         let mut suspension = Suspension::new(&plan, 0).unwrap();
         let [side, ..] = suspension.sides_in_lengths();

@@ -2,7 +2,7 @@
 
 mod whole;
 
-use shearbed::scene;
+use shearbed::Plan;
 
 const INTERACTING: &str = r#"title = "t"
 [flow]
@@ -65,7 +65,7 @@ fn set(text: &str, path: &str, value: &str) -> Option<(String, usize)> {
 }
 
 fn refusal(text: &str) -> String {
-    match scene::parse("dir/s.toml", text) {
+    match Plan::parse("dir/s.toml", text) {
         Ok(_) => format!("accepted:\n{text}"),
         Err(error) => error.to_string(),
     }
@@ -144,7 +144,7 @@ const NOT_OBSERVABLES: &[&str] = &[
 #[test]
 fn the_scenes_to_spoil_are_good() {
     for text in [INTERACTING, EXTENSION] {
-        assert_eq!(scene::parse("s.toml", text).map(|scene| scene.title), Ok("t".to_owned()));
+        assert_eq!(Plan::parse("s.toml", text).unwrap().scene().title, "t");
     }
 }
 

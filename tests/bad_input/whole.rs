@@ -1,7 +1,7 @@
 //! What is wrong with a file as a whole: what it lacks, several mistakes at once, unknown keys, cuts and nesting.
 
 use super::{EXTENSION, INTERACTING, KEYS, refusal, set};
-use shearbed::scene;
+use shearbed::Plan;
 
 #[test]
 fn an_empty_file_lacks_all_that_must_be_there() {
@@ -101,8 +101,8 @@ fn no_part_of_a_file_makes_the_reader_panic() {
     for text in [INTERACTING, EXTENSION] {
         for end in 0..=text.len() {
             // A file cut short, and one that starts in the middle.
-            let _ = scene::parse("s.toml", &text[..end]);
-            let _ = scene::parse("s.toml", &text[end..]);
+            let _ = Plan::parse("s.toml", &text[..end]);
+            let _ = Plan::parse("s.toml", &text[end..]);
         }
     }
 }
@@ -120,7 +120,7 @@ fn a_table_may_have_a_header_of_its_own() {
     let scene = |text: &str| shearbed::scene::parse("f.toml", text).unwrap();
     assert_eq!(scene(&inline), scene(&header));
     let wrong = text("[particles.orientation]\nphi_deg = -30\ntheta_deg = 600");
-    assert!(shearbed::scene::parse("f.toml", &wrong).is_err());
+    assert!(Plan::parse("f.toml", &wrong).is_err());
 }
 
 /// The reader goes 80 deep; of keys it does not say where it stopped.

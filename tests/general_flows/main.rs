@@ -10,7 +10,7 @@ use shearbed::model::orientation::from_degrees;
 use shearbed::motion::{Propagator, Span};
 use shearbed::run::ensemble;
 use shearbed::scene;
-use shearbed::scene::{OwnRods, RodsFile, SceneError};
+use shearbed::scene::{OwnRods, RodsFile};
 use std::cell::Cell;
 
 fn scene(rows: [[f64; 3]; 3], r: f64, sd: f64, orientation: &str, time: &str) -> String {
@@ -28,9 +28,8 @@ fn of_a_file(p: [Vec<f64>; 3]) -> RodsFile {
 }
 
 /// The plan of a scene file, or what is refused of it, each with its line.
-fn planned(text: &str) -> Result<Plan, SceneError> {
-    let scene = scene::parse("s.toml", text)?;
-    Plan::new(&scene).map_err(|invalid| scene::located("s.toml", text, invalid))
+fn planned(text: &str) -> Result<Plan, shearbed::Error> {
+    Plan::parse("s.toml", text)
 }
 
 /// Finite means with ⟨pp⟩ of trace 1, or a refusal that says why; whether it was not refused.
@@ -172,7 +171,7 @@ fn rates_beyond_all_digits_are_refused_as_such() {
 #[test]
 fn three_real_rates_have_no_period() {
     let rows = [[-1.0, -1.0, 0.0], [-2.0, 2.0, -1.0], [0.0, -2.0, -1.0]];
-    let error = scene::parse("s.toml", &scene(rows, 2.0, 0.0, "\"isotropic\"", "periods = 1")).unwrap_err();
+    let error = Plan::parse("s.toml", &scene(rows, 2.0, 0.0, "\"isotropic\"", "periods = 1")).unwrap_err();
     assert!(error.to_string().contains("have no period in this flow: give strain"), "{error}");
 }
 
@@ -183,10 +182,10 @@ fn a_rounded_rotation_of_couette_flow_has_a_period_for_as_long_as_it_has() {
     let (along, across) = ([1.0, 2.0, 3.0], [4.0, 1.0, -2.0]);
     let rows =
         along.map(|flow: f64| across.map(|gradient: f64| flow / 14f64.sqrt() * (gradient / 21f64.sqrt())));
-    let parsed = |r: f64, time: &str| scene::parse("s.toml", &scene(rows, r, 0.0, "\"isotropic\"", time));
+    let parsed = |r: f64, time: &str| Plan::parse("s.toml", &scene(rows, r, 0.0, "\"isotropic\"", time));
     assert!(parsed(11.6, "periods = 10").is_ok(), "{:?}", parsed(11.6, "periods = 10"));
     let error = parsed(1e8, "periods = 10").unwrap_err().to_string();
-    assert!(error.contains("have no period in this flow") && error.contains("give strain"), "{error}");
+    assert!(error.contains("have no exact period in this flow") && error.contains("give strain"), "{error}");
 }
 
 /// Next to parabolic: |det A| < 16 ε, and a strain of 10⁶. Digits from 80-digit arithmetic (issue 9).

@@ -37,7 +37,7 @@ fn what_the_core_observes_too_is_the_same() {
             // More than a block, and not a whole number of them.
             scene.particles.count = 300;
             scene.particles.aspect_ratio_sd_percent = 3.6;
-            scene.time.outputs_per_period = Some(10);
+            scene.time.outputs_per_unit = Some(10);
             scene.ensemble.replicas = replicas;
             let plan = Plan::new(&scene).unwrap();
             let results = crate::run::ensemble::run(&plan).unwrap();

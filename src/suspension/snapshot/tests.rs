@@ -6,7 +6,7 @@ use crate::scene::{Interaction, Scene};
 fn plan(interaction: Option<Interaction>, count: usize) -> Plan {
     let mut scene = Scene { interaction, ..Scene::default() };
     scene.particles.count = count;
-    scene.time.outputs_per_period = Some(4);
+    scene.time.outputs_per_unit = Some(4);
     scene.output.rods_at = vec![0.5, 1.0];
     Plan::new(&scene).unwrap()
 }

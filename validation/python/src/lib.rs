@@ -10,10 +10,9 @@ use pyo3::{create_exception, wrap_pyfunction};
 use rayon::prelude::*;
 use shearbed::run::ensemble;
 use shearbed::run::{Replica, run_replica};
-use shearbed::scene;
-use shearbed::scene::KEYS;
-use shearbed::suspension::RunError;
-use shearbed::{Plan, Results, Scene};
+use shearbed::scene::document::Document;
+use shearbed::scene::of_document;
+use shearbed::{Error, Plan, Results, Scene};
 use std::ffi::OsString;
 use std::ops::Range;
 use std::path::Path;
@@ -30,14 +29,18 @@ create_exception!(
 
 fn plan(name: &str, text: &str, replicas: Option<u64>, seed: Option<u64>) -> PyResult<Plan> {
     let refused = |error: &dyn std::fmt::Display| SceneError::new_err(error.to_string());
-    let mut scene = scene::parse(name, text).map_err(|error| refused(&error))?;
+    let mut document = Document::parse(name, text).map_err(|error| refused(&error))?;
+    for (key, value) in [("ensemble.replicas", replicas), ("ensemble.seed", seed)] {
+        if let Some(value) = value {
+            document.set(key, toml::Value::Integer(value as i64)).map_err(|error| refused(&error))?;
+        }
+    }
+    let mut scene = of_document(&document).map_err(|error| refused(&error))?;
     let folder = Path::new(name).parent().unwrap_or(Path::new(""));
     validation::input::start::Starts::beside(folder)
         .fill(&mut scene)
         .map_err(|error| refused(&format!("{name}: {error}")))?;
-    scene.ensemble.replicas = replicas.unwrap_or(scene.ensemble.replicas);
-    scene.ensemble.seed = seed.unwrap_or(scene.ensemble.seed);
-    Plan::new(&scene).map_err(|invalid| refused(&scene::located(name, text, invalid)))
+    Plan::new(&scene).map_err(|error| refused(&document.located(error)))
 }
 
 fn toml_of(scene: &Scene) -> PyResult<String> {
@@ -47,7 +50,7 @@ fn toml_of(scene: &Scene) -> PyResult<String> {
 /// The table and the name of every key of a scene file.
 #[pyfunction]
 fn keys() -> Vec<(&'static str, &'static str)> {
-    KEYS.iter().filter_map(|key| key.path.split_once('.')).collect()
+    shearbed::scene::keys().filter_map(|key| key.path.split_once('.')).collect()
 }
 
 /// The scene with every default written out as TOML, its plan in words, what the reader of its results should know, and
@@ -62,7 +65,7 @@ fn describe(name: &str, text: &str) -> PyResult<(String, String, Vec<String>, Op
 /// Why a run gave no results.
 enum Stopped {
     Asked,
-    Failed(RunError),
+    Failed(Error),
 }
 
 /// Runs a scene: a dictionary of arrays and of what was done.
@@ -95,7 +98,7 @@ fn watched(
     plan: &Plan,
     pool: Option<&rayon::ThreadPool>,
     progress: Option<&Py<PyAny>>,
-) -> PyResult<Result<Results, RunError>> {
+) -> PyResult<Result<Results, Error>> {
     let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
     let all = plan.scene().ensemble.replicas;
     std::thread::scope(|scope| {

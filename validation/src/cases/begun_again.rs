@@ -40,8 +40,8 @@ fn begins_again(way: &Way, effort: &Effort) -> Vec<Evidence> {
     let mut scene = lab::interacting_scene(effort);
     scene.particles.aspect_ratio_sd_percent = 8.5;
     scene.particles.length_sd_percent = 20.0;
-    scene.time.periods = Some(2.0);
-    scene.time.steps_per_period = Some(STEPS_PER_PERIOD);
+    scene.time.duration = 2.0;
+    scene.time.steps_per_unit = Some(STEPS_PER_PERIOD);
     // 100 rods at 50 per cm³.
     let interaction = lab::interaction(&mut scene);
     (interaction.concentration_per_cm3, interaction.box_mm) = (None, Some([20.0, 10.0, 10.0]));

@@ -175,8 +175,8 @@ fn plateau(change: &Change, effort: &Effort) -> Vec<Evidence> {
     scene.particles.count = effort.samples(design) as usize;
     scene.particles.aspect_ratio_sd_percent = 3.6;
     // A quarter period past t/T = 12, where rods in phase would be far from their mean; exp(−(t/t*)²) = 2·10⁻⁷.
-    scene.time.periods = Some(12.25);
-    scene.time.outputs_per_period = Some(4);
+    scene.time.duration = 12.25;
+    scene.time.outputs_per_unit = Some(4);
     let (r, sd) = (scene.particles.aspect_ratio, 0.01 * scene.particles.aspect_ratio_sd_percent);
     change(&mut scene);
     let results = ensemble::run(&lab::plan(&scene));

@@ -72,7 +72,7 @@ pub fn cases() -> Vec<Case> {
             .subject(whole_run as Program)
             .mistake("a thousandth of the strain", |scene| {
                     let mut short = scene.clone();
-                    short.time.strain = scene.time.strain.map(|strain| 1e-3 * strain);
+                    short.time.duration *= 1e-3;
                     whole_run(&short)
                 })
             .mistake("the plain exponential", |scene| by_exponential(scene, true))
@@ -161,7 +161,7 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
         scene(|scene| scene.particles.aspect_ratio = 1.0 + 1e-12),
         scene(|scene| {
             scene.particles.aspect_ratio = 1e8;
-            scene.time.steps_per_period = Some(200);
+            scene.time.steps_per_unit = Some(200);
         }),
         scene(|scene| {
             // Every rod parallel to every other: no contact line.
@@ -172,18 +172,18 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
             lab::interaction(scene).update = Update::Angles;
             lab::interaction(scene).alpha = 1e3;
         }),
-        scene(|scene| scene.flow.shear_rate_per_s = Some(1e-30)),
-        scene(|scene| scene.flow.shear_rate_per_s = Some(1e30)),
+        scene(|scene| scene.flow = shearbed::scene::Flow::Shear { shear_rate_per_s: 1e-30 }),
+        scene(|scene| scene.flow = shearbed::scene::Flow::Shear { shear_rate_per_s: 1e30 }),
         scene(|scene| lab::interaction(scene).min_contact_arm = f64::MIN_POSITIVE),
         scene(|scene| {
-            scene.time.periods = Some(3e-5);
-            scene.time.steps_per_period = Some(10_000_000);
-            scene.time.outputs_per_period = Some(100_000);
+            scene.time.duration = 3e-5;
+            scene.time.steps_per_unit = Some(10_000_000);
+            scene.time.outputs_per_unit = Some(100_000);
             lab::interaction(scene).alpha = 1e3;
         }),
         scene(|scene| {
-            scene.time.steps_per_period = Some(1);
-            scene.time.outputs_per_period = Some(1);
+            scene.time.steps_per_unit = Some(1);
+            scene.time.outputs_per_unit = Some(1);
             lab::interaction(scene).alpha = 1e3;
         }),
     ]

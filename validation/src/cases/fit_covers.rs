@@ -120,8 +120,8 @@ fn pool(effort: &Effort) -> Result<Pool, String> {
         let mut scene = lab::interacting_scene(effort);
         scene.particles.aspect_ratio_sd_percent = sd_percent;
         scene.particles.count = RODS;
-        scene.time.periods = Some(1.5);
-        scene.time.steps_per_period = Some(STEPS_PER_PERIOD);
+        scene.time.duration = 1.5;
+        scene.time.steps_per_unit = Some(STEPS_PER_PERIOD);
         one_set(&scene, &range, effort.seed(70), TimeColumn::Periods)
     };
     let basis = Basis::new(1);

@@ -62,8 +62,8 @@ fn scene(effort: &Effort, concentration_per_cm3: f64) -> Scene {
     let mut scene = lab::interacting_scene(effort);
     lab::interaction(&mut scene).concentration_per_cm3 = Some(concentration_per_cm3);
     scene.particles.count = RODS;
-    scene.time.periods = Some(0.5);
-    scene.time.steps_per_period = Some(STEPS_PER_PERIOD);
+    scene.time.duration = 0.5;
+    scene.time.steps_per_unit = Some(STEPS_PER_PERIOD);
     scene
 }
 

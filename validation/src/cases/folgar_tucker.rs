@@ -74,7 +74,7 @@ fn seven(read: &fn(f64) -> f64, effort: &Effort) -> Vec<Evidence> {
         [0.02, 1.0].map(|n_a3| {
             let setting = Setting { n_a3, aspect_ratio: 11.6, alpha: 0.5, finer: 4 };
             let mut scene = coefficients::scene(setting, effort);
-            scene.time.periods = Some(8.0);
+            scene.time.duration = 8.0;
             let windows = coefficients::windows(&scene, samples);
             windows.iter().map(|(means, _)| means.coefficient(shape_factor(11.6))).collect()
         })

@@ -22,8 +22,8 @@ pub fn cases() -> Vec<Case> {
             .mistake("aspect ratios spread by 3.6 %", |scene| scene.particles.aspect_ratio_sd_percent = 3.6)
             .mistake("the flow turned round", |scene| {
                 // u_1 = G x_2: axes 1 and 2 exchanged.
-                scene.flow.shear_rate_per_s = None;
-                scene.flow.gradient_per_s = Some([[0.0, 0.5, 0.0], [0.0; 3], [0.0; 3]]);
+                scene.flow =
+                    shearbed::scene::Flow::Gradient { gradient_per_s: [[0.0, 0.5, 0.0], [0.0; 3], [0.0; 3]] };
             })
             .check(uniform_rods),
         Case::core("free-polydisperse")
@@ -91,8 +91,8 @@ fn compare(
     expected: impl Fn(f64) -> [f64; 3],
 ) -> Vec<Evidence> {
     scene.particles.count = effort.samples(DESIGN) as usize;
-    scene.time.periods = Some(3.0);
-    scene.time.outputs_per_period = Some(7);
+    scene.time.duration = 3.0;
+    scene.time.outputs_per_unit = Some(7);
     let (r, sd) = (scene.particles.aspect_ratio, scene.particles.aspect_ratio_sd_percent);
     change(&mut scene);
     let results = ensemble::run(&lab::plan(&scene));
@@ -119,8 +119,8 @@ fn compare(
 fn half_period(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let mut scene = lab::free_scene(effort);
     scene.particles.count = 1000;
-    scene.time.periods = Some(5.0);
-    scene.time.outputs_per_period = Some(20);
+    scene.time.duration = 5.0;
+    scene.time.outputs_per_unit = Some(20);
     change(&mut scene);
     let mut worst = 0.0f64;
     match ensemble::run(&lab::plan(&scene)) {

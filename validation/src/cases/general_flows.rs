@@ -68,11 +68,8 @@ pub fn cases() -> Vec<Case> {
                 })
             .mistake("nearly plane taken as plane: the flow along axis 3 left out", |scene| {
                         let mut plane = scene.clone();
-                        if let Some(rows) = plane
-                            .flow
-                            .gradient_per_s
-                            .as_mut()
-                            .filter(|rows| rows[2][2].abs() < 1e-4)
+                        if let shearbed::scene::Flow::Gradient { gradient_per_s: rows } = &mut plane.flow
+                            && rows[2][2].abs() < 1e-4
                         {
                             let third = rows[2][2];
                             rows.iter_mut()

@@ -102,15 +102,11 @@ fn ends(
 fn scene(effort: &Effort, count: usize, gradient: Gradient, box_mm: [f64; 3]) -> Scene {
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = count;
-    (scene.flow.shear_rate_per_s, scene.flow.gradient_per_s) = (None, Some(gradient));
+    scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s: gradient };
     let interaction = lab::interaction(&mut scene);
     (interaction.concentration_per_cm3, interaction.box_mm) = (None, Some(box_mm));
-    scene.time = Time {
-        strain: Some(1.0),
-        steps_per_strain: Some(STEPS_PER_STRAIN),
-        outputs_per_strain: Some(1),
-        ..Time::default()
-    };
+    scene.time =
+        Time { steps_per_unit: Some(STEPS_PER_STRAIN), outputs_per_unit: Some(1), ..Time::strain(1.0) };
     scene
 }
 

@@ -62,8 +62,9 @@ pub fn cases() -> Vec<Case> {
                 scene.particles.aspect_ratio *= 1.0 + 1e-6;
             })
             .mistake("−G for G", |scene| {
-                scene.flow.shear_rate_per_s = None;
-                scene.flow.gradient_per_s = Some([[0.0; 3], [-0.5, 0.0, 0.0], [0.0; 3]]);
+                scene.flow = shearbed::scene::Flow::Gradient {
+                    gradient_per_s: [[0.0; 3], [-0.5, 0.0, 0.0], [0.0; 3]],
+                };
             })
             .mistake("φ from axis 2", |scene| {
                 if let Orientation::Given { phi_deg, .. } = &mut scene.particles.orientation {
@@ -130,8 +131,8 @@ fn one_rod(change: &Change, effort: &Effort) -> Vec<Evidence> {
             scene.particles.count = 1;
             scene.particles.aspect_ratio = r;
             scene.particles.orientation = Orientation::Given { phi_deg, theta_deg };
-            scene.time.periods = Some(3.0);
-            scene.time.outputs_per_period = Some(OUTPUTS as u64);
+            scene.time.duration = 3.0;
+            scene.time.outputs_per_unit = Some(OUTPUTS as u64);
             scene.output.observables =
                 vec![Observable::OrientationTensor, Observable::MeanAngle, Observable::OrbitConstant];
             change(&mut scene);

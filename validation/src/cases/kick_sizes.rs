@@ -41,7 +41,7 @@ fn heavy((angles, min_arm): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
     let interaction = lab::interaction(&mut run);
     (interaction.concentration_per_cm3, interaction.alpha) = (Some(400.0), 2.0);
     interaction.min_contact_arm = *min_arm;
-    run.time.steps_per_period = Some(200);
+    run.time.steps_per_unit = Some(200);
     // By theory the deviation of one kick's share is α = 1; pilots at seeds 9001 to 9010 scattered by 1.07 and 0.97 of
     // that. A fresh replica has 11.3 such kicks, one of a run 61: for Poisson numbers a tenth of room.
     let design = Design::new(0.2, 1.1);

@@ -119,8 +119,8 @@ pub(super) fn fresh_scene(effort: &Effort, count: usize, steps_per_period: u64) 
     scene.particles.count = count;
     let interaction = lab::interaction(&mut scene);
     (interaction.concentration_per_cm3, interaction.alpha) = (Some(400.0), 2.0);
-    scene.time.steps_per_period = Some(steps_per_period);
-    scene.time.outputs_per_period = Some(1);
+    scene.time.steps_per_unit = Some(steps_per_period);
+    scene.time.outputs_per_unit = Some(1);
     scene
 }
 

@@ -159,8 +159,8 @@ fn changes(model: Model, effort: &Effort, replicas: u64) -> Vec<f64> {
 
 fn by_core(change: fn(&mut Interaction), effort: &Effort, replicas: u64) -> Vec<f64> {
     let mut scene = lab::interacting_scene(effort);
-    scene.time.periods = Some(0.5);
-    scene.time.outputs_per_period = Some(2);
+    scene.time.duration = 0.5;
+    scene.time.outputs_per_unit = Some(2);
     let interaction = lab::interaction(&mut scene);
     interaction.concentration_per_cm3 = Some(CONCENTRATION_PER_CM3);
     change(interaction);

@@ -100,7 +100,7 @@ fn reductions(limits: &Limits, effort: &Effort) -> Vec<Evidence> {
     one_free.particles.count = limits.count;
 
     let mut uniform = lab::free_scene(effort);
-    uniform.time.periods = Some(3.0);
+    uniform.time.duration = 3.0;
     let mut narrow = uniform.clone();
     narrow.particles.aspect_ratio_sd_percent = limits.sd_percent;
 
@@ -131,8 +131,8 @@ fn reductions(limits: &Limits, effort: &Effort) -> Vec<Evidence> {
 
 fn standard_errors(standard_error: &StandardError, effort: &Effort) -> Vec<Evidence> {
     let mut scene = lab::interacting_scene(effort);
-    scene.time.periods = Some(0.5);
-    scene.time.outputs_per_period = Some(10);
+    scene.time.duration = 0.5;
+    scene.time.outputs_per_unit = Some(10);
     scene.ensemble.replicas = 16;
     let over_replicas = run(&scene).map_or(f64::NAN, |results| {
         let expected = |output| standard_error(&per_replica(&scene, 16, |mean| mean(Channel::X[0], output)));
@@ -141,7 +141,7 @@ fn standard_errors(standard_error: &StandardError, effort: &Effort) -> Vec<Evide
     // One replica of rods whose projections at t = 0 are known one by one.
     let mut one = lab::free_scene(effort);
     one.particles.count = 16;
-    one.time.periods = Some(0.0);
+    one.time.duration = 0.0;
     let mut watched = lab::interacting_scene(effort);
     watched.particles.count = 16;
     let directions = lab::suspension(&watched, 0).directions();

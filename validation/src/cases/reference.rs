@@ -154,7 +154,10 @@ fn compare(scene: &Scene, replica: u64, mistake: Option<Mistake>, off: &mut Off)
     let length_mm = scene.particles.length_mm;
     let mut model = Model::new(scene, replica, mistake);
     let mut reference = Naive::new(problem(scene, replica, None));
-    let units = scene.time.strain.unwrap_or(1.0) as u64;
+    let units = match scene.time.unit {
+        scene::TimeUnit::Strain => scene.time.duration as u64,
+        scene::TimeUnit::Period => 1,
+    };
     for _ in 0..units * scene.steps_per_unit() {
         let before = state(&reference, length_mm);
         reference.step();
@@ -208,15 +211,15 @@ fn in_a_box(scene: &mut Scene, sides: [f64; 3]) {
     let per_mm3 = 1e-3 * scene.concentration_per_cm3().unwrap_or(f64::NAN);
     let cube = (scene.particles.count as f64 / per_mm3).cbrt();
     scene.particles.length_sd_percent = 20.0;
-    scene.time.steps_per_period = Some(50);
+    scene.time.steps_per_unit = Some(50);
     let interaction = lab::interaction(scene);
     (interaction.concentration_per_cm3, interaction.box_mm) = (None, Some(sides.map(|side| side * cube)));
 }
 
 /// Two units of strain in a flow with this gradient.
 fn in_a_flow(scene: &mut Scene, gradient_per_s: [[f64; 3]; 3]) {
-    (scene.flow.shear_rate_per_s, scene.flow.gradient_per_s) = (None, Some(gradient_per_s));
-    scene.time = scene::Time { strain: Some(2.0), steps_per_strain: Some(10), ..scene::Time::default() };
+    scene.flow = scene::Flow::Gradient { gradient_per_s: gradient_per_s };
+    scene.time = scene::Time { steps_per_unit: Some(10), ..scene::Time::strain(2.0) };
 }
 
 /// Scenes of 2 to 400 rods; the small ones are dense enough to collide.
@@ -238,14 +241,14 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
         scene(100, 100.0, |scene| {
             scene.particles.orientation = Orientation::Given { phi_deg: 30.0, theta_deg: 70.0 };
             lab::interaction(scene).min_contact_arm = 0.1;
-            scene.time.steps_per_period = Some(100);
+            scene.time.steps_per_unit = Some(100);
         }),
         scene(200, 50.0, |_| {}),
         // Enough to be sorted into cells, thin and dense.
-        scene(400, 50.0, |scene| scene.time.steps_per_period = Some(50)),
+        scene(400, 50.0, |scene| scene.time.steps_per_unit = Some(50)),
         scene(300, 1000.0, |scene| {
             lab::interaction(scene).min_contact_arm = 0.1;
-            scene.time.steps_per_period = Some(50);
+            scene.time.steps_per_unit = Some(50);
         }),
         // Rods of unequal length, in a cube and in boxes: of pairs, of cells, and one that is a cell thick.
         scene(100, 1000.0, |scene| {

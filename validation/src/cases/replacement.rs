@@ -122,7 +122,7 @@ fn follow(volume: &Volume, effort: &Effort, count: usize) -> Places {
         Volume::Core { step } => *step,
         Volume::Wrong(_) => 1,
     };
-    scene.time.steps_per_period = Some(STEPS_PER_PERIOD / step);
+    scene.time.steps_per_unit = Some(STEPS_PER_PERIOD / step);
     let strain = strain_per_period(scene.particles.aspect_ratio) / scene.steps_per_unit() as f64;
     let mut suspension = lab::suspension(&scene, 0);
     let sides = suspension.sides_in_lengths();

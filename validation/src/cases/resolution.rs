@@ -14,8 +14,8 @@ pub fn scene(effort: &Effort, aspect_ratio: f64, concentration_per_cm3: f64) -> 
     let mut scene = lab::interacting_scene(effort);
     scene.particles.aspect_ratio = aspect_ratio;
     lab::interaction(&mut scene).concentration_per_cm3 = Some(concentration_per_cm3);
-    scene.time.periods = Some(0.5);
-    scene.time.outputs_per_period = Some(2);
+    scene.time.duration = 0.5;
+    scene.time.outputs_per_unit = Some(2);
     scene
 }
 
@@ -27,7 +27,7 @@ pub fn steps(aspect_ratio: f64, strain: f64) -> u64 {
 /// X̄₁ at t/T = ½ of replicas 0 to `replicas`, at so many steps a period.
 pub fn x1(scene: &Scene, steps_per_period: u64, replicas: u64) -> Vec<f64> {
     let mut scene = scene.clone();
-    scene.time.steps_per_period = Some(steps_per_period);
+    scene.time.steps_per_unit = Some(steps_per_period);
     lab::per_replica(&scene, replicas, |mean| mean(Channel::X[0], 1))
 }
 

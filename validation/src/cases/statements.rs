@@ -24,8 +24,8 @@ pub fn cases() -> Vec<Case> {
                 // r_e + 1/r_e 6 % larger; steps and outputs as far apart as before, in seconds.
                 let sum = 1.06 * (11.6 + 1.0 / 11.6);
                 scene.particles.aspect_ratio = 0.5 * (sum + f64::sqrt(sum * sum - 4.0));
-                scene.time.steps_per_period = Some(212);
-                scene.time.outputs_per_period = Some(53);
+                scene.time.steps_per_unit = Some(212);
+                scene.time.outputs_per_unit = Some(53);
             })
             .check(period),
         Case::statement("hundred-rods-suffice")
@@ -71,9 +71,9 @@ fn period(change: &Change, effort: &Effort) -> Vec<Evidence> {
         .map(|(name, kind)| {
             let mut scene = lab::free_scene(effort);
             kind(&mut scene);
-            scene.time.periods = Some(4.0);
-            scene.time.steps_per_period = Some(200);
-            scene.time.outputs_per_period = Some(50);
+            scene.time.duration = 4.0;
+            scene.time.steps_per_unit = Some(200);
+            scene.time.outputs_per_unit = Some(50);
             change(&mut scene);
             let frequencies = per_replica(&scene, effort.samples(design), |mean| {
                 let series: Vec<f64> = (0..=200).map(|output| mean(Channel::X[0], output)).collect();
@@ -134,8 +134,8 @@ fn enough_rods(count: &Count, effort: &Effort) -> Vec<Evidence> {
         let mut scene = lab::interacting_scene(effort);
         scene.ensemble.seed = effort.seed(stream);
         scene.particles.count = count;
-        scene.time.periods = Some(2.0);
-        scene.time.outputs_per_period = Some(1);
+        scene.time.duration = 2.0;
+        scene.time.outputs_per_unit = Some(1);
         per_replica(&scene, replicas, |mean| {
             [1, 2].map(|output| mean(Channel::X[0], output) - mean(Channel::X[0], 0))
         })
@@ -169,8 +169,8 @@ type Periods = f64;
 fn stays_put(from: &Periods, effort: &Effort) -> Vec<Evidence> {
     let mut scene = lab::interacting_scene(effort);
     lab::interaction(&mut scene).concentration_per_cm3 = Some(1000.0);
-    scene.time.periods = Some(from + 2.0);
-    scene.time.outputs_per_period = Some(10);
+    scene.time.duration = from + 2.0;
+    scene.time.outputs_per_unit = Some(10);
     let start = (*from as usize) * 10;
     // From the start X̄_2 and X̄_3 drift by 0.044 and 0.056 in a pilot of 100 replicas; the steady state scattered by 0.005,
     // 0.008 and 0.011.
@@ -208,8 +208,8 @@ fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {
         scene.particles.aspect_ratio = 3.96;
         scene.particles.aspect_ratio_sd_percent = 3.0;
         lab::interaction(&mut scene).concentration_per_cm3 = Some(500.0);
-        scene.time.steps_per_period = Some(steps_per_period);
-        scene.time.outputs_per_period = Some(5);
+        scene.time.steps_per_unit = Some(steps_per_period);
+        scene.time.outputs_per_unit = Some(5);
         let mut free = scene.clone();
         lab::interaction(&mut free).alpha = 0.0;
         // Every rod's own difference, not that of the means.

@@ -31,7 +31,7 @@ fn steady_angle(change: &Change, effort: &Effort) -> Vec<Evidence> {
         scene.particles.count = 50;
         scene.particles.aspect_ratio = r;
         lab::interaction(&mut scene).concentration_per_cm3 = Some(500.0);
-        scene.time.periods = Some(6.0);
+        scene.time.duration = 6.0;
         scene.output.observables = vec![Observable::MeanAngle];
         change(&mut scene);
         let outputs = 6 * 50;

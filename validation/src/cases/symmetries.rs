@@ -89,8 +89,8 @@ fn symmetries(mapping: &Mapping, effort: &Effort) -> Vec<Evidence> {
     let n = &mut lab::interaction(&mut lengths).concentration_per_cm3;
     *n = n.map(|n| n / mapping.per_volume);
     let mut times = base.clone();
-    times.flow.shear_rate_per_s = Some(0.5e-30);
-    times.time.steps_per_period = Some(mapping.steps_per_period);
+    times.flow = shearbed::scene::Flow::Shear { shear_rate_per_s: 0.5e-30 };
+    times.time.steps_per_unit = Some(mapping.steps_per_period);
 
     let given = |scene: &Scene, [phi_deg, theta_deg]: [f64; 2]| {
         let mut scene = scene.clone();
@@ -99,13 +99,12 @@ fn symmetries(mapping: &Mapping, effort: &Effort) -> Vec<Evidence> {
     };
     // A fifth of a period: kicks grow the 10⁻¹⁶ of the turned start.
     let mut short = base.clone();
-    short.time.periods = Some(0.2);
+    short.time.duration = 0.2;
     let head = given(&short, [25.0, 70.0]);
     let tail = given(&short, mapping.tail_deg);
 
     let mut mirror = lab::free_scene(effort);
-    mirror.flow.shear_rate_per_s = None;
-    mirror.flow.gradient_per_s = Some([[0.0; 3], [-0.5, 0.0, 0.0], [0.0; 3]]);
+    mirror.flow = shearbed::scene::Flow::Gradient { gradient_per_s: [[0.0; 3], [-0.5, 0.0, 0.0], [0.0; 3]] };
     let mirror = given(&mirror, [mapping.mirrored_phi_deg, 70.0]);
     let straight = given(&lab::free_scene(effort), [25.0, 70.0]);
 
@@ -137,8 +136,8 @@ fn symmetries(mapping: &Mapping, effort: &Effort) -> Vec<Evidence> {
 fn relabelled(directions_too: bool, effort: &Effort) -> f64 {
     let mut scene = lab::interacting_scene(effort);
     lab::interaction(&mut scene).alpha = 1e30;
-    scene.time.steps_per_period = Some(10_000_000);
-    scene.time.outputs_per_period = Some(1);
+    scene.time.steps_per_unit = Some(10_000_000);
+    scene.time.outputs_per_unit = Some(1);
     let mut first = lab::suspension(&scene, 0);
     // Away from the faces normal to axis 2.
     let mut places = first.positions_in_lengths().clone();
@@ -164,10 +163,11 @@ fn relabelled(directions_too: bool, effort: &Effort) -> f64 {
 
 fn mirrored(mirror: &Mirror, effort: &Effort) -> Vec<Evidence> {
     let mut straight = lab::interacting_scene(effort);
-    straight.time.outputs_per_period = Some(1);
+    straight.time.outputs_per_unit = Some(1);
     let mut mirrored = straight.clone();
-    mirrored.flow.shear_rate_per_s = None;
-    mirrored.flow.gradient_per_s = Some([[0.0; 3], [mirror.shear_rate_per_s, 0.0, 0.0], [0.0; 3]]);
+    mirrored.flow = shearbed::scene::Flow::Gradient {
+        gradient_per_s: [[0.0; 3], [mirror.shear_rate_per_s, 0.0, 0.0], [0.0; 3]],
+    };
     mirrored.ensemble.seed = effort.seed(2);
     lab::interaction(&mut mirrored).concentration_per_cm3 = Some(mirror.concentration_per_cm3);
     // Pilots at seed 99 of 600 replicas: changes over a period of −0.089, 0.140 and −0.089, which scatter by 0.022, 0.034

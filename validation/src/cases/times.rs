@@ -5,6 +5,7 @@ use crate::judge::lab::{changed, free_scene, plan};
 use crate::judge::statistics::larger;
 use crate::oracle::closed_form;
 use shearbed::scene::Scene;
+use shearbed::scene::{Flow, TimeUnit};
 use std::f64::consts::TAU;
 
 /// The seconds and the strain of one unit of a run's times: a period, or a unit of strain.
@@ -33,14 +34,14 @@ pub fn cases() -> Vec<Case> {
             .mistake("strain for seconds", |scene| [unit(scene)[1]; 2])
             .mistake("the shear rate with its sign", |scene| {
                 let [seconds, strain] = unit(scene);
-                let sign = scene.flow.gradient_per_s.map_or(1.0, |l| l[1][0].signum());
+                let sign = scene.flow.gradient_per_s().map_or(1.0, |l| l[1][0].signum());
                 [seconds * sign, strain]
             })
             .mistake("(D:D)^½ for the rate of strain", |scene| {
                 let [seconds, strain] = unit(scene);
-                match scene.time.strain {
-                    Some(_) => [seconds * 2f64.sqrt(), strain],
-                    None => [seconds, strain / 2f64.sqrt()],
+                match scene.time.unit {
+                    TimeUnit::Strain => [seconds * 2f64.sqrt(), strain],
+                    TimeUnit::Period => [seconds, strain / 2f64.sqrt()],
                 }
             })
             .check(units),
@@ -74,9 +75,12 @@ fn couette(effort: &Effort) -> Vec<Expected> {
     let each = |shear_rate_per_s: f64, r: f64| {
         let scene = changed(free_scene(effort), |scene| {
             // A scene's shear rate is positive; the opposite one is a gradient.
-            scene.flow.shear_rate_per_s = Some(shear_rate_per_s).filter(|g| *g > 0.0);
-            scene.flow.gradient_per_s =
-                (shear_rate_per_s < 0.0).then_some([[0.0; 3], [shear_rate_per_s, 0.0, 0.0], [0.0; 3]]);
+            scene.flow = match shear_rate_per_s > 0.0 {
+                true => Flow::Shear { shear_rate_per_s },
+                false => {
+                    Flow::Gradient { gradient_per_s: [[0.0; 3], [shear_rate_per_s, 0.0, 0.0], [0.0; 3]] }
+                }
+            };
             scene.particles.aspect_ratio = r;
         });
         let period_s = closed_form::period_s(shear_rate_per_s.abs(), r);
@@ -91,8 +95,8 @@ fn couette(effort: &Effort) -> Vec<Expected> {
 fn elliptic(effort: &Effort) -> Vec<Expected> {
     let each = |[a, b]: [f64; 2], r: f64| {
         let scene = changed(free_scene(effort), |scene| {
-            scene.flow.shear_rate_per_s = None;
-            scene.flow.gradient_per_s = Some([[0.0, -a, 0.0], [b, 0.0, 0.0], [0.0; 3]]);
+            scene.flow =
+                shearbed::scene::Flow::Gradient { gradient_per_s: [[0.0, -a, 0.0], [b, 0.0, 0.0], [0.0; 3]] };
             scene.particles.aspect_ratio = r;
         });
         let (spin, shear) = (0.5 * (a + b), 0.5 * (b - a));
@@ -111,9 +115,8 @@ fn strained(effort: &Effort) -> Vec<Expected> {
     [(extension(0.5), 0.5 * 3f64.sqrt()), (extension(-7.0), 7.0 * 3f64.sqrt()), (shear(0.3), 0.3)]
         .map(|(gradient_per_s, rate_per_s)| {
             let scene = changed(free_scene(effort), |scene| {
-                scene.flow.shear_rate_per_s = None;
-                scene.flow.gradient_per_s = Some(gradient_per_s);
-                (scene.time.periods, scene.time.strain) = (None, Some(2.0));
+                scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s: gradient_per_s };
+                scene.time = shearbed::scene::Time::strain(2.0);
             });
             (scene, [1.0 / rate_per_s, 1.0])
         })

@@ -73,8 +73,8 @@ fn x1(shape: Shape, effort: &Effort) -> Arc<Vec<f64>> {
         let interaction = lab::interaction(&mut scene);
         (interaction.concentration_per_cm3, interaction.box_mm) =
             (None, Some(shape.map(|share| share * side)));
-        scene.time.periods = Some(0.5);
-        scene.time.outputs_per_period = Some(2);
+        scene.time.duration = 0.5;
+        scene.time.outputs_per_unit = Some(2);
         lab::per_replica(&scene, effort.samples(DESIGN), |mean| mean(Channel::X[0], 1))
     })
 }

@@ -100,7 +100,7 @@ fn replicas(number: &Number, effort: &Effort) -> Vec<Evidence> {
     const COUNT: usize = 10;
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = COUNT;
-    scene.time.steps_per_period = Some(20);
+    scene.time.steps_per_unit = Some(20);
     // Pilot of 2,360 groups at seeds 9001 to 9010: 0.075; a tenth of room.
     let design = Design::new(0.065, 0.083);
     let x1 = |replica| {
@@ -143,7 +143,7 @@ fn faces(exponent: &Exponent, effort: &Effort) -> Vec<Evidence> {
     const RODS: [usize; 2] = [64, 512];
     let mut scene = lab::interacting_scene(effort);
     // So short that nobody moves: the rods are at random places.
-    scene.time.steps_per_period = Some(100_000);
+    scene.time.steps_per_unit = Some(100_000);
     let interaction = lab::interaction(&mut scene);
     (interaction.alpha, interaction.m) = (ALPHA_AND_M, ALPHA_AND_M);
     let per_mm3 = 1e-3 * scene.concentration_per_cm3().unwrap_or(f64::NAN);

@@ -2,15 +2,16 @@
 
 use serde_json::{Map, Value, json};
 use shearbed::Observable;
-use shearbed::scene::{Absent, Holds, KEYS, Key, TABLES};
+use shearbed::scene::{Absent, Holds, Key, TABLES, keys};
 
 /// Each key with what it means, its unit, what it may hold, and what it is where it is not given.
 pub fn rows() -> impl Iterator<Item = [String; 5]> {
-    KEYS.iter().map(|key| {
+    keys().map(|key| {
         let absent = match key.absent {
-            Absent::Refused => "must be given".to_owned(),
+            Absent::Required => "must be given".to_owned(),
             Absent::Default(value) => value.to_owned(),
             Absent::Other(words) => words.to_owned(),
+            _ => String::new(),
         };
         [key.path.into(), key.meaning.into(), key.unit.into(), key.holds.to_string(), absent]
     })
@@ -34,35 +35,30 @@ pub fn markdown() -> String {
 
 /// As a JSON Schema of whole scenes.
 pub fn schema() -> Value {
-    let of_table = |table: &str| {
-        let inner = |key: &&Key| key.path.rsplit_once('.').map_or("", |(above, _)| above) == table;
-        let within: Vec<_> = KEYS.iter().chain(&TABLES).filter(inner).collect();
-        (within, table.to_owned())
-    };
-    let mut whole = object(of_table("").0, &|table| object(of_table(table).0, &|_| Value::Null));
+    let title = keys().take_while(|key| !key.path.contains('.'));
+    let tables =
+        TABLES.iter().map(|table| (&table.key, Some(object(table.keys.iter().map(|key| (key, None))))));
+    let mut whole = object(title.map(|key| (key, None)).chain(tables));
     whole["$schema"] = "https://json-schema.org/draft/2020-12/schema".into();
     whole["title"] = "A scene of shearbed".into();
     whole
 }
 
-fn object(keys: Vec<&Key>, table: &dyn Fn(&str) -> Value) -> Value {
-    let name = |key: &Key| key.path.rsplit('.').next().unwrap_or_default().to_owned();
-    let required: Vec<_> =
-        keys.iter().filter(|key| key.absent == Absent::Refused).map(|key| name(key)).collect();
-    let properties: Map<_, _> = keys
-        .iter()
-        .map(|key| {
-            let mut value = match key.holds {
-                Holds::Table(_) => table(key.path),
-                _ => holds(&key.holds),
-            };
-            value["description"] = match key.unit {
-                "" => key.meaning.into(),
-                unit => format!("{}, in {unit}", key.meaning).into(),
-            };
-            (name(key), value)
-        })
-        .collect();
+/// An object with these keys; a table comes with its own object.
+fn object<'a>(keys: impl Iterator<Item = (&'a Key, Option<Value>)>) -> Value {
+    let (mut properties, mut required) = (Map::new(), Vec::new());
+    for (key, table) in keys {
+        let name = key.path.rsplit('.').next().unwrap_or_default();
+        let mut value = table.unwrap_or_else(|| holds(&key.holds));
+        value["description"] = match key.unit {
+            "" => key.meaning.into(),
+            unit => format!("{}, in {unit}", key.meaning).into(),
+        };
+        properties.insert(name.to_owned(), value);
+        if key.absent == Absent::Required {
+            required.push(name);
+        }
+    }
     json!({ "type": "object", "properties": properties, "required": required, "additionalProperties": false })
 }
 

@@ -1,7 +1,7 @@
 //! The built-in scenes: the paper's figures, one file each in `validation/scenes/`, declared once here.
 
 use shearbed::Scene;
-use shearbed::scene::{self, SceneError};
+use shearbed::{Error, scene};
 
 /// A scene that is part of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,7 +14,7 @@ pub struct BuiltIn {
 
 impl BuiltIn {
     /// Reads and checks the scene.
-    pub fn scene(&self) -> Result<Scene, SceneError> {
+    pub fn scene(&self) -> Result<Scene, Error> {
         scene::parse(&format!("{}.toml", self.name), self.text)
     }
 }

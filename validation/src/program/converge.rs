@@ -50,7 +50,7 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let at = |message: String| format!("{}: {message}", named.source);
     let plan = named.plan()?;
     if plan.keeps(Stage::Contacts) && !law::judges(&plan) {
-        let (key, steps) = (named.scene.steps_key(), named.scene.steps_per_unit());
+        let (key, steps) = (named.scene.time.unit.steps_key(), named.scene.steps_per_unit());
         return Err(Failure::Input(at(format!(
             "converge of interacting rods needs plane Couette flow, only ∂u_2/∂x_1 other than 0, and time.periods; \
              else halve the time step and compare: sweep --over {key}={steps},{},{}",
@@ -113,7 +113,7 @@ fn done(tables: Vec<ReportTable>, files: Vec<(&str, Result<String, String>)>) ->
 
 /// Every fixed-step subject on one rod of the scene's mean aspect ratio, from its start, through its periods.
 fn free(scene: &Scene) -> Result<Done, Failure> {
-    if scene.flow.shear_rate_per_s.is_none() {
+    if scene.flow.shear_rate_per_s().is_none() {
         return Err(Failure::Input(
             "flow: the subjects turn rods in plane Couette flow; shear_rate_per_s is needed".into(),
         ));

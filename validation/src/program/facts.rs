@@ -139,19 +139,16 @@ fn thin_box(plan: &Plan) -> Option<String> {
     })
 }
 
-/// That the scene ends between two outputs, after the last of them nothing is run.
+/// A scene that ends between two outputs: nothing is run after the last of them.
 fn cut_short(plan: &Plan) -> Option<String> {
     let time = &plan.scene().time;
-    let (key, end) = match (time.strain, time.periods) {
-        (Some(strain), _) => ("strain", strain),
-        (None, periods) => ("periods", periods?),
-    };
+    let (key, end) = (time.unit.duration_key(), time.duration);
     let times = plan.times();
     let last = *times.last()?;
     // A product that was rounded is no end between outputs.
     (last < end * (1.0 - 1e-12)).then(|| {
         format!(
-            "time.{key} = {end} ends between two outputs: the last one is at {last}; outputs of which {end} is a multiple reach it"
+            "{key} = {end} ends between two outputs: the last one is at {last}; choose an output interval that divides {end}"
         )
     })
 }
@@ -168,7 +165,7 @@ mod tests {
         for (periods, last) in
             [(6.0, None), (0.3, None), (0.0, None), (0.35, Some("0.34")), (0.005, Some("at 0;"))]
         {
-            scene.time.periods = Some(periods);
+            scene.time.duration = periods;
             let told = told(&scene);
             assert_eq!(told.is_some(), last.is_some(), "{periods}: {told:?}");
             assert!(told.is_none_or(|told| told.contains(last.unwrap())));

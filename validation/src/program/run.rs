@@ -14,8 +14,8 @@ use crate::files::text::line;
 use crate::input::start::Starts;
 use crate::present::plot;
 use serde_json::json;
+use shearbed::Error;
 use shearbed::run::resume::Halfway;
-use shearbed::suspension::RunError;
 use shearbed::{Plan, Results};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -170,7 +170,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// The results of a run that did not stop: where it did, the scene asks for what cannot be computed. Nothing is written
 /// then, and what an earlier run left stays.
-fn ended<T>(source: &str, results: Result<T, RunError>) -> Result<T, Failure> {
+fn ended<T>(source: &str, results: Result<T, Error>) -> Result<T, Failure> {
     results.map_err(|error| Failure::Input(format!("{source}: {error}")))
 }
 
@@ -208,7 +208,7 @@ mod tests {
 
     #[test]
     fn a_run_that_stops_is_a_failure_that_names_the_rod() {
-        let stopped = RunError::NonFinite {
+        let stopped = Error::NonFinite {
             rod: 7,
             step: 41,
             seed: 3,

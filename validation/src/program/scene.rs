@@ -8,9 +8,10 @@ use crate::files::text::line;
 use crate::input::scenes;
 use crate::input::start::Starts;
 use crate::serve::sweep::{self, Axis, Setting};
-use shearbed::scene;
+use shearbed::scene::document::Document;
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
-use shearbed::{Plan, Scene};
+use shearbed::scene::{Problem, of_document};
+use shearbed::{Error, Plan, Scene};
 use std::ffi::{OsStr, OsString};
 use std::io::Write;
 use std::path::Path;
@@ -66,6 +67,8 @@ pub(super) struct Named {
     pub(super) scene: Scene,
     /// The text it was read from.
     pub(super) text: String,
+    /// The same with the keys that were set.
+    document: Document,
     /// The keys set in place of the text's.
     pub(super) settings: Vec<Setting>,
     /// The file as given, or the built-in scene's name: for messages.
@@ -79,16 +82,21 @@ pub(super) struct Named {
 impl Named {
     /// Its plan; an error names the line of the key, or the keys that were set.
     pub(super) fn plan(&self) -> Result<Plan, Failure> {
-        Plan::new(&self.scene).map_err(|invalid| match self.settings.is_empty() {
-            true => Failure::Input(scene::located(&self.source, &self.text, invalid).to_string()),
-            false => self.refused(&invalid.to_string()),
-        })
+        Plan::new(&self.scene).map_err(|error| self.refused(self.document.located(error)))
     }
 
-    fn refused(&self, error: &str) -> Failure {
+    /// Mistakes of the file with their lines, those of keys that were set with `--set`.
+    fn refused(&self, error: Error) -> Failure {
+        let Error::Text { problems, .. } = &error else {
+            return refused(&self.source, &error.to_string());
+        };
         let set = |setting: &Setting| format!(" --set {}={}", setting.key, sweep::shown(&setting.value));
         let set: String = self.settings.iter().map(set).collect();
-        Failure::Input(format!("{}{set}: {error}", self.source))
+        let line = |problem: &Problem| match problem.line {
+            Some(line) => format!("{}:{line}: {}", self.source, problem.message),
+            None => format!("{}{set}: {}", self.source, problem.message),
+        };
+        Failure::Input(problems.iter().map(line).collect::<Vec<_>>().join("\n"))
     }
 
     fn with(mut self, settings: Vec<Setting>) -> Result<Self, Failure> {
@@ -96,7 +104,11 @@ impl Named {
             return Ok(self);
         }
         self.settings = settings;
-        self.scene = sweep::scene_with(&self.text, &self.settings).map_err(|error| self.refused(&error))?;
+        for Setting { key, value } in &self.settings {
+            let set = self.document.set(key, value.clone());
+            set.map_err(|error| self.refused(error))?;
+        }
+        self.scene = of_document(&self.document).map_err(|error| self.refused(error))?;
         self.starts.fill(&mut self.scene).map_err(|error| refused(&self.source, &error))?;
         Ok(self)
     }
@@ -111,18 +123,19 @@ pub(super) fn load(given: &OsStr) -> Result<Named, Failure> {
     let path = Path::new(given);
     let source = path.shown();
     let built_in = scenes::find(&source).filter(|_| !path.exists() || path.is_dir());
-    if let Some(built_in) = built_in {
-        let scene = built_in.scene().map_err(|error| Failure::Input(error.to_string()))?;
-        let stem = source.clone();
-        let text = built_in.text.to_owned();
-        return Ok(Named { scene, text, settings: Vec::new(), source, starts: Starts::default(), stem });
-    }
-    let text = read(path)?;
-    let mut scene = scene::parse(&source, &text).map_err(|error| Failure::Input(error.to_string()))?;
-    let mut starts = Starts::beside(path.parent().unwrap_or(Path::new("")));
+    let (text, stem, mut starts) = match built_in {
+        Some(built_in) => (built_in.text.to_owned(), source.clone(), Starts::default()),
+        None => {
+            let stem = path.file_stem().unwrap_or(given).to_string_lossy().into_owned();
+            (read(path)?, stem, Starts::beside(path.parent().unwrap_or(Path::new(""))))
+        }
+    };
+    let name = if built_in.is_some() { format!("{source}.toml") } else { source.clone() };
+    let input = |error: Error| Failure::Input(error.to_string());
+    let document = Document::parse(&name, &text).map_err(input)?;
+    let mut scene = of_document(&document).map_err(input)?;
     starts.fill(&mut scene).map_err(|error| refused(&source, &error))?;
-    let stem = path.file_stem().unwrap_or(given).to_string_lossy().into_owned();
-    Ok(Named { scene, text, settings: Vec::new(), source, starts, stem })
+    Ok(Named { scene, text, document, settings: Vec::new(), source, starts, stem })
 }
 
 /// Says on standard error, from the root, what the reader of the results should know before trusting them.

@@ -29,8 +29,8 @@ const TIMES: usize = 15;
 fn synthesise(data: &Path, folder: &str, scene_name: &str, observables: &[&str], alpha: f64) {
     let mut scene = scenes::find(scene_name).unwrap().scene().unwrap();
     scene.interaction.as_mut().unwrap().alpha = alpha;
-    scene.time.periods = Some(0.8);
-    scene.time.outputs_per_period = Some(200);
+    scene.time.duration = 0.8;
+    scene.time.outputs_per_unit = Some(200);
     scene.ensemble.replicas = RODS / scene.particles.count as u64;
     scene.ensemble.seed = 1982;
     let results = ensemble::run(&Plan::new(&scene).unwrap()).unwrap();

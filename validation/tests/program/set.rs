@@ -52,7 +52,7 @@ fn keys_are_set_on_the_command_line_as_a_file_would() {
             "--set particles.count=1 --set particles={count=7,length_mm=1,aspect_ratio=5,orientation=\"isotropic\"}",
             "--set particles and --set particles.count: both set particles.count",
         ),
-        ("--set title.x=1", "is no table"),
+        ("--set title.x=1", "title is not a table"),
     ] {
         let ended = shearbed(dir.path(), &format!("run small.toml {set} --out c"));
         assert_eq!(ended.code, Some(2), "{set}: {}", ended.stderr);

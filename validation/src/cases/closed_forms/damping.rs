@@ -17,8 +17,8 @@ pub(super) fn spread_damping(factor: &Factor, effort: &Effort) -> Vec<Evidence> 
         let s = sd / 100.0 * (r * r - 1.0) / (r * r + 1.0);
         let end = 1.0 / (2.0 * SQRT_2 * PI * s);
         scene.particles.aspect_ratio_sd_percent = sd * factor;
-        scene.time.outputs_per_period = Some(40);
-        scene.time.periods = Some(end.round() + 1.0);
+        scene.time.outputs_per_unit = Some(40);
+        scene.time.duration = end.round() + 1.0;
         // Half a period is 20 outputs; the window closest to the predicted time.
         let middle = (end * 40.0).round() as usize;
         let harmonic = |from: usize, value: &dyn Fn(usize) -> f64| {
@@ -58,7 +58,7 @@ pub(super) fn in_plane_start(change: &Change, effort: &Effort) -> Vec<Evidence> 
     let mut scene = lab::free_scene(effort);
     scene.particles.orientation = Orientation::Given { phi_deg: 30.0, theta_deg: 90.0 };
     scene.particles.count = 3;
-    scene.time.periods = Some(2.0);
+    scene.time.duration = 2.0;
     let r = scene.particles.aspect_ratio;
     change(&mut scene);
     let results = ensemble::run(&lab::plan(&scene));

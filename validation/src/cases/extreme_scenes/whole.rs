@@ -1,6 +1,7 @@
 //! Whole runs of free rods at the extremes.
 
 use super::*;
+use shearbed::scene::TimeUnit;
 
 /// tr⟨pp⟩ is the mean of |p|².
 pub(super) const TRACE: f64 = 64.0 * f64::EPSILON;
@@ -50,9 +51,12 @@ pub(super) fn by_exponential(scene: &Scene, rescaled: bool) -> Ended {
     let plan = lab::plan(scene);
     let flow = plan.flow();
     let r = scene.particles.aspect_ratio;
-    let strain = (scene.time.strain).or(scene.time.periods.map(|periods| periods * strain_per_period(r)));
+    let strain = match scene.time.unit {
+        TimeUnit::Strain => scene.time.duration,
+        TimeUnit::Period => scene.time.duration * strain_per_period(r),
+    };
     let a = flow.vorticity() + shape_factor(r) * flow.strain_rate();
-    let map: Matrix3<f64> = (a * (strain.unwrap_or(0.0) / flow.magnitude_per_s())).exp();
+    let map: Matrix3<f64> = (a * (strain / flow.magnitude_per_s())).exp();
     let q = map * Vector3::new(0.6, 0.0, 0.8);
     let p = if rescaled { q.normalize() } else { q };
     if !p.norm_squared().is_finite() {
@@ -77,8 +81,8 @@ pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence
         for g in [1e-30, 1e30] {
             scenes.push(scene(&|scene| {
                 scene.particles.aspect_ratio = r;
-                scene.flow.shear_rate_per_s = Some(g);
-                scene.time.outputs_per_period = Some(4);
+                scene.flow = shearbed::scene::Flow::Shear { shear_rate_per_s: g };
+                scene.time.outputs_per_unit = Some(4);
             }));
         }
         for (phi_deg, theta_deg) in
@@ -87,7 +91,7 @@ pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence
             scenes.push(scene(&|scene| {
                 scene.particles.aspect_ratio = r;
                 scene.particles.orientation = Orientation::Given { phi_deg, theta_deg };
-                scene.time.outputs_per_period = Some(4);
+                scene.time.outputs_per_unit = Some(4);
             }));
         }
     }
@@ -101,8 +105,8 @@ pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence
     scenes.push(scene(&|scene| {
         scene.particles.count = 1;
         scene.output.observables = FEW.to_vec();
-        scene.time.periods = Some(effort.pick(1e4, 1e5));
-        scene.time.outputs_per_period = Some(1);
+        scene.time.duration = effort.pick(1e4, 1e5);
+        scene.time.outputs_per_unit = Some(1);
     }));
     let (mut trace, mut failed, mut apart) = (0.0, 0.0, 0.0);
     for scene in &scenes {
@@ -116,14 +120,14 @@ pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence
             for r in [1.5, 1e8] {
                 let ended = program(&scene(&|scene| {
                     let [a, b, c] = rows;
-                    scene.flow.shear_rate_per_s = None;
-                    scene.flow.gradient_per_s = Some([[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]]);
+                    scene.flow = shearbed::scene::Flow::Gradient {
+                        gradient_per_s: [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]],
+                    };
                     scene.particles.aspect_ratio = r;
                     scene.particles.count = 1;
-                    scene.time.periods = None;
-                    scene.time.strain = Some(strain);
+                    scene.time = shearbed::scene::Time::strain(strain);
                     scene.output.observables = FEW.to_vec();
-                    scene.time.outputs_per_strain = Some(1);
+                    scene.time.outputs_per_unit = Some(1);
                 }));
                 trace = larger(trace, ended.trace);
                 failed += f64::from(!ended.finite);

@@ -39,8 +39,8 @@ fn simulated(effort: &Effort) -> Result<Simulated, String> {
     let range = Range::parse(RANGE)?;
     let mut scene = lab::interacting_scene(effort);
     scene.interaction = None;
-    scene.time.periods = Some(1.6);
-    scene.time.steps_per_period = None;
+    scene.time.duration = 1.6;
+    scene.time.steps_per_unit = None;
     let scenes = one_set(&scene, &range, effort.seed(72), TimeColumn::Strain)?;
     let mut points = data(|_| f64::NAN);
     for point in &mut points {

@@ -6,6 +6,7 @@ use crate::judge::lab;
 use crate::oracle::exponential::{Rod, Span};
 use shearbed::model::orientation::from_degrees;
 use shearbed::run::ensemble;
+use shearbed::scene::Time;
 use shearbed::scene::{Orientation, Scene};
 use shearbed::{Observable, Plan};
 
@@ -42,12 +43,11 @@ fn scene(&(gradient, r, [phi_deg, theta_deg], time): &Listed) -> Scene {
     scene.particles.count = 1;
     scene.particles.aspect_ratio = r;
     scene.particles.orientation = Orientation::Given { phi_deg, theta_deg };
-    scene.flow.shear_rate_per_s = None;
-    scene.flow.gradient_per_s = Some(gradient);
-    scene.time.periods = time.err().map(|eighths| eighths / 8.0);
-    scene.time.outputs_per_period = time.err().map(|_| 8);
-    scene.time.strain = time.ok();
-    scene.time.outputs_per_strain = time.ok().map(|_| 1);
+    scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s: gradient };
+    scene.time = match time {
+        Ok(strain) => Time { outputs_per_unit: Some(1), ..Time::strain(strain) },
+        Err(eighths) => Time { outputs_per_unit: Some(8), ..Time::periods(eighths / 8.0) },
+    };
     scene.output.observables = vec![Observable::Projections];
     scene
 }
@@ -81,8 +81,7 @@ pub fn listed_scenes(run: &Run, _: &Effort) -> Vec<Evidence> {
     }
     let no_period = (LISTED.last()).is_some_and(|listed| {
         let mut scene = scene(listed);
-        (scene.time.strain, scene.time.outputs_per_strain) = (None, None);
-        scene.time.periods = Some(1.0);
+        scene.time = Time::periods(1.0);
         run(&scene).is_none()
     });
     vec![

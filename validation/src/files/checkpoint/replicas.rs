@@ -7,10 +7,10 @@ use super::{Checkpoint, Refused, on_stop, stays};
 use crate::files::output::OutputError;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
+use shearbed::Error;
 use shearbed::run::ensemble::Tally;
 use shearbed::run::resume::Halfway;
 use shearbed::run::{Replica, go_on};
-use shearbed::suspension::RunError;
 use shearbed::{Plan, Results};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -61,7 +61,7 @@ struct State {
     /// The replicas in work, and in which round of questions each has answered last.
     in_work: BTreeMap<u64, u64>,
     /// The first replica that stopped.
-    stopped: Option<(u64, RunError)>,
+    stopped: Option<(u64, Error)>,
     ended: bool,
 }
 
@@ -147,7 +147,7 @@ impl Replicas {
         threads: usize,
         finished: impl Fn() + Sync,
         saved: impl Fn(Result<Progress, OutputError>) + Sync,
-    ) -> Result<Results, RunError> {
+    ) -> Result<Results, Error> {
         let Progress { done, all, .. } = self.progress();
         let left = all - done;
         let at_once = (threads as u64).min(left) as usize;
@@ -225,7 +225,7 @@ impl Replicas {
         self.told.notify_all();
     }
 
-    fn end(&self, replica: u64, end: Result<Replica, RunError>) {
+    fn end(&self, replica: u64, end: Result<Replica, Error>) {
         let mut state = self.state();
         state.in_work.remove(&replica);
         match end {

@@ -130,7 +130,7 @@ fn nothing_that_is_done_is_run_again() {
 
     let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
     scene.ensemble.replicas = 6;
-    scene.time.periods = Some(0.5);
+    scene.time.duration = 0.5;
     let plan = lab::plan(&scene);
     let mut tally = shearbed::run::ensemble::Tally::new(&plan);
     tally.add(run_replica(&plan, 0).unwrap());

@@ -1,14 +1,14 @@
 //! The replicas of one scene over ranks.
 
 use super::{share, size};
+use shearbed::Error;
 use shearbed::run::ensemble;
-use shearbed::suspension::RunError;
 use shearbed::{Plan, Results};
 
 /// Runs every replica of a plan, each rank its part of them on the threads of the current rayon pool; `finished` is
 /// called after each replica of this rank. On the root the results, bit for bit those of [`shearbed::run::ensemble::run`];
 /// elsewhere none.
-pub fn ensemble(plan: &Plan, finished: impl Fn() + Sync) -> Result<Option<Results>, RunError> {
+pub fn ensemble(plan: &Plan, finished: impl Fn() + Sync) -> Result<Option<Results>, Error> {
     let mut root = true;
     let results = ensemble::fold(plan, |replicas| {
         let count = replicas.end - replicas.start;

@@ -45,9 +45,9 @@ pub(super) fn run(scene: &Scene, places: &[MeasuredAt], replicas: u64, finer: u6
         |place: &MeasuredAt| [-1.0, 1.0].map(|side| place.turns + side * 3.0_f64.sqrt() * place.u_turns);
     let last = places.iter().map(|place| nodes(place)[1]).fold(0.0, f64::max);
     // One output more than the last place needs, for the cubic.
-    scene.time.periods = Some(((last * per_period as f64).ceil() + 1.0) / per_period as f64);
-    scene.time.outputs_per_period = Some(per_period);
-    scene.time.steps_per_period = Some(per_period * finer);
+    scene.time.duration = ((last * per_period as f64).ceil() + 1.0) / per_period as f64;
+    scene.time.outputs_per_unit = Some(per_period);
+    scene.time.steps_per_unit = Some(per_period * finer);
     scene.output.observables = vec![Observable::Projections];
     let plan = Plan::new(&scene).map_err(|invalid| invalid.to_string())?;
     let rows = (0..replicas)

@@ -145,6 +145,6 @@ fn files_come_in_pairs_and_in_known_folders() {
 fn the_scenes_of_every_source_are_there() {
     for scene in SOURCES.iter().flat_map(|source| source.scenes) {
         let scene = scenes::find(scene).unwrap().scene().unwrap();
-        assert!(scene.interaction.is_some() && scene.flow.shear_rate_per_s.is_some());
+        assert!(scene.interaction.is_some() && scene.flow.shear_rate_per_s().is_some());
     }
 }

@@ -11,8 +11,8 @@ pub fn problem(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> Problem
     let particles = scene.particles.clone();
     Problem {
         count: particles.count,
-        shear_rate_per_s: scene.flow.shear_rate_per_s.unwrap_or(f64::NAN),
-        other_flow: scene.flow.gradient_per_s.map(|gradient_per_s| OtherFlow {
+        shear_rate_per_s: scene.flow.shear_rate_per_s().unwrap_or(f64::NAN),
+        other_flow: scene.flow.gradient_per_s().map(|gradient_per_s| OtherFlow {
             gradient_per_s,
             steps_per_strain: scene.steps_per_unit() as usize,
         }),

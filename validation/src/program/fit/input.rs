@@ -9,6 +9,7 @@ use crate::serve::fit::data::{self, Datum, MOST_POINTS, TimeColumn};
 use crate::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
 use crate::serve::sweep;
 use shearbed::Plan;
+use shearbed::scene::TimeUnit;
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -171,9 +172,10 @@ fn within_scene(
             named.source
         ))
     })?;
-    let key = if scene.time.strain.is_some() { "strain" } else { "periods" };
-    let (most, what) = match (scene.time.strain, time.per_unit(&plan)) {
-        (None, Some(period)) => (0.25 * period, "a quarter of a period"),
+    let unit = scene.time.unit;
+    let key = unit.duration_key();
+    let (most, what) = match (unit, time.per_unit(&plan)) {
+        (TimeUnit::Period, Some(period)) => (0.25 * period, "a quarter of a period"),
         _ => (end, "the scene's length"),
     };
     if let Some(point) = points.iter().find(|point| point.u_time > most * (1.0 + 1e-12)) {
@@ -189,7 +191,7 @@ fn within_scene(
     match points.iter().find(|point| point.time > end * (1.0 + 1e-12)) {
         None => Ok(()),
         Some(point) => Err(Failure::Input(format!(
-            "{}:{}: column {}: `{}` is not allowed: {} ends at {} there; --set time.{key}=… moves that",
+            "{}:{}: column {}: `{}` is not allowed: {} ends at {} there; --set {key}=… moves that",
             path.display(),
             point.line,
             time.name(),

@@ -72,8 +72,7 @@ impl TimeColumn {
 
     /// Where a plan's scene ends.
     pub fn end_of(self, plan: &Plan) -> Option<f64> {
-        let time = &plan.scene().time;
-        Some(time.strain.or(time.periods)? * self.per_unit(plan)?)
+        Some(plan.scene().time.duration * self.per_unit(plan)?)
     }
 }
 

@@ -186,19 +186,15 @@ impl Scenes {
         let last = here.map(|datum| (datum.time + OUTER * datum.u_time) / per_unit).fold(0.0, f64::max);
         // One output more than the last point needs, for the cubic.
         let kinked = scene.interaction.is_none() && scene.particles.common_start_deg().is_some();
-        let by_strain = scene.time.strain.is_some();
+        let by_strain = scene.time.unit == shearbed::scene::TimeUnit::Strain;
         let outputs = match (&scene.interaction, by_strain) {
             (Some(_), _) => self.steps[set],
-            (None, true) => (scene.outputs_per_strain()).max(if kinked { KINKED / 10 } else { PER_STRAIN }),
+            (None, true) => (scene.outputs_per_unit()).max(if kinked { KINKED / 10 } else { PER_STRAIN }),
             (None, false) => self.steps[set].max(if kinked { KINKED } else { 1 }),
         };
-        let time = Some(((last * outputs as f64).ceil() + 1.0) / outputs as f64);
-        if by_strain {
-            (scene.time.strain, scene.time.outputs_per_strain) = (time, Some(outputs));
-        } else {
-            (scene.time.periods, scene.time.outputs_per_period) = (time, Some(outputs));
-        }
-        scene.set_steps_per_unit(outputs * variant.steps);
+        scene.time.duration = ((last * outputs as f64).ceil() + 1.0) / outputs as f64;
+        scene.time.outputs_per_unit = Some(outputs);
+        scene.time.steps_per_unit = Some(outputs * variant.steps);
         scene.set_count(scene.particles.count * variant.rods);
         if variant.one_aspect_ratio {
             scene.particles.aspect_ratio_sd_percent = 0.0;

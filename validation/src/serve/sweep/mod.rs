@@ -8,9 +8,10 @@ pub use axis::{Axis, MAX_POINTS, Setting, shown};
 pub use folder::{Folder, Identity, POINT, Points};
 
 use crate::input::start::Starts;
-use shearbed::scene;
-use shearbed::{Plan, Scene};
-use toml::{Table, Value};
+use shearbed::scene::document::Document;
+use shearbed::scene::of_document;
+use shearbed::{Error, Plan, Scene};
+use toml::Value;
 
 /// A point of the grid.
 pub struct Point {
@@ -23,7 +24,7 @@ pub struct Point {
 /// Every point, the last axis varying fastest, checked as a scene file is. `fixed` are keys that all points have in
 /// place of the scene's own; `starts` are of the scene's folder. On error, which point and why.
 pub fn points(text: &str, starts: &Starts, fixed: &[Setting], axes: &[Axis]) -> Result<Vec<Point>, String> {
-    let base: Table = text.parse().map_err(|error: toml::de::Error| error.to_string())?;
+    let base = document(text)?;
     let count = (axes.iter())
         .try_fold(1_usize, |count, axis| count.checked_mul(axis.values.len()))
         .filter(|count| *count <= MAX_POINTS)
@@ -82,7 +83,7 @@ fn at(axes: &[Axis], mut k: usize) -> Vec<Value> {
 
 /// The plan of the scene `base` with some keys set.
 fn plan<'a>(
-    base: &Table,
+    base: &Document,
     starts: &mut Starts,
     settings: impl Iterator<Item = (&'a str, Value)>,
 ) -> Result<Plan, String> {
@@ -93,38 +94,21 @@ fn plan<'a>(
 
 /// The scene of a file's text with some keys set, checked as the file is.
 pub fn scene_with(text: &str, settings: &[Setting]) -> Result<Scene, String> {
-    let base: Table = text.parse().map_err(|error: toml::de::Error| error.to_string())?;
-    with(&base, settings.iter().map(Setting::pair))
+    with(&document(text)?, settings.iter().map(Setting::pair))
 }
 
-fn with<'a>(base: &Table, settings: impl Iterator<Item = (&'a str, Value)>) -> Result<Scene, String> {
-    let mut table = base.clone();
-    for (key, value) in settings {
-        set(&mut table, key, value)?;
-    }
-    let text = toml::to_string(&table).map_err(|error| error.to_string())?;
-    // The lines of this text are nobody's.
-    scene::parse("", &text).map_err(|error| {
-        let messages: Vec<_> = (error.problems.into_iter()).map(|problem| problem.message).collect();
-        messages.join("; ")
-    })
+fn with<'a>(base: &Document, settings: impl Iterator<Item = (&'a str, Value)>) -> Result<Scene, String> {
+    let mut document = base.clone();
+    let set = |(key, value)| document.set(key, value);
+    settings.into_iter().try_for_each(set).and_then(|()| of_document(&document)).map_err(messages)
 }
 
-/// Sets a key as `interaction.alpha`, making the tables above it.
-fn set(table: &mut Table, key: &str, value: Value) -> Result<(), String> {
-    match key.split_once('.') {
-        None => {
-            table.insert(key.to_owned(), value);
-            Ok(())
-        }
-        Some((first, rest)) => {
-            let inner = table.entry(first).or_insert_with(|| Value::Table(Table::new()));
-            match inner {
-                Value::Table(inner) => set(inner, rest, value),
-                other => Err(format!("{first} = {other} is no table: it has no key {rest}")),
-            }
-        }
-    }
+fn document(text: &str) -> Result<Document, String> {
+    Document::parse("", text).map_err(messages)
+}
+
+fn messages(error: Error) -> String {
+    error.messages().join("; ")
 }
 
 #[cfg(test)]
@@ -190,7 +174,7 @@ mod tests {
         assert!(error.contains("unknown key `alpa`, expected one of"), "{error}");
         let error = refused(&["interaction.update=angels"]);
         assert!(error.ends_with("\"rotation\", \"angles\" or \"kick\""), "{error}");
-        assert!(refused(&["title.x=1"]).contains("is no table"));
+        assert!(refused(&["title.x=1"]).contains("title is not a table: it has no key x"));
         let error = refused(&["a=1:2:1000", "b=1:2:101"]);
         assert!(error.contains("more than 100000 points"), "{error}");
     }

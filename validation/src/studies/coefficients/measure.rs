@@ -127,9 +127,9 @@ pub fn scene(setting: Setting, effort: &Effort) -> Scene {
     let interaction = lab::interaction(&mut scene);
     interaction.concentration_per_cm3 = Some(setting.n_a3 / length_cm.powi(3));
     interaction.alpha = setting.alpha;
-    scene.time.periods = Some(2.0 * periods(setting) as f64);
-    scene.time.outputs_per_period = Some(OUTPUTS as u64);
-    scene.time.steps_per_period = Some(setting.finer * scene.resolving_steps());
+    scene.time.duration = 2.0 * periods(setting) as f64;
+    scene.time.outputs_per_unit = Some(OUTPUTS as u64);
+    scene.time.steps_per_unit = Some(setting.finer * scene.resolving_steps());
     scene.output.observables =
         vec![Observable::Projections, Observable::OrientationTensor, Observable::OrientationTensor4];
     scene
@@ -137,7 +137,7 @@ pub fn scene(setting: Setting, effort: &Effort) -> Scene {
 
 /// The means of each replica in its window, and X̄₁ at each quarter of the first two periods.
 pub(crate) fn windows(scene: &Scene, replicas: u64) -> Vec<(Means, [f64; 9])> {
-    let half = scene.time.periods.unwrap_or(0.0) as usize / 2 * OUTPUTS;
+    let half = scene.time.duration as usize / 2 * OUTPUTS;
     let strain = strain_per_period(scene.particles.aspect_ratio) / OUTPUTS as f64;
     let channels = Channels::new();
     lab::per_replica(scene, replicas, |mean| {

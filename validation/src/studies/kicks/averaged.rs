@@ -81,7 +81,7 @@ pub fn scene(effort: &Effort, steps_per_period: u64, min_contact_arm: f64) -> Sc
     scene.particles.count = 50;
     let interaction = lab::interaction(&mut scene);
     (interaction.concentration_per_cm3, interaction.min_contact_arm) = (Some(400.0), min_contact_arm);
-    scene.time.steps_per_period = Some(steps_per_period);
-    scene.time.outputs_per_period = Some(1);
+    scene.time.steps_per_unit = Some(steps_per_period);
+    scene.time.outputs_per_unit = Some(1);
     scene
 }

@@ -192,9 +192,9 @@ pub fn rates(
     counted: Counted,
 ) -> StepCounts {
     let mut scene = scene.clone();
-    scene.time.steps_per_period = Some(steps_per_period);
-    scene.time.outputs_per_period = Some(1);
-    scene.time.periods = Some(periods.end as f64);
+    scene.time.steps_per_unit = Some(steps_per_period);
+    scene.time.outputs_per_unit = Some(1);
+    scene.time.duration = periods.end as f64;
     StepCounts {
         steps_per_period,
         counts: (0..replicas)

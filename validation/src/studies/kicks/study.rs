@@ -74,9 +74,9 @@ pub fn measure(effort: &Effort) -> Result<Limit, String> {
 fn tails(scene: &Scene, replicas: u64) -> Vec<(String, Exponent)> {
     let with = |steps, arm| {
         let mut scene = scene.clone();
-        scene.time.steps_per_period = Some(steps);
-        scene.time.outputs_per_period = Some(1);
-        scene.time.periods = Some(2.0);
+        scene.time.steps_per_unit = Some(steps);
+        scene.time.outputs_per_unit = Some(1);
+        scene.time.duration = 2.0;
         lab::interaction(&mut scene).min_contact_arm = arm;
         scene
     };

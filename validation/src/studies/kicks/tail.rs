@@ -41,7 +41,7 @@ pub fn fresh(scene: &Scene, replicas: u64, angles: Angles) -> Vec<f64> {
 
 /// Kicks in rad over whole runs, as long as the scene says.
 pub fn in_runs(scene: &Scene, replicas: u64, angles: Angles) -> Vec<f64> {
-    let steps = (scene.time.periods.unwrap_or(1.0) * scene.steps_per_unit() as f64).round() as u64;
+    let steps = (scene.time.duration * scene.steps_per_unit() as f64).round() as u64;
     let run = |replica| {
         let mut suspension = lab::suspension(scene, replica);
         (0..steps)

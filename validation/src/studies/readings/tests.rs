@@ -50,7 +50,7 @@ fn the_problem_is_that_of_fig_7() {
             theirs.min_contact_arm
         ]
     );
-    assert_eq!(scene.flow.shear_rate_per_s, Some(ours.shear_rate_per_s));
+    assert_eq!(scene.flow.shear_rate_per_s(), Some(ours.shear_rate_per_s));
     assert_eq!(theirs.concentration_per_cm3, Some(ours.concentration_per_cm3));
     assert_eq!((rods.count, scene.steps_per_unit() as usize), (ours.count, ours.steps_per_period));
 }

@@ -102,8 +102,8 @@ fn free_plan(rods: usize, outputs: u64, sd_percent: f64) -> Plan {
     let mut scene = lab::free_scene(&crate::judge::case::Effort::gate());
     scene.particles.count = rods;
     scene.particles.aspect_ratio_sd_percent = sd_percent;
-    scene.time.periods = Some(1.0);
-    scene.time.outputs_per_period = Some(outputs);
+    scene.time.duration = 1.0;
+    scene.time.outputs_per_unit = Some(outputs);
     scene.ensemble.replicas = 1;
     lab::plan(&scene)
 }
@@ -172,7 +172,7 @@ fn replicas(
     amount: Amount,
 ) -> Result<Check, String> {
     let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
-    scene.time.periods = Some(1.0);
+    scene.time.duration = 1.0;
     scene.ensemble.replicas = 64 * threads as u64;
     let [alone, shared] = whole_runs(&scene, [one, all], amount)?;
     Ok(Check {
@@ -187,8 +187,8 @@ fn replicas(
 fn one_large_run(one: &rayon::ThreadPool, all: &rayon::ThreadPool, amount: Amount) -> Result<Check, String> {
     let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
     scene.particles.count = 300_000;
-    scene.time.periods = Some(0.04);
-    scene.time.outputs_per_period = Some(25);
+    scene.time.duration = 0.04;
+    scene.time.outputs_per_unit = Some(25);
     scene.ensemble.replicas = 1;
     let [alone, shared] = whole_runs(&scene, [one, all], amount)?;
     Ok(Check {

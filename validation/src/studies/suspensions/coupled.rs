@@ -108,9 +108,9 @@ pub fn interacting(
 pub fn free(scene: &Scene, quarters: u64, replicas: u64) -> Result<Values, String> {
     let mut scene = scene.clone();
     scene.interaction = None;
-    scene.time.steps_per_period = None;
-    scene.time.periods = Some(quarters as f64 / 4.0);
-    scene.time.outputs_per_period = Some(4);
+    scene.time.steps_per_unit = None;
+    scene.time.duration = quarters as f64 / 4.0;
+    scene.time.outputs_per_unit = Some(4);
     scene.output.observables = vec![Observable::Projections];
     let plan = Plan::new(&scene).map_err(|error| error.to_string())?;
     (0..replicas)

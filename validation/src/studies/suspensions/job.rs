@@ -4,6 +4,7 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use shearbed::model::orientation::bounded_orbit_constant;
+use shearbed::scene::Time;
 use shearbed::{Plan, Scene, Suspension};
 
 /// Where distribution functions are looked at: 0.1, 0.2, … 0.9.
@@ -46,11 +47,11 @@ impl Job {
     /// The scene's replicas 0 to `replicas` at so many steps per period and rods, looked at after whole periods.
     pub fn new(scene: &Scene, steps_per_period: u64, rods: usize, replicas: u64, periods: u64) -> Self {
         let mut scene = scene.clone();
-        scene.time.periods = Some(periods as f64);
-        scene.time.strain = None;
-        scene.time.outputs_per_strain = None;
-        scene.time.steps_per_period = Some(steps_per_period);
-        scene.time.outputs_per_period = Some(1);
+        scene.time = Time {
+            steps_per_unit: Some(steps_per_period),
+            outputs_per_unit: Some(1),
+            ..Time::periods(periods as f64)
+        };
         scene.set_count(rods);
         scene.output.rods_at.clear();
         Self {

@@ -114,7 +114,7 @@ pub struct Law {
 
 /// Whether the law is of a plan's scene: its jobs are of periods, and its orbit constants of plane Couette flow.
 pub fn judges(plan: &Plan) -> bool {
-    plan.flow().shear_rate_per_s().is_some() && plan.scene().time.strain.is_none()
+    plan.flow().shear_rate_per_s().is_some() && plan.scene().time.unit == shearbed::scene::TimeUnit::Period
 }
 
 /// The jobs of a scene: every number of steps, then every number of rods, each once.

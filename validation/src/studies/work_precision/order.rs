@@ -5,6 +5,7 @@ use crate::studies::integrators::{self, Errors, Integrator, Problem, Setting, Th
 use nalgebra::UnitVector3;
 use serde::Serialize;
 use shearbed::Scene;
+use shearbed::scene::TimeUnit;
 
 /// How far an observed order may be from theory (DiffEqDevTools.jl's convergence tests). Its sign is kept.
 pub const ORDER_TOLERANCE: f64 = 0.2;
@@ -88,8 +89,8 @@ pub fn of_rod(aspect_ratio: f64) -> Orders {
 /// A scene of free rods in plane Couette flow: one rod of its mean aspect ratio from its own start, through its own
 /// periods. `None` for other flows, and where the time is given as a strain.
 pub fn of_scene(scene: &Scene) -> Option<Orders> {
-    let shear_rate = scene.flow.shear_rate_per_s?;
-    let periods = scene.time.periods?;
+    let shear_rate = scene.flow.shear_rate_per_s()?;
+    let periods = Some(scene.time.duration).filter(|_| scene.time.unit == TimeUnit::Period)?;
     let (phi, theta, whose) = match scene.particles.common_start_deg() {
         // The flow turned round is its own mirror image, φ ↔ −φ.
         Some([phi_deg, theta_deg]) => {

@@ -1,16 +1,19 @@
 //! How much of a text is looked through, and shown.
 
-use super::places::LOOKED_THROUGH;
 use super::*;
+use crate::scene::Problem;
+use crate::scene::document::LOOKED_THROUGH;
 
 const SCENE: &str = "title = \"t\"\nflow = { shear_rate_per_s = 1 }\ntime = { periods = 1 }\n[particles]\ncount = 10\n\
     length_mm = 1\naspect_ratio = 5\norientation = \"isotropic\"\n";
 
 /// What is said of a text, and how many bytes were looked through for it.
-fn refused(text: &str) -> (SceneError, usize) {
+fn refused(text: &str) -> (Vec<Problem>, String, usize) {
     LOOKED_THROUGH.set(0);
     let error = parse("s.toml", text).unwrap_err();
-    (error, LOOKED_THROUGH.get())
+    let words = error.to_string();
+    let Error::Text { problems, .. } = error else { panic!("{words}") };
+    (problems, words, LOOKED_THROUGH.get())
 }
 
 /// In lines of their own, and all in one line.
@@ -20,20 +23,20 @@ fn of_many_unknown_keys_the_first_have_a_line_each_and_the_rest_one() {
     let in_lines = format!("{SCENE}{}\n", keys.join("\n"));
     let in_one = SCENE.replace("shear_rate_per_s = 1", &format!("shear_rate_per_s = 1, {}", keys.join(", ")));
     for (text, first, next) in [(in_lines, 9, 29), (in_one, 2, 2)] {
-        let (error, looked_through) = refused(&text);
-        assert_eq!(error.problems.len(), MOST_UNKNOWN + 1);
-        assert_eq!(error.problems[0].line, first);
-        assert!(error.problems[0].message.contains("unknown key `k0`"), "{error}");
+        let (problems, error, looked_through) = refused(&text);
+        assert_eq!(problems.len(), MOST_UNKNOWN + 1);
+        assert_eq!(problems[0].line, Some(first));
+        assert!(problems[0].message.contains("unknown key `k0`"), "{error}");
         let rest = format!("\ns.toml:{next}: 39980 more unknown keys from here on");
-        assert!(error.to_string().ends_with(&rest), "{error}");
+        assert!(error.ends_with(&rest), "{error}");
         // Once for the lines, and some of each line that is shown.
         assert!(looked_through < text.len() + 1000 * MOST_UNKNOWN, "{looked_through}");
     }
     // As many as have a line of their own.
     let few = keys[..MOST_UNKNOWN].join("\n");
-    let (error, _) = refused(&format!("{SCENE}{few}"));
-    assert_eq!(error.problems.len(), MOST_UNKNOWN);
-    assert!(!error.to_string().contains("more unknown"), "{error}");
+    let (problems, error, _) = refused(&format!("{SCENE}{few}"));
+    assert_eq!(problems.len(), MOST_UNKNOWN);
+    assert!(!error.contains("more unknown"), "{error}");
 }
 
 #[test]
@@ -48,13 +51,13 @@ fn of_a_long_line_or_value_the_start_is_shown() {
         format!("{SCENE}# é{}\n[particles]", "é".repeat(5000)),
         SCENE.replace("title = \"t\"", &format!("title = [\"{long}\"]")),
     ] {
-        let (error, _) = refused(&spoilt);
-        for problem in &error.problems {
+        let (problems, ..) = refused(&spoilt);
+        for problem in problems {
             assert!(problem.message.chars().count() < 1500, "{}", problem.message);
             assert!(!problem.message.contains(&long[..500]), "{}", problem.message);
         }
     }
     // What is not long is shown whole.
-    let (error, _) = refused(&SCENE.replace("count = 10", "count = \"x\""));
-    assert!(error.to_string().contains("particles.count = \"x\" is not allowed"), "{error}");
+    let (_, error, _) = refused(&SCENE.replace("count = 10", "count = \"x\""));
+    assert!(error.contains("particles.count = \"x\" is not allowed"), "{error}");
 }

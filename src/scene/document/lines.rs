@@ -2,8 +2,8 @@
 
 use toml::de::DeTable;
 
-/// Where the reader stopped. Of a key with more parts than it takes it does not say where that is: then, the start of
-/// the first line up to which the text has the error.
+/// The byte at which the TOML parser stopped. It gives no place for a key with too many parts: then, the start of the first
+/// line up to which the text has that error.
 pub(super) fn stopped_at(text: &str, error: &toml::de::Error) -> usize {
     let placeless = |end: usize| {
         let (_, errors) = DeTable::parse_recoverable(&text[..end]);
@@ -21,16 +21,16 @@ pub(super) fn stopped_at(text: &str, error: &toml::de::Error) -> usize {
 }
 
 /// The lines of a text: where each starts.
-pub(super) struct Lines<'a> {
-    text: &'a str,
+#[derive(Clone, Debug)]
+pub(super) struct Lines {
     starts: Vec<usize>,
 }
 
-impl<'a> Lines<'a> {
-    pub fn of(text: &'a str) -> Self {
+impl Lines {
+    pub fn of(text: &str) -> Self {
         count(text.len());
         let after = text.match_indices('\n').map(|(at, _)| at + 1);
-        Self { text, starts: std::iter::once(0).chain(after).collect() }
+        Self { starts: std::iter::once(0).chain(after).collect() }
     }
 
     /// The number of the line of the byte `offset`, from 1.
@@ -39,17 +39,17 @@ impl<'a> Lines<'a> {
     }
 
     /// The line of the byte `offset`, without the space around it; the start of a long one.
-    pub fn line(&self, offset: usize) -> String {
+    pub fn line(&self, text: &str, offset: usize) -> String {
         let start = self.starts[self.number(offset) - 1];
-        if start == self.text.len() {
+        if start == text.len() {
             return "(end of file)".to_owned();
         }
         // No further than is shown: many keys may stand in one line.
-        let rest = self.text[start..].char_indices();
+        let rest = text[start..].char_indices();
         let end = |(at, c): &(usize, char)| *c == '\n' || *at > 4 * SHOWN;
-        let end = rest.clone().find(end).map_or(self.text.len(), |(at, _)| start + at);
+        let end = rest.clone().find(end).map_or(text.len(), |(at, _)| start + at);
         count(end - start);
-        shortened(self.text[start..end].trim())
+        shortened(text[start..end].trim())
     }
 }
 
@@ -57,7 +57,7 @@ impl<'a> Lines<'a> {
 const SHOWN: usize = 160;
 
 /// The start of a long text, with a mark that there is more.
-pub(super) fn shortened(text: &str) -> String {
+pub(in crate::scene) fn shortened(text: &str) -> String {
     match text.char_indices().nth(SHOWN) {
         Some((end, _)) => format!("{} …", &text[..end]),
         None => text.to_owned(),
@@ -67,7 +67,7 @@ pub(super) fn shortened(text: &str) -> String {
 #[cfg(test)]
 thread_local! {
     /// Bytes of texts that were looked through on this thread.
-    pub(super) static LOOKED_THROUGH: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
+    pub(in crate::scene) static LOOKED_THROUGH: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! What goes together of shapes and starts, at both sides of each limit.
 
 use crate::model::shape::Correlation;
-use crate::scene::{Interaction, Invalid, OwnRods, RodsFile, Scene};
+use crate::scene::{Error, Interaction, OwnRods, RodsFile, Scene};
 
 fn refusal(scene: &Scene) -> String {
     crate::Plan::new(scene).expect_err("it is refused").to_string()
@@ -92,7 +92,7 @@ fn rods_that_cannot_be_are_refused_by_number() {
 
 #[test]
 fn a_start_has_length_1_to_a_few_roundings() {
-    let start = |length: f64| -> Result<(), Invalid> {
+    let start = |length: f64| -> Result<(), Error> {
         let mut scene = Scene::default();
         scene.particles.count = 2;
         let own =

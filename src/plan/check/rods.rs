@@ -1,0 +1,104 @@
+//! How the rods are shaped and where they start.
+
+use crate::scene::{Invalid, Misfit, RodsFile, Scene, equivalent, find};
+
+/// Checks that r_e is given once: by itself, or by a cylinder and a formula that gives one for it.
+pub(super) fn check_shape(scene: &Scene) -> Result<(), Invalid> {
+    let particles = &scene.particles;
+    let key = "particles.shape_correlation";
+    let (r, formula) = match (particles.physical_aspect_ratio, particles.shape_correlation) {
+        (None, None) => return Ok(()),
+        (None, Some(given)) => {
+            let allowed = "it goes with physical_aspect_ratio, which is not given";
+            return Err(Invalid::new(key, format!("{:?}", given.name()), allowed));
+        }
+        (Some(r), None) => {
+            let words = find(key).map_or_else(String::new, |key| key.holds.to_string());
+            let allowed = format!("physical_aspect_ratio = {r} takes {words}");
+            return Err(Invalid::missing(key, &allowed));
+        }
+        (Some(r), Some(correlation)) => (r, correlation.formula()),
+    };
+    match equivalent(Some(r), particles.shape_correlation) {
+        Some(value) if value == particles.aspect_ratio => Ok(()),
+        Some(value) => {
+            let allowed = format!(
+                "either aspect_ratio or physical_aspect_ratio, of which {} makes {value}",
+                formula.name
+            );
+            Err(Invalid::new("particles.aspect_ratio", particles.aspect_ratio, allowed))
+        }
+        None => {
+            let allowed = format!(
+                "{} ({}) gives no valid r_e there: it is above r, or falls as r grows; choose another shape_correlation",
+                formula.name, formula.formula
+            );
+            Err(Invalid::new("particles.physical_aspect_ratio", r, allowed))
+        }
+    }
+}
+
+/// Refuses a file of rods that has not been read.
+pub(in crate::plan) fn check_rods_are_read(scene: &Scene) -> Result<(), Invalid> {
+    match &scene.particles.rods {
+        Some(RodsFile { file, own: None, .. }) => Err(refused_file(
+            file,
+            "a file whose rods were read into the scene before it was planned (RodsFile::with)".into(),
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// Checks that the rods of a file are there, and can be those of the scene.
+pub(super) fn check_own_rods(scene: &Scene) -> Result<(), Invalid> {
+    let Some(RodsFile { file, own: Some(own), .. }) = &scene.particles.rods else {
+        return Ok(());
+    };
+    let refused = |allowed: String| Err(refused_file(file, allowed));
+    let count = scene.particles.count;
+    let axes = own.p.iter().chain(&own.place_mm).flatten();
+    let mut columns = axes.chain(&own.aspect_ratio).chain(&own.length_mm);
+    if let Some(column) = columns.find(|column| column.len() != count) {
+        let has = column.len();
+        return refused(format!("a row for each rod: it has {has}, and particles.count is {count}"));
+    }
+    match scene.misfit(own) {
+        Some(Misfit { rod, column, value, allowed }) => {
+            refused(format!("rod {rod} has {column} = {value:?}; allowed: {allowed}"))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Checks that r_e has the mean that its flow allows, and stays on its side of 1.
+pub(super) fn check_particles(scene: &Scene) -> Result<(), Invalid> {
+    let (r, sd) = (scene.particles.aspect_ratio, scene.particles.aspect_ratio_sd_percent);
+    if scene.interaction.is_some() && r <= 1.0 {
+        let allowed = "interacting rods need a number > 1";
+        return Err(Invalid::new("particles.aspect_ratio", r, allowed));
+    }
+    let length_sd = scene.particles.length_sd_percent;
+    if length_sd >= 100.0 / 3.0 {
+        let allowed = "so wide that lengths ≤ 0 are likely; below 33.3333, three standard deviations";
+        return Err(Invalid::new("particles.length_sd_percent", length_sd, allowed));
+    }
+    // Three standard deviations: P(r_e ≤ 1) = 0.0013 per rod.
+    let deviation = 3.0 * r * sd / 100.0;
+    let too_wide = sd > 0.0 && ((r - 1.0).abs() <= deviation || r <= deviation);
+    if too_wide {
+        let widest = 100.0 * ((r - 1.0).abs().min(r) / (3.0 * r));
+        return Err(Invalid::new(
+            "particles.aspect_ratio_sd_percent",
+            sd,
+            format!(
+                "so wide that r_e ≤ 1 (for discs: r_e ≥ 1 or ≤ 0) is likely; with mean {r} below {widest:.4}, \
+                 three standard deviations"
+            ),
+        ));
+    }
+    Ok(())
+}
+
+fn refused_file(file: &str, allowed: String) -> Invalid {
+    Invalid::new("particles.rods", format!("{{ file = {file:?} }}"), allowed)
+}

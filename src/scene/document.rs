@@ -1,0 +1,296 @@
+//! A TOML text as a tree of values that know their line, so that an error can name it; single values can be replaced.
+//!
+//! ```
+//! use shearbed::scene::document::Document;
+//! let mut document = Document::parse("bed.toml", "[bed]\nwidth_mm = 3\n")?;
+//! let bed = document.root().table("bed").expect("a table");
+//! assert_eq!((bed.read::<f64>("width_mm"), bed.line("width_mm")), (Some(3.0), 2));
+//! let problem = bed.refused("depth_mm", "a number > 0");
+//! assert_eq!((problem.line, &problem.message[..]), (Some(1), "bed.depth_mm is missing: a number > 0"));
+//! document.set("bed.width_mm", 4.5.into())?;
+//! assert_eq!(document.root().table("bed").expect("a table").read("width_mm"), Some(4.5));
+//! # Ok::<(), shearbed::Error>(())
+//! ```
+
+mod lines;
+
+use super::error::{Error, Problem};
+#[cfg(test)]
+pub(super) use lines::LOOKED_THROUGH;
+pub(super) use lines::shortened;
+use lines::{Lines, stopped_at};
+use serde::de::DeserializeOwned;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::Arc;
+use toml::Value;
+use toml::de::{DeTable, DeValue};
+
+/// A TOML text, read; or values that were set without a text.
+#[derive(Clone, Debug)]
+pub struct Document {
+    file: String,
+    text: Arc<str>,
+    lines: Lines,
+    root: Entries,
+}
+
+type Entries = BTreeMap<String, Node>;
+
+#[derive(Clone, Debug)]
+struct Node {
+    /// Where the key stands, and its value; `None` for values set later.
+    place: Option<(usize, Range<usize>)>,
+    content: Content,
+}
+
+#[derive(Clone, Debug)]
+enum Content {
+    Table(Entries),
+    Array(Vec<Node>),
+    /// `None`: a whole number with too many digits.
+    Single(Option<Value>),
+}
+
+impl Document {
+    /// Reads a text; `file` names it in errors.
+    ///
+    /// # Errors
+    ///
+    /// The first place that is not TOML.
+    pub fn parse(file: &str, text: &str) -> Result<Self, Error> {
+        let (lines, root) = (Lines::of(text), DeTable::parse(text));
+        let root = root.map_err(|error| {
+            let offset = stopped_at(text, &error);
+            let message = shortened(&error.message().trim_end().replace('\n', "; "));
+            let message = format!("{}: {message}", lines.line(text, offset));
+            let line = Some(lines.number(offset));
+            Error::Text { file: file.to_owned(), problems: vec![Problem { line, message }] }
+        })?;
+        Ok(Self { file: file.to_owned(), text: text.into(), lines, root: entries(root.get_ref()) })
+    }
+
+    /// A document of values that have no lines.
+    pub(super) fn of(table: toml::Table) -> Self {
+        let root = table.into_iter().map(|(key, value)| (key, Node::set(value))).collect();
+        Self { file: String::new(), text: "".into(), lines: Lines::of(""), root }
+    }
+
+    /// The whole document.
+    pub fn root(&self) -> Table<'_> {
+        Table { document: self, path: String::new(), offset: Some(0), entries: &self.root }
+    }
+
+    /// Gives a key, as `interaction.alpha`, another value; tables above it that are missing are made.
+    ///
+    /// # Errors
+    ///
+    /// A part of the key before the last that holds something other than a table.
+    pub fn set(&mut self, key: &str, value: Value) -> Result<(), Error> {
+        let (mut entries, mut rest) = (&mut self.root, key);
+        while let Some((first, inner)) = rest.split_once('.') {
+            let made = || Node { place: None, content: Content::Table(Entries::new()) };
+            let node = entries.entry(first.to_owned()).or_insert_with(made);
+            match &mut node.content {
+                Content::Table(inner) => entries = inner,
+                _ => {
+                    let message = format!("{first} is not a table: it has no key {inner}");
+                    let problems = vec![Problem { line: None, message }];
+                    return Err(Error::Text { file: self.file.clone(), problems });
+                }
+            }
+            rest = inner;
+        }
+        entries.insert(rest.to_owned(), Node::set(value));
+        Ok(())
+    }
+
+    /// An error of the scene that was read from this document, with the line of each key; other errors unchanged.
+    pub fn located(&self, error: Error) -> Error {
+        let Error::Scene(invalid) = error else {
+            return error;
+        };
+        let root = self.root();
+        let places = invalid.into_iter().map(|mut invalid| {
+            let (table, name) = invalid.key.split_once('.').unwrap_or(("", invalid.key));
+            let within = root.table(table);
+            let within = within.as_ref().unwrap_or(&root);
+            if let (Some(written), Some(value)) = (within.written(name), &mut invalid.value) {
+                *value = written;
+            }
+            (within.offset(name), invalid.to_string())
+        });
+        self.refused(places.collect())
+    }
+
+    /// The error of these messages, each with the byte of its line, in the order of lines.
+    pub(super) fn refused(&self, mut found: Vec<(Option<usize>, String)>) -> Error {
+        found.sort();
+        let problem = |(at, message): (Option<usize>, String)| Problem {
+            line: at.map(|at| self.lines.number(at)),
+            message,
+        };
+        Error::Text { file: self.file.clone(), problems: found.into_iter().map(problem).collect() }
+    }
+
+    /// The line at a byte of the text, shortened.
+    pub(super) fn line(&self, offset: usize) -> String {
+        self.lines.line(&self.text, offset)
+    }
+}
+
+/// A table of a document.
+#[derive(Clone, Debug)]
+pub struct Table<'a> {
+    document: &'a Document,
+    /// The path of its keys up to their names, as `x.`; empty for the whole document.
+    path: String,
+    offset: Option<usize>,
+    entries: &'a Entries,
+}
+
+impl<'a> Table<'a> {
+    /// The names of its keys.
+    pub fn keys(&self) -> impl Iterator<Item = &'a str> {
+        self.entries.keys().map(String::as_str)
+    }
+
+    /// Whether it has the key.
+    pub fn has(&self, key: &str) -> bool {
+        self.entries.contains_key(key)
+    }
+
+    /// The value of a key, where it is there and of that type. Write sequences of a fixed length as `Vec`: an array takes longer ones too.
+    pub fn read<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
+        self.value(key)?.try_into().ok()
+    }
+
+    /// The value of a key.
+    pub fn value(&self, key: &str) -> Option<Value> {
+        self.entries.get(key)?.value()
+    }
+
+    /// The table of a key.
+    pub fn table(&self, key: &str) -> Option<Table<'a>> {
+        self.inner(key, self.entries.get(key)?)
+    }
+
+    /// The tables of a key, one at least.
+    pub fn tables(&self, key: &str) -> Option<Vec<Table<'a>>> {
+        match &self.entries.get(key)?.content {
+            Content::Array(nodes) if !nodes.is_empty() => {
+                nodes.iter().map(|node| self.inner(key, node)).collect()
+            }
+            _ => None,
+        }
+    }
+
+    fn inner(&self, key: &str, node: &'a Node) -> Option<Table<'a>> {
+        let Content::Table(entries) = &node.content else {
+            return None;
+        };
+        let offset = node.place.as_ref().map(|(at, _)| *at);
+        Some(Table { document: self.document, path: format!("{}{key}.", self.path), offset, entries })
+    }
+
+    /// The line of a key, or of this table where it is missing; 1 where it was set without a text.
+    pub fn line(&self, key: &str) -> usize {
+        self.offset(key).map_or(1, |at| self.document.lines.number(at))
+    }
+
+    pub(super) fn offset(&self, key: &str) -> Option<usize> {
+        match self.entries.get(key) {
+            Some(node) => node.place.as_ref().map(|(at, _)| *at),
+            None => self.offset,
+        }
+    }
+
+    /// The value as it is written, on one line and shortened.
+    pub fn written(&self, key: &str) -> Option<String> {
+        let node = self.entries.get(key)?;
+        let written = match &node.place {
+            Some((_, span)) => self.document.text.get(span.clone()).unwrap_or_default().to_owned(),
+            None => node.value().as_ref().map_or_else(String::new, as_toml),
+        };
+        Some(shortened(&written.split_whitespace().collect::<Vec<_>>().join(" ")))
+    }
+
+    /// The problem of a key that is missing, or whose value is not `allowed`.
+    pub fn refused(&self, key: &str, allowed: impl std::fmt::Display) -> Problem {
+        let line = self.offset(key).map(|at| self.document.lines.number(at));
+        Problem { line, message: self.refusal(key, allowed) }
+    }
+
+    pub(super) fn refusal(&self, key: &str, allowed: impl std::fmt::Display) -> String {
+        match self.written(key) {
+            Some(written) => format!("{}{key} = {written} is not allowed: {allowed}", self.path),
+            None => format!("{}{key} is missing: {allowed}", self.path),
+        }
+    }
+}
+
+fn entries(table: &DeTable<'_>) -> Entries {
+    let node = |(key, value): (&toml::Spanned<std::borrow::Cow<'_, str>>, _)| {
+        (key.get_ref().to_string(), Node::read(key.span().start, value))
+    };
+    table.iter().map(node).collect()
+}
+
+impl Node {
+    fn read(at: usize, value: &toml::Spanned<DeValue<'_>>) -> Self {
+        let single = |value| Content::Single(Some(value));
+        let content = match value.get_ref() {
+            DeValue::Table(table) => Content::Table(entries(table)),
+            DeValue::Array(all) => {
+                Content::Array(all.iter().map(|inner| Self::read(inner.span().start, inner)).collect())
+            }
+            DeValue::String(text) => single(Value::String(text.to_string())),
+            DeValue::Boolean(is) => single(Value::Boolean(*is)),
+            DeValue::Datetime(date) => single(Value::Datetime(*date)),
+            DeValue::Float(number) => Content::Single(number.as_str().parse().ok().map(Value::Float)),
+            DeValue::Integer(number) => {
+                let number = i64::from_str_radix(number.as_str(), number.radix());
+                Content::Single(number.ok().map(Value::Integer))
+            }
+        };
+        Self { place: Some((at, value.span())), content }
+    }
+
+    fn set(value: Value) -> Self {
+        let content = match value {
+            Value::Table(inner) => {
+                Content::Table(inner.into_iter().map(|(key, value)| (key, Self::set(value))).collect())
+            }
+            Value::Array(all) => Content::Array(all.into_iter().map(Self::set).collect()),
+            other => Content::Single(Some(other)),
+        };
+        Self { place: None, content }
+    }
+
+    fn value(&self) -> Option<Value> {
+        match &self.content {
+            Content::Table(entries) => {
+                let inner = entries.iter().map(|(key, node)| Some((key.clone(), node.value()?)));
+                inner.collect::<Option<_>>().map(Value::Table)
+            }
+            Content::Array(all) => all.iter().map(Self::value).collect::<Option<_>>().map(Value::Array),
+            Content::Single(value) => value.clone(),
+        }
+    }
+}
+
+/// A value in TOML, on one line.
+pub(crate) fn as_toml(value: &Value) -> String {
+    match value {
+        Value::String(text) => format!("{text:?}"),
+        Value::Integer(number) => number.to_string(),
+        Value::Float(number) => number.to_string(),
+        Value::Boolean(is) => is.to_string(),
+        Value::Datetime(date) => date.to_string(),
+        Value::Array(all) => format!("[{}]", all.iter().map(as_toml).collect::<Vec<_>>().join(", ")),
+        Value::Table(inner) => {
+            let pairs = inner.iter().map(|(key, value)| format!("{key} = {}", as_toml(value)));
+            format!("{{ {} }}", pairs.collect::<Vec<_>>().join(", "))
+        }
+    }
+}

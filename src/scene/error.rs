@@ -1,0 +1,136 @@
+//! Why a scene is refused or a run stops.
+
+/// Why a text is not a scene, a scene cannot be run, or a run stopped.
+///
+/// ```
+/// use shearbed::{Error, Plan, scene::{Particles, Scene}};
+/// let error = shearbed::scene::parse("mine.toml", "title = 1").unwrap_err();
+/// assert!(error.to_string().contains("mine.toml:1: title = 1 is not allowed: a text in quotes"));
+///
+/// let scene = Scene { particles: Particles { count: 0, ..Particles::default() }, ..Scene::default() };
+/// let Err(Error::Scene(invalid)) = Plan::new(&scene) else { panic!("no rods") };
+/// assert_eq!((invalid[0].key, invalid[0].value.as_deref()), ("particles.count", Some("0")));
+/// ```
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A scene file with mistakes.
+    #[error("{}", with_lines(file, problems))]
+    Text {
+        /// The file's name as given.
+        file: String,
+        /// Every mistake that can be seen, in the order of lines; at least one.
+        problems: Vec<Problem>,
+    },
+    /// A scene with values that its keys do not allow, or that do not go together; at least one.
+    #[error("{}", joined(.0))]
+    Scene(Vec<Invalid>),
+    /// A rod's direction would have become NaN or infinite.
+    #[error("rod {rod} would become non-finite in step {step} of replica {replica}, seed {seed}: {cause}")]
+    NonFinite {
+        /// The rod's index.
+        rod: usize,
+        /// The step, from 0.
+        step: u64,
+        /// The scene's seed.
+        seed: u64,
+        /// The replica, from 0.
+        replica: u64,
+        /// What happened.
+        cause: String,
+    },
+    /// A saved state that belongs to another plan.
+    #[error("replica {replica} cannot go on from its saved state: {cause}")]
+    Misfit {
+        /// The replica, from 0.
+        replica: u64,
+        /// What does not fit.
+        cause: &'static str,
+    },
+    /// A direction or a mean that is not a valid result.
+    #[error(
+        "{}output {output} ({time_name} = {time}) of replica {replica}, seed {seed}: {cause}",
+        rod.map_or(String::new(), |rod| format!("rod {rod}, "))
+    )]
+    NoResult {
+        /// The rod's index, where a single rod is the cause.
+        rod: Option<usize>,
+        /// The output, from 0.
+        output: usize,
+        /// `t_over_T` or `strain`.
+        time_name: &'static str,
+        /// The output's time.
+        time: f64,
+        /// The scene's seed.
+        seed: u64,
+        /// The replica, from 0.
+        replica: u64,
+        /// What is wrong with it.
+        cause: String,
+    },
+}
+
+impl Error {
+    /// Each mistake of a text or a scene, without file and line; other errors have one message.
+    pub fn messages(&self) -> Vec<String> {
+        match self {
+            Self::Text { problems, .. } => problems.iter().map(|problem| problem.message.clone()).collect(),
+            Self::Scene(invalid) => invalid.iter().map(Invalid::to_string).collect(),
+            other => vec![other.to_string()],
+        }
+    }
+}
+
+fn with_lines(file: &str, problems: &[Problem]) -> String {
+    let line = |Problem { line, message }: &Problem| match line {
+        Some(line) => format!("{file}:{line}: {message}"),
+        None => format!("{file}: {message}"),
+    };
+    problems.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+fn joined(invalid: &[Invalid]) -> String {
+    invalid.iter().map(Invalid::to_string).collect::<Vec<_>>().join("; ")
+}
+
+/// A mistake in a scene file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Problem {
+    /// The line, from 1; `None` for a value that was set over the file's.
+    pub line: Option<usize>,
+    /// The key, its value and what is allowed.
+    pub message: String,
+}
+
+/// A value of a scene that is not allowed: the key, the value, and what is allowed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Invalid {
+    /// The table and key, as `particles.count`.
+    pub key: &'static str,
+    /// The value; `None` where the key is missing.
+    pub value: Option<String>,
+    /// What is allowed.
+    pub allowed: String,
+}
+
+impl std::fmt::Display for Invalid {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { key, value, allowed } = self;
+        match value {
+            Some(value) => write!(f, "{key} = {value} is not allowed: {allowed}"),
+            None => write!(f, "{key} is missing: {allowed}"),
+        }
+    }
+}
+
+impl Invalid {
+    pub(crate) fn new(key: &'static str, value: impl ToString, allowed: impl Into<String>) -> Self {
+        Self { key, value: Some(value.to_string()), allowed: allowed.into() }
+    }
+
+    pub(crate) fn missing(key: &'static str, allowed: &str) -> Self {
+        Self { key, value: None, allowed: allowed.to_owned() }
+    }
+}

@@ -1,0 +1,72 @@
+//! What each row promises.
+
+use super::*;
+use crate::scene;
+
+/// The least text with every required key, and `line` in its table.
+fn text(path: &str, value: &str) -> String {
+    let (table, name) = path.rsplit_once('.').unwrap_or(("", path));
+    let mut text = "title = \"t\"\n".to_owned();
+    for Table { key: of, .. } in &TABLES {
+        let mut own: Vec<(&str, &str)> = match of.path {
+            "flow" => vec![("shear_rate_per_s", "1")],
+            "particles" => {
+                vec![
+                    ("count", "10"),
+                    ("length_mm", "1"),
+                    ("aspect_ratio", "5"),
+                    ("orientation", "\"isotropic\""),
+                ]
+            }
+            "interaction" => vec![("concentration_per_cm3", "1"), ("alpha", "1")],
+            "time" => vec![("periods", "1")],
+            _ => Vec::new(),
+        };
+        if of.path == table {
+            own.retain(|(known, _)| *known != name);
+            own.push((name, value));
+        }
+        text += &format!("[{}]\n", of.path);
+        own.iter().for_each(|(key, value)| text += &format!("{key} = {value}\n"));
+    }
+    text
+}
+
+#[test]
+fn a_default_is_what_a_scene_without_the_key_has() {
+    let without = scene::parse("t", &text("", "")).unwrap();
+    for key in keys() {
+        if let Absent::Default(value) = key.absent
+            && key.path != "time.outputs_per_strain"
+        {
+            assert_eq!(scene::parse("t", &text(key.path, value)).unwrap(), without, "{}", key.path);
+        }
+    }
+    let by_strain = scene::parse("t", &text("", "").replace("periods", "strain")).unwrap();
+    assert_eq!(by_strain.outputs_per_unit(), 10);
+}
+
+#[test]
+fn what_a_key_does_not_hold_is_refused_with_what_it_holds() {
+    for key in keys().filter(|key| key.path != "title") {
+        let (most, wrong) = match key.holds {
+            Holds::Whole { least, most } => (Some((least, most)), "-1"),
+            Holds::Between { .. } => (None, "1e101"),
+            _ => (None, "-1"),
+        };
+        let refused = |value: &str| {
+            let error = scene::parse("t", &text(key.path, value)).unwrap_err().to_string();
+            assert!(error.contains(&key.holds.to_string()), "{error}");
+        };
+        refused(wrong);
+        refused("1979-05-27");
+        if let Some((least, most)) = most {
+            if least > 0 {
+                refused("0");
+            }
+            if most < MAX_SEED {
+                refused(&(most + 1).to_string());
+            }
+        }
+    }
+}

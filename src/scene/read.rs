@@ -1,0 +1,229 @@
+//! Reading a scene from a document: each key by its row, with every mistake that can be seen at once.
+
+#[cfg(test)]
+mod tests;
+
+use super::document::{self, Document, shortened};
+use super::keys::{Field, Key, TABLES, TITLE, find};
+use super::{Absent, Ensemble, Error, Flow, Interaction, Output, Particles, Scene, Time, keys};
+
+/// A byte of the text, and what is wrong there.
+type Mistake = (Option<usize>, String);
+
+/// Reads a scene; `file` names the text in errors. Each value is one that its key allows; [`crate::Plan::new`] checks what goes
+/// together, and [`Document::located`] gives its error lines.
+///
+/// # Errors
+///
+/// Every mistake that can be seen, each with its line.
+pub fn parse(file: &str, text: &str) -> Result<Scene, Error> {
+    of_document(&Document::parse(file, text)?)
+}
+
+/// Reads a scene from a document, in which keys may have been set.
+///
+/// ```
+/// use shearbed::scene::{document::Document, of_document};
+/// let text = "title = 't'\nflow = { shear_rate_per_s = 1 }\ntime = { periods = 1 }\n[particles]\ncount = 10\nlength_mm = 1\n\
+///     aspect_ratio = 5\norientation = 'isotropic'\n";
+/// let mut document = Document::parse("s.toml", text)?;
+/// document.set("particles.count", 20.into())?;
+/// assert_eq!(of_document(&document)?.particles.count, 20);
+/// # Ok::<(), shearbed::Error>(())
+/// ```
+///
+/// # Errors
+///
+/// As [`parse`].
+pub fn of_document(document: &Document) -> Result<Scene, Error> {
+    let root = document.root();
+    let mut wrong = Vec::new();
+    let meant = unknown_keys(document, &root, &mut wrong);
+    let mut reader = Reader { table: root.clone(), meant: &meant, wrong: &mut wrong };
+    let title = reader.key(TITLE.path, String::new());
+    let flow = reader.table("flow", Flow::read);
+    let particles = reader.table("particles", Particles::read);
+    let interaction = reader.table("interaction", |reader| Interaction::read_keys(reader).map(Some));
+    let time = reader.table("time", Time::read);
+    let ensemble = reader.table("ensemble", Ensemble::read_keys);
+    let output = reader.table("output", Output::read_keys);
+    let scene = || {
+        Some(Scene {
+            title: title?,
+            flow: flow?,
+            particles: particles?,
+            interaction: interaction?,
+            time: time?,
+            ensemble: ensemble?,
+            output: output?,
+        })
+    };
+    match scene().filter(|_| wrong.is_empty()) {
+        Some(scene) => Ok(scene),
+        None => Err(document.refused(wrong)),
+    }
+}
+
+/// A table of the document that is read, and the mistakes so far.
+pub(super) struct Reader<'a> {
+    table: document::Table<'a>,
+    /// Known keys that unknown ones may stand for: those are not reported as missing.
+    meant: &'a [&'static str],
+    wrong: &'a mut Vec<Mistake>,
+}
+
+impl Reader<'_> {
+    /// The value of a key, `default` where it may be left out; `None` where it is refused.
+    pub fn key<T: Field>(&mut self, path: &'static str, default: T) -> Option<T> {
+        let key = find(path)?;
+        match self.table.value(last(path)) {
+            None if self.has(path) => self.refuse(path, &key.holds.to_string()),
+            None if key.absent != Absent::Required => return Some(T::absent(default)),
+            None if self.means(path) => (),
+            None => self.refuse(path, &key.holds.to_string()),
+            Some(value) => {
+                // No key takes a date, which would be read as a text.
+                let value = Some(value).filter(|value| !value.is_datetime()).and_then(T::from_toml);
+                if let Some(value) = value.filter(|value| value.allowed(&key.holds)) {
+                    return Some(value);
+                }
+                self.refuse(path, &key.holds.to_string());
+            }
+        }
+        None
+    }
+
+    fn table<T: Default>(
+        &mut self,
+        path: &'static str,
+        read: impl Fn(&mut Reader<'_>) -> Option<T>,
+    ) -> Option<T> {
+        let key = find(path)?;
+        match self.table.table(path) {
+            Some(table) => read(&mut Reader { table, meant: self.meant, wrong: self.wrong }),
+            None if !self.has(path) && key.absent != Absent::Required => Some(T::default()),
+            None => {
+                if self.has(path) || !self.means(path) {
+                    self.refuse(path, &key.holds.to_string());
+                }
+                None
+            }
+        }
+    }
+
+    /// Which of two keys is given, where it is one: both are refused at the first, none as `missing`.
+    pub fn one_of(&mut self, keys: [&'static str; 2], missing: &str) -> Option<&'static str> {
+        let [first, second] = keys;
+        match keys.map(|key| self.has(key)) {
+            [true, true] => {
+                self.refuse(first, &format!("either {} or {}, not both", last(first), last(second)));
+                None
+            }
+            [false, false] => {
+                if !keys.iter().any(|key| self.means(key)) {
+                    self.refuse(first, missing);
+                }
+                None
+            }
+            [is_first, _] => Some(if is_first { first } else { second }),
+        }
+    }
+
+    pub fn has(&self, path: &str) -> bool {
+        self.table.has(last(path))
+    }
+
+    /// True if an unknown key may stand for this one.
+    pub fn means(&self, path: &str) -> bool {
+        self.meant.contains(&path)
+    }
+
+    pub fn refuse(&mut self, path: &str, allowed: &str) {
+        self.wrong.push((self.table.offset(last(path)), self.table.refusal(last(path), allowed)));
+    }
+}
+
+/// The most unknown keys that are reported one by one.
+const MOST_UNKNOWN: usize = 20;
+
+/// Reports unknown tables and keys; returns the known ones that they may stand for.
+fn unknown_keys(
+    document: &Document,
+    root: &document::Table<'_>,
+    wrong: &mut Vec<Mistake>,
+) -> Vec<&'static str> {
+    let mut unknown: Vec<(Option<usize>, String)> = Vec::new();
+    let mut look = |table: &document::Table<'_>, above: &str, known: &dyn Fn(&str) -> bool| {
+        let names = table.keys().filter(|name| !known(name));
+        unknown.extend(names.map(|name| (table.offset(name), format!("{above}{name}"))));
+    };
+    look(root, "", &|name| name == TITLE.path || TABLES.iter().any(|table| table.key.path == name));
+    for of in &TABLES {
+        if let Some(table) = root.table(of.key.path) {
+            look(&table, &format!("{}.", of.key.path), &|name| {
+                of.keys.iter().any(|key| last(key.path) == name)
+            });
+        }
+    }
+    unknown.sort();
+    let more = unknown.split_off(unknown.len().min(MOST_UNKNOWN));
+    for (at, path) in &unknown {
+        let line = at.map_or_else(|| written(root, path), |at| document.line(at));
+        wrong.push((*at, format!("{line}: {}", unknown_key(path))));
+    }
+    if let Some((at, _)) = more.first() {
+        wrong.push((*at, format!("{} more unknown keys from here on", more.len())));
+    }
+    unknown.iter().filter_map(|(_, path)| nearest(path)).collect()
+}
+
+/// A key that was set, with its value.
+fn written(root: &document::Table<'_>, path: &str) -> String {
+    let within = root.table(above(path));
+    let written = within.as_ref().unwrap_or(root).written(last(path)).unwrap_or_default();
+    format!("{path} = {written}")
+}
+
+/// The known keys beside an unknown one, and the one that it may stand for.
+fn unknown_key(path: &str) -> String {
+    let known = all_paths().filter(|key| above(key) == above(path));
+    let known: Vec<_> = known.map(|key| format!("`{}`", last(key))).collect();
+    let expected = match known.as_slice() {
+        [one, other] => format!("{one} or {other}"),
+        _ => format!("one of {}", known.join(", ")),
+    };
+    let meant = nearest(path).map_or(String::new(), |key| {
+        let misplaced = above(key).is_empty() && !above(path).is_empty();
+        let place = if misplaced { ", which comes before all tables" } else { "" };
+        format!("; did you mean {key}{place}?")
+    });
+    format!("unknown key `{}`, expected {expected}{meant}", shortened(last(path)))
+}
+
+/// The key or table whose last word is closest to that of an unknown one.
+fn nearest(path: &str) -> Option<&'static str> {
+    // Comparing megabytes takes seconds, and a word ten times as long as any key is close to none.
+    if last(path).len() > 200 {
+        return None;
+    }
+    let likeness = |key| strsim::jaro_winkler(last(path), last(key));
+    let is_key = |key: &&str| keys().any(|known| known.path == *key);
+    let all = all_paths().filter(|key| above(path).is_empty() || is_key(key));
+    let (best, key) = all.map(|key| (likeness(key), key)).reduce(|a, b| if b.0 > a.0 { b } else { a })?;
+    // A letter too many, too few or exchanged leaves more than this in words of five letters.
+    (best > 0.85).then_some(key)
+}
+
+/// Keys, then tables.
+fn all_paths() -> impl Iterator<Item = &'static str> {
+    const ALL: &[super::Table] = &TABLES;
+    keys().map(|key: &Key| key.path).chain(ALL.iter().map(|table| table.key.path))
+}
+
+fn above(path: &str) -> &str {
+    path.rsplit_once('.').map_or("", |(table, _)| table)
+}
+
+fn last(path: &str) -> &str {
+    path.rsplit('.').next().unwrap_or(path)
+}

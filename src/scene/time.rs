@@ -1,0 +1,169 @@
+//! `[time]`: how long a scene runs, and in how many steps and outputs.
+
+use super::keys::{Absent::Other, Holds, PER_UNIT, table};
+use super::read::Reader;
+use crate::motion::Span;
+use serde::Serialize;
+
+/// `[time]`: a duration in one unit, with steps and outputs per that unit. One period by default.
+///
+/// ```
+/// use shearbed::scene::{Time, TimeUnit};
+/// let two_periods = Time { outputs_per_unit: Some(100), ..Time::periods(2.0) };
+/// assert_eq!((two_periods.unit, two_periods.duration), (TimeUnit::Period, 2.0));
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(into = "TimeKeys")]
+pub struct Time {
+    /// What the duration counts.
+    pub unit: TimeUnit,
+    /// How many of them: `periods` or `strain`.
+    pub duration: f64,
+    /// Steps per unit of an interacting scene (`steps_per_period`, `steps_per_strain`); by default as many as resolve the motion.
+    pub steps_per_unit: Option<u64>,
+    /// Outputs per unit (`outputs_per_period`, `outputs_per_strain`); 50 a period or 10 a unit of strain by default.
+    pub outputs_per_unit: Option<u64>,
+}
+
+/// The unit of a scene's time.
+///
+/// ```
+/// use shearbed::scene::{Time, TimeUnit};
+/// assert_eq!(Time::default().unit, TimeUnit::Period);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TimeUnit {
+    /// A period T of the mean aspect ratio.
+    Period,
+    /// A unit of shear strain ∫(2D:D)^½ dt.
+    Strain,
+}
+
+impl TimeUnit {
+    /// Outputs per unit by default.
+    pub(crate) fn default_outputs(self) -> u64 {
+        match self {
+            Self::Period => 50,
+            Self::Strain => 10,
+        }
+    }
+
+    /// A quotient of numbers of this unit.
+    pub(crate) fn span(self, number: f64, over: f64) -> Span {
+        match self {
+            Self::Period => Span::Periods(number, over),
+            Self::Strain => Span::Strain(number, over),
+        }
+    }
+
+    /// The key of a duration in this unit.
+    pub fn duration_key(self) -> &'static str {
+        match self {
+            Self::Period => "time.periods",
+            Self::Strain => "time.strain",
+        }
+    }
+
+    /// The key of the steps per unit.
+    pub fn steps_key(self) -> &'static str {
+        match self {
+            Self::Period => "time.steps_per_period",
+            Self::Strain => "time.steps_per_strain",
+        }
+    }
+
+    /// The key of the outputs per unit.
+    pub(crate) fn outputs_key(self) -> &'static str {
+        match self {
+            Self::Period => "time.outputs_per_period",
+            Self::Strain => "time.outputs_per_strain",
+        }
+    }
+}
+
+impl std::fmt::Display for TimeUnit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Period => "period",
+            Self::Strain => "unit of strain",
+        })
+    }
+}
+
+impl Default for Time {
+    fn default() -> Self {
+        Self::periods(1.0)
+    }
+}
+
+table! {
+    /// The keys of `[time]`.
+    pub(super) struct TimeKeys in "time" {
+        periods: Option<f64> = None, "T", Holds::NotNegative, Other("strain"),
+            "how long, in periods T of the mean aspect ratio";
+        strain: Option<f64> = None, "", Holds::NotNegative, Other("periods"),
+            "how long, in shear strain ∫(2D:D)^½ dt: for flows without a period";
+        steps_per_period: Option<u64> = None, "", PER_UNIT, Other("as many as resolve the motion"),
+            "steps of interacting rods";
+        steps_per_strain: Option<u64> = None, "", PER_UNIT, Other("as many as resolve the motion"),
+            "steps of interacting rods per unit of strain";
+        outputs_per_period: Option<u64> = None, "", PER_UNIT, Other("50, or the largest divisor below"),
+            "outputs; of interacting rods a divisor of the steps";
+        outputs_per_strain: Option<u64> = None, "", PER_UNIT, Other("10, or the largest divisor below"),
+            "outputs per unit of strain; of interacting rods a divisor of the steps";
+    }
+}
+
+impl From<Time> for TimeKeys {
+    fn from(Time { unit, duration, steps_per_unit, outputs_per_unit }: Time) -> Self {
+        match unit {
+            TimeUnit::Period => Self {
+                periods: Some(duration),
+                steps_per_period: steps_per_unit,
+                outputs_per_period: outputs_per_unit,
+                ..Self::default()
+            },
+            TimeUnit::Strain => Self {
+                strain: Some(duration),
+                steps_per_strain: steps_per_unit,
+                outputs_per_strain: outputs_per_unit,
+                ..Self::default()
+            },
+        }
+    }
+}
+
+impl Time {
+    /// A number of periods of the mean aspect ratio, with default steps and outputs.
+    pub fn periods(duration: f64) -> Self {
+        Self { unit: TimeUnit::Period, duration, steps_per_unit: None, outputs_per_unit: None }
+    }
+
+    /// A shear strain, with default steps and outputs.
+    pub fn strain(duration: f64) -> Self {
+        Self { unit: TimeUnit::Strain, ..Self::periods(duration) }
+    }
+
+    pub(super) fn read(reader: &mut Reader<'_>) -> Option<Self> {
+        let given = reader.one_of(["time.periods", "time.strain"], "periods or strain must be given");
+        let others = match given {
+            Some("time.periods") => [
+                ("time.steps_per_strain", "goes with strain; periods take steps_per_period"),
+                ("time.outputs_per_strain", "goes with strain; periods take outputs_per_period"),
+            ],
+            _ => [
+                ("time.steps_per_period", "goes with periods; strain takes steps_per_strain"),
+                ("time.outputs_per_period", "goes with periods; strain takes outputs_per_strain"),
+            ],
+        };
+        if let Some((key, why)) = others.into_iter().find(|(key, _)| given.is_some() && reader.has(key)) {
+            reader.refuse(key, why);
+        }
+        let keys = TimeKeys::read_keys(reader)?;
+        let (unit, duration, steps_per_unit, outputs_per_unit) = match keys.periods {
+            Some(periods) => (TimeUnit::Period, periods, keys.steps_per_period, keys.outputs_per_period),
+            None => (TimeUnit::Strain, keys.strain?, keys.steps_per_strain, keys.outputs_per_strain),
+        };
+        Some(Self { unit, duration, steps_per_unit, outputs_per_unit })
+    }
+}
