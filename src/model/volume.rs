@@ -46,7 +46,7 @@ impl ControlVolume {
         (0..3).map(along).fold(0.0, f64::max)
     }
 
-    /// Whether its content in cubed rod lengths is a number, and one over it.
+    /// True if its content in cubed rod lengths and the inverse are finite.
     pub(crate) fn is_known(&self) -> bool {
         let content: f64 = self.sides.iter().product();
         content.is_normal() && content.recip().is_normal()

@@ -21,7 +21,7 @@ pub struct Counters {
     pub steps: u64,
     /// Random numbers R drawn for collisions (eq. 8).
     pub draws: u64,
-    /// Pairs of rods of which one was told to be too far away in low precision.
+    /// Pairs rejected by the single-precision test.
     pub pairs_screened: u64,
     /// Cells looked into.
     pub cells: u64,

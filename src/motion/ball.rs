@@ -7,7 +7,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 /// More than every relative rounding error here, with room for the rounding of the bound itself.
 const ROUNDING: f64 = 1.0 / (1u128 << 102) as f64;
-/// More than what a product loses below the smallest normal number, where it is in danger of losing something.
+/// A bound on what a product loses below the smallest normal number.
 const UNDERFLOW: f64 = 1e-320;
 const IN_DANGER: f64 = 1e-280;
 
@@ -42,7 +42,7 @@ impl Ball {
         Self { error: self.error + error, ..self }
     }
 
-    /// Whether it is 0 and known to be.
+    /// True if it is exactly 0.
     pub fn is_zero(self) -> bool {
         self.hi == 0.0 && self.error == 0.0
     }
@@ -133,7 +133,7 @@ impl Ball {
         Self { hi, lo, error: carried * (1.0 + 8.0 * f64::EPSILON) + 4.0 * ROUNDING * hi.abs() + danger }
     }
 
-    /// The root of what is ≥ 0; of what may be negative, the root of what is left of it.
+    /// The square root; the part of the ball below 0 is ignored.
     pub fn sqrt(self) -> Self {
         if self.hi <= self.error {
             return Self::ZERO.widened((2.0 * self.most()).sqrt());

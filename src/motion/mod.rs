@@ -1,8 +1,8 @@
 //! The exact motion of a free rod over any time, with a bound on its error.
 //!
-//! Jeffery's equation is linear in disguise: p(t) = q/|q| with q = exp(At) p(0) and A = W + ΛD (the trace of
-//! A changes |q| only and is left out). Plane Couette flow along the axes has its closed form; every other flow goes
-//! through numbers of 106 bits that know their error (`general.rs`), taking L, r_e and p as exact.
+//! The substitution p = q/|q| makes Jeffery's equation linear: q(t) = exp(At) p(0) with A = W + ΛD (the trace of A changes |q|
+//! only and is left out). Plane Couette flow along the axes has its closed form; every other flow goes
+//! through numbers of 106 bits that carry a bound on their error (`general.rs`), taking L, r_e and p as exact.
 
 mod ball;
 mod functions;
@@ -54,7 +54,7 @@ pub enum Span {
     Periods(f64, f64),
 }
 
-/// Where a rod went.
+/// The end of a rod's motion.
 ///
 /// ```
 /// use shearbed::model::flow::VelocityGradient;
@@ -109,7 +109,7 @@ impl Propagator {
         }
     }
 
-    /// The same by the way of all flows, for plane Couette flow too.
+    /// The same without the closed form of plane Couette flow.
     pub fn general(flow: &VelocityGradient, aspect_ratio: f64) -> Self {
         Self(Motion::General(General::new(flow, aspect_ratio)))
     }
@@ -125,7 +125,7 @@ impl Propagator {
         }
     }
 
-    /// By which part what turns grows in a period against what does not: 0 where every direction comes back.
+    /// Relative growth per period of the rotating part over the rest: 0 where every direction comes back.
     pub fn drift_per_period(&self) -> Option<f64> {
         match &self.0 {
             Motion::Couette { .. } => Some(0.0),
@@ -156,13 +156,9 @@ impl Propagator {
     pub(crate) fn moved_beside(&self, mean: &Self, p: &UnitVector3<f64>, span: Span) -> Option<Moved> {
         match &self.0 {
             Motion::Couette { aspect_ratio, .. } => {
-                let (phase, error) = self.phase(span)?;
-                let end = couette([p.x, p.y, p.z], *aspect_ratio, phase);
-                Some(Moved {
-                    p: UnitVector3::new_unchecked(end.into()),
-                    error: error * aspect_ratio.max(1.0 / aspect_ratio),
-                    condition: aspect_ratio.max(1.0 / aspect_ratio),
-                })
+                let (end, error) = self.direction_beside(mean, [p.x, p.y, p.z], span)?;
+                let condition = aspect_ratio.max(1.0 / aspect_ratio);
+                Some(Moved { p: UnitVector3::new_unchecked(end.into()), error, condition })
             }
             Motion::General(general) => {
                 let start = [p.x, p.y, p.z];
@@ -174,8 +170,8 @@ impl Propagator {
         }
     }
 
-    /// The direction alone of a rod in the flow of `mean` that started along `p`, and the bound on the error that the map gives it;
-    /// the span's periods are those of `mean`. `None` where it has none.
+    /// The direction of a rod that started along `p`, and the bound of [`Moved::error`]; the span's periods are those of `mean`, in the
+    /// same flow. `None` where it has none.
     pub(crate) fn direction_beside(&self, mean: &Self, p: [f64; 3], span: Span) -> Option<([f64; 3], f64)> {
         match &self.0 {
             Motion::General(general) => {
@@ -185,7 +181,9 @@ impl Propagator {
             }
             Motion::Couette { aspect_ratio, .. } => {
                 let (phase, error) = self.phase(span)?;
-                Some((couette(p, *aspect_ratio, phase), error))
+                // A rod turns up to max(r_e, 1/r_e) times as fast as its phase.
+                let fastest = aspect_ratio.max(1.0 / aspect_ratio);
+                Some((couette(p, *aspect_ratio, phase), error * fastest))
             }
         }
     }

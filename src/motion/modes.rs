@@ -46,7 +46,7 @@ impl Pair {
         (coefficients, self.middle + rate)
     }
 
-    /// Whether it is certainly complex.
+    /// True if it is certainly complex.
     fn turns(&self) -> bool {
         -self.square.hi > 2.0 * self.square.error
     }

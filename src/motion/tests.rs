@@ -116,7 +116,8 @@ proptest! {
             let (span, seconds) = (Span::Periods(turns * 4.0, 4.0), Span::Seconds(turns * mean.period_s().unwrap()));
             let moved = rods.moved_beside(&mean, &p, span).unwrap();
             prop_assert!(apart(&moved.p, &rods.moved(&p, seconds).unwrap().p) < 1e-9);
-            let (direction, _) = rods.direction_beside(&mean, (*p).into(), span).unwrap();
+            let (direction, error) = rods.direction_beside(&mean, (*p).into(), span).unwrap();
+            prop_assert_eq!(error, moved.error);
             prop_assert!(apart(&moved.p, &UnitVector3::new_normalize(direction.into())) < 1e-9);
             for (rods, mean) in [(&rods, &mean), (&rods, &rods)] {
                 let (map, _) = rods.map_beside(mean, span).unwrap();

@@ -1,4 +1,4 @@
-//! What is observed of the rods: means over rods of a value per rod. A new one is a file beside this one, its `mod` line here
+//! Observables: means over rods of a value per rod. A new one is a file beside this one, its `mod` line here
 //! and its row in the registry; everything else, from the key in a scene to files and pictures, comes from these.
 
 mod channel;
@@ -63,8 +63,8 @@ impl Block {
     }
 }
 
-/// What is observed of each rod; what comes out is its mean over rods and replicas against time, with its standard error. Those
-/// that a scene can name are [`Observable::ALL`]; [`crate::run::own::observe`] takes any other.
+/// A value of each rod, whose mean over rods and replicas is computed against time with its standard error. Those that a scene
+/// can name are [`Observable::ALL`]; [`crate::run::own::observe`] takes any other.
 ///
 /// ```
 /// use shearbed::observable::{Block, Observe, Sum};
@@ -104,17 +104,17 @@ pub trait Observe: Sync {
     /// Adds the block's rods to the sums of its columns.
     fn add(&self, block: &Block, sums: &mut [Sum]);
 
-    /// Whether its formula holds in plane Couette flow u_2 = G x_1 alone.
+    /// True if its formula holds in plane Couette flow u_2 = G x_1 alone.
     fn needs_couette(&self) -> bool {
         false
     }
 
-    /// Whether its columns after the first are a density over [0, 1].
+    /// True if its columns after the first are a density over [0, 1].
     fn is_density(&self) -> bool {
         false
     }
 
-    /// A name and a sum over all rods that must be their number, for it is 1 of each: the trace of a tensor.
+    /// A name, and a sum over all rods that must equal their number: the trace of a tensor.
     fn trace(&self, _sums: &[Sum]) -> Option<(&'static str, f64)> {
         None
     }

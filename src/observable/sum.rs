@@ -50,12 +50,12 @@ impl Sum {
         Self { value: 0.0, spread: spread.then(Spread::default) }
     }
 
-    /// Whether it is finite.
+    /// True if the sum, and the sum of squares where kept, is finite.
     pub(crate) fn is_finite(&self) -> bool {
         self.value.is_finite() && self.spread.is_none_or(|spread| spread.is_finite())
     }
 
-    /// Whether it can be a sum over so many rods; `spread` says whether it has standard errors over them.
+    /// True if it can be a sum over `rods` rods, with (`spread`) or without standard errors over them.
     pub(crate) fn is_over(&self, rods: usize, spread: bool) -> bool {
         let own = match self.spread {
             Some(found) => spread && found.rods == rods as u64,

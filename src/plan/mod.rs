@@ -153,7 +153,7 @@ impl Plan {
         &self.entries
     }
 
-    /// Whether a stage runs.
+    /// True if a stage runs.
     pub fn keeps(&self, stage: Stage) -> bool {
         self.entries.iter().any(|entry| entry.stage == stage && entry.kept)
     }

@@ -73,7 +73,7 @@ impl fmt::Display for Stage {
 pub struct Entry {
     /// The stage.
     pub stage: Stage,
-    /// Whether it runs.
+    /// True if it runs.
     pub kept: bool,
     /// Why it runs or does not.
     pub reason: String,

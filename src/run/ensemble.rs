@@ -83,11 +83,11 @@ impl Results {
 }
 
 /// Runs every replica of the plan on the threads of the current rayon pool. The results are the same bits for any number of
-/// threads. To be told of each replica, or to run them elsewhere: [`fold`] and [`replicas_of`].
+/// threads. To follow the replicas, or to run them elsewhere, use [`fold`] and [`replicas_of`].
 ///
 /// # Errors
 ///
-/// The first replica that stopped, or had a result that is none.
+/// The error of the first replica that fails.
 pub fn run(plan: &Plan) -> Result<Results, Error> {
     fold(plan, |replicas| replicas_of(plan, replicas, &|| ()))
 }
@@ -123,7 +123,7 @@ pub fn fold<E>(
 ) -> Result<Results, E> {
     let mut tally = Tally::new(plan);
     in_batches(plan, width(plan), |replicas| {
-        // Elsewhere than on the root of a job none comes back.
+        // `run` may return no replicas, where another process collects them.
         run(replicas).map(|replicas| replicas.into_iter().for_each(|replica| tally.add(replica)))
     })?;
     Ok(tally.results(plan))
@@ -180,12 +180,12 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Of no replica of the plan.
+    /// An empty tally for this plan.
     pub fn new(plan: &Plan) -> Self {
         Self::of(plan.outputs() * width(plan))
     }
 
-    /// Of so many sums of no replica.
+    /// An empty tally of `len` sums.
     pub(crate) fn of(len: usize) -> Self {
         Self {
             replicas: 0,
@@ -197,16 +197,16 @@ impl Tally {
         }
     }
 
-    /// How many replicas are in it: the first ones.
+    /// The number of replicas in it: the first ones of the plan.
     pub fn replicas(&self) -> u64 {
         self.replicas
     }
 
-    /// Whether it can be one of the plan.
+    /// Checks that it fits the plan.
     ///
     /// # Errors
     ///
-    /// What of it cannot be.
+    /// What does not fit.
     pub fn check(&self, plan: &Plan) -> Result<(), &'static str> {
         let len = plan.outputs() * width(plan);
         if [&self.mean, &self.deviation, &self.over_rods].map(Vec::len) != [len; 3]
@@ -257,13 +257,13 @@ impl Tally {
         }
     }
 
-    /// The sums at a place of every output, of which each has `width`.
+    /// The column at `place` of every output; each output has `width` sums.
     pub(crate) fn column(&self, name: String, place: usize, width: usize) -> Column {
         let all = || (place..self.mean.len()).step_by(width);
         Column { name, mean: all().map(|k| self.mean[k]).collect(), se: all().map(|k| self.se(k)).collect() }
     }
 
-    /// What the replicas in it come to.
+    /// The results of its replicas.
     pub fn results(self, plan: &Plan) -> Results {
         let width = width(plan);
         let mut start = 0;

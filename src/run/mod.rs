@@ -41,11 +41,11 @@ pub struct Replica {
 }
 
 impl Replica {
-    /// Whether it can be one of the plan.
+    /// Checks that it fits the plan.
     ///
     /// # Errors
     ///
-    /// What of it cannot be.
+    /// What does not fit.
     pub fn check(&self, plan: &Plan) -> Result<(), &'static str> {
         let own = self.observables == plan.observables()
             && self.rods == plan.scene().particles.count
@@ -72,7 +72,7 @@ impl Replica {
 ///
 /// # Errors
 ///
-/// A kick that overflows, or a direction or a sum that is no result.
+/// A kick that overflows, or a direction or a sum that is not a valid result.
 pub fn run_replica(plan: &Plan, replica: u64) -> Result<Replica, Error> {
     go_on(plan, replica, None, |_| ())
 }
@@ -82,7 +82,7 @@ pub fn run_replica(plan: &Plan, replica: u64) -> Result<Replica, Error> {
 ///
 /// # Errors
 ///
-/// As [`run_replica`], and what is halfway of no replica of this plan.
+/// As [`run_replica`], and a `from` that does not fit this plan.
 pub fn go_on(
     plan: &Plan,
     replica: u64,

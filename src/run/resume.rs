@@ -63,7 +63,7 @@ impl Halfway {
         self.sums.len() / width(&plan.observables()).max(1)
     }
 
-    /// Whether it can be one of a replica of the plan.
+    /// Checks that it fits a replica of the plan.
     ///
     /// # Errors
     ///
@@ -144,7 +144,7 @@ impl Placed {
 impl Suspension {
     /// Its rods, to be kept.
     pub(crate) fn placed(&self) -> Placed {
-        let (directions, since) = self.rods.kept();
+        let (directions, since) = self.rods.state();
         Placed { counters: self.counters, directions, since, positions: self.positions.clone() }
     }
 }

@@ -155,7 +155,7 @@ impl<'a> Table<'a> {
         self.entries.keys().map(String::as_str)
     }
 
-    /// Whether it has the key.
+    /// True if it has the key.
     pub fn has(&self, key: &str) -> bool {
         self.entries.contains_key(key)
     }

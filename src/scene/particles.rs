@@ -30,7 +30,7 @@ table! {
         physical_aspect_ratio: Option<f64> = None, "", Holds::Between { least: ALLOWED.0, most: ALLOWED.1 }, Other("aspect_ratio"),
             "length over diameter of a cylinder, of which shape_correlation makes r_e";
         shape_correlation: Option<Correlation> = None, "", Holds::OneOf(&Correlation::NAMES), Other("goes with physical_aspect_ratio"),
-            "the formula for r_e of a cylinder, as `shearbed shape` lists them";
+            "the formula for r_e of a cylinder";
         aspect_ratio_sd_percent: f64 = 0.0, "%", Holds::NotNegative, Otherwise("0"),
             "σ of a Gaussian r_e, in percent of its mean (eq. 11)";
         orientation: Orientation = Orientation::default(), "degrees", Holds::Orientation, Other("\"isotropic\" with rods, else it must be given"),
@@ -115,7 +115,7 @@ impl Particles {
         }
     }
 
-    /// Whether rods differ in r_e.
+    /// True if rods differ in r_e.
     pub fn of_several_shapes(&self) -> bool {
         match self.own().and_then(|own| own.aspect_ratio.as_ref()) {
             Some(_) => self.own_aspect_ratios().is_some(),
@@ -123,7 +123,7 @@ impl Particles {
         }
     }
 
-    /// Whether rods differ in length.
+    /// True if rods differ in length.
     pub(crate) fn of_several_lengths(&self) -> bool {
         match self.own().and_then(|own| own.length_mm.as_ref()) {
             Some(_) => self.own_lengths_mm().is_some(),

@@ -145,11 +145,15 @@ impl Suspension {
         })
     }
 
-    /// Puts the rods at places inside the volume, in rod lengths (three arrays of coordinates), and along
-    /// directions: a state of one's own. `None`, and nothing changed, where a count is not that of the rods.
+    /// Puts the rods at places in the control volume (three arrays of coordinates, in mean rod lengths) and along directions.
+    /// Returns `None` and changes nothing where a count is not that of the rods, or a place is outside the volume.
     pub fn place(&mut self, places: [Vec<f64>; 3], directions: &[UnitVector3<f64>]) -> Option<()> {
         let count = self.rods.count();
-        if directions.len() != count || places.iter().any(|axis| axis.len() != count) {
+        let inside = |(axis, side): (&Vec<f64>, &f64)| axis.iter().all(|x| (0.0..=*side).contains(x));
+        if directions.len() != count
+            || places.iter().any(|axis| axis.len() != count)
+            || !places.iter().zip(&self.sides).all(inside)
+        {
             return None;
         }
         self.positions = places;
@@ -232,7 +236,7 @@ impl Suspension {
         Ok(())
     }
 
-    /// Whether neither rod has collided in this step.
+    /// True if neither rod has collided in this step.
     fn both_free(&self, a: u32, b: u32) -> bool {
         ![a, b].iter().any(|&rod| self.rods.turned_after(rod as usize, self.tick))
     }

@@ -91,7 +91,7 @@ impl Rods {
         &self.lengths
     }
 
-    /// Whether the rod was turned by a collision in the step that ends after `tick`.
+    /// True if the rod was turned by a collision in the step that ends after `tick`.
     pub fn turned_after(&self, rod: usize, tick: u64) -> bool {
         u64::from(self.since[rod]) > tick
     }
@@ -104,12 +104,12 @@ impl Rods {
         self.since[rod] = tick as u32;
     }
 
-    /// Each rod's direction after its last collision, and the tick of that.
-    pub fn kept(&self) -> ([Vec<f64>; 3], Vec<u32>) {
+    /// Each rod's direction after its last collision, and the tick of that collision.
+    pub fn state(&self) -> ([Vec<f64>; 3], Vec<u32>) {
         (self.p.clone(), self.since.clone())
     }
 
-    /// Puts all rods where [`Rods::kept`] had them.
+    /// Restores a [`Rods::state`].
     pub fn restore(&mut self, p: [Vec<f64>; 3], since: Vec<u32>) {
         self.p = p;
         self.since = since;

@@ -35,7 +35,7 @@ pub struct Snapshot {
     pub length: Option<Vec<f64>>,
     /// Where the rods' centres are in the control volume, in mean rod lengths; `None` for free rods, which have no place.
     pub place_in_lengths: Option<[Vec<f64>; 3]>,
-    /// Whether the rod collided in the step that ended at this output; free rods never do.
+    /// True if the rod collided in the step that ended at this output; free rods never do.
     pub collided: Vec<bool>,
 }
 
@@ -61,7 +61,7 @@ impl Snapshot {
         numbers * size_of::<f64>() + 1
     }
 
-    /// Whether these can be of the plan, and are so many.
+    /// True if there are `count` of them and all fit the plan.
     pub(crate) fn all_fit(snapshots: &[Self], count: u64, plan: &Plan) -> bool {
         snapshots.len() as u64 == count && snapshots.iter().all(|snapshot| snapshot.fits(plan))
     }

@@ -1,10 +1,10 @@
-//! States of one's own.
+//! Placing rods, and collisions against the paper's words.
 
 use super::*;
 use crate::scene::{Interaction, Scene, Time};
 
 #[test]
-fn a_state_of_other_counts_is_refused_and_changes_nothing() {
+fn a_state_of_other_counts_or_outside_the_volume_is_refused_and_changes_nothing() {
     let mut scene = Scene { interaction: Some(Interaction::default()), ..Scene::default() };
     scene.particles.count = 3;
     let plan = Plan::new(&scene).unwrap();
@@ -14,15 +14,25 @@ fn a_state_of_other_counts_is_refused_and_changes_nothing() {
     let directions = |count| vec![Vector3::z_axis(); count];
     let mut uneven = places(3);
     uneven[2].pop();
+    let sides = suspension.sides_in_lengths();
+    let at = |axis: usize, x: f64| {
+        let mut all = places(3);
+        all[axis][1] = x;
+        all
+    };
     for (places, directions) in [
         (places(3), directions(2)),
         (places(2), directions(3)),
         (places(4), directions(4)),
         (uneven, directions(3)),
+        (at(0, -1e-300), directions(3)),
+        (at(1, sides[1].next_up()), directions(3)),
+        (at(2, f64::NAN), directions(3)),
     ] {
         assert_eq!(suspension.place(places, &directions), None);
         assert_eq!(suspension.positions_in_lengths(), &before);
     }
+    assert_eq!(suspension.place(at(1, sides[1]), &directions(3)), Some(()));
     assert_eq!(suspension.place(places(3), &directions(3)), Some(()));
     assert_eq!(suspension.positions_in_lengths(), &places(3));
 }

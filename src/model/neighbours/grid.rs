@@ -176,7 +176,7 @@ impl Grid {
 
     /// Adds those of at most [`BLOCK`] places whose rods may have another one within their reach.
     ///
-    /// Most rods have nobody so near, and are told apart without a branch: nobody is near among the next [`WINDOW`]
+    /// Most rods have no rod that near, and are skipped without a branch: none is near among the next [`WINDOW`]
     /// rods before and behind, and these are all that the reach can touch.
     fn find_crowded(&self, places: Range<usize>, crowded: &mut Vec<u32>) {
         let mut x = [[FAR; PADDED]; 3];

@@ -1,10 +1,9 @@
 //! Scene files and arguments of `sweep`.
 
 use crate::{Taken, Target};
-use shearbed::Plan;
 use shearbed::run::memory;
 use shearbed::run::run_replica;
-use shearbed::scene;
+use shearbed::{Error, Plan};
 use validation::input::scenes;
 use validation::serve::sweep::{Axis, Setting, points, scene_with};
 
@@ -54,12 +53,15 @@ pub fn scene() -> Target {
             let Ok(text) = std::str::from_utf8(&files[0].1) else {
                 return Ok(Taken::Refused("not UTF-8".into()));
             };
-            match scene::parse("scene.toml", text) {
+            match Plan::parse("scene.toml", text) {
                 Err(error) => {
                     let lines = text.lines().count() + 1;
-                    for problem in &error.problems {
-                        if !(1..=lines).contains(&problem.line) {
-                            return Err(format!("line {} of {lines}: {}", problem.line, problem.message));
+                    let Error::Text { problems, .. } = &error else {
+                        return Err(format!("no line is named: {error}"));
+                    };
+                    for problem in problems {
+                        if !problem.line.is_some_and(|line| (1..=lines).contains(&line)) {
+                            return Err(format!("line {:?} of {lines}: {}", problem.line, problem.message));
                         }
                         names(&problem.message)?;
                     }
@@ -69,10 +71,7 @@ pub fn scene() -> Target {
                         false => Err(format!("the file is not named: {told}")),
                     }
                 }
-                Ok(scene) => match Plan::new(&scene) {
-                    Err(error) => Err(format!("read without complaint, and then: {error}")),
-                    Ok(plan) => run(&plan),
-                },
+                Ok(plan) => run(&plan),
             }
         }),
     }

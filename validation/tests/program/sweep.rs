@@ -195,7 +195,7 @@ fn bad_input_is_refused_before_anything_runs() {
         ),
         ("interaction.alpa=1,2", "unknown key `alpa`, expected one of"),
         ("alpha=1,2", "unknown key `alpha`, expected one of"),
-        ("title.x=1,2", "is no table"),
+        ("title.x=1,2", "title is not a table"),
         ("interaction.alpha=1:2", "neither FROM:TO:COUNT nor a list"),
         ("interaction.alpha=1:2:0", "a whole number from 2 to 100000 is allowed"),
         ("interaction.alpha", "KEY=FROM:TO:COUNT or KEY=A,B,C is allowed"),
