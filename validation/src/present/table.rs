@@ -1,9 +1,10 @@
-//! A table: named columns over records, declared once, and every writer of it.
+//! A table: named columns over records, declared once, and every writer of it; rows as CSV by what they serialize to.
 
 #[cfg(test)]
 mod tests;
 
 use crate::files::text::cell;
+use crate::judge::statistics::{Estimate, Sample};
 use crate::present::markup;
 use serde::{Deserialize, Serialize};
 
@@ -49,6 +50,30 @@ impl From<usize> for Datum {
 impl From<&str> for Datum {
     fn from(text: &str) -> Self {
         Self::Text(text.into())
+    }
+}
+
+impl From<Estimate> for (f64, f64) {
+    fn from(estimate: Estimate) -> Self {
+        (estimate.value, estimate.se)
+    }
+}
+
+impl From<Sample> for (f64, f64) {
+    fn from(sample: Sample) -> Self {
+        (sample.mean, sample.se)
+    }
+}
+
+impl From<Estimate> for Option<(f64, f64)> {
+    fn from(estimate: Estimate) -> Self {
+        Some(estimate.into())
+    }
+}
+
+impl From<Sample> for Option<(f64, f64)> {
+    fn from(sample: Sample) -> Self {
+        Some(sample.into())
     }
 }
 
@@ -169,6 +194,58 @@ pub fn estimate<'a, R, T: Into<Option<(f64, f64)>>>(
     }
 }
 
+/// A format with so many decimals.
+pub fn decimals(places: usize) -> impl Fn(f64) -> String + Copy {
+    move |number| format!("{number:.places$}")
+}
+
+/// A format as 1.2e-3, with so many decimals.
+pub fn powers(places: usize) -> impl Fn(f64) -> String + Copy {
+    move |number| format!("{number:.places$e}")
+}
+
+/// A format of a number with its standard error, both with so many decimals.
+pub fn plus_minus(places: usize) -> impl Fn(f64, f64) -> String + Copy {
+    move |number, se| format!("{number:.places$} ± {se:.places$}")
+}
+
+/// The same with the sign of the number.
+pub fn signed(places: usize) -> impl Fn(f64, f64) -> String + Copy {
+    move |number, se| format!("{number:+.places$} ± {se:.places$}")
+}
+
+/// A number with two digits of its standard error.
+pub fn two_digits(number: f64, se: f64) -> String {
+    if !(se > 0.0 && se.is_finite()) {
+        return number.to_string();
+    }
+    let places = (1.0 - se.log10().floor()).clamp(0.0, 9.0) as usize;
+    plus_minus(places)(number, se)
+}
+
+/// Records as CSV: the heads are the names of their fields, also where there is no record. Every number is the shortest text that reads back as the same bits;
+/// what is not there is empty, and a text that a spreadsheet would take for a formula has an apostrophe before it.
+pub fn rows_csv<R: Serialize + Default>(records: impl IntoIterator<Item = R>) -> Result<String, String> {
+    let mut plain = csv::Writer::from_writer(Vec::new());
+    // The heads are written with the first record, which is dropped again.
+    for record in std::iter::once(R::default()).chain(records) {
+        plain.serialize(record).map_err(|error| error.to_string())?;
+    }
+    let plain = plain.into_inner().map_err(|error| error.to_string())?;
+    let mut safe = csv::Writer::from_writer(Vec::new());
+    let mut rows = csv::ReaderBuilder::new().has_headers(false).from_reader(&plain[..]).into_records();
+    for row in rows.next().into_iter().chain(rows.skip(1)) {
+        let row = row.map_err(|error| error.to_string())?;
+        safe.write_record(row.iter().map(cell)).map_err(|error| error.to_string())?;
+    }
+    text_of(safe)
+}
+
+fn text_of(writer: csv::Writer<Vec<u8>>) -> Result<String, String> {
+    let bytes = writer.into_inner().map_err(|error| error.to_string())?;
+    String::from_utf8(bytes).map_err(|error| error.to_string())
+}
+
 /// A table of words alone.
 pub fn of_words(
     name: &str,
@@ -243,8 +320,7 @@ impl ReportTable {
             let row: Vec<_> = row.iter().map(safe).collect();
             writer.serialize(row).map_err(|error| error.to_string())?;
         }
-        let bytes = writer.into_inner().map_err(|error| error.to_string())?;
-        String::from_utf8(bytes).map_err(|error| error.to_string())
+        text_of(writer)
     }
 
     /// For the terminal: its title, columns of even width, and what to see.

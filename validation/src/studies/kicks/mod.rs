@@ -5,11 +5,8 @@
 //! 200 steps a period passes 0.1 rad in every flip with no collision at all.
 
 pub mod averaged;
-pub mod chapter;
 pub mod study;
-pub mod tables;
 pub mod tail;
-pub mod updates;
 
 use crate::judge::lab;
 use crate::judge::statistics::Sample;
