@@ -7,6 +7,7 @@ use crate::files::text::cell;
 use crate::judge::statistics::{Estimate, Sample};
 use crate::present::markup;
 use serde::{Deserialize, Serialize};
+use std::borrow::Borrow;
 
 /// What a cell holds as data.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -23,58 +24,45 @@ pub enum Datum {
     Number(f64),
 }
 
-impl From<f64> for Datum {
-    fn from(number: f64) -> Self {
-        Self::Number(number)
-    }
+/// `data! { TYPE, value => datum; … }`: what a type is as data.
+macro_rules! data {
+    ($($from:ty, $value:ident => $datum:expr;)*) => {
+        $(impl From<$from> for Datum {
+            fn from($value: $from) -> Self {
+                $datum
+            }
+        })*
+    };
 }
 
-impl From<u64> for Datum {
-    fn from(count: u64) -> Self {
-        Self::Count(count)
-    }
+data! {
+    f64, number => Self::Number(number);
+    u64, count => Self::Count(count);
+    u32, count => Self::Count(count.into());
+    usize, count => Self::Count(count as u64);
+    &str, text => Self::Text(text.into());
 }
 
-impl From<u32> for Datum {
-    fn from(count: u32) -> Self {
-        Self::Count(count.into())
-    }
+/// Values with their standard errors, as columns of estimates take them.
+macro_rules! estimates {
+    ($($from:ty, $estimate:ident => $pair:expr;)*) => {
+        $(impl From<$from> for (f64, f64) {
+            fn from($estimate: $from) -> Self {
+                $pair
+            }
+        }
+
+        impl From<$from> for Option<(f64, f64)> {
+            fn from($estimate: $from) -> Self {
+                Some($pair)
+            }
+        })*
+    };
 }
 
-impl From<usize> for Datum {
-    fn from(count: usize) -> Self {
-        Self::Count(count as u64)
-    }
-}
-
-impl From<&str> for Datum {
-    fn from(text: &str) -> Self {
-        Self::Text(text.into())
-    }
-}
-
-impl From<Estimate> for (f64, f64) {
-    fn from(estimate: Estimate) -> Self {
-        (estimate.value, estimate.se)
-    }
-}
-
-impl From<Sample> for (f64, f64) {
-    fn from(sample: Sample) -> Self {
-        (sample.mean, sample.se)
-    }
-}
-
-impl From<Estimate> for Option<(f64, f64)> {
-    fn from(estimate: Estimate) -> Self {
-        Some(estimate.into())
-    }
-}
-
-impl From<Sample> for Option<(f64, f64)> {
-    fn from(sample: Sample) -> Self {
-        Some(sample.into())
-    }
+estimates! {
+    Estimate, estimate => (estimate.value, estimate.se);
+    Sample, sample => (sample.mean, sample.se);
 }
 
 impl<T: Into<Datum>> From<Option<T>> for Datum {
@@ -123,38 +111,28 @@ impl<R> Column<'_, R> {
 /// What is shown where there is no value.
 pub const NONE: &str = "–";
 
+fn column<'a, R>(name: impl Into<String>, cell: impl Fn(&R) -> Cell + 'a) -> Column<'a, R> {
+    let name = name.into();
+    Column { heads: vec![name.clone()], name, cell: Box::new(cell), none: NONE }
+}
+
 /// A column of words.
 pub fn words<'a, R, T: Into<String>>(name: impl Into<String>, of: impl Fn(&R) -> T + 'a) -> Column<'a, R> {
-    let name = name.into();
-    Column {
-        heads: vec![name.clone()],
-        name,
-        cell: Box::new(move |record| {
-            let text: String = of(record).into();
-            (Some(text.clone()), vec![Datum::Text(text)])
-        }),
-        none: NONE,
-    }
+    field(name, move |record| Datum::Text(of(record).into()))
 }
 
 /// A column of data, shown as they are.
 pub fn field<'a, R, T: Into<Datum>>(name: impl Into<String>, of: impl Fn(&R) -> T + 'a) -> Column<'a, R> {
-    let name = name.into();
-    Column {
-        heads: vec![name.clone()],
-        name,
-        cell: Box::new(move |record| {
-            let datum = of(record).into();
-            let shown = match &datum {
-                Datum::Nothing => None,
-                Datum::Text(text) => Some(text.clone()),
-                Datum::Count(count) => Some(count.to_string()),
-                Datum::Number(number) => Some(number.to_string()),
-            };
-            (shown, vec![datum])
-        }),
-        none: NONE,
-    }
+    column(name, move |record| {
+        let datum = of(record).into();
+        let shown = match &datum {
+            Datum::Nothing => None,
+            Datum::Text(text) => Some(text.clone()),
+            Datum::Count(count) => Some(count.to_string()),
+            Datum::Number(number) => Some(number.to_string()),
+        };
+        (shown, vec![datum])
+    })
 }
 
 /// A column of numbers in a format; a number that is not there is `–`.
@@ -163,35 +141,26 @@ pub fn number<'a, R, T: Into<Option<f64>>>(
     format: impl Fn(f64) -> String + 'a,
     of: impl Fn(&R) -> T + 'a,
 ) -> Column<'a, R> {
-    let name = name.into();
-    Column {
-        heads: vec![name.clone()],
-        name,
-        cell: Box::new(move |record| {
-            let value = of(record).into();
-            (value.map(&format), vec![value.into()])
-        }),
-        none: NONE,
-    }
+    column(name, move |record| {
+        let value = of(record).into();
+        (value.map(&format), vec![value.into()])
+    })
 }
 
-/// A column of numbers with their standard errors in a format.
+/// A column of numbers with their standard errors in a format; its data are two columns.
 pub fn estimate<'a, R, T: Into<Option<(f64, f64)>>>(
     name: impl Into<String>,
     format: impl Fn(f64, f64) -> String + 'a,
     of: impl Fn(&R) -> T + 'a,
 ) -> Column<'a, R> {
     let name = name.into();
-    Column {
-        heads: vec![name.clone(), format!("± {name}")],
-        name,
-        cell: Box::new(move |record| {
-            let found = of(record).into();
-            let data = [found.map(|f| f.0), found.map(|f| f.1)].map(Datum::from);
-            (found.map(|(value, se)| format(value, se)), data.into())
-        }),
-        none: NONE,
-    }
+    let heads = vec![name.clone(), format!("± {name}")];
+    let cell = move |record: &R| {
+        let found = of(record).into();
+        let data = [found.map(|f| f.0), found.map(|f| f.1)].map(Datum::from);
+        (found.map(|(value, se)| format(value, se)), data.into())
+    };
+    Column { heads, ..column(name, cell) }
 }
 
 /// A format with so many decimals.
@@ -267,33 +236,22 @@ pub fn of_words(
     }
 }
 
-/// The table in a text of Markdown.
-pub fn of_markdown(name: &str, title: &str, caption: &str, text: &str) -> ReportTable {
-    let lines = (text.lines()).filter(|line| line.starts_with('|') && !line.starts_with("| ---"));
-    let mut rows = lines.map(|line| {
-        let cells = line.trim_matches('|').split(" | ");
-        cells.map(|cell| cell.trim().to_owned()).collect::<Vec<_>>()
-    });
-    let columns = rows.next().unwrap_or_default();
-    of_words(name, title, caption, &columns, rows.collect())
-}
-
 impl ReportTable {
-    /// A row for each record.
+    /// A table by its name and title, its caption, its records, owned or borrowed, and the columns over them.
     pub fn new<R>(
         [name, title]: [&str; 2],
         caption: impl Into<String>,
-        records: impl IntoIterator<Item = R>,
+        records: impl IntoIterator<Item: Borrow<R>>,
         columns: Vec<Column<'_, R>>,
     ) -> Self {
-        let cells = |record: R| -> (Vec<String>, Vec<Vec<Datum>>) {
+        let cells = |record: &R| -> (Vec<String>, Vec<Vec<Datum>>) {
             let cell = |column: &Column<'_, R>| {
-                let (shown, data) = (column.cell)(&record);
+                let (shown, data) = (column.cell)(record);
                 (shown.unwrap_or_else(|| column.none.into()), data)
             };
             columns.iter().map(cell).unzip()
         };
-        let (rows, data): (Vec<_>, Vec<_>) = records.into_iter().map(cells).unzip();
+        let (rows, data): (Vec<_>, Vec<_>) = records.into_iter().map(|record| cells(record.borrow())).unzip();
         Self {
             name: name.into(),
             title: title.into(),

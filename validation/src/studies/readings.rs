@@ -43,7 +43,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     let Some(rows) = measure(request.effort) else {
         return Ok(None);
     };
-    let change = |row: &&ReadingRow| row.changes.as_ref().map_or(0.0, |changes| changes[0].value.abs());
+    let change = |row: &ReadingRow| row.changes.as_ref().map_or(0.0, |changes| changes[0].value.abs());
     let largest = rows.iter().max_by(|a, b| change(a).total_cmp(&change(b)));
     let answer = largest.map_or(String::new(), |row| {
         format!("X̄₁ at t/T = 1 changes most, by {:.3}, with {}: {}.", change(&row), row.open, row.reading)
@@ -55,13 +55,13 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
 pub fn table(rows: &[ReadingRow]) -> ReportTable {
     let replicas = rows.iter().map(|row| row.replicas).min().unwrap_or(0);
     let mut columns = vec![
-        words("left open", |row: &&ReadingRow| row.open),
-        words("read as", |row: &&ReadingRow| row.reading),
+        words("left open", |row: &ReadingRow| row.open),
+        words("read as", |row: &ReadingRow| row.reading),
     ];
     for (k, (name, _)) in QUANTITIES.iter().enumerate() {
-        columns.push(estimate(*name, plus_minus(4), move |row: &&ReadingRow| row.values[k]));
+        columns.push(estimate(*name, plus_minus(4), move |row: &ReadingRow| row.values[k]));
         let minus = |x: f64, se: f64| signed(4)(x, se).replace('-', "−");
-        columns.push(estimate("change", minus, move |row: &&ReadingRow| {
+        columns.push(estimate("change", minus, move |row: &ReadingRow| {
             row.changes.as_ref().map(|changes| changes[k].into())
         }));
     }

@@ -30,12 +30,12 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
 
 /// The targets.
 fn table(speed: &Speed) -> ReportTable {
-    let target = |check: &&Check| match check.target {
+    let target = |check: &Check| match check.target {
         Target::AtMost(most) => format!("≤ {most} {}", check.unit),
         Target::AtLeast(least) => format!("≥ {least} {}", check.unit),
         Target::None => "–".into(),
     };
-    let met = |check: &&Check| match (check.target, check.met()) {
+    let met = |check: &Check| match (check.target, check.met()) {
         (Target::None, _) => "–",
         (_, true) => "yes",
         (_, false) => "no",
@@ -49,12 +49,12 @@ fn table(speed: &Speed) -> ReportTable {
         ),
         &speed.checks,
         vec![
-            words("what", |check: &&Check| check.what),
+            words("what", |check: &Check| check.what),
             words("target", target),
-            words("measured", |check: &&Check| format!("{:.3} {}", check.measured, check.unit)),
-            number("measured / target", decimals(2), |check: &&Check| check.over_target()),
+            words("measured", |check: &Check| format!("{:.3} {}", check.measured, check.unit)),
+            number("measured / target", decimals(2), |check: &Check| check.over_target()),
             words("met", met),
-            words("behind it", |check: &&Check| check.behind.as_str()),
+            words("behind it", |check: &Check| check.behind.clone()),
         ],
     )
 }

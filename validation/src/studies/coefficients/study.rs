@@ -45,8 +45,9 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
             100.0 * row.misfit.value
         )
     });
-    let same = |row: &&Coefficients| kind(row) == (11.6, 0.5) && row.setting.n_a3 == 0.2;
-    let compared = jumps::compared(&rows.iter().filter(same).collect::<Vec<_>>(), request.effort);
+    let same: Vec<_> =
+        rows.iter().filter(|row| kind(row) == (11.6, 0.5) && row.setting.n_a3 == 0.2).collect();
+    let compared = jumps::compared(&same, request.effort);
     let finest = compared.iter().find(|one| one.setting.finer == amount.finer);
     let [tail, apart] = jumps::tables(&compared, request.effort);
     let [jumped, orbits] = finest.map(jumps::figures).map_or([None, None], |both| both.map(Some));
@@ -91,32 +92,32 @@ fn base(rows: &[Coefficients], finer: u64) -> Vec<&Coefficients> {
     rows.iter().filter(|row| kind(row) == (11.6, 0.5) && row.setting.finer == finer).collect()
 }
 
-fn settings<'a>() -> Vec<Column<'a, &'a Coefficients>> {
+fn settings<'a>() -> Vec<Column<'a, Coefficients>> {
     vec![
-        field("n a³", |row: &&Coefficients| row.setting.n_a3),
-        field("r_e", |row: &&Coefficients| row.setting.aspect_ratio),
-        field("α", |row: &&Coefficients| row.setting.alpha),
-        field("steps ×", |row: &&Coefficients| row.setting.finer),
-        field("periods", |row: &&Coefficients| row.periods),
+        field("n a³", |row: &Coefficients| row.setting.n_a3),
+        field("r_e", |row: &Coefficients| row.setting.aspect_ratio),
+        field("α", |row: &Coefficients| row.setting.alpha),
+        field("steps ×", |row: &Coefficients| row.setting.finer),
+        field("periods", |row: &Coefficients| row.periods),
     ]
 }
 
-fn measured<'a>(name: &str, value: impl Fn(&Coefficients) -> Estimate + 'a) -> Column<'a, &'a Coefficients> {
+fn measured<'a>(name: &str, value: impl Fn(&Coefficients) -> Estimate + 'a) -> Column<'a, Coefficients> {
     let digits = |x: f64, se: f64| plus_minus((2.0 - se.log10()).floor().clamp(2.0, 6.0) as usize)(x, se);
-    estimate(name, digits, move |row: &&Coefficients| value(row))
+    estimate(name, digits, move |row: &Coefficients| value(row))
 }
 
 /// C_I of each suspension, and how well one number does.
 fn coefficients(rows: &[Coefficients]) -> ReportTable {
     let replicas = rows.first().map_or(0, |row| row.replicas);
     let mut columns = settings();
-    columns.push(number("φ r_p", decimals(4), |row: &&Coefficients| row.phi_rp));
+    columns.push(number("φ r_p", decimals(4), |row: &Coefficients| row.phi_rp));
     columns.push(measured("C_I", |row| row.c_i));
     for (k, name) in ["of 11", "of 22", "of 33", "of 12"].into_iter().enumerate() {
         columns.push(measured(name, move |row| row.own[k]));
     }
     columns.push(measured("left over", |row| row.misfit));
-    columns.push(estimate("X̄₁'s decay per T", plus_minus(2), |row: &&Coefficients| {
+    columns.push(estimate("X̄₁'s decay per T", plus_minus(2), |row: &Coefficients| {
         row.damping_per_period.map(Into::into)
     }));
     ReportTable::new(

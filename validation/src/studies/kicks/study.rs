@@ -148,12 +148,12 @@ fn tails(scene: &Scene, replicas: u64) -> Vec<(String, Exponent)> {
     tails
 }
 
-fn mean<'a>(name: &str, of: fn(&Counts) -> f64) -> Column<'a, &'a StepCounts> {
-    estimate(name, two_digits, move |row: &&StepCounts| row.mean(of))
+fn mean<'a>(name: &str, of: fn(&Counts) -> f64) -> Column<'a, StepCounts> {
+    estimate(name, two_digits, move |row: &StepCounts| row.mean(of))
 }
 
 /// What the liquid does to the gap.
-fn sides<'a>() -> [Column<'a, &'a StepCounts>; 5] {
+fn sides<'a>() -> [Column<'a, StepCounts>; 5] {
     [
         mean("> 0.1, closing", |c| c.closing[1]),
         mean("formula", |c| c.fresh_closing[1]),
@@ -165,7 +165,7 @@ fn sides<'a>() -> [Column<'a, &'a StepCounts>; 5] {
 
 fn steps(study: &Limit) -> ReportTable {
     let mut columns = vec![
-        field("steps per period", |row: &&StepCounts| row.steps_per_period),
+        field("steps per period", |row: &StepCounts| row.steps_per_period),
         mean("> 0.01 rad", |c| c.all(0)),
         mean("> 0.1 rad", |c| c.all(1)),
         mean("> 1 rad", |c| c.all(2)),
@@ -187,7 +187,7 @@ fn steps(study: &Limit) -> ReportTable {
 }
 
 fn dense(study: &Limit) -> ReportTable {
-    let mut columns = vec![field("steps per period", |row: &&StepCounts| row.steps_per_period)];
+    let mut columns = vec![field("steps per period", |row: &StepCounts| row.steps_per_period)];
     columns.extend(sides());
     ReportTable::new(
         ["kick-rates-dense", "Kicks where rods collide often"],
@@ -203,7 +203,7 @@ fn dense(study: &Limit) -> ReportTable {
 
 fn periods(study: &Limit) -> ReportTable {
     let mut columns = vec![
-        words("t/T", |row: &&StepCounts| format!("{} to {}", row.periods.start, row.periods.end)),
+        words("t/T", |row: &StepCounts| format!("{} to {}", row.periods.start, row.periods.end)),
         mean("> 0.1 rad", |c| c.all(1)),
         mean("> 1 rad", |c| c.all(2)),
     ];
@@ -228,10 +228,10 @@ fn exponents(study: &Limit) -> ReportTable {
          An arm of any size gives 1; a shortest arm cuts the tail off. `kick-tail`",
         &study.tails,
         vec![
-            words("kicks", |t: &&Tail| t.0.as_str()),
-            field("threshold", |t: &&Tail| t.1.threshold),
-            field("above it", |t: &&Tail| t.1.count),
-            estimate("exponent", plus_minus(3), |t: &&Tail| (t.1.alpha, t.1.se)),
+            words("kicks", |t: &Tail| t.0.clone()),
+            field("threshold", |t: &Tail| t.1.threshold),
+            field("above it", |t: &Tail| t.1.count),
+            estimate("exponent", plus_minus(3), |t: &Tail| (t.1.alpha, t.1.se)),
         ],
     )
 }

@@ -1,6 +1,6 @@
 //! The study of an interacting scene: its law, constants, cheapest splits and what they gave, coupled estimates.
 
-use super::coupled::{self, Coupled, Saving};
+use super::coupled::{self, Coupled};
 use super::job::Job;
 use super::law::{self, JobMean, Law, Replicas};
 use super::split::{self, Constants, Realised, Scope, Split, TARGETS};
@@ -9,7 +9,7 @@ use crate::files::build;
 use crate::input::scenes;
 use crate::present::plot::{Curve, Points};
 use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
-use crate::present::table::{Column, ReportTable, decimals, field, number, powers, rows_csv, words};
+use crate::present::table::{Column, ReportTable, field, number, powers, rows_csv, words};
 use crate::studies::work_precision::study::time;
 use crate::studies::work_precision::{Budget, measure as clock};
 use serde::Serialize;
@@ -43,7 +43,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
         Exhibit::both(law_tables::steps_figure(&study.law), steps),
     ];
     exhibits.extend(law.map(Exhibit::from));
-    exhibits.push(coupled_table(&study.coupled).into());
+    exhibits.push(coupled::table(&study.coupled).into());
     let answer = study.answers.first().map_or(String::new(), |answer| {
         let split = &answer.split;
         format!(
@@ -259,13 +259,13 @@ pub fn splits_table(constants: &Constants, splits: &[Split]) -> ReportTable {
         ["splits", "The cheapest steps, rods and replicas for an error of X̄₁ at t/T = 1"],
         rule(constants),
         splits,
-        split_columns(|split: &&Split| **split),
+        split_columns(|split: &Split| *split),
     )
 }
 
 /// The same with times, and what was realised.
 fn answers(study: &Interacting) -> ReportTable {
-    let realised = |answer: &&Answer| match &answer.realised {
+    let realised = |answer: &Answer| match &answer.realised {
         Some(realised) => format!(
             "{:.1e} (bias {:+.1e} ± {:.0e}, scatter {:.1e} ± {:.0e})",
             realised.error,
@@ -284,8 +284,8 @@ fn answers(study: &Interacting) -> ReportTable {
             )
         })
         .collect();
-    let mut columns = split_columns(|answer: &&Answer| answer.split);
-    columns.push(number("time, one core", time, |answer: &&Answer| answer.seconds));
+    let mut columns = split_columns(|answer: &Answer| answer.split);
+    columns.push(number("time, one core", time, |answer: &Answer| answer.seconds));
     columns.push(words("realised error", realised));
     ReportTable::new(
         [
@@ -342,32 +342,4 @@ fn figure(study: &Interacting) -> ReportFigure {
     .curves(curves)
     .points([Points::of("realised", realised, |point| point)])
     .judged("eqs 4 to 14", &["cheapest-split"])
-}
-
-/// What shared random numbers save.
-fn coupled_table(coupled: &Coupled) -> ReportTable {
-    ReportTable::new(
-        ["suspension-coupled", "Shared random numbers: by what factor fewer runs are needed"],
-        format!(
-            "Levels in Δt ({} and {} steps per period, same seeds) are tied by their starts alone: the gain with coarse \
-             runs at an eighth of the cost, and the most that coarse runs for nothing could give; below 1 it costs more \
-             than it saves. The same rods without collisions, whose mean has a closed form, give more for less. Common \
-             random numbers pay for a difference, here between α and 0.8 α. {} replicas (`shared-random-numbers`, \
-             `paths-do-not-converge`).",
-            coupled.steps_per_period,
-            2 * coupled.steps_per_period,
-            coupled.replicas
-        ),
-        &coupled.rows,
-        vec![
-            field("t/T", |r: &&Saving| r.turns),
-            number("ρ, half the step", decimals(2), |r: &&Saving| r.finer),
-            number("gain, levels", decimals(2), |r: &&Saving| r.multilevel()),
-            number("at best", decimals(2), |r: &&Saving| r.multilevel_at_best()),
-            number("ρ, free rods", decimals(2), |r: &&Saving| r.free),
-            number("gain, control variate", decimals(2), |r: &&Saving| r.control_variate()),
-            number("ρ, other α", decimals(2), |r: &&Saving| r.other_alpha),
-            number("gain for the difference", decimals(2), |r: &&Saving| r.common_numbers()),
-        ],
-    )
 }

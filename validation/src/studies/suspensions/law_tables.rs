@@ -105,8 +105,8 @@ fn paths(law: &Law) -> ReportTable {
 
 fn rods(law: &Law) -> ReportTable {
     let last = law.rods.last().copied();
-    let less = move |sample: &&JobMean| {
-        let last = last.filter(|last| last != *sample)?;
+    let less = move |sample: &JobMean| {
+        let last = last.filter(|last| last != sample)?;
         Some((sample.x1 - last.x1, sample.se.hypot(last.se)))
     };
     let line = |k: usize, name: &str| match &law.rods_lines[k] {
@@ -131,10 +131,10 @@ fn rods(law: &Law) -> ReportTable {
         ),
         &law.rods,
         vec![
-            field("rods", |s: &&JobMean| s.rods),
-            field("replicas", |s: &&JobMean| s.replicas),
-            number("X̄₁", decimals(5), |s: &&JobMean| s.x1),
-            number("± se", decimals(5), |s: &&JobMean| s.se),
+            field("rods", |s: &JobMean| s.rods),
+            field("replicas", |s: &JobMean| s.replicas),
+            number("X̄₁", decimals(5), |s: &JobMean| s.x1),
+            number("± se", decimals(5), |s: &JobMean| s.se),
             estimate("less the most", signed(5), less),
         ],
     )
@@ -155,10 +155,10 @@ fn replicas(law: &Law) -> ReportTable {
         ),
         &law.blocks,
         vec![
-            field("replicas", |b: &&Block| b.replicas),
-            field("blocks", |b: &&Block| b.blocks),
-            number("deviation of means", decimals(5), |b: &&Block| b.deviation),
-            number("deviation √M", decimals(4), |b: &&Block| b.deviation * (b.replicas as f64).sqrt()),
+            field("replicas", |b: &Block| b.replicas),
+            field("blocks", |b: &Block| b.blocks),
+            number("deviation of means", decimals(5), |b: &Block| b.deviation),
+            number("deviation √M", decimals(4), |b: &Block| b.deviation * (b.replicas as f64).sqrt()),
         ],
     )
 }

@@ -2,10 +2,11 @@
 //! them.
 
 pub mod order;
+pub mod rows;
 pub mod study;
 mod time;
 
-use crate::studies::integrators::{self, Errors, Integrator, Problem, Setting, Theory, grade};
+use crate::studies::integrators::{Errors, Integrator, Problem, Setting, Theory, grade};
 use serde::Serialize;
 pub(crate) use time::measure;
 pub use time::{Budget, Seconds};
@@ -70,12 +71,6 @@ pub fn run(aspect_ratio: f64, subjects: &[Integrator], budget: Budget) -> Bench 
         turns: problem.turns,
         curves: (subjects.iter()).map(|subject| curve(subject, aspect_ratio, budget)).collect(),
     }
-}
-
-/// Runs every subject of the project at every aspect ratio of the benches.
-pub fn run_all(budget: Budget) -> Vec<Bench> {
-    let subjects = integrators::all();
-    (ASPECT_RATIOS.iter()).map(|aspect_ratio| run(*aspect_ratio, &subjects, budget)).collect()
 }
 
 /// One subject's curve: settings from coarse to fine until a run takes longer than half the budget, as the next would
@@ -208,7 +203,7 @@ mod tests {
         // What failed is in every writing.
         let bench = Bench { name: name(2.0), aspect_ratio: 2.0, turns: 1.0, curves: vec![found] };
         let benches = [bench];
-        let csv = study::bench_csv(&benches).unwrap();
+        let csv = rows::bench_csv(&benches).unwrap();
         assert_eq!(csv.matches(",too stiff,").count(), 13, "{csv}");
         assert!(
             crate::files::build::json(&benches[0].curves[0].points[0])
@@ -224,7 +219,7 @@ mod tests {
     #[test]
     fn every_subject_is_in_every_table() {
         assert_eq!(ASPECT_RATIOS.map(name), PARTS);
-        let subjects = integrators::all();
+        let subjects = crate::studies::integrators::all();
         let bench = run(2.0, &subjects, QUICK);
         let table = study::every_subject(&bench);
         let names: Vec<_> = table.rows.iter().map(|row| row[0].as_str()).collect();

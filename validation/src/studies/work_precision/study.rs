@@ -1,13 +1,13 @@
 //! The study of integrators of one rod: error against run time, and observed orders.
 
-use super::order::{self, Convergence, Halving, OrderVerdict, Orders, Richardson};
+use super::order::{self, Convergence, OrderVerdict, Orders, Richardson};
+use super::rows::bench_csv;
 use super::{Bench, Budget, IntegratorCurve, PARTS, Point, TARGETS_RAD};
 use crate::files::build;
 use crate::present::plot::{Curve, Points};
 use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
-use crate::present::table::{Column, NONE, ReportTable, decimals, field, number, powers, rows_csv, words};
+use crate::present::table::{Column, NONE, ReportTable, decimals, field, number, powers, words};
 use crate::studies::integrators::{self, Errors, Theory};
-use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// Every integrator at every aspect ratio.
@@ -67,88 +67,6 @@ fn answer(benches: &[Bench], orders: &order::Orders) -> String {
         kept.count(),
         orders.studies.len()
     )
-}
-
-/// A row of bench.csv.
-#[derive(Default, Serialize)]
-struct BenchRow<'a> {
-    case: &'a str,
-    aspect_ratio: f64,
-    subject: &'a str,
-    steps: Option<u64>,
-    tolerance: Option<f64>,
-    status: &'a str,
-    seconds_min: f64,
-    seconds_max: f64,
-    measurements: usize,
-    orientation_error_rad: Option<f64>,
-    orbit_constant_error: Option<f64>,
-    phase_error_turns: Option<f64>,
-    length_error: Option<f64>,
-}
-
-/// bench.csv.
-pub fn bench_csv(benches: &[Bench]) -> Result<String, String> {
-    let row = |bench, curve, point| -> BenchRow {
-        let (bench, curve, point): (&Bench, &IntegratorCurve, &Point) = (bench, curve, point);
-        let [orientation_error_rad, orbit_constant_error, phase_error_turns, length_error] =
-            parts(point.errors);
-        BenchRow {
-            case: &bench.name,
-            aspect_ratio: bench.aspect_ratio,
-            subject: &curve.subject,
-            steps: point.setting.steps().ok(),
-            tolerance: point.setting.tolerance().ok(),
-            status: point.failure.as_deref().unwrap_or("ok"),
-            seconds_min: point.seconds.least,
-            seconds_max: point.seconds.most,
-            measurements: point.seconds.measurements,
-            orientation_error_rad,
-            orbit_constant_error,
-            phase_error_turns,
-            length_error,
-        }
-    };
-    let curves = benches.iter().flat_map(|bench| bench.curves.iter().map(move |curve| (bench, curve)));
-    rows_csv(curves.flat_map(|(bench, curve)| curve.points.iter().map(move |point| row(bench, curve, point))))
-}
-
-/// A row of converge.csv of a free scene.
-#[derive(Default, Serialize)]
-struct OrderRow<'a> {
-    subject: &'a str,
-    theory: u32,
-    steps: u64,
-    orientation_error_rad: Option<f64>,
-    orbit_constant_error: Option<f64>,
-    phase_error_turns: Option<f64>,
-    length_error: Option<f64>,
-    observed_order: Option<f64>,
-}
-
-/// converge.csv of a free scene.
-pub fn orders_csv(studies: &[Convergence]) -> Result<String, String> {
-    let row = |study, halving| -> OrderRow {
-        let (study, halving): (&Convergence, &Halving) = (study, halving);
-        let [orientation_error_rad, orbit_constant_error, phase_error_turns, length_error] =
-            parts(halving.errors);
-        OrderRow {
-            subject: &study.subject,
-            theory: study.theory,
-            steps: halving.steps,
-            orientation_error_rad,
-            orbit_constant_error,
-            phase_error_turns,
-            length_error,
-            observed_order: halving.order,
-        }
-    };
-    rows_csv((studies.iter()).flat_map(|study| study.halvings.iter().map(move |halving| row(study, halving))))
-}
-
-/// The four errors of a run that ended.
-fn parts(errors: Option<Errors>) -> [Option<f64>; 4] {
-    errors.map_or([None; 4], |e| [e.orientation_rad, e.orbit_constant, e.phase_turns, e.length].map(Some))
 }
 
 /// Where failed runs are drawn: above every error, which is π/2 at most.
@@ -250,16 +168,16 @@ fn ratio(benches: &[Bench]) -> ReportTable {
         "The propagator's time for round-off error over the cheapest adaptive subject's for 10⁻⁶ rad.",
         benches.iter(),
         vec![
-            field("r_e", |b: &&Bench| b.aspect_ratio),
-            number("error of the propagator (rad)", powers(1), move |b: &&Bench| {
+            field("r_e", |b: &Bench| b.aspect_ratio),
+            number("error of the propagator (rad)", powers(1), move |b: &Bench| {
                 exact(b).map(|point| point.error_rad())
             })
             .or(NOT_REACHED),
-            number("its time", time, move |b: &&Bench| exact(b).map(|point| point.seconds.least))
+            number("its time", time, move |b: &Bench| exact(b).map(|point| point.seconds.least))
                 .or(NOT_REACHED),
-            words("adaptive, for 1e-6", move |b: &&Bench| adaptive(b).0),
-            number("its time for 1e-6", time, move |b: &&Bench| adaptive(b).1).or(NOT_REACHED),
-            number("ratio", |ratio| format!("1/{:.0}", 1.0 / ratio), |b: &&Bench| b.exact_over_adaptive()),
+            words("adaptive, for 1e-6", move |b: &Bench| adaptive(b).0),
+            number("its time for 1e-6", time, move |b: &Bench| adaptive(b).1).or(NOT_REACHED),
+            number("ratio", |ratio| format!("1/{:.0}", 1.0 / ratio), |b: &Bench| b.exact_over_adaptive()),
         ],
     )
 }
@@ -267,26 +185,26 @@ fn ratio(benches: &[Bench]) -> ReportTable {
 /// Every subject of a bench: the time for each error, then the best it can do.
 pub(super) fn every_subject(bench: &Bench) -> ReportTable {
     let best = |curve: &IntegratorCurve| Some((curve.best()?.clone(), curve.best()?.errors?));
-    let mut columns: Vec<Column<&IntegratorCurve>> =
-        vec![words("subject", |c: &&IntegratorCurve| c.subject.as_str())];
+    let mut columns: Vec<Column<IntegratorCurve>> =
+        vec![words("subject", |c: &IntegratorCurve| c.subject.clone())];
     columns.extend(TARGETS_RAD.map(|target| {
-        number(format!("{target:.0e} rad"), time, move |c: &&IntegratorCurve| {
+        number(format!("{target:.0e} rad"), time, move |c: &IntegratorCurve| {
             c.cheapest(target).map(|point| point.seconds.least)
         })
         .or(NOT_REACHED)
     }));
     columns.extend([
-        number("best (rad)", powers(1), move |c: &&IntegratorCurve| best(c).map(|b| b.1.orientation_rad)),
-        number("C_b", powers(1), move |c: &&IntegratorCurve| best(c).map(|b| b.1.orbit_constant)),
-        number("t/T", powers(1), move |c: &&IntegratorCurve| best(c).map(|b| b.1.phase_turns)),
-        words("setting", move |c: &&IntegratorCurve| {
+        number("best (rad)", powers(1), move |c: &IntegratorCurve| best(c).map(|b| b.1.orientation_rad)),
+        number("C_b", powers(1), move |c: &IntegratorCurve| best(c).map(|b| b.1.orbit_constant)),
+        number("t/T", powers(1), move |c: &IntegratorCurve| best(c).map(|b| b.1.phase_turns)),
+        words("setting", move |c: &IntegratorCurve| {
             best(c).map_or("failed".into(), |b| b.0.setting.to_string())
         }),
-        words("time", move |c: &&IntegratorCurve| {
+        words("time", move |c: &IntegratorCurve| {
             let seconds = best(c).map(|b| b.0.seconds);
             seconds.map_or(NONE.into(), |s| format!("{} to {}", time(s.least), time(s.most)))
         }),
-        words("failed", |c: &&IntegratorCurve| format!("{} of {}", c.failures(), c.points.len())),
+        words("failed", |c: &IntegratorCurve| format!("{} of {}", c.failures(), c.points.len())),
     ]);
     ReportTable::new(
         [
@@ -301,18 +219,18 @@ pub(super) fn every_subject(bench: &Bench) -> ReportTable {
 
 /// Observed orders.
 pub fn orders_table(orders: &Orders) -> ReportTable {
-    let found = |study: &&Convergence| match study.found {
+    let found = |study: &Convergence| match study.found {
         OrderVerdict::AsTheory => "as theory",
         OrderVerdict::Not => "NOT as theory",
         OrderVerdict::RoundOff => "at round-off",
     };
-    let judged = |study: &&Convergence| {
+    let judged = |study: &Convergence| {
         let judged: Vec<_> = study.judged.iter().map(|order| format!("{order:+.3}")).collect();
         judged.join(" ")
     };
     type Format<'a> = &'a dyn Fn(f64) -> String;
-    fn of<'a>(name: &str, format: Format<'a>, value: fn(&Richardson) -> f64) -> Column<'a, &'a Convergence> {
-        number(name, format, move |study: &&Convergence| study.richardson.as_ref().map(value))
+    fn of<'a>(name: &str, format: Format<'a>, value: fn(&Richardson) -> f64) -> Column<'a, Convergence> {
+        number(name, format, move |study: &Convergence| study.richardson.as_ref().map(value))
     }
     ReportTable::new(
         ["orders", "Observed order, Richardson's value and grid convergence index"],
@@ -324,8 +242,8 @@ pub fn orders_table(orders: &Orders) -> ReportTable {
         ),
         &orders.studies,
         vec![
-            words("subject", |s: &&Convergence| s.subject.as_str()),
-            words("theory", |s: &&Convergence| s.theory.to_string()),
+            words("subject", |s: &Convergence| s.subject.clone()),
+            words("theory", |s: &Convergence| s.theory.to_string()),
             words("observed", judged),
             words("verdict", found),
             of("steps", &|steps| steps.to_string(), |r| r.steps as f64),
