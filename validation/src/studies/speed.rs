@@ -157,7 +157,7 @@ impl Check {
         }
     }
 
-    /// Whether the target is met.
+    /// True if the target is met, or there is none.
     pub fn met(&self) -> bool {
         match self.target {
             Target::AtMost(most) => self.measured <= most,

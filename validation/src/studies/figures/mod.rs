@@ -13,9 +13,9 @@ use run::Runs;
 /// How many replicas of a scene are run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Replicas {
-    /// Of a scene with interaction, usually of 100 rods each.
+    /// Replicas of a scene with interaction, usually of 100 rods each.
     pub interacting: u64,
-    /// Of a scene of free rods, usually of 10 000 rods each.
+    /// Replicas of a scene of free rods, usually of 10 000 rods each.
     pub free: u64,
 }
 

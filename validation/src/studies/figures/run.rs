@@ -99,7 +99,7 @@ fn replicas(plan: &Plan) -> Result<Vec<Replica>, String> {
     ensemble::replicas_of(plan, replicas, &|| ()).map_err(|error| error.to_string())
 }
 
-/// Whether two scenes differ in nothing but their titles.
+/// True if two scenes differ only in their titles.
 fn same(a: &Scene, b: &Scene) -> bool {
     let untitled = |scene: &Scene| Scene { title: String::new(), ..scene.clone() };
     untitled(a) == untitled(b)

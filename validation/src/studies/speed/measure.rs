@@ -58,7 +58,7 @@ fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
     start.elapsed().as_secs_f64()
 }
 
-/// So many steps that they take about the wanted time.
+/// The time of a step, from as many steps as take about the wanted time.
 fn step(rods: usize, concentration_per_cm3: f64, amount: Amount) -> Result<Step, String> {
     let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
     scene.particles.count = rods;
@@ -137,7 +137,7 @@ fn free_plan(rods: usize, outputs: u64, sd_percent: f64) -> Plan {
     lab::plan(&scene)
 }
 
-/// Whole runs, drawing the rods included.
+/// The time of whole runs, including the draws of the rods.
 fn free(
     what: &'static str,
     sd_percent: f64,

@@ -92,7 +92,7 @@ pub fn bisect(ladder: Ladder, holds: impl Fn(f64) -> bool) -> Limit {
     }
 }
 
-/// Whether a subject has a property with steps of GΔt = `strain` at this aspect ratio.
+/// True if an integrator has a property with steps of GΔt = `strain` at this aspect ratio.
 pub fn holds(subject: &Integrator, property: Property, aspect_ratio: f64, strain: f64) -> bool {
     let stepped = |p3: f64, more: u32| {
         let parts = (0..RODS).step_by(PART as usize);
@@ -134,7 +134,7 @@ fn phi(k: u32) -> f64 {
     PI * (f64::from(k) + 0.5) / f64::from(RODS)
 }
 
-/// Whether b is ahead of a by less than half a turn; a difference of round-off says nothing.
+/// True if b is ahead of a by less than half a turn, or by round-off behind it.
 fn forward(a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
     (a.x * b.y - a.y * b.x) / (a.norm() * b.norm()) >= -4.0 * f64::EPSILON
 }

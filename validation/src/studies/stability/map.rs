@@ -59,7 +59,7 @@ impl Fate {
         }
     }
 
-    /// Whether the end is right.
+    /// True if the end is within [`ACCURATE_RAD`] of the closed form.
     pub fn is_right(self) -> bool {
         self <= Self::Accurate
     }

@@ -41,7 +41,7 @@ pub struct Point {
     pub rods: usize,
     /// The root mean square of X̄₁ less the closed form.
     pub error: f64,
-    /// Laid so many times.
+    /// The number of trials, each with rods of its own.
     pub trials: usize,
     /// What laying and moving the rods once took.
     pub seconds: Seconds,
@@ -79,7 +79,7 @@ pub struct Bench {
 pub struct Amount {
     /// N = 10², 10^2.5, … up to 10^this/2.
     pub half_decades: i32,
-    /// Laid so many times, a multiple of [`GROUPS`].
+    /// The number of trials, a multiple of [`GROUPS`].
     pub trials: usize,
 }
 

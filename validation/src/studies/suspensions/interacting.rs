@@ -66,7 +66,7 @@ pub const SCENE: &str = "fig7-n50";
 /// How much is measured.
 #[derive(Clone, Copy, Debug)]
 pub struct Amount {
-    /// Of the study of steps, rods and replicas.
+    /// Replicas of the jobs over steps and rods.
     pub replicas: Replicas,
     /// Steps per period and replicas of the reference with the scene's own rods.
     pub reference: (u64, u64),
@@ -119,13 +119,13 @@ pub struct Interacting {
     pub law: Law,
     /// What the error is made of.
     pub constants: Constants,
-    /// Of a rod's step on one core, in s, with the scene's own rods.
+    /// The time of one rod's step on one core in s, with the scene's own rods.
     pub rod_step_s: f64,
     /// For each of [`TARGETS`]: with the scene's own rods, and without faces.
     pub answers: Vec<Answer>,
     /// What the realised errors are counted from: the scene's own rods, and without faces.
     pub references: Vec<JobMean>,
-    /// What shared random numbers save.
+    /// The savings by shared random numbers.
     pub coupled: Coupled,
 }
 

@@ -110,7 +110,7 @@ impl Point {
 }
 
 impl IntegratorCurve {
-    /// The cheapest point with at most this error. The next finer one must have it too, lest a chance crossing count.
+    /// The cheapest point with at most this error. The next finer one must have it too, to exclude accidental crossings.
     pub fn cheapest(&self, error_rad: f64) -> Option<&Point> {
         let reaches = |k: usize| self.points.get(k).is_none_or(|point| point.error_rad() <= error_rad);
         (0..self.points.len())

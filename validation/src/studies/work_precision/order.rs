@@ -117,7 +117,7 @@ fn of_all(aspect_ratio: f64, phi: f64, theta: f64, turns: f64, whose: &str) -> O
     }
 }
 
-/// So many steps that GΔt is about 1.
+/// The number of steps at which GΔt is about 1.
 fn coarsest(problem: &Problem) -> u64 {
     (problem.strain().ceil() as u64).next_power_of_two().max(8)
 }
