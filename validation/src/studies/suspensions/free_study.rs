@@ -42,7 +42,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     let mut exhibits: Vec<Exhibit> = benches.iter().map(|bench| figure(bench).into()).collect();
     exhibits[0].table = Some(table(&benches));
     let files = [
-        ("suspensions.csv", rows_csv(points(&benches).map(Row::from))?),
+        ("suspensions.csv", rows_csv(points(&benches).map(StartRow::from))?),
         ("suspensions.json", build::json(&BTreeMap::from([("benches", &benches)]))?),
     ];
     Ok(Some(Findings::new(answer, exhibits, files)))
@@ -57,7 +57,7 @@ fn points(benches: &[Bench]) -> impl Iterator<Item = (&Bench, &StartCurve, &Poin
 
 /// A row of suspensions.csv.
 #[derive(Default, Serialize)]
-struct Row {
+struct StartRow {
     scene: &'static str,
     t_over_t: f64,
     start: &'static str,
@@ -69,7 +69,7 @@ struct Row {
     measurements: usize,
 }
 
-impl From<(&Bench, &StartCurve, &Point)> for Row {
+impl From<(&Bench, &StartCurve, &Point)> for StartRow {
     fn from((bench, curve, point): (&Bench, &StartCurve, &Point)) -> Self {
         Self {
             scene: bench.free.scene,

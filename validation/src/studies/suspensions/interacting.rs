@@ -55,7 +55,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
             time(answer.seconds)
         )
     });
-    let rows = study.answers.iter().map(|answer| Row::of(&study.scene, answer));
+    let rows = study.answers.iter().map(|answer| SplitRow::of(&study.scene, answer));
     let files = [("splits.csv", rows_csv(rows)?), ("splits.json", build::json(&study)?)];
     Ok(Some(Findings::new(answer, exhibits, files)))
 }
@@ -183,7 +183,7 @@ fn off_at_most(constants: &Constants, scope: Scope, reference: &JobMean) -> f64 
 
 /// A row of splits.csv.
 #[derive(Default, Serialize)]
-struct Row<'a> {
+struct SplitRow<'a> {
     scene: &'a str,
     target: f64,
     counted_from: &'static str,
@@ -201,7 +201,7 @@ struct Row<'a> {
     realised_scatter: Option<f64>,
 }
 
-impl<'a> Row<'a> {
+impl<'a> SplitRow<'a> {
     fn of(scene: &'a str, Answer { split, seconds, realised }: &Answer) -> Self {
         Self {
             scene,

@@ -183,7 +183,7 @@ pub fn steps_figure(law: &Law) -> ReportFigure {
 
 /// A row of converge.csv.
 #[derive(Default, Serialize)]
-struct Row {
+struct LawRow {
     against: &'static str,
     steps_per_period: u64,
     rods: usize,
@@ -201,7 +201,7 @@ struct Row {
     other_rods_apart_rad: Option<f64>,
 }
 
-impl Row {
+impl LawRow {
     fn of(against: &'static str, mean: &JobMean, change: Option<&Change>) -> Self {
         Self {
             against,
@@ -226,6 +226,6 @@ impl Row {
 /// converge.csv of an interacting scene.
 pub fn law_csv(law: &Law) -> Result<String, String> {
     let steps = law.steps.iter().enumerate();
-    let steps = steps.map(|(k, mean)| Row::of("steps_per_period", mean, law.changes.get(k)));
-    rows_csv(steps.chain(law.rods.iter().map(|mean| Row::of("rods", mean, None))))
+    let steps = steps.map(|(k, mean)| LawRow::of("steps_per_period", mean, law.changes.get(k)));
+    rows_csv(steps.chain(law.rods.iter().map(|mean| LawRow::of("rods", mean, None))))
 }
