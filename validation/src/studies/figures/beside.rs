@@ -48,7 +48,7 @@ fn column<'a>(curve: Curve) -> Column<'a, f64> {
     let label = curve.label.clone();
     match curve.half_band.clone() {
         Some(half) => {
-            let format = |y, half| match half > 0.0 {
+            let format = |y: f64, half: f64| match half > 0.0 {
                 true => two_digits(y, half),
                 false => plus_minus(3)(y, half),
             };
