@@ -17,8 +17,8 @@ struct Shown {
     title: &'static str,
     caption: &'static str,
     property: Property,
-    /// The case that judges its picture, if there is a theory to draw.
-    case: Option<&'static str>,
+    /// The title of its picture and the case that judges it, if there is a theory to draw.
+    picture: Option<[&'static str; 2]>,
 }
 
 const SHOWN: [Shown; 6] = [
@@ -27,7 +27,7 @@ const SHOWN: [Shown; 6] = [
         title: "The longest step GΔt without overtaking",
         caption: "Of 512 rods in the plane of shear none overtakes the next in a step.",
         property: Property::Order,
-        case: Some("euler-step-limit"),
+        picture: Some(["The longest step without overtaking", "euler-step-limit"]),
     },
     Shown {
         name: "step-limit-turning",
@@ -35,28 +35,28 @@ const SHOWN: [Shown; 6] = [
         caption: "Of 512 rods in the plane of shear each turns forward in a step, by less than half a turn; half a turn is rest. \
                   Exact motion has half a period.",
         property: Property::Turning,
-        case: Some("step-limit-turning"),
+        picture: Some(["The longest step with which every rod turns", "step-limit-turning"]),
     },
     Shown {
         name: "step-limit-side",
         title: "The longest step GΔt with which every rod stays on its side of the plane of shear",
         caption: "p_3 = 10⁻⁹ keeps its sign in a step.",
         property: Property::Side,
-        case: Some("step-limit-side"),
+        picture: Some(["The longest step that keeps the side of the plane of shear", "step-limit-side"]),
     },
     Shown {
         name: "step-limit-solvable",
         title: "The longest step GΔt that can be taken",
         caption: "From directions over the whole sphere the result is finite.",
         property: Property::Solvable,
-        case: None,
+        picture: None,
     },
     Shown {
         name: "step-limit-length",
         title: "The longest step GΔt with a bounded length",
         caption: "|p| < 1.5 after ten periods in the plane of shear. The ladder's factor is 1.25: narrower gaps are not seen.",
         property: Property::Length,
-        case: None,
+        picture: None,
     },
     Shown {
         name: "step-limit-orbit",
@@ -64,7 +64,7 @@ const SHOWN: [Shown; 6] = [
         caption: "C_b within 0.1 of its start after ten periods. The ladder's factor is 1.25: narrower gaps are not seen. There is \
                   no closed form.",
         property: Property::Orbit,
-        case: None,
+        picture: None,
     },
 ];
 
@@ -73,7 +73,7 @@ pub fn exhibits(subjects: &[Integrator]) -> impl Iterator<Item = Exhibit> {
     let stepped: Vec<_> =
         subjects.iter().filter(|subject| matches!(subject.theory, Theory::Order(_))).collect();
     SHOWN.iter().map(move |shown| Exhibit {
-        figure: shown.case.map(|case| figure(shown, case, &stepped)),
+        figure: shown.picture.map(|picture| figure(shown, picture, &stepped)),
         table: Some(table(shown, &stepped)),
     })
 }
@@ -114,7 +114,7 @@ fn text(limit: Limit) -> String {
     }
 }
 
-fn figure(shown: &Shown, case: &str, subjects: &[&Integrator]) -> ReportFigure {
+fn figure(shown: &Shown, [title, case]: [&str; 2], subjects: &[&Integrator]) -> ReportFigure {
     let theories = THEORIES.iter().filter(|theory| theory.1 == shown.property);
     let theories = theories.map(|(name, _, theory)| {
         let ratios = (0..=200).map(|k| 1.01 * 1e4f64.powf(f64::from(k) / 200.0));
@@ -128,9 +128,8 @@ fn figure(shown: &Shown, case: &str, subjects: &[&Integrator]) -> ReportFigure {
         };
         Points::of(&subject.name, ratios, limit)
     });
-    let title = format!("{}: theory and bisection", shown.title.replacen(" GΔt", "", 1));
     ReportFigure::new(
-        [shown.name, &title],
+        [shown.name, &format!("{title}: theory and bisection")],
         "Points by bisection between 512 rods; the numbers are in the table of the same name. A point that is \
          missing has no limit up to GΔt = 941. Projected RK4 lies on RK4 in p, and in the plane of shear RKMK4 on RK4 in \
          angles.",
