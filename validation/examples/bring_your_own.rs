@@ -1,7 +1,7 @@
 //! Your own integrator, graded as those of the project are: `cargo run --release --example bring_your_own`.
 
 use nalgebra::Vector3;
-use validation::studies::integrators::{FixedStep, Problem, Setting, grade};
+use validation::studies::integrators::{Integrator, Problem, Setting, grade};
 use validation::studies::work_precision::{Budget, curve, order};
 
 /// Heun's method: one step of length h (in 1/G) from p.
@@ -11,17 +11,18 @@ fn heun(problem: &Problem, p: Vector3<f64>, h: f64) -> Vector3<f64> {
     p + 0.5 * h * (k1 + k2)
 }
 
-type Step = fn(&Problem, Vector3<f64>, f64) -> Vector3<f64>;
-
-const MINE: FixedStep<Step> = FixedStep { name: "Heun", order: 2, keeps_length: false, step: heun };
+fn mine() -> Integrator {
+    Integrator::in_p("Heun", 2, heun)
+}
 
 fn main() {
+    let mine = mine();
     let (problem, start) = Problem::mid_flip(11.6);
-    println!("{:?}", grade(&MINE, &problem, &start, Setting::Steps(4096)));
-    if let Some(study) = order::study(&MINE, &problem, &start, 8) {
+    println!("{:?}", grade(&mine, &problem, &start, Setting::Steps(4096)));
+    if let Some(study) = order::study(&mine, &problem, &start, 8) {
         println!("order {:?}: {:?}", study.judged, study.found);
     }
-    for point in curve(&MINE, 11.6, Budget::QUICK).points {
+    for point in curve(&mine, 11.6, Budget::QUICK).points {
         println!(
             "{:<14} {:.1e} rad in {:.1e} s",
             point.setting.to_string(),
@@ -34,6 +35,6 @@ fn main() {
 #[test]
 fn heun_is_of_order_2() {
     let (problem, start) = Problem::mid_flip(11.6);
-    let study = order::study(&MINE, &problem, &start, 8).unwrap();
-    assert_eq!(study.found, order::Found::AsTheory, "{study:?}");
+    let study = order::study(&mine(), &problem, &start, 8).unwrap();
+    assert_eq!(study.found, order::OrderVerdict::AsTheory, "{study:?}");
 }

@@ -1,19 +1,10 @@
-//! Prints what the open readings change as a Markdown table; with `-- full`, from as many replicas as `--full`.
+//! Prints what other interpretations of the paper change as a Markdown table; with `-- full`, from as many replicas as `--full`.
 
-use validation::judge::case::Effort;
+use validation::judge::case::{Effort, GATE_SEED};
 use validation::studies::readings::{measure, table};
 
 fn main() {
-    let effort = Effort {
-        full: std::env::args().any(|argument| argument == "full"),
-        seed: validation::judge::case::GATE_SEED,
-        data: None,
-    };
-    let table = table(&measure(&effort).unwrap_or_default());
-    println!("{}\n", table.caption);
-    println!("| {} |", table.columns.join(" | "));
-    println!("|{}", " --- |".repeat(table.columns.len()));
-    for row in table.rows {
-        println!("| {} |", row.join(" | "));
-    }
+    let full = std::env::args().any(|argument| argument == "full");
+    let rows = measure(&Effort { full, seed: GATE_SEED, data: None });
+    print!("{}", table(&rows.unwrap_or_default()).markdown());
 }

@@ -1,23 +1,14 @@
 //! Prints the tables of docs/time-step.md as Markdown; with `-- full`, from as many replicas as `--full`.
 
-use validation::judge::case::Effort;
-use validation::studies::kicks::study::measure;
-use validation::studies::kicks::tables::tables;
+use validation::judge::case::{Effort, GATE_SEED};
+use validation::present::study::Request;
+use validation::studies::kicks::study::STUDY;
 
 fn main() -> Result<(), String> {
-    let effort = Effort {
-        full: std::env::args().any(|argument| argument == "full"),
-        seed: validation::judge::case::GATE_SEED,
-        data: None,
-    };
-    for table in tables(&measure(&effort)?) {
-        println!("{}\n", table.caption);
-        println!("| {} |", table.columns.join(" | "));
-        println!("|{}", " --- |".repeat(table.columns.len()));
-        for row in table.rows {
-            println!("| {} |", row.join(" | "));
-        }
-        println!();
-    }
+    let full = std::env::args().any(|argument| argument == "full");
+    let effort = Effort { full, seed: GATE_SEED, data: None };
+    let found = STUDY.found(&Request { effort: &effort, wanted: &|_| true, finished: &|| () })?;
+    let tables = found.into_iter().flat_map(|found| found.exhibits).filter_map(|exhibit| exhibit.table);
+    tables.for_each(|table| println!("{}", table.markdown()));
     Ok(())
 }

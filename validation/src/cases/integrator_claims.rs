@@ -199,8 +199,8 @@ fn eigenvalues(slope: &Slope, _: &Effort) -> Vec<Evidence> {
 fn lose_length(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     let (problem, start) = Problem::mid_flip(11.6);
     let steps = 1024;
-    let kept = |subject: &dyn Integrator| {
-        let setting = match subject.theory() {
+    let kept = |subject: &Integrator| {
+        let setting = match subject.theory {
             Theory::Adaptive => Setting::Tolerance(1e-6),
             _ => Setting::Steps(steps),
         };
@@ -208,10 +208,10 @@ fn lose_length(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
         off <= 4.0 * steps as f64 * f64::EPSILON
     };
     let all = subjects();
-    let losing = all.iter().filter(|subject| !subject.keeps_length() && subject.theory() != Theory::Exact);
+    let losing = all.iter().filter(|subject| !subject.keeps_length && subject.theory != Theory::Exact);
     vec![Evidence::exact(
         "subjects that keep |p| to round-off without being said to",
-        losing.filter(|subject| kept(subject.as_ref())).count() as f64,
+        losing.filter(|subject| kept(subject)).count() as f64,
     )]
 }
 
@@ -220,8 +220,8 @@ fn coarse(strain: &f64, _: &Effort) -> Vec<Evidence> {
     let steps = Setting::Steps((problem.strain() / strain).round() as u64);
     let mut unlike = 0.0;
     for subject in integrators::own() {
-        let found = grade(subject.as_ref(), &problem, &start, steps);
-        let as_said = match (subject.name(), found) {
+        let found = grade(&subject, &problem, &start, steps);
+        let as_said = match (subject.name.as_str(), found) {
             ("RK4 in p", found) => found == Err(Failure::NotFinite),
             ("projected RK4 in p", Ok(errors)) => errors.length < 1e-12 && errors.orientation_rad > 0.01,
             ("projected RK4 in p", Err(_)) => false,
@@ -236,7 +236,7 @@ fn index_bounds(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     let (problem, start) = Problem::mid_flip(11.6);
     let mut worst = 0.0f64;
     for subject in subjects() {
-        if let Some(study) = order::study(subject.as_ref(), &problem, &start, 8) {
+        if let Some(study) = order::study(&subject, &problem, &start, 8) {
             worst = larger(worst, study.richardson.map_or(f64::NAN, |found| found.true_error / found.index));
         }
     }

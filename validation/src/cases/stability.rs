@@ -1,11 +1,11 @@
 //! Where integrators of a free rod leave their region of stability: what `docs/stability.md` says.
 
 use super::subjects::Integrators;
-use super::subjects::spoiled::{Refuses, WholeTurns, in_angles, in_p};
+use super::subjects::spoiled::{in_angles, in_p, refuses, whole_turns};
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::larger;
 use crate::studies::integrators::{self, *};
-use crate::studies::stability::map::{self, ASPECT_RATIOS, Cell, Found, STEPS, TOLERANCES};
+use crate::studies::stability::map::{self, ASPECT_RATIOS, Cell, Fate, STEPS, TOLERANCES};
 use crate::studies::stability::orbit::Place;
 
 pub fn cases() -> Vec<Case> {
@@ -19,14 +19,14 @@ pub fn cases() -> Vec<Case> {
             .source("A.2 to A.5, eq. 13")
             .equations(&["13", "A.2", "A.3", "A.4", "A.5"])
             .subject(integrators::own as Integrators)
-            .mistake("whole turns are left in the phase", || vec![Box::new(WholeTurns)])
+            .mistake("whole turns are left in the phase", || vec![whole_turns()])
             .mistake("RK4 in p said to keep |p|", || {
                 in_p(4, true, |problem, p, h| rk4(|y| problem.rate(&y), p, h))
             })
             .mistake("RK4 in angles with an order 4 that is 1", || {
                 in_angles(4, |problem, y, h| explicit_euler(|y| problem.angle_rates(&y), y, h))
             })
-            .mistake("an error in place of every direction", || vec![Box::new(Refuses)])
+            .mistake("an error in place of every direction", || vec![refuses()])
             .check(corners),
     ]
 }
@@ -45,22 +45,22 @@ fn corners(subjects: &Integrators, effort: &Effort) -> Vec<Evidence> {
     let mut accurate = 0.0f64;
     let mut silent = 0.0;
     for subject in subjects() {
-        for tried in tried(subject.as_ref(), most_steps) {
+        for tried in tried(&subject, most_steps) {
             let cell = &tried.cell;
             let error = cell.error_rad.unwrap_or(f64::NAN);
-            match subject.theory() {
-                Theory::Exact if subject.name() == ClosedForm.name() => angles = larger(angles, error),
-                Theory::Exact => exact += f64::from(cell.found != Found::RoundOff),
+            match subject.theory {
+                Theory::Exact if subject.name == closed_form().name => angles = larger(angles, error),
+                Theory::Exact => exact += f64::from(cell.found != Fate::RoundOff),
                 Theory::Order(order) if order > 1 && (1e-3..=0.5).contains(&tried.strain_per_step) => {
                     accurate = larger(accurate, error / tried.strain_per_step.powi(2));
                 }
                 _ => {}
             }
-            if let (true, Some(off)) = (subject.keeps_length(), cell.length) {
+            if let (true, Some(off)) = (subject.keeps_length, cell.length) {
                 length = larger(length, off);
             }
             // Whoever gives no direction says why: a reason, or that it is not finite.
-            let told = cell.error_rad.is_some() || cell.found == Found::NotFinite || cell.reason.is_some();
+            let told = cell.error_rad.is_some() || cell.found == Fate::NotFinite || cell.reason.is_some();
             silent += f64::from(!told);
         }
     }
@@ -94,8 +94,8 @@ fn corners(subjects: &Integrators, effort: &Effort) -> Vec<Evidence> {
 }
 
 /// Every map's cells that a subject has within so many steps.
-fn tried(subject: &dyn Integrator, most_steps: u64) -> Vec<Tried> {
-    let theory = subject.theory();
+fn tried(subject: &Integrator, most_steps: u64) -> Vec<Tried> {
+    let theory = subject.theory;
     let mut all = Vec::new();
     let mut push = |run: map::Run| {
         let strain = Problem::new(run.aspect_ratio, run.turns).strain();

@@ -8,8 +8,7 @@ use super::subjects::spoiled::{in_angles, in_p};
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::larger;
 use crate::studies::integrators::{self, *};
-use crate::studies::stability::limit_tables::{ONE_STEP, TEN_PERIODS};
-use crate::studies::stability::limits::{Limit, Property, bisect, holds};
+use crate::studies::stability::limits::{Limit, ONE_STEP, Property, TEN_PERIODS, bisect, holds};
 use crate::studies::stability::theory;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -32,25 +31,25 @@ const HALF_A_STEP_AHEAD: f64 = 7.0;
 const OF_MIDPOINTS: f64 = 50.0;
 
 /// The project's subject of this name.
-fn own(name: &str) -> Vec<Box<dyn Integrator>> {
+fn own(name: &str) -> Vec<Integrator> {
     let mut all = integrators::own();
-    all.retain(|subject| subject.name() == name);
+    all.retain(|subject| subject.name == name);
     all
 }
 
-fn euler() -> Vec<Box<dyn Integrator>> {
+fn euler() -> Vec<Integrator> {
     own("explicit Euler in angles")
 }
 
-fn half_euler() -> Vec<Box<dyn Integrator>> {
+fn half_euler() -> Vec<Integrator> {
     in_angles(1, |problem, y, h| explicit_euler(|y| 0.5 * problem.angle_rates(&y), y, h))
 }
 
-fn rk4_in_angles() -> Vec<Box<dyn Integrator>> {
+fn rk4_in_angles() -> Vec<Integrator> {
     own("RK4 in angles")
 }
 
-fn implicit_midpoint() -> Vec<Box<dyn Integrator>> {
+fn implicit_midpoint() -> Vec<Integrator> {
     own("implicit midpoint in p")
 }
 
@@ -88,7 +87,7 @@ pub fn cases() -> Vec<Case> {
             .subject(order(euler))
             .mistake("half of the rate", order(half_euler))
             .mistake("RK4", order(rk4_in_angles))
-            .mistake("the exact propagator", order(|| vec![Box::new(ExactPropagator)]))
+            .mistake("the exact propagator", order(|| vec![exact_propagator()]))
             .check(agrees),
         Case::integrator("step-limit-turning")
             .claim("Explicit Euler and the Lie-group midpoint rule turn every rod in the plane of shear by \
@@ -103,7 +102,7 @@ pub fn cases() -> Vec<Case> {
             }))
             .mistake("half of the rate", turning(half_euler))
             .mistake("RK4", turning(rk4_in_angles))
-            .mistake("the exact propagator", turning(|| vec![Box::new(ExactPropagator)]))
+            .mistake("the exact propagator", turning(|| vec![exact_propagator()]))
             .check(agrees),
         Case::integrator("rods-come-to-rest")
             .claim("Just above GΔt = π(1 + 1/r_e²) explicit Euler brings every rod in the plane of shear to \
@@ -204,7 +203,7 @@ pub fn cases() -> Vec<Case> {
 }
 
 /// The implicit midpoint rule given up too early.
-fn two_changes() -> Vec<Box<dyn Integrator>> {
+fn two_changes() -> Vec<Integrator> {
     in_p(2, true, |problem, p, h| {
         let mut m = p;
         for _ in 0..2 {
@@ -220,10 +219,10 @@ fn two_changes() -> Vec<Box<dyn Integrator>> {
 const RATIOS: [f64; 9] = [0.1, 1.1, 1.5, 2.0, 2.5, 3.0, 11.6, 100.0, 1e4];
 
 fn agrees(claimed: &Claimed, _: &Effort) -> Vec<Evidence> {
-    let judged = |subject: Box<dyn Integrator>| {
+    let judged = |subject: Integrator| {
         let worst = RATIOS.map(|r| {
             let expected = (claimed.theory)(r);
-            let found = bisect(ONE_STEP, |h| holds(subject.as_ref(), claimed.property, r, h));
+            let found = bisect(ONE_STEP, |h| holds(&subject, claimed.property, r, h));
             match found {
                 Limit::At(strain) => (strain / expected - 1.0).abs(),
                 Limit::Beyond(strain) if expected > strain => 0.0,
@@ -231,7 +230,7 @@ fn agrees(claimed: &Claimed, _: &Effort) -> Vec<Evidence> {
             }
         });
         Evidence::within(
-            format!("relative difference of the longest step and theory, {}", subject.name()),
+            format!("relative difference of the longest step and theory, {}", subject.name),
             worst.into_iter().fold(0.0, larger),
             claimed.found_late * (PI / 1024.0).powi(2),
             "δ² times what stretches δ: of 512 rods one is within δ = π/1024 of the extreme one, where \

@@ -7,10 +7,10 @@ use crate::judge::statistics::larger;
 use crate::studies::integrators::{self, *};
 use crate::studies::work_precision::order::{self, ORDER_TOLERANCE};
 use nalgebra::{Vector2, Vector3};
-use spoiled::{Spoiled, WholeTurns, in_angles, in_p};
+use spoiled::{in_angles, in_p, spoiled, whole_turns};
 
 /// What is judged: made anew for each check.
-pub(super) type Integrators = fn() -> Vec<Box<dyn Integrator>>;
+pub(super) type Integrators = fn() -> Vec<Integrator>;
 
 pub fn cases() -> Vec<Case> {
     vec![
@@ -64,9 +64,9 @@ pub fn cases() -> Vec<Case> {
             )
             .source("A.4, A.5, eq. 20")
             .equations(&["20", "A.4", "A.5"])
-            .subject((|| vec![Box::new(ExactPropagator) as Box<dyn Integrator>]) as Integrators)
-            .mistake("whole turns are left in the phase", || vec![Box::new(WholeTurns)])
-            .mistake("A.4 and A.5 in angles", || vec![Box::new(ClosedForm)])
+            .subject((|| vec![exact_propagator()]) as Integrators)
+            .mistake("whole turns are left in the phase", || vec![whole_turns()])
+            .mistake("A.4 and A.5 in angles", || vec![closed_form()])
             .check(round_off),
         Case::integrator("adaptive-subjects")
             .claim(
@@ -75,20 +75,13 @@ pub fn cases() -> Vec<Case> {
             )
             .source("A.2 to A.5; Jeffery's equation in p")
             .equations(&["A.4", "A.5"])
-            .subject(
-                (|| -> Vec<Box<dyn Integrator>> { vec![Box::new(DormandPrince), Box::new(Radau)] })
-                    as Integrators,
-            )
+            .subject((|| vec![dormand_prince(), radau()]) as Integrators)
             .mistake("r_e 0.1 % too long", || {
-                vec![Box::new(Spoiled(|problem| {
-                    (Problem::new(1.001 * problem.aspect_ratio, problem.turns), 1.0)
-                }))]
+                vec![spoiled(|problem| (Problem::new(1.001 * problem.aspect_ratio, problem.turns), 1.0))]
             })
-            .mistake("a tolerance 10⁸ times as large", || vec![Box::new(Spoiled(|problem| (problem, 1e8)))])
+            .mistake("a tolerance 10⁸ times as large", || vec![spoiled(|problem| (problem, 1e8))])
             .mistake("the last step is left out", || {
-                vec![Box::new(Spoiled(|problem| {
-                    (Problem::new(problem.aspect_ratio, 0.99 * problem.turns), 1.0)
-                }))]
+                vec![spoiled(|problem| (Problem::new(problem.aspect_ratio, 0.99 * problem.turns), 1.0))]
             })
             .check(adaptive),
     ]
@@ -100,7 +93,7 @@ fn orders(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
         let mut worst = 0.0f64;
         for r in [2.0, 11.6] {
             let (problem, start) = Problem::mid_flip(r);
-            let Some(study) = order::study(subject.as_ref(), &problem, &start, 8) else {
+            let Some(study) = order::study(&subject, &problem, &start, 8) else {
                 continue;
             };
             // Fewer than two pairs above round-off show no order at all: 0.
@@ -109,9 +102,9 @@ fn orders(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
                 .map(|order| (order - f64::from(study.theory)).abs())
                 .fold(larger(worst, enough), larger);
         }
-        if matches!(subject.theory(), Theory::Order(_)) {
+        if matches!(subject.theory, Theory::Order(_)) {
             evidence.push(Evidence::within(
-                format!("observed order against theory, {}", subject.name()),
+                format!("observed order against theory, {}", subject.name),
                 worst,
                 ORDER_TOLERANCE,
                 "the next power of Δt is a tenth or less of the leading one on the last two pairs above \
@@ -125,16 +118,16 @@ fn orders(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
 fn lengths(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     let (problem, start) = Problem::mid_flip(11.6);
     (subjects().into_iter())
-        .filter(|subject| subject.keeps_length())
+        .filter(|subject| subject.keeps_length)
         .map(|subject| {
-            let (setting, steps) = match subject.theory() {
+            let (setting, steps) = match subject.theory {
                 Theory::Exact => (Setting::Once, 1),
                 Theory::Order(_) => (Setting::Steps(1024), 1024),
                 Theory::Adaptive => (Setting::Tolerance(1e-6), 1024),
             };
-            let off = grade(subject.as_ref(), &problem, &start, setting).map_or(1.0, |e| e.length);
+            let off = grade(&subject, &problem, &start, setting).map_or(1.0, |e| e.length);
             Evidence::within(
-                format!("|p| − 1 at the end, {}", subject.name()),
+                format!("|p| − 1 at the end, {}", subject.name),
                 off,
                 4.0 * f64::from(steps) * f64::EPSILON,
                 "each step, of 1024 or of one, rounds |p| by four roundings at most",
@@ -150,7 +143,7 @@ fn round_off(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
             for whole in [0.0, 16.0, 1e6] {
                 let (problem, start) = Problem::mid_flip(r);
                 let later = Problem::new(r, problem.turns + whole);
-                let error = grade(subject.as_ref(), &later, &start, Setting::Once);
+                let error = grade(&subject, &later, &start, Setting::Once);
                 worst = larger(worst, error.map_or(f64::NAN, |errors| errors.orientation_rad));
             }
         }
@@ -171,11 +164,11 @@ fn adaptive(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     let mut evidence = Vec::new();
     for subject in subjects() {
         for (r, steps) in STEPS {
-            let steps = steps[usize::from(subject.name() == Radau.name())];
+            let steps = steps[usize::from(subject.name == radau().name)];
             let (problem, start) = Problem::mid_flip(r);
-            let error = grade(subject.as_ref(), &problem, &start, Setting::Tolerance(1e-11));
+            let error = grade(&subject, &problem, &start, Setting::Tolerance(1e-11));
             evidence.push(Evidence::within(
-                format!("angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, {}", subject.name()), // A subject that gives up is off by as much as can be.
+                format!("angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, {}", subject.name), // A subject that gives up is off by as much as can be.
                 error.map_or(std::f64::consts::FRAC_PI_2, |errors| errors.orientation_rad),
                 steps * 1e-11 * r,
                 "each step is off by the tolerance, in a direction of its own; their sum is a phase, which \

@@ -86,7 +86,7 @@ fn numbers<'a>(word: &'a str, citing: Citing, pieces: &mut Vec<Piece<'a>>) {
     pieces.push(Piece::Text(&word[text..]));
 }
 
-/// Whether a text cites this figure of the paper, alone or within a range.
+/// True if a text cites this figure of the paper, alone or within a range.
 pub(crate) fn cites_figure(text: &str, figure: u32) -> bool {
     let (mut last, mut through) = (None, false);
     for piece in pieces(text) {

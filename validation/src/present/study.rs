@@ -1,9 +1,13 @@
-//! What a study is: from parameters to plain records to tables, whose columns are declared once, and pictures.
+//! The contract of a study: records, a table whose columns are declared once, a picture declared as data.
+//!
+//! A study is a module with a `STUDY` ([`Study`]): its `run` measures records, and returns [`Findings`]. The tables are
+//! [`ReportTable`]s over the records, the pictures [`ReportFigure`]s of [`Curve`]s and [`Points`] over the same records, and the
+//! exported rows are written by [`rows_csv`](crate::present::table::rows_csv) from what the records serialize to.
 
 use crate::files::cluster;
 use crate::files::output::Output;
 use crate::judge::case::Effort;
-use crate::present::plot::Figure;
+use crate::present::plot::{Curve, Figure, Points};
 use crate::present::table::ReportTable;
 use serde::{Deserialize, Serialize};
 
@@ -13,48 +17,44 @@ pub struct Study {
     pub name: &'static str,
     /// What it is about.
     pub title: &'static str,
-    /// What it asks.
+    /// The question that it answers.
     pub question: &'static str,
     /// The cases that judge it.
     pub cases: &'static [&'static str],
     /// The command that repeats it.
     pub command: &'static str,
-    /// Its parts that `shearbed bench --case` takes by name, in the order in which they run.
-    pub benches: fn() -> Vec<String>,
-    /// Whether ranks share its work; what is not shared runs on the root.
+    /// Its parts that `shearbed bench --case` takes by name, in the order in which they run. Without parts it is in the report alone.
+    pub parts: &'static [&'static str],
+    /// True if ranks share its work; otherwise only the root runs it.
     pub shared: bool,
-    /// Measures it; nothing but on the root.
-    pub run: fn(&Extent) -> Result<Option<Found>, String>,
+    /// Measures it. A shared study returns `None` on all ranks but the root.
+    pub run: fn(&Request) -> Result<Option<Findings>, String>,
 }
 
 impl Study {
-    /// Of a study without parts that `shearbed bench` takes.
-    pub(crate) fn no_parts() -> Vec<String> {
-        Vec::new()
-    }
-
-    /// Runs it on the ranks that share it: what it found on the root, nothing elsewhere.
-    pub fn found(&self, extent: &Extent) -> Result<Option<Found>, String> {
-        match self.shared || cluster::is_root() {
-            true => (self.run)(extent),
+    /// Runs it on the ranks that share it. `None` where no part is wanted, and on all ranks but the root.
+    pub fn found(&self, request: &Request) -> Result<Option<Findings>, String> {
+        let wanted = self.parts.is_empty() || self.parts.iter().any(|part| (request.wanted)(part));
+        match wanted && (self.shared || cluster::is_root()) {
+            true => (self.run)(request),
             false => Ok(None),
         }
     }
 }
 
-/// How much of a study is wanted.
-pub struct Extent<'a> {
+/// What is asked of a study.
+pub struct Request<'a> {
     /// How hard to work, and with which seed.
     pub effort: &'a Effort,
-    /// The parts that are wanted, of those that have names.
+    /// True for the parts that are wanted.
     pub wanted: &'a dyn Fn(&str) -> bool,
-    /// Called for each piece of work that is done, where there are many.
+    /// Called after each piece of work, in studies that have many.
     pub finished: &'a dyn Fn(),
 }
 
 /// What a study found.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Found {
+pub struct Findings {
     /// The answer to its question, in a sentence.
     pub answer: String,
     /// Pictures beside their tables.
@@ -63,6 +63,18 @@ pub struct Found {
     pub files: Vec<Output>,
     /// The scenes behind it.
     pub plans: Vec<ScenePlan>,
+}
+
+impl Findings {
+    /// The usual result of a study.
+    pub fn new(
+        answer: impl Into<String>,
+        exhibits: Vec<Exhibit>,
+        files: impl IntoIterator<Item = (&'static str, String)>,
+    ) -> Self {
+        let files = files.into_iter().map(|(name, text)| (name.to_owned(), text));
+        Self { answer: answer.into(), exhibits, files: files.collect(), plans: Vec::new() }
+    }
 }
 
 /// A picture beside its table, or one of them alone.
@@ -93,7 +105,7 @@ impl From<ReportTable> for Exhibit {
     }
 }
 
-/// A picture with what to see in it.
+/// A picture with its caption.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ReportFigure {
     /// Its name, in words joined by `-`; its anchor is `figure-NAME`.
@@ -106,6 +118,44 @@ pub struct ReportFigure {
     pub source: String,
     /// The cases that judge what is shown, which link here.
     pub cases: Vec<String>,
+}
+
+impl ReportFigure {
+    /// A picture by its name and title, its caption, and the names of its axes with their units. A name that starts with
+    /// `log ` is that of a logarithmic axis; the word itself is not shown.
+    pub fn new([name, title]: [&str; 2], caption: impl Into<String>, [x, y]: [&str; 2]) -> Self {
+        let axis = |name: &str| match name.strip_prefix("log ") {
+            Some(name) => (name.to_owned(), true),
+            None => (name.to_owned(), false),
+        };
+        let ((x_name, x_log), (y_name, y_log)) = (axis(x), axis(y));
+        let figure = Figure { title: title.into(), x_name, y_name, x_log, y_log, ..Default::default() };
+        Self { name: name.into(), figure, caption: caption.into(), ..Default::default() }
+    }
+
+    /// Adds curves.
+    pub fn curves(mut self, curves: impl IntoIterator<Item = Curve>) -> Self {
+        self.figure.curves.extend(curves);
+        self
+    }
+
+    /// Adds points.
+    pub fn points(mut self, points: impl IntoIterator<Item = Points>) -> Self {
+        self.figure.points.extend(points);
+        self
+    }
+
+    /// What the axes cover at least, from low to high.
+    pub fn spans(mut self, x: Option<(f64, f64)>, y: Option<(f64, f64)>) -> Self {
+        (self.figure.x_span, self.figure.y_span) = (x, y);
+        self
+    }
+
+    /// Its source, and the cases that judge it.
+    pub fn judged(self, source: &str, cases: &[&str]) -> Self {
+        let cases = cases.iter().map(|case| (*case).to_owned()).collect();
+        Self { source: source.into(), cases, ..self }
+    }
 }
 
 /// How a scene behind a figure was run.

@@ -1,11 +1,13 @@
-//! A table: named columns over records, declared once, and every writer of it.
+//! A table: named columns over records, declared once, and every writer of it; rows as CSV by what they serialize to.
 
 #[cfg(test)]
 mod tests;
 
 use crate::files::text::cell;
+use crate::judge::statistics::{Estimate, Sample};
 use crate::present::markup;
 use serde::{Deserialize, Serialize};
+use std::borrow::Borrow;
 
 /// What a cell holds as data.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -22,34 +24,45 @@ pub enum Datum {
     Number(f64),
 }
 
-impl From<f64> for Datum {
-    fn from(number: f64) -> Self {
-        Self::Number(number)
-    }
+/// `data! { TYPE, value => datum; … }`: what a type is as data.
+macro_rules! data {
+    ($($from:ty, $value:ident => $datum:expr;)*) => {
+        $(impl From<$from> for Datum {
+            fn from($value: $from) -> Self {
+                $datum
+            }
+        })*
+    };
 }
 
-impl From<u64> for Datum {
-    fn from(count: u64) -> Self {
-        Self::Count(count)
-    }
+data! {
+    f64, number => Self::Number(number);
+    u64, count => Self::Count(count);
+    u32, count => Self::Count(count.into());
+    usize, count => Self::Count(count as u64);
+    &str, text => Self::Text(text.into());
 }
 
-impl From<u32> for Datum {
-    fn from(count: u32) -> Self {
-        Self::Count(count.into())
-    }
+/// Values with their standard errors, as columns of estimates take them.
+macro_rules! estimates {
+    ($($from:ty, $estimate:ident => $pair:expr;)*) => {
+        $(impl From<$from> for (f64, f64) {
+            fn from($estimate: $from) -> Self {
+                $pair
+            }
+        }
+
+        impl From<$from> for Option<(f64, f64)> {
+            fn from($estimate: $from) -> Self {
+                Some($pair)
+            }
+        })*
+    };
 }
 
-impl From<usize> for Datum {
-    fn from(count: usize) -> Self {
-        Self::Count(count as u64)
-    }
-}
-
-impl From<&str> for Datum {
-    fn from(text: &str) -> Self {
-        Self::Text(text.into())
-    }
+estimates! {
+    Estimate, estimate => (estimate.value, estimate.se);
+    Sample, sample => (sample.mean, sample.se);
 }
 
 impl<T: Into<Datum>> From<Option<T>> for Datum {
@@ -98,38 +111,28 @@ impl<R> Column<'_, R> {
 /// What is shown where there is no value.
 pub const NONE: &str = "–";
 
+fn column<'a, R>(name: impl Into<String>, cell: impl Fn(&R) -> Cell + 'a) -> Column<'a, R> {
+    let name = name.into();
+    Column { heads: vec![name.clone()], name, cell: Box::new(cell), none: NONE }
+}
+
 /// A column of words.
 pub fn words<'a, R, T: Into<String>>(name: impl Into<String>, of: impl Fn(&R) -> T + 'a) -> Column<'a, R> {
-    let name = name.into();
-    Column {
-        heads: vec![name.clone()],
-        name,
-        cell: Box::new(move |record| {
-            let text: String = of(record).into();
-            (Some(text.clone()), vec![Datum::Text(text)])
-        }),
-        none: NONE,
-    }
+    field(name, move |record| Datum::Text(of(record).into()))
 }
 
 /// A column of data, shown as they are.
 pub fn field<'a, R, T: Into<Datum>>(name: impl Into<String>, of: impl Fn(&R) -> T + 'a) -> Column<'a, R> {
-    let name = name.into();
-    Column {
-        heads: vec![name.clone()],
-        name,
-        cell: Box::new(move |record| {
-            let datum = of(record).into();
-            let shown = match &datum {
-                Datum::Nothing => None,
-                Datum::Text(text) => Some(text.clone()),
-                Datum::Count(count) => Some(count.to_string()),
-                Datum::Number(number) => Some(number.to_string()),
-            };
-            (shown, vec![datum])
-        }),
-        none: NONE,
-    }
+    column(name, move |record| {
+        let datum = of(record).into();
+        let shown = match &datum {
+            Datum::Nothing => None,
+            Datum::Text(text) => Some(text.clone()),
+            Datum::Count(count) => Some(count.to_string()),
+            Datum::Number(number) => Some(number.to_string()),
+        };
+        (shown, vec![datum])
+    })
 }
 
 /// A column of numbers in a format; a number that is not there is `–`.
@@ -138,35 +141,78 @@ pub fn number<'a, R, T: Into<Option<f64>>>(
     format: impl Fn(f64) -> String + 'a,
     of: impl Fn(&R) -> T + 'a,
 ) -> Column<'a, R> {
-    let name = name.into();
-    Column {
-        heads: vec![name.clone()],
-        name,
-        cell: Box::new(move |record| {
-            let value = of(record).into();
-            (value.map(&format), vec![value.into()])
-        }),
-        none: NONE,
-    }
+    column(name, move |record| {
+        let value = of(record).into();
+        (value.map(&format), vec![value.into()])
+    })
 }
 
-/// A column of numbers with their standard errors in a format.
+/// A column of numbers with their standard errors in a format; its data are two columns.
 pub fn estimate<'a, R, T: Into<Option<(f64, f64)>>>(
     name: impl Into<String>,
     format: impl Fn(f64, f64) -> String + 'a,
     of: impl Fn(&R) -> T + 'a,
 ) -> Column<'a, R> {
     let name = name.into();
-    Column {
-        heads: vec![name.clone(), format!("± {name}")],
-        name,
-        cell: Box::new(move |record| {
-            let found = of(record).into();
-            let data = [found.map(|f| f.0), found.map(|f| f.1)].map(Datum::from);
-            (found.map(|(value, se)| format(value, se)), data.into())
-        }),
-        none: NONE,
+    let heads = vec![name.clone(), format!("± {name}")];
+    let cell = move |record: &R| {
+        let found = of(record).into();
+        let data = [found.map(|f| f.0), found.map(|f| f.1)].map(Datum::from);
+        (found.map(|(value, se)| format(value, se)), data.into())
+    };
+    Column { heads, ..column(name, cell) }
+}
+
+/// A format with so many decimals.
+pub fn decimals(places: usize) -> impl Fn(f64) -> String + Copy {
+    move |number| format!("{number:.places$}")
+}
+
+/// A format as 1.2e-3, with so many decimals.
+pub fn powers(places: usize) -> impl Fn(f64) -> String + Copy {
+    move |number| format!("{number:.places$e}")
+}
+
+/// A format of a number with its standard error, both with so many decimals.
+pub fn plus_minus(places: usize) -> impl Fn(f64, f64) -> String + Copy {
+    move |number, se| format!("{number:.places$} ± {se:.places$}")
+}
+
+/// The same with the sign of the number.
+pub fn signed(places: usize) -> impl Fn(f64, f64) -> String + Copy {
+    move |number, se| format!("{number:+.places$} ± {se:.places$}")
+}
+
+/// A number with two digits of its standard error.
+pub fn two_digits(number: f64, se: f64) -> String {
+    if !(se > 0.0 && se.is_finite()) {
+        return number.to_string();
     }
+    let places = (1.0 - se.log10().floor()).clamp(0.0, 9.0) as usize;
+    plus_minus(places)(number, se)
+}
+
+/// Records as CSV: the heads are the names of their fields, also where there is no record. Every number is the shortest text that reads back as the same bits;
+/// what is not there is empty, and a text that a spreadsheet would take for a formula has an apostrophe before it.
+pub fn rows_csv<R: Serialize + Default>(records: impl IntoIterator<Item = R>) -> Result<String, String> {
+    let mut plain = csv::Writer::from_writer(Vec::new());
+    // The heads are written with the first record, which is dropped again.
+    for record in std::iter::once(R::default()).chain(records) {
+        plain.serialize(record).map_err(|error| error.to_string())?;
+    }
+    let plain = plain.into_inner().map_err(|error| error.to_string())?;
+    let mut safe = csv::Writer::from_writer(Vec::new());
+    let mut rows = csv::ReaderBuilder::new().has_headers(false).from_reader(&plain[..]).into_records();
+    for row in rows.next().into_iter().chain(rows.skip(1)) {
+        let row = row.map_err(|error| error.to_string())?;
+        safe.write_record(row.iter().map(cell)).map_err(|error| error.to_string())?;
+    }
+    text_of(safe)
+}
+
+fn text_of(writer: csv::Writer<Vec<u8>>) -> Result<String, String> {
+    let bytes = writer.into_inner().map_err(|error| error.to_string())?;
+    String::from_utf8(bytes).map_err(|error| error.to_string())
 }
 
 /// A table of words alone.
@@ -190,33 +236,22 @@ pub fn of_words(
     }
 }
 
-/// The table in a text of Markdown.
-pub fn of_markdown(name: &str, title: &str, caption: &str, text: &str) -> ReportTable {
-    let lines = (text.lines()).filter(|line| line.starts_with('|') && !line.starts_with("| ---"));
-    let mut rows = lines.map(|line| {
-        let cells = line.trim_matches('|').split(" | ");
-        cells.map(|cell| cell.trim().to_owned()).collect::<Vec<_>>()
-    });
-    let columns = rows.next().unwrap_or_default();
-    of_words(name, title, caption, &columns, rows.collect())
-}
-
 impl ReportTable {
-    /// A row for each record.
+    /// A table by its name and title, its caption, its records, owned or borrowed, and the columns over them.
     pub fn new<R>(
         [name, title]: [&str; 2],
         caption: impl Into<String>,
-        records: impl IntoIterator<Item = R>,
+        records: impl IntoIterator<Item: Borrow<R>>,
         columns: Vec<Column<'_, R>>,
     ) -> Self {
-        let cells = |record: R| -> (Vec<String>, Vec<Vec<Datum>>) {
+        let cells = |record: &R| -> (Vec<String>, Vec<Vec<Datum>>) {
             let cell = |column: &Column<'_, R>| {
-                let (shown, data) = (column.cell)(&record);
+                let (shown, data) = (column.cell)(record);
                 (shown.unwrap_or_else(|| column.none.into()), data)
             };
             columns.iter().map(cell).unzip()
         };
-        let (rows, data): (Vec<_>, Vec<_>) = records.into_iter().map(cells).unzip();
+        let (rows, data): (Vec<_>, Vec<_>) = records.into_iter().map(|record| cells(record.borrow())).unzip();
         Self {
             name: name.into(),
             title: title.into(),
@@ -243,8 +278,7 @@ impl ReportTable {
             let row: Vec<_> = row.iter().map(safe).collect();
             writer.serialize(row).map_err(|error| error.to_string())?;
         }
-        let bytes = writer.into_inner().map_err(|error| error.to_string())?;
-        String::from_utf8(bytes).map_err(|error| error.to_string())
+        text_of(writer)
     }
 
     /// For the terminal: its title, columns of even width, and what to see.

@@ -5,7 +5,7 @@ use crate::files::output::Author;
 use crate::files::text::Shown;
 use crate::judge::case::Effort;
 use crate::present::plot;
-use crate::present::study::Extent;
+use crate::present::study::Request;
 use crate::studies;
 use serde_json::json;
 use std::path::PathBuf;
@@ -38,11 +38,12 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     let effort = Effort { full: true, ..Effort::gate() };
     let (mut files, mut tables) = (Vec::new(), String::new());
     for study in studies::ALL {
-        if !(study.benches)().iter().any(|name| wanted(name)) {
+        if !study.parts.iter().any(|name| wanted(name)) {
             continue;
         }
-        let found =
-            on_threads(None, || study.found(&Extent { effort: &effort, wanted: &wanted, finished: &|| () }))?;
+        let found = on_threads(None, || {
+            study.found(&Request { effort: &effort, wanted: &wanted, finished: &|| () })
+        })?;
         let Some(found) = found.map_err(Failure::Failed)? else {
             continue;
         };
@@ -65,8 +66,8 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
 
 /// Refuses names that no bench has.
 fn check(names: &[String]) -> Result<(), Failure> {
-    let known: Vec<_> = studies::ALL.iter().flat_map(|study| (study.benches)()).collect();
-    match names.iter().find(|name| !known.contains(name)) {
+    let known: Vec<_> = studies::ALL.iter().flat_map(|study| study.parts).copied().collect();
+    match names.iter().find(|name| !known.contains(&name.as_str())) {
         Some(unknown) => Err(Failure::Input(format!(
             "--case {unknown}: no bench has this name; there are {}",
             known.join(", ")

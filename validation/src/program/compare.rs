@@ -6,7 +6,7 @@ use crate::files::text::Shown;
 use crate::files::text::snippet;
 use crate::present::report::FORMAT;
 use crate::present::table::{ReportTable, number, words};
-use crate::studies::work_precision::tables::time;
+use crate::studies::work_precision::study::time;
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

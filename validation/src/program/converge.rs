@@ -7,12 +7,14 @@ use super::{
 use crate::files::output::{Author, Output};
 use crate::files::text::Shown;
 use crate::files::{build, cluster};
-use crate::present::table::ReportTable;
+use crate::present::table::{ReportTable, rows_csv};
+use crate::studies::suspensions::interacting::splits_table;
 use crate::studies::suspensions::law::{self, Law, Replicas};
+use crate::studies::suspensions::law_tables;
 use crate::studies::suspensions::split::{Constants, Scope, Split, TARGETS};
-use crate::studies::suspensions::{self, law_tables};
-use crate::studies::work_precision::order::{self, Found};
-use crate::studies::work_precision::{export, tables};
+use crate::studies::work_precision::order::{self, OrderVerdict};
+use crate::studies::work_precision::rows::orders_csv;
+use crate::studies::work_precision::study::orders_table;
 use serde::Serialize;
 use serde_json::json;
 use shearbed::Scene;
@@ -121,15 +123,15 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
     let orders = order::of_scene(scene).ok_or_else(|| {
         Failure::Input("time: the subjects turn rods through periods; periods is needed".into())
     })?;
-    let (csv, json) = (export::orders_csv(&orders.studies), build::json(&orders));
+    let (csv, json) = (orders_csv(&orders.studies), build::json(&orders));
     let wrong: Vec<_> = (orders.studies.iter())
-        .filter(|study| study.found == Found::Not)
+        .filter(|study| study.found == OrderVerdict::Not)
         .map(|study| study.subject.as_str())
         .collect();
     let files = vec![("converge.csv", csv), ("converge.json", json)];
     Ok(Done {
         wrong: (!wrong.is_empty()).then(|| wrong.join(", ")),
-        ..done(vec![tables::orders(&orders)], files)?
+        ..done(vec![orders_table(&orders)], files)?
     })
 }
 
@@ -179,16 +181,15 @@ fn interacting(
         return Ok(None);
     };
     let law = law::read(scene, &jobs, &found);
-    let mut tables = law_tables::law(&law, strain_per_period(scene.particles.aspect_ratio));
+    let mut tables = law_tables::law(&law, strain_per_period(scene.particles.aspect_ratio)).to_vec();
     let constants = Constants::of(&law);
     let scopes = [Scope::OwnRods(scene.particles.count), Scope::Unbounded];
     let splits: Vec<_> = (constants.iter())
         .flat_map(|constants| scopes.map(|scope| TARGETS.map(|target| constants.cheapest(scope, target))))
         .flatten()
         .collect();
-    tables.extend((constants.iter()).map(|constants| suspensions::tables::splits(constants, &splits)));
-    let csv = suspensions::export::law_csv(&law);
-    let blocks = suspensions::export::replicas_csv(&law);
+    tables.extend((constants.iter()).map(|constants| splits_table(constants, &splits)));
+    let (csv, blocks) = (law_tables::law_csv(&law), rows_csv(law.blocks.iter().copied()));
     let json = build::json(&Written { warnings, law, constants, splits });
     let files = vec![("converge.csv", csv), ("replicas.csv", blocks), ("converge.json", json)];
     done(tables, files).map(Some)

@@ -4,7 +4,7 @@ use super::{Failure, print};
 use crate::files::checkpoint::{Checkpoint, on_stop};
 use crate::judge::accept::Verdict;
 use crate::judge::case::{Control, Judged};
-use crate::present::study::Found;
+use crate::present::study::Findings;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -15,7 +15,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 pub(super) type Ended = (Verdict, Vec<Judged>, Vec<Control>, f64);
 
 /// What a study found, and in how many seconds.
-pub(super) type Measured = (Found, f64);
+pub(super) type Measured = (Findings, f64);
 
 /// Cases and studies by name.
 #[derive(Default, Serialize, Deserialize)]
@@ -89,7 +89,7 @@ mod tests {
     use serde_json::json;
 
     /// Everything that a study can find, with numbers that texts lose and whole ones that are no counts.
-    fn found() -> Found {
+    fn found() -> Findings {
         let cells = vec![Some(0.1), Some(-0.0), Some(3.0), None];
         let column = field("x", |x: &Option<f64>| *x);
         let count = field("n", |x: &Option<f64>| x.map(|x| x as u64));
@@ -110,7 +110,7 @@ mod tests {
             ..Figure::default()
         };
         let figure = ReportFigure { figure, cases: vec!["kick-bound".into()], ..ReportFigure::default() };
-        Found {
+        Findings {
             answer: "Yes.".into(),
             exhibits: vec![
                 Exhibit::both(figure, numbers),

@@ -11,7 +11,7 @@ use crate::input::experiment;
 use crate::judge::accept::Verdict;
 use crate::judge::case::{Case, Effort, GATE_SEED, Outcome};
 use crate::present::report::{self, CaseRow, ReportStudy, Sections};
-use crate::present::study::Extent;
+use crate::present::study::Request;
 use crate::studies;
 use crate::studies::figures;
 use serde_json::json;
@@ -149,7 +149,7 @@ fn gather(effort: &Effort, kept: Option<&Finished>, quiet: bool) -> Result<Optio
         };
         let bar = progress(work, "replicas", quiet || work == 0);
         let start = Instant::now();
-        let found = study.found(&Extent { effort, wanted: &|_| true, finished: &|| bar.inc(1) });
+        let found = study.found(&Request { effort, wanted: &|_| true, finished: &|| bar.inc(1) });
         bar.finish_and_clear();
         if let Some(found) = found.map_err(Failure::Failed)? {
             let measured = (found, start.elapsed().as_secs_f64());

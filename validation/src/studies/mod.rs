@@ -17,12 +17,12 @@ use crate::present::study::Study;
 pub const ALL: [Study; 9] = [
     figures::STUDY,
     readings::STUDY,
-    kicks::chapter::STUDY,
-    work_precision::chapter::STUDY,
-    stability::chapter::STUDY,
-    suspensions::chapter::FREE,
-    suspensions::chapter::INTERACTING,
-    coefficients::chapter::STUDY,
+    kicks::study::STUDY,
+    work_precision::study::STUDY,
+    stability::study::STUDY,
+    suspensions::free_study::STUDY,
+    suspensions::interacting::STUDY,
+    coefficients::study::STUDY,
     speed::STUDY,
 ];
 

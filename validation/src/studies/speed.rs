@@ -1,12 +1,11 @@
-//! How fast the core is, against the naive reference and against what the machine can do: all measured side by side in
-//! one run, as plain data. Pictures and tables are in [`figures`] and [`tables`].
+//! How fast the core is, against the naive reference and against what the machine can do: all measured side by side in one run.
 
-pub mod figures;
 mod measure;
-pub mod tables;
 
 use crate::files::build;
-use crate::present::study::{Exhibit, Extent, Found, Study};
+use crate::present::plot::Curve;
+use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
+use crate::present::table::{ReportTable, decimals, number, words};
 pub use measure::measure;
 use serde::Serialize;
 
@@ -17,24 +16,71 @@ pub const STUDY: Study = Study {
     question: "How fast is the core against the naive reference and against what the machine can do?",
     cases: &["naive-reference"],
     command: "cargo run --release -- bench --case speed",
-    benches: || vec!["speed".into()],
+    parts: &["speed"],
     shared: false,
     run,
 };
 
-fn run(extent: &Extent) -> Result<Option<Found>, String> {
-    if !(extent.wanted)("speed") {
-        return Ok(None);
-    }
-    let speed = measure(extent.effort.pick(Amount::QUICK, Amount::FULL))?;
-    let mut exhibits: Vec<Exhibit> = figures::figures(&speed).into_iter().map(Exhibit::from).collect();
-    exhibits[0].table = Some(tables::table(&speed));
-    Ok(Some(Found {
-        answer: answer(&speed.checks),
-        exhibits,
-        files: vec![("speed.json".into(), build::json(&speed)?)],
-        ..Default::default()
-    }))
+fn run(request: &Request) -> Result<Option<Findings>, String> {
+    let speed = measure(request.effort.pick(Amount::QUICK, Amount::FULL))?;
+    let [rods, concentration] = figures(&speed);
+    let exhibits = vec![Exhibit::both(rods, table(&speed)), concentration.into()];
+    Ok(Some(Findings::new(answer(&speed.checks), exhibits, [("speed.json", build::json(&speed)?)])))
+}
+
+/// The targets.
+fn table(speed: &Speed) -> ReportTable {
+    let target = |check: &Check| match check.target {
+        Target::AtMost(most) => format!("≤ {most} {}", check.unit),
+        Target::AtLeast(least) => format!("≥ {least} {}", check.unit),
+        Target::None => "–".into(),
+    };
+    let met = |check: &Check| match (check.target, check.met()) {
+        (Target::None, _) => "–",
+        (_, true) => "yes",
+        (_, false) => "no",
+    };
+    ReportTable::new(
+        ["speed", "Speed: targets and what was measured"],
+        format!(
+            "The least of repeated measurements, side by side in one run on a machine with {} cores, which others may \
+             have used too. No case of the gate is timed: its counters of work are. `shearbed bench --case speed` measures longer.",
+            speed.threads
+        ),
+        &speed.checks,
+        vec![
+            words("what", |check: &Check| check.what),
+            words("target", target),
+            words("measured", |check: &Check| format!("{:.3} {}", check.measured, check.unit)),
+            number("measured / target", decimals(2), |check: &Check| check.over_target()),
+            words("met", met),
+            words("behind it", |check: &Check| check.behind.clone()),
+        ],
+    )
+}
+
+/// The time of a step against the number of rods and against their concentration.
+fn figures(speed: &Speed) -> [ReportFigure; 2] {
+    let rods = |time: fn(&Step) -> Option<f64>| {
+        move |step: &Step| (step.rods as f64, time(step).unwrap_or(f64::NAN))
+    };
+    let axes = |x| [x, "log time per rod and step (ns)"];
+    let by_rods = ReportFigure::new(
+        ["speed-rods", "Time of a step against the number of rods, 50 per cm³"],
+        "One core. Up to 256 rods the core looks at all pairs; beyond, it sorts the rods into cells.",
+        axes("log rods"),
+    )
+    .curves([
+        Curve::of("core", &speed.by_rods, rods(|step| Some(step.core_ns))),
+        Curve::of("naive reference", &speed.by_rods, rods(|step| step.naive_ns)),
+    ]);
+    let by_concentration = ReportFigure::new(
+        ["speed-concentration", "Time of a step against the concentration, 1000 rods"],
+        "One core. Dilute, nobody is near; dense, most rods make a candidate and the contacts cost.",
+        axes("log n (per cm³)"),
+    )
+    .curves([Curve::of("core", &speed.by_concentration, |step| (step.concentration_per_cm3, step.core_ns))]);
+    [by_rods, by_concentration].map(|figure| figure.judged("eqs 5–14", &["naive-reference"]))
 }
 
 /// The study's answer: how many of the checks that have a target meet it.
@@ -111,7 +157,7 @@ impl Check {
         }
     }
 
-    /// Whether the target is met.
+    /// True if the target is met, or there is none.
     pub fn met(&self) -> bool {
         match self.target {
             Target::AtMost(most) => self.measured <= most,

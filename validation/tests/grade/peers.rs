@@ -87,9 +87,9 @@ fn c_compiled_with_cc_passes_with_order_4() {
 fn own_turning_limit() -> f64 {
     use validation::studies::stability::limits::{Ladder, Limit, Property, bisect, holds};
     let subjects = validation::studies::integrators::all();
-    let rk4 = subjects.iter().find(|subject| subject.name() == "RK4 in p").unwrap();
+    let rk4 = subjects.iter().find(|subject| subject.name == "RK4 in p").unwrap();
     let ladder = Ladder { least: 0.01, most: 100.0, factor: 1.25 };
-    match bisect(ladder, |strain| holds(rk4.as_ref(), Property::Turning, 11.6, strain)) {
+    match bisect(ladder, |strain| holds(rk4, Property::Turning, 11.6, strain)) {
         Limit::At(strain) => strain,
         other => panic!("{other:?}"),
     }

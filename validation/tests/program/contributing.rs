@@ -6,7 +6,7 @@ use super::example_study::STUDY;
 use validation::judge::accept::Verdict;
 use validation::judge::case::Effort;
 use validation::present::plot;
-use validation::present::study::Extent;
+use validation::present::study::Request;
 use validation::present::table::Datum;
 
 #[test]
@@ -22,10 +22,11 @@ fn the_example_of_a_case_is_one() {
 fn the_example_of_a_study_is_one() {
     let page = include_str!("../../../CONTRIBUTING.md");
     assert!(page.contains(include_str!("example_study.rs")));
-    let extent = Extent { effort: &Effort::gate(), wanted: &|name| name == STUDY.name, finished: &|| () };
-    let found = (STUDY.run)(&extent).unwrap().unwrap();
+    let request = Request { effort: &Effort::gate(), wanted: &|name| name == STUDY.name, finished: &|| () };
+    let found = STUDY.found(&request).unwrap().unwrap();
     let table = found.exhibits[0].table.as_ref().unwrap();
     assert_eq!(table.rows.len(), 3);
+    assert!(found.files[0].1.starts_with("rods,sd\n10,0."), "{:?}", found.files);
     // X̄₁ of isotropic rods has a variance of 1/12: 0.289; 400 replicas know a standard deviation to 3.5 %, and correct code is
     // outside six of these at one seed in 10⁹.
     for row in &table.data {
@@ -33,8 +34,8 @@ fn the_example_of_a_study_is_one() {
         assert!((scaled * 12f64.sqrt() - 1.0).abs() < 0.21, "{row:?}");
     }
     plot::svg(&found.exhibits[0].figure.as_ref().unwrap().figure).unwrap();
-    let others = Extent { wanted: &|name| name != STUDY.name, ..extent };
-    assert_eq!((STUDY.run)(&others), Ok(None));
+    let others = Request { wanted: &|name| name != STUDY.name, ..request };
+    assert_eq!(STUDY.found(&others), Ok(None));
 }
 
 #[test]

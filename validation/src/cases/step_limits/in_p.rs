@@ -6,18 +6,17 @@ pub(super) fn at_least(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     let mut evidence = Vec::new();
     let mut classical: Vec<f64> = Vec::new();
     for subject in subjects() {
-        let Theory::Order(order) = subject.theory() else {
+        let Theory::Order(order) = subject.theory else {
             continue;
         };
-        let found =
-            RATIOS.map(|r| match bisect(ONE_STEP, |h| holds(subject.as_ref(), Property::Order, r, h)) {
-                Limit::At(strain) => strain,
-                _ => f64::NAN,
-            });
+        let found = RATIOS.map(|r| match bisect(ONE_STEP, |h| holds(&subject, Property::Order, r, h)) {
+            Limit::At(strain) => strain,
+            _ => f64::NAN,
+        });
         let least =
             RATIOS.iter().zip(found).map(|(r, found)| theory::runge_kutta_order_at_least(order, *r) / found);
         evidence.push(Evidence::within(
-            format!("bound over the longest step without overtaking, {}", subject.name()),
+            format!("bound over the longest step without overtaking, {}", subject.name),
             least.fold(0.0, larger),
             1.0 + 1e-6,
             "a bound from below: too few rods find a step too long, which is no excuse; the bisection \
@@ -27,7 +26,7 @@ pub(super) fn at_least(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
             let apart = |first: &f64, found: f64| (found / first - 1.0).abs();
             let off = classical.iter().zip(found).map(|(first, found)| apart(first, found));
             evidence.push(Evidence::within(
-                format!("relative difference to the first of order 4, {}", subject.name()),
+                format!("relative difference to the first of order 4, {}", subject.name),
                 off.fold(0.0, larger),
                 1e-6,
                 "the bisection ends at 10⁻⁷",
@@ -49,7 +48,7 @@ pub(super) fn near_a_sphere(subjects: &Integrators, _: &Effort) -> Vec<Evidence>
     };
     let mut evidence = Vec::new();
     for subject in subjects() {
-        let found = |property, ladder| bisect(ladder, |h| holds(subject.as_ref(), property, r, h));
+        let found = |property, ladder| bisect(ladder, |h| holds(&subject, property, r, h));
         evidence.push(Evidence::within(
             "relative difference of the longest step that turns and 2√6",
             off(found(Property::Turning, ONE_STEP), theory::rk4_turning_of_a_sphere()),
@@ -76,7 +75,7 @@ pub(super) fn frozen(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
             let frozen = 2.785 * theory::euler_order(r);
             worst = larger(
                 worst,
-                match bisect(ladder, |h| holds(subject.as_ref(), Property::Length, r, h)) {
+                match bisect(ladder, |h| holds(&subject, Property::Length, r, h)) {
                     Limit::At(strain) => strain / frozen,
                     _ => f64::INFINITY,
                 },

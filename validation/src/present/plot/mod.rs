@@ -40,7 +40,27 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// Whether each of its points is shown: there are few, and so each is a result of its own. A line through two is a
+    /// A curve through a point (x, y) of each record.
+    pub fn of<R>(
+        label: impl Into<String>,
+        records: impl IntoIterator<Item = R>,
+        point: impl Fn(R) -> (f64, f64),
+    ) -> Self {
+        let (x, y) = records.into_iter().map(point).unzip();
+        Self { label: label.into(), x, y, half_band: None }
+    }
+
+    /// A curve through a point (x, y) of each record, with half the width of its 95 % band.
+    pub fn with_band<R>(
+        label: impl Into<String>,
+        records: impl IntoIterator<Item = R>,
+        point: impl Fn(R) -> (f64, f64, f64),
+    ) -> Self {
+        let Points { label, x, y, y_error, .. } = Points::with_bars(label, records, point);
+        Self { label, x, y, half_band: y_error }
+    }
+
+    /// True if each of its points is marked: there are few, and each is a result of its own. A line through two is a
     /// guide for the eye, and theory has no points.
     fn is_marked(&self) -> bool {
         (3..=40).contains(&self.x.len()) && !self.label.ends_with(", theory")
@@ -60,6 +80,29 @@ pub struct Points {
     pub x_error: Option<Vec<f64>>,
     /// Half the length of the vertical error bars.
     pub y_error: Option<Vec<f64>>,
+}
+
+impl Points {
+    /// A point (x, y) for each record.
+    pub fn of<R>(
+        label: impl Into<String>,
+        records: impl IntoIterator<Item = R>,
+        point: impl Fn(R) -> (f64, f64),
+    ) -> Self {
+        let Curve { label, x, y, .. } = Curve::of(label, records, point);
+        Self { label, x, y, ..Default::default() }
+    }
+
+    /// A point (x, y) for each record, with half the length of its vertical error bar.
+    pub fn with_bars<R>(
+        label: impl Into<String>,
+        records: impl IntoIterator<Item = R>,
+        point: impl Fn(R) -> (f64, f64, f64),
+    ) -> Self {
+        let (places, halves): (Vec<_>, Vec<_>) =
+            (records.into_iter().map(point)).map(|(x, y, half)| ((x, y), half)).unzip();
+        Self { y_error: Some(halves), ..Self::of(label, places, |place| place) }
+    }
 }
 
 /// A map: which class of what was found in each row and column.

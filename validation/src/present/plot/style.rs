@@ -15,14 +15,14 @@ pub(super) const MARGIN: i32 = 12 * FINE;
 pub(super) const TEXT: f64 = 16.0;
 pub(super) const TITLE: f64 = 17.0;
 pub(super) const MARKER: i32 = 5 * FINE;
-/// Of the computed points of a curve.
+/// The size of the markers on a curve.
 pub(super) const SMALL_MARKER: i32 = 4 * FINE;
 /// Not a curve's width, so that error bars are not dashed.
 pub(super) const BAR_WIDTH: u32 = 6;
 pub(super) const CURVE_WIDTH: u32 = 8;
 
 /// Okabe & Ito (2008), without the yellow that is lost on white.
-const PALETTE: [RGBColor; 7] = [
+const PALETTE: [RGBColor; 11] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -30,6 +30,10 @@ const PALETTE: [RGBColor; 7] = [
     RGBColor(0, 0, 0),
     RGBColor(230, 159, 0),
     RGBColor(86, 180, 233),
+    RGBColor(136, 34, 85),
+    RGBColor(51, 34, 136),
+    RGBColor(153, 153, 51),
+    RGBColor(150, 90, 50),
 ];
 
 /// Dashes and gaps.
@@ -38,8 +42,7 @@ const DASHES: [&str; 6] = ["", "32 14", "8 12", "44 12 8 12", "18 10", "60 16"];
 /// What has none of the palette's colours is grey, and told apart by its dashes, its marker and the label at its end.
 const GREY: u8 = 140;
 
-/// The integrators that are drawn in many pictures, each with the same colour, dashes and marker in all of them: seven in
-/// colours, the others grey.
+/// The integrators that are drawn in many pictures, each with the same colour, dashes and marker in all of them.
 const NAMED: [&str; 11] = [
     "exact propagator",
     "explicit Euler in angles",
@@ -85,7 +88,7 @@ pub(super) fn colour(index: usize) -> RGBColor {
     }
 }
 
-/// Whether a look is not grey.
+/// True if a look has a colour of its own, and is not grey.
 pub(super) fn is_coloured(index: usize) -> bool {
     index % THEORY < PALETTE.len()
 }
@@ -246,14 +249,16 @@ mod tests {
     }
 
     #[test]
-    fn integrators_have_a_colour_or_are_grey_and_a_marker() {
-        let greys = NAMED.len() - PALETTE.len();
-        let markers: std::collections::BTreeSet<_> = (PALETTE.len()..NAMED.len()).map(|k| k % 5).collect();
-        assert_eq!(markers.len(), greys);
-        for index in PALETTE.len()..NAMED.len() {
-            let RGBColor(red, green, blue) = colour(index);
-            assert!([red, green, blue].iter().all(|part| part.abs_diff(GREY) < 8));
+    fn every_integrator_has_a_colour_of_its_own() {
+        for (a, b) in (0..NAMED.len()).flat_map(|a| (0..a).map(move |b| (a, b))) {
+            let (RGBColor(r, g, b1), RGBColor(s, h, b2)) = (colour(a), colour(b));
+            let apart = r.abs_diff(s).max(g.abs_diff(h)).max(b1.abs_diff(b2));
+            assert!(is_coloured(a) && apart > 50, "{} and {}", NAMED[a], NAMED[b]);
         }
+        // Control: what has no colour of its own is grey, and near to other greys.
+        assert!(!is_coloured(NAMED.len()));
+        let (RGBColor(red, ..), RGBColor(next, ..)) = (colour(NAMED.len()), colour(NAMED.len() + 1));
+        assert!(red.abs_diff(next) < 8);
     }
 
     #[test]

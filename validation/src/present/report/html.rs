@@ -140,7 +140,7 @@ fn studies(report: &Report) -> Result<Vec<StudyView<'_>>, String> {
 }
 
 fn view<'a>(report: &'a Report, exhibit: &'a Exhibit) -> Result<ExhibitView<'a>, String> {
-    /// So many columns stand beside a picture.
+    /// The most columns of a table beside a picture.
     const BESIDE: usize = 6;
     let figure = exhibit.figure.as_ref().map(|f| self::figure(report, f));
     let columns = exhibit.table.as_ref().map_or(0, |table| table.columns.len());

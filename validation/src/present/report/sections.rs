@@ -1,6 +1,6 @@
 //! What a report shows beside its cases, as plain data.
 
-use crate::present::study::{Exhibit, Found, ReportFigure, ScenePlan, Study};
+use crate::present::study::{Exhibit, Findings, ReportFigure, ScenePlan, Study};
 use crate::present::table::ReportTable;
 use serde::Serialize;
 
@@ -42,7 +42,7 @@ pub struct ReportStudy {
 
 impl ReportStudy {
     /// What a study found in so many seconds.
-    pub fn new(study: &Study, found: Found, seconds: f64) -> Self {
+    pub fn new(study: &Study, found: Findings, seconds: f64) -> Self {
         Self {
             name: study.name.into(),
             title: study.title.into(),

@@ -23,3 +23,28 @@ fn a_column_is_declared_once_and_written_everywhere() {
     assert!(table.text().starts_with("Synthetic\n\nn  x (s)  y"));
     assert!(table.markdown().contains("| 1 | 0.3 | 2 ± 0.30000000000000004 | =1 |"));
 }
+
+#[test]
+fn rows_are_written_by_the_names_of_their_fields() {
+    #[derive(Default, Serialize)]
+    struct Row {
+        text: &'static str,
+        x_error: Option<f64>,
+        rods: usize,
+    }
+    let rows = || {
+        [
+            Row { text: "=1", x_error: Some(0.1 + 0.2), rods: 3 },
+            Row { text: "a, b", x_error: None, rods: 0 },
+            Row { text: "-1", x_error: Some(-1e-9), rods: 1 },
+        ]
+    };
+    assert_eq!(
+        rows_csv(rows()).unwrap(),
+        "text,x_error,rods\n'=1,0.30000000000000004,3\n\"a, b\",,0\n-1,-1e-9,1\n"
+    );
+    assert_eq!(rows_csv(rows().into_iter().take(0)).unwrap(), "text,x_error,rods\n");
+    assert_eq!(two_digits(0.26154, 0.00842), "0.2615 ± 0.0084");
+    assert_eq!(two_digits(83.878, 0.53), "83.88 ± 0.53");
+    assert_eq!(two_digits(0.0, 0.0), "0");
+}

@@ -35,9 +35,9 @@ pub fn steps(problems: &[LoadedProblem], graded: &[Graded]) -> Option<Figure> {
     let counts: Vec<_> = errors.iter().map(|(steps, _)| *steps).collect();
     let mut curves = vec![curve(PROGRAM.to_owned(), &errors)];
     for subject in integrators::own() {
-        if matches!(subject.theory(), Theory::Order(_)) {
-            let errors = own_errors(subject.as_ref(), loaded, rate, &counts);
-            curves.push(curve(subject.name().to_owned(), &errors));
+        if matches!(subject.theory, Theory::Order(_)) {
+            let errors = own_errors(&subject, loaded, rate, &counts);
+            curves.push(curve(subject.name.clone(), &errors));
         }
     }
     Some(Figure {
@@ -78,12 +78,7 @@ fn couette_per_s(loaded: &LoadedProblem) -> Option<f64> {
 }
 
 /// The worst rod's error at the last time.
-fn own_errors(
-    subject: &dyn Integrator,
-    loaded: &LoadedProblem,
-    rate: f64,
-    counts: &[u64],
-) -> Vec<(u64, f64)> {
+fn own_errors(subject: &Integrator, loaded: &LoadedProblem, rate: f64, counts: &[u64]) -> Vec<(u64, f64)> {
     let r = loaded.problem.aspect_ratio;
     let end_s = loaded.problem.times_s.last().copied().unwrap_or_default();
     let problem = Problem::new(r, rate * end_s / (TAU * (r + 1.0 / r)));

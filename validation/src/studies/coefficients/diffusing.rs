@@ -37,7 +37,7 @@ pub fn free(shape_factor: f64, strain: f64) -> Matrix3<f64> {
 }
 
 impl Diffusing {
-    /// So many rods in random directions.
+    /// `count` rods in random directions.
     pub fn isotropic(count: usize, diffusion: Diffusion, seed: u64) -> Self {
         let mut rng = Pcg64Dxsm::seed_from_u64(seed);
         Self {

@@ -49,10 +49,10 @@ impl Quantity {
     }
 }
 
-/// Of one replica: for each quantity, the share of rods above each edge, in the mean over jumps.
+/// For each quantity of one replica, the share of rods above each edge, averaged over jumps.
 pub type Shares = [Vec<f64>; 4];
 
-/// Of each replica, the share above one edge; NaN where there is no such edge.
+/// The share above one edge, one value for each replica; NaN if there is no such edge.
 pub fn above(all: &[Shares], quantity: Quantity, edge: f64) -> Vec<f64> {
     let place = quantity.edges().iter().position(|own| *own == edge);
     let share = |shares: &Shares| place.map_or(f64::NAN, |place| shares[quantity as usize][place]);

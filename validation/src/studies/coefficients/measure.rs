@@ -72,9 +72,9 @@ pub struct Amount {
 }
 
 impl Amount {
-    /// Of the report.
+    /// For the report.
     pub const QUICK: Self = Self { settings: &QUICK, finer: 4, replicas: 12 };
-    /// Of `shearbed bench`.
+    /// For `shearbed bench`.
     pub const FULL: Self = Self { settings: &FULL, finer: 8, replicas: 48 };
 }
 

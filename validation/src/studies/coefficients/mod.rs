@@ -6,11 +6,10 @@
 //! which is exact for free rods with J = 0. Folgar & Tucker (1984) put J = 2 C_I (1 − 3a). J is what is left when the rest
 //! is taken from runs; C_I is the best factor by least squares over all nine components.
 
-pub mod chapter;
 mod diffusing;
 pub mod jumps;
 mod measure;
-mod show;
+pub mod study;
 
 pub use diffusing::{Diffusing, Diffusion, free};
 pub use measure::{Amount, Coefficients, Setting, rows};

@@ -2,22 +2,21 @@
 
 use crate::present::plot::{Curve, Figure};
 use crate::present::study::ReportFigure;
-use crate::present::table::{Column, ReportTable, estimate, number};
+use crate::present::table::{Column, ReportTable, decimals, estimate, field, number, plus_minus, two_digits};
 
-/// Abscissas against time. Rods are where they were every half period, so whole and half periods alone would show free
-/// ones as still.
-const PERIODS: [f64; 17] =
-    [0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0, 2.75, 3.0, 3.75, 4.0, 4.75, 5.0, 5.75, 6.0];
-
-/// A row for each point of the first series, or against time for each of [`PERIODS`]; a column for each series.
+/// A row for each point of the first series, or against time for each quarter of a period at which a series has a value:
+/// free rods are where they were every half period, so whole and half periods alone would show them as still. A column for
+/// each series.
 pub(super) fn table(figure: &ReportFigure) -> ReportTable {
     let picture = &figure.figure;
+    let series = series(picture);
+    let quarters = (0..=24).map(|k| 0.25 * f64::from(k));
     let rows: Vec<f64> = match picture.points.first() {
         Some(points) if picture.x_span.is_none() => points.x.clone(),
-        _ => PERIODS.to_vec(),
+        _ => quarters.filter(|t| series.iter().any(|curve| near(curve, *t).is_some())).collect(),
     };
-    let mut columns: Vec<Column<f64>> = vec![number(&picture.x_name, |x| x.to_string(), |x: &f64| *x)];
-    columns.extend(series(picture).into_iter().map(column));
+    let mut columns: Vec<Column<f64>> = vec![field(&picture.x_name, |x: &f64| *x)];
+    columns.extend(series.into_iter().map(column));
     ReportTable::new(
         [&figure.name, &picture.title],
         "Numbers of the picture, with half the width of their 95 % intervals; `–` where there is none within T/8.",
@@ -38,19 +37,42 @@ fn series(figure: &Figure) -> Vec<Curve> {
     points.chain(curves).collect()
 }
 
+/// The point of a curve that is nearest to an abscissa, and at most T/8 from it.
+fn near(curve: &Curve, wanted: f64) -> Option<usize> {
+    let apart = |k: &usize| (curve.x[*k] - wanted).abs();
+    let nearest = (0..curve.x.len()).min_by(|a, b| apart(a).total_cmp(&apart(b)));
+    nearest.filter(|k| apart(k) <= 0.125)
+}
+
 fn column<'a>(curve: Curve) -> Column<'a, f64> {
-    let Curve { label, x, y, half_band } = curve;
-    let near = move |wanted: &f64| {
-        let apart = |k: &usize| (x[*k] - wanted).abs();
-        let nearest = (0..x.len()).min_by(|a, b| apart(a).total_cmp(&apart(b)));
-        nearest.filter(|k| apart(k) <= 0.125)
-    };
-    match half_band {
-        Some(half) => estimate(
-            label,
-            |y, half| format!("{y:.3} ± {half:.3}"),
-            move |wanted| near(wanted).map(|k| (y[k], half[k])),
-        ),
-        None => number(label, |y| format!("{y:.3}"), move |wanted| near(wanted).map(|k| y[k])),
+    let label = curve.label.clone();
+    match curve.half_band.clone() {
+        Some(half) => {
+            let format = |y: f64, half: f64| match half > 0.0 {
+                true => two_digits(y, half),
+                false => plus_minus(3)(y, half),
+            };
+            estimate(label, format, move |wanted: &f64| near(&curve, *wanted).map(|k| (curve.y[k], half[k])))
+        }
+        None => number(label, decimals(3), move |wanted: &f64| near(&curve, *wanted).map(|k| curve.y[k])),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_without_a_value_are_left_out() {
+        let maxima = Curve::with_band("a", [0.0, 0.48, 1.02], |t| (t, 0.5 - 0.1 * t, 0.00123 * t));
+        let figure = ReportFigure::new(["synthetic", "Synthetic"], "", ["t/T", "A₁"])
+            .curves([maxima, Curve::of("b", [0.5], |t| (t, 0.25))])
+            .spans(Some((0.0, 6.0)), None);
+        let rows = [
+            ["0", "0.500 ± 0.000", "–"],
+            ["0.5", "0.45200 ± 0.00059", "0.250"],
+            ["1", "0.3980 ± 0.0013", "–"],
+        ];
+        assert_eq!(table(&figure).rows, rows.map(|row| row.map(String::from).to_vec()));
     }
 }

@@ -25,13 +25,10 @@ pub(super) fn measured(scene: &str, effort: &Effort, figure: &mut Figure) -> Res
 fn series(label: &str, observable: &str, points: &[&Measured]) -> Points {
     /// Standard deviations in half of a 95 % interval of a normal distribution.
     const WIDTH: f64 = 1.96;
-    let column = |value: fn(&Measured) -> f64| points.iter().map(|point| value(point)).collect::<Vec<f64>>();
+    let label = format!("X̄_{}, {label}", observable.trim_start_matches('x'));
     Points {
-        label: format!("X̄_{}, {label}", observable.trim_start_matches('x')),
-        x: column(|point| point.x),
-        y: column(|point| point.y),
-        x_error: Some(column(|point| WIDTH * point.u_x)),
-        y_error: Some(column(|point| WIDTH * point.u_y)),
+        x_error: Some(points.iter().map(|point| WIDTH * point.u_x).collect()),
+        ..Points::with_bars(label, points, |point| (point.x, point.y, WIDTH * point.u_y))
     }
 }
 

@@ -7,15 +7,15 @@ mod paper;
 mod run;
 
 use crate::judge::case::Effort;
-use crate::present::study::{Exhibit, Extent, Found, ReportFigure, Study};
+use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
 use run::Runs;
 
 /// How many replicas of a scene are run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Replicas {
-    /// Of a scene with interaction, usually of 100 rods each.
+    /// Replicas of a scene with interaction, usually of 100 rods each.
     pub interacting: u64,
-    /// Of a scene of free rods, usually of 10 000 rods each.
+    /// Replicas of a scene of free rods, usually of 10 000 rods each.
     pub free: u64,
 }
 
@@ -49,13 +49,13 @@ pub const STUDY: Study = Study {
         "in-plane-rods",
     ],
     command: "cargo run --release -- validate",
-    benches: Study::no_parts,
+    parts: &[],
     shared: true,
     run,
 };
 
-fn run(extent: &Extent) -> Result<Option<Found>, String> {
-    draw(extent.effort, Replicas::of(extent.effort), extent.finished)
+fn run(request: &Request) -> Result<Option<Findings>, String> {
+    draw(request.effort, Replicas::of(request.effort), request.finished)
 }
 
 /// How often [`draw`] calls `finished`.
@@ -66,17 +66,14 @@ pub fn work(replicas: Replicas) -> Result<u64, String> {
 
 /// Runs the scenes over all ranks and draws the figures, each beside its numbers, on the root, none elsewhere;
 /// `finished` is called on the root for each replica, after its scene.
-pub fn draw(effort: &Effort, replicas: Replicas, finished: &dyn Fn()) -> Result<Option<Found>, String> {
+pub fn draw(effort: &Effort, replicas: Replicas, finished: &dyn Fn()) -> Result<Option<Findings>, String> {
     let plans = run::plans(replicas)?;
     let shown = plans.iter().map(run::shown).collect();
     let Some(runs) = Runs::new(plans, finished)? else {
         return Ok(None);
     };
-    let beside = |figure: ReportFigure| {
-        let table = beside::table(&figure);
-        Exhibit::both(figure, table)
-    };
-    Ok(Some(Found {
+    let beside = |figure: ReportFigure| Exhibit { table: Some(beside::table(&figure)), figure: Some(figure) };
+    Ok(Some(Findings {
         answer: paper::answer(&runs)?,
         exhibits: (paper::figures(&runs, effort)?.into_iter()).map(beside).collect(),
         plans: shown,

@@ -5,10 +5,9 @@ use super::measured::measured;
 use super::run::{Run, Runs};
 use crate::judge::case::Effort;
 use crate::oracle::closed_form;
-use crate::present::plot::{Curve, Figure, Points};
+use crate::present::plot::{Curve, Points};
 use crate::present::study::ReportFigure;
 
-const TIME: &str = "time t/T (periods)";
 const PROJECTION: &str = "mean projection (rod lengths)";
 const AMPLITUDE: &str = "amplitude A₁ of X̄₁ (rod lengths)";
 
@@ -22,21 +21,18 @@ pub(super) fn figures(runs: &Runs, effort: &Effort) -> Result<Vec<ReportFigure>,
     Ok(figures)
 }
 
-/// A figure of the paper; the catalogue knows the cases that cite it.
-fn figure(name: &str, source: &str, figure: Figure, caption: String) -> ReportFigure {
-    ReportFigure { name: name.into(), figure, caption, source: source.into(), cases: Vec::new() }
-}
-
-fn against_time(title: String, y_name: &str, curves: Vec<Curve>) -> Figure {
-    Figure {
-        title,
-        x_name: TIME.into(),
-        y_name: y_name.into(),
-        curves,
-        x_span: Some((0.0, 6.0)),
-        y_span: Some((0.0, 0.5)),
-        ..Default::default()
-    }
+/// A figure of the paper against time, its vertical axis up to `most`; the catalogue knows the cases that cite it.
+fn against_time(
+    [name, title]: [&str; 2],
+    source: &str,
+    caption: impl Into<String>,
+    (y_name, most): (&str, f64),
+    curves: Vec<Curve>,
+) -> ReportFigure {
+    ReportFigure::new([name, title], caption, ["time t/T (periods)", y_name])
+        .curves(curves)
+        .spans(Some((0.0, 6.0)), Some((0.0, most)))
+        .judged(source, &[])
 }
 
 fn projections(run: &Run) -> Vec<Curve> {
@@ -45,24 +41,25 @@ fn projections(run: &Run) -> Vec<Curve> {
 }
 
 fn fig4(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
-    let mut drawn =
-        against_time("Fig. 4: X̄₁ at three concentrations, α = 0.5".into(), PROJECTION, Vec::new());
+    let words = ["fig4", "Fig. 4: X̄₁ at three concentrations, α = 0.5"];
+    let mut figure = against_time(words, "Fig. 4, eqs 4, 15", "", (PROJECTION, 0.5), Vec::new());
+    let drawn = &mut figure.figure;
     let mut supplied = String::new();
     for n in [20, 50, 100] {
         let scene = format!("fig4-n{n}");
         let label = format!("n = {n} cm⁻³");
         drawn.curves.push(runs.get(&scene)?.curve("x1", label.as_str()));
         let known = drawn.points.len();
-        supplied = measured(&scene, effort, &mut drawn)?;
+        supplied = measured(&scene, effort, drawn)?;
         for points in &mut drawn.points[known..] {
             points.label = format!("{}, {label}", points.label);
         }
     }
-    let caption = format!(
+    figure.caption = format!(
         "The oscillation of X̄₁ about a plateau dies out, faster where n is larger. The maxima stay at multiples of T/2. \
          {supplied}"
     );
-    Ok(figure("fig4", "Fig. 4, eqs 4, 15", drawn, caption))
+    Ok(figure)
 }
 
 /// What Fig. 4 says in numbers.
@@ -83,18 +80,15 @@ pub(super) fn answer(runs: &Runs) -> Result<String, String> {
 }
 
 fn fig5(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
-    let mut drawn = against_time(
-        "Fig. 5: r_e = 14.2, σ = 8.5 %, n = 500 cm⁻³".into(),
-        PROJECTION,
-        projections(runs.get("fig5")?),
-    );
-    drawn.y_span = Some((0.0, 1.0));
-    let supplied = measured("fig5", effort, &mut drawn)?;
-    let caption = format!(
+    let words = ["fig5", "Fig. 5: r_e = 14.2, σ = 8.5 %, n = 500 cm⁻³"];
+    let curves = projections(runs.get("fig5")?);
+    let mut figure = against_time(words, "Fig. 5, eqs 4, 11", "", (PROJECTION, 1.0), curves);
+    let supplied = measured("fig5", effort, &mut figure.figure)?;
+    figure.caption = format!(
         "The oscillations are damped out by t/T = 3, and X̄₁ stays where it is. X̄₃ still falls slowly and X̄₂ rises: the \
          orbits become steady later than the phases, and `steady-stays-put` judges what comes then. {supplied}"
     );
-    Ok(figure("fig5", "Fig. 5, eqs 4, 11", drawn, caption))
+    Ok(figure)
 }
 
 /// X̄₁ of the three panels in one picture.
@@ -105,38 +99,34 @@ fn fig6_overlaid(runs: &Runs) -> Result<ReportFigure, String> {
         ("fig6-interacting", "one size, n = 50 cm⁻³"),
     ];
     let curves = scenes.map(|(scene, label)| Ok(runs.get(scene)?.curve("x1", label)));
-    let drawn = against_time(
-        "Fig. 6: X̄₁ without damping, with unequal sizes, with collisions".into(),
-        PROJECTION,
+    Ok(against_time(
+        ["fig6", "Fig. 6: X̄₁ without damping, with unequal sizes, with collisions"],
+        "Fig. 6, eq. 4",
+        "The spread of r_e alone, and collisions alone, damp the oscillation; free rods of one size keep it. The \
+         three panels below have all projections.",
+        (PROJECTION, 0.5),
         curves.into_iter().collect::<Result<_, String>>()?,
-    );
-    let caption = "The spread of r_e alone, and collisions alone, damp the oscillation; free rods of one size keep it. The \
-                   three panels below have all projections.";
-    Ok(figure("fig6", "Fig. 6, eq. 4", drawn, caption.into()))
+    ))
 }
 
 fn fig6(runs: &Runs) -> Result<Vec<ReportFigure>, String> {
     let panels = [
         (
-            "fig6-uniform",
-            "Fig. 6, top: free rods of one size",
+            ["fig6-uniform", "Fig. 6, top: free rods of one size"],
             "Undamped: every half period repeats the first, from X̄₁ ≈ 1/2 down to almost 0.",
         ),
         (
-            "fig6-polydisperse",
-            "Fig. 6, middle: free rods, σ = 3.6 %",
+            ["fig6-polydisperse", "Fig. 6, middle: free rods, σ = 3.6 %"],
             "Rods of different sizes turn at different rates, and the oscillation dies out without any collision.",
         ),
         (
-            "fig6-interacting",
-            "Fig. 6, bottom: one size, n = 50 cm⁻³",
+            ["fig6-interacting", "Fig. 6, bottom: one size, n = 50 cm⁻³"],
             "Collisions alone damp the oscillation as well; the period is the same in all three panels.",
         ),
     ];
-    let panel = |(scene, title, caption): (&str, &str, &str)| {
-        let mut drawn = against_time(title.into(), PROJECTION, projections(runs.get(scene)?));
-        drawn.y_span = Some((0.0, 1.0));
-        Ok(figure(scene, "Fig. 6, eq. 4", drawn, caption.into()))
+    let panel = |(words, caption): ([&str; 2], &str)| {
+        let curves = projections(runs.get(words[0])?);
+        Ok(against_time(words, "Fig. 6, eq. 4", caption, (PROJECTION, 1.0), curves))
     };
     panels.into_iter().map(panel).collect()
 }
@@ -189,9 +179,8 @@ fn amplitudes(runs: &Runs) -> Result<Vec<ReportFigure>, String> {
     let draw = |(number, scenes, title, caption): (u32, Compared, &str, &str)| {
         let curve = |(scene, label): &(&str, &str)| Ok(amplitude(runs.get(scene)?, *label));
         let curves = scenes.iter().map(curve).collect::<Result<_, String>>()?;
-        let drawn = against_time(format!("Fig. {number}: {title}"), AMPLITUDE, curves);
-        let (name, source) = (format!("fig{number}"), format!("Fig. {number}"));
-        Ok(figure(&name, &source, drawn, caption.into()))
+        let words = [&format!("fig{number}")[..], &format!("Fig. {number}: {title}")];
+        Ok(against_time(words, &format!("Fig. {number}"), caption, (AMPLITUDE, 0.5), curves))
     };
     AMPLITUDES.into_iter().map(draw).collect()
 }
@@ -200,52 +189,41 @@ fn amplitudes(runs: &Runs) -> Result<Vec<ReportFigure>, String> {
 const STEADY_PERIODS: f64 = 3.0;
 
 fn fig11(runs: &Runs) -> Result<ReportFigure, String> {
-    let mut steady = Points { label: "steady φ̄, interacting rods".into(), ..Default::default() };
-    let mut errors = Vec::new();
+    let mut steady = Vec::new();
     for name in ["5", "10", "11.6", "14.2", "20", "30", "50"] {
         let run = runs.get(&format!("fig11-re{name}"))?;
         let times = run.times();
         let first = times.last().copied().unwrap_or(0.0) - STEADY_PERIODS;
         let late: Vec<usize> = (0..times.len()).filter(|k| times[*k] > first + 1e-9).collect();
         let sample = run.sample("phi", |phi| late.iter().map(|k| phi(*k)).sum::<f64>() / late.len() as f64);
-        steady.x.push(run.scene().particles.aspect_ratio);
-        steady.y.push(sample.mean);
-        errors.push(sample.half_width());
+        steady.push((run.scene().particles.aspect_ratio, sample.mean, sample.half_width()));
     }
-    steady.y_error = Some(errors);
-    let x: Vec<f64> = (4..=220).map(|k| 0.25 * f64::from(k)).collect();
-    let drawn = Figure {
-        title: "Fig. 11: the steady mean angle and the aspect ratio".into(),
-        x_name: "aspect ratio r_e (–)".into(),
-        y_name: "mean angle φ (rad)".into(),
-        curves: vec![Curve {
-            label: "⟨φ⟩, one rod (eq. 19)".into(),
-            y: x.iter().map(|r| closed_form::mean_angle(*r)).collect(),
-            x,
-            half_band: None,
-        }],
-        points: vec![steady],
-        ..Default::default()
-    };
+    let ratios = (4..=220).map(|k| 0.25 * f64::from(k));
     let caption = format!(
         "The steady mean angle of interacting rods lies close to the time average of a single rod, π/4 at r_e = 1 and \
          towards π/2 for long rods. Each point is the mean over the last {STEADY_PERIODS} periods of ten, with its \
          95 % interval."
     );
-    Ok(figure("fig11", "Fig. 11, eqs 18, 19, 20", drawn, caption))
+    Ok(ReportFigure::new(
+        ["fig11", "Fig. 11: the steady mean angle and the aspect ratio"],
+        caption,
+        ["aspect ratio r_e (–)", "mean angle φ (rad)"],
+    )
+    .curves([Curve::of("⟨φ⟩, one rod (eq. 19)", ratios, |r| (r, closed_form::mean_angle(r)))])
+    .points([Points::with_bars("steady φ̄, interacting rods", steady, |point| point)])
+    .judged("Fig. 11, eqs 18, 19, 20", &[]))
 }
 
 fn fig12(runs: &Runs) -> Result<ReportFigure, String> {
     let run = runs.get("fig12")?;
     let channels = [("x1x2", "x_1x_2 plane"), ("x2x3", "x_2x_3 plane"), ("x1x3", "x_1x_3 plane")];
     let curves = channels.map(|(channel, label)| run.curve(channel, label));
-    let mut drawn = against_time(
-        "Fig. 12: planar projections, n = 50 cm⁻³, σ = 3.6 %".into(),
-        "planar projection (rod lengths)",
+    Ok(against_time(
+        ["fig12", "Fig. 12: planar projections, n = 50 cm⁻³, σ = 3.6 %"],
+        "Fig. 12, eq. 21",
+        "Rods lie along the flow most of the time: their shadows on the two planes that hold axis 2 are long, \
+         and the third oscillates most. The paper's figure shows typical results only.",
+        ("planar projection (rod lengths)", 1.0),
         curves.into(),
-    );
-    drawn.y_span = Some((0.0, 1.0));
-    let caption = "Rods lie along the flow most of the time: their shadows on the two planes that hold axis 2 are long, \
-                   and the third oscillates most. The paper's figure shows typical results only.";
-    Ok(figure("fig12", "Fig. 12, eq. 21", drawn, caption.into()))
+    ))
 }

@@ -51,15 +51,7 @@ impl Run {
 
 /// A curve through samples, with a band of 95 % by Student's t.
 pub(super) fn with_band(label: impl Into<String>, samples: impl Iterator<Item = (f64, Sample)>) -> Curve {
-    let mut curve = Curve { label: label.into(), ..Default::default() };
-    let mut band = Vec::new();
-    for (x, sample) in samples {
-        curve.x.push(x);
-        curve.y.push(sample.mean);
-        band.push(sample.half_width());
-    }
-    curve.half_band = Some(band);
-    curve
+    Curve::with_band(label, samples, |(x, sample)| (x, sample.mean, sample.half_width()))
 }
 
 /// The runs of all scenes, by the scenes' names. Scenes that differ in their titles only share a run.
@@ -107,7 +99,7 @@ fn replicas(plan: &Plan) -> Result<Vec<Replica>, String> {
     ensemble::replicas_of(plan, replicas, &|| ()).map_err(|error| error.to_string())
 }
 
-/// Whether two scenes differ in nothing but their titles.
+/// True if two scenes differ only in their titles.
 fn same(a: &Scene, b: &Scene) -> bool {
     let untitled = |scene: &Scene| Scene { title: String::new(), ..scene.clone() };
     untitled(a) == untitled(b)

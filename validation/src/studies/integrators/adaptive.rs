@@ -1,17 +1,14 @@
 //! Methods of other people's libraries that choose their own steps.
 
-use super::{Failure, Integrator, Problem, Setting, Theory};
+use super::{Failure, Integrator, Problem, Theory};
 use differential_equations::linalg::Matrix;
 use differential_equations::prelude::{IVP, ImplicitRungeKutta, ODE};
-use nalgebra::{UnitVector3, Vector3};
+use nalgebra::Vector3;
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, System};
 
 /// Steps after which a method gives up: a tenth of a second, about.
 const MOST_STEPS: usize = 100_000;
-
-/// Explicit Runge–Kutta of order 8 with its own step (Dormand & Prince 8(5,3), Hairer's DOP853) of `ode_solvers`.
-pub struct DormandPrince;
 
 impl System<f64, Vector3<f64>> for Problem {
     fn system(&self, _: f64, p: &Vector3<f64>, rate: &mut Vector3<f64>) {
@@ -19,33 +16,17 @@ impl System<f64, Vector3<f64>> for Problem {
     }
 }
 
-impl Integrator for DormandPrince {
-    fn name(&self) -> &str {
-        "Dormand–Prince 8(5,3)"
-    }
-
-    fn theory(&self) -> Theory {
-        Theory::Adaptive
-    }
-
-    fn advance(
-        &self,
-        problem: &Problem,
-        start: &UnitVector3<f64>,
-        setting: Setting,
-    ) -> Result<Vector3<f64>, Failure> {
+/// Explicit Runge–Kutta of order 8 with its own step (Dormand & Prince 8(5,3), Hairer's DOP853) of `ode_solvers`.
+pub fn dormand_prince() -> Integrator {
+    Integrator::new("Dormand–Prince 8(5,3)", Theory::Adaptive, |problem, start, setting| {
         let (tolerance, end) = (setting.tolerance()?, problem.strain());
         let mut solver = Dop853::new(*problem, 0.0, end, end, start.into_inner(), tolerance, tolerance);
         // Steps, not dense output: the last one ends at `end`.
         solver.set_output(OutputType::Sparse);
         solver.integrate().map_err(|error| Failure::Gave(error.to_string()))?;
         solver.y_out().last().copied().ok_or(Failure::NotFinite)
-    }
+    })
 }
-
-/// Implicit Runge–Kutta of order 5 for stiff equations with its own step (Radau IIA, Hairer's RADAU5) of
-/// `differential-equations`.
-pub struct Radau;
 
 impl ODE<f64, [f64; 3]> for Problem {
     fn diff(&self, _: f64, p: &[f64; 3], rate: &mut [f64; 3]) {
@@ -62,21 +43,10 @@ impl ODE<f64, [f64; 3]> for Problem {
     }
 }
 
-impl Integrator for Radau {
-    fn name(&self) -> &str {
-        "Radau IIA 5"
-    }
-
-    fn theory(&self) -> Theory {
-        Theory::Adaptive
-    }
-
-    fn advance(
-        &self,
-        problem: &Problem,
-        start: &UnitVector3<f64>,
-        setting: Setting,
-    ) -> Result<Vector3<f64>, Failure> {
+/// Implicit Runge–Kutta of order 5 for stiff equations with its own step (Radau IIA, Hairer's RADAU5) of
+/// `differential-equations`.
+pub fn radau() -> Integrator {
+    Integrator::new("Radau IIA 5", Theory::Adaptive, |problem, start, setting| {
         let (tolerance, end) = (setting.tolerance()?, problem.strain());
         // One tolerance for each component: version 0.7 rescales a single one as often as there are components.
         let method =
@@ -89,7 +59,7 @@ impl Integrator for Radau {
             Some((t, p)) if *t == end => Ok((*p).into()),
             _ => Err(Failure::Gave("stopped early".into())),
         }
-    }
+    })
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 /// The errors of a direction at the end of a problem. All but the length are of the direction alone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Errors {
-    /// The angle to the reference in rad, head or tail alike, in [0, π/2].
+    /// The angle to the reference in rad, p and −p being the same rod, in [0, π/2].
     pub orientation_rad: f64,
     /// How far C_b = C/(1 + C) is from its value at the start (eq. 13), in [0, 1]: C itself may be infinite.
     pub orbit_constant: f64,
@@ -33,7 +33,7 @@ impl Errors {
     }
 }
 
-/// The angle in rad between two directions of any length, head or tail alike: accurate near 0 and near π/2.
+/// The angle in rad between two directions of any length, p and −p being the same: accurate near 0 and near π/2.
 pub fn apart_rad(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
     a.cross(b).norm().atan2(a.dot(b).abs())
 }

@@ -1,7 +1,6 @@
 //! Textbook steps in angles and in p (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, II.1).
 
-use super::{FixedStep, InAngles, Integrator, Problem};
-use nalgebra::{Vector2, Vector3};
+use super::Integrator;
 use std::ops::{Add, Mul};
 
 /// y + h f(y).
@@ -26,31 +25,18 @@ where
     y + (k1 + (k2 + k3) * 2.0 + k4) * (h / 6.0)
 }
 
-pub(super) fn all() -> Vec<Box<dyn Integrator>> {
-    vec![
-        Box::new(InAngles {
-            name: "explicit Euler in angles",
-            order: 1,
-            step: |problem: &Problem, angles: Vector2<f64>, h| {
-                explicit_euler(|y| problem.angle_rates(&y), angles, h)
-            },
+pub(super) fn all() -> [Integrator; 4] {
+    [
+        Integrator::in_angles("explicit Euler in angles", 1, |problem, angles, h| {
+            explicit_euler(|y| problem.angle_rates(&y), angles, h)
         }),
-        Box::new(InAngles {
-            name: "RK4 in angles",
-            order: 4,
-            step: |problem: &Problem, angles: Vector2<f64>, h| rk4(|y| problem.angle_rates(&y), angles, h),
+        Integrator::in_angles("RK4 in angles", 4, |problem, angles, h| {
+            rk4(|y| problem.angle_rates(&y), angles, h)
         }),
-        Box::new(FixedStep {
-            name: "RK4 in p",
-            order: 4,
-            keeps_length: false,
-            step: |problem: &Problem, p: Vector3<f64>, h| rk4(|y| problem.rate(&y), p, h),
-        }),
-        Box::new(FixedStep {
-            name: "projected RK4 in p",
-            order: 4,
-            keeps_length: true,
-            step: |problem: &Problem, p: Vector3<f64>, h| rk4(|y| problem.rate(&y), p, h).normalize(),
-        }),
+        Integrator::in_p("RK4 in p", 4, |problem, p, h| rk4(|y| problem.rate(&y), p, h)),
+        Integrator::in_p("projected RK4 in p", 4, |problem, p, h| {
+            rk4(|y| problem.rate(&y), p, h).normalize()
+        })
+        .keeping_length(),
     ]
 }

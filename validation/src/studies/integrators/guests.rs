@@ -4,48 +4,44 @@
 use super::Integrator;
 
 /// The guests.
-pub(super) fn all() -> Vec<Box<dyn Integrator>> {
+pub(super) fn all() -> Vec<Integrator> {
     vec![
-        // Box::new(Mine),
+        // Integrator::in_p("mine", 2, my_step),
         #[cfg(test)]
-        Box::new(tests::HEUN),
+        tests::heun(),
     ]
 }
 
 /// Whatever is tested is tested with a guest registered.
 #[cfg(test)]
 mod tests {
-    use super::super::{FixedStep, Problem, all, own};
+    use super::super::{Integrator, all, own};
     use crate::judge::accept::Verdict;
     use crate::judge::case::{Effort, Judges};
     use crate::studies::work_precision::order;
-    use nalgebra::Vector3;
 
-    type Step = fn(&Problem, Vector3<f64>, f64) -> Vector3<f64>;
+    const NAME: &str = "Heun, a guest";
 
-    pub(super) const HEUN: FixedStep<Step> = FixedStep {
-        name: "Heun, a guest",
-        order: 2,
-        keeps_length: false,
-        step: |problem, p, h| {
+    pub(super) fn heun() -> Integrator {
+        Integrator::in_p(NAME, 2, |problem, p, h| {
             let k1 = problem.rate(&p);
             p + 0.5 * h * (k1 + problem.rate(&(p + h * k1)))
-        },
-    };
+        })
+    }
 
     #[test]
     fn a_guest_is_graded_and_breaks_no_case() {
         assert_eq!(all().len(), own().len() + 1);
         let studies = order::of_rod(2.0).studies;
-        let heun = studies.iter().find(|study| study.subject == HEUN.name);
-        assert_eq!(heun.unwrap().found, order::Found::AsTheory);
+        let heun = studies.iter().find(|study| study.subject == NAME);
+        assert_eq!(heun.unwrap().found, order::OrderVerdict::AsTheory);
         for case in crate::cases::all() {
             // Those that ask for every subject.
             if case.about.judges == Judges::Integrator && ASK_FOR_ALL.contains(&case.about.name) {
                 let outcome = case.run(&Effort::gate());
                 assert_eq!(outcome.verdict, Verdict::Pass, "{outcome:?}");
                 let text = format!("{:?}", outcome.evidence);
-                assert!(!text.contains(HEUN.name), "{text}");
+                assert!(!text.contains(NAME), "{text}");
             }
         }
     }

@@ -1,60 +1,27 @@
-//! Integrators of a free rod's motion, all behind one trait: whoever brings another one has it graded by the
-//! same code (`examples/bring_your_own.rs`).
+//! Integrators of a free rod's motion, all of one type: an integrator of your own is graded by the same code
+//! (`examples/bring_your_own.rs`).
 
 mod adaptive;
 mod errors;
 mod exact;
 mod fixed;
 mod guests;
+mod integrator;
 mod problem;
 mod sphere;
-mod step;
 
-use nalgebra::{UnitVector3, Vector3};
+use nalgebra::UnitVector3;
 use serde::Serialize;
 use std::fmt;
 
-pub use adaptive::{DormandPrince, Radau};
+pub use adaptive::{dormand_prince, radau};
 pub use errors::{Errors, apart_rad};
-pub use exact::{ClosedForm, ExactPropagator};
+pub use exact::{closed_form, exact_propagator};
 pub use fixed::{explicit_euler, rk4};
+pub use integrator::Integrator;
 pub use problem::Problem;
-pub use step::{FixedStep, InAngles};
 
-/// What is judged: something that turns a rod.
-pub trait Integrator: Send + Sync {
-    /// Its name, in a few words.
-    fn name(&self) -> &str;
-
-    /// How its error is said to fall.
-    fn theory(&self) -> Theory;
-
-    /// Whether it is said to keep |p| = 1.
-    fn keeps_length(&self) -> bool {
-        false
-    }
-
-    /// The direction at the end of `problem` of a rod that starts along `start`; its length is judged too.
-    fn advance(
-        &self,
-        problem: &Problem,
-        start: &UnitVector3<f64>,
-        setting: Setting,
-    ) -> Result<Vector3<f64>, Failure>;
-
-    /// The same for many rods; a program in another process is asked once.
-    fn advance_all(
-        &self,
-        problem: &Problem,
-        starts: &[UnitVector3<f64>],
-        setting: Setting,
-    ) -> Result<Vec<Vector3<f64>>, Failure> {
-        let one = |start| self.advance(problem, start, setting);
-        starts.iter().map(one).collect()
-    }
-}
-
-/// How a subject's error is said to fall, and so which settings it takes.
+/// How the error is said to fall, which also says which settings an integrator takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Theory {
@@ -66,20 +33,20 @@ pub enum Theory {
     Adaptive,
 }
 
-/// How hard a subject is to try.
+/// How accurate an integrator is asked to be.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Setting {
-    /// There is nothing to set.
+    /// No setting: it takes no steps.
     Once,
-    /// So many equal steps over the whole problem.
+    /// The number of equal steps over the whole problem.
     Steps(u64),
     /// The relative and absolute tolerance of an adaptive method.
     Tolerance(f64),
 }
 
 impl Setting {
-    /// The number of steps, for subjects that take equal ones.
+    /// The number of steps, for integrators that take equal ones.
     pub fn steps(self) -> Result<u64, Failure> {
         match self {
             Self::Steps(steps) if steps > 0 => Ok(steps),
@@ -87,7 +54,7 @@ impl Setting {
         }
     }
 
-    /// The tolerance, for subjects that choose their steps.
+    /// The tolerance, for integrators that choose their steps.
     pub fn tolerance(self) -> Result<f64, Failure> {
         match self {
             Self::Tolerance(tolerance) if tolerance > 0.0 => Ok(tolerance),
@@ -106,14 +73,14 @@ impl fmt::Display for Setting {
     }
 }
 
-/// Why there is no direction at the end.
+/// The reason why there is no direction at the end.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Failure {
     /// A component is infinite or no number.
     NotFinite,
-    /// The subject takes other settings.
+    /// The integrator takes other settings.
     Setting,
-    /// The subject's own reason.
+    /// The integrator's own reason.
     Gave(String),
 }
 
@@ -127,9 +94,9 @@ impl fmt::Display for Failure {
     }
 }
 
-/// The error of a subject on a problem; a direction that is not finite is a failure.
+/// The errors of an integrator on a problem; a direction that is not finite is a failure.
 pub fn grade(
-    subject: &dyn Integrator,
+    subject: &Integrator,
     problem: &Problem,
     start: &UnitVector3<f64>,
     setting: Setting,
@@ -141,18 +108,17 @@ pub fn grade(
     }
 }
 
-/// Every subject of this project, in the order of the tables: what the cases judge.
-pub fn own() -> Vec<Box<dyn Integrator>> {
-    let mut own: Vec<Box<dyn Integrator>> = vec![Box::new(ExactPropagator), Box::new(ClosedForm)];
+/// Every integrator of this project, in the order of the tables: what the cases judge.
+pub fn own() -> Vec<Integrator> {
+    let mut own = vec![exact_propagator(), closed_form()];
     own.extend(fixed::all());
     own.extend(sphere::all());
-    own.push(Box::new(DormandPrince));
-    own.push(Box::new(Radau));
+    own.extend([dormand_prince(), radau()]);
     own
 }
 
-/// Every subject in the tables: the project's own, then guests.
-pub fn all() -> Vec<Box<dyn Integrator>> {
+/// Every integrator in the tables: the project's own, then guests.
+pub fn all() -> Vec<Integrator> {
     own().into_iter().chain(guests::all()).collect()
 }
 
@@ -180,9 +146,7 @@ mod tests {
     fn subjects_have_their_names_and_some_keep_the_length() {
         let said: Vec<_> = own()
             .iter()
-            .map(|subject| {
-                format!("{}{}", subject.name(), if subject.keeps_length() { " |p| = 1" } else { "" })
-            })
+            .map(|subject| format!("{}{}", subject.name, if subject.keeps_length { " |p| = 1" } else { "" }))
             .collect();
         let expected = [
             "exact propagator |p| = 1",
@@ -204,15 +168,15 @@ mod tests {
     fn every_subject_comes_close_and_refuses_the_settings_of_others() {
         let (problem, start) = Problem::mid_flip(3.0);
         for subject in all() {
-            let (own, other) = match subject.theory() {
+            let (own, other) = match subject.theory {
                 Theory::Exact => (Setting::Once, Setting::Steps(10)),
                 Theory::Order(_) => (Setting::Steps(20_000), Setting::Tolerance(1e-6)),
                 Theory::Adaptive => (Setting::Tolerance(1e-8), Setting::Once),
             };
-            let errors = grade(subject.as_ref(), &problem, &start, own).unwrap();
-            assert!(errors.orientation_rad < 5e-3, "{}: {errors:?}", subject.name());
-            let refused = grade(subject.as_ref(), &problem, &start, other);
-            assert_eq!(refused.is_err(), subject.theory() != Theory::Exact, "{}", subject.name());
+            let errors = grade(&subject, &problem, &start, own).unwrap();
+            assert!(errors.orientation_rad < 5e-3, "{}: {errors:?}", subject.name);
+            let refused = grade(&subject, &problem, &start, other);
+            assert_eq!(refused.is_err(), subject.theory != Theory::Exact, "{}", subject.name);
         }
     }
 }

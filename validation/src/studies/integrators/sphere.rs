@@ -1,6 +1,6 @@
 //! Steps that stay on the sphere by themselves (Hairer, Lubich & Wanner, Geometric Numerical Integration, IV).
 
-use super::{FixedStep, Integrator, Problem};
+use super::{Integrator, Problem};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 /// Newton's iteration ends when the midpoint moves by less than this, in units of |p|: its next move would be the
@@ -74,15 +74,13 @@ fn dexp_inverse(u: &Vector3<f64>, omega: Vector3<f64>) -> Vector3<f64> {
     omega - 0.5 * once + u.cross(&once) / 12.0
 }
 
-pub(super) fn all() -> Vec<Box<dyn Integrator>> {
-    let on_sphere = |name, order, step: fn(&Problem, Vector3<f64>, f64) -> Vector3<f64>| {
-        Box::new(FixedStep { name, order, keeps_length: true, step }) as Box<dyn Integrator>
-    };
-    vec![
-        on_sphere("implicit midpoint in p", 2, implicit_midpoint),
-        on_sphere("Lie-group midpoint", 2, rotation_midpoint),
-        on_sphere("Lie-group RKMK4", 4, munthe_kaas_4),
+pub(super) fn all() -> [Integrator; 3] {
+    [
+        Integrator::in_p("implicit midpoint in p", 2, implicit_midpoint),
+        Integrator::in_p("Lie-group midpoint", 2, rotation_midpoint),
+        Integrator::in_p("Lie-group RKMK4", 4, munthe_kaas_4),
     ]
+    .map(Integrator::keeping_length)
 }
 
 #[cfg(test)]

@@ -5,11 +5,8 @@
 //! 200 steps a period passes 0.1 rad in every flip with no collision at all.
 
 pub mod averaged;
-pub mod chapter;
 pub mod study;
-pub mod tables;
 pub mod tail;
-pub mod updates;
 
 use crate::judge::lab;
 use crate::judge::statistics::Sample;
@@ -38,7 +35,7 @@ pub fn kicks_rad(collision: &Collision) -> [f64; 2] {
 pub struct Counted {
     /// The angles that count as kicks.
     pub angles: Angles,
-    /// Whether the liquid pulls the contact points of two rods apart.
+    /// True if the liquid pulls the contact points of two rods apart.
     pub opens: fn(&Vector3<f64>, &Vector3<f64>) -> bool,
     /// How often the formula looks at the directions.
     pub looks_per_period: u64,
@@ -98,12 +95,12 @@ pub fn count(scene: &Scene, replica: u64, periods: Range<u64>, counted: Counted)
     counts.over((aspect_ratios.len() as u64 * (periods.end - periods.start)) as f64)
 }
 
-/// Whether a kick is above a threshold. One that is no number is: it must not go unseen.
+/// True if a kick is above a threshold, or is NaN, which must not go unseen.
 pub fn is_above(kick_rad: f64, threshold_rad: f64) -> bool {
     kick_rad > threshold_rad || kick_rad.is_nan()
 }
 
-/// Whether the liquid pulls the contact points of two rods apart: ℓ·D·ℓ > 0 with ℓ ∝ p_A × p_B.
+/// True if the liquid pulls the contact points of two rods apart: ℓ·D·ℓ > 0 with ℓ ∝ p_A × p_B.
 fn is_opening(a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
     let normal = a.cross(b);
     normal.x * normal.y > 0.0

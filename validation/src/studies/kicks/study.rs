@@ -1,11 +1,68 @@
-//! What is measured of the limit Δt → 0 for the report and the documents.
+//! The study of the limit Δt → 0: kicks against the step, their tail, the averaged motion, the two updates.
 
 use super::tail::{self, Exponent};
-use super::{KICKS, StepCounts, averaged, kicks_rad, rates, updates};
+use super::{Counts, KICKS, StepCounts, averaged, kicks_rad, rates};
 use crate::input::scenes;
 use crate::judge::case::Effort;
 use crate::judge::lab;
+use crate::judge::statistics::Sample;
+use crate::present::plot::Points;
+use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
+use crate::present::table::{
+    Column, ReportTable, decimals, estimate, field, number, plus_minus, two_digits, words,
+};
 use shearbed::scene::Scene;
+
+/// Kicks, averaged motion and updates as Δt → 0.
+pub const STUDY: Study = Study {
+    name: "limit",
+    title: "The limit Δt → 0",
+    question: "What is left of the collision model as the time step goes to 0?",
+    cases: &[
+        "kick-formula",
+        "kick-memory",
+        "kick-tail",
+        "kick-bound",
+        "averaged-motion",
+        "arm-pushed",
+        "updates-in-the-limit",
+        "paths-do-not-converge",
+    ],
+    command: "cargo run --release -p shearbed-suite --example time_step",
+    parts: &[],
+    shared: false,
+    run,
+};
+
+fn run(request: &Request) -> Result<Option<Findings>, String> {
+    let limit = measure(request.effort)?;
+    let exhibits = [
+        Exhibit::both(figure(&limit), steps(&limit)),
+        dense(&limit).into(),
+        periods(&limit).into(),
+        exponents(&limit).into(),
+        averages(&limit).into(),
+        update(&limit).into(),
+    ];
+    Ok(Some(Findings::new(answer(&limit), exhibits.into(), [])))
+}
+
+fn answer(limit: &Limit) -> String {
+    let (Some(coarse), Some(fine)) = (limit.steps.first(), limit.steps.last()) else {
+        return "Nothing was measured.".into();
+    };
+    let rate = |row: &StepCounts| row.mean(|c| c.closing[1]);
+    let stay = rate(fine).mean > 2.0 * rate(fine).se;
+    let words = |row: &StepCounts| format!("{:.3} ± {:.3}", rate(row).mean, rate(row).se);
+    format!(
+        "{}: closing pairs kick a rod by more than 0.1 rad {} times a period at {} steps, {} times at {} steps.",
+        if stay { "Jumps are left" } else { "No jumps are seen" },
+        words(coarse),
+        coarse.steps_per_period,
+        words(fine),
+        fine.steps_per_period
+    )
+}
 
 /// Everything that was measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,7 +78,7 @@ pub struct Limit {
     /// The model against the averaged motion.
     pub averaged: Vec<averaged::AveragedStep>,
     /// `angles` against `rotation`.
-    pub updates: Vec<updates::BothUpdates>,
+    pub updates: Vec<averaged::BothUpdates>,
     /// Replicas behind the counts and behind the averaged motion.
     pub replicas: [u64; 2],
 }
@@ -65,7 +122,7 @@ pub fn measure(effort: &Effort) -> Result<Limit, String> {
         updates: [0.25, 0.0]
             .into_iter()
             .flat_map(|arm| averaged_steps.clone().map(move |steps| (steps, arm)))
-            .map(|(steps, arm)| updates::row(effort, steps, arm, 2 * replicas[1]))
+            .map(|(steps, arm)| averaged::both_updates(effort, steps, arm, 2 * replicas[1]))
             .collect(),
         replicas,
     })
@@ -89,4 +146,161 @@ fn tails(scene: &Scene, replicas: u64) -> Vec<(String, Exponent)> {
     }
     tails.push(("400 steps, min_contact_arm = 0.05, rad".to_owned(), run(400, 0.05)));
     tails
+}
+
+fn mean<'a>(name: &str, of: fn(&Counts) -> f64) -> Column<'a, StepCounts> {
+    estimate(name, two_digits, move |row: &StepCounts| row.mean(of))
+}
+
+/// What the liquid does to the gap.
+fn sides<'a>() -> [Column<'a, StepCounts>; 5] {
+    [
+        mean("> 0.1, closing", |c| c.closing[1]),
+        mean("formula", |c| c.fresh_closing[1]),
+        mean("> 0.1, opening", |c| c.opening[1]),
+        mean("formula", |c| c.fresh_opening[1]),
+        mean("turns by a collision", |c| c.turns),
+    ]
+}
+
+fn steps(study: &Limit) -> ReportTable {
+    let mut columns = vec![
+        field("steps per period", |row: &StepCounts| row.steps_per_period),
+        mean("> 0.01 rad", |c| c.all(0)),
+        mean("> 0.1 rad", |c| c.all(1)),
+        mean("> 1 rad", |c| c.all(2)),
+        mean("> 10 rad", |c| c.all(3)),
+        mean("> 0.1, formula", |c| c.fresh(1)),
+    ];
+    columns.extend(sides());
+    ReportTable::new(
+        ["kick-rates", "Kicks per rod and period against the step"],
+        format!(
+            "Scene {SCENE} (σ = 3.6 %), t/T from 0 to 2, {} replicas. A kick is |ṗ′ − ṗ|Δt. Kicks above 0.1 rad are also told \
+             apart by what the liquid does to the gap between the contact points, and stand beside the formula for \
+             fresh arms with the directions of the run. `kick-formula`, `kick-memory`",
+            study.replicas[0]
+        ),
+        &study.steps,
+        columns,
+    )
+}
+
+fn dense(study: &Limit) -> ReportTable {
+    let mut columns = vec![field("steps per period", |row: &StepCounts| row.steps_per_period)];
+    columns.extend(sides());
+    ReportTable::new(
+        ["kick-rates-dense", "Kicks where rods collide often"],
+        format!(
+            "100 rods at 400 per cm³ with α = 2, r_e = 11.6, t/T from 0 to 1, {} replicas: what frequent collisions do \
+             to the arm shows at coarser steps. `kick-memory`, `arm-pushed`",
+            study.replicas[1]
+        ),
+        &study.dense,
+        columns,
+    )
+}
+
+fn periods(study: &Limit) -> ReportTable {
+    let mut columns = vec![
+        words("t/T", |row: &StepCounts| format!("{} to {}", row.periods.start, row.periods.end)),
+        mean("> 0.1 rad", |c| c.all(1)),
+        mean("> 1 rad", |c| c.all(2)),
+    ];
+    columns.extend(sides());
+    ReportTable::new(
+        ["kicks-by-period", "Kicks per rod and period as the rods align"],
+        format!(
+            "Scene {SCENE} (σ = 3.6 %) at {PERIODS_AT} steps a period, {} replicas. The rate follows the directions: the formula \
+             is evaluated with those of the run.",
+            study.replicas[0]
+        ),
+        &study.periods,
+        columns,
+    )
+}
+
+fn exponents(study: &Limit) -> ReportTable {
+    type Tail = (String, Exponent);
+    ReportTable::new(
+        ["kick-tail", "The exponent of the kicks' tail, by Hill's estimate"],
+        "Rods of Fig. 4 (σ = 3.6 %). From all kicks above a threshold chosen beforehand; the standard error is α over the root of their number. \
+         An arm of any size gives 1; a shortest arm cuts the tail off. `kick-tail`",
+        &study.tails,
+        vec![
+            words("kicks", |t: &Tail| t.0.clone()),
+            field("threshold", |t: &Tail| t.1.threshold),
+            field("above it", |t: &Tail| t.1.count),
+            estimate("exponent", plus_minus(3), |t: &Tail| (t.1.alpha, t.1.se)),
+        ],
+    )
+}
+
+fn averages(study: &Limit) -> ReportTable {
+    type Of<'a> = &'a averaged::AveragedStep;
+    ReportTable::new(
+        ["averaged-motion", "The model against the averaged motion"],
+        format!(
+            "50 rods at 400 per cm³, r_e = 11.6, t/T = 1, {} replicas, same places. With a shortest arm the model \
+             tends to the averaged motion path by path; with arms of every size it does not (⅔ in the last column: no \
+             memory of the path). `averaged-motion`",
+            study.replicas[1]
+        ),
+        &study.averaged,
+        vec![
+            number("min_contact_arm", decimals(4), |r: &Of| r.min_contact_arm),
+            field("steps per period", |r: &Of| r.steps_per_period),
+            estimate("averaged X̄₁", two_digits, |r: &Of| r.averaged_x1),
+            estimate("model − averaged", two_digits, |r: &Of| r.x1),
+            estimate("mean sin² between paths", two_digits, |r: &Of| r.square),
+        ],
+    )
+}
+
+fn update(study: &Limit) -> ReportTable {
+    type Of<'a> = &'a averaged::BothUpdates;
+    ReportTable::new(
+        ["updates", "The update `angles` against `rotation`"],
+        format!(
+            "50 rods at 400 per cm³, r_e = 11.6, t/T = 1, {} replicas with the same draws. A kick of finite angle ends \
+             elsewhere by either update, however short the step: with arms of every size the two have different limits. \
+             `updates-in-the-limit`",
+            2 * study.replicas[1]
+        ),
+        &study.updates,
+        vec![
+            number("min_contact_arm", decimals(4), |r: &Of| r.min_contact_arm),
+            field("steps per period", |r: &Of| r.steps_per_period),
+            estimate("X̄₁ by rotation", two_digits, |r: &Of| r.rotation_x1),
+            estimate("angles − rotation", two_digits, |r: &Of| r.change),
+        ],
+    )
+}
+
+/// The rates against the step.
+fn figure(study: &Limit) -> ReportFigure {
+    let points = |label: &str, value: fn(&Counts) -> f64| {
+        Points::with_bars(label, &study.steps, |row| {
+            let Sample { mean, se, .. } = row.mean(value);
+            (row.steps_per_period as f64, mean, 1.96 * se)
+        })
+    };
+    ReportFigure::new(
+        ["kick-rates", "Kicks above 0.1 rad per rod and period against the step"],
+        format!(
+            "Scene {SCENE}, t/T from 0 to 2, with 95 % bars. Kicks of closing pairs come at the formula's rate at any \
+             step; those of opening pairs die out as Δt → 0, because a pair's earlier collisions push the arm away from \
+             0."
+        ),
+        ["log steps per period", "kicks per rod and period"],
+    )
+    .points([
+        points("all", |c| c.all(1)),
+        points("closing", |c| c.closing[1]),
+        points("opening", |c| c.opening[1]),
+        points("formula, closing", |c| c.fresh_closing[1]),
+        points("formula, opening", |c| c.fresh_opening[1]),
+    ])
+    .spans(None, Some((0.0, 0.35)))
+    .judged("A.7 to A.14", &["kick-formula", "kick-memory"])
 }

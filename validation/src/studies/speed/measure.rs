@@ -1,13 +1,11 @@
 //! The measurements: each is the least of several, after one to warm up.
 
-mod naive;
 #[cfg(test)]
 mod tests;
 
 use super::{Amount, Check, Speed, Step, Target};
 use crate::judge::lab;
 use crate::oracle::naive::{Naive, Problem};
-use naive::against_naive;
 use rayon::prelude::*;
 use shearbed::run::run_replica;
 use shearbed::run::{ensemble, memory};
@@ -60,7 +58,7 @@ fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
     start.elapsed().as_secs_f64()
 }
 
-/// So many steps that they take about the wanted time.
+/// The time of a step, from as many steps as take about the wanted time.
 fn step(rods: usize, concentration_per_cm3: f64, amount: Amount) -> Result<Step, String> {
     let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
     scene.particles.count = rods;
@@ -98,6 +96,37 @@ fn step(rods: usize, concentration_per_cm3: f64, amount: Amount) -> Result<Step,
     Ok(Step { rods, concentration_per_cm3, core_ns: per_rod(core, count), naive_ns })
 }
 
+/// The core against the naive reference.
+fn against_naive(by_rods: &[Step]) -> Vec<Check> {
+    let at = |rods: usize| by_rods.iter().find(|step| step.rods == rods);
+    let ratio = |what, rods, target| {
+        let step = at(rods)?;
+        let naive = step.naive_ns?;
+        Some(Check {
+            what,
+            measured: naive / step.core_ns,
+            target: Target::AtLeast(target),
+            unit: "×",
+            behind: format!("{:.1} ns and {naive:.0} ns per rod and step, one core", step.core_ns),
+        })
+    };
+    let growth = at(100).zip(at(1_000_000)).map(|(few, many)| Check {
+        what: "the cost per rod and step at 10⁶ rods over that at 10²",
+        measured: many.core_ns / few.core_ns,
+        target: Target::AtMost(3.0),
+        unit: "×",
+        behind: format!("{:.1} ns and {:.1} ns, one core", few.core_ns, many.core_ns),
+    });
+    [
+        ratio("a step of 100 rods: the naive reference's time over the core's", 100, 8.0),
+        ratio("a step of 10⁴ rods: the naive reference's time over the core's", 10_000, 300.0),
+        growth,
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
 fn free_plan(rods: usize, outputs: u64, sd_percent: f64) -> Plan {
     let mut scene = lab::free_scene(&crate::judge::case::Effort::gate());
     scene.particles.count = rods;
@@ -108,7 +137,7 @@ fn free_plan(rods: usize, outputs: u64, sd_percent: f64) -> Plan {
     lab::plan(&scene)
 }
 
-/// Whole runs, drawing the rods included.
+/// The time of whole runs, including the draws of the rods.
 fn free(
     what: &'static str,
     sd_percent: f64,

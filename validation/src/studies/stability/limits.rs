@@ -47,6 +47,12 @@ pub struct Ladder {
     pub factor: f64,
 }
 
+/// The steps GΔt tried for what one step decides.
+pub const ONE_STEP: Ladder = Ladder { least: 0.1, most: 1e3, factor: 1.1 };
+
+/// The steps GΔt tried for what ten periods decide.
+pub const TEN_PERIODS: Ladder = Ladder { least: 0.02, most: 20.0, factor: 1.25 };
+
 /// Periods over which a length or an orbit is judged.
 pub const PERIODS: f64 = 10.0;
 
@@ -86,8 +92,8 @@ pub fn bisect(ladder: Ladder, holds: impl Fn(f64) -> bool) -> Limit {
     }
 }
 
-/// Whether a subject has a property with steps of GΔt = `strain` at this aspect ratio.
-pub fn holds(subject: &dyn Integrator, property: Property, aspect_ratio: f64, strain: f64) -> bool {
+/// True if an integrator has a property with steps of GΔt = `strain` at this aspect ratio.
+pub fn holds(subject: &Integrator, property: Property, aspect_ratio: f64, strain: f64) -> bool {
     let stepped = |p3: f64, more: u32| {
         let parts = (0..RODS).step_by(PART as usize);
         parts.map(move |first| near_plane(subject, aspect_ratio, strain, p3, first..first + PART + more))
@@ -128,14 +134,14 @@ fn phi(k: u32) -> f64 {
     PI * (f64::from(k) + 0.5) / f64::from(RODS)
 }
 
-/// Whether b is ahead of a by less than half a turn; a difference of round-off says nothing.
+/// True if b is ahead of a by less than half a turn, or by round-off behind it.
 fn forward(a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
     (a.x * b.y - a.y * b.x) / (a.norm() * b.norm()) >= -4.0 * f64::EPSILON
 }
 
 /// Rods before and after one step that start beside the plane of shear by `p3`; NaN where the step cannot be taken.
 fn near_plane(
-    subject: &dyn Integrator,
+    subject: &Integrator,
     aspect_ratio: f64,
     strain: f64,
     p3: f64,
@@ -152,8 +158,8 @@ fn one_step(aspect_ratio: f64, strain: f64) -> Problem {
     Problem::new(aspect_ratio, strain / Problem::new(aspect_ratio, 1.0).strain())
 }
 
-fn one(subject: &dyn Integrator) -> Setting {
-    match subject.theory() {
+fn one(subject: &Integrator) -> Setting {
+    match subject.theory {
         Theory::Exact => Setting::Once,
         _ => Setting::Steps(1),
     }
@@ -161,7 +167,7 @@ fn one(subject: &dyn Integrator) -> Setting {
 
 /// Ten periods by steps of GΔt = `strain`, rounded up to whole steps.
 fn ten_periods(
-    subject: &dyn Integrator,
+    subject: &Integrator,
     aspect_ratio: f64,
     strain: f64,
     start: &UnitVector3<f64>,

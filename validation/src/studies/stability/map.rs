@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 /// What was found at the end of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Found {
+pub enum Fate {
     /// The angle to the closed form is at most [`Run::round_off`], and accurate.
     RoundOff,
     /// It is at most [`ACCURATE_RAD`].
@@ -32,7 +32,7 @@ pub const ACCURATE_RAD: f64 = 1e-2;
 /// How far |p| may be from 1 and still count as kept.
 pub const LENGTH_KEPT: f64 = 1e-2;
 
-impl Found {
+impl Fate {
     /// In a letter or a sign.
     pub fn sign(self) -> &'static str {
         match self {
@@ -59,7 +59,7 @@ impl Found {
         }
     }
 
-    /// Whether the end is right.
+    /// True if the end is within [`ACCURATE_RAD`] of the closed form.
     pub fn is_right(self) -> bool {
         self <= Self::Accurate
     }
@@ -82,7 +82,7 @@ pub struct Run {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cell {
     /// What was found.
-    pub found: Found,
+    pub found: Fate,
     /// The angle to the closed form in rad, where there is one.
     pub error_rad: Option<f64>,
     /// ||p| − 1|, where there is one.
@@ -112,13 +112,13 @@ impl Run {
     }
 
     /// Runs a subject and says what was found.
-    pub fn of(&self, subject: &dyn Integrator) -> Cell {
+    pub fn of(&self, subject: &Integrator) -> Cell {
         let start = self.end.before(self.turns).direction(self.aspect_ratio);
         let problem = Problem::new(self.aspect_ratio, self.turns);
         match subject.advance(&problem, &start, self.setting) {
             Ok(end) if end.iter().all(|component| component.is_finite()) => self.judged(&end),
-            Ok(_) | Err(Failure::NotFinite) => Cell::without(Found::NotFinite, None),
-            Err(failure) => Cell::without(Found::Refused, Some(failure.to_string())),
+            Ok(_) | Err(Failure::NotFinite) => Cell::without(Fate::NotFinite, None),
+            Err(failure) => Cell::without(Fate::Refused, Some(failure.to_string())),
         }
     }
 
@@ -128,26 +128,26 @@ impl Run {
         let in_plane = end.x.hypot(end.y / self.aspect_ratio);
         let orbit = in_plane / (in_plane + end.z.abs()) - self.end.bounded_orbit_constant();
         let found = if length.is_nan() || length > LENGTH_KEPT {
-            Found::LengthLost
+            Fate::LengthLost
         } else if error.is_nan() || error > ACCURATE_RAD {
-            Found::Wrong
+            Fate::Wrong
         } else if error <= self.round_off() {
-            Found::RoundOff
+            Fate::RoundOff
         } else {
-            Found::Accurate
+            Fate::Accurate
         };
         Cell { found, error_rad: Some(error), length: Some(length), orbit: Some(orbit.abs()), reason: None }
     }
 }
 
 impl Cell {
-    fn without(found: Found, reason: Option<String>) -> Self {
+    fn without(found: Fate, reason: Option<String>) -> Self {
         Self { found, error_rad: None, length: None, orbit: None, reason }
     }
 
     /// Not run, and why.
     pub fn not_run(reason: String) -> Self {
-        Self::without(Found::NotRun, Some(reason))
+        Self::without(Fate::NotRun, Some(reason))
     }
 }
 

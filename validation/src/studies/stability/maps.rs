@@ -1,11 +1,10 @@
 //! The maps: what was found in every corner, as pictures.
 
 use super::limits::Property;
-use super::map::{self, ASPECT_RATIOS, Cell, PERIODS, TOLERANCES};
+use super::map::{self, ASPECT_RATIOS, Cell, Fate, PERIODS, TOLERANCES};
 use super::orbit::Place;
-use super::panels::{Panel, Panels};
 use super::theory::THEORIES;
-use crate::present::plot::{Map, decade, power_of_ten};
+use crate::present::plot::{Grid, Map, decade, power_of_ten};
 use crate::present::study::ReportFigure;
 use crate::studies::integrators::{Integrator, Setting, Theory};
 use shearbed::model::jeffery::strain_per_period;
@@ -61,28 +60,27 @@ pub fn answer(figures: &[ReportFigure]) -> String {
 }
 
 /// The maps as pictures.
-pub fn figures(subjects: &[Box<dyn Integrator>]) -> Vec<ReportFigure> {
+pub fn figures(subjects: &[Integrator]) -> Vec<ReportFigure> {
     [steps(subjects), tolerances(subjects), starts(subjects), durations(subjects)].map(Panels::figure).into()
 }
 
-pub(super) fn of(subjects: &[Box<dyn Integrator>], which: impl Fn(Theory) -> bool) -> Vec<&dyn Integrator> {
-    let subjects = subjects.iter().map(AsRef::as_ref);
-    subjects.filter(|subject: &&dyn Integrator| which(subject.theory())).collect()
+pub(super) fn of(subjects: &[Integrator], which: impl Fn(Theory) -> bool) -> Vec<&Integrator> {
+    subjects.iter().filter(|subject: &&Integrator| which(subject.theory)).collect()
 }
 
-fn steps(subjects: &[Box<dyn Integrator>]) -> Panels<'static> {
-    let panel = |subject: &dyn Integrator| Panel {
-        title: subject.name().into(),
+fn steps(subjects: &[Integrator]) -> Panels<'static> {
+    let panel = |subject: &Integrator| Panel {
+        title: subject.name.clone(),
         cells: RODS
             .map(|r| {
                 let run = |quarter| {
                     let step = strain(quarter) / strain_per_period(r);
-                    map::by_step(subject.theory(), r, step, MOST_STEPS).of(subject)
+                    map::by_step(subject.theory, r, step, MOST_STEPS).of(subject)
                 };
                 STRAINS.map(run).collect()
             })
             .into(),
-        limit: limit(subject.name()),
+        limit: limit(&subject.name),
     };
     let stepped = of(subjects, |theory| matches!(theory, Theory::Order(_)));
     Panels {
@@ -111,15 +109,15 @@ pub(super) fn tolerances_from_fine() -> impl Iterator<Item = f64> {
     TOLERANCES.into_iter().rev()
 }
 
-pub(super) fn with_tolerance(subject: &dyn Integrator, r: f64, tolerance: f64) -> Cell {
-    let run = map::by_duration(subject.theory(), r, 1.0, Place::mid_flip(r), MOST_STEPS);
+pub(super) fn with_tolerance(subject: &Integrator, r: f64, tolerance: f64) -> Cell {
+    let run = map::by_duration(subject.theory, r, 1.0, Place::mid_flip(r), MOST_STEPS);
     let setting = Setting::Tolerance(tolerance);
     run.map_or_else(Cell::not_run, |run| map::Run { setting, ..run }.of(subject))
 }
 
-fn tolerances(subjects: &[Box<dyn Integrator>]) -> Panels<'static> {
-    let panel = |subject: &dyn Integrator| Panel {
-        title: subject.name().into(),
+fn tolerances(subjects: &[Integrator]) -> Panels<'static> {
+    let panel = |subject: &Integrator| Panel {
+        title: subject.name.clone(),
         cells: ASPECT_RATIOS
             .map(|r| tolerances_from_fine().map(|t| with_tolerance(subject, r, t)).collect())
             .into(),
@@ -140,22 +138,22 @@ fn power(value: f64) -> String {
     decade(value.log10().round() as i32)
 }
 
-fn cell(subject: &dyn Integrator, r: f64, periods: f64, end: Place, most_steps: u64) -> Cell {
-    map::by_duration(subject.theory(), r, periods, end, most_steps)
+fn cell(subject: &Integrator, r: f64, periods: f64, end: Place, most_steps: u64) -> Cell {
+    map::by_duration(subject.theory, r, periods, end, most_steps)
         .map_or_else(Cell::not_run, |run| run.of(subject))
 }
 
-fn names(subjects: &[Box<dyn Integrator>]) -> Vec<String> {
-    subjects.iter().map(|subject| subject.name().to_owned()).collect()
+fn names(subjects: &[Integrator]) -> Vec<String> {
+    subjects.iter().map(|subject| subject.name.clone()).collect()
 }
 
-fn starts(subjects: &[Box<dyn Integrator>]) -> Panels<'static> {
+fn starts(subjects: &[Integrator]) -> Panels<'static> {
     let panel = |r: f64| Panel {
         title: format!("r_e = {}", ratio(r)),
         cells: (subjects.iter())
             .map(|subject| {
                 let places = map::places(r).into_iter();
-                let found = |(_, place)| cell(subject.as_ref(), r, 1.0, place, MOST_STEPS);
+                let found = |(_, place)| cell(subject, r, 1.0, place, MOST_STEPS);
                 places.map(found).collect()
             })
             .collect(),
@@ -183,9 +181,9 @@ fn starts(subjects: &[Box<dyn Integrator>]) -> Panels<'static> {
     }
 }
 
-fn durations(subjects: &[Box<dyn Integrator>]) -> Panels<'static> {
+fn durations(subjects: &[Integrator]) -> Panels<'static> {
     let r = 11.6;
-    let row = |subject: &dyn Integrator| {
+    let row = |subject: &Integrator| {
         let found = |periods| cell(subject, r, periods, Place::mid_flip(r), 10 * MOST_STEPS);
         PERIODS.map(found).into()
     };
@@ -203,9 +201,66 @@ fn durations(subjects: &[Box<dyn Integrator>]) -> Panels<'static> {
         rows: names(subjects),
         panels: vec![Panel {
             title: String::new(),
-            cells: subjects.iter().map(AsRef::as_ref).map(row).collect(),
+            cells: subjects.iter().map(row).collect(),
             limit: Vec::new(),
         }],
+    }
+}
+
+/// What was found of one subject, or at one aspect ratio: a row and a column for each cell.
+struct Panel {
+    title: String,
+    cells: Vec<Vec<Cell>>,
+    limit: Vec<(f64, f64)>,
+}
+
+/// A picture of panels with the same rows and columns.
+struct Panels<'a> {
+    words: [&'a str; 2],
+    caption: String,
+    axes: [&'a str; 2],
+    columns: Vec<String>,
+    values: Vec<String>,
+    rows: Vec<String>,
+    panels: Vec<Panel>,
+}
+
+impl Panels<'_> {
+    fn figure(self) -> ReportFigure {
+        let row = |row: &Vec<Cell>| row.iter().map(|cell| cell.found.class()).collect();
+        let map = |panel: Panel| Map {
+            title: panel.title,
+            cells: panel.cells.iter().map(row).collect(),
+            limit: panel.limit,
+        };
+        let mut figure = ReportFigure::new(self.words, self.caption, self.axes);
+        figure.figure.grid = Some(Grid {
+            classes: Fate::CLASSES.map(String::from).into(),
+            columns: self.columns,
+            values: self.values,
+            rows: self.rows,
+            maps: self.panels.into_iter().map(map).collect(),
+            limit_name: "theory: the longest step without overtaking".into(),
+        });
+        figure.judged("A.1 to A.5", &["stability-map"])
+    }
+}
+
+impl Fate {
+    /// What a map tells apart.
+    const CLASSES: [&'static str; 6] =
+        ["right", "stable but wrong", "length lost", "not finite", "refused", "not run"];
+
+    /// Its place among [`Self::CLASSES`].
+    fn class(self) -> usize {
+        match self {
+            Self::RoundOff | Self::Accurate => 0,
+            Self::Wrong => 1,
+            Self::LengthLost => 2,
+            Self::NotFinite => 3,
+            Self::Refused => 4,
+            Self::NotRun => 5,
+        }
     }
 }
 

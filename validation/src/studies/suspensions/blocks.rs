@@ -5,7 +5,7 @@ use serde::Serialize;
 use statrs::function::gamma::digamma;
 
 /// The standard deviation of means over blocks of replicas.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Block {
     /// Replicas in a block.
     pub replicas: u64,

@@ -7,6 +7,7 @@
 use super::job::Job;
 use super::{Estimate, correlation, covariance};
 use crate::oracle::isotropic;
+use crate::present::table::{ReportTable, decimals, field, number};
 use rayon::prelude::*;
 use serde::Serialize;
 use shearbed::observable::Channel;
@@ -141,4 +142,32 @@ pub fn controlled(x1: &[f64], free: &[f64], free_mean: f64) -> Estimate {
 /// One mark of all replicas.
 pub fn at(values: &Values, mark: usize) -> Vec<f64> {
     values.iter().map(|replica| replica[mark]).collect()
+}
+
+/// What shared random numbers save.
+pub fn table(coupled: &Coupled) -> ReportTable {
+    ReportTable::new(
+        ["suspension-coupled", "Shared random numbers: by what factor fewer runs are needed"],
+        format!(
+            "Levels in Δt ({} and {} steps per period, same seeds) are tied by their starts alone: the gain with coarse \
+             runs at an eighth of the cost, and the most that coarse runs for nothing could give; below 1 it costs more \
+             than it saves. The same rods without collisions, whose mean has a closed form, give more for less. Common \
+             random numbers pay for a difference, here between α and 0.8 α. {} replicas (`shared-random-numbers`, \
+             `paths-do-not-converge`).",
+            coupled.steps_per_period,
+            2 * coupled.steps_per_period,
+            coupled.replicas
+        ),
+        &coupled.rows,
+        vec![
+            field("t/T", |r: &Saving| r.turns),
+            number("ρ, half the step", decimals(2), |r: &Saving| r.finer),
+            number("gain, levels", decimals(2), |r: &Saving| r.multilevel()),
+            number("at best", decimals(2), |r: &Saving| r.multilevel_at_best()),
+            number("ρ, free rods", decimals(2), |r: &Saving| r.free),
+            number("gain, control variate", decimals(2), |r: &Saving| r.control_variate()),
+            number("ρ, other α", decimals(2), |r: &Saving| r.other_alpha),
+            number("gain for the difference", decimals(2), |r: &Saving| r.common_numbers()),
+        ],
+    )
 }

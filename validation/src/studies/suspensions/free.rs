@@ -41,7 +41,7 @@ pub struct Point {
     pub rods: usize,
     /// The root mean square of X̄₁ less the closed form.
     pub error: f64,
-    /// Laid so many times.
+    /// The number of trials, each with rods of its own.
     pub trials: usize,
     /// What laying and moving the rods once took.
     pub seconds: Seconds,
@@ -74,16 +74,16 @@ pub struct Bench {
     pub curves: Vec<StartCurve>,
 }
 
-/// How far to go.
+/// How much is measured.
 #[derive(Clone, Copy, Debug)]
-pub struct Extent {
+pub struct Amount {
     /// N = 10², 10^2.5, … up to 10^this/2.
     pub half_decades: i32,
-    /// Laid so many times, a multiple of [`GROUPS`].
+    /// The number of trials, a multiple of [`GROUPS`].
     pub trials: usize,
 }
 
-impl Extent {
+impl Amount {
     /// For the report of every day.
     pub const QUICK: Self = Self { half_decades: 10, trials: 32 };
     /// For `shearbed bench` and full reports.
@@ -137,20 +137,20 @@ impl Free {
     }
 
     /// Every one of `starts`; run times are of one core.
-    pub fn bench(&self, starts: &[Start], extent: Extent, budget: Budget) -> Bench {
+    pub fn bench(&self, starts: &[Start], amount: Amount, budget: Budget) -> Bench {
         Bench {
             free: *self,
             exact: self.exact(),
-            curves: (starts.iter()).map(|start| self.curve(start, extent, budget)).collect(),
+            curves: (starts.iter()).map(|start| self.curve(start, amount, budget)).collect(),
         }
     }
 
-    fn curve(&self, start: &Start, extent: Extent, budget: Budget) -> StartCurve {
-        let counts = (4..=extent.half_decades).map(|half| 10f64.powf(0.5 * f64::from(half)).round() as usize);
+    fn curve(&self, start: &Start, amount: Amount, budget: Budget) -> StartCurve {
+        let counts = (4..=amount.half_decades).map(|half| 10f64.powf(0.5 * f64::from(half)).round() as usize);
         let mut points = Vec::new();
         let mut tried = Vec::new();
         for count in counts {
-            let (rods, errors) = self.errors(start, count, extent.trials, SEED);
+            let (rods, errors) = self.errors(start, count, amount.trials, SEED);
             let once = || self.mean(&(start.lay)(count, self.unequal(), &mut generator(SEED, count, 0)));
             points.push(Point {
                 rods,

@@ -19,7 +19,7 @@ pub struct Job {
     pub replicas: u64,
     /// Steps after which the rods are looked at, rising.
     pub marks: Vec<u64>,
-    /// So many replicas, the first ones, leave the directions of their rods at the last mark.
+    /// The number of replicas, the first ones, that keep the directions of their rods at the last mark.
     pub followed: u64,
 }
 

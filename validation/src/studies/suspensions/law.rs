@@ -69,11 +69,11 @@ pub struct JobMean {
 /// One number of steps per period less the next finer one, at the same seeds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Change {
-    /// Of X̄₁.
+    /// The change of X̄₁.
     pub x1: Estimate,
     /// The correlation of X̄₁ between the two; its error is that of normal variables.
     pub correlation: Estimate,
-    /// Of the share of rods with |p_1| below 0.1, 0.2, … 0.9, where it is largest in its standard errors.
+    /// The change of the share of rods with |p_1| below 0.1, 0.2, … 0.9, where it is largest in its standard errors.
     pub p1_distribution: Estimate,
     /// The same of C_b.
     pub orbit_distribution: Estimate,
@@ -112,7 +112,7 @@ pub struct Law {
     pub rod_steps: u64,
 }
 
-/// Whether the law is of a plan's scene: its jobs are of periods, and its orbit constants of plane Couette flow.
+/// True if a plan's scene can be studied so: it is in plane Couette flow, and its time is in periods.
 pub fn judges(plan: &Plan) -> bool {
     plan.flow().shear_rate_per_s().is_some() && plan.scene().time.unit == shearbed::scene::TimeUnit::Period
 }

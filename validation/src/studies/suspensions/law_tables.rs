@@ -1,25 +1,18 @@
-//! Convergence in law as tables.
+//! Convergence in law as tables, rows and a picture.
 
 use super::Estimate;
 use super::blocks::Block;
 use super::law::{Change, JobMean, Law};
-use crate::present::table::{ReportTable, estimate, field, number, words};
+use crate::present::plot::{Curve, Points};
+use crate::present::study::ReportFigure;
+use crate::present::table::{
+    ReportTable, decimals, estimate, field, number, plus_minus, rows_csv, signed, words,
+};
+use serde::Serialize;
 
 /// Against steps, rods and replicas; `strain` is that of a period.
-pub fn law(law: &Law, strain: f64) -> Vec<ReportTable> {
-    vec![steps(law, strain), paths(law), rods(law), replicas(law)]
-}
-
-fn signed(value: f64, se: f64) -> String {
-    format!("{value:+.5} ± {se:.5}")
-}
-
-fn pair(estimate: &Estimate) -> (f64, f64) {
-    (estimate.value, estimate.se)
-}
-
-fn five(number: f64) -> String {
-    format!("{number:.5}")
+pub fn law(law: &Law, strain: f64) -> [ReportTable; 4] {
+    [steps(law, strain), paths(law), rods(law), replicas(law)]
 }
 
 /// How the weak order was read, or that it was not.
@@ -57,7 +50,7 @@ pub fn order_in_words(law: &Law) -> String {
 fn steps(law: &Law, strain: f64) -> ReportTable {
     type Row<'a> = (&'a JobMean, Option<&'a Change>);
     let rows = (law.steps.iter().enumerate()).map(|(k, sample)| (sample, law.changes.get(k)));
-    let change = |of: fn(&Change) -> Estimate| move |r: &Row| r.1.map(|change| pair(&of(change)));
+    let change = |of: fn(&Change) -> Estimate| move |r: &Row| r.1.map(|change| of(change).into());
     let readable = |r: &Row| match r.1.map(|change| change.x1.readable()) {
         Some(true) => "yes",
         Some(false) => "not readable",
@@ -74,21 +67,20 @@ fn steps(law: &Law, strain: f64) -> ReportTable {
         rows,
         vec![
             field("steps per period", |r: &Row| r.0.steps_per_period),
-            number("GΔt", |x| format!("{x:.3}"), move |r: &Row| strain / r.0.steps_per_period as f64),
+            number("GΔt", decimals(3), move |r: &Row| strain / r.0.steps_per_period as f64),
             field("replicas", |r: &Row| r.0.replicas),
-            number("X̄₁", five, |r: &Row| r.0.x1),
-            number("± se", five, |r: &Row| r.0.se),
-            estimate("less the next", signed, change(|c| c.x1)),
+            number("X̄₁", decimals(5), |r: &Row| r.0.x1),
+            number("± se", decimals(5), |r: &Row| r.0.se),
+            estimate("less the next", signed(5), change(|c| c.x1)),
             words("readable", readable),
-            estimate("share below |p_1|", signed, change(|c| c.p1_distribution)),
-            estimate("share below C_b", signed, change(|c| c.orbit_distribution)),
+            estimate("share below |p_1|", signed(5), change(|c| c.p1_distribution)),
+            estimate("share below C_b", signed(5), change(|c| c.orbit_distribution)),
         ],
     )
 }
 
 fn paths(law: &Law) -> ReportTable {
     type Row<'a> = (&'a [JobMean], &'a Change);
-    let three = |x: f64| format!("{x:.3}");
     ReportTable::new(
         ["paths", "Paths do not converge: the same rods at two steps, t/T = 1"],
         "A rod's direction is the exact motion plus kicks ∝ Δt/r at contact arms r down to 0. Halving Δt doubles the \
@@ -101,26 +93,20 @@ fn paths(law: &Law) -> ReportTable {
             words("steps per period", |r: &Row| {
                 format!("{} and {}", r.0[0].steps_per_period, r.0[1].steps_per_period)
             }),
-            number("same rod apart (rad, rms)", three, |r: &Row| r.1.apart_rad),
-            number("other rods", three, |r: &Row| r.1.unrelated_rad),
-            estimate(
-                "correlation of X̄₁",
-                |x, se| format!("{x:.3} ± {se:.3}"),
-                |r: &Row| pair(&r.1.correlation),
-            ),
-            number(
-                "variance of the difference / variance",
-                |x| format!("{x:.2}"),
-                |r: &Row| 2.0 * (1.0 - r.1.correlation.value),
-            ),
+            number("same rod apart (rad, rms)", decimals(3), |r: &Row| r.1.apart_rad),
+            number("other rods", decimals(3), |r: &Row| r.1.unrelated_rad),
+            estimate("correlation of X̄₁", plus_minus(3), |r: &Row| r.1.correlation),
+            number("variance of the difference / variance", decimals(2), |r: &Row| {
+                2.0 * (1.0 - r.1.correlation.value)
+            }),
         ],
     )
 }
 
 fn rods(law: &Law) -> ReportTable {
     let last = law.rods.last().copied();
-    let less = move |sample: &&JobMean| {
-        let last = last.filter(|last| last != *sample)?;
+    let less = move |sample: &JobMean| {
+        let last = last.filter(|last| last != sample)?;
         Some((sample.x1 - last.x1, sample.se.hypot(last.se)))
     };
     let line = |k: usize, name: &str| match &law.rods_lines[k] {
@@ -145,11 +131,11 @@ fn rods(law: &Law) -> ReportTable {
         ),
         &law.rods,
         vec![
-            field("rods", |s: &&JobMean| s.rods),
-            field("replicas", |s: &&JobMean| s.replicas),
-            number("X̄₁", five, |s: &&JobMean| s.x1),
-            number("± se", five, |s: &&JobMean| s.se),
-            estimate("less the most", signed, less),
+            field("rods", |s: &JobMean| s.rods),
+            field("replicas", |s: &JobMean| s.replicas),
+            number("X̄₁", decimals(5), |s: &JobMean| s.x1),
+            number("± se", decimals(5), |s: &JobMean| s.se),
+            estimate("less the most", signed(5), less),
         ],
     )
 }
@@ -169,14 +155,77 @@ fn replicas(law: &Law) -> ReportTable {
         ),
         &law.blocks,
         vec![
-            field("replicas", |b: &&Block| b.replicas),
-            field("blocks", |b: &&Block| b.blocks),
-            number("deviation of means", five, |b: &&Block| b.deviation),
-            number(
-                "deviation √M",
-                |x| format!("{x:.4}"),
-                |b: &&Block| b.deviation * (b.replicas as f64).sqrt(),
-            ),
+            field("replicas", |b: &Block| b.replicas),
+            field("blocks", |b: &Block| b.blocks),
+            number("deviation of means", decimals(5), |b: &Block| b.deviation),
+            number("deviation √M", decimals(4), |b: &Block| b.deviation * (b.replicas as f64).sqrt()),
         ],
     )
+}
+
+/// X̄₁ against the step, and the straight line of first order.
+pub fn steps_figure(law: &Law) -> ReportFigure {
+    let step = |sample: &JobMean| 1.0 / sample.steps_per_period as f64;
+    let line = law.steps_line.as_ref().map(|line| {
+        let ends = [0.0, law.steps.get(law.line_from).map_or(0.0, step)];
+        Curve::of("first order", ends, |x| (x, line.intercept + line.slope * x))
+    });
+    ReportFigure::new(
+        ["steps", "Interacting rods: X̄₁ at t/T = 1 against the step"],
+        "Convergence in law: the mean tends to a limit as Δt → 0, and the line is the first-order bias, where one \
+         fits.",
+        ["step Δt/T", "X̄₁ (rod lengths)"],
+    )
+    .curves(line)
+    .points([Points::with_bars("measured, ± 2 se", &law.steps, |s| (step(s), s.x1, 2.0 * s.se))])
+    .judged("eqs 4 to 14", &["cheapest-split", "paths-do-not-converge"])
+}
+
+/// A row of converge.csv.
+#[derive(Default, Serialize)]
+struct LawRow {
+    against: &'static str,
+    steps_per_period: u64,
+    rods: usize,
+    replicas: u64,
+    x1: f64,
+    x1_se: f64,
+    x1_less_next: Option<f64>,
+    x1_less_next_se: Option<f64>,
+    correlation: Option<f64>,
+    p1_distribution: Option<f64>,
+    p1_distribution_se: Option<f64>,
+    orbit_distribution: Option<f64>,
+    orbit_distribution_se: Option<f64>,
+    same_rod_apart_rad: Option<f64>,
+    other_rods_apart_rad: Option<f64>,
+}
+
+impl LawRow {
+    fn of(against: &'static str, mean: &JobMean, change: Option<&Change>) -> Self {
+        Self {
+            against,
+            steps_per_period: mean.steps_per_period,
+            rods: mean.rods,
+            replicas: mean.replicas,
+            x1: mean.x1,
+            x1_se: mean.se,
+            x1_less_next: change.map(|c| c.x1.value),
+            x1_less_next_se: change.map(|c| c.x1.se),
+            correlation: change.map(|c| c.correlation.value),
+            p1_distribution: change.map(|c| c.p1_distribution.value),
+            p1_distribution_se: change.map(|c| c.p1_distribution.se),
+            orbit_distribution: change.map(|c| c.orbit_distribution.value),
+            orbit_distribution_se: change.map(|c| c.orbit_distribution.se),
+            same_rod_apart_rad: change.map(|c| c.apart_rad),
+            other_rods_apart_rad: change.map(|c| c.unrelated_rad),
+        }
+    }
+}
+
+/// converge.csv of an interacting scene.
+pub fn law_csv(law: &Law) -> Result<String, String> {
+    let steps = law.steps.iter().enumerate();
+    let steps = steps.map(|(k, mean)| LawRow::of("steps_per_period", mean, law.changes.get(k)));
+    rows_csv(steps.chain(law.rods.iter().map(|mean| LawRow::of("rods", mean, None))))
 }

@@ -14,7 +14,7 @@ use shearbed::Scene;
 /// The errors of X̄₁ that are asked for.
 pub const TARGETS: [f64; 3] = [1e-2, 3e-3, 1e-3];
 
-/// The fewest replicas, so that the scatter can be told from what was run.
+/// The fewest replicas: fewer do not show their scatter.
 pub const FEWEST_REPLICAS: u64 = 8;
 
 /// What a scene's error is made of.
@@ -24,7 +24,7 @@ pub struct Constants {
     pub steps_bias: f64,
     /// The fewest steps per period for which that holds.
     pub fewest_steps: u64,
-    /// c: the bias of the rods is c N^(−1/3) at most, taken alike.
+    /// c: the bias of the rods is c N^(−1/3) at most, estimated in the same way.
     pub rods_bias: f64,
     /// v: the variance of X̄₁ over replicas, times N.
     pub variance_per_rod: f64,

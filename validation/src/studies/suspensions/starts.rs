@@ -1,4 +1,4 @@
-//! How the rods of a free suspension may be laid at t = 0: each is isotropic by itself, but the rods need not know
+//! Ways to choose initial directions of a free suspension: each rod is isotropic by itself, but the rods need not know
 //! nothing of each other. The fewer clusters and gaps, the smaller the error of a mean.
 
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
@@ -12,7 +12,7 @@ use shearbed::model::orientation::isotropic;
 pub struct Rod {
     /// Its direction.
     pub p: [f64; 3],
-    /// The quantile of its aspect ratio; ½ where all are alike.
+    /// The quantile of its aspect ratio; ½ where all have the same.
     pub quantile: f64,
 }
 
@@ -81,7 +81,7 @@ fn fibonacci(count: usize, unequal: bool, rng: &mut Pcg64Dxsm) -> Vec<Rod> {
     (0..count).map(lay).collect()
 }
 
-/// ½ where all rods are alike.
+/// ½ where all rods have the same aspect ratio.
 fn own(unequal: bool, mut quantile: impl FnMut() -> f64) -> f64 {
     if unequal { quantile() } else { 0.5 }
 }

@@ -1,20 +1,21 @@
-//! Error against run time of every subject, and how its error falls with the step: plain data. Writers are in
-//! [`export`], [`tables`] and [`figures`].
+//! Error against run time of every subject, and how its error falls with the step: plain data. [`study`] shows
+//! them.
 
-pub mod chapter;
-pub mod export;
-pub mod figures;
 pub mod order;
-pub mod tables;
+pub mod rows;
+pub mod study;
 mod time;
 
-use crate::studies::integrators::{self, Errors, Integrator, Problem, Setting, Theory, grade};
+use crate::studies::integrators::{Errors, Integrator, Problem, Setting, Theory, grade};
 use serde::Serialize;
 pub(crate) use time::measure;
 pub use time::{Budget, Seconds};
 
 /// The aspect ratios of the benches.
 pub const ASPECT_RATIOS: [f64; 4] = [2.0, 11.6, 100.0, 1e4];
+
+/// The names of the benches, as [`name`] makes them.
+const PARTS: [&str; 4] = ["re2", "re11.6", "re100", "re10000"];
 
 /// The errors in rad for which the cheapest subject is sought.
 pub const TARGETS_RAD: [f64; 3] = [1e-3, 1e-6, 1e-9];
@@ -62,28 +63,22 @@ pub fn name(aspect_ratio: f64) -> String {
 }
 
 /// Runs every subject on a rod of this aspect ratio ([`Problem::mid_flip`]), on this thread alone.
-pub fn run(aspect_ratio: f64, subjects: &[Box<dyn Integrator>], budget: Budget) -> Bench {
+pub fn run(aspect_ratio: f64, subjects: &[Integrator], budget: Budget) -> Bench {
     let (problem, _) = Problem::mid_flip(aspect_ratio);
     Bench {
         name: name(aspect_ratio),
         aspect_ratio,
         turns: problem.turns,
-        curves: (subjects.iter()).map(|subject| curve(subject.as_ref(), aspect_ratio, budget)).collect(),
+        curves: (subjects.iter()).map(|subject| curve(subject, aspect_ratio, budget)).collect(),
     }
-}
-
-/// Runs every subject of the project at every aspect ratio of the benches.
-pub fn run_all(budget: Budget) -> Vec<Bench> {
-    let subjects = integrators::all();
-    (ASPECT_RATIOS.iter()).map(|aspect_ratio| run(*aspect_ratio, &subjects, budget)).collect()
 }
 
 /// One subject's curve: settings from coarse to fine until a run takes longer than half the budget, as the next would
 /// take twice as long.
-pub fn curve(subject: &dyn Integrator, aspect_ratio: f64, budget: Budget) -> IntegratorCurve {
+pub fn curve(subject: &Integrator, aspect_ratio: f64, budget: Budget) -> IntegratorCurve {
     let (problem, start) = Problem::mid_flip(aspect_ratio);
     let mut points = Vec::new();
-    for setting in settings(subject.theory()) {
+    for setting in settings(subject.theory) {
         let graded = grade(subject, &problem, &start, setting);
         let seconds = time::measure(budget, || subject.advance(&problem, &start, setting));
         let (errors, failure) = match graded {
@@ -95,7 +90,7 @@ pub fn curve(subject: &dyn Integrator, aspect_ratio: f64, budget: Budget) -> Int
             break;
         }
     }
-    IntegratorCurve { subject: subject.name().into(), theory: subject.theory(), points }
+    IntegratorCurve { subject: subject.name.clone(), theory: subject.theory, points }
 }
 
 /// 16, 32, … 2³⁰ steps, or tolerances from 10⁻² to 10⁻¹⁴.
@@ -115,7 +110,7 @@ impl Point {
 }
 
 impl IntegratorCurve {
-    /// The cheapest point with at most this error. The next finer one must have it too, lest a chance crossing count.
+    /// The cheapest point with at most this error. The next finer one must have it too, to exclude accidental crossings.
     pub fn cheapest(&self, error_rad: f64) -> Option<&Point> {
         let reaches = |k: usize| self.points.get(k).is_none_or(|point| point.error_rad() <= error_rad);
         (0..self.points.len())
@@ -159,8 +154,7 @@ impl Bench {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::studies::integrators::{Failure, FixedStep};
-    use nalgebra::{UnitVector3, Vector3};
+    use crate::studies::integrators::Failure;
 
     const QUICK: Budget = Budget { seconds_per_run: 1e-4, runs: 1 };
 
@@ -195,65 +189,40 @@ mod tests {
 
     #[test]
     fn a_failing_subject_is_kept_and_a_slow_one_stopped() {
-        let blows_up = FixedStep {
-            name: "synthetic",
-            order: 1,
-            keeps_length: false,
-            step: |_: &Problem, p: Vector3<f64>, _| p * f64::INFINITY,
-        };
+        let blows_up = Integrator::in_p("synthetic", 1, |_, p, _| p * f64::INFINITY);
         let found = curve(&blows_up, 2.0, QUICK);
         assert_eq!(found.failures(), found.points.len());
         assert_eq!(found.points[0].failure.as_deref(), Some("not finite"));
-        let idle = FixedStep {
-            name: "synthetic",
-            order: 1,
-            keeps_length: true,
-            step: |_: &Problem, p: Vector3<f64>, _| std::hint::black_box(p),
-        };
+        let idle = Integrator::in_p("synthetic", 1, |_, p, _| std::hint::black_box(p)).keeping_length();
         assert!(curve(&idle, 2.0, QUICK).points.len() < 26, "the budget ends it");
-
-        struct Refuses;
-        impl Integrator for Refuses {
-            fn name(&self) -> &str {
-                "synthetic"
-            }
-            fn theory(&self) -> Theory {
-                Theory::Adaptive
-            }
-            fn advance(
-                &self,
-                _: &Problem,
-                _: &UnitVector3<f64>,
-                _: Setting,
-            ) -> Result<Vector3<f64>, Failure> {
-                Err(Failure::Gave("too stiff".into()))
-            }
-        }
-        let found = curve(&Refuses, 2.0, QUICK);
+        let refuses =
+            Integrator::new("synthetic", Theory::Adaptive, |_, _, _| Err(Failure::Gave("too stiff".into())));
+        let found = curve(&refuses, 2.0, QUICK);
         assert_eq!((found.points.len(), found.failures()), (13, 13));
 
         // What failed is in every writing.
         let bench = Bench { name: name(2.0), aspect_ratio: 2.0, turns: 1.0, curves: vec![found] };
         let benches = [bench];
-        let csv = export::bench_csv(&benches).unwrap();
+        let csv = rows::bench_csv(&benches).unwrap();
         assert_eq!(csv.matches(",too stiff,").count(), 13, "{csv}");
         assert!(
             crate::files::build::json(&benches[0].curves[0].points[0])
                 .unwrap()
                 .contains("\"failure\": \"too stiff\"")
         );
-        let tables = tables::cheapest(&benches).text() + &tables::every_subject(&benches[0]).text();
+        let tables = study::cheapest(&benches).text() + &study::every_subject(&benches[0]).text();
         assert!(tables.contains("not reached") && tables.contains("13 of 13"), "{tables}");
-        let figure = &figures::figures(&benches)[0].figure;
+        let figure = &study::figure(&benches[0]).figure;
         assert_eq!(figure.points[0].x.len(), 13);
     }
 
     #[test]
     fn every_subject_is_in_every_table() {
-        let subjects = integrators::all();
+        assert_eq!(ASPECT_RATIOS.map(name), PARTS);
+        let subjects = crate::studies::integrators::all();
         let bench = run(2.0, &subjects, QUICK);
-        let table = tables::every_subject(&bench);
+        let table = study::every_subject(&bench);
         let names: Vec<_> = table.rows.iter().map(|row| row[0].as_str()).collect();
-        assert!(names.iter().copied().eq(subjects.iter().map(|subject| subject.name())));
+        assert!(names.iter().copied().eq(subjects.iter().map(|subject| subject.name.as_str())));
     }
 }

@@ -29,7 +29,7 @@ pub struct Halving {
 /// How an observed order compares with theory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Found {
+pub enum OrderVerdict {
     /// Within [`ORDER_TOLERANCE`] on the last two pairs above round-off.
     AsTheory,
     /// Not.
@@ -67,7 +67,7 @@ pub struct Convergence {
     /// The last two pairs above round-off, which are judged.
     pub judged: Vec<f64>,
     /// What they say.
-    pub found: Found,
+    pub found: OrderVerdict,
     /// The extrapolation, where three grids converge.
     pub richardson: Option<Richardson>,
 }
@@ -113,24 +113,24 @@ fn of_all(aspect_ratio: f64, phi: f64, theta: f64, turns: f64, whose: &str) -> O
             problem.turns
         ),
         studies: (integrators::all().iter())
-            .filter_map(|subject| study(subject.as_ref(), &problem, &start, doublings))
+            .filter_map(|subject| study(&subject, &problem, &start, doublings))
             .collect(),
     }
 }
 
-/// So many steps that GΔt is about 1.
+/// The number of steps at which GΔt is about 1.
 fn coarsest(problem: &Problem) -> u64 {
     (problem.strain().ceil() as u64).next_power_of_two().max(8)
 }
 
 /// Halves the step `doublings` times, from GΔt of about 1. `None` for a subject that takes no equal steps.
 pub fn study(
-    subject: &dyn Integrator,
+    subject: &Integrator,
     problem: &Problem,
     start: &UnitVector3<f64>,
     doublings: u32,
 ) -> Option<Convergence> {
-    let Theory::Order(theory) = subject.theory() else {
+    let Theory::Order(theory) = subject.theory else {
         return None;
     };
     let coarsest = coarsest(problem);
@@ -153,7 +153,7 @@ pub fn study(
     let floor = round_off(problem);
     let judged = judged(&halvings, floor);
     Some(Convergence {
-        subject: subject.name().into(),
+        subject: subject.name.clone(),
         theory,
         found: compare(&judged, theory),
         judged,
@@ -176,12 +176,12 @@ fn judged(halvings: &[Halving], floor: f64) -> Vec<f64> {
     orders[orders.len().saturating_sub(2)..].to_vec()
 }
 
-fn compare(judged: &[f64], theory: u32) -> Found {
+fn compare(judged: &[f64], theory: u32) -> OrderVerdict {
     let holds = |order: &f64| (order - f64::from(theory)).abs() < ORDER_TOLERANCE;
     match judged {
-        [_, _] if judged.iter().all(holds) => Found::AsTheory,
-        [_, _] => Found::Not,
-        _ => Found::RoundOff,
+        [_, _] if judged.iter().all(holds) => OrderVerdict::AsTheory,
+        [_, _] => OrderVerdict::Not,
+        _ => OrderVerdict::RoundOff,
     }
 }
 
@@ -227,12 +227,12 @@ mod tests {
     #[test]
     fn an_order_keeps_its_sign_and_round_off_is_not_judged() {
         let found = |errors: &[f64], theory| compare(&judged(&synthetic(errors), 1e-12), theory);
-        assert_eq!(found(&[0.4, 0.1, 0.025, 0.00625], 2), Found::AsTheory);
-        assert_eq!(found(&[0.00625, 0.025, 0.1, 0.4], 2), Found::Not, "it diverges");
-        assert_eq!(found(&[0.4, 0.2, 0.1, 0.025], 2), Found::Not);
-        assert_eq!(found(&[1e-9, 6e-11, 4e-12, 1e-15, 2e-14], 4), Found::AsTheory);
-        assert_eq!(found(&[1e-9, 1e-15, 1e-9, 1e-9], 4), Found::RoundOff);
-        assert_eq!(found(&[f64::NAN, 0.1, f64::NAN], 4), Found::RoundOff);
+        assert_eq!(found(&[0.4, 0.1, 0.025, 0.00625], 2), OrderVerdict::AsTheory);
+        assert_eq!(found(&[0.00625, 0.025, 0.1, 0.4], 2), OrderVerdict::Not, "it diverges");
+        assert_eq!(found(&[0.4, 0.2, 0.1, 0.025], 2), OrderVerdict::Not);
+        assert_eq!(found(&[1e-9, 6e-11, 4e-12, 1e-15, 2e-14], 4), OrderVerdict::AsTheory);
+        assert_eq!(found(&[1e-9, 1e-15, 1e-9, 1e-9], 4), OrderVerdict::RoundOff);
+        assert_eq!(found(&[f64::NAN, 0.1, f64::NAN], 4), OrderVerdict::RoundOff);
     }
 
     #[test]

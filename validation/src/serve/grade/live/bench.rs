@@ -5,7 +5,7 @@ use crate::present::plot;
 use crate::present::table::{ReportTable, of_words};
 use crate::serve::grade::figures::{LEAST, PROGRAM};
 use crate::studies::integrators::{self, Setting, Theory};
-use crate::studies::work_precision::tables::{NOT_REACHED, time};
+use crate::studies::work_precision::study::{NOT_REACHED, time};
 use crate::studies::work_precision::{Budget, IntegratorCurve, TARGETS_RAD, curve};
 use serde::Serialize;
 use std::io::{BufRead, Write};
@@ -60,12 +60,9 @@ pub fn bench(program: &Program, echo: &str) -> Bench {
     let budget = Budget { seconds_per_run: 0.1, runs: 3 };
     Bench {
         aspect_ratio: ASPECT_RATIO,
-        program: curve(program, ASPECT_RATIO, budget),
+        program: curve(&program.integrator(), ASPECT_RATIO, budget),
         pipe_s: pipe_s(echo, program.timeout()),
-        ours: integrators::all()
-            .iter()
-            .map(|subject| curve(subject.as_ref(), ASPECT_RATIO, Budget::QUICK))
-            .collect(),
+        ours: integrators::all().iter().map(|subject| curve(subject, ASPECT_RATIO, Budget::QUICK)).collect(),
     }
 }
 

@@ -5,7 +5,7 @@ use super::protocol::{self, Answer, Request};
 use crate::studies::integrators::{Failure, Integrator, Problem, Setting, Theory};
 use nalgebra::{UnitVector3, Vector3};
 use std::hash::{BuildHasher, RandomState};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// After so many answers that did not come in time the program is not asked again.
@@ -28,12 +28,13 @@ pub struct Question {
 }
 
 /// A program behind the protocol.
+#[derive(Clone)]
 pub struct Program {
     words: Vec<String>,
     name: String,
     theory: Theory,
     timeout: Duration,
-    state: Mutex<State>,
+    state: Arc<Mutex<State>>,
 }
 
 #[derive(Default)]
@@ -84,7 +85,7 @@ impl Program {
             name: command.to_owned(),
             theory: Theory::Order(0),
             timeout,
-            state: Mutex::new(State { pipe: Some(pipe), ..State::default() }),
+            state: Arc::new(Mutex::new(State { pipe: Some(pipe), ..State::default() })),
         })
     }
 
@@ -153,6 +154,38 @@ impl Program {
         match self.state().pipe.take() {
             Some(pipe) => pipe.close(),
             None => Ok(()),
+        }
+    }
+
+    /// How its error is taken to fall.
+    pub fn theory(&self) -> Theory {
+        self.theory
+    }
+
+    /// The program as an integrator of one rod in plane Couette flow with G = 1/s: what the project's own are judged by.
+    pub fn integrator(&self) -> Integrator {
+        let (one, many) = (self.clone(), self.clone());
+        Integrator::new(&self.name, self.theory, move |problem, start, setting| {
+            Ok(one.turned(problem, std::slice::from_ref(start), setting)?[0])
+        })
+        .with_many(move |problem, starts, setting| many.turned(problem, starts, setting))
+    }
+
+    fn turned(
+        &self,
+        problem: &Problem,
+        starts: &[UnitVector3<f64>],
+        setting: Setting,
+    ) -> Result<Vec<Vector3<f64>>, Failure> {
+        let question = Question {
+            gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]],
+            aspect_ratio: problem.aspect_ratio,
+            start: starts.iter().map(|p| [p.x, p.y, p.z]).collect(),
+            end_s: problem.strain(),
+        };
+        match self.ask(&question, setting) {
+            Ok((p, _)) => Ok(p.into_iter().map(Vector3::from).collect()),
+            Err(asked) => Err(Failure::Gave(asked.to_string())),
         }
     }
 
@@ -230,45 +263,6 @@ fn in_a_row(lines: &[String]) -> Vec<String> {
         times => format!("{} ({times} times)", same[0]),
     };
     lines.chunk_by(PartialEq::eq).map(one).collect()
-}
-
-/// One rod in plane Couette flow with G = 1/s: what the project's own integrators are judged by.
-impl Integrator for Program {
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn theory(&self) -> Theory {
-        self.theory
-    }
-
-    fn advance(
-        &self,
-        problem: &Problem,
-        start: &UnitVector3<f64>,
-        setting: Setting,
-    ) -> Result<Vector3<f64>, Failure> {
-        let all = self.advance_all(problem, std::slice::from_ref(start), setting)?;
-        Ok(all[0])
-    }
-
-    fn advance_all(
-        &self,
-        problem: &Problem,
-        starts: &[UnitVector3<f64>],
-        setting: Setting,
-    ) -> Result<Vec<Vector3<f64>>, Failure> {
-        let question = Question {
-            gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]],
-            aspect_ratio: problem.aspect_ratio,
-            start: starts.iter().map(|p| [p.x, p.y, p.z]).collect(),
-            end_s: problem.strain(),
-        };
-        match self.ask(&question, setting) {
-            Ok((p, _)) => Ok(p.into_iter().map(Vector3::from).collect()),
-            Err(asked) => Err(Failure::Gave(asked.to_string())),
-        }
-    }
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::bench::{self, Bench};
 use super::program::Program;
 use crate::present::table::{ReportTable, of_words};
-use crate::studies::integrators::{Integrator, Setting, Theory};
+use crate::studies::integrators::{Setting, Theory};
 use crate::studies::stability::limits::{Ladder, Limit, Property, bisect, holds};
 use crate::studies::stability::map;
 use serde::Serialize;
@@ -36,7 +36,7 @@ pub struct MapRow {
     /// r_e.
     pub aspect_ratio: f64,
     /// One for each of [`STEPS`] or [`TOLERANCES`].
-    pub found: Vec<map::Found>,
+    pub found: Vec<map::Fate>,
 }
 
 /// Aspect ratios of the longest steps.
@@ -70,10 +70,11 @@ pub fn studies(program: &Program, echo: &str) -> Studies {
 }
 
 fn limits(program: &Program) -> Vec<Longest> {
+    let subject = program.integrator();
     let of = |property: Property, aspect_ratio: f64| Longest {
         property,
         aspect_ratio,
-        strain: bisect(LADDER, |strain| holds(program, property, aspect_ratio, strain)),
+        strain: bisect(LADDER, |strain| holds(&subject, property, aspect_ratio, strain)),
     };
     [Property::Turning, Property::Length, Property::Orbit]
         .into_iter()
@@ -82,13 +83,14 @@ fn limits(program: &Program) -> Vec<Longest> {
 }
 
 fn rows(program: &Program) -> Vec<MapRow> {
+    let subject = program.integrator();
     let cell = |aspect_ratio: f64, k: usize| {
         let mut run = map::by_step(program.theory(), aspect_ratio, STEPS[k], MOST_STEPS);
         if program.theory() == Theory::Adaptive {
             run = map::by_step(Theory::Order(1), aspect_ratio, 0.1, MOST_STEPS);
             run.setting = Setting::Tolerance(TOLERANCES[k]);
         }
-        run.of(program).found
+        run.of(&subject).found
     };
     let row = |aspect_ratio: f64| MapRow {
         aspect_ratio,

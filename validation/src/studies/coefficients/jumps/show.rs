@@ -3,9 +3,9 @@
 use super::{Apart, Compared, Quantity, Shares, above, apart};
 use crate::judge::case::Effort;
 use crate::judge::statistics::Sample;
-use crate::present::plot::{Curve, Figure};
+use crate::present::plot::Curve;
 use crate::present::study::ReportFigure;
-use crate::present::table::{Column, ReportTable, estimate, field, number, words};
+use crate::present::table::{Column, ReportTable, decimals, estimate, field, number, plus_minus, words};
 
 /// One of the two samples of a comparison.
 struct Sided<'a> {
@@ -28,7 +28,7 @@ fn sides(all: &[Compared]) -> Vec<Sided<'_>> {
 fn per_cent<'a>(name: impl Into<String>, quantity: Quantity, edge: f64) -> Column<'a, Sided<'a>> {
     let digits = |x: f64, se: f64| {
         let places = if se > 0.0 { (1.0 - se.log10().floor()).clamp(0.0, 4.0) as usize } else { 0 };
-        format!("{x:.places$} ± {se:.places$}")
+        plus_minus(places)(x, se)
     };
     estimate(name, digits, move |side: &Sided<'_>| {
         let Sample { mean, se, .. } = Sample::of(&above(side.shares, quantity, edge));
@@ -41,7 +41,7 @@ pub(in crate::studies::coefficients) fn tables(all: &[Compared], effort: &Effort
     let replicas = all.first().map_or(0, |one| one.kicks.len());
     let mut columns = vec![
         field("steps ×", |side: &Sided<'_>| side.of.setting.finer),
-        number("strain", |x| format!("{x:.2}"), |side: &Sided<'_>| side.of.strain),
+        number("strain", decimals(2), |side: &Sided<'_>| side.of.strain),
         words("turned by", |side: &Sided<'_>| side.turned_by),
     ];
     for edge in [0.01, 0.1, 0.2, 0.5, 1.0] {
@@ -82,77 +82,45 @@ pub(in crate::studies::coefficients) fn tables(all: &[Compared], effort: &Effort
         vec![
             field("steps ×", |(one, ..): &(&Compared, _, _)| one.setting.finer),
             words("distribution of", |(_, name, _): &(_, &'static str, _)| *name),
-            number("distance", |x| format!("{x:.3}"), |(_, _, apart): &(_, _, Apart)| apart.distance),
-            number("p", |p| format!("{p:.3}"), |(_, _, apart): &(_, _, Apart)| apart.p),
+            number("distance", decimals(3), |(_, _, apart): &(_, _, Apart)| apart.distance),
+            number("p", decimals(3), |(_, _, apart): &(_, _, Apart)| apart.p),
         ],
     );
     [jumps, distances]
 }
 
-/// The mean share above each edge; NaN where there is none, for which logarithms have no place.
-fn curve(label: impl Into<String>, all: &[Shares], quantity: Quantity) -> Curve {
-    let edges = quantity.edges();
-    let mean = |edge: &f64| Sample::of(&above(all, quantity, *edge)).mean;
-    let shown = |share: f64| if share > 0.0 { share } else { f64::NAN };
-    Curve {
-        label: label.into(),
-        y: edges.iter().map(|edge| shown(mean(edge))).collect(),
-        x: edges,
-        half_band: None,
-    }
+/// The mean share above each edge; NaN where there is none: a logarithmic axis has no place for it.
+fn curve(label: &str, all: &[Shares], quantity: Quantity) -> Curve {
+    let mean = |edge: f64| Sample::of(&above(all, quantity, edge)).mean;
+    Curve::of(label, quantity.edges(), |edge| {
+        (edge, Some(mean(edge)).filter(|s| *s > 0.0).unwrap_or(f64::NAN))
+    })
 }
 
 /// The tail of the jumps, and the steady orbits.
 pub(in crate::studies::coefficients) fn figures(one: &Compared) -> [ReportFigure; 2] {
-    let labels = ["kicks".to_owned(), format!("diffusion of C_I = {:.1e}", one.c_i.value)];
-    let curves = |quantity| {
-        let [kicks, diffusion] = &labels;
-        vec![curve(kicks, &one.kicks, quantity), curve(diffusion, &one.diffusion, quantity)]
-    };
-    let mut jumps = curves(Quantity::Angle);
-    let x: Vec<f64> = (0..=60).map(|k| 10f64.powf(0.05 * f64::from(k) - 2.85)).collect();
+    let diffusion = format!("diffusion of C_I = {:.1e}", one.c_i.value);
+    let curves =
+        |quantity| [curve("kicks", &one.kicks, quantity), curve(&diffusion, &one.diffusion, quantity)];
     let at = Sample::of(&above(&one.kicks, Quantity::Angle, 0.2)).mean * 0.2_f64.tan();
-    jumps.push(Curve {
-        label: "jumps κ with a tail 1/κ, theory".into(),
-        y: x.iter().map(|x| at / x.tan()).collect(),
-        x,
-        half_band: None,
-    });
-    let source = "Folgar & Tucker 1984; eqs 5 to 10".to_owned();
-    let cases = vec!["kicks-are-no-diffusion".to_owned()];
-    [
-        ReportFigure {
-            name: "kicks-and-diffusion".into(),
-            figure: Figure {
-                title: "Rods off Jeffery's motion after a strain of 1".into(),
-                x_name: "angle in rad".into(),
-                y_name: "share of rods beyond it".into(),
-                curves: jumps,
-                x_log: true,
-                y_log: true,
-                y_span: Some((1e-4, 1.0)),
-                ..Default::default()
-            },
-            caption: "Kicks leave most rods alone and turn few far, diffusion of the same C_I turns all a little. Jumps κ with a tail ∝ 1/κ \
-                      make cot x of the angles x between lines; its height is taken from the kicks at 0.2 rad."
-                .into(),
-            source: source.clone(),
-            cases: cases.clone(),
-        },
-        ReportFigure {
-            name: "steady-orbits".into(),
-            figure: Figure {
-                title: "Steady orbits".into(),
-                x_name: "C_b".into(),
-                y_name: "share of rods above it".into(),
-                curves: curves(Quantity::Orbit),
-                ..Default::default()
-            },
-            caption: "C_b = C/(1 + C) is 0 along the vorticity axis and 1 in the shear plane. Diffusion brings rods nearer to the vorticity \
-                      axis than kicks do."
-                .into(),
-            source,
-            cases,
-        },
-    ]
+    let angles = (0..=60).map(|k| 10f64.powf(0.05 * f64::from(k) - 2.85));
+    let theory = Curve::of("jumps κ with a tail 1/κ, theory", angles, |x| (x, at / x.tan()));
+    let jumps = ReportFigure::new(
+        ["kicks-and-diffusion", "Rods off Jeffery's motion after a strain of 1"],
+        "Kicks leave most rods alone and turn few far, diffusion of the same C_I turns all a little. Jumps κ with a tail ∝ 1/κ \
+         make cot x of the angles x between lines; its height is taken from the kicks at 0.2 rad.",
+        ["log angle in rad", "log share of rods beyond it"],
+    )
+    .curves(curves(Quantity::Angle))
+    .curves([theory])
+    .spans(None, Some((1e-4, 1.0)));
+    let orbits = ReportFigure::new(
+        ["steady-orbits", "Steady orbits"],
+        "C_b = C/(1 + C) is 0 along the vorticity axis and 1 in the shear plane. Diffusion brings rods nearer to the vorticity \
+         axis than kicks do.",
+        ["C_b", "share of rods above it"],
+    )
+    .curves(curves(Quantity::Orbit));
+    [jumps, orbits]
+        .map(|figure| figure.judged("Folgar & Tucker 1984; eqs 5 to 10", &["kicks-are-no-diffusion"]))
 }

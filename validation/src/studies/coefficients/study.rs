@@ -1,0 +1,193 @@
+//! The study of the effective coefficients: C_I against concentration, shape and α, and what becomes of rods at equal C_I.
+
+use super::jumps::{self, Compared, Quantity, above};
+use super::{Amount, Coefficients, rows};
+use crate::files::build;
+use crate::input::published::folgar_tucker;
+use crate::judge::statistics::{Estimate, Sample, slope, student};
+use crate::present::plot::Points;
+use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
+use crate::present::table::{Column, ReportTable, decimals, estimate, field, number, plus_minus};
+
+/// C_I, and the rods' stress.
+pub const STUDY: Study = Study {
+    name: "folgar-tucker",
+    title: "The field's coefficient: C_I and the rods' stress",
+    question: "Which Folgar–Tucker coefficient do collisions amount to, and does one describe them?",
+    cases: &[
+        "effective-ci",
+        "fourth-moments",
+        "particle-stress",
+        "folgar-tucker-seven",
+        "kicks-are-no-diffusion",
+    ],
+    command: "cargo run --release -- bench --case folgar-tucker",
+    parts: &["folgar-tucker"],
+    shared: false,
+    run,
+};
+
+const SOURCE: &str = "Folgar & Tucker 1984; eqs 5 to 10";
+
+fn run(request: &Request) -> Result<Option<Findings>, String> {
+    let amount = request.effort.pick(Amount::QUICK, Amount::FULL);
+    let rows = rows(amount, request.effort);
+    let base = base(&rows, amount.finer);
+    let logarithms: Vec<_> = (base.iter()).map(|row| (row.setting.n_a3.ln(), row.c_i.value.ln())).collect();
+    let answer = base.iter().find(|row| row.setting.n_a3 == 0.2).map_or(String::new(), |row| {
+        format!(
+            "C_I = {:.5} ± {:.5} at n a³ = 0.2, r_e = 11.6, α = 0.5 with {} times the default's steps, growing as (n a³)^{:.2}; a \
+             single C_I leaves {:.0} % of what collisions do to the mean of p_i p_j.",
+            row.c_i.value,
+            row.c_i.se,
+            amount.finer,
+            slope(&logarithms),
+            100.0 * row.misfit.value
+        )
+    });
+    let same: Vec<_> =
+        rows.iter().filter(|row| kind(row) == (11.6, 0.5) && row.setting.n_a3 == 0.2).collect();
+    let compared = jumps::compared(&same, request.effort);
+    let finest = compared.iter().find(|one| one.setting.finer == amount.finer);
+    let [tail, apart] = jumps::tables(&compared, request.effort);
+    let [jumped, orbits] = finest.map(jumps::figures).map_or([None, None], |both| both.map(Some));
+    let table = coefficients(&rows);
+    let files = [
+        ("folgar-tucker.csv", table.csv()?),
+        ("kicks-and-diffusion.csv", tail.csv()?),
+        ("steady-orbits.csv", apart.csv()?),
+        ("folgar-tucker.json", build::json(&serde_json::json!({ "rows": rows }))?),
+    ];
+    let exhibits = vec![
+        Exhibit::both(against_concentration(&rows, amount.finer), table),
+        beside_measured(&base).into(),
+        Exhibit { figure: jumped, table: Some(tail) },
+        Exhibit { figure: orbits, table: Some(apart) },
+        stress(&rows).into(),
+    ];
+    Ok(Some(Findings::new(answer + &finest.map_or(String::new(), no_diffusion), exhibits, files)))
+}
+
+/// What becomes of rods at equal C_I, in a sentence.
+fn no_diffusion(one: &Compared) -> String {
+    let per_cent = |all, edge| 100.0 * Sample::of(&above(all, Quantity::Angle, edge)).mean;
+    format!(
+        " Kicks are no diffusion: over a strain of {:.1}, diffusion of the same C_I turns {:.0} % of the rods off Jeffery's motion by \
+         more than 0.01 rad and {:.2} % by more than 0.2 rad, kicks {:.0} % and {:.2} %.",
+        one.strain,
+        per_cent(&one.diffusion, 0.01),
+        per_cent(&one.diffusion, 0.2),
+        per_cent(&one.kicks, 0.01),
+        per_cent(&one.kicks, 0.2),
+    )
+}
+
+/// r_e and α.
+fn kind(row: &Coefficients) -> (f64, f64) {
+    (row.setting.aspect_ratio, row.setting.alpha)
+}
+
+/// The suspensions of r_e = 11.6 and α = 0.5 with so many times the steps that resolve the motion.
+fn base(rows: &[Coefficients], finer: u64) -> Vec<&Coefficients> {
+    rows.iter().filter(|row| kind(row) == (11.6, 0.5) && row.setting.finer == finer).collect()
+}
+
+fn settings<'a>() -> Vec<Column<'a, Coefficients>> {
+    vec![
+        field("n a³", |row: &Coefficients| row.setting.n_a3),
+        field("r_e", |row: &Coefficients| row.setting.aspect_ratio),
+        field("α", |row: &Coefficients| row.setting.alpha),
+        field("steps ×", |row: &Coefficients| row.setting.finer),
+        field("periods", |row: &Coefficients| row.periods),
+    ]
+}
+
+fn measured<'a>(name: &str, value: impl Fn(&Coefficients) -> Estimate + 'a) -> Column<'a, Coefficients> {
+    let digits = |x: f64, se: f64| plus_minus((2.0 - se.log10()).floor().clamp(2.0, 6.0) as usize)(x, se);
+    estimate(name, digits, move |row: &Coefficients| value(row))
+}
+
+/// C_I of each suspension, and how well one number does.
+fn coefficients(rows: &[Coefficients]) -> ReportTable {
+    let replicas = rows.first().map_or(0, |row| row.replicas);
+    let mut columns = settings();
+    columns.push(number("φ r_p", decimals(4), |row: &Coefficients| row.phi_rp));
+    columns.push(measured("C_I", |row| row.c_i));
+    for (k, name) in ["of 11", "of 22", "of 33", "of 12"].into_iter().enumerate() {
+        columns.push(measured(name, move |row| row.own[k]));
+    }
+    columns.push(measured("left over", |row| row.misfit));
+    columns.push(estimate("X̄₁'s decay per T", plus_minus(2), |row: &Coefficients| {
+        row.damping_per_period.map(Into::into)
+    }));
+    ReportTable::new(
+        ["folgar-tucker", "The effective Folgar–Tucker coefficient"],
+        format!(
+            "Steady state of 100 rods, m = 3, {replicas} replicas (± a standard error, jackknife). C_I by least squares over \
+             all components of J, then by each component alone: where these differ, no single C_I describes the collisions, \
+             and the part of |J| that it leaves is in the next column. steps ×: time steps over those that resolve the motion. \
+             periods: before the window and in it. φ r_p: for cylinders, π n a³/(4 r_e). The decay of X̄₁'s oscillation is \
+             over the first two periods from isotropic directions."
+        ),
+        rows,
+        columns,
+    )
+}
+
+/// The rods' steady stress.
+fn stress(rows: &[Coefficients]) -> ReportTable {
+    let mut columns = settings();
+    for (k, name) in ["σ_12/(μ_fiber G)", "N_1/(μ_fiber G)", "N_2/(μ_fiber G)"].into_iter().enumerate() {
+        columns.push(measured(name, move |row| row.stress[k]));
+    }
+    ReportTable::new(
+        ["particle-stress", "What the rods add to the stress, steady"],
+        "σ_ij = μ_fiber G ⟨p_i p_j p₁p₂⟩ of slender rods (Batchelor 1970), in the same runs. 1 is the gradient, 2 the flow; N₁ = \
+         σ₂₂ − σ₁₁, N₂ = σ₁₁ − σ₃₃. What forces between colliding rods add is not in it.",
+        rows,
+        columns,
+    )
+}
+
+/// C_I of suspensions at these places, with 95 % intervals.
+fn points(label: String, rows: &[&Coefficients], x: impl Fn(&Coefficients) -> f64) -> Points {
+    Points::with_bars(label, rows, |row| (x(row), row.c_i.value, student(0.05, row.replicas) * row.c_i.se))
+}
+
+/// C_I against n a³, for every r_e and α.
+fn against_concentration(rows: &[Coefficients], finer: u64) -> ReportFigure {
+    let at_step: Vec<_> = rows.iter().filter(|row| row.setting.finer == finer).collect();
+    let mut kinds: Vec<_> = at_step.iter().map(|row| kind(row)).collect();
+    kinds.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    kinds.dedup();
+    let of_kind = |own: &(f64, f64)| {
+        let these: Vec<_> = at_step.iter().copied().filter(|row| kind(row) == *own).collect();
+        points(format!("r_e = {}, α = {}", own.0, own.1), &these, |row| row.setting.n_a3)
+    };
+    ReportFigure::new(
+        ["effective-ci", "The effective Folgar–Tucker coefficient of the model"],
+        format!(
+            "Steady C_I with 95 % intervals, at {finer} times the default's time steps, on which it depends. It grows about as the square root of n a³, falls \
+             with r_e and grows nearly in proportion to α."
+        ),
+        ["log n a³", "log C_I"],
+    )
+    .points(kinds.iter().map(of_kind))
+    .judged(SOURCE, &["effective-ci", "folgar-tucker-seven"])
+}
+
+/// C_I against φ r_p, beside measured values of far denser suspensions.
+fn beside_measured(base: &[&Coefficients]) -> ReportFigure {
+    let seven = "measured: Folgar & Tucker 1984, n a³ > 3";
+    ReportFigure::new(
+        ["folgar-tucker", "The effective Folgar–Tucker coefficient"],
+        "Steady C_I of the model for n a³ up to 1, at the finer time step of its table, with 95 % intervals, beside seven measured values of suspensions that \
+         are not dilute (n a³ above 3, second-hand). Nothing is fitted.",
+        ["log φ r_p", "log C_I"],
+    )
+    .points([
+        points("this model, r_e = 11.6, α = 0.5".into(), base, |row| row.phi_rp),
+        Points::of(seven, &folgar_tucker().rows, |point| (point.phi_rp, point.c_i)),
+    ])
+    .judged(SOURCE, &["effective-ci", "folgar-tucker-seven"])
+}

@@ -1,0 +1,117 @@
+//! The one type of all integrators, and how to make one from a step, a closed form or a library.
+
+use super::{Failure, Problem, Setting, Theory};
+use nalgebra::{SVector, UnitVector3, Vector2, Vector3};
+
+type Advance = dyn Fn(&Problem, &UnitVector3<f64>, Setting) -> Result<Vector3<f64>, Failure> + Send + Sync;
+type AdvanceAll =
+    dyn Fn(&Problem, &[UnitVector3<f64>], Setting) -> Result<Vec<Vector3<f64>>, Failure> + Send + Sync;
+
+/// A method that turns a free rod.
+pub struct Integrator {
+    /// Its name, in a few words.
+    pub name: String,
+    /// How its error is said to fall.
+    pub theory: Theory,
+    /// True if it is said to keep |p| = 1.
+    pub keeps_length: bool,
+    advance: Box<Advance>,
+    advance_all: Option<Box<AdvanceAll>>,
+}
+
+impl Integrator {
+    /// An integrator from `advance`: the direction at the end of a problem from its start. It is not said to keep |p| = 1.
+    pub fn new(
+        name: impl Into<String>,
+        theory: Theory,
+        advance: impl Fn(&Problem, &UnitVector3<f64>, Setting) -> Result<Vector3<f64>, Failure>
+        + Send
+        + Sync
+        + 'static,
+    ) -> Self {
+        let name = name.into();
+        Self { name, theory, keeps_length: false, advance: Box::new(advance), advance_all: None }
+    }
+
+    /// An integrator of this order that steps p with equal steps: `step` is p after one step of length h in 1/G, NaN where it
+    /// cannot be taken.
+    pub fn in_p(
+        name: &str,
+        order: u32,
+        step: impl Fn(&Problem, Vector3<f64>, f64) -> Vector3<f64> + Send + Sync + 'static,
+    ) -> Self {
+        Self::new(name, Theory::Order(order), move |problem, start, setting| {
+            last(problem, setting, start.into_inner(), &step)
+        })
+    }
+
+    /// An integrator of this order that steps (φ, θ) in rad with equal steps of length h in 1/G. It has no length to lose.
+    pub fn in_angles(
+        name: &str,
+        order: u32,
+        step: impl Fn(&Problem, Vector2<f64>, f64) -> Vector2<f64> + Send + Sync + 'static,
+    ) -> Self {
+        Self::new(name, Theory::Order(order), move |problem, start, setting| {
+            let first = Vector2::new(start.y.atan2(start.x), start.x.hypot(start.y).atan2(start.z));
+            let angles = last(problem, setting, first, &step)?;
+            let (sin_phi, cos_phi) = angles.x.sin_cos();
+            let (sin_theta, cos_theta) = angles.y.sin_cos();
+            Ok(Vector3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta))
+        })
+        .keeping_length()
+    }
+
+    /// The same, said to keep |p| = 1.
+    pub fn keeping_length(self) -> Self {
+        Self { keeps_length: true, ..self }
+    }
+
+    /// The same, with a way to turn many rods at once: a program in another process is asked once.
+    pub fn with_many(
+        self,
+        advance_all: impl Fn(&Problem, &[UnitVector3<f64>], Setting) -> Result<Vec<Vector3<f64>>, Failure>
+        + Send
+        + Sync
+        + 'static,
+    ) -> Self {
+        Self { advance_all: Some(Box::new(advance_all)), ..self }
+    }
+
+    /// The direction at the end of `problem` of a rod that starts along `start`; its length is judged too.
+    pub fn advance(
+        &self,
+        problem: &Problem,
+        start: &UnitVector3<f64>,
+        setting: Setting,
+    ) -> Result<Vector3<f64>, Failure> {
+        (self.advance)(problem, start, setting)
+    }
+
+    /// The directions at the end of `problem` of many rods.
+    pub fn advance_all(
+        &self,
+        problem: &Problem,
+        starts: &[UnitVector3<f64>],
+        setting: Setting,
+    ) -> Result<Vec<Vector3<f64>>, Failure> {
+        match &self.advance_all {
+            Some(advance_all) => advance_all(problem, starts, setting),
+            None => starts.iter().map(|start| self.advance(problem, start, setting)).collect(),
+        }
+    }
+}
+
+/// The state at the end of `problem`, by equal steps from `first`.
+fn last<const N: usize>(
+    problem: &Problem,
+    setting: Setting,
+    first: SVector<f64, N>,
+    step: impl Fn(&Problem, SVector<f64, N>, f64) -> SVector<f64, N>,
+) -> Result<SVector<f64, N>, Failure> {
+    let steps = setting.steps()?;
+    let h = problem.strain() / steps as f64;
+    // A rod that is lost stays lost: no more steps are spent on it.
+    (0..steps)
+        .try_fold(first, |state, _| Some(step(problem, state, h)).filter(|state| state.sum().is_finite()))
+        .ok_or(Failure::NotFinite)
+}

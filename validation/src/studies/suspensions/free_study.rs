@@ -1,0 +1,133 @@
+//! The study of free suspensions: how to place free rods.
+
+use super::free::{Amount, Bench, Point, SCENES, StartCurve, TARGETS};
+use super::starts;
+use crate::files::build;
+use crate::present::plot::Curve;
+use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
+use crate::present::table::{Column, ReportTable, estimate, number, rows_csv, signed, words};
+use crate::studies::work_precision::Budget;
+use crate::studies::work_precision::study::{NOT_REACHED, time};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Free rods: how to lay them.
+pub const STUDY: Study = Study {
+    name: "free-suspensions",
+    title: "Free suspensions: error against run time",
+    question: "How must free rods be laid for X̄₁ to reach an error soonest?",
+    cases: &["free-suspension-rates", "free-isotropic", "free-polydisperse", "replicas-are-independent"],
+    command: "cargo run --release -- bench --case fig6-uniform --case fig6-polydisperse",
+    parts: &[SCENES[0].scene, SCENES[1].scene],
+    shared: false,
+    run,
+};
+
+fn run(request: &Request) -> Result<Option<Findings>, String> {
+    let amount = request.effort.pick(Amount::QUICK, Amount::FULL);
+    let budget = request.effort.pick(Budget::QUICK, Budget::FULL);
+    let chosen = SCENES.into_iter().filter(|free| (request.wanted)(free.scene));
+    let benches: Vec<_> = chosen.map(|free| free.bench(&starts::ALL, amount, budget)).collect();
+    let curves = benches.first().map_or(&[][..], |bench| &bench.curves);
+    let steepest = curves.iter().min_by(|a, b| a.exponent.total_cmp(&b.exponent));
+    let answer = steepest.map_or(String::new(), |curve| {
+        format!(
+            "Of {} ways the error falls fastest with {}: as N^({:+.2} ± {:.2}).",
+            curves.len(),
+            curve.start,
+            curve.exponent,
+            curve.exponent_se
+        )
+    });
+    let mut exhibits: Vec<Exhibit> = benches.iter().map(|bench| figure(bench).into()).collect();
+    exhibits[0].table = Some(table(&benches));
+    let files = [
+        ("suspensions.csv", rows_csv(points(&benches).map(StartRow::from))?),
+        ("suspensions.json", build::json(&BTreeMap::from([("benches", &benches)]))?),
+    ];
+    Ok(Some(Findings::new(answer, exhibits, files)))
+}
+
+fn points(benches: &[Bench]) -> impl Iterator<Item = (&Bench, &StartCurve, &Point)> {
+    benches.iter().flat_map(|bench| {
+        let curves = bench.curves.iter();
+        curves.flat_map(move |curve| curve.points.iter().map(move |point| (bench, curve, point)))
+    })
+}
+
+/// A row of suspensions.csv.
+#[derive(Default, Serialize)]
+struct StartRow {
+    scene: &'static str,
+    t_over_t: f64,
+    start: &'static str,
+    rods: usize,
+    x1_rms_error: f64,
+    trials: usize,
+    seconds_min: f64,
+    seconds_max: f64,
+    measurements: usize,
+}
+
+impl From<(&Bench, &StartCurve, &Point)> for StartRow {
+    fn from((bench, curve, point): (&Bench, &StartCurve, &Point)) -> Self {
+        Self {
+            scene: bench.free.scene,
+            t_over_t: bench.free.turns,
+            start: curve.start,
+            rods: point.rods,
+            x1_rms_error: point.error,
+            trials: point.trials,
+            seconds_min: point.seconds.least,
+            seconds_max: point.seconds.most,
+            measurements: point.seconds.measurements,
+        }
+    }
+}
+
+/// The time that each start takes to each error.
+fn table(benches: &[Bench]) -> ReportTable {
+    type Of<'a> = (&'a Bench, &'a StartCurve);
+    let rows = benches.iter().flat_map(|bench| bench.curves.iter().map(move |c| (bench, c)));
+    let mut columns: Vec<Column<Of>> = vec![
+        words("scene", |r: &Of| r.0.free.scene),
+        words("start", |r: &Of| r.1.start),
+        number("theory", |x| format!("{x:+.2}"), |r: &Of| r.1.theory),
+        estimate("exponent", signed(2), |r: &Of| (r.1.exponent, r.1.exponent_se)),
+    ];
+    columns.extend(TARGETS.map(|target| {
+        words(format!("error {target:.0e}"), move |r: &Of| match r.1.cheapest(target) {
+            Some(point) => format!("{} ({} rods)", time(point.seconds.least), point.rods),
+            None => NOT_REACHED.into(),
+        })
+    }));
+    ReportTable::new(
+        ["suspension-starts", "Free suspensions: the time for an error of X̄₁, by how the rods are laid"],
+        "Isotropic rods without collisions at t/T = 0.95, against the closed form; root mean square over trials. The \
+         exponent is of the number of rods in the error, over 10³ rods and more. No time step is taken: the whole \
+         error is that of the sample (`free-suspension-rates`).",
+        rows,
+        columns,
+    )
+}
+
+/// Error against run time, a curve for each start.
+fn figure(bench: &Bench) -> ReportFigure {
+    let free = &bench.free;
+    let curve = |curve: &StartCurve| {
+        let label = format!("{}: N^({:+.2} ± {:.2})", curve.start, curve.exponent, curve.exponent_se);
+        Curve::of(label, &curve.points, |point| (point.seconds.least, point.error))
+    };
+    let title =
+        format!("Free rods, r_e = {}, σ = {} %: error against run time", free.aspect_ratio, free.sd_percent);
+    ReportFigure::new(
+        [&format!("suspension-starts-{}", free.scene), &title],
+        format!(
+            "Scene {} at t/T = {}, from 100 rods on; laying and moving the rods once, on one core.",
+            free.scene, free.turns
+        ),
+        ["log run time (s)", "log rms error of X̄₁"],
+    )
+    .curves(bench.curves.iter().map(curve))
+    .judged("eqs 4, 11, 12", &["free-suspension-rates", "free-isotropic"])
+}

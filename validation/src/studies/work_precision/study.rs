@@ -1,0 +1,286 @@
+//! The study of integrators of one rod: error against run time, and observed orders.
+
+use super::order::{self, Convergence, OrderVerdict, Orders, Richardson};
+use super::rows::bench_csv;
+use super::{Bench, Budget, IntegratorCurve, PARTS, Point, TARGETS_RAD};
+use crate::files::build;
+use crate::present::plot::{Curve, Points};
+use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
+use crate::present::table::{Column, NONE, ReportTable, decimals, field, number, powers, words};
+use crate::studies::integrators::{self, Errors, Theory};
+use std::collections::BTreeMap;
+
+/// Every integrator at every aspect ratio.
+pub const STUDY: Study = Study {
+    name: "work-precision",
+    title: "Integrators: error against run time",
+    question: "Which integrator of one free rod reaches an error soonest, and does each converge at its order?",
+    cases: &[
+        "subject-orders",
+        "exact-propagator-round-off",
+        "subject-lengths",
+        "adaptive-subjects",
+        "grid-convergence-index",
+        "where-errors-show",
+        "flip-not-stiff",
+        "coarse-steps",
+        "who-loses-length",
+        "right-hand-side-digits",
+    ],
+    command: "cargo run --release -- bench --case re2 --case re11.6 --case re100 --case re10000",
+    parts: &PARTS,
+    shared: false,
+    run,
+};
+
+fn run(request: &Request) -> Result<Option<Findings>, String> {
+    let chosen = super::ASPECT_RATIOS.into_iter().filter(|r| (request.wanted)(&super::name(*r)));
+    let budget = request.effort.pick(Budget::QUICK, Budget::FULL);
+    let subjects = integrators::all();
+    let benches: Vec<_> = chosen.map(|r| super::run(r, &subjects, budget)).collect();
+    let orders = order::of_rod(11.6);
+    let both = |bench| Exhibit::both(figure(bench), every_subject(bench));
+    let mut exhibits: Vec<Exhibit> = benches.iter().map(both).collect();
+    exhibits.extend([
+        Exhibit::both(orders_figure(&orders), orders_table(&orders)),
+        cheapest(&benches).into(),
+        ratio(&benches).into(),
+    ]);
+    let files = [
+        ("bench.csv", bench_csv(&benches)?),
+        ("bench.json", build::json(&BTreeMap::from([("benches", &benches)]))?),
+    ];
+    Ok(Some(Findings::new(answer(&benches, &orders), exhibits, files)))
+}
+
+fn answer(benches: &[Bench], orders: &order::Orders) -> String {
+    let wins = (benches.iter()).filter(|bench| {
+        let cheapest = bench.cheapest(1e-6, |_| true);
+        cheapest.is_some_and(|(curve, _)| curve.theory == Theory::Exact)
+    });
+    let kept = (orders.studies.iter()).filter(|study| study.found == OrderVerdict::AsTheory);
+    format!(
+        "An exact propagator is the cheapest for 10⁻⁶ rad at {} of {} aspect ratios, and {} of {} methods with steps \
+         converge at the order of theory.",
+        wins.count(),
+        benches.len(),
+        kept.count(),
+        orders.studies.len()
+    )
+}
+
+/// Where failed runs are drawn: above every error, which is π/2 at most.
+const FAILED: f64 = 10.0;
+
+/// An error of 0 has no place on a logarithmic axis; it is drawn here.
+const LEAST: f64 = 1e-17;
+
+fn drawn(errors: Option<Errors>) -> f64 {
+    errors.map_or(f64::NAN, |errors| errors.orientation_rad.max(LEAST))
+}
+
+/// Error against run time: curves of methods with steps, points of exact ones and of runs that failed.
+pub(super) fn figure(bench: &Bench) -> ReportFigure {
+    let place = |point: &Point| (point.seconds.least, drawn(point.errors));
+    let (exact, stepped): (Vec<_>, Vec<_>) =
+        (bench.curves.iter()).partition(|curve| curve.theory == Theory::Exact);
+    let runs = bench.curves.iter().flat_map(|curve| &curve.points);
+    let failed = runs.filter(|point| point.errors.is_none());
+    let failed = Points::of("failed", failed, |point| (point.seconds.least, FAILED));
+    ReportFigure::new(
+        [
+            &format!("work-precision-{}", bench.name),
+            &format!("Error against run time, one rod, r_e = {}", bench.aspect_ratio),
+        ],
+        format!(
+            "One rod over {:.5} periods, into a flip; the least of repeated runs, on one core. \
+             An error of 0 is drawn at {LEAST:.0e}, a run that failed at {FAILED}.",
+            bench.turns
+        ),
+        ["log run time (s)", "log angle to the closed form (rad)"],
+    )
+    .curves(stepped.iter().map(|curve| Curve::of(&curve.subject, &curve.points, place)))
+    .points(exact.iter().map(|curve| Points::of(&curve.subject, &curve.points, place)))
+    .points((!failed.x.is_empty()).then_some(failed))
+    .spans(Some((1e-8, 0.1)), Some((LEAST, FAILED)))
+    .judged("A.1 to A.5, eq. 20", &["subject-orders", "exact-propagator-round-off"])
+}
+
+/// The error of every method with steps against the number of steps.
+fn orders_figure(orders: &Orders) -> ReportFigure {
+    let curve = |study: &Convergence| {
+        Curve::of(&study.subject, &study.halvings, |halving| (halving.steps as f64, drawn(halving.errors)))
+    };
+    ReportFigure::new(
+        ["orders", "Error against the number of steps"],
+        "Twice the steps divide the error by 2, 4 or 16 for methods of order 1, 2 or 4, down to round-off.",
+        ["log steps", "log angle to the closed form (rad)"],
+    )
+    .curves(orders.studies.iter().map(curve))
+    .judged("A.1 to A.5", &["subject-orders", "grid-convergence-index"])
+}
+
+/// A curve and one of its points, of a bench.
+type Chosen<'a> = Option<(&'a IntegratorCurve, &'a Point)>;
+
+fn named(chosen: Chosen) -> String {
+    chosen.map_or(NOT_REACHED.into(), |(curve, _)| curve.subject.clone())
+}
+
+fn timed(chosen: Chosen) -> Option<f64> {
+    chosen.map(|(_, point)| point.seconds.least)
+}
+
+/// For each error and aspect ratio the cheapest subject.
+pub(super) fn cheapest(benches: &[Bench]) -> ReportTable {
+    type Row<'a> = (&'a Bench, f64, Chosen<'a>, Chosen<'a>);
+    let row = |bench, target| -> Row {
+        let steps = |theory| theory != Theory::Exact;
+        (bench, target, Bench::cheapest(bench, target, |_| true), Bench::cheapest(bench, target, steps))
+    };
+    ReportTable::new(
+        ["work-precision", "For an error: the cheapest subject and its time"],
+        "One rod into the middle of its third flip. A point counts where the next finer one reaches the error too.",
+        (benches.iter()).flat_map(|bench| TARGETS_RAD.map(|target| row(bench, target))),
+        vec![
+            field("r_e", |r: &Row| r.0.aspect_ratio),
+            number("error (rad)", powers(0), |r: &Row| r.1),
+            words("cheapest", |r: &Row| named(r.2)),
+            number("time", time, |r: &Row| timed(r.2)).or(""),
+            words("cheapest that takes steps", |r: &Row| named(r.3)),
+            number("time of that", time, |r: &Row| timed(r.3)).or(""),
+        ],
+    )
+}
+
+/// The exact propagator's time against the cheapest adaptive subject's.
+fn ratio(benches: &[Bench]) -> ReportTable {
+    let exact = |bench: &Bench| {
+        let exact = bench.curves.iter().find(|curve| curve.theory == Theory::Exact);
+        exact.and_then(|curve| curve.points.first().cloned())
+    };
+    let adaptive = |bench: &Bench| {
+        let found = bench.cheapest(1e-6, |theory| theory == Theory::Adaptive);
+        (named(found), timed(found))
+    };
+    ReportTable::new(
+        ["exact-against-adaptive", "The exact propagator against the cheapest adaptive subject"],
+        "The propagator's time for round-off error over the cheapest adaptive subject's for 10⁻⁶ rad.",
+        benches.iter(),
+        vec![
+            field("r_e", |b: &Bench| b.aspect_ratio),
+            number("error of the propagator (rad)", powers(1), move |b: &Bench| {
+                exact(b).map(|point| point.error_rad())
+            })
+            .or(NOT_REACHED),
+            number("its time", time, move |b: &Bench| exact(b).map(|point| point.seconds.least))
+                .or(NOT_REACHED),
+            words("adaptive, for 1e-6", move |b: &Bench| adaptive(b).0),
+            number("its time for 1e-6", time, move |b: &Bench| adaptive(b).1).or(NOT_REACHED),
+            number("ratio", |ratio| format!("1/{:.0}", 1.0 / ratio), |b: &Bench| b.exact_over_adaptive()),
+        ],
+    )
+}
+
+/// Every subject of a bench: the time for each error, then the best it can do.
+pub(super) fn every_subject(bench: &Bench) -> ReportTable {
+    let best = |curve: &IntegratorCurve| Some((curve.best()?.clone(), curve.best()?.errors?));
+    let mut columns: Vec<Column<IntegratorCurve>> =
+        vec![words("subject", |c: &IntegratorCurve| c.subject.clone())];
+    columns.extend(TARGETS_RAD.map(|target| {
+        number(format!("{target:.0e} rad"), time, move |c: &IntegratorCurve| {
+            c.cheapest(target).map(|point| point.seconds.least)
+        })
+        .or(NOT_REACHED)
+    }));
+    columns.extend([
+        number("best (rad)", powers(1), move |c: &IntegratorCurve| best(c).map(|b| b.1.orientation_rad)),
+        number("C_b", powers(1), move |c: &IntegratorCurve| best(c).map(|b| b.1.orbit_constant)),
+        number("t/T", powers(1), move |c: &IntegratorCurve| best(c).map(|b| b.1.phase_turns)),
+        words("setting", move |c: &IntegratorCurve| {
+            best(c).map_or("failed".into(), |b| b.0.setting.to_string())
+        }),
+        words("time", move |c: &IntegratorCurve| {
+            let seconds = best(c).map(|b| b.0.seconds);
+            seconds.map_or(NONE.into(), |s| format!("{} to {}", time(s.least), time(s.most)))
+        }),
+        words("failed", |c: &IntegratorCurve| format!("{} of {}", c.failures(), c.points.len())),
+    ]);
+    ReportTable::new(
+        [
+            &format!("work-precision-{}", bench.name),
+            &format!("Every subject at r_e = {}", bench.aspect_ratio),
+        ],
+        "Times for an error, then the smallest error found: the angle, C_b and the phase at one setting.",
+        &bench.curves,
+        columns,
+    )
+}
+
+/// Observed orders.
+pub fn orders_table(orders: &Orders) -> ReportTable {
+    let found = |study: &Convergence| match study.found {
+        OrderVerdict::AsTheory => "as theory",
+        OrderVerdict::Not => "NOT as theory",
+        OrderVerdict::RoundOff => "at round-off",
+    };
+    let judged = |study: &Convergence| {
+        let judged: Vec<_> = study.judged.iter().map(|order| format!("{order:+.3}")).collect();
+        judged.join(" ")
+    };
+    type Format<'a> = &'a dyn Fn(f64) -> String;
+    fn of<'a>(name: &str, format: Format<'a>, value: fn(&Richardson) -> f64) -> Column<'a, Convergence> {
+        number(name, format, move |study: &Convergence| study.richardson.as_ref().map(value))
+    }
+    ReportTable::new(
+        ["orders", "Observed order, Richardson's value and grid convergence index"],
+        format!(
+            "{}. The core itself takes no step for a free rod: these are the orders of integrators that do. Orders of the \
+             angle's error on the last two pairs above round-off, negative where it grows; the rest is of |p_1|, from \
+             three grids: its index is to bound its error.",
+            orders.problem
+        ),
+        &orders.studies,
+        vec![
+            words("subject", |s: &Convergence| s.subject.clone()),
+            words("theory", |s: &Convergence| s.theory.to_string()),
+            words("observed", judged),
+            words("verdict", found),
+            of("steps", &|steps| steps.to_string(), |r| r.steps as f64),
+            of("order of |p_1|", &|order| format!("{order:+.3}"), |r| r.order),
+            of("at Δt = 0", &decimals(12), |r| r.value),
+            of("off by", &powers(1), |r| r.error),
+            of("index", &powers(1), |r| r.index),
+            of("error", &powers(1), |r| r.true_error),
+        ],
+    )
+}
+
+/// Where no setting reaches an error.
+pub(crate) const NOT_REACHED: &str = "not reached";
+
+/// Seconds in a unit that leaves three digits.
+pub(crate) fn time(seconds: f64) -> String {
+    let (scale, unit) = match seconds {
+        s if s < 1e-6 => (1e9, "ns"),
+        s if s < 1e-3 => (1e6, "µs"),
+        s if s < 1.0 => (1e3, "ms"),
+        _ => (1.0, "s"),
+    };
+    let number = seconds * scale;
+    let digits = if number < 9.995 { 2 } else { usize::from(number < 99.95) };
+    format!("{number:.digits$} {unit}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_have_three_digits() {
+        let expected = [(4.31e-8, "43.1 ns"), (9.999e-6, "10.0 µs"), (0.1234, "123 ms"), (2.5, "2.50 s")];
+        for (seconds, text) in expected {
+            assert_eq!(time(seconds), text);
+        }
+    }
+}
