@@ -100,11 +100,6 @@ impl<'a> Density<'a> {
     pub fn means(&self) -> [f64; MEANS] {
         Functionals::new(self.frame, &self.operator.basis).of(&self.unknowns)
     }
-
-    /// How many harmonics it has now, and how much work it was.
-    pub fn cost(&self) -> (Basis, f64) {
-        (self.operator.basis, self.work)
-    }
 }
 
 /// The degree and the order beyond which the norm is below `tail`.

@@ -29,6 +29,12 @@ impl Means {
             error,
         }
     }
+
+    /// One of the means, rounded to as many decimals as the error leaves, eleven at most.
+    pub fn certain(&self, mean: f64) -> f64 {
+        let decimals = -(2.0 * self.error.max(1e-12)).log10();
+        format!("{mean:.*}", decimals.clamp(0.0, 11.0) as usize).parse::<f64>().unwrap_or(mean) + 0.0
+    }
 }
 
 /// The means as linear functions of the unknowns.

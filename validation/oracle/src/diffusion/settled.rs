@@ -17,6 +17,9 @@ pub(super) fn refined(frame: &Frame) -> Result<([f64; MEANS], f64), NoAnswer> {
     if frame.motion.diffusivity == f64::INFINITY {
         return Ok((isotropic(), 0.0));
     }
+    if frame.motion.diffusivity <= 0.0 {
+        return Err(NoAnswer::Unsettled);
+    }
     let of = |degree: usize, order: usize| {
         let basis = Basis { degree: degree & !1, order, even: frame.even };
         if basis.degree > LARGEST.1 || basis.width(basis.degree) > LARGEST.0 {

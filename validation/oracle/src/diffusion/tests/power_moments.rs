@@ -44,7 +44,7 @@ fn moments(g: [[f64; 2]; 2], diffusivity: f64) -> [f64; 4] {
 /// ⟨p₁^a p₂^b⟩ over all directions alike: (a − 1)!!(b − 1)!!/(a + b + 1)!! for even powers.
 fn isotropic(a: usize, b: usize) -> f64 {
     let odd = |n: usize| (1..=n).step_by(2).map(|k| k as f64).product::<f64>();
-    match a % 2 == 0 && b % 2 == 0 {
+    match a.is_multiple_of(2) && b.is_multiple_of(2) {
         true => odd(a.saturating_sub(1)) * odd(b.saturating_sub(1)) / odd(a + b + 1),
         false => 0.0,
     }
