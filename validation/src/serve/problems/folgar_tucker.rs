@@ -14,14 +14,14 @@ const UNIAXIAL: [[f64; 3]; 3] = [[-0.25, 0.0, 0.0], [0.0, -0.25, 0.0], [0.0, 0.0
 const STRETCHED: [[f64; 3]; 3] = [[-0.0625, 0.0, 0.0], [0.5, -0.0625, 0.0], [0.0, 0.0, 0.125]];
 const ASKEW: [[f64; 3]; 3] = [[0.25, -0.5, 0.125], [0.75, 0.125, -0.25], [0.375, 0.625, -0.375]];
 
-/// A flow, rods, and the units of strain at which they are asked about; none for the steady distribution.
+/// A flow, rods, and the times at which they are asked about in units of 1/G, G = 0.5/s; none for the steady distribution.
 struct Setting {
     name: &'static str,
     title: &'static str,
     gradient_per_s: [[f64; 3]; 3],
     aspect_ratio: f64,
     c_i: f64,
-    strains: &'static [f64],
+    times: &'static [f64],
     /// The problem's name where the fourth moments are asked for too.
     fourth: Option<&'static str>,
 }
@@ -50,24 +50,23 @@ const fn setting(
     gradient_per_s: [[f64; 3]; 3],
     aspect_ratio: f64,
     c_i: f64,
-    strains: &'static [f64],
+    times: &'static [f64],
     fourth: Option<&'static str>,
 ) -> Setting {
-    Setting { name, title, gradient_per_s, aspect_ratio, c_i, strains, fourth }
+    Setting { name, title, gradient_per_s, aspect_ratio, c_i, times, fourth }
 }
 
 impl Setting {
     fn times_s(&self) -> Vec<f64> {
-        match self.strains {
+        match self.times {
             [] => vec![LATE_S],
-            // All flows here strain at about the paper's rate.
-            strains => strains.iter().map(|strain| strain / SHEAR_RATE_PER_S).collect(),
+            times => times.iter().map(|time| time / SHEAR_RATE_PER_S).collect(),
         }
     }
 
     fn certified(&self) -> Result<Vec<Means>, NoAnswer> {
         let motion = Motion::new(self.gradient_per_s, self.aspect_ratio, self.c_i);
-        match self.strains {
+        match self.times {
             [] => Ok(vec![diffusion::steady(&motion)?]),
             _ => diffusion::at(&motion, Start::Isotropic, &self.times_s()),
         }
@@ -108,7 +107,7 @@ pub(super) fn problems() -> Vec<ProblemDef> {
         .iter()
         .map(|setting| ProblemDef::new(setting.name, setting.title, |def| built(def, setting, 0..6)));
     let fourth = SETTINGS.iter().filter_map(|setting| {
-        let title = if setting.strains.is_empty() {
+        let title = if setting.times.is_empty() {
             "Steady a_ijkl in shear, C_I = 0.01"
         } else if setting.name.ends_with("mixed") {
             "a_ijkl(t) in a flow without symmetry, C_I = 0.02"
@@ -129,7 +128,7 @@ fn built(def: &ProblemDef, setting: &Setting, values: std::ops::Range<usize>) ->
     };
     let mut rows = fields;
     let columns = rows.next().map(of).unwrap_or_default();
-    let steady = setting.strains.is_empty();
+    let steady = setting.times.is_empty();
     let rods = match setting.aspect_ratio {
         NEEDLE => "Λ = 1 (r_e = 1e100)".to_owned(),
         r => format!("r_e = {r}"),
@@ -245,7 +244,7 @@ mod tests {
             };
             pairs().map(of).map(f64::abs).fold(0.0, f64::max)
         };
-        let steady = SETTINGS.iter().filter(|setting| setting.strains.is_empty());
+        let steady = SETTINGS.iter().filter(|setting| setting.times.is_empty());
         for setting in steady {
             // Twelve decimals, times rates of about 1.
             let right = residual(setting, setting.c_i, false);
