@@ -9,8 +9,8 @@ use crate::reference::isotropic::QUADRUPLES;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
 
-/// The most unknowns of a degree, and the highest degree.
-const LARGEST: (usize, usize) = (600, 3000);
+/// Multiplications that an elimination may take: some ten seconds.
+const MOST_WORK: f64 = 3e10;
 
 /// Means over the steady density, and by how much fewer harmonics change them.
 pub(super) fn refined(frame: &Frame) -> Result<([f64; MEANS], f64), NoAnswer> {
@@ -22,7 +22,7 @@ pub(super) fn refined(frame: &Frame) -> Result<([f64; MEANS], f64), NoAnswer> {
     }
     let of = |degree: usize, order: usize| {
         let basis = Basis { degree: degree & !1, order, even: frame.even };
-        if basis.degree > LARGEST.1 || basis.width(basis.degree) > LARGEST.0 {
+        if basis.degree as f64 * (basis.width(basis.degree) as f64).powi(3) > MOST_WORK {
             return Err(NoAnswer::TooMuchWork);
         }
         steady(frame, basis).ok_or(NoAnswer::Unsettled)
