@@ -1,6 +1,9 @@
 //! Steady distributions: closed forms in extension, the equation of the moments, weak flows, large C_I.
 
 use super::*;
+use crate::diffusion::frame::Frame;
+use crate::diffusion::harmonics::Basis;
+use crate::diffusion::settled;
 use crate::quadrature::integrate;
 
 /// In a flow without vorticity ψ ∝ exp(p·(ΛD)p/2D_r) exactly, of any strength.
@@ -92,6 +95,25 @@ fn steady_moments_stand_still() {
             // A sphere is isotropic in any case, and so is any rod whose diffusion prevails: to first order in 1/C_I.
             assert!(aspect_ratio == 1.0 || wrong > 1e-5, "{name}: {wrong:e}");
         }
+    }
+}
+
+/// The moments' equation holds with too few harmonics as well; twice as many show what is missing.
+#[test]
+fn refinement_does_not_stop_too_early() {
+    for (gradient, aspect_ratio, c_i) in [
+        (COUETTE, f64::INFINITY, 3e-3),
+        (COUETTE, 11.6, 1e-3),
+        (COUETTE, 0.1, 1e-2),
+        (ASKEW, 8.0, 1e-2),
+        ([[1.0, 0.0, 0.0], [0.0, -0.7, 0.0], [0.0, 0.0, -0.3]], 5.0, 1e-2),
+    ] {
+        let frame = Frame::of(&Motion::new(gradient, aspect_ratio, c_i));
+        let of = |degree, order| settled::steady(&frame, Basis { degree, order, even: frame.even }).unwrap();
+        let (refined, stated) = settled::refined(&frame).unwrap();
+        let many = of(140, 70);
+        assert!(off(&refined, &many) <= stated + 1e-13, "{:e} {stated:e}", off(&refined, &many));
+        assert!(off(&of(20, 14), &many) > 1e-9 && off(&of(140, 14), &many) > 1e-11);
     }
 }
 
