@@ -15,8 +15,8 @@ pub struct Accuracy {
     pub step: f64,
 }
 
-/// Multiplications that a solution may take: some minutes.
-const MOST_WORK: f64 = 2e11;
+/// Multiplications that a solution may take: about a minute.
+const MOST_WORK: f64 = 1e11;
 
 /// A density on its way.
 pub struct Density<'a> {

@@ -106,6 +106,7 @@ fn refinement_does_not_stop_too_early() {
         (COUETTE, 11.6, 1e-3),
         (COUETTE, 0.1, 1e-2),
         (ASKEW, 8.0, 1e-2),
+        ([[-0.1, 0.0, 0.0], [1.0, -0.1, 0.0], [0.0, 0.0, 0.2]], 20.0, 0.02),
         ([[1.0, 0.0, 0.0], [0.0, -0.7, 0.0], [0.0, 0.0, -0.3]], 5.0, 1e-2),
     ] {
         let frame = Frame::of(&Motion::new(gradient, aspect_ratio, c_i));
