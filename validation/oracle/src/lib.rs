@@ -3,6 +3,7 @@
 //! Nothing here uses the simulator: the crate does not depend on it, so that the compiler holds it to that.
 
 pub mod closed_form;
+pub mod diffusion;
 pub mod exponential;
 pub mod isotropic;
 pub mod jeffery;

@@ -8,6 +8,7 @@ mod closed_forms;
 mod coefficients;
 mod contact_rule;
 mod decay;
+mod diffusing_rods;
 mod encounters;
 pub mod equations;
 mod experiments;
@@ -86,6 +87,7 @@ pub fn all() -> Vec<Case> {
         published::cases(),
         coefficients::cases(),
         folgar_tucker::cases(),
+        diffusing_rods::cases(),
     ]
     .into_iter()
     .flatten()

@@ -3,29 +3,31 @@
 use super::{Failure, print};
 use crate::files::output;
 use crate::files::text::Shown;
+use crate::oracle::diffusion::NoAnswer;
 use crate::oracle::reference::big::{Bits, decimal, digits, double};
 use crate::oracle::reference::constants::{self, Constant};
+use crate::oracle::reference::diffusing::Diffusing;
 use crate::oracle::reference::motion::{LARGEST_STRAIN, Motion, Unit};
 use crate::oracle::reference::rod::Direction;
-use crate::oracle::reference::table::{self, NoValue, Start};
+use crate::oracle::reference::table::{self, NoValue, Start, Table};
 use crate::oracle::reference::unequal::LONGEST_TURNS;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `reference`.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// r_e, from 1e-100 to 1e100
-    #[arg(long, value_name = "R", value_parser = aspect_ratio, allow_negative_numbers = true)]
+    /// r_e, from 1e-100 to 1e100, or `inf` for Λ = 1
+    #[arg(long, value_name = "R|inf", value_parser = aspect_ratio, allow_negative_numbers = true)]
     aspect_ratio: f64,
     /// Where rods point at t = 0: `isotropic`, or one rod's angles φ,θ in degrees
     #[arg(long, value_name = "isotropic|PHI_DEG,THETA_DEG", default_value = "isotropic", value_parser = start, allow_hyphen_values = true)]
     start: From,
     /// COUNT evenly spaced times with both ends; COUNT = 1: the time FROM
-    #[arg(long, value_name = "FROM:TO:COUNT", value_parser = times, allow_hyphen_values = true, required_unless_present_any = ["constants", "explain"])]
+    #[arg(long, value_name = "FROM:TO:COUNT", value_parser = times, allow_hyphen_values = true, required_unless_present_any = ["constants", "explain", "steady"])]
     times: Option<Times>,
-    /// What times count: periods of (mean) r_e, strain, or seconds
-    #[arg(long, value_name = "period|strain|s", default_value = "period", value_parser = unit)]
-    unit: Unit,
+    /// What times count: periods of (mean) r_e, strain, or seconds; period unless given, and strain for r_e = inf
+    #[arg(long, value_name = "period|strain|s", value_parser = unit)]
+    unit: Option<Unit>,
     /// G of plane Couette flow, u_2 = G x_1
     #[arg(long, value_name = "G", default_value = "1", value_parser = rate, allow_negative_numbers = true)]
     shear_rate_per_s: f64,
@@ -35,11 +37,17 @@ pub(super) struct Args {
     /// Standard deviation of a Gaussian r_e in percent of the mean, for isotropic starts
     #[arg(long, value_name = "PERCENT", default_value = "0", value_parser = deviation, allow_negative_numbers = true)]
     aspect_ratio_sd_percent: f64,
+    /// C_I: rods of an isotropic start with rotary diffusion D_r = C_I γ̇, γ̇ = (2D:D)^½; `inf` for all directions alike
+    #[arg(long, value_name = "C", value_parser = c_i, allow_negative_numbers = true)]
+    c_i: Option<f64>,
+    /// The steady distribution of rods with diffusion, in a last row at the time inf
+    #[arg(long, requires = "c_i")]
+    steady: bool,
     /// The fourth moments a_ijkl of an isotropic start in place of its other means
     #[arg(long)]
     fourth: bool,
     /// What does not change with time: T, ⟨φ⟩, C_b, means over phases, plateaus
-    #[arg(long, conflicts_with_all = ["times", "fourth", "aspect_ratio_sd_percent", "explain"])]
+    #[arg(long, conflicts_with_all = ["times", "fourth", "c_i", "aspect_ratio_sd_percent", "explain"])]
     constants: bool,
     /// Say what each column is, its unit and its equation, and compute nothing
     #[arg(long)]
@@ -77,10 +85,10 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
         let constants = constants::constants(&motion, direction).ok_or_else(|| no_couette("--constants"))?;
         constants_csv(&constants)
     } else {
-        let start = start_of(args, direction)?;
-        match (args.explain, &args.times) {
-            (false, Some(Times(times))) => values(args, &motion, start, times)?,
-            _ => explained(start),
+        let asked = asked(args, &motion, direction)?;
+        match args.explain {
+            true => explained(&asked),
+            false => csv(&values(args, &motion, &asked).map_err(|why| refused(args, why))?),
         }
     };
     match &args.out {
@@ -89,18 +97,47 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
     }
 }
 
-fn start_of(args: &Args, direction: Option<Direction>) -> Result<Start, Failure> {
+/// What values are of.
+enum Asked {
+    /// Free rods.
+    Free(Start),
+    /// Rods with diffusion.
+    Diffusing(Diffusing),
+}
+
+fn asked(args: &Args, motion: &Motion, direction: Option<Direction>) -> Result<Asked, Failure> {
     let sd = args.aspect_ratio_sd_percent;
+    // Without diffusion they are free rods, whose means have all digits; those have no steady distribution.
+    if let Some(c_i) = args.c_i.filter(|c_i| *c_i > 0.0 || args.steady) {
+        if direction.is_some() {
+            return Err(isotropic_only(&format!("--c-i {c_i}")));
+        }
+        if sd != 0.0 {
+            return Err(Failure::Input(format!(
+                "--aspect-ratio-sd-percent {sd}: rods with --c-i have one aspect ratio; 0 is allowed with it"
+            )));
+        }
+        let (fourth, steady) = (args.fourth, args.steady);
+        return Ok(Asked::Diffusing(Diffusing { motion: *motion, c_i, fourth, steady }));
+    }
     match direction {
-        None => Ok(Start::Isotropic { aspect_ratio_sd_percent: sd, fourth: args.fourth }),
+        None => Ok(Asked::Free(Start::Isotropic { aspect_ratio_sd_percent: sd, fourth: args.fourth })),
         Some(_) if sd != 0.0 => Err(isotropic_only(&format!("--aspect-ratio-sd-percent {sd}"))),
         Some(_) if args.fourth => Err(isotropic_only("--fourth")),
-        Some(direction) => Ok(Start::Rod(direction)),
+        Some(direction) => Ok(Asked::Free(Start::Rod(direction))),
     }
 }
 
-fn values(args: &Args, motion: &Motion, start: Start, times: &[f64]) -> Result<String, Failure> {
-    let table = table::table(motion, start, times, args.unit).map_err(|why| refused(args, why))?;
+fn values(args: &Args, motion: &Motion, asked: &Asked) -> Result<Table, NoValue> {
+    let unit = args.unit.unwrap_or(if args.aspect_ratio.is_finite() { Unit::Period } else { Unit::Strain });
+    let times = args.times.as_ref().map_or(&[][..], |times| &times.0);
+    match asked {
+        Asked::Free(start) => table::table(motion, *start, times, unit),
+        Asked::Diffusing(rods) => rods.table(times, unit),
+    }
+}
+
+fn csv(table: &Table) -> String {
     let names = table.columns.iter().map(|column| column.name.clone());
     let header: Vec<_> = names.collect();
     let mut text = header.join(",") + "\n";
@@ -109,7 +146,7 @@ fn values(args: &Args, motion: &Motion, start: Start, times: &[f64]) -> Result<S
             row.iter().map(|value| value.map_or(String::new(), |x| format!("{x:?}"))).collect();
         text += &(fields.join(",") + "\n");
     }
-    Ok(text)
+    text
 }
 
 fn constants_csv(constants: &[Constant]) -> String {
@@ -121,13 +158,24 @@ fn constants_csv(constants: &[Constant]) -> String {
     text
 }
 
-fn explained(start: Start) -> String {
-    let columns = table::columns(start);
+fn explained(asked: &Asked) -> String {
+    let (columns, digits) = match asked {
+        Asked::Free(start) => (
+            table::columns(*start),
+            "Values are correctly rounded doubles at exactly the time in the unit of --unit; the other times are rounded. With \
+             --aspect-ratio-sd-percent they are rounded to eleven decimals.",
+        ),
+        Asked::Diffusing(rods) => (
+            rods.columns(),
+            "The density is that of rods with rotary diffusion C_I γ̇ (Folgar & Tucker 1984), without a closure. Values are rounded \
+             to the decimals that two solutions of different degree, order and step agree on, eleven at most. The last row of \
+             --steady has the time inf.",
+        ),
+    };
     let line =
         |column: &table::Column| format!("{:<10} {:<4} {}\n", column.name, column.unit, column.equation);
-    columns.iter().map(line).collect::<String>()
-        + "Numbers before words are equations of Lee & Springer (1982). Values are correctly rounded doubles at exactly the time in \
-           the unit of --unit; the other times are rounded. With --aspect-ratio-sd-percent they are rounded to eleven decimals.\n"
+    let text: String = columns.iter().map(line).collect();
+    format!("{text}Numbers before words are equations of Lee & Springer (1982). {digits}\n")
 }
 
 fn write(path: &Path, text: String, force: bool) -> Result<(), Failure> {
@@ -139,7 +187,8 @@ fn write(path: &Path, text: String, force: bool) -> Result<(), Failure> {
 
 fn no_couette(flag: &str) -> Failure {
     Failure::Input(format!(
-        "{flag}: this flow has none; plane Couette flow, --shear-rate-per-s G or a gradient with L21 alone, is allowed"
+        "{flag}: this flow has none; plane Couette flow (--shear-rate-per-s G or a gradient with L21 alone) and a finite \
+         --aspect-ratio are allowed"
     ))
 }
 
@@ -149,8 +198,18 @@ fn isotropic_only(flag: &str) -> Failure {
 
 fn refused(args: &Args, why: NoValue) -> Failure {
     Failure::Input(match why {
+        NoValue::Past => "--times: rods with diffusion have no past; times from 0 are allowed with --c-i".into(),
+        NoValue::Diffusion(NoAnswer::Unsettled) => format!(
+            "--steady: nothing settles with --c-i {} in this flow; a C_I above 0 and a flow that strains are allowed",
+            args.c_i.unwrap_or_default()
+        ),
+        NoValue::Diffusion(why) => format!(
+            "--c-i {}: {why}; a larger C_I or shorter --times are allowed (from C_I = 1e-4 on, a strain of 100; at 1e-5, of 10), and \
+             --steady at any C_I from 1e-5 on",
+            args.c_i.unwrap_or_default()
+        ),
         NoValue::Unit => "--unit: this flow has no such unit of time; s is allowed, strain where it stretches, and period in plane \
-                          Couette flow (--shear-rate-per-s G)"
+                          Couette flow (--shear-rate-per-s G) of rods with a finite r_e"
             .into(),
         NoValue::Strain => format!(
             "--times: |L|t is above {LARGEST_STRAIN}, the most that is allowed in a flow other than plane Couette flow"
@@ -170,7 +229,18 @@ fn number(text: &str, allowed: impl Fn(f64) -> bool, words: &str) -> Result<f64,
 }
 
 fn aspect_ratio(text: &str) -> Result<f64, String> {
-    number(text, |r| (1e-100..=1e100).contains(&r), "a number from 1e-100 to 1e100")
+    match text {
+        "inf" => Ok(f64::INFINITY),
+        _ => number(text, |r| (1e-100..=1e100).contains(&r), "a number from 1e-100 to 1e100, or inf,"),
+    }
+}
+
+fn c_i(text: &str) -> Result<f64, String> {
+    let words = "0 (free rods), a number from 1e-9 to 1e9, or inf (all directions alike)";
+    match text {
+        "inf" => Ok(f64::INFINITY),
+        _ => number(text, |c| c == 0.0 || (1e-9..=1e9).contains(&c), words),
+    }
 }
 
 fn rate(text: &str) -> Result<f64, String> {

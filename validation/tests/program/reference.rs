@@ -77,6 +77,50 @@ fn unequal_rods_reduce_to_equal_ones_and_discs_mirror_rods() {
 }
 
 #[test]
+fn diffusing_rods_have_the_columns_of_isotropic_starts_and_known_limits() {
+    let numbers = |arguments: &str| -> Vec<Vec<f64>> {
+        let rows = rows(arguments);
+        let number = |field: &String| if field.is_empty() { -1.0 } else { field.parse().unwrap() };
+        rows[1..].iter().map(|row| row.iter().map(number).collect()).collect()
+    };
+    let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let arguments = "--aspect-ratio inf --c-i 0.0311 --times 0:1:2 --steady";
+    let header = "time_s,t_over_T,strain,x1,x2,x3,a11,a22,a33,a12,a13,a23";
+    assert_eq!(rows(arguments)[0].join(","), header);
+    let found = numbers(arguments);
+    // No period; strain unless asked otherwise; the steady row comes last.
+    assert_eq!(
+        (found[0][..3].to_vec(), found[1][..3].to_vec()),
+        (vec![0.0, -1.0, 0.0], vec![1.0, -1.0, 1.0])
+    );
+    assert_eq!(rows(arguments)[3][..3], ["inf", "", "inf"].map(String::from));
+    let third = 1.0 / 3.0;
+    assert!(apart(&found[0][3..], &[0.5, 0.5, 0.5, third, third, third, 0.0, 0.0, 0.0]) < 1e-11);
+    // Below what closures give for this C_I, 0.649 to 0.774 (shared data `tensor-models`).
+    assert!((found[2][7] - 0.62713).abs() < 1e-5, "{:?}", found[2]);
+    // Λ of 1e100 is 1 in doubles; a rod of r_e = 5 is another.
+    let steady = |arguments: &str| numbers(arguments).pop().unwrap()[3..].to_vec();
+    assert_eq!(steady("--aspect-ratio 1e100 --c-i 0.0311 --steady"), found[2][3..]);
+    assert!(apart(&steady("--aspect-ratio 5 --c-i 0.0311 --steady"), &found[2][3..]) > 1e-3);
+    // The flow the other way round changes the sign of a12 alone.
+    let mut mirrored = steady("--aspect-ratio inf --c-i 0.0311 --steady --shear-rate-per-s -2");
+    mirrored[6] = -mirrored[6];
+    assert_eq!(mirrored, found[2][3..]);
+    // C_I = 0 is a free rod to the last digit, a small one nearly, and a large one is isotropic.
+    assert_eq!(rows("--aspect-ratio 3 --c-i 0 --times 0:0.2:3"), rows("--aspect-ratio 3 --times 0:0.2:3"));
+    let free = numbers("--aspect-ratio 3 --times 0.1:0.1:1");
+    let small = numbers("--aspect-ratio 3 --c-i 1e-9 --times 0.1:0.1:1");
+    assert!(apart(&free[0], &small[0]) < 1e-7 && free != small);
+    for c_i in ["1e9", "inf"] {
+        assert!(apart(&steady(&format!("--aspect-ratio 3 --c-i {c_i} --steady")), &found[0][3..]) < 1e-9);
+    }
+    // The trace of a_ijkl is a_ij.
+    let fourth = numbers("--aspect-ratio 5 --c-i 0.05 --times 0.1:0.1:1 --fourth").remove(0);
+    let second = numbers("--aspect-ratio 5 --c-i 0.05 --times 0.1:0.1:1").remove(0);
+    assert!((fourth[3] + fourth[6] + fourth[8] - second[6]).abs() < 3e-11);
+}
+
+#[test]
 fn constants_and_explanations_name_their_equations() {
     let constants = rows("--aspect-ratio 1 --constants --shear-rate-per-s 2");
     let value = |name: &str| constants.iter().find(|row| row[0] == name).unwrap()[1].clone();
@@ -121,6 +165,24 @@ fn bad_input_is_refused_with_key_value_and_what_is_allowed() {
             ["sd-percent 2", "eight", "allowed"],
         ),
         ("--aspect-ratio 3 --times 0:1e308:2 --shear-rate-per-s 1e-9", ["--times", "finite", "allowed"]),
+        ("--aspect-ratio inf --times 0:1:2 --unit period", ["--unit", "finite r_e", "allowed"]),
+        ("--aspect-ratio inf --constants", ["--constants", "finite", "allowed"]),
+        ("--aspect-ratio -inf --times 0:1:2", ["'-inf'", "--aspect-ratio", "inf"]),
+        ("--aspect-ratio 3 --times 0:1:2 --c-i -0.1", ["'-0.1'", "--c-i", "1e-9"]),
+        ("--aspect-ratio 3 --times 0:1:2 --c-i nan", ["'nan'", "--c-i", "allowed"]),
+        ("--aspect-ratio 3 --times -1:1:2 --c-i 0.1", ["--times", "from 0", "allowed"]),
+        ("--aspect-ratio 3 --times 0:1:2 --c-i 0.1 --start 0,9", ["--c-i 0.1", "isotropic", "allowed"]),
+        (
+            "--aspect-ratio 3 --times 0:1:2 --c-i 0.1 --aspect-ratio-sd-percent 2",
+            ["percent 2", "--c-i", "allowed"],
+        ),
+        ("--aspect-ratio 3 --c-i 0.1", ["--times", "required", "FROM:TO:COUNT"]),
+        ("--aspect-ratio 3 --steady", ["--c-i", "required", "--steady"]),
+        ("--aspect-ratio 3 --steady --c-i 0", ["--steady", "--c-i 0", "allowed"]),
+        (
+            "--aspect-ratio 3 --steady --c-i 0.1 --gradient-per-s 0,1,0,-1,0,0,0,0,0",
+            ["--steady", "--c-i 0.1", "strains"],
+        ),
     ] {
         let (code, out, error) = reference(arguments);
         assert_eq!((code, out.as_str()), (Some(2), ""), "{arguments}");

@@ -4,6 +4,7 @@
 
 pub mod big;
 pub mod constants;
+pub mod diffusing;
 pub mod isotropic;
 pub mod motion;
 pub mod rod;

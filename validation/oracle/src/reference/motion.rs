@@ -26,16 +26,16 @@ pub enum Unit {
 pub struct Motion {
     /// L, row i and column j: ∂u_i/∂x_j, 1/s; finite.
     pub gradient_per_s: [[f64; 3]; 3],
-    /// r_e > 0, finite.
+    /// r_e > 0; ∞ for Λ = 1.
     pub aspect_ratio: f64,
 }
 
 impl Motion {
-    /// G (1/s), where the flow is u₂ = G x₁ and nothing else.
+    /// G (1/s), where the flow is u₂ = G x₁ and nothing else, and rods turn in it: r_e is finite.
     pub fn couette(&self) -> Option<f64> {
         let rate = self.gradient_per_s[1][0];
         let others = self.gradient_per_s.as_flattened().iter().filter(|x| **x != 0.0).count();
-        (rate != 0.0 && others == 1).then_some(rate)
+        (rate != 0.0 && others == 1 && self.aspect_ratio.is_finite()).then_some(rate)
     }
 
     /// T·|G| = 2π(r_e + 1/r_e): the strain of a period in plane Couette flow (eq. 15).
@@ -80,7 +80,7 @@ impl Motion {
 
     /// The bits of a calculation that loses some by the size of r_e and of the time, and keeps `kept`.
     pub fn bits(&self, time: f64, unit: Unit, kept: usize) -> Bits {
-        let shape = 8 * magnitude(self.aspect_ratio);
+        let shape = if self.aspect_ratio.is_finite() { 8 * magnitude(self.aspect_ratio) } else { 0 };
         if self.couette().is_some() {
             // The time's whole turns, and T in seconds.
             return Bits(kept + shape + magnitude(time) + magnitude(self.gradient_per_s[1][0]));
@@ -119,8 +119,13 @@ impl Motion {
     /// The traceless part of A t.
     fn generator(&self, seconds: &Big, bits: Bits) -> Matrix {
         let l = |i: usize, j: usize| bits.of(self.gradient_per_s[i][j]);
-        let square = bits.of(self.aspect_ratio).sqr();
-        let shape = (&square - bits.of(1.0)) / (&square + bits.of(1.0));
+        let shape = match self.aspect_ratio.is_finite() {
+            true => {
+                let square = bits.of(self.aspect_ratio).sqr();
+                (&square - bits.of(1.0)) / (&square + bits.of(1.0))
+            }
+            false => bits.of(1.0),
+        };
         let (half, third) = (bits.of(0.5), bits.of(1.0) / bits.of(3.0));
         let trace = (l(0, 0) + l(1, 1) + l(2, 2)) * &shape * third;
         matrix(|i, j| {

@@ -5,6 +5,7 @@ use super::isotropic::{Covariance, PAIRS, QUADRUPLES};
 use super::motion::{LARGEST_STRAIN, Motion, Unit};
 use super::rod::{self, Direction};
 use super::unequal;
+use crate::diffusion::NoAnswer;
 use rayon::prelude::*;
 
 /// What is at t = 0.
@@ -53,16 +54,26 @@ pub enum NoValue {
     /// A deviation for which eight of them reach r_e = 1, a flow other than plane Couette flow, more than a thousand
     /// periods, or a_4, with rods of unequal r_e.
     Unequal,
+    /// A time before the start, with diffusion.
+    Past,
+    /// Rods with diffusion whose distribution is not found.
+    Diffusion(NoAnswer),
+}
+
+/// The columns of a time.
+pub(super) fn of_time() -> Vec<Column> {
+    let column = |name: &str, unit, equation| Column { name: name.into(), unit, equation };
+    vec![
+        column("time_s", "s", "time"),
+        column("t_over_T", "1", "15: T = 2π(r_e + 1/r_e)/|G|, of the mean r_e"),
+        column("strain", "1", "(2D:D)^½ t; in plane Couette flow |G| t"),
+    ]
 }
 
 /// The columns for a start.
 pub fn columns(start: Start) -> Vec<Column> {
     let column = |name: &str, unit, equation| Column { name: name.into(), unit, equation };
-    let mut columns = vec![
-        column("time_s", "s", "time"),
-        column("t_over_T", "1", "15: T = 2π(r_e + 1/r_e)/|G|, of the mean r_e"),
-        column("strain", "1", "(2D:D)^½ t; in plane Couette flow |G| t"),
-    ];
+    let mut columns = of_time();
     match start {
         Start::Rod(_) => {
             let motion = "A.4, A.5 (A.1): p = q/|q|, q = exp((W + ΛD)t) p(0)";
@@ -97,19 +108,9 @@ pub fn table(motion: &Motion, start: Start, times: &[f64], unit: Unit) -> Result
 
 fn row(motion: &Motion, start: Start, time: f64, unit: Unit) -> Result<Vec<Option<f64>>, NoValue> {
     let exact = Bits(64).of(time);
-    if motion.convert(&exact, unit, Unit::Second, Bits(64)).is_none() {
-        return Err(NoValue::Unit);
-    }
+    let mut row = times(motion, &exact, unit)?;
     if motion.couette().is_none() && motion.strain(time, unit) > LARGEST_STRAIN {
         return Err(NoValue::Strain);
-    }
-    let mut row = Vec::new();
-    for other in [Unit::Second, Unit::Period, Unit::Strain] {
-        let value = motion.convert(&exact, unit, other, Bits(128)).map(|value| number(&value));
-        if value.is_some_and(|value| !value.is_finite()) {
-            return Err(NoValue::Time);
-        }
-        row.push(value);
     }
     match start {
         Start::Rod(direction) => {
@@ -134,6 +135,18 @@ fn row(motion: &Motion, start: Start, time: f64, unit: Unit) -> Result<Vec<Optio
         }
     }
     Ok(row)
+}
+
+/// A time in seconds, periods and strain.
+pub(super) fn times(motion: &Motion, time: &Big, unit: Unit) -> Result<Vec<Option<f64>>, NoValue> {
+    if motion.convert(time, unit, Unit::Second, Bits(64)).is_none() {
+        return Err(NoValue::Unit);
+    }
+    let each = [Unit::Second, Unit::Period, Unit::Strain].map(|other| {
+        let value = motion.convert(time, unit, other, Bits(128)).map(|value| number(&value));
+        if value.is_some_and(|value| !value.is_finite()) { Err(NoValue::Time) } else { Ok(value) }
+    });
+    each.into_iter().collect()
 }
 
 /// The nearest double, without a negative zero.

@@ -1,6 +1,7 @@
 //! What a problem must be before anything is compared with it: kind, metric and columns belong together, and every number is
 //! in its range. The JSON Schema (`schemas/problem.schema.json`) says the same.
 
+use super::folgar_tucker::FOURTH;
 use super::table::ReadError;
 use super::{Ensemble, Kind, LoadedProblem, Metric, Problem};
 use std::path::Path;
@@ -19,7 +20,7 @@ fn form(kind: Kind) -> (Metric, [f64; 2], Columns) {
         Kind::Tensor => (
             Metric::Absolute,
             [LEAST, 0.1],
-            &[&["a11", "a22", "a33", "a12", "a13", "a23"], &["x1", "x2", "x3"]],
+            &[&["a11", "a22", "a33", "a12", "a13", "a23"], &["x1", "x2", "x3"], &FOURTH],
         ),
         Kind::Contact => (Metric::Relative, [LEAST, 0.1], &[&RATES, &ANGLES]),
         Kind::Ensemble => {
@@ -47,6 +48,8 @@ const MOST: f64 = 1e9;
 const MOST_STRAIN: f64 = 1e9;
 /// r_e of scenes.
 const RATIOS: [f64; 2] = [1e-100, 1e100];
+/// C_I.
+const DIFFUSION: [f64; 2] = [1e-9, 1e9];
 /// σ of r_e in percent: six of them leave r_e positive.
 const MOST_SPREAD: f64 = 15.0;
 /// The most characters of a text.
@@ -74,6 +77,7 @@ pub(super) fn check(folder: &Path, problem: &Problem) -> Result<(), Refused> {
     problem.gradient_per_s.iter().flatten().try_for_each(|x| between("gradient_per_s", *x, [-MOST, MOST]))?;
     between("aspect_ratio", problem.aspect_ratio, RATIOS)?;
     spread(problem)?;
+    diffusion(problem)?;
     times(problem)?;
     ensemble(problem)
 }
@@ -157,6 +161,14 @@ fn spread(problem: &Problem) -> Result<(), Refused> {
     match unequal {
         true => between("aspect_ratio_sd_percent", found, [0.0, MOST_SPREAD]),
         false => between("aspect_ratio_sd_percent", found, [0.0, 0.0]),
+    }
+}
+
+fn diffusion(problem: &Problem) -> Result<(), Refused> {
+    match (problem.c_i, problem.kind) {
+        (None, _) => Ok(()),
+        (Some(c_i), Kind::Tensor) => between("c_i", c_i, DIFFUSION),
+        (Some(c_i), _) => Err(("c_i", format!("{c_i:e}: it belongs to the kind \"tensor\" alone"))),
     }
 }
 
@@ -260,6 +272,14 @@ fn certified(problem: &Problem, values: &[f64]) -> Result<(), String> {
             true => Ok(()),
             false => Err("a11 + a22 + a33 must be 1".to_owned()),
         },
+        Kind::Tensor if values.len() == FOURTH.len() => {
+            let trace: f64 = [0, 10, 14].map(|at| values[at]).iter().sum();
+            let mixed: f64 = [3, 5, 12].map(|at| values[at]).iter().sum();
+            match (trace + 2.0 * mixed - 1.0).abs() < 1e-9 {
+                true => Ok(()),
+                false => Err("a1111 + a2222 + a3333 + 2 (a1122 + a1133 + a2233) must be 1".to_owned()),
+            }
+        }
         Kind::Tensor | Kind::Ensemble => within(values),
     }
 }

@@ -85,6 +85,7 @@ fn built(
             aspect_ratio: ASPECT_RATIO,
             aspect_ratio_sd_percent: 0.0,
             times_s: Vec::new(),
+            c_i: None,
             time_step_s: step_s,
             columns: columns.collect(),
             metric: Metric::Relative,

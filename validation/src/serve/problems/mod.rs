@@ -10,6 +10,7 @@ pub(crate) mod contact;
 mod ensemble;
 mod export;
 mod flows;
+pub mod folgar_tucker;
 mod origin;
 mod page;
 mod read;
@@ -36,7 +37,7 @@ pub const FORMAT: u32 = 1;
 pub enum Kind {
     /// The directions of given rods at given times. Keys of a row: `time_s`, `rod`.
     Rods,
-    /// Means over infinitely many free rods that are isotropic at t = 0. Key of a row: `time_s`.
+    /// Means over infinitely many rods, free or with rotary diffusion, that are isotropic at t = 0. Key of a row: `time_s`.
     Tensor,
     /// What the contact rule makes of given pairs of rods. Key of a row: `snapshot`.
     Contact,
@@ -100,6 +101,9 @@ pub struct Problem {
     /// Standard deviation of r_e, percent of the mean.
     #[serde(default)]
     pub aspect_ratio_sd_percent: f64,
+    /// C_I of rods with the rotary diffusivity C_I (2D:D)^½; none of free rods.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub c_i: Option<f64>,
     /// When answers are wanted, s, ascending; empty where no time passes.
     pub times_s: Vec<f64>,
     /// Δt of A.14, s, where the answer has angles after a step.
@@ -241,7 +245,13 @@ impl Built {
 /// Every problem.
 pub fn all() -> &'static [ProblemDef] {
     static ALL: LazyLock<Vec<ProblemDef>> = LazyLock::new(|| {
-        let kinds = [rods::problems(), tensor::problems(), contact::problems(), ensemble::problems()];
+        let kinds = [
+            rods::problems(),
+            tensor::problems(),
+            folgar_tucker::problems(),
+            contact::problems(),
+            ensemble::problems(),
+        ];
         kinds.into_iter().flatten().collect()
     });
     &ALL

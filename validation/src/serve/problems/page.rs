@@ -49,7 +49,11 @@ fn asked(built: &Built) -> String {
             times()
         ),
         Kind::Tensor => format!(
-            "Means over infinitely many free rods, isotropic at t = 0, of aspect ratio r_e = {}{}, at t = {} s.",
+            "Means over infinitely many {}, isotropic at t = 0, of aspect ratio r_e = {}{}, at t = {} s.",
+            match problem.c_i {
+                None => "free rods".to_owned(),
+                Some(c_i) => format!("rods with rotary diffusion, C_I = {c_i}"),
+            },
             problem.aspect_ratio,
             match problem.aspect_ratio_sd_percent {
                 0.0 => String::new(),

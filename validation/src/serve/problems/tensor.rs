@@ -114,6 +114,7 @@ fn problem(def: &ProblemDef, motion: &Motion, times_s: Vec<f64>, tolerance: f64)
         aspect_ratio: motion.aspect_ratio,
         aspect_ratio_sd_percent: 0.0,
         times_s,
+        c_i: None,
         time_step_s: None,
         columns: Vec::new(),
         metric: Metric::Absolute,

@@ -1,0 +1,125 @@
+//! The density in time: exp(At) of the sparse operator by Taylor's series, with as many harmonics as it needs at each time.
+
+use super::NoAnswer;
+use super::frame::Frame;
+use super::harmonics::Basis;
+use super::means::{Functionals, MEANS};
+use super::operator::Operator;
+
+/// How exact a solution is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accuracy {
+    /// The norm of what lies beyond the harmonics that are kept.
+    pub tail: f64,
+    /// The norm of the operator times a step.
+    pub step: f64,
+}
+
+/// Multiplications that a solution may take: about a minute.
+const MOST_WORK: f64 = 1e11;
+
+/// A density on its way.
+pub struct Density<'a> {
+    frame: &'a Frame,
+    accuracy: Accuracy,
+    operator: Operator,
+    unknowns: Vec<f64>,
+    norm: f64,
+    work: f64,
+}
+
+impl<'a> Density<'a> {
+    /// Starts from these unknowns of `basis`.
+    pub fn new(frame: &'a Frame, accuracy: Accuracy, basis: Basis, unknowns: Vec<f64>) -> Self {
+        let operator = Operator::new(&frame.motion, basis);
+        let norm = frame.motion.norm(basis.degree);
+        Self { frame, accuracy, operator, unknowns, norm, work: 0.0 }
+    }
+
+    /// Goes on for `time_s`.
+    ///
+    /// # Errors
+    ///
+    /// Where that takes too much work.
+    pub fn advance(&mut self, time_s: f64) -> Result<(), NoAnswer> {
+        let mut left = time_s;
+        while left > 0.0 {
+            let steps = (left * self.norm / self.accuracy.step).ceil().max(1.0);
+            let after = self.after(left / steps)?;
+            let basis = self.operator.basis;
+            let (degree, order) = needed(&basis, &after, self.accuracy.tail);
+            // A step is taken where what it leaves has an empty margin, and else again with more harmonics.
+            let full = (degree + 2 > basis.degree, order + 1 > basis.order && basis.order < basis.degree);
+            if full.0 || full.1 {
+                let more = |now: usize, full: bool| if full { now + now / 4 + 4 } else { now };
+                self.keep(more(basis.degree, full.0), more(basis.order, full.1));
+                continue;
+            }
+            self.unknowns = after;
+            left = if steps == 1.0 { 0.0 } else { left - left / steps };
+            // Fewer where many are empty.
+            if 2 * basis.degree > 3 * degree + 32 || 2 * basis.order > 3 * order + 16 {
+                self.keep(degree + degree / 4 + 8, order + order / 4 + 4);
+            }
+        }
+        Ok(())
+    }
+
+    /// Σ (hA)^k/k! of the unknowns, up to terms that no sum of doubles sees.
+    fn after(&mut self, time_s: f64) -> Result<Vec<f64>, NoAnswer> {
+        let mut sum = self.unknowns.clone();
+        let mut term = sum.clone();
+        let mut next = vec![0.0; sum.len()];
+        let least = 1e-17 * norm(&term);
+        let mut before = f64::INFINITY;
+        for k in 1..1000 {
+            self.operator.apply(time_s / f64::from(k), &term, &mut next);
+            std::mem::swap(&mut term, &mut next);
+            sum.iter_mut().zip(&term).for_each(|(sum, term)| *sum += term);
+            let size = norm(&term);
+            self.work += self.operator.len() as f64;
+            if before + size <= least {
+                break;
+            }
+            before = size;
+        }
+        if self.work > MOST_WORK { Err(NoAnswer::TooMuchWork) } else { Ok(sum) }
+    }
+
+    /// Goes over to this many harmonics.
+    fn keep(&mut self, degree: usize, order: usize) {
+        let basis = self.operator.basis;
+        let degree = (degree + 1) & !1;
+        let kept = Basis { degree, order: order.min(degree), ..basis };
+        self.unknowns = kept.take(&basis, &self.unknowns);
+        self.operator = Operator::new(&self.frame.motion, kept);
+        self.norm = self.frame.motion.norm(degree);
+    }
+
+    /// Means at this time.
+    pub fn means(&self) -> [f64; MEANS] {
+        Functionals::new(self.frame, &self.operator.basis).of(&self.unknowns)
+    }
+}
+
+/// The degree and the order beyond which the norm is below `tail`.
+fn needed(basis: &Basis, unknowns: &[f64], tail: f64) -> (usize, usize) {
+    let (mut degrees, mut orders) = (vec![0.0; basis.degree + 1], vec![0.0; basis.order + 1]);
+    for ((l, m, _), value) in basis.unknowns().zip(unknowns) {
+        degrees[l] += value * value;
+        orders[m] += value * value;
+    }
+    let last = |squares: &[f64]| {
+        let mut beyond = 0.0;
+        let full = |(_, square): &(usize, &f64)| {
+            beyond += **square;
+            beyond > tail * tail
+        };
+        squares.iter().enumerate().rev().find(full).map_or(0, |(at, _)| at)
+    };
+    (last(&degrees), last(&orders))
+}
+
+fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|x| x * x).sum::<f64>().sqrt()
+}

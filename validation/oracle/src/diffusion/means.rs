@@ -1,0 +1,85 @@
+//! Means over a density, as sums over its harmonics.
+
+use super::frame::Frame;
+use super::harmonics::{Basis, modulus, sphere_rule};
+use crate::reference::isotropic::{PAIRS, QUADRUPLES};
+
+/// How many means there are: ⟨|p_i|⟩, ⟨p_i p_j⟩, ⟨p_i p_j p_k p_l⟩.
+pub const MEANS: usize = 3 + 6 + 15;
+
+/// Means over infinitely many rods.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Means {
+    /// ⟨|p₁|⟩, ⟨|p₂|⟩, ⟨|p₃|⟩.
+    pub projections: [f64; 3],
+    /// a_ij = ⟨p_i p_j⟩ in the order of [`PAIRS`].
+    pub second: [f64; 6],
+    /// a_ijkl = ⟨p_i p_j p_k p_l⟩ in the order of [`QUADRUPLES`].
+    pub fourth: [f64; 15],
+    /// An upper estimate of the error of each of them, absolute.
+    pub error: f64,
+}
+
+impl Means {
+    pub(super) fn new(means: &[f64; MEANS], error: f64) -> Self {
+        Self {
+            projections: std::array::from_fn(|i| means[i]),
+            second: std::array::from_fn(|i| means[3 + i]),
+            fourth: std::array::from_fn(|i| means[9 + i]),
+            error,
+        }
+    }
+
+    /// One of the means, rounded to as many decimals as the error leaves, eleven at most.
+    pub fn certain(&self, mean: f64) -> f64 {
+        let decimals = -(2.0 * self.error.max(1e-12)).log10();
+        format!("{mean:.*}", decimals.clamp(0.0, 11.0) as usize).parse::<f64>().unwrap_or(mean) + 0.0
+    }
+}
+
+/// The means as linear functions of the unknowns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Functionals {
+    /// ⟨|p_i|⟩ has a share of every degree.
+    pub moduli: [Vec<f64>; 3],
+    /// Moments, of the unknowns up to degree 4.
+    pub moments: Vec<Vec<f64>>,
+}
+
+impl Functionals {
+    /// The means in the laboratory's axes of a density in the frame's.
+    pub fn new(frame: &Frame, basis: &Basis) -> Self {
+        let shares = modulus(basis.degree);
+        let moduli = [0, 1, 2].map(|axis| {
+            let mut direction = [0.0; 3];
+            direction[axis] = 1.0;
+            let mut row = basis.values(frame.inward(direction));
+            for (value, (l, _, _)) in row.iter_mut().zip(basis.unknowns()) {
+                *value *= shares[l / 2];
+            }
+            row
+        });
+        let low = Basis { degree: 4.min(basis.degree), ..*basis };
+        let mut moments = vec![vec![0.0; low.len()]; MEANS - 3];
+        // Products of four components times harmonics of degree 4: degree 8.
+        for (direction, weight) in sphere_rule(5) {
+            let (values, p) = (low.values(direction), frame.outward(direction));
+            let second = PAIRS.map(|(i, j)| p[i] * p[j]);
+            let fourth = QUADRUPLES.map(|q| q.iter().map(|i| p[i - 1]).product::<f64>());
+            for (row, product) in moments.iter_mut().zip(second.iter().chain(&fourth)) {
+                row.iter_mut().zip(&values).for_each(|(sum, value)| *sum += weight * product * value);
+            }
+        }
+        Self { moduli, moments }
+    }
+
+    /// The means of these unknowns.
+    pub fn of(&self, unknowns: &[f64]) -> [f64; MEANS] {
+        let mut means = [0.0; MEANS];
+        let rows = self.moduli.iter().chain(&self.moments);
+        for (mean, row) in means.iter_mut().zip(rows) {
+            *mean = row.iter().zip(unknowns).map(|(a, b)| a * b).sum();
+        }
+        means
+    }
+}

@@ -1,0 +1,125 @@
+//! Rods with rotary diffusion: the exact distribution of directions in any steady flow, infinitely many rods.
+//!
+//! ∂ψ/∂t = −∇·(ṗψ) + D_r∇²ψ on the sphere with Jeffery's ṗ = ω × p + Λ(D·p − p p·Dp) and D_r = C_I γ̇, γ̇ = (2D:D)^½ (Folgar &
+//! Tucker 1984; no closure). Galerkin's method on even spherical harmonics: the operator reaches |l' − l| ≤ 2 and |m' − m| ≤ 2,
+//! and a smooth ψ needs harmonics up to about the inverse width of its peak. A steady ψ comes by elimination from the highest
+//! degree down ([`steady`]), ψ in time by Taylor's series of exp(At) ([`at`]). Each answer is worked out at least twice, with
+//! other harmonics and other steps; what separates the two is its stated error.
+
+mod frame;
+mod harmonics;
+mod march;
+mod means;
+mod operator;
+pub mod orbits;
+mod settled;
+mod start;
+
+#[cfg(test)]
+mod tests;
+
+pub use means::Means;
+pub use operator::Motion;
+pub use start::Start;
+
+use frame::Frame;
+use march::{Accuracy, Density};
+use means::MEANS;
+use std::fmt;
+
+/// Why there is no answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoAnswer {
+    /// It would take more work than is allowed: a weaker diffusion or a longer time than this method reaches.
+    TooMuchWork,
+    /// No steady distribution: without diffusion, or without a flow, directions do not settle independently of their start.
+    Unsettled,
+    /// The start has more detail than 128 degrees of harmonics hold, or no positive mean.
+    RoughStart,
+}
+
+impl fmt::Display for NoAnswer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::TooMuchWork => "the distribution has too fine a detail for too long a time",
+            Self::Unsettled => "there is no steady distribution without diffusion",
+            Self::RoughStart => "the start is not smooth enough, or has no positive mean",
+        })
+    }
+}
+
+impl std::error::Error for NoAnswer {}
+
+/// The error that an answer is refined to, absolute.
+const WANTED: f64 = 4e-12;
+
+/// Means over the rods at `times_s` ≥ 0, which ascend.
+///
+/// Their stated error is the largest difference between two solutions, the second with a tail of harmonics ten times smaller
+/// and with shorter steps: an upper estimate of the second's error, and the second is returned. Where it is above 4·10⁻¹² a
+/// third one follows, unless that takes too much work.
+///
+/// # Errors
+///
+/// Where two solutions take too much work, or the start is not smooth.
+pub fn at(motion: &Motion, start: Start, times_s: &[f64]) -> Result<Vec<Means>, NoAnswer> {
+    let frame = Frame::of(motion);
+    let of = |tail, step| solution(&frame, start, times_s, Accuracy { tail, step });
+    let (first, second) = rayon::join(|| of(1e-9, 8.0), || of(1e-10, 6.0));
+    let (first, second) = (first?, second?);
+    let all = |means: &[[f64; MEANS]], error| means.iter().map(|means| Means::new(means, error)).collect();
+    let differ = |a: &[[f64; MEANS]], b: &[[f64; MEANS]]| {
+        a.iter().zip(b).map(|(a, b)| apart(a, b)).fold(0.0, f64::max)
+    };
+    let error = differ(&first, &second);
+    if error <= WANTED {
+        return Ok(all(&second, error));
+    }
+    match of(1e-12, 4.0) {
+        Ok(third) => Ok(all(&third, differ(&second, &third))),
+        Err(NoAnswer::TooMuchWork) => Ok(all(&second, error)),
+        Err(other) => Err(other),
+    }
+}
+
+/// One solution.
+fn solution(
+    frame: &Frame,
+    start: Start,
+    times_s: &[f64],
+    accuracy: Accuracy,
+) -> Result<Vec<[f64; MEANS]>, NoAnswer> {
+    let (basis, unknowns) = start.unknowns(frame)?;
+    let mut density = Density::new(frame, accuracy, basis, unknowns);
+    let mut now = 0.0;
+    let mut all = Vec::new();
+    for time in times_s {
+        // d|ψ − ψ_steady|²/dt ≤ −2(6D_r − 3/2 of the largest rate of ΛD)|ψ − ψ_steady|²: what is left is below e⁻⁴⁵.
+        if frame.motion.least_decay() * time > 45.0 {
+            all.push(settled::refined(frame)?.0);
+            continue;
+        }
+        density.advance(time - now)?;
+        now = *time;
+        all.push(density.means());
+    }
+    Ok(all)
+}
+
+/// Means over the rods once their distribution no longer changes.
+///
+/// Degrees and orders are raised until neither changes a mean by more than 4·10⁻¹²; the larger of the last changes is the
+/// stated error.
+///
+/// # Errors
+///
+/// Where nothing settles, or it takes too much work.
+pub fn steady(motion: &Motion) -> Result<Means, NoAnswer> {
+    let (means, error) = settled::refined(&Frame::of(motion))?;
+    Ok(Means::new(&means, error))
+}
+
+/// The largest difference of two lists of means.
+fn apart(a: &[f64; MEANS], b: &[f64; MEANS]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}

@@ -1,0 +1,67 @@
+//! The orbits of rods with weak rotary diffusion in plane Couette flow, once they are steady.
+//!
+//! A free rod keeps its orbit constant C (eq. 13). Diffusion that is weak against the turning, D_r → 0, moves C slowly: on
+//! average over an orbit, uniform in its phase τ, its drift is D_r B and its diffusivity D_r A with B = ⟨∇²C⟩ and A = ⟨|∇C|²⟩
+//! on the sphere. Nothing flows where it is steady: (A p)′ = B p (Leal & Hinch 1971, J. Fluid Mech. 46, 685). With
+//! p ∝ (C cos τ, r C sin τ, 1), u = C² and s = r² + r⁻² the averages are polynomials in u, and
+//!   p(C) ∝ C A^(−3/4) exp(−(3/32)(s − 2) ∫_u^∞ dv/A(v)),
+//!   A = ½(1 + r⁻²) + (7/4 + s/8) u + ½(1 + r²) u².
+//! For r → ∞: 4C/(4C² + 1)^(3/2).
+
+use crate::quadrature::integrate;
+
+/// The density of C before it is normalised.
+fn weight(c: f64, aspect_ratio: f64) -> f64 {
+    if aspect_ratio.is_infinite() {
+        return 4.0 * c / (4.0 * c * c + 1.0).powf(1.5);
+    }
+    let (u, square) = (c * c, aspect_ratio * aspect_ratio);
+    let s = square + square.recip();
+    let [a0, a1, a2] = [0.5 * (1.0 + square.recip()), 1.75 + s / 8.0, 0.5 * (1.0 + square)];
+    let a = a0 + u * (a1 + u * a2);
+    // a₁² − 4a₀a₂.
+    let discriminant = (s - 2.0) * (s - 34.0) / 64.0;
+    let (root, slope) = (discriminant.abs().sqrt(), 2.0 * a2 * u + a1);
+    let rest = match root / slope {
+        small if small < 1e-8 => 2.0 / slope,
+        ratio if discriminant > 0.0 => 2.0 / root * ratio.atanh(),
+        ratio => 2.0 / root * ratio.atan(),
+    };
+    c * a.powf(-0.75) * (-3.0 / 32.0 * (s - 2.0) * rest).exp()
+}
+
+/// ∫ f(C) p(C) dC over all orbits, for an aspect ratio r_e > 0 (∞: 4C/(4C² + 1)^(3/2)) and f bounded.
+pub fn mean_over_orbits(aspect_ratio: f64, f: impl Fn(f64) -> f64) -> f64 {
+    ratio(aspect_ratio, 1.0, f)
+}
+
+/// The share of rods with C/(1 + C) ≤ `c_b`.
+pub fn cdf(c_b: f64, aspect_ratio: f64) -> f64 {
+    ratio(aspect_ratio, c_b, |_| 1.0)
+}
+
+/// ∫ f p dC up to C/(1 + C) = `up_to`, over ∫ p dC.
+fn ratio(aspect_ratio: f64, up_to: f64, f: impl Fn(f64) -> f64) -> f64 {
+    // In C_b; p falls as C⁻², which dC/dC_b = (1 − C_b)⁻² makes finite at C_b = 1.
+    let integral = |breaks: &[f64], f: &dyn Fn(f64) -> f64| {
+        let weighted = |c_b: f64| {
+            let c = c_b / (1.0 - c_b).max(f64::EPSILON);
+            f(c) * weight(c, aspect_ratio) * (1.0 + c).powi(2)
+        };
+        integrate(weighted, breaks, 1e-16).value
+    };
+    // p and means over orbits turn near C = 1 and C = 1/r.
+    let knee = 1.0 / (1.0 + aspect_ratio);
+    let mut whole = vec![0.0, 0.1 * knee, knee, 0.5, 0.9, 1.0];
+    whole.sort_by(f64::total_cmp);
+    let mut part: Vec<f64> = whole.iter().copied().filter(|at| *at < up_to).collect();
+    part.push(up_to);
+    integral(&part, &f) / integral(&whole, &|_| 1.0)
+}
+
+/// a₁₁, a₂₂ and a₃₃ of rods in orbit C, uniform in phase.
+pub fn second_moments_of_orbit(c: f64, aspect_ratio: f64) -> [f64; 3] {
+    let (long, wide) = ((1.0 + c * c).sqrt(), (aspect_ratio * c).hypot(1.0));
+    let sum = long + wide;
+    [c * c / (long * sum), (aspect_ratio * c).powi(2) / (wide * sum), 1.0 / (long * wide)]
+}

@@ -1,0 +1,140 @@
+//! Densities in time: diffusion alone, free rods, the equation of the moments, rods one by one.
+
+use super::*;
+use crate::reference::big::{Bits, double};
+use crate::reference::isotropic::Covariance;
+use crate::reference::motion::{Motion as Free, Unit};
+use nalgebra::Vector3;
+use rand::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64;
+
+/// At rest the part of degree l decays as e^{−l(l+1)D_r t}: a_ij − δ/3 as e^{−6D_r t}, and of a₄ one part as e^{−20D_r t}.
+#[test]
+fn diffusion_alone_has_the_known_decay() {
+    let start = |p: [f64; 3]| 1.0 + (p[0] * p[1]).powi(2) + 0.5 * p[2] * (p[2] + p[0]);
+    let still = Motion { strain: Matrix3::zeros(), spin: Vector3::zeros(), diffusivity: 0.3 };
+    let error = |motion: &Motion| {
+        let [first, last] = at(motion, Start::Density(&start), &[0.0, 0.8]).unwrap()[..] else { panic!() };
+        let (two, four) = ((-6.0 * 0.3 * 0.8f64).exp(), (-20.0 * 0.3 * 0.8f64).exp());
+        let expected = std::array::from_fn(|k| {
+            let third = if k < 3 { 1.0 / 3.0 } else { 0.0 };
+            third + (first.second[k] - third) * two
+        });
+        // a₁₂₁₂: the degrees 0 and 2 from the second moments.
+        let low = |a: [f64; 6]| 1.0 / 15.0 + (a[0] + a[1] - 2.0 / 3.0) / 7.0;
+        let fourth = low(expected) + (first.fourth[3] - low(first.second)) * four;
+        off(&last.second, &expected).max((last.fourth[3] - fourth).abs())
+    };
+    assert!(error(&still) < 1e-13, "{:e}", error(&still));
+    assert!(error(&Motion { diffusivity: 0.31, ..still }) > 1e-4);
+    assert!(
+        error(&Motion { strain: Matrix3::new(0.01, 0.0, 0.0, 0.0, -0.01, 0.0, 0.0, 0.0, 0.0), ..still })
+            > 1e-4
+    );
+}
+
+/// C_I → 0: free rods, whose means are elliptic integrals.
+#[test]
+fn without_diffusion_rods_are_free() {
+    for (gradient, aspect_ratio) in
+        [(COUETTE, 3.0), (ASKEW, 0.4), ([[0.0, -0.7, 0.0], [0.2, 0.0, 0.0], [0.0; 3]], 8.0)]
+    {
+        let times = [0.4, 1.8];
+        let free = Free { gradient_per_s: gradient, aspect_ratio };
+        let error = |motion: &Motion| {
+            let found = at(motion, Start::Isotropic, &times).unwrap();
+            let each = times.iter().zip(&found).map(|(time, found)| {
+                let exact = Covariance::at(&free, &Bits(64).of(*time), Unit::Second).unwrap();
+                off(&found.second, &exact.second().each_ref().map(double))
+                    .max(off(&found.fourth, &exact.fourth().each_ref().map(double)))
+                    .max(off(&found.projections, &exact.projections().each_ref().map(double)))
+            });
+            each.fold(0.0, f64::max)
+        };
+        let motion = Motion::new(gradient, aspect_ratio, 0.0);
+        let right = error(&motion);
+        assert!(right < 1e-12, "{right:e}");
+        assert!(error(&Motion { diffusivity: 1e-9, ..motion }) > 1e-11);
+        for (name, wrong) in mistakes(motion) {
+            assert!(name.contains("D_r") || error(&wrong) > 1e-3, "{name}");
+        }
+    }
+}
+
+/// Simpson's rule over the rate of the second moments gives their change.
+#[test]
+fn second_moments_change_by_their_own_equation() {
+    let start = |p: [f64; 3]| (1.5 * p[0] * p[2] + p[1] * p[1]).exp();
+    for (gradient, aspect_ratio, c_i) in [(COUETTE, f64::INFINITY, 0.01), (ASKEW, 3.0, 0.1)] {
+        let motion = Motion::new(gradient, aspect_ratio, c_i);
+        const STEPS: usize = 64;
+        let times: [f64; STEPS + 1] = std::array::from_fn(|k| 1.0 + k as f64 / STEPS as f64);
+        let error = |motion: &Motion, by: &Motion| {
+            let all = at(motion, Start::Density(&start), &times).unwrap();
+            let weight = |k: usize| match k {
+                0 | STEPS => 1.0,
+                k => 2.0 + 2.0 * (k % 2) as f64,
+            };
+            let rates =
+                all.iter().enumerate().map(|(k, means)| rate(by, means) * (weight(k) / (3.0 * STEPS as f64)));
+            (matrix(all[STEPS].second) - matrix(all[0].second) - rates.sum::<Matrix3<f64>>()).amax()
+        };
+        // h⁴/180 of a fourth derivative of about 10: 3·10⁻⁹.
+        assert!(error(&motion, &motion) < 1e-8, "{:e}", error(&motion, &motion));
+        for (name, wrong) in mistakes(motion) {
+            assert!(error(&wrong, &motion) > 1e-4, "{name}");
+        }
+    }
+}
+
+/// Rods one by one: half a turn by diffusion, Jeffery's motion, half a turn by diffusion, for four standard errors.
+#[test]
+fn rods_one_by_one_agree() {
+    const RODS: usize = 20_000;
+    const STEPS: usize = 40;
+    let motion = Motion::new(ASKEW, 3.0, 0.1);
+    let time = 2.0;
+    let step = time / STEPS as f64;
+    let map = ((motion.strain + motion.spin.cross_matrix()) * step).exp();
+    let mut random = Pcg64::seed_from_u64(33);
+    let mut normal = |_: usize| -> f64 { StandardNormal.sample(&mut random) };
+    let mut rods: Vec<Vector3<f64>> =
+        (0..RODS).map(|_| Vector3::from_fn(|i, _| normal(i)).normalize()).collect();
+    // A step of variance 2D_r h across p in each direction; the error of its length is of the order of D_r²h.
+    let size = (motion.diffusivity * step).sqrt();
+    for _ in 0..STEPS {
+        for p in &mut rods {
+            for half in [true, false] {
+                let kick = Vector3::from_fn(|i, _| normal(i)) * size;
+                *p = (*p + kick - *p * p.dot(&kick)).normalize();
+                if half {
+                    *p = (map * *p).normalize();
+                }
+            }
+        }
+    }
+    let worst = |motion: &Motion| {
+        let found = matrix(at(motion, Start::Isotropic, &[time]).unwrap()[0].second);
+        let of = |i: usize, j: usize| {
+            let values = rods.iter().map(|p| p[i] * p[j]);
+            let mean = values.clone().sum::<f64>() / RODS as f64;
+            let variance = values.map(|x| (x - mean).powi(2)).sum::<f64>() / RODS as f64;
+            (mean - found[(i, j)]).abs() / (variance / RODS as f64).sqrt()
+        };
+        PAIRS.map(|(i, j)| of(i, j)).into_iter().fold(0.0, f64::max)
+    };
+    assert!(worst(&motion) < 4.0, "{}", worst(&motion));
+    for (name, wrong) in mistakes(motion) {
+        assert!(worst(&wrong) > 4.0, "{name}: {}", worst(&wrong));
+    }
+}
+
+#[test]
+fn late_times_are_the_steady_ones() {
+    let motion = Motion::new(COUETTE, 4.0, 0.3);
+    let last = at(&motion, Start::Isotropic, &[10.0, 40.0]).unwrap();
+    let settled = steady(&motion).unwrap();
+    assert!(off(&last[0].fourth, &settled.fourth) < 1e-7 && off(&last[0].fourth, &settled.fourth) > 1e-10);
+    assert!(off(&last[1].fourth, &settled.fourth) < 1e-13);
+}

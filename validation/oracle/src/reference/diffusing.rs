@@ -1,0 +1,72 @@
+//! Means over rods with rotary diffusion D_r = C_I γ̇ that were isotropic at t = 0, as a table.
+
+use super::big::Bits;
+use super::isotropic::{PAIRS, QUADRUPLES};
+use super::motion::{Motion, Unit};
+use super::table::{Column, NoValue, Table, of_time, times};
+use crate::diffusion::{self, Means, Start};
+
+/// Rods with rotary diffusion, and what is asked about them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Diffusing {
+    /// The flow and r_e, which may be ∞.
+    pub motion: Motion,
+    /// C_I = D_r/γ̇, γ̇ = (2D:D)^½; above 0, and ∞ for rods of all directions alike.
+    pub c_i: f64,
+    /// Whether a_4 is asked for in place of ⟨|p_i|⟩ and a_ij.
+    pub fourth: bool,
+    /// Whether the steady distribution is asked for, after the times.
+    pub steady: bool,
+}
+
+impl Diffusing {
+    /// The columns.
+    pub fn columns(&self) -> Vec<Column> {
+        let column = |name: String, equation| Column { name, unit: "1", equation };
+        let mut columns = of_time();
+        if self.fourth {
+            let name = |q: [usize; 4]| format!("a{}{}{}{}", q[0], q[1], q[2], q[3]);
+            columns.extend(QUADRUPLES.map(|q| column(name(q), "mean of p_i p_j p_k p_l over the density")));
+        } else {
+            columns.extend([1, 2, 3].map(|i| column(format!("x{i}"), "4: mean of |p_i| over the density")));
+            let name = |(i, j)| format!("a{}{}", i + 1, j + 1);
+            columns.extend(PAIRS.map(|pair| column(name(pair), "mean of p_i p_j over the density")));
+        }
+        columns
+    }
+
+    /// Values at `at` ≥ 0, which ascend, doubles in `unit`; below them the steady ones, at the time ∞.
+    ///
+    /// Each is rounded to as many decimals as its stated error leaves, eleven at most.
+    pub fn table(&self, at: &[f64], unit: Unit) -> Result<Table, NoValue> {
+        if at.iter().any(|time| *time < 0.0) {
+            return Err(NoValue::Past);
+        }
+        let rods = diffusion::Motion::new(self.motion.gradient_per_s, self.motion.aspect_ratio, self.c_i);
+        let mut rows = Vec::new();
+        let heads = at.iter().map(|time| times(&self.motion, &Bits(64).of(*time), unit));
+        let heads = heads.collect::<Result<Vec<_>, _>>()?;
+        let seconds: Vec<f64> = heads.iter().filter_map(|head| head[0]).collect();
+        let all = diffusion::at(&rods, Start::Isotropic, &seconds).map_err(NoValue::Diffusion)?;
+        for (mut head, means) in heads.into_iter().zip(&all) {
+            head.extend(self.values(means));
+            rows.push(head);
+        }
+        if self.steady {
+            let means = diffusion::steady(&rods).map_err(NoValue::Diffusion)?;
+            let period = self.motion.couette().map(|_| f64::INFINITY);
+            let mut row = vec![Some(f64::INFINITY), period, Some(f64::INFINITY)];
+            row.extend(self.values(&means));
+            rows.push(row);
+        }
+        Ok(Table { columns: self.columns(), rows })
+    }
+
+    fn values(&self, means: &Means) -> Vec<Option<f64>> {
+        let certain = |x: &f64| Some(means.certain(*x));
+        match self.fourth {
+            true => means.fourth.iter().map(certain).collect(),
+            false => means.projections.iter().chain(&means.second).map(certain).collect(),
+        }
+    }
+}
