@@ -130,8 +130,9 @@ fn main() -> Result<(), String> {
                 continue;
             }
         };
-        let p = law.sf(fit.best.chi_square);
-        (answered, chi_square) = (answered + 1, chi_square + fit.best.chi_square);
+        let found = fit.best.chi_square_of_points();
+        let p = law.sf(found);
+        (answered, chi_square) = (answered + 1, chi_square + found);
         (low_p, high_p) = (low_p + u32::from(p < 0.05), high_p + u32::from(p > 0.95));
         for (axis, range) in over.iter().enumerate() {
             let ends = [0.68, 0.95].map(|confidence| fit.interval(axis, confidence));
@@ -141,7 +142,7 @@ fn main() -> Result<(), String> {
             let [inner, outer] = ends;
             println!(
                 "{k},{:.2},{p:.3},{},{},{:.3},{:.3},{:.3},{},{:.4},{:.4},{:.4},{:.4},{:.4}",
-                fit.best.chi_square,
+                found,
                 fit.emulator.replicas(),
                 fit.runs,
                 fit.best.share(REPLICAS),

@@ -195,7 +195,7 @@ fn repeats(way: Way, effort: &Effort) -> Arc<Result<Vec<Fitted>, String>> {
                     (found.low, found.high)
                 }),
                 estimate: fit.values(&fit.best.place)[0],
-                chi_square: fit.best.chi_square,
+                chi_square: fit.best.chi_square_of_points(),
             })
         };
         let count = match simulated {

@@ -2,8 +2,9 @@
 
 use super::data::Datum;
 use super::emulator::Emulator;
-use super::likelihood::{Causes, ChiSquare, causes};
+use super::likelihood::{CAUSES, Causes, ChiSquare, REPLICAS, causes};
 use super::minimise::minimise;
+use super::scarce::{added, scatter_of_covariance};
 use nalgebra::DMatrix;
 
 /// The place that fits best in a box, by generalised least squares: V is that at the best place, found by turns.
@@ -17,8 +18,11 @@ pub struct Best {
     pub surface: ChiSquare,
     /// V by its causes.
     pub causes: Causes,
-    /// The covariance of the parameters by cause, on the box's scale: A V_cause Aᵀ, A = (JᵀV⁻¹J)⁻¹JᵀV⁻¹, the replicas' noise subtracted from the first.
+    /// The covariance of the parameters by cause, on the box's scale: A V_cause Aᵀ, A = (JᵀV⁻¹J)⁻¹JᵀV⁻¹, the replicas' noise subtracted from
+    /// the first. The last is what the finite number of replicas behind V adds.
     pub spread: Vec<DMatrix<f64>>,
+    /// By how much, relatively, χ² is larger on average because V is known from a finite number of replicas.
+    pub excess: f64,
     /// A: parameters × points, by how much an estimate follows each point.
     pub influence: DMatrix<f64>,
 }
@@ -38,10 +42,26 @@ impl Best {
         Self { place, chi_square, surface, ..self.clone() }
     }
 
-    /// The largest share that a cause has in the variance of a parameter.
+    /// The largest share that a cause has in the variance of a parameter. Replicas have theirs in the mean curve and in V.
     pub fn share(&self, cause: usize) -> f64 {
-        let (own, all) = (self.spread[cause].diagonal(), self.covariance().diagonal());
-        own.component_div(&all).max()
+        let all = self.covariance().diagonal();
+        let share = |cause: usize| self.spread[cause].diagonal().component_div(&all);
+        match cause {
+            // Half of what is added corrects a covariance that is too small.
+            REPLICAS => (share(REPLICAS) + share(CAUSES.len()) * 0.5).max(),
+            cause => share(cause).max(),
+        }
+    }
+
+    /// The share of the variance of a parameter that χ² shows by its curvature: the least of some parameters.
+    pub(super) fn shown(&self, axes: &[usize]) -> f64 {
+        let (hidden, all) = (&self.spread[CAUSES.len()], self.covariance());
+        axes.iter().map(|&axis| 1.0 - hidden[(axis, axis)] / all[(axis, axis)]).fold(1.0, f64::min)
+    }
+
+    /// χ² without what the noise of V adds to it on average.
+    pub fn chi_square_of_points(&self) -> f64 {
+        self.chi_square * (1.0 - self.excess)
     }
 }
 
@@ -71,12 +91,19 @@ pub fn best(data: &[Datum], emulator: &Emulator, rods_over_measured: &[f64]) -> 
         return None;
     }
     let slopes = emulator.slopes(&place);
-    let weighted = covariance.cholesky()?.solve(&slopes);
+    let inverse = covariance.cholesky()?;
+    let weighted = inverse.solve(&slopes);
     let told = slopes.tr_mul(&weighted);
     // Without the noise, unless nothing is left then.
     let own = (&told - surface.noise(&place)).cholesky();
     let solver = own.or_else(|| told.cholesky())?;
     let influence = solver.solve(&weighted.transpose());
-    let spread = (causes.iter()).map(|cause| &influence * cause * influence.transpose()).collect();
-    Some(Best { place, chi_square, surface, causes, spread, influence })
+    let mut spread: Vec<_> = (causes.iter()).map(|cause| &influence * cause * influence.transpose()).collect();
+    let projector = inverse.inverse() - &weighted * &influence;
+    let scatter =
+        scatter_of_covariance(data, emulator, &emulator.covariance(&place), rods_over_measured, &projector);
+    let linear = spread.iter().fold(DMatrix::zeros(parameters, parameters), |sum, one| sum + one);
+    spread.push(added(&linear, &(&influence * &scatter * influence.transpose()))?);
+    let excess = (&projector * &scatter).trace() / (data.len() - parameters).max(1) as f64;
+    Some(Best { place, chi_square, surface, causes, spread, excess, influence })
 }

@@ -34,7 +34,8 @@ pub fn parts(fit: &Fit) -> Vec<Part> {
         let diagonal = spread.diagonal();
         (0..diagonal.len()).map(|axis| diagonal[axis].max(0.0).sqrt() * fit.scale(axis)).collect()
     };
-    let own = CAUSES.iter().zip(&fit.best.spread).map(|(source, spread)| Part { source, u: u(spread) });
+    let causes = CAUSES.iter().chain([&"covariance of few replicas"]);
+    let own = causes.zip(&fit.best.spread).map(|(source, spread)| Part { source, u: u(spread) });
     own.chain([Part { source: "all of these", u: u(&fit.best.covariance()) }]).collect()
 }
 

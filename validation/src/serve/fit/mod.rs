@@ -19,6 +19,9 @@ pub mod pictures;
 pub mod profile;
 mod range;
 pub mod report;
+mod scarce;
+#[cfg(test)]
+mod scarce_tests;
 pub mod scenes;
 pub mod search;
 pub mod terminal;

@@ -34,6 +34,8 @@ pub struct Profile {
     pub rise: Vec<f64>,
     /// What that noise would have added on average, and is subtracted.
     pub noise: Vec<f64>,
+    /// The share of the parameter's variance that χ² shows: its rise counts by so much.
+    pub shown: f64,
     /// Where all parameters are there.
     pub at: Vec<Vec<f64>>,
 }
@@ -102,9 +104,11 @@ pub fn profile(best: &Best, axis: usize) -> Profile {
             found[to] = next;
         }
     }
+    let shown = best.shown(&[axis]);
     Profile {
         place,
-        rise: found.iter().map(Rise::beside_noise).collect(),
+        shown,
+        rise: found.iter().map(|rise| shown * rise.beside_noise()).collect(),
         noise: found.iter().map(|rise| rise.noise).collect(),
         at: found.into_iter().map(|rise| rise.at).collect(),
     }
@@ -121,7 +125,7 @@ impl Profile {
             inside.last().map(|k| k + 1).filter(|k| *k < self.place.len()),
         ];
         let share = |k: usize| {
-            let (rise, noise) = (self.rise[k], self.noise[k]);
+            let (rise, noise) = (self.rise[k] / self.shown, self.noise[k]);
             // rise = own² / (own + noise).
             let own = 0.5 * (rise + (rise * (rise + 4.0 * noise)).sqrt());
             noise / (own + noise)
@@ -149,7 +153,7 @@ pub fn interval(best: &Best, axis: usize, profile: &Profile, level: f64) -> Inte
         let mut rises = [profile.rise[inside], profile.rise[outside]];
         for _ in 0..HALVINGS {
             let middle = 0.5 * (inner + outer);
-            let found = Rise::along(best, axis, middle, &starts).beside_noise();
+            let found = profile.shown * Rise::along(best, axis, middle, &starts).beside_noise();
             match found <= level {
                 true => (inner, rises[0]) = (middle, found),
                 false => (outer, rises[1]) = (middle, found),
@@ -175,10 +179,11 @@ pub fn interval(best: &Best, axis: usize, profile: &Profile, level: f64) -> Inte
 pub fn contour(best: &Best, axes: [usize; 2], level: f64) -> Vec<[f64; 2]> {
     const DIRECTIONS: usize = 144;
     let [a, b] = axes;
+    let shown = best.shown(&axes);
     let rise = |point: [f64; 2]| {
         let mut fixed = vec![None; best.place.len()];
         (fixed[a], fixed[b]) = (Some(point[0]), Some(point[1]));
-        Rise::to(best, &fixed, &[&best.place]).beside_noise()
+        shown * Rise::to(best, &fixed, &[&best.place]).beside_noise()
     };
     let spread = best.covariance();
     let (along_a, shared) = (spread[(a, a)].sqrt(), spread[(a, b)] / spread[(a, a)].sqrt());

@@ -81,7 +81,7 @@ const ALIKE: f64 = 0.95;
 /// The report of a fit of some points.
 pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
     let freedom = data.len() - fit.ranges.len();
-    let p_value = ChiSquared::new(freedom as f64).map_or(f64::NAN, |law| law.sf(fit.best.chi_square));
+    let p_value = ChiSquared::new(freedom as f64).map_or(f64::NAN, |law| law.sf(fit.best.chi_square_of_points()));
     let values = fit.values(&fit.best.place);
     let covariance = fit.covariance();
     let correlation = correlation_of(&fit.best.covariance());
@@ -109,7 +109,7 @@ pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
     Report {
         warnings: warnings(fit, &parameters, &correlation, p_value),
         parameters,
-        chi2: fit.best.chi_square,
+        chi2: fit.best.chi_square_of_points(),
         degrees_of_freedom: freedom,
         p_value,
         order: fit.ranges.iter().map(Range::label).collect(),

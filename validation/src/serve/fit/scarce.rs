@@ -1,0 +1,49 @@
+//! What a finite number of replicas behind the covariance of the points does to a fit.
+//!
+//! V is V₀ + K∘Ĉ, where Ĉ is the covariance of a replica as n replicas have it. Its noise δV makes the generalised least squares
+//! weigh the points wrongly. To first order in 1/n the estimates scatter more by A E[δV P δV] Aᵀ, the covariance (JᵀV⁻¹J)⁻¹ is too
+//! small by as much, and χ² is too large by tr(P E[δV P δV]), with A the influence of the points and P = V⁻¹ − V⁻¹JA. For Gaussian
+//! replicas E[δC Q δC] = (C Qᵀ C + C tr(QC))/(n − 1). Where V is all from replicas, the corrections below are exact in the number of
+//! replicas but for terms ∝ 1/n (J. Hartlap, P. Simon & P. Schneider, Astron. Astrophys. 464 (2007) 399, for the inverse;
+//! S. Dodelson & M. D. Schneider, Phys. Rev. D 88 (2013) 063537, for the estimates).
+
+use super::data::Datum;
+use super::emulator::Emulator;
+use nalgebra::DMatrix;
+
+/// E[δV P δV], points × points. `rods_over_measured` as for `causes`.
+pub(super) fn scatter_of_covariance(
+    data: &[Datum],
+    emulator: &Emulator,
+    of_replica: &DMatrix<f64>,
+    rods_over_measured: &[f64],
+    projector: &DMatrix<f64>,
+) -> DMatrix<f64> {
+    let n = emulator.replicas() as f64;
+    // K∘C is a sum of parts of C: all of it by 1/n, and the points of each set by that set's weight.
+    let sets = (0..rods_over_measured.len()).map(|set| (rods_over_measured[set], Some(set)));
+    let parts: Vec<(f64, Option<usize>)> = [(1.0 / n, None)].into_iter().chain(sets).collect();
+    let within = |set: Option<usize>, k: usize| set.is_none_or(|set| data[k].set == set);
+    let mut sum = DMatrix::zeros(data.len(), data.len());
+    for (weight, rows) in parts.iter().filter(|(weight, _)| *weight > 0.0) {
+        for (other, columns) in parts.iter().filter(|(other, _)| *other > 0.0) {
+            let between = projector
+                .map_with_location(|i, j, p| if within(*rows, i) && within(*columns, j) { p } else { 0.0 });
+            let trace = (&between * of_replica).trace();
+            let scatter = (of_replica * between.transpose() * of_replica + of_replica * trace) / (n - 1.0);
+            sum += scatter.map_with_location(|i, j, s| match within(*rows, i) && within(*columns, j) {
+                true => weight * other * s,
+                false => 0.0,
+            });
+        }
+    }
+    sum
+}
+
+/// What is to be added to a covariance of the parameters that is too small by `scatter`, and too small by it again as the
+/// estimates scatter: C(C − X)⁻¹C(C − X)⁻¹C − C. `None` where the replicas are too few for that.
+pub(super) fn added(covariance: &DMatrix<f64>, scatter: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let rest = (covariance - scatter).cholesky()?;
+    let ratio = rest.solve(covariance);
+    Some(covariance * &ratio * &ratio - covariance)
+}
