@@ -151,7 +151,7 @@ fn cut_short(plan: &Plan) -> Option<String> {
     // A product that was rounded is no end between outputs.
     (last < end * (1.0 - 1e-12)).then(|| {
         format!(
-            "time.{key} = {end} ends between two outputs: the last one is at {last}; outputs of which {end} is a multiple reach it"
+            "time.{key} = {end} ends between two outputs: the last one is at {last}; choose an output interval that divides {end}"
         )
     })
 }
