@@ -11,12 +11,12 @@ mod facts;
 mod finished;
 mod fit;
 mod grade;
+mod handed_out;
 mod interrupt;
 mod memory;
 mod pictures;
 mod plot;
 mod problems;
-mod words;
 mod record;
 mod reference;
 mod rods;
@@ -29,9 +29,11 @@ mod tables;
 mod terminal;
 mod threads;
 mod validate;
+mod words;
 
+use crate::files::output::{self, ResultFolder};
 use crate::files::text::readable;
-use crate::files::{cluster, output, text};
+use crate::files::{cluster, text};
 use crate::present::plot::Figure;
 use clap::{Parser, Subcommand};
 use serde_json::{Value, json};
@@ -40,7 +42,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use terminal::{log, print, progress};
-use threads::{MAX_THREADS, on_threads};
+use threads::{Threads, on_threads};
 
 /// Rigid slender rods in a sheared viscous liquid, after Lee & Springer (1982).
 #[derive(Parser)]
@@ -82,9 +84,14 @@ enum Command {
     /// Show what changed between two reports: verdicts, errors, speed
     Compare(compare::Args),
     /// Print BibTeX for this build
+    #[command(after_help = "Example:\n  shearbed cite >> paper.bib")]
     Cite,
     /// Exact values without a simulation: one free rod, or means over isotropic rods, as CSV
     Reference(reference::Args),
+    /// Print a script that completes commands and flags in a shell
+    Completions(handed_out::Completions),
+    /// Write a manual page for each command
+    Man(handed_out::Man),
 }
 
 /// Why a command did not end well.
@@ -109,7 +116,7 @@ impl Failure {
 pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
-        Err(error) => return told(&error),
+        Err(error) => return print_usage(&error),
     };
     let joined = match cluster::Joined::new() {
         Ok(joined) => joined,
@@ -122,6 +129,7 @@ pub fn main() -> ExitCode {
     match joined.caught(|| command(cli.command)) {
         Ok(Ok(())) => joined.end(),
         Ok(Err(failure)) => {
+            terminal::clear();
             let (message, code) = failure.message_and_code();
             joined.fail(&message, code)
         }
@@ -136,7 +144,7 @@ pub fn main_of(program: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
     let cli = match Cli::try_parse_from(with_name(arguments)) {
         Ok(cli) => cli,
         Err(error) => {
-            told(&error);
+            print_usage(&error);
             return error.exit_code() as u8;
         }
     };
@@ -144,6 +152,7 @@ pub fn main_of(program: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
     match command(cli.command).map_err(Failure::message_and_code) {
         Ok(()) => 0,
         Err((message, code)) => {
+            terminal::clear();
             cluster::failed(&message, code);
             code
         }
@@ -173,8 +182,8 @@ pub fn fits(plan: &shearbed::Plan, threads: Option<u64>, source: &str) -> Result
     memory::check(plan, threads, false, source).map_err(|failure| failure.message_and_code().0)
 }
 
-/// Says what is wrong with the arguments, or how to use them.
-fn told(error: &clap::Error) -> ExitCode {
+/// Prints what is wrong with the arguments, or the help; returns the exit code.
+fn print_usage(error: &clap::Error) -> ExitCode {
     let (message, code) = (error.to_string(), error.exit_code());
     let written = match error.use_stderr() {
         true => io::stderr().write_all(readable(&text::shortened(&message)).as_bytes()),
@@ -195,9 +204,7 @@ impl Command {
 fn command(command: Command) -> Result<(), Failure> {
     threads::check()?;
     if !command.is_shared() {
-        let words = words::words();
-        let name = words.get(1).map(|word| word.to_string_lossy().into_owned());
-        agree(&name.unwrap_or_default(), json!({}))?;
+        agree(&words::command(), json!({}))?;
         if !cluster::is_root() {
             return Ok(());
         }
@@ -218,17 +225,38 @@ fn command(command: Command) -> Result<(), Failure> {
         Command::Compare(args) => compare::compare(&args),
         Command::Cite => cite::cite(),
         Command::Reference(args) => reference::reference(&args),
+        Command::Completions(args) => handed_out::completions(&args),
+        Command::Man(args) => handed_out::man(&args),
     }
 }
 
-/// Whether the root can write files into `dir`, so many bytes of them and a little more: known before a long run.
-fn probe(dir: &Path, bytes: u64) -> Result<(), Failure> {
-    /// Pictures, records and what folders need.
+/// Options of every command that writes a folder of results.
+#[derive(clap::Args)]
+struct Writing {
+    /// Overwrite what this command did not write in the folder, or wrote from other input
+    #[arg(long)]
+    force: bool,
+    /// Print nothing but errors and warnings
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// The folder for a command's results. The root checks it before the work: so many `bytes` and a little more can be written,
+/// and nothing is in the way of files of these names.
+fn result_folder<N: AsRef<str>>(
+    dir: &Path,
+    (command, inputs, force): (&str, Value, bool),
+    bytes: u64,
+    names: &[N],
+) -> Result<ResultFolder, Failure> {
+    /// Pictures and records.
     const MORE: u64 = 1 << 20;
-    match cluster::is_root() {
-        true => Ok(output::probe(dir, bytes + MORE)?),
-        false => Ok(()),
+    let folder = ResultFolder::new(dir, command, inputs, force);
+    if cluster::is_root() {
+        output::probe(dir, bytes + MORE)?;
+        folder.check(names)?;
     }
+    Ok(folder)
 }
 
 /// Refuses ranks with other inputs than the root's, before anything runs.
@@ -244,23 +272,14 @@ fn whole(least: u64, most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone 
     }
 }
 
-impl From<crate::files::checkpoint::Refused> for Failure {
-    fn from(refused: crate::files::checkpoint::Refused) -> Self {
+impl From<output::Refused> for Failure {
+    fn from(refused: output::Refused) -> Self {
         Self::Input(refused.0)
     }
 }
 
-impl From<output::Refused> for Failure {
-    fn from(refused: output::Refused) -> Self {
-        match refused {
-            output::Refused::Other(message) => Self::Input(message),
-            output::Refused::Output(error) => error.into(),
-        }
-    }
-}
-
-impl From<crate::files::output::OutputError> for Failure {
-    fn from(error: crate::files::output::OutputError) -> Self {
+impl From<output::OutputError> for Failure {
+    fn from(error: output::OutputError) -> Self {
         Self::Input(error.to_string())
     }
 }

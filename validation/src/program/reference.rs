@@ -15,6 +15,7 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `reference`.
 #[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed reference --aspect-ratio 11.6 --start 0,90 --times 0:1:101")]
 pub(super) struct Args {
     /// r_e, from 1e-100 to 1e100, or `inf` for Λ = 1
     #[arg(long, value_name = "R|inf", value_parser = aspect_ratio, allow_negative_numbers = true)]

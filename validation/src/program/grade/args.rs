@@ -1,11 +1,16 @@
-//! What `shearbed grade` is told.
+//! The arguments of `shearbed grade`.
 
+use crate::program::Writing;
 use crate::serve::grade::{Axes, Foreign};
 use crate::serve::problems::Kind;
 use std::path::PathBuf;
 
 /// Arguments of `grade`.
 #[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  shearbed grade ref mine --out graded
+  shearbed grade --command 'python3 mine.py' --order 4")]
 pub(crate) struct Args {
     /// The folder with the problems, as `problems export` writes it
     #[arg(value_name = "REF", required_unless_present_any = ["command", "echo"])]
@@ -65,12 +70,8 @@ pub(crate) struct Args {
     /// A missing answer is a failure
     #[arg(long)]
     pub(super) all: bool,
-    /// Overwrite what this command did not write in the folder, or wrote from other input
-    #[arg(long)]
-    pub(super) force: bool,
-    /// Print nothing but errors
-    #[arg(long)]
-    pub(super) quiet: bool,
+    #[command(flatten)]
+    pub(super) writing: Writing,
 }
 
 fn kind(text: &str) -> Result<Kind, String> {
