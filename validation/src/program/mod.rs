@@ -12,6 +12,7 @@ mod finished;
 mod fit;
 mod grade;
 mod interrupt;
+mod manual;
 mod memory;
 mod pictures;
 mod plot;
@@ -29,6 +30,8 @@ mod tables;
 mod terminal;
 mod threads;
 mod validate;
+
+pub use manual::commands;
 
 use crate::files::text::readable;
 use crate::files::{cluster, output, text};
