@@ -3,16 +3,28 @@
 use crate::cases;
 use crate::cases::equations;
 use crate::present::markup::cites_figure;
-use crate::present::report::{ReportEquation, Sections, equation_table};
+use crate::present::report::{ReportEquation, Sections};
+use crate::present::table::{ReportTable, words};
 use std::ops::RangeInclusive;
 
 /// Which cases test which equation, as a page of the book.
 pub fn markdown() -> String {
+    let equations = equations();
+    let table = ReportTable::new(
+        ["equations", "Equations"],
+        "",
+        &equations,
+        vec![
+            words("equation", |equation: &&ReportEquation| equation.number.as_str()),
+            words("says", |equation: &&ReportEquation| equation.says.as_str()),
+            words("cases", |equation: &&ReportEquation| format!("`{}`", equation.cases.join("`, `"))),
+        ],
+    );
     format!(
-        "# Equations and their cases\n\nMade from the registry of {} cases. `shearbed validate --list` prints what each case claims, and the \
-         report shows its evidence. Code is a file of `src/`, or the folder of that name, and the item in it.\n\n{}",
+        "# Equations and their cases\n\nMade from the registry of {} cases. `shearbed validate --list` prints what each case claims; the \
+         report shows its evidence and the code of each equation.\n\n{}",
         cases::all().len(),
-        equation_table(&equations()).cells_as_markdown(),
+        table.cells_as_markdown(),
     )
 }
 

@@ -20,14 +20,14 @@ fn add(page: &mut String, command: &Command, above: &str) {
     let usage = command.clone().render_usage().to_string();
     let usage = usage.split_whitespace().skip(1).collect::<Vec<_>>().join(" ");
     let about = command.get_about().map(ToString::to_string).unwrap_or_default();
-    let _ = write!(page, "\n## {}\n\n{}.\n\n```text\n{usage}\n```\n", name.trim_start_matches("shearbed "), cell(&about));
+    let _ = write!(page, "\n## {}\n\n{}.\n\n```text\n{usage}\n```\n", name.trim_start_matches("shearbed "), plain(&about));
     let shown = |arg: &&Arg| !arg.is_hide_set() && arg.get_id() != "help" && arg.get_id() != "version";
     let mut rows = command.get_arguments().filter(shown).peekable();
     if rows.peek().is_some() {
-        page.push_str("\n| option | meaning |\n| --- | --- |\n");
+        page.push('\n');
     }
     for arg in rows {
-        let _ = writeln!(page, "| `{}` | {} |", written(arg), cell(&meaning(arg)));
+        let _ = writeln!(page, "- `{}`: {}", written(arg), plain(&meaning(arg)));
     }
     if let Some(words) = command.get_after_help() {
         let _ = write!(page, "\n```text\n{}\n```\n", words.to_string().trim());
@@ -62,7 +62,7 @@ fn meaning(arg: &Arg) -> String {
     text
 }
 
-/// Text in a cell of a table: on one line, and no sign in it ends the cell or is HTML.
-fn cell(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|").replace('<', "&lt;")
+/// Text on one line, of which no sign is HTML.
+fn plain(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ").replace('<', "&lt;")
 }
