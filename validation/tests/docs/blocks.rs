@@ -57,12 +57,13 @@ fn run(page: &str, slow: bool) -> Result<usize, String> {
     Ok(number)
 }
 
-/// Whether the commands ended with 0, and all that they printed.
+/// Whether the commands ended with 0, and what they printed: standard output, then standard error.
 fn shell(commands: &str, path: &str, dir: &Path) -> (bool, String) {
     let mut shell = Command::new("bash");
-    shell.args(["-euo", "pipefail", "-c", &format!("exec 2>&1\n{commands}")]).current_dir(dir);
+    shell.args(["-euo", "pipefail", "-c", commands]).current_dir(dir);
     let ended = shell.env("PATH", path).stdin(Stdio::null()).output().unwrap();
-    (ended.status.success(), String::from_utf8_lossy(&ended.stdout).into_owned())
+    let printed = [ended.stdout, ended.stderr].concat();
+    (ended.status.success(), String::from_utf8_lossy(&printed).into_owned())
 }
 
 /// A tool that the commands start and this machine does not have.

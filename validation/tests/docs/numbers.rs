@@ -1,7 +1,8 @@
 //! Numbers of the text: `0.326<!--=fig4.x1-->` is the value of `fig4.x1` in docs/numbers.tsv, which has the command that prints it.
 //! `docs/numbers.sh` makes the table afresh.
 
-use crate::pages::{Page, readmes, root, under};
+use crate::pages::{Page, places, readmes, root, under};
+use pulldown_cmark::Event;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::process::Command;
@@ -27,10 +28,10 @@ fn table() -> BTreeMap<String, Number> {
 /// The numbers that a page marks, and what is wrong with them.
 fn marked(page: &Page, table: &BTreeMap<String, Number>) -> (BTreeSet<String>, Vec<String>) {
     let (mut found, mut wrong) = (BTreeSet::new(), Vec::new());
-    let mut parts = page.text.split("<!--=");
-    let mut before = parts.next().unwrap_or_default();
-    for part in parts {
-        let (id, after) = part.split_once("-->").unwrap_or((part, ""));
+    for (event, place) in places(&page.text) {
+        let Event::InlineHtml(html) = event else { continue };
+        let Some(id) = html.strip_prefix("<!--=").and_then(|html| html.strip_suffix("-->")) else { continue };
+        let before = &page.text[..place.start];
         let rest = table.get(id).and_then(|number| before.strip_suffix(number.value.as_str()));
         if rest.is_none_or(|rest| rest.ends_with(|sign: char| sign.is_ascii_digit() || sign == '.')) {
             let value = table.get(id).map_or("not in docs/numbers.tsv", |number| &number.value);
@@ -38,7 +39,6 @@ fn marked(page: &Page, table: &BTreeMap<String, Number>) -> (BTreeSet<String>, V
             wrong.push(format!("{}: …{said} is not {id}: {value}", page.path));
         }
         found.insert(id.to_owned());
-        before = after;
     }
     (found, wrong)
 }
@@ -63,7 +63,7 @@ fn a_number_that_is_not_the_table_s_is_seen() {
     let number = |value: &str| Number { value: value.into(), when: "test".into(), command: "true".into() };
     let table = BTreeMap::from([("a.b".to_owned(), number("0.326"))]);
     let wrong = |text: &str| marked(&Page { path: "p".into(), text: text.into() }, &table).1.len();
-    assert_eq!(wrong("x = 0.326<!--=a.b--> and 0.326<!--=a.b-->"), 0);
+    assert_eq!(wrong("x = 0.326<!--=a.b--> and 0.326<!--=a.b-->, in code `0.327<!--=a.b-->`"), 0);
     for text in ["x = 0.327<!--=a.b-->", "x = 10.326<!--=a.b-->", "x = 0.326<!--=a.c-->", "x = 0.326 <!--=a.b-->"] {
         assert_eq!(wrong(text), 1, "{text}");
     }

@@ -3,6 +3,7 @@
 use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
 use std::collections::BTreeMap;
 use std::fs;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// A Markdown file of the repository.
@@ -53,7 +54,12 @@ fn page(path: &Path) -> Page {
 
 /// The Markdown of a page.
 pub fn events(text: &str) -> impl Iterator<Item = Event<'_>> {
-    Parser::new_ext(text, Options::ENABLE_TABLES | Options::ENABLE_MATH | Options::ENABLE_FOOTNOTES)
+    places(text).map(|(event, _)| event)
+}
+
+/// The same, each with its place in `text`.
+pub fn places(text: &str) -> impl Iterator<Item = (Event<'_>, Range<usize>)> {
+    Parser::new_ext(text, Options::ENABLE_TABLES | Options::ENABLE_MATH | Options::ENABLE_FOOTNOTES).into_offset_iter()
 }
 
 /// The fenced code blocks of a page: what follows the fence, and the text.
