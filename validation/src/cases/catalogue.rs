@@ -2,29 +2,21 @@
 
 use crate::cases;
 use crate::cases::equations;
-use crate::present::markup::cites_figure;
+use crate::present::markup::{self, cites_figure};
 use crate::present::report::{ReportEquation, Sections};
-use crate::present::table::{ReportTable, words};
 use std::ops::RangeInclusive;
 
 /// Which cases test which equation, as a page of the book.
 pub fn markdown() -> String {
-    let equations = equations();
-    let table = ReportTable::new(
-        ["equations", "Equations"],
-        "",
-        &equations,
-        vec![
-            words("equation", |equation: &&ReportEquation| equation.number.as_str()),
-            words("says", |equation: &&ReportEquation| equation.says.as_str()),
-            words("cases", |equation: &&ReportEquation| format!("`{}`", equation.cases.join("`, `"))),
-        ],
-    );
+    let equation = |equation: ReportEquation| {
+        let cases = equation.cases.join("`, `");
+        format!("- **{}**, {}: `{cases}`\n", equation.number, markup::markdown(&equation.says))
+    };
     format!(
         "# Equations and their cases\n\nMade from the registry of {} cases. `shearbed validate --list` prints what each case claims; the \
          report shows its evidence and the code of each equation.\n\n{}",
         cases::all().len(),
-        table.cells_as_markdown(),
+        equations().into_iter().map(equation).collect::<String>(),
     )
 }
 
