@@ -94,3 +94,40 @@ fn every_picture_of_the_book_is_shown() {
         assert!(pages.contains(&format!("images/{name})")), "{name}");
     }
 }
+
+/// The pages that sources, scripts and messages name, as `docs/src/theory/fits.md`.
+fn named(text: &str) -> impl Iterator<Item = &str> {
+    text.match_indices("docs/").filter_map(|(start, _)| {
+        let rest = &text[start..];
+        let end = rest.find(|sign: char| !(sign.is_ascii_alphanumeric() || "/._-".contains(sign))).unwrap_or(rest.len());
+        let path = rest[..end].trim_end_matches('.');
+        path.rsplit_once('.').filter(|(_, kind)| ["md", "svg", "sh", "tsv", "py"].contains(kind)).map(|_| path)
+    })
+}
+
+#[test]
+fn pages_named_in_the_sources_are_there() {
+    let (mut wrong, mut number) = (Vec::new(), 0);
+    let mut folders = ["src", "tests", "validation", ".ci", ".cargo"].map(|folder| root().join(folder)).to_vec();
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.file_name().unwrap().to_str().unwrap();
+            // Built files, and the controls of these tests.
+            if path.is_dir() {
+                folders.extend((name != "target" && !path.ends_with("tests/docs")).then_some(path));
+            } else if let Ok(text) = fs::read_to_string(&path) {
+                for page in named(&text) {
+                    number += 1;
+                    if !root().join(page).exists() {
+                        wrong.push(format!("{}: {page}", path.display()));
+                    }
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert!(number > 20, "{number}");
+    let seen: Vec<_> = named("see docs/src/no.md, (docs/numbers.sh) and docs/src/a/b.md. In docs/src/ no more").collect();
+    assert_eq!(seen, ["docs/src/no.md", "docs/numbers.sh", "docs/src/a/b.md"]);
+}
