@@ -31,7 +31,8 @@ fn mathml(formula: &str, display_mode: DisplayMode) -> Result<String, String> {
     let events = parsed.map_err(|error| error.to_string())?;
     let mut mathml = String::new();
     let config = RenderConfig { display_mode, ..RenderConfig::default() };
-    push_mathml(&mut mathml, events.into_iter().map(Ok::<_, ParserError>), config).map_err(|error| error.to_string())?;
+    push_mathml(&mut mathml, events.into_iter().map(Ok::<_, ParserError>), config)
+        .map_err(|error| error.to_string())?;
     let plain = plain(&mathml);
     Ok(match display_mode {
         DisplayMode::Inline => plain,
@@ -93,7 +94,8 @@ mod tests {
         let row = text.lines().nth(2).unwrap();
         assert_eq!(row.matches('|').count(), 2, "{row}");
         let parsed: Vec<_> = Parser::new_ext(&text, Options::ENABLE_TABLES).collect();
-        let of_markdown = |event: &Event| matches!(event, Event::Start(pulldown_cmark::Tag::Emphasis) | Event::Code(_));
+        let of_markdown =
+            |event: &Event| matches!(event, Event::Start(pulldown_cmark::Tag::Emphasis) | Event::Code(_));
         assert!(!parsed.iter().any(of_markdown));
         // The control: the same formula as the library writes it.
         let raw = format!("<math>{}</math>", "<mi>a</mi><mo>*</mo><mi>b</mi><mo>*</mo>");
@@ -103,7 +105,8 @@ mod tests {
 
     #[test]
     fn tags_are_tags_to_markdown() {
-        let tags = |page: &str| Parser::new(page).filter(|event| matches!(event, Event::InlineHtml(_))).count();
+        let tags =
+            |page: &str| Parser::new(page).filter(|event| matches!(event, Event::InlineHtml(_))).count();
         let text = replaced("a $\\Big[ x > 1 \\Big]$ b").unwrap();
         assert_eq!(tags(&text), text.matches('<').count(), "{text}");
         assert_eq!(text.matches('<').count(), text.matches('>').count(), "{text}");

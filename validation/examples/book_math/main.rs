@@ -46,7 +46,8 @@ fn book() -> Result<Value, String> {
 fn replace(part: &mut Value) -> Result<(), String> {
     match part {
         Value::Object(entries) => {
-            let path = entries.get("path").and_then(Value::as_str).unwrap_or("a page without a file").to_owned();
+            let path =
+                entries.get("path").and_then(Value::as_str).unwrap_or("a page without a file").to_owned();
             if let Some(Value::String(content)) = entries.get_mut("content") {
                 *content = formulas::replaced(content).map_err(|message| format!("{path}: {message}"))?;
             }

@@ -7,7 +7,9 @@ use std::fmt::Write;
 pub fn commands() -> String {
     let mut program = super::Cli::command().disable_help_subcommand(true);
     program.build();
-    let mut page = "# Commands\n\nMade from the program's own parser: `shearbed COMMAND --help` prints the same.\n".to_owned();
+    let mut page =
+        "# Commands\n\nMade from the program's own parser: `shearbed COMMAND --help` prints the same.\n"
+            .to_owned();
     for command in program.get_subcommands().filter(|command| !command.is_hide_set()) {
         add(&mut page, command, "shearbed");
     }
@@ -20,7 +22,12 @@ fn add(page: &mut String, command: &Command, above: &str) {
     let usage = command.clone().render_usage().to_string();
     let usage = usage.split_whitespace().skip(1).collect::<Vec<_>>().join(" ");
     let about = command.get_about().map(ToString::to_string).unwrap_or_default();
-    let _ = write!(page, "\n## {}\n\n{}.\n\n```text\n{usage}\n```\n", name.trim_start_matches("shearbed "), plain(&about));
+    let _ = write!(
+        page,
+        "\n## {}\n\n{}.\n\n```text\n{usage}\n```\n",
+        name.trim_start_matches("shearbed "),
+        plain(&about)
+    );
     let shown = |arg: &&Arg| !arg.is_hide_set() && arg.get_id() != "help" && arg.get_id() != "version";
     let mut rows = command.get_arguments().filter(shown).peekable();
     if rows.peek().is_some() {
@@ -51,7 +58,8 @@ fn meaning(arg: &Arg) -> String {
     let mut text = arg.get_help().map(ToString::to_string).unwrap_or_default();
     let takes_values = arg.get_action().takes_values();
     let values = arg.get_possible_values();
-    let values: Vec<_> = values.iter().filter(|_| takes_values).map(|value| format!("`{}`", value.get_name())).collect();
+    let values: Vec<_> =
+        values.iter().filter(|_| takes_values).map(|value| format!("`{}`", value.get_name())).collect();
     if !values.is_empty() {
         let _ = write!(text, " ({})", values.join(", "));
     }

@@ -69,9 +69,9 @@ fn shell(commands: &str, path: &str, dir: &Path) -> (bool, String) {
 /// A tool that the commands start and this machine does not have.
 fn missing_tool(commands: &str, path: &str) -> Option<&'static str> {
     let starts = |tool: &str| commands.split_whitespace().any(|word| word.trim_matches('"') == tool);
-    ["python3", "cc", "c++", "gfortran"].into_iter().find(|tool| {
-        starts(tool) && !shell(&format!("command -v {tool}"), path, Path::new("/")).0
-    })
+    ["python3", "cc", "c++", "gfortran"]
+        .into_iter()
+        .find(|tool| starts(tool) && !shell(&format!("command -v {tool}"), path, Path::new("/")).0)
 }
 
 /// The first line of `shown` that is not printed after those before it.
@@ -98,7 +98,8 @@ fn same(shown: &[&str], found: &[&str]) -> bool {
         return false;
     };
     let number = |word: &str| word.parse::<f64>().is_ok();
-    let time = rest.first().is_some_and(|unit| ["s", "ms", "min"].contains(unit)) && number(first) && number(word);
+    let time =
+        rest.first().is_some_and(|unit| ["s", "ms", "min"].contains(unit)) && number(first) && number(word);
     let part = first.split_once('…').is_some_and(|(start, end)| {
         word.len() >= start.len() + end.len() && word.starts_with(start) && word.ends_with(end)
     });
@@ -118,7 +119,9 @@ fn the_shell_blocks_of_the_user_guide_run() {
 
 #[test]
 fn a_block_that_fails_or_prints_something_else_is_seen() {
-    let page = |commands: &str, shown: &str| format!("# A\n\n```sh\n{commands}\n```\n\nSo:\n\n```text\n{shown}\n```\n");
+    let page = |commands: &str, shown: &str| {
+        format!("# A\n\n```sh\n{commands}\n```\n\nSo:\n\n```text\n{shown}\n```\n")
+    };
     let version = format!("shearbed {}", env!("CARGO_PKG_VERSION"));
     assert_eq!(run(&page("shearbed --version", &version), false), Ok(1));
     assert_eq!(run(&page("echo 'a 1.5 b 3.2 s c'; echo d", "a … b 7.9 s c\n…\nd"), false), Ok(1));

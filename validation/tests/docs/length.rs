@@ -5,7 +5,10 @@ use crate::pages::{readmes, under};
 /// Words of a part of the book: what has a letter or a digit, which the lines of a table have not.
 fn words(part: &str) -> usize {
     let word = |word: &&str| word.contains(char::is_alphanumeric);
-    under(&format!("docs/src/{part}")).iter().map(|page| page.text.split_whitespace().filter(word).count()).sum()
+    under(&format!("docs/src/{part}"))
+        .iter()
+        .map(|page| page.text.split_whitespace().filter(word).count())
+        .sum()
 }
 
 #[test]

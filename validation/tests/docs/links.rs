@@ -10,7 +10,8 @@ use std::path::{Component, Path, PathBuf};
 fn broken(page: &Page) -> Vec<String> {
     let mut wrong = Vec::new();
     for event in events(&page.text) {
-        let (Event::Start(Tag::Link { dest_url, .. }) | Event::Start(Tag::Image { dest_url, .. })) = event else {
+        let (Event::Start(Tag::Link { dest_url, .. }) | Event::Start(Tag::Image { dest_url, .. })) = event
+        else {
             continue;
         };
         if dest_url.contains("://") || dest_url.starts_with("mailto:") {
@@ -57,8 +58,18 @@ fn every_link_leads_somewhere() {
 fn a_link_that_leads_nowhere_is_seen() {
     let number = |path: &str, text: &str| broken(&Page { path: path.into(), text: text.into() }).len();
     let book = "docs/src/reference/keys.md";
-    assert_eq!(number(book, "[a](axes.md) [b](axes.md#axes-and-units) [c](../README.md) [d](https://example.org/x)"), 0);
-    for text in ["[a](no.md)", "![a](no.svg)", "[a](axes.md#no)", "[a](#no)", "[a]\n\n[a]: no.md", "[a](../../../README.md)"] {
+    assert_eq!(
+        number(book, "[a](axes.md) [b](axes.md#axes-and-units) [c](../README.md) [d](https://example.org/x)"),
+        0
+    );
+    for text in [
+        "[a](no.md)",
+        "![a](no.svg)",
+        "[a](axes.md#no)",
+        "[a](#no)",
+        "[a]\n\n[a]: no.md",
+        "[a](../../../README.md)",
+    ] {
         assert_eq!(number(book, text), 1, "{text}");
     }
     assert_eq!(number("README.md", "[a](docs/src/README.md)"), 0);
@@ -69,7 +80,8 @@ fn a_link_that_leads_nowhere_is_seen() {
 #[test]
 fn the_table_of_contents_has_every_page_once() {
     let pages = under("docs/src");
-    let (summary, pages): (Vec<_>, Vec<_>) = pages.into_iter().partition(|page| page.path == "docs/src/SUMMARY.md");
+    let (summary, pages): (Vec<_>, Vec<_>) =
+        pages.into_iter().partition(|page| page.path == "docs/src/SUMMARY.md");
     let mut listed: Vec<_> = (events(&summary[0].text))
         .filter_map(|event| match event {
             Event::Start(Tag::Link { dest_url, .. }) => Some(format!("docs/src/{dest_url}")),
@@ -99,16 +111,21 @@ fn every_picture_of_the_book_is_shown() {
 fn named(text: &str) -> impl Iterator<Item = &str> {
     text.match_indices("docs/").filter_map(|(start, _)| {
         let rest = &text[start..];
-        let end = rest.find(|sign: char| !(sign.is_ascii_alphanumeric() || "/._-".contains(sign))).unwrap_or(rest.len());
+        let end = rest
+            .find(|sign: char| !(sign.is_ascii_alphanumeric() || "/._-".contains(sign)))
+            .unwrap_or(rest.len());
         let path = rest[..end].trim_end_matches('.');
-        path.rsplit_once('.').filter(|(_, kind)| ["md", "svg", "sh", "tsv", "py"].contains(kind)).map(|_| path)
+        path.rsplit_once('.')
+            .filter(|(_, kind)| ["md", "svg", "sh", "tsv", "py"].contains(kind))
+            .map(|_| path)
     })
 }
 
 #[test]
 fn pages_named_in_the_sources_are_there() {
     let (mut wrong, mut number) = (Vec::new(), 0);
-    let mut folders = ["src", "tests", "validation", ".ci", ".cargo"].map(|folder| root().join(folder)).to_vec();
+    let mut folders =
+        ["src", "tests", "validation", ".ci", ".cargo"].map(|folder| root().join(folder)).to_vec();
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
@@ -128,6 +145,7 @@ fn pages_named_in_the_sources_are_there() {
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
     assert!(number > 20, "{number}");
-    let seen: Vec<_> = named("see docs/src/no.md, (docs/numbers.sh) and docs/src/a/b.md. In docs/src/ no more").collect();
+    let seen: Vec<_> =
+        named("see docs/src/no.md, (docs/numbers.sh) and docs/src/a/b.md. In docs/src/ no more").collect();
     assert_eq!(seen, ["docs/src/no.md", "docs/numbers.sh", "docs/src/a/b.md"]);
 }

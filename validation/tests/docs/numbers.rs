@@ -64,7 +64,9 @@ fn a_number_that_is_not_the_table_s_is_seen() {
     let table = BTreeMap::from([("a.b".to_owned(), number("0.326"))]);
     let wrong = |text: &str| marked(&Page { path: "p".into(), text: text.into() }, &table).1.len();
     assert_eq!(wrong("x = 0.326<!--=a.b--> and 0.326<!--=a.b-->, in code `0.327<!--=a.b-->`"), 0);
-    for text in ["x = 0.327<!--=a.b-->", "x = 10.326<!--=a.b-->", "x = 0.326<!--=a.c-->", "x = 0.326 <!--=a.b-->"] {
+    for text in
+        ["x = 0.327<!--=a.b-->", "x = 10.326<!--=a.b-->", "x = 0.326<!--=a.c-->", "x = 0.326 <!--=a.b-->"]
+    {
         assert_eq!(wrong(text), 1, "{text}");
     }
 }
