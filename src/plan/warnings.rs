@@ -130,7 +130,7 @@ impl Plan {
         (self.keeps(Stage::Observe(Observable::ParticleStress)) && r < SLENDER).then(|| {
             format!(
                 "particle_stress is the limit of slender rods, r_e ≫ 1: at aspect_ratio = {r} the terms that it leaves out \
-                 are not small (docs/coefficients.md)"
+                 are not small (docs/src/theory/coefficients.md)"
             )
         })
     }

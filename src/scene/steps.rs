@@ -10,7 +10,7 @@ use nalgebra::Matrix3;
 const MULTIPLE: u64 = 50;
 
 /// The longest strain per step GΔt that resolves the motion of interacting rods: it leaves X̄₁ an error of 0.003 at most
-/// (measured, `docs/time-step.md`). 0.37 for short rods, 4.4/r_e for longer ones, 0.09 for the longest.
+/// (measured, `docs/src/theory/time-step.md`). 0.37 for short rods, 4.4/r_e for longer ones, 0.09 for the longest.
 pub fn resolved_strain(aspect_ratio: f64) -> f64 {
     (4.4 / aspect_ratio).clamp(0.09, 0.37)
 }

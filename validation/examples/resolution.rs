@@ -1,4 +1,4 @@
-//! Prints the table of docs/time-step.md that says which steps resolve the motion, as Markdown.
+//! Prints the table of docs/src/theory/time-step.md that says which steps resolve the motion, as Markdown.
 //!
 //! `cargo run --release -p shearbed-suite --example resolution -- REPLICAS [R_E...]`: 50 replicas, and the aspect ratios of the
 //! table, where nothing else is asked for.

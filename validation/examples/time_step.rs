@@ -1,4 +1,4 @@
-//! Prints the tables of docs/time-step.md as Markdown; with `-- full`, from as many replicas as `--full`.
+//! Prints the tables of docs/src/theory/time-step.md as Markdown; with `-- full`, from as many replicas as `--full`.
 
 use validation::judge::case::{Effort, GATE_SEED};
 use validation::present::study::Request;

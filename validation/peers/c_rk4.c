@@ -3,7 +3,7 @@
  *     cc -O2 -o c_rk4 c_rk4.c -lm
  *     shearbed grade --command ./c_rk4
  *
- * Reads requests, lines of JSON as shearbed writes them, and answers each; see docs/grading.md.
+ * Reads requests, lines of JSON as shearbed writes them, and answers each; see docs/src/user/grading.md.
  */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // Free rods in plain JavaScript: the explicit midpoint rule in p, with p brought back to |p| = 1 after each step.
 //
 //     node midpoint.js REF MINE                      answers the problems about rods in MINE/NAME/answer.csv
-//     shearbed grade --command "node midpoint.js"    answers requests, lines of JSON (docs/grading.md)
+//     shearbed grade --command "node midpoint.js"    answers requests, lines of JSON (docs/src/user/grading.md)
 //
 // Needs nothing but node.
 "use strict";

@@ -2,7 +2,7 @@
 """Makes the samples in layouts/ from exported problems: record.py REF [DIR with fiberpy's package].
 
 fiberoripy.csv and fiberpy.csv are made by these programs; openfoam.csv and lammps.dump are the certified answers, written
-as the programs' documentation says (the addresses are in docs/grading.md).
+as the programs' documentation says (the addresses are in docs/src/user/grading.md).
 """
 
 import csv

@@ -1,4 +1,4 @@
-//! How large and how frequent kicks are: the formulas of docs/time-step.md.
+//! How large and how frequent kicks are: the formulas of docs/src/theory/time-step.md.
 //!
 //! A kick is |ṗ′ − ṗ|Δt = |g|Δt/(2|r|), with g the relative velocity of the contact points along the contact line
 //! and r the rod's arm. Lengths are in rod lengths, time in 1/G. D is the rate of strain of u_2 = x_1.

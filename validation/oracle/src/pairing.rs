@@ -1,6 +1,6 @@
 //! Which nearest pairs collide, and how likely: the rule's probabilities without its draws.
 //!
-//! Rods draw independently, so the chance of every pair follows from the places alone (docs/time-step.md). A rod's
+//! Rods draw independently, so the chance of every pair follows from the places alone (docs/src/theory/time-step.md). A rod's
 //! nearest neighbour is nearer than whoever has that rod for its own nearest neighbour. So a rod is always free
 //! when its own draw is looked at, unless the two are each other's nearest; only its neighbour may be taken.
 

@@ -1,34 +1,22 @@
-//! The catalogue of cases and equations, made from the registry: for the report and for `docs/catalogue.md`.
+//! Which cases test which equation, made from the registry: for the report and for the book.
 
 use crate::cases;
 use crate::cases::equations;
-use crate::judge::case::About;
-use crate::present::markup::cites_figure;
-use crate::present::report::{ReportEquation, Sections, equation_table};
-use crate::present::table::{ReportTable, words};
+use crate::present::markup::{self, cites_figure};
+use crate::present::report::{ReportEquation, Sections};
 use std::ops::RangeInclusive;
 
-/// The catalogue as Markdown.
+/// Which cases test which equation, as a page of the book.
 pub fn markdown() -> String {
-    let about: Vec<_> = cases::all().into_iter().map(|case| case.about).collect();
-    let table = ReportTable::new(
-        ["cases", "Cases"],
-        "",
-        &about,
-        vec![
-            words("case", |about: &&About| format!("`{}`", about.name)),
-            words("judges", |about: &&About| about.judges.name()),
-            words("claim", |about: &&About| about.claim),
-            words("source", |about: &&About| about.source),
-        ],
-    );
+    let equation = |equation: ReportEquation| {
+        let cases = equation.cases.join("`, `");
+        format!("- **{}**, {}: `{cases}`\n", equation.number, markup::markdown(&equation.says))
+    };
     format!(
-        "# The catalogue\n\nMade from the registry; `UPDATE_DOCS=1 cargo test -p shearbed-suite --test docs` makes \
-         it anew.\n\n## Cases\n\n{}\n{} cases; `docs/strength.md` has their probabilities of a false alarm and of a miss.\n\n\
-         ## Equations\n\nCode: a file of `src/`, or the folder of that name, and the item in it.\n\n{}",
-        table.cells_as_markdown(),
-        about.len(),
-        equation_table(&equations()).cells_as_markdown(),
+        "# Equations and their cases\n\nMade from the registry of {} cases. `shearbed validate --list` prints what each case claims; the \
+         report shows its evidence and the code of each equation.\n\n{}",
+        cases::all().len(),
+        equations().into_iter().map(equation).collect::<String>(),
     )
 }
 

@@ -1,4 +1,4 @@
-//! The cheapest split of a run: what `docs/work-precision.md` says of it.
+//! The cheapest split of a run: what `docs/src/verification/integrators.md` says of it.
 
 use super::work_precision_coupled::first;
 use crate::judge::case::{Case, Effort, Evidence};

@@ -17,7 +17,7 @@ pub fn cases() -> Vec<Case> {
                 "The 15 components of ⟨pppp⟩ of free rods that were isotropic are the closed integral, and in a suspension \
                  its trace over two indices is ⟨pp⟩.",
             )
-            .source("docs/coefficients.md")
+            .source("docs/src/theory/coefficients.md")
             .subject(right)
             .mistake("components 1222 and 1112 exchanged", Read {
                 place: |k| match k {
@@ -37,7 +37,7 @@ pub fn cases() -> Vec<Case> {
                 "The rods' stress over μ_fiber G, of free rods that were isotropic, is that of the closed integral after a \
                  fifth of a period and in the mean over half a period, where N₁ and N₂ vanish.",
             )
-            .source("Batchelor 1970; docs/coefficients.md")
+            .source("Batchelor 1970; docs/src/theory/coefficients.md")
             .subject((|stress| stress) as Stress)
             .mistake("N₁ as gradient less flow", |[s12, n1, n2]| [s12, -n1, n2])
             .mistake("D counted twice", |stress| stress.map(|s| 2.0 * s))

@@ -102,7 +102,7 @@ fn double_alpha(scene: &mut Scene) {
 }
 
 const SUPPLY: &str = "put the digitised points (CSV) and their provenance (TOML) into the source's folder under \
-                      DIR and run `shearbed validate --data DIR`; docs/experiments.md has the format";
+                      DIR and run `shearbed validate --data DIR`; docs/src/validation/points.md has the format";
 
 fn no_data(what: impl Into<String>) -> Vec<Evidence> {
     vec![Evidence::new(what, Rule::NoData { supply: SUPPLY.into() })]

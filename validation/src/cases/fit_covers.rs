@@ -60,7 +60,7 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::program("fit-covers")
             .claim("The 68 and 95 % intervals of `shearbed fit` hold the planted α in 68 and 95 % of synthetic sets.")
-            .source("eq. 7; profile likelihood; docs/fit.md")
+            .source("eq. 7; profile likelihood; docs/src/theory/fits.md")
             .equations(&["7"])
             .subject(Way::AsItIs)
             .mistake("intervals half as long", Way::HalfAsLong)
@@ -72,7 +72,7 @@ pub fn cases() -> Vec<Case> {
                 "χ² of a fit has the law of χ² where the model is right; a model without the spread of r_e does not \
                  pass it.",
             )
-            .source("eqs 7, 11; docs/fit.md")
+            .source("eqs 7, 11; docs/src/theory/fits.md")
             .equations(&["7", "11"])
             .subject(Way::AsItIs)
             .mistake("σ = 0 % for points of σ = 3.6 %", Way::NoSpread)

@@ -2,7 +2,7 @@
 //!
 //! The points are made here by the naive reference, and are nobody's measurement. Points of one suspension tell no reading: each
 //! describes them with an α of its own. A contact line cut at the rods' ends is felt less where rods are far apart, so that it asks
-//! for another α at another concentration. Who draws cannot be told so: `docs/fit.md` has the numbers.
+//! for another α at another concentration. Who draws cannot be told so: `docs/src/theory/fits.md` has the numbers.
 
 use crate::input::start::Starts;
 use crate::judge::accept::Rule;
@@ -48,7 +48,7 @@ pub(super) fn cases() -> Vec<Case> {
                 "χ² of one α for two suspensions accepts points of whole contact lines and refuses points of lines cut at the \
                  rods' ends.",
             )
-            .source("eq. 5; docs/fit.md")
+            .source("eq. 5; docs/src/theory/fits.md")
             .equations(&["5"])
             .subject((|_| ()) as Change)
             .mistake("contact lines cut at the rods' ends", |problem| {

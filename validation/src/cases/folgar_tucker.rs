@@ -18,7 +18,7 @@ pub fn cases() -> Vec<Case> {
                 "The estimate of C_I finds the one that was put into synthetic rods (not measured, not of this model) with \
                  rotary diffusion.",
             )
-            .source("Folgar & Tucker 1984; docs/coefficients.md")
+            .source("Folgar & Tucker 1984; docs/src/theory/coefficients.md")
             .subject((|means| means.coefficient(LAMBDA)) as Estimator)
             .mistake("1 − 3a in place of 2(1 − 3a)", |means| {
                 let half = means.diffusion() * 0.5;
@@ -38,7 +38,7 @@ pub fn cases() -> Vec<Case> {
                 "The seven C_I that Folgar & Tucker measured (second-hand; n a³ above 3, not dilute) rise with φ r_p, as the \
                  model's rises with n a³; at n a³ = 1, where the model ends, it is below a third of the least of them.",
             )
-            .source("Folgar & Tucker 1984; docs/coefficients.md")
+            .source("Folgar & Tucker 1984; docs/src/theory/coefficients.md")
             .subject((|c| c) as fn(f64) -> f64)
             .mistake("C_I per radian of the phase in place of per unit of strain", |c| {
                 c * (11.6 + 1.0 / 11.6)
@@ -50,7 +50,7 @@ pub fn cases() -> Vec<Case> {
                 "At equal C_I, kicks leave far more rods alone than rotary diffusion does over a strain of 1, turn far more of \
                  them by more than 0.1 rad, and keep more of them in orbits near the shear plane.",
             )
-            .source("eqs 5 to 10; Folgar & Tucker 1984; docs/coefficients.md")
+            .source("eqs 5 to 10; Folgar & Tucker 1984; docs/src/theory/coefficients.md")
             .subject(Turned::ByKicks(|_| {}))
             .mistake("diffusion in place of kicks", Turned::ByDiffusion)
             .mistake("no contact by arms shorter than five rods", Turned::ByKicks(|scene| {

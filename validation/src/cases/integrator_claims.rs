@@ -1,4 +1,4 @@
-//! What `docs/integrators.md` says of the problem and of the subjects, beyond orders and limits.
+//! What `docs/src/verification/integrators.md` says of the problem and of the subjects, beyond orders and limits.
 
 use super::subjects::Integrators;
 use super::subjects::spoiled::in_p;

@@ -74,7 +74,7 @@ struct Places {
 }
 
 /// Eq. 14 draws x_1 apart from the overshoot, which fills the volume unevenly by O(GΔt): 0.02 in the distribution
-/// function at 200 steps per period (docs/model.md), so 0.0005 at this many, a hundredth of what is told here.
+/// function at 200 steps per period (docs/src/theory/index.md), so 0.0005 at this many, a hundredth of what is told here.
 const STEPS_PER_PERIOD: u64 = 8000;
 /// A strain of 3.7.
 const STEPS: u64 = 400;

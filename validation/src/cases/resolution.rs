@@ -49,7 +49,7 @@ struct Size {
 /// A drawn line of the paper's figures.
 const LINE: f64 = 0.01;
 
-/// Coarse steps change X̄₁ against the default step by 0.0295 and 0.061 (the table of docs/time-step.md, and for the first
+/// Coarse steps change X̄₁ against the default step by 0.0295 and 0.061 (the table of docs/src/theory/time-step.md, and for the first
 /// the same with these steps). X̄₁ of 100 rods, less that of the same replica at the default step, has a standard deviation
 /// of 0.025 at r_e = 11.6 and of 0.035 at 100 (2000 replicas; a tenth more is taken). Twice the default step changes X̄₁ by
 /// 0.003, so that a correct default fails with less than the gate's level.

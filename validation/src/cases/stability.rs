@@ -1,4 +1,4 @@
-//! Where integrators of a free rod leave their region of stability: what `docs/stability.md` says.
+//! Where integrators of a free rod leave their region of stability: what `docs/src/verification/integrators.md` says.
 
 use super::subjects::Integrators;
 use super::subjects::spoiled::{in_angles, in_p, refuses, whole_turns};

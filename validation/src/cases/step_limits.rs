@@ -1,4 +1,4 @@
-//! The longest steps of fixed-step subjects against theory, by bisection (`docs/stability.md`).
+//! The longest steps of fixed-step subjects against theory, by bisection (`docs/src/developer/step-limits.md`).
 
 mod in_p;
 

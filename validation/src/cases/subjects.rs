@@ -1,4 +1,4 @@
-//! The integrators of a free rod: what `docs/integrators.md` says of them. Nothing here is timed.
+//! The integrators of a free rod: what `docs/src/verification/integrators.md` says of them. Nothing here is timed.
 
 pub(super) mod spoiled;
 

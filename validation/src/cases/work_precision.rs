@@ -1,4 +1,4 @@
-//! How the error of a suspension's mean falls with the rods: what `docs/work-precision.md` says. Nothing is timed.
+//! How the error of a suspension's mean falls with the rods: what `docs/src/verification/integrators.md` says. Nothing is timed.
 
 use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};

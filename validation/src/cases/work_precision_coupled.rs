@@ -1,4 +1,4 @@
-//! Runs that share random numbers: what `docs/work-precision.md` says of them.
+//! Runs that share random numbers: what `docs/src/verification/integrators.md` says of them.
 
 use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};

@@ -5,7 +5,7 @@ use crate::studies::suspensions::law::{self, Replicas};
 use shearbed::Plan;
 use shearbed::plan::Stage;
 
-/// A step of one rod takes 26 to 58 ns of one core, for 10² to 10⁶ rods (docs/performance.md).
+/// A step of one rod takes 26 to 58 ns of one core, for 10² to 10⁶ rods (docs/src/developer/performance.md).
 const SECONDS_PER_ROD_AND_STEP: f64 = 40e-9;
 
 /// So many rods times steps, in words: `4.0e9 rods × steps, some 3 min of one core`.

@@ -30,7 +30,7 @@ const MOST_REPLICAS: u64 = 1000;
 /// Arguments of `fit`.
 #[derive(clap::Args)]
 #[command(after_help = "\
-FILE.csv has the columns t_over_T (or t_s, strain), x1, x1_u, and as you like x2, x2_u, … (docs/fit.md).
+FILE.csv has the columns t_over_T (or t_s, strain), x1, x1_u, and as you like x2, x2_u, … (docs/src/user/fitting.md).
 Examples:
   shearbed fit fig4-n50 --data points.csv --over interaction.alpha=0.05:5
   shearbed fit fig4-n20 --data n20.csv --data fig4-n50=n50.csv --over interaction.alpha=0.1:2 --over interaction.m=1:6")]

@@ -13,6 +13,7 @@ mod fit;
 mod grade;
 mod handed_out;
 mod interrupt;
+mod manual;
 mod memory;
 mod pictures;
 mod plot;
@@ -30,6 +31,8 @@ mod terminal;
 mod threads;
 mod validate;
 mod words;
+
+pub use manual::commands;
 
 use crate::files::output::{self, ResultFolder};
 use crate::files::text::readable;

@@ -12,6 +12,5 @@ mod means;
 mod numbers;
 mod peers;
 mod planted;
-mod quick_start;
 mod refused;
 mod verdicts;

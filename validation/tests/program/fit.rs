@@ -127,7 +127,7 @@ fn what_the_points_do_not_say_is_warned_of() {
     assert!(record["warnings"].to_string().contains("upper end"));
 }
 
-/// Projections hardly depend on how much lengths differ (docs/model.md): the fit says so, finds α beside it, and asks for no
+/// Projections hardly depend on how much lengths differ (docs/src/theory/index.md): the fit says so, finds α beside it, and asks for no
 /// lengths that a scene may not have.
 #[test]
 fn a_spread_of_lengths_is_fitted_and_found_to_be_untold() {

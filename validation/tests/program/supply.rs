@@ -1,4 +1,4 @@
-//! docs/dependencies.md is true, and the oracles ask for nothing of what they judge. Licences and sources are cargo-deny's:
+//! docs/src/developer/dependencies.md is true, and the oracles ask for nothing of what they judge. Licences and sources are cargo-deny's:
 //! validation/deny.toml.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -46,7 +46,7 @@ fn asked_for(path: &str) -> BTreeMap<String, &'static str> {
 
 #[test]
 fn every_dependency_has_a_line_and_the_crates_are_counted() {
-    let page = text("../docs/dependencies.md");
+    let page = text("../docs/src/developer/dependencies.md");
     let mut listed = BTreeMap::new();
     for row in page.lines().filter(|line| line.starts_with("| `")) {
         let cells: Vec<_> = row.split('|').map(str::trim).collect();
@@ -80,7 +80,7 @@ fn what_is_built_in_several_versions_is_said() {
     }
     let several: Vec<_> =
         versions.iter().filter(|(_, all)| all.len() > 1).map(|(name, _)| name.as_str()).collect();
-    let document = text("../docs/dependencies.md");
+    let document = text("../docs/src/developer/dependencies.md");
     let (_, said) = document.split_once("Built in more than one version: ").unwrap();
     let (said, _) = said.split_once('.').unwrap();
     let said: Vec<_> = said.split('`').skip(1).step_by(2).collect();

@@ -1,7 +1,7 @@
 //! Measured points of experiments: reading them, and comparing them with the model.
 //!
 //! One folder for each source under a data folder, laid out as `validation/data`; in it pairs of files, `NAME.toml` with
-//! where the points come from and `NAME.csv` with the points. `docs/experiments.md` has the formats and the formulas.
+//! where the points come from and `NAME.csv` with the points. `docs/src/validation/points.md` has the formats and the formulas.
 
 mod bias;
 mod compare;

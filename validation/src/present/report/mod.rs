@@ -16,7 +16,6 @@ mod sections;
 mod tests;
 
 pub(crate) use json::FORMAT;
-pub(crate) use markdown::equation_table;
 
 use crate::files::output::Output;
 use crate::judge::accept::{FALSE_ALARM_BUDGET, Verdict};

@@ -1,4 +1,4 @@
-//! Measured points from a CSV file, in the columns of `docs/experiments.md`.
+//! Measured points from a CSV file, in the columns of `docs/src/reference/files.md`.
 
 use crate::input::experiment::{DataError, read_text, table};
 use serde::Serialize;

@@ -2,7 +2,7 @@
 //!
 //! The model runs at the nodes of a box of parameters, with the same random numbers at each; polynomials run through what is
 //! found there, and generalised least squares through those. The covariance of the points holds reading off in both axes,
-//! the measured rods, the model's replicas and the polynomials' lack of fit. `docs/fit.md` has the formulas.
+//! the measured rods, the model's replicas and the polynomials' lack of fit. `docs/src/theory/fits.md` has the formulas.
 
 pub mod basis;
 mod best;

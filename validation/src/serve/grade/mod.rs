@@ -1,5 +1,5 @@
 //! Grading any program: its answers to reference problems, from files or over a pipe, with a verdict for each and the
-//! known mistake whose curve a wrong answer is. `docs/grading.md` is the user's page.
+//! known mistake whose curve a wrong answer is. `docs/src/user/grading.md` is the user's page.
 
 mod answer;
 mod axes;

@@ -1,5 +1,5 @@
 //! The limit Δt → 0: how often collisions kick rods by large angles, how heavy the tail is, and what is left where
-//! the arms are bounded (docs/time-step.md).
+//! the arms are bounded (docs/src/theory/time-step.md).
 //!
 //! A kick is |ṗ′ − ṗ|Δt, what the collision does. The whole turn |ṗ′|Δt holds Jeffery's own |ṗ|Δt too, which at
 //! 200 steps a period passes 0.1 rad in every flip with no collision at all.

@@ -1,4 +1,4 @@
-//! Longest steps GΔt by theory, where there is one; derived in `docs/stability.md`.
+//! Longest steps GΔt by theory, where there is one; derived in `docs/src/developer/step-limits.md`.
 
 use super::limits::Property;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};

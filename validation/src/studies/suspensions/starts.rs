@@ -39,7 +39,7 @@ pub const ALL: [Start; 3] = [
     },
     Start {
         name: "Fibonacci lattice",
-        // The kink of |p_1|: see docs/work-precision.md.
+        // The kink of |p_1|: see docs/src/verification/integrators.md.
         exponents: [-1.25, -1.0],
         lay: fibonacci,
     },

@@ -38,7 +38,7 @@ pub enum OrderVerdict {
     RoundOff,
 }
 
-/// Three grids' extrapolation (Roache 1994; the references are in `docs/integrators.md`).
+/// Three grids' extrapolation (Roache 1994; the references are in `docs/src/verification/integrators.md`).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Richardson {
     /// Steps of the finest of the three grids.

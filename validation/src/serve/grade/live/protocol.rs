@@ -1,4 +1,4 @@
-//! Requests and answers as lines of JSON (`docs/grading.md`).
+//! Requests and answers as lines of JSON (`docs/src/user/grading.md`).
 
 use super::pipe::excerpt;
 use serde::{Deserialize, Serialize};

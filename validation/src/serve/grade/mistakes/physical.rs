@@ -3,7 +3,7 @@
 use super::{Mistake, Setting, linear, right_map};
 
 /// r_p for r_e: the physical aspect ratio of a cylinder where the equivalent one of an ellipsoid belongs, by each formula
-/// of `docs/grading.md`, both ways: r_e = f(r_p) taken twice, and not taken.
+/// of `docs/src/reference/files.md`, both ways: r_e = f(r_p) taken twice, and not taken.
 pub(super) fn all() -> Vec<Mistake> {
     type Formula = fn(f64) -> f64;
     let formulas: [(&str, Formula); 4] = [

@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Makes docs/numbers.tsv afresh: the numbers that pages of the book and the READMEs mark as `0.326<!--=fig4.x1-->`. Each row has the
+# command that prints its number, run in an empty folder with the program on the PATH and the repository in $ROOT. A page
+# that then says something else turns the test `docs` red.
+# Usage: bash docs/numbers.sh [release]      with `release` also what takes minutes to hours
+set -euo pipefail
+export ROOT=$(cd "$(dirname "$0")/.." && pwd)
+cargo build --locked --quiet --manifest-path "$ROOT/validation/Cargo.toml"
+export PATH="$ROOT/target/debug:$PATH"
+table=$ROOT/docs/numbers.tsv
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+head -n 1 "$table" >"$work/table"
+tail -n +2 "$table" | while IFS=$'\t' read -r id value when command; do
+  if [ "$when" = test ] || [ "${1:-}" = "$when" ]; then
+    mkdir "$work/$id"
+    found=$(cd "$work/$id" && bash -euo pipefail -c "$command" </dev/null)
+    [ "$found" = "$value" ] || echo "$id: $value is now $found" >&2
+    value=$found
+  fi
+  printf '%s\t%s\t%s\t%s\n' "$id" "$value" "$when" "$command" >>"$work/table"
+done
+cp "$work/table" "$table"

@@ -1,0 +1,76 @@
+//! The page of commands in the book, made from the parser itself.
+
+use clap::{Arg, Command, CommandFactory};
+use std::fmt::Write;
+
+/// Every command with its options, as Markdown.
+pub fn commands() -> String {
+    let mut program = super::Cli::command().disable_help_subcommand(true);
+    program.build();
+    let mut page =
+        "# Commands\n\nMade from the program's own parser: `shearbed COMMAND --help` prints the same.\n"
+            .to_owned();
+    for command in program.get_subcommands().filter(|command| !command.is_hide_set()) {
+        add(&mut page, command, "shearbed");
+    }
+    page
+}
+
+/// A command and the commands below it.
+fn add(page: &mut String, command: &Command, above: &str) {
+    let name = format!("{above} {}", command.get_name());
+    let usage = command.clone().render_usage().to_string();
+    let usage = usage.split_whitespace().skip(1).collect::<Vec<_>>().join(" ");
+    let about = command.get_about().map(ToString::to_string).unwrap_or_default();
+    let _ = write!(
+        page,
+        "\n## {}\n\n{}.\n\n```text\n{usage}\n```\n",
+        name.trim_start_matches("shearbed "),
+        plain(&about)
+    );
+    let shown = |arg: &&Arg| !arg.is_hide_set() && arg.get_id() != "help" && arg.get_id() != "version";
+    let mut rows = command.get_arguments().filter(shown).peekable();
+    if rows.peek().is_some() {
+        page.push('\n');
+    }
+    for arg in rows {
+        let _ = writeln!(page, "- `{}`: {}", written(arg), plain(&meaning(arg)));
+    }
+    if let Some(words) = command.get_after_help() {
+        let _ = write!(page, "\n```text\n{}\n```\n", words.to_string().trim());
+    }
+    for below in command.get_subcommands().filter(|below| !below.is_hide_set()) {
+        add(page, below, &name);
+    }
+}
+
+/// An argument as it is written on the command line.
+fn written(arg: &Arg) -> String {
+    let values = arg.get_value_names().unwrap_or_default();
+    let values: Vec<_> = values.iter().map(ToString::to_string).collect();
+    let flag = arg.get_long().map(|long| format!("--{long}"));
+    let takes_value = arg.get_action().takes_values() && !values.is_empty();
+    flag.into_iter().chain(takes_value.then(|| values.join(" "))).collect::<Vec<_>>().join(" ")
+}
+
+/// What an argument means, with the values that it may have and its default.
+fn meaning(arg: &Arg) -> String {
+    let mut text = arg.get_help().map(ToString::to_string).unwrap_or_default();
+    let takes_values = arg.get_action().takes_values();
+    let values = arg.get_possible_values();
+    let values: Vec<_> =
+        values.iter().filter(|_| takes_values).map(|value| format!("`{}`", value.get_name())).collect();
+    if !values.is_empty() {
+        let _ = write!(text, " ({})", values.join(", "));
+    }
+    let defaults: Vec<_> = arg.get_default_values().iter().map(|value| value.to_string_lossy()).collect();
+    if takes_values && !defaults.is_empty() {
+        let _ = write!(text, " (default `{}`)", defaults.join(" "));
+    }
+    text
+}
+
+/// Text on one line, of which no sign is HTML.
+fn plain(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ").replace('<', "&lt;")
+}

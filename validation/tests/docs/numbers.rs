@@ -1,0 +1,100 @@
+//! Numbers of the text: `0.326<!--=fig4.x1-->` is the value of `fig4.x1` in docs/numbers.tsv, which has the command that prints it.
+//! `docs/numbers.sh` makes the table afresh.
+
+use crate::pages::{Page, places, readmes, root, under};
+use pulldown_cmark::Event;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::process::Command;
+
+struct Number {
+    value: String,
+    /// `test`: its command is run here. `release`: it takes too long, and is run for a release.
+    when: String,
+    command: String,
+}
+
+fn table() -> BTreeMap<String, Number> {
+    let text = fs::read_to_string(root().join("docs/numbers.tsv")).unwrap();
+    let row = |line: &str| {
+        let [id, value, when, command] = line.split('\t').collect::<Vec<_>>()[..] else {
+            panic!("docs/numbers.tsv: not four cells: {line}");
+        };
+        (id.to_owned(), Number { value: value.into(), when: when.into(), command: command.into() })
+    };
+    text.lines().skip(1).map(row).collect()
+}
+
+/// The numbers that a page marks, and what is wrong with them.
+fn marked(page: &Page, table: &BTreeMap<String, Number>) -> (BTreeSet<String>, Vec<String>) {
+    let (mut found, mut wrong) = (BTreeSet::new(), Vec::new());
+    for (event, place) in places(&page.text) {
+        let Event::InlineHtml(html) = event else { continue };
+        let Some(id) = html.strip_prefix("<!--=").and_then(|html| html.strip_suffix("-->")) else { continue };
+        let before = &page.text[..place.start];
+        let rest = table.get(id).and_then(|number| before.strip_suffix(number.value.as_str()));
+        if rest.is_none_or(|rest| rest.ends_with(|sign: char| sign.is_ascii_digit() || sign == '.')) {
+            let value = table.get(id).map_or("not in docs/numbers.tsv", |number| &number.value);
+            let said: String = before.chars().rev().take(20).collect::<Vec<_>>().into_iter().rev().collect();
+            wrong.push(format!("{}: …{said} is not {id}: {value}", page.path));
+        }
+        found.insert(id.to_owned());
+    }
+    (found, wrong)
+}
+
+#[test]
+fn numbers_in_the_text_are_those_of_the_table() {
+    let table = table();
+    let mut found = BTreeSet::new();
+    let mut wrong = Vec::new();
+    for page in under("docs/src").iter().chain(&readmes()) {
+        let (ids, of_page) = marked(page, &table);
+        found.extend(ids);
+        wrong.extend(of_page);
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    let unused: Vec<_> = table.keys().filter(|id| !found.contains(*id)).collect();
+    assert!(unused.is_empty(), "no page uses {unused:?}");
+}
+
+#[test]
+fn a_number_that_is_not_the_table_s_is_seen() {
+    let number = |value: &str| Number { value: value.into(), when: "test".into(), command: "true".into() };
+    let table = BTreeMap::from([("a.b".to_owned(), number("0.326"))]);
+    let wrong = |text: &str| marked(&Page { path: "p".into(), text: text.into() }, &table).1.len();
+    assert_eq!(wrong("x = 0.326<!--=a.b--> and 0.326<!--=a.b-->, in code `0.327<!--=a.b-->`"), 0);
+    for text in
+        ["x = 0.327<!--=a.b-->", "x = 10.326<!--=a.b-->", "x = 0.326<!--=a.c-->", "x = 0.326 <!--=a.b-->"]
+    {
+        assert_eq!(wrong(text), 1, "{text}");
+    }
+}
+
+/// What a command prints now, with the program of this build.
+fn printed(command: &str) -> String {
+    let own = std::path::Path::new(env!("CARGO_BIN_EXE_shearbed")).parent().unwrap();
+    let path = format!("{}:{}", own.display(), std::env::var("PATH").unwrap());
+    let dir = tempfile::tempdir().unwrap();
+    let mut shell = Command::new("bash");
+    let shell = shell.args(["-euo", "pipefail", "-c", command]).current_dir(dir.path());
+    let ended = shell.env("PATH", path).env("ROOT", root()).output().unwrap();
+    assert!(ended.status.success(), "{command}: {}", String::from_utf8_lossy(&ended.stderr));
+    String::from_utf8(ended.stdout).unwrap().trim().to_owned()
+}
+
+#[test]
+fn commands_print_the_numbers_of_the_table() {
+    let mut number = 0;
+    for (id, row) in table() {
+        match row.when.as_str() {
+            "test" => {
+                assert_eq!(printed(&row.command), row.value, "{id}: bash docs/numbers.sh");
+                number += 1;
+            }
+            "release" => {}
+            other => panic!("{id}: {other} is neither test nor release"),
+        }
+    }
+    assert!(number > 5);
+}
