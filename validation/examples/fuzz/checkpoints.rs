@@ -11,7 +11,8 @@ use shearbed::scene;
 use std::collections::BTreeMap;
 use std::fs;
 use std::time::Duration;
-use validation::files::checkpoint::{Checkpoint, Refused, Replicas};
+use validation::files::checkpoint::{Checkpoint, Replicas};
+use validation::files::output::Refused;
 
 /// A scene that is soon run.
 pub const RODS: &str = r#"title = "rods"

@@ -1,6 +1,7 @@
 //! Writing files so that a set of them appears together or not at all, and that two processes do not mix theirs.
 
 mod claim;
+mod folder;
 mod record;
 mod replaced;
 #[cfg(test)]
@@ -8,8 +9,8 @@ mod tests;
 
 pub use claim::Claim;
 pub(crate) use claim::stop;
-pub(crate) use record::left_over;
-pub use record::{Author, RECORD, Record, Refused, Sum, sums};
+pub use folder::ResultFolder;
+pub use record::{Origin, RECORD, Record, Sum};
 pub use replaced::{Part, Replaced};
 
 use crate::files::bounded;
@@ -39,6 +40,22 @@ impl std::fmt::Display for OutputError {
 }
 
 impl std::error::Error for OutputError {}
+
+/// Why a file or folder was left as it is: its name, what it holds or why it cannot be written, and what to do.
+#[derive(Debug)]
+pub struct Refused(pub String);
+
+impl From<OutputError> for Refused {
+    fn from(error: OutputError) -> Self {
+        Self(error.to_string())
+    }
+}
+
+impl std::fmt::Display for Refused {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
 
 fn at(path: &Path) -> impl FnOnce(io::Error) -> OutputError {
     let path = path.to_owned();
@@ -106,7 +123,7 @@ pub fn write_one(path: &Path, contents: &[u8], force: bool) -> Result<(), Refuse
     let claim = Claim::new(folder, PATIENCE).map_err(at_file)?;
     match holds(&target, contents).map_err(at(path))? {
         Some(true) => Ok(()),
-        Some(false) if !force => Err(record::kept(path, "is here already, with other contents")),
+        Some(false) if !force => Err(folder::in_the_way(path, "is here already, with other contents")),
         _ => Ok(claim.write_all(&files, &[]).map_err(at_file)?),
     }
 }

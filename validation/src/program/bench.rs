@@ -1,7 +1,6 @@
 //! `shearbed bench`: the studies that have named parts, alone and measured longer.
 
-use super::{Failure, on_threads, print, probe};
-use crate::files::output::Author;
+use super::{Failure, Writing, on_threads, print, result_folder};
 use crate::files::text::Shown;
 use crate::judge::case::Effort;
 use crate::present::plot;
@@ -19,12 +18,8 @@ pub(super) struct Args {
     /// The folder for the tables, their data and the pictures
     #[arg(long, value_name = "DIR", default_value = "out/bench")]
     out: PathBuf,
-    /// Overwrite what this command did not write in the folder, or wrote from other input
-    #[arg(long)]
-    force: bool,
-    /// Print nothing but errors
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    writing: Writing,
 }
 
 /// Measures errors against run times, one bench after the other: of a rod on one core, of suspensions by runs on all
@@ -32,9 +27,8 @@ pub(super) struct Args {
 pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     check(&args.cases)?;
     let wanted = |name: &str| args.cases.is_empty() || args.cases.iter().any(|case| case == name);
-    probe(&args.out, 0)?;
-    let author = Author::new("bench", json!({ "cases": args.cases }), args.force);
-    author.check(&args.out, &[""; 0])?;
+    let origin = ("bench", json!({ "cases": args.cases }), args.writing.force);
+    let folder = result_folder(&args.out, origin, 0, &[""; 0])?;
     let effort = Effort { full: true, ..Effort::gate() };
     let (mut files, mut tables) = (Vec::new(), String::new());
     for study in studies::ALL {
@@ -56,8 +50,8 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
         }
     }
     let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
-    author.write(&args.out, files)?;
-    if args.quiet {
+    folder.write(files)?;
+    if args.writing.quiet {
         return Ok(());
     }
     print(&format!("{tables}in {}: {}\n", args.out.shown(), names.join(", ")))

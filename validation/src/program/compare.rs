@@ -2,6 +2,7 @@
 
 use super::{Failure, print};
 use crate::files::bounded;
+use crate::files::output::{RECORD, Record, Sum};
 use crate::files::text::Shown;
 use crate::files::text::snippet;
 use crate::present::report::FORMAT;
@@ -124,7 +125,20 @@ const MOST_BYTES: u64 = 256 << 20;
 fn read(path: &Path) -> Result<Report, Failure> {
     let at = |what: String| Failure::Input(format!("{}: {what}", path.shown()));
     let text = bounded::text(path, MOST_BYTES).map_err(|error| at(format!("cannot be read: {error}")))?;
-    parse(&text).map_err(at)
+    let report = parse(&text).map_err(at)?;
+    as_written(path, &text).map_err(at)?;
+    Ok(report)
+}
+
+/// Refuses a report that was changed after `shearbed validate` wrote it. One without its folder has nothing to be held to.
+fn as_written(path: &Path, text: &str) -> Result<(), String> {
+    let (Some(dir), Some(name)) = (path.parent(), path.file_name().and_then(|name| name.to_str())) else {
+        return Ok(());
+    };
+    match Record::read(dir).map_err(|why| format!("{RECORD} beside it {why}"))? {
+        Some(record) if record.files.contains_key(name) => record.check(name, &Sum::of(text.as_bytes())),
+        _ => Ok(()),
+    }
 }
 
 /// A report of this version's format, in which every case and every study stands once.

@@ -2,9 +2,10 @@
 
 use super::scene::{Chosen, Ensemble};
 use super::{
-    Failure, MAX_THREADS, agree, duration, memory, on_threads, print, probe, progress, scene, whole,
+    Failure, Threads, Writing, agree, duration, memory, on_threads, print, progress, result_folder, scene,
+    whole,
 };
-use crate::files::output::{Author, Output};
+use crate::files::output::Output;
 use crate::files::text::Shown;
 use crate::files::{build, cluster};
 use crate::present::table::ReportTable;
@@ -33,15 +34,10 @@ pub(super) struct Args {
     /// of one core allow, fewer at fine steps]
     #[arg(long, value_name = "N", value_parser = whole(2, MAX_REPLICAS), allow_negative_numbers = true)]
     replicas: Option<u64>,
-    /// Threads to run on; the results do not depend on it [default: one for each core]
-    #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
-    threads: Option<u64>,
-    /// Overwrite what this command did not write in the folder, or wrote from other input
-    #[arg(long)]
-    force: bool,
-    /// Print nothing but errors
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    threads: Threads,
+    #[command(flatten)]
+    writing: Writing,
 }
 
 /// Studies a scene: where rods meet by the law of its mean and directions, else by every fixed-step subject.
@@ -62,17 +58,14 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(stem));
     let input = json!({ "scene": named.scene.resolved(), "replicas": args.replicas });
     agree("converge", input.clone())?;
-    probe(&out, 0)?;
-    let author = Author::new("converge", input, args.force);
-    if cluster::is_root() {
-        author.check(&out, &["converge.csv", "converge.json", "replicas.csv"])?;
-    }
+    let names = ["converge.csv", "converge.json", "replicas.csv"];
+    let folder = result_folder(&out, ("converge", input, args.writing.force), 0, &names)?;
     let replicas = args.replicas.map_or(Replicas::CONVERGE, Replicas::Each);
     let done = match plan.keeps(Stage::Contacts) {
         true => {
             let warnings = [plan.warnings(), vec![coarse(&named.scene)]].concat();
             scene::warn(&named.source, &warnings);
-            on_threads(args.threads, || interacting(&named.scene, replicas, warnings, args))?
+            on_threads(args.threads.given, || interacting(&named.scene, replicas, warnings, args))?
         }
         // Milliseconds: no work for many.
         false if cluster::is_root() => free(&named.scene).map(Some),
@@ -86,8 +79,8 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
         return Ok(());
     };
     let names: Vec<_> = done.files.iter().map(|(name, _)| name.clone()).collect();
-    author.write(&out, done.files)?;
-    if !args.quiet {
+    folder.write(done.files)?;
+    if !args.writing.quiet {
         let text: String = done.tables.iter().map(ReportTable::text).collect();
         print(&format!("{text}in {}: {}\n", out.shown(), names.join(", ")))?;
     }
@@ -168,11 +161,11 @@ fn interacting(
     args: &Args,
 ) -> Result<Option<Done>, Failure> {
     let jobs = law::jobs(scene, replicas);
-    memory::check_jobs(&jobs, args.threads)?;
-    if !args.quiet && cluster::is_root() {
+    memory::check_jobs(&jobs, args.threads.given)?;
+    if !args.writing.quiet && cluster::is_root() {
         eprintln!("{}; nothing is kept before it ends", duration::of_jobs(&jobs));
     }
-    let bar = progress(jobs.iter().map(|job| job.replicas).sum(), "replicas", args.quiet);
+    let bar = progress(jobs.iter().map(|job| job.replicas).sum(), "replicas", args.writing.quiet);
     let found = cluster::share(jobs.len(), |k| jobs[k].run(&|| bar.inc(1)), |_, _| Ok(()));
     bar.finish_and_clear();
     let Some(found) = found.map_err(Failure::Failed)? else {

@@ -3,9 +3,9 @@
 mod input;
 mod shifts;
 
-use super::{Failure, MAX_THREADS, on_threads, print, probe, progress, scene, whole};
+use super::{Failure, Threads, Writing, on_threads, print, progress, result_folder, scene, whole};
 use crate::files::build::BUILD;
-use crate::files::output::{Author, Output};
+use crate::files::output::Output;
 use crate::files::text::command;
 use crate::input::experiment::MOST_BYTES;
 use crate::present::plot;
@@ -59,18 +59,13 @@ pub(super) struct Args {
     /// A key of every scene and the value to give it; can be given more than once
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Setting::parse)]
     settings: Vec<Setting>,
-    /// Threads to run on; the results do not depend on it [default: one for each core]
-    #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
-    threads: Option<u64>,
+    #[command(flatten)]
+    threads: Threads,
     /// List further points, at all times and at half and twice the concentration, with what each would leave of the uncertainties
     #[arg(long)]
     design: bool,
-    /// Overwrite what this command did not write in the folder, or wrote from other input
-    #[arg(long)]
-    force: bool,
-    /// Print nothing but errors and warnings
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    writing: Writing,
 }
 
 /// The record of a fit.
@@ -88,13 +83,12 @@ struct Done {
 pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     let input = input(args)?;
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("fit-{}", input.stem)));
-    probe(&out, 0)?;
     let asked = asked(args, &input)?;
-    let author = Author::new("fit", asked.clone(), args.force);
-    author.check(&out, &[FIT, "residuals.csv", "profiles.csv", "design.csv"])?;
-    let bar = progress(0, "runs", args.quiet);
+    let names = [FIT, "residuals.csv", "profiles.csv", "design.csv"];
+    let folder = result_folder(&out, ("fit", asked.clone(), args.writing.force), 0, &names)?;
+    let bar = progress(0, "runs", args.writing.quiet);
     let watch = Watch { planned: &|runs| bar.inc_length(runs), done: &|| bar.inc(1) };
-    let done = on_threads(args.threads, || work(args, &input, &watch))?;
+    let done = on_threads(args.threads.given, || work(args, &input, &watch))?;
     bar.finish_and_clear();
     let done = done?;
     let times: Vec<&str> = input.scenes.sets.iter().map(|set| set.time.name()).collect();
@@ -113,9 +107,9 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     let record = record(&asked, &done, &names)?;
     let names = names.join(", ");
     files.push((FIT.into(), record));
-    author.write(&out, files)?;
+    folder.write(files)?;
     scene::warn(&input.stem, &done.report.warnings);
-    if args.quiet {
+    if args.writing.quiet {
         return Ok(());
     }
     let design = (done.report.design.as_ref())
@@ -211,7 +205,7 @@ fn record(asked: &Value, done: &Done, files: &[&str]) -> Result<String, Failure>
     let failed = |error: serde_json::Error| Failure::Failed(error.to_string());
     let mut record = serde_json::to_value(&done.report).map_err(failed)?;
     record["build"] = json!(BUILD);
-    record["command"] = json!(command(std::env::args_os()));
+    record["command"] = json!(command(super::words::words()));
     for (key, value) in asked.as_object().into_iter().flatten() {
         record[key] = value.clone();
     }

@@ -5,8 +5,8 @@ mod inputs;
 
 pub(super) use args::Args;
 
-use super::{Failure, print};
-use crate::files::output::{self, Author};
+use super::{Failure, print, result_folder};
+use crate::files::output::{self, ResultFolder};
 use crate::files::text::Shown;
 use crate::present::plot;
 use crate::serve::grade::live::{self, Mode, Program};
@@ -46,8 +46,8 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     ];
     let mut files: Vec<_> = PAGES.map(str::to_owned).into_iter().zip(pages).collect();
     files.extend(pictures);
-    Author::new("grade", inputs, args.force).write(&args.out, files)?;
-    if !args.quiet {
+    ResultFolder::new(&args.out, "grade", inputs, args.writing.force).write(files)?;
+    if !args.writing.quiet {
         let place = args.out.join("grade.html");
         print(&format!("{}\nreport: {}\n", grade::terminal(&report), place.shown()))?;
     }
@@ -200,9 +200,9 @@ fn about_rods(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem
 
 fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done, Failure> {
     let wanted = about_rods(args, reference)?;
-    output::probe(&args.out, 0)?;
     let inputs = inputs::of_program(args, reference, &wanted)?;
-    Author::new("grade", inputs.clone(), args.force).check(&args.out, &[&PAGES[..], &PICTURES].concat())?;
+    let origin = ("grade", inputs.clone(), args.writing.force);
+    result_folder(&args.out, origin, 0, &[&PAGES[..], &PICTURES].concat())?;
     let timeout = Duration::from_secs_f64(args.timeout);
     let program = Program::start(command, timeout).map_err(Failure::Input)?;
     let mode = live::mode(&program);

@@ -16,7 +16,6 @@ mod memory;
 mod pictures;
 mod plot;
 mod problems;
-mod words;
 mod record;
 mod reference;
 mod rods;
@@ -29,9 +28,11 @@ mod tables;
 mod terminal;
 mod threads;
 mod validate;
+mod words;
 
+use crate::files::output::{self, ResultFolder};
 use crate::files::text::readable;
-use crate::files::{cluster, output, text};
+use crate::files::{cluster, text};
 use crate::present::plot::Figure;
 use clap::{Parser, Subcommand};
 use serde_json::{Value, json};
@@ -40,7 +41,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use terminal::{log, print, progress};
-use threads::{MAX_THREADS, on_threads};
+use threads::{Threads, on_threads};
 
 /// Rigid slender rods in a sheared viscous liquid, after Lee & Springer (1982).
 #[derive(Parser)]
@@ -221,14 +222,33 @@ fn command(command: Command) -> Result<(), Failure> {
     }
 }
 
-/// Whether the root can write files into `dir`, so many bytes of them and a little more: known before a long run.
-fn probe(dir: &Path, bytes: u64) -> Result<(), Failure> {
-    /// Pictures, records and what folders need.
+/// Options of every command that writes a folder of results.
+#[derive(clap::Args)]
+struct Writing {
+    /// Overwrite what this command did not write in the folder, or wrote from other input
+    #[arg(long)]
+    force: bool,
+    /// Print nothing but errors and warnings
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// The folder for a command's results. The root checks it before the work: so many `bytes` and a little more can be written,
+/// and nothing is in the way of files of these names.
+fn result_folder<N: AsRef<str>>(
+    dir: &Path,
+    (command, inputs, force): (&str, Value, bool),
+    bytes: u64,
+    names: &[N],
+) -> Result<ResultFolder, Failure> {
+    /// Pictures and records.
     const MORE: u64 = 1 << 20;
-    match cluster::is_root() {
-        true => Ok(output::probe(dir, bytes + MORE)?),
-        false => Ok(()),
+    let folder = ResultFolder::new(dir, command, inputs, force);
+    if cluster::is_root() {
+        output::probe(dir, bytes + MORE)?;
+        folder.check(names)?;
     }
+    Ok(folder)
 }
 
 /// Refuses ranks with other inputs than the root's, before anything runs.
@@ -244,23 +264,14 @@ fn whole(least: u64, most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone 
     }
 }
 
-impl From<crate::files::checkpoint::Refused> for Failure {
-    fn from(refused: crate::files::checkpoint::Refused) -> Self {
+impl From<output::Refused> for Failure {
+    fn from(refused: output::Refused) -> Self {
         Self::Input(refused.0)
     }
 }
 
-impl From<output::Refused> for Failure {
-    fn from(refused: output::Refused) -> Self {
-        match refused {
-            output::Refused::Other(message) => Self::Input(message),
-            output::Refused::Output(error) => error.into(),
-        }
-    }
-}
-
-impl From<crate::files::output::OutputError> for Failure {
-    fn from(error: crate::files::output::OutputError) -> Self {
+impl From<output::OutputError> for Failure {
+    fn from(error: output::OutputError) -> Self {
         Self::Input(error.to_string())
     }
 }

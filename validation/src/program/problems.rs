@@ -1,8 +1,8 @@
 //! `shearbed problems`.
 
-use super::{Failure, print};
+use super::{Failure, Writing, print};
 use crate::files::text::Shown;
-use crate::serve::problems::{self, ExportError};
+use crate::serve::problems;
 use std::path::PathBuf;
 
 /// Arguments of `problems`.
@@ -18,12 +18,8 @@ enum What {
     Export {
         /// The folder; it may hold an earlier export
         dir: PathBuf,
-        /// Write even where the folder holds something else, which stays
-        #[arg(long)]
-        force: bool,
-        /// Print nothing but errors
-        #[arg(long)]
-        quiet: bool,
+        #[command(flatten)]
+        writing: Writing,
     },
     /// Print the JSON Schema of problem.json
     Schema,
@@ -34,9 +30,9 @@ pub(super) fn problems(args: &Args) -> Result<(), Failure> {
     match &args.what {
         None => print(&list()),
         Some(What::Schema) => print(problems::SCHEMA),
-        Some(What::Export { dir, force, quiet }) => {
-            let names = problems::export(dir, *force)?;
-            if *quiet {
+        Some(What::Export { dir, writing }) => {
+            let names = problems::export(dir, writing.force)?;
+            if writing.quiet {
                 return Ok(());
             }
             print(&format!("in {}: {}\n", dir.shown(), names.join(", ")))
@@ -48,10 +44,4 @@ fn list() -> String {
     let width = (problems::all().iter().map(|def| def.name.len())).max().unwrap_or(0);
     let line = |def: &problems::ProblemDef| format!("{:<width$}  {}\n", def.name, def.title);
     problems::all().iter().map(line).collect()
-}
-
-impl From<ExportError> for Failure {
-    fn from(error: ExportError) -> Self {
-        Self::Input(error.to_string())
-    }
 }

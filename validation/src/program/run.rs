@@ -3,12 +3,12 @@
 use super::record::Seconds;
 use super::scene::{Chosen, Ensemble};
 use super::{
-    Failure, MAX_THREADS, agree, checkpoint, facts, log, memory, on_threads, pictures, print, probe,
-    progress, record, rods, scene, tables, threads, whole,
+    Failure, Threads, Writing, agree, checkpoint, facts, log, memory, on_threads, pictures, print, progress,
+    record, result_folder, rods, scene, tables, threads,
 };
 use crate::files::checkpoint::Replicas;
 use crate::files::cluster;
-use crate::files::output::{Author, Output};
+use crate::files::output::Output;
 use crate::files::text::Shown;
 use crate::files::text::line;
 use crate::input::start::Starts;
@@ -31,9 +31,8 @@ pub(super) struct Args {
     /// The folder for tables, pictures and run.json [default: out/<scene>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Threads to run on; the results do not depend on it [default: one for each core]
-    #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
-    threads: Option<u64>,
+    #[command(flatten)]
+    threads: Threads,
     /// Write the rods of output.rods_at for ParaView too: rods.pvd, and a .vtp file for each time
     #[arg(long)]
     vtk: bool,
@@ -43,12 +42,8 @@ pub(super) struct Args {
     /// Seconds between two checkpoints [default: 60]
     #[arg(long, value_name = "S", value_parser = seconds, requires = "checkpoint", allow_negative_numbers = true)]
     every: Option<Duration>,
-    /// Overwrite what this command did not write in the folder, or wrote from other input
-    #[arg(long)]
-    force: bool,
-    /// Print nothing but errors and warnings
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    writing: Writing,
 }
 
 /// Refuses a folder in which a result would replace a file that the scene's rods are read from, with --force too.
@@ -82,7 +77,7 @@ fn kept(args: &Args, plan: &Plan, path: Option<&Path>) -> Result<Option<Arc<Repl
     let progress = replicas.progress();
     if progress.done > 0 || progress.halfway > 0 {
         let told = format!("goes on from {}: {progress}\n", path.shown());
-        print(if args.quiet { "" } else { &told })?;
+        print(if args.writing.quiet { "" } else { &told })?;
     }
     Ok(Some(replicas))
 }
@@ -100,27 +95,26 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         )));
     }
     let beside = args.checkpoint.as_ref().map_or(0, |_| Halfway::bytes(&plan));
-    memory::check_beside(&plan, args.threads, args.vtk, &named.source, beside)?;
+    memory::check_beside(&plan, args.threads.given, args.vtk, &named.source, beside)?;
     let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&named.stem));
-    agree("run", json!({ "scene": plan.scene().resolved() }))?;
+    let inputs = json!({ "scene": plan.scene().resolved() });
+    agree("run", inputs.clone())?;
     let path = args.checkpoint.as_deref();
     let path = path.map(|path| checkpoint::check(path, &out)).transpose()?;
     let bytes = tables::most_bytes(&plan).saturating_add(rods::most_bytes(&plan, args.vtk));
-    probe(&out, bytes)?;
-    let author = Author::new("run", json!({ "scene": plan.scene().resolved() }), args.force);
+    let names = names(&plan, args.vtk);
     if cluster::is_root() {
-        let names = names(&plan, args.vtk);
         reads_no_result(&named.starts, &out, &names)?;
-        author.check(&out, &names)?;
     }
+    let folder = result_folder(&out, ("run", inputs, args.writing.force), bytes, &names)?;
     scene::warn(&named.source, &facts::warnings(&plan));
     let mut seconds = Seconds { plan: start.elapsed().as_secs_f64(), ..Seconds::default() };
 
     let checkpoint = kept(args, &plan, path.as_deref())?;
-    let bar = progress(scene.ensemble.replicas, "replicas", args.quiet);
+    let bar = progress(scene.ensemble.replicas, "replicas", args.writing.quiet);
     bar.inc(checkpoint.as_ref().map_or(0, |kept| kept.progress().done));
     let start = Instant::now();
-    let threads = threads::count(args.threads)? as usize;
+    let threads = threads::count(args.threads.given)? as usize;
     let results = match &checkpoint {
         Some(kept) => kept
             .run(
@@ -128,7 +122,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
                 || bar.inc(1),
                 |saved| match saved {
                     Ok(progress) => {
-                        log(&format!("kept in {}: {progress}", kept.path().display()), args.quiet)
+                        log(&format!("kept in {}: {progress}", kept.path().display()), args.writing.quiet)
                     }
                     Err(error) => {
                         let lost = format!("{error}; the run goes on, and what comes is not kept");
@@ -137,7 +131,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
                 },
             )
             .map(Some),
-        None => on_threads(args.threads, || cluster::ensemble(&plan, || bar.inc(1)))?,
+        None => on_threads(args.threads.given, || cluster::ensemble(&plan, || bar.inc(1)))?,
     };
     bar.finish_and_clear();
     let Some(results) = ended(&named.source, results)? else {
@@ -153,8 +147,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let record = record::json(&plan, &results, threads, seconds, names).map_err(Failure::Failed)?;
     files.push((RUN.to_owned(), record));
     let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
-    author.write(&out, files)?;
-    if args.quiet {
+    folder.write(files)?;
+    if args.writing.quiet {
         return Ok(());
     }
     print(&format!(

@@ -2,13 +2,14 @@
 
 use super::scene::{Chosen, Ensemble};
 use super::{
-    Failure, MAX_THREADS, agree, facts, log, memory, on_threads, print, probe, progress, scene, tables, whole,
+    Failure, Threads, Writing, agree, facts, log, memory, on_threads, print, progress, result_folder, scene,
+    tables,
 };
 use crate::files::cluster;
-use crate::files::output::{Author, Output};
+use crate::files::output::Output;
 use crate::files::text;
 use crate::files::text::Shown;
-use crate::serve::sweep::{self, Axis, Folder, Identity, Point, Points};
+use crate::serve::sweep::{self, Axis, Folder, Point, Points};
 use shearbed::run::ensemble;
 use std::path::{Path, PathBuf};
 
@@ -31,15 +32,10 @@ pub(super) struct Args {
     /// The folder for sweep.csv, sweep.json and points/ [default: out/sweep-<scene>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Threads to run on; the results do not depend on it [default: one for each core]
-    #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
-    threads: Option<u64>,
-    /// Overwrite what this command did not write in the folder, or wrote from other input
-    #[arg(long)]
-    force: bool,
-    /// Print nothing but errors
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    threads: Threads,
+    #[command(flatten)]
+    writing: Writing,
 }
 
 /// Runs the points of a sweep that are not finished, and writes one row a point.
@@ -65,28 +61,27 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
             )));
         }
         let at = format!("{}: --over {}", named.source, sweep::described(&args.over, &point.values));
-        memory::check(&point.plan, args.threads, false, &at)?;
+        memory::check(&point.plan, args.threads.given, false, &at)?;
     }
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("sweep-{}", named.stem)));
     let total = points.len();
     let warned = warnings(&points, &args.over);
-    let identity = Identity::new(&named.scene, &args.over, &points, &warned);
-    agree("sweep", identity.value().clone())?;
-
-    let author = Author::new("sweep", identity.value().clone(), args.force);
+    let inputs = sweep::inputs(&named.scene, &args.over, &points, &warned);
+    agree("sweep", inputs.clone())?;
 
     // Only the root may see the folder.
     let mut folder = None;
     let open = || {
         let bytes = (points.iter()).map(|point| tables::most_bytes(&point.plan)).sum();
-        probe(&out, bytes)?;
+        let origin = ("sweep", inputs.clone(), args.writing.force);
+        let in_folder = result_folder(&out, origin, bytes, &[""; 0])?;
         let points = Points {
             described: (points.iter()).map(|point| sweep::described(&args.over, &point.values)).collect(),
             tables: (points[0].plan.observables().iter())
                 .map(|observable| format!("{}.csv", observable.name()))
                 .collect(),
         };
-        let opened = folder.insert(Folder::open(&out, &author, &identity, points)?);
+        let opened = folder.insert(Folder::open(in_folder, &inputs, points)?);
         Ok::<_, Failure>(self::jobs(&opened.finished(), total))
     };
     let (checked, jobs): (Option<usize>, Vec<usize>) = cluster::from_root(open)?;
@@ -98,11 +93,11 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     );
     let new = jobs.len() - usize::from(checked.is_some());
     let finished = total - new;
-    if finished > 0 && !args.quiet {
+    if finished > 0 && !args.writing.quiet {
         print(&format!("goes on from {}: {finished} of {total} points are finished\n", out.display()))?;
     }
     let mut ended = finished;
-    let bar = progress(jobs.len() as u64, "points", args.quiet);
+    let bar = progress(jobs.len() as u64, "points", args.writing.quiet);
     let job = |job: usize| {
         let k = jobs[job];
         tables_of(&points[k]).map_err(|error| {
@@ -118,27 +113,27 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
             return Ok(());
         };
         match checked {
-            Some(finished) if finished == k => match folder.kept(k)? == *tables {
+            Some(finished) if finished == k => match folder.tables(k)? == *tables {
                 true => Ok(()),
                 false => Err(other_numbers(&folder.point(k))),
             },
             _ => {
-                folder.keep(k, tables)?;
+                folder.write(k, tables)?;
                 ended += 1;
                 let line = format!("kept in {}: {ended} of {total} points are finished", out.display());
-                log(&line, args.quiet);
+                log(&line, args.writing.quiet);
                 Ok(())
             }
         }
     };
-    let shared = on_threads(args.threads, || cluster::share(jobs.len(), job, arrived))??;
+    let shared = on_threads(args.threads.given, || cluster::share(jobs.len(), job, arrived))??;
     bar.finish_and_clear();
     let (Some(folder), true) = (&folder, shared.is_some()) else {
         return Ok(());
     };
     let values: Vec<_> = points.iter().map(|point| point.values.clone()).collect();
     let rows = folder.gather(&args.over, &values)?;
-    if args.quiet {
+    if args.writing.quiet {
         return Ok(());
     }
     print(&format!(

@@ -1,13 +1,21 @@
 //! How many threads a command runs on.
 
-use super::Failure;
+use super::{Failure, whole};
 use std::ffi::OsString;
 
 /// The most threads that can be asked for.
-pub(super) const MAX_THREADS: u64 = 1024;
+const MAX_THREADS: u64 = 1024;
 
 /// Rayon's own setting, which counts where `--threads` is not given.
 const VARIABLE: &str = "RAYON_NUM_THREADS";
+
+/// The option of every command that runs replicas.
+#[derive(clap::Args)]
+pub(super) struct Threads {
+    /// Threads to run on; the results do not depend on it [default: one for each core]
+    #[arg(long = "threads", value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
+    pub(super) given: Option<u64>,
+}
 
 /// Refuses more threads in the environment than can be asked for.
 pub(super) fn check() -> Result<(), Failure> {

@@ -1,10 +1,11 @@
 //! `shearbed validate`.
 
 use super::finished::{Ended, Finished};
-use super::{Failure, MAX_THREADS, agree, checkpoint, choice, on_threads, print, probe, progress, whole};
+use super::{
+    Failure, Threads, Writing, agree, checkpoint, choice, on_threads, print, progress, result_folder, whole,
+};
 use crate::cases::catalogue;
 use crate::files::cluster;
-use crate::files::output::Author;
 use crate::files::text::Shown;
 use crate::files::text::command;
 use crate::input::experiment;
@@ -47,15 +48,10 @@ pub(super) struct Args {
     /// The folder for report.html, report.json, report.md and curves/
     #[arg(long, value_name = "DIR", default_value = "out/report")]
     out: PathBuf,
-    /// Threads to run on [default: one for each core]
-    #[arg(long, value_name = "K", value_parser = whole(1, MAX_THREADS), allow_negative_numbers = true)]
-    threads: Option<u64>,
-    /// Overwrite what this command did not write in the folder, or wrote from other input
-    #[arg(long)]
-    force: bool,
-    /// Print nothing but errors
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    threads: Threads,
+    #[command(flatten)]
+    writing: Writing,
 }
 
 fn folder(text: &str) -> Result<PathBuf, String> {
@@ -89,20 +85,16 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     agree("validate", agreed.clone())?;
     let path = args.checkpoint.as_deref();
     let path = path.map(|path| checkpoint::check(path, &args.out)).transpose()?;
-    probe(&args.out, 0)?;
-    let author = Author::new("validate", agreed, args.force);
-    if cluster::is_root() {
-        author.check(&args.out, &PAGES)?;
-    }
+    let folder = result_folder(&args.out, ("validate", agreed, args.writing.force), 0, &PAGES)?;
     let kept = match &path {
-        Some(path) => Some(Finished::open(path, input, args.quiet)?),
+        Some(path) => Some(Finished::open(path, input, args.writing.quiet)?),
         None => None,
     };
     let effort = Effort { full: args.full, seed: args.seed, data: args.data };
-    let (outcomes, sections) = on_threads(args.threads, || {
-        let outcomes = outcomes(&chosen, &effort, kept.as_ref(), args.quiet)?;
+    let (outcomes, sections) = on_threads(args.threads.given, || {
+        let outcomes = outcomes(&chosen, &effort, kept.as_ref(), args.writing.quiet)?;
         let sections = match args.cases.is_empty() && args.tags.is_empty() {
-            true => gather(&effort, kept.as_ref(), args.quiet)?,
+            true => gather(&effort, kept.as_ref(), args.writing.quiet)?,
             false => Some(Sections::default()),
         };
         Ok::<_, Failure>((outcomes, sections))
@@ -114,14 +106,14 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let mut files = report.data().map_err(Failure::Failed)?;
     let pages = [report.html().map_err(Failure::Failed)?, report.json(), report.markdown(), report.junit()];
     files.extend(PAGES.map(str::to_owned).into_iter().zip(pages));
-    author.write(&args.out, files)?;
+    folder.write(files)?;
     let red: String = report.cases.iter().map(CaseRow::reasons).collect();
     if !red.is_empty() && cluster::is_root() {
         // Also where nothing else is printed: what is red is an error. Where even this cannot be written, the exit code
         // has to say it.
         let _ = write!(std::io::stderr(), "\n{red}");
     }
-    if !args.quiet {
+    if !args.writing.quiet {
         let page = args.out.join("report.html");
         print(&format!("\n{}\nreport: {}\n", report.headline(), page.shown()))?;
     }

@@ -41,8 +41,8 @@ fn a_damaged_point_does_not_reach_the_table() {
             let at = bytes[..end].iter().rposition(|byte| *byte == b'\n').unwrap();
             bytes.truncate(at + 1);
         }),
-        ("another checksum", "point.json", last_digit),
-        ("empty", "point.json", Vec::clear),
+        ("another checksum", "shearbed.json", last_digit),
+        ("empty", "shearbed.json", Vec::clear),
     ];
     for (what, name, change) in damages {
         for missing in [false, true] {

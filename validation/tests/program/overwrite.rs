@@ -241,7 +241,11 @@ fn a_point_of_a_sweep_and_a_checkpoint_are_no_place_for_a_run() {
     assert_eq!(ended("sweep small.toml --over interaction.alpha=0.1,0.2 --out w --quiet").0, Some(0));
     let before = read(&dir.path().join("w/points/1/projections.csv"));
     let (code, said) = ended("run small.toml --quiet --out w/points/1 --seed 77");
-    assert!(code == Some(2) && said.contains("w/points/1/point.json: is here already"), "{said}");
+    assert!(
+        code == Some(2)
+            && said.contains("w/points/1/shearbed.json: results of `shearbed sweep` are kept here"),
+        "{said}"
+    );
     assert_eq!(read(&dir.path().join("w/points/1/projections.csv")), before);
     fs::create_dir(dir.path().join("d")).unwrap();
     let (code, said) = ended("run small.toml --quiet --out d --checkpoint d/projections.csv");

@@ -36,6 +36,7 @@ fn one_picture_is_drawn_from_several_runs_and_from_a_sweep() {
     assert!(read(&dir.path().join("s.svg")).contains("interaction.alpha=0.2"));
     for (arguments, words) in [
         ("plot a --y x9", "--y x9: a has no such channel; there are x1, x2, x3, x1x2,"),
+        ("plot s/points/1", "s/points/1: is one point of a sweep; the sweep's folder is allowed"),
         ("plot nowhere", "nowhere: neither run.json nor sweep.json is in it"),
         ("plot a --out picture.gif", "a name that ends in .svg or .png is allowed"),
     ] {
@@ -88,7 +89,7 @@ fn what_was_not_written_so_is_not_drawn() {
     assert!(ended.stderr.contains("s/points/3/projections.csv: was changed"), "{}", ended.stderr);
     std::fs::remove_dir_all(dir.path().join("s/points/3")).unwrap();
     let ended = shearbed(dir.path(), "plot s --out t.svg");
-    assert!(ended.stderr.contains("s/points/3/point.json: cannot be read"), "{}", ended.stderr);
+    assert!(ended.stderr.contains("s/points/3/shearbed.json: cannot be read"), "{}", ended.stderr);
     assert!(!dir.path().join("t.svg").exists());
 }
 

@@ -26,7 +26,7 @@ fn write(dir: &Path) {
 }
 
 #[test]
-fn an_export_is_what_is_read_and_is_not_written_over_foreign_files() {
+fn an_export_is_what_is_read_and_is_not_written_over_what_it_did_not_write() {
     let dir = tempfile::tempdir().unwrap();
     let reference = dir.path().join("a/ref");
     let names = problems::export(&reference, false).unwrap();
@@ -35,21 +35,31 @@ fn an_export_is_what_is_read_and_is_not_written_over_foreign_files() {
     }
     let expected: BTreeMap<_, _> =
         FILES.iter().map(|(name, text)| (name.clone(), text.clone().into_bytes())).collect();
-    assert_eq!(files(&reference), expected);
+    let mut found = files(&reference);
+    let record: Value = serde_json::from_slice(&found.remove("shearbed.json").unwrap()).unwrap();
+    assert_eq!(record["command"], "problems export");
+    assert_eq!(record["files"].as_object().unwrap().len(), expected.len());
+    assert_eq!(found, expected);
     assert_eq!(problems::read(&reference).unwrap().len(), names.len());
     // Over its own export: the same again.
     problems::export(&reference, false).unwrap();
+    // What nobody exported stays where it is, and what was changed is replaced by force alone.
+    let start = reference.join("poles/start.csv");
     for foreign in ["sphere/answer.csv", "notes.txt"] {
         fs::write(reference.join(foreign), "mine").unwrap();
-        fs::write(reference.join("poles/start.csv"), "changed").unwrap();
+        problems::export(&reference, false).unwrap();
+        fs::write(&start, "changed").unwrap();
         let error = problems::export(&reference, false).unwrap_err().to_string();
-        assert!(error.contains(foreign) && error.contains("--force"), "{error}");
-        assert_eq!(fs::read_to_string(reference.join("poles/start.csv")).unwrap(), "changed");
+        assert!(error.contains("poles/start.csv: was changed") && error.contains("--force"), "{error}");
+        assert_eq!(fs::read_to_string(&start).unwrap(), "changed");
         problems::export(&reference, true).unwrap();
         assert_eq!(fs::read_to_string(reference.join(foreign)).unwrap(), "mine");
-        assert_eq!(fs::read_to_string(reference.join("poles/start.csv")).unwrap(), FILES["poles/start.csv"]);
-        fs::remove_file(reference.join(foreign)).unwrap();
+        assert_eq!(fs::read_to_string(&start).unwrap(), FILES["poles/start.csv"]);
     }
+    // Without the record nobody knows who wrote the problems.
+    fs::remove_file(reference.join("shearbed.json")).unwrap();
+    let error = problems::export(&reference, false).unwrap_err().to_string();
+    assert!(error.contains("problem.json: is here already"), "{error}");
 }
 
 #[test]

@@ -45,6 +45,11 @@ fn two_reports_are_compared() {
     let bad = shearbed(dir.path(), "compare a/report.json small.toml");
     assert_eq!(bad.code, Some(2));
     assert!(bad.stderr.contains("small.toml: is no report.json"), "{}", bad.stderr);
+    // A report that was changed in its folder is no longer what was written there.
+    fs::write(dir.path().join("a/report.json"), spoilt.to_string()).unwrap();
+    let changed = shearbed(dir.path(), "compare b.json a/report.json");
+    assert_eq!(changed.code, Some(2), "{}", changed.stdout);
+    assert!(changed.stderr.contains("a/report.json: was changed after it was written"), "{}", changed.stderr);
     assert!(read(&dir.path().join("a/junit.xml")).contains("name=\"jeffery-period\""));
 }
 

@@ -130,7 +130,7 @@ fn another_sweep_in_the_folder_is_refused_and_left_as_it_is() {
         let bytes = text.len();
         format!("\"bytes\": {bytes},\n      \"crc32\": \"{:08x}\"", crc32fast::hash(text.as_bytes()))
     });
-    let kept = here.join("points/1/point.json");
+    let kept = here.join("points/1/shearbed.json");
     let text = fs::read_to_string(&kept).unwrap();
     assert!(text.contains(&sum), "{text}");
     fs::write(&kept, text.replace(&sum, &own)).unwrap();

@@ -54,7 +54,8 @@ class Problem:
 @cache
 def problems() -> tuple[Problem, ...]:
     """The reference problems, in the order of ``shearbed problems``."""
-    return tuple(_problem(path) for path in sorted(Path(_exported().name).iterdir()))
+    folders = (path for path in Path(_exported().name).iterdir() if path.is_dir())
+    return tuple(_problem(folder) for folder in sorted(folders))
 
 
 @cache

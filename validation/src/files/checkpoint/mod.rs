@@ -1,7 +1,7 @@
-//! Checkpoints: a file that says how far a command has come, from which the same command goes on.
+//! Checkpoints: the state of an unfinished command in one file, from which the same command goes on.
 //!
-//! A line with the format's number, a line of JSON that says of which work it is, the state in MessagePack, and the CRC-32 of
-//! all before in four bytes. It is replaced whole, so that a kill leaves the old one or the new one.
+//! A line with the format's number, a line of JSON with the command and its inputs, the state in MessagePack, and the CRC-32 of
+//! all before in four bytes. It is replaced whole: a kill leaves the old one or the new one.
 
 mod replicas;
 mod stop;
@@ -13,8 +13,7 @@ pub(crate) use stop::{last_words, on_stop, stays};
 
 use crate::files::bounded;
 use crate::files::build;
-use crate::files::difference::difference;
-use crate::files::output::{OutputError, Part, Replaced};
+use crate::files::output::{Origin, OutputError, Part, Refused, Replaced};
 use crate::files::text::Shown;
 use crc32fast::Hasher;
 use serde::Serialize;
@@ -27,7 +26,7 @@ use std::path::Path;
 /// How every checkpoint begins, before the number of its format.
 const HEAD: &str = "shearbed checkpoint ";
 /// The format that is written and read.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 /// The checksum at the end.
 const SUM: u64 = 4;
 /// The longest first line, and the longest second one.
@@ -36,27 +35,14 @@ const LINES: [u64; 2] = [64, 1 << 20];
 /// The checkpoint of one command, which no other process writes meanwhile.
 pub struct Checkpoint {
     file: Replaced,
-    identity: Value,
-}
-
-/// Why a checkpoint is not used: it cannot be read or written, or it is not of this work.
-#[derive(Debug)]
-pub struct Refused(pub String);
-
-impl From<OutputError> for Refused {
-    fn from(error: OutputError) -> Self {
-        Self(error.to_string())
-    }
+    origin: Origin,
 }
 
 impl Checkpoint {
-    /// Claims the file for the work that `identity` and the build say: what the results depend on.
-    pub fn open(path: &Path, command: &str, mut identity: Value) -> Result<Self, Refused> {
-        identity["command"] = command.into();
-        identity["build"] = build::record();
-        // As text: what was written and read again is compared with the same.
-        let identity = serde_json::from_str(&identity.to_string()).unwrap_or(identity);
-        Ok(Self { file: Replaced::claim(path)?, identity })
+    /// Claims the file for a command, this build and `inputs`, an object with all else that the results depend on.
+    pub fn open(path: &Path, command: &str, mut inputs: Value) -> Result<Self, Refused> {
+        inputs["build"] = build::record();
+        Ok(Self { file: Replaced::claim(path)?, origin: Origin::new(command, inputs) })
     }
 
     /// Its file.
@@ -64,7 +50,7 @@ impl Checkpoint {
         self.file.path()
     }
 
-    /// The state that is kept, where there is one.
+    /// The state in the file; `None` where there is no file.
     pub fn read<T: DeserializeOwned>(&self) -> Result<Option<T>, Refused> {
         match bounded::open(self.path()) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
@@ -76,23 +62,23 @@ impl Checkpoint {
         }
     }
 
-    /// Keeps a state in place of the last.
+    /// Replaces the state.
     pub fn write(&self, state: &impl Serialize) -> Result<(), OutputError> {
         self.begin(state)?.finish()
     }
 
-    /// The same up to where the state is no longer needed.
+    /// Writes the state beside the file; [`Part::finish`] puts it in place.
     fn begin(&self, state: &impl Serialize) -> Result<Part<'_>, OutputError> {
         self.file.write(|file| {
             let mut file = Summed(file, Hasher::new());
-            writeln!(file, "{HEAD}{FORMAT}\n{}", self.identity)?;
+            writeln!(file, "{HEAD}{FORMAT}\n{}", serde_json::to_string(&self.origin)?)?;
             rmp_serde::encode::write_named(&mut file, state).map_err(cause)?;
             let sum = file.1.finalize();
             file.0.write_all(&sum.to_be_bytes())
         })
     }
 
-    /// The file is not to be used, and why.
+    /// The error that this file cannot be used, with the reason and what to do.
     pub fn refused(&self, why: &str) -> Refused {
         Refused(format!(
             "--checkpoint {}: {why}; give another name, or remove it to start anew; nothing was changed",
@@ -125,11 +111,11 @@ impl Checkpoint {
         file.rewind().map_err(unread)?;
         let mut file = file.take(length);
         line(&mut file, LINES[0]).map_err(unread)?;
-        let identity = line(&mut file, LINES[1]).map_err(unread)?;
+        let origin = line(&mut file, LINES[1]).map_err(unread)?;
         let broken = |error: &dyn std::fmt::Display| format!("is damaged: {error}");
-        let identity: Value = serde_json::from_str(&identity).map_err(|error| broken(&error))?;
-        if let Some((key, kept, own)) = difference(&identity, &self.identity) {
-            return Err(format!("is of other work: {key} was {kept} and is {own} now"));
+        let origin: Origin = serde_json::from_str(&origin).map_err(|error| broken(&error))?;
+        if let Some(difference) = origin.difference(&self.origin) {
+            return Err(format!("is of other work: {difference}"));
         }
         let state = rmp_serde::from_read(&mut file).map_err(|error| broken(&error))?;
         match file.fill_buf().map_err(unread)? {

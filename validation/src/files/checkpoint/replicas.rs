@@ -3,8 +3,8 @@
 //! Replicas are begun in order, each in a pool of threads of its own: so few wait to be added up, and none waits in the
 //! middle of a step for another one, as it might in one pool for all.
 
-use super::{Checkpoint, Refused, on_stop, stays};
-use crate::files::output::OutputError;
+use super::{Checkpoint, on_stop, stays};
+use crate::files::output::{OutputError, Refused};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use shearbed::Error;

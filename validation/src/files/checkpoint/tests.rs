@@ -77,7 +77,7 @@ fn other_work_and_other_formats_are_refused_by_name() {
     let whole = fs::read(&path).unwrap();
     assert!(refused(&path, &whole, 2).contains("is of other work: scene.seed was 1 and is 2 now"));
     let text = String::from_utf8_lossy(&whole[..24]).into_owned();
-    assert!(text.starts_with("shearbed checkpoint 2\n"), "{text}");
+    assert!(text.starts_with("shearbed checkpoint 3\n"), "{text}");
     let mut other = whole.clone();
     other[HEAD.len()] = b'1';
     assert!(refused(&path, &summed(other), 1).contains("has the format 1, of another version"));

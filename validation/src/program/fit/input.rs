@@ -129,7 +129,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
     let ends = [|range: &Range| range.from, |range: &Range| range.to];
     for values in ends.map(|end| args.over.iter().map(end).collect::<Vec<f64>>()) {
         for plan in scenes.plans(&values, &data, AS_WRITTEN).map_err(Failure::Input)? {
-            memory::check(&plan, args.threads, false, &stem)?;
+            memory::check(&plan, args.threads.given, false, &stem)?;
         }
     }
     Ok(Input { scenes, data, names, files, stem })

@@ -1,5 +1,6 @@
 //! What `shearbed grade` is told.
 
+use crate::program::Writing;
 use crate::serve::grade::{Axes, Foreign};
 use crate::serve::problems::Kind;
 use std::path::PathBuf;
@@ -65,12 +66,8 @@ pub(crate) struct Args {
     /// A missing answer is a failure
     #[arg(long)]
     pub(super) all: bool,
-    /// Overwrite what this command did not write in the folder, or wrote from other input
-    #[arg(long)]
-    pub(super) force: bool,
-    /// Print nothing but errors
-    #[arg(long)]
-    pub(super) quiet: bool,
+    #[command(flatten)]
+    pub(super) writing: Writing,
 }
 
 fn kind(text: &str) -> Result<Kind, String> {

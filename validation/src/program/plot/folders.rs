@@ -5,25 +5,16 @@ use crate::files::output::{RECORD, Record, Sum};
 use crate::files::text::Shown;
 use crate::program::Failure;
 use crate::serve::sweep::POINT;
-use serde::Deserialize;
 use serde_json::Value;
 use shearbed::Scene;
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// A folder of tables, what it is called, its scene, and the sums of its files.
+/// A folder of tables, what it is called, its scene, and its record.
 pub(super) struct Run {
     pub(super) dir: PathBuf,
     pub(super) label: String,
     pub(super) scene: Scene,
-    pub(super) sums: BTreeMap<String, Sum>,
-}
-
-/// What `point.json` says.
-#[derive(Deserialize)]
-struct PointRecord {
-    point: String,
-    files: BTreeMap<String, Sum>,
+    pub(super) record: Record,
 }
 
 /// The longest record.
@@ -43,13 +34,16 @@ pub(super) fn runs_in(dir: &Path) -> Result<Vec<Run>, Failure> {
         let what = "is missing: it has the checksums of the folder's files; run the command that wrote the folder again";
         refused(&path, what)
     })?;
-    match record.command.as_str() {
+    match record.origin.command.as_str() {
         "run" => Ok(vec![Run {
             label: name(dir),
             scene: scene(dir, "run.json", &record)?,
             dir: dir.to_owned(),
-            sums: record.files,
+            record,
         }]),
+        "sweep" if record.origin.inputs.get(POINT).is_some() => {
+            Err(refused(dir, "is one point of a sweep; the sweep's folder is allowed, two folders above"))
+        }
         "sweep" => points(dir, &record),
         other => Err(refused(&path, &format!("is of `shearbed {other}`; `run` and `sweep` are allowed"))),
     }
@@ -69,10 +63,11 @@ fn points(dir: &Path, record: &Record) -> Result<Vec<Run>, Failure> {
         )));
     }
     let scene = scene(dir, "sweep.json", record)?;
-    let of_points = (record.files.keys()).filter_map(|name| Some((name, name.strip_suffix(POINT)?)));
+    let of_points = (record.files.keys()).filter_map(|name| Some((name, name.strip_suffix(RECORD)?)));
     let point = |(name, folder): (&String, &str)| {
-        let point: PointRecord = json(dir, name, record)?;
-        Ok(Run { label: point.point, scene: scene.clone(), dir: dir.join(folder), sums: point.files })
+        let record: Record = json(dir, name, record)?;
+        let label = record.origin.inputs[POINT].as_str().unwrap_or(folder).to_owned();
+        Ok(Run { label, scene: scene.clone(), dir: dir.join(folder), record })
     };
     of_points.map(point).collect()
 }
@@ -90,16 +85,6 @@ fn json<T: serde::de::DeserializeOwned>(dir: &Path, name: &str, record: &Record)
     let path = dir.join(name);
     let at = |what: String| Failure::Input(format!("{}: {what}", path.shown()));
     let bytes = bounded::bytes(&path, MOST_BYTES).map_err(|error| at(format!("cannot be read: {error}")))?;
-    if record.files.get(name) != Some(&Sum::of(&bytes)) {
-        return Err(at(changed()));
-    }
+    record.check(name, &Sum::of(&bytes)).map_err(at)?;
     serde_json::from_slice(&bytes).map_err(|error| at(format!("is no record: {error}")))
-}
-
-/// That a file is not as it was written.
-pub(super) fn changed() -> String {
-    format!(
-        "was changed after it was written: it has another checksum than {RECORD} or {POINT} says; run the command that wrote it \
-         again"
-    )
 }

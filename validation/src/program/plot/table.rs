@@ -1,8 +1,8 @@
 //! A channel of a run's tables, read row by row: only what is drawn is held.
 
-use super::folders::{Run, changed};
+use super::folders::Run;
 use crate::files::bounded;
-use crate::files::output::Sum;
+use crate::files::output::{RECORD, Sum};
 use crate::files::text::Shown;
 use crate::files::text::snippet;
 use crate::present::plot::Curve;
@@ -28,7 +28,8 @@ pub(super) fn channel(run: &Run, wanted: Option<&str>, left: &mut usize) -> Resu
         let path = run.dir.join(&name);
         let at = |what: String| Failure::Input(format!("{}{what}", path.shown()));
         let unread = |error: io::Error| at(format!(": cannot be read: {error}"));
-        let sum = (run.sums.get(&name)).ok_or_else(|| at(": is not listed in the folder's record".into()))?;
+        let sum = run.record.files.get(&name);
+        let sum = sum.ok_or_else(|| at(format!(": is not listed in the folder's {RECORD}")))?;
         let file = bounded::open(&path).map_err(unread)?;
         let mut table = Table::new(file, sum.bytes).map_err(at)?;
         let channels = table.channels();
@@ -41,9 +42,7 @@ pub(super) fn channel(run: &Run, wanted: Option<&str>, left: &mut usize) -> Resu
             continue;
         };
         let [x, y, se] = table.columns(chosen, left).map_err(at)?;
-        if table.sum() != *sum {
-            return Err(at(format!(": {}", changed())));
-        }
+        run.record.check(&name, &table.sum()).map_err(|why| at(format!(": {why}")))?;
         let half = pictures::half_widths(&run.scene);
         return Ok(Found {
             time: table.header[0].to_owned(),

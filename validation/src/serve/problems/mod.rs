@@ -18,7 +18,7 @@ mod table;
 mod tensor;
 mod tolerance;
 
-pub use export::{ExportError, SCHEMA, export, files};
+pub use export::{SCHEMA, export, files};
 pub use read::read;
 pub use table::{ReadError, Table};
 

@@ -1,122 +1,112 @@
-//! The folder of a sweep: `sweep.json` says which sweep it is, `points/` has a folder of tables for each point that
-//! is finished, with a `point.json` that says which point it is and has the tables' checksums, `sweep.csv` one row a
-//! point. Every file and every point's folder appears whole or not at all.
+//! The folder of a sweep: `sweep.json` has the scene and the grid, `points/` a folder of tables with a record
+//! (`shearbed.json`) for each finished point, `sweep.csv` one row a point. Every file and every point's folder appears whole
+//! or not at all.
 
 use super::Point;
 use super::axis::{Axis, shown};
 use crate::files::bounded;
 use crate::files::build;
 use crate::files::difference::difference;
-use crate::files::output::{self, Author, Claim, Output, OutputError, RECORD, Refused};
-use crate::files::text::Shown;
-use crate::files::text::cell;
+use crate::files::output::{self, Claim, Origin, Output, OutputError, RECORD, Record, Refused, ResultFolder};
+use crate::files::text::{Shown, cell};
 use serde_json::{Value, json};
 use shearbed::Scene;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
-/// Which sweep it is: what the results depend on.
-pub struct Identity(Value);
-
-impl Identity {
-    /// A sweep of `scene`, as it is without the swept keys, by this build of the program, with what its points' plans
-    /// warn of and the checksums of the files that their rods start from.
-    pub fn new(scene: &Scene, axes: &[Axis], points: &[Point], warnings: &[String]) -> Self {
-        let over = axes.iter().map(|axis| {
-            let values: Vec<_> = axis.values.iter().map(shown).collect();
-            format!("{}={}", axis.key, values.join(","))
-        });
-        let mut identity = build::record();
-        identity["scene"] = json!(scene.resolved());
-        identity["over"] = over.collect();
-        identity["warnings"] = json!(warnings);
-        let starts = points.iter().filter_map(|point| point.plan.scene().particles.rods.as_ref());
-        let starts: BTreeMap<_, _> = starts.map(|rods| (&rods.file, &rods.crc32)).collect();
-        if !starts.is_empty() {
-            identity["starts_crc32"] = json!(starts);
-        }
-        Self(identity)
+/// The inputs of a sweep, all that its results depend on: this build, the scene without the swept keys, the grid, the warnings
+/// of the points' plans, and the checksums of the files that rods start from.
+pub fn inputs(scene: &Scene, axes: &[Axis], points: &[Point], warnings: &[String]) -> Value {
+    let over = axes.iter().map(|axis| {
+        let values: Vec<_> = axis.values.iter().map(shown).collect();
+        format!("{}={}", axis.key, values.join(","))
+    });
+    let mut inputs = build::record();
+    inputs["scene"] = json!(scene.resolved());
+    inputs["over"] = over.collect();
+    inputs["warnings"] = json!(warnings);
+    let starts = points.iter().filter_map(|point| point.plan.scene().particles.rods.as_ref());
+    let starts: BTreeMap<_, _> = starts.map(|rods| (&rods.file, &rods.crc32)).collect();
+    if !starts.is_empty() {
+        inputs["starts_crc32"] = json!(starts);
     }
-
-    /// As plain data.
-    pub fn value(&self) -> &Value {
-        &self.0
-    }
-
-    fn text(&self) -> String {
-        format!("{:#}\n", self.0)
-    }
+    inputs
 }
+
+/// The name of a point in the inputs of its record: `interaction.alpha=0.3`.
+pub const POINT: &str = "point";
 
 /// The longest table of a point, and the longest record.
 const MOST_BYTES: u64 = 1 << 30;
 
 /// The points of a sweep, as its folder knows them.
 pub struct Points {
-    /// Each point in words, which no two share.
+    /// Each point as `interaction.alpha=0.3`, which no two share.
     pub described: Vec<String>,
     /// The names of the tables that each point has.
     pub tables: Vec<String>,
 }
 
 /// The folder of one sweep, in which no other process writes while this lives.
-pub struct Folder<'a> {
-    dir: PathBuf,
-    author: &'a Author,
-    /// What `sweep.json` says.
-    identity: String,
+pub struct Folder {
+    folder: ResultFolder,
+    /// The text of `sweep.json`.
+    inputs: String,
     points: Points,
     claim: Claim,
 }
 
-impl<'a> Folder<'a> {
-    /// Opens the folder, or makes it. One that holds another sweep, files of unknown origin under the names of a
-    /// sweep's, or a point that is not as it was written is refused and left as it is, but by the author's force, which
-    /// empties it of what stood there of a sweep; so is one in which another process is at work.
-    pub fn open(
-        dir: &Path,
-        author: &'a Author,
-        identity: &Identity,
-        points: Points,
-    ) -> Result<Self, Refused> {
-        let claim = Claim::new(dir, Duration::ZERO)?;
-        let own = author.has_written(dir);
+impl Folder {
+    /// Opens the folder, or makes it.
+    ///
+    /// # Errors
+    ///
+    /// Another sweep in the folder, files of unknown origin under the names of a sweep's, or a point that was changed, all left
+    /// as they are; `folder` with force empties the folder of sweeps instead. Another process at work in it.
+    pub fn open(folder: ResultFolder, inputs: &Value, points: Points) -> Result<Self, Refused> {
+        let claim = Claim::new(folder.dir(), Duration::ZERO)?;
+        let own = folder.is_own();
         // Without a record, points are of unknown origin too.
         let names = ["sweep.json", "sweep.csv", "points"];
-        author.check(dir, if own { &names[..2] } else { &names })?;
-        let folder = Self { dir: dir.to_owned(), author, identity: identity.text(), points, claim };
+        folder.check(if own { &names[..2] } else { &names })?;
+        let folder = Self { folder, inputs: format!("{inputs:#}\n"), points, claim };
         if !own {
             folder.begin()?;
         }
-        (folder.finished().into_iter()).try_for_each(|k| folder.kept(k).map(drop))?;
+        (folder.finished().into_iter()).try_for_each(|k| folder.tables(k).map(drop))?;
         Ok(folder)
     }
 
-    /// Makes the folder this sweep's: what another one left in it goes.
+    /// Removes the points of another sweep and writes `sweep.json`.
     fn begin(&self) -> Result<(), OutputError> {
-        let points = self.dir.join("points");
+        let points = self.folder.dir().join("points");
         let failed = |reason| OutputError { path: points.clone(), reason };
         for entry in fs::read_dir(&points).into_iter().flatten() {
             let path = entry.map_err(failed)?.path();
-            if path.join(POINT).is_file() {
+            let record = Record::read(&path).ok().flatten();
+            if record.is_some_and(|record| record.origin.inputs.get(POINT).is_some()) {
                 fs::remove_dir_all(&path).map_err(failed)?;
             }
         }
-        let files = vec![("sweep.json".to_owned(), self.identity.clone())];
-        let mut left_over = output::left_over(&self.dir, &["sweep.json".to_owned()]);
+        let files = vec![("sweep.json".to_owned(), self.inputs.clone())];
+        let mut left_over = self.folder.left_over(&["sweep.json".to_owned()]);
         left_over.push("sweep.csv".to_owned());
-        let record = (RECORD.to_owned(), self.author.record(&files));
+        let record = Record::new(self.folder.origin(), &files).file();
         self.claim.write_all(&[files, vec![record]].concat(), &left_over)
     }
 
     /// The folder of point k, from 0; its name counts from 1.
     pub fn point(&self, k: usize) -> PathBuf {
-        let mut path = self.dir.join(name_of(self.points.described.len(), k));
-        path.pop();
-        path
+        self.folder.dir().join(self.name(k))
+    }
+
+    /// `points/03`.
+    fn name(&self, k: usize) -> String {
+        let width = self.points.described.len().to_string().len();
+        format!("points/{:0width$}", k + 1)
     }
 
     /// The finished points, in order.
@@ -125,77 +115,81 @@ impl<'a> Folder<'a> {
         all.filter(|k| self.point(*k).is_dir()).collect()
     }
 
-    /// Keeps the tables of a point.
-    pub fn keep(&self, k: usize, tables: &[Output]) -> Result<(), OutputError> {
-        let mut files = tables.to_vec();
-        files.push((POINT.to_owned(), self.record(k, tables)));
+    /// Writes the tables of a point with their record.
+    pub fn write(&self, k: usize, tables: &[Output]) -> Result<(), OutputError> {
+        let files = [tables, &[self.record(k, tables).file()]].concat();
         self.is_there()?;
-        // Where it went meanwhile, that is the reason.
+        // Where the folder went meanwhile, that is the reason.
         output::write_folder(&self.point(k), &files).map_err(|error| self.is_there().err().unwrap_or(error))
     }
 
-    /// Whether nobody has removed or moved the folder.
+    /// Fails if somebody has removed or moved the folder.
     fn is_there(&self) -> Result<(), OutputError> {
-        if self.dir.join(RECORD).is_file() {
+        let path = self.folder.dir();
+        if path.join(RECORD).is_file() {
             return Ok(());
         }
-        let gone = "the folder of the sweep has gone";
-        Err(OutputError { path: self.dir.clone(), reason: io::Error::new(io::ErrorKind::NotFound, gone) })
+        let gone = io::Error::new(io::ErrorKind::NotFound, "the folder of the sweep has gone");
+        Err(OutputError { path: path.to_owned(), reason: gone })
     }
 
-    /// Which point it is, and the lengths and checksums of its tables.
-    fn record(&self, k: usize, tables: &[Output]) -> String {
-        let point = &self.points.described[k];
-        format!("{:#}\n", json!({ "point": point, "files": output::sums(tables) }))
+    /// The record of a point with these tables.
+    fn record(&self, k: usize, tables: &[Output]) -> Record {
+        let Origin { command, mut inputs } = self.folder.origin().clone();
+        inputs[POINT] = json!(self.points.described[k]);
+        Record::new(&Origin { command, inputs }, tables)
     }
 
-    /// The tables of a finished point, where they are as they were written.
-    pub fn kept(&self, k: usize) -> Result<Vec<Output>, Refused> {
+    /// The tables of a finished point.
+    ///
+    /// # Errors
+    ///
+    /// A table or the record that cannot be read or was changed.
+    pub fn tables(&self, k: usize) -> Result<Vec<Output>, Refused> {
         let dir = self.point(k);
         let read = |name: &str| {
             let path = dir.join(name);
             let why = |error| format!("{}: cannot be read: {error}", path.shown());
             bounded::text(&path, MOST_BYTES).map_err(|error| self.damaged(k, &why(error)))
         };
-        let record = read(POINT)?;
+        let record = read(RECORD)?;
         let table = |name: &String| Ok((name.clone(), read(name)?));
         let tables = (self.points.tables.iter()).map(table).collect::<Result<Vec<_>, Refused>>()?;
-        let own = self.record(k, &tables);
+        let (_, own) = self.record(k, &tables).file();
         if own == record {
             return Ok(tables);
         }
         let [found, own] =
             [&record, &own].map(|text| serde_json::from_str::<Value>(text).unwrap_or_default());
         let why = match difference(&found, &own) {
-            Some((key, kept, own)) => {
-                format!("{}: not as it was written: {key} was {kept} and is {own} now", dir.shown())
+            Some((key, was, is)) => {
+                let key = key.strip_prefix("inputs.").unwrap_or(&key);
+                format!("{}: not as it was written: {key} was {was} and is {is} now", dir.shown())
             }
-            None => format!("{}: not as it was written", dir.join(POINT).shown()),
+            None => format!("{}: not as it was written", dir.join(RECORD).shown()),
         };
         Err(self.damaged(k, &why))
     }
 
     fn damaged(&self, k: usize, why: &str) -> Refused {
         let dir = self.point(k);
-        Refused::Other(format!(
-            "{why}; remove {} to have this point run again; nothing was changed",
-            dir.shown()
-        ))
+        Refused(format!("{why}; remove {} to have this point run again; nothing was changed", dir.shown()))
     }
 
     /// Writes `sweep.csv` from the tables of all points, which must all be there: the swept values, then the last
     /// row of each of the tables; and the record of all. Numbers are the tables' own texts. Returns the header and the rows.
     pub fn gather(&self, axes: &[Axis], values: &[Vec<toml::Value>]) -> Result<Rows, Refused> {
         let mut rows = Vec::new();
-        let mut sums = Vec::new();
+        let mut records = Vec::new();
         for (k, values) in values.iter().enumerate() {
             let mut head: Vec<_> = axes.iter().map(|axis| axis.key.clone()).collect();
             let mut row: Vec<_> = values.iter().map(|value| cell(&shown(value))).collect();
-            let tables = self.kept(k)?;
-            sums.push((name_of(self.points.described.len(), k), self.record(k, &tables)));
+            let tables = self.tables(k)?;
+            let (record, text) = self.record(k, &tables).file();
+            records.push((format!("{}/{record}", self.name(k)), text));
             for (name, text) in tables {
                 let (columns, last) = last_row(&text)
-                    .map_err(|why| Refused::Other(format!("{}: {why}", self.point(k).join(&name).shown())))?;
+                    .map_err(|why| Refused(format!("{}: {why}", self.point(k).join(&name).shown())))?;
                 for (column, value) in columns.into_iter().zip(last) {
                     // Every table has the time.
                     if !head.contains(&column) {
@@ -208,30 +202,21 @@ impl<'a> Folder<'a> {
                 None => rows.extend([head, row]),
                 Some(first) if *first == head => rows.push(row),
                 Some(_) => {
-                    return Err(Refused::Other(format!(
+                    return Err(Refused(format!(
                         "{}: its tables have other columns than those of the first point",
                         self.point(k).shown()
                     )));
                 }
             }
         }
-        let path = self.dir.join("sweep.csv");
-        let text = csv(&rows).map_err(|error| Refused::Other(format!("{}: {error}", path.shown())))?;
+        let path = self.folder.dir().join("sweep.csv");
+        let text = csv(&rows).map_err(|error| Refused(format!("{}: {error}", path.shown())))?;
         let table = ("sweep.csv".to_owned(), text);
-        let identity = ("sweep.json".to_owned(), self.identity.clone());
-        let record = self.author.record(&[vec![table.clone(), identity], sums].concat());
-        self.claim.write_all(&[table, (RECORD.to_owned(), record)], &[])?;
+        let inputs = ("sweep.json".to_owned(), self.inputs.clone());
+        let record = Record::new(self.folder.origin(), &[vec![table.clone(), inputs], records].concat());
+        self.claim.write_all(&[table, record.file()], &[])?;
         Ok(rows)
     }
-}
-
-/// The record of a point, in its folder.
-pub const POINT: &str = "point.json";
-
-/// The record of point k, from 0, of so many; its folder's name counts from 1.
-fn name_of(count: usize, k: usize) -> String {
-    let width = count.to_string().len();
-    format!("points/{:0width$}/{POINT}", k + 1)
 }
 
 /// A header and rows.

@@ -5,7 +5,7 @@ mod folder;
 
 pub(crate) use axis::key_and_text;
 pub use axis::{Axis, MAX_POINTS, Setting, shown};
-pub use folder::{Folder, Identity, POINT, Points};
+pub use folder::{Folder, POINT, Points, inputs};
 
 use crate::input::start::Starts;
 use shearbed::scene::document::Document;

@@ -1,0 +1,221 @@
+//! The one rule of overwriting, for every command: what a command did not write itself, or wrote from other inputs, stays
+//! without `--force`.
+
+use super::record::{Origin, RECORD, Record, State};
+use super::{Claim, Output, PATIENCE, Refused, appear};
+use crate::files::build::BUILD;
+use crate::files::text::Shown;
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The refusal to replace a file, and how to go on.
+pub(super) fn in_the_way(path: &Path, what: &str) -> Refused {
+    Refused(format!(
+        "{}: {what}; --force overwrites it, another --out leaves it; nothing was changed",
+        path.shown()
+    ))
+}
+
+/// A folder for the results of one command; it need not exist yet.
+#[derive(Debug)]
+pub struct ResultFolder {
+    dir: PathBuf,
+    origin: Origin,
+    force: bool,
+}
+
+impl ResultFolder {
+    /// `inputs` is an object with all that the results depend on; the program's version is added.
+    pub fn new(dir: &Path, command: &str, mut inputs: Value, force: bool) -> Self {
+        inputs["version"] = BUILD.version.into();
+        Self { dir: dir.to_owned(), origin: Origin::new(command, inputs), force }
+    }
+
+    /// The folder.
+    pub fn dir(&self) -> &Path {
+        &self.dir
+    }
+
+    /// The command and its inputs.
+    pub fn origin(&self) -> &Origin {
+        &self.origin
+    }
+
+    /// True if this command has written the folder, from the same inputs.
+    pub fn is_own(&self) -> bool {
+        let own = |record: Record| record.origin == self.origin;
+        Record::read(&self.dir).is_ok_and(|record| record.is_some_and(own))
+    }
+
+    /// Refuses to write files of these names, unless nothing is in the way, or this command has written the folder before
+    /// from the same inputs and nobody has changed these files since.
+    ///
+    /// # Errors
+    ///
+    /// The file that is in the way, who wrote it, and what to do.
+    pub fn check<N: AsRef<str>>(&self, names: &[N]) -> Result<(), Refused> {
+        if self.force {
+            return Ok(());
+        }
+        let (record, command) = (self.dir.join(RECORD), &self.origin.command);
+        let mut names = names.iter().map(|name| (name.as_ref(), self.dir.join(name.as_ref())));
+        let Some(found) = Record::read(&self.dir).map_err(|why| in_the_way(&record, &why))? else {
+            return match names.find(|(_, path)| fs::symlink_metadata(path).is_ok()) {
+                Some((_, path)) => Err(in_the_way(
+                    &path,
+                    &format!("is here already, and no {RECORD} says that this command wrote it"),
+                )),
+                None => Ok(()),
+            };
+        };
+        if found.origin.command != *command {
+            let what = format!("results of `shearbed {}` are kept here", found.origin.command);
+            return Err(in_the_way(&record, &what));
+        }
+        if let Some(difference) = found.origin.difference(&self.origin) {
+            let what =
+                format!("results of `shearbed {command}` from other input are kept here: {difference}");
+            return Err(in_the_way(&record, &what));
+        }
+        names.try_for_each(|(name, path)| {
+            let why = match found.state(&self.dir, name) {
+                Ok(State::Absent | State::AsWritten) => return Ok(()),
+                Ok(State::Changed) => format!("was changed after `shearbed {command}` wrote it"),
+                Ok(State::Foreign) => format!("was not written by `shearbed {command}`"),
+                Err(error) => format!("cannot be read: {error}"),
+            };
+            Err(in_the_way(&path, &why))
+        })
+    }
+
+    /// Writes files and their record, if the command may. They appear together; what it wrote there before under other names
+    /// is removed, unless somebody has changed it.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::check`], or what cannot be written; then nothing has changed.
+    pub fn write(&self, mut files: Vec<Output>) -> Result<(), Refused> {
+        let record = Record::new(&self.origin, &files).file();
+        let names: Vec<String> = files.iter().map(|(name, _)| name.clone()).collect();
+        files.push(record);
+        if !self.dir.exists() && appear(&self.dir, &files)? {
+            return Ok(());
+        }
+        let claim = Claim::new(&self.dir, PATIENCE)?;
+        self.check(&names)?;
+        Ok(claim.write_all(&files, &self.left_over(&names))?)
+    }
+
+    /// The files that the folder's record lists beside `names`, as they were written: beside new results they would pass for
+    /// them.
+    pub(crate) fn left_over(&self, names: &[String]) -> Vec<String> {
+        let Ok(Some(record)) = Record::read(&self.dir) else {
+            return Vec::new();
+        };
+        record.unchanged(&self.dir).filter(|name| !names.contains(name)).cloned().collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn folder(dir: &Path, command: &str, seed: u64) -> ResultFolder {
+        ResultFolder::new(dir, command, json!({ "seed": seed }), false)
+    }
+
+    fn files(names: &[&str]) -> Vec<Output> {
+        let file = |name: &&str| ((*name).to_owned(), format!("of {name}\n"));
+        names.iter().map(file).collect()
+    }
+
+    /// What was refused, without the folder's name before it.
+    fn refused(folder: &ResultFolder, names: &[&str]) -> String {
+        let Refused(message) = folder.write(files(names)).unwrap_err();
+        message.replace(&format!("{}/", folder.dir.display()), "")
+    }
+
+    fn names(dir: &Path) -> Vec<String> {
+        let entries = fs::read_dir(dir).unwrap();
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    const WAY: &str = "; --force overwrites it, another --out leaves it; nothing was changed";
+
+    #[test]
+    fn a_command_replaces_its_own_files_from_the_same_input_and_no_others() {
+        let dir = tempfile::tempdir().unwrap();
+        let dir = &dir.path().join("out");
+        let own = folder(dir, "run", 1);
+        own.write(files(&["a.csv", "b/c.csv"])).unwrap();
+        fs::write(dir.join("user.csv"), "mine").unwrap();
+        // Again, and by the record what it no longer writes goes; what is the user's stays.
+        own.write(files(&["a.csv"])).unwrap();
+        assert_eq!(names(dir), ["a.csv", "b", "shearbed.json", "user.csv"]);
+        assert!(!dir.join("b/c.csv").exists());
+
+        let shown = |what: &str| format!("{what}{WAY}");
+        assert_eq!(
+            refused(&folder(dir, "fit", 1), &["x.csv"]),
+            shown("shearbed.json: results of `shearbed run` are kept here")
+        );
+        assert_eq!(
+            refused(&folder(dir, "run", 2), &["a.csv"]),
+            shown(
+                "shearbed.json: results of `shearbed run` from other input are kept here: seed was 1 and is 2 now"
+            )
+        );
+        assert_eq!(
+            refused(&own, &["a.csv", "user.csv"]),
+            shown("user.csv: was not written by `shearbed run`")
+        );
+        fs::write(dir.join("a.csv"), "of b.csv\n").unwrap();
+        assert_eq!(refused(&own, &["a.csv"]), shown("a.csv: was changed after `shearbed run` wrote it"));
+        // What was changed does not go either where it is no longer written.
+        own.write(files(&["d.csv"])).unwrap();
+        assert_eq!(names(dir), ["a.csv", "b", "d.csv", "shearbed.json", "user.csv"]);
+        ResultFolder::new(dir, "fit", json!({}), true).write(files(&["e.csv"])).unwrap();
+        assert_eq!(names(dir), ["a.csv", "b", "e.csv", "shearbed.json", "user.csv"]);
+    }
+
+    #[test]
+    fn without_a_record_whatever_is_in_the_way_stays() {
+        let dir = tempfile::tempdir().unwrap();
+        let own = folder(dir.path(), "run", 1);
+        for name in ["a.csv", "b.csv"] {
+            fs::write(dir.path().join(name), "mine").unwrap();
+            assert_eq!(
+                refused(&own, &["a.csv", "b.csv"]),
+                format!("{name}: is here already, and no shearbed.json says that this command wrote it{WAY}")
+            );
+            assert_eq!(names(dir.path()), [name]);
+            fs::remove_file(dir.path().join(name)).unwrap();
+        }
+        for (text, why) in [
+            ("{", "shearbed.json: is no record of results"),
+            (
+                r#"{"format": 2, "command": "run", "inputs": {}, "files": {}}"#,
+                "shearbed.json: has the format 2",
+            ),
+        ] {
+            fs::write(dir.path().join(RECORD), text).unwrap();
+            let found = refused(&own, &["a.csv"]);
+            assert!(found.starts_with(why), "{found}");
+        }
+        // A record that lists files elsewhere does not lead there.
+        let outside = dir.path().join("outside.csv");
+        fs::write(&outside, "of ../outside.csv\n").unwrap();
+        let inner = dir.path().join("inner");
+        fs::create_dir(&inner).unwrap();
+        let own = folder(&inner, "run", 1);
+        let record = Record::new(&own.origin, &files(&["../outside.csv"]));
+        fs::write(inner.join(RECORD), record.file().1).unwrap();
+        own.write(files(&["a.csv"])).unwrap();
+        assert!(outside.exists());
+    }
+}
