@@ -123,7 +123,9 @@ pub fn write_one(path: &Path, contents: &[u8], force: bool) -> Result<(), Refuse
     let claim = Claim::new(folder, PATIENCE).map_err(at_file)?;
     match holds(&target, contents).map_err(at(path))? {
         Some(true) => Ok(()),
-        Some(false) if !force => Err(folder::in_the_way(path, "is here already, with other contents")),
+        Some(false) if !force => {
+            Err(folder::in_the_way(path, "is here already, with other contents", folder::OTHER_OUT))
+        }
         _ => Ok(claim.write_all(&files, &[]).map_err(at_file)?),
     }
 }

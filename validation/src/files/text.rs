@@ -102,6 +102,30 @@ pub(crate) fn four_decimals(x: f64) -> String {
     }
 }
 
+/// Rows of cells as lines of columns that are aligned on the left.
+pub(crate) fn left_aligned(rows: &[Vec<String>]) -> String {
+    aligned(rows, |cell, width| format!("{cell:<width$}"))
+}
+
+/// Rows of cells as lines of columns that are aligned on the right.
+pub(crate) fn right_aligned(rows: &[Vec<String>]) -> String {
+    aligned(rows, |cell, width| format!("{cell:>width$}"))
+}
+
+fn aligned(rows: &[Vec<String>], pad: impl Fn(&str, usize) -> String) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<_> = (0..columns).map(width).collect();
+    let line = |row: &Vec<String>| {
+        let cells: Vec<_> = row.iter().zip(&widths).map(|(cell, width)| pad(cell, *width)).collect();
+        cells.join("  ").trim_end().to_owned() + "\n"
+    };
+    rows.iter().map(line).collect()
+}
+
 /// A cell of a table in CSV that no spreadsheet takes for a formula: a text that begins as one has an apostrophe before it.
 /// Numbers stay as they are.
 pub(crate) fn cell(text: &str) -> String {
@@ -165,6 +189,14 @@ mod tests {
         assert_eq!(snippet("a\nb\u{1b}\"c"), r#""a\nb\u{1b}\"c""#);
         let secret = "x".repeat(40) + "the rest";
         assert_eq!(snippet(&secret), format!("\"{}…\"", "x".repeat(40)));
+    }
+
+    #[test]
+    fn columns_are_as_wide_as_their_widest_cell() {
+        let rows = [vec!["α".to_owned(), "x1".to_owned()], vec!["0.25".to_owned(), "7".to_owned()]];
+        assert_eq!(left_aligned(&rows), "α     x1\n0.25  7\n");
+        assert_eq!(right_aligned(&rows), "   α  x1\n0.25   7\n");
+        assert_eq!(left_aligned(&[]), "");
     }
 
     #[test]

@@ -11,6 +11,7 @@ use std::path::PathBuf;
 
 /// Arguments of `bench`.
 #[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed bench --case re11.6")]
 pub(super) struct Args {
     /// Run this bench only, as re11.6, fig7-n50 or speed; can be given more than once
     #[arg(long = "case", value_name = "NAME")]

@@ -1,4 +1,4 @@
-//! Where a command may keep its checkpoint, and what a signal says of it.
+//! Which files a command may use as its checkpoint.
 
 use super::Failure;
 use crate::files::checkpoint::{on_stop, stays};
@@ -6,11 +6,14 @@ use crate::files::text::Shown;
 use crate::files::{cluster, output};
 use std::path::{Component, Path, PathBuf};
 
-/// How the names of results end.
+/// The endings of the names of results.
 const ENDINGS: [&str; 9] = ["csv", "svg", "json", "pvd", "vtp", "html", "md", "xml", "png"];
 
-/// Refuses a checkpoint of more than one rank, and one whose name the results in `out` may take, whether these files and
-/// folders are there yet or not. From then on a signal says that what the file holds stays.
+/// Checks a checkpoint's path and follows its links; from then on a signal says that the file stays.
+///
+/// # Errors
+///
+/// More than one rank; a name that the results in `out` may have, whether these files and folders exist yet or not.
 pub(super) fn check(checkpoint: &Path, out: &Path) -> Result<PathBuf, Failure> {
     let refused = |what: &str| Failure::Input(format!("--checkpoint {}: {what}", checkpoint.shown()));
     if cluster::size() > 1 {
@@ -28,7 +31,7 @@ pub(super) fn check(checkpoint: &Path, out: &Path) -> Result<PathBuf, Failure> {
     let of_results = ENDINGS.iter().any(|end| file.extension().is_some_and(|own| own == *end));
     if of_results && file.starts_with(&folder) {
         return Err(refused(
-            "the results may take that name; choose a checkpoint outside the output folder, or a name without .csv, .svg, .json or \
+            "a result may have that name; choose a checkpoint outside the output folder, or a name without .csv, .svg, .json or \
              the like at its end",
         ));
     }
@@ -37,7 +40,7 @@ pub(super) fn check(checkpoint: &Path, out: &Path) -> Result<PathBuf, Failure> {
     Ok(path)
 }
 
-/// The one path of a file or folder that need not be there: what is there of it without links, then the rest.
+/// The path of a file or folder, which need not exist, without links.
 fn resolved(path: &Path) -> PathBuf {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let mut resolved = PathBuf::new();

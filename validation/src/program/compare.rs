@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `compare`.
 #[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed compare old/report.json new/report.json")]
 pub(super) struct Args {
     /// A report.json
     #[arg(value_name = "A/report.json")]

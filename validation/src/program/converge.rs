@@ -24,6 +24,7 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `converge`.
 #[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed converge fig4-n50 --replicas 20")]
 pub(super) struct Args {
     #[command(flatten)]
     chosen: Chosen,

@@ -1,4 +1,4 @@
-//! What `validate` has finished, kept so that it need not run again.
+//! The checkpoint of `validate`: its finished cases and studies.
 
 use super::{Failure, print};
 use crate::files::checkpoint::{Checkpoint, on_stop};
@@ -11,27 +11,27 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// An outcome without what the case says of itself.
-pub(super) type Ended = (Verdict, Vec<Judged>, Vec<Control>, f64);
+/// Verdict, evidence, controls and seconds of a case.
+pub(super) type CaseResult = (Verdict, Vec<Judged>, Vec<Control>, f64);
 
-/// What a study found, and in how many seconds.
+/// The results of a study and its seconds.
 pub(super) type Measured = (Found, f64);
 
 /// Cases and studies by name.
 #[derive(Default, Serialize, Deserialize)]
 struct State {
-    cases: BTreeMap<String, Ended>,
+    cases: BTreeMap<String, CaseResult>,
     studies: BTreeMap<String, Measured>,
 }
 
-/// What is finished, and the file that has it.
+/// Finished cases and studies with their checkpoint file.
 pub(super) struct Finished {
     file: Checkpoint,
     state: Mutex<State>,
 }
 
 impl Finished {
-    /// Goes on from `file` where it is of the same input and build.
+    /// Opens or makes the checkpoint. One from another input or build is an error.
     pub(super) fn open(path: &Path, input: Value, quiet: bool) -> Result<Self, Failure> {
         let file = Checkpoint::open(path, "validate", input)?;
         let state: State = file.read()?.unwrap_or_default();
@@ -49,27 +49,27 @@ impl Finished {
         Ok(Self { file, state: Mutex::new(state) })
     }
 
-    /// How a case ended, where it is finished.
-    pub(super) fn case(&self, name: &str) -> Option<Ended> {
+    /// The result of a finished case.
+    pub(super) fn case(&self, name: &str) -> Option<CaseResult> {
         self.state().cases.get(name).cloned()
     }
 
-    /// Keeps how a case ended.
-    pub(super) fn keep_case(&self, name: &str, ended: &Ended) -> Result<(), Failure> {
+    /// Adds a finished case and writes the checkpoint.
+    pub(super) fn add_case(&self, name: &str, result: &CaseResult) -> Result<(), Failure> {
         let mut state = self.state();
-        if state.cases.insert(name.to_owned(), ended.clone()).as_ref() == Some(ended) {
+        if state.cases.insert(name.to_owned(), result.clone()).as_ref() == Some(result) {
             return Ok(());
         }
         Ok(self.file.write(&*state)?)
     }
 
-    /// What a study found, where it is finished.
+    /// The results of a finished study.
     pub(super) fn study(&self, name: &str) -> Option<Measured> {
         self.state().studies.get(name).cloned()
     }
 
-    /// Keeps what a study found.
-    pub(super) fn keep_study(&self, name: &str, measured: &Measured) -> Result<(), Failure> {
+    /// Adds a finished study and writes the checkpoint.
+    pub(super) fn add_study(&self, name: &str, measured: &Measured) -> Result<(), Failure> {
         let mut state = self.state();
         state.studies.insert(name.to_owned(), measured.clone());
         Ok(self.file.write(&*state)?)
@@ -126,10 +126,10 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("kept");
         let open = || Finished::open(&path, json!({ "seed": 1 }), true).unwrap();
-        let ended: Ended = (Verdict::Pass, Vec::new(), Vec::new(), 0.3);
+        let ended: CaseResult = (Verdict::Pass, Vec::new(), Vec::new(), 0.3);
         let first = open();
-        first.keep_study("figures", &(found(), 0.1)).unwrap();
-        first.keep_case("kick-bound", &ended).unwrap();
+        first.add_study("figures", &(found(), 0.1)).unwrap();
+        first.add_case("kick-bound", &ended).unwrap();
         drop(first);
         let again = open();
         assert_eq!(again.study("figures"), Some((found(), 0.1)));

@@ -22,8 +22,10 @@ pub(super) fn watch() {
             _ => "SIGHUP",
         };
         let code = 128 + signal;
-        let kept = checkpoint::last_words().unwrap_or_else(|| {
-            "a sweep keeps its finished points, and the same command goes on from them; nothing else is kept".to_owned()
+        super::terminal::clear();
+        let kept = checkpoint::last_words().unwrap_or_else(|| match super::words::command().as_str() {
+            "sweep" => "finished points are kept, and the same command goes on from them".to_owned(),
+            command => format!("`shearbed {command}` keeps nothing before it ends"),
         });
         let message = format!("stopped by {name}: files that were not complete were not written; {kept}");
         cluster::failed(&message, code as u8);

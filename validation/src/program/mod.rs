@@ -11,6 +11,7 @@ mod facts;
 mod finished;
 mod fit;
 mod grade;
+mod handed_out;
 mod interrupt;
 mod memory;
 mod pictures;
@@ -83,9 +84,14 @@ enum Command {
     /// Show what changed between two reports: verdicts, errors, speed
     Compare(compare::Args),
     /// Print BibTeX for this build
+    #[command(after_help = "Example:\n  shearbed cite >> paper.bib")]
     Cite,
     /// Exact values without a simulation: one free rod, or means over isotropic rods, as CSV
     Reference(reference::Args),
+    /// Print a script that completes commands and flags in a shell
+    Completions(handed_out::Completions),
+    /// Write a manual page for each command
+    Man(handed_out::Man),
 }
 
 /// Why a command did not end well.
@@ -110,7 +116,7 @@ impl Failure {
 pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
-        Err(error) => return told(&error),
+        Err(error) => return print_usage(&error),
     };
     let joined = match cluster::Joined::new() {
         Ok(joined) => joined,
@@ -123,6 +129,7 @@ pub fn main() -> ExitCode {
     match joined.caught(|| command(cli.command)) {
         Ok(Ok(())) => joined.end(),
         Ok(Err(failure)) => {
+            terminal::clear();
             let (message, code) = failure.message_and_code();
             joined.fail(&message, code)
         }
@@ -137,7 +144,7 @@ pub fn main_of(program: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
     let cli = match Cli::try_parse_from(with_name(arguments)) {
         Ok(cli) => cli,
         Err(error) => {
-            told(&error);
+            print_usage(&error);
             return error.exit_code() as u8;
         }
     };
@@ -145,6 +152,7 @@ pub fn main_of(program: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
     match command(cli.command).map_err(Failure::message_and_code) {
         Ok(()) => 0,
         Err((message, code)) => {
+            terminal::clear();
             cluster::failed(&message, code);
             code
         }
@@ -174,8 +182,8 @@ pub fn fits(plan: &shearbed::Plan, threads: Option<u64>, source: &str) -> Result
     memory::check(plan, threads, false, source).map_err(|failure| failure.message_and_code().0)
 }
 
-/// Says what is wrong with the arguments, or how to use them.
-fn told(error: &clap::Error) -> ExitCode {
+/// Prints what is wrong with the arguments, or the help; returns the exit code.
+fn print_usage(error: &clap::Error) -> ExitCode {
     let (message, code) = (error.to_string(), error.exit_code());
     let written = match error.use_stderr() {
         true => io::stderr().write_all(readable(&text::shortened(&message)).as_bytes()),
@@ -196,9 +204,7 @@ impl Command {
 fn command(command: Command) -> Result<(), Failure> {
     threads::check()?;
     if !command.is_shared() {
-        let words = words::words();
-        let name = words.get(1).map(|word| word.to_string_lossy().into_owned());
-        agree(&name.unwrap_or_default(), json!({}))?;
+        agree(&words::command(), json!({}))?;
         if !cluster::is_root() {
             return Ok(());
         }
@@ -219,6 +225,8 @@ fn command(command: Command) -> Result<(), Failure> {
         Command::Compare(args) => compare::compare(&args),
         Command::Cite => cite::cite(),
         Command::Reference(args) => reference::reference(&args),
+        Command::Completions(args) => handed_out::completions(&args),
+        Command::Man(args) => handed_out::man(&args),
     }
 }
 

@@ -13,6 +13,7 @@ use table::MOST_ROWS;
 
 /// Arguments of `plot`.
 #[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed plot first second --y x1 --out both.svg")]
 pub(super) struct Args {
     /// Folders of `shearbed run`, or of `shearbed sweep`, whose points are all drawn
     #[arg(required = true, value_name = "DIR")]

@@ -1,12 +1,13 @@
 //! `shearbed problems`.
 
 use super::{Failure, Writing, print};
-use crate::files::text::Shown;
+use crate::files::text::{Shown, left_aligned};
 use crate::serve::problems;
 use std::path::PathBuf;
 
 /// Arguments of `problems`.
 #[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed problems export ref")]
 pub(super) struct Args {
     #[command(subcommand)]
     what: Option<What>,
@@ -41,7 +42,6 @@ pub(super) fn problems(args: &Args) -> Result<(), Failure> {
 }
 
 fn list() -> String {
-    let width = (problems::all().iter().map(|def| def.name.len())).max().unwrap_or(0);
-    let line = |def: &problems::ProblemDef| format!("{:<width$}  {}\n", def.name, def.title);
-    problems::all().iter().map(line).collect()
+    let row = |def: &problems::ProblemDef| vec![def.name.to_owned(), def.title.to_owned()];
+    left_aligned(&problems::all().iter().map(row).collect::<Vec<_>>())
 }

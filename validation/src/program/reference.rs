@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `reference`.
 #[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed reference --aspect-ratio 11.6 --start 0,90 --times 0:1:101")]
 pub(super) struct Args {
     /// r_e, from 1e-100 to 1e100
     #[arg(long, value_name = "R", value_parser = aspect_ratio, allow_negative_numbers = true)]

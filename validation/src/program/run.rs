@@ -23,6 +23,7 @@ use std::time::{Duration, Instant};
 
 /// Arguments of `run`.
 #[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed run fig4-n50 --replicas 10 --out first")]
 pub(super) struct Args {
     #[command(flatten)]
     chosen: Chosen,
@@ -67,8 +68,8 @@ fn seconds(text: &str) -> Result<Duration, String> {
     Ok(Duration::from_secs_f64(seconds))
 }
 
-/// The run's checkpoint, and how far it has come, where one is asked for.
-fn kept(args: &Args, plan: &Plan, path: Option<&Path>) -> Result<Option<Arc<Replicas>>, Failure> {
+/// The run's checkpoint, if one is asked for. Prints its progress.
+fn open_checkpoint(args: &Args, plan: &Plan, path: Option<&Path>) -> Result<Option<Arc<Replicas>>, Failure> {
     let Some(path) = path else {
         return Ok(None);
     };
@@ -76,8 +77,8 @@ fn kept(args: &Args, plan: &Plan, path: Option<&Path>) -> Result<Option<Arc<Repl
     let replicas = Replicas::open(plan, path, every)?;
     let progress = replicas.progress();
     if progress.done > 0 || progress.halfway > 0 {
-        let told = format!("goes on from {}: {progress}\n", path.shown());
-        print(if args.writing.quiet { "" } else { &told })?;
+        let text = format!("goes on from {}: {progress}\n", path.shown());
+        print(if args.writing.quiet { "" } else { &text })?;
     }
     Ok(Some(replicas))
 }
@@ -110,19 +111,19 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     scene::warn(&named.source, &facts::warnings(&plan));
     let mut seconds = Seconds { plan: start.elapsed().as_secs_f64(), ..Seconds::default() };
 
-    let checkpoint = kept(args, &plan, path.as_deref())?;
+    let checkpoint = open_checkpoint(args, &plan, path.as_deref())?;
     let bar = progress(scene.ensemble.replicas, "replicas", args.writing.quiet);
-    bar.inc(checkpoint.as_ref().map_or(0, |kept| kept.progress().done));
+    bar.inc(checkpoint.as_ref().map_or(0, |replicas| replicas.progress().done));
     let start = Instant::now();
     let threads = threads::count(args.threads.given)? as usize;
     let results = match &checkpoint {
-        Some(kept) => kept
+        Some(replicas) => replicas
             .run(
                 threads,
                 || bar.inc(1),
                 |saved| match saved {
                     Ok(progress) => {
-                        log(&format!("kept in {}: {progress}", kept.path().display()), args.writing.quiet)
+                        log(&format!("kept in {}: {progress}", replicas.path().display()), args.writing.quiet)
                     }
                     Err(error) => {
                         let lost = format!("{error}; the run goes on, and what comes is not kept");
@@ -162,13 +163,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     ))
 }
 
-/// The results of a run that did not stop: where it did, the scene asks for what cannot be computed. Nothing is written
-/// then, and what an earlier run left stays.
+/// The results of a run. The error of a stopped run names the scene; nothing is written then, and earlier results stay.
 fn ended<T>(source: &str, results: Result<T, Error>) -> Result<T, Failure> {
     results.map_err(|error| Failure::Input(format!("{source}: {error}")))
 }
 
-/// The record of a run.
+/// The scene, plan, counters and times of a run.
 const RUN: &str = "run.json";
 
 /// The names of the files of a run, but for those of single times of its rods.

@@ -5,6 +5,7 @@ use shearbed::model::shape::{ALLOWED, Correlation, FORMULAS, spread};
 
 /// Arguments of `shape`.
 #[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed shape --physical 20")]
 pub(super) struct Args {
     /// Length over diameter of a cylinder, from 2 to 1000
     #[arg(long, value_name = "R", value_parser = ratio, allow_negative_numbers = true)]

@@ -4,10 +4,12 @@ use super::duration;
 use super::facts::{self, Facts};
 use super::scene::{Chosen, Ensemble};
 use super::{Failure, memory, print};
+use crate::files::text::left_aligned;
 use crate::input::{scene_keys, scenes};
 
 /// Arguments of `plan`.
 #[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed plan fig4-n50 --set interaction.alpha=0.3")]
 pub(super) struct PlanArgs {
     #[command(flatten)]
     chosen: Chosen,
@@ -15,9 +17,9 @@ pub(super) struct PlanArgs {
 
 /// Arguments of `scenes`.
 #[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed scenes --show fig4-n50 > mine.toml")]
 pub(super) struct ScenesArgs {
-    /// Print this built-in scene's file, to start a scene of your own from:
-    /// `shearbed scenes --show fig4-n50 > mine.toml`
+    /// Print this built-in scene's file, to start a scene of your own from
     #[arg(long, value_name = "NAME")]
     show: Option<String>,
     /// Print every key of a scene file: what it means, its unit, what is allowed, its default
@@ -65,11 +67,9 @@ pub(super) fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
 }
 
 fn table() -> Result<String, Failure> {
-    let width = scenes::ALL.iter().map(|built_in| built_in.name.len()).max().unwrap_or(0);
-    let mut lines = String::new();
-    for built_in in scenes::ALL {
+    let row = |built_in: &scenes::BuiltIn| {
         let scene = built_in.scene().map_err(|error| Failure::Input(error.to_string()))?;
-        lines.push_str(&format!("{:<width$}  {}\n", built_in.name, scene.title));
-    }
-    Ok(lines)
+        Ok(vec![built_in.name.to_owned(), scene.title])
+    };
+    Ok(left_aligned(&scenes::ALL.iter().map(row).collect::<Result<Vec<_>, Failure>>()?))
 }

@@ -209,12 +209,5 @@ fn table(rows: &[Vec<String>], swept: usize) -> String {
     };
     let cells: Vec<Vec<_>> =
         (rows.iter()).map(|row| (0..columns).map(|c| short(c, &row[c])).collect()).collect();
-    let width = |c: usize| cells.iter().map(|row| row[c].chars().count()).max().unwrap_or(0);
-    let widths: Vec<_> = (0..columns).map(width).collect();
-    let line = |row: &Vec<String>| {
-        let cells: Vec<_> =
-            (row.iter().zip(&widths)).map(|(cell, width)| format!("{cell:>width$}")).collect();
-        cells.join("  ") + "\n"
-    };
-    cells.iter().map(line).collect()
+    text::right_aligned(&cells)
 }

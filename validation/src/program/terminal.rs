@@ -3,10 +3,22 @@
 use super::Failure;
 use crate::files::cluster;
 use crate::files::text::readable;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle, WeakProgressBar};
 use std::fmt;
 use std::io::{self, IsTerminal, Write};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
+
+/// The last progress bar.
+static BAR: Mutex<Option<WeakProgressBar>> = Mutex::new(None);
+
+/// Removes the progress bar from the terminal: an error starts on a line of its own.
+pub(super) fn clear() {
+    let bar = BAR.lock().unwrap_or_else(PoisonError::into_inner).take();
+    if let Some(bar) = bar.and_then(|bar| bar.upgrade()) {
+        bar.finish_and_clear();
+    }
+}
 
 /// Prints to standard output. A reader that has gone away, as `head` does, is no error.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
@@ -31,8 +43,8 @@ pub(super) fn log(line: &str, quiet: bool) {
     let _ = writeln!(io::stderr().lock(), "{}", readable(line));
 }
 
-/// A bar over the steps of a slow part on a terminal, and nothing elsewhere. The time left is told once a step is done, and
-/// then from the rate of all; of a single step only the time that it has taken.
+/// A bar for a slow part on a terminal, and nothing elsewhere. It shows the time left once a step is done, from the mean rate;
+/// for a single step it shows the time so far.
 pub(super) fn progress(steps: u64, what: &str, quiet: bool) -> ProgressBar {
     if quiet || !cluster::is_root() || !io::stderr().is_terminal() {
         return ProgressBar::hidden();
@@ -58,5 +70,6 @@ pub(super) fn progress(steps: u64, what: &str, quiet: bool) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::stderr());
     bar.set_style(style.with_key("left", left));
     bar.enable_steady_tick(Duration::from_millis(500));
+    *BAR.lock().unwrap_or_else(PoisonError::into_inner) = Some(bar.downgrade());
     bar
 }

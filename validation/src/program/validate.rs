@@ -1,6 +1,6 @@
 //! `shearbed validate`.
 
-use super::finished::{Ended, Finished};
+use super::finished::{CaseResult, Finished};
 use super::{
     Failure, Threads, Writing, agree, checkpoint, choice, on_threads, print, progress, result_folder, whole,
 };
@@ -23,6 +23,7 @@ use std::time::Instant;
 
 /// Arguments of `validate`.
 #[derive(clap::Args)]
+#[command(after_help = "Example:\n  shearbed validate --case jeffery-period --out out/period")]
 pub(super) struct Args {
     /// Run this case only; can be given more than once
     #[arg(long = "case", value_name = "NAME")]
@@ -86,15 +87,15 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let path = args.checkpoint.as_deref();
     let path = path.map(|path| checkpoint::check(path, &args.out)).transpose()?;
     let folder = result_folder(&args.out, ("validate", agreed, args.writing.force), 0, &PAGES)?;
-    let kept = match &path {
+    let finished = match &path {
         Some(path) => Some(Finished::open(path, input, args.writing.quiet)?),
         None => None,
     };
     let effort = Effort { full: args.full, seed: args.seed, data: args.data };
     let (outcomes, sections) = on_threads(args.threads.given, || {
-        let outcomes = outcomes(&chosen, &effort, kept.as_ref(), args.writing.quiet)?;
+        let outcomes = outcomes(&chosen, &effort, finished.as_ref(), args.writing.quiet)?;
         let sections = match args.cases.is_empty() && args.tags.is_empty() {
-            true => gather(&effort, kept.as_ref(), args.writing.quiet)?,
+            true => gather(&effort, finished.as_ref(), args.writing.quiet)?,
             false => Some(Sections::default()),
         };
         Ok::<_, Failure>((outcomes, sections))
@@ -124,10 +125,10 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
 }
 
 /// Runs every study and gathers what the report shows beside its cases on the root; nothing elsewhere.
-fn gather(effort: &Effort, kept: Option<&Finished>, quiet: bool) -> Result<Option<Sections>, Failure> {
+fn gather(effort: &Effort, finished: Option<&Finished>, quiet: bool) -> Result<Option<Sections>, Failure> {
     let mut sections = Sections { equations: catalogue::equations(), ..Default::default() };
     for study in studies::ALL {
-        if let Some((found, seconds)) = kept.and_then(|kept| kept.study(study.name)) {
+        if let Some((found, seconds)) = finished.and_then(|finished| finished.study(study.name)) {
             sections.add(ReportStudy::new(&study, found, seconds));
             continue;
         }
@@ -145,7 +146,7 @@ fn gather(effort: &Effort, kept: Option<&Finished>, quiet: bool) -> Result<Optio
         bar.finish_and_clear();
         if let Some(found) = found.map_err(Failure::Failed)? {
             let measured = (found, start.elapsed().as_secs_f64());
-            kept.map_or(Ok(()), |kept| kept.keep_study(study.name, &measured))?;
+            finished.map_or(Ok(()), |finished| finished.add_study(study.name, &measured))?;
             sections.add(ReportStudy::new(&study, measured.0, measured.1));
         }
     }
@@ -158,30 +159,30 @@ fn gather(effort: &Effort, kept: Option<&Finished>, quiet: bool) -> Result<Optio
 fn outcomes(
     chosen: &[Case],
     effort: &Effort,
-    kept: Option<&Finished>,
+    finished: Option<&Finished>,
     quiet: bool,
 ) -> Result<Option<Vec<Outcome>>, Failure> {
     let bar = progress(chosen.len() as u64, "cases", quiet);
     // What a case says of itself every rank knows.
     let run = |k: usize| {
         let case: &Case = &chosen[k];
-        if let Some(found) = kept.and_then(|kept| kept.case(case.about.name)) {
+        if let Some(found) = finished.and_then(|finished| finished.case(case.about.name)) {
             return Ok(found);
         }
         bar.set_message(case.about.name);
         let outcome = case.run(effort);
         Ok((outcome.verdict, outcome.evidence, outcome.controls, outcome.seconds))
     };
-    let arrived = |k: usize, found: &Ended| {
+    let arrived = |k: usize, found: &CaseResult| {
         if !quiet {
             bar.suspend(|| print(&line(chosen[k].about.name, found.0, found.3)))?;
         }
         bar.inc(1);
-        kept.map_or(Ok(()), |kept| kept.keep_case(chosen[k].about.name, found))
+        finished.map_or(Ok(()), |finished| finished.add_case(chosen[k].about.name, found))
     };
     let found = cluster::share(chosen.len(), run, arrived)?;
     bar.finish_and_clear();
-    let outcome = |(case, (verdict, evidence, controls, seconds)): (&Case, Ended)| Outcome {
+    let outcome = |(case, (verdict, evidence, controls, seconds)): (&Case, CaseResult)| Outcome {
         about: case.about,
         verdict,
         evidence,

@@ -25,6 +25,13 @@ pub(super) fn words() -> Vec<OsString> {
     }
 }
 
+/// The command that was given, as `run`; empty where there is none.
+pub(super) fn command() -> String {
+    let first = |words: &[OsString]| words.first().map(|word| word.to_string_lossy().into_owned());
+    let own = || std::env::args_os().skip(1).take(1).collect::<Vec<_>>();
+    GIVEN.get().map_or_else(|| first(&own()), |words| first(&words.arguments)).unwrap_or_default()
+}
+
 /// The words that start this program again.
 pub(super) fn again() -> Vec<OsString> {
     let own = || std::env::current_exe().map_or_else(|_| "shearbed".into(), Into::into);

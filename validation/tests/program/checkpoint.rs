@@ -182,8 +182,8 @@ fn a_checkpoint_of_other_work_is_refused() {
         ("--checkpoint /proc/k", "/proc/k: cannot be written"),
         ("--checkpoint .", "is --out x2, or a folder above it"),
         ("--checkpoint x2", "is --out x2, or a folder above it"),
-        ("--checkpoint x2/run.json", "the results may take that name"),
-        ("--checkpoint no/../x2/a.csv", "the results may take that name"),
+        ("--checkpoint x2/run.json", "a result may have that name"),
+        ("--checkpoint no/../x2/a.csv", "a result may have that name"),
         ("--checkpoint small.toml", "small.toml: is no checkpoint of shearbed"),
     ] {
         let refused = shearbed(dir.path(), &format!("run small.toml --out x2 {wrong}"));

@@ -29,6 +29,7 @@ fn a_signal_ends_a_run_with_a_message_and_leaves_nothing() {
         let message = ended.stderr;
         assert_eq!(ended.code, Some(code), "{message}");
         assert!(message.starts_with(&format!("error: stopped by {name}:")), "{message}");
+        assert!(message.ends_with("`shearbed run` keeps nothing before it ends\n"), "{message}");
         let names: Vec<_> =
             fs::read_dir(dir.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         assert_eq!(names.len(), 2, "{names:?}");

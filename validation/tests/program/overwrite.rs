@@ -249,6 +249,10 @@ fn a_point_of_a_sweep_and_a_checkpoint_are_no_place_for_a_run() {
     assert_eq!(read(&dir.path().join("w/points/1/projections.csv")), before);
     fs::create_dir(dir.path().join("d")).unwrap();
     let (code, said) = ended("run small.toml --quiet --out d --checkpoint d/projections.csv");
-    assert!(code == Some(2) && said.contains("the results may take that name"), "{said}");
+    assert!(
+        code == Some(2)
+            && said.contains("a result may have that name; choose a checkpoint outside the output folder"),
+        "{said}"
+    );
     assert_eq!(ended("run small.toml --quiet --out d --checkpoint d/kept").0, Some(0));
 }

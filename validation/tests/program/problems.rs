@@ -59,7 +59,7 @@ fn an_export_is_what_is_read_and_is_not_written_over_what_it_did_not_write() {
     // Without the record nobody knows who wrote the problems.
     fs::remove_file(reference.join("shearbed.json")).unwrap();
     let error = problems::export(&reference, false).unwrap_err().to_string();
-    assert!(error.contains("problem.json: is here already"), "{error}");
+    assert!(error.contains("problem.json: is here already") && error.contains("another folder"), "{error}");
 }
 
 #[test]

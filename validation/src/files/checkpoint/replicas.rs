@@ -1,7 +1,7 @@
-//! The replicas of a run, kept while they run.
+//! The replicas of a run with a checkpoint.
 //!
-//! Replicas are begun in order, each in a pool of threads of its own: so few wait to be added up, and none waits in the
-//! middle of a step for another one, as it might in one pool for all.
+//! Replicas start in order, each in a pool of threads of its own: so few finished ones wait for their turn in the sum, and none
+//! waits in the middle of a step for another one, as it might in one pool for all.
 
 use super::{Checkpoint, on_stop, stays};
 use crate::files::output::{OutputError, Refused};
@@ -20,21 +20,21 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-/// How long the end of the program waits for replicas to say where they are; who is later is kept as last told.
+/// The longest wait for the states of replicas when a signal ends the program; a later one is saved as it last was.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// What a checkpoint of a run holds.
+/// The contents of a checkpoint of a run.
 #[derive(Serialize, Deserialize)]
-struct Kept {
+struct Saved {
     /// The first replicas, added up.
     tally: Tally,
-    /// Replicas that are done and wait for one before them.
+    /// Finished replicas that wait for one before them.
     done: BTreeMap<u64, Replica>,
-    /// Replicas in work, where they were when last asked.
+    /// The last state of replicas in work.
     halfway: BTreeMap<u64, Halfway>,
 }
 
-/// How far a run has come.
+/// The progress of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// Replicas that are done.
@@ -53,8 +53,8 @@ impl fmt::Display for Progress {
 }
 
 struct State {
-    kept: Kept,
-    /// Something of it is not in the file.
+    saved: Saved,
+    /// True if the file lacks some of it.
     new: bool,
     /// The next replica to begin.
     next: u64,
@@ -73,43 +73,46 @@ pub struct Replicas {
     /// Rounds of questions so far.
     round: AtomicU64,
     state: Mutex<State>,
-    /// An answer, or the end.
-    told: Condvar,
+    /// Signals an answer of a replica, or the end.
+    changed: Condvar,
 }
 
 impl Replicas {
-    /// Goes on from `file` where it holds something, and keeps the run there from now on, at least so often. What cannot be
-    /// written is known before the work.
+    /// Opens or makes the checkpoint at `path`, to be written at least every `every`.
+    ///
+    /// # Errors
+    ///
+    /// A checkpoint of another run, a damaged one, one that cannot be written.
     pub fn open(plan: &Plan, path: &Path, every: Duration) -> Result<Arc<Self>, Refused> {
         let file = Checkpoint::open(path, "run", json!({ "scene": plan.scene().resolved() }))?;
-        let kept: Option<Kept> = file.read()?;
-        let kept = kept.unwrap_or_else(|| Kept {
+        let saved: Option<Saved> = file.read()?;
+        let saved = saved.unwrap_or_else(|| Saved {
             tally: Tally::new(plan),
             done: BTreeMap::new(),
             halfway: BTreeMap::new(),
         });
         let misfit = |why: &str| file.refused(&format!("is damaged: {why}"));
-        kept.tally.check(plan).map_err(misfit)?;
-        let left = kept.tally.replicas()..plan.scene().ensemble.replicas;
-        if !kept.done.keys().chain(kept.halfway.keys()).all(|replica| left.contains(replica)) {
+        saved.tally.check(plan).map_err(misfit)?;
+        let left = saved.tally.replicas()..plan.scene().ensemble.replicas;
+        if !saved.done.keys().chain(saved.halfway.keys()).all(|replica| left.contains(replica)) {
             return Err(misfit("a replica in it is not left to be done"));
         }
-        kept.done.values().try_for_each(|done| done.check(plan)).map_err(misfit)?;
-        kept.halfway.values().try_for_each(|halfway| halfway.check(plan)).map_err(misfit)?;
-        file.write(&kept)?;
+        saved.done.values().try_for_each(|done| done.check(plan)).map_err(misfit)?;
+        saved.halfway.values().try_for_each(|halfway| halfway.check(plan)).map_err(misfit)?;
+        file.write(&saved)?;
         let replicas = Arc::new(Self {
             plan: plan.clone(),
             every,
             round: AtomicU64::new(0),
             state: Mutex::new(State {
-                next: kept.tally.replicas(),
-                kept,
+                next: saved.tally.replicas(),
+                saved,
                 new: false,
                 in_work: BTreeMap::new(),
                 stopped: None,
                 ended: false,
             }),
-            told: Condvar::new(),
+            changed: Condvar::new(),
             file,
         });
         // Weak: the file is let go of when the run is over.
@@ -126,15 +129,15 @@ impl Replicas {
         self.file.path()
     }
 
-    /// How far the run has come.
+    /// The progress of the run.
     pub fn progress(&self) -> Progress {
-        self.progress_of(&self.state().kept)
+        self.progress_of(&self.state().saved)
     }
 
-    fn progress_of(&self, kept: &Kept) -> Progress {
+    fn progress_of(&self, saved: &Saved) -> Progress {
         Progress {
-            done: kept.tally.replicas() + kept.done.len() as u64,
-            halfway: kept.halfway.len(),
+            done: saved.tally.replicas() + saved.done.len() as u64,
+            halfway: saved.halfway.len(),
             all: self.plan.scene().ensemble.replicas,
         }
     }
@@ -165,20 +168,20 @@ impl Replicas {
                     })
                 })
                 .collect();
-            let keeper = scope.spawn(|| self.keep(&saved));
+            let saver = scope.spawn(|| self.save_regularly(&saved));
             let ends: Vec<_> = workers.into_iter().map(|worker| worker.join()).collect();
             self.state().ended = true;
-            self.told.notify_all();
-            let mut ends = ends.into_iter().chain([keeper.join()]);
+            self.changed.notify_all();
+            let mut ends = ends.into_iter().chain([saver.join()]);
             if let Some(panic) = ends.find_map(Result::err) {
                 std::panic::resume_unwind(panic);
             }
         });
-        self.save_and_tell(&saved);
+        self.save_and_report(&saved);
         let mut state = self.state();
         match state.stopped.take() {
             Some((_, error)) => Err(error),
-            None => Ok(state.kept.tally.clone().results(&self.plan)),
+            None => Ok(state.saved.tally.clone().results(&self.plan)),
         }
     }
 
@@ -201,8 +204,8 @@ impl Replicas {
     fn begin(&self) -> Option<(u64, Option<Halfway>, u64)> {
         let mut state = self.state();
         // What was done before its turn may be added up by now.
-        state.next = state.next.max(state.kept.tally.replicas());
-        while state.kept.done.contains_key(&state.next) {
+        state.next = state.next.max(state.saved.tally.replicas());
+        while state.saved.done.contains_key(&state.next) {
             state.next += 1;
         }
         let replica = state.next;
@@ -212,17 +215,17 @@ impl Replicas {
         state.next += 1;
         let round = self.round.load(Ordering::Relaxed);
         state.in_work.insert(replica, round);
-        Some((replica, state.kept.halfway.get(&replica).cloned(), round))
+        Some((replica, state.saved.halfway.get(&replica).cloned(), round))
     }
 
     fn answer(&self, replica: u64, round: u64, halfway: &dyn Fn() -> Halfway) {
         let mut state = self.state();
         // First the old one: there is memory for one.
-        state.kept.halfway.remove(&replica);
-        state.kept.halfway.insert(replica, halfway());
+        state.saved.halfway.remove(&replica);
+        state.saved.halfway.insert(replica, halfway());
         state.new = true;
         state.in_work.insert(replica, round);
-        self.told.notify_all();
+        self.changed.notify_all();
     }
 
     fn end(&self, replica: u64, end: Result<Replica, Error>) {
@@ -230,8 +233,8 @@ impl Replicas {
         state.in_work.remove(&replica);
         match end {
             Ok(end) => {
-                state.kept.halfway.remove(&replica);
-                state.kept.done.insert(replica, end);
+                state.saved.halfway.remove(&replica);
+                state.saved.done.insert(replica, end);
                 state.new = true;
             }
             Err(error) => {
@@ -241,25 +244,25 @@ impl Replicas {
                 }
             }
         }
-        let Kept { tally, done, .. } = &mut state.kept;
+        let Saved { tally, done, .. } = &mut state.saved;
         while let Some(next) = done.remove(&tally.replicas()) {
             tally.add(next);
         }
-        self.told.notify_all();
+        self.changed.notify_all();
     }
 
     /// Saves again and again until the run has ended.
-    fn keep(&self, saved: &impl Fn(Result<Progress, OutputError>)) {
+    fn save_regularly(&self, saved: &impl Fn(Result<Progress, OutputError>)) {
         loop {
-            let wait = self.told.wait_timeout_while(self.state(), self.every, |state| !state.ended);
+            let wait = self.changed.wait_timeout_while(self.state(), self.every, |state| !state.ended);
             if wait.unwrap_or_else(PoisonError::into_inner).0.ended {
                 return;
             }
-            self.save_and_tell(saved);
+            self.save_and_report(saved);
         }
     }
 
-    fn save_and_tell(&self, saved: &impl Fn(Result<Progress, OutputError>)) {
+    fn save_and_report(&self, saved: &impl Fn(Result<Progress, OutputError>)) {
         match self.save(None) {
             Ok((_, false)) => (),
             Ok((progress, true)) => saved(Ok(progress)),
@@ -267,25 +270,25 @@ impl Replicas {
         }
     }
 
-    /// Asks every replica in work where it is, waits for the answers, at most so long, and writes all down where something is
-    /// new. What the file holds then, and whether it was written.
+    /// Checkpoints every replica: asks each for its state, waits for the answers up to `patience`, and writes the file if
+    /// something is new. Returns the progress in the file, and true if it was written.
     fn save(&self, patience: Option<Duration>) -> Result<(Progress, bool), OutputError> {
         let mut state = self.state();
         let round = self.round.fetch_add(1, Ordering::Relaxed) + 1;
         let silent =
             |state: &mut State| !state.ended && state.in_work.values().any(|answered| *answered < round);
         state = match patience {
-            None => self.told.wait_while(state, silent).unwrap_or_else(PoisonError::into_inner),
+            None => self.changed.wait_while(state, silent).unwrap_or_else(PoisonError::into_inner),
             Some(patience) => {
-                let wait = self.told.wait_timeout_while(state, patience, silent);
+                let wait = self.changed.wait_timeout_while(state, patience, silent);
                 wait.unwrap_or_else(PoisonError::into_inner).0
             }
         };
-        let progress = self.progress_of(&state.kept);
+        let progress = self.progress_of(&state.saved);
         if !state.new {
             return Ok((progress, false));
         }
-        let part = self.file.begin(&state.kept)?;
+        let part = self.file.begin(&state.saved)?;
         state.new = false;
         // The disk may be slow: replicas need not wait for it.
         drop(state);
@@ -296,7 +299,7 @@ impl Replicas {
         Ok((progress, true))
     }
 
-    /// Saves before the program ends, and says how to go on.
+    /// Saves before the program ends; returns how to go on.
     fn last_words(&self) -> String {
         let path = self.file.path().display();
         match self.save(Some(PATIENCE)) {

@@ -1,4 +1,4 @@
-//! What is still to be done when a signal ends the program.
+//! The last action before a signal ends the program.
 
 use crate::files::text::Shown;
 use std::path::Path;
@@ -8,19 +8,18 @@ type Last = Box<dyn FnOnce() -> Option<String> + Send>;
 
 static LAST: Mutex<Option<Last>> = Mutex::new(None);
 
-/// From now on `last` is called before a signal ends the program; it returns how to go on,
-/// where there is something to go on from.
+/// Sets the last action before a signal ends the program, in place of the one before. It returns how to go on, if possible.
 pub(crate) fn on_stop(last: impl FnOnce() -> Option<String> + Send + 'static) {
     *LAST.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(last));
 }
 
-/// Calls what was given, once.
+/// Runs the last action, once.
 pub(crate) fn last_words() -> Option<String> {
     let last = LAST.lock().unwrap_or_else(PoisonError::into_inner).take();
     last.and_then(|last| last())
 }
 
-/// That a checkpoint stays, where there is one.
+/// The message that a checkpoint stays; `None` if there is no such file.
 pub(crate) fn stays(path: &Path) -> Option<String> {
     path.exists().then(|| format!("{} stays as it is, and the same command goes on from there", path.shown()))
 }

@@ -1,4 +1,4 @@
-//! The right to write in a folder, held by one process at a time.
+//! The lock on a folder: one process writes there at a time.
 
 use super::{OutputError, RECORD, at, refill};
 use crate::files::bounded;
@@ -13,21 +13,21 @@ use std::time::{Duration, Instant};
 pub(super) const LOCK: &str = ".shearbed-lock";
 /// A set of files that is being written.
 const PART: &str = ".shearbed-part";
-/// A set of files that is written and belongs one folder up.
+/// A complete set of files that belongs one folder up.
 const READY: &str = ".shearbed-ready";
-/// How every name of ours begins that is no result.
+/// Prefix of lock and temporary files.
 const OURS: &str = ".shearbed-";
 
-/// While it lives, no other process that claims the folder writes there.
+/// A lock on a folder: no other process that claims the folder writes there.
 #[derive(Debug)]
 pub struct Claim {
     dir: PathBuf,
-    /// The folder was made for it.
+    /// True if the folder did not exist before.
     made: bool,
     lock: Option<Lock>,
 }
 
-/// A file that exists for its lock.
+/// A locked file.
 #[derive(Debug)]
 pub(super) struct Lock {
     path: PathBuf,
@@ -35,7 +35,7 @@ pub(super) struct Lock {
     _file: File,
 }
 
-/// Held by whoever writes a set of files.
+/// Held while a set of files is written.
 static WRITING: Mutex<()> = Mutex::new(());
 /// The locks of this process.
 static LOCKS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -158,7 +158,7 @@ impl Claim {
         Ok(())
     }
 
-    /// The claimed folder has another name now, and the claim ends.
+    /// Ends the claim of a folder that now has the name `dir`.
     pub(super) fn moved_to(mut self, dir: &Path) {
         if let Some(lock) = &mut self.lock {
             lock.moved_to(dir.join(LOCK));
@@ -227,7 +227,7 @@ impl Lock {
         Ok(Self { path, _file: file })
     }
 
-    /// The file has another name now.
+    /// Notes the file's new name.
     fn moved_to(&mut self, path: PathBuf) {
         held(&LOCKS).retain(|held| *held != self.path);
         self.path = path;
@@ -242,14 +242,14 @@ impl Drop for Lock {
     }
 }
 
-/// Whether an open file still has a name.
+/// True if an open file has not been removed.
 #[cfg(unix)]
 fn is_there(file: &File) -> bool {
     use std::os::unix::fs::MetadataExt;
     file.metadata().is_ok_and(|metadata| metadata.nlink() > 0)
 }
 
-/// Where an open file cannot be removed it is there.
+/// True: an open file cannot be removed here.
 #[cfg(not(unix))]
 fn is_there(_: &File) -> bool {
     true

@@ -10,12 +10,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The refusal to replace a file, and how to go on.
-pub(super) fn in_the_way(path: &Path, what: &str) -> Refused {
+pub(super) fn in_the_way(path: &Path, what: &str, other: &str) -> Refused {
     Refused(format!(
-        "{}: {what}; --force overwrites it, another --out leaves it; nothing was changed",
+        "{}: {what}; --force overwrites it, {other} leaves it; nothing was changed",
         path.shown()
     ))
 }
+
+/// How most commands are given another folder or file.
+pub(super) const OTHER_OUT: &str = "another --out";
 
 /// A folder for the results of one command; it need not exist yet.
 #[derive(Debug)]
@@ -23,13 +26,20 @@ pub struct ResultFolder {
     dir: PathBuf,
     origin: Origin,
     force: bool,
+    /// How another folder is given.
+    other: &'static str,
 }
 
 impl ResultFolder {
     /// `inputs` is an object with all that the results depend on; the program's version is added.
     pub fn new(dir: &Path, command: &str, mut inputs: Value, force: bool) -> Self {
         inputs["version"] = BUILD.version.into();
-        Self { dir: dir.to_owned(), origin: Origin::new(command, inputs), force }
+        Self { dir: dir.to_owned(), origin: Origin::new(command, inputs), force, other: OTHER_OUT }
+    }
+
+    /// The same for a command that has its folder as an argument, without `--out`.
+    pub fn as_argument(self) -> Self {
+        Self { other: "another folder", ..self }
     }
 
     /// The folder.
@@ -59,6 +69,7 @@ impl ResultFolder {
             return Ok(());
         }
         let (record, command) = (self.dir.join(RECORD), &self.origin.command);
+        let in_the_way = |path: &Path, what: &str| in_the_way(path, what, self.other);
         let mut names = names.iter().map(|name| (name.as_ref(), self.dir.join(name.as_ref())));
         let Some(found) = Record::read(&self.dir).map_err(|why| in_the_way(&record, &why))? else {
             return match names.find(|(_, path)| fs::symlink_metadata(path).is_ok()) {

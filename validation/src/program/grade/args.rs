@@ -1,4 +1,4 @@
-//! What `shearbed grade` is told.
+//! The arguments of `shearbed grade`.
 
 use crate::program::Writing;
 use crate::serve::grade::{Axes, Foreign};
@@ -7,6 +7,10 @@ use std::path::PathBuf;
 
 /// Arguments of `grade`.
 #[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  shearbed grade ref mine --out graded
+  shearbed grade --command 'python3 mine.py' --order 4")]
 pub(crate) struct Args {
     /// The folder with the problems, as `problems export` writes it
     #[arg(value_name = "REF", required_unless_present_any = ["command", "echo"])]

@@ -14,7 +14,7 @@ pub const SCHEMA: &str = include_str!("../../../schemas/problem.schema.json");
 ///
 /// A file in the way that no export wrote, or that was changed since, without `force`; what cannot be written.
 pub fn export(dir: &Path, force: bool) -> Result<Vec<&'static str>, Refused> {
-    let folder = ResultFolder::new(dir, "problems export", json!({}), force);
+    let folder = ResultFolder::new(dir, "problems export", json!({}), force).as_argument();
     let always =
         |def: &ProblemDef| ["problem.json", "certified.csv"].map(|file| format!("{}/{file}", def.name));
     // Before the problems are built, which takes seconds.

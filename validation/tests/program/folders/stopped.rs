@@ -109,7 +109,7 @@ fn a_signal_before_the_checkpoint_is_opened_says_that_it_stays() {
     lock.lock().unwrap();
     for (there, said) in [
         (true, "kept stays as it is, and the same command goes on from there"),
-        (false, "nothing else is kept"),
+        (false, "`shearbed run` keeps nothing before it ends"),
     ] {
         if there {
             fs::write(dir.path().join("kept"), "").unwrap();
