@@ -1,7 +1,7 @@
 //! Writes the certified answers of the problems `folgar-tucker-*`, `src/serve/problems/data/folgar-tucker.csv`, to standard
 //! output: a table is the same on every machine.
 //!
-//!     cargo run -p shearbed-suite --example certify_folgar_tucker > folgar-tucker.csv
+//!     cargo run -p shearbed --example certify_folgar_tucker > folgar-tucker.csv
 
 use validation::serve::problems::folgar_tucker::certify;
 

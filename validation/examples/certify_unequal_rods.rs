@@ -1,7 +1,7 @@
 //! Writes the certified answer of the problem `unequal-rods`, `src/problems/data/unequal-rods.csv`, to standard output: it
 //! takes minutes, and a table is the same on every machine.
 //!
-//!     cargo run --release -p shearbed-suite --example certify_unequal_rods > unequal-rods.csv
+//!     cargo run --release -p shearbed --example certify_unequal_rods > unequal-rods.csv
 
 use validation::oracle::reference::big::digits;
 use validation::oracle::reference::unequal::means_to_22_digits;

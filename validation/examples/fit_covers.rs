@@ -1,7 +1,7 @@
 //! Repeats whole fits of synthetic points of two thin suspensions, each with a seed and noise of its own, and counts how often the
 //! intervals hold the planted values:
 //!
-//!     cargo run --release -p shearbed-suite --example fit_covers -- 200 interaction.alpha=0.2:3 interaction.m=1.2:6
+//!     cargo run --release -p shearbed --example fit_covers -- 200 interaction.alpha=0.2:3 interaction.m=1.2:6
 //!
 //! Keys are `interaction.alpha`, `interaction.m`, `particles.aspect_ratio`, `particles.aspect_ratio_sd_percent` and
 //! `interaction.concentration_per_cm3` (of the second suspension).

@@ -1,5 +1,5 @@
 //! What α would be under each open reading of the paper, and what points of two suspensions tell of the readings, as Markdown
-//! tables. `cargo run --release -p shearbed-suite --example fit_readings -- 50` gives each value of α up to 50 replicas in the
+//! tables. `cargo run --release -p shearbed --example fit_readings -- 50` gives each value of α up to 50 replicas in the
 //! first; in the second points and model have 10 000.
 
 use rand::SeedableRng;

@@ -1,6 +1,6 @@
 //! Prints the table of docs/src/theory/time-step.md that says which steps resolve the motion, as Markdown.
 //!
-//! `cargo run --release -p shearbed-suite --example resolution -- REPLICAS [R_E...]`: 50 replicas, and the aspect ratios of the
+//! `cargo run --release -p shearbed --example resolution -- REPLICAS [R_E...]`: 50 replicas, and the aspect ratios of the
 //! table, where nothing else is asked for.
 
 use validation::cases::resolution::{change, scene, steps, x1};

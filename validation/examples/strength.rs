@@ -1,6 +1,6 @@
 //! Tries the probabilities that the gate promises: the cases at many seeds, and how often each turned red, and why.
 //!
-//! `cargo run --release -p shearbed-suite --example strength -- SEEDS [full] [CASE...]` prints the tables of
+//! `cargo run --release -p shearbed --example strength -- SEEDS [full] [CASE...]` prints the tables of
 //! `docs/src/verification/error-rates.md`, after every 20 seeds those until then. SEEDS is the last one, or the first and the last as `61..200`. A
 //! case whose evidence is the same at the first five seeds draws nothing, and is not run again.
 

@@ -2,7 +2,7 @@
 //! arguments of `sweep`, problems, answers, points to fit, folders of results, checkpoints. None may panic, hang, take memory without bound or let a number pass
 //! that is not finite, and whoever is refused is told where and why.
 //!
-//!     cargo run --release -p shearbed-suite --example fuzz -- TARGET COUNT [SEED]
+//!     cargo run --release -p shearbed --example fuzz -- TARGET COUNT [SEED]
 //!
 //! prints how many inputs were taken and refused; the first one at fault ends it with the input in `fuzz-fault/`. The small part
 //! that the gate runs is the test below.

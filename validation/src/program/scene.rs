@@ -58,7 +58,7 @@ impl Chosen {
         let swept = over.iter().map(|axis| ("--over", axis.key.as_str()));
         let others = given.iter().map(|(flag, setting)| (*flag, setting.key.as_str()));
         sweep::one_owner(&swept.chain(others).collect::<Vec<_>>()).map_err(Failure::Input)?;
-        load(&self.scene)?.with(given.into_iter().map(|(_, setting)| setting).collect())
+        load(&self.scene, given.into_iter().map(|(_, setting)| setting).collect())
     }
 }
 
@@ -82,44 +82,31 @@ pub(super) struct Named {
 impl Named {
     /// Its plan; an error names the line of the key, or the keys that were set.
     pub(super) fn plan(&self) -> Result<Plan, Failure> {
-        Plan::new(&self.scene).map_err(|error| self.refused(self.document.located(error)))
+        Plan::new(&self.scene)
+            .map_err(|error| wrong(&self.source, &self.settings, &self.document.located(error)))
     }
+}
 
-    /// Mistakes of the file with their lines, those of keys that were set with `--set`.
-    fn refused(&self, error: Error) -> Failure {
-        let Error::Text { problems, .. } = &error else {
-            return refused(&self.source, &error.to_string());
-        };
-        let set = |setting: &Setting| format!(" --set {}={}", setting.key, sweep::shown(&setting.value));
-        let set: String = self.settings.iter().map(set).collect();
-        let line = |problem: &Problem| match problem.line {
-            Some(line) => format!("{}:{line}: {}", self.source, problem.message),
-            None => format!("{}{set}: {}", self.source, problem.message),
-        };
-        Failure::Input(problems.iter().map(line).collect::<Vec<_>>().join("\n"))
-    }
-
-    fn with(mut self, settings: Vec<Setting>) -> Result<Self, Failure> {
-        if settings.is_empty() {
-            return Ok(self);
-        }
-        self.settings = settings;
-        for Setting { key, value } in &self.settings {
-            let set = self.document.set(key, value.clone());
-            set.map_err(|error| self.refused(error))?;
-        }
-        self.scene = of_document(&self.document).map_err(|error| self.refused(error))?;
-        self.starts.fill(&mut self.scene).map_err(|error| refused(&self.source, &error))?;
-        Ok(self)
-    }
+/// Mistakes of the file with their lines, those of keys that were set with `--set`.
+fn wrong(source: &str, settings: &[Setting], error: &Error) -> Failure {
+    let Error::Text { problems, .. } = error else {
+        return refused(source, &error.to_string());
+    };
+    let set = |setting: &Setting| format!(" --set {}={}", setting.key, sweep::shown(&setting.value));
+    let set: String = settings.iter().map(set).collect();
+    let line = |problem: &Problem| match problem.line {
+        Some(line) => format!("{source}:{line}: {}", problem.message),
+        None => format!("{source}{set}: {}", problem.message),
+    };
+    Failure::Input(problems.iter().map(line).collect::<Vec<_>>().join("\n"))
 }
 
 fn refused(source: &str, error: &str) -> Failure {
     Failure::Input(format!("{source}: {error}"))
 }
 
-/// Reads the file `given`, or where there is none the built-in scene of that name.
-pub(super) fn load(given: &OsStr) -> Result<Named, Failure> {
+/// Reads the file `given`, or where there is none the built-in scene of that name, with these keys set.
+pub(super) fn load(given: &OsStr, settings: Vec<Setting>) -> Result<Named, Failure> {
     let path = Path::new(given);
     let source = path.shown();
     let built_in = scenes::find(&source).filter(|_| !path.exists() || path.is_dir());
@@ -130,12 +117,14 @@ pub(super) fn load(given: &OsStr) -> Result<Named, Failure> {
             (read(path)?, stem, Starts::beside(path.parent().unwrap_or(Path::new(""))))
         }
     };
-    let name = if built_in.is_some() { format!("{source}.toml") } else { source.clone() };
-    let input = |error: Error| Failure::Input(error.to_string());
-    let document = Document::parse(&name, &text).map_err(input)?;
-    let mut scene = of_document(&document).map_err(input)?;
+    let at = |error: Error| wrong(&source, &settings, &error);
+    let mut document = Document::parse(&source, &text).map_err(at)?;
+    for Setting { key, value } in &settings {
+        document.set(key, value.clone()).map_err(at)?;
+    }
+    let mut scene = of_document(&document).map_err(at)?;
     starts.fill(&mut scene).map_err(|error| refused(&source, &error))?;
-    Ok(Named { scene, text, document, settings: Vec::new(), source, starts, stem })
+    Ok(Named { scene, text, document, settings, source, starts, stem })
 }
 
 /// Says on standard error, from the root, what the reader of the results should know before trusting them.

@@ -13,7 +13,7 @@ fn fresh(file: &str, expected: &str) {
         fs::write(&path, expected).unwrap();
     }
     let found = fs::read_to_string(&path).unwrap_or_default();
-    assert!(found == expected, "{file} is stale: UPDATE_DOCS=1 cargo test -p shearbed-suite --test docs");
+    assert!(found == expected, "{file} is stale: UPDATE_DOCS=1 cargo test -p shearbed --test docs");
 }
 
 #[test]

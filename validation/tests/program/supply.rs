@@ -17,7 +17,7 @@ fn manifest(path: &str) -> toml::Table {
 fn crates() -> BTreeSet<[String; 2]> {
     let tree = Command::new(env!("CARGO"))
         .args(["tree", "--locked", "--prefix", "none", "--edges", "normal,build"])
-        .args(["--target", "x86_64-unknown-linux-gnu", "--package", "shearbed-suite"])
+        .args(["--target", "x86_64-unknown-linux-gnu", "--package", "shearbed"])
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()
         .unwrap();

@@ -1,126 +1,97 @@
-//! Reading keys of a TOML file one by one, with errors that name file, line, key, value and what is allowed.
+//! Keys of a provenance file one by one, with errors that name file, line, key, value and what is allowed.
 
 use super::error::DataError;
-use toml::de::{DeTable, DeValue};
+use shearbed::Error;
+use shearbed::scene::Problem;
+use shearbed::scene::document::{Document, Table};
 
-/// A table of the file with its place, for messages.
-pub(super) struct Table<'a> {
-    file: &'a str,
-    text: &'a str,
-    /// What stands before its keys, as `x.`; nothing for the whole file.
-    path: String,
-    /// Where the table starts.
-    line: usize,
-    entries: &'a DeTable<'a>,
+/// Reads a TOML text.
+pub(super) fn document(file: &str, text: &str) -> Result<Document, DataError> {
+    Document::parse(file, text).map_err(|error| match error {
+        Error::Text { mut problems, .. } if !problems.is_empty() => located(file, problems.remove(0)),
+        other => DataError { file: file.to_owned(), line: None, message: other.to_string() },
+    })
 }
 
-impl<'a> Table<'a> {
+fn located(file: &str, Problem { line, message, .. }: Problem) -> DataError {
+    DataError { file: file.to_owned(), line, message }
+}
+
+/// A table of the file.
+pub(super) struct Keys<'a> {
+    file: &'a str,
+    /// Its name up to those of its keys, as `x.`; empty for the whole file.
+    path: String,
+    table: Table<'a>,
+}
+
+impl<'a> Keys<'a> {
     /// The table of a whole file.
-    pub(super) fn of_file(file: &'a str, text: &'a str, entries: &'a DeTable<'a>) -> Self {
-        Self { file, text, path: String::new(), line: 1, entries }
+    pub(super) fn of_file(file: &'a str, document: &'a Document) -> Self {
+        Self { file, path: String::new(), table: document.root() }
     }
 
-    fn inner(&self, key: &str, offset: usize, entries: &'a DeTable<'a>) -> Self {
-        Self { path: format!("{}{key}.", self.path), line: line_of(self.text, offset), entries, ..*self }
+    fn inner(&self, key: &str, table: Table<'a>) -> Self {
+        Self { path: format!("{}{key}.", self.path), table, ..*self }
     }
 
     /// The line of a key, or of its table where it is missing.
     pub(super) fn line(&self, key: &str) -> usize {
-        let offset = self.entries.get_key_value(key).map(|(name, _)| name.span().start);
-        offset.map_or(self.line, |offset| line_of(self.text, offset))
+        self.table.line(key)
     }
 
-    /// The error that `key` does not hold what is allowed, or is missing.
+    /// The error that `key` is missing or has another value than is allowed.
     pub(super) fn refused(&self, key: &str, allowed: &str) -> DataError {
-        let path = format!("{}{key}", self.path);
-        let message = match self.entries.get(key) {
-            None => format!("{path} is missing: {allowed}"),
-            Some(value) => {
-                let written = self.text.get(value.span()).unwrap_or_default();
-                let written = written.split_whitespace().collect::<Vec<_>>().join(" ");
-                format!("{path} = {written} is not allowed: {allowed}")
-            }
-        };
-        DataError::at(self.file, self.line(key), message)
+        located(self.file, self.table.refused(key, allowed))
     }
 
-    /// Whether the key is there.
+    /// True if the key is there.
     pub(super) fn has(&self, key: &str) -> bool {
-        self.entries.get(key).is_some()
+        self.table.has(key)
     }
 
     /// A text that is not empty.
     pub(super) fn text(&self, key: &str, allowed: &str) -> Result<String, DataError> {
-        let text = self.entries.get(key).and_then(|value| value.get_ref().as_str());
-        match text.map(str::trim) {
-            Some(text) if !text.is_empty() => Ok(text.to_owned()),
-            _ => Err(self.refused(key, allowed)),
-        }
+        let text = self.table.read::<String>(key).map(|text| text.trim().to_owned());
+        text.filter(|text| !text.is_empty()).ok_or_else(|| self.refused(key, allowed))
     }
 
-    /// A number for which `holds`.
+    /// A finite number for which `holds`.
     pub(super) fn number(
         &self,
         key: &str,
         allowed: &str,
         holds: impl Fn(f64) -> bool,
     ) -> Result<f64, DataError> {
-        let number = self.entries.get(key).and_then(|value| number(value.get_ref()));
-        number.filter(|number| holds(*number)).ok_or_else(|| self.refused(key, allowed))
+        let number = self.table.read::<f64>(key).filter(|number| number.is_finite() && holds(*number));
+        number.ok_or_else(|| self.refused(key, allowed))
     }
 
-    /// Every number of an array of numbers.
+    /// Every number of an array of finite numbers.
     pub(super) fn numbers(&self, key: &str, allowed: &str) -> Result<Vec<f64>, DataError> {
-        let array = self.entries.get(key).and_then(|value| value.get_ref().as_array());
-        let numbers = array.and_then(|array| array.iter().map(|value| number(value.get_ref())).collect());
-        numbers.ok_or_else(|| self.refused(key, allowed))
+        let numbers = self.table.read::<Vec<f64>>(key);
+        let finite = |numbers: &Vec<f64>| numbers.iter().all(|number| number.is_finite());
+        numbers.filter(finite).ok_or_else(|| self.refused(key, allowed))
     }
 
     /// The table of this key.
-    pub(super) fn table(&self, key: &str, allowed: &str) -> Result<Table<'a>, DataError> {
-        let value = self.entries.get(key);
-        let found = value.and_then(|value| Some((value.span().start, value.get_ref().as_table()?)));
-        let (offset, entries) = found.ok_or_else(|| self.refused(key, allowed))?;
-        Ok(self.inner(key, offset, entries))
+    pub(super) fn table(&self, key: &str, allowed: &str) -> Result<Self, DataError> {
+        let table = self.table.table(key).ok_or_else(|| self.refused(key, allowed))?;
+        Ok(self.inner(key, table))
     }
 
-    /// The array of tables of this key: one at least.
-    pub(super) fn tables(&self, key: &str, allowed: &str) -> Result<Vec<Table<'a>>, DataError> {
-        let array = self.entries.get(key).and_then(|value| value.get_ref().as_array());
-        let tables: Option<Vec<_>> = array.and_then(|array| {
-            let inner = |value: &'a toml::Spanned<DeValue<'a>>| {
-                Some(self.inner(key, value.span().start, value.get_ref().as_table()?))
-            };
-            array.iter().map(inner).collect()
-        });
-        match tables {
-            Some(tables) if !tables.is_empty() => Ok(tables),
-            _ => Err(self.refused(key, allowed)),
-        }
+    /// The array of tables of this key, one at least.
+    pub(super) fn tables(&self, key: &str, allowed: &str) -> Result<Vec<Self>, DataError> {
+        let tables = self.table.tables(key).ok_or_else(|| self.refused(key, allowed))?;
+        Ok(tables.into_iter().map(|table| self.inner(key, table)).collect())
     }
 
     /// Refuses keys that are none of these.
     pub(super) fn only(&self, known: &[&str]) -> Result<(), DataError> {
-        let unknown = self.entries.keys().find(|name| !known.contains(&name.get_ref().as_ref()));
+        let unknown = self.table.keys().find(|name| !known.contains(name));
         unknown.map_or(Ok(()), |name| {
-            let message =
-                format!("{}{} is no key here; there are {}", self.path, name.get_ref(), known.join(", "));
-            Err(DataError::at(self.file, line_of(self.text, name.span().start), message))
+            let message = format!("{}{name} is no key here; there are {}", self.path, known.join(", "));
+            Err(DataError::at(self.file, self.line(name), message))
         })
     }
-}
-
-fn number(value: &DeValue<'_>) -> Option<f64> {
-    let number: f64 = match value {
-        DeValue::Float(float) => float.as_str().parse().ok()?,
-        DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok()?,
-        _ => return None,
-    };
-    number.is_finite().then_some(number)
-}
-
-/// The line, from 1, of an offset in bytes.
-pub(super) fn line_of(text: &str, offset: usize) -> usize {
-    let before = &text.as_bytes()[..offset.min(text.len())];
-    1 + before.iter().filter(|byte| **byte == b'\n').count()
 }

@@ -2,10 +2,9 @@
 
 use super::Source;
 use super::error::DataError;
-use super::keys::{Table, line_of};
+use super::keys::{Keys, document};
 use super::provenance::{Axis, INPUTS, Key, Layout, OBSERVABLES, Projection, Provenance, Time};
 use crate::input::scenes;
-use toml::de::DeTable;
 
 const CALIBRATION: &str = "the values of the axis's reference points, two different numbers at least";
 const UNCERTAINTY: &str = "one standard deviation of what was read off, a number > 0 in the unit of quantity";
@@ -14,12 +13,8 @@ const QUANTITY_Y: &str = "\"fraction\" (of the rod's length) or \"mm\": the unit
 
 /// Reads a provenance file of a source.
 pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenance, DataError> {
-    let document = DeTable::parse(text).map_err(|error| {
-        let offset = error.span().map_or(0, |span| span.start);
-        let message = error.message().trim_end().replace('\n', "; ");
-        DataError::at(file, line_of(text, offset), message)
-    })?;
-    let all = Table::of_file(file, text, document.get_ref());
+    let document = document(file, text)?;
+    let all = Keys::of_file(file, &document);
     all.only(&[
         "paper",
         "figure",
@@ -61,7 +56,7 @@ pub(super) fn parse(file: &str, text: &str, source: &Source) -> Result<Provenanc
     })
 }
 
-fn date(all: &Table<'_>) -> Result<String, DataError> {
+fn date(all: &Keys<'_>) -> Result<String, DataError> {
     let allowed = "the day of reading off, as \"YYYY-MM-DD\"";
     let date = all.text("date", allowed)?;
     match is_day(&date) {
@@ -88,10 +83,7 @@ fn is_day(text: &str) -> bool {
     (1..=days).contains(&day)
 }
 
-fn axis<Q>(
-    table: &Table<'_>,
-    quantity: fn(&Table<'_>) -> Result<Q, DataError>,
-) -> Result<Axis<Q>, DataError> {
+fn axis<Q>(table: &Keys<'_>, quantity: fn(&Keys<'_>) -> Result<Q, DataError>) -> Result<Axis<Q>, DataError> {
     table.only(&["quantity", "shear_rate_per_s", "calibration", "standard_uncertainty"])?;
     let axis = Axis {
         quantity: quantity(table)?,
@@ -105,7 +97,7 @@ fn axis<Q>(
     }
 }
 
-fn time(table: &Table<'_>) -> Result<Time, DataError> {
+fn time(table: &Keys<'_>) -> Result<Time, DataError> {
     let quantity = match table.text("quantity", QUANTITY_X)?.as_str() {
         "t_over_T" => Time::Periods,
         "strain" => Time::Strain,
@@ -121,7 +113,7 @@ fn time(table: &Table<'_>) -> Result<Time, DataError> {
     Ok(quantity)
 }
 
-fn projection(table: &Table<'_>) -> Result<Projection, DataError> {
+fn projection(table: &Keys<'_>) -> Result<Projection, DataError> {
     no_shear_rate(table)?;
     match table.text("quantity", QUANTITY_Y)?.as_str() {
         "fraction" => Ok(Projection::Fraction),
@@ -130,14 +122,14 @@ fn projection(table: &Table<'_>) -> Result<Projection, DataError> {
     }
 }
 
-fn no_shear_rate(table: &Table<'_>) -> Result<(), DataError> {
+fn no_shear_rate(table: &Keys<'_>) -> Result<(), DataError> {
     match table.has("shear_rate_per_s") {
         true => Err(table.refused("shear_rate_per_s", "only for x.quantity = \"t_s\"")),
         false => Ok(()),
     }
 }
 
-fn curves(all: &Table<'_>, csv: Layout, source: &Source) -> Result<Vec<Key>, DataError> {
+fn curves(all: &Keys<'_>, csv: Layout, source: &Source) -> Result<Vec<Key>, DataError> {
     let tables = all.tables("curve", "one [[curve]] for each dataset of the CSV file")?;
     let mut keys: Vec<Key> = Vec::new();
     for table in &tables {
@@ -180,7 +172,7 @@ fn curves(all: &Table<'_>, csv: Layout, source: &Source) -> Result<Vec<Key>, Dat
 }
 
 /// Refuses points of other rods than the scenes'.
-fn own_aspect_ratio(all: &Table<'_>, curves: &[Key]) -> Result<(), DataError> {
+fn own_aspect_ratio(all: &Keys<'_>, curves: &[Key]) -> Result<(), DataError> {
     if !all.has("aspect_ratio") {
         return Ok(());
     }
@@ -197,7 +189,7 @@ fn own_aspect_ratio(all: &Table<'_>, curves: &[Key]) -> Result<(), DataError> {
     Ok(())
 }
 
-fn inputs(all: &Table<'_>) -> Result<Vec<(usize, f64)>, DataError> {
+fn inputs(all: &Keys<'_>) -> Result<Vec<(usize, f64)>, DataError> {
     if !all.has("inputs") {
         return Ok(Vec::new());
     }

@@ -67,7 +67,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
     let mut stem = String::new();
     for (k, given) in args.data.iter().enumerate() {
         let (scene, path) = scene_and_file(&args.scene, given);
-        let named = scene::load(scene)?;
+        let named = scene::load(scene, Vec::new())?;
         let same = |other: &PathBuf| fs::canonicalize(other).ok() == fs::canonicalize(path).ok();
         if files.iter().any(same) {
             return Err(Failure::Input(format!(

@@ -98,7 +98,8 @@ pub fn best(data: &[Datum], emulator: &Emulator, rods_over_measured: &[f64]) -> 
     let own = (&told - surface.noise(&place)).cholesky();
     let solver = own.or_else(|| told.cholesky())?;
     let influence = solver.solve(&weighted.transpose());
-    let mut spread: Vec<_> = (causes.iter()).map(|cause| &influence * cause * influence.transpose()).collect();
+    let mut spread: Vec<_> =
+        (causes.iter()).map(|cause| &influence * cause * influence.transpose()).collect();
     let projector = inverse.inverse() - &weighted * &influence;
     let scatter =
         scatter_of_covariance(data, emulator, &emulator.covariance(&place), rods_over_measured, &projector);

@@ -81,7 +81,8 @@ const ALIKE: f64 = 0.95;
 /// The report of a fit of some points.
 pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
     let freedom = data.len() - fit.ranges.len();
-    let p_value = ChiSquared::new(freedom as f64).map_or(f64::NAN, |law| law.sf(fit.best.chi_square_of_points()));
+    let p_value =
+        ChiSquared::new(freedom as f64).map_or(f64::NAN, |law| law.sf(fit.best.chi_square_of_points()));
     let values = fit.values(&fit.best.place);
     let covariance = fit.covariance();
     let correlation = correlation_of(&fit.best.covariance());
