@@ -1,6 +1,7 @@
 //! `shearbed problems`.
 
 use super::{Failure, print};
+use crate::files::output;
 use crate::files::text::Shown;
 use crate::serve::problems::{self, ExportError};
 use std::path::PathBuf;
@@ -17,8 +18,12 @@ enum What {
     /// Write every problem as a folder: problem.json, start.csv, inputs.csv, certified.csv, README.md
     Export {
         /// The folder; it may hold an earlier export
-        dir: PathBuf,
-        /// Write even where the folder holds something else, which stays
+        #[arg(required_unless_present = "archive")]
+        dir: Option<PathBuf>,
+        /// Write all problems into this tar file, with checksums, licence and citation, as a data repository takes it
+        #[arg(long, value_name = "FILE.tar")]
+        archive: Option<PathBuf>,
+        /// Write even where the folder holds something else, which stays, or over the file
         #[arg(long)]
         force: bool,
         /// Print nothing but errors
@@ -34,12 +39,17 @@ pub(super) fn problems(args: &Args) -> Result<(), Failure> {
     match &args.what {
         None => print(&list()),
         Some(What::Schema) => print(problems::SCHEMA),
-        Some(What::Export { dir, force, quiet }) => {
-            let names = problems::export(dir, *force)?;
-            if *quiet {
-                return Ok(());
+        Some(What::Export { dir, archive, force, quiet }) => {
+            let mut said = String::new();
+            if let Some(dir) = dir {
+                let names = problems::export(dir, *force)?;
+                said += &format!("in {}: {}\n", dir.shown(), names.join(", "));
             }
-            print(&format!("in {}: {}\n", dir.shown(), names.join(", ")))
+            if let Some(file) = archive {
+                output::write_one(file, &problems::archive(), *force)?;
+                said += &format!("{}: {} problems\n", file.shown(), problems::all().len());
+            }
+            if *quiet { Ok(()) } else { print(&said) }
         }
     }
 }

@@ -14,4 +14,6 @@ mod peers;
 mod planted;
 mod quick_start;
 mod refused;
+mod templates;
+mod tolerances;
 mod verdicts;
