@@ -47,6 +47,23 @@ def test_euler_is_of_order_1_and_fails() -> None:
     assert abs(report["mid-flip-2"]["observed_order"] - 1) < 0.3
 
 
+def test_steps_are_refined_until_a_right_method_is_within_the_tolerance() -> None:
+    # The disc's orders come to 4 slowly, and the long rod needs more steps than others.
+    report = shearbed.grade(rk4, order=4, names=["disc-0.1", "mid-flip-100"], timeout_s=1e5)
+    assert report, str(report)
+    assert all(problem["order_found"] == "seen" for problem in report.problems), str(report)
+
+
+def test_a_lower_order_fails_and_too_little_time_does_not() -> None:
+    report = shearbed.grade(euler, order=4, names=["mid-flip-2"], steps=(500, 1000, 2000, 4000))
+    assert report["mid-flip-2"]["verdict"] == "FAIL" and report["mid-flip-2"]["order_found"] == "lower"
+    report = shearbed.grade(euler, names=["mid-flip-2"], timeout_s=1e-6)
+    assert report["mid-flip-2"]["verdict"] == "NOT REACHED" and not report
+    assert "timeout_s" in report["mid-flip-2"]["note"] and report["mid-flip-2"]["error"] > 0
+    report = shearbed.grade(euler, names=["mid-flip-2"], tolerance=0.01, timeout_s=1e5)
+    assert report and report["mid-flip-2"]["tolerance"] == 0.01, str(report)
+
+
 def test_a_transposed_gradient_is_named() -> None:
     report = shearbed.grade(
         lambda gradient, r, p, dt: rk4(gradient.T, r, p, dt), kind="step", steps=(2000,), names=["mid-flip-11.6"]
@@ -112,7 +129,7 @@ def test_a_right_hand_side_is_judged_as_it_is() -> None:
 
 def test_a_kind_is_seen_from_the_parameters() -> None:
     assert shearbed.grade(rk4, order=4, names=NAMES)
-    assert not shearbed.grade(euler, names=["mid-flip-2"])
+    assert not shearbed.grade(euler, names=["mid-flip-2"], steps=(250, 500))
 
     def solver(gradient: Array, r: float, start: Array, times: Array, steps: int, *, theta: float = 1.0) -> Array:
         return np.broadcast_to(start, (len(times), len(start), 3))

@@ -2,6 +2,7 @@
 
 mod args;
 mod inputs;
+mod tolerances;
 
 pub(super) use args::Args;
 
@@ -9,7 +10,7 @@ use super::{Failure, print, result_folder};
 use crate::files::output::{self, ResultFolder};
 use crate::files::text::Shown;
 use crate::present::plot;
-use crate::serve::grade::live::{self, Mode, Program};
+use crate::serve::grade::live::{self, Mode, Program, Protocol};
 use crate::serve::grade::{self, Claim, Dump, Graded, LineEnds, Options, Report, Told};
 use crate::serve::problems::{self, Kind, LoadedProblem};
 use serde_json::Value;
@@ -26,7 +27,7 @@ const PAGES: [&str; 4] = ["grade.json", "grade.html", "grade.md", "junit.xml"];
 /// Grades answers in files, or a program.
 pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     if args.echo {
-        return live::echo(io::stdin().lock(), io::stdout().lock()).map_err(Failure::Input);
+        return live::echo(args.protocol, io::stdin().lock(), io::stdout().lock()).map_err(Failure::Input);
     }
     let (report, wanted, inputs) = match (&args.command, &args.reference, &args.mine) {
         (Some(command), reference, _) => program(args, command, reference.as_deref())?,
@@ -126,7 +127,7 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
     let all = problems::read(reference).map_err(|error| Failure::Input(error.to_string()))?;
     let names = names(&all);
     check_names(args, &names)?;
-    let wanted = chosen(args, all)?;
+    let wanted = tolerances::with(&args.tolerances, chosen(args, all)?)?;
     if !mine.is_dir() {
         return Err(Failure::Input(format!(
             "{}: no such folder; answers are asked for in MINE/NAME",
@@ -138,7 +139,9 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
         let lines: Vec<_> = errors.iter().map(ToString::to_string).collect();
         Failure::Input(lines.join("\n"))
     })?;
-    let report = report(reference.shown(), mine.shown(), problems, unknown_folders(mine, &names));
+    let mut report = report(reference.shown(), mine.shown(), problems, unknown_folders(mine, &names));
+    report.diagnosis = grade::overall(&wanted, &report.problems);
+    report.remarks.extend(grade::remark(&report.problems, args.order));
     let inputs = inputs::of_files(args, reference, mine, &wanted)?;
     Ok((report, wanted, inputs))
 }
@@ -163,6 +166,7 @@ fn report(reference: String, answers: String, problems: Vec<Graded>, remarks: Ve
         answers,
         problems,
         live: None,
+        diagnosis: Vec::new(),
         remarks,
     }
 }
@@ -199,21 +203,25 @@ fn about_rods(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem
 }
 
 fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done, Failure> {
-    let wanted = about_rods(args, reference)?;
+    let wanted = tolerances::with(&args.tolerances, about_rods(args, reference)?)?;
     let inputs = inputs::of_program(args, reference, &wanted)?;
     let origin = ("grade", inputs.clone(), args.writing.force);
     result_folder(&args.out, origin, 0, &[&PAGES[..], &PICTURES].concat())?;
     let timeout = Duration::from_secs_f64(args.timeout);
-    let program = Program::start(command, timeout).map_err(Failure::Input)?;
+    let program = Program::start(command, args.protocol, timeout).map_err(Failure::Input)?;
     let mode = live::mode(&program);
     let claim = Claim { order: args.order };
-    let problems: Vec<_> = wanted.iter().map(|problem| live::grade(&program, problem, mode, claim)).collect();
+    let mut problems: Vec<_> =
+        wanted.iter().map(|problem| live::grade(&program, problem, mode, claim)).collect();
+    grade::settle(&wanted, &mut problems, claim.order);
     let observed = problems.iter().filter(|graded| graded.verdict == grade::Verdict::Pass);
     let theory =
         live::theory(mode == Mode::Tolerance, observed.filter_map(|graded| graded.observed_order).next());
     let program = program.with_theory(theory);
-    let studies = (!args.brief && program.given_up().is_none()).then(|| live::studies(&program, &echo()));
+    let studies =
+        (!args.brief && program.given_up().is_none()).then(|| live::studies(&program, &echo(args.protocol)));
     let mut remarks: Vec<_> = studies.iter().flat_map(live::Studies::left_out).collect();
+    remarks.extend(grade::remark(&problems, claim.order));
     remarks.extend(program.breaches());
     remarks.extend(program.given_up().map(|reason| format!("the program was given up: {reason}")));
     if let Err(end) = program.close() {
@@ -222,13 +230,16 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     let reference = reference.map_or("built-in problems".to_owned(), |dir| dir.shown());
     let mut report = report(reference, command.to_owned(), problems, remarks);
     report.live = studies;
+    let asked: Vec<_> = wanted.iter().map(live::last_time).collect();
+    report.diagnosis = grade::overall(&asked, &report.problems);
     Ok((report, wanted, inputs))
 }
 
 /// This program as an echo.
-fn echo() -> String {
+fn echo(protocol: Protocol) -> String {
     let words = super::words::again();
     let words: Vec<_> = words.iter().map(|word| word.to_string_lossy()).collect();
     let quoted = shlex::try_join(words.iter().map(|word| word.as_ref()));
-    format!("{} grade --echo", quoted.unwrap_or_else(|_| "shearbed".to_owned()))
+    let program = quoted.unwrap_or_else(|_| "shearbed".to_owned());
+    format!("{program} grade --echo --protocol {}", protocol.word())
 }

@@ -1,6 +1,7 @@
 //! `shearbed problems`.
 
 use super::{Failure, Writing, print};
+use crate::files::output;
 use crate::files::text::{Shown, left_aligned};
 use crate::serve::problems;
 use std::path::PathBuf;
@@ -18,7 +19,11 @@ enum What {
     /// Write every problem as a folder: problem.json, start.csv, inputs.csv, certified.csv, README.md
     Export {
         /// The folder; it may hold an earlier export
-        dir: PathBuf,
+        #[arg(required_unless_present = "archive")]
+        dir: Option<PathBuf>,
+        /// Write all problems into this tar file, with checksums, licence and citation, as a data repository takes it
+        #[arg(long, value_name = "FILE.tar")]
+        archive: Option<PathBuf>,
         #[command(flatten)]
         writing: Writing,
     },
@@ -31,12 +36,17 @@ pub(super) fn problems(args: &Args) -> Result<(), Failure> {
     match &args.what {
         None => print(&list()),
         Some(What::Schema) => print(problems::SCHEMA),
-        Some(What::Export { dir, writing }) => {
-            let names = problems::export(dir, writing.force)?;
-            if writing.quiet {
-                return Ok(());
+        Some(What::Export { dir, archive, writing }) => {
+            let mut said = String::new();
+            if let Some(dir) = dir {
+                let names = problems::export(dir, writing.force)?;
+                said += &format!("in {}: {}\n", dir.shown(), names.join(", "));
             }
-            print(&format!("in {}: {}\n", dir.shown(), names.join(", ")))
+            if let Some(file) = archive {
+                output::write_one(file, &problems::archive(), writing.force)?;
+                said += &format!("{}: {} problems\n", file.shown(), problems::all().len());
+            }
+            if writing.quiet { Ok(()) } else { print(&said) }
         }
     }
 }

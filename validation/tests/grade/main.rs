@@ -13,4 +13,6 @@ mod numbers;
 mod peers;
 mod planted;
 mod refused;
+mod templates;
+mod tolerances;
 mod verdicts;

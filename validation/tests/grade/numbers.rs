@@ -9,11 +9,15 @@ const NAME: &str = "mid-flip-2";
 /// The answer of a program whose rods turn `factor` times as fast, otherwise exact (A.4, A.5): q₁ = p₁ cos ωt − (p₂/r_e) sin ωt,
 /// q₂ = r_e p₁ sin ωt + p₂ cos ωt, q₃ = p₃.
 fn turning(factor: f64) -> Vec<Vec<String>> {
-    let (told, mut rows) = problem(NAME);
+    turning_of(NAME, factor)
+}
+
+fn turning_of(name: &str, factor: f64) -> Vec<Vec<String>> {
+    let (told, mut rows) = problem(name);
     let number = |text: &str| text.parse::<f64>().unwrap();
     let r = told["aspect_ratio"].as_f64().unwrap();
     let rate = told["gradient_per_s"][1][0].as_f64().unwrap() / (r + 1.0 / r);
-    let start = fs::read_to_string(REFERENCE.path().join(NAME).join("start.csv")).unwrap();
+    let start = fs::read_to_string(REFERENCE.path().join(name).join("start.csv")).unwrap();
     let start: Vec<Vec<f64>> =
         (start.lines().skip(1)).map(|line| line.split(',').map(number).collect()).collect();
     for row in rows.iter_mut().skip(1) {
@@ -90,6 +94,45 @@ fn a11(r: f64, turns: f64) -> f64 {
     let motion = Motion { gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]], aspect_ratio: r };
     let covariance = Covariance::at(&motion, &Bits(64).of(turns), Unit::Period).unwrap();
     double(&covariance.second()[0])
+}
+
+#[test]
+fn several_problems_say_together_what_is_wrong_and_none_at_rest_says_anything() {
+    let names = ["mid-flip-2", "mid-flip-11.6", "disc-0.1", "poles"];
+    let said = |factor: f64, more: &[(&str, Vec<Vec<String>>)]| {
+        let dir = tempfile::tempdir().unwrap();
+        names
+            .iter()
+            .for_each(|name| drop(write(dir.path(), name, "answer.csv", text(&turning_of(name, factor)))));
+        more.iter().for_each(|(name, rows)| drop(write(dir.path(), name, "answer.csv", text(rows))));
+        let found = files(REFERENCE.path(), dir.path(), &[]);
+        let said = found.grade.as_ref().unwrap()["diagnosis"].as_array().unwrap().clone();
+        (said.iter().map(|said| said.as_str().unwrap().to_owned()).collect::<Vec<_>>(), found)
+    };
+    let (half, found) = said(0.5, &[]);
+    assert_eq!(half.len(), 1, "{}", found.words);
+    assert!(
+        half[0].starts_with("one mistake explains all 4 that do not pass: half the shear rate; seen on "),
+        "{half:?}"
+    );
+    let (slow, found) = said(0.8333, &[]);
+    assert_eq!(slow.len(), 1, "{}", found.words);
+    assert!(slow[0].starts_with("your time runs at 0.833 of the true one, on "), "{slow:?}");
+    // A flow that passes contradicts a wrong shear rate.
+    let (contradicted, found) = said(0.5, &[("sphere", problem("sphere").1)]);
+    assert_eq!(contradicted, [""; 0], "{}", found.words);
+    // Nothing moves: many mistakes do that to a rod, and none is named.
+    let (rest, found) = said(0.0, &[]);
+    assert_eq!(rest, [""; 0], "{}", found.words);
+    for name in names {
+        assert_eq!(
+            found.diagnosis(name),
+            "every rod is where it started: nothing has moved",
+            "{}",
+            found.words
+        );
+    }
+    assert_eq!(said(1.0, &[]).0, [""; 0]);
 }
 
 #[test]

@@ -78,6 +78,64 @@ fn orders_are_read_from_steps_and_judged_against_a_claim() {
     assert!((order + 4.0).abs() < 1e-3, "{order}");
 }
 
+/// Errors that fall by an order from a thousand tolerances to below one, in steps-N.csv.
+fn falling(mine: &std::path::Path, name: &str, order: f64) {
+    let mut part = 1000.0;
+    for k in 0..20 {
+        write(mine, name, &format!("steps-{}.csv", 100 << k), text(&off_by(name, part)));
+        if part < 1.0 {
+            return;
+        }
+        part /= 2f64.powf(order);
+    }
+}
+
+#[test]
+fn an_order_fails_where_whole_orders_are_lost_and_not_where_it_has_not_settled() {
+    let judged = |orders: &[(&str, f64)], claim: &str| {
+        let dir = tempfile::tempdir().unwrap();
+        orders.iter().for_each(|(name, order)| falling(dir.path(), name, *order));
+        files(REFERENCE.path(), dir.path(), &["--order", claim])
+    };
+    for (order, verdict, found) in [
+        (4.0, "PASS", "seen"),
+        (4.15, "PASS", "seen"),
+        (3.53, "PASS", "unclear"),
+        (3.0, "FAIL", "lower"),
+        (2.0, "FAIL", "lower"),
+        (5.0, "FAIL", "higher"),
+    ] {
+        let ended = judged(&[("mid-flip-100", order)], "4");
+        let of = ended.of("mid-flip-100");
+        assert_eq!((&of["verdict"], &of["order_found"]), (&verdict.into(), &found.into()), "{order}: {of:#}");
+    }
+    // Another problem has the claimed order: this one lacks the error term. Rods in the shear plane may always lack it.
+    for orders in [&[("mid-flip-100", 5.0), ("disc-0.1", 4.0)][..], &[("shear-plane", 5.0)]] {
+        let ended = judged(orders, "4");
+        assert_eq!(ended.code, Some(0), "{}", ended.words);
+        let note = ended.of(orders[0].0)["note"].as_str().unwrap_or_default();
+        assert!(note.contains("no error of order 4"), "{}", ended.words);
+    }
+}
+
+#[test]
+fn what_is_missing_has_one_line_and_the_table_80_columns() {
+    let dir = tempfile::tempdir().unwrap();
+    write(dir.path(), "mid-flip-2", "answer.csv", text(&off_by("mid-flip-2", 0.5)));
+    write(dir.path(), "sphere", "answer.csv", text(&off_by("sphere", 2.0)));
+    let ended = files(REFERENCE.path(), dir.path(), &[]);
+    assert_eq!(
+        ended.words.matches("MISSING").count(),
+        2 + usize::from(ended.code == Some(1)),
+        "{}",
+        ended.words
+    );
+    assert!(ended.words.contains(&format!("{} MISSING, no answer: ", names().len() - 2)), "{}", ended.words);
+    let table = ended.words.split("\nreport:").next().unwrap();
+    let longest = table.lines().map(|line| line.chars().count()).max().unwrap();
+    assert!(longest <= 80, "{longest}: {}", ended.words);
+}
+
 /// The certified means, with a standard error of an answer, and one mean off by so much.
 fn off_in_a_mean(standard_error: f64, off: f64) -> Vec<Vec<String>> {
     let (_, mut rows) = problem("lee-springer");

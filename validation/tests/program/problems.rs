@@ -147,3 +147,56 @@ fn exact_answers_have_more_digits_than_a_double() {
         }
     }
 }
+
+/// With the tar and sha256sum of the machine, which know nothing of how the archive was made.
+#[test]
+fn an_archive_has_every_file_with_its_checksum_a_licence_and_a_citation() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("problems.tar");
+    let exported = |more: &[&str]| {
+        let mut shearbed = std::process::Command::new(env!("CARGO_BIN_EXE_shearbed"));
+        shearbed.args(["problems", "export", "--archive"]).arg(&file).args(more).output().unwrap()
+    };
+    let first = exported(&[]);
+    assert!(first.status.success(), "{}", String::from_utf8_lossy(&first.stderr));
+    let bytes = fs::read(&file).unwrap();
+    assert_eq!(problems::archive(), bytes, "the same bytes each time");
+    // Something else of this name stays.
+    fs::write(&file, "mine").unwrap();
+    assert_eq!(exported(&[]).status.code(), Some(2));
+    assert_eq!(fs::read_to_string(&file).unwrap(), "mine");
+    assert!(exported(&["--force"]).status.success());
+    let shell = |command: &str| {
+        let ended =
+            std::process::Command::new("sh").args(["-ec", command]).current_dir(dir.path()).output().unwrap();
+        (ended.status.success(), String::from_utf8_lossy(&ended.stdout).into_owned())
+    };
+    let folder = format!("shearbed-problems-{}", env!("CARGO_PKG_VERSION"));
+    assert!(shell("tar xf problems.tar").0);
+    let unpacked = files(&dir.path().join(&folder));
+    for (name, text) in FILES.iter() {
+        assert_eq!(unpacked[name], text.as_bytes(), "{name}");
+    }
+    let more: Vec<_> = unpacked.keys().filter(|name| !FILES.contains_key(*name)).collect();
+    assert_eq!(more, ["CITATION.cff", "LICENSE", "README.md", "SHA256SUMS"]);
+    let (good, said) = shell(&format!("cd {folder} && sha256sum -c SHA256SUMS"));
+    assert!(good && said.lines().count() == unpacked.len() - 1, "{said}");
+    let licence = fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("../LICENSE-MIT")).unwrap();
+    assert_eq!(unpacked["LICENSE"], licence);
+    // Its folder is a folder of references, and a changed file is seen.
+    assert_eq!(problems::read(&dir.path().join(&folder)).unwrap().len(), problems::all().len());
+    let start = dir.path().join(&folder).join("poles/start.csv");
+    fs::write(&start, fs::read_to_string(&start).unwrap() + "\n").unwrap();
+    assert!(!shell(&format!("cd {folder} && sha256sum -c --quiet SHA256SUMS")).0);
+}
+
+/// An outsider has not the paper at hand: no source is a bare number.
+#[test]
+fn sources_are_named_in_words() {
+    for built in problems::built() {
+        for source in &built.problem.equations {
+            assert!(source.contains("Lee & Springer"), "{}: {source}", built.problem.name);
+            assert!(source.split(' ').count() > 5, "{}: {source}", built.problem.name);
+        }
+    }
+}

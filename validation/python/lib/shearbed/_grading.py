@@ -6,6 +6,7 @@ import csv
 import inspect
 import json
 import tempfile
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -26,10 +27,11 @@ Rhs = Callable[[Array, float, Array], Array]
 
 _KINDS = {3: "rhs", 4: "step", 5: "solver"}
 
-# What a right-hand side is not asked unless by name: it tells how errors of a method gather, and takes minutes.
+# What is not asked unless by name: it tells how errors of a method gather, and takes minutes in Python.
 _OF_METHODS = ("ten-thousand-periods",)
 
-STEPS = (250, 500, 1000, 2000, 4000, 8000)
+# Doublings of the number of steps at most, from steps of about one unit of strain.
+_DOUBLINGS = 24
 
 
 @dataclass(frozen=True)
@@ -143,20 +145,26 @@ def grade(
     order: float | None = None,
     steps: Sequence[int] | None = None,
     names: Sequence[str] | None = None,
+    tolerance: float | None = None,
+    timeout_s: float = 30.0,
 ) -> Report:
     """Grades a Python function on the problems of free rods, as ``shearbed grade`` grades files.
 
     What the function is, is seen from the number of its parameters, or said by ``kind``:
 
     - ``"rhs"``: ``function(gradient_per_s, aspect_ratio, p)`` returns dp/dt in 1/s. It is integrated here, to round-off:
-      the error is that of the right-hand side. ``ten-thousand-periods`` is left out unless ``names`` has it.
+      the error is that of the right-hand side.
     - ``"step"``: ``function(gradient_per_s, aspect_ratio, p, dt_s)`` returns p one step later.
     - ``"solver"``: ``function(gradient_per_s, aspect_ratio, start, times_s, steps)`` returns p at the times as
       (times, rods, 3), with at least ``steps`` steps to the last time.
 
-    All rods come and go at once: ``start``, ``p`` and dp/dt are (rods, 3). A step or a solver is asked with each number of
-    ``steps``; the error of the last is judged, and the observed order is read off all. With ``order`` the observed order is
-    judged too. A function that raises an ``ArithmeticError``, ``ValueError`` or ``RuntimeError`` has no answer from there
+    All rods come and go at once: ``start``, ``p`` and dp/dt are (rods, 3). A step or a solver is asked with twice the steps
+    each time, until two answers in a row are within the tolerance (and with ``order`` until round-off), or nothing changes any
+    more, as the program is that ``shearbed grade`` runs. Where ``timeout_s`` seconds a problem are not enough for that, the
+    verdict is NOT REACHED: neither passed nor failed. With ``steps`` these numbers of steps are asked instead, and the last is
+    judged. With ``order`` the observed order is judged too: one that is lower by whole orders fails. ``tolerance`` is the
+    largest error that passes where a problem's own is smaller. ``ten-thousand-periods`` is left out unless ``names`` has it or
+    ``steps`` are given. A function that raises an ``ArithmeticError``, ``ValueError`` or ``RuntimeError`` has no answer from there
     on, and the report says what it raised.
     """
     kind = kind or _kind_of(function)
@@ -170,13 +178,17 @@ def grade(
     for name in names or ():
         if name not in known:
             raise ValueError(f"{name}: no problem of free rods has this name; there are {', '.join(known)}")
-    asked = names or [name for name in known if kind != "rhs" or name not in _OF_METHODS]
+    asked = names or [name for name in known if steps is not None or name not in _OF_METHODS]
     wanted = [problem for problem in problems() if problem.name in asked]
     raised: dict[str, str] = {}
+    late: dict[str, int] = {}
     with tempfile.TemporaryDirectory(prefix="shearbed-") as folder:
         mine, out = Path(folder, "mine"), Path(folder, "out")
         for problem in wanted:
-            for count in (None,) if kind == "rhs" else steps or STEPS:
+            errors: list[float] = []
+            begun = time.monotonic()
+            for count in (None,) if kind == "rhs" else steps or _ladder(problem):
+                asked_at = time.monotonic()
                 try:
                     found = _answer(function, kind, problem, count)
                 except Lost as error:
@@ -187,17 +199,61 @@ def grade(
                     break
                 answer = "answer.csv" if count is None else f"steps-{count}.csv"
                 _write(mine / problem.name / answer, problem, _shaped(found, problem))
+                if count is None or steps:
+                    continue
+                errors.append(_error(_shaped(found, problem), problem))
+                if _done(errors, max(problem.tolerance, tolerance or 0.0), problem.tolerance if order else None):
+                    break
+                now = time.monotonic()
+                # The next takes twice as long.
+                if now - begun + 2 * (now - asked_at) > timeout_s:
+                    late[problem.name] = count
+                    break
         mine.mkdir(exist_ok=True)
         words = ["grade", _exported().name, str(mine), "--out", str(out), "--quiet"]
         for problem in wanted:
             words += ["--problem", problem.name]
         if order is not None:
             words += ["--order", repr(float(order))]
+        if tolerance is not None:
+            words += ["--tolerance", repr(float(tolerance))]
         call(words, allowed=(0, 1))
         told = json.loads((out / "grade.json").read_text(encoding="utf-8"))
     for judged in told["problems"]:
         judged["raised"] = raised.get(judged["name"])
+        # An order that is too low is so whatever the time.
+        if judged["name"] in late and judged["verdict"] == "FAIL" and judged["order_found"] != "lower":
+            judged["verdict"] = "NOT REACHED"
+            judged["note"] = f"time ran out (timeout_s = {timeout_s:g}) after {late[judged['name']]} steps; {judged['note']}"
     return Report(told)
+
+
+def _ladder(problem: Problem) -> list[int]:
+    """Numbers of steps, each twice the one before, from one step a unit of strain."""
+    strain = float(np.abs(problem.gradient_per_s).max() * problem.times_s[-1])
+    coarsest = max(8, 1 << int(np.ceil(np.log2(max(strain, 1.0)))))
+    return [coarsest << doubling for doubling in range(_DOUBLINGS)]
+
+
+def _error(found: Array, problem: Problem) -> float:
+    """The largest angle to the certified directions in rad, head or tail alike, not less than ||p| - 1|; when to stop, no verdict."""
+    p = found.reshape(-1, 3)
+    q = np.stack([problem.certified[name] for name in ("p1", "p2", "p3")], axis=1)
+    with np.errstate(all="ignore"):
+        angle = np.arctan2(np.linalg.norm(np.cross(p, q), axis=1), np.abs((p * q).sum(axis=1)))
+        error = float(np.maximum(angle, np.abs(np.linalg.norm(p, axis=1) - 1)).max())
+    return error if np.isfinite(error) else np.inf
+
+
+def _done(errors: list[float], tolerance: float, own: float | None) -> bool:
+    """Whether finer steps would tell nothing more; ``own`` is the problem's own tolerance where an order is claimed."""
+    if len(errors) > 1 and max(errors[-2:]) <= tolerance:
+        # Down to round-off where an order is to be seen.
+        return own is None or errors[-1] <= 0.01 * own or (errors[-2] <= own and errors[-1] > 0.7 * errors[-2])
+    last = errors[-4:]
+    if len(errors) > 10 and not np.isfinite(last).any():
+        return True
+    return len(errors) > 8 and bool(np.isfinite(last).all()) and max(last) - min(last) <= 0.01 * last[-1]
 
 
 def _kind_of(function: Rhs | Step | Solver) -> str:

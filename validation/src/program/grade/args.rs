@@ -1,6 +1,8 @@
 //! The arguments of `shearbed grade`.
 
+use super::tolerances::Tolerance;
 use crate::program::Writing;
+use crate::serve::grade::live::Protocol;
 use crate::serve::grade::{Axes, Foreign};
 use crate::serve::problems::Kind;
 use std::path::PathBuf;
@@ -18,9 +20,12 @@ pub(crate) struct Args {
     /// The folder with the answers: MINE/NAME/answer.csv or MINE/NAME/steps-N.csv
     #[arg(value_name = "MINE", required_unless_present_any = ["command", "echo"], conflicts_with = "command")]
     pub(super) mine: Option<PathBuf>,
-    /// Start this program once and ask it by lines of JSON, in place of answers in files
+    /// Start this program once and ask it line by line, in place of answers in files
     #[arg(long, value_name = "PROGRAM ARGS")]
     pub(super) command: Option<String>,
+    /// The form of a program's lines: json, or text (numbers apart by blanks, for C and Fortran)
+    #[arg(long, value_name = "json|text", default_value = "json", conflicts_with = "mine")]
+    pub(super) protocol: Protocol,
     /// The folder for grade.html, grade.json, grade.md, junit.xml and pictures
     #[arg(long, value_name = "DIR", default_value = "out/grade")]
     pub(super) out: PathBuf,
@@ -48,7 +53,11 @@ pub(crate) struct Args {
     /// Take CR LF at line ends and a byte order mark, which are refused else
     #[arg(long)]
     pub(super) windows_text: bool,
-    /// The order that the program's error is said to have: another observed order fails
+    /// The largest error that passes, where the problems' own is smaller: a production code's target. NAME=X for one problem;
+    /// can be given more than once
+    #[arg(long = "tolerance", value_name = "X|NAME=X", allow_negative_numbers = true)]
+    pub(super) tolerances: Vec<Tolerance>,
+    /// The order that the program's error is said to have: an order that is lower by whole orders fails
     #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]
     pub(super) order: Option<f64>,
     /// LAMMPS dumps: the length of a time step in s, where the dump has no ITEM: TIME

@@ -37,6 +37,8 @@ pub(super) fn of_program(
         "problems": problems,
         "reference_crc32": reference,
         "command": args.command,
+        "protocol": args.protocol.word(),
+        "tolerances": wanted.iter().map(|loaded| loaded.problem.tolerance).collect::<Vec<_>>(),
         "timeout": args.timeout,
         "brief": args.brief,
         "all": args.all,

@@ -19,6 +19,16 @@ pub struct Answer {
 }
 
 impl Answer {
+    /// The certified values as an answer.
+    pub fn certified(problem: &LoadedProblem) -> Self {
+        let keys = problem.problem.kind.keys().len();
+        Self {
+            path: "certified.csv".into(),
+            rows: problem.certified.rows.iter().map(|row| row[keys..].to_vec()).collect(),
+            lines: Vec::new(),
+        }
+    }
+
     /// The largest difference of a value from the same value of another answer; NaN where one is not finite.
     pub fn largest_change(&self, other: &Self) -> f64 {
         let pairs = self.rows.iter().flatten().zip(other.rows.iter().flatten());

@@ -4,6 +4,7 @@ use super::answer::Answer;
 use super::contact;
 use super::means;
 use super::mistakes::{self, Mistake, Setting};
+use super::rates;
 use crate::serve::problems::{Kind, LoadedProblem};
 use crate::studies::integrators::apart_rad;
 use nalgebra::{Matrix3, Vector3};
@@ -12,45 +13,86 @@ use nalgebra::{Matrix3, Vector3};
 /// direction with one of some fifty curves has a probability of 10⁻⁴, of several rows far less.
 const NEARER: f64 = 1e-3;
 
-/// The largest distance between an answer and a mistake's curve; `None` where the mistake has no meaning here.
-type Distance<'a> = Box<dyn Fn(&Mistake) -> Option<f64> + 'a>;
+/// More names than these tell nothing: where a curve has come to rest, most mistakes have it.
+const MOST_NAMES: usize = 4;
+
+/// What is found of an answer on one problem.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Diagnosis {
+    /// In words, where it is certain.
+    pub said: Option<String>,
+    /// The mistakes whose curve it is.
+    pub suspects: Vec<String>,
+    /// The parts of the true time after which a right rod is there, as far as one problem tells.
+    pub rates: Vec<f64>,
+}
 
 /// What is to be said of an answer that is `error` from the truth.
-pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Option<String> {
+pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Diagnosis {
     if error.is_nan() || error <= loaded.problem.tolerance {
-        return None;
+        return Diagnosis::default();
     }
+    let tolerance = loaded.problem.tolerance;
+    match loaded.problem.kind {
+        Kind::Contact => said(contact::near(loaded, answer, NEARER * error), tolerance),
+        Kind::Ensemble => Diagnosis { said: means::ensemble(loaded, answer), ..Diagnosis::default() },
+        _ if loaded.problem.aspect_ratio_sd_percent > 0.0 => {
+            said(means::unequal(loaded, answer, NEARER * error), tolerance)
+        }
+        Kind::Rods if rests(loaded, answer, NEARER * error) => {
+            let said = "every rod is where it started: nothing has moved".to_owned();
+            Diagnosis { said: Some(said), ..Diagnosis::default() }
+        }
+        _ => {
+            let near: Vec<_> = (mistakes::all().into_iter())
+                .filter_map(|mistake| Some((distance(loaded, answer, &mistake)?, mistake.name)))
+                .filter(|(distance, _)| *distance <= NEARER * error)
+                .collect();
+            let rates = rates::rates(loaded, answer, &setting(loaded), NEARER * error);
+            Diagnosis { rates, ..said(near, tolerance) }
+        }
+    }
+}
+
+pub(super) fn setting(loaded: &LoadedProblem) -> Setting {
     let l = &loaded.problem.gradient_per_s;
-    let setting = Setting {
-        gradient_per_s: Matrix3::from_fn(|i, j| l[i][j]),
-        aspect_ratio: loaded.problem.aspect_ratio,
-    };
-    if loaded.problem.kind == Kind::Contact {
-        let near = contact::near(loaded, answer, NEARER * error);
-        return said(near, loaded.problem.tolerance);
+    Setting { gradient_per_s: Matrix3::from_fn(|i, j| l[i][j]), aspect_ratio: loaded.problem.aspect_ratio }
+}
+
+/// How far an answer about rods or tensors is from a mistake's curve; `None` where the mistake has no meaning.
+fn distance(loaded: &LoadedProblem, answer: &Answer, mistake: &Mistake) -> Option<f64> {
+    match loaded.problem.kind {
+        Kind::Rods => rods(loaded, answer, &setting(loaded), mistake),
+        Kind::Tensor => tensor(loaded, answer, &setting(loaded), mistake),
+        Kind::Contact | Kind::Ensemble => None,
     }
-    if loaded.problem.kind == Kind::Ensemble {
-        return means::ensemble(loaded, answer);
-    }
+}
+
+/// Whether a mistake would show on a problem: its curve is not within the tolerance of the certified answer.
+pub(super) fn shows(loaded: &LoadedProblem, mistake: &Mistake) -> bool {
     if loaded.problem.aspect_ratio_sd_percent > 0.0 {
-        let near = means::unequal(loaded, answer, NEARER * error);
-        return said(near, loaded.problem.tolerance);
+        return false;
     }
-    let distance: Distance<'_> = match loaded.problem.kind {
-        Kind::Rods => Box::new(move |mistake| rods(loaded, answer, &setting, mistake)),
-        _ => Box::new(move |mistake| tensor(loaded, answer, &setting, mistake)),
+    let certified = Answer::certified(loaded);
+    distance(loaded, &certified, mistake).is_some_and(|distance| distance > 2.0 * loaded.problem.tolerance)
+}
+
+/// Whether no rod has moved: then many curves are alike, and none is named.
+fn rests(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> bool {
+    let count = loaded.start.len();
+    let stays = |(row, values): (usize, &Vec<f64>)| {
+        let start = Vector3::from(loaded.start[row % count]);
+        apart(&Vector3::from_row_slice(values), &start, false) <= nearer_than
     };
-    let near: Vec<_> = (mistakes::all().into_iter())
-        .filter_map(|mistake| Some((distance(&mistake)?, mistake.name)))
-        .filter(|(distance, _)| *distance <= NEARER * error)
-        .collect();
-    said(near, loaded.problem.tolerance)
+    answer.rows.iter().enumerate().all(stays)
 }
 
 /// The nearest curve, and those that cannot be told from it here.
-pub(super) fn said(mut near: Vec<(f64, String)>, tolerance: f64) -> Option<String> {
+fn said(mut near: Vec<(f64, String)>, tolerance: f64) -> Diagnosis {
     near.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let (nearest, _) = near.first()?;
+    let Some((nearest, _)) = near.first() else {
+        return Diagnosis::default();
+    };
     let nearest = nearest.max(f64::EPSILON);
     near.retain(|(distance, _)| *distance <= (10.0 * nearest).max(tolerance));
     // Plane Couette flow is its own mirror image in axis 3: a reversal in the start is one in the answer.
@@ -58,8 +100,11 @@ pub(super) fn said(mut near: Vec<(f64, String)>, tolerance: f64) -> Option<Strin
     near.retain(|(_, name)| {
         !name.strip_suffix(mistakes::IN_THE_START).is_some_and(|name| found.iter().any(|other| other == name))
     });
-    let names: Vec<_> = near.into_iter().map(|(_, name)| name).collect();
-    Some(format!("this is the curve of {}, to {nearest:.0e}", names.join(" or of ")))
+    let suspects: Vec<_> = near.into_iter().map(|(_, name)| name).collect();
+    let names = suspects.join(" or of ");
+    let said =
+        (suspects.len() <= MOST_NAMES).then(|| format!("this is the curve of {names}, to {nearest:.0e}"));
+    Diagnosis { said, suspects, rates: Vec::new() }
 }
 
 /// The largest of the distances; `None` where one is missing or not finite.

@@ -5,8 +5,9 @@ use super::compare::compare;
 use super::diagnosis::diagnose;
 use super::lammps;
 use super::layout::Told;
+use super::order;
 use super::read::read;
-use super::{Graded, ORDER_TOLERANCE, Verdict, orders};
+use super::{Graded, Verdict};
 use crate::serve::problems::{LoadedProblem, Metric, ReadError};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -43,6 +44,7 @@ pub fn grade(
             Err(error) => errors.push(error),
         }
     }
+    order::settle(problems, &mut all, options.claim.order);
     if errors.is_empty() { Ok(all) } else { Err(errors) }
 }
 
@@ -95,7 +97,6 @@ fn find(dir: &Path) -> Result<Found, ReadError> {
 }
 
 fn one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, ReadError> {
-    let problem = &loaded.problem;
     let found = find(dir)?;
     let read = |path: &PathBuf| read(path, loaded, &options.told, &options.dump);
     let mut errors = Vec::new();
@@ -114,8 +115,7 @@ fn one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, 
         graded.note = Some(format!("no answer.csv and no steps-N.csv in {}", dir.display()));
         return Ok(graded);
     };
-    (graded.orders, graded.observed_order) = orders(&errors, problem.tolerance);
-    graded.errors = errors;
+    graded.set_orders(errors, loaded, options.claim.order);
     graded.steps = steps;
     judge(&mut graded, loaded, &answer, options.claim);
     Ok(graded)
@@ -125,24 +125,17 @@ fn one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, 
 fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer, claim: Claim) {
     let compared = compare(loaded, answer);
     let within = compared.error <= loaded.problem.tolerance && !compared.too_little_data;
-    let off = order_off(graded.observed_order, claim);
+    let off = graded.order_off(claim.order);
     graded.verdict = if within && off.is_none() { Verdict::Pass } else { Verdict::Fail };
     graded.error = compared.error.is_finite().then_some(compared.error);
     graded.length_drift = compared.length_drift.filter(|drift| drift.is_finite());
     graded.orbit_drift = compared.orbit_drift.filter(|drift| drift.is_finite());
     graded.phase_lost_per_period = compared.phase_lost_per_period.filter(|lost| lost.is_finite());
-    graded.diagnosis = diagnose(loaded, answer, compared.error);
+    graded.set_diagnosis(diagnose(loaded, answer, compared.error));
     graded.note = match within {
         true => off,
         false => compared.remark.or_else(|| Some(place(loaded, answer, compared.row))),
     };
-}
-
-/// What is wrong with an observed order against the one claimed.
-pub(super) fn order_off(observed: Option<f64>, claim: Claim) -> Option<String> {
-    let (observed, claimed) = (observed?, claim.order?);
-    let off = (observed - claimed).abs() >= ORDER_TOLERANCE;
-    off.then(|| format!("observed order {observed:+.2} where {claimed} is claimed"))
 }
 
 /// Where the largest error is.

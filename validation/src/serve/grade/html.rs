@@ -1,6 +1,6 @@
 //! The report as one HTML file with its pictures, which needs nothing else.
 
-use super::report::{number, origin, tables, words};
+use super::report::{missing, number, origin, tables, words};
 use super::{Graded, Report, Verdict};
 use crate::files::text::readable;
 use crate::present::table::ReportTable;
@@ -20,6 +20,8 @@ struct Page<'a> {
     rows: Vec<ProblemRow<'a>>,
     pictures: Vec<&'a str>,
     tables: Vec<ReportTable>,
+    diagnosis: &'a [String],
+    missing: Option<String>,
     remarks: &'a [String],
 }
 
@@ -52,10 +54,12 @@ pub fn html(report: &Report, good: bool, pictures: &[&str]) -> Result<String, St
         shearbed: &report.shearbed,
         headline: report.headline(),
         good,
-        rows: report.problems.iter().map(row).collect(),
+        rows: report.problems.iter().filter(|graded| graded.verdict != Verdict::Missing).map(row).collect(),
         pictures: pictures.to_vec(),
         // The first is that of the rows.
         tables: tables(report).split_off(1),
+        diagnosis: &report.diagnosis,
+        missing: missing(report),
         remarks: &report.remarks,
     };
     // The name's ending turns the escaping on.

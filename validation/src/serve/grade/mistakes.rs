@@ -140,8 +140,12 @@ pub fn all() -> Vec<Mistake> {
             (aspect_ratio < 1.0).then(|| right_map(&spoilt, time)).flatten()
         }),
         rate("no 1/r_e (Λ = 1, an infinitely slender rod)", |w, d, _| w + d),
+        // That is Λ of √r_e.
+        moved("(r_e − 1)/(r_e + 1) for Λ", |s| Setting { aspect_ratio: s.aspect_ratio.sqrt(), ..s }),
         rate("D without its ½", |w, d, shape| w + 2.0 * shape * d),
         rate("W without its ½", |w, d, shape| 2.0 * w + shape * d),
+        rate("W halved twice", |w, d, shape| 0.5 * w + shape * d),
+        rate("D halved twice", |w, d, shape| w + 0.5 * shape * d),
         moved("half the shear rate", |s| scaled(s, 0.5)),
         moved("twice the shear rate", |s| scaled(s, 2.0)),
         linear("T without 1/r_e", |setting, time| {
@@ -152,10 +156,8 @@ pub fn all() -> Vec<Mistake> {
             let phase = right_phase(setting, time)?;
             Some(turned(setting.aspect_ratio, 1.0, phase))
         }),
-        linear("degrees for radians in the phase", |setting, time| {
-            let phase = right_phase(setting, time)?.to_degrees();
-            Some(turned(setting.aspect_ratio, 1.0 / setting.aspect_ratio, phase))
-        }),
+        moved("degrees for radians in the phase", |s| scaled(s, 1f64.to_degrees())),
+        moved("radians for degrees in the phase", |s| scaled(s, 1f64.to_radians())),
         curve("no 1/r_e in the initial phase", |setting, p, time| {
             let phase = p.y.atan2(p.x) + right_phase(setting, time)?;
             let r = setting.aspect_ratio;
@@ -203,6 +205,17 @@ fn by_angles(p: &Vector3<f64>, convert: fn(f64) -> f64) -> Vector3<f64> {
     let phi = convert(p.y.atan2(p.x));
     let theta = convert(p.x.hypot(p.y).atan2(p.z));
     Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos())
+}
+
+/// The right motion of a rod whose time runs at `factor` of the true one; `None` where it has no meaning.
+pub fn at_a_rate(setting: &Setting, p: &Vector3<f64>, time_s: f64, factor: f64) -> Option<Vector3<f64>> {
+    let q = (right_map(setting, factor * time_s)? * p).normalize();
+    q.iter().all(|component| component.is_finite()).then_some(q)
+}
+
+/// ωt of the right motion, 2π a period, in plane Couette flow.
+pub fn phase(setting: &Setting, time_s: f64) -> Option<f64> {
+    right_phase(setting, time_s)
 }
 
 /// What a name ends with where the start is changed in place of the answer.

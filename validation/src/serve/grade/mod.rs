@@ -15,6 +15,9 @@ mod lines;
 pub mod live;
 mod means;
 mod mistakes;
+mod order;
+mod overall;
+mod rates;
 mod read;
 mod report;
 
@@ -24,6 +27,8 @@ pub use html::html;
 pub use lammps::Told as Dump;
 pub use layout::{Foreign, Told};
 pub use lines::LineEnds;
+pub use order::{Order, remark, settle};
+pub use overall::overall;
 pub use report::{Report, json, junit, markdown, terminal};
 
 use crate::serve::problems::{Kind, LoadedProblem, Origin};
@@ -73,10 +78,17 @@ pub struct Graded {
     pub tolerance: f64,
     /// Why that much.
     pub because: String,
-    /// The exponent with which the error falls with the step, with its sign, on the last pair above the tolerance.
+    /// The exponent with which the error falls with the step, with its sign, on the last pair above round-off.
     pub observed_order: Option<f64>,
+    /// What the orders say about the one that is claimed.
+    pub order_found: Option<Order>,
     /// The known mistake whose curve the answer is.
     pub diagnosis: Option<String>,
+    /// The mistakes whose curve the answer is, and the rates at which its time may run.
+    #[serde(skip)]
+    pub suspects: Vec<String>,
+    #[serde(skip)]
+    rates: Vec<f64>,
     /// Where the error is, or why there is none.
     pub note: Option<String>,
     /// The steps of the answer that is judged.
@@ -108,7 +120,10 @@ impl Graded {
             tolerance: problem.tolerance,
             because: problem.because.clone(),
             observed_order: None,
+            order_found: None,
             diagnosis: None,
+            suspects: Vec::new(),
+            rates: Vec::new(),
             note: None,
             steps: None,
             asked_tolerance: None,
@@ -118,6 +133,26 @@ impl Graded {
             orbit_drift: None,
             phase_lost_per_period: None,
         }
+    }
+
+    /// Takes the errors (steps, error) from coarse to fine, and what they say about a claimed order.
+    fn set_orders(&mut self, errors: Vec<(u64, f64)>, loaded: &LoadedProblem, claimed: Option<f64>) {
+        let found = order::orders(&errors, loaded.own_tolerance);
+        self.observed_order = found.observed(claimed);
+        self.order_found = claimed.filter(|_| !errors.is_empty()).map(|claimed| found.judged(claimed));
+        self.orders = found.all;
+        self.errors = errors;
+    }
+
+    /// Takes what is found of an answer.
+    fn set_diagnosis(&mut self, found: diagnosis::Diagnosis) {
+        (self.diagnosis, self.suspects, self.rates) = (found.said, found.suspects, found.rates);
+    }
+
+    /// What is wrong with the order, where it is refuted.
+    fn order_off(&self, claimed: Option<f64>) -> Option<String> {
+        let lower = self.order_found == Some(Order::Lower);
+        claimed.filter(|_| lower).map(|claimed| order::lower(self.observed_order, claimed))
     }
 
     /// The observed order with its sign.
@@ -132,42 +167,5 @@ impl Graded {
             (None, Some(tolerance)) => format!("tolerance {tolerance:.0e}"),
             (None, None) => "–".into(),
         }
-    }
-}
-
-/// The order between each two neighbours of errors (steps, error) from coarse to fine, with its sign, and the last one of
-/// which both errors are above `floor`: below it they are round-off.
-pub fn orders(errors: &[(u64, f64)], floor: f64) -> (Vec<Option<f64>>, Option<f64>) {
-    let order = |pair: &[(u64, f64)]| {
-        let order = (pair[0].1 / pair[1].1).ln() / (pair[1].0 as f64 / pair[0].0 as f64).ln();
-        order.is_finite().then_some(order)
-    };
-    let orders: Vec<_> = errors.windows(2).map(order).collect();
-    let above = errors.iter().take_while(|(_, error)| *error > floor).count();
-    let last = above.checked_sub(2).and_then(|at| orders[at]);
-    (orders, last)
-}
-
-/// How far an observed order may be from the one claimed.
-pub use crate::studies::work_precision::order::ORDER_TOLERANCE;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_order_has_its_sign_and_needs_two_errors_above_round_off() {
-        let of = |errors: &[f64]| {
-            let errors: Vec<_> = (0..).map(|k| 10u64 << k).zip(errors.iter().copied()).collect();
-            orders(&errors, 1e-10).1.map(|order| (order * 1e6).round() / 1e6)
-        };
-        assert_eq!(of(&[1e-2, 1e-2 / 16.0, 1e-12]), Some(4.0));
-        assert_eq!(of(&[1e-3, 2e-3, 4e-3]), Some(-1.0), "it diverges");
-        assert_eq!(of(&[1e-3, 1e-12, 1e-3]), None);
-        assert_eq!(of(&[1e-12, 1e-13]), None);
-        assert_eq!(of(&[f64::NAN, 1e-3]), None);
-        assert_eq!(of(&[1e-3]), None);
-        let (every, last) = orders(&[(100, 1e-2), (300, 1e-2 / 9.0)], 1e-9);
-        assert!((last.unwrap() - 2.0).abs() < 1e-12 && every.len() == 1);
     }
 }

@@ -22,6 +22,8 @@ pub struct Report {
     pub problems: Vec<Graded>,
     /// What was measured of a program that runs, beyond verdicts.
     pub live: Option<Studies>,
+    /// What several problems say together.
+    pub diagnosis: Vec<String>,
     /// What else is to be said.
     pub remarks: Vec<String>,
 }
@@ -84,7 +86,7 @@ pub(super) fn origin(graded: &Graded) -> &'static str {
     }
 }
 
-/// The verdicts as a table.
+/// The verdicts as a table, without what is missing.
 fn verdicts(report: &Report) -> ReportTable {
     let row = |graded: &Graded| {
         vec![
@@ -116,7 +118,7 @@ fn verdicts(report: &Report) -> ReportTable {
             "C_b drift",
             "phase lost/period",
         ],
-        report.problems.iter().map(row).collect(),
+        report.problems.iter().filter(|graded| graded.verdict != Verdict::Missing).map(row).collect(),
     )
 }
 
@@ -126,15 +128,32 @@ pub(super) fn words(graded: &Graded) -> Vec<&str> {
     parts.into_iter().flatten().collect()
 }
 
-/// What is said of single problems, and the remarks.
+/// What several problems say, what is said of single ones, all that are missing in one line, and the remarks.
 fn lines(report: &Report) -> Vec<String> {
     let of = |graded: &Graded| {
         let parts = words(graded);
-        (!parts.is_empty())
+        (!parts.is_empty() && graded.verdict != Verdict::Missing)
             .then(|| format!("{} {}: {}", graded.verdict.word(), graded.name, parts.join("; ")))
     };
-    let remarks = report.remarks.iter().cloned();
-    report.problems.iter().filter_map(of).chain(remarks).collect()
+    let mut lines = report.diagnosis.clone();
+    lines.extend(report.problems.iter().filter_map(of));
+    lines.extend(missing(report));
+    lines.extend(report.remarks.iter().cloned());
+    lines
+}
+
+/// The problems without an answer, in one line.
+pub(super) fn missing(report: &Report) -> Option<String> {
+    let names: Vec<_> = (report.problems.iter())
+        .filter(|graded| graded.verdict == Verdict::Missing)
+        .map(|graded| graded.name.as_str())
+        .collect();
+    let first = report.problems.iter().find(|graded| graded.verdict == Verdict::Missing)?;
+    let why = match (names.len(), &first.note) {
+        (1, Some(note)) => format!("; {note}"),
+        _ => String::new(),
+    };
+    Some(format!("{} MISSING, no answer: {}{why}", names.len(), names.join(", ")))
 }
 
 /// The verdicts, then what was measured.
@@ -144,13 +163,53 @@ pub(super) fn tables(report: &Report) -> Vec<ReportTable> {
     tables
 }
 
-/// For the terminal.
+/// For the terminal, in 80 columns: what is missing has a line, no rows; the drifts are in the files.
 pub fn terminal(report: &Report) -> String {
+    let answered = |graded: &&Graded| graded.verdict != Verdict::Missing;
+    let row = |graded: &Graded| {
+        let foreign = if graded.reference == Origin::Foreign { " (FOREIGN)" } else { "" };
+        let name = format!("{}{foreign}", graded.name);
+        let numbers = [number(graded.error), number(Some(graded.tolerance)), graded.order_text()];
+        [vec![graded.verdict.word().to_owned(), name], numbers.into(), vec![graded.setting_text()]].concat()
+    };
+    let table = of_words(
+        "grade",
+        &format!("{} on {}", report.answers, report.reference),
+        &format!("{}.", report.headline()),
+        &["verdict", "problem", "error", "tolerance", "order", "setting"],
+        report.problems.iter().filter(answered).map(row).collect(),
+    );
     let words: String = lines(report).iter().map(|line| format!("{line}\n")).collect();
-    let mut tables = tables(report).into_iter();
-    let first = tables.next().map(|table| table.text()).unwrap_or_default();
-    let more: String = tables.map(|table| "\n".to_owned() + &table.text()).collect();
-    first + &words + &more
+    let more: String = tables(report).iter().skip(1).map(|table| "\n".to_owned() + &table.text()).collect();
+    wrapped(&(table.text() + &words + &more))
+}
+
+/// The most characters of a line on a terminal.
+const WIDTH: usize = 80;
+
+/// Lines of words that are too long are broken between words and go on indented; a table's rows, whose cells stand two blanks
+/// apart, stay.
+fn wrapped(text: &str) -> String {
+    let mut all = String::new();
+    for line in text.lines() {
+        let mut width = 0;
+        let words = if line.trim_end().contains("  ") { vec![line] } else { line.split(' ').collect() };
+        for (k, word) in words.into_iter().enumerate() {
+            let length = word.chars().count();
+            if k > 0 && width + 1 + length > WIDTH {
+                all += "\n  ";
+                width = 2 + length;
+            } else {
+                if k > 0 {
+                    all.push(' ');
+                }
+                width += usize::from(k > 0) + length;
+            }
+            all += word;
+        }
+        all.push('\n');
+    }
+    all
 }
 
 /// grade.md.
@@ -222,6 +281,7 @@ mod tests {
                 Graded { reference: Origin::Foreign, ..graded("d", Verdict::NotReached, Some(1e-3)) },
             ],
             live: None,
+            diagnosis: vec!["one mistake explains both".into()],
             remarks: vec!["a remark".into()],
         }
     }
@@ -246,6 +306,7 @@ mod tests {
                 "MISSING",
                 "curve of",
                 "a remark",
+                "one mistake explains both",
                 "1 of 4 problems pass",
                 "1 NOT REACHED",
                 "FOREIGN",
@@ -253,6 +314,27 @@ mod tests {
                 assert!(text.contains(word), "{word}: {text}");
             }
         }
+    }
+
+    #[test]
+    fn the_terminal_has_80_columns_and_one_line_for_all_that_is_missing() {
+        let mut report = report();
+        report.answers = "python3 my_code.py ".repeat(20);
+        report.remarks = vec!["words and words ".repeat(30).trim().to_owned()];
+        for k in 0..20 {
+            report.problems.push(Graded { name: format!("missing-{k}"), ..report.problems[2].clone() });
+        }
+        let text = terminal(&report);
+        let longest = text.lines().map(|line| line.chars().count()).max().unwrap();
+        assert!(longest <= 80, "{longest}: {text}");
+        assert_eq!(text.matches("MISSING").count(), 2, "the headline and one line: {text}");
+        assert!(text.contains("21 MISSING, no answer: c, missing-0, missing-1"), "{text}");
+        let whole = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            whole.contains(&report.remarks[0]) && whole.contains("missing-19"),
+            "nothing is lost: {text}"
+        );
+        assert_eq!(wrapped("a  b\n"), "a  b\n");
     }
 
     #[test]

@@ -23,7 +23,10 @@ pub(super) struct Asked {
 }
 
 /// The equations behind a rod in any flow.
-pub(super) const ANY_FLOW: &[&str] = &["A.1: p = q/|q|, q = exp((W + ΛD)t) p(0)"];
+pub(super) const ANY_FLOW: &[&str] = &[
+    "Jeffery's equation (A.1 of Lee & Springer 1982), solved by p = q/|q|, q = exp((W + ΛD)t) p(0) with W and D the \
+     antisymmetric and symmetric parts of the velocity gradient and Λ = (r_e² - 1)/(r_e² + 1)",
+];
 
 /// p of these angles (rad), as doubles.
 pub(super) fn direction(phi: f64, theta: f64) -> [f64; 3] {

@@ -29,6 +29,11 @@ fn form(kind: Kind) -> (Metric, [f64; 2], Columns) {
     }
 }
 
+/// The smallest and the largest tolerance of a kind.
+pub fn tolerances(kind: Kind) -> [f64; 2] {
+    form(kind).1
+}
+
 const RATES: [&str; 6] =
     ["a_pdot1_per_s", "a_pdot2_per_s", "a_pdot3_per_s", "b_pdot1_per_s", "b_pdot2_per_s", "b_pdot3_per_s"];
 const ANGLES: [&str; 8] = [

@@ -28,7 +28,8 @@ pub(super) fn problems() -> Vec<ProblemDef> {
     vec![
         ProblemDef::new("contact-rule", "Two rods in, both ṗ′ out: A.7 to A.13", |def| {
             let columns = ["a_pdot1_per_s", "a_pdot2_per_s", "a_pdot3_per_s"];
-            let equation = "A.1, A.7 to A.12, and ṗ′ = V′_r/r";
+            let equation = "Jeffery's equation (A.1 of Lee & Springer 1982), their rule for two rods in contact (A.7 to A.12), \
+                            and ṗ′ = V′_r/r";
             built(def, None, &columns, equation, |rod, _| rod.rate.to_vec())
         }),
         ProblemDef::new(
@@ -37,7 +38,8 @@ pub(super) fn problems() -> Vec<ProblemDef> {
             |def| {
                 let step_s = period_s(ASPECT_RATIO) / 200.0;
                 let columns = ["a_phi_rate_per_s", "a_theta_rate_per_s", "a_phi_rad", "a_theta_rad"];
-                let equation = "A.1, A.7 to A.12, A.13 corrected, A.14";
+                let equation = "Jeffery's equation (A.1 of Lee & Springer 1982), their rule for two rods in contact (A.7 to A.12), \
+                                its rates of angles (A.13, corrected as the summary says), and the step A.14";
                 built(def, Some(step_s), &columns, equation, angles)
             },
         ),

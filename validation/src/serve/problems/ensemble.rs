@@ -73,7 +73,7 @@ fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
                 2 * 3 * rows.len()
             ),
             equations: vec![format!(
-                "4, 5 to 14, A.1 to A.13: {REPLICAS} replicas of this project's simulator, seed 1982, judged by the independent naive \
+                "the model of Lee & Springer (1982), eqs 4 to 14 and A.1 to A.13: {REPLICAS} replicas of this project's simulator, seed 1982, judged by the independent naive \
                  reference"
             )],
             axes: AXES.into(),

@@ -4,6 +4,7 @@
 //! given, `inputs.csv` where pairs in contact are given, `certified.csv`, `README.md`. `read` reads such folders back. A folder
 //! with the name of a built-in problem is refused where it differs from it; one of another name is [`Origin::Foreign`].
 
+mod archive;
 mod asked;
 mod check;
 pub(crate) mod contact;
@@ -19,6 +20,8 @@ mod table;
 mod tensor;
 mod tolerance;
 
+pub use archive::archive;
+pub use check::tolerances;
 pub use export::{SCHEMA, export, files};
 pub use read::read;
 pub use table::{ReadError, Table};
@@ -117,7 +120,7 @@ pub struct Problem {
     pub tolerance: f64,
     /// Why that much.
     pub because: String,
-    /// Where the certified values come from: equation numbers of Lee & Springer (1982), or a source.
+    /// Where the certified values come from, in words, with equation numbers of Lee & Springer (1982) or another source.
     pub equations: Vec<String>,
     /// Which axis is which.
     pub axes: String,
@@ -163,6 +166,22 @@ pub struct LoadedProblem {
     pub inputs: Option<Table>,
     /// `certified.csv`: its columns are `problem.columns`.
     pub certified: Table,
+    /// The tolerance of `problem.json`, where the one in `problem` is a user's.
+    pub own_tolerance: f64,
+}
+
+impl LoadedProblem {
+    /// The problem with a larger tolerance; a smaller one changes nothing.
+    pub fn with_tolerance(mut self, tolerance: f64) -> Self {
+        if tolerance > self.own_tolerance {
+            self.problem.tolerance = tolerance;
+            self.problem.because = format!(
+                "--tolerance. The problem's own is {:e}: {}",
+                self.own_tolerance, self.problem.because
+            );
+        }
+        self
+    }
 }
 
 /// The columns of `inputs.csv`: of rods a and b the centre (mm), the axis and r_e.
@@ -231,6 +250,7 @@ impl Built {
         LoadedProblem {
             dir,
             origin: Origin::BuiltIn,
+            own_tolerance: self.problem.tolerance,
             problem: self.problem.clone(),
             start: self.start.clone(),
             inputs: (!self.inputs.is_empty()).then(|| Table {

@@ -51,8 +51,16 @@ fn read_one(dir: &Path) -> Result<LoadedProblem, ReadError> {
     let columns: Vec<_> = problem.columns.iter().map(String::as_str).collect();
     let certified_path = dir.join("certified.csv");
     let certified = table::read(&certified_path, &columns)?;
-    let mut loaded =
-        LoadedProblem { dir: dir.to_owned(), origin: Origin::Foreign, problem, start, inputs, certified };
+    let own_tolerance = problem.tolerance;
+    let mut loaded = LoadedProblem {
+        dir: dir.to_owned(),
+        origin: Origin::Foreign,
+        problem,
+        start,
+        inputs,
+        certified,
+        own_tolerance,
+    };
     check_keys(&certified_path, &loaded)?;
     check::tables(&loaded)?;
     loaded.origin = origin(&loaded, &json)?;

@@ -91,7 +91,11 @@ fn certified(motion: &Motion, time_s: f64, rod: usize, start: [f64; 3]) -> Vec<S
     row
 }
 
-const COUETTE_EQUATIONS: &[&str] = &["A.4", "A.5", "15"];
+const COUETTE_EQUATIONS: &[&str] = &[
+    "the solution of Jeffery's equation in plane Couette flow, tan φ = r_e tan(2πt/T + const) and tan θ = C r_e/(r_e² cos² φ + \
+     sin² φ)^(1/2) (A.4 and A.5 of Lee & Springer 1982)",
+    "its period T = 2π(r_e + 1/r_e)/G (eq. 15 of Lee & Springer 1982)",
+];
 
 fn mid_flip(aspect_ratio: f64) -> Asked {
     // Where φ = 1 next: there rods and discs both turn at more than a quarter of their fastest rate.

@@ -59,7 +59,8 @@ fn moments(def: &ProblemDef, gradient_per_s: [[f64; 3]; 3], aspect_ratio: f64, t
             columns: ["time_s", "a11", "a22", "a33", "a12", "a13", "a23"].map(String::from).into(),
             because: because(of_rods),
             equations: vec![
-                "A.4, A.5, 12: a_ij = ½∫ (adj M)_ij (det M)^(-3/2) dx, M = (F Fᵀ)⁻¹ + x, F = exp((W + ΛD)t)"
+                "the solution of Jeffery's equation (A.4 and A.5 of Lee & Springer 1982), averaged over isotropic starts (their \
+                 eq. 12): a_ij = ½∫ (adj M)_ij (det M)^(-3/2) dx, M = (F Fᵀ)⁻¹ + x, F = exp((W + ΛD)t), from x = 0 to infinity"
                     .into(),
             ],
             ..problem(def, &motion, times_s, of_rods)
@@ -86,7 +87,11 @@ fn unequal_rods(def: &ProblemDef) -> Built {
             aspect_ratio_sd_percent: SD_PERCENT,
             columns: ["time_s", "x1", "x2", "x3"].map(String::from).into(),
             because: because(of_rods),
-            equations: vec!["4, 11, A.4, A.5, 12: mean of |p_i| (elliptic integrals), then over r_e, the whole Gaussian".into()],
+            equations: vec![
+                "the solution of Jeffery's equation (A.4 and A.5 of Lee & Springer 1982), averaged over isotropic starts (their \
+                 eq. 12): means of |p_i| (their eq. 4) are elliptic integrals; then averaged over a Gaussian r_e (their eq. 11)"
+                    .into(),
+            ],
             ..problem(def, &motion, times_s, of_rods)
         },
         start: Vec::new(),

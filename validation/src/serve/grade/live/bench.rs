@@ -1,6 +1,7 @@
 //! Error against run time of a program beside the project's own integrators, and what the pipe itself costs.
 
 use super::program::{Program, Question};
+use super::protocol::Protocol;
 use crate::present::plot;
 use crate::present::table::{ReportTable, of_words};
 use crate::serve::grade::figures::{LEAST, PROGRAM};
@@ -31,19 +32,18 @@ pub struct Bench {
 }
 
 /// Answers every request with its start, until the input ends: what the pipe and its JSON cost without any work.
-pub fn echo(input: impl BufRead, mut output: impl Write) -> Result<(), String> {
+pub fn echo(protocol: Protocol, input: impl BufRead, mut output: impl Write) -> Result<(), String> {
     for line in input.lines() {
         let line = line.map_err(|error| error.to_string())?;
-        let request: serde_json::Value = serde_json::from_str(&line).map_err(|error| error.to_string())?;
-        let answer = serde_json::json!({"id": request["id"], "p": request["start"]});
+        let answer = protocol.echo(&line)?;
         writeln!(output, "{answer}").and_then(|()| output.flush()).map_err(|error| error.to_string())?;
     }
     Ok(())
 }
 
 /// The least time in s of a request for one rod to this echo program.
-fn pipe_s(echo: &str, timeout: Duration) -> Option<f64> {
-    let program = Program::start(echo, timeout).ok()?;
+fn pipe_s(echo: &str, protocol: Protocol, timeout: Duration) -> Option<f64> {
+    let program = Program::start(echo, protocol, timeout).ok()?;
     let question = Question {
         gradient_per_s: [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]],
         aspect_ratio: ASPECT_RATIO,
@@ -61,7 +61,7 @@ pub fn bench(program: &Program, echo: &str) -> Bench {
     Bench {
         aspect_ratio: ASPECT_RATIO,
         program: curve(&program.integrator(), ASPECT_RATIO, budget),
-        pipe_s: pipe_s(echo, program.timeout()),
+        pipe_s: pipe_s(echo, program.protocol(), program.timeout()),
         ours: integrators::all().iter().map(|subject| curve(subject, ASPECT_RATIO, Budget::QUICK)).collect(),
     }
 }
@@ -119,7 +119,7 @@ impl Bench {
             row.push(format!("{} of {}", curve.failures(), curve.points.len()));
             row
         };
-        let program = row(&self.without_pipe(), self.program.subject.clone());
+        let program = row(&self.without_pipe(), PROGRAM.to_owned());
         let ours = self.ours.iter().map(|curve| row(curve, curve.subject.clone()));
         let pipe = match self.pipe_s {
             Some(seconds) => {

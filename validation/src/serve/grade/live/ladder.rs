@@ -10,8 +10,9 @@ use super::program::{Program, Question};
 use crate::serve::grade::answer::Answer;
 use crate::serve::grade::compare::{Compared, compare};
 use crate::serve::grade::diagnosis::diagnose;
-use crate::serve::grade::files::{Claim, order_off};
-use crate::serve::grade::{Graded, Verdict, orders};
+use crate::serve::grade::files::Claim;
+use crate::serve::grade::order::lower;
+use crate::serve::grade::{Graded, Order, Verdict};
 use crate::serve::problems::LoadedProblem;
 use crate::studies::integrators::Setting;
 use climb::{End, climb};
@@ -65,6 +66,11 @@ impl Rung {
     }
 }
 
+/// Steps and errors of the settings that are numbers of steps.
+fn errors(rungs: &[Rung]) -> Vec<(u64, f64)> {
+    rungs.iter().filter_map(|rung| Some((rung.setting.steps().ok()?, rung.error()))).collect()
+}
+
 /// Grades a program on a problem about free rods, at its last time.
 pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Claim) -> Graded {
     program.during(&problem.problem.name);
@@ -80,19 +86,15 @@ pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Clai
         let (p, took) = program.ask(&question, setting)?;
         Ok(Rung::of(&problem, setting, p, took))
     };
-    let (rungs, mut end) = climb(&problem, mode, program.timeout(), ask);
+    let (rungs, mut end) = climb(&problem, mode, program.timeout(), claim.order, ask);
     if matches!(end, End::Reached) {
         end = jumps::judged(&rungs, of.tolerance, ask);
     }
     let mut graded = Graded::without_answer(&problem);
-    let errors = rungs.iter().filter_map(|rung| Some((rung.setting.steps().ok()?, rung.error())));
-    let errors: Vec<_> = errors.collect();
-    (graded.orders, graded.observed_order) = orders(&errors, of.tolerance);
-    graded.errors = errors;
-    let off = order_off(graded.observed_order, claim);
-    graded.verdict = match (&end, &off) {
-        (End::OutOfTime(_), _) => Verdict::NotReached,
-        (End::Reached, None) => Verdict::Pass,
+    graded.set_orders(errors(&rungs), &problem, claim.order);
+    graded.verdict = match &end {
+        End::OutOfTime(_) => Verdict::NotReached,
+        End::Reached => Verdict::Pass,
         _ => Verdict::Fail,
     };
     if let Some(finest) = rungs.last() {
@@ -104,11 +106,15 @@ pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Clai
         graded.length_drift = compared.length_drift.filter(finite);
         graded.orbit_drift = compared.orbit_drift.filter(finite);
         graded.phase_lost_per_period = compared.phase_lost_per_period.filter(finite);
-        graded.diagnosis = diagnose(&problem, &finest.answer, compared.error);
+        graded.set_diagnosis(diagnose(&problem, &finest.answer, compared.error));
     }
     graded.note = match end {
         End::Broke(words) | End::Jumps(words) => Some(words),
-        End::Reached => off.or_else(|| not_finite(&rungs)),
+        End::Lower => {
+            graded.order_found = Some(Order::Lower);
+            claim.order.map(|claimed| lower(graded.observed_order, claimed))
+        }
+        End::Reached => not_finite(&rungs),
         End::Wrong(words) | End::OutOfTime(words) => Some(why(&graded, rungs.last(), words)),
     };
     graded

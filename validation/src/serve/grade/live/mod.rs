@@ -7,10 +7,12 @@ mod program;
 mod protocol;
 mod signals;
 mod studies;
+mod text;
 
 pub use bench::{Bench, echo, theory};
 pub use ladder::{Mode, grade, mode};
 pub use program::{Asked, Program, Question};
+pub use protocol::Protocol;
 pub use signals::end_all;
 pub use studies::{Studies, studies};
 
@@ -28,7 +30,7 @@ pub fn built_in(wanted: impl Fn(&str) -> bool) -> Vec<LoadedProblem> {
 }
 
 /// The problem with its last time alone: what a request asks for.
-fn last_time(problem: &LoadedProblem) -> LoadedProblem {
+pub fn last_time(problem: &LoadedProblem) -> LoadedProblem {
     let mut last = problem.clone();
     let rods = problem.start.len();
     last.problem.times_s.drain(..problem.problem.times_s.len() - 1);

@@ -1,7 +1,7 @@
 //! A program that is asked, kept within its bounds, and started anew after it has broken the protocol.
 
 use super::pipe::Pipe;
-use super::protocol::{self, Answer, Request};
+use super::protocol::{Answer, Protocol, Request};
 use crate::studies::integrators::{Failure, Integrator, Problem, Setting, Theory};
 use nalgebra::{UnitVector3, Vector3};
 use std::hash::{BuildHasher, RandomState};
@@ -34,6 +34,7 @@ pub struct Program {
     name: String,
     theory: Theory,
     timeout: Duration,
+    protocol: Protocol,
     state: Arc<Mutex<State>>,
 }
 
@@ -76,7 +77,7 @@ impl std::fmt::Display for Asked {
 
 impl Program {
     /// Starts the command. `Err` when it cannot be started at all.
-    pub fn start(command: &str, timeout: Duration) -> Result<Self, String> {
+    pub fn start(command: &str, protocol: Protocol, timeout: Duration) -> Result<Self, String> {
         let words =
             shlex::split(command).ok_or_else(|| format!("--command {command}: a quote is not closed"))?;
         let pipe = Pipe::start(&words).map_err(|error| format!("--command {error}"))?;
@@ -85,6 +86,7 @@ impl Program {
             name: command.to_owned(),
             theory: Theory::Order(0),
             timeout,
+            protocol,
             state: Arc::new(Mutex::new(State { pipe: Some(pipe), ..State::default() })),
         })
     }
@@ -97,6 +99,11 @@ impl Program {
     /// The longest that one answer may take.
     pub fn timeout(&self) -> Duration {
         self.timeout
+    }
+
+    /// The form of its lines.
+    pub fn protocol(&self) -> Protocol {
+        self.protocol
     }
 
     /// Says what the following questions are for.
@@ -128,7 +135,7 @@ impl Program {
             return Err(Asked::Late("not asked: out of time".to_owned()));
         }
         let asked = Instant::now();
-        match state.ask(&self.words, question, setting, self.timeout) {
+        match state.ask(self, question, setting) {
             Ok(Answer::Directions(p)) => Ok((p, asked.elapsed())),
             Ok(Answer::Error(reason)) => Err(Asked::Says(reason)),
             Err(breach) if breach.hung => Err(Asked::Late(state.breached(breach))),
@@ -201,16 +208,10 @@ struct Breach {
 }
 
 impl State {
-    fn ask(
-        &mut self,
-        words: &[String],
-        question: &Question,
-        setting: Setting,
-        limit: Duration,
-    ) -> Result<Answer, Breach> {
+    fn ask(&mut self, program: &Program, question: &Question, setting: Setting) -> Result<Answer, Breach> {
         let wrong = |what: String| Breach { what, hung: false };
         if self.pipe.is_none() {
-            self.pipe = Some(Pipe::start(words).map_err(wrong)?);
+            self.pipe = Some(Pipe::start(&program.words).map_err(wrong)?);
         }
         let Some(pipe) = &mut self.pipe else {
             return Err(wrong("it does not run".to_owned()));
@@ -226,12 +227,12 @@ impl State {
             tolerance: setting.tolerance().ok(),
         };
         pipe.nothing_more(Duration::ZERO).map_err(wrong)?;
-        pipe.send(serde_json::to_string(&request).map_err(|error| wrong(error.to_string()))?);
-        let (line, text) = pipe.line(limit).map_err(|trouble| Breach {
+        pipe.send(program.protocol.write(&request).map_err(wrong)?);
+        let (line, text) = pipe.line(program.timeout).map_err(|trouble| Breach {
             what: trouble.to_string(),
             hung: matches!(trouble, super::pipe::Trouble::Hung(_)),
         })?;
-        protocol::read(&text, self.asked, question.start.len())
+        (program.protocol.read(&text, self.asked, question.start.len()))
             .map_err(|reason| wrong(format!("line {line} of standard output: {reason}")))
     }
 

@@ -1,8 +1,72 @@
-//! Requests and answers as lines of JSON (`docs/src/user/grading.md`).
+//! Requests and answers as lines of JSON (`docs/src/user/grading.md`), and which form of lines a program takes.
 
 use super::pipe::excerpt;
+use super::text;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+
+/// The form of the lines.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Protocol {
+    /// An object a line.
+    #[default]
+    Json,
+    /// Numbers apart by blanks.
+    Text,
+}
+
+impl std::str::FromStr for Protocol {
+    type Err = String;
+
+    fn from_str(word: &str) -> Result<Self, String> {
+        match word {
+            "json" => Ok(Self::Json),
+            "text" => Ok(Self::Text),
+            _ => Err("json and text are allowed".to_owned()),
+        }
+    }
+}
+
+impl Protocol {
+    /// As it is written after `--protocol`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Json => "json",
+            Self::Text => "text",
+        }
+    }
+
+    /// The line of a request.
+    pub(super) fn write(self, request: &Request<'_>) -> Result<String, String> {
+        match self {
+            Self::Json => serde_json::to_string(request).map_err(|error| error.to_string()),
+            Self::Text => Ok(text::write(request)),
+        }
+    }
+
+    /// Reads the answer to the request `id` about so many rods. `Err` says what is wrong with the line.
+    pub(super) fn read(self, line: &str, id: u64, rods: usize) -> Result<Answer, String> {
+        match self {
+            Self::Json => read(line, id, rods),
+            Self::Text => text::read(line, id, rods),
+        }
+    }
+
+    /// The answer of a program that returns what it is given.
+    pub(super) fn echo(self, line: &str) -> Result<String, String> {
+        match self {
+            Self::Json => {
+                let request: Value = serde_json::from_str(line).map_err(|error| error.to_string())?;
+                Ok(serde_json::json!({"id": request["id"], "p": request["start"]}).to_string())
+            }
+            Self::Text => {
+                let words: Vec<_> = line.split_ascii_whitespace().collect();
+                let (id, start) = words.split_first().ok_or("an empty line")?;
+                Ok([&[*id], start.get(14..).unwrap_or_default()].concat().join(" "))
+            }
+        }
+    }
+}
 
 /// A request: one line to the program.
 #[derive(Clone, Debug, Serialize)]

@@ -129,9 +129,9 @@ impl Studies {
     fn map_table(&self, rows: &[MapRow]) -> ReportTable {
         let adaptive =
             (self.work_precision.as_ref()).is_some_and(|bench| bench.program.theory == Theory::Adaptive);
-        let heads: Vec<_> = match adaptive {
-            true => TOLERANCES.iter().map(|tolerance| format!("tolerance {tolerance:.0e}")).collect(),
-            false => STEPS.iter().map(|step| format!("Δt = {step} T")).collect(),
+        let (what, heads): (_, Vec<_>) = match adaptive {
+            true => ("tolerance", TOLERANCES.iter().map(|tolerance| format!("{tolerance:.0e}")).collect()),
+            false => ("Δt", STEPS.iter().map(|step| format!("{step} T")).collect()),
         };
         let row = |row: &MapRow| {
             let signs = row.found.iter().map(|found| found.sign().to_owned());
@@ -141,7 +141,7 @@ impl Studies {
             "grade-stability",
             "What becomes of a rod",
             "= at round-off, + within 10⁻² rad, w stable but wrong, L length lost, N not finite, R refused with an error.",
-            &["r_e"],
+            &[&format!("r_e, by {what}")],
             rows.iter().map(row).collect(),
         );
         map.columns.extend(heads);

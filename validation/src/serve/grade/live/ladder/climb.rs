@@ -1,7 +1,8 @@
 //! From coarse settings to fine ones, until the answers are within the tolerance, show that they will not be, or time is up.
 
-use super::{Mode, Rung};
+use super::{Mode, Rung, errors};
 use crate::serve::grade::live::program::Asked;
+use crate::serve::grade::order::{Order, orders};
 use crate::serve::problems::LoadedProblem;
 use crate::studies::integrators::Setting;
 use std::time::{Duration, Instant};
@@ -26,15 +27,18 @@ pub(super) enum End {
     Jumps(String),
     /// Finer settings would not come within the tolerance, or there are none.
     Wrong(String),
+    /// The errors fall with a lower order than the claimed one.
+    Lower,
     /// Time ran out first.
     OutOfTime(String),
 }
 
-/// Climbs, and says how that ended.
+/// Climbs, and says how that ended. Where an order is claimed it goes on until that is seen, refuted, or below round-off.
 pub(super) fn climb(
     problem: &LoadedProblem,
     mode: Mode,
     timeout: Duration,
+    claimed: Option<f64>,
     ask: impl Fn(Setting) -> Result<Rung, Asked>,
 ) -> (Vec<Rung>, End) {
     let tolerance = problem.problem.tolerance;
@@ -58,16 +62,28 @@ pub(super) fn climb(
                 return (rungs, End::OutOfTime(format!("asked for {setting}: {words}")));
             }
         };
-        if reached(&rungs, tolerance) {
-            return (rungs, End::Reached);
+        let orders = claimed.map(|claimed| (claimed, orders(&errors(&rungs), problem.own_tolerance)));
+        if orders.as_ref().is_some_and(|(claimed, orders)| orders.refuted_early(*claimed)) {
+            return (rungs, End::Lower);
         }
-        if let Some(end) = hopeless(&rungs, tolerance, timeout) {
+        let arrived = reached(&rungs, tolerance);
+        match orders {
+            None if arrived => return (rungs, End::Reached),
+            Some((claimed, orders)) if arrived => match orders.judged(claimed) {
+                Order::Lower => return (rungs, End::Lower),
+                Order::Unclear if !orders.ended => {}
+                _ => return (rungs, End::Reached),
+            },
+            _ => {}
+        }
+        if !arrived && let Some(end) = hopeless(&rungs, tolerance, timeout) {
             return (rungs, end);
         }
         let spent = begun.elapsed();
-        if !affordable(spent, took, timeout, within(&rungs, tolerance)) {
+        if !affordable(spent, took, timeout, !arrived && within(&rungs, tolerance)) {
             let seconds = spent.as_secs_f64();
-            let words = format!("finer ones would take too long (--timeout): {seconds:.1} s so far");
+            let why = if arrived { "the order is not clear yet, and finer ones" } else { "finer ones" };
+            let words = format!("{why} would take too long (--timeout): {seconds:.1} s so far");
             return (rungs, End::OutOfTime(words));
         }
     }
@@ -122,6 +138,9 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration) -> Opt
     if changes.iter().all(|change| *change <= still) && errors[3] > tolerance {
         return Some(End::Wrong("finer ones no longer change the answer".to_owned()));
     }
+    if converge_elsewhere(resolving) && errors[3] > tolerance {
+        return Some(End::Wrong("the answers converge, but not to the certified one".to_owned()));
+    }
     // A steady order foretells the steps, and two times that double what they take.
     let order = steady_order(resolving)?;
     let doubles = first.took > Duration::from_millis(200) && last.took < 3 * first.took;
@@ -130,6 +149,17 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration) -> Opt
     (doubles && needed_s > 4.0 * timeout.as_secs_f64()).then(|| {
         End::OutOfTime(format!("those would take some {needed_s:.0e} s, which --timeout does not allow"))
     })
+}
+
+/// Whether the last five answers converge to another one than the certified: the changes between them shrink each time as those
+/// of a method of order 0.8 at least, and all that are still to come are within a hundredth of the error.
+fn converge_elsewhere(rungs: &[Rung]) -> bool {
+    let Some(last) = rungs.last_chunk::<5>() else {
+        return false;
+    };
+    let changes = [0, 1, 2, 3].map(|k| last[k].answer.largest_change(&last[k + 1].answer));
+    let shrink = changes.windows(2).all(|pair| pair[0] >= 1.7 * pair[1]);
+    shrink && 2.0 * changes[3] <= 0.01 * last[4].error()
 }
 
 /// The order by which the last four errors fall, where it is nearly the same from each to the next.

@@ -103,6 +103,16 @@ fn what_no_longer_changes_is_not_asked_on() {
 }
 
 #[test]
+fn answers_that_converge_to_another_one_are_not_asked_on() {
+    // Euler's with a weight of 0.9: far from the tolerance in what changes, and wrong.
+    let elsewhere = climbed(|k| (0.3 + 0.1 * 2f64.powi(-k), seconds(k)));
+    assert_eq!(elsewhere.as_deref(), Some("the answers converge, but not to the certified one"));
+    // What is still to come is more than a hundredth of the error; and what falls to 0.
+    assert_eq!(climbed(|k| (1e-3 + 2f64.powi(-k), 1e-9)), None);
+    assert_eq!(climbed(|k| (0.3 * 2f64.powi(-k), 1e-9)), None);
+}
+
+#[test]
 fn an_order_too_low_for_the_time_is_told_early() {
     let first = climbed(|k| (0.3 * 2f64.powi(-k), 1000.0 * seconds(k))).unwrap();
     assert!(

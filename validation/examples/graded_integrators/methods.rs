@@ -1,0 +1,370 @@
+//! Ways to step ṗ = Ap − p(p·Ap) in doubles. They share no code with what grades them.
+
+use super::tableaus::Tableau;
+use nalgebra::Vector3;
+use ode_solvers::dop_shared::OutputType;
+use ode_solvers::{Dop853, System};
+
+pub type Vector = [f64; 3];
+pub type Matrix = [[f64; 3]; 3];
+
+/// What is stepped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Form {
+    /// p as it comes.
+    Raw,
+    /// p, divided by |p| after each step.
+    Normalised,
+    /// q of q̇ = Aq, divided by |q| after each step.
+    Linear,
+    /// φ and θ, by A.13.
+    Angles,
+}
+
+/// A method with its coefficients.
+#[derive(Clone)]
+pub enum Method {
+    RungeKutta(Tableau),
+    /// Adams–Bashforth, with coefficients from the newest rate to the oldest, and the steps that start it.
+    Adams {
+        b: Vec<f64>,
+        starter: Tableau,
+    },
+    /// Adams–Bashforth, then Adams–Moulton once (PECE).
+    PredictorCorrector {
+        b: Vec<f64>,
+        moulton: Vec<f64>,
+        starter: Tableau,
+    },
+    /// Implicit Runge–Kutta by fixed-point iteration: a, b.
+    Implicit {
+        a: Vec<Vec<f64>>,
+        b: Vec<f64>,
+    },
+    /// Implicit midpoint steps of these lengths, one after the other.
+    Composed(Vec<f64>),
+    /// Rotations about ω = p × Ap: stages and weights as of a tableau, with the commutators of order 4 where `rkmk`.
+    LieGroup {
+        tableau: Tableau,
+        rkmk: bool,
+    },
+    /// Exact steps of W and of ΛD by turns, with these lengths.
+    Splitting {
+        turning: Vec<f64>,
+        stretching: Vec<f64>,
+    },
+    /// An embedded pair with step control by a tolerance: b of the estimate's other method.
+    Adaptive {
+        tableau: Tableau,
+        other: Vec<f64>,
+    },
+    /// Dormand and Prince's 8(5,3) with its own step, of `ode_solvers`.
+    DormandPrince8,
+}
+
+fn image(m: &Matrix, p: &Vector) -> Vector {
+    [0, 1, 2].map(|i| m[i][0] * p[0] + m[i][1] * p[1] + m[i][2] * p[2])
+}
+fn dot(a: &Vector, b: &Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+fn cross(a: &Vector, b: &Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+fn plus(a: &Vector, f: f64, b: &Vector) -> Vector {
+    [0, 1, 2].map(|i| a[i] + f * b[i])
+}
+fn unit(p: &Vector) -> Vector {
+    let length = dot(p, p).sqrt();
+    p.map(|x| x / length)
+}
+/// x + h Σ w k.
+fn sum(x: &Vector, h: f64, weights: &[f64], k: &[Vector]) -> Vector {
+    [0, 1, 2].map(|i| x[i] + h * weights.iter().zip(k).map(|(w, k)| w * k[i]).sum::<f64>())
+}
+
+/// A = W + ΛD, row i column j of L being ∂u_i/∂x_j, without the cancellation of Λ near 1.
+pub fn rate_matrix(l: &Matrix, ratio: f64) -> Matrix {
+    let square = ratio * ratio;
+    let (long, short) = (square / (square + 1.0), 1.0 / (square + 1.0));
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| long * l[i][j] - short * l[j][i]))
+}
+
+struct Motion {
+    a: Matrix,
+    form: Form,
+}
+
+impl Motion {
+    fn rate(&self, x: &Vector) -> Vector {
+        match self.form {
+            Form::Linear => image(&self.a, x),
+            Form::Raw | Form::Normalised => {
+                let pull = image(&self.a, x);
+                plus(&pull, -dot(x, &pull), x)
+            }
+            Form::Angles => {
+                let ((sp, cp), (st, ct)) = (x[0].sin_cos(), x[1].sin_cos());
+                let v = image(&self.a, &[st * cp, st * sp, ct]);
+                [(v[1] * cp - v[0] * sp) / st, (v[0] * cp + v[1] * sp) * ct - v[2] * st, 0.0]
+            }
+        }
+    }
+    fn first(&self, p: &Vector) -> Vector {
+        match self.form {
+            Form::Angles => [p[1].atan2(p[0]), p[0].hypot(p[1]).atan2(p[2]), 0.0],
+            _ => *p,
+        }
+    }
+    fn kept(&self, x: Vector) -> Vector {
+        match self.form {
+            Form::Normalised | Form::Linear => unit(&x),
+            _ => x,
+        }
+    }
+    fn last(&self, x: &Vector) -> Vector {
+        match self.form {
+            Form::Angles => {
+                let ((sp, cp), (st, ct)) = (x[0].sin_cos(), x[1].sin_cos());
+                [st * cp, st * sp, ct]
+            }
+            _ => *x,
+        }
+    }
+}
+
+impl System<f64, Vector3<f64>> for &Motion {
+    fn system(&self, _: f64, x: &Vector3<f64>, rate: &mut Vector3<f64>) {
+        *rate = Vector3::from(self.rate(&[x[0], x[1], x[2]]));
+    }
+}
+
+fn stages(motion: &Motion, tableau: &Tableau, x: &Vector, h: f64, k: &mut Vec<Vector>) {
+    k.clear();
+    for row in &tableau.a {
+        let at = sum(x, h, row, k);
+        k.push(motion.rate(&at));
+    }
+}
+
+/// How far to go.
+#[derive(Clone, Copy)]
+pub enum Setting {
+    Steps(u64),
+    Tolerance(f64),
+}
+
+/// The direction after `end_s` from `p`; none where the method takes another setting, or gives up.
+pub fn advance(
+    method: &Method,
+    form: Form,
+    l: &Matrix,
+    ratio: f64,
+    p: &Vector,
+    end_s: f64,
+    setting: Setting,
+) -> Option<Vector> {
+    let motion = Motion { a: rate_matrix(l, ratio), form };
+    let x = motion.first(p);
+    let end = match (method, setting) {
+        (Method::Adaptive { tableau, other }, Setting::Tolerance(tolerance)) => {
+            adaptive(&motion, tableau, other, x, end_s, tolerance)
+        }
+        (Method::DormandPrince8, Setting::Tolerance(tolerance)) => {
+            let mut solver = Dop853::new(&motion, 0.0, end_s, end_s, Vector3::from(x), tolerance, tolerance);
+            solver.set_output(OutputType::Sparse);
+            solver.integrate().ok()?;
+            solver.y_out().last().map(|x| motion.kept([x[0], x[1], x[2]]))?
+        }
+        (Method::Adaptive { .. } | Method::DormandPrince8, _) | (_, Setting::Tolerance(_)) => return None,
+        (_, Setting::Steps(steps)) => fixed(method, &motion, x, end_s, steps),
+    };
+    Some(motion.last(&end))
+}
+
+fn fixed(method: &Method, motion: &Motion, mut x: Vector, end_s: f64, steps: u64) -> Vector {
+    let h = end_s / steps as f64;
+    let mut k = Vec::new();
+    match method {
+        Method::RungeKutta(tableau) => {
+            for _ in 0..steps {
+                stages(motion, tableau, &x, h, &mut k);
+                x = motion.kept(sum(&x, h, &tableau.b, &k));
+                if x[0].is_nan() {
+                    break;
+                }
+            }
+        }
+        Method::Adams { b, starter } | Method::PredictorCorrector { b, starter, .. } => {
+            let mut rates = vec![motion.rate(&x)];
+            for _ in 0..steps {
+                if rates.len() < b.len() {
+                    stages(motion, starter, &x, h, &mut k);
+                    x = motion.kept(sum(&x, h, &starter.b, &k));
+                } else {
+                    let mut next = sum(&x, h, b, &rates);
+                    if let Method::PredictorCorrector { moulton, .. } = method {
+                        rates.insert(0, motion.rate(&next));
+                        next = sum(&x, h, moulton, &rates);
+                        rates.remove(0);
+                    }
+                    x = motion.kept(next);
+                    rates.pop();
+                }
+                rates.insert(0, motion.rate(&x));
+                if x[0].is_nan() {
+                    break;
+                }
+            }
+        }
+        Method::Implicit { a, b } => {
+            for _ in 0..steps {
+                x = motion.kept(implicit(motion, a, b, &x, h));
+                if x[0].is_nan() {
+                    break;
+                }
+            }
+        }
+        Method::Composed(parts) => {
+            let half = [vec![0.5]];
+            for _ in 0..steps {
+                for part in parts {
+                    x = implicit(motion, &half, &[1.0], &x, part * h);
+                }
+                x = motion.kept(x);
+                if x[0].is_nan() {
+                    break;
+                }
+            }
+        }
+        Method::LieGroup { tableau, rkmk } => {
+            for _ in 0..steps {
+                x = lie(motion, tableau, *rkmk, &x, h);
+                if x[0].is_nan() {
+                    break;
+                }
+            }
+        }
+        Method::Splitting { turning, stretching } => {
+            let part = |sign: f64| {
+                [0, 1, 2].map(|i| [0, 1, 2].map(|j| 0.5 * (motion.a[i][j] + sign * motion.a[j][i])))
+            };
+            let maps = |m: Matrix, lengths: &[f64]| {
+                lengths.iter().map(|c| exponential(&m, c * h)).collect::<Vec<_>>()
+            };
+            let (turns, stretches) = (maps(part(-1.0), turning), maps(part(1.0), stretching));
+            for _ in 0..steps {
+                for (turn, stretch) in turns.iter().zip(&stretches) {
+                    x = image(stretch, &image(turn, &x));
+                }
+                x = turns.get(stretches.len()).map_or(x, |turn| image(turn, &x));
+                x = unit(&x);
+            }
+        }
+        Method::Adaptive { .. } | Method::DormandPrince8 => {}
+    }
+    x
+}
+
+/// One step of an implicit method: iterated until nothing changes any more.
+fn implicit(motion: &Motion, a: &[Vec<f64>], b: &[f64], x: &Vector, h: f64) -> Vector {
+    let mut k = vec![motion.rate(x); b.len()];
+    let mut before = f64::INFINITY;
+    for _ in 0..100 {
+        let next: Vec<Vector> = a.iter().map(|row| motion.rate(&sum(x, h, row, &k))).collect();
+        let change = k
+            .iter()
+            .zip(&next)
+            .map(|(old, new)| dot(&plus(new, -1.0, old), &plus(new, -1.0, old)))
+            .sum::<f64>();
+        k = next;
+        if change == 0.0 || (change >= before && change < 1e-24) || change.is_nan() {
+            break;
+        }
+        before = change;
+    }
+    sum(x, h, b, &k)
+}
+
+/// exp of the rotation vector, by Rodrigues's formula.
+fn turned(about: &Vector, p: &Vector) -> Vector {
+    let angle = dot(about, about).sqrt();
+    let (s, c) = match angle < 1e-4 {
+        true => (1.0 - angle * angle / 6.0, 0.5 - angle * angle / 24.0),
+        false => (angle.sin() / angle, (1.0 - angle.cos()) / (angle * angle)),
+    };
+    let once = cross(about, p);
+    let twice = cross(about, &once);
+    [0, 1, 2].map(|i| p[i] + s * once[i] + c * twice[i])
+}
+
+fn lie(motion: &Motion, tableau: &Tableau, rkmk: bool, p: &Vector, h: f64) -> Vector {
+    let omega = |p: &Vector| cross(p, &image(&motion.a, p));
+    let mut k: Vec<Vector> = Vec::new();
+    for row in &tableau.a {
+        let v = sum(&[0.0; 3], h, row, &k);
+        let w = omega(&turned(&v, p));
+        // dexp⁻¹ to the second commutator.
+        k.push(match rkmk {
+            true => {
+                let once = cross(&v, &w);
+                plus(&plus(&w, -0.5, &once), 1.0 / 12.0, &cross(&v, &once))
+            }
+            false => w,
+        });
+    }
+    turned(&sum(&[0.0; 3], h, &tableau.b, &k), p)
+}
+
+/// exp(mt) by scaling and squaring of its series.
+fn exponential(m: &Matrix, t: f64) -> Matrix {
+    let norm = m.iter().flatten().map(|x| (x * t).abs()).sum::<f64>();
+    let halvings = norm.max(1e-300).log2().ceil().max(0.0) as i32 + 3;
+    let small = m.map(|row| row.map(|x| x * t / 2f64.powi(halvings)));
+    let product = |a: &Matrix, b: &Matrix| {
+        [0, 1, 2].map(|i| [0, 1, 2].map(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
+    };
+    let one = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let (mut term, mut all) = (one, one);
+    for k in 1..18 {
+        term = product(&term, &small).map(|row: Vector| row.map(|x| x / f64::from(k)));
+        (0..3).for_each(|i| all[i] = plus(&all[i], 1.0, &term[i]));
+    }
+    (0..halvings).for_each(|_| all = product(&all, &all));
+    all
+}
+
+fn adaptive(
+    motion: &Motion,
+    tableau: &Tableau,
+    other: &[f64],
+    mut x: Vector,
+    end_s: f64,
+    tolerance: f64,
+) -> Vector {
+    let (mut t, mut h) = (0.0, end_s / 1e4);
+    let order = f64::from(tableau.order);
+    let mut k = Vec::new();
+    // A step that is not taken is a step too: nothing here runs for ever.
+    for _ in 0..100_000_000u64 {
+        if t >= end_s {
+            return x;
+        }
+        h = h.min(end_s - t);
+        stages(motion, tableau, &x, h, &mut k);
+        let next = sum(&x, h, &tableau.b, &k);
+        let estimate = sum(&x, h, other, &k);
+        let scale = |i: usize| tolerance + tolerance * x[i].abs().max(next[i].abs());
+        let error = (0..3).map(|i| ((next[i] - estimate[i]) / scale(i)).powi(2)).sum::<f64>() / 3.0;
+        let error = error.sqrt();
+        if error <= 1.0 {
+            t += h;
+            x = motion.kept(next);
+        }
+        h *= (0.9 * error.powf(-1.0 / order)).clamp(0.2, 5.0);
+        if !(t + h > t) {
+            break;
+        }
+    }
+    if t >= end_s { x } else { [f64::NAN; 3] }
+}

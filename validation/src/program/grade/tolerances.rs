@@ -1,0 +1,58 @@
+//! `--tolerance X` and `--tolerance NAME=X`.
+
+use crate::program::Failure;
+use crate::serve::problems::{Kind, LoadedProblem, tolerances};
+use std::str::FromStr;
+
+/// A tolerance of the user's.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Tolerance {
+    /// The problem; none for all.
+    name: Option<String>,
+    value: f64,
+}
+
+impl FromStr for Tolerance {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (name, number) = match text.split_once('=') {
+            Some((name, number)) => (Some(name.trim().to_owned()), number),
+            None => (None, text),
+        };
+        match number.trim().parse() {
+            Ok(value) if value > 0.0 && value <= 10.0 => Ok(Self { name, value }),
+            _ => Err("a number above 0, or NAME=NUMBER, is allowed".to_owned()),
+        }
+    }
+}
+
+/// The problems with the user's tolerances: that of a problem's name before that of all. One of all is not that of an ensemble,
+/// which counts standard errors, and never lowers a problem's own.
+pub(super) fn with(given: &[Tolerance], problems: Vec<LoadedProblem>) -> Result<Vec<LoadedProblem>, Failure> {
+    let known = |name: &String| problems.iter().any(|loaded| loaded.problem.name == *name);
+    if let Some(name) = given.iter().filter_map(|tolerance| tolerance.name.as_ref()).find(|name| !known(name))
+    {
+        return Err(Failure::Input(format!("--tolerance {name}=...: no problem of this name is graded")));
+    }
+    problems.into_iter().map(|loaded| one(given, loaded)).collect()
+}
+
+fn one(given: &[Tolerance], loaded: LoadedProblem) -> Result<LoadedProblem, Failure> {
+    let (name, kind, own) = (&loaded.problem.name, loaded.problem.kind, loaded.own_tolerance);
+    let of = |name: Option<&String>| given.iter().rev().find(|tolerance| tolerance.name.as_ref() == name);
+    let all = of(None).filter(|_| kind != Kind::Ensemble);
+    let Some(Tolerance { name: named, value }) = of(Some(name)).or(all) else {
+        return Ok(loaded);
+    };
+    let value = *value;
+    let [_, most] = tolerances(kind);
+    let allowed = match named {
+        Some(_) if value < own => format!(
+            "its own tolerance is {own:e}, which a right code in double precision reaches; at least that is allowed"
+        ),
+        _ if value > most => format!("{most} at most is allowed: with more, wrong answers would pass"),
+        _ => return Ok(loaded.with_tolerance(value)),
+    };
+    Err(Failure::Input(format!("--tolerance {value:e} for {name}: {allowed}")))
+}

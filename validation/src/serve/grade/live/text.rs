@@ -1,0 +1,102 @@
+//! Requests and answers as lines of numbers apart by blanks, for programs without JSON (`docs/src/user/grading.md`).
+
+use super::pipe::excerpt;
+use super::protocol::{Answer, Request};
+
+/// The request as one line: `id`, the nine ∂u_i/∂x_j row by row, r_e, the time in s, the number of steps or 0, the tolerance
+/// or 0, the number of rods, and three numbers for each rod.
+pub fn write(request: &Request<'_>) -> String {
+    let gradient = request.gradient_per_s.iter().flatten();
+    let numbers = gradient.chain([&request.aspect_ratio, &request.end_s]);
+    let mut line = request.id.to_string();
+    numbers.for_each(|number| line += &format!(" {number:e}"));
+    let (steps, tolerance) = (request.steps.unwrap_or(0), request.tolerance.unwrap_or(0.0));
+    line += &format!(" {steps} {tolerance:e} {}", request.start.len());
+    request.start.iter().flatten().for_each(|number| line += &format!(" {number:e}"));
+    line
+}
+
+/// Reads the answer to the request `id` about so many rods: `id` and three numbers for each rod, or `id error REASON`.
+/// `Err` says what is wrong with the line.
+pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
+    let mut words = line.split_ascii_whitespace();
+    let first = words.next().ok_or("it is empty")?;
+    match first.parse::<u64>() {
+        Ok(found) if found == id => {}
+        Ok(found) => return Err(format!("it answers id {found} where {id} was asked")),
+        Err(_) => return Err(format!("it does not begin with the request's id: {}", excerpt(line))),
+    }
+    let rest: Vec<_> = words.collect();
+    if rest.first() == Some(&"error") {
+        return Ok(Answer::Error(rest[1..].join(" ")));
+    }
+    if rest.len() != 3 * rods {
+        let found = rest.len();
+        return Err(format!("{found} numbers after the id where {} were asked ({rods} rods)", 3 * rods));
+    }
+    let numbers: Vec<f64> = rest.iter().map(|word| number(word)).collect::<Result<_, _>>()?;
+    Ok(Answer::Directions(numbers.chunks(3).map(|p| [p[0], p[1], p[2]]).collect()))
+}
+
+/// A number as C, C++, Fortran, Julia, Octave and Python print it. What is not finite is NaN.
+fn number(word: &str) -> Result<f64, String> {
+    let wrong = || format!("{} is no number", excerpt(word));
+    // Fortran's double precision: 1.0D-3.
+    let number: f64 = word.replace(['D', 'd'], "e").parse().map_err(|_| wrong())?;
+    let written_out = word.bytes().any(|byte| byte.is_ascii_digit());
+    match number.is_finite() {
+        true => Ok(number),
+        false if written_out => Err(format!("{} is too large for a double", excerpt(word))),
+        false => Ok(f64::NAN),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_request_is_one_line_in_the_documented_form() {
+        let request = Request {
+            id: 7,
+            gradient_per_s: &[[0.0; 3], [0.5, 0.0, 0.0], [0.0, 0.0, -1e-7]],
+            aspect_ratio: 11.6,
+            start: &[[1.0, 0.0, 0.0], [0.6, 0.8, 0.0]],
+            end_s: 2.0,
+            steps: Some(64),
+            tolerance: None,
+        };
+        let expected =
+            "7 0e0 0e0 0e0 5e-1 0e0 0e0 0e0 0e0 -1e-7 1.16e1 2e0 64 0e0 2 1e0 0e0 0e0 6e-1 8e-1 0e0";
+        assert_eq!(write(&request), expected);
+        let request = Request { steps: None, tolerance: Some(1e-6), ..request };
+        assert_eq!(write(&request), expected.replace(" 64 0e0 ", " 0 1e-6 "));
+    }
+
+    #[test]
+    fn answers_are_read_and_whatever_else_is_refused_with_its_reason() {
+        let p = |x: f64| Ok(Answer::Directions(vec![[1.0, x, -2.5]]));
+        for line in ["3 1 0.125 -2.5", " 3  1.0\t1.25E-01 -2.5 ", "3 1.D0 0.125d0 -25.0D-1\r"] {
+            assert_eq!(read(line, 3, 1), p(0.125), "{line}");
+        }
+        for word in ["NaN", "nan", "-inf", "Infinity", "-Infinity"] {
+            let Ok(Answer::Directions(p)) = read(&format!("3 1 {word} -2.5"), 3, 1) else { panic!("{word}") };
+            assert!(p[0][1].is_nan() && p[0][2] == -2.5);
+        }
+        assert_eq!(read("3 error too stiff", 3, 1), Ok(Answer::Error("too stiff".into())));
+        for (line, reason) in [
+            ("", "empty"),
+            ("step 1 of 10", "does not begin with the request's id"),
+            ("4 1 0 0", "answers id 4 where 3 was asked"),
+            ("3.0 1 0 0", "does not begin with"),
+            ("3 1 0", "2 numbers after the id where 3 were asked (1 rods)"),
+            ("3 1 0 0 0", "4 numbers"),
+            ("3 1 0 x", "`x` is no number"),
+            ("3 1 0 1e400", "too large"),
+            ("3 1 0 ********", "no number"),
+        ] {
+            let found = read(line, 3, 1).unwrap_err();
+            assert!(found.contains(reason), "{line}: {found}");
+        }
+    }
+}

@@ -1,0 +1,259 @@
+//! The order with which errors fall, and what it says about one that is claimed.
+//!
+//! Orders are read between neighbours of a ladder of ever more steps, from where the method follows the motion down to
+//! round-off: a hundredth of the tolerance, which allows for 10 ε^(4/5) a radian, or the first error below the tolerance that no
+//! longer falls. There a right method's order wanders (rods or error terms take turns as the largest) and comes to the
+//! claimed one from either side, or to a higher one where a problem has no such error term. A wrong coefficient takes away
+//! whole orders, and what is left settles. So an order is refuted by two pairs in a row that agree and are nearly a whole order
+//! lower, and by nothing else. `examples/graded_integrators` holds this against several hundred integrators.
+
+use super::{Graded, Verdict};
+use crate::serve::problems::LoadedProblem;
+use serde::Serialize;
+
+/// How far an observed order may be from the one claimed, and two orders from each other that agree.
+pub const ORDER_TOLERANCE: f64 = crate::studies::work_precision::order::ORDER_TOLERANCE;
+
+/// A whole order, but for what is missing from it before it has settled.
+const WHOLE: f64 = 0.8;
+
+/// An error in rad above which a method does not follow the motion yet.
+const FOLLOWS: f64 = 0.1;
+
+/// The part of a problem's own tolerance below which differences of errors are round-off. Between that and the tolerance a
+/// right code may have met its round-off.
+const ROUND_OFF: f64 = 0.01;
+
+/// Round-off does not fall with this order, however many steps there are: what does is a method's error.
+const NO_ROUND_OFF: f64 = 1.5;
+
+/// An error in rad that follows the motion closely.
+const CLOSE: f64 = 0.01;
+
+/// What a ladder says about a claimed order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Order {
+    /// A pair, or the mean of the last few, has it.
+    Seen,
+    /// Lower by whole orders: the method is not what is claimed.
+    Lower,
+    /// Higher by whole orders, settled: the claim is too low, or the problem does not have the error term.
+    Higher,
+    /// Too few pairs above round-off, or orders that still wander.
+    Unclear,
+}
+
+/// The orders of a ladder, from coarse to fine, that are no round-off and follow the motion.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Orders {
+    /// Between each two neighbours; none where an error is 0 or not finite.
+    pub all: Vec<Option<f64>>,
+    /// Those that count, each with its finer error.
+    usable: Vec<(f64, f64)>,
+    /// The problem's own tolerance.
+    tolerance: f64,
+    /// Finer steps would show round-off alone.
+    pub ended: bool,
+}
+
+/// Reads the orders off errors (steps, error) from coarse to fine, of a problem with this tolerance of its own.
+pub fn orders(errors: &[(u64, f64)], tolerance: f64) -> Orders {
+    let order = |pair: &[(u64, f64)]| {
+        let order = (pair[0].1 / pair[1].1).ln() / (pair[1].0 as f64 / pair[0].0 as f64).ln();
+        order.is_finite().then_some(order)
+    };
+    let all: Vec<_> = errors.windows(2).map(order).collect();
+    let mut found = Orders { all, tolerance, ..Orders::default() };
+    for (pair, order) in errors.windows(2).zip(&found.all) {
+        let (coarse, fine) = (pair[0].1, pair[1].1);
+        if coarse <= ROUND_OFF * tolerance || fine <= ROUND_OFF * tolerance {
+            found.ended = true;
+            break;
+        }
+        match order {
+            // It has stopped falling, and the pair before has met round-off too.
+            Some(order) if coarse <= tolerance && *order < 0.5 => {
+                found.usable.pop();
+                found.ended = true;
+                break;
+            }
+            Some(order) if coarse < FOLLOWS => found.usable.push((*order, fine)),
+            _ => found.usable.clear(),
+        }
+    }
+    found
+}
+
+impl Orders {
+    /// The observed order with its sign: the last that counts, or the one before where that is nearer to the claimed one.
+    pub fn observed(&self, claimed: Option<f64>) -> Option<f64> {
+        let last = self.usable.iter().rev().take(2).map(|(order, _)| *order);
+        match claimed {
+            None => self.usable.last().map(|(order, _)| *order),
+            Some(claimed) => last.min_by(|a, b| (a - claimed).abs().total_cmp(&(b - claimed).abs())),
+        }
+    }
+
+    /// What is to be said of a claimed order.
+    pub fn judged(&self, claimed: f64) -> Order {
+        let agree = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).abs() < ORDER_TOLERANCE;
+        if let [.., before, newest] = self.certain()
+            && agree(*before, *newest)
+            && before.0.max(newest.0) <= claimed - WHOLE
+        {
+            return Order::Lower;
+        }
+        if let [.., before, newest] = self.usable[..]
+            && agree(before, newest)
+            && before.0.min(newest.0) >= claimed + WHOLE
+        {
+            return Order::Higher;
+        }
+        // Where orders wander, the mean over the last few pairs has the errors' fall without their waves.
+        let last: Vec<f64> = self.usable.iter().rev().take(4).map(|(order, _)| *order).collect();
+        let means = (1..=last.len()).map(|few| last[..few].iter().sum::<f64>() / few as f64);
+        let seen = means.chain(last.get(1).copied()).any(|order| (order - claimed).abs() < ORDER_TOLERANCE);
+        if seen { Order::Seen } else { Order::Unclear }
+    }
+
+    /// The pairs that are certainly no round-off: above the problem's own tolerance, or falling fast.
+    fn certain(&self) -> &[(f64, f64)] {
+        let certain = |(order, error): &&(f64, f64)| *error > self.tolerance || *order > NO_ROUND_OFF;
+        &self.usable[..self.usable.iter().take_while(certain).count()]
+    }
+
+    /// Whether three pairs in a row say already that the order is too low, whatever finer steps would show.
+    pub fn refuted_early(&self, claimed: f64) -> bool {
+        let Some(last) = self.certain().last_chunk::<3>() else {
+            return false;
+        };
+        let orders = last.map(|(order, _)| order);
+        let (least, most) =
+            orders.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (x.min(a), x.max(b)));
+        most <= claimed - WHOLE && most - least < ORDER_TOLERANCE && last[2].1 < CLOSE
+    }
+}
+
+/// What is wrong with an order, in words.
+pub fn lower(observed: Option<f64>, claimed: f64) -> String {
+    let observed = observed.map_or("–".into(), |order| format!("{order:+.2}"));
+    format!("observed order {observed} where {claimed} is claimed")
+}
+
+/// A claim that is too low on every problem that shows an order is wrong; one that some problem shows is right, and others
+/// have no error term of that order.
+pub fn settle(problems: &[LoadedProblem], graded: &mut [Graded], claimed: Option<f64>) {
+    let Some(claimed) = claimed else {
+        return;
+    };
+    let shown = graded.iter().any(|graded| graded.order_found == Some(Order::Seen));
+    for graded in graded.iter_mut() {
+        if graded.order_found != Some(Order::Higher) || graded.verdict != Verdict::Pass {
+            continue;
+        }
+        let of = problems.iter().find(|loaded| loaded.problem.name == graded.name);
+        if shown || of.is_some_and(in_the_shear_plane) {
+            let observed = graded.order_text();
+            graded.note =
+                Some(format!("observed order {observed}: this problem has no error of order {claimed}"));
+        } else {
+            graded.verdict = Verdict::Fail;
+            graded.note = Some(lower(graded.observed_order, claimed));
+        }
+    }
+}
+
+/// Where a claimed order was seen, and where it is not clear, in a sentence; none without a claim.
+pub fn remark(graded: &[Graded], claimed: Option<f64>) -> Option<String> {
+    let claimed = claimed?;
+    let found = |order: Order| -> Vec<&str> {
+        let of = graded.iter().filter(|graded| graded.order_found == Some(order));
+        of.map(|graded| graded.name.as_str()).collect()
+    };
+    let (seen, unclear) = (found(Order::Seen), found(Order::Unclear));
+    let mut said = format!("order {claimed} is seen on {} of {} problems", seen.len(), graded.len());
+    if !unclear.is_empty() {
+        let names = unclear.join(", ");
+        said += &format!("; too few errors above round-off, or orders that still wander, on {names}");
+    }
+    Some(said)
+}
+
+/// There a rod has a phase alone, whose error is of one order more where a method is linear.
+fn in_the_shear_plane(loaded: &LoadedProblem) -> bool {
+    loaded.start.iter().all(|p| p[2] == 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(errors: &[f64]) -> Orders {
+        let errors: Vec<_> = (0..).map(|k| 10u64 << k).zip(errors.iter().copied()).collect();
+        orders(&errors, 1e-8)
+    }
+
+    /// Errors that fall from 0.01 by these orders.
+    fn falling(orders: &[f64]) -> Orders {
+        let mut errors = vec![0.01];
+        errors.extend(orders.iter().scan(0.01, |error, order| {
+            *error *= 2f64.powf(-order);
+            Some(*error)
+        }));
+        of(&errors)
+    }
+
+    #[test]
+    fn an_order_has_its_sign_and_needs_two_errors_above_round_off() {
+        let observed = |errors: &[f64]| of(errors).observed(None).map(|order| (order * 1e6).round() / 1e6);
+        assert_eq!(observed(&[1e-2, 1e-2 / 16.0, 1e-12]), Some(4.0));
+        assert_eq!(observed(&[1e-3, 2e-3, 4e-3]), Some(-1.0), "it diverges");
+        assert_eq!(observed(&[1e-3, 1e-12, 1e-3]), None);
+        assert_eq!(observed(&[1e-12, 1e-13]), None);
+        assert_eq!(observed(&[f64::NAN, 1e-3]), None);
+        assert_eq!(observed(&[1e-3]), None);
+        assert_eq!(observed(&[1.0, 0.5, 1e-3]), None, "it does not follow the motion yet");
+        assert_eq!(observed(&[8e-9, 1e-9, 9e-10]), None, "it meets round-off below the tolerance");
+        let uneven = orders(&[(100, 1e-2), (300, 1e-2 / 9.0)], 1e-9);
+        assert!((uneven.observed(None).unwrap() - 2.0).abs() < 1e-12 && uneven.all.len() == 1);
+    }
+
+    #[test]
+    fn what_right_methods_show_is_not_refuted_and_lost_orders_are() {
+        for (orders, claimed, expected) in [
+            (&[4.5, 4.3, 4.1, 4.05][..], 4.0, Order::Seen),
+            // RK4 with p/|p| on the disc: the mean.
+            (&[5.57, 3.53], 4.0, Order::Unclear),
+            (&[3.5, 3.53, 3.8], 4.0, Order::Unclear),
+            (&[3.5, 3.6, 3.81], 4.0, Order::Seen),
+            // Cash and Karp's: an error term that changes sign.
+            (&[7.8, 3.2, 4.3], 5.0, Order::Seen),
+            (&[2.5, 2.6], 3.0, Order::Unclear),
+            (&[3.0], 3.0, Order::Seen),
+            (&[1.0], 3.0, Order::Unclear),
+            (&[4.0, 1.0, 1.0], 4.0, Order::Lower),
+            (&[3.9, 3.1, 3.0, 3.0], 4.0, Order::Lower),
+            (&[-1.0, -1.0], 4.0, Order::Lower),
+            (&[4.0, 4.0], 3.0, Order::Higher),
+            (&[5.9, 5.8, 5.6], 5.0, Order::Unclear),
+            // To 1e-10, a hundredth of the tolerance: round-off, and a method of order 7.
+            (&[5.0, 5.0, 5.0, 5.0, 5.0, 1.0, 0.9], 5.0, Order::Seen),
+            (&[7.0, 7.1, 7.0], 8.0, Order::Lower),
+            (&[], 3.0, Order::Unclear),
+        ] {
+            assert_eq!(falling(orders).judged(claimed), expected, "{orders:?} {claimed}");
+        }
+        assert!(falling(&[1.0, 1.0, 1.05]).refuted_early(4.0));
+        assert!(!falling(&[1.0, 1.0, 1.3]).refuted_early(4.0), "it rises");
+        assert!(!falling(&[1.0, 1.0, 1.0]).refuted_early(1.0));
+        assert!(!falling(&[3.3, 3.35, 3.4]).refuted_early(4.0), "before it has settled");
+    }
+
+    #[test]
+    fn of_two_orders_the_nearer_to_the_claim_is_named() {
+        let found = falling(&[3.0, 4.0, 4.4]);
+        assert!((found.observed(Some(4.0)).unwrap() - 4.0).abs() < 1e-9);
+        assert!((found.observed(None).unwrap() - 4.4).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,111 @@
+//! The templates of `peers/templates`: each is compiled where its tool is there, and graded over the text protocol.
+
+use crate::grading::{Graded, graded};
+use crate::programs::{peers, python, run, runs, skipped};
+use std::path::{Path, PathBuf};
+
+const PROBLEMS: [&str; 3] = ["mid-flip-2", "disc-0.1", "spiral"];
+
+fn judged(command: &str, more: &[&str]) -> Graded {
+    let problems = PROBLEMS.map(|name| ["--problem", name]);
+    let asked = ["--protocol", "text", "--command", command, "--order", "4", "--timeout", "100000"];
+    graded(&[&asked[..], more, problems.as_flattened()].concat())
+}
+
+/// RK4 passes with its order, and the same with a wrong weight fails.
+fn holds(name: &str, command: &str) {
+    let found = judged(command, &["--brief"]);
+    assert_eq!(found.code, Some(0), "{name}: {}", found.words);
+    for problem in PROBLEMS {
+        assert_eq!(found.of(problem)["order_found"], "seen", "{name}: {}", found.words);
+    }
+}
+
+fn template(name: &str) -> PathBuf {
+    peers().join("templates").join(name)
+}
+
+/// Compiles a template, perhaps with one text replaced, and says how to start it.
+fn compiled(compiler: &str, file: &str, dir: &Path, change: Option<(&str, &str)>) -> String {
+    let mut text = std::fs::read_to_string(template(file)).unwrap();
+    if let Some((old, new)) = change {
+        assert!(text.contains(old), "{file}: {old}");
+        text = text.replace(old, new);
+    }
+    let (source, program) = (dir.join(file), dir.join("program"));
+    std::fs::write(&source, text).unwrap();
+    run(compiler, &[Path::new("-O2"), Path::new("-o"), &program, &source, Path::new("-lm")]);
+    format!("'{}'", program.display())
+}
+
+#[test]
+fn compiled_templates_pass_and_with_a_wrong_coefficient_fail() {
+    for (compiler, file, old, new) in [
+        ("cc", "my_code.c", "2 * k[1][i]", "1.8 * k[1][i]"),
+        ("c++", "my_code.cpp", "2 * k2[i]", "1.8 * k2[i]"),
+        ("gfortran", "my_code.f90", "2*k2", "1.8d0*k2"),
+    ] {
+        if !runs(compiler, &["--version"]) {
+            skipped(file, &format!("no {compiler}"));
+            continue;
+        }
+        let dir = tempfile::tempdir().unwrap();
+        holds(file, &compiled(compiler, file, dir.path(), None));
+        let wrong = judged(&compiled(compiler, file, dir.path(), Some((old, new))), &["--brief"]);
+        assert_eq!(wrong.code, Some(1), "{file}: {}", wrong.words);
+        for problem in PROBLEMS {
+            assert_eq!(wrong.verdict(problem), "FAIL", "{file}: {}", wrong.words);
+        }
+        // (1 + 1.8 + 2 + 1)/6 of each step.
+        let said = &wrong.grade.as_ref().unwrap()["diagnosis"][0];
+        assert!(
+            said.as_str().is_some_and(|said| said.starts_with("your time runs at 0.967")),
+            "{}",
+            wrong.words
+        );
+    }
+}
+
+#[test]
+fn interpreted_templates_pass() {
+    for (tool, there, file, command) in [
+        ("python3", python("sys"), "my_code.py", "{tool} {file}"),
+        ("julia", runs("julia", &["--version"]).then(|| "julia".to_owned()), "my_code.jl", "{tool} {file}"),
+        (
+            "octave-cli",
+            runs("octave-cli", &["--version"]).then(|| "octave-cli".to_owned()),
+            "my_code.m",
+            "{tool} --quiet {file}",
+        ),
+    ] {
+        let Some(found) = there else {
+            skipped(file, &format!("no {tool}"));
+            continue;
+        };
+        let file_word = format!("'{}'", template(file).display());
+        holds(file, &command.replace("{tool}", &format!("'{found}'")).replace("{file}", &file_word));
+    }
+}
+
+/// The studies of a program that runs speak the text protocol too, and so does the echo that the pipe's cost is taken from.
+#[test]
+fn the_studies_speak_the_text_protocol() {
+    if !runs("cc", &["--version"]) {
+        return skipped("my_code.c", "no cc");
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let found = judged(&compiled("cc", "my_code.c", dir.path(), None), &[]);
+    assert_eq!(found.code, Some(0), "{}", found.words);
+    let live = &found.grade.as_ref().unwrap()["live"];
+    assert!(
+        live["work_precision"]["pipe_s"].as_f64().is_some_and(|seconds| seconds > 0.0),
+        "{}",
+        found.words
+    );
+    assert!(live["map"].is_array(), "{}", found.words);
+    let longest =
+        found.words.lines().filter(|line| !line.starts_with("report:")).map(|line| line.chars().count());
+    assert!(longest.max().unwrap() <= 80, "{}", found.words);
+    let other = graded(&["--protocol", "xml", "--command", "true"]);
+    assert!(other.code == Some(2) && other.words.contains("json and text are allowed"), "{}", other.words);
+}
