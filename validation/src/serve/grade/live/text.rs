@@ -2,7 +2,6 @@
 
 use super::pipe::excerpt;
 use super::protocol::{Answer, Request};
-use std::fmt::Write;
 
 /// The request as one line: `id`, the nine ∂u_i/∂x_j row by row, r_e, the time in s, the number of steps or 0, the tolerance
 /// or 0, the number of rods, and three numbers for each rod.
@@ -10,11 +9,14 @@ pub fn write(request: &Request<'_>) -> String {
     let gradient = request.gradient_per_s.iter().flatten();
     let numbers = gradient.chain([&request.aspect_ratio, &request.end_s]);
     let mut line = request.id.to_string();
-    // Writing to a string does not fail.
-    numbers.for_each(|number| drop(write!(line, " {number:e}")));
+    for number in numbers {
+        line += &format!(" {number:e}");
+    }
     let (steps, tolerance) = (request.steps.unwrap_or(0), request.tolerance.unwrap_or(0.0));
-    drop(write!(line, " {steps} {tolerance:e} {}", request.start.len()));
-    request.start.iter().flatten().for_each(|number| drop(write!(line, " {number:e}")));
+    line += &format!(" {steps} {tolerance:e} {}", request.start.len());
+    for number in request.start.iter().flatten() {
+        line += &format!(" {number:e}");
+    }
     line
 }
 
