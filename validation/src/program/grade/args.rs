@@ -55,7 +55,7 @@ pub(crate) struct Args {
     pub(super) windows_text: bool,
     /// The largest error that passes, where the problems' own is smaller: a production code's target. NAME=X for one problem;
     /// can be given more than once
-    #[arg(long = "tolerance", value_name = "X|NAME=X", allow_negative_numbers = true)]
+    #[arg(long = "tolerance", value_name = "X|NAME=X", allow_hyphen_values = true)]
     pub(super) tolerances: Vec<Tolerance>,
     /// The order that the program's error is said to have: an order that is lower by whole orders fails
     #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]

@@ -172,9 +172,12 @@ pub fn terminal(report: &Report) -> String {
         let numbers = [number(graded.error), number(Some(graded.tolerance)), graded.order_text()];
         [vec![graded.verdict.word().to_owned(), name], numbers.into(), vec![graded.setting_text()]].concat()
     };
+    let title = format!("{} on {}", report.answers, report.reference);
+    // Two blanks in a row are a table's.
+    let title = title.split_whitespace().collect::<Vec<_>>().join(" ");
     let table = of_words(
         "grade",
-        &format!("{} on {}", report.answers, report.reference),
+        &title,
         &format!("{}.", report.headline()),
         &["verdict", "problem", "error", "tolerance", "order", "setting"],
         report.problems.iter().filter(answered).map(row).collect(),

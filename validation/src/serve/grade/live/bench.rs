@@ -116,7 +116,7 @@ impl Bench {
             }));
             let best = curve.best().filter(|point| point.errors.is_some());
             row.push(best.map_or("failed".into(), |point| format!("{:.1e}", point.error_rad())));
-            row.push(format!("{} of {}", curve.failures(), curve.points.len()));
+            row.push(format!("{}/{}", curve.failures(), curve.points.len()));
             row
         };
         let program = row(&self.without_pipe(), PROGRAM.to_owned());

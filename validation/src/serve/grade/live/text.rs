@@ -9,10 +9,14 @@ pub fn write(request: &Request<'_>) -> String {
     let gradient = request.gradient_per_s.iter().flatten();
     let numbers = gradient.chain([&request.aspect_ratio, &request.end_s]);
     let mut line = request.id.to_string();
-    numbers.for_each(|number| line += &format!(" {number:e}"));
+    for number in numbers {
+        line += &format!(" {number:e}");
+    }
     let (steps, tolerance) = (request.steps.unwrap_or(0), request.tolerance.unwrap_or(0.0));
     line += &format!(" {steps} {tolerance:e} {}", request.start.len());
-    request.start.iter().flatten().for_each(|number| line += &format!(" {number:e}"));
+    for number in request.start.iter().flatten() {
+        line += &format!(" {number:e}");
+    }
     line
 }
 
