@@ -10,6 +10,7 @@ use crate::studies::coefficients::{self, Diffusing, Diffusion, Means, Setting};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 use shearbed::model::jeffery::shape_factor;
+use shearbed::scene::Update;
 
 pub fn cases() -> Vec<Case> {
     vec![
@@ -72,7 +73,8 @@ fn seven(read: &fn(f64) -> f64, effort: &Effort) -> Vec<Evidence> {
     let samples = effort.samples(rise).max(effort.samples(gap));
     let model = OF_MODEL.get(effort, (), || {
         [0.02, 1.0].map(|n_a3| {
-            let setting = Setting { n_a3, aspect_ratio: 11.6, alpha: 0.5, finer: 4 };
+            let setting =
+                Setting { n_a3, aspect_ratio: 11.6, alpha: 0.5, update: Update::Rotation, finer: 4 };
             let mut scene = coefficients::scene(setting, effort);
             scene.time.duration = 8.0;
             let windows = coefficients::windows(&scene, samples);
@@ -163,7 +165,7 @@ fn no_diffusion(turned: &Turned, effort: &Effort) -> Vec<Evidence> {
     let (far, near, orbits) = (Design::new(0.0075, 0.0019), Design::new(0.6, 0.01), Design::new(0.23, 0.062));
     let samples = [far, near, orbits].map(|design| effort.samples(design));
     let samples = samples.into_iter().fold(0, u64::max);
-    let setting = Setting { n_a3: 0.5, aspect_ratio: 11.6, alpha: 0.5, finer: 2 };
+    let setting = Setting { n_a3: 0.5, aspect_ratio: 11.6, alpha: 0.5, update: Update::Rotation, finer: 2 };
     let scene = coefficients::scene(setting, effort);
     // Orbits are steady after four periods to a tenth of what is seen; kicks are from the first on.
     let watch = Watch::new(&scene, 4.0, 1.0);

@@ -218,7 +218,7 @@ fn in_a_box(scene: &mut Scene, sides: [f64; 3]) {
 
 /// Two units of strain in a flow with this gradient.
 fn in_a_flow(scene: &mut Scene, gradient_per_s: [[f64; 3]; 3]) {
-    scene.flow = scene::Flow::Gradient { gradient_per_s: gradient_per_s };
+    scene.flow = scene::Flow::Gradient { gradient_per_s };
     scene.time = scene::Time { steps_per_unit: Some(10), ..scene::Time::strain(2.0) };
 }
 

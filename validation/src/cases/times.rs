@@ -115,7 +115,7 @@ fn strained(effort: &Effort) -> Vec<Expected> {
     [(extension(0.5), 0.5 * 3f64.sqrt()), (extension(-7.0), 7.0 * 3f64.sqrt()), (shear(0.3), 0.3)]
         .map(|(gradient_per_s, rate_per_s)| {
             let scene = changed(free_scene(effort), |scene| {
-                scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s: gradient_per_s };
+                scene.flow = shearbed::scene::Flow::Gradient { gradient_per_s };
                 scene.time = shearbed::scene::Time::strain(2.0);
             });
             (scene, [1.0 / rate_per_s, 1.0])

@@ -46,7 +46,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     let change = |row: &ReadingRow| row.changes.as_ref().map_or(0.0, |changes| changes[0].value.abs());
     let largest = rows.iter().max_by(|a, b| change(a).total_cmp(&change(b)));
     let answer = largest.map_or(String::new(), |row| {
-        format!("X̄₁ at t/T = 1 changes most, by {:.3}, with {}: {}.", change(&row), row.open, row.reading)
+        format!("X̄₁ at t/T = 1 changes most, by {:.3}, with {}: {}.", change(row), row.open, row.reading)
     });
     Ok(Some(Findings::new(answer, vec![table(&rows).into()], [])))
 }

@@ -10,7 +10,7 @@ use serde::Serialize;
 use shearbed::Observable;
 use shearbed::model::jeffery::{shape_factor, strain_per_period};
 use shearbed::observable::Channel;
-use shearbed::scene::Scene;
+use shearbed::scene::{Scene, Update};
 
 /// A suspension.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -21,43 +21,58 @@ pub struct Setting {
     pub aspect_ratio: f64,
     /// α, with m = 3.
     pub alpha: f64,
+    /// How a colliding rod takes its step.
+    pub update: Update,
     /// Time steps over those that resolve the motion.
     pub finer: u64,
 }
 
-const fn setting(n_a3: f64, aspect_ratio: f64, alpha: f64, finer: u64) -> Setting {
-    Setting { n_a3, aspect_ratio, alpha, finer }
+const fn kick(n_a3: f64, aspect_ratio: f64, alpha: f64, finer: u64) -> Setting {
+    Setting { n_a3, aspect_ratio, alpha, update: Update::Kick, finer }
 }
 
-/// The suspensions of `shearbed bench`: the time step first, then the rest at the step [`Amount`] says.
-const FULL: [Setting; 16] = [
-    setting(0.2, 11.6, 0.5, 1),
-    setting(0.2, 11.6, 0.5, 2),
-    setting(0.2, 11.6, 0.5, 4),
-    setting(0.2, 11.6, 0.5, 8),
-    setting(0.2, 11.6, 0.5, 16),
-    setting(0.2, 11.6, 0.5, 32),
-    setting(0.05, 11.6, 0.5, 8),
-    setting(0.1, 11.6, 0.5, 8),
-    setting(0.5, 11.6, 0.5, 8),
-    setting(1.0, 11.6, 0.5, 8),
-    setting(0.2, 5.0, 0.5, 8),
-    setting(0.2, 20.0, 0.5, 8),
-    setting(0.2, 30.0, 0.5, 8),
-    setting(0.2, 11.6, 0.25, 8),
-    setting(0.2, 11.6, 1.0, 8),
-    setting(0.2, 11.6, 2.0, 8),
+/// The suspension of which updates and time steps are compared.
+const fn stepped(update: Update, finer: u64) -> Setting {
+    Setting { update, ..kick(0.2, 11.6, 0.5, finer) }
+}
+
+/// The suspensions of `shearbed bench`: updates and time steps first, then the rest at the step that [`Amount`] names.
+const FULL: [Setting; 22] = [
+    kick(0.2, 11.6, 0.5, 1),
+    kick(0.2, 11.6, 0.5, 2),
+    kick(0.2, 11.6, 0.5, 4),
+    kick(0.2, 11.6, 0.5, 8),
+    kick(0.2, 11.6, 0.5, 16),
+    kick(0.2, 11.6, 0.5, 32),
+    stepped(Update::Rotation, 1),
+    stepped(Update::Rotation, 4),
+    stepped(Update::Rotation, 32),
+    stepped(Update::Angles, 1),
+    stepped(Update::Angles, 4),
+    stepped(Update::Angles, 32),
+    kick(0.05, 11.6, 0.5, 4),
+    kick(0.1, 11.6, 0.5, 4),
+    kick(0.5, 11.6, 0.5, 4),
+    kick(1.0, 11.6, 0.5, 4),
+    kick(0.2, 5.0, 0.5, 4),
+    kick(0.2, 20.0, 0.5, 4),
+    kick(0.2, 30.0, 0.5, 4),
+    kick(0.2, 11.6, 0.25, 4),
+    kick(0.2, 11.6, 1.0, 4),
+    kick(0.2, 11.6, 2.0, 4),
 ];
 
 /// Those of the report.
-const QUICK: [Setting; 7] = [
-    setting(0.2, 11.6, 0.5, 1),
-    setting(0.2, 11.6, 0.5, 4),
-    setting(0.1, 11.6, 0.5, 4),
-    setting(0.5, 11.6, 0.5, 4),
-    setting(1.0, 11.6, 0.5, 4),
-    setting(0.2, 5.0, 0.5, 4),
-    setting(0.2, 11.6, 1.0, 4),
+const QUICK: [Setting; 9] = [
+    kick(0.2, 11.6, 0.5, 1),
+    kick(0.2, 11.6, 0.5, 4),
+    stepped(Update::Rotation, 1),
+    stepped(Update::Rotation, 4),
+    kick(0.1, 11.6, 0.5, 4),
+    kick(0.5, 11.6, 0.5, 4),
+    kick(1.0, 11.6, 0.5, 4),
+    kick(0.2, 5.0, 0.5, 4),
+    kick(0.2, 11.6, 1.0, 4),
 ];
 
 /// How much is measured.
@@ -75,7 +90,7 @@ impl Amount {
     /// For the report.
     pub const QUICK: Self = Self { settings: &QUICK, finer: 4, replicas: 12 };
     /// For `shearbed bench`.
-    pub const FULL: Self = Self { settings: &FULL, finer: 8, replicas: 48 };
+    pub const FULL: Self = Self { settings: &FULL, finer: 4, replicas: 48 };
 }
 
 /// What was found of a suspension.
@@ -127,6 +142,7 @@ pub fn scene(setting: Setting, effort: &Effort) -> Scene {
     let interaction = lab::interaction(&mut scene);
     interaction.concentration_per_cm3 = Some(setting.n_a3 / length_cm.powi(3));
     interaction.alpha = setting.alpha;
+    interaction.update = setting.update;
     scene.time.duration = 2.0 * periods(setting) as f64;
     scene.time.outputs_per_unit = Some(OUTPUTS as u64);
     scene.time.steps_per_unit = Some(setting.finer * scene.resolving_steps());

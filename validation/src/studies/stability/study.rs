@@ -71,7 +71,7 @@ fn ends(subjects: &[Integrator]) -> [ReportTable; 2] {
                  end: &dyn Fn(&Integrator, f64) -> String| {
         let names = which.iter().map(|subject| subject.name.clone());
         let row = |r: f64| {
-            let ends = which.iter().map(|subject| end(*subject, r));
+            let ends = which.iter().map(|subject| end(subject, r));
             std::iter::once(ratio(r)).chain(ends).collect()
         };
         let columns: Vec<_> = std::iter::once("r_e".to_owned()).chain(names).collect();

@@ -113,7 +113,7 @@ fn of_all(aspect_ratio: f64, phi: f64, theta: f64, turns: f64, whose: &str) -> O
             problem.turns
         ),
         studies: (integrators::all().iter())
-            .filter_map(|subject| study(&subject, &problem, &start, doublings))
+            .filter_map(|subject| study(subject, &problem, &start, doublings))
             .collect(),
     }
 }

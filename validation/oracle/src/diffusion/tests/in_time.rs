@@ -40,7 +40,7 @@ fn without_diffusion_rods_are_free() {
     for (gradient, aspect_ratio) in
         [(COUETTE, 3.0), (ASKEW, 0.4), ([[0.0, -0.7, 0.0], [0.2, 0.0, 0.0], [0.0; 3]], 8.0)]
     {
-        let times = [0.4, 1.8];
+        let times = [0.4, 1.2];
         let free = Free { gradient_per_s: gradient, aspect_ratio };
         let error = |motion: &Motion| {
             let found = at(motion, Start::Isotropic, &times).unwrap();
@@ -66,7 +66,7 @@ fn without_diffusion_rods_are_free() {
 #[test]
 fn second_moments_change_by_their_own_equation() {
     let start = |p: [f64; 3]| (1.5 * p[0] * p[2] + p[1] * p[1]).exp();
-    for (gradient, aspect_ratio, c_i) in [(COUETTE, f64::INFINITY, 0.01), (ASKEW, 3.0, 0.1)] {
+    for (gradient, aspect_ratio, c_i) in [(COUETTE, f64::INFINITY, 0.05), (ASKEW, 3.0, 0.1)] {
         let motion = Motion::new(gradient, aspect_ratio, c_i);
         const STEPS: usize = 64;
         let times: [f64; STEPS + 1] = std::array::from_fn(|k| 1.0 + k as f64 / STEPS as f64);
