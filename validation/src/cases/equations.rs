@@ -22,7 +22,7 @@ pub const ALL: [Equation; 35] = [
     eq("7", "collision probability P_c", &["collision.rs: reach"]),
     eq("8", "P_c > R: collision", &["suspension.rs: find_candidates"]),
     eq("9", "P_c < R: no collision", &["suspension.rs: find_candidates"]),
-    eq("10", "P_c with m = 3", &["collision.rs: reach", "scene.rs: three"]),
+    eq("10", "P_c with m = 3", &["collision.rs: reach", "scene.rs: m"]),
     eq("11", "Gaussian aspect ratios", &["rods.rs: draw_shapes"]),
     eq(
         "12",
@@ -117,6 +117,8 @@ mod tests {
                     format!("fn {item}("),
                     format!("fn {item}<"),
                     format!("pub {item}:"),
+                    // A row of a table of keys.
+                    format!("\n        {item}: "),
                     format!("enum {item} "),
                     format!("struct {item}"),
                     format!("    {item},\n"),
