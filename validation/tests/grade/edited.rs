@@ -183,7 +183,9 @@ fn no_value_of_any_key_panics_or_is_taken_silently() {
     std::panic::set_hook(Box::new(|_| {}));
     let mut wrong = Vec::new();
     let (mut refused, mut foreign) = (0, 0);
-    for name in names() {
+    // Problems of diffusing rods are all of one form, but for second and fourth moments.
+    let one_of_a_form = |name: &String| !name.starts_with("folgar-tucker") || name.ends_with("-mixed");
+    for name in names().into_iter().filter(one_of_a_form) {
         for own in [false, true] {
             let dir = tempfile::tempdir().unwrap();
             let reference = some(&dir.path().join("ref"), &[&name]);

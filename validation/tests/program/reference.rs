@@ -167,7 +167,7 @@ fn bad_input_is_refused_with_key_value_and_what_is_allowed() {
         ("--aspect-ratio 3 --times 0:1e308:2 --shear-rate-per-s 1e-9", ["--times", "finite", "allowed"]),
         ("--aspect-ratio inf --times 0:1:2 --unit period", ["--unit", "finite r_e", "allowed"]),
         ("--aspect-ratio inf --constants", ["--constants", "finite", "allowed"]),
-        ("--aspect-ratio -inf --times 0:1:2", ["'-inf'", "--aspect-ratio", "inf"]),
+        ("--aspect-ratio=-inf --times 0:1:2", ["'-inf'", "--aspect-ratio", "inf"]),
         ("--aspect-ratio 3 --times 0:1:2 --c-i -0.1", ["'-0.1'", "--c-i", "1e-9"]),
         ("--aspect-ratio 3 --times 0:1:2 --c-i nan", ["'nan'", "--c-i", "allowed"]),
         ("--aspect-ratio 3 --times -1:1:2 --c-i 0.1", ["--times", "from 0", "allowed"]),
