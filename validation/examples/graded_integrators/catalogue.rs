@@ -55,7 +55,8 @@ fn families() -> Vec<Family> {
     all.push(("ABM4 from RK4".into(), method, Some(4), vec![Raw, Normalised, Angles]));
     let r = 3f64.sqrt();
     let s = 15f64.sqrt();
-    let implicit: [(&str, u32, Vec<Vec<f64>>, Vec<f64>); 6] = [
+    type Tableau = (&'static str, u32, Vec<Vec<f64>>, Vec<f64>);
+    let implicit: [Tableau; 6] = [
         ("implicit Euler", 1, vec![vec![1.0]], vec![1.0]),
         ("implicit midpoint", 2, vec![vec![0.5]], vec![1.0]),
         ("trapezoidal rule", 2, vec![vec![0.0, 0.0], vec![0.5, 0.5]], vec![0.5, 0.5]),

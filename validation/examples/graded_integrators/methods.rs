@@ -364,7 +364,7 @@ fn adaptive(
             x = motion.kept(next);
         }
         h *= (0.9 * error.powf(-1.0 / order)).clamp(0.2, 5.0);
-        if !(t + h > t) {
+        if h.is_nan() || t + h <= t {
             break;
         }
     }
