@@ -34,6 +34,7 @@ fn main() -> ExitCode {
     }
     let trials = vec![
         Trial::test("a_sample_of_right_integrators_has_no_failure", || sample(catalogue::right(), 9)),
+        Trial::test("right_integrators_that_failed_before_have_no_failure", || sample(coarse(), 1)),
         Trial::test("a_sample_of_integrators_with_a_wrong_coefficient_fails", || {
             sample(catalogue::wrong(), 23)
         }),
@@ -73,6 +74,8 @@ fn tolerance(entry: &Entry) -> f64 {
         Some(1) => 1e-2,
         Some(2) => 1e-5,
         Some(3) => 1e-7,
+        // At its smallest tolerance, 1e-14, a pair of order 3 takes millions of steps, and their round-off is above ours.
+        None if entry.name.starts_with("Bogacki") => 1e-9,
         _ => 0.0,
     }
 }
@@ -110,6 +113,12 @@ fn graded(entry: &Entry, problems: &[LoadedProblem], timeout_s: f64) -> Vec<Grad
 
 /// Problems that show what is wrong in moments.
 const QUICK: [&str; 6] = ["mid-flip-2", "spiral", "disc-0.1", "planar-extension", "couette-turned", "poles"];
+
+/// Right, on the problems that show whether answers jump where steps are long.
+fn coarse() -> Vec<Entry> {
+    let known = ["AB3 from Kutta 3 in angles", "Bogacki-Shampine 3(2) in angles"];
+    catalogue::right().into_iter().filter(|entry| known.contains(&entry.name.as_str())).collect()
+}
 
 /// Every n-th of them on the quick problems, without a clock.
 fn sample(entries: Vec<Entry>, every: usize) -> Result<(), Failed> {

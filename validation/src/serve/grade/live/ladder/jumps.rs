@@ -18,6 +18,10 @@ const FAR: f64 = 32.0;
 /// The order where the errors above the tolerance do not show one: of the highest methods in use.
 const HIGHEST: f64 = 8.0;
 
+/// An error in rad of a method that follows the motion closely: before that a right one may lose it from one number of steps to
+/// the next, as AB3 in angles does beside a pole.
+const FOLLOWS: f64 = 1e-3;
+
 /// Of a program that chooses its steps: how many times the errors of both neighbouring tolerances an error may be. The
 /// error of a right one is about proportional to its tolerance, which changes by ten.
 const OUTLIER: f64 = 1000.0;
@@ -127,7 +131,7 @@ fn jump(
         None => ask(Setting::Steps(steps)).map(|rung| capped(&rung)),
     };
     let [bad_error, good_error] = [of(bad, error[0])?, of(good, error[1])?];
-    let jumps = bad_error > FAR * good_error.max(foretold.at(good));
+    let jumps = good_error < FOLLOWS && bad_error > FAR * good_error.max(foretold.at(good));
     Ok(jumps.then(|| {
         format!(
             "with {bad} steps it is off by {bad_error:.1e}, with {good} by {good_error:.1e}: a method's error does not jump \
