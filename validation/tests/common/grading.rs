@@ -85,8 +85,10 @@ impl Graded {
 
 /// The names of all problems.
 pub fn names() -> Vec<String> {
-    let entries = fs::read_dir(REFERENCE.path()).unwrap();
-    entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+    let entries = fs::read_dir(REFERENCE.path()).unwrap().map(Result::unwrap);
+    // Beside them is the record of the export.
+    let folders = entries.filter(|entry| entry.path().is_dir());
+    folders.map(|entry| entry.file_name().into_string().unwrap()).collect()
 }
 
 /// problem.json, and the certified rows with their header.

@@ -65,6 +65,9 @@ impl Best {
     }
 }
 
+/// The variance that is added, over the variance there is, where replicas are too few to tell: it asks for more of them.
+const UNKNOWN: f64 = 99.0;
+
 /// The most rounds in which V follows the best place, and the move of that, in half boxes, below which it stays.
 const ROUNDS: usize = 6;
 const STAYS: f64 = 1e-3;
@@ -94,17 +97,18 @@ pub fn best(data: &[Datum], emulator: &Emulator, rods_over_measured: &[f64]) -> 
     let inverse = covariance.cholesky()?;
     let weighted = inverse.solve(&slopes);
     let told = slopes.tr_mul(&weighted);
+    let projector = inverse.inverse() - &weighted * told.clone().cholesky()?.solve(&weighted.transpose());
     // Without the noise, unless nothing is left then.
     let own = (&told - surface.noise(&place)).cholesky();
     let solver = own.or_else(|| told.cholesky())?;
     let influence = solver.solve(&weighted.transpose());
     let mut spread: Vec<_> =
         (causes.iter()).map(|cause| &influence * cause * influence.transpose()).collect();
-    let projector = inverse.inverse() - &weighted * &influence;
     let scatter =
         scatter_of_covariance(data, emulator, &emulator.covariance(&place), rods_over_measured, &projector);
     let linear = spread.iter().fold(DMatrix::zeros(parameters, parameters), |sum, one| sum + one);
-    spread.push(added(&linear, &(&influence * &scatter * influence.transpose()))?);
-    let excess = (&projector * &scatter).trace() / (data.len() - parameters).max(1) as f64;
+    let hidden = added(&linear, &(&influence * &scatter * influence.transpose()));
+    spread.push(hidden.unwrap_or_else(|| linear * UNKNOWN));
+    let excess = ((&projector * &scatter).trace() / (data.len() - parameters).max(1) as f64).min(1.0);
     Some(Best { place, chi_square, surface, causes, spread, excess, influence })
 }

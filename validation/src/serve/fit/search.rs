@@ -23,6 +23,9 @@ const CLEAR: f64 = 0.2;
 /// From this share on there is no answer.
 const NOTHING_ELSE: f64 = 0.7;
 
+/// The share of χ² that may come from a covariance of few replicas.
+const MOST_EXCESS: f64 = 0.5;
+
 /// The most times that the box changes.
 const MOST_ROUNDS: u64 = 12;
 
@@ -123,6 +126,13 @@ pub fn search(problem: &Problem<'_>, watch: &Watch<'_>) -> Result<Fit, String> {
                     "--over: {:.0} % of what the points seem to tell is the noise of {wanted} replicas at each value; more --replicas, more \
                      rods in the scene, or one parameter less may do",
                     100.0 * fit.feigned()
+                ));
+            }
+            if fit.best.excess > MOST_EXCESS {
+                return Err(format!(
+                    "--replicas: {wanted} are too few for the covariance of {} points; {} or more may do",
+                    problem.measured.data.len(),
+                    4 * problem.measured.data.len()
                 ));
             }
             if let Some(axis) = fit.untold() {
@@ -277,7 +287,18 @@ impl Fit {
     /// parameter's range.
     pub fn interval(&self, axis: usize, confidence: f64) -> Interval {
         let found = interval(&self.best, axis, &self.profiles[axis], rise_of(confidence));
-        Interval { low: self.value(axis, found.low), high: self.value(axis, found.high), ..found }
+        let range = &self.ranges[axis];
+        let (low, high) = self.sides[axis];
+        // To the last digit where the box ends where the range does.
+        let end = |open: bool, side: f64, edge: f64, place: f64| match open && side == range.scaled(edge) {
+            true => edge,
+            false => self.value(axis, place),
+        };
+        Interval {
+            low: end(found.open[0], low, range.from, found.low),
+            high: end(found.open[1], high, range.to, found.high),
+            ..found
+        }
     }
 
     /// Whether every profile rises through the ends of its intervals without a jump, and those of 68 % lie inside those of 95 %.
