@@ -2,7 +2,7 @@
 """Free rods with NumPy: RK4 of q' = A q in equal steps, p = q/|q|. With --euler explicit Euler: of p' = Ap - p (p.Ap) for
 single rods, of q' = A q for means over isotropic ones.
 
-    numpy_rk4.py REF MINE [--euler]    answers every problem of REF in MINE/NAME/steps-N.csv
+    numpy_rk4.py REF MINE [--euler]    answers every problem of REF without diffusion in MINE/NAME/steps-N.csv
     numpy_rk4.py --live [--euler]      answers requests, lines of JSON, until its input ends
 
 Needs numpy alone. Shares nothing with shearbed but the problems' files.
@@ -188,6 +188,8 @@ def main():
     reference, mine = map(Path, arguments)
     for file in sorted(reference.glob("*/problem.json")):
         problem = json.loads(file.read_text())
+        if "c_i" in problem:
+            continue  # rods with rotary diffusion, which single free rods do not answer
         folder = mine / problem["name"]
         folder.mkdir(parents=True, exist_ok=True)
         if problem["kind"] == "rods":

@@ -27,9 +27,11 @@ fn numpy_rk4_passes_with_order_4_and_euler_fails_with_order_1() {
         assert!((rk4.order(name) - 4.0).abs() < 0.2, "{name}: {}", rk4.words);
     }
     let Some(python) = python("numpy") else { return };
-    let ensembles = ["lee-springer", "lee-springer-unequal"];
-    for name in names().iter().filter(|name| !ensembles.contains(&name.as_str())) {
-        assert_eq!(rk4.verdict(name), "PASS", "{}", rk4.words);
+    // Rods that collide or diffuse are not its subject.
+    let others = |name: &&String| name.starts_with("lee-springer") || name.starts_with("folgar-tucker");
+    for name in &names() {
+        let expected = if others(&name) { "MISSING" } else { "PASS" };
+        assert_eq!(rk4.verdict(name), expected, "{name}: {}", rk4.words);
     }
     let mine = dir.path().join("euler");
     run(&python, &[&script, REFERENCE.path(), &mine, Path::new("--euler")]);
@@ -37,14 +39,18 @@ fn numpy_rk4_passes_with_order_4_and_euler_fails_with_order_1() {
     assert_eq!(euler.code, Some(1));
     // Whatever moves; contacts take no steps.
     let still = ["log-rolling", "contact-rule", "contact-angles"];
-    for name in names().iter().filter(|name| !ensembles.contains(&name.as_str())) {
+    for name in names().iter().filter(|name| !others(name)) {
         let expected = if still.contains(&name.as_str()) { "PASS" } else { "FAIL" };
         assert_eq!(euler.verdict(name), expected, "{}", euler.words);
         assert_eq!(euler.diagnosis(name), "", "Euler's is no known mistake: {}", euler.words);
         // It steps over every flip of these.
         let diverges = ["mid-flip-10000", "ten-thousand-periods"].contains(&name.as_str());
         if expected == "FAIL" && !diverges {
-            assert!((euler.order(name) - 1.0).abs() < 0.2, "{name}: {}", euler.words);
+            // With half the steps it is off by twice as much: above 0.1 rad it does not follow the motion, and no order is read.
+            let follows = 2.0 * euler.of(name)["error"].as_f64().unwrap() < 0.1;
+            let order = euler.order(name);
+            let right = if follows { (order - 1.0).abs() < 0.2 } else { order.is_nan() };
+            assert!(right, "{name}: {}", euler.words);
         }
     }
     let live = format!("'{python}' '{}' --live", script.display());
