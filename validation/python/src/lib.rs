@@ -32,7 +32,9 @@ fn plan(name: &str, text: &str, replicas: Option<u64>, seed: Option<u64>) -> PyR
     let mut document = Document::parse(name, text).map_err(|error| refused(&error))?;
     for (key, value) in [("ensemble.replicas", replicas), ("ensemble.seed", seed)] {
         if let Some(value) = value {
-            document.set(key, i64::try_from(value).map_or(toml::Value::Float(value as f64), toml::Value::Integer)).map_err(|error| refused(&error))?;
+            document
+                .set(key, i64::try_from(value).map_or(toml::Value::Float(value as f64), toml::Value::Integer))
+                .map_err(|error| refused(&error))?;
         }
     }
     let mut scene = of_document(&document).map_err(|error| refused(&error))?;
