@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use shearbed::run::ensemble;
 use shearbed::run::{Replica, run_replica};
 use shearbed::scene::document::Document;
-use shearbed::scene::of_document;
+use shearbed::scene::{Absent, Key, of_document};
 use shearbed::{Error, Plan, Results, Scene};
 use std::ffi::OsString;
 use std::ops::Range;
@@ -19,6 +19,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
+use validation::input::{scenes, start::Starts};
 
 create_exception!(
     _core,
@@ -39,9 +40,7 @@ fn plan(name: &str, text: &str, replicas: Option<u64>, seed: Option<u64>) -> PyR
     }
     let mut scene = of_document(&document).map_err(|error| refused(&error))?;
     let folder = Path::new(name).parent().unwrap_or(Path::new(""));
-    validation::input::start::Starts::beside(folder)
-        .fill(&mut scene)
-        .map_err(|error| refused(&format!("{name}: {error}")))?;
+    Starts::beside(folder).fill(&mut scene).map_err(|error| refused(&format!("{name}: {error}")))?;
     Plan::new(&scene).map_err(|error| refused(&document.located(error)))
 }
 
@@ -49,10 +48,24 @@ fn toml_of(scene: &Scene) -> PyResult<String> {
     toml::to_string(scene).map_err(|error| PyRuntimeError::new_err(error.to_string()))
 }
 
-/// The table and the name of every key of a scene file.
+/// The keys of a scene file: table, name, meaning, unit, what is allowed, and the default as TOML or in words.
 #[pyfunction]
-fn keys() -> Vec<(&'static str, &'static str)> {
-    shearbed::scene::keys().filter_map(|key| key.path.split_once('.')).collect()
+fn keys() -> Vec<(&'static str, &'static str, &'static str, &'static str, String, &'static str)> {
+    let row = |key: &'static Key| {
+        let (table, name) = key.path.split_once('.')?;
+        let absent = match key.absent {
+            Absent::Default(value) | Absent::Other(value) => value,
+            _ => "required",
+        };
+        Some((table, name, key.meaning, key.unit, key.holds.to_string(), absent))
+    };
+    shearbed::scene::keys().filter_map(row).collect()
+}
+
+/// Name and text of every built-in scene.
+#[pyfunction]
+fn built_in_scenes() -> Vec<(&'static str, &'static str)> {
+    scenes::ALL.iter().map(|scene| (scene.name, scene.text)).collect()
 }
 
 /// The scene with every default written out as TOML, its plan in words, what the reader of its results should know, and
@@ -163,6 +176,7 @@ fn dictionary<'py>(py: Python<'py>, plan: &Plan, results: Results) -> PyResult<B
     let array = |values: Vec<f64>| PyArray1::from_vec(py, values);
     let channels = PyDict::new(py);
     let observables = PyDict::new(py);
+    let labels = PyDict::new(py);
     let scaled = |unit: f64| results.times.iter().map(|time| time * unit).collect();
     let (time_s, strain) = (scaled(results.unit.seconds), scaled(results.unit.strain));
     let rods = rods::columns(py, plan, &results)?;
@@ -173,6 +187,7 @@ fn dictionary<'py>(py: Python<'py>, plan: &Plan, results: Results) -> PyResult<B
             names.push(channel.name);
         }
         observables.set_item(series.observable.name(), names)?;
+        labels.set_item(series.observable.name(), series.observable.label())?;
     }
     let all = PyDict::new(py);
     all.set_item("time_name", results.time_name)?;
@@ -181,6 +196,9 @@ fn dictionary<'py>(py: Python<'py>, plan: &Plan, results: Results) -> PyResult<B
     all.set_item("strain", array(strain))?;
     all.set_item("channels", channels)?;
     all.set_item("observables", observables)?;
+    all.set_item("labels", labels)?;
+    all.set_item("seed", plan.scene().ensemble.seed)?;
+    all.set_item("replicas", plan.scene().ensemble.replicas)?;
     all.set_item("rods", rods)?;
     all.set_item("scene", toml_of(&plan.scene().resolved())?)?;
     all.set_item("warnings", plan.warnings())?;
@@ -210,6 +228,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("SceneError", module.py().get_type::<SceneError>())?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_function(wrap_pyfunction!(keys, module)?)?;
+    module.add_function(wrap_pyfunction!(built_in_scenes, module)?)?;
     module.add_function(wrap_pyfunction!(describe, module)?)?;
     module.add_function(wrap_pyfunction!(run, module)?)?;
     module.add_function(wrap_pyfunction!(call, module)?)?;

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::ffi::OsStr;
+use std::io::Write;
 use std::path::Path;
 
 /// Whether a character commands a terminal, turns the direction of writing, is invisible, or is not allowed in HTML and SVG.
@@ -34,6 +35,12 @@ pub(crate) fn readable(text: &str) -> Cow<'_, str> {
     let mut all = String::new();
     text.chars().for_each(|c| written(&mut all, c));
     Cow::Owned(all)
+}
+
+/// Writes a text to standard error in one piece: whoever reads what several processes write to it puts pieces together as they
+/// come, and another's may come between. Where it cannot be written, the exit code and the files have to say it.
+pub(crate) fn complain(text: &str) {
+    let _ = std::io::stderr().write_all(text.as_bytes());
 }
 
 /// A readable text inside XML or HTML, between tags or in quotes.

@@ -6,7 +6,7 @@ use super::{
     whole,
 };
 use crate::files::output::Output;
-use crate::files::text::Shown;
+use crate::files::text::{Shown, complain};
 use crate::files::{build, cluster};
 use crate::present::table::{ReportTable, rows_csv};
 use crate::studies::suspensions::interacting::splits_table;
@@ -166,7 +166,7 @@ fn interacting(
     let jobs = law::jobs(scene, replicas);
     memory::check_jobs(&jobs, args.threads.given)?;
     if !args.writing.quiet && cluster::is_root() {
-        eprintln!("{}; nothing is kept before it ends", duration::of_jobs(&jobs));
+        complain(&format!("{}; nothing is kept before it ends\n", duration::of_jobs(&jobs)));
     }
     let bar = progress(jobs.iter().map(|job| job.replicas).sum(), "replicas", args.writing.quiet);
     let found = cluster::share(jobs.len(), |k| jobs[k].run(&|| bar.inc(1)), |_, _| Ok(()));

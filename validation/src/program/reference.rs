@@ -23,8 +23,8 @@ pub(super) struct Args {
     /// Where rods point at t = 0: `isotropic`, or one rod's angles φ,θ in degrees
     #[arg(long, value_name = "isotropic|PHI_DEG,THETA_DEG", default_value = "isotropic", value_parser = start, allow_hyphen_values = true)]
     start: From,
-    /// COUNT evenly spaced times with both ends; COUNT = 1: the time FROM
-    #[arg(long, value_name = "FROM:TO:COUNT", value_parser = times, allow_hyphen_values = true, required_unless_present_any = ["constants", "explain", "steady"])]
+    /// COUNT evenly spaced times with both ends (COUNT = 1: the time FROM), or rising times with commas between
+    #[arg(long, value_name = "FROM:TO:COUNT|T1,T2,…", value_parser = times, allow_hyphen_values = true, required_unless_present_any = ["constants", "explain", "steady"])]
     times: Option<Times>,
     /// What times count: periods of (mean) r_e, strain, or seconds; period unless given, and strain for r_e = inf
     #[arg(long, value_name = "period|strain|s", value_parser = unit)]
@@ -289,10 +289,14 @@ fn gradient(text: &str) -> Result<[[f64; 3]; 3], String> {
 const MOST: u64 = 100_000;
 
 fn times(text: &str) -> Result<Times, String> {
-    let refuse = || format!("FROM:TO:COUNT with finite FROM ≤ TO and a COUNT from 1 to {MOST} is allowed");
+    let refuse = || {
+        format!(
+            "FROM:TO:COUNT with finite FROM ≤ TO and a COUNT from 1 to {MOST}, or at most as many rising times T1,T2,…, are allowed"
+        )
+    };
     let parts: Vec<_> = text.split(':').collect();
     let [from, to, count] = parts[..] else {
-        return Err(refuse());
+        return listed(text).ok_or_else(refuse);
     };
     let count = count.parse::<u64>().ok().filter(|count| (1..=MOST).contains(count));
     let (Some(from), Some(to), Some(count)) = (decimal(from), decimal(to), count) else {
@@ -306,4 +310,12 @@ fn times(text: &str) -> Result<Times, String> {
     let span = to - &from;
     let time = |k: u64| &from + &span * Bits(400).of(k as f64) / &gaps;
     Ok(Times((0..count).map(|k| double(&time(k))).collect()))
+}
+
+/// Times that are written out.
+fn listed(text: &str) -> Option<Times> {
+    let times = text.split(',').map(|time| decimal(time).map(|time| double(&time)));
+    let times: Vec<f64> = times.collect::<Option<_>>()?;
+    let rise = times.len() as u64 <= MOST && times.is_sorted_by(|a, b| a < b);
+    rise.then_some(Times(times))
 }

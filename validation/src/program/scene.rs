@@ -3,8 +3,7 @@
 use super::{Failure, whole};
 use crate::files::bounded;
 use crate::files::cluster;
-use crate::files::text::Shown;
-use crate::files::text::line;
+use crate::files::text::{Shown, complain, line};
 use crate::input::scenes;
 use crate::input::start::Starts;
 use crate::serve::sweep::{self, Axis, Setting};
@@ -13,7 +12,6 @@ use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shearbed::scene::{Problem, of_document};
 use shearbed::{Error, Plan, Scene};
 use std::ffi::{OsStr, OsString};
-use std::io::Write;
 use std::path::Path;
 use toml::Value;
 
@@ -132,10 +130,8 @@ pub(super) fn warn<'a>(source: &str, warnings: impl IntoIterator<Item = &'a Stri
     if !cluster::is_root() {
         return;
     }
-    let mut stderr = std::io::stderr().lock();
     for warning in warnings {
-        // A warning that cannot be written stands in the files all the same.
-        let _ = writeln!(stderr, "{}", line(&format!("warning: {source}: {warning}")));
+        complain(&format!("{}\n", line(&format!("warning: {source}: {warning}"))));
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Failure;
 use crate::files::cluster;
-use crate::files::text::readable;
+use crate::files::text::{complain, readable};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle, WeakProgressBar};
 use std::fmt;
 use std::io::{self, IsTerminal, Write};
@@ -39,8 +39,7 @@ pub(super) fn log(line: &str, quiet: bool) {
     if quiet || !cluster::is_root() || io::stderr().is_terminal() {
         return;
     }
-    // A log that cannot be written is no reason to end.
-    let _ = writeln!(io::stderr().lock(), "{}", readable(line));
+    complain(&format!("{}\n", readable(line)));
 }
 
 /// A bar for a slow part on a terminal, and nothing elsewhere. It shows the time left once a step is done, from the mean rate;

@@ -6,8 +6,7 @@ use super::{
 };
 use crate::cases::catalogue;
 use crate::files::cluster;
-use crate::files::text::Shown;
-use crate::files::text::command;
+use crate::files::text::{Shown, command, complain};
 use crate::input::experiment;
 use crate::judge::accept::Verdict;
 use crate::judge::case::{Case, Effort, GATE_SEED, Outcome};
@@ -17,7 +16,6 @@ use crate::studies;
 use crate::studies::figures;
 use serde_json::json;
 use shearbed::scene::MAX_SEED;
-use std::io::Write;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -110,9 +108,8 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     folder.write(files)?;
     let red: String = report.cases.iter().map(CaseRow::reasons).collect();
     if !red.is_empty() && cluster::is_root() {
-        // Also where nothing else is printed: what is red is an error. Where even this cannot be written, the exit code
-        // has to say it.
-        let _ = write!(std::io::stderr(), "\n{red}");
+        // Also where nothing else is printed: what is red is an error.
+        complain(&format!("\n{red}"));
     }
     if !args.writing.quiet {
         let page = args.out.join("report.html");

@@ -54,6 +54,8 @@ fn units_of_time_give_the_same_rows_and_a_grid_is_decimal() {
     let general =
         rows("--aspect-ratio 7 --start 10,50 --times 0:3:31 --unit s --gradient-per-s 0,0,0,2,0,0,0,0,0");
     assert_eq!(seconds, general);
+    let listed = rows("--aspect-ratio 7 --start 10,50 --times 0.3,1e0,3 --unit s --shear-rate-per-s 2");
+    assert_eq!(listed, [0, 4, 11, 31].map(|row| seconds[row].clone()));
     let reversed = rows("--aspect-ratio 7 --start 10,50 --times -3:0:31 --unit s --shear-rate-per-s -2");
     assert_eq!(reversed[1][3..], seconds[31][3..]);
     let extension = rows("--aspect-ratio 7 --times 1:1:1 --unit s --gradient-per-s 1,0,0,0,-1,0,0,0,0");
@@ -145,6 +147,9 @@ fn bad_input_is_refused_with_key_value_and_what_is_allowed() {
         ("--aspect-ratio 3 --times 0:1", ["'0:1'", "--times", "COUNT from 1"]),
         ("--aspect-ratio 3 --times 1:0:3", ["'1:0:3'", "--times", "FROM ≤ TO"]),
         ("--aspect-ratio 3 --times 0:1:0", ["'0:1:0'", "--times", "COUNT from 1"]),
+        ("--aspect-ratio 3 --times 0.5,0.5", ["'0.5,0.5'", "--times", "rising times"]),
+        ("--aspect-ratio 3 --times 0,,1", ["'0,,1'", "--times", "rising times"]),
+        ("--aspect-ratio 3 --times 0,inf", ["'0,inf'", "--times", "rising times"]),
         ("--aspect-ratio 3 --times 0:inf:2", ["'0:inf:2'", "--times", "finite"]),
         ("--aspect-ratio 3 --times 0:1:2 --unit h", ["'h'", "--unit", "strain"]),
         ("--aspect-ratio 3 --times 0:1:2 --start 0,181", ["'0,181'", "--start", "0 to 180"]),

@@ -35,6 +35,45 @@ const REJECTED: &[(&str, &str)] = &[
     ("validate --out file", "file: cannot be written: "),
 ];
 
+/// Ranks of a job write to one pipe, and what `mpirun` says may come between two writes: each line is one write, which a datagram keeps.
+#[cfg(unix)]
+#[test]
+fn a_message_is_written_in_one_piece() {
+    use std::os::fd::OwnedFd;
+    use std::os::unix::net::UnixDatagram;
+    let dir = unequal();
+    let first_piece = |words: &[&str]| {
+        let (ours, theirs) = UnixDatagram::pair().unwrap();
+        let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_shearbed"));
+        let status = program
+            .args(words)
+            .current_dir(dir.path())
+            .stderr(OwnedFd::from(theirs))
+            .output()
+            .unwrap()
+            .status;
+        let mut piece = vec![0; 1 << 16];
+        let length = ours.recv(&mut piece).unwrap();
+        (status.code(), String::from_utf8(piece[..length].to_vec()).unwrap())
+    };
+    let (code, said) = first_piece(&["run", "no.toml"]);
+    assert_eq!(code, Some(2));
+    assert!(said.starts_with("error: no.toml: cannot be read: ") && said.ends_with('\n'), "{said:?}");
+    let (code, said) = first_piece(&[
+        "run",
+        "fig4-n50",
+        "--replicas",
+        "1",
+        "--set",
+        "time.steps_per_period=4",
+        "--quiet",
+        "--out",
+        "x",
+    ]);
+    assert_eq!(code, Some(0), "{said:?}");
+    assert!(said.starts_with("warning: fig4-n50: ") && said.ends_with('\n'), "{said:?}");
+}
+
 #[test]
 fn bad_input_ends_with_2_and_a_message() {
     let dir = unequal();

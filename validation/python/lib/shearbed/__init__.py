@@ -10,7 +10,7 @@ from ._fitting import Estimate, Fit, fit
 from ._grading import Problem, Report, grade, problems
 from ._reference import reference
 from ._results import Results
-from ._scene import Scene
+from ._scene import Scene, scenes
 from ._running import run, sweep
 
 __all__ = [
@@ -27,5 +27,6 @@ __all__ = [
     "problems",
     "reference",
     "run",
+    "scenes",
     "sweep",
 ]

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._running import column, program
+from ._running import columns, options, program
 from ._scene import Scene, scene_of
 
 Array = NDArray[np.float64]
@@ -56,9 +56,9 @@ class Fit:
         """The parameters in the order of ``covariance`` and ``correlation``."""
         self.covariance: Array = np.array(self.record["covariance"], dtype=float)
         self.correlation: Array = np.array(self.record["correlation"], dtype=float)
-        self.residuals: dict[str, NDArray[Any]] = _columns(folder / "residuals.csv")
+        self.residuals: dict[str, NDArray[Any]] = columns(folder / "residuals.csv")
         """Each point beside the best model: set, time_unit, time, column, measured, simulated, residual, u."""
-        profiles = _columns(folder / "profiles.csv")
+        profiles = columns(folder / "profiles.csv")
         self.profiles: dict[str, tuple[Array, Array]] = {
             key: (profiles["value"][rows], profiles["rise_of_chi2"][rows])
             for key in self.order
@@ -67,6 +67,8 @@ class Fit:
         """Of each parameter: its values, and chi2 above its least there."""
         self.warnings: list[str] = self.record["warnings"]
         """What to know before trusting it."""
+        self.design: dict[str, NDArray[Any]] | None = columns(folder / "design.csv") if (folder / "design.csv").exists() else None
+        """With ``design=True``: further points, and the uncertainties that each would leave."""
         self._words = words
 
     def __getitem__(self, key: str) -> Estimate:
@@ -101,6 +103,8 @@ def fit(
     replicas: int | None = None,
     seed: int | None = None,
     rods: int | None = None,
+    set: Mapping[str, Any] | None = None,
+    design: bool = False,
     threads: int | None = None,
 ) -> Fit:
     """Fits keys of a scene to measured points, as ``shearbed fit`` does, with the same result.
@@ -108,7 +112,10 @@ def fit(
     ``data`` is a CSV file or its columns: a time (``t_over_T``, ``t_s`` or ``strain``), and channels each with one standard
     deviation, as ``x1`` and ``x1_u``; NaN was not measured. ``over={"interaction.alpha": (0.05, 5)}`` are up to three keys
     with the range to look in. ``also`` are other scenes with points of their own, fitted with the same parameters.
-    ``replicas`` is the most at each value, ``rods`` how many each point is a mean over.
+    A key may have a value of its own for each scene: ``over={"1:interaction.alpha": ..., "2:interaction.alpha": ...}``.
+    ``set={"particles.count": 50}`` gives a key of every scene another value. ``replicas`` is the most at each value,
+    ``rods`` how many each point is a mean over. ``design=True`` lists further points, with what each would leave of the
+    uncertainties, in ``design``.
 
     The work is done in a process of its own: other Python threads go on meanwhile, and Ctrl-C ends it. Raises ``ValueError``
     with the program's words for what is not allowed, ``RuntimeError`` for a fit that cannot go on.
@@ -123,10 +130,9 @@ def fit(
             words += ["--data", file if k == 0 else f"{name}={file}"]
         for key, (low, high) in over.items():
             words += ["--over", f"{key}={float(low)!r}:{float(high)!r}"]
-        for flag, value in (("--replicas", replicas), ("--seed", seed), ("--rods", rods), ("--threads", threads)):
-            if value is not None:
-                words += [flag, str(value)]
-        said = program(words, cwd=folder)
+        words += options(replicas=replicas, seed=seed, rods=rods, threads=threads, set=set)
+        words += ["--design"] if design else []
+        said = program(words, folder)
         # The last line names a folder that is no more.
         return Fit(folder / "out", said.rsplit("\nin out", 1)[0])
 
@@ -144,9 +150,3 @@ def _file(points: Points, place: Path) -> str:
         writer.writerow(columns)
         writer.writerows([["" if value != value else repr(float(value)) for value in row] for row in zip(*columns.values())])
     return place.name
-
-
-def _columns(file: Path) -> dict[str, NDArray[Any]]:
-    with open(file, encoding="utf-8", newline="") as text:
-        header, *rows = list(csv.reader(text))
-    return {name: column([row[k] for row in rows]) for k, name in enumerate(header)}

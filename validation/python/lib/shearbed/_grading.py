@@ -28,7 +28,7 @@ Rhs = Callable[[Array, float, Array], Array]
 _KINDS = {3: "rhs", 4: "step", 5: "solver"}
 
 # What is not asked unless by name: it tells how errors of a method gather, and takes minutes in Python.
-_OF_METHODS = ("ten-thousand-periods",)
+OF_METHODS = ("ten-thousand-periods",)
 
 # Doublings of the number of steps at most, from steps of about one unit of strain.
 _DOUBLINGS = 24
@@ -178,7 +178,7 @@ def grade(
     for name in names or ():
         if name not in known:
             raise ValueError(f"{name}: no problem of free rods has this name; there are {', '.join(known)}")
-    asked = names or [name for name in known if steps is not None or name not in _OF_METHODS]
+    asked = names or [name for name in known if steps is not None or name not in OF_METHODS]
     wanted = [problem for problem in problems() if problem.name in asked]
     raised: dict[str, str] = {}
     late: dict[str, int] = {}
@@ -217,7 +217,7 @@ def grade(
             words += ["--order", repr(float(order))]
         if tolerance is not None:
             words += ["--tolerance", repr(float(tolerance))]
-        call(words, allowed=(0, 1))
+        call(words, folder=folder, allowed=(0, 1))
         told = json.loads((out / "grade.json").read_text(encoding="utf-8"))
     for judged in told["problems"]:
         judged["raised"] = raised.get(judged["name"])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import os
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
@@ -17,21 +18,36 @@ from . import _core
 def reference(
     aspect_ratio: float,
     *,
-    times: tuple[float, float, int],
+    times: ArrayLike | tuple[float, float, int] | None = None,
     start: str | tuple[float, float] = "isotropic",
-    unit: str = "period",
+    unit: str | None = None,
     shear_rate_per_s: float | None = None,
     gradient_per_s: ArrayLike | None = None,
     aspect_ratio_sd_percent: float = 0.0,
+    c_i: float | None = None,
+    steady: bool = False,
+    fourth: bool = False,
 ) -> dict[str, NDArray[np.float64]]:
     """Correctly rounded values of a free rod, or of means over isotropic ones: the columns of ``shearbed reference``.
 
-    ``times=(first, last, count)`` in ``unit`` (``"period"``, ``"strain"`` or ``"s"``); ``start`` is ``"isotropic"`` or one
-    rod's angles (phi, theta) in degrees. A value without a meaning, as t/T in a flow without a period, is NaN.
+    ``times`` are a list or an array, or, as a tuple, ``(first, last, count)`` for evenly spaced ones, in ``unit``:
+    ``"period"``, ``"strain"`` or ``"s"``; without it periods, and strain for ``aspect_ratio=inf``. ``start`` is
+    ``"isotropic"`` or one rod's angles (phi, theta) in degrees. A value without a meaning, as t/T in a flow without a
+    period, is NaN.
+
+    ``c_i`` are rods with rotary diffusion D_r = c_i times the rate of strain (Folgar & Tucker), from the exact
+    distribution; ``steady=True`` adds its steady state as a last row at the time inf. ``fourth=True`` gives a_ijkl.
     """
-    first, last, count = times
-    words = ["reference", "--aspect-ratio", repr(float(aspect_ratio)), "--unit", unit]
-    words += ["--times", f"{float(first)!r}:{float(last)!r}:{int(count)}"]
+    words = ["reference", "--aspect-ratio", repr(float(aspect_ratio))]
+    order: NDArray[np.intp] | None = None
+    if isinstance(times, tuple) and len(times) == 3:
+        first, last, count = times
+        words += ["--times", f"{float(first)!r}:{float(last)!r}:{int(count)}"]
+    elif times is not None:
+        every, order = np.unique(np.asarray(times, dtype=float).ravel(), return_inverse=True)
+        words += ["--times", ",".join(repr(float(time)) for time in every)]
+    if unit is not None:
+        words += ["--unit", unit]
     words += ["--start", start if isinstance(start, str) else ",".join(repr(float(angle)) for angle in start)]
     if shear_rate_per_s is not None:
         words += ["--shear-rate-per-s", repr(float(shear_rate_per_s))]
@@ -40,18 +56,26 @@ def reference(
         words += ["--gradient-per-s", ",".join(repr(float(entry)) for entry in entries)]
     if aspect_ratio_sd_percent:
         words += ["--aspect-ratio-sd-percent", repr(float(aspect_ratio_sd_percent))]
+    if c_i is not None:
+        words += ["--c-i", repr(float(c_i))]
+    words += [flag for flag, asked in (("--steady", steady), ("--fourth", fourth)) if asked]
     with tempfile.TemporaryDirectory(prefix="shearbed-") as folder:
-        file = Path(folder, "reference.csv")
-        call([*words, "--out", str(file)])
-        header, rows = read(file)
+        call([*words, "--out", str(Path(folder, "reference.csv"))], folder=folder)
+        header, rows = read(Path(folder, "reference.csv"))
+    if order is not None:
+        # The last row of a steady state belongs to no time that was asked for.
+        rows = [rows[k] for k in order] + rows[int(order.max(initial=-1)) + 1 :]
     return {name: np.array([row[k] for row in rows]) for k, name in enumerate(header)}
 
 
-def call(words: Sequence[str], *, allowed: Sequence[int] = (0,)) -> int:
-    """Runs a command in this process; raises its message as ``ValueError`` unless its exit code is allowed."""
+def call(words: Sequence[str], *, folder: str = "", allowed: Sequence[int] = (0,)) -> int:
+    """Runs a command in this process; raises its message as ``ValueError`` unless its exit code is allowed. Files in
+    ``folder`` are named without it."""
     code, message = _core.call(list(words))
     if code not in allowed:
-        raise (RuntimeError if code == 101 else ValueError)(message.strip().removeprefix("error: "))
+        said = message.strip().removeprefix("error: ")
+        said = said.replace(os.path.join(folder, ""), "") if folder else said
+        raise (RuntimeError if code == 101 else ValueError)(said)
     return code
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     import pandas
+    import xarray
 
 Array = NDArray[np.float64]
 
@@ -30,6 +31,10 @@ class Results:
         self.strain: Array = found["strain"]
         self.observables: dict[str, list[str]] = found["observables"]
         """The channels of each observable."""
+        self.labels: dict[str, str] = found["labels"]
+        """What each observable is called on an axis, with its unit."""
+        self.seed: int = found["seed"]
+        self.replicas: int = found["replicas"]
         self.scene: str = found["scene"]
         """The scene that was run, as TOML."""
         self.warnings: list[str] = found["warnings"]
@@ -97,17 +102,45 @@ class Results:
             columns[f"{name}_se"] = se
         return pandas.DataFrame(columns)
 
+    def to_xarray(self) -> xarray.Dataset:
+        """The channels and their standard errors over the time as an ``xarray.Dataset``; units, seed, number of replicas and
+        the scene stand in its attributes."""
+        import xarray
+
+        label_of = {name: self.labels[observable] for observable, names in self.observables.items() for name in names}
+        variables: dict[str, Any] = {}
+        for name, (mean, se) in self._channels.items():
+            variables[name] = (self.time_name, mean, {"long_name": f"{name}: {label_of[name]}"})
+            variables[f"{name}_se"] = (self.time_name, se, {"long_name": f"standard error of {name}"})
+        coordinates = {
+            self.time_name: (self.time_name, self.t, {"units": "1", "long_name": self._time_label}),
+            "time_s": (self.time_name, self.time_s, {"units": "s"}),
+            "strain": (self.time_name, self.strain, {"units": "1"}),
+        }
+        if self.time_name == "strain":
+            coordinates["strain"] = (self.time_name, self.t, {"units": "1", "long_name": "strain"})
+        attributes = {"seed": self.seed, "replicas": self.replicas, "scene": self.scene}
+        return xarray.Dataset(variables, coordinates, attributes)
+
+    @property
+    def _time_label(self) -> str:
+        return "t/T" if self.time_name == "t_over_T" else self.time_name.replace("_", " ")
+
     def plot(self, *channels: str, ax: Any = None) -> Any:
         """Draws channels (by default those of the first observable) with bands of 95 %, and returns the axes."""
         import matplotlib.pyplot as plt
 
         if ax is None:
             _, ax = plt.subplots()
-        for name in list(channels) or next(iter(self.observables.values())):
+        drawn = list(channels) or next(iter(self.observables.values()))
+        for name in drawn:
+            if name not in self._channels:
+                raise AttributeError(f"{name}: this run has the channels {', '.join(self._channels)}")
             mean, se = self._channels[name]
             (line,) = ax.plot(self.t, mean, label=name)
             ax.fill_between(self.t, mean - 1.96 * se, mean + 1.96 * se, color=line.get_color(), alpha=0.2, linewidth=0)
-        ax.set_xlabel("t/T" if self.time_name == "t_over_T" else "strain")
+        ax.set_xlabel(self._time_label)
+        ax.set_ylabel(", ".join(label for of, label in self.labels.items() if set(drawn) & set(self.observables[of])))
         ax.legend()
         return ax
 

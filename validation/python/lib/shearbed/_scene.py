@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import os
 import shutil
@@ -12,7 +13,14 @@ from typing import Any
 from . import _core
 
 # Which table of a scene file holds a key: keywords are given without it.
-_TABLE_OF = {key: table for table, key in _core.keys()}
+_TABLE_OF = {name: table for table, name, *_ in _core.keys()}
+
+_BUILT_IN = dict(_core.built_in_scenes())
+
+
+def scenes() -> list[str]:
+    """The names of the built-in scenes, as ``shearbed scenes`` lists them: the figures of the paper."""
+    return list(_BUILT_IN)
 
 
 def _value(value: Any) -> str:
@@ -60,11 +68,25 @@ def _gathered(keywords: Mapping[str, Any]) -> dict[str, Any]:
     return tables
 
 
+def _keywords() -> str:
+    """The keys of a scene for ``help(Scene)``: what each means, its unit, what is allowed, its default."""
+    lines: list[str] = []
+    last = None
+    for table, name, meaning, unit, allowed, absent in _core.keys():
+        if table != last:
+            lines.append(f"\n    Keys of [{table}]:\n")
+            last = table
+        of = f", in {unit}" if unit else ""
+        lines.append(f"    {name}\n        {meaning}{of}; {allowed} (default: {absent})")
+    return "\n".join(lines).replace("(default: required)", "(required)")
+
+
 class Scene:
     """What is simulated, checked. Keys and units are those of a scene file.
 
     ``Scene(shear_rate_per_s=0.5, count=100, length_mm=0.72, aspect_ratio=11.6, orientation="isotropic", periods=2)``,
-    ``Scene({"flow": {...}, "particles": {...}, ...})``, ``Scene(toml="...")`` or ``Scene(file="mine.toml")``.
+    ``Scene({"flow": {...}, "particles": {...}, ...})``, ``Scene(toml="...")``, ``Scene(file="mine.toml")`` or
+    ``Scene(built_in="fig4-n50")`` (:func:`scenes` lists the names).
 
     Raises :class:`SceneError` where the scene is not allowed: every problem at once, with key, value and what is allowed.
     """
@@ -76,13 +98,18 @@ class Scene:
         *,
         toml: str | None = None,
         file: str | os.PathLike[str] | None = None,
+        built_in: str | None = None,
         **keywords: Any,
     ) -> None:
-        given = [way for way in (tables, toml, file, keywords or None) if way is not None]
+        given = [way for way in (tables, toml, file, built_in, keywords or None) if way is not None]
         if len(given) != 1:
-            raise TypeError("Scene: one of keywords, a dictionary, toml= and file= is allowed")
+            raise TypeError("Scene: one of keywords, a dictionary, toml=, file= and built_in= is allowed")
         self._name = "scene"
-        if file is not None:
+        if built_in is not None:
+            if built_in not in _BUILT_IN:
+                raise ValueError(_unknown(built_in))
+            self._name, self._text = f"{built_in}.toml", _BUILT_IN[built_in]
+        elif file is not None:
             self._name = os.fspath(file)
             with open(file, encoding="utf-8") as text:
                 self._text = text.read()
@@ -120,10 +147,25 @@ class Scene:
         return f"Scene(toml={self._resolved!r})"
 
 
+if Scene.__doc__ is not None:  # not under python -OO
+    Scene.__doc__ += _keywords() + "\n"
+
+
+def _unknown(name: str) -> str:
+    close = difflib.get_close_matches(name, _BUILT_IN)
+    meant = f"did you mean {' or '.join(close)}?" if close else "shearbed.scenes() lists them"
+    return f"{name}: no built-in scene has this name; {meant}"
+
+
 def scene_of(scene: Scene | Mapping[str, Any] | str | os.PathLike[str]) -> Scene:
-    """A scene as functions take it: itself, a dictionary, or a file's name."""
+    """A scene as functions take it: itself, a dictionary, a file's name, or the name of a built-in scene."""
     if isinstance(scene, Scene):
         return scene
     if isinstance(scene, Mapping):
         return Scene(scene)
+    if isinstance(scene, str) and not os.path.exists(scene):
+        if scene in _BUILT_IN:
+            return Scene(built_in=scene)
+        if not os.path.splitext(scene)[1]:
+            raise ValueError(_unknown(scene))
     return Scene(file=scene)

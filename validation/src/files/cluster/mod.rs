@@ -20,11 +20,10 @@ pub use replicas::ensemble;
 
 use crate::files::build;
 use crate::files::difference::difference;
-use crate::files::text::{readable, shortened};
+use crate::files::text::{complain, readable, shortened};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
-use std::io::Write;
 use std::process::ExitCode;
 
 /// Compares the inputs of all ranks, before anything runs: every command comes here first, whatever it does, so that ranks
@@ -66,9 +65,9 @@ where
     (0..jobs).map(done).collect::<Result<_, E>>().map(Some)
 }
 
-/// Says why this process failed; its exit code. Where even this cannot be written, the exit code has to say it.
+/// Says why this process failed; its exit code.
 pub fn failed(message: &str, code: u8) -> ExitCode {
-    let _ = writeln!(std::io::stderr(), "error: {}", readable(&shortened(message)));
+    complain(&format!("error: {}\n", readable(&shortened(message))));
     ExitCode::from(code)
 }
 

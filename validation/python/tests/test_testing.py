@@ -1,0 +1,113 @@
+"""Problems for other people's test suites, scenes by name, and what results carry with them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+import shearbed
+import shearbed.testing
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+def rhs(gradient_per_s: Array, aspect_ratio: float, p: Array) -> Array:
+    shape = (aspect_ratio**2 - 1) / (aspect_ratio**2 + 1)
+    d, w = (gradient_per_s + gradient_per_s.T) / 2, (gradient_per_s - gradient_per_s.T) / 2
+    turned: Array = p @ w.T + shape * (p @ d - p * np.einsum("ni,ij,nj->n", p, d, p)[:, None])
+    return turned
+
+
+@pytest.mark.parametrize("problem", shearbed.testing.problems()[:3], ids=str)
+def test_a_right_function_passes(problem: shearbed.testing.Checked) -> None:
+    problem.check(rhs)
+
+
+def test_a_wrong_function_fails_in_the_grader_s_words() -> None:
+    problem = next(one for one in shearbed.testing.problems() if str(one) == "mid-flip-11.6")
+    with pytest.raises(AssertionError, match="(?s)mid-flip-11.6 +FAIL.*transpose"):
+        problem.check(lambda gradient_per_s, aspect_ratio, p: rhs(gradient_per_s.T, aspect_ratio, p))
+    names = [str(one) for one in shearbed.testing.problems()]
+    assert "ten-thousand-periods" not in names and len(names) == len(set(names)) > 5
+    with pytest.raises(ValueError, match="'moments'.*'rods' is allowed"):
+        shearbed.testing.problems(kind="moments")
+
+
+def test_a_built_in_scene_has_a_name() -> None:
+    assert "fig4-n50" in shearbed.scenes()
+    found = shearbed.run("fig4-n50", replicas=2)
+    same = shearbed.run(shearbed.Scene(built_in="fig4-n50"), replicas=2)
+    assert np.array_equal(found.x1, same.x1) and found.replicas == 2
+    with pytest.raises(ValueError, match="fig4n50: no built-in scene has this name; did you mean fig4-n50"):
+        shearbed.run("fig4n50")
+    with pytest.raises(FileNotFoundError):
+        shearbed.run("mine.toml")
+
+
+def test_help_lists_the_keys() -> None:
+    told = shearbed.Scene.__doc__ or ""
+    for _, name, meaning, *_ in shearbed._core.keys():
+        assert f"\n    {name}\n        {meaning}" in told, name
+
+
+def test_reference_takes_any_times() -> None:
+    spaced = shearbed.reference(11.6, times=(0, 1, 5))
+    listed = shearbed.reference(11.6, times=[1, 0.25, 0.25])
+    assert np.array_equal(listed["x1"], spaced["x1"][[4, 1, 1]])
+    array = shearbed.reference(11.6, times=np.linspace(0, 1, 5))
+    assert all(np.array_equal(array[name], spaced[name]) for name in spaced)
+
+
+def test_reference_of_diffusing_rods() -> None:
+    steady = shearbed.reference(np.inf, c_i=0.0311, times=[0, 10], steady=True)
+    assert list(steady["strain"]) == [0, 10, np.inf]
+    assert steady["a22"][0] == pytest.approx(1 / 3) and 0.5 < steady["a22"][1] < 1
+    only = shearbed.reference(np.inf, c_i=0.0311, steady=True, fourth=True)
+    assert only["a2222"] < steady["a22"][-1]
+
+
+def test_a_sweep_gives_all_times_and_says_how_far_it_is() -> None:
+    told: list[tuple[int, int]] = []
+    given: dict[str, Any] = {"replicas": 2, "seed": 5, "set": {"time.periods": 1}}
+    over = {"interaction.alpha": [0.2, 0.6]}
+    every = shearbed.sweep("fig4-n50", over, times="all", progress=lambda done, of: told.append((done, of)), threads=1, **given)
+    last = shearbed.sweep("fig4-n50", over, **given)
+    ends = np.flatnonzero(np.r_[np.diff(every["t_over_T"]) < 0, True])
+    assert len(ends) == 2 and told[-1] == (2, 2)
+    for name, values in last.items():
+        assert np.array_equal(every[name][ends], values), name
+    with pytest.raises(ValueError, match="times = 'first'"):
+        shearbed.sweep("fig4-n50", over, times="first")
+
+
+def test_no_message_names_a_folder_that_is_gone() -> None:
+    for wrong in (
+        lambda: shearbed.sweep("fig4-n50", {"interaction.alpha": [-1]}),
+        lambda: shearbed.fit("fig4-n50", {"t_over_T": [1], "x1": [2], "x1_u": [0.1]}, {"interaction.alpha": (0.1, 1)}),
+        lambda: shearbed.reference(11.6, times=[0, 1], start=(0, 181)),
+    ):
+        with pytest.raises(ValueError) as error:
+            wrong()
+        assert "shearbed-" not in str(error.value) and "/" not in str(error.value).split(":")[0], error.value
+
+
+def test_an_xarray_has_units_seed_and_scene() -> None:
+    pytest.importorskip("xarray", reason="xarray is not here")
+    results = shearbed.run("fig4-n50", replicas=2, seed=7)
+    found = results.to_xarray()
+    assert np.array_equal(found["x1"].values, results.x1) and np.array_equal(found["x1_se"].values, results.x1_se)
+    assert found["time_s"].attrs["units"] == "s" and found.attrs["seed"] == 7 and found.attrs["replicas"] == 2
+    assert "Fig. 4" in found.attrs["scene"]
+    strained = shearbed.run("extension", replicas=1).to_xarray()
+    assert "strain" in strained.dims
+
+
+def test_a_plot_names_what_it_shows() -> None:
+    matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not here")
+    matplotlib.use("Agg")
+    results = shearbed.run("fig4-n50", replicas=2)
+    assert results.plot("x1").get_ylabel() == results.labels["projections"]
+    with pytest.raises(AttributeError, match="x9: this run has the channels x1"):
+        results.plot("x9")
