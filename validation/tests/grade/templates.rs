@@ -109,3 +109,67 @@ fn the_studies_speak_the_text_protocol() {
     let other = graded(&["--protocol", "xml", "--command", "true"]);
     assert!(other.code == Some(2) && other.words.contains("json and text are allowed"), "{}", other.words);
 }
+
+/// `cmake/` and `fpm/`: the template passes as a test of theirs, and with a wrong coefficient their command fails.
+#[test]
+fn build_systems_hold_a_program_to_the_problems() {
+    let program = Path::new(env!("CARGO_BIN_EXE_shearbed"));
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let all = std::env::join_paths(
+        program.parent().map(Path::to_path_buf).into_iter().chain(std::env::split_paths(&path)),
+    );
+    let all = all.unwrap();
+    let dir = tempfile::tempdir().unwrap();
+    let ends = |tool: &str, arguments: &[&str]| {
+        let output = std::process::Command::new(tool)
+            .args(arguments)
+            .current_dir(dir.path())
+            .env("PATH", &all)
+            .output()
+            .unwrap();
+        (
+            output.status.success(),
+            format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr)),
+        )
+    };
+    let put = |from: &str, to: &str, change: Option<(&str, &str)>| {
+        let mut text = std::fs::read_to_string(peers().join(from)).unwrap();
+        if let Some((old, new)) = change {
+            assert!(text.contains(old), "{from}: {old}");
+            text = text.replace(old, new);
+        }
+        let to = dir.path().join(to);
+        std::fs::create_dir_all(to.parent().unwrap()).unwrap();
+        std::fs::write(to, text).unwrap();
+    };
+    if runs("cmake", &["--version"]) && runs("c++", &["--version"]) {
+        put("cmake/CMakeLists.txt", "cmake/CMakeLists.txt", None);
+        for change in [None, Some(("2 * k2[i]", "1.8 * k2[i]"))] {
+            put("templates/my_code.cpp", "templates/my_code.cpp", change);
+            for arguments in [&["-S", "cmake", "-B", "build"][..], &["--build", "build"]] {
+                let (well, words) = ends("cmake", arguments);
+                assert!(well, "{words}");
+            }
+            let (passed, words) = ends("ctest", &["--test-dir", "build", "--output-on-failure"]);
+            assert_eq!(passed, change.is_none(), "{words}");
+            assert!(
+                words.contains(if passed { "100% tests passed" } else { "your time runs at 0.967" }),
+                "{words}"
+            );
+        }
+    } else {
+        skipped("cmake", "no cmake, or no c++");
+    }
+    if runs("fpm", &["--version"]) && runs("gfortran", &["--version"]) {
+        put("fpm/fpm.toml", "fpm.toml", None);
+        let grader =
+            "shearbed grade --problem mid-flip-2 --protocol text --order 4 --brief --force --command";
+        for change in [None, Some(("2*k2", "1.8d0*k2"))] {
+            put("templates/my_code.f90", "test/my_code.f90", change);
+            let (passed, words) = ends("fpm", &["test", "--runner", grader]);
+            assert_eq!(passed, change.is_none(), "{words}");
+        }
+    } else {
+        skipped("fpm", "no fpm, or no gfortran");
+    }
+}
