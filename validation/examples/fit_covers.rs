@@ -76,10 +76,15 @@ fn planted(range: &Range) -> Result<f64, String> {
     found.map(|(_, value)| *value).ok_or_else(|| format!("{}: no planted value", range.key))
 }
 
+/// The noise of the points of one fit, in standard deviations.
+fn noise(k: u64, points: usize) -> Vec<f64> {
+    let mut rng = Pcg64Dxsm::seed_from_u64(1000 + k);
+    (0..points).map(|_| StandardNormal.sample(&mut rng)).collect()
+}
+
 /// One fit as `shearbed fit` makes it, or why it is refused.
 fn whole_fit(k: u64, truth: &[f64], over: &[Range]) -> Result<Fit, String> {
-    let mut rng = Pcg64Dxsm::seed_from_u64(1000 + k);
-    let noise: Vec<f64> = (truth.iter()).map(|_| StandardNormal.sample(&mut rng)).collect();
+    let noise = noise(k, truth.len());
     let data = points(|k| truth[k] + NOISE * noise[k]);
     let scenes = scenes(2000 + k, over)?;
     let model = |values: &[f64]| scenes.model(&data, AS_WRITTEN, values);
@@ -116,6 +121,8 @@ fn main() -> Result<(), String> {
 
     let mut inside = vec![[0_u32; 2]; over.len()];
     let (mut answered, mut low_p, mut high_p, mut chi_square) = (0, 0, 0, 0.0);
+    // By how much χ² differs from that of the noise alone: due is one less for each parameter: paired, it scatters far less.
+    let mut differences: Vec<f64> = Vec::new();
     let mut refused: BTreeMap<String, u32> = BTreeMap::new();
     println!(
         "repeat,chi2,p,replicas,runs,share_of_replicas,share_of_emulator,feigned,key,estimate,low_68,high_68,low_95,high_95"
@@ -132,6 +139,7 @@ fn main() -> Result<(), String> {
         };
         let found = fit.best.chi_square_of_points();
         let p = law.sf(found);
+        differences.push(found - noise(k, truth.len()).iter().map(|noise| noise * noise).sum::<f64>());
         (answered, chi_square) = (answered + 1, chi_square + found);
         (low_p, high_p) = (low_p + u32::from(p < 0.05), high_p + u32::from(p > 0.95));
         for (axis, range) in over.iter().enumerate() {
@@ -164,6 +172,10 @@ fn main() -> Result<(), String> {
         share(low_p),
         share(high_p)
     );
+    let mean = differences.iter().sum::<f64>() / differences.len() as f64;
+    let squares = differences.iter().map(|one| (one - mean).powi(2)).sum::<f64>();
+    let se = (squares / (differences.len() * (differences.len() - 1)) as f64).sqrt();
+    println!("# χ² less that of the drawn noise: {mean:.2} ± {se:.2}, where −{} is due", over.len());
     for (range, [inner, outer]) in over.iter().zip(&inside) {
         println!(
             "# {}: in the 68 % interval {:.1} %, in the 95 % interval {:.1} %",
