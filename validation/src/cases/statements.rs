@@ -62,7 +62,7 @@ pub fn cases() -> Vec<Case> {
 fn period(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let polydisperse: Change = |scene| scene.particles.aspect_ratio_sd_percent = 3.6;
     let interacting: Change = |scene| {
-        lab::interaction(scene);
+        lab::paper_interaction(scene);
     };
     // The control's frequency is 2/1.06 = 1.887. Pilots of 100 replicas scattered by 0.014 and 0.007.
     let design = Design::new(0.06, 0.017);
@@ -131,7 +131,7 @@ fn enough_rods(count: &Count, effort: &Effort) -> Vec<Evidence> {
     const MANY: usize = 500;
     // Every rod is back after a whole period where nothing collides: less where it was, means scatter less.
     let changes = |count: usize, replicas: u64, stream: u64| {
-        let mut scene = lab::interacting_scene(effort);
+        let mut scene = lab::paper_scene(effort);
         scene.ensemble.seed = effort.seed(stream);
         scene.particles.count = count;
         scene.time.duration = 2.0;
@@ -140,7 +140,7 @@ fn enough_rods(count: &Count, effort: &Effort) -> Vec<Evidence> {
             [1, 2].map(|output| mean(Channel::X[0], output) - mean(Channel::X[0], 0))
         })
     };
-    // A pilot of 200: two rods are off by 0.041 and 0.061, differences scatter by 0.015 at most.
+    // A pilot of 200 by `rotation`: two rods are off by 0.041 and 0.061, differences scatter by 0.015 at most.
     let design = Design::new(0.048, 0.018);
     let (samples, share) = (effort.samples(design), (MANY / count).min(100));
     let few = changes(*count, samples * share as u64, 0);
@@ -167,7 +167,7 @@ type Periods = f64;
 
 /// X̄_i over one period less X̄_i over the period before, in a dense suspension.
 fn stays_put(from: &Periods, effort: &Effort) -> Vec<Evidence> {
-    let mut scene = lab::interacting_scene(effort);
+    let mut scene = lab::paper_scene(effort);
     lab::interaction(&mut scene).concentration_per_cm3 = Some(1000.0);
     scene.time.duration = from + 2.0;
     scene.time.outputs_per_unit = Some(10);
@@ -203,7 +203,7 @@ type ThetaDeg = f64;
 
 fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {
     let run = |update: Update, steps_per_period: u64, replica: u64| {
-        let mut scene = lab::interacting_scene(effort);
+        let mut scene = lab::paper_scene(effort);
         lab::interaction(&mut scene).update = update;
         scene.particles.orientation = Orientation::Given { phi_deg: 20.0, theta_deg: *theta_deg };
         scene.particles.aspect_ratio = 3.96;
