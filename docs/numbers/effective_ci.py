@@ -1,4 +1,4 @@
-"""C_I and the rods' stress of interacting rods: the tables of docs/src/theory/coefficients.md.
+"""C_I, X̄₁, ⟨pp⟩ and the rods' stress of interacting rods: the tables of docs/src/theory/coefficients.md.
 
     python3 docs/numbers/effective_ci.py shearbed FOLDER [steps|suspensions]
 
@@ -18,7 +18,7 @@ particles = {{ count = 100, length_mm = 1, aspect_ratio = {r}, orientation = "is
 interaction = {{ concentration_per_cm3 = {n}, alpha = {alpha}, update = "{update}" }}
 time = {{ periods = {periods}, outputs_per_period = 100, steps_per_period = {steps} }}
 ensemble.replicas = 12
-output.observables = ["orientation_tensor", "orientation_tensor_4"]
+output.observables = ["projections", "orientation_tensor", "orientation_tensor_4"]
 """
 SEEDS = range(1, 9)
 AXES = range(3)
@@ -46,8 +46,9 @@ def run(program, folder, update, na3, r, alpha, steps, seed):
 
 
 def window(out):
-    """⟨pp⟩, ⟨pp p₁p₂⟩ and the change of ⟨pp⟩ per unit of strain, over the second half of a run (trapezoidal rule)."""
-    second, fourth = (list(csv.DictReader(open(out / f"orientation_tensor{name}.csv"))) for name in ("", "_4"))
+    """⟨pp⟩, ⟨pp p₁p₂⟩, the change of ⟨pp⟩ per unit of strain and X̄₁, over the second half of a run (trapezoidal rule)."""
+    names = ("orientation_tensor", "orientation_tensor_4", "projections")
+    second, fourth, first = (list(csv.DictReader(open(out / f"{name}.csv"))) for name in names)
     half = (len(second) - 1) // 2
     strain = float(second[-1]["strain"]) - float(second[half]["strain"])
 
@@ -62,7 +63,7 @@ def window(out):
         return [[entry(i, j) for j in AXES] for i in AXES]
 
     change = tensor(lambda i, j: (float(second[-1][name(i, j)]) - float(second[half][name(i, j)])) / strain)
-    return tensor(lambda i, j: mean(second, name(i, j))), tensor(lambda i, j: mean(fourth, name(i, j, 0, 1))), change
+    return tensor(lambda i, j: mean(second, name(i, j))), tensor(lambda i, j: mean(fourth, name(i, j, 0, 1))), change, mean(first, "x1")
 
 
 def product(x, y):
@@ -74,7 +75,9 @@ def dot(x, y):
 
 
 def values(windows, r):
-    """10⁴ C_I; the same of J's components 11, 22, 33 alone; relative residual; σ₁₂, N₁, N₂ over μ_fiber G."""
+    """10⁴ C_I; the same of J's components 11, 22, 33 alone; relative residual; σ₁₂, N₁, N₂ over μ_fiber G;
+    X̄₁; ⟨p₁p₁⟩, ⟨p₂p₂⟩, ⟨p₁p₂⟩."""
+    x1 = sum(w[3] for w in windows) / len(windows)
     a, q, change = ([[sum(w[k][i][j] for w in windows) / len(windows) for j in AXES] for i in AXES] for k in range(3))
     shape = (r * r - 1) / (r * r + 1)
     terms = [product(SPIN, a), product(a, SPIN), product(STRAIN, a), product(a, STRAIN)]
@@ -84,7 +87,8 @@ def values(windows, r):
     c_i = dot(gain, diffusion) / dot(diffusion, diffusion)
     rest = [[gain[i][j] - c_i * diffusion[i][j] for j in AXES] for i in AXES]
     own = [1e4 * gain[k][k] / diffusion[k][k] for k in AXES]
-    return [1e4 * c_i, *own, math.sqrt(dot(rest, rest) / dot(gain, gain)), q[0][1], q[1][1] - q[0][0], q[0][0] - q[2][2]]
+    stress = [q[0][1], q[1][1] - q[0][0], q[0][0] - q[2][2]]
+    return [1e4 * c_i, *own, math.sqrt(dot(rest, rest) / dot(gain, gain)), *stress, x1, a[0][0], a[1][1], a[0][1]]
 
 
 def row(program, folder, update, suspension):
@@ -96,7 +100,7 @@ def row(program, folder, update, suspension):
     for k in range(len(found)):
         mean = sum(w[k] for w in without) / count
         errors.append(math.sqrt((count - 1) / count * sum((w[k] - mean) ** 2 for w in without)))
-    digits = [2, 2, 2, 2, 2, 5, 5, 5]
+    digits = [2, 2, 2, 2, 2, 5, 5, 5, 5, 5, 5, 5]
     cells = [f"{value:.{d}f} ± {error:.{d}f}" for value, error, d in zip(found, errors, digits)]
     na3, _, alpha, steps = suspension
     print(f"| {update} | {na3} | {r} | {alpha} | {steps} | " + " | ".join(cells) + " |", flush=True)
@@ -105,7 +109,7 @@ def row(program, folder, update, suspension):
 if __name__ == "__main__":
     program, folder, which = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:] or ["steps", "suspensions"]
     folder.mkdir(parents=True, exist_ok=True)
-    print("| update | n a³ | r_e | α | steps a period | 10⁴ C_I | of 11 | of 22 | of 33 | residual | σ₁₂ | N₁ | N₂ |")
-    print("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |")
+    print("| update | n a³ | r_e | α | steps a period | 10⁴ C_I | of 11 | of 22 | of 33 | residual | σ₁₂ | N₁ | N₂ | X̄₁ | a₁₁ | a₂₂ | a₁₂ |")
+    print("|" + " --- |" * 17)
     for update, suspension in [*(STEPS if "steps" in which else []), *(SUSPENSIONS if "suspensions" in which else [])]:
         row(program, folder, update, suspension)

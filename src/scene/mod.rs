@@ -85,8 +85,8 @@ table! {
             "α of P_c = (α/(s/a + α))^m (eq. 7); 0: no rods collide";
         m: f64 = 3.0, "", Holds::Positive, Otherwise("3"),
             "m of eq. 7";
-        update: Update = Update::Rotation, "", Holds::OneOf(&["rotation", "angles", "kick"]), Otherwise("\"rotation\""),
-            "how a colliding rod takes its step; angles: A.14 to the letter; kick: as a free rod, then the change";
+        update: Update = Update::Kick, "", Holds::OneOf(&["rotation", "angles", "kick"]), Otherwise("\"kick\""),
+            "how a colliding rod takes its step; kick: as a free rod, then the change; rotation: a straight turn; angles: A.14 to the letter";
         min_contact_arm: f64 = 0.0, "lengths of its own rod", Holds::NotNegative, Otherwise("0"),
             "a shorter contact arm is no contact";
     }
@@ -103,11 +103,11 @@ table! {
 #[serde(rename_all = "lowercase")]
 pub enum Update {
     /// Turn about p × ṗ′ by |ṗ′|Δt.
-    #[default]
     Rotation,
     /// A.14 to the letter, in φ and θ.
     Angles,
     /// Jeffery's exact step, then a turn about p × (ṗ′ − ṗ) by |ṗ′ − ṗ|Δt: a collision that changes nothing moves nothing.
+    #[default]
     Kick,
 }
 

@@ -7,14 +7,26 @@ use shearbed::{Plan, Results};
 
 /// Scenes that use every function of `libm` that the core does, and the digest of their means: the same on every machine, so one
 /// that differs is a mistake of that machine's build, or a change of the model that has to be said.
-const SCENES: [(&str, u64, &str); 7] = [
+const SCENES: [(&str, u64, &str); 8] = [
+    (
+        "kicks",
+        0x1ae6_99bd_1c37_a312,
+        r#"
+        flow = { shear_rate_per_s = 0.5 }
+        particles = { count = 100, length_mm = 0.72, aspect_ratio = 11.6, aspect_ratio_sd_percent = 3.6, orientation = "isotropic" }
+        interaction = { concentration_per_cm3 = 50, alpha = 0.5 }
+        time = { periods = 1, outputs_per_period = 10 }
+        ensemble = { replicas = 10 }
+        output = { observables = ["projections", "mean_angle", "orbit_constant", "orientation_tensor_4"] }
+        "#,
+    ),
     (
         "collisions",
         0x125f_da1f_a124_4adc,
         r#"
         flow = { shear_rate_per_s = 0.5 }
         particles = { count = 100, length_mm = 0.72, aspect_ratio = 11.6, aspect_ratio_sd_percent = 3.6, orientation = "isotropic" }
-        interaction = { concentration_per_cm3 = 50, alpha = 0.5 }
+        interaction = { concentration_per_cm3 = 50, alpha = 0.5, update = "rotation" }
         time = { periods = 1, outputs_per_period = 10 }
         ensemble = { replicas = 10 }
         output = { observables = ["projections", "mean_angle", "orbit_constant", "orientation_tensor_4"] }
@@ -38,7 +50,7 @@ const SCENES: [(&str, u64, &str); 7] = [
         r#"
         flow = { shear_rate_per_s = 2 }
         particles = { count = 3000, length_mm = 0.72, physical_aspect_ratio = 20, shape_correlation = "harris-pittman", orientation = "isotropic" }
-        interaction = { concentration_per_cm3 = 500, alpha = 0.5 }
+        interaction = { concentration_per_cm3 = 500, alpha = 0.5, update = "rotation" }
         time = { periods = 0.1, outputs_per_period = 50 }
         "#,
     ),

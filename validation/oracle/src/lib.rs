@@ -13,6 +13,7 @@ pub mod naive;
 pub mod pairing;
 pub mod quadrature;
 pub mod reference;
+pub mod spheroid;
 
 /// The README's example, as a test.
 #[cfg(doctest)]

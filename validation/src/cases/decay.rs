@@ -40,9 +40,9 @@ pub fn cases() -> Vec<Case> {
     // A pilot of 300 replicas: 0.087 ± 0.028 and 0.109 ± 0.038 (mean and deviation).
     let concentration = Order {
         scenes: [
-            |scene| lab::interaction(scene).concentration_per_cm3 = Some(10.0),
-            |scene| lab::interaction(scene).concentration_per_cm3 = Some(50.0),
-            |scene| lab::interaction(scene).concentration_per_cm3 = Some(250.0),
+            |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(10.0),
+            |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(50.0),
+            |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(250.0),
         ],
         design: Design::new(0.08, 0.043),
     };
@@ -50,14 +50,14 @@ pub fn cases() -> Vec<Case> {
     let length = Order {
         scenes: [
             |scene| {
-                lab::interaction(scene);
+                lab::paper_interaction(scene);
                 scene.particles.length_mm = 0.36;
             },
             |scene| {
-                lab::interaction(scene);
+                lab::paper_interaction(scene);
             },
             |scene| {
-                lab::interaction(scene);
+                lab::paper_interaction(scene);
                 scene.particles.length_mm = 1.44;
             },
         ],
@@ -80,7 +80,7 @@ pub fn cases() -> Vec<Case> {
                 scene.particles.aspect_ratio_sd_percent = 7.2
             })
             .mistake("rods in collision", |scene| {
-                lab::interaction(scene).concentration_per_cm3 = Some(100.0)
+                lab::paper_interaction(scene).concentration_per_cm3 = Some(100.0)
             })
             .check(free_amplitude),
         Case::statement("faster-with-spread")
@@ -115,9 +115,9 @@ pub fn cases() -> Vec<Case> {
                 instead(
                     concentration,
                     [
-                        |scene| lab::interaction(scene).concentration_per_cm3 = Some(250.0),
-                        |scene| lab::interaction(scene).concentration_per_cm3 = Some(50.0),
-                        |scene| lab::interaction(scene).concentration_per_cm3 = Some(10.0),
+                        |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(250.0),
+                        |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(50.0),
+                        |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(10.0),
                     ],
                 ),
             )
@@ -132,11 +132,11 @@ pub fn cases() -> Vec<Case> {
                 instead(
                     length,
                     [
-                        |scene| lab::interaction(scene).concentration_per_cm3 = Some(400.0),
+                        |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(400.0),
                         |scene| {
-                            lab::interaction(scene);
+                            lab::paper_interaction(scene);
                         },
-                        |scene| lab::interaction(scene).concentration_per_cm3 = Some(6.25),
+                        |scene| lab::paper_interaction(scene).concentration_per_cm3 = Some(6.25),
                     ],
                 ),
             )
@@ -150,10 +150,10 @@ pub fn cases() -> Vec<Case> {
             .equations(&["4"])
             .subject(
                 (|scene| {
-                    lab::interaction(scene);
+                    lab::paper_interaction(scene);
                 }) as Change,
             )
-            .mistake("α a tenth", |scene| lab::interaction(scene).alpha *= 0.1)
+            .mistake("α a tenth", |scene| lab::paper_interaction(scene).alpha *= 0.1)
             .check(collisions_damp),
         Case::statement("dies-out")
             .claim(

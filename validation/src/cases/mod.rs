@@ -26,6 +26,7 @@ mod kick_sizes;
 mod kicks;
 mod misprints;
 mod motion;
+mod orbits;
 mod published;
 mod readings;
 mod reductions;
@@ -87,6 +88,7 @@ pub fn all() -> Vec<Case> {
         published::cases(),
         coefficients::cases(),
         folgar_tucker::cases(),
+        orbits::cases(),
         diffusing_rods::cases(),
     ]
     .into_iter()

@@ -89,7 +89,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("one draw per mutual pair instead", pair_draws)
             .check(does_not_matter),
         Case::interpretation("reading-update")
-            .claim("A.14 to the letter damps a little more than a turn about p × ṗ′: this reading matters.")
+            .claim("A.14 to the letter damps a little more than Jeffery's step and the kick: this reading matters.")
             .source("A.13, A.14; the pole of the angles")
             .equations(&["A.13", "A.14"])
             .subject(angles)

@@ -8,6 +8,7 @@
 //!   A = ½(1 + r⁻²) + (7/4 + s/8) u + ½(1 + r²) u².
 //! For r → ∞: 4C/(4C² + 1)^(3/2).
 
+use crate::closed_form::orbit_constant_density;
 use crate::quadrature::integrate;
 
 /// The density of C before it is normalised.
@@ -64,4 +65,23 @@ pub fn second_moments_of_orbit(c: f64, aspect_ratio: f64) -> [f64; 3] {
     let (long, wide) = ((1.0 + c * c).sqrt(), (aspect_ratio * c).hypot(1.0));
     let sum = long + wide;
     [c * c / (long * sum), (aspect_ratio * c).powi(2) / (wide * sum), 1.0 / (long * wide)]
+}
+
+/// ⟨p₁²p₂²⟩ of rods in orbit C, uniform in phase: their σ₁₂ over μ_fiber G. With A = 1 + C² and B = 1 + r²C² it is r²C⁴ times
+/// ⟨cos²τ sin²τ/(A cos²τ + B sin²τ)²⟩, which is −∂²/∂A∂B of 2 ln(½(√A + √B)).
+pub fn shear_stress_of_orbit(c: f64, aspect_ratio: f64) -> f64 {
+    let (long, wide) = ((1.0 + c * c).sqrt(), (aspect_ratio * c).hypot(1.0));
+    (aspect_ratio * c * c / (long + wide)).powi(2) / (2.0 * long * wide)
+}
+
+/// σ₁₂ over μ_fiber G of rods in the orbits of isotropic directions, uniform in phase: the mean over a period of free rods that started so.
+pub fn shear_stress_of_isotropic(aspect_ratio: f64) -> f64 {
+    let of_c = |c_b: f64| {
+        let c = c_b / (1.0 - c_b).max(f64::EPSILON);
+        orbit_constant_density(c, aspect_ratio) * shear_stress_of_orbit(c, aspect_ratio) * (1.0 + c).powi(2)
+    };
+    let knee = 1.0 / (1.0 + aspect_ratio);
+    let mut breaks = [0.0, 0.1 * knee, knee, 0.5, 0.9, 1.0];
+    breaks.sort_by(f64::total_cmp);
+    integrate(of_c, &breaks, 1e-14).value
 }

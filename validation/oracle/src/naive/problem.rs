@@ -142,7 +142,7 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// Fig. 7 at 50 per cm^3 with rods of one size, as the project reads the paper.
+    /// Fig. 7 at 50 per cm^3 with rods of one size, as the project reads the paper, with the update `rotation`.
     pub fn paper(seed: u64, replica: u64) -> Self {
         Self {
             count: 100,

@@ -4,7 +4,7 @@ use super::*;
 
 pub(super) fn dies_out(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let scene = |sd| {
-        let mut scene = lab::interacting_scene(effort);
+        let mut scene = lab::paper_scene(effort);
         scene.particles.aspect_ratio_sd_percent = sd;
         change(&mut scene);
         scene
@@ -43,7 +43,7 @@ pub(super) fn dies_out(change: &Change, effort: &Effort) -> Vec<Evidence> {
 }
 
 pub(super) fn damped(scene: &mut Scene) {
-    lab::interaction(scene);
+    lab::paper_interaction(scene);
     scene.particles.aspect_ratio_sd_percent = 3.6;
 }
 

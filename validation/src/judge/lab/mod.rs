@@ -12,7 +12,7 @@ pub use shared::Shared;
 use crate::judge::case::Effort;
 use shearbed::Suspension;
 use shearbed::plan::{Plan, Stage};
-use shearbed::scene::{Ensemble, Interaction, Scene};
+use shearbed::scene::{Ensemble, Interaction, Scene, Update};
 
 /// A change of a scene: what a case varies, or a mistake.
 pub type Change = fn(&mut Scene);
@@ -37,7 +37,19 @@ pub fn interacting_scene(effort: &Effort) -> Scene {
     Scene { interaction: Some(Interaction::default()), ..free_scene(effort) }
 }
 
-/// The interaction of a scene; the paper's where it had none.
+/// The same with the paper's own update, A.14 to the letter: for what reproduces the paper.
+pub fn paper_scene(effort: &Effort) -> Scene {
+    changed(free_scene(effort), |scene| {
+        paper_interaction(scene);
+    })
+}
+
+/// The interaction of a scene; that of [`paper_scene`] where it had none.
+pub fn paper_interaction(scene: &mut Scene) -> &mut Interaction {
+    scene.interaction.get_or_insert(Interaction { update: Update::Angles, ..Interaction::default() })
+}
+
+/// The interaction of a scene; that of [`interacting_scene`] where it had none.
 pub fn interaction(scene: &mut Scene) -> &mut Interaction {
     scene.interaction.get_or_insert_default()
 }

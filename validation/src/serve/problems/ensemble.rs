@@ -1,8 +1,8 @@
 //! Problems of suspensions with collisions after Lee & Springer (1982).
 //!
 //! The certified means are a shipped table, not made at export: they take 20 000 replicas and minutes, and a table is the same
-//! on every machine. `shearbed run fig7-n50 --replicas 20000 --seed 1982` wrote `data/fig7-n50.csv`, and
-//! `shearbed run fig4-n50 --replicas 20000 --seed 1982` wrote `data/fig4-n50.csv`; rows of other times are left out.
+//! on every machine. `shearbed run fig7-n50 --set interaction.update=rotation --replicas 20000 --seed 1982` wrote `data/fig7-n50.csv`, and
+//! the same with fig4-n50 `data/fig4-n50.csv`; rows of other times are left out.
 
 use super::asked::{AXES, COUETTE, period_s};
 use super::{Built, Ensemble, FORMAT, Kind, Metric, Problem, ProblemDef};
@@ -73,8 +73,8 @@ fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
                 2 * 3 * rows.len()
             ),
             equations: vec![format!(
-                "the model of Lee & Springer (1982), eqs 4 to 14 and A.1 to A.13: {REPLICAS} replicas of this project's simulator, seed 1982, judged by the independent naive \
-                 reference"
+                "the model of Lee & Springer (1982), eqs 4 to 14 and A.1 to A.13; in the step of a collision a rod turns about p × ṗ′ by |ṗ′|Δt. {REPLICAS} replicas of this \
+                 project's simulator with update = \"rotation\", seed 1982, judged by the independent naive reference"
             )],
             axes: AXES.into(),
             ensemble: Some(Ensemble {

@@ -114,6 +114,8 @@ pub struct Coefficients {
     pub damping_per_period: Option<Estimate>,
     /// Steady σ₁₂, N₁ and N₂ of the rods over μ_fiber G.
     pub stress: [Estimate; 3],
+    /// Steady σ₁₂/(μG n a³) of rods that are spheroids.
+    pub spheroids: Estimate,
 }
 
 /// Outputs per period.
@@ -180,6 +182,7 @@ fn row(setting: Setting, replicas: u64, effort: &Effort) -> Coefficients {
         misfit: of(&|means| means.misfit(factor)),
         damping_per_period: damping(&quarters),
         stress: std::array::from_fn(|k| of(&|means| means.stress()[k])),
+        spheroids: of(&|means| means.spheroids(setting.aspect_ratio)),
     }
 }
 

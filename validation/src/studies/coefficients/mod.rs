@@ -15,6 +15,7 @@ pub use diffusing::{Diffusing, Diffusion, free};
 pub use measure::{Amount, Coefficients, Setting, rows};
 pub(crate) use measure::{scene, windows};
 
+use crate::oracle::spheroid;
 use nalgebra::Matrix3;
 
 /// Means over rods and over a window of time, of one replica or several.
@@ -72,5 +73,11 @@ impl Means {
     pub fn stress(&self) -> [f64; 3] {
         let s = &self.sheared;
         [s[(0, 1)], s[(1, 1)] - s[(0, 0)], s[(0, 0)] - s[(2, 2)]]
+    }
+
+    /// σ₁₂/(μG n a³) of rods that are spheroids of finite r_e.
+    pub fn spheroids(&self, aspect_ratio: f64) -> f64 {
+        let in_plane = self.second[(0, 0)] + self.second[(1, 1)];
+        spheroid::shear_stress(aspect_ratio, self.sheared[(0, 1)], in_plane)
     }
 }

@@ -5,6 +5,7 @@ use super::{Amount, Coefficients, rows};
 use crate::files::build;
 use crate::input::published::folgar_tucker;
 use crate::judge::statistics::{Estimate, Sample, slope, student};
+use crate::oracle::diffusion::orbits::{mean_over_orbits, shear_stress_of_isotropic, shear_stress_of_orbit};
 use crate::present::plot::Points;
 use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
 use crate::present::table::{Column, ReportTable, decimals, estimate, field, number, plus_minus, words};
@@ -21,6 +22,7 @@ pub const STUDY: Study = Study {
         "particle-stress",
         "folgar-tucker-seven",
         "kicks-are-no-diffusion",
+        "orbits-of-collisions",
     ],
     command: "cargo run --release -- bench --case folgar-tucker",
     parts: &["folgar-tucker"],
@@ -156,10 +158,21 @@ fn stress(rows: &[Coefficients]) -> ReportTable {
     for (k, name) in ["σ_12/(μ_fiber G)", "N_1/(μ_fiber G)", "N_2/(μ_fiber G)"].into_iter().enumerate() {
         columns.push(measured(name, move |row| row.stress[k]));
     }
+    columns.push(measured("σ_12/(μ G n a³), spheroids", |row| row.spheroids));
+    columns.push(number("σ_12, free from isotropic", decimals(5), |row: &Coefficients| {
+        shear_stress_of_isotropic(row.setting.aspect_ratio)
+    }));
+    columns.push(number("σ_12, weak diffusion", decimals(5), |row: &Coefficients| {
+        let r = row.setting.aspect_ratio;
+        mean_over_orbits(r, |c| shear_stress_of_orbit(c, r))
+    }));
     ReportTable::new(
         ["particle-stress", "What the rods add to the stress, steady"],
         "σ_ij = μ_fiber G ⟨p_i p_j p₁p₂⟩ of slender rods (Batchelor 1970), in the same runs. 1 is the gradient, 2 the flow; N₁ = \
-         σ₂₂ − σ₁₁, N₂ = σ₁₁ − σ₃₃. What forces between colliding rods add is not in it.",
+         σ₂₂ − σ₁₁, N₂ = σ₁₁ − σ₃₃. What forces between colliding rods add is not in it. μ_fiber is the leading order for slender rods; the next column has σ_12 of \
+         spheroids of that r_e with Jeffery's coefficients and their whole stress. The last two columns are what σ_12 would be \
+         without collisions, by closed forms: free rods that started isotropic, in the mean over a period, and rods in the orbits of \
+         weak rotary diffusion (Leal & Hinch 1971). Both have N₁ = N₂ = 0, for their phases are even.",
         rows,
         columns,
     )

@@ -1,7 +1,9 @@
 //! Orbits of rods with weak diffusion: the closed form, and the Fokker–Planck equation as C_I → 0.
 
 use super::*;
-use crate::diffusion::orbits::{cdf, mean_over_orbits, second_moments_of_orbit};
+use crate::diffusion::orbits::{
+    cdf, mean_over_orbits, second_moments_of_orbit, shear_stress_of_isotropic, shear_stress_of_orbit,
+};
 
 #[test]
 fn the_share_of_long_orbits_is_the_known_one() {
@@ -21,13 +23,16 @@ fn the_share_of_long_orbits_is_the_known_one() {
 fn moments_of_an_orbit_are_those_of_its_phases() {
     for (c, r) in [(0.3, 5.0), (2.0, 0.4), (1.0, 11.6)] {
         const PHASES: usize = 2000;
-        let mut sums = [0.0; 3];
+        let (mut sums, mut sheared) = ([0.0; 3], 0.0);
         for k in 0..PHASES {
             let (s, cos) = (std::f64::consts::TAU * k as f64 / PHASES as f64).sin_cos();
             let squares = [(c * cos) * (c * cos), (r * c * s) * (r * c * s), 1.0];
             let all: f64 = squares.iter().sum();
             (0..3).for_each(|i| sums[i] += squares[i] / all / PHASES as f64);
+            sheared += squares[0] * squares[1] / (all * all) / PHASES as f64;
         }
+        assert!((shear_stress_of_orbit(c, r) - sheared).abs() < 1e-14);
+        assert!((shear_stress_of_orbit(1.1 * c, r) - sheared).abs() > 1e-3);
         assert!(off(&second_moments_of_orbit(c, r), &sums) < 1e-14);
         assert!(off(&second_moments_of_orbit(1.1 * c, r), &sums) > 1e-3);
     }
@@ -60,4 +65,27 @@ fn weak_diffusion_is_the_limit_of_the_fokker_planck_equation() {
         let wrong = [0, 1, 2].map(|i| mean_over_orbits(1.2 * r, |c| second_moments_of_orbit(c, r)[i]));
         assert!(off(&wrong, &limit) > 1e-3);
     }
+}
+
+#[test]
+fn the_shear_stress_of_isotropic_rods_is_that_of_their_fourth_moments() {
+    // The mean over half a period of ⟨p₁²p₂²⟩ of free rods that started isotropic, by the closed integral in time.
+    const TIMES: usize = 400;
+    for r in [1.5, 3.0, 5.0] {
+        let at = |k: usize| crate::moments::fourth(r, 0.5 * k as f64 / TIMES as f64, [0, 0, 1, 1]);
+        let mean = (0..TIMES).map(at).sum::<f64>() / TIMES as f64;
+        let found = shear_stress_of_isotropic(r);
+        assert!((found - mean).abs() < 1e-9, "{r}: {found} {mean}");
+        assert!((shear_stress_of_isotropic(1.1 * r) - mean).abs() > 1e-4);
+    }
+    // A sphere's rods stay isotropic: ⟨p₁²p₂²⟩ = 1/15.
+    assert!((shear_stress_of_isotropic(1.0 + 1e-9) - 1.0 / 15.0).abs() < 1e-8);
+}
+
+/// Two values from an estimate that is independent of this project.
+#[test]
+fn free_rods_and_weak_diffusion_have_the_known_shear_stress() {
+    let weak = mean_over_orbits(11.6, |c| shear_stress_of_orbit(c, 11.6));
+    assert!((weak - 0.0214).abs() < 5e-5, "{weak}");
+    assert!((shear_stress_of_isotropic(11.6) - 0.0218).abs() < 5e-5);
 }

@@ -3,6 +3,8 @@
 use super::{Apart, Compared, Quantity, Shares, above, apart};
 use crate::judge::case::Effort;
 use crate::judge::statistics::Sample;
+use crate::oracle::closed_form::orbit_constant_cdf;
+use crate::oracle::diffusion::orbits::cdf;
 use crate::present::plot::Curve;
 use crate::present::study::ReportFigure;
 use crate::present::table::{Column, ReportTable, decimals, estimate, field, number, plus_minus, words};
@@ -55,8 +57,8 @@ pub(in crate::studies::coefficients) fn tables(all: &[Compared], effort: &Effort
         ["kicks-and-diffusion", "Kicks and diffusion of the same C_I"],
         format!(
             "Per cent of the rods (± a standard error over {replicas} replicas) that a strain leaves off Jeffery's \
-             motion by more than an angle, or in another orbit by more than |ΔC_b|; last, those whose orbit is nearer to the \
-             shear plane. n a³ = 0.2, r_e = 11.6, α = 0.5, steady; diffusion of the C_I that was measured at the same time step."
+             motion by more than an angle, or in another orbit by more than |ΔC_b|; last, those in high orbits, C_b > ½, \
+             which reach farther from the vorticity axis. n a³ = 0.2, r_e = 11.6, α = 0.5, steady; diffusion of the C_I that was measured at the same time step."
         ),
         sides(all),
         columns,
@@ -105,6 +107,9 @@ pub(in crate::studies::coefficients) fn figures(one: &Compared) -> [ReportFigure
     let at = Sample::of(&above(&one.kicks, Quantity::Angle, 0.2)).mean * 0.2_f64.tan();
     let angles = (0..=60).map(|k| 10f64.powf(0.05 * f64::from(k) - 2.85));
     let theory = Curve::of("jumps κ with a tail 1/κ, theory", angles, |x| (x, at / x.tan()));
+    let closed = |label, cdf: fn(f64, f64) -> f64| {
+        Curve::of(label, Quantity::Orbit.edges(), |c_b| (c_b, 1.0 - cdf(c_b, one.setting.aspect_ratio)))
+    };
     let jumps = ReportFigure::new(
         ["kicks-and-diffusion", "Rods off Jeffery's motion after a strain of 1"],
         "Kicks leave most rods alone and turn few far, diffusion of the same C_I turns all a little. Jumps κ with a tail ∝ 1/κ \
@@ -116,11 +121,14 @@ pub(in crate::studies::coefficients) fn figures(one: &Compared) -> [ReportFigure
     .spans(None, Some((1e-4, 1.0)));
     let orbits = ReportFigure::new(
         ["steady-orbits", "Steady orbits"],
-        "C_b = C/(1 + C) is 0 along the vorticity axis and 1 in the shear plane. Diffusion brings rods nearer to the vorticity \
-         axis than kicks do.",
+        "C_b = C/(1 + C) is 0 along the vorticity axis and 1 in the shear plane. Collisions leave more rods in high orbits than \
+         isotropic directions have, diffusion fewer: its rods follow the closed form of weak diffusion (Leal & Hinch 1971).",
         ["C_b", "share of rods above it"],
     )
-    .curves(curves(Quantity::Orbit));
-    [jumps, orbits]
-        .map(|figure| figure.judged("Folgar & Tucker 1984; eqs 5 to 10", &["kicks-are-no-diffusion"]))
+    .curves(curves(Quantity::Orbit))
+    .curves([closed("weak diffusion, closed form", cdf), closed("isotropic directions, closed form", orbit_constant_cdf)]);
+    [jumps, orbits].map(|figure| {
+        figure
+            .judged("Folgar & Tucker 1984; eqs 5 to 10", &["kicks-are-no-diffusion", "orbits-of-collisions"])
+    })
 }

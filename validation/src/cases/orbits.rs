@@ -1,0 +1,88 @@
+//! In which orbits rods end up: by weak rotary diffusion, whose distribution of C is known, and by collisions.
+
+use crate::judge::accept::Design;
+use crate::judge::case::{Case, Effort, Evidence};
+use crate::judge::lab::{self, Change, Shared};
+use crate::judge::statistics::Sample;
+use crate::oracle::closed_form::orbit_constant_cdf;
+use crate::oracle::diffusion::orbits::cdf;
+use crate::studies::coefficients::jumps::{Quantity, Shares, Watch, above, diffused, kicked};
+use crate::studies::coefficients::{self, Setting};
+use shearbed::scene::Update;
+
+const ASPECT_RATIO: f64 = 11.6;
+
+/// Weak: C_I r_e³ is 0.3.
+const C_I: f64 = 2e-4;
+
+/// What is compared.
+#[derive(Clone, Copy)]
+struct Orbits {
+    /// The distribution function of C_b that weak diffusion is held to.
+    weak: fn(f64, f64) -> f64,
+    c_i: f64,
+    collisions: Change,
+}
+
+pub fn cases() -> Vec<Case> {
+    let right = Orbits { weak: cdf, c_i: C_I, collisions: |_| {} };
+    vec![
+        Case::interpretation("orbits-of-collisions")
+            .claim(
+                "Weak rotary diffusion leaves the closed form's 46.1 % of rods of r_e = 11.6 above C_b = ½; collisions leave far \
+                 more there than isotropic directions have, 50.7 %.",
+            )
+            .source("Leal & Hinch 1971; eq. 13; docs/src/theory/diffusion.md")
+            .equations(&["13"])
+            .subject(right)
+            .mistake("the orbits of isotropic directions for those of weak diffusion", Orbits {
+                weak: orbit_constant_cdf,
+                ..right
+            })
+            .mistake("diffusion that is not weak, C_I = 0.02", Orbits { c_i: 0.02, ..right })
+            .mistake("hardly any collisions: α of 10⁻⁶", Orbits {
+                collisions: |scene| lab::interaction(scene).alpha = 1e-6,
+                ..right
+            })
+            .check(orbits),
+    ]
+}
+
+/// Replicas with diffusion, by 10⁶ C_I.
+static OF_DIFFUSION: Shared<u64, Vec<Shares>> = Shared::new();
+
+fn orbits(subject: &Orbits, effort: &Effort) -> Vec<Evidence> {
+    let (weak, high) = (Design::new(0.031, 0.06), Design::new(0.15, 0.06));
+    let setting =
+        Setting { n_a3: 0.5, aspect_ratio: ASPECT_RATIO, alpha: 0.5, update: Update::Kick, finer: 1 };
+    let scene = coefficients::scene(setting, effort);
+    // C_I times the strain before is 0.07, and A(C)'s r_e²/2 makes it long.
+    let watch = Watch::new(&scene, 5.0, 1.0);
+    let of_diffusion = OF_DIFFUSION.get(effort, (subject.c_i * 1e6).round() as u64, || {
+        diffused(&scene, subject.c_i, watch, effort.samples(weak), (effort, 1 << 22))
+    });
+    let suspension = lab::changed(scene.clone(), subject.collisions);
+    let of_collisions = kicked(&suspension, watch, effort.samples(high));
+    let less = |all: &[Shares], share: f64| {
+        Sample::of(&above(all, Quantity::Orbit, 0.5).iter().map(|own| own - share).collect::<Vec<_>>())
+    };
+    vec![
+        Evidence::new(
+            "share of diffusing rods with C_b above ½, less the closed form's",
+            less(&of_diffusion, 1.0 - (subject.weak)(0.5, ASPECT_RATIO)).is(
+                0.0,
+                0.015,
+                weak.effect,
+                "a third of what isotropic directions differ by, 0.046",
+            ),
+        ),
+        Evidence::new(
+            "share of colliding rods with C_b above ½, less that of isotropic directions",
+            less(&of_collisions, 1.0 - orbit_constant_cdf(0.5, ASPECT_RATIO)).exceeds(
+                0.0,
+                high.effect,
+                "\"far more\": a fifth of the rods in a pilot",
+            ),
+        ),
+    ]
+}
