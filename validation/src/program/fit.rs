@@ -19,7 +19,7 @@ use crate::serve::sweep::Setting;
 use input::{Input, input};
 use serde_json::{Value, json};
 use shearbed::Plan;
-use shearbed::scene::{MAX_REPLICAS, MAX_SEED, Scene};
+use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shifts::{shifts, taken_as_known};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -154,7 +154,6 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     }
     let best = scenes.plans(&fit.values(&fit.best.place), data, AS_WRITTEN).map_err(stopped)?;
     let mut warnings: Vec<String> = best.iter().flat_map(Plan::warnings).collect();
-    warnings.extend(best.iter().filter_map(|plan| not_slender(plan.scene())));
     warnings.dedup();
     report.warnings.extend(warnings);
     let places = pictures::places(data);
@@ -163,20 +162,6 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let times: Vec<&str> = scenes.sets.iter().map(|set| set.time.name()).collect();
     let figures = pictures::figures(&fit, &report, data, (&places, &curves), &input.names, &times);
     Ok(Done { fit, report, figures, candidates })
-}
-
-/// The largest r_e whose measured points the paper leaves out.
-const LEFT_OUT: f64 = 3.96;
-
-/// That interacting rods are too short for the model.
-fn not_slender(scene: &Scene) -> Option<String> {
-    let aspect_ratio = scene.particles.aspect_ratio;
-    (scene.interaction.is_some() && aspect_ratio <= LEFT_OUT).then(|| {
-        format!(
-            "r_e = {aspect_ratio}: the model is for r_e ≫ 1, and Lee & Springer leave out their measured points of r_e = {LEFT_OUT} \
-             (Results, after Fig. 5)"
-        )
-    })
 }
 
 /// What a fit is of: everything that its results depend on.

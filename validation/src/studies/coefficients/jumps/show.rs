@@ -55,8 +55,8 @@ pub(in crate::studies::coefficients) fn tables(all: &[Compared], effort: &Effort
         ["kicks-and-diffusion", "Kicks and diffusion of the same C_I"],
         format!(
             "Per cent of the rods (± a standard error over {replicas} replicas) that a strain leaves off Jeffery's \
-             motion by more than an angle, or in another orbit by more than |ΔC_b|; last, those whose orbit is nearer to the \
-             shear plane. n a³ = 0.2, r_e = 11.6, α = 0.5, steady; diffusion of the C_I that was measured at the same time step."
+             motion by more than an angle, or in another orbit by more than |ΔC_b|; last, those with C_b > 0.5. \
+             n a³ = 0.2, r_e = 11.6, α = 0.5, steady; diffusion of the C_I that was measured at the same time step."
         ),
         sides(all),
         columns,
@@ -116,8 +116,8 @@ pub(in crate::studies::coefficients) fn figures(one: &Compared) -> [ReportFigure
     .spans(None, Some((1e-4, 1.0)));
     let orbits = ReportFigure::new(
         ["steady-orbits", "Steady orbits"],
-        "C_b = C/(1 + C) is 0 along the vorticity axis and 1 in the shear plane. Diffusion brings rods nearer to the vorticity \
-         axis than kicks do.",
+        "C_b = C/(1 + C) is 0 along the vorticity axis and 1 in the shear plane. Diffusion leaves more rods at low C_b than \
+         kicks do.",
         ["C_b", "share of rods above it"],
     )
     .curves(curves(Quantity::Orbit));
