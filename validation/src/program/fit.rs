@@ -47,13 +47,13 @@ pub(super) struct Args {
     /// The folder for fit.json, tables and pictures [default: out/fit-<scene>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// The most independent runs at each value of the parameters: so many only where the model's own error asks for them
+    /// The most replicas at each value of the parameters; fewer run where the model's error is small enough
     #[arg(long, value_name = "N", default_value_t = MOST_REPLICAS, value_parser = whole(20, MAX_REPLICAS), allow_negative_numbers = true)]
     replicas: u64,
     /// The seed of all random numbers, in place of the scene's own
     #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), allow_negative_numbers = true)]
     seed: Option<u64>,
-    /// Rods that each measured point is a mean over; without it their sampling is taken to be in the uncertainties
+    /// Rods that each measured point is a mean over; without it the points' uncertainties must include the scatter of rods
     #[arg(long, value_name = "N", value_parser = whole(1, u64::MAX), allow_negative_numbers = true)]
     rods: Option<u64>,
     /// A key of every scene and the value to give it; can be given more than once
@@ -61,7 +61,7 @@ pub(super) struct Args {
     settings: Vec<Setting>,
     #[command(flatten)]
     threads: Threads,
-    /// List further points, at all times and at half and twice the concentration, with what each would leave of the uncertainties
+    /// List further points, at all times and at half and twice the concentration, with the uncertainties that each would leave
     #[arg(long)]
     design: bool,
     #[command(flatten)]
