@@ -191,7 +191,7 @@ fn steps_resolve_the_motion_by_default() {
         let plan = plan(&turning(r, ""));
         assert_eq!((plan.steps(), plan.outputs()), (steps, 51), "{r}");
         assert_eq!(plan.scene().resolved().time.steps_per_unit, Some(steps));
-        assert_eq!(plan.warnings(), Vec::<String>::new());
+        assert_eq!(plan.warnings().len(), usize::from(r < 10.0), "{r}");
     }
     // Outputs that are given fall on steps.
     for (r, outputs, steps) in
@@ -238,7 +238,22 @@ fn the_stress_of_rods_that_are_not_slender_is_warned_of() {
         assert_eq!(plan(&free).warnings(), Vec::<String>::new());
         let plan = plan(&(free + stress));
         assert_eq!(plan.warnings().len(), usize::from(warns), "{r}");
-        assert_eq!(plan.to_string().contains("\nwarning: particle_stress is the limit"), warns);
+        assert_eq!(plan.to_string().contains("particle_stress is the limit of slender rods"), warns);
+    }
+}
+
+#[test]
+fn rods_that_are_too_thick_to_collide_as_lines_are_warned_of() {
+    for (r, warns) in [(1.01, true), (9.99, true), (10.0, false), (11.6, false)] {
+        let warnings = plan(&turning(r, "")).warnings();
+        assert_eq!(warnings.len(), usize::from(warns), "{r}");
+        assert!(warnings.iter().all(|text| {
+            text.starts_with(&format!(
+                "particles.aspect_ratio = {r}: the collision rule is for slender rods, r_e ≫ 1."
+            ))
+        }));
+        let free = turning(r, "").replace("alpha = 0.5", "alpha = 0");
+        assert_eq!(plan(&free).warnings(), Vec::<String>::new());
     }
 }
 

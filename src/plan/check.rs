@@ -88,7 +88,7 @@ fn check_rods_outputs(scene: &Scene) -> Result<(), Invalid> {
     };
     let each = scene.outputs_per_unit();
     let allowed = format!(
-        "each the time of another output, k/{each} up to {}, which {} is not",
+        "different output times, k/{each} up to {}; {} is none",
         (scene.outputs() - 1) as f64 / each as f64,
         scene.output.rods_at[wrong]
     );
@@ -134,12 +134,12 @@ fn check_interaction(
             Some(sides) => Invalid::new(
                 "interaction.box_mm",
                 format!("{sides:?}"),
-                "such that the sides over the rods' length, their product and the concentration are finite numbers > 0",
+                "lengths for which the sides over the rods' length, their product and the concentration are finite numbers > 0",
             ),
             None => Invalid::new(
                 "interaction.concentration_per_cm3",
                 n,
-                "such that the control volume's side (N/(n a³))^⅓ is a finite number > 0",
+                "a number for which the control volume's side (N/(n a³))^⅓ is a finite number > 0",
             ),
         });
     }
@@ -147,8 +147,8 @@ fn check_interaction(
     if trace.is_nan() || trace.abs() > INCOMPRESSIBLE * gradient.amax() {
         return Err(refused_gradient(
             scene,
-            "such that ∂u_1/∂x_1 + ∂u_2/∂x_2 + ∂u_3/∂x_3 is 0 where rods interact: else the liquid does not keep its volume, \
-             nor rods their concentration",
+            "where rods interact, a gradient with ∂u_1/∂x_1 + ∂u_2/∂x_2 + ∂u_3/∂x_3 = 0: any other changes the volume of the \
+             liquid and the concentration of the rods",
         ));
     }
     Ok(())

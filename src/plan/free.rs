@@ -129,8 +129,8 @@ fn unknown(scene: &Scene, error: f64, of_start: f64) -> Invalid {
         scene.time.unit.duration_key(),
         scene.time.duration,
         format!(
-            "so long that directions of rods of r_e = {} in this flow would be known to {error:.1e} rad only, not to \
-             {MAX_ERROR_RAD:e}: {cause}; give a shorter time, another start or other rods",
+            "a time after which directions are known to {MAX_ERROR_RAD:e} rad: of rods of r_e = {} in this flow they are \
+             known to {error:.1e} rad only, as {cause}; give a shorter time, another start or other rods",
             scene.particles.aspect_ratio
         ),
     )
@@ -141,7 +141,7 @@ fn cause(error: f64, of_start: f64) -> &'static str {
     if of_start > 0.5 * error {
         "this flow amplifies the rounding of the start beyond 1e-6 rad"
     } else {
-        "the flow's rates cancel, or grow apart, beyond the 32 digits that they are worked out in"
+        "the flow's rates cancel, or differ, by more than the 32 digits of the computation"
     }
 }
 

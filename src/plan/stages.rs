@@ -103,10 +103,10 @@ pub(super) fn entries(scene: &Scene) -> Vec<Entry> {
     }
     if particles.of_several_lengths() {
         let asked = [
-            (no_interaction(scene).is_none(), "P_c and contact arms go by each rod's own length"),
+            (no_interaction(scene).is_none(), "P_c and contact arms use each rod's own length"),
             (
                 scene.output.observables.contains(&Observable::ParticleStress),
-                "a rod's stress is as its cubed length",
+                "a rod's stress is proportional to its cubed length",
             ),
             (!scene.output.rods_at.is_empty(), "rods.csv has each rod's length"),
         ];

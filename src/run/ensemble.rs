@@ -220,7 +220,7 @@ impl Tally {
         }
         let deviations = self.deviation.iter().all(|x| x.is_finite() && *x >= 0.0);
         if !deviations || !self.mean.iter().all(|x| x.is_finite()) {
-            return Err("a mean in it is no number");
+            return Err("it has a mean that is not finite, or a negative deviation");
         }
         Ok(())
     }

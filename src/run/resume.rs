@@ -83,7 +83,7 @@ impl Halfway {
         match &self.rods {
             Some(placed) if plan.keeps(Stage::Translation) => placed.check(plan, self.outputs(plan)),
             None if !plan.keeps(Stage::Translation) => Ok(()),
-            _ => Err("it has rods where the scene has none, or none where it has"),
+            _ => Err("it has saved rods and the scene asks for none, or the other way round"),
         }
     }
 }
@@ -117,20 +117,20 @@ impl Placed {
         let most = tick.saturating_mul(count as u64);
         let drawn = if plan.keeps(Stage::CollisionDraws) { most } else { 0 };
         if self.counters.draws != drawn || self.counters.replacements > most {
-            return Err("it has drawn other numbers than its steps draw");
+            return Err("its random numbers are not those of its steps");
         }
         let dated = if plan.keeps(Stage::Contacts) { count } else { 0 };
         let axes = || self.directions.iter().chain(&self.positions);
         if self.since.len() != dated || axes().any(|axis| axis.len() != count) {
-            return Err("it has another number of rods");
+            return Err("its number of rods is not the scene's");
         }
         let [p1, p2, p3] = &self.directions;
         let mut squares = p1.iter().zip(p2).zip(p3).map(|((a, b), c)| a * a + b * b + c * c);
         if !squares.all(|square| (square - 1.0).abs() <= LENGTH) {
-            return Err("a direction in it has not the length 1");
+            return Err("it has a direction whose length is not 1");
         }
         if self.since.iter().any(|since| u64::from(*since) > tick) {
-            return Err("a collision in it has yet to come");
+            return Err("it has a collision after its last step");
         }
         let sides = plan.scene().volume().map_or([f64::INFINITY; 3], |volume| volume.sides());
         let within = |(axis, side): (&Vec<f64>, f64)| axis.iter().all(|x| (0.0..=side).contains(x));

@@ -41,10 +41,9 @@ pub(super) fn check_shape(scene: &Scene) -> Result<(), Invalid> {
 /// Refuses a file of rods that has not been read.
 pub(in crate::plan) fn check_rods_are_read(scene: &Scene) -> Result<(), Invalid> {
     match &scene.particles.rods {
-        Some(RodsFile { file, own: None, .. }) => Err(refused_file(
-            file,
-            "a file whose rods were read into the scene before it was planned (RodsFile::with)".into(),
-        )),
+        Some(RodsFile { file, own: None, .. }) => {
+            Err(refused_file(file, "a file that was loaded before planning (RodsFile::with)".into()))
+        }
         _ => Ok(()),
     }
 }
@@ -79,7 +78,7 @@ pub(super) fn check_particles(scene: &Scene) -> Result<(), Invalid> {
     }
     let length_sd = scene.particles.length_sd_percent;
     if length_sd >= 100.0 / 3.0 {
-        let allowed = "so wide that lengths ≤ 0 are likely; below 33.3333, three standard deviations";
+        let allowed = "a number below 33.3333: with more, lengths ≤ 0 are less than three standard deviations from the mean";
         return Err(Invalid::new("particles.length_sd_percent", length_sd, allowed));
     }
     // Three standard deviations: P(r_e ≤ 1) = 0.0013 per rod.
@@ -91,8 +90,8 @@ pub(super) fn check_particles(scene: &Scene) -> Result<(), Invalid> {
             "particles.aspect_ratio_sd_percent",
             sd,
             format!(
-                "so wide that r_e ≤ 1 (for discs: r_e ≥ 1 or ≤ 0) is likely; with mean {r} below {widest:.4}, \
-                 three standard deviations"
+                "a number below {widest:.4} with a mean of {r}: with more, r_e ≤ 1 (for discs: r_e ≥ 1 or ≤ 0) is less than \
+                 three standard deviations from the mean"
             ),
         ));
     }

@@ -17,7 +17,7 @@ fn the_widest_spread_is_told_and_a_little_less_is_taken() {
             scene.particles.aspect_ratio_sd_percent = widest * share;
             assert_eq!(crate::Plan::new(&scene).is_ok(), taken, "{mean}: {share}");
         }
-        let told = format!("with mean {mean} below {widest:.4}, three standard deviations");
+        let told = format!("a number below {widest:.4} with a mean of {mean}: with more,");
         assert!(refusal(&scene).contains(&told), "{}", refusal(&scene));
     }
     let mut scene = Scene::default();

@@ -74,7 +74,7 @@ pub(super) fn check_steps(scene: &Scene, flow: &VelocityGradient) -> Result<(), 
     let (gradient, duration) = (flow.per_s() / longest, longest * scene.seconds_per_unit(flow));
     let needed = gradient.norm() * duration / MAX_STEP;
     if needed.is_nan() || needed > steps as f64 {
-        return refused(format!("at least {:.0}, in which the liquid's gradient is resolved", needed.ceil()));
+        return refused(format!("at least {:.0}, to resolve the velocity gradient", needed.ceil()));
     }
     let other_flow = flow.shear_rate_per_s().is_none();
     let crossings = scene.volume().map_or(0.0, |volume| volume.crossings(&gradient)) * duration;

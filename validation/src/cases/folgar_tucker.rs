@@ -49,7 +49,7 @@ pub fn cases() -> Vec<Case> {
         Case::interpretation("kicks-are-no-diffusion")
             .claim(
                 "At equal C_I, kicks leave far more rods alone than rotary diffusion does over a strain of 1, turn far more of \
-                 them by more than 0.1 rad, and keep more of them in orbits near the shear plane.",
+                 them by more than 0.1 rad, and keep more of them in orbits of C_b > 1/2.",
             )
             .source("eqs 5 to 10; Folgar & Tucker 1984; docs/src/theory/coefficients.md")
             .subject(Turned::ByKicks(|_| {}))

@@ -89,7 +89,7 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     }
     match done.wrong {
         None => Ok(()),
-        Some(names) => Err(Failure::Failed(at(format!("order not as theory: {names}")))),
+        Some(names) => Err(Failure::Failed(at(format!("the observed order is not that of theory: {names}")))),
     }
 }
 
@@ -111,11 +111,12 @@ fn done(tables: Vec<ReportTable>, files: Vec<(&str, Result<String, String>)>) ->
 fn free(scene: &Scene) -> Result<Done, Failure> {
     if scene.flow.shear_rate_per_s().is_none() {
         return Err(Failure::Input(
-            "flow: the subjects turn rods in plane Couette flow; shear_rate_per_s is needed".into(),
+            "flow: converge compares integrators of free rods in plane Couette flow; give shear_rate_per_s"
+                .into(),
         ));
     }
     let orders = order::of_scene(scene).ok_or_else(|| {
-        Failure::Input("time: the subjects turn rods through periods; periods is needed".into())
+        Failure::Input("time: converge compares integrators of free rods over periods; give periods".into())
     })?;
     let (csv, json) = (orders_csv(&orders.studies), build::json(&orders));
     let wrong: Vec<_> = (orders.studies.iter())

@@ -19,7 +19,7 @@ use crate::serve::sweep::Setting;
 use input::{Input, input};
 use serde_json::{Value, json};
 use shearbed::Plan;
-use shearbed::scene::{MAX_REPLICAS, MAX_SEED, Scene};
+use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
 use shifts::{shifts, taken_as_known};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -47,13 +47,13 @@ pub(super) struct Args {
     /// The folder for fit.json, tables and pictures [default: out/fit-<scene>]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// The most independent runs at each value of the parameters: so many only where the model's own error asks for them
+    /// The most replicas at each value of the parameters; fewer run where the model's error is small enough
     #[arg(long, value_name = "N", default_value_t = MOST_REPLICAS, value_parser = whole(20, MAX_REPLICAS), allow_negative_numbers = true)]
     replicas: u64,
     /// The seed of all random numbers, in place of the scene's own
     #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), allow_negative_numbers = true)]
     seed: Option<u64>,
-    /// Rods that each measured point is a mean over; without it their sampling is taken to be in the uncertainties
+    /// Rods that each measured point is a mean over; without it the points' uncertainties must include the scatter of rods
     #[arg(long, value_name = "N", value_parser = whole(1, u64::MAX), allow_negative_numbers = true)]
     rods: Option<u64>,
     /// A key of every scene and the value to give it; can be given more than once
@@ -61,7 +61,7 @@ pub(super) struct Args {
     settings: Vec<Setting>,
     #[command(flatten)]
     threads: Threads,
-    /// List further points, at all times and at half and twice the concentration, with what each would leave of the uncertainties
+    /// List further points, at all times and at half and twice the concentration, with the uncertainties that each would leave
     #[arg(long)]
     design: bool,
     #[command(flatten)]
@@ -154,7 +154,6 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     }
     let best = scenes.plans(&fit.values(&fit.best.place), data, AS_WRITTEN).map_err(stopped)?;
     let mut warnings: Vec<String> = best.iter().flat_map(Plan::warnings).collect();
-    warnings.extend(best.iter().filter_map(|plan| not_slender(plan.scene())));
     warnings.dedup();
     report.warnings.extend(warnings);
     let places = pictures::places(data);
@@ -163,20 +162,6 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let times: Vec<&str> = scenes.sets.iter().map(|set| set.time.name()).collect();
     let figures = pictures::figures(&fit, &report, data, (&places, &curves), &input.names, &times);
     Ok(Done { fit, report, figures, candidates })
-}
-
-/// The largest r_e whose measured points the paper leaves out.
-const LEFT_OUT: f64 = 3.96;
-
-/// That interacting rods are too short for the model.
-fn not_slender(scene: &Scene) -> Option<String> {
-    let aspect_ratio = scene.particles.aspect_ratio;
-    (scene.interaction.is_some() && aspect_ratio <= LEFT_OUT).then(|| {
-        format!(
-            "r_e = {aspect_ratio}: the model is for r_e ≫ 1, and Lee & Springer leave out their measured points of r_e = {LEFT_OUT} \
-             (Results, after Fig. 5)"
-        )
-    })
 }
 
 /// What a fit is of: everything that its results depend on.

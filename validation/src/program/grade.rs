@@ -33,7 +33,7 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
         (Some(command), reference, _) => program(args, command, reference.as_deref())?,
         (None, Some(reference), Some(mine)) => files(args, reference, mine)?,
         _ => {
-            return Err(Failure::Input("REF and MINE, or --command, are asked for".to_owned()));
+            return Err(Failure::Input("give REF and MINE, or --command".to_owned()));
         }
     };
     let pictures = pictures(&report, &wanted).map_err(Failure::Failed)?;
@@ -109,9 +109,7 @@ fn chosen(args: &Args, mut all: Vec<LoadedProblem>) -> Result<Vec<LoadedProblem>
         of_kind && asked_for(args, &loaded.problem.name)
     });
     match all.is_empty() {
-        true => {
-            Err(Failure::Input("no problem is left to grade: --kind and --problem leave none".to_owned()))
-        }
+        true => Err(Failure::Input("--kind and --problem leave no problem to grade".to_owned())),
         false => Ok(all),
     }
 }

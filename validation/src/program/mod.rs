@@ -236,7 +236,7 @@ fn command(command: Command) -> Result<(), Failure> {
 /// Options of every command that writes a folder of results.
 #[derive(clap::Args)]
 struct Writing {
-    /// Overwrite what this command did not write in the folder, or wrote from other input
+    /// Overwrite files in the folder that this command did not write, or wrote from other input
     #[arg(long)]
     force: bool,
     /// Print nothing but errors and warnings

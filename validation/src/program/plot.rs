@@ -24,7 +24,7 @@ pub(super) struct Args {
     /// The picture, whose name ends in .svg or .png
     #[arg(long, value_name = "FILE", default_value = "out/plot.svg", value_parser = picture)]
     out: PathBuf,
-    /// Overwrite the picture where another one is there
+    /// Overwrite an existing picture
     #[arg(long)]
     force: bool,
 }

@@ -56,7 +56,7 @@ pub(super) struct Args {
     /// A file for the CSV, in place of standard output
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Overwrite the file where it is there with other contents
+    /// Overwrite an existing file that has other contents
     #[arg(long, requires = "out")]
     force: bool,
 }
@@ -194,7 +194,7 @@ fn no_couette(flag: &str) -> Failure {
 }
 
 fn isotropic_only(flag: &str) -> Failure {
-    Failure::Input(format!("{flag}: is of many rods; only --start isotropic is allowed with it"))
+    Failure::Input(format!("{flag}: needs many rods; only --start isotropic is allowed with it"))
 }
 
 fn refused(args: &Args, why: NoValue) -> Failure {

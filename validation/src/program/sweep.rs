@@ -44,7 +44,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     check(&args.over)?;
     if !named.scene.output.rods_at.is_empty() {
         return Err(Failure::Input(format!(
-            "{}: output.rods_at: a sweep keeps no rods; without the key it is allowed",
+            "{}: output.rods_at: a sweep writes no rods; remove this key",
             named.source
         )));
     }
@@ -188,8 +188,8 @@ fn tables_of(point: &Point) -> Result<Vec<Output>, String> {
 
 fn other_numbers(point: &Path) -> Failure {
     Failure::Input(format!(
-        "{}: run again, this point has other numbers: another build of the program made it; give another --out, or \
-         remove the folder; nothing of it was changed",
+        "{}: run again, this point gives other numbers, so another build of the program wrote the folder; give another --out, \
+         or remove the folder; nothing of it was changed",
         point.shown()
     ))
 }

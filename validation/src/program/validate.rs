@@ -38,7 +38,7 @@ pub(super) struct Args {
     /// The seed from which every case takes its random numbers [default: that of the gate]
     #[arg(long, value_name = "S", value_parser = whole(0, MAX_SEED), default_value_t = GATE_SEED, allow_negative_numbers = true)]
     seed: u64,
-    /// Keep finished cases and studies in this file, and do not run again those that it has
+    /// Keep finished cases and studies in this file, and skip those that it has
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
     /// A folder with measured points, for the cases that compare with experiments

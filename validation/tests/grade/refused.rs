@@ -33,11 +33,11 @@ fn bad_answers_are_refused_with_file_line_and_column() {
         rows.join("\n")
     };
     let cases: Vec<(Vec<u8>, &str, &str)> = vec![
-        (lines[..lines.len() - 1].join("\n").into(), ":16:1", "ends without time_s = "),
+        (lines[..lines.len() - 1].join("\n").into(), ":16:1", "the file ends before time_s = "),
         (with(5, lines[3]).into(), ":5:2", "the same time_s and rod as in line 4"),
         (field(3, 4, "1e400").into(), ":3:4", "1e400 is too large for a double"),
-        (field(3, 4, "0.5x").into(), ":3:4", "\"0.5x\" is no number"),
-        (field(3, 4, "").into(), ":3:4", "\"\" is no number"),
+        (field(3, 4, "0.5x").into(), ":3:4", "\"0.5x\" is not a number"),
+        (field(3, 4, "").into(), ":3:4", "\"\" is not a number"),
         (field(3, 1, "nan").into(), ":3:1", "nan is no finite number"),
         (field(3, 1, "1.0").into(), ":3:1", "time_s = 1 is not asked for; the nearest"),
         (field(3, 2, "4").into(), ":3:2", "rod = 4; whole numbers from 0 to 3"),
@@ -56,7 +56,7 @@ fn bad_answers_are_refused_with_file_line_and_column() {
         (good.replace('\n', "\r\n").into(), ":1:5", "ends in CR LF: write LF alone"),
         (with(7, &format!("{}\r", lines[6])).into(), ":7:5", "--windows-text"),
         (format!("\u{feff}{good}").into(), ":1:1", "begins with a byte order mark"),
-        (lines[..2].join("\n").into(), ":2:1", "ends without time_s = "),
+        (lines[..2].join("\n").into(), ":2:1", "the file ends before time_s = "),
         (b"time_s,rod,p1,p2,p3\n\xff\n".to_vec(), ":2", "no UTF-8 text"),
         ("1".repeat(1 << 20).into(), ":1", "longer than 65536 bytes"),
     ];

@@ -71,7 +71,7 @@ pub const CASES: &[Case] = &[
     Case {
         program: "prints_junk",
         verdict: "FAIL",
-        words: &["line 3 of standard output: no JSON", "`step 1 of 10`"],
+        words: &["line 3 of standard output: not JSON", "`step 1 of 10`"],
     },
     Case { program: "answers_nan", verdict: "FAIL", words: &["not finite"] },
     Case { program: "forgets_a_rod", verdict: "FAIL", words: &["rods where"] },

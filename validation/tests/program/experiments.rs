@@ -237,5 +237,5 @@ fn points_of_rods_in_the_shear_plane_are_not_fitted() {
     assert!(code == Some(0) && !told.contains("3.96"), "{told}");
     let (code, told) = fit("random.toml --over interaction.alpha=0.05:5");
     assert_eq!(code, Some(0), "{told}");
-    assert!(told.contains("Lee & Springer leave out their measured points of r_e = 3.96"), "{told}");
+    assert!(told.contains("particles.aspect_ratio = 3.96: the collision rule is for slender rods"), "{told}");
 }

@@ -46,7 +46,10 @@ fn a_free_scene_starts_where_it_says() {
     std::fs::write(dir.path().join("strain.toml"), scene("strain = 2")).unwrap();
     let Ended { code, stderr: error, .. } = shearbed(dir.path(), "converge strain.toml");
     assert_eq!(code, Some(2));
-    assert!(error.contains("time: the subjects turn rods through periods; periods is needed"), "{error}");
+    assert!(
+        error.contains("time: converge compares integrators of free rods over periods; give periods"),
+        "{error}"
+    );
 }
 
 #[test]

@@ -95,7 +95,7 @@ impl Replicas {
         saved.tally.check(plan).map_err(misfit)?;
         let left = saved.tally.replicas()..plan.scene().ensemble.replicas;
         if !saved.done.keys().chain(saved.halfway.keys()).all(|replica| left.contains(replica)) {
-            return Err(misfit("a replica in it is not left to be done"));
+            return Err(misfit("it has a replica that this run has finished"));
         }
         saved.done.values().try_for_each(|done| done.check(plan)).map_err(misfit)?;
         saved.halfway.values().try_for_each(|halfway| halfway.check(plan)).map_err(misfit)?;
@@ -307,7 +307,9 @@ impl Replicas {
                 format!("{progress}; the run is kept in {path}, and the same command goes on from there")
             }
             Err(error) => {
-                format!("{error}; what {path} has from before stays, and the same command goes on from there")
+                format!(
+                    "{error}; the earlier state in {path} is kept, and the same command goes on from there"
+                )
             }
         }
     }

@@ -31,7 +31,7 @@ impl Joined {
         match mpi::initialize_with_threading(Threading::Serialized) {
             Some((universe, granted)) if granted >= Threading::Serialized => Ok(Self(universe)),
             Some((_, granted)) => Err(format!(
-                "MPI: threads that talk to it in turns are needed, this library grants {granted:?}"
+                "MPI: the thread level Serialized is needed, and this library grants {granted:?}"
             )),
             None => Err("MPI: cannot be started".to_owned()),
         }

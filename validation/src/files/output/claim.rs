@@ -218,7 +218,7 @@ impl Lock {
                 }
                 Err(TryLockError::WouldBlock) => return Err(at(io::ErrorKind::WouldBlock.into())),
                 Err(TryLockError::Error(error)) => {
-                    let why = format!("this file system grants no locks: {error}");
+                    let why = format!("this file system does not support locks: {error}");
                     return Err(at(io::Error::new(io::ErrorKind::Unsupported, why)));
                 }
             }

@@ -13,7 +13,7 @@ use std::path::Path;
 const MOST_UNCERTAIN: f64 = 0.25;
 
 const TIME_UNCERTAINTY: &str =
-    "one standard deviation of at most a quarter of a period, a whole oscillation from end to end";
+    "one standard deviation of at most a quarter of a period: ± that spans a whole oscillation";
 
 /// Reads the provenance file `path` and the CSV file of the same name beside it.
 pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, DataError> {

@@ -90,7 +90,7 @@ impl<'a> Keys<'a> {
     pub(super) fn only(&self, known: &[&str]) -> Result<(), DataError> {
         let unknown = self.table.keys().find(|name| !known.contains(name));
         unknown.map_or(Ok(()), |name| {
-            let message = format!("{}{name} is no key here; there are {}", self.path, known.join(", "));
+            let message = format!("{}{name} is an unknown key; allowed are {}", self.path, known.join(", "));
             Err(DataError::at(self.file, self.line(name), message))
         })
     }

@@ -138,7 +138,7 @@ pub fn check(data: &Path) -> Result<(), DataError> {
     }
     match unread.iter().find(|path| path.extension().is_some_and(|extension| extension == "csv")) {
         Some(path) => {
-            let message = format!("no source has this folder; there are {}", folders.join(", "));
+            let message = format!("the folder belongs to no source; allowed are {}", folders.join(", "));
             Err(DataError::whole(path, message))
         }
         None => Ok(()),

@@ -133,10 +133,10 @@ fn files_come_in_pairs_and_in_known_folders() {
     fs::remove_file(source.join("b.toml")).unwrap();
     says("b.csv: it has no provenance file");
     fs::rename(source.join("b.csv"), dir.path().join("b.csv")).unwrap();
-    says("b.csv: no source has this folder; there are okagawa-mason-1973");
+    says("b.csv: the folder belongs to no source; allowed are okagawa-mason-1973");
     fs::create_dir(dir.path().join("okagawa")).unwrap();
     fs::rename(dir.path().join("b.csv"), dir.path().join("okagawa/b.csv")).unwrap();
-    says("b.csv: no source has this folder");
+    says("b.csv: the folder belongs to no source");
     fs::remove_file(dir.path().join("okagawa/b.csv")).unwrap();
     assert_eq!(check(dir.path()), Ok(()));
 }

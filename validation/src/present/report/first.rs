@@ -49,7 +49,7 @@ pub(super) fn means(judges: Judges) -> &'static str {
         Judges::Core => "The equations are solved right: closed forms, orders, invariants.",
         Judges::Program => "Whole runs are right: files, errors, statistics, refusals.",
         Judges::Integrator => "Integrators of one rod behave as theory says.",
-        Judges::Oracle => "What judges the rest is right, and misprints of the paper are shown to be such.",
+        Judges::Oracle => "The oracles and statistics are right, and forms that the paper misprints fail.",
         Judges::Interpretation => "Where the paper is open: what the alternatives change.",
         Judges::Statement => "What the paper says in words of its model’s results.",
         Judges::Measurement => "Validation: the model against experiments.",

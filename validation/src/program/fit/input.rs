@@ -59,7 +59,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
         let key = &range.key;
         if let Some(table) = NOT_FITTED.iter().find(|table| key.split('.').next() == Some(table)) {
             return Err(Failure::Input(format!(
-                "--over {key}: {table} is nothing that points tell; keys of flow, particles and interaction are allowed"
+                "--over {key}: points do not determine keys of {table}; keys of flow, particles and interaction are allowed"
             )));
         }
     }

@@ -50,20 +50,20 @@ pub(crate) struct Args {
     /// The layout of a known program's tables
     #[arg(long, value_name = "PROGRAM")]
     pub(super) layout: Option<Foreign>,
-    /// Take CR LF at line ends and a byte order mark, which are refused else
+    /// Accept CR LF at line ends and a byte order mark; without this flag they are refused
     #[arg(long)]
     pub(super) windows_text: bool,
     /// The largest error that passes, where the problems' own is smaller: a production code's target. NAME=X for one problem;
     /// can be given more than once
     #[arg(long = "tolerance", value_name = "X|NAME=X", allow_hyphen_values = true)]
     pub(super) tolerances: Vec<Tolerance>,
-    /// The order that the program's error is said to have: an order that is lower by whole orders fails
+    /// The order of accuracy that the program claims; an observed order that is lower by whole orders fails
     #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]
     pub(super) order: Option<f64>,
     /// LAMMPS dumps: the length of a time step in s, where the dump has no ITEM: TIME
     #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
     pub(super) timestep_s: Option<f64>,
-    /// LAMMPS dumps: the rod's axis in the body's frame, where shapex, shapey, shapez do not tell
+    /// LAMMPS dumps: the rod's axis in the body's frame, where columns shapex, shapey, shapez are missing
     #[arg(long, value_name = "x|y|z", value_parser = body_axis)]
     pub(super) rod_axis: Option<usize>,
     /// With --command: the most seconds for one answer, and for the answers to one problem together
@@ -73,7 +73,7 @@ pub(crate) struct Args {
     /// With --command: verdicts only, without work–precision, longest steps and the stability map
     #[arg(long, requires = "command")]
     pub(super) brief: bool,
-    /// Answer requests with their own start: what the pipe itself costs
+    /// Answer each request with its own start, to measure the cost of the pipe
     #[arg(long, conflicts_with_all = ["reference", "command"])]
     pub(super) echo: bool,
     /// A missing answer is a failure

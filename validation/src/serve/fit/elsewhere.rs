@@ -57,8 +57,8 @@ pub fn look_elsewhere(problem: &Problem<'_>, fit: &Fit, watch: &Watch<'_>) -> Re
         let told = fit.best.chi_square;
         if own.chi_square > told + told.max(NOISE) {
             return Err(format!(
-                "--over {}: at the best values, {:.4} for it, the model has χ² = {:.1} where the polynomials between its runs have {told:.1}: \
-                 they do not follow it over this range; a narrower one may do",
+                "--over {}: at the best values, {:.4} for it, the model has χ² = {:.1} where the polynomials between its runs \
+                 have {told:.1}, so they do not follow it over this range; give a narrower one",
                 range.label(),
                 values[axis],
                 own.chi_square
@@ -68,7 +68,7 @@ pub fn look_elsewhere(problem: &Problem<'_>, fit: &Fit, watch: &Watch<'_>) -> Re
         let (tried, searched) = line.scan()?;
         if !searched {
             warnings.push(format!(
-                "{}: the model changes too fast along its range for another minimum to be ruled out; a narrower range is surer",
+                "{}: the model changes too fast along its range to rule out another minimum; give a narrower range",
                 range.label()
             ));
         }
@@ -95,8 +95,8 @@ pub fn look_elsewhere(problem: &Problem<'_>, fit: &Fit, watch: &Watch<'_>) -> Re
             let found = line.run(found.at, line.replicas)?;
             if found.chi_square < allowed {
                 return Err(format!(
-                    "--over {}: the points are described as well by {:.4} (χ² = {:.1}) as by {:.4} (χ² = {:.1}): this range has several \
-                     minima; a narrower one, which leaves out what cannot be, tells them apart",
+                    "--over {}: the points are described as well by {:.4} (χ² = {:.1}) as by {:.4} (χ² = {:.1}): χ² has \
+                     several minima in this range; give a narrower one without impossible values",
                     range.label(),
                     range.value(found.at),
                     found.chi_square,

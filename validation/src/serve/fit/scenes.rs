@@ -95,8 +95,8 @@ impl Scenes {
             self.ranges.iter().find(|range| range.is_of(set) && range.key.starts_with("interaction."));
         match (fitted, apart(scene)) {
             (Some(range), Some(why)) => Err(format!(
-                "{}: --over {}: {why}: such rods do not disturb each other in this model, but by the error of a time step, and points of \
-                 them say nothing of it. Lee & Springer leave such points out (r_e = 3.96; Results, after Fig. 5). Keys of particles \
+                "{}: --over {}: {why}: such rods disturb each other in this model only by the error of a time step, so their \
+                 points do not determine it. Lee & Springer leave such points out (r_e = 3.96; Results, after Fig. 5). Keys of particles \
                  and flow are allowed",
                 self.sets[set].source,
                 range.label()

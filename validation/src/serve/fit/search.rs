@@ -123,14 +123,14 @@ pub fn search(problem: &Problem<'_>, watch: &Watch<'_>) -> Result<Fit, String> {
         if share <= MOST_SHARE || !more {
             if fit.feigned() > NOTHING_ELSE {
                 return Err(format!(
-                    "--over: {:.0} % of what the points seem to tell is the noise of {wanted} replicas at each value; more --replicas, more \
-                     rods in the scene, or one parameter less may do",
+                    "--over: {:.0} % of the apparent information in the points is noise of the model with {wanted} replicas \
+                     at each value; give more --replicas, more rods in the scene, or one parameter less",
                     100.0 * fit.feigned()
                 ));
             }
             if fit.best.excess > MOST_EXCESS {
                 return Err(format!(
-                    "--replicas: {wanted} are too few for the covariance of {} points; {} or more may do",
+                    "--replicas: {wanted} are too few for the covariance of {} points; give {} or more",
                     problem.measured.data.len(),
                     4 * problem.measured.data.len()
                 ));
@@ -145,7 +145,7 @@ pub fn search(problem: &Problem<'_>, watch: &Watch<'_>) -> Result<Fit, String> {
             }
             if !enclosed(&fit, &whole) {
                 return Err(format!(
-                    "--over: the best values were not enclosed in {rounds} boxes; a narrower range near {:?} may do",
+                    "--over: the search did not enclose the best values in {rounds} boxes; give a narrower range near {:?}",
                     fit.values(&fit.best.place)
                 ));
             }

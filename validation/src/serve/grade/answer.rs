@@ -131,8 +131,11 @@ impl<'a> Collector<'a> {
             let names = self.problem.problem.kind.keys();
             let keys = &self.problem.certified.rows[first];
             let key: Vec<_> = (names.iter().zip(keys)).map(|(name, key)| format!("{name} = {key}")).collect();
-            let message =
-                format!("ends without {} ({missing} of {} rows are missing)", key.join(", "), lines.len());
+            let message = format!(
+                "the file ends before {} ({missing} of {} rows are missing)",
+                key.join(", "),
+                lines.len()
+            );
             return Err(ReadError::at(path, last, 1, message));
         }
         Ok(Answer {

@@ -113,7 +113,7 @@ pub fn number(field: &str) -> Result<f64, String> {
         Ok(value) => Ok(value),
         Err(_) => {
             let start: String = field.chars().take(40).collect();
-            Err(format!("{start:?} is no number"))
+            Err(format!("{start:?} is not a number"))
         }
     }
 }

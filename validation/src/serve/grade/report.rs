@@ -182,9 +182,10 @@ pub fn terminal(report: &Report) -> String {
         &["verdict", "problem", "error", "tolerance", "order", "setting"],
         report.problems.iter().filter(answered).map(row).collect(),
     );
-    let words: String = lines(report).iter().map(|line| format!("{line}\n")).collect();
-    let more: String = tables(report).iter().skip(1).map(|table| "\n".to_owned() + &table.text()).collect();
-    wrapped(&(table.text() + &words + &more))
+    let mut parts = vec![table.text(), lines(report).join("\n")];
+    parts.extend(tables(report).iter().skip(1).map(ReportTable::text));
+    let parts: Vec<&str> = parts.iter().map(|part| part.trim_end()).filter(|part| !part.is_empty()).collect();
+    wrapped(&parts.join("\n\n"))
 }
 
 /// The most characters of a line on a terminal.
@@ -332,6 +333,15 @@ mod tests {
         assert!(longest <= 80, "{longest}: {text}");
         assert_eq!(text.matches("MISSING").count(), 2, "the headline and one line: {text}");
         assert!(text.contains("21 MISSING, no answer: c, missing-0, missing-1"), "{text}");
+        let short = Report {
+            problems: vec![report.problems[0].clone()],
+            diagnosis: vec![],
+            remarks: vec![],
+            ..report.clone()
+        };
+        for text in [&text, &terminal(&short)] {
+            assert!(!text.contains("\n\n\n") && text.ends_with('\n') && !text.ends_with("\n\n"), "{text:?}");
+        }
         let whole = text.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(
             whole.contains(&report.remarks[0]) && whole.contains("missing-19"),

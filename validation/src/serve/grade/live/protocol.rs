@@ -161,8 +161,8 @@ struct Line {
 fn parse(line: &str) -> Result<Line, String> {
     if !line.trim_start().starts_with('{') {
         return match serde_json::from_str::<Value>(line) {
-            Ok(_) => Err(format!("no JSON object: {}", excerpt(line))),
-            Err(error) => Err(format!("no JSON ({error}): {}", excerpt(line))),
+            Ok(_) => Err(format!("not a JSON object: {}", excerpt(line))),
+            Err(error) => Err(format!("not JSON ({error}): {}", excerpt(line))),
         };
     }
     let strict = serde_json::from_str(line);
@@ -175,7 +175,7 @@ fn parse(line: &str) -> Result<Line, String> {
     let without = words.iter().fold(line.to_owned(), |text, word| text.replace(word, "null"));
     match serde_json::from_str(&without) {
         Ok(value) => Ok(value),
-        Err(_) => Err(format!("no JSON ({error}): {}", excerpt(line))),
+        Err(_) => Err(format!("not JSON ({error}): {}", excerpt(line))),
     }
 }
 
@@ -220,9 +220,9 @@ mod tests {
     #[test]
     fn whatever_else_is_refused_with_its_reason() {
         for (line, reason) in [
-            ("step 1 of 10", "no JSON"),
-            ("", "no JSON"),
-            ("[1, 2]", "no JSON object"),
+            ("step 1 of 10", "not JSON"),
+            ("", "not JSON"),
+            ("[1, 2]", "not a JSON object"),
             (r#"{"p": [[1,0,0]]}"#, "no \"id\""),
             (r#"{"id": 4, "p": [[1,0,0]]}"#, "answers id 4 where 3 was asked"),
             (r#"{"id": "3", "p": [[1,0,0]]}"#, "answers id \"3\" where 3"),

@@ -44,7 +44,7 @@ pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
 
 /// A number as C, C++, Fortran, Julia, Octave and Python print it. What is not finite is NaN.
 fn number(word: &str) -> Result<f64, String> {
-    let wrong = || format!("{} is no number", excerpt(word));
+    let wrong = || format!("{} is not a number", excerpt(word));
     // Fortran's double precision: 1.0D-3.
     let number: f64 = word.replace(['D', 'd'], "e").parse().map_err(|_| wrong())?;
     let written_out = word.bytes().any(|byte| byte.is_ascii_digit());
@@ -95,9 +95,9 @@ mod tests {
             ("3.0 1 0 0", "does not begin with"),
             ("3 1 0", "2 numbers after the id where 3 were asked (1 rods)"),
             ("3 1 0 0 0", "4 numbers"),
-            ("3 1 0 x", "`x` is no number"),
+            ("3 1 0 x", "`x` is not a number"),
             ("3 1 0 1e400", "too large"),
-            ("3 1 0 ********", "no number"),
+            ("3 1 0 ********", "not a number"),
         ] {
             let found = read(line, 3, 1).unwrap_err();
             assert!(found.contains(reason), "{line}: {found}");

@@ -57,8 +57,8 @@ pub(in crate::studies::coefficients) fn tables(all: &[Compared], effort: &Effort
         ["kicks-and-diffusion", "Kicks and diffusion of the same C_I"],
         format!(
             "Per cent of the rods (± a standard error over {replicas} replicas) that a strain leaves off Jeffery's \
-             motion by more than an angle, or in another orbit by more than |ΔC_b|; last, those in high orbits, C_b > ½, \
-             which reach farther from the vorticity axis. n a³ = 0.2, r_e = 11.6, α = 0.5, steady; diffusion of the C_I that was measured at the same time step."
+             motion by more than an angle, or in another orbit by more than |ΔC_b|; last, those with C_b > ½. \
+             n a³ = 0.2, r_e = 11.6, α = 0.5, steady; diffusion of the C_I that was measured at the same time step."
         ),
         sides(all),
         columns,
