@@ -40,7 +40,6 @@ pub fn cases() -> Vec<Case> {
                 weak: orbit_constant_cdf,
                 ..right
             })
-            .mistake("diffusion that is not weak, C_I = 0.02", Orbits { c_i: 0.02, ..right })
             .mistake("hardly any collisions: α of 10⁻⁶", Orbits {
                 collisions: |scene| lab::interaction(scene).alpha = 1e-6,
                 ..right
