@@ -26,7 +26,9 @@ fn integrals(r: f64) -> [f64; 4] {
         let mut breaks = vec![0.0, 0.01, 0.1, 0.5, 1.0, 1.0 - r.min(0.9), 1.0 - (0.1 * r).min(0.9)];
         breaks.extend([1.0, 10.0, 100.0].map(|k| (k / square).min(1.0)));
         breaks.sort_by(f64::total_cmp);
-        scale * integrate(by_rest, &breaks, 0.0).value
+        // Panels as they are give the size, to which the tolerance is relative.
+        let size = integrate(by_rest, &breaks, f64::INFINITY).value;
+        scale * integrate(by_rest, &breaks, 1e-14 * size).value
     };
     // u² + r²(1 − u²).
     let q = |u: f64, rest: f64| u * u + square * rest;

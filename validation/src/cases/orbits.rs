@@ -8,6 +8,7 @@ use crate::oracle::closed_form::orbit_constant_cdf;
 use crate::oracle::diffusion::orbits::cdf;
 use crate::studies::coefficients::jumps::{Quantity, Shares, Watch, above, diffused, kicked};
 use crate::studies::coefficients::{self, Setting};
+use shearbed::model::jeffery::strain_per_period;
 use shearbed::scene::Update;
 
 const ASPECT_RATIO: f64 = 11.6;
@@ -39,7 +40,6 @@ pub fn cases() -> Vec<Case> {
                 weak: orbit_constant_cdf,
                 ..right
             })
-            .mistake("diffusion that is not weak, C_I = 0.02", Orbits { c_i: 0.02, ..right })
             .mistake("hardly any collisions: α of 10⁻⁶", Orbits {
                 collisions: |scene| lab::interaction(scene).alpha = 1e-6,
                 ..right
@@ -56,10 +56,11 @@ fn orbits(subject: &Orbits, effort: &Effort) -> Vec<Evidence> {
     let setting =
         Setting { n_a3: 0.5, aspect_ratio: ASPECT_RATIO, alpha: 0.5, update: Update::Kick, finer: 1 };
     let scene = coefficients::scene(setting, effort);
-    // C_I times the strain before is 0.07, and A(C)'s r_e²/2 makes it long.
+    // C_I times the strain before is 0.07, and A(C)'s r_e²/2 makes it long. Diffusing rods turn exactly between coarse steps.
     let watch = Watch::new(&scene, 5.0, 1.0);
+    let coarse = Watch { steps: 1, strain: strain_per_period(ASPECT_RATIO) / 50.0, before: 250, jumps: 1 };
     let of_diffusion = OF_DIFFUSION.get(effort, (subject.c_i * 1e6).round() as u64, || {
-        diffused(&scene, subject.c_i, watch, effort.samples(weak), (effort, 1 << 22))
+        diffused(&scene, subject.c_i, coarse, effort.samples(weak), (effort, 1 << 22))
     });
     let suspension = lab::changed(scene.clone(), subject.collisions);
     let of_collisions = kicked(&suspension, watch, effort.samples(high));

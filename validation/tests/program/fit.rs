@@ -177,7 +177,7 @@ fn two_sets_have_values_of_their_own() {
     points(dir.path());
     points_of(dir.path(), "interaction.alpha=2.4", "more.csv");
     let args = "fit small.toml --data points.csv --data small.toml=more.csv --over 1:interaction.alpha=0.4:1.4 \
-                --over 2:interaction.alpha=1.2:4.8 --replicas 20 --out own";
+                --over 2:interaction.alpha=1.2:4.8 --replicas 100 --out own";
     let done = shearbed(dir.path(), args);
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     assert!(done.stdout.starts_with("alpha_1 = ") && done.stdout.contains("; alpha_2 = "), "{}", done.stdout);
