@@ -184,7 +184,11 @@ fn replicas_and_tallies_of_other_scenes_are_refused() {
         ("deviation", shorter, lengths),
         ("over_rods", shorter, lengths),
         ("replicas", |replicas| *replicas = json!(4), lengths),
-        ("deviation", |all| all[3] = json!(-1.0), "it has a mean that is not finite, or a negative deviation"),
+        (
+            "deviation",
+            |all| all[3] = json!(-1.0),
+            "it has a mean that is not finite, or a negative deviation",
+        ),
     ];
     for (key, spoil, cause) in spoilt {
         let mut other = serde_json::to_value(&tally).unwrap();

@@ -4,7 +4,7 @@ use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{self, per_replica};
 use crate::judge::statistics::Sample;
-use crate::oracle::naive::{Lines, Naive, Problem, Who, mean_projections};
+use crate::oracle::naive::{Lines, Naive, NaiveProblem, Who, mean_projections};
 use crate::studies::readings::Change;
 use rayon::prelude::*;
 use shearbed::observable::Channel;
@@ -169,11 +169,11 @@ fn by_core(change: fn(&mut Interaction), effort: &Effort, replicas: u64) -> Vec<
 
 fn by_reference(change: Change, effort: &Effort, replicas: u64) -> Vec<f64> {
     let x1 = |replica| {
-        let mut problem = Problem {
+        let mut problem = NaiveProblem {
             count: 25,
             concentration_per_cm3: CONCENTRATION_PER_CM3,
             seed: effort.seed(0),
-            ..Problem::paper(1, replica)
+            ..NaiveProblem::paper(1, replica)
         };
         change(&mut problem);
         let steps = problem.steps_per_period / 2;

@@ -98,7 +98,7 @@ fn tried(subject: &Integrator, most_steps: u64) -> Vec<Tried> {
     let theory = subject.theory;
     let mut all = Vec::new();
     let mut push = |run: map::Run| {
-        let strain = Problem::new(run.aspect_ratio, run.turns).strain();
+        let strain = RodProblem::new(run.aspect_ratio, run.turns).strain();
         all.push(Tried {
             cell: run.of(subject),
             strain_per_step: match run.setting {
