@@ -35,7 +35,7 @@ pub fn cases() -> Vec<Case> {
             .check(where_errors_show),
         Case::integrator("right-hand-side-digits")
             .claim(
-                "The right-hand sides of the subjects keep every digit of 1 − Λ, and with it the period, \
+                "The right-hand sides of the integrators keep every digit of 1 − Λ, and with it the period, \
                  up to r_e = 10⁸.",
             )
             .source("A.1, eq. 15")
@@ -68,7 +68,7 @@ pub fn cases() -> Vec<Case> {
             })
             .check(eigenvalues),
         Case::integrator("who-loses-length")
-            .claim("The subjects that are not said to keep |p| lose it: each by more than round-off.")
+            .claim("The integrators that do not claim to keep |p| lose it: each by more than round-off.")
             .source("p·ṗ = 0 (A.1)")
             .equations(&["A.1"])
             .subject(integrators::own as Integrators)
@@ -88,8 +88,8 @@ pub fn cases() -> Vec<Case> {
             .check(coarse),
         Case::integrator("grid-convergence-index")
             .claim(
-                "At r_e = 11.6 the grid convergence index bounds the error of every fixed-step subject on \
-                 its finest three grids.",
+                "At r_e = 11.6 the grid convergence index bounds the error of every fixed-step integrator on its finest three \
+                 grids.",
             )
             .source("A.4, A.5")
             .equations(&["A.4", "A.5"])

@@ -74,7 +74,7 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::interpretation("reading-who-draws")
             .claim(
-                "With one draw per mutual pair in place of two, rods are damped less: this reading matters.",
+                "With one draw per mutual pair in place of two, rods are damped less: this interpretation matters.",
             )
             .source("eqs 8, 9; whose R decides is left open")
             .equations(&["8", "9"])
@@ -89,7 +89,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("one draw per mutual pair instead", pair_draws)
             .check(does_not_matter),
         Case::interpretation("reading-update")
-            .claim("A.14 to the letter damps a little more than a turn about p × ṗ′: this reading matters.")
+            .claim("A.14 to the letter damps a little more than a turn about p × ṗ′: this interpretation matters.")
             .source("A.13, A.14; the pole of the angles")
             .equations(&["A.13", "A.14"])
             .subject(angles)
@@ -100,8 +100,7 @@ pub fn cases() -> Vec<Case> {
             .check(matters),
         Case::interpretation("reading-shortest-arm")
             .claim(
-                "Without contacts at arms below the rod's radius, rods are damped less: this reading \
-                 matters.",
+                "Without contacts at arms below the rod's radius, rods are damped less: this interpretation matters.",
             )
             .source("A.13; a kick ∝ 1/r has no bound")
             .equations(&["A.13"])
@@ -109,7 +108,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("arms below a thousandth of the length instead", instead(shortest_arm, hardly_any_arm))
             .check(matters),
         Case::interpretation("reading-contact-lines")
-            .claim("With contact lines cut at the rods' ends, rods are damped less: this reading matters.")
+            .claim("With contact lines cut at the rods' ends, rods are damped less: this interpretation matters.")
             .source("Fig. 2, assumption ii")
             .equations(&["A.7"])
             .subject(cut_lines)

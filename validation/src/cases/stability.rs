@@ -12,7 +12,7 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::integrator("stability-map")
             .claim(
-                "In every corner of the map every subject ends, with a direction or with an error: the \
+                "In every corner of the map every integrator ends, with a direction or with an error: the \
                  exact propagator at round-off, A.4 and A.5 in angles within 4·10⁻⁵ rad, who keeps |p| \
                  with |p| = 1, and orders 2 and 4 within 4 (GΔt)² rad over one period where GΔt ≤ ½.",
             )

@@ -15,7 +15,7 @@ pub(super) type Integrators = fn() -> Vec<Integrator>;
 pub fn cases() -> Vec<Case> {
     vec![
         Case::integrator("subject-orders")
-            .claim("The error of every fixed-step subject falls with the order of its theory.")
+            .claim("The error of every fixed-step integrator falls with the order of its theory.")
             .source("A.2 to A.5; Jeffery's equation in p")
             .equations(&["A.2", "A.3", "A.4", "A.5"])
             .subject(integrators::own as Integrators)
@@ -70,7 +70,7 @@ pub fn cases() -> Vec<Case> {
             .check(round_off),
         Case::integrator("adaptive-subjects")
             .claim(
-                "At a tolerance of 10⁻¹¹ both adaptive subjects come as near as their steps, each off by \
+                "At a tolerance of 10⁻¹¹ both adaptive integrators come as near as their steps, each off by \
                  the tolerance, allow.",
             )
             .source("A.2 to A.5; Jeffery's equation in p")

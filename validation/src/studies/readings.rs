@@ -24,7 +24,7 @@ use std::iter::once;
 pub const STUDY: Study = Study {
     name: "readings",
     title: "What the paper leaves open",
-    question: "What would other readings of the paper change?",
+    question: "What would other interpretations of the paper change?",
     cases: &[
         "reading-who-draws",
         "reading-order",
@@ -66,10 +66,10 @@ pub fn table(rows: &[ReadingRow]) -> ReportTable {
         }));
     }
     ReportTable::new(
-        ["readings", "What the open readings change"],
+        ["readings", "What the alternatives change"],
         format!(
-            "The rods of Fig. 7 at 50 per cm³ (N = 100, σ = 0, r_e = 11.6, α = 0.5, 200 steps a period): each \
-             reading alone against the project's own, then two of them with half the step. Mean ± standard error of \
+            "The rods of Fig. 7 at 50 per cm³ (N = 100, σ = 0, r_e = 11.6, α = 0.5, 200 steps a period): each alternative \
+             alone against this project's interpretation, then two of them with half the step. Mean ± standard error of \
              {replicas} replicas, seed {SEED}, by the naive reference. A change is from pairs of replicas with the \
              same random numbers. The damping rate is minus the slope, by least squares over four half periods, of \
              ln A; A is the mean of two neighbouring maxima of X̄₁ (t/T = 0, ½, 1, 1½, 2) less the minimum between."
