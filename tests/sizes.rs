@@ -79,7 +79,9 @@ fn boxes_and_lengths_that_cannot_be_are_refused() {
         let refusal = refusal(length, interaction);
         assert!(refusal.starts_with("s.toml:") && refusal.contains(why), "{refusal}");
     }
-    for (sd, why) in [("33.4", "below 33.3333, three standard deviations"), ("-1", "a finite number ≥ 0")] {
+    for (sd, why) in
+        [("33.4", "a number below 33.3333: with more, lengths ≤ 0"), ("-1", "a finite number ≥ 0")]
+    {
         let refusal = refusal(&format!("{length}\nlength_sd_percent = {sd}"), DENSE);
         assert!(refusal.starts_with("s.toml:7: ") && refusal.contains(why), "{refusal}");
     }
@@ -122,7 +124,7 @@ fn the_plan_leaves_the_lengths_of_free_rods_out() {
     assert!(lengths.len() == 300 && lengths.iter().all(|length| *length > 0.0));
 }
 
-/// A rod's stress is as its cubed length, over the mean of these.
+/// A rod's stress is proportional to its cubed length, over the mean of these.
 #[test]
 fn the_stress_of_two_rods_by_hand() {
     let mut scene = scene("length_mm = 0.72\nlength_sd_percent = 30", DENSE);

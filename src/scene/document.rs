@@ -14,7 +14,7 @@
 
 mod lines;
 
-use super::error::{Error, Problem};
+use super::error::{Error, SceneProblem};
 #[cfg(test)]
 pub(super) use lines::LOOKED_THROUGH;
 pub(super) use lines::shortened;
@@ -65,7 +65,7 @@ impl Document {
             let message = shortened(&error.message().trim_end().replace('\n', "; "));
             let message = format!("{}: {message}", lines.line(text, offset));
             let line = Some(lines.number(offset));
-            Error::Text { file: file.to_owned(), problems: vec![Problem { line, message }] }
+            Error::Text { file: file.to_owned(), problems: vec![SceneProblem { line, message }] }
         })?;
         Ok(Self { file: file.to_owned(), text: text.into(), lines, root: entries(root.get_ref()) })
     }
@@ -95,7 +95,7 @@ impl Document {
                 Content::Table(inner) => entries = inner,
                 _ => {
                     let message = format!("{first} is not a table: it has no key {inner}");
-                    let problems = vec![Problem { line: None, message }];
+                    let problems = vec![SceneProblem { line: None, message }];
                     return Err(Error::Text { file: self.file.clone(), problems });
                 }
             }
@@ -126,7 +126,7 @@ impl Document {
     /// The error of these messages, each with the byte of its line, in the order of lines.
     pub(super) fn refused(&self, mut found: Vec<(Option<usize>, String)>) -> Error {
         found.sort();
-        let problem = |(at, message): (Option<usize>, String)| Problem {
+        let problem = |(at, message): (Option<usize>, String)| SceneProblem {
             line: at.map(|at| self.lines.number(at)),
             message,
         };
@@ -216,9 +216,9 @@ impl<'a> Table<'a> {
     }
 
     /// The problem of a key that is missing, or whose value is not `allowed`.
-    pub fn refused(&self, key: &str, allowed: impl std::fmt::Display) -> Problem {
+    pub fn refused(&self, key: &str, allowed: impl std::fmt::Display) -> SceneProblem {
         let line = self.offset(key).map(|at| self.document.lines.number(at));
-        Problem { line, message: self.refusal(key, allowed) }
+        SceneProblem { line, message: self.refusal(key, allowed) }
     }
 
     pub(super) fn refusal(&self, key: &str, allowed: impl std::fmt::Display) -> String {

@@ -20,7 +20,7 @@ pub enum Error {
         /// The file's name as given.
         file: String,
         /// Every mistake that can be seen, in the order of lines; at least one.
-        problems: Vec<Problem>,
+        problems: Vec<SceneProblem>,
     },
     /// A scene with values that its keys do not allow, or that do not go together; at least one.
     #[error("{}", joined(.0))]
@@ -81,8 +81,8 @@ impl Error {
     }
 }
 
-fn with_lines(file: &str, problems: &[Problem]) -> String {
-    let line = |Problem { line, message }: &Problem| match line {
+fn with_lines(file: &str, problems: &[SceneProblem]) -> String {
+    let line = |SceneProblem { line, message }: &SceneProblem| match line {
         Some(line) => format!("{file}:{line}: {message}"),
         None => format!("{file}: {message}"),
     };
@@ -96,7 +96,7 @@ fn joined(invalid: &[Invalid]) -> String {
 /// A mistake in a scene file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Problem {
+pub struct SceneProblem {
     /// The line, from 1; `None` for a value that was set over the file's.
     pub line: Option<usize>,
     /// The key, its value and what is allowed.

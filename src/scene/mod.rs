@@ -13,7 +13,7 @@ mod particles;
 mod read;
 mod rods;
 mod steps;
-pub use error::{Error, Invalid, Problem};
+pub use error::{Error, Invalid, SceneProblem};
 pub use flow::Flow;
 use flow::FlowKeys;
 pub use keys::{Absent, Holds, Key, MAX_COUNT, MAX_PER_UNIT, MAX_REPLICAS, MAX_SEED, TABLES, Table, keys};

@@ -163,7 +163,7 @@ fn rates_beyond_all_digits_are_refused_as_such() {
         planned(&text).map_err(|error| error.to_string())
     };
     let error = parsed(1.0).unwrap_err();
-    assert!(error.contains("the flow's rates cancel, or grow apart"), "{error}");
+    assert!(error.contains("the flow's rates cancel, or differ"), "{error}");
     assert!(parsed(0.0).is_ok());
 }
 

@@ -17,7 +17,7 @@ use shearbed::run::run_replica;
 use std::hint::black_box;
 use validation::input::scenes;
 use validation::judge::lab;
-use validation::oracle::naive::{Naive, Problem};
+use validation::oracle::naive::{Naive, NaiveProblem};
 
 /// One exact step of a rod, and the phase it takes where aspect ratios differ.
 fn motion(c: &mut Criterion) {
@@ -116,7 +116,7 @@ fn steps(c: &mut Criterion) {
     }
     group.throughput(Throughput::Elements(100));
     group.bench_function("naive, 100 rods", |b| {
-        let mut naive = Naive::new(Problem::paper(1, 0));
+        let mut naive = Naive::new(NaiveProblem::paper(1, 0));
         b.iter(|| naive.step());
     });
     group.finish();

@@ -19,7 +19,7 @@ use validation::serve::fit::data::{Datum, TimeColumn};
 use validation::serve::fit::elsewhere::look_elsewhere;
 use validation::serve::fit::likelihood::{EMULATOR, REPLICAS};
 use validation::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
-use validation::serve::fit::search::{Fit, Measured, Problem, Watch, search};
+use validation::serve::fit::search::{Fit, FitProblem, Measured, Watch, search};
 use validation::serve::sweep::Setting;
 
 /// The values behind the points.
@@ -88,7 +88,7 @@ fn whole_fit(k: u64, truth: &[f64], over: &[Range]) -> Result<Fit, String> {
     let data = points(|k| truth[k] + NOISE * noise[k]);
     let scenes = scenes(2000 + k, over)?;
     let model = |values: &[f64]| scenes.model(&data, AS_WRITTEN, values);
-    let problem = Problem {
+    let problem = FitProblem {
         measured: Measured { data: &data, ranges: over, rods_over_measured: &[0.0, 0.0] },
         model: &model,
         most_replicas: 1000,

@@ -14,7 +14,7 @@ use validation::oracle::naive::{self, Naive, mean_projections};
 use validation::serve::fit::Range;
 use validation::serve::fit::data::Datum;
 use validation::serve::fit::emulator::{Prediction, Replica};
-use validation::serve::fit::search::{Measured, Problem, Watch, search};
+use validation::serve::fit::search::{FitProblem, Measured, Watch, search};
 use validation::studies::readings::{ALTERNATIVES, Change, SEED};
 
 const PLANTED: f64 = 0.8;
@@ -28,7 +28,7 @@ const REPLICAS: u64 = 10_000;
 
 /// X̄₁ at every twentieth of a period, up to one period.
 fn curve(change: Change, alpha: f64, seed: u64, replica: u64) -> Vec<Prediction> {
-    let mut problem = naive::Problem::paper(SEED, replica);
+    let mut problem = naive::NaiveProblem::paper(SEED, replica);
     change(&mut problem);
     (problem.alpha, problem.seed) = (alpha, seed);
     let steps = problem.steps_per_period / POINTS;
@@ -89,7 +89,7 @@ fn main() -> Result<(), String> {
             let alpha = values[0];
             Ok(Box::new(move |replica| Ok(curve(change, alpha, 1, replica))))
         };
-        let problem = Problem {
+        let problem = FitProblem {
             measured: Measured {
                 data: &data,
                 ranges: &[Range::parse("interaction.alpha=0.2:3")?],

@@ -1,14 +1,14 @@
 //! How much of a text is looked through, and shown.
 
 use super::*;
-use crate::scene::Problem;
+use crate::scene::SceneProblem;
 use crate::scene::document::LOOKED_THROUGH;
 
 const SCENE: &str = "title = \"t\"\nflow = { shear_rate_per_s = 1 }\ntime = { periods = 1 }\n[particles]\ncount = 10\n\
     length_mm = 1\naspect_ratio = 5\norientation = \"isotropic\"\n";
 
 /// What is said of a text, and how many bytes were looked through for it.
-fn refused(text: &str) -> (Vec<Problem>, String, usize) {
+fn refused(text: &str) -> (Vec<SceneProblem>, String, usize) {
     LOOKED_THROUGH.set(0);
     let error = parse("s.toml", text).unwrap_err();
     let words = error.to_string();

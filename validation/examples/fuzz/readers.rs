@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::OnceLock;
 use validation::input::experiment::{self, SOURCES};
-use validation::serve::grade::{self, Axes, Claim, Dump, LineEnds, Options, Told};
+use validation::serve::grade::{self, Axes, Claim, DumpOptions, FileOptions, LineEnds, Options};
 use validation::serve::problems::{self, LoadedProblem};
 
 const PROVENANCE: &str = r#"paper = "synthetic, for this test"
@@ -179,8 +179,13 @@ pub fn answers() -> Target {
             let asked: Vec<_> =
                 loaded.iter().filter(|loaded| loaded.problem.name == *name).cloned().collect();
             let options = Options {
-                told: Told { columns: None, foreign: None, axes: Axes::default(), ends: LineEnds::default() },
-                dump: Dump { timestep_s: None, rod_axis: None },
+                file: FileOptions {
+                    columns: None,
+                    foreign: None,
+                    axes: Axes::default(),
+                    ends: LineEnds::default(),
+                },
+                dump: DumpOptions { timestep_s: None, rod_axis: None },
                 claim: Claim::default(),
             };
             match grade::grade(&asked, folder, &options) {

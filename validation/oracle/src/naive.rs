@@ -20,7 +20,7 @@ pub use contact::{Contact, collide};
 pub use inflow::{OtherFlow, carry};
 pub use motion::{jeffery, mean_projections};
 pub use neighbour::{collision_probability, nearest};
-pub use problem::{Mistake, Problem, Start, Update};
+pub use problem::{Mistake, NaiveProblem, Start, Update};
 pub use random::stream;
 pub use reading::{Images, Length, Lines, Reading, Replacement, Who};
 
@@ -57,7 +57,7 @@ pub struct Naive {
     pub last_collisions: Vec<(usize, usize)>,
     /// |pdot'| dt of i and of j for each of these, rad: the whole turn, Jeffery's share included.
     pub last_turns_rad: Vec<[f64; 2]>,
-    problem: Problem,
+    problem: NaiveProblem,
     propagators: Vec<Matrix3<f64>>,
     collision_stream: Pcg64Dxsm,
     replacement_stream: Pcg64Dxsm,
@@ -65,7 +65,7 @@ pub struct Naive {
 
 impl Naive {
     /// The suspension at t = 0 (eqs. 11, 12).
-    pub fn new(problem: Problem) -> Self {
+    pub fn new(problem: NaiveProblem) -> Self {
         let stream_for = |purpose| stream(problem.seed, problem.replica, purpose);
         let mut redraws = 0;
         let mut gaussian = |purpose, mean: f64, sd_percent: f64, least: f64| {

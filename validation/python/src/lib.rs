@@ -25,7 +25,7 @@ create_exception!(
     _core,
     SceneError,
     PyValueError,
-    "A scene that cannot be run, in the words of the program."
+    "A scene that cannot be run; the message is the program's."
 );
 
 fn plan(name: &str, text: &str, replicas: Option<u64>, seed: Option<u64>) -> PyResult<Plan> {

@@ -94,7 +94,7 @@ def test_rods_are_those_of_the_programs_table(kind: str, tmp_path: Path) -> None
     for name in ("length_mm", "aspect_ratio", "x2_mm"):
         read = [float(row[name] or "nan") for row in last]
         assert np.allclose(again.rods[name], read, rtol=1e-15, atol=0, equal_nan=True), name
-    # A sweep keeps no rods, but starts from them.
+    # A sweep writes no rods, but starts from them.
     (tmp_path / "swept.toml").write_text(text.replace("rods_at = [0]\n", ""))
     swept = shearbed.sweep(tmp_path / "swept.toml", {"ensemble.seed": [1, 2]}, replicas=1)
     assert len(swept["x1"]) == 2

@@ -6,7 +6,7 @@ use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab;
 use crate::judge::statistics::{Sample, larger};
 use crate::oracle::jeffery::direction_rate_per_s;
-use crate::oracle::naive::Problem;
+use crate::oracle::naive::NaiveProblem;
 use crate::studies::kicks::averaged::{Apart, apart, scene};
 use nalgebra::{UnitVector3, Vector3};
 use rayon::prelude::*;
@@ -63,7 +63,7 @@ pub fn cases() -> Vec<Case> {
 /// The shortest arm, and what is changed in the averaged motion.
 struct Limit {
     min_arm: f64,
-    change: fn(&mut Problem),
+    change: fn(&mut NaiveProblem),
 }
 
 fn averaged(limit: &Limit, effort: &Effort) -> Vec<Evidence> {

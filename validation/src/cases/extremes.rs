@@ -2,7 +2,7 @@
 
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::larger;
-use crate::studies::integrators::{Problem, Setting, closed_form};
+use crate::studies::integrators::{RodProblem, Setting, closed_form};
 use crate::studies::stability::corners;
 use crate::studies::stability::map::{ASPECT_RATIOS, STEPS};
 use nalgebra::{Matrix3, Rotation3, UnitVector3, Vector3};
@@ -41,7 +41,7 @@ pub fn cases() -> Vec<Case> {
                 corners::exact(r, g, p, turns * shearbed::model::jeffery::strain_per_period(r))
             })
             .mistake("through tan θ and φ (A.4, A.5)", |r, _, p, turns| {
-                let end = closed_form().advance(&Problem::new(r, turns), p, Setting::Once);
+                let end = closed_form().advance(&RodProblem::new(r, turns), p, Setting::Once);
                 end.unwrap_or(Vector3::repeat(f64::NAN))
             })
             .check(extreme_motion),

@@ -6,7 +6,7 @@ mod scenes;
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::Shared;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
-use problems::{Kind, Problem, random};
+use problems::{FlowProblem, Kind, random};
 use shearbed::model::flow::VelocityGradient;
 use shearbed::model::jeffery::shape_factor;
 use shearbed::motion::{Moved, Propagator, Span};
@@ -14,7 +14,7 @@ use shearbed::plan::free::MAX_ERROR_RAD;
 use std::sync::Arc;
 
 /// What moves a rod and says how well.
-type Motion = fn(&Problem) -> Moved;
+type Motion = fn(&FlowProblem) -> Moved;
 
 pub fn cases() -> Vec<Case> {
     vec![
@@ -82,23 +82,23 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-fn flow(problem: &Problem) -> VelocityGradient {
+fn flow(problem: &FlowProblem) -> VelocityGradient {
     let l = problem.rod.gradient_per_s;
     VelocityGradient::new(Matrix3::from_fn(|i, j| l[i][j])).expect("finite components")
 }
 
-fn start(problem: &Problem) -> UnitVector3<f64> {
+fn start(problem: &FlowProblem) -> UnitVector3<f64> {
     UnitVector3::new_unchecked(problem.rod.p.into())
 }
 
-fn core(problem: &Problem) -> Moved {
+fn core(problem: &FlowProblem) -> Moved {
     Propagator::general(&flow(problem), problem.rod.aspect_ratio)
         .moved(&start(problem), Span::Strain(problem.strain, 1.0))
         .expect("any flow has a strain")
 }
 
 /// L without its trace in units of the flow's largest component, and the time, in double.
-fn gradient(problem: &Problem) -> (Matrix3<f64>, f64) {
+fn gradient(problem: &FlowProblem) -> (Matrix3<f64>, f64) {
     let flow = flow(problem);
     let size = flow.per_s().amax();
     let l = flow.per_s() / size;
@@ -107,14 +107,14 @@ fn gradient(problem: &Problem) -> (Matrix3<f64>, f64) {
 }
 
 /// A in the same units, and the time.
-fn rates(problem: &Problem) -> (Matrix3<f64>, f64) {
+fn rates(problem: &FlowProblem) -> (Matrix3<f64>, f64) {
     let (l, time) = gradient(problem);
     let square = problem.rod.aspect_ratio.powi(2);
     (l / (1.0 + 1.0 / square) - l.transpose() / (1.0 + square), time)
 }
 
 /// The direction by a map in double, with the core's bound.
-fn in_double(problem: &Problem, map: fn(&Matrix3<f64>, f64) -> Matrix3<f64>) -> Moved {
+fn in_double(problem: &FlowProblem, map: fn(&Matrix3<f64>, f64) -> Matrix3<f64>) -> Moved {
     let (a, time) = rates(problem);
     Moved { p: UnitVector3::new_normalize(map(&a, time) * start(problem).as_ref()), ..core(problem) }
 }
@@ -149,8 +149,8 @@ fn planar(a: &Matrix3<f64>, time: f64) -> Matrix3<f64> {
 const HARD: u64 = 300;
 
 /// Problems with answers, worked out once for the check and its controls.
-fn shared(effort: &Effort) -> Arc<Vec<Problem>> {
-    static PROBLEMS: Shared<u64, Vec<Problem>> = Shared::new();
+fn shared(effort: &Effort) -> Arc<Vec<FlowProblem>> {
+    static PROBLEMS: Shared<u64, Vec<FlowProblem>> = Shared::new();
     PROBLEMS.get(effort, 0, || {
         let any = random(Kind::Any, effort.seed(9), effort.pick(400, 100_000));
         let hard = random(Kind::Hard, effort.seed(10), effort.pick(HARD, 30_000));
@@ -167,7 +167,7 @@ fn apart(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
 /// rounding only: coefficients of e^{At} are off by (|L|t)² roundings, and are |L|t times as large as what is left of them: roundings
 /// are those of L, also where little of it is left in A, near spheres. What is left of the start's direction is smaller by the
 /// condition number. A thousand roundings are allowed for.
-fn answerable(problem: &Problem) -> bool {
+fn answerable(problem: &FlowProblem) -> bool {
     let (l, time) = gradient(problem);
     let turned = (l.norm() * time).max(1.0);
     let propagator = Propagator::general(&flow(problem), problem.rod.aspect_ratio);

@@ -11,10 +11,10 @@ use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
 /// The right-hand side in p at an aspect ratio, in units of G.
-type Rate = fn(&Problem, &Vector3<f64>) -> Vector3<f64>;
+type Rate = fn(&RodProblem, &Vector3<f64>) -> Vector3<f64>;
 
 /// ∂ṗ_i/∂p_j at an aspect ratio, in units of G.
-type Slope = fn(&Problem, &Vector3<f64>) -> Matrix3<f64>;
+type Slope = fn(&RodProblem, &Vector3<f64>) -> Matrix3<f64>;
 
 pub fn cases() -> Vec<Case> {
     let through_shape: Rate = |problem, p| {
@@ -35,12 +35,12 @@ pub fn cases() -> Vec<Case> {
             .check(where_errors_show),
         Case::integrator("right-hand-side-digits")
             .claim(
-                "The right-hand sides of the subjects keep every digit of 1 − Λ, and with it the period, \
+                "The right-hand sides of the integrators keep every digit of 1 − Λ, and with it the period, \
                  up to r_e = 10⁸.",
             )
             .source("A.1, eq. 15")
             .equations(&["15", "A.1"])
-            .subject((|problem: &Problem, p: &Vector3<f64>| problem.rate(p)) as Rate)
+            .subject((|problem: &RodProblem, p: &Vector3<f64>| problem.rate(p)) as Rate)
             .mistake("from Λ itself", through_shape)
             .mistake("1/r_e² for 1/(r_e² + 1)", |problem, p| {
                 let r2 = problem.aspect_ratio.powi(2);
@@ -54,7 +54,7 @@ pub fn cases() -> Vec<Case> {
             )
             .source("A.1")
             .equations(&["A.1"])
-            .subject((|problem: &Problem, p: &Vector3<f64>| problem.rate_slope(p)) as Slope)
+            .subject((|problem: &RodProblem, p: &Vector3<f64>| problem.rate_slope(p)) as Slope)
             .mistake("the pull along p left out of the slope", |problem, p| {
                 let shape = shearbed::model::jeffery::shape_factor(problem.aspect_ratio);
                 problem.rate_slope(p) + p * Vector3::new(shape * p.y, shape * p.x, 0.0).transpose()
@@ -64,11 +64,11 @@ pub fn cases() -> Vec<Case> {
                 problem.rate_slope(p) - p * Vector3::new(shape * p.y, shape * p.x, 0.0).transpose()
             })
             .mistake("a rod 1 % longer", |problem, p| {
-                Problem::new(1.01 * problem.aspect_ratio, 1.0).rate_slope(p)
+                RodProblem::new(1.01 * problem.aspect_ratio, 1.0).rate_slope(p)
             })
             .check(eigenvalues),
         Case::integrator("who-loses-length")
-            .claim("The subjects that are not said to keep |p| lose it: each by more than round-off.")
+            .claim("The integrators that do not claim to keep |p| lose it: each by more than round-off.")
             .source("p·ṗ = 0 (A.1)")
             .equations(&["A.1"])
             .subject(integrators::own as Integrators)
@@ -88,8 +88,8 @@ pub fn cases() -> Vec<Case> {
             .check(coarse),
         Case::integrator("grid-convergence-index")
             .claim(
-                "At r_e = 11.6 the grid convergence index bounds the error of every fixed-step subject on \
-                 its finest three grids.",
+                "At r_e = 11.6 the grid convergence index bounds the error of every fixed-step integrator on its finest three \
+                 grids.",
             )
             .source("A.4, A.5")
             .equations(&["A.4", "A.5"])
@@ -131,7 +131,7 @@ fn digits(rate: &Rate, _: &Effort) -> Vec<Evidence> {
     let mut worst = 0.0f64;
     let mut period = 0.0f64;
     for r in [1.01, 2.0, 11.6, 1e4, 1e8, 0.1, 1e-4, 1e-8] {
-        let problem = Problem::new(r, 1.0);
+        let problem = RodProblem::new(r, 1.0);
         let long = rate(&problem, &Vector3::x()).y;
         let short = -rate(&problem, &Vector3::y()).x;
         // r_e² = long/short, without a difference.
@@ -168,7 +168,7 @@ fn largest_eigenvalue(r: f64) -> (f64, f64) {
 fn eigenvalues(slope: &Slope, _: &Effort) -> Vec<Evidence> {
     let (mut above, mut apart) = (0.0f64, 0.0f64);
     for r in [1e-4, 0.1, 0.8, 1.01, 1.5, 2.0, 11.6, 1e4] {
-        let problem = Problem::new(r, 1.0);
+        let problem = RodProblem::new(r, 1.0);
         let largest = |phi: f64, theta: f64| {
             let p = shearbed::model::orientation::from_angles(phi, theta).into_inner();
             let values = slope(&problem, &p).complex_eigenvalues();
@@ -197,7 +197,7 @@ fn eigenvalues(slope: &Slope, _: &Effort) -> Vec<Evidence> {
 }
 
 fn lose_length(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
-    let (problem, start) = Problem::mid_flip(11.6);
+    let (problem, start) = RodProblem::mid_flip(11.6);
     let steps = 1024;
     let kept = |subject: &Integrator| {
         let setting = match subject.theory {
@@ -216,7 +216,7 @@ fn lose_length(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
 }
 
 fn coarse(strain: &f64, _: &Effort) -> Vec<Evidence> {
-    let (problem, start) = Problem::mid_flip(11.6);
+    let (problem, start) = RodProblem::mid_flip(11.6);
     let steps = Setting::Steps((problem.strain() / strain).round() as u64);
     let mut unlike = 0.0;
     for subject in integrators::own() {
@@ -233,7 +233,7 @@ fn coarse(strain: &f64, _: &Effort) -> Vec<Evidence> {
 }
 
 fn index_bounds(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
-    let (problem, start) = Problem::mid_flip(11.6);
+    let (problem, start) = RodProblem::mid_flip(11.6);
     let mut worst = 0.0f64;
     for subject in subjects() {
         if let Some(study) = order::study(&subject, &problem, &start, 8) {

@@ -4,7 +4,7 @@ use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{self, per_replica};
 use crate::judge::statistics::Sample;
-use crate::oracle::naive::{Lines, Naive, Problem, Who, mean_projections};
+use crate::oracle::naive::{Lines, Naive, NaiveProblem, Who, mean_projections};
 use crate::studies::readings::Change;
 use rayon::prelude::*;
 use shearbed::observable::Channel;
@@ -74,7 +74,7 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::interpretation("reading-who-draws")
             .claim(
-                "With one draw per mutual pair in place of two, rods are damped less: this reading matters.",
+                "With one draw per mutual pair in place of two, rods are damped less: this interpretation matters.",
             )
             .source("eqs 8, 9; whose R decides is left open")
             .equations(&["8", "9"])
@@ -89,7 +89,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("one draw per mutual pair instead", pair_draws)
             .check(does_not_matter),
         Case::interpretation("reading-update")
-            .claim("A.14 to the letter damps a little more than Jeffery's step and the kick: this reading matters.")
+            .claim("A.14 to the letter damps a little more than Jeffery's step and the kick: this interpretation matters.")
             .source("A.13, A.14; the pole of the angles")
             .equations(&["A.13", "A.14"])
             .subject(angles)
@@ -100,8 +100,7 @@ pub fn cases() -> Vec<Case> {
             .check(matters),
         Case::interpretation("reading-shortest-arm")
             .claim(
-                "Without contacts at arms below the rod's radius, rods are damped less: this reading \
-                 matters.",
+                "Without contacts at arms below the rod's radius, rods are damped less: this interpretation matters.",
             )
             .source("A.13; a kick ∝ 1/r has no bound")
             .equations(&["A.13"])
@@ -109,7 +108,7 @@ pub fn cases() -> Vec<Case> {
             .mistake("arms below a thousandth of the length instead", instead(shortest_arm, hardly_any_arm))
             .check(matters),
         Case::interpretation("reading-contact-lines")
-            .claim("With contact lines cut at the rods' ends, rods are damped less: this reading matters.")
+            .claim("With contact lines cut at the rods' ends, rods are damped less: this interpretation matters.")
             .source("Fig. 2, assumption ii")
             .equations(&["A.7"])
             .subject(cut_lines)
@@ -169,11 +168,11 @@ fn by_core(change: fn(&mut Interaction), effort: &Effort, replicas: u64) -> Vec<
 
 fn by_reference(change: Change, effort: &Effort, replicas: u64) -> Vec<f64> {
     let x1 = |replica| {
-        let mut problem = Problem {
+        let mut problem = NaiveProblem {
             count: 25,
             concentration_per_cm3: CONCENTRATION_PER_CM3,
             seed: effort.seed(0),
-            ..Problem::paper(1, replica)
+            ..NaiveProblem::paper(1, replica)
         };
         change(&mut problem);
         let steps = problem.steps_per_period / 2;

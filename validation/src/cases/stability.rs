@@ -12,7 +12,7 @@ pub fn cases() -> Vec<Case> {
     vec![
         Case::integrator("stability-map")
             .claim(
-                "In every corner of the map every subject ends, with a direction or with an error: the \
+                "In every corner of the map every integrator ends, with a direction or with an error: the \
                  exact propagator at round-off, A.4 and A.5 in angles within 4·10⁻⁵ rad, who keeps |p| \
                  with |p| = 1, and orders 2 and 4 within 4 (GΔt)² rad over one period where GΔt ≤ ½.",
             )
@@ -98,7 +98,7 @@ fn tried(subject: &Integrator, most_steps: u64) -> Vec<Tried> {
     let theory = subject.theory;
     let mut all = Vec::new();
     let mut push = |run: map::Run| {
-        let strain = Problem::new(run.aspect_ratio, run.turns).strain();
+        let strain = RodProblem::new(run.aspect_ratio, run.turns).strain();
         all.push(Tried {
             cell: run.of(subject),
             strain_per_step: match run.setting {

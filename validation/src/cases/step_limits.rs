@@ -251,8 +251,8 @@ fn rest(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
                 // The angle of the last of many steps, head or tail alike.
                 let last = |strain: f64| {
                     let steps = |steps: u64| {
-                        let turns = steps as f64 * strain / Problem::new(r, 1.0).strain();
-                        subject.advance(&Problem::new(r, turns), &start, Setting::Steps(steps))
+                        let turns = steps as f64 * strain / RodProblem::new(r, 1.0).strain();
+                        subject.advance(&RodProblem::new(r, turns), &start, Setting::Steps(steps))
                     };
                     match (steps(1000), steps(1001)) {
                         (Ok(a), Ok(b)) => apart_rad(&a, &b),

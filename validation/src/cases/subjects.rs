@@ -15,7 +15,7 @@ pub(super) type Integrators = fn() -> Vec<Integrator>;
 pub fn cases() -> Vec<Case> {
     vec![
         Case::integrator("subject-orders")
-            .claim("The error of every fixed-step subject falls with the order of its theory.")
+            .claim("The error of every fixed-step integrator falls with the order of its theory.")
             .source("A.2 to A.5; Jeffery's equation in p")
             .equations(&["A.2", "A.3", "A.4", "A.5"])
             .subject(integrators::own as Integrators)
@@ -34,7 +34,7 @@ pub fn cases() -> Vec<Case> {
             })
             .mistake("RK4 on eq. A.2 with r_e for r_e²", || {
                 in_angles(4, |problem, y, h| {
-                    let wrong = Problem::new(problem.aspect_ratio.sqrt(), 1.0);
+                    let wrong = RodProblem::new(problem.aspect_ratio.sqrt(), 1.0);
                     rk4(|y| wrong.angle_rates(&y), y, h)
                 })
             })
@@ -70,18 +70,18 @@ pub fn cases() -> Vec<Case> {
             .check(round_off),
         Case::integrator("adaptive-subjects")
             .claim(
-                "At a tolerance of 10⁻¹¹ both adaptive subjects come as near as their steps, each off by \
+                "At a tolerance of 10⁻¹¹ both adaptive integrators come as near as their steps, each off by \
                  the tolerance, allow.",
             )
             .source("A.2 to A.5; Jeffery's equation in p")
             .equations(&["A.4", "A.5"])
             .subject((|| vec![dormand_prince(), radau()]) as Integrators)
             .mistake("r_e 0.1 % too long", || {
-                vec![spoiled(|problem| (Problem::new(1.001 * problem.aspect_ratio, problem.turns), 1.0))]
+                vec![spoiled(|problem| (RodProblem::new(1.001 * problem.aspect_ratio, problem.turns), 1.0))]
             })
             .mistake("a tolerance 10⁸ times as large", || vec![spoiled(|problem| (problem, 1e8))])
             .mistake("the last step is left out", || {
-                vec![spoiled(|problem| (Problem::new(problem.aspect_ratio, 0.99 * problem.turns), 1.0))]
+                vec![spoiled(|problem| (RodProblem::new(problem.aspect_ratio, 0.99 * problem.turns), 1.0))]
             })
             .check(adaptive),
     ]
@@ -92,7 +92,7 @@ fn orders(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     for subject in subjects() {
         let mut worst = 0.0f64;
         for r in [2.0, 11.6] {
-            let (problem, start) = Problem::mid_flip(r);
+            let (problem, start) = RodProblem::mid_flip(r);
             let Some(study) = order::study(&subject, &problem, &start, 8) else {
                 continue;
             };
@@ -116,7 +116,7 @@ fn orders(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
 }
 
 fn lengths(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
-    let (problem, start) = Problem::mid_flip(11.6);
+    let (problem, start) = RodProblem::mid_flip(11.6);
     (subjects().into_iter())
         .filter(|subject| subject.keeps_length)
         .map(|subject| {
@@ -141,8 +141,8 @@ fn round_off(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     for subject in subjects() {
         for r in [1.01, 2.0, 11.6, 100.0, 1e4, 1e6] {
             for whole in [0.0, 16.0, 1e6] {
-                let (problem, start) = Problem::mid_flip(r);
-                let later = Problem::new(r, problem.turns + whole);
+                let (problem, start) = RodProblem::mid_flip(r);
+                let later = RodProblem::new(r, problem.turns + whole);
                 let error = grade(&subject, &later, &start, Setting::Once);
                 worst = larger(worst, error.map_or(f64::NAN, |errors| errors.orientation_rad));
             }
@@ -165,7 +165,7 @@ fn adaptive(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
     for subject in subjects() {
         for (r, steps) in STEPS {
             let steps = steps[usize::from(subject.name == radau().name)];
-            let (problem, start) = Problem::mid_flip(r);
+            let (problem, start) = RodProblem::mid_flip(r);
             let error = grade(&subject, &problem, &start, Setting::Tolerance(1e-11));
             evidence.push(Evidence::within(
                 format!("angle to the closed form at a tolerance of 10⁻¹¹, r_e = {r}, {}", subject.name), // A subject that gives up is off by as much as can be.

@@ -13,7 +13,7 @@ use crate::serve::fit::design::{Candidate, design};
 use crate::serve::fit::elsewhere::look_elsewhere;
 use crate::serve::fit::report::{self, Report};
 use crate::serve::fit::scenes::AS_WRITTEN;
-use crate::serve::fit::search::{Fit, Measured, Problem, Watch, search};
+use crate::serve::fit::search::{Fit, FitProblem, Measured, Watch, search};
 use crate::serve::fit::{Range, pictures, terminal};
 use crate::serve::sweep::Setting;
 use input::{Input, input};
@@ -133,7 +133,7 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
             args.rods.map_or(0.0, |rods| count / rods as f64)
         })
         .collect();
-    let problem = Problem {
+    let problem = FitProblem {
         measured: Measured { data, ranges: &args.over, rods_over_measured: &rods },
         model: &model,
         most_replicas: args.replicas,

@@ -11,7 +11,7 @@ use crate::files::output::{self, ResultFolder};
 use crate::files::text::Shown;
 use crate::present::plot;
 use crate::serve::grade::live::{self, Mode, Program, Protocol};
-use crate::serve::grade::{self, Claim, Dump, Graded, LineEnds, Options, Report, Told};
+use crate::serve::grade::{self, Claim, DumpOptions, FileOptions, Graded, LineEnds, Options, Report};
 use crate::serve::problems::{self, Kind, LoadedProblem};
 use serde_json::Value;
 use std::io;
@@ -72,7 +72,7 @@ fn pictures(report: &Report, problems: &[LoadedProblem]) -> Result<Vec<output::O
 
 fn options(args: &Args) -> Options {
     Options {
-        told: Told {
+        file: FileOptions {
             columns: args.columns.clone(),
             foreign: args.layout,
             axes: args.axes,
@@ -81,7 +81,7 @@ fn options(args: &Args) -> Options {
                 false => LineEnds::Unix,
             },
         },
-        dump: Dump { timestep_s: args.timestep_s, rod_axis: args.rod_axis },
+        dump: DumpOptions { timestep_s: args.timestep_s, rod_axis: args.rod_axis },
         claim: Claim { order: args.order },
     }
 }

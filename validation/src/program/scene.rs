@@ -9,7 +9,7 @@ use crate::input::start::Starts;
 use crate::serve::sweep::{self, Axis, Setting};
 use shearbed::scene::document::Document;
 use shearbed::scene::{MAX_REPLICAS, MAX_SEED};
-use shearbed::scene::{Problem, of_document};
+use shearbed::scene::{SceneProblem, of_document};
 use shearbed::{Error, Plan, Scene};
 use std::ffi::{OsStr, OsString};
 use std::path::Path;
@@ -92,7 +92,7 @@ fn wrong(source: &str, settings: &[Setting], error: &Error) -> Failure {
     };
     let set = |setting: &Setting| format!(" --set {}={}", setting.key, sweep::shown(&setting.value));
     let set: String = settings.iter().map(set).collect();
-    let line = |problem: &Problem| match problem.line {
+    let line = |problem: &SceneProblem| match problem.line {
         Some(line) => format!("{source}:{line}: {}", problem.message),
         None => format!("{source}{set}: {}", problem.message),
     };

@@ -12,7 +12,7 @@ use crate::files::cluster;
 use crate::judge::case::Effort;
 use crate::judge::statistics::Estimate;
 use crate::oracle::naive::{
-    Images, Length, Lines, Naive, Problem, Replacement, Update, Who, mean_projections,
+    Images, Length, Lines, Naive, NaiveProblem, Replacement, Update, Who, mean_projections,
 };
 use crate::present::study::{Findings, Request, Study};
 use crate::present::table::{ReportTable, estimate, plus_minus, signed, words};
@@ -24,7 +24,7 @@ use std::iter::once;
 pub const STUDY: Study = Study {
     name: "readings",
     title: "What the paper leaves open",
-    question: "What would other readings of the paper change?",
+    question: "What would other interpretations of the paper change?",
     cases: &[
         "reading-who-draws",
         "reading-order",
@@ -66,10 +66,10 @@ pub fn table(rows: &[ReadingRow]) -> ReportTable {
         }));
     }
     ReportTable::new(
-        ["readings", "What the open readings change"],
+        ["readings", "What the alternatives change"],
         format!(
-            "The rods of Fig. 7 at 50 per cm³ (N = 100, σ = 0, r_e = 11.6, α = 0.5, 200 steps a period): each \
-             reading alone against the project's own, then two of them with half the step. Mean ± standard error of \
+            "The rods of Fig. 7 at 50 per cm³ (N = 100, σ = 0, r_e = 11.6, α = 0.5, 200 steps a period): each alternative \
+             alone against this project's interpretation, then two of them with half the step. Mean ± standard error of \
              {replicas} replicas, seed {SEED}, by the naive reference. A change is from pairs of replicas with the \
              same random numbers. The damping rate is minus the slope, by least squares over four half periods, of \
              ln A; A is the mean of two neighbouring maxima of X̄₁ (t/T = 0, ½, 1, 1½, 2) less the minimum between."
@@ -115,7 +115,7 @@ pub const QUANTITIES: [(&str, Quantity); 4] = [
 ];
 
 /// A change of the problem.
-pub type Change = fn(&mut Problem);
+pub type Change = fn(&mut NaiveProblem);
 
 /// The alternatives: what is left open, how it is read, and that as a change of the default. The last two are
 /// those whose effect depends on the time step.
@@ -167,7 +167,7 @@ pub fn measure(effort: &Effort) -> Option<Vec<ReadingRow>> {
 /// The trace of each of the first `replicas` replicas of a changed problem.
 pub fn traces(change: Change, replicas: u64) -> Vec<Trace> {
     let run = |replica| {
-        let mut problem = Problem::paper(SEED, replica);
+        let mut problem = NaiveProblem::paper(SEED, replica);
         change(&mut problem);
         trace(problem)
     };
@@ -175,7 +175,7 @@ pub fn traces(change: Change, replicas: u64) -> Vec<Trace> {
 }
 
 /// Two periods of a problem with steps in multiples of four to the period.
-fn trace(problem: Problem) -> Trace {
+fn trace(problem: NaiveProblem) -> Trace {
     let (steps, rods) = (problem.steps_per_period / 4, problem.count as f64);
     let mut naive = Naive::new(problem);
     let mut trace = [0.0; QUARTERS + 2];

@@ -9,12 +9,12 @@ use std::process::{Child, Command, Stdio};
 /// A running program.
 pub struct Running {
     child: Child,
-    stdout: Told,
-    stderr: Told,
+    stdout: Captured,
+    stderr: Captured,
 }
 
 /// What the program writes to one of its outputs.
-struct Told {
+struct Captured {
     stream: BufReader<UnixStream>,
     /// Bytes before the program's own.
     filler: usize,
@@ -23,16 +23,16 @@ struct Told {
 impl Running {
     /// Starts a program.
     pub fn start(command: Command) -> Self {
-        Self::with(command, Told::open())
+        Self::with(command, Captured::open())
     }
 
     /// Starts a program that waits, for as long as the test likes, where it first writes to standard error: nobody reads there.
     pub fn held_at_its_first_message(command: Command) -> Self {
-        Self::with(command, Told::full())
+        Self::with(command, Captured::full())
     }
 
-    fn with(mut command: Command, (stderr, end): (Told, OwnedFd)) -> Self {
-        let (stdout, own) = Told::open();
+    fn with(mut command: Command, (stderr, end): (Captured, OwnedFd)) -> Self {
+        let (stdout, own) = Captured::open();
         let child = command.stdout(Stdio::from(own)).stderr(Stdio::from(end)).spawn();
         Self { child: child.unwrap(), stdout, stderr }
     }
@@ -76,7 +76,7 @@ impl Running {
 
     /// Lets the program go on where it was held, and waits for its end.
     pub fn end(mut self) -> Ended {
-        let [stderr, stdout] = [&mut self.stderr, &mut self.stdout].map(Told::rest);
+        let [stderr, stdout] = [&mut self.stderr, &mut self.stdout].map(Captured::rest);
         Ended { code: self.child.wait().unwrap().code(), stdout, stderr }
     }
 }
@@ -89,7 +89,7 @@ impl Drop for Running {
     }
 }
 
-impl Told {
+impl Captured {
     /// A stream, and the program's end of it.
     fn open() -> (Self, OwnedFd) {
         let (own, end) = UnixStream::pair().unwrap();

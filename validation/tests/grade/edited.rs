@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
-use validation::serve::grade::{self, Axes, Claim, Dump, LineEnds, Options, Told};
+use validation::serve::grade::{self, Axes, Claim, DumpOptions, FileOptions, LineEnds, Options};
 use validation::serve::problems::{self, LoadedProblem};
 
 /// Writes `problem.json` of a problem in a folder of references, with one key changed.
@@ -145,8 +145,8 @@ fn values() -> Vec<Value> {
 
 fn options() -> Options {
     Options {
-        told: Told { columns: None, foreign: None, axes: Axes::default(), ends: LineEnds::Unix },
-        dump: Dump { timestep_s: None, rod_axis: None },
+        file: FileOptions { columns: None, foreign: None, axes: Axes::default(), ends: LineEnds::Unix },
+        dump: DumpOptions { timestep_s: None, rod_axis: None },
         claim: Claim { order: None },
     }
 }

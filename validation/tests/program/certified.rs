@@ -104,9 +104,9 @@ fn a_right_code_in_doubles_passes_and_wrong_ones_fail() {
 }
 
 /// The suspension of an ensemble problem, for the naive reference, which shares no code with the simulator.
-fn suspension(loaded: &LoadedProblem, replica: u64, mistake: Option<Mistake>) -> naive::Problem {
+fn suspension(loaded: &LoadedProblem, replica: u64, mistake: Option<Mistake>) -> naive::NaiveProblem {
     let (problem, ensemble) = (&loaded.problem, loaded.problem.ensemble.as_ref().unwrap());
-    naive::Problem {
+    naive::NaiveProblem {
         count: ensemble.count as usize,
         shear_rate_per_s: problem.gradient_per_s[1][0],
         other_flow: None,

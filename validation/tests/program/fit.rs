@@ -326,7 +326,7 @@ fn bad_input_ends_with_two_and_leaves_nothing() {
         (format!("{good} --over interaction.alpa=0.1:1"), "unknown key `alpa`"),
         (format!("{good} --over interaction.alpha=-1:1"), "interaction.alpha = -1"),
         (format!("{good} --over particles.count=10:15"), "a whole number"),
-        (format!("{good} --over ensemble.seed=1:5"), "ensemble is nothing that points tell"),
+        (format!("{good} --over ensemble.seed=1:5"), "points do not determine keys of ensemble"),
         (format!("{good} --over interaction.alpha=0.1:1 --over interaction.alpha=0.1:2"), "both set it"),
         (format!("{good} --over interaction.alpha=0.1:1 --set interaction.alpha=1"), "both set it"),
         (format!("{good} --over interaction.alpha=0.1:1 --replicas 5"), "a whole number from 20"),

@@ -141,7 +141,7 @@ fn what_cannot_be_written_is_refused_by_its_key() {
     refused(
         &asked(),
         "sweep s.toml --over particles.count=2,3",
-        "s.toml: output.rods_at: a sweep keeps no rods",
+        "s.toml: output.rods_at: a sweep writes no rods",
     );
     let many = asked().replace("count = 20", "count = 100000").replace("replicas = 3", "replicas = 10000000");
     refused(

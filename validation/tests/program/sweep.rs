@@ -135,7 +135,7 @@ fn another_sweep_in_the_folder_is_refused_and_left_as_it_is() {
     assert!(text.contains(&sum), "{text}");
     fs::write(&kept, text.replace(&sum, &own)).unwrap();
     let message = refused(dir.path(), &first);
-    assert!(message.contains("here/points/1: run again, this point has other numbers"), "{message}");
+    assert!(message.contains("here/points/1: run again, this point gives other numbers"), "{message}");
     assert!(!here.join("points/6").exists());
 
     // Files of unknown origin.

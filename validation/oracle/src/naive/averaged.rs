@@ -39,7 +39,7 @@ impl Naive {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::naive::Problem;
+    use crate::naive::NaiveProblem;
 
     fn apart(a: &Naive, b: &Naive) -> f64 {
         let rods = a.orientations.iter().zip(&b.orientations);
@@ -52,7 +52,7 @@ mod tests {
     fn one_step_of_two_rods_is_the_mean_of_the_model_s() {
         let mut turned = 0;
         for replica in 0..50 {
-            let mut problem = Problem::paper(1, replica);
+            let mut problem = NaiveProblem::paper(1, replica);
             (problem.count, problem.concentration_per_cm3) = (2, 500.0);
             (problem.steps_per_period, problem.min_contact_arm) = (100_000, 0.1);
             let with = |alpha: f64| {
@@ -81,7 +81,7 @@ mod tests {
 
     #[test]
     fn without_collisions_it_is_the_free_motion() {
-        let mut problem = Problem::paper(1, 0);
+        let mut problem = NaiveProblem::paper(1, 0);
         (problem.count, problem.alpha) = (10, 0.0);
         let (mut free, mut averaged) = (Naive::new(problem.clone()), Naive::new(problem.clone()));
         problem.alpha = 0.5;

@@ -100,7 +100,7 @@ impl Mistake {
 
 /// One suspension in plane Couette flow, u_2 = G x_1, or in another flow.
 #[derive(Clone, Debug)]
-pub struct Problem {
+pub struct NaiveProblem {
     /// N, rods in the control volume.
     pub count: usize,
     /// G, 1/s, not zero.
@@ -141,7 +141,7 @@ pub struct Problem {
     pub mistake: Option<Mistake>,
 }
 
-impl Problem {
+impl NaiveProblem {
     /// Fig. 7 at 50 per cm^3 with rods of one size, as the project reads the paper, with the update `rotation`.
     pub fn paper(seed: u64, replica: u64) -> Self {
         Self {

@@ -11,13 +11,13 @@ use nalgebra::Vector3;
 use rand::RngExt;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-fn fibres(count: usize, alpha: f64, change: impl FnOnce(&mut Problem)) -> Problem {
-    let mut problem = Problem { count, alpha, ..Problem::paper(1, 0) };
+fn fibres(count: usize, alpha: f64, change: impl FnOnce(&mut NaiveProblem)) -> NaiveProblem {
+    let mut problem = NaiveProblem { count, alpha, ..NaiveProblem::paper(1, 0) };
     change(&mut problem);
     problem
 }
 
-fn run(problem: Problem, steps: usize) -> Naive {
+fn run(problem: NaiveProblem, steps: usize) -> Naive {
     let mut naive = Naive::new(problem);
     (0..steps).for_each(|_| naive.step());
     naive
@@ -55,7 +55,7 @@ fn the_start_follows_the_protocol() {
         assert!((theta.cos() - (1.0 - 2.0 * uniform(&mut p))).abs() < 1e-12);
     }
     assert_eq!((naive.redraws, naive.aspect_ratios), (0, vec![11.6; 50]));
-    let broad = |p: &mut Problem| (p.aspect_ratio, p.aspect_ratio_sd_percent) = (1.5, 50.0);
+    let broad = |p: &mut NaiveProblem| (p.aspect_ratio, p.aspect_ratio_sd_percent) = (1.5, 50.0);
     let naive = Naive::new(fibres(50, 0.5, broad));
     let normal = Normal::new(1.5, 0.75).expect("0.75 is finite");
     let drawn = normal.sample_iter(stream(1, 0, 0));
@@ -99,7 +99,7 @@ fn a_free_rod_follows_a4_and_a5() {
 }
 
 /// The rods of the contact worked by hand, before a step in which they are candidates.
-fn hand_pair_at_rest(change: impl FnOnce(&mut Problem)) -> Naive {
+fn hand_pair_at_rest(change: impl FnOnce(&mut NaiveProblem)) -> Naive {
     let mut naive = Naive::new(fibres(2, 1e30, |p| {
         (p.shear_rate_per_s, p.concentration_per_cm3) = (2.0, 0.002);
         change(p);
@@ -110,7 +110,7 @@ fn hand_pair_at_rest(change: impl FnOnce(&mut Problem)) -> Naive {
 }
 
 /// The same after it.
-fn hand_pair(change: impl FnOnce(&mut Problem)) -> Naive {
+fn hand_pair(change: impl FnOnce(&mut NaiveProblem)) -> Naive {
     let mut naive = hand_pair_at_rest(change);
     naive.step();
     naive
@@ -216,7 +216,7 @@ fn lengths_follow_the_protocol() {
 }
 
 /// Collisions of one step of rods on axis 1, all of them candidates unless changed.
-fn taken(x1_mm: &[f64], parallel: [usize; 2], change: impl FnOnce(&mut Problem)) -> Vec<(usize, usize)> {
+fn taken(x1_mm: &[f64], parallel: [usize; 2], change: impl FnOnce(&mut NaiveProblem)) -> Vec<(usize, usize)> {
     let mut naive = Naive::new(fibres(x1_mm.len(), 1e30, change));
     naive.positions_mm = x1_mm.iter().map(|&x| [x, 0.0, 0.0]).collect();
     naive.orientations[parallel[0]] = naive.orientations[parallel[1]];
@@ -297,7 +297,7 @@ fn every_mistake_changes_a_run() {
             steps_per_strain: 10,
         };
         [(None, None), (Some([20.0, 5.0, 10.0]), None), (None, Some(flow))].map(|(box_mm, other_flow)| {
-            let change = |p: &mut Problem| {
+            let change = |p: &mut NaiveProblem| {
                 (p.update, p.mistake) = (Update::Angles, mistake);
                 (p.box_mm, p.other_flow) = (box_mm, other_flow);
                 (p.length_sd_percent, p.min_contact_arm) = (30.0, 1.0);

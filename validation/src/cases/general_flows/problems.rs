@@ -9,13 +9,13 @@ use rayon::prelude::*;
 
 /// A rod, how long it moves, and where the oracle has it then.
 #[derive(Clone, Copy, Debug)]
-pub struct Problem {
+pub struct FlowProblem {
     pub rod: Rod,
     pub strain: f64,
     pub truth: [f64; 3],
 }
 
-impl Problem {
+impl FlowProblem {
     /// With the oracle's answer, where it has one.
     pub fn new(rod: Rod, strain: f64) -> Option<Self> {
         let truth = rod.settled(Span::Strain(strain))?;
@@ -33,11 +33,11 @@ pub enum Kind {
 }
 
 /// The first `count` random problems of a seed.
-pub fn random(kind: Kind, seed: u64, count: u64) -> Vec<Problem> {
+pub fn random(kind: Kind, seed: u64, count: u64) -> Vec<FlowProblem> {
     (0..count).into_par_iter().map(|index| one(kind, seed, index)).collect()
 }
 
-fn one(kind: Kind, seed: u64, index: u64) -> Problem {
+fn one(kind: Kind, seed: u64, index: u64) -> FlowProblem {
     let rng = &mut Pcg64::seed_from_u64(seed.wrapping_add(index));
     loop {
         if let Some(problem) = drawn(kind, rng) {
@@ -47,7 +47,7 @@ fn one(kind: Kind, seed: u64, index: u64) -> Problem {
 }
 
 /// None where the oracle has no answer, some one in 10⁵.
-fn drawn(kind: Kind, rng: &mut impl Rng) -> Option<Problem> {
+fn drawn(kind: Kind, rng: &mut impl Rng) -> Option<FlowProblem> {
     let gradient = loop {
         let gradient = gradient(rng);
         // Without a strain rate there is no strain.
@@ -76,7 +76,7 @@ fn drawn(kind: Kind, rng: &mut impl Rng) -> Option<Problem> {
         }
         .into();
     }
-    Problem::new(rod, strain)
+    FlowProblem::new(rod, strain)
 }
 
 /// 10 to a power between `least` and `most`.

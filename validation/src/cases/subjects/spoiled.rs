@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 /// An integrator of this step in (φ, θ).
 pub(in crate::cases) fn in_angles(
     order: u32,
-    step: fn(&Problem, Vector2<f64>, f64) -> Vector2<f64>,
+    step: fn(&RodProblem, Vector2<f64>, f64) -> Vector2<f64>,
 ) -> Vec<Integrator> {
     vec![Integrator::in_angles("in angles", order, step)]
 }
@@ -16,7 +16,7 @@ pub(in crate::cases) fn in_angles(
 pub(in crate::cases) fn in_p(
     order: u32,
     keeps_length: bool,
-    step: fn(&Problem, Vector3<f64>, f64) -> Vector3<f64>,
+    step: fn(&RodProblem, Vector3<f64>, f64) -> Vector3<f64>,
 ) -> Vec<Integrator> {
     let own = Integrator::in_p("in p", order, step);
     vec![if keeps_length { own.keeping_length() } else { own }]
@@ -32,7 +32,7 @@ pub(in crate::cases) fn whole_turns() -> Integrator {
 }
 
 /// Dormand–Prince on another problem, with another factor on its tolerance.
-pub(super) fn spoiled(change: fn(Problem) -> (Problem, f64)) -> Integrator {
+pub(super) fn spoiled(change: fn(RodProblem) -> (RodProblem, f64)) -> Integrator {
     Integrator::new("spoiled", Theory::Adaptive, move |problem, start, setting| {
         let (problem, factor) = change(*problem);
         dormand_prince().advance(&problem, start, Setting::Tolerance(factor * setting.tolerance()?))

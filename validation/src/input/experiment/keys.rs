@@ -2,7 +2,7 @@
 
 use super::error::DataError;
 use shearbed::Error;
-use shearbed::scene::Problem;
+use shearbed::scene::SceneProblem;
 use shearbed::scene::document::{Document, Table};
 
 /// Reads a TOML text.
@@ -13,7 +13,7 @@ pub(super) fn document(file: &str, text: &str) -> Result<Document, DataError> {
     })
 }
 
-fn located(file: &str, Problem { line, message, .. }: Problem) -> DataError {
+fn located(file: &str, SceneProblem { line, message, .. }: SceneProblem) -> DataError {
     DataError { file: file.to_owned(), line, message }
 }
 

@@ -1,15 +1,15 @@
 //! A scene as the naive reference takes it.
 
 use super::interaction;
-use crate::oracle::naive::{self, Mistake, OtherFlow, Problem, Reading, Start};
+use crate::oracle::naive::{self, Mistake, NaiveProblem, OtherFlow, Reading, Start};
 use shearbed::scene::{Orientation, Scene, Update};
 
 /// The scene as the naive reference takes it.
-pub fn problem(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> Problem {
+pub fn problem(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> NaiveProblem {
     let mut scene = scene.clone();
     let interaction = interaction(&mut scene).clone();
     let particles = scene.particles.clone();
-    Problem {
+    NaiveProblem {
         count: particles.count,
         shear_rate_per_s: scene.flow.shear_rate_per_s().unwrap_or(f64::NAN),
         other_flow: scene.flow.gradient_per_s().map(|gradient_per_s| OtherFlow {

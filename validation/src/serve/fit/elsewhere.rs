@@ -5,7 +5,7 @@ use super::data::Datum;
 use super::emulator::Prediction;
 use super::profile::rise_of;
 use super::range::Range;
-use super::search::{FIRST_REPLICAS, Fit, Problem, Watch};
+use super::search::{FIRST_REPLICAS, Fit, FitProblem, Watch};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -46,7 +46,7 @@ struct Tried {
 /// # Errors
 ///
 /// Another place describes the points as well, or better than the fit does.
-pub fn look_elsewhere(problem: &Problem<'_>, fit: &Fit, watch: &Watch<'_>) -> Result<Vec<String>, String> {
+pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) -> Result<Vec<String>, String> {
     let values = fit.values(&fit.best.place);
     let mut warnings = Vec::new();
     for (axis, range) in fit.ranges.iter().enumerate() {
@@ -54,11 +54,11 @@ pub fn look_elsewhere(problem: &Problem<'_>, fit: &Fit, watch: &Watch<'_>) -> Re
             Line { problem, watch, values: &values, axis, range, replicas: fit.emulator.replicas() as u64 };
         let best = range.scaled(values[axis]);
         let own = line.run(best, line.replicas)?;
-        let told = fit.best.chi_square;
-        if own.chi_square > told + told.max(NOISE) {
+        let emulated = fit.best.chi_square;
+        if own.chi_square > emulated + emulated.max(NOISE) {
             return Err(format!(
                 "--over {}: at the best values, {:.4} for it, the model has χ² = {:.1} where the polynomials between its runs \
-                 have {told:.1}, so they do not follow it over this range; give a narrower one",
+                 have {emulated:.1}, so they do not follow it over this range; give a narrower one",
                 range.label(),
                 values[axis],
                 own.chi_square
@@ -111,7 +111,7 @@ pub fn look_elsewhere(problem: &Problem<'_>, fit: &Fit, watch: &Watch<'_>) -> Re
 
 /// A range along which the model is run.
 struct Line<'a> {
-    problem: &'a Problem<'a>,
+    problem: &'a FitProblem<'a>,
     watch: &'a Watch<'a>,
     /// The best ones.
     values: &'a [f64],

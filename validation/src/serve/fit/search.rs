@@ -47,7 +47,7 @@ pub struct Measured<'a> {
 }
 
 /// What is to be fitted.
-pub struct Problem<'a> {
+pub struct FitProblem<'a> {
     /// The points and the parameters.
     pub measured: Measured<'a>,
     /// What predicts the points.
@@ -89,7 +89,7 @@ pub struct Fit {
 }
 
 /// Fits the parameters. On error, why a run could not be or was not finished.
-pub fn search(problem: &Problem<'_>, watch: &Watch<'_>) -> Result<Fit, String> {
+pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, String> {
     let ranges = problem.measured.ranges;
     let basis = Basis::new(ranges.len());
     let whole = whole(ranges);

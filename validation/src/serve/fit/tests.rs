@@ -8,7 +8,7 @@ use super::pictures::best_curves;
 use super::profile::{contour, rise_of_several};
 use super::range::Range;
 use super::report::levels;
-use super::search::{Fit, Measured, Problem, Watch, search};
+use super::search::{Fit, FitProblem, Measured, Watch, search};
 use crate::judge::accept::{Design, Rule, Verdict, judge};
 use nalgebra::{DMatrix, DVector};
 use rand::SeedableRng;
@@ -64,7 +64,7 @@ fn ranges(over: &[&str]) -> Vec<Range> {
 
 fn fit(data: &[Datum], over: &[&str], seed: u64, scatter: f64, most_replicas: u64) -> Fit {
     let model = model(seed, scatter);
-    let problem = Problem {
+    let problem = FitProblem {
         measured: Measured { data, ranges: &ranges(over), rods_over_measured: &[0.0] },
         model: &model,
         most_replicas,
@@ -110,7 +110,7 @@ fn the_levels_of_a_profile_are_those_of_its_intervals() {
 fn another_minimum_of_the_range_is_seen() {
     let (data, model) = (points(0.3, 1.0, 0.01, 1), model(1, 1e-9));
     let look = |fit: &Fit| {
-        let problem = Problem {
+        let problem = FitProblem {
             measured: Measured { data: &data, ranges: &fit.ranges, rods_over_measured: &[0.0] },
             model: &model,
             most_replicas: 20,
@@ -212,7 +212,7 @@ fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
         datum.value += 1.0 + 0.5 * datum.time;
     }
     // One range is linear, the other logarithmic; a and b are strongly correlated, as t starts at 1.
-    let problem = Problem {
+    let problem = FitProblem {
         measured: Measured {
             data: &data,
             ranges: &ranges(&["line.a=-3:5", "line.b=0.1:4"]),

@@ -3,7 +3,7 @@
 use super::Graded;
 use crate::present::plot::{Curve, Figure};
 use crate::serve::problems::{Kind, LoadedProblem};
-use crate::studies::integrators::{self, Integrator, Problem, Setting, Theory};
+use crate::studies::integrators::{self, Integrator, RodProblem, Setting, Theory};
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use shearbed::model::flow::VelocityGradient;
 use std::f64::consts::TAU;
@@ -81,7 +81,7 @@ fn couette_per_s(loaded: &LoadedProblem) -> Option<f64> {
 fn own_errors(subject: &Integrator, loaded: &LoadedProblem, rate: f64, counts: &[u64]) -> Vec<(u64, f64)> {
     let r = loaded.problem.aspect_ratio;
     let end_s = loaded.problem.times_s.last().copied().unwrap_or_default();
-    let problem = Problem::new(r, rate * end_s / (TAU * (r + 1.0 / r)));
+    let problem = RodProblem::new(r, rate * end_s / (TAU * (r + 1.0 / r)));
     let error = |steps: u64| {
         let of_rod = |p: &[f64; 3]| {
             let start = UnitVector3::new_normalize(Vector3::from(*p));

@@ -4,7 +4,7 @@ use super::answer::Answer;
 use super::compare::compare;
 use super::diagnosis::diagnose;
 use super::lammps;
-use super::layout::Told;
+use super::layout::FileOptions;
 use super::order;
 use super::read::read;
 use super::{Graded, Verdict};
@@ -23,9 +23,9 @@ pub struct Claim {
 #[derive(Clone, Debug)]
 pub struct Options {
     /// What the columns are.
-    pub told: Told,
+    pub file: FileOptions,
     /// What a dump does not say.
-    pub dump: lammps::Told,
+    pub dump: lammps::DumpOptions,
     /// What the program is said to do.
     pub claim: Claim,
 }
@@ -49,7 +49,7 @@ pub fn grade(
 }
 
 /// The files of an answer: one, or one for each number of steps from few to many.
-struct Found {
+struct AnswerFiles {
     answer: Option<PathBuf>,
     steps: Vec<(u64, PathBuf)>,
 }
@@ -57,9 +57,9 @@ struct Found {
 /// Endings of an answer's file.
 const ENDINGS: [&str; 5] = ["csv", "txt", "dat", "dump", "lammpstrj"];
 
-fn find(dir: &Path) -> Result<Found, ReadError> {
+fn find(dir: &Path) -> Result<AnswerFiles, ReadError> {
     let failed = |error: std::io::Error| ReadError::whole(dir, format!("cannot be read: {error}"));
-    let mut found = Found { answer: None, steps: Vec::new() };
+    let mut found = AnswerFiles { answer: None, steps: Vec::new() };
     if !dir.exists() {
         return Ok(found);
     }
@@ -98,7 +98,7 @@ fn find(dir: &Path) -> Result<Found, ReadError> {
 
 fn one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, ReadError> {
     let found = find(dir)?;
-    let read = |path: &PathBuf| read(path, loaded, &options.told, &options.dump);
+    let read = |path: &PathBuf| read(path, loaded, &options.file, &options.dump);
     let mut errors = Vec::new();
     let mut finest = None;
     for (steps, path) in &found.steps {

@@ -7,9 +7,9 @@ use super::lines::{Lines, number};
 use crate::serve::problems::{Kind, LoadedProblem, ReadError};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-/// What a dump does not say itself.
+/// What the flags add to a LAMMPS dump.
 #[derive(Clone, Copy, Debug)]
-pub struct Told {
+pub struct DumpOptions {
     /// The length of a time step in s, where the dump has no `ITEM: TIME`.
     pub timestep_s: Option<f64>,
     /// The rod's axis in its body frame, 0 to 2; the one that the columns shapex, shapey, shapez single out where `None`.
@@ -50,7 +50,7 @@ pub(super) fn read(
     first: String,
     problem: &LoadedProblem,
     axes: Axes,
-    told: &Told,
+    options: &DumpOptions,
 ) -> Result<Answer, ReadError> {
     if problem.problem.kind != Kind::Rods {
         return Err(lines.error(0, "a dump of quaternions answers problems about rods only"));
@@ -64,7 +64,7 @@ pub(super) fn read(
             Some("TIMESTEP") => {
                 let step = value(&mut lines)?;
                 // ITEM: TIME, where it is there, comes before it.
-                time_s = time_s.or(told.timestep_s.map(|length| step * length));
+                time_s = time_s.or(options.timestep_s.map(|length| step * length));
             }
             Some("TIME") => time_s = Some(value(&mut lines)?),
             Some("NUMBER OF ATOMS") => {
@@ -85,7 +85,7 @@ pub(super) fn read(
                     )
                 })?;
                 let columns = columns(&header["ATOMS".len()..]).map_err(|message| lines.error(0, message))?;
-                snapshot(&mut lines, &mut collector, &columns, atoms, time, axes, told)?;
+                snapshot(&mut lines, &mut collector, &columns, atoms, time, axes, options)?;
             }
             _ => return Err(lines.error(0, "no ITEM of a dump")),
         }
@@ -114,7 +114,7 @@ fn snapshot(
     atoms: usize,
     time_s: f64,
     axes: Axes,
-    told: &Told,
+    options: &DumpOptions,
 ) -> Result<(), ReadError> {
     // LAMMPS writes atoms in any order: by id they are the rods.
     let mut found = Vec::new();
@@ -134,7 +134,7 @@ fn snapshot(
         if let Some(places) = columns.shape {
             shape = Some([at(places[0])?, at(places[1])?, at(places[2])?]);
         }
-        let axis = told.rod_axis.or_else(|| shape.and_then(odd_one)).ok_or_else(|| {
+        let axis = options.rod_axis.or_else(|| shape.and_then(odd_one)).ok_or_else(|| {
             lines.error(
                 0,
                 "which axis of the body is the rod's? --rod-axis x, y or z, or columns shapex shapey shapez",

@@ -63,9 +63,9 @@ fn known(name: &str) -> &str {
     }
 }
 
-/// What the user says of the columns.
+/// What the flags say of the form of answer files.
 #[derive(Clone, Debug, Default)]
-pub struct Told {
+pub struct FileOptions {
     /// The names of the columns in the order of the file, `-` for one to leave out.
     pub columns: Option<Vec<String>>,
     /// A known program's layout.
@@ -78,12 +78,12 @@ pub struct Told {
 
 impl Layout {
     /// The layout of a file with this first line. `Err` has the field from 1, or 0, and what is wrong.
-    pub fn find(first: &str, problem: &Problem, told: &Told) -> Result<Self, (usize, String)> {
+    pub fn find(first: &str, problem: &Problem, options: &FileOptions) -> Result<Self, (usize, String)> {
         let separator = [',', ';', '\t'].into_iter().find(|letter| first.contains(*letter)).unwrap_or(' ');
         let header: Vec<_> = split(first.trim_start_matches('#').trim(), separator).collect();
         let first_is_row = header.iter().all(|field| field.parse::<f64>().is_ok());
         let wants_tensor = problem.kind == Kind::Tensor;
-        let names: Vec<String> = match (&told.columns, told.foreign, first_is_row) {
+        let names: Vec<String> = match (&options.columns, options.foreign, first_is_row) {
             (Some(columns), _, _) => columns.clone(),
             (None, Some(foreign), _) => foreign.columns().iter().map(|name| (*name).to_owned()).collect(),
             (None, None, false) => {
@@ -103,7 +103,7 @@ impl Layout {
         if names.len() != header.len() {
             return Err((0, format!("{} fields where {} columns are named", header.len(), names.len())));
         }
-        Ok(Self { separator, fields: fields(&names, problem, told.axes)?, first_is_row })
+        Ok(Self { separator, fields: fields(&names, problem, options.axes)?, first_is_row })
     }
 
     /// The fields of a row.

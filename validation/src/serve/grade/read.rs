@@ -2,7 +2,7 @@
 
 use super::answer::{Answer, Collector};
 use super::lammps;
-use super::layout::{Field, Layout, Told};
+use super::layout::{Field, FileOptions, Layout};
 use super::lines::{Lines, number};
 use crate::serve::problems::{LoadedProblem, ReadError};
 use std::path::Path;
@@ -14,17 +14,17 @@ const SYMMETRIC: f64 = 1e-6;
 pub fn read(
     path: &Path,
     problem: &LoadedProblem,
-    told: &Told,
-    dump: &lammps::Told,
+    options: &FileOptions,
+    dump: &lammps::DumpOptions,
 ) -> Result<Answer, ReadError> {
-    let mut lines = Lines::open(path, told.ends)?;
+    let mut lines = Lines::open(path, options.ends)?;
     let first = lines.next_line()?;
     let first = first.ok_or_else(|| ReadError::at(path, 1, 1, "the file is empty"))?;
     if first.starts_with("ITEM:") {
-        return lammps::read(lines, first, problem, told.axes, dump);
+        return lammps::read(lines, first, problem, options.axes, dump);
     }
     let layout =
-        Layout::find(&first, &problem.problem, told).map_err(|(at, message)| lines.error(at, message))?;
+        Layout::find(&first, &problem.problem, options).map_err(|(at, message)| lines.error(at, message))?;
     let mut collector = Collector::new(problem);
     let mut row = layout.first_is_row.then_some(first);
     let mut last = lines.number();

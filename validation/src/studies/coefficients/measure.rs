@@ -108,7 +108,7 @@ pub struct Coefficients {
     pub c_i: Estimate,
     /// C_I of the components 11, 22, 33 and 12 of J, each by itself.
     pub own: [Estimate; 4],
-    /// The part of |J| that a single C_I leaves.
+    /// The relative residual of a fit by a single C_I.
     pub misfit: Estimate,
     /// The rate at which X̄₁'s oscillation decays from an isotropic start, per period; none where it is lost in noise.
     pub damping_per_period: Option<Estimate>,

@@ -40,7 +40,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     let answer = base.iter().find(|row| row.setting.n_a3 == 0.2).map_or(String::new(), |row| {
         format!(
             "C_I = {:.6} ± {:.6} at n a³ = 0.2, r_e = 11.6, α = 0.5 with update = \"kick\" and {} times the default's steps, growing as \
-             (n a³)^{:.2}; a single C_I leaves {:.0} % of what collisions do to the mean of p_i p_j. With \"rotation\" a colliding rod \
+             (n a³)^{:.2}; a single C_I leaves a relative residual of {:.0} %. With \"rotation\" a colliding rod \
              takes a straight step in place of Jeffery's, whose error hides C_I at the default's step.",
             row.c_i.value,
             row.c_i.se,
@@ -143,7 +143,7 @@ fn coefficients(rows: &[Coefficients]) -> ReportTable {
         format!(
             "Steady state of 100 rods, m = 3, {replicas} replicas (± a standard error, jackknife). C_I by least squares over \
              all components of J, then by each component alone: where these differ, no single C_I describes the collisions, \
-             and the part of |J| that it leaves is in the next column. steps ×: time steps over those that resolve the motion. \
+             and the relative residual is in the next column. steps ×: time steps over those that resolve the motion. \
              periods: before the window and in it. φ r_p: for cylinders, π n a³/(4 r_e). The decay of X̄₁'s oscillation is \
              over the first two periods from isotropic directions."
         ),

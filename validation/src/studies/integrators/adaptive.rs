@@ -1,6 +1,6 @@
 //! Methods of other people's libraries that choose their own steps.
 
-use super::{Failure, Integrator, Problem, Theory};
+use super::{Failure, Integrator, RodProblem, Theory};
 use differential_equations::linalg::Matrix;
 use differential_equations::prelude::{IVP, ImplicitRungeKutta, ODE};
 use nalgebra::Vector3;
@@ -10,7 +10,7 @@ use ode_solvers::{Dop853, System};
 /// Steps after which a method gives up: a tenth of a second, about.
 const MOST_STEPS: usize = 100_000;
 
-impl System<f64, Vector3<f64>> for Problem {
+impl System<f64, Vector3<f64>> for RodProblem {
     fn system(&self, _: f64, p: &Vector3<f64>, rate: &mut Vector3<f64>) {
         *rate = self.rate(p);
     }
@@ -28,7 +28,7 @@ pub fn dormand_prince() -> Integrator {
     })
 }
 
-impl ODE<f64, [f64; 3]> for Problem {
+impl ODE<f64, [f64; 3]> for RodProblem {
     fn diff(&self, _: f64, p: &[f64; 3], rate: &mut [f64; 3]) {
         *rate = self.rate(&Vector3::from(*p)).into();
     }
@@ -69,7 +69,7 @@ mod tests {
     /// Radau would find its way with another slope too, in more steps.
     #[test]
     fn the_slope_that_radau_is_given_is_the_problems() {
-        let (problem, start) = Problem::mid_flip(5.0);
+        let (problem, start) = RodProblem::mid_flip(5.0);
         let mut slope = Matrix::full(3, 3);
         problem.jacobian(0.0, &start.into_inner().into(), &mut slope);
         let expected = problem.rate_slope(&start);

@@ -1,6 +1,6 @@
 //! How far a direction is from the closed form.
 
-use super::Problem;
+use super::RodProblem;
 use nalgebra::{UnitVector3, Vector3};
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
@@ -20,7 +20,7 @@ pub struct Errors {
 
 impl Errors {
     /// The errors of the direction `end`, with its length.
-    pub fn of(end: &Vector3<f64>, problem: &Problem, start: &UnitVector3<f64>) -> Self {
+    pub fn of(end: &Vector3<f64>, problem: &RodProblem, start: &UnitVector3<f64>) -> Self {
         let reference = problem.reference(start);
         let r = problem.aspect_ratio;
         let off = phase(end, r) - phase(&reference, r);
@@ -68,7 +68,7 @@ mod tests {
     #[test]
     fn a_phase_is_told_head_or_tail_alike() {
         let r = 4.0;
-        let (problem, start) = Problem::mid_flip(r);
+        let (problem, start) = RodProblem::mid_flip(r);
         let end = problem.reference(&start).into_inner();
         assert!(Errors::of(&-end, &problem, &start).phase_turns < 1e-15);
         for (turns, seen) in [(0.1, 0.1), (0.3, 0.2), (-0.3, 0.2), (0.7, 0.2)] {
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn each_error_sees_its_own_mistake() {
-        let (problem, start) = Problem::mid_flip(11.6);
+        let (problem, start) = RodProblem::mid_flip(11.6);
         let end = problem.reference(&start).into_inner();
         let none = Errors::of(&end, &problem, &start);
         assert!(none.orientation_rad < 1e-15 && none.phase_turns < 1e-15 && none.length < 1e-15);
@@ -91,7 +91,7 @@ mod tests {
         assert!((longer.length - 0.5).abs() < 1e-15 && longer.orientation_rad < 1e-15);
         let tilted = Errors::of(&Vector3::new(end.x, end.y, 2.0 * end.z), &problem, &start);
         assert!(tilted.orbit_constant > 0.1 && tilted.phase_turns < 1e-15);
-        let later = Problem::new(11.6, problem.turns + 1e-3).reference(&start);
+        let later = RodProblem::new(11.6, problem.turns + 1e-3).reference(&start);
         let late = Errors::of(&later, &problem, &start);
         assert!((late.phase_turns - 1e-3).abs() < 1e-12 && late.orbit_constant < 1e-14);
     }

@@ -1,6 +1,6 @@
 //! Integrators that take no steps.
 
-use super::{Integrator, Problem, Theory};
+use super::{Integrator, RodProblem, Theory};
 use nalgebra::{UnitVector3, Vector3};
 use shearbed::model::phase::Phase;
 use shearbed::motion::couette;
@@ -21,7 +21,7 @@ pub fn closed_form() -> Integrator {
         .keeping_length()
 }
 
-fn in_angles(problem: &Problem, start: &UnitVector3<f64>) -> Vector3<f64> {
+fn in_angles(problem: &RodProblem, start: &UnitVector3<f64>) -> Vector3<f64> {
     let r = problem.aspect_ratio;
     // A.5 gives θ up to π/2: of p and −p, the one in that half.
     let p = if start.z < 0.0 { -*start } else { *start };
@@ -68,7 +68,7 @@ mod tests {
     fn the_closed_form_in_angles_is_the_reference() {
         for r in [0.3, 2.0, 11.6] {
             for theta in [0.4, 1.3, 2.8] {
-                let (problem, start) = Problem::into_flip(r, 0.7, theta, 1.3);
+                let (problem, start) = RodProblem::into_flip(r, 0.7, theta, 1.3);
                 let off = super::super::apart_rad(&in_angles(&problem, &start), &problem.reference(&start));
                 // The phase is rounded to ε, and φ moves by max(r_e, 1/r_e) times that.
                 assert!(off < 32.0 * f64::EPSILON * r.max(1.0 / r), "{r} {theta}");

@@ -1,11 +1,11 @@
 //! The one type of all integrators, and how to make one from a step, a closed form or a library.
 
-use super::{Failure, Problem, Setting, Theory};
+use super::{Failure, RodProblem, Setting, Theory};
 use nalgebra::{SVector, UnitVector3, Vector2, Vector3};
 
-type Advance = dyn Fn(&Problem, &UnitVector3<f64>, Setting) -> Result<Vector3<f64>, Failure> + Send + Sync;
+type Advance = dyn Fn(&RodProblem, &UnitVector3<f64>, Setting) -> Result<Vector3<f64>, Failure> + Send + Sync;
 type AdvanceAll =
-    dyn Fn(&Problem, &[UnitVector3<f64>], Setting) -> Result<Vec<Vector3<f64>>, Failure> + Send + Sync;
+    dyn Fn(&RodProblem, &[UnitVector3<f64>], Setting) -> Result<Vec<Vector3<f64>>, Failure> + Send + Sync;
 
 /// A method that turns a free rod.
 pub struct Integrator {
@@ -24,7 +24,7 @@ impl Integrator {
     pub fn new(
         name: impl Into<String>,
         theory: Theory,
-        advance: impl Fn(&Problem, &UnitVector3<f64>, Setting) -> Result<Vector3<f64>, Failure>
+        advance: impl Fn(&RodProblem, &UnitVector3<f64>, Setting) -> Result<Vector3<f64>, Failure>
         + Send
         + Sync
         + 'static,
@@ -38,7 +38,7 @@ impl Integrator {
     pub fn in_p(
         name: &str,
         order: u32,
-        step: impl Fn(&Problem, Vector3<f64>, f64) -> Vector3<f64> + Send + Sync + 'static,
+        step: impl Fn(&RodProblem, Vector3<f64>, f64) -> Vector3<f64> + Send + Sync + 'static,
     ) -> Self {
         Self::new(name, Theory::Order(order), move |problem, start, setting| {
             last(problem, setting, start.into_inner(), &step)
@@ -49,7 +49,7 @@ impl Integrator {
     pub fn in_angles(
         name: &str,
         order: u32,
-        step: impl Fn(&Problem, Vector2<f64>, f64) -> Vector2<f64> + Send + Sync + 'static,
+        step: impl Fn(&RodProblem, Vector2<f64>, f64) -> Vector2<f64> + Send + Sync + 'static,
     ) -> Self {
         Self::new(name, Theory::Order(order), move |problem, start, setting| {
             let first = Vector2::new(start.y.atan2(start.x), start.x.hypot(start.y).atan2(start.z));
@@ -69,7 +69,7 @@ impl Integrator {
     /// The same, with a way to turn many rods at once: a program in another process is asked once.
     pub fn with_many(
         self,
-        advance_all: impl Fn(&Problem, &[UnitVector3<f64>], Setting) -> Result<Vec<Vector3<f64>>, Failure>
+        advance_all: impl Fn(&RodProblem, &[UnitVector3<f64>], Setting) -> Result<Vec<Vector3<f64>>, Failure>
         + Send
         + Sync
         + 'static,
@@ -80,7 +80,7 @@ impl Integrator {
     /// The direction at the end of `problem` of a rod that starts along `start`; its length is judged too.
     pub fn advance(
         &self,
-        problem: &Problem,
+        problem: &RodProblem,
         start: &UnitVector3<f64>,
         setting: Setting,
     ) -> Result<Vector3<f64>, Failure> {
@@ -90,7 +90,7 @@ impl Integrator {
     /// The directions at the end of `problem` of many rods.
     pub fn advance_all(
         &self,
-        problem: &Problem,
+        problem: &RodProblem,
         starts: &[UnitVector3<f64>],
         setting: Setting,
     ) -> Result<Vec<Vector3<f64>>, Failure> {
@@ -103,10 +103,10 @@ impl Integrator {
 
 /// The state at the end of `problem`, by equal steps from `first`.
 fn last<const N: usize>(
-    problem: &Problem,
+    problem: &RodProblem,
     setting: Setting,
     first: SVector<f64, N>,
-    step: impl Fn(&Problem, SVector<f64, N>, f64) -> SVector<f64, N>,
+    step: impl Fn(&RodProblem, SVector<f64, N>, f64) -> SVector<f64, N>,
 ) -> Result<SVector<f64, N>, Failure> {
     let steps = setting.steps()?;
     let h = problem.strain() / steps as f64;

@@ -19,7 +19,7 @@ pub use errors::{Errors, apart_rad};
 pub use exact::{closed_form, exact_propagator};
 pub use fixed::{explicit_euler, rk4};
 pub use integrator::Integrator;
-pub use problem::Problem;
+pub use problem::RodProblem;
 
 /// How the error is said to fall, which also says which settings an integrator takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -97,7 +97,7 @@ impl fmt::Display for Failure {
 /// The errors of an integrator on a problem; a direction that is not finite is a failure.
 pub fn grade(
     subject: &Integrator,
-    problem: &Problem,
+    problem: &RodProblem,
     start: &UnitVector3<f64>,
     setting: Setting,
 ) -> Result<Errors, Failure> {
@@ -166,7 +166,7 @@ mod tests {
 
     #[test]
     fn every_subject_comes_close_and_refuses_the_settings_of_others() {
-        let (problem, start) = Problem::mid_flip(3.0);
+        let (problem, start) = RodProblem::mid_flip(3.0);
         for subject in all() {
             let (own, other) = match subject.theory {
                 Theory::Exact => (Setting::Once, Setting::Steps(10)),

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 ///
 /// Its right-hand sides are written out here, apart from the core's, so that no digits cancel where r_e is large.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Problem {
+pub struct RodProblem {
     /// r_e > 0.
     pub aspect_ratio: f64,
     /// t/T at the end.
@@ -19,7 +19,7 @@ pub struct Problem {
     short: f64,
 }
 
-impl Problem {
+impl RodProblem {
     /// A rod of `aspect_ratio` > 0 over `turns` periods.
     pub fn new(aspect_ratio: f64, turns: f64) -> Self {
         let square = aspect_ratio * aspect_ratio;
@@ -60,14 +60,14 @@ impl Problem {
         self.pull(p) - p * along
     }
 
-    /// ∂ṗ_i/∂p_j/G of [`Problem::rate`].
+    /// ∂ṗ_i/∂p_j/G of [`RodProblem::rate`].
     pub fn rate_slope(&self, p: &Vector3<f64>) -> Matrix3<f64> {
         let shape = self.long - self.short;
         let along = Matrix3::identity() * (shape * p.x * p.y);
         self.matrix() - along - p * Vector3::new(shape * p.y, shape * p.x, 0.0).transpose()
     }
 
-    /// ∂ṗ_i/∂p_j/G of [`Problem::tangent_rate`].
+    /// ∂ṗ_i/∂p_j/G of [`RodProblem::tangent_rate`].
     pub fn tangent_rate_slope(&self, p: &Vector3<f64>) -> Matrix3<f64> {
         let shape = (self.long - self.short) / p.norm_squared();
         let along = shape * p.x * p.y;
@@ -121,7 +121,7 @@ mod tests {
     #[test]
     fn a_problem_into_the_flip_ends_where_phi_is_1() {
         for turns in [0.0, 0.3, 1.3, 2.0] {
-            let (problem, start) = Problem::into_flip(11.6, 0.7, 0.4, turns);
+            let (problem, start) = RodProblem::into_flip(11.6, 0.7, 0.4, turns);
             let end = problem.reference(&start);
             assert!((end.y / end.x - 1f64.tan()).abs() < 1e-11, "{turns}: {end:?}");
             assert!((turns..turns + 0.5).contains(&problem.turns), "{turns}: {}", problem.turns);
@@ -133,7 +133,7 @@ mod tests {
         let mut gradient = Matrix3::zeros();
         gradient[(1, 0)] = 1.0;
         for r in [0.3, 2.0, 11.6, 100.0] {
-            let problem = Problem::new(r, 1.0);
+            let problem = RodProblem::new(r, 1.0);
             for (phi, theta) in [(0.3f64, 1.0f64), (2.0, 0.4), (-1.0, 1.4)] {
                 let p = direction(phi, theta);
                 let expected = jeffery::direction_rate_per_s(&gradient, r, &p);
@@ -150,7 +150,7 @@ mod tests {
 
     #[test]
     fn the_slope_is_that_of_the_rate() {
-        let problem = Problem::new(3.0, 1.0);
+        let problem = RodProblem::new(3.0, 1.0);
         let m = Vector3::new(0.4, -0.7, 0.5);
         let slope = problem.rate_slope(&m);
         for axis in 0..3 {
@@ -165,11 +165,11 @@ mod tests {
     #[test]
     fn it_ends_in_the_flip() {
         for r in [0.1, 2.0, 11.6, 1e4] {
-            let (problem, start) = Problem::mid_flip(r);
+            let (problem, start) = RodProblem::mid_flip(r);
             let end = problem.reference(&start);
             // The fraction of a turn is rounded to 10⁻¹⁶, and φ moves by r_e times that.
             assert!((end.y.atan2(end.x) - 1.0).abs() < 2e-15 * (1.0 + r), "{r}");
-            let (later, _) = Problem::into_flip(r, 2.5, 0.3, 1.75);
+            let (later, _) = RodProblem::into_flip(r, 2.5, 0.3, 1.75);
             let end = later.reference(&direction(2.5, 0.3));
             assert!(((end.y / end.x).atan() - 1.0).abs() < 4e-15 * (1.0 + r));
             assert!((1.75..2.25).contains(&later.turns));

@@ -1,6 +1,6 @@
 //! Steps that stay on the sphere by themselves (Hairer, Lubich & Wanner, Geometric Numerical Integration, IV).
 
-use super::{Integrator, Problem};
+use super::{Integrator, RodProblem};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 /// Newton's iteration ends when the midpoint moves by less than this, in units of |p|: its next move would be the
@@ -15,7 +15,7 @@ const MOST_HALVINGS: usize = 20;
 
 /// The implicit midpoint rule p′ = p + h f(m), m = ½(p + p′): as f(m) ⊥ m, |p′| = |p|. Newton's method, its change
 /// halved until the equation is missed by less: plain Newton goes round in circles at long steps that have a solution.
-fn implicit_midpoint(problem: &Problem, p: Vector3<f64>, h: f64) -> Vector3<f64> {
+fn implicit_midpoint(problem: &RodProblem, p: Vector3<f64>, h: f64) -> Vector3<f64> {
     let half = 0.5 * h;
     let miss_at = |m: &Vector3<f64>| m - p - problem.tangent_rate(m) * half;
     let mut m = p;
@@ -48,18 +48,18 @@ fn implicit_midpoint(problem: &Problem, p: Vector3<f64>, h: f64) -> Vector3<f64>
 }
 
 /// p × ṗ, the rate at which p turns, in units of G.
-fn spin(problem: &Problem, p: &Vector3<f64>) -> Vector3<f64> {
+fn spin(problem: &RodProblem, p: &Vector3<f64>) -> Vector3<f64> {
     p.cross(&problem.tangent_rate(p))
 }
 
 /// The midpoint rule by rotations: p turns at the rate of half a step ahead. Order 2.
-fn rotation_midpoint(problem: &Problem, p: Vector3<f64>, h: f64) -> Vector3<f64> {
+fn rotation_midpoint(problem: &RodProblem, p: Vector3<f64>, h: f64) -> Vector3<f64> {
     let half = Rotation3::new(spin(problem, &p) * (0.5 * h)) * p;
     Rotation3::new(spin(problem, &half) * h) * p
 }
 
 /// The classical Runge–Kutta step for the rotation vector u of p(t) = exp(u) p (Munthe-Kaas 1999). Order 4.
-fn munthe_kaas_4(problem: &Problem, p: Vector3<f64>, h: f64) -> Vector3<f64> {
+fn munthe_kaas_4(problem: &RodProblem, p: Vector3<f64>, h: f64) -> Vector3<f64> {
     let rate = |u: Vector3<f64>| dexp_inverse(&u, spin(problem, &(Rotation3::new(u) * p)));
     let k1 = spin(problem, &p) * h;
     let k2 = rate(0.5 * k1) * h;
@@ -89,7 +89,7 @@ mod tests {
 
     #[test]
     fn the_slope_is_that_of_the_rate() {
-        let problem = Problem::new(3.0, 1.0);
+        let problem = RodProblem::new(3.0, 1.0);
         let m = Vector3::new(0.4, -0.7, 0.5);
         let slope = problem.tangent_rate_slope(&m);
         for axis in 0..3 {
@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn a_long_step_solves_the_equation_and_one_that_overflows_gives_no_number() {
-        let (problem, start) = Problem::mid_flip(11.6);
+        let (problem, start) = RodProblem::mid_flip(11.6);
         let p = start.into_inner();
         for h in [10.0, 100.0] {
             let end = implicit_midpoint(&problem, p, h);

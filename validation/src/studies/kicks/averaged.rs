@@ -4,7 +4,7 @@
 use crate::judge::case::Effort;
 use crate::judge::lab;
 use crate::judge::statistics::Sample;
-use crate::oracle::naive::{Naive, Problem};
+use crate::oracle::naive::{Naive, NaiveProblem};
 use rayon::prelude::*;
 use shearbed::observable::Channel;
 use shearbed::scene::{Scene, Update};
@@ -23,7 +23,7 @@ pub struct Apart {
 
 /// Runs both for so many steps. Places and replacements depend on no direction, so they are the same. `change` is what
 /// is done to the averaged motion alone.
-pub fn apart(scene: &Scene, steps: u64, change: fn(&mut Problem), replica: u64) -> Apart {
+pub fn apart(scene: &Scene, steps: u64, change: fn(&mut NaiveProblem), replica: u64) -> Apart {
     let mut core = lab::suspension(scene, replica);
     let mut problem = lab::problem(scene, replica, None);
     change(&mut problem);

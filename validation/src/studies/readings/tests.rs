@@ -30,7 +30,7 @@ fn the_jackknife_of_a_mean_is_its_standard_error() {
 #[test]
 fn the_problem_is_that_of_fig_7() {
     let scene = crate::input::scenes::find("fig7-n50").expect("built in").scene().expect("valid");
-    let (ours, rods) = (Problem::paper(SEED, 0), &scene.particles);
+    let (ours, rods) = (NaiveProblem::paper(SEED, 0), &scene.particles);
     let theirs = scene.interaction.as_ref().expect("interacting");
     assert_eq!(
         [

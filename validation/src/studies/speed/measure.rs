@@ -5,7 +5,7 @@ mod tests;
 
 use super::{Amount, Check, Speed, Step, Target};
 use crate::judge::lab;
-use crate::oracle::naive::{Naive, Problem};
+use crate::oracle::naive::{Naive, NaiveProblem};
 use rayon::prelude::*;
 use shearbed::run::run_replica;
 use shearbed::run::{ensemble, memory};
@@ -87,7 +87,7 @@ fn step(rods: usize, concentration_per_cm3: f64, amount: Amount) -> Result<Step,
     }
     let per_rod = |seconds: f64, steps: u64| 1e9 * seconds / (steps as f64 * rods as f64);
     let naive_ns = (rods <= NAIVE_RODS && concentration_per_cm3 == 50.0).then(|| {
-        let mut naive = Naive::new(Problem { count: rods, ..Problem::paper(1, 0) });
+        let mut naive = Naive::new(NaiveProblem { count: rods, ..NaiveProblem::paper(1, 0) });
         let once = seconds(|| naive.step());
         let count = (amount.seconds / once).clamp(1.0, 1e6) as u64;
         let repeats = Amount { repeats: if once > 0.1 { 1 } else { amount.repeats }, ..amount };

@@ -102,7 +102,8 @@ fn table(shown: &Shown, subjects: &[&Integrator]) -> ReportTable {
     }
     let columns = ratios.iter().map(|r| format!("r_e = {}", ratio(*r)));
     let columns: Vec<_> = std::iter::once("subject".to_owned()).chain(columns).collect();
-    let rest = format!("Fixed-step subjects that are not listed have no limit up to {:.0}.", ladder.most);
+    let rest =
+        format!("Integrators with fixed steps that are not listed have no limit up to {:.0}.", ladder.most);
     of_words(shown.name, shown.title, &format!("{} {rest}", shown.caption), &columns, rows)
 }
 

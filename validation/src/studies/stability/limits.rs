@@ -1,6 +1,6 @@
 //! The longest step with which a fixed-step subject keeps a property, by bisection.
 
-use crate::studies::integrators::{Errors, Failure, Integrator, Problem, Setting, Theory};
+use crate::studies::integrators::{Errors, Failure, Integrator, RodProblem, Setting, Theory};
 use nalgebra::{UnitVector3, Vector3};
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -112,7 +112,7 @@ pub fn holds(subject: &Integrator, property: Property, aspect_ratio: f64, strain
             ten_periods(subject, aspect_ratio, strain, &p).is_ok_and(|(_, end)| end.norm() < 1.5)
         }
         Property::Orbit => {
-            let (_, start) = Problem::mid_flip(aspect_ratio);
+            let (_, start) = RodProblem::mid_flip(aspect_ratio);
             ten_periods(subject, aspect_ratio, strain, &start)
                 .is_ok_and(|(problem, end)| Errors::of(&end, &problem, &start).orbit_constant < 0.1)
         }
@@ -154,8 +154,8 @@ fn near_plane(
     starts.into_iter().map(UnitVector3::into_inner).zip(ends).collect()
 }
 
-fn one_step(aspect_ratio: f64, strain: f64) -> Problem {
-    Problem::new(aspect_ratio, strain / Problem::new(aspect_ratio, 1.0).strain())
+fn one_step(aspect_ratio: f64, strain: f64) -> RodProblem {
+    RodProblem::new(aspect_ratio, strain / RodProblem::new(aspect_ratio, 1.0).strain())
 }
 
 fn one(subject: &Integrator) -> Setting {
@@ -171,10 +171,10 @@ fn ten_periods(
     aspect_ratio: f64,
     strain: f64,
     start: &UnitVector3<f64>,
-) -> Result<(Problem, Vector3<f64>), Failure> {
-    let period = Problem::new(aspect_ratio, 1.0).strain();
+) -> Result<(RodProblem, Vector3<f64>), Failure> {
+    let period = RodProblem::new(aspect_ratio, 1.0).strain();
     let steps = (PERIODS * period / strain).ceil();
-    let problem = Problem::new(aspect_ratio, steps * strain / period);
+    let problem = RodProblem::new(aspect_ratio, steps * strain / period);
     let end = subject.advance(&problem, start, Setting::Steps(steps as u64))?;
     Ok((problem, end))
 }

@@ -1,7 +1,7 @@
 //! What becomes of a rod in every corner: aspect ratio by step, by start, by duration.
 
 use super::orbit::Place;
-use crate::studies::integrators::{Failure, Integrator, Problem, Setting, Theory, apart_rad};
+use crate::studies::integrators::{Failure, Integrator, RodProblem, Setting, Theory, apart_rad};
 use nalgebra::Vector3;
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -114,7 +114,7 @@ impl Run {
     /// Runs a subject and says what was found.
     pub fn of(&self, subject: &Integrator) -> Cell {
         let start = self.end.before(self.turns).direction(self.aspect_ratio);
-        let problem = Problem::new(self.aspect_ratio, self.turns);
+        let problem = RodProblem::new(self.aspect_ratio, self.turns);
         match subject.advance(&problem, &start, self.setting) {
             Ok(end) if end.iter().all(|component| component.is_finite()) => self.judged(&end),
             Ok(_) | Err(Failure::NotFinite) => Cell::without(Fate::NotFinite, None),
@@ -201,7 +201,7 @@ pub fn by_duration(
         Theory::Exact => Setting::Once,
         Theory::Adaptive => Setting::Tolerance(TOLERANCE),
         Theory::Order(_) => {
-            let steps = Problem::new(aspect_ratio, turns).strain() / STRAIN_PER_STEP;
+            let steps = RodProblem::new(aspect_ratio, turns).strain() / STRAIN_PER_STEP;
             if steps > most_steps as f64 {
                 return Err(format!("{steps:.0e} steps"));
             }

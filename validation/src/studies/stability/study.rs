@@ -80,7 +80,7 @@ fn ends(subjects: &[Integrator]) -> [ReportTable; 2] {
     [
         table(
             ["stability-steps-end", "The longest step that is right, and what comes after it"],
-            "Of the steps 10⁻⁹, 10⁻⁸, … 10³ T; subjects without steps go the length of a step at once.",
+            "Of the steps 10⁻⁹, 10⁻⁸, … 10³ T; integrators without steps go the length of a step at once.",
             of(subjects, |theory| theory != Theory::Adaptive),
             &by_step,
         ),

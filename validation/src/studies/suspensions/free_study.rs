@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 pub const STUDY: Study = Study {
     name: "free-suspensions",
     title: "Free suspensions: error against run time",
-    question: "How must free rods be laid for X̄₁ to reach an error soonest?",
+    question: "Which sampling of free rods reaches an error of X̄₁ soonest?",
     cases: &["free-suspension-rates", "free-isotropic", "free-polydisperse", "replicas-are-independent"],
     command: "cargo run --release -- bench --case fig6-uniform --case fig6-polydisperse",
     parts: &[SCENES[0].scene, SCENES[1].scene],
@@ -102,7 +102,7 @@ fn table(benches: &[Bench]) -> ReportTable {
         })
     }));
     ReportTable::new(
-        ["suspension-starts", "Free suspensions: the time for an error of X̄₁, by how the rods are laid"],
+        ["suspension-starts", "Free suspensions: the time for an error of X̄₁, by the sampling of the rods"],
         "Isotropic rods without collisions at t/T = 0.95, against the closed form; root mean square over trials. The \
          exponent is of the number of rods in the error, over 10³ rods and more. No time step is taken: the whole \
          error is that of the sample (`free-suspension-rates`).",
@@ -123,7 +123,7 @@ fn figure(bench: &Bench) -> ReportFigure {
     ReportFigure::new(
         [&format!("suspension-starts-{}", free.scene), &title],
         format!(
-            "Scene {} at t/T = {}, from 100 rods on; laying and moving the rods once, on one core.",
+            "Scene {} at t/T = {}, from 100 rods on; sampling and moving the rods once, on one core.",
             free.scene, free.turns
         ),
         ["log run time (s)", "log rms error of X̄₁"],

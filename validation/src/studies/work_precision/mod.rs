@@ -6,7 +6,7 @@ pub mod rows;
 pub mod study;
 mod time;
 
-use crate::studies::integrators::{Errors, Integrator, Problem, Setting, Theory, grade};
+use crate::studies::integrators::{Errors, Integrator, RodProblem, Setting, Theory, grade};
 use serde::Serialize;
 pub(crate) use time::measure;
 pub use time::{Budget, Seconds};
@@ -62,9 +62,9 @@ pub fn name(aspect_ratio: f64) -> String {
     format!("re{aspect_ratio}")
 }
 
-/// Runs every subject on a rod of this aspect ratio ([`Problem::mid_flip`]), on this thread alone.
+/// Runs every subject on a rod of this aspect ratio ([`RodProblem::mid_flip`]), on this thread alone.
 pub fn run(aspect_ratio: f64, subjects: &[Integrator], budget: Budget) -> Bench {
-    let (problem, _) = Problem::mid_flip(aspect_ratio);
+    let (problem, _) = RodProblem::mid_flip(aspect_ratio);
     Bench {
         name: name(aspect_ratio),
         aspect_ratio,
@@ -76,7 +76,7 @@ pub fn run(aspect_ratio: f64, subjects: &[Integrator], budget: Budget) -> Bench 
 /// One subject's curve: settings from coarse to fine until a run takes longer than half the budget, as the next would
 /// take twice as long.
 pub fn curve(subject: &Integrator, aspect_ratio: f64, budget: Budget) -> IntegratorCurve {
-    let (problem, start) = Problem::mid_flip(aspect_ratio);
+    let (problem, start) = RodProblem::mid_flip(aspect_ratio);
     let mut points = Vec::new();
     for setting in settings(subject.theory) {
         let graded = grade(subject, &problem, &start, setting);

@@ -1,7 +1,7 @@
 //! How the error of a fixed-step subject falls with the step: observed order with its sign, Richardson's value and
 //! Roache's grid convergence index.
 
-use crate::studies::integrators::{self, Errors, Integrator, Problem, Setting, Theory, grade};
+use crate::studies::integrators::{self, Errors, Integrator, RodProblem, Setting, Theory, grade};
 use nalgebra::UnitVector3;
 use serde::Serialize;
 use shearbed::Scene;
@@ -81,7 +81,7 @@ pub struct Orders {
     pub studies: Vec<Convergence>,
 }
 
-/// A rod of this aspect ratio ([`Problem::mid_flip`]).
+/// A rod of this aspect ratio ([`RodProblem::mid_flip`]).
 pub fn of_rod(aspect_ratio: f64) -> Orders {
     of_all(aspect_ratio, 0.2, 1.0, 1.0, "as in the benches")
 }
@@ -104,7 +104,7 @@ pub fn of_scene(scene: &Scene) -> Option<Orders> {
 
 /// From GΔt of about 1 to 1/4096, or to 2²² steps where that is coarser.
 fn of_all(aspect_ratio: f64, phi: f64, theta: f64, turns: f64, whose: &str) -> Orders {
-    let (problem, start) = Problem::into_flip(aspect_ratio, phi, theta, turns);
+    let (problem, start) = RodProblem::into_flip(aspect_ratio, phi, theta, turns);
     let doublings = 22u32.saturating_sub(coarsest(&problem).ilog2()).clamp(4, 12);
     Orders {
         problem: format!(
@@ -119,14 +119,14 @@ fn of_all(aspect_ratio: f64, phi: f64, theta: f64, turns: f64, whose: &str) -> O
 }
 
 /// The number of steps at which GΔt is about 1.
-fn coarsest(problem: &Problem) -> u64 {
+fn coarsest(problem: &RodProblem) -> u64 {
     (problem.strain().ceil() as u64).next_power_of_two().max(8)
 }
 
 /// Halves the step `doublings` times, from GΔt of about 1. `None` for a subject that takes no equal steps.
 pub fn study(
     subject: &Integrator,
-    problem: &Problem,
+    problem: &RodProblem,
     start: &UnitVector3<f64>,
     doublings: u32,
 ) -> Option<Convergence> {
@@ -164,7 +164,7 @@ pub fn study(
 
 /// An error that is not round-off: the time has the relative error ε, φ moves by max(r_e, 1/r_e) times the phase, and
 /// thousands of steps add up.
-fn round_off(problem: &Problem) -> f64 {
+fn round_off(problem: &RodProblem) -> f64 {
     let r = problem.aspect_ratio;
     1000.0 * f64::EPSILON * r.max(1.0 / r) * problem.turns.max(1.0)
 }

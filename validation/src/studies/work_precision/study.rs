@@ -139,7 +139,7 @@ pub(super) fn cheapest(benches: &[Bench]) -> ReportTable {
         (bench, target, Bench::cheapest(bench, target, |_| true), Bench::cheapest(bench, target, steps))
     };
     ReportTable::new(
-        ["work-precision", "For an error: the cheapest subject and its time"],
+        ["work-precision", "For an error: the cheapest integrator and its time"],
         "One rod into the middle of its third flip. A point counts where the next finer one reaches the error too.",
         (benches.iter()).flat_map(|bench| TARGETS_RAD.map(|target| row(bench, target))),
         vec![
@@ -164,8 +164,8 @@ fn ratio(benches: &[Bench]) -> ReportTable {
         (named(found), timed(found))
     };
     ReportTable::new(
-        ["exact-against-adaptive", "The exact propagator against the cheapest adaptive subject"],
-        "The propagator's time for round-off error over the cheapest adaptive subject's for 10⁻⁶ rad.",
+        ["exact-against-adaptive", "The exact propagator against the cheapest adaptive integrator"],
+        "The propagator's time for round-off error over the cheapest adaptive integrator's for 10⁻⁶ rad.",
         benches.iter(),
         vec![
             field("r_e", |b: &Bench| b.aspect_ratio),
@@ -209,7 +209,7 @@ pub(super) fn every_subject(bench: &Bench) -> ReportTable {
     ReportTable::new(
         [
             &format!("work-precision-{}", bench.name),
-            &format!("Every subject at r_e = {}", bench.aspect_ratio),
+            &format!("Every integrator at r_e = {}", bench.aspect_ratio),
         ],
         "Times for an error, then the smallest error found: the angle, C_b and the phase at one setting.",
         &bench.curves,

@@ -35,10 +35,10 @@ fn shear_brings_rods_in_as_it_does_liquid() {
     assert!(near(means(Some(Mistake::InflowAtOnce)), [2.0 / 3.0, 0.999, 0.5]));
     // transposed, liquid comes in along the other axis
     let draws = stream(9, 0, 4);
-    let problem = Problem {
+    let problem = NaiveProblem {
         other_flow: Some(OtherFlow { gradient_per_s: shear, steps_per_strain: 10 }),
         mistake: Some(Mistake::GradientTransposed),
-        ..Problem::paper(1, 0)
+        ..NaiveProblem::paper(1, 0)
     };
     assert!((problem.time_step_s() - DT_S).abs() < 1e-15);
     let x = come_in(matrix(problem.gradient_per_s()), EDGES_MM, DT_S, &draws, 0, None);

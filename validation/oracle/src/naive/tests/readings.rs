@@ -7,7 +7,7 @@ fn a_mutual_pair_may_have_one_draw() {
     let far_mm = |r: f64| 0.72 * 0.5 * (r.powf(-1.0 / 3.0) - 1.0);
     let mut second_draw_decides = 0;
     for seed in 1..20 {
-        let change = |who| move |p: &mut Problem| (p.alpha, p.seed, p.reading.who) = (0.5, seed, who);
+        let change = |who| move |p: &mut NaiveProblem| (p.alpha, p.seed, p.reading.who) = (0.5, seed, who);
         let mut draws = stream(seed, 0, 3);
         let r = [0; 3].map(|_| uniform(&mut draws));
         // 0 and 1 are mutual: the limit is that of the smaller draw, or of the lower index
@@ -96,7 +96,7 @@ fn a_kick_is_added_to_the_exact_step() {
 #[test]
 fn contacts_that_change_nothing_cost_nothing_beside_the_exact_step() {
     let away = |update| {
-        let in_plane = |p: &mut Problem| {
+        let in_plane = |p: &mut NaiveProblem| {
             p.orientation = Start::Fixed { phi_rad: 0.3, theta_rad: FRAC_PI_2 };
             // rods of many aspect ratios do not stay parallel
             (p.aspect_ratio_sd_percent, p.update) = (10.0, update);

@@ -119,9 +119,9 @@ fn bad_provenance_is_refused_with_its_line() {
         ("tool = \"none\"\n", "", "a.toml:1: tool is missing"),
         ("\"columns\"", "\"excel\"", "a.toml:6: csv = \"excel\" is not allowed"),
         ("[x]", "rods = 0\n[x]", "a.toml:7: rods = 0 is not allowed: a whole number ≥ 1"),
-        ("[x]", "colour = 1\n[x]", "a.toml:7: colour is no key here"),
+        ("[x]", "colour = 1\n[x]", "a.toml:7: colour is an unknown key"),
         ("[[curve]]", "[inputs]\nalpha = 0\n[[curve]]", "a.toml:16: inputs.alpha = 0 is not allowed"),
-        ("[[curve]]", "[inputs]\nbeta = 1\n[[curve]]", "a.toml:16: inputs.beta is no key here"),
+        ("[[curve]]", "[inputs]\nbeta = 1\n[[curve]]", "a.toml:16: inputs.beta is an unknown key"),
         ("[x]", "[x", "a.toml:7: "),
     ] {
         assert!(PROVENANCE.contains(before), "{before}");

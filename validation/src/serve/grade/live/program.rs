@@ -2,7 +2,7 @@
 
 use super::pipe::Pipe;
 use super::protocol::{Answer, Protocol, Request};
-use crate::studies::integrators::{Failure, Integrator, Problem, Setting, Theory};
+use crate::studies::integrators::{Failure, Integrator, RodProblem, Setting, Theory};
 use nalgebra::{UnitVector3, Vector3};
 use std::hash::{BuildHasher, RandomState};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -180,7 +180,7 @@ impl Program {
 
     fn turned(
         &self,
-        problem: &Problem,
+        problem: &RodProblem,
         starts: &[UnitVector3<f64>],
         setting: Setting,
     ) -> Result<Vec<Vector3<f64>>, Failure> {

@@ -232,7 +232,7 @@ mod tests {
             (r#"{"id": 3, "p": 1}"#, "a list of directions is allowed"),
             (r#"{"id": 3, "p": [[1,0]]}"#, "rod 0 is `[1,0]`; three numbers"),
             (r#"{"id": 3, "p": [["1",0,0]]}"#, "three numbers"),
-            (r#"{"id": 3, "p": [[1e400,0,0]]}"#, "no JSON"),
+            (r#"{"id": 3, "p": [[1e400,0,0]]}"#, "not JSON"),
             (r#"{"id": 3, "error": 5}"#, "a text is allowed"),
             (r#"{"id": 4, "p": [[0,0,1]], "id": 3}"#, "duplicate field `id`"),
             (r#"{"id": 3, "p": [[0,0,1]], "p": [[1,0,0]]}"#, "duplicate field `p`"),
