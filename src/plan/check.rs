@@ -81,6 +81,11 @@ fn check_motion(scene: &Scene) -> Result<(), Invalid> {
 }
 
 fn check_rods_outputs(scene: &Scene) -> Result<(), Invalid> {
+    let last = scene.outputs().saturating_sub(1).max(1) as u64;
+    if let Some(every) = scene.output.rods_every.filter(|every| *every > last) {
+        let allowed = format!("a whole number from 1 to {last}, the number of outputs after the start");
+        return Err(Invalid::new("output.rods_every", every, allowed));
+    }
     let outputs: Vec<_> = scene.output.rods_at.iter().map(|time| scene.output_at(*time)).collect();
     let wrong = (0..outputs.len()).find(|&k| outputs[k].is_none() || k > 0 && outputs[k] == outputs[k - 1]);
     let Some(wrong) = wrong else {

@@ -203,15 +203,21 @@ impl Plan {
         (0..self.outputs()).map(|k| k as f64 / per_unit as f64).collect()
     }
 
-    /// The outputs at which every rod is wanted, in the order of time.
+    /// The outputs at which every rod is wanted, each once, in the order of time.
     pub fn rods_outputs(&self) -> Vec<usize> {
         let times = self.scene.output.rods_at.iter();
-        times.filter_map(|time| self.scene.output_at(*time)).collect()
+        let mut outputs: Vec<_> = times.filter_map(|time| self.scene.output_at(*time)).collect();
+        if let Some(every) = self.scene.output.rods_every {
+            outputs.extend((0..self.outputs()).step_by(every.max(1) as usize));
+            outputs.sort_unstable();
+            outputs.dedup();
+        }
+        outputs
     }
 
     /// All rods that are wanted: of each replica at each of these outputs.
     pub fn rods_out(&self) -> u64 {
-        let of_replica = self.scene.output.rods_at.len() as u64 * self.scene.particles.count as u64;
+        let of_replica = self.rods_outputs().len() as u64 * self.scene.particles.count as u64;
         of_replica.saturating_mul(self.scene.ensemble.replicas)
     }
 

@@ -159,7 +159,7 @@ fn stepped(
         }
         let (rods, tick) = (&suspension.rods, suspension.tick());
         recorder.record(output..output + 1, |first, _, block| rods.orient(first, tick, block))?;
-        if asked.contains(&output) {
+        if asked.binary_search(&output).is_ok() {
             let snapshot = Snapshot::of_suspension(&suspension, recorder.replica, output);
             let snapshot = snapshot.map_err(|fault| recorder.refused(0, output, fault))?;
             recorder.snapshots.push(snapshot);

@@ -141,6 +141,21 @@ table! {
         rods_at: Vec<f64> = Vec::new(), "T or strain", Holds::Times, Otherwise("[]"),
             "when rods.csv has every rod: t/T, or strain where the time is one",
             unwritten if |output: &Output| output.rods_at.is_empty();
+        rods_every: Option<u64> = None, "outputs", whole(1, MAX_PER_UNIT), Other("the times of rods_at alone"),
+            "rods.csv has every rod at each K-th output too, from the start on";
+    }
+}
+
+impl Output {
+    /// True if every rod is wanted at some output.
+    pub fn keeps_rods(&self) -> bool {
+        !self.rods_at.is_empty() || self.rods_every.is_some()
+    }
+
+    /// Asks for no single rods.
+    pub fn drop_rods(&mut self) {
+        self.rods_at.clear();
+        self.rods_every = None;
     }
 }
 

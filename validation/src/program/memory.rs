@@ -82,16 +82,20 @@ fn needed(plan: &Plan, threads: u64, vtk: bool, beside: u64) -> u64 {
 /// Refuses every rod at every time that is asked for, where it is they that do not fit.
 fn rods_fit(plan: &Plan, threads: u64, vtk: bool, free: u64) -> Result<(), String> {
     let mut scene = plan.scene().clone();
-    scene.output.rods_at.clear();
+    scene.output.drop_rods();
     let without = Plan::new(&scene).map_err(|error| error.to_string())?;
     if plan.rods_out() == 0 || needed(&without, threads, false, 0) > free {
         return Ok(());
     }
+    let output = &plan.scene().output;
+    let at = (!output.rods_at.is_empty()).then(|| format!("output.rods_at = {:?}", output.rods_at));
+    let every = output.rods_every.map(|every| format!("output.rods_every = {every}"));
+    let keys: Vec<_> = [at, every].into_iter().flatten().collect();
     Err(format!(
-        "output.rods_at = {:?}: {} times of {} rods in each of {} replicas make files of up to {} and need {} of \
-         memory, and {} are free; allowed: fewer times, rods or replicas",
-        plan.scene().output.rods_at,
-        plan.scene().output.rods_at.len(),
+        "{}: {} times of {} rods in each of {} replicas make files of up to {} and need {} of memory, and {} are free; \
+         allowed: fewer times, rods or replicas",
+        keys.join(", "),
+        plan.rods_outputs().len(),
         plan.scene().particles.count,
         plan.scene().ensemble.replicas,
         size(rods::most_bytes(plan, vtk)),

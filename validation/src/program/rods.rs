@@ -32,17 +32,20 @@ pub(super) fn files(plan: &Plan, results: &Results, vtk: bool) -> Vec<Output> {
     let scene = plan.scene();
     let mut files = vec![("rods.csv".to_owned(), csv(results, scene))];
     if vtk {
-        let at = |output: usize| {
-            let all = results.snapshots.iter();
-            all.filter(|snapshot| snapshot.output == output).collect::<Vec<_>>()
+        let mut parts: Vec<_> = results.snapshots.iter().collect();
+        parts.sort_by_key(|snapshot| (snapshot.output, snapshot.replica));
+        let one = scene.ensemble.replicas == 1;
+        let name = |snapshot: &Snapshot| {
+            let k = outputs.partition_point(|output| *output < snapshot.output);
+            let replica = if one { String::new() } else { format!("_replica_{}", snapshot.replica) };
+            format!("rods_{k:04}{replica}.vtp")
         };
-        let time_s = |output: usize| results.times[output] * results.unit.seconds;
-        let steps = outputs.iter().enumerate();
-        let parts: Vec<_> = steps
-            .map(|(k, &output)| (format!("rods_{k:04}.vtp"), time_s(output), polydata(&at(output), scene)))
-            .collect();
-        files.push(("rods.pvd".to_owned(), collection(&parts)));
-        files.extend(parts.into_iter().map(|(name, _, text)| (name, text)));
+        let line = |snapshot: &&Snapshot| {
+            let time_s = results.times[snapshot.output] * results.unit.seconds;
+            (name(snapshot), time_s, snapshot.replica)
+        };
+        files.push(("rods.pvd".to_owned(), collection(parts.iter().map(line))));
+        files.extend(parts.iter().map(|snapshot| (name(snapshot), polydata(snapshot, scene))));
     }
     files
 }
@@ -78,14 +81,10 @@ fn direction(snapshot: &Snapshot, rod: usize) -> Vector3<f64> {
     Vector3::from_fn(|axis, _| snapshot.p[axis][rod])
 }
 
-/// The rods of all replicas at one time as VTK's XML PolyData: a line for each rod from end to end, in mm. Free rods
-/// cross at the origin.
-fn polydata(snapshots: &[&Snapshot], scene: &Scene) -> String {
-    let rods: Vec<(&Snapshot, usize)> = snapshots
-        .iter()
-        .flat_map(|&snapshot| (0..snapshot.aspect_ratio.len()).map(move |rod| (snapshot, rod)))
-        .collect();
-    let count = rods.len();
+/// The rods of one replica at one time as VTK's XML PolyData: a line for each rod from end to end, in mm. Free rods cross at
+/// the origin.
+fn polydata(snapshot: &Snapshot, scene: &Scene) -> String {
+    let count = snapshot.aspect_ratio.len();
     let array = |kind: &str, name: &str, components: usize, values: String| {
         format!(
             "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\">\n\
@@ -93,11 +92,8 @@ fn polydata(snapshots: &[&Snapshot], scene: &Scene) -> String {
         )
     };
     let vector = |v: Vector3<f64>| format!("{:?} {:?} {:?}\n", v.x, v.y, v.z);
-    let of_each = |value: &dyn Fn(&Snapshot, usize) -> String| {
-        let values = rods.iter().map(|(snapshot, rod)| value(snapshot, *rod));
-        values.collect::<String>()
-    };
-    let ends = of_each(&|snapshot, rod| {
+    let of_each = |value: &dyn Fn(usize) -> String| (0..count).map(value).collect::<String>();
+    let ends = of_each(&|rod| {
         let centre = Vector3::from(snapshot.place_mm(scene, rod).unwrap_or_default());
         let half = direction(snapshot, rod) * (0.5 * snapshot.length_mm(scene, rod));
         vector(centre - half) + &vector(centre + half)
@@ -110,40 +106,40 @@ fn polydata(snapshots: &[&Snapshot], scene: &Scene) -> String {
          NumberOfPolys=\"0\">\n<CellData Vectors=\"p\">\n{}{}{}{}{}</CellData>\n<Points>\n{}</Points>\n<Lines>\n{}{}\
          </Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n",
         2 * count,
-        array("Float64", "p", 3, of_each(&|snapshot, rod| vector(direction(snapshot, rod)))),
+        array("Float64", "p", 3, of_each(&|rod| vector(direction(snapshot, rod)))),
         array(
             "Float64",
             "aspect_ratio",
             1,
-            of_each(&|snapshot, rod| format!("{:?}\n", snapshot.aspect_ratio[rod]))
+            of_each(&|rod| format!("{:?}\n", snapshot.aspect_ratio[rod]))
         ),
         array(
             "Float64",
             "length_mm",
             1,
-            of_each(&|snapshot, rod| format!("{:?}\n", snapshot.length_mm(scene, rod)))
+            of_each(&|rod| format!("{:?}\n", snapshot.length_mm(scene, rod)))
         ),
         array(
             "UInt8",
             "collided",
             1,
-            of_each(&|snapshot, rod| format!("{}\n", u8::from(snapshot.collided[rod])))
+            of_each(&|rod| format!("{}\n", u8::from(snapshot.collided[rod])))
         ),
-        array("Int64", "replica", 1, of_each(&|snapshot, _| format!("{}\n", snapshot.replica))),
+        array("Int64", "replica", 1, of_each(&|_| format!("{}\n", snapshot.replica))),
         array("Float64", "ends_mm", 3, ends),
         array("Int64", "connectivity", 1, ends_of_lines),
         array("Int64", "offsets", 1, offsets),
     )
 }
 
-/// A ParaView collection of files with their times in s.
-fn collection(parts: &[(String, f64, String)]) -> String {
-    let line = |(name, time_s, _): &(String, f64, String)| {
-        format!("<DataSet timestep=\"{time_s:?}\" part=\"0\" file=\"{name}\"/>\n")
+/// A ParaView collection of files with their times in s and their replicas.
+fn collection(parts: impl Iterator<Item = (String, f64, u64)>) -> String {
+    let line = |(name, time_s, replica): (String, f64, u64)| {
+        format!("<DataSet timestep=\"{time_s:?}\" part=\"{replica}\" file=\"{name}\"/>\n")
     };
     format!(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n{}</Collection>\n\
          </VTKFile>\n",
-        parts.iter().map(line).collect::<String>()
+        parts.map(line).collect::<String>()
     )
 }

@@ -34,7 +34,7 @@ pub(super) struct Args {
     out: Option<PathBuf>,
     #[command(flatten)]
     threads: Threads,
-    /// Write the rods of output.rods_at for ParaView too: rods.pvd, and a .vtp file for each time
+    /// Write the rods of output.rods_at and rods_every for ParaView too: rods.pvd, and a .vtp file for each time and replica
     #[arg(long)]
     vtk: bool,
     /// Keep the run in this file while it runs, and go on from there where the file exists
@@ -91,7 +91,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let scene = named.scene;
     if args.vtk && plan.rods_outputs().is_empty() {
         return Err(Failure::Input(format!(
-            "{}: --vtk: output.rods_at is missing: the times at which rods are to be written",
+            "{}: --vtk: output.rods_at is missing: the times at which rods are to be written; output.rods_every = 1 takes \
+             every output",
             named.source
         )));
     }

@@ -42,9 +42,11 @@ pub(super) struct Args {
 pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let named = args.chosen.load(&args.ensemble, &args.over)?;
     check(&args.over)?;
-    if !named.scene.output.rods_at.is_empty() {
+    let output = &named.scene.output;
+    if output.keeps_rods() {
+        let key = if output.rods_at.is_empty() { "rods_every" } else { "rods_at" };
         return Err(Failure::Input(format!(
-            "{}: output.rods_at: a sweep writes no rods; remove this key",
+            "{}: output.{key}: a sweep writes no rods; remove this key",
             named.source
         )));
     }

@@ -99,18 +99,20 @@ fn lines_for_paraview_are_the_rows_of_the_table() {
     let read = |name: &str| fs::read_to_string(dir.path().join("a").join(name)).unwrap();
     let rows = rows(&dir.path().join("a/rods.csv"));
     let collection = read("rods.pvd");
-    for time in 0..3 {
-        let name = format!("rods_{time:04}.vtp");
-        let own: Vec<_> = (0..180).filter(|k| k / 20 % 3 == time).map(|k| &rows[k]).collect();
-        let listed = format!("<DataSet timestep=\"{}\" part=\"0\" file=\"{name}\"/>", own[0]["time_s"]);
+    assert_eq!(collection.matches("<DataSet").count(), 9);
+    for (time, replica) in (0..9).map(|k| (k / 3, k % 3)) {
+        let name = format!("rods_{time:04}_replica_{replica}.vtp");
+        let own = |k: &usize| k / 20 % 3 == time && k / 60 == replica;
+        let own: Vec<_> = (0..180).filter(own).map(|k| &rows[k]).collect();
+        let listed = format!("<DataSet timestep=\"{}\" part=\"{replica}\" file=\"{name}\"/>", own[0]["time_s"]);
         assert!(collection.contains(&listed), "{collection}");
         let text = read(&name);
-        assert!(text.contains("NumberOfPoints=\"120\"") && text.contains("NumberOfLines=\"60\""));
+        assert!(text.contains("NumberOfPoints=\"40\"") && text.contains("NumberOfLines=\"20\""));
         let (ends, p) = (array(&text, "ends_mm"), array(&text, "p"));
         let (collided, r) = (array(&text, "collided"), array(&text, "aspect_ratio"));
-        let counting: Vec<f64> = (0..120).map(f64::from).collect();
+        let counting: Vec<f64> = (0..40).map(f64::from).collect();
         assert_eq!(array(&text, "connectivity"), counting);
-        assert_eq!(array(&text, "offsets"), (1..=60).map(|k| 2.0 * f64::from(k)).collect::<Vec<_>>());
+        assert_eq!(array(&text, "offsets"), (1..=20).map(|k| 2.0 * f64::from(k)).collect::<Vec<_>>());
         for (k, row) in own.iter().enumerate() {
             for (axis, (x, p_name)) in [("x1_mm", "p1"), ("x2_mm", "p2"), ("x3_mm", "p3")].iter().enumerate()
             {
@@ -122,10 +124,32 @@ fn lines_for_paraview_are_the_rows_of_the_table() {
             assert_eq!((collided[k], r[k]), (number(row, "collided"), 11.6));
         }
     }
-    assert!(!dir.path().join("a/rods_0003.vtp").exists());
+    assert!(!dir.path().join("a/rods_0003_replica_0.vtp").exists());
+    // Of one replica the files have no number of it.
+    let one = "run asked.toml --out a --vtk --quiet --force --replicas 1";
+    assert_eq!(shearbed(dir.path(), one).code, Some(0));
+    assert!(dir.path().join("a/rods_0002.vtp").exists());
+    assert!(!dir.path().join("a/rods_0002_replica_0.vtp").exists());
     // A run without them leaves none that would pass for its own.
     assert_eq!(shearbed(dir.path(), "run asked.toml --out a --quiet --force").code, Some(0));
     assert!(!dir.path().join("a/rods.pvd").exists());
+}
+
+/// `rods_every` makes the rows that `rods_at` makes with the same times, and both together write a time once.
+#[test]
+fn every_kth_output_is_the_list_of_their_times() {
+    let dir = folder();
+    let table = |keys: &str| {
+        fs::write(dir.path().join("s.toml"), SMALL.replace("[output]", &format!("[output]\n{keys}"))).unwrap();
+        let done = shearbed(dir.path(), "run s.toml --out a --quiet --force");
+        assert_eq!(done.code, Some(0), "{}", done.stderr);
+        fs::read(dir.path().join("a/rods.csv")).unwrap()
+    };
+    let listed = table("rods_at = [0, 0.4, 0.8]");
+    assert_eq!(table("rods_every = 20"), listed);
+    assert_eq!(table("rods_at = [0.4]\nrods_every = 20"), listed);
+    assert_ne!(table("rods_at = [0.42]\nrods_every = 20"), listed);
+    assert_ne!(table("rods_every = 25"), listed);
 }
 
 #[test]
@@ -138,6 +162,11 @@ fn what_cannot_be_written_is_refused_by_its_key() {
         assert!(done.stderr.contains(said), "{}", done.stderr);
     };
     refused(SMALL, "run s.toml --vtk", "s.toml: --vtk: output.rods_at is missing");
+    let every = |k: &str| SMALL.replace("[output]", &format!("[output]\nrods_every = {k}"));
+    let allowed = "a whole number from 1 to 50, the number of outputs after the start";
+    refused(&every("51"), "run s.toml", allowed);
+    refused(&every("0"), "run s.toml", "rods_every = 0");
+    refused(&every("5"), "sweep s.toml --over particles.count=2,3", "s.toml: output.rods_every: a sweep keeps no rods");
     refused(
         &asked(),
         "sweep s.toml --over particles.count=2,3",

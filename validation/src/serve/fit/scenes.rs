@@ -205,7 +205,7 @@ impl Scenes {
                 .any(|channel| data.iter().any(|datum| datum.set == set && datum.column == channel.name()))
         };
         scene.output.observables = Observable::ALL.into_iter().filter(needed).collect();
-        scene.output.rods_at.clear();
+        scene.output.drop_rods();
         Plan::new(&scene).map_err(|error| refused(error.to_string()))
     }
 

@@ -53,7 +53,7 @@ impl Job {
             ..Time::periods(periods as f64)
         };
         scene.set_count(rods);
-        scene.output.rods_at.clear();
+        scene.output.drop_rods();
         Self {
             scene,
             replicas,
