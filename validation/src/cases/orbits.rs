@@ -82,7 +82,7 @@ fn orbits(subject: &Orbits, effort: &Effort) -> Vec<Evidence> {
             less(&of_collisions, 1.0 - orbit_constant_cdf(0.5, ASPECT_RATIO)).exceeds(
                 0.0,
                 high.effect,
-                "\"far more\": a fifth of the rods in a pilot",
+                "\"far more\": the table of docs/src/theory/coefficients.md has 0.22",
             ),
         ),
     ]

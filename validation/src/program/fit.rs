@@ -84,7 +84,7 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     let input = input(args)?;
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("fit-{}", input.stem)));
     let asked = asked(args, &input)?;
-    let names = [FIT, "residuals.csv", "profiles.csv", "design.csv"];
+    let names = [FIT, "residuals.csv", "profiles.csv", "design.csv", super::plot::FIGURES];
     let folder = result_folder(&out, ("fit", asked.clone(), args.writing.force), 0, &names)?;
     let bar = progress(0, "runs", args.writing.quiet);
     let watch = Watch { planned: &|runs| bar.inc_length(runs), done: &|| bar.inc(1) };
@@ -100,6 +100,8 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
         let text = report::design_csv(&done.fit, &done.candidates, &times);
         files.push(("design.csv".into(), text.map_err(Failure::Failed)?));
     }
+    let kept = serde_json::to_string(&done.figures).map_err(|error| Failure::Failed(error.to_string()))?;
+    files.push((super::plot::FIGURES.into(), kept));
     for (stem, figure) in &done.figures {
         files.push((format!("{stem}.svg"), plot::svg(figure).map_err(Failure::Failed)?));
     }

@@ -173,7 +173,7 @@ pub fn call(arguments: Vec<OsString>) -> Result<(), (String, u8)> {
 /// What `shearbed plot` draws of these folders; on error, why not.
 pub fn figure(dirs: &[PathBuf], channel: Option<&str>) -> Result<Figure, String> {
     let drawn = plot::figure(dirs, channel);
-    drawn.map(|(figure, _)| figure).map_err(|failure| failure.message_and_code().0)
+    drawn.map(|drawn| drawn.figure).map_err(|failure| failure.message_and_code().0)
 }
 
 fn with_name(arguments: Vec<OsString>) -> Vec<OsString> {

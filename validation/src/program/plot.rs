@@ -1,13 +1,18 @@
-//! `shearbed plot`: one picture of a channel from several runs, or from the points of a sweep.
+//! `shearbed plot`: one picture of a channel from several runs or the points of a sweep, or a picture of a fit or a report.
 
 mod folders;
+mod look;
+mod measured;
 mod table;
 
 use super::{Failure, print, scene};
 use crate::files::output;
 use crate::files::text::Shown;
-use crate::present::plot::{self, Figure};
-use folders::runs_in;
+use crate::present::plot::{self, Figure, names};
+pub(super) use folders::FIGURES;
+use folders::{Run, kept, runs_in};
+use look::Look;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use table::MOST_ROWS;
 
@@ -15,13 +20,18 @@ use table::MOST_ROWS;
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  shearbed plot first second --y x1 --out both.svg")]
 pub(super) struct Args {
-    /// Folders of `shearbed run`, or of `shearbed sweep`, whose points are all drawn
+    /// Folders of `shearbed run`, or of `shearbed sweep`, whose points are all drawn; or one of `shearbed fit` or `validate`
     #[arg(required = true, value_name = "DIR")]
     dirs: Vec<PathBuf>,
-    /// The column to draw, as x1, phi or a12 [default: the first of the first table]
+    /// The column to draw, as x1, phi or a12 [default: the first of the first table]; of a fit or a report, the picture's name
     #[arg(long = "y", value_name = "CHANNEL")]
     channel: Option<String>,
-    /// The picture, whose name ends in .svg or .png
+    /// Measured points to draw over the curves, in the columns that `shearbed fit` takes
+    #[arg(long, value_name = "FILE.csv")]
+    data: Option<PathBuf>,
+    #[command(flatten)]
+    look: Look,
+    /// The picture, whose name ends in .svg, .png or .pdf
     #[arg(long, value_name = "FILE", default_value = "out/plot.svg", value_parser = picture)]
     out: PathBuf,
     /// Overwrite an existing picture
@@ -32,20 +42,61 @@ pub(super) struct Args {
 fn picture(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match path.extension().and_then(|extension| extension.to_str()) {
-        Some("svg" | "png") => Ok(path),
-        _ => Err("a name that ends in .svg or .png is allowed; no other format is written".to_owned()),
+        Some("svg" | "png" | "pdf") => Ok(path),
+        _ => Err("a name that ends in .svg, .png or .pdf is allowed; no other format is written".to_owned()),
     }
 }
 
-/// Draws a channel of every folder.
+/// Draws a channel of every folder, or a picture that a folder keeps.
 pub(super) fn plot(args: &Args) -> Result<(), Failure> {
-    let (figure, runs) = figure(&args.dirs, args.channel.as_deref())?;
+    let (mut figure, said) = match &args.dirs[..] {
+        [dir] => match kept(dir)? {
+            Some(kept) => named(args, dir, kept)?,
+            None => of_runs(args)?,
+        },
+        _ => of_runs(args)?,
+    };
+    args.look.apply(&mut figure)?;
     write(&args.out, &figure, args.force)?;
-    print(&format!("{} of {runs} runs in {}\n", figure.y_name, args.out.shown()))
+    print(&format!("{said} in {}\n", args.out.shown()))
 }
 
-/// A channel of every folder, the first that there is where none is asked for, and how many runs that is of.
-pub(super) fn figure(dirs: &[PathBuf], channel: Option<&str>) -> Result<(Figure, usize), Failure> {
+fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
+    let drawn = figure(&args.dirs, args.channel.as_deref())?;
+    let mut figure = drawn.figure;
+    if let Some(path) = &args.data {
+        figure.points.push(measured::points(path, &drawn.runs[0], &drawn.channel)?);
+    }
+    Ok((figure, format!("{} of {} runs", drawn.channel, drawn.runs.len())))
+}
+
+/// The picture of a fit or a report that is asked for, the first where none is.
+fn named(args: &Args, dir: &Path, kept: Vec<(String, Figure)>) -> Result<(Figure, String), Failure> {
+    if args.data.is_some() {
+        return Err(Failure::Input(format!(
+            "--data: {} is no run; a folder of `shearbed run` is allowed",
+            dir.shown()
+        )));
+    }
+    let names = kept.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
+    let is_it = |(name, _): &(String, Figure)| args.channel.as_ref().is_none_or(|asked| asked == name);
+    let found = kept.into_iter().find(is_it).ok_or_else(|| {
+        let asked = args.channel.as_deref().unwrap_or("its first");
+        Failure::Input(format!("--y {asked}: {} has no such picture; there are {names}", dir.shown()))
+    })?;
+    Ok((found.1, format!("{} of {}", found.0, dir.shown())))
+}
+
+/// A channel of runs as a picture.
+pub(super) struct Drawn {
+    pub(super) figure: Figure,
+    channel: String,
+    /// At least one.
+    runs: Vec<Run>,
+}
+
+/// A channel of every folder, the first that there is where none is asked for.
+pub(super) fn figure(dirs: &[PathBuf], channel: Option<&str>) -> Result<Drawn, Failure> {
     let mut runs = Vec::new();
     for dir in dirs {
         runs.extend(runs_in(dir)?);
@@ -71,34 +122,42 @@ pub(super) fn figure(dirs: &[PathBuf], channel: Option<&str>) -> Result<(Figure,
             first.time
         )));
     }
-    let figure = Figure {
-        title: match runs.len() {
+    let channel = first.channel.clone();
+    let titles: BTreeSet<&str> = runs.iter().map(|run| run.scene.title.as_str()).collect();
+    let mut figure = Figure {
+        title: match titles.len() {
             1 => scene.title.clone(),
-            count => format!("{}: {count} runs", first.channel),
+            _ => format!("{} of {} scenes", names::channel(&channel), titles.len()),
         },
-        x_name: first.time.replace("t_over_T", "t/T"),
-        y_name: first.channel.clone(),
+        x_name: names::time(&first.time),
+        y_name: names::channel(&channel),
         curves: found.into_iter().map(|found| found.curve).collect(),
         ..Figure::default()
     };
-    Ok((figure, runs.len()))
+    // Scenes of different titles are told apart by these.
+    if runs.len() > 1 && titles.len() == runs.len() {
+        for (curve, run) in figure.curves.iter_mut().zip(&runs) {
+            curve.label.clone_from(&run.scene.title);
+        }
+    }
+    Ok(Drawn { figure, channel, runs })
 }
 
 fn write(out: &Path, figure: &Figure, force: bool) -> Result<(), Failure> {
-    let name = out.to_string_lossy();
-    let contents = match name.ends_with(".png") {
-        false => plot::svg(figure).map_err(Failure::Failed)?.into_bytes(),
-        true => {
-            let plot::Png { bytes, missing } = plot::png(figure).map_err(Failure::Failed)?;
-            if !missing.is_empty() {
-                let missing = String::from_iter(missing);
-                let lacking = format!(
-                    "PNG pictures have no letters for {missing:?}; boxes stand for them, SVG has them"
-                );
-                scene::warn(&out.shown(), &[lacking]);
-            }
-            bytes
+    let drawn = match out.extension().and_then(|extension| extension.to_str()) {
+        Some("png") => plot::png(figure),
+        Some("pdf") => plot::pdf(figure),
+        _ => {
+            plot::svg(figure).map(|text| plot::Drawing { bytes: text.into_bytes(), missing: BTreeSet::new() })
         }
     };
-    Ok(output::write_one(out, &contents, force)?)
+    let plot::Drawing { bytes, missing } = drawn.map_err(Failure::Failed)?;
+    if !missing.is_empty() {
+        let missing = String::from_iter(missing);
+        let lacking = format!(
+            "PNG and PDF pictures have no letters for {missing:?}; boxes stand for them, SVG has them"
+        );
+        scene::warn(&out.shown(), &[lacking]);
+    }
+    Ok(output::write_one(out, &bytes, force)?)
 }

@@ -82,6 +82,7 @@ fn the_planted_alpha_is_found_and_everything_is_written() {
     assert_eq!(
         names,
         [
+            "figures.json",
             "fit.json",
             "points.svg",
             "profile_alpha.svg",
@@ -91,6 +92,22 @@ fn the_planted_alpha_is_found_and_everything_is_written() {
             "shearbed.json"
         ]
     );
+    // Letters and units, error bars with caps, and what is drawn about the zero of the residuals.
+    let [points, zero] =
+        ["points.svg", "residuals.svg"].map(|name| String::from_utf8(written[name].clone()).unwrap());
+    for text in ["X̄₁, best fit", "X̄₁, measured ± u", ">\nt/T\n<", "95 % band"] {
+        assert!(points.contains(text), "{text}");
+    }
+    assert!(!points.contains("t_over_T") && zero.contains("X̄₁, best fit") && zero.contains("95 % band"));
+    // The same pictures from the folder, in every format.
+    for (name, starts) in [("again.svg", &b"<svg"[..]), ("fit.png", b"\x89PNG"), ("fit.pdf", b"%PDF-")] {
+        let ended = shearbed(dir.path(), &format!("plot one --y points --out {name}"));
+        assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+        assert!(fs::read(dir.path().join(name)).unwrap().starts_with(starts), "{name}");
+    }
+    assert_eq!(fs::read_to_string(dir.path().join("again.svg")).unwrap(), points);
+    let ended = shearbed(dir.path(), "plot one --y nothing --out no.svg");
+    assert!(ended.stderr.contains("there are points, residuals, profile_alpha"), "{}", ended.stderr);
     let residuals = String::from_utf8(written["residuals.csv"].clone()).unwrap();
     assert_eq!(residuals.lines().count(), 21);
 

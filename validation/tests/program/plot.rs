@@ -33,18 +33,62 @@ fn one_picture_is_drawn_from_several_runs_and_from_a_sweep() {
     let sweep = "sweep small.toml --over interaction.alpha=0.1,0.2 --quiet --out s";
     assert_eq!(shearbed(dir.path(), sweep).code, Some(0));
     assert_eq!(shearbed(dir.path(), "plot s --out s.svg").code, Some(0));
-    assert!(read(&dir.path().join("s.svg")).contains("interaction.alpha=0.2"));
+    assert!(read(&dir.path().join("s.svg")).contains("α = 0.2"));
     for (arguments, words) in [
         ("plot a --y x9", "--y x9: a has no such channel; there are x1, x2, x3, x1x2,"),
         ("plot s/points/1", "s/points/1: is one point of a sweep; the sweep's folder is allowed"),
         ("plot nowhere", "nowhere: neither run.json nor sweep.json is in it"),
-        ("plot a --out picture.gif", "a name that ends in .svg or .png is allowed"),
+        ("plot a --out picture.gif", "a name that ends in .svg, .png or .pdf is allowed"),
     ] {
         let ended = shearbed(dir.path(), arguments);
         assert_eq!(ended.code, Some(2), "{arguments}");
         assert!(ended.stderr.contains(words), "{arguments}: {}", ended.stderr);
     }
     assert!(!dir.path().join("out/plot.svg").exists());
+}
+
+/// Synthetic points over a curve, and every flag of the look.
+#[test]
+fn points_are_drawn_over_curves_and_flags_change_the_look() {
+    let dir = unequal();
+    assert_eq!(shearbed(dir.path(), "run small.toml --quiet --out a").code, Some(0));
+    let write = |name: &str, text: &str| std::fs::write(dir.path().join(name), text).unwrap();
+    write("points.csv", "t_over_T,x1,x1_u\n0.1,0.4,0.05\n0.3,0.2,0.05\n");
+    let plot = |arguments: &str| {
+        let ended = shearbed(dir.path(), &format!("plot a --y x1 {arguments} --out p.svg --force"));
+        assert_eq!(ended.code, Some(0), "{arguments}: {}", ended.stderr);
+        read(&dir.path().join("p.svg"))
+    };
+    let bare = plot("");
+    let over = plot("--data points.csv");
+    assert!(over.contains("X̄₁, measured ± u") && !bare.contains("measured"));
+    let all = plot(
+        "--data points.csv --title Damped --x-label turns --y-label share --legend model --legend ours \
+         --x-range 0.05:0.4 --y-range 0.1:1 --log-y --size 700x500 --theme dark",
+    );
+    for text in [
+        ">\nDamped\n<",
+        ">\nturns\n<",
+        ">\nshare\n<",
+        ">\nmodel\n<",
+        ">\nours\n<",
+        "width=\"700\" height=\"500\"",
+    ] {
+        assert!(all.contains(text) && !over.contains(text), "{text}");
+    }
+    assert!(over.contains("#FFFFFF") && !all.contains("#FFFFFF"));
+    for (arguments, words) in [
+        ("plot a --data points.csv --y x2", "has no points of x2; it has x1"),
+        ("plot a --legend one --legend two", "given 2 times; the picture has 1"),
+        ("plot a --x-range 1:0", "FROM:TO is allowed"),
+        ("plot a --log-y --y-range 0:1", "a logarithmic axis begins above 0"),
+        ("plot a --size 10x10", "WIDTHxHEIGHT is allowed"),
+        ("plot a --theme pink", "[possible values: light, dark]"),
+    ] {
+        let ended = shearbed(dir.path(), arguments);
+        assert_eq!(ended.code, Some(2), "{arguments}");
+        assert!(ended.stderr.contains(words), "{arguments}: {}", ended.stderr);
+    }
 }
 
 /// Every fault of a table, a record or a folder is refused by name; the same folder before it is drawn.

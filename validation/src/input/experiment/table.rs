@@ -32,8 +32,29 @@ struct Record {
 /// The most lines of a file: no figure has so many points, and comparing them takes half a minute.
 const MOST_LINES: usize = 20_000;
 
+/// Refuses a first line whose cells are apart by semicolons or tabs, with the mend: numbers have decimal commas there.
+pub(crate) fn commas(file: &str, text: &str) -> Result<(), DataError> {
+    let Some((index, first)) = text.lines().enumerate().find(|(_, line)| !line.trim().is_empty()) else {
+        return Ok(());
+    };
+    for (separator, name, shell) in [(';', "semicolons", ";"), ('\t', "tabs", "\\t")] {
+        let is_number = |cell: &str| cell.trim().replace(',', ".").parse::<f64>().is_ok();
+        let apart =
+            first.contains(separator) && (!first.contains(',') || first.split(separator).all(is_number));
+        if apart {
+            let message = format!(
+                "cells are apart by {name}; commas between cells and points in numbers are allowed: \
+                 sed 's/,/./g; s/{shell}/,/g' makes them of it"
+            );
+            return Err(DataError::at(file, index + 1, message));
+        }
+    }
+    Ok(())
+}
+
 /// Line by line, so that every error has the line that an editor shows.
 fn records(file: &str, text: &str) -> Result<Vec<Record>, DataError> {
+    commas(file, text)?;
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     lines
         .map(|(index, text)| {

@@ -3,12 +3,17 @@
 use super::axis::{Axis, place};
 use super::legend::Legend;
 use super::style::{
-    AXES_HEIGHT, BAR_WIDTH, FINE, MARKER, SMALL_MARKER, TEXT, WIDTH, colour, curve, cut, is_coloured, looks,
-    marker, text, text_width,
+    BAR_WIDTH, FINE, MARKER, SMALL_MARKER, TEXT, colour, curve, cut, is_coloured, looks, marker, text,
+    text_width,
 };
+use super::window::Window;
 use super::{Drawn, Figure};
 use plotters::coord::Shift;
 use plotters::prelude::*;
+
+/// Half the length of the cap of an error bar, and the width of a band's edge: not a curve's, so that neither is dashed.
+const CAP: i32 = 4 * FINE;
+const EDGE_WIDTH: u32 = 3;
 
 type Chart<'a, DB> = ChartContext<'a, DB, Cartesian2d<Axis, Axis>>;
 
@@ -72,10 +77,15 @@ where
     // A curve may end at the frame, half a marker may not.
     let marked = figure.curves.iter().any(super::Curve::is_marked);
     let margin = if points.is_empty() && !marked { 0.0 } else { 0.04 };
-    let x = Axis::over(x, figure.x_log, margin);
+    let exact = |ends: Option<(f64, f64)>, log| {
+        let ends = ends.map(|(from, to)| (place(from, log), place(to, log)));
+        ends.filter(|(from, to)| from < to).map(|ends| Axis::exactly(ends, log))
+    };
+    let x = exact(figure.x_range, figure.x_log).unwrap_or_else(|| Axis::over(x, figure.x_log, margin));
     let y = shown().flat_map(|p| [p.y, p.low, p.high]);
     let y = y.chain(span(figure.y_span, figure.y_log));
-    let y = Axis::over(y, figure.y_log, 0.05);
+    let y = exact(figure.y_range, figure.y_log).unwrap_or_else(|| Axis::over(y, figure.y_log, 0.05));
+    let window = Window { x: (x.low, x.high), y: (y.low, y.high) };
 
     let foot = (x.low, y.low);
     let centre = (0.5 * (x.low + x.high), 0.5 * (y.low + y.high));
@@ -87,32 +97,32 @@ where
         let tick = PathElement::new(vec![(0, 0), end], axis_ink());
         chart.draw_series([EmptyElement::at(place) + tick])?;
     }
-    if shown().next().is_none() {
+    if !shown().any(|p| window.has((p.x, p.y))) {
         chart.draw_series([Text::new("no data", centre, text(TEXT))])?;
     }
     // What is grey lies beneath.
     let mut order: Vec<_> = (0..curves.len()).collect();
     order.sort_by_key(|series| is_coloured(looks[*series]));
     for series in &order {
-        band(&mut chart, &curves[*series], looks[*series], foot.1)?;
+        band(&mut chart, &curves[*series], looks[*series], &window)?;
     }
     for series in &order {
-        line(&mut chart, &curves[*series], looks[*series])?;
+        line(&mut chart, &curves[*series], looks[*series], &window)?;
     }
     let marked = (figure.curves.iter().zip(&curves).zip(&looks)).filter(|((curve, _), _)| curve.is_marked());
     for ((_, placed), look) in marked {
-        for p in placed.iter().filter(|p| p.is_finite()) {
+        for p in placed.iter().filter(|p| window.has((p.x, p.y))) {
             chart.draw_series([EmptyElement::at((p.x, p.y)) + marker(*look, SMALL_MARKER)])?;
         }
     }
     for (points, look) in points.iter().zip(&looks[curves.len()..]) {
-        scatter(&mut chart, points, *look, foot)?;
+        scatter(&mut chart, points, *look, &window)?;
     }
     let (right, height) = chart.plotting_area().get_pixel_range();
     let origin = area.get_base_pixel();
     let end = |series: usize| {
         let placed = curves.iter().chain(&points).nth(series);
-        let last = placed.and_then(|placed| placed.iter().rfind(|p| p.is_finite()));
+        let last = placed.and_then(|placed| placed.iter().rfind(|p| window.has((p.x, p.y))));
         last.map_or(height.end, |p| chart.backend_coord(&(p.x, p.y)).1) - origin.1
     };
     let inside = (height.start - origin.1, height.end - origin.1);
@@ -141,7 +151,8 @@ where
         size.clamp(0.7 * TEXT, TEXT)
     };
     let right = (24 * FINE).max(legend.width());
-    let (across, up) = (WIDTH - left - right - 16 * FINE, AXES_HEIGHT - bottom);
+    let (width, height) = area.dim_in_pixel();
+    let (across, up) = (width as i32 - left - right - 16 * FINE, height as i32 - bottom);
     let name_size = fit(&figure.x_name, across).min(fit(&figure.y_name, up));
     let (x_name, y_name) = (cut(&figure.x_name, across, name_size), cut(&figure.y_name, up, name_size));
     let mut chart = ChartBuilder::on(area)
@@ -165,36 +176,46 @@ where
     Ok(chart)
 }
 
-/// The translucent band, cut at the foot of a logarithmic axis.
-fn band<DB: DrawingBackend>(chart: &mut Chart<DB>, curve: &[Placed], index: usize, foot: f64) -> Drawn
+/// The translucent band with a thin edge, cut at the frame.
+fn band<DB: DrawingBackend>(chart: &mut Chart<DB>, curve: &[Placed], index: usize, window: &Window) -> Drawn
 where
     DB::ErrorType: 'static,
 {
     for run in curve.split(|p| !p.is_finite() || !p.high.is_finite()) {
         let above = run.iter().map(|p| (p.x, p.high));
-        let below = run.iter().rev().map(|p| (p.x, p.low.max(foot)));
-        let outline: Vec<_> = above.chain(below).collect();
+        // A logarithmic axis has no place for what is below 0.
+        let below = run.iter().map(|p| (p.x, if p.low.is_nan() { window.y.0 } else { p.low }));
         if run.len() > 1 {
-            chart.draw_series([Polygon::new(outline, colour(index).mix(0.2).filled())])?;
+            let outline = above.clone().chain(below.clone().rev()).collect();
+            let outline = window.area(outline);
+            if outline.len() > 2 {
+                chart.draw_series([Polygon::new(outline, colour(index).mix(0.25).filled())])?;
+            }
+            for edge in window.lines(above).into_iter().chain(window.lines(below)) {
+                let style = colour(index).mix(0.5).stroke_width(EDGE_WIDTH);
+                chart.draw_series([PathElement::new(edge, style)])?;
+            }
         }
     }
     Ok(())
 }
 
-fn line<DB: DrawingBackend>(chart: &mut Chart<DB>, points: &[Placed], index: usize) -> Drawn
+fn line<DB: DrawingBackend>(chart: &mut Chart<DB>, points: &[Placed], index: usize, window: &Window) -> Drawn
 where
     DB::ErrorType: 'static,
 {
     for run in points.split(|p| !p.is_finite()) {
         match run {
             [] => {}
+            [single] if !window.has((single.x, single.y)) => {}
             [single] => {
                 let dot = Circle::new((single.x, single.y), MARKER / 2, colour(index).filled());
                 chart.draw_series([dot])?;
             }
             run => {
-                let path: Vec<_> = run.iter().map(|p| (p.x, p.y)).collect();
-                chart.draw_series([PathElement::new(path, curve(index))])?;
+                for path in window.lines(run.iter().map(|p| (p.x, p.y))) {
+                    chart.draw_series([PathElement::new(path, curve(index))])?;
+                }
             }
         }
     }
@@ -205,18 +226,30 @@ fn scatter<DB: DrawingBackend>(
     chart: &mut Chart<DB>,
     points: &[Placed],
     index: usize,
-    foot: (f64, f64),
+    window: &Window,
 ) -> Drawn
 where
     DB::ErrorType: 'static,
 {
-    let bar = |from, to| PathElement::new(vec![from, to], colour(index).stroke_width(BAR_WIDTH));
-    for p in points.iter().filter(|p| p.is_finite()) {
+    let ((left, right), (low, high)) = (window.x, window.y);
+    let ink = || colour(index).stroke_width(BAR_WIDTH);
+    for p in points.iter().filter(|p| window.has((p.x, p.y))) {
         if p.right.is_finite() {
-            chart.draw_series([bar((p.left.max(foot.0), p.y), (p.right, p.y))])?;
+            // Caps at the ends that are inside.
+            let ends = [p.left.max(left), p.right.min(right)];
+            chart.draw_series([PathElement::new(ends.map(|x| (x, p.y)).to_vec(), ink())])?;
+            for x in [p.left, p.right].into_iter().filter(|x| (left..=right).contains(x)) {
+                let cap = PathElement::new(vec![(0, -CAP), (0, CAP)], ink());
+                chart.draw_series([EmptyElement::at((x, p.y)) + cap])?;
+            }
         }
         if p.high.is_finite() {
-            chart.draw_series([bar((p.x, p.low.max(foot.1)), (p.x, p.high))])?;
+            let ends = [p.low.max(low), p.high.min(high)];
+            chart.draw_series([PathElement::new(ends.map(|y| (p.x, y)).to_vec(), ink())])?;
+            for y in [p.low, p.high].into_iter().filter(|y| (low..=high).contains(y)) {
+                let cap = PathElement::new(vec![(-CAP, 0), (CAP, 0)], ink());
+                chart.draw_series([EmptyElement::at((p.x, y)) + cap])?;
+            }
         }
         chart.draw_series([EmptyElement::at((p.x, p.y)) + marker(index, MARKER)])?;
     }

@@ -35,6 +35,18 @@ impl Axis {
         }
         if log { logarithmic(low, high) } else { linear(low, high, margin) }
     }
+
+    /// The axis of these ends and no others, in placed values.
+    pub(super) fn exactly((low, high): (f64, f64), log: bool) -> Self {
+        let axis = if log { logarithmic(low, high) } else { linear(low, high, 0.0) };
+        let inside = |place: f64| (low..=high).contains(&place);
+        Self {
+            low,
+            high,
+            ticks: axis.ticks.into_iter().filter(|(tick, _)| inside(*tick)).collect(),
+            between: axis.between.into_iter().filter(|tick| inside(*tick)).collect(),
+        }
+    }
 }
 
 impl Ranged for Axis {

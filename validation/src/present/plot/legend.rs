@@ -2,7 +2,7 @@
 //! axes, each as near to the end of its curve as the others let it.
 
 use super::style::{
-    FINE, MARGIN, MARKER, ROW, SMALL_MARKER, TEXT, WIDTH, curve, cut, looks, marker, text, text_width,
+    FINE, MARGIN, MARKER, ROW, SMALL_MARKER, TEXT, curve, cut, looks, marker, text, text_width, wrap,
 };
 use super::{Drawn, Figure};
 use plotters::coord::Shift;
@@ -14,8 +14,6 @@ const GAP: i32 = 6 * FINE;
 const SMALL: f64 = 12.0;
 const LINE: i32 = 16 * FINE;
 const SHORT: i32 = 18 * FINE;
-/// The room for a label beside the axes.
-const WIDEST: i32 = 2 * WIDTH / 5;
 /// Above the axes there are no more entries than these.
 const MOST: usize = 5;
 
@@ -39,11 +37,12 @@ struct Entry {
 pub(super) struct Legend {
     rows: Vec<Vec<Entry>>,
     /// Beside the axes: which series, and its label.
-    beside: Vec<(usize, Mark, String)>,
+    beside: Vec<(usize, Mark, Vec<String>)>,
 }
 
 impl Legend {
-    pub(super) fn of(figure: &Figure) -> Self {
+    /// For a picture of a width.
+    pub(super) fn of(figure: &Figure, width: i32) -> Self {
         let looks = looks(figure);
         let curves = figure.curves.iter().map(|curve| &curve.label);
         let labels = curves.chain(figure.points.iter().map(|points| &points.label));
@@ -60,12 +59,12 @@ impl Legend {
             false => Vec::new(),
         };
         let beside = (beside.into_iter())
-            .map(|(series, mark, label)| (series, mark, cut(&label, WIDEST, SMALL)))
+            .map(|(series, mark, label)| (series, mark, wrap(&label, 2 * width / 5, SMALL)))
             .collect();
         let band = figure.curves.iter().any(|curve| curve.half_band.is_some());
         let above = series.into_iter().map(|(_, mark, label)| (mark, label));
         let above = above.chain(band.then(|| (Mark::Band, "95 % band".to_string())));
-        Self { rows: rows(above), beside }
+        Self { rows: rows(above, width), beside }
     }
 
     /// The rows above the axes.
@@ -75,12 +74,18 @@ impl Legend {
 
     /// The height that the labels beside the axes need.
     pub(super) fn height_beside(&self) -> i32 {
-        self.beside.len() as i32 * LINE
+        self.beside.len() as i32 * self.entry_height()
+    }
+
+    /// The height of an entry beside the axes: that of the one with most lines.
+    fn entry_height(&self) -> i32 {
+        self.beside.iter().map(|(_, _, lines)| lines.len()).max().unwrap_or(1) as i32 * LINE
     }
 
     /// The room right of the axes.
     pub(super) fn width(&self) -> i32 {
-        let widths = self.beside.iter().map(|(_, _, label)| text_width(label, SMALL));
+        let lines = self.beside.iter().flat_map(|(_, _, lines)| lines);
+        let widths = lines.map(|line| text_width(line, SMALL));
         widths.max().map_or(0, |width| width + SHORT + 2 * GAP)
     }
 
@@ -112,37 +117,43 @@ impl Legend {
         DB::ErrorType: 'static,
     {
         let mut wanted: Vec<_> =
-            (self.beside.iter()).map(|(series, mark, label)| (end(*series), *mark, label)).collect();
+            (self.beside.iter()).map(|(series, mark, lines)| (end(*series), *mark, lines)).collect();
         let ends = || wanted.iter().map(|entry| entry.0);
         let apart_by = ends().max().unwrap_or(0) - ends().min().unwrap_or(0);
         // Where most ends are closer than their labels can be, the order in which they were given says more.
         if 2 * apart_by > self.height_beside() {
             wanted.sort_by_key(|entry| entry.0);
         }
-        let places = apart(wanted.iter().map(|entry| entry.0).collect(), LINE, height);
-        for ((_, mark, label), y) in wanted.into_iter().zip(places) {
+        let places = apart(
+            wanted.iter().map(|entry| entry.0).collect(),
+            self.entry_height(),
+            (height.0, height.1 - self.entry_height() + LINE),
+        );
+        for ((_, mark, lines), y) in wanted.into_iter().zip(places) {
             sample(canvas, mark, (left + GAP, y), SHORT)?;
-            let place = (left + GAP + SHORT + GAP / 2, y - 6 * FINE);
-            canvas.draw(&Text::new(label.as_str(), place, text(SMALL)))?;
+            for (k, line) in lines.iter().enumerate() {
+                let place = (left + GAP + SHORT + GAP / 2, y - 6 * FINE + k as i32 * LINE);
+                canvas.draw(&Text::new(line.as_str(), place, text(SMALL)))?;
+            }
         }
         Ok(())
     }
 }
 
-fn rows(entries: impl Iterator<Item = (Mark, String)>) -> Vec<Vec<Entry>> {
+fn rows(entries: impl Iterator<Item = (Mark, String)>, width: i32) -> Vec<Vec<Entry>> {
     let mut rows: Vec<Vec<Entry>> = Vec::new();
     let mut x = MARGIN;
     for (mark, label) in entries {
-        let label = cut(&label, WIDTH - 2 * MARGIN - SAMPLE - GAP, TEXT);
-        let width = SAMPLE + GAP + text_width(&label, TEXT) + 2 * GAP;
-        if rows.is_empty() || (x + width > WIDTH - MARGIN && x > MARGIN) {
+        let label = cut(&label, width - 2 * MARGIN - SAMPLE - GAP, TEXT);
+        let own = SAMPLE + GAP + text_width(&label, TEXT) + 2 * GAP;
+        if rows.is_empty() || (x + own > width - MARGIN && x > MARGIN) {
             rows.push(Vec::new());
             x = MARGIN;
         }
         if let Some(row) = rows.last_mut() {
             row.push(Entry { mark, label, x });
         }
-        x += width;
+        x += own;
     }
     rows
 }

@@ -1,4 +1,4 @@
-//! Pictures of curves, points and maps as SVG or PNG: plain data in, a file's contents out.
+//! Pictures of curves, points and maps as SVG, PNG or PDF: plain data in, a file's contents out.
 //!
 //! Curves differ by colour (Okabe & Ito's palette, safe for the colour-blind), by dashes and, where their points are
 //! few, by markers, points by colour and marker; the legend stands above the axes, where it covers no data.
@@ -10,21 +10,29 @@ mod boxes;
 mod grid;
 mod legend;
 mod letters;
+pub(crate) mod names;
+mod pdf;
 mod png;
+mod sheet;
 mod style;
 #[cfg(test)]
 mod tests;
+mod theme;
+mod window;
 
 use crate::files::text::{escaped, readable};
 use crate::present::markup::unicode;
 pub(crate) use axis::power_of_ten;
 pub(crate) use grid::decade;
 use legend::Legend;
+pub use pdf::pdf;
 use plotters::prelude::*;
-pub use png::{Png, png};
-use serde::{Deserialize, Serialize};
+pub use png::png;
+use serde::{Deserialize, Deserializer, Serialize};
+use std::collections::BTreeSet;
 use std::error::Error;
 use style::{AXES_HEIGHT, FINE, MARGIN, ROW, TITLE, WIDTH};
+pub use theme::Theme;
 
 /// A curve with, perhaps, its 95 % band.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -32,10 +40,13 @@ pub struct Curve {
     /// Its name in the legend.
     pub label: String,
     /// Abscissas.
+    #[serde(deserialize_with = "numbers")]
     pub x: Vec<f64>,
     /// Ordinates; the curve is broken where one is not finite.
+    #[serde(deserialize_with = "numbers")]
     pub y: Vec<f64>,
     /// Half the width of the 95 % band about it, drawn as a translucent area.
+    #[serde(deserialize_with = "some_numbers")]
     pub half_band: Option<Vec<f64>>,
 }
 
@@ -73,12 +84,16 @@ pub struct Points {
     /// Their name in the legend.
     pub label: String,
     /// Abscissas.
+    #[serde(deserialize_with = "numbers")]
     pub x: Vec<f64>,
     /// Ordinates; a point with one that is not finite is left out.
+    #[serde(deserialize_with = "numbers")]
     pub y: Vec<f64>,
     /// Half the length of the horizontal error bars.
+    #[serde(deserialize_with = "some_numbers")]
     pub x_error: Option<Vec<f64>>,
     /// Half the length of the vertical error bars.
+    #[serde(deserialize_with = "some_numbers")]
     pub y_error: Option<Vec<f64>>,
 }
 
@@ -154,9 +169,43 @@ pub struct Figure {
     pub x_span: Option<(f64, f64)>,
     /// What the vertical axis covers at least.
     pub y_span: Option<(f64, f64)>,
+    /// What the horizontal axis covers, from and to: data beyond it are cut off.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub x_range: Option<(f64, f64)>,
+    /// What the vertical axis covers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub y_range: Option<(f64, f64)>,
     /// Maps, in place of curves and points.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<Grid>,
+    /// Width and height of the whole picture in pixels of 1/96 inch, where it is not as large as it needs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size: Option<(u32, u32)>,
+    /// The ground that it is for.
+    #[serde(default, skip_serializing_if = "is_light")]
+    pub theme: Theme,
+}
+
+/// Numbers of a record: JSON has null for those that are not finite.
+fn numbers<'de, D: Deserializer<'de>>(record: D) -> Result<Vec<f64>, D::Error> {
+    some_numbers(record).map(Option::unwrap_or_default)
+}
+
+fn some_numbers<'de, D: Deserializer<'de>>(record: D) -> Result<Option<Vec<f64>>, D::Error> {
+    let read: Option<Vec<Option<f64>>> = Deserialize::deserialize(record)?;
+    Ok(read.map(|all| all.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect()))
+}
+
+fn is_light(theme: &Theme) -> bool {
+    *theme == Theme::Light
+}
+
+/// A picture as a file that has no letters of its own.
+pub struct Drawing {
+    /// The file.
+    pub bytes: Vec<u8>,
+    /// Characters that the fonts here do not have; each is drawn as an empty box.
+    pub missing: BTreeSet<char>,
 }
 
 type Drawn = Result<(), Box<dyn Error>>;
@@ -166,29 +215,37 @@ pub fn svg(figure: &Figure) -> Result<String, String> {
     let figure = &typeset(figure);
     let parts = Parts::of(figure);
     let mut drawing = String::new();
-    let size = (WIDTH as u32, parts.height as u32);
+    let size = (parts.width as u32, parts.height as u32);
     let drawn = parts.draw(figure, SVGBackend::with_string(&mut drawing, size));
     drawn.map_err(|error| format!("cannot draw the figure '{}': {error}", figure.title))?;
-    Ok(finish(figure, &drawing, parts.height))
+    Ok(figure.theme.svg(finish(figure, &drawing, (parts.width, parts.height))))
 }
+
+/// Axes are never lower, whatever size is asked for.
+const LEAST_AXES: i32 = 140 * FINE;
 
 /// What is above the axes, and how high everything is.
 struct Parts {
     title: Vec<String>,
     legend: Legend,
     grid: Option<grid::Layout>,
+    width: i32,
     height: i32,
 }
 
 impl Parts {
     fn of(figure: &Figure) -> Self {
-        let title = style::wrap(&figure.title, WIDTH - 2 * MARGIN, TITLE);
-        let legend = Legend::of(figure);
+        // Maps are as wide as their cells.
+        let asked = figure.size.filter(|_| figure.grid.is_none());
+        let width = asked.map_or(WIDTH, |(width, _)| width as i32 * FINE);
+        let title = style::wrap(&figure.title, width - 2 * MARGIN, TITLE);
+        let legend = Legend::of(figure, width);
         let grid = figure.grid.as_ref().map(grid::Layout::of);
         let head = MARGIN + title.len() as i32 * ROW + if grid.is_some() { 0 } else { legend.height() };
-        let axes = AXES_HEIGHT.max(legend.height_beside() + style::AXES_FRAME);
+        let own = asked.map_or(AXES_HEIGHT, |(_, height)| height as i32 * FINE - head);
+        let axes = own.max(LEAST_AXES).max(legend.height_beside() + style::AXES_FRAME);
         let body = grid.as_ref().map_or(axes, |layout| layout.height);
-        Self { title, legend, grid, height: head + body }
+        Self { title, legend, grid, width, height: head + body }
     }
 
     fn draw<DB: DrawingBackend>(&self, figure: &Figure, backend: DB) -> Drawn
@@ -241,15 +298,15 @@ fn typeset(figure: &Figure) -> Figure {
 }
 
 /// Sizes the document, names it for those who cannot see it, and adds what plotters lacks: dashes.
-fn finish(figure: &Figure, drawing: &str, height: i32) -> String {
+fn finish(figure: &Figure, drawing: &str, (width, height): (i32, i32)) -> String {
     let labels: Vec<_> = (figure.curves.iter().map(|c| c.label.as_str()))
         .chain(figure.points.iter().map(|p| p.label.as_str()))
         .chain(figure.grid.iter().flat_map(|grid| &grid.maps).map(|map| map.title.as_str()))
         .collect();
     let open = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"{}\" height=\"{}\" \
-         viewBox=\"0 0 {WIDTH} {height}\">\n<title>{}</title>\n<desc>{}</desc>",
-        WIDTH / FINE,
+         viewBox=\"0 0 {width} {height}\">\n<title>{}</title>\n<desc>{}</desc>",
+        width / FINE,
         height / FINE,
         escaped(&figure.title),
         escaped(&format!("{} against {}: {}", figure.y_name, figure.x_name, labels.join(", "))),

@@ -3,6 +3,7 @@
 use crate::files::bounded;
 use crate::files::output::{RECORD, Record, Sum};
 use crate::files::text::Shown;
+use crate::present::plot::{Figure, names};
 use crate::program::Failure;
 use crate::serve::sweep::POINT;
 use serde_json::Value;
@@ -49,6 +50,41 @@ pub(super) fn runs_in(dir: &Path) -> Result<Vec<Run>, Failure> {
     }
 }
 
+/// The pictures that a folder of `shearbed fit` or `shearbed validate` keeps as data, by their names; none where it is of runs.
+pub(super) fn kept(dir: &Path) -> Result<Option<Vec<(String, Figure)>>, Failure> {
+    let Ok(Some(record)) = Record::read(dir) else {
+        // What is wrong with it, `runs_in` says.
+        return Ok(None);
+    };
+    match record.origin.command.as_str() {
+        "fit" if !record.files.contains_key(FIGURES) => Err(Failure::Input(format!(
+            "{}: {FIGURES} is not in it: the fit is of an older version; run it again",
+            dir.shown()
+        ))),
+        "fit" => json(dir, FIGURES, &record).map(Some),
+        "validate" => {
+            let report: Report = json(dir, "report.json", &record)?;
+            Ok(Some(report.figures.into_iter().map(|kept| (kept.name, kept.figure)).collect()))
+        }
+        _ => Ok(None),
+    }
+}
+
+/// The pictures of a fit as data.
+pub(in crate::program) const FIGURES: &str = "figures.json";
+
+/// What is read of a report.
+#[derive(serde::Deserialize)]
+struct Report {
+    figures: Vec<Kept>,
+}
+
+#[derive(serde::Deserialize)]
+struct Kept {
+    name: String,
+    figure: Figure,
+}
+
 fn name(dir: &Path) -> String {
     let own = dir.canonicalize().unwrap_or(dir.to_owned());
     own.file_name().unwrap_or_default().to_string_lossy().into_owned()
@@ -66,7 +102,7 @@ fn points(dir: &Path, record: &Record) -> Result<Vec<Run>, Failure> {
     let of_points = (record.files.keys()).filter_map(|name| Some((name, name.strip_suffix(RECORD)?)));
     let point = |(name, folder): (&String, &str)| {
         let record: Record = json(dir, name, record)?;
-        let label = record.origin.inputs[POINT].as_str().unwrap_or(folder).to_owned();
+        let label = record.origin.inputs[POINT].as_str().map_or_else(|| folder.to_owned(), names::point);
         Ok(Run { label, scene: scene.clone(), dir: dir.join(folder), record })
     };
     of_points.map(point).collect()

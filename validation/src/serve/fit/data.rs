@@ -95,12 +95,20 @@ fn measurable() -> Vec<String> {
 pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
     let text = read_text(path)?;
     let file = path.display().to_string();
+    table::commas(&file, &text)?;
     let first = text.lines().position(|line| !line.trim().is_empty()).unwrap_or(0);
     let header: Vec<&str> = (text.lines().nth(first).unwrap_or_default().split(',')).map(str::trim).collect();
     let refused = |message: String| DataError::at(&file, first + 1, message);
     let times = TimeColumn::ALL.map(TimeColumn::name).join(", ");
     let here: Vec<_> = TimeColumn::ALL.into_iter().filter(|time| header.contains(&time.name())).collect();
     let [time] = here[..] else {
+        let like = |name: &&&str| ["time", "t", "time_s", "seconds"].contains(&name.to_lowercase().as_str());
+        if let Some(name) = header.iter().find(like).filter(|_| here.is_empty()) {
+            return Err(refused(format!(
+                "column `{name}` does not say its unit: `t_s` for seconds, `t_over_T` for periods and `strain` for Gt are allowed; \
+                 rename it in this line"
+            )));
+        }
         let found = here.iter().map(|time| time.name()).collect::<Vec<_>>().join(", ");
         return Err(refused(format!(
             "the first line has the time columns [{found}]; one of {times} is allowed"
@@ -321,6 +329,16 @@ mod tests {
         assert_eq!(allowed("c_b"), (0.0, 1.0));
     }
 
+    /// What the message says to do makes the file one that is read.
+    #[test]
+    fn semicolons_are_mended_as_the_message_says() {
+        let text = "t_s;x1;x1_u\n1,5;0,5;0,1\n";
+        assert!(read_of(text).is_err());
+        let mended = text.replace(',', ".").replace(';', ",");
+        let found = read_of(&mended).unwrap().points;
+        assert_eq!((found[0].time, found[0].value, found[0].u), (1.5, 0.5, 0.1));
+    }
+
     #[test]
     fn what_cannot_be_is_refused_with_line_and_what_is_allowed() {
         for (text, line, named) in [
@@ -328,6 +346,9 @@ mod tests {
             ("x1,x1_u\n0.5,0.1\n", 1, "one of t_over_T, t_s, strain is allowed"),
             ("t_s,strain,x1,x1_u\n", 1, "[t_s, strain]"),
             ("t_s,x4,x4_u\n", 1, "column `x4`"),
+            ("time,x1,x1_u\n1,0.5,0.1\n", 1, "`t_s` for seconds"),
+            ("t_s;x1;x1_u\n1,5;0,5;0,1\n", 1, "sed 's/,/./g; s/;/,/g'"),
+            ("t_s\tx1\tx1_u\n1\t0.5\t0.1\n", 1, "apart by tabs"),
             ("t_s\n1\n", 1, "no column of measured values"),
             ("t_s,x1\n1,0.5\n", 1, "x1_u is missing"),
             ("t_s,x1,x1_u\n", 1, "no points"),

@@ -2,10 +2,11 @@
 
 use super::data::{Datum, kinds};
 use super::emulator::Model;
+use super::likelihood::REPLICAS;
 use super::profile::{contour, rise_of_several};
 use super::report::{Report, levels};
 use super::search::{Fit, Watch};
-use crate::present::plot::{Curve, Figure, Points};
+use crate::present::plot::{Curve, Figure, Points, names as letters};
 use rayon::prelude::*;
 
 /// Times of a drawn curve.
@@ -95,21 +96,28 @@ pub fn figures(
         let curve = |column: &String| {
             let own: Vec<_> = places.iter().zip(curves).filter(|(place, _)| here(place, column)).collect();
             Curve {
-                label: format!("{column}, best fit"),
+                label: format!("{}, best fit", letters::channel(column)),
                 x: own.iter().map(|(place, _)| place.time).collect(),
                 y: own.iter().map(|(_, curve)| curve.0).collect(),
                 half_band: Some(own.iter().map(|(_, curve)| curve.1).collect()),
             }
         };
-        let points = |column: &String, value: &dyn Fn(usize) -> f64, label: String| {
+        let zero = |column: &String| {
+            let best = curve(column);
+            Curve { y: vec![0.0; best.x.len()], ..best }
+        };
+        // Of a point alone: reading in y and in time, and the rods that were measured.
+        let of_point =
+            |k: usize| fit.best.causes[..REPLICAS].iter().map(|cause| cause[(k, k)]).sum::<f64>().sqrt();
+        let points = |column: &String, value: &dyn Fn(usize) -> f64| {
             let own: Vec<usize> = (0..data.len()).filter(|k| here(&data[*k], column)).collect();
             let each = |value: &dyn Fn(usize) -> f64| own.iter().map(|k| value(*k)).collect::<Vec<f64>>();
             Points {
-                label,
+                label: format!("{}, measured ± u", letters::channel(column)),
                 x: each(&|k| data[k].time),
                 y: each(value),
                 x_error: (own.iter().any(|k| data[*k].u_time > 0.0)).then(|| each(&|k| data[k].u_time)),
-                y_error: Some(each(&|k| data[k].u)),
+                y_error: Some(each(&of_point)),
             }
         };
         let stem = if names.len() == 1 { String::new() } else { format!("_{}", set + 1) };
@@ -117,13 +125,10 @@ pub fn figures(
             format!("points{stem}"),
             Figure {
                 title: format!("{name}: points and best fit"),
-                x_name: times[set].to_owned(),
-                y_name: of_set.join(", "),
+                x_name: letters::time(times[set]),
+                y_name: of_set.iter().map(|c| letters::channel(c)).collect::<Vec<_>>().join(", "),
                 curves: of_set.iter().map(curve).collect(),
-                points: of_set
-                    .iter()
-                    .map(|c| points(c, &|k| data[k].value, format!("{c}, measured")))
-                    .collect(),
+                points: of_set.iter().map(|c| points(c, &|k| data[k].value)).collect(),
                 ..Figure::default()
             },
         ));
@@ -131,10 +136,11 @@ pub fn figures(
         all.push((
             format!("residuals{stem}"),
             Figure {
-                title: format!("{name}: measured less best fit"),
-                x_name: times[set].to_owned(),
-                y_name: "residual".into(),
-                points: of_set.iter().map(|c| points(c, &residual, c.clone())).collect(),
+                title: format!("{name}: residuals"),
+                x_name: letters::time(times[set]),
+                y_name: "measured less best fit".into(),
+                curves: of_set.iter().map(zero).collect(),
+                points: of_set.iter().map(|c| points(c, &residual)).collect(),
                 y_span: Some((-0.001, 0.001)),
                 ..Figure::default()
             },
@@ -172,7 +178,7 @@ fn profile_of(fit: &Fit, axis: usize) -> (String, Figure) {
     ];
     let figure = Figure {
         title: format!("How far {} can go", range.label()),
-        x_name: range.label(),
+        x_name: letters::key(&range.label()),
         y_name: "χ² above its least".into(),
         curves,
         ..Figure::default()
@@ -184,8 +190,9 @@ fn region_of(fit: &Fit, axes: [usize; 2]) -> (String, Figure) {
     let [a, b] = axes;
     let curves = [0.68, 0.95].map(|confidence| {
         let ring = contour(&fit.best, axes, rise_of_several(confidence, 2));
+        let edge = if is_open(&ring) { ", open: cut at the end of a range" } else { "" };
         Curve {
-            label: format!("{:.0} %", 100.0 * confidence),
+            label: format!("{:.0} %{edge}", 100.0 * confidence),
             x: ring.iter().map(|point| fit.value(a, point[0])).collect(),
             y: ring.iter().map(|point| fit.value(b, point[1])).collect(),
             half_band: None,
@@ -194,8 +201,8 @@ fn region_of(fit: &Fit, axes: [usize; 2]) -> (String, Figure) {
     let best = fit.values(&fit.best.place);
     let figure = Figure {
         title: format!("{} and {} together", fit.ranges[a].label(), fit.ranges[b].label()),
-        x_name: fit.ranges[a].label(),
-        y_name: fit.ranges[b].label(),
+        x_name: letters::key(&fit.ranges[a].label()),
+        y_name: letters::key(&fit.ranges[b].label()),
         curves: curves.into(),
         points: vec![Points {
             label: "best".into(),
@@ -206,4 +213,25 @@ fn region_of(fit: &Fit, axes: [usize; 2]) -> (String, Figure) {
         ..Figure::default()
     };
     (format!("region_{}_{}", fit.ranges[a].name(), fit.ranges[b].name()), figure)
+}
+
+/// True if the outline of a region runs along an edge of the box: the points do not say where it ends there.
+fn is_open(ring: &[[f64; 2]]) -> bool {
+    ring.iter().flatten().any(|place| place.abs() >= 1.0 - 1e-9)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_open;
+
+    #[test]
+    fn a_region_at_the_edge_of_the_box_is_open() {
+        let ring = |reach: f64| -> Vec<[f64; 2]> {
+            let angle = |k: usize| (std::f64::consts::TAU * k as f64 / 144.0).sin_cos();
+            (0..=144)
+                .map(|k| [0.4 + reach * angle(k).1, 0.5 * angle(k).0].map(|v| v.clamp(-1.0, 1.0)))
+                .collect()
+        };
+        assert!(!is_open(&ring(0.5)) && is_open(&ring(0.7)));
+    }
 }

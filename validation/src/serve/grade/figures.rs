@@ -50,7 +50,7 @@ pub fn steps(problems: &[LoadedProblem], graded: &[Graded]) -> Option<Figure> {
         y_log: true,
         x_span: None,
         y_span: None,
-        grid: None,
+        ..Figure::default()
     })
 }
 

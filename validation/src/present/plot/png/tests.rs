@@ -1,8 +1,10 @@
 use super::super::boxes::{Box, boxes};
+use super::super::style::{self, CURVE_WIDTH};
 use super::super::tests::{many, maps, synthetic};
 use super::super::{Curve, svg};
 use super::*;
 use crate::present::plot::style::looks;
+use plotters::style::RGBColor;
 
 /// Width, height and pixels as a reader of the file has them.
 fn read(bytes: &[u8]) -> (usize, usize, Vec<[u8; 3]>) {

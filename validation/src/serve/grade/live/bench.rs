@@ -102,7 +102,7 @@ impl Bench {
             y_log: true,
             x_span: Some((1e-8, 0.1)),
             y_span: Some((LEAST, 10.0)),
-            grid: None,
+            ..plot::Figure::default()
         })
     }
 

@@ -1,0 +1,88 @@
+//! Letters and units of what the program's columns and keys are: for axes and legends.
+
+/// A column of `shearbed run`, as `X̄₁` for `x1`; one without a letter is itself.
+pub(crate) fn channel(column: &str) -> String {
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| (b'1'..=b'3').contains(&byte));
+    match column {
+        "phi" => "φ̄ (rad)".into(),
+        "c_b" => "C_b".into(),
+        "x1" => "X̄₁".into(),
+        "x2" => "X̄₂".into(),
+        "x3" => "X̄₃".into(),
+        _ => match column.strip_prefix('a') {
+            Some(axes) if digits(axes) => format!("a_{axes}"),
+            _ => column.to_owned(),
+        },
+    }
+}
+
+/// A column of times.
+pub(crate) fn time(column: &str) -> String {
+    match column {
+        "t_over_T" => "t/T",
+        "t_s" => "t (s)",
+        "strain" => "strain Gt",
+        other => other,
+    }
+    .to_owned()
+}
+
+/// The letter and the unit of a key; of one without a letter its last word.
+fn letter(key: &str) -> (&str, &'static str) {
+    match key {
+        "interaction.alpha" => ("α", ""),
+        "interaction.m" => ("m", ""),
+        "interaction.concentration_per_cm3" => ("n", "cm⁻³"),
+        "particles.aspect_ratio" => ("r_e", ""),
+        "particles.aspect_ratio_sd_percent" => ("spread of r_e", "%"),
+        "particles.count" => ("N", ""),
+        "particles.length_mm" => ("a", "mm"),
+        "flow.shear_rate_per_s" => ("G", "s⁻¹"),
+        other => (other.rsplit('.').next().unwrap_or(other), ""),
+    }
+}
+
+/// A key on an axis, with its unit: `n (cm⁻³)`. `2:KEY` is that of the second set.
+pub(crate) fn key(label: &str) -> String {
+    let (set, key) = label.split_once(':').map_or((None, label), |(set, key)| (Some(set), key));
+    let (letter, unit) = letter(key);
+    let of = set.map_or(String::new(), |set| format!(" of set {set}"));
+    let unit = if unit.is_empty() { String::new() } else { format!(" ({unit})") };
+    format!("{letter}{of}{unit}")
+}
+
+/// A point of a sweep, `KEY=VALUE KEY=VALUE`, as `α = 0.5, n = 20 cm⁻³`. A word without `=` goes on with the value before.
+pub(crate) fn point(described: &str) -> String {
+    let mut values: Vec<(String, &str)> = Vec::new();
+    for word in described.split(' ') {
+        match (word.split_once('='), values.last_mut()) {
+            (Some((key, value)), _) => {
+                let (letter, unit) = letter(key);
+                values.push((format!("{letter} = {value}"), unit));
+            }
+            (None, Some((last, _))) => *last += &format!(" {word}"),
+            (None, None) => values.push((word.to_owned(), "")),
+        }
+    }
+    let with_unit = |(text, unit): &(String, &str)| format!("{text} {unit}").trim_end().to_owned();
+    values.iter().map(with_unit).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_and_keys_have_letters_and_units() {
+        assert_eq!(
+            ["x1", "phi", "a12", "a1122", "x1x2"].map(channel),
+            ["X̄₁", "φ̄ (rad)", "a_12", "a_1122", "x1x2"]
+        );
+        assert_eq!(["t_over_T", "t_s", "strain"].map(time), ["t/T", "t (s)", "strain Gt"]);
+        let keys = ["interaction.concentration_per_cm3", "2:interaction.alpha", "time.periods"];
+        assert_eq!(keys.map(key), ["n (cm⁻³)", "α of set 2", "periods"]);
+        let two =
+            "interaction.alpha=0.25 interaction.concentration_per_cm3=20 particles.orientation=in plane";
+        assert_eq!(point(two), "α = 0.25, n = 20 cm⁻³, orientation = in plane");
+    }
+}

@@ -1,0 +1,122 @@
+//! The same picture on a page of a PDF: paths alone, so letters are outlines and need no font.
+
+#[cfg(test)]
+mod tests;
+
+use super::sheet::{self, Canvas};
+use super::style::FINE;
+use super::{Drawing, Figure};
+use pdf_writer::types::LineJoinStyle;
+use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
+use plotters_backend::BackendColor;
+use std::collections::BTreeSet;
+use tiny_skia::{Path, PathSegment, Point};
+
+/// A page of the picture's size: a pixel of the SVG is 1/96 inch, 0.75 points.
+pub fn pdf(figure: &Figure) -> Result<Drawing, String> {
+    let (page, missing) = sheet::draw(figure, |width, height| Some(Page::new(width, height)))?;
+    Ok(Drawing { bytes: page.file(&figure.title), missing })
+}
+
+const POINTS: f32 = 0.75 / FINE as f32;
+
+struct Page {
+    size: [f32; 2],
+    content: Content,
+    /// Opacities, in 255ths.
+    opacities: BTreeSet<u8>,
+}
+
+impl Page {
+    fn new(width: u32, height: u32) -> Self {
+        let size = [width as f32 * POINTS, height as f32 * POINTS];
+        let mut content = Content::new();
+        // y is downwards in pictures, upwards on pages.
+        content.transform([POINTS, 0.0, 0.0, -POINTS, 0.0, size[1]]);
+        content.set_line_join(LineJoinStyle::RoundJoin);
+        Self { size, content, opacities: BTreeSet::new() }
+    }
+
+    fn draw(&mut self, path: &Path) {
+        // Curves of a PDF are cubic: a quadratic one has its middle points two thirds of the way to the one it has.
+        let towards = |a: Point, b: Point| (a.x + (b.x - a.x) * 2.0 / 3.0, a.y + (b.y - a.y) * 2.0 / 3.0);
+        let content = &mut self.content;
+        let mut last = Point::zero();
+        for segment in path.segments() {
+            match segment {
+                PathSegment::MoveTo(to) => {
+                    content.move_to(to.x, to.y);
+                    last = to;
+                }
+                PathSegment::LineTo(to) => {
+                    content.line_to(to.x, to.y);
+                    last = to;
+                }
+                PathSegment::QuadTo(by, to) => {
+                    let (first, second) = (towards(last, by), towards(to, by));
+                    content.cubic_to(first.0, first.1, second.0, second.1, to.x, to.y);
+                    last = to;
+                }
+                PathSegment::CubicTo(first, second, to) => {
+                    content.cubic_to(first.x, first.y, second.x, second.y, to.x, to.y);
+                    last = to;
+                }
+                PathSegment::Close => {
+                    content.close_path();
+                }
+            }
+        }
+    }
+
+    fn set(&mut self, BackendColor { alpha, rgb: (red, green, blue) }: BackendColor) {
+        let opacity = (255.0 * alpha).round() as u8;
+        self.opacities.insert(opacity);
+        self.content.set_parameters(Name(name(opacity).as_bytes()));
+        let [red, green, blue] = [red, green, blue].map(|part| f32::from(part) / 255.0);
+        self.content.set_fill_rgb(red, green, blue).set_stroke_rgb(red, green, blue);
+    }
+
+    fn file(self, title: &str) -> Vec<u8> {
+        let [catalog, pages, page, content, info] = [1, 2, 3, 4, 5].map(Ref::new);
+        let mut pdf = Pdf::new();
+        pdf.catalog(catalog).pages(pages);
+        pdf.document_info(info).title(TextStr(title));
+        pdf.pages(pages).kids([page]).count(1);
+        let mut sheet = pdf.page(page);
+        sheet.parent(pages).contents(content).media_box(Rect::new(0.0, 0.0, self.size[0], self.size[1]));
+        let mut resources = sheet.resources();
+        let mut states = resources.ext_g_states();
+        for opacity in &self.opacities {
+            let share = f32::from(*opacity) / 255.0;
+            (states.insert(Name(name(*opacity).as_bytes())).start::<pdf_writer::writers::ExtGraphicsState>())
+                .non_stroking_alpha(share)
+                .stroking_alpha(share);
+        }
+        states.finish();
+        resources.finish();
+        sheet.finish();
+        let packed = miniz_oxide::deflate::compress_to_vec_zlib(&self.content.finish(), 6);
+        pdf.stream(content, &packed).filter(Filter::FlateDecode);
+        pdf.finish()
+    }
+}
+
+/// What an opacity is called on the page.
+fn name(opacity: u8) -> String {
+    format!("a{opacity}")
+}
+
+impl Canvas for Page {
+    fn fill(&mut self, path: &Path, color: BackendColor) {
+        self.set(color);
+        self.draw(path);
+        self.content.fill_nonzero();
+    }
+
+    fn stroke(&mut self, path: &Path, color: BackendColor, width: f32, dashes: &[f32]) {
+        self.set(color);
+        self.content.set_line_width(width).set_dash_pattern(dashes.iter().copied(), 0.0);
+        self.draw(path);
+        self.content.stroke();
+    }
+}

@@ -1,0 +1,85 @@
+//! What a reader of the file finds: its page and its paths, unpacked here by another crate than the one that packs them.
+
+use super::super::style::{CURVE_WIDTH, colour, looks};
+use super::super::svg;
+use super::super::tests::{many, maps, synthetic};
+use super::*;
+use plotters::style::RGBColor;
+
+/// The head of the file as text, and the operators of its page.
+fn read(bytes: &[u8]) -> (String, String) {
+    assert!(bytes.starts_with(b"%PDF-1.") && bytes.trim_ascii_end().ends_with(b"%%EOF"));
+    let text = String::from_utf8_lossy(bytes).into_owned();
+    let find = |what: &[u8]| bytes.windows(what.len()).position(|part| part == what).unwrap();
+    let (from, to) = (find(b"stream\n") + 7, find(b"\nendstream"));
+    let operators = miniz_oxide::inflate::decompress_to_vec_zlib(&bytes[from..to]).unwrap();
+    (text, String::from_utf8(operators).unwrap())
+}
+
+/// How many strokes of a colour and a curve's width there are.
+fn strokes(operators: &str, look: usize) -> usize {
+    let RGBColor(red, green, blue) = colour(look);
+    let mut wanted = Content::new();
+    let [red, green, blue] = [red, green, blue].map(|part| f32::from(part) / 255.0);
+    wanted.set_stroke_rgb(red, green, blue).set_line_width(CURVE_WIDTH as f32);
+    let wanted = String::from_utf8(wanted.finish().to_vec()).unwrap();
+    operators.matches(wanted.trim_end()).count()
+}
+
+#[test]
+fn a_pdf_shows_what_the_svg_does() {
+    for figure in [synthetic(), many(), maps()] {
+        let drawing = svg(&figure).unwrap();
+        let file = pdf(&figure).unwrap();
+        assert!(file.missing.is_empty());
+        let (text, operators) = read(&file.bytes);
+        let page: Vec<f32> = (text.split("/MediaBox [").nth(1).unwrap().split(']').next().unwrap())
+            .split_whitespace()
+            .map(|number| number.parse().unwrap())
+            .collect();
+        let (width, height) = (page[2] / POINTS, page[3] / POINTS);
+        assert!(drawing.contains(&format!("viewBox=\"0 0 {} {}\"", width.round(), height.round())));
+        for look in &looks(&figure)[..figure.curves.len()] {
+            // The curve and its sample in the legend.
+            assert!(strokes(&operators, *look) >= 2, "{}: look {look}", figure.title);
+            let stripped: String = operators
+                .lines()
+                .filter(|line| !line.ends_with(" RG"))
+                .map(|line| format!("{line}\n"))
+                .collect();
+            // Control: a page without colours.
+            assert_eq!(strokes(&stripped, *look), 0);
+        }
+        // Every path is painted, and saved states are none: nothing is left open.
+        let count = |operator: &str| operators.lines().filter(|line| line.trim() == operator).count();
+        let starts = operators.lines().filter(|line| line.ends_with(" m")).count();
+        assert!(count("f") + count("S") > 50 && starts >= count("f") + count("S"));
+    }
+}
+
+#[test]
+fn a_pdf_names_letters_that_it_lacks_and_has_its_title() {
+    let titled = |title: &str| pdf(&Figure { title: title.into(), ..Figure::default() }).unwrap();
+    assert_eq!(titled("стержни").missing.len(), 7);
+    let (text, _) = read(&titled("damped rods").bytes);
+    assert!(text.contains("/Title (damped rods)"), "{text}");
+    assert_ne!(titled("x1").bytes, titled("x2").bytes);
+}
+
+/// The letters' curves are of second degree; a page has those of third degree alone.
+#[test]
+fn a_quadratic_curve_keeps_its_middle() {
+    let mut path = tiny_skia::PathBuilder::new();
+    path.move_to(0.0, 0.0);
+    path.quad_to(3.0, 6.0, 6.0, 0.0);
+    let mut page = Page::new(10, 10);
+    page.draw(&path.finish().unwrap());
+    let drawn = String::from_utf8(page.content.finish().to_vec()).unwrap();
+    let curve = drawn.lines().find(|line| line.ends_with(" c")).unwrap();
+    let c: Vec<f32> = curve.trim_end_matches(" c").split(' ').map(|n| n.parse().unwrap()).collect();
+    // At t = 1/2: a quarter of the ends and half of the middle point; an eighth of the ends and 3/8 of the two.
+    let middle = (3.0 * c[0] + 3.0 * c[2] + c[4]) / 8.0;
+    assert_eq!((middle, (3.0 * c[1] + 3.0 * c[3] + c[5]) / 8.0), (3.0, 3.0));
+    // Control: taking the one middle point for both is another curve.
+    assert_ne!((3.0 * 6.0 + 3.0 * 6.0) / 8.0, 3.0);
+}

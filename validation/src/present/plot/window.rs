@@ -1,0 +1,122 @@
+//! What of a curve or an area is inside the axes.
+
+type Point = (f64, f64);
+
+/// From and to of both axes, in placed values.
+pub(super) struct Window {
+    pub(super) x: (f64, f64),
+    pub(super) y: (f64, f64),
+}
+
+impl Window {
+    /// True if a point is inside or on the frame.
+    pub(super) fn has(&self, (x, y): Point) -> bool {
+        (self.x.0..=self.x.1).contains(&x) && (self.y.0..=self.y.1).contains(&y)
+    }
+
+    /// How far a point is inside of each side of the frame.
+    fn depths((x, y): Point, window: &Self) -> [f64; 4] {
+        [x - window.x.0, window.x.1 - x, y - window.y.0, window.y.1 - y]
+    }
+
+    /// The parts of a line that are inside (Liang & Barsky 1984).
+    pub(super) fn lines(&self, points: impl Iterator<Item = Point>) -> Vec<Vec<Point>> {
+        let points: Vec<Point> = points.collect();
+        let mut parts: Vec<Vec<Point>> = Vec::new();
+        let mut goes_on = false;
+        for ends in points.windows(2) {
+            let (from, to) = (Self::depths(ends[0], self), Self::depths(ends[1], self));
+            let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
+            for (from, to) in from.into_iter().zip(to) {
+                match (from < 0.0, to < 0.0) {
+                    (true, true) => leave = -1.0,
+                    (true, false) => enter = enter.max(from / (from - to)),
+                    (false, true) => leave = leave.min(from / (from - to)),
+                    (false, false) => {}
+                }
+            }
+            if enter > leave {
+                goes_on = false;
+                continue;
+            }
+            if !goes_on {
+                parts.push(vec![between(ends[0], ends[1], enter)]);
+            }
+            if let Some(part) = parts.last_mut() {
+                part.push(between(ends[0], ends[1], leave));
+            }
+            goes_on = leave == 1.0;
+        }
+        parts
+    }
+
+    /// The part of an area inside (Sutherland & Hodgman 1974), by its outline.
+    pub(super) fn area(&self, outline: Vec<Point>) -> Vec<Point> {
+        (0..4).fold(outline, |outline, side| {
+            let depth = |point: Point| Self::depths(point, self)[side];
+            let mut inside = Vec::new();
+            for (k, point) in outline.iter().enumerate() {
+                let before = outline[(k + outline.len() - 1) % outline.len()];
+                let (from, to) = (depth(before), depth(*point));
+                if (from < 0.0) != (to < 0.0) {
+                    inside.push(between(before, *point, from / (from - to)));
+                }
+                if to >= 0.0 {
+                    inside.push(*point);
+                }
+            }
+            inside
+        })
+    }
+}
+
+/// The ends themselves at 0 and 1, to the bit.
+fn between(a: Point, b: Point, share: f64) -> Point {
+    match share {
+        0.0 => a,
+        1.0 => b,
+        _ => (a.0 + share * (b.0 - a.0), a.1 + share * (b.1 - a.1)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SQUARE: Window = Window { x: (0.0, 1.0), y: (0.0, 1.0) };
+
+    #[test]
+    fn a_line_is_cut_where_it_meets_the_frame() {
+        let lines = |points: &[Point]| SQUARE.lines(points.iter().copied());
+        // In and out twice, by hand.
+        let zigzag = [(-1.0, 0.5), (0.5, 0.5), (0.5, 2.0), (0.75, 2.0), (0.75, 0.5), (0.9, 0.5)];
+        let expected =
+            vec![vec![(0.0, 0.5), (0.5, 0.5), (0.5, 1.0)], vec![(0.75, 1.0), (0.75, 0.5), (0.9, 0.5)]];
+        assert_eq!(lines(&zigzag), expected);
+        // Across a corner from outside to outside, and past it.
+        assert_eq!(lines(&[(-0.5, 1.0), (0.5, 0.0)]), vec![vec![(0.0, 0.5), (0.5, 0.0)]]);
+        assert!(lines(&[(-0.5, 0.25), (0.25, -0.5)]).is_empty());
+        // What is inside is not touched.
+        let inside = vec![(0.1, 0.3), (0.7, 0.9), (1.0, 0.0)];
+        assert_eq!(lines(&inside), vec![inside]);
+    }
+
+    #[test]
+    fn an_area_keeps_what_is_inside() {
+        let size = |outline: &[Point]| {
+            let cross = |k: usize| {
+                let (a, b) = (outline[k], outline[(k + 1) % outline.len()]);
+                a.0 * b.1 - a.1 * b.0
+            };
+            0.5 * (0..outline.len()).map(cross).sum::<f64>().abs()
+        };
+        // A diamond of area 2 about (0.5, 0.5) whose corners stand out: the whole square is inside it.
+        let diamond = vec![(0.5, -0.5), (1.5, 0.5), (0.5, 1.5), (-0.5, 0.5)];
+        assert_eq!(size(&diamond), 2.0);
+        assert!((size(&SQUARE.area(diamond)) - 1.0).abs() < 1e-12);
+        // Half of a rectangle; nothing of one beside the frame.
+        let tall = vec![(0.25, 0.5), (0.75, 0.5), (0.75, 1.5), (0.25, 1.5)];
+        assert!((size(&SQUARE.area(tall.clone())) - 0.25).abs() < 1e-12);
+        assert!(SQUARE.area(tall.iter().map(|(x, y)| (x + 2.0, *y)).collect()).is_empty());
+    }
+}
