@@ -107,24 +107,9 @@ fn polydata(snapshot: &Snapshot, scene: &Scene) -> String {
          </Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n",
         2 * count,
         array("Float64", "p", 3, of_each(&|rod| vector(direction(snapshot, rod)))),
-        array(
-            "Float64",
-            "aspect_ratio",
-            1,
-            of_each(&|rod| format!("{:?}\n", snapshot.aspect_ratio[rod]))
-        ),
-        array(
-            "Float64",
-            "length_mm",
-            1,
-            of_each(&|rod| format!("{:?}\n", snapshot.length_mm(scene, rod)))
-        ),
-        array(
-            "UInt8",
-            "collided",
-            1,
-            of_each(&|rod| format!("{}\n", u8::from(snapshot.collided[rod])))
-        ),
+        array("Float64", "aspect_ratio", 1, of_each(&|rod| format!("{:?}\n", snapshot.aspect_ratio[rod]))),
+        array("Float64", "length_mm", 1, of_each(&|rod| format!("{:?}\n", snapshot.length_mm(scene, rod)))),
+        array("UInt8", "collided", 1, of_each(&|rod| format!("{}\n", u8::from(snapshot.collided[rod])))),
         array("Int64", "replica", 1, of_each(&|_| format!("{}\n", snapshot.replica))),
         array("Float64", "ends_mm", 3, ends),
         array("Int64", "connectivity", 1, ends_of_lines),
