@@ -104,10 +104,10 @@ fn what_is_of_no_replica_of_the_plan_is_refused() {
         assert_eq!(error, Error::Misfit { replica: 2, cause });
         cause
     };
-    assert!(refused(&plans[1], interacting.clone()).contains("has rods"));
+    assert!(refused(&plans[1], interacting.clone()).contains("has saved rods"));
     let mut without = interacting.clone();
     without["rods"] = Value::Null;
-    assert!(refused(&plans[0], without).contains("has rods"));
+    assert!(refused(&plans[0], without).contains("has saved rods"));
     assert!(refused(&plans[0], free).contains("sums"));
     type Spoil = fn(&mut Value);
     // Three replicas: none keeps standard errors over its rods.
