@@ -76,7 +76,7 @@ fn points_are_drawn_over_curves_and_flags_change_the_look() {
     ] {
         assert!(all.contains(text) && !over.contains(text), "{text}");
     }
-    assert!(over.contains("#FFFFFF") && !all.contains("#FFFFFF"));
+    assert!(!over.contains("#181818") && all.contains("fill=\"#181818\""));
     for (arguments, words) in [
         ("plot a --data points.csv --y x2", "has no points of x2; it has x1"),
         ("plot a --legend one --legend two", "given 2 times; the picture has 1"),

@@ -104,7 +104,8 @@ mod tests {
             parts.map(|(k, part)| if k == 0 { part } else { &part[6..] }.to_owned()).collect::<String>()
         };
         assert_eq!(bare(&light), bare(&dark));
-        assert!(light.contains("fill=\"#FFFFFF\"") && !dark.contains("#FFFFFF"));
+        // The ground; black, as of a band in the legend, is white on it.
+        assert!(!light.contains("#181818") && dark.contains("fill=\"#181818\""));
         // A text that looks like an attribute stays.
         let titled = Figure { title: "a=\"#FFFFFF\"".into(), theme: Theme::Dark, ..synthetic() };
         assert!(svg(&titled).unwrap().contains("a=&quot;#FFFFFF"));
