@@ -93,7 +93,7 @@ fn check_rods_outputs(scene: &Scene) -> Result<(), Invalid> {
     };
     let each = scene.outputs_per_unit();
     let allowed = format!(
-        "different output times, k/{each} up to {}; {} is none",
+        "different output times, k/{each} up to {}; {} is not one of them",
         (scene.outputs() - 1) as f64 / each as f64,
         scene.output.rods_at[wrong]
     );
