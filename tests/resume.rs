@@ -125,7 +125,7 @@ fn what_is_of_no_replica_of_the_plan_is_refused() {
         ("number of rods", |s| drop(s["rods"]["since"].as_array_mut().unwrap().pop())),
         ("number of rods", |s| drop(s["rods"]["positions"][1].as_array_mut().unwrap().pop())),
         ("number of rods", |s| s["rods"]["directions"][2] = json!([])),
-        ("length 1", |s| s["rods"]["directions"][2][7] = json!(2.0)),
+        ("length is not 1", |s| s["rods"]["directions"][2][7] = json!(2.0)),
         ("collision", |s| s["rods"]["since"][3] = json!(49)),
         ("control volume", |s| s["rods"]["positions"][0][3] = json!(-1e-3)),
         ("control volume", |s| s["rods"]["positions"][2][3] = json!(1e300)),

@@ -65,7 +65,7 @@ fn a_message_is_written_in_one_piece() {
         "--replicas",
         "1",
         "--set",
-        "time.steps_per_period=4",
+        "particles.aspect_ratio=5",
         "--quiet",
         "--out",
         "x",

@@ -171,7 +171,7 @@ fn what_cannot_be_written_is_refused_by_its_key() {
     refused(
         &every("2"),
         "sweep s.toml --over particles.count=2,3",
-        "s.toml: output.rods_every: a sweep keeps no rods",
+        "s.toml: output.rods_every: a sweep writes no rods",
     );
     refused(
         &asked(),
