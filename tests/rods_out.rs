@@ -112,7 +112,7 @@ fn times_that_are_no_outputs_are_refused_with_what_is() {
     for (given, allowed) in [
         ("[0.1]", "k/4 up to 1; 0.1 is not one of them"),
         ("[0, 1.25]", "k/4 up to 1; 1.25 is not one of them"),
-        ("[0.25, 0.2500001]", "0.25000.1 is not one of them"),
+        ("[0.25, 0.2500001]", "0.2500001 is not one of them"),
         ("[0.5, 0.25]", "that grow"),
         ("[-0.25]", "≥ 0"),
         ("[nan]", "≥ 0"),
