@@ -108,7 +108,7 @@ pub(super) fn entries(scene: &Scene) -> Vec<Entry> {
                 scene.output.observables.contains(&Observable::ParticleStress),
                 "a rod's stress is proportional to its cubed length",
             ),
-            (scene.output.keeps_rods(), "rods.csv has each rod's length"),
+            (scene.output.rods_key().is_some(), "rods.csv has each rod's length"),
         ];
         let of_whom = match particles.own_lengths_mm() {
             Some(_) => format!("each rod has its own, of {file}"),
@@ -138,9 +138,8 @@ pub(super) fn entries(scene: &Scene) -> Vec<Entry> {
     for &observable in &scene.output.observables {
         add(Stage::Observe(observable), true, "asked for by the scene");
     }
-    if scene.output.keeps_rods() {
-        let key = if scene.output.rods_at.is_empty() { "rods_every" } else { "rods_at" };
-        add(Stage::Rods, true, &format!("asked for by output.{key}"));
+    if let Some(key) = scene.output.rods_key() {
+        add(Stage::Rods, true, &format!("asked for by {key}"));
     }
     if scene.ensemble.replicas == 1 {
         add(Stage::RodErrors, true, "one replica: standard errors come from the rods");

@@ -136,7 +136,8 @@ impl Plan {
         (self.keeps(Stage::Contacts) && mean < RULE_OF_LINES).then(|| {
             format!(
                 "{}: the collision rule is for slender rods, r_e ≫ 1. Below {RULE_OF_LINES} it leaves out a diameter of more than a \
-                 tenth of a rod's length, and Lee & Springer leave out their measured points of r_e = 3.96 (Results, after Fig. 5)",
+                 tenth of a rod's length. Lee & Springer leave out Okagawa & Mason's points of r_e = 3.96, and name a lack of \
+                 slenderness as one possible reason (Results, after Fig. 5)",
                 self.mean_and_its_key()
             )
         })

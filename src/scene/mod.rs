@@ -147,9 +147,10 @@ table! {
 }
 
 impl Output {
-    /// True if every rod is wanted at some output.
-    pub fn keeps_rods(&self) -> bool {
-        !self.rods_at.is_empty() || self.rods_every.is_some()
+    /// The key that asks for every rod at some output, `rods_at` where both do; `None` if no rods are wanted.
+    pub fn rods_key(&self) -> Option<&'static str> {
+        let every = self.rods_every.map(|_| "output.rods_every");
+        if self.rods_at.is_empty() { every } else { Some("output.rods_at") }
     }
 
     /// Asks for no single rods.

@@ -21,12 +21,11 @@ const C_I: f64 = 2e-4;
 struct Orbits {
     /// The distribution function of C_b that weak diffusion is held to.
     weak: fn(f64, f64) -> f64,
-    c_i: f64,
     collisions: Change,
 }
 
 pub fn cases() -> Vec<Case> {
-    let right = Orbits { weak: cdf, c_i: C_I, collisions: |_| {} };
+    let right = Orbits { weak: cdf, collisions: |_| {} };
     vec![
         Case::interpretation("orbits-of-collisions")
             .claim(
@@ -48,8 +47,8 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// Replicas with diffusion, by 10⁶ C_I.
-static OF_DIFFUSION: Shared<u64, Vec<Shares>> = Shared::new();
+/// Replicas with diffusion, which the controls share.
+static OF_DIFFUSION: Shared<(), Vec<Shares>> = Shared::new();
 
 fn orbits(subject: &Orbits, effort: &Effort) -> Vec<Evidence> {
     let (weak, high) = (Design::new(0.031, 0.06), Design::new(0.15, 0.06));
@@ -59,9 +58,8 @@ fn orbits(subject: &Orbits, effort: &Effort) -> Vec<Evidence> {
     // C_I times the strain before is 0.07, and A(C)'s r_e²/2 makes it long. Diffusing rods turn exactly between coarse steps.
     let watch = Watch::new(&scene, 5.0, 1.0);
     let coarse = Watch { steps: 1, strain: strain_per_period(ASPECT_RATIO) / 50.0, before: 250, jumps: 1 };
-    let of_diffusion = OF_DIFFUSION.get(effort, (subject.c_i * 1e6).round() as u64, || {
-        diffused(&scene, subject.c_i, coarse, effort.samples(weak), (effort, 1 << 22))
-    });
+    let of_diffusion = OF_DIFFUSION
+        .get(effort, (), || diffused(&scene, C_I, coarse, effort.samples(weak), (effort, 1 << 22)));
     let suspension = lab::changed(scene.clone(), subject.collisions);
     let of_collisions = kicked(&suspension, watch, effort.samples(high));
     let less = |all: &[Shares], share: f64| {

@@ -35,7 +35,7 @@ mod words;
 pub use manual::commands;
 
 use crate::files::output::{self, ResultFolder};
-use crate::files::text::readable;
+use crate::files::text::{complain, readable};
 use crate::files::{cluster, text};
 use crate::present::plot::Figure;
 use clap::{Parser, Subcommand};
@@ -188,12 +188,11 @@ pub fn fits(plan: &shearbed::Plan, threads: Option<u64>, source: &str) -> Result
 /// Prints what is wrong with the arguments, or the help; returns the exit code.
 fn print_usage(error: &clap::Error) -> ExitCode {
     let (message, code) = (error.to_string(), error.exit_code());
-    let written = match error.use_stderr() {
-        true => io::stderr().write_all(readable(&text::shortened(&message)).as_bytes()),
-        false => io::stdout().write_all(message.as_bytes()),
-    };
-    // Where even this cannot be written, the exit code has to say it.
-    drop(written);
+    match error.use_stderr() {
+        true => complain(&readable(&text::shortened(&message))),
+        // Where even this cannot be written, the exit code has to say it.
+        false => drop(io::stdout().write_all(message.as_bytes())),
+    }
     ExitCode::from(code as u8)
 }
 

@@ -42,11 +42,9 @@ pub(super) struct Args {
 pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let named = args.chosen.load(&args.ensemble, &args.over)?;
     check(&args.over)?;
-    let output = &named.scene.output;
-    if output.keeps_rods() {
-        let key = if output.rods_at.is_empty() { "rods_every" } else { "rods_at" };
+    if let Some(key) = named.scene.output.rods_key() {
         return Err(Failure::Input(format!(
-            "{}: output.{key}: a sweep writes no rods; remove this key",
+            "{}: {key}: a sweep writes no rods; remove this key",
             named.source
         )));
     }

@@ -1,6 +1,16 @@
 //! `shearbed plot`: one picture of several runs.
 
 use crate::common::{limited, read, shearbed, unequal};
+use std::path::Path;
+
+/// Each of these arguments ends with 2 and these words.
+fn refused(dir: &Path, all: &[(&str, &str)]) {
+    for (arguments, words) in all {
+        let ended = shearbed(dir, arguments);
+        assert_eq!(ended.code, Some(2), "{arguments}");
+        assert!(ended.stderr.contains(words), "{arguments}: {}", ended.stderr);
+    }
+}
 
 #[test]
 fn one_picture_is_drawn_from_several_runs_and_from_a_sweep() {
@@ -34,16 +44,15 @@ fn one_picture_is_drawn_from_several_runs_and_from_a_sweep() {
     assert_eq!(shearbed(dir.path(), sweep).code, Some(0));
     assert_eq!(shearbed(dir.path(), "plot s --out s.svg").code, Some(0));
     assert!(read(&dir.path().join("s.svg")).contains("α = 0.2"));
-    for (arguments, words) in [
-        ("plot a --y x9", "--y x9: a has no such channel; there are x1, x2, x3, x1x2,"),
-        ("plot s/points/1", "s/points/1: is one point of a sweep; the sweep's folder is allowed"),
-        ("plot nowhere", "nowhere: neither run.json nor sweep.json is in it"),
-        ("plot a --out picture.gif", "a name that ends in .svg, .png or .pdf is allowed"),
-    ] {
-        let ended = shearbed(dir.path(), arguments);
-        assert_eq!(ended.code, Some(2), "{arguments}");
-        assert!(ended.stderr.contains(words), "{arguments}: {}", ended.stderr);
-    }
+    refused(
+        dir.path(),
+        &[
+            ("plot a --y x9", "--y x9: a has no such channel; there are x1, x2, x3, x1x2,"),
+            ("plot s/points/1", "s/points/1: is one point of a sweep; the sweep's folder is allowed"),
+            ("plot nowhere", "nowhere: neither run.json nor sweep.json is in it"),
+            ("plot a --out picture.gif", "a name that ends in .svg, .png or .pdf is allowed"),
+        ],
+    );
     assert!(!dir.path().join("out/plot.svg").exists());
 }
 
@@ -77,18 +86,17 @@ fn points_are_drawn_over_curves_and_flags_change_the_look() {
         assert!(all.contains(text) && !over.contains(text), "{text}");
     }
     assert!(!over.contains("#181818") && all.contains("fill=\"#181818\""));
-    for (arguments, words) in [
-        ("plot a --data points.csv --y x2", "has no points of x2; it has x1"),
-        ("plot a --legend one --legend two", "given 2 times; the picture has 1"),
-        ("plot a --x-range 1:0", "FROM:TO is allowed"),
-        ("plot a --log-y --y-range 0:1", "a logarithmic axis begins above 0"),
-        ("plot a --size 10x10", "WIDTHxHEIGHT is allowed"),
-        ("plot a --theme pink", "[possible values: light, dark]"),
-    ] {
-        let ended = shearbed(dir.path(), arguments);
-        assert_eq!(ended.code, Some(2), "{arguments}");
-        assert!(ended.stderr.contains(words), "{arguments}: {}", ended.stderr);
-    }
+    refused(
+        dir.path(),
+        &[
+            ("plot a --data points.csv --y x2", "has no points of x2; it has x1"),
+            ("plot a --legend one --legend two", "given 2 times; the picture has 1"),
+            ("plot a --x-range 1:0", "FROM:TO is allowed"),
+            ("plot a --log-y --y-range 0:1", "a logarithmic axis begins above 0"),
+            ("plot a --size 10x10", "WIDTHxHEIGHT is allowed"),
+            ("plot a --theme pink", "[possible values: light, dark]"),
+        ],
+    );
 }
 
 /// Every fault of a table, a record or a folder is refused by name; the same folder before it is drawn.

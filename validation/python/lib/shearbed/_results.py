@@ -113,12 +113,10 @@ class Results:
             variables[name] = (self.time_name, mean, {"long_name": f"{name}: {label_of[name]}"})
             variables[f"{name}_se"] = (self.time_name, se, {"long_name": f"standard error of {name}"})
         coordinates = {
-            self.time_name: (self.time_name, self.t, {"units": "1", "long_name": self._time_label}),
             "time_s": (self.time_name, self.time_s, {"units": "s"}),
             "strain": (self.time_name, self.strain, {"units": "1"}),
         }
-        if self.time_name == "strain":
-            coordinates["strain"] = (self.time_name, self.t, {"units": "1", "long_name": "strain"})
+        coordinates[self.time_name] = (self.time_name, self.t, {"units": "1", "long_name": self._time_label})
         attributes = {"seed": self.seed, "replicas": self.replicas, "scene": self.scene}
         return xarray.Dataset(variables, coordinates, attributes)
 

@@ -15,8 +15,8 @@ impl Window {
     }
 
     /// How far a point is inside of each side of the frame.
-    fn depths((x, y): Point, window: &Self) -> [f64; 4] {
-        [x - window.x.0, window.x.1 - x, y - window.y.0, window.y.1 - y]
+    fn depths(&self, (x, y): Point) -> [f64; 4] {
+        [x - self.x.0, self.x.1 - x, y - self.y.0, self.y.1 - y]
     }
 
     /// The parts of a line that are inside (Liang & Barsky 1984).
@@ -25,7 +25,7 @@ impl Window {
         let mut parts: Vec<Vec<Point>> = Vec::new();
         let mut goes_on = false;
         for ends in points.windows(2) {
-            let (from, to) = (Self::depths(ends[0], self), Self::depths(ends[1], self));
+            let (from, to) = (self.depths(ends[0]), self.depths(ends[1]));
             let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
             for (from, to) in from.into_iter().zip(to) {
                 match (from < 0.0, to < 0.0) {
@@ -53,7 +53,7 @@ impl Window {
     /// The part of an area inside (Sutherland & Hodgman 1974), by its outline.
     pub(super) fn area(&self, outline: Vec<Point>) -> Vec<Point> {
         (0..4).fold(outline, |outline, side| {
-            let depth = |point: Point| Self::depths(point, self)[side];
+            let depth = |point: Point| self.depths(point)[side];
             let mut inside = Vec::new();
             for (k, point) in outline.iter().enumerate() {
                 let before = outline[(k + outline.len() - 1) % outline.len()];
