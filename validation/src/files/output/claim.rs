@@ -190,9 +190,10 @@ impl Lock {
         let path = dir.join(name);
         let file = loop {
             match fs::create_dir_all(dir) {
-                // Another process had the folder, and removed it just now.
+                // Another process had the folder and removed it just now; a third may have made it again. What is no folder stays.
                 Err(error)
-                    if error.kind() == io::ErrorKind::AlreadyExists && dir.symlink_metadata().is_err() =>
+                    if error.kind() == io::ErrorKind::AlreadyExists
+                        && dir.symlink_metadata().map_or(true, |found| found.is_dir()) =>
                 {
                     continue;
                 }
@@ -201,8 +202,8 @@ impl Lock {
             let mut options = OpenOptions::new();
             options.write(true).create(true).truncate(false);
             let file = match bounded::open_with(&path, &mut options) {
-                // The folder was removed just now.
-                Err(error) if error.kind() == io::ErrorKind::NotFound && !dir.exists() => continue,
+                // The folder was removed just now, and may be there again; a link that leads nowhere stays.
+                Err(error) if error.kind() == io::ErrorKind::NotFound && !path.is_symlink() => continue,
                 Err(error) if error.kind() == io::ErrorKind::InvalidInput => {
                     let why = format!("{name}: {error}, or none; remove it");
                     return Err(at(io::Error::new(error.kind(), why)));
