@@ -18,6 +18,9 @@ const READY: &str = ".shearbed-ready";
 /// Prefix of lock and temporary files.
 const OURS: &str = ".shearbed-";
 
+/// Between two steps of one claim, so many other processes may make the folder and remove it again.
+const OTHERS: usize = 1000;
+
 /// A lock on a folder: no other process that claims the folder writes there.
 #[derive(Debug)]
 pub struct Claim {
@@ -188,6 +191,7 @@ impl Lock {
     ) -> Result<Self, OutputError> {
         let start = Instant::now();
         let path = dir.join(name);
+        let mut gone = 0;
         let file = loop {
             match fs::create_dir_all(dir) {
                 // Another process had the folder and removed it just now; a third may have made it again. What is no folder stays.
@@ -202,8 +206,14 @@ impl Lock {
             let mut options = OpenOptions::new();
             options.write(true).create(true).truncate(false);
             let file = match bounded::open_with(&path, &mut options) {
-                // The folder was removed just now, and may be there again; a link that leads nowhere stays.
-                Err(error) if error.kind() == io::ErrorKind::NotFound && !path.is_symlink() => continue,
+                // The folder was removed just now, and may be there again. A link that leads nowhere stays, and there
+                // are file systems, as /proc, that say this of every new file.
+                Err(error)
+                    if error.kind() == io::ErrorKind::NotFound && !path.is_symlink() && gone < OTHERS =>
+                {
+                    gone += 1;
+                    continue;
+                }
                 Err(error) if error.kind() == io::ErrorKind::InvalidInput => {
                     let why = format!("{name}: {error}, or none; remove it");
                     return Err(at(io::Error::new(error.kind(), why)));
