@@ -301,7 +301,7 @@ fn the_error_of_free_rods_is_known_and_small_but_where_the_form_is_closed() {
     let error = plan(EXTENSION).error_rad().unwrap();
     // Some roundings to double.
     assert!(error > 0.0 && error < 16.0 * f64::EPSILON, "{error}");
-    let unit = plan(EXTENSION).unit();
+    let unit = plan(EXTENSION).elapsed(1.0);
     // 2 D:D = 4 in this flow.
     assert!((unit.seconds - 0.5).abs() < 2.0 * f64::EPSILON && unit.strain == 1.0, "{unit:?}");
 }
@@ -314,7 +314,7 @@ fn the_unit_of_a_period_is_the_same_in_any_axes() {
     let shear_rate_per_s = turned.flow.shear_rate_per_s().unwrap();
     turned.flow =
         scene::Flow::Gradient { gradient_per_s: [[0.0; 3], [0.0; 3], [0.0, shear_rate_per_s, 0.0]] };
-    let (unit, of_turned) = (straight.unit(), Plan::new(&turned).unwrap().unit());
+    let (unit, of_turned) = (straight.elapsed(1.0), Plan::new(&turned).unwrap().elapsed(1.0));
     assert!((of_turned.seconds / unit.seconds - 1.0).abs() < 1e-14, "{of_turned:?}");
     assert!((of_turned.strain / unit.strain - 1.0).abs() < 1e-14, "{of_turned:?}");
 }

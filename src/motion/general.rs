@@ -220,11 +220,11 @@ fn square_of_pair(l: &Square, [i, j]: [usize; 2], rho: Ball, rest: Ball) -> Ball
     rest * rest * (half * half + l[i][j] * l[j][i]) - rho * turning * turning
 }
 
-fn times(matrix: &Square, p: [Ball; 3]) -> [Ball; 3] {
+pub(super) fn times(matrix: &Square, p: [Ball; 3]) -> [Ball; 3] {
     from_fn(|i| matrix[i][0] * p[0] + matrix[i][1] * p[1] + matrix[i][2] * p[2])
 }
 
-fn product(a: impl Fn(usize, usize) -> Ball, b: impl Fn(usize, usize) -> Ball) -> Square {
+pub(super) fn product(a: impl Fn(usize, usize) -> Ball, b: impl Fn(usize, usize) -> Ball) -> Square {
     from_fn(|i| from_fn(|j| a(i, 0) * b(0, j) + a(i, 1) * b(1, j) + a(i, 2) * b(2, j)))
 }
 
@@ -288,6 +288,12 @@ fn traceless(mut l: Square) -> Square {
         }
     }
     l
+}
+
+/// A map times a power of two that makes its largest component about 1.
+pub(super) fn at_size_one(map: Square) -> Square {
+    let largest = map.iter().flatten().fold(0.0, |largest: f64, component| largest.max(component.hi.abs()));
+    map.map(|row| row.map(|component| component.shifted(-exponent(largest))))
 }
 
 /// The middle of a map as doubles, its largest component about 1, and its error against its own size.

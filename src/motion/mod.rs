@@ -8,6 +8,7 @@ mod ball;
 mod functions;
 mod general;
 mod modes;
+mod steps;
 #[cfg(test)]
 mod tests;
 
@@ -15,9 +16,10 @@ use crate::model::flow::VelocityGradient;
 use crate::model::jeffery;
 use crate::model::phase::Phase;
 use ball::Ball;
-use general::{General, known, rounded};
+use general::{General, Square, known, rounded, times};
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use std::f64::consts::TAU;
+use steps::Steps;
 
 /// The direction after the phase `phase` of a free rod in plane Couette flow with G > 0, p = q/|q| (`turned`).
 #[inline(always)]
@@ -98,6 +100,8 @@ enum Motion {
     Couette { shear_rate_per_s: f64, aspect_ratio: f64 },
     /// Any flow.
     General(General),
+    /// Flows one after another, whose time is a strain.
+    Steps(Steps),
 }
 
 impl Propagator {
@@ -114,6 +118,12 @@ impl Propagator {
         Self(Motion::General(General::new(flow, aspect_ratio)))
     }
 
+    /// The motion of rods with `aspect_ratio` > 0 in flows that follow one another, each with its strain; one at least. Its spans are
+    /// strains.
+    pub(crate) fn of_steps(flows: &[(VelocityGradient, f64)], aspect_ratio: f64) -> Self {
+        Self(Motion::Steps(Steps::new(flows, aspect_ratio)))
+    }
+
     /// The period in s after which every direction is back where it was, but for [`Self::drift_per_period`]: that of the
     /// turning part of the motion, where there is one.
     pub fn period_s(&self) -> Option<f64> {
@@ -122,6 +132,7 @@ impl Propagator {
                 Some(jeffery::period_s(*shear_rate_per_s, *aspect_ratio))
             }
             Motion::General(general) => general.period_s(),
+            Motion::Steps(_) => None,
         }
     }
 
@@ -130,6 +141,7 @@ impl Propagator {
         match &self.0 {
             Motion::Couette { .. } => Some(0.0),
             Motion::General(general) => general.period().map(|(_, drift)| drift),
+            Motion::Steps(_) => None,
         }
     }
 
@@ -144,6 +156,7 @@ impl Propagator {
                 Some((Matrix3::from_columns(&columns), error))
             }
             Motion::General(general) => Some(rounded(&general.map(time(general, span)?))),
+            Motion::Steps(steps) => Some(rounded(&map_of_steps(steps, span)?)),
         }
     }
 
@@ -167,6 +180,10 @@ impl Propagator {
                 let q = general.moved(&rows, start);
                 Some(moved(&general.map_of(&rows), &q, start.map(|component| component.hi)))
             }
+            Motion::Steps(steps) => {
+                let (map, start) = (map_of_steps(steps, span)?, [p.x, p.y, p.z]);
+                Some(moved(&map, &times(&map, start.map(Ball::exact)), start))
+            }
         }
     }
 
@@ -179,6 +196,7 @@ impl Propagator {
                 let (rows, start) = general.rows_from(p, time);
                 Some(normalized(&general.moved(&rows, start)))
             }
+            Motion::Steps(steps) => Some(normalized(&times(&map_of_steps(steps, span)?, p.map(Ball::exact)))),
             Motion::Couette { aspect_ratio, .. } => {
                 let (phase, error) = self.phase(span)?;
                 // A rod turns up to max(r_e, 1/r_e) times as fast as its phase.
@@ -192,7 +210,7 @@ impl Propagator {
     pub(crate) fn map_beside(&self, mean: &Self, span: Span) -> Option<(Matrix3<f64>, f64)> {
         match &self.0 {
             Motion::General(general) => Some(rounded(&general.map(time_beside(general, mean, span)?))),
-            Motion::Couette { .. } => self.map(span),
+            Motion::Couette { .. } | Motion::Steps(_) => self.map(span),
         }
     }
 
@@ -220,6 +238,14 @@ impl Propagator {
     /// The direction of a rod `turns` periods after it pointed along `p`; `None` where there is no period.
     pub fn after_turns(&self, p: &UnitVector3<f64>, turns: f64) -> Option<UnitVector3<f64>> {
         self.moved(p, Span::Periods(turns, 1.0)).map(|moved| moved.p)
+    }
+}
+
+/// The map of flows one after another over a strain; `None` over any other span.
+fn map_of_steps(steps: &Steps, span: Span) -> Option<Square> {
+    match span {
+        Span::Strain(ticks, each) => Some(steps.map(quotient(ticks, each))),
+        Span::Seconds(_) | Span::Periods(..) => None,
     }
 }
 

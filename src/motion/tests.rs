@@ -49,6 +49,31 @@ proptest! {
         prop_assert!(((moved - p.into_inner()) / dt - rate).norm() < 1e-5);
     }
 
+    /// One flow in three parts is that flow; there and back is nowhere, whatever lies between.
+    #[test]
+    fn flows_one_after_another_are_their_product(
+        l in prop::array::uniform9(-1.0f64..1.0), phi in 0.0f64..6.2, theta in 0.0f64..3.1, r in 0.05f64..20.0,
+        strains in prop::array::uniform3(0.1f64..20.0), at in 0.0f64..1.0
+    ) {
+        let flow = VelocityGradient::new(Matrix3::from_row_slice(&l)).unwrap();
+        let p = orientation::from_angles(phi, theta);
+        let [all, part] = [strains.iter().sum::<f64>(), at * strains.iter().sum::<f64>()];
+        let steps = Propagator::of_steps(&strains.map(|strain| (flow, strain)), r);
+        let once = Propagator::general(&flow, r);
+        for strain in [part, all] {
+            let [one, three] = [&once, &steps].map(|rods| rods.moved(&p, Span::Strain(strain, 1.0)).unwrap());
+            prop_assert!(apart(&one.p, &three.p) <= one.error + three.error + 4.0 * f64::EPSILON);
+        }
+        let back = VelocityGradient::new(-flow.per_s()).unwrap();
+        let there_and_back = Propagator::of_steps(&[(flow, all), (back, all)], r);
+        let moved = there_and_back.moved(&p, Span::Strain(2.0 * all, 1.0)).unwrap();
+        prop_assert!(apart(&p, &moved.p) <= moved.error + 4.0 * f64::EPSILON && moved.error < 1e-8);
+        let (end, error) = there_and_back.direction_beside(&once, [p.x, p.y, p.z], Span::Strain(2.0 * all, 1.0)).unwrap();
+        prop_assert_eq!((Vector3::from(end), error), (moved.p.into_inner(), moved.error));
+        let (map, _) = there_and_back.map(Span::Strain(2.0 * all, 1.0)).unwrap();
+        prop_assert!((map / map.amax() - Matrix3::identity()).amax() < 1e-8);
+    }
+
     /// Also where seconds are tiny or huge, with a trace, and by the map. Rounded times move a rod by 1e-11 here at most.
     #[test]
     fn a_time_is_the_same_in_seconds_strain_and_periods(

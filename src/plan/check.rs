@@ -11,7 +11,7 @@ use crate::motion::Propagator;
 use crate::plan::free::MAX_ERROR_RAD;
 use crate::plan::no_interaction;
 use crate::scene::{
-    Interaction, Invalid, MAX_PER_UNIT, Scene, TimeUnit, refused, resolved_strain, step_maps,
+    FlowStep, Interaction, Invalid, MAX_PER_UNIT, Scene, TimeUnit, refused, resolved_strain, step_maps,
 };
 
 /// The most steps and the most outputs of one scene.
@@ -58,16 +58,23 @@ pub(super) fn closed_form(scene: &Scene, flow: &VelocityGradient) -> bool {
 fn check_observed(scene: &Scene, flow: &VelocityGradient) -> Result<(), Invalid> {
     let observables = &scene.output.observables;
     let asked = observables.iter().find(|o| o.needs_couette());
-    let Some(asked) = asked.filter(|_| flow.shear_rate_per_s().is_none()) else {
+    let other_flow = flow.shear_rate_per_s().is_none() || scene.flow.steps().is_some();
+    let Some(asked) = asked.filter(|_| other_flow) else {
         return Ok(());
     };
     let names: Vec<_> = observables.iter().map(|o| o.name()).collect();
-    let allowed = format!("{} needs plane Couette flow: only ∂u_2/∂x_1 other than 0", asked.name());
+    let allowed = format!(
+        "{} needs plane Couette flow: only ∂u_2/∂x_1 other than 0, and always the same",
+        asked.name()
+    );
     Err(Invalid::new("output.observables", format!("{names:?}"), allowed))
 }
 
 fn check_motion(scene: &Scene) -> Result<(), Invalid> {
     let flow = gradient(scene)?;
+    if let Some(steps) = scene.flow.steps() {
+        check_flow_steps(scene, steps)?;
+    }
     check_observed(scene, &flow)?;
     if let Some(interaction) = &scene.interaction {
         check_interaction(scene, interaction, &flow)?;
@@ -77,6 +84,35 @@ fn check_motion(scene: &Scene) -> Result<(), Invalid> {
     match closed_form(scene, &flow) || no_interaction(scene).is_some() {
         true => Ok(()),
         false => time::check_steps(scene, &flow),
+    }
+}
+
+/// Flows that follow one another: free rods, timed by strain, to the end of the last at most.
+fn check_flow_steps(scene: &Scene, steps: &[FlowStep]) -> Result<(), Invalid> {
+    let refused =
+        |allowed: String| Err(Invalid::new("flow.steps", format!("{} steps", steps.len()), allowed));
+    if scene.interaction.is_some() {
+        return refused("free rods: leave [interaction] out, or give one gradient".to_owned());
+    }
+    let duration = scene.time.duration;
+    if scene.time.unit == TimeUnit::Period {
+        let allowed = "no periods where one flow follows another: give strain";
+        return Err(Invalid::new("time.periods", duration, allowed));
+    }
+    let all: f64 = steps.iter().map(|step| step.strain).sum();
+    // The slack takes in a sum that was rounded.
+    if duration > all * (1.0 + 4.0 * f64::EPSILON * steps.len() as f64) {
+        return Err(Invalid::new(
+            "time.strain",
+            duration,
+            format!("at most {all}, the strain of all flow.steps together"),
+        ));
+    }
+    let rate = |step: &FlowStep| step.gradient().map_or(f64::NAN, |flow| flow.magnitude_per_s());
+    let seconds = || steps.iter().map(|step| step.strain / rate(step));
+    match seconds().all(|seconds| seconds > 0.0) && seconds().sum::<f64>().is_finite() {
+        true => Ok(()),
+        false => refused("rates at which each lasts a finite number of seconds > 0".to_owned()),
     }
 }
 

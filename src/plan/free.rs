@@ -38,7 +38,8 @@ impl FreeMotion {
     pub fn new(scene: &Scene, flow: &VelocityGradient) -> Result<Self, Invalid> {
         let particles = &scene.particles;
         let r = particles.aspect_ratio;
-        let mean = Propagator::general(flow, r);
+        let general = |r: f64| stepped(scene, r).unwrap_or_else(|| Propagator::general(flow, r));
+        let mean = general(r);
         let mut spans = spans(scene);
         if scene.time.unit == TimeUnit::Period && mean.drift_per_period() == Some(0.0) {
             // What comes back exactly is worked out once.
@@ -51,7 +52,7 @@ impl FreeMotion {
         if each || particles.of_several_shapes() {
             let mut error_rad = 0.0f64;
             for r in particles.extreme_aspect_ratios() {
-                let propagator = Propagator::general(flow, r);
+                let propagator = general(r);
                 let errors = at_each(scene, &self::spans(scene), |span| {
                     let (error, of_start) = match start {
                         Some(start) => {
@@ -64,7 +65,7 @@ impl FreeMotion {
                 })?;
                 error_rad = error_rad.max(errors.1);
             }
-            let mean = Box::new(Propagator::new(flow, r));
+            let mean = Box::new(propagator(scene, flow, r));
             let spans = self::spans(scene);
             let rounded = each || start.is_some();
             return Ok(Self { way: Way::Each { mean, spans, rounded }, error_rad });
@@ -84,6 +85,18 @@ impl FreeMotion {
         };
         Ok(Self { way, error_rad })
     }
+}
+
+/// The motion of the scene's free rods of aspect ratio `r`.
+pub(crate) fn propagator(scene: &Scene, flow: &VelocityGradient, r: f64) -> Propagator {
+    stepped(scene, r).unwrap_or_else(|| Propagator::new(flow, r))
+}
+
+/// The same where one flow follows another.
+fn stepped(scene: &Scene, r: f64) -> Option<Propagator> {
+    let steps = scene.flow.steps()?.iter();
+    let flows: Option<Vec<_>> = steps.map(|step| Some((step.gradient()?, step.strain))).collect();
+    Some(Propagator::of_steps(&flows?, r))
 }
 
 /// Where a rod that starts along `start` goes, with its error and what of it is the rounding of the start; the span's periods are

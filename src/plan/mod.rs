@@ -12,7 +12,7 @@ use crate::model::jeffery::strain_per_period;
 use crate::observable::Observable;
 use crate::plan::free::FreeMotion;
 use crate::scene::document::Document;
-use crate::scene::{Error, Scene, TimeUnit, of_document};
+use crate::scene::{Error, FlowStep, Scene, TimeUnit, of_document};
 use stages::entries;
 pub(crate) use stages::no_interaction;
 use std::fmt;
@@ -27,18 +27,18 @@ pub(crate) enum Clock {
     Strain { ticks: u64 },
 }
 
-/// What a unit of time is.
+/// A time of a plan in other units.
 ///
 /// ```
-/// let unit = shearbed::Plan::new(&shearbed::Scene::default())?.unit();
-/// assert_eq!(unit.strain, shearbed::model::jeffery::strain_per_period(11.6));
+/// let period = shearbed::Plan::new(&shearbed::Scene::default())?.elapsed(1.0);
+/// assert_eq!(period.strain, shearbed::model::jeffery::strain_per_period(11.6));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Unit {
+pub struct Elapsed {
     /// In s.
     pub seconds: f64,
-    /// In shear strain.
+    /// In shear strain ∫(2D:D)^½ dt.
     pub strain: f64,
 }
 
@@ -133,7 +133,7 @@ impl Plan {
         &self.scene
     }
 
-    /// The imposed flow.
+    /// The imposed flow, the first of several.
     pub fn flow(&self) -> &VelocityGradient {
         &self.flow
     }
@@ -186,15 +186,18 @@ impl Plan {
         }
     }
 
-    /// The seconds, and the shear strain ∫(2D:D)^½ dt, of one unit of [`Plan::times`].
-    pub fn unit(&self) -> Unit {
+    /// The seconds and the shear strain from the start to `time`, one of [`Plan::times`] or between them.
+    pub fn elapsed(&self, time: f64) -> Elapsed {
+        if let Some(steps) = self.scene.flow.steps() {
+            return Elapsed { seconds: seconds_of_steps(steps, time), strain: time };
+        }
         let seconds = self.scene.seconds_per_unit(&self.flow);
         let strain = match (self.scene.time.unit, self.flow.shear_rate_per_s()) {
             (TimeUnit::Strain, _) => 1.0,
             (TimeUnit::Period, Some(_)) => strain_per_period(self.scene.particles.aspect_ratio),
             (TimeUnit::Period, None) => seconds * self.flow.magnitude_per_s(),
         };
-        Unit { seconds, strain }
+        Elapsed { seconds: time * seconds, strain: time * strain }
     }
 
     /// The times of the outputs, in periods or units of strain.
@@ -267,6 +270,23 @@ impl fmt::Display for Plan {
         }
         Ok(())
     }
+}
+
+/// The seconds in which flows that follow one another strain the liquid by `strain`.
+fn seconds_of_steps(steps: &[FlowStep], strain: f64) -> f64 {
+    let (mut seconds, mut from) = (0.0, 0.0);
+    for step in steps {
+        let rate = step.gradient().map_or(f64::NAN, |flow| {
+            // Of plane Couette flow without a rounding.
+            flow.shear_rate_per_s().map_or_else(|| flow.magnitude_per_s(), f64::abs)
+        });
+        let here = (strain - from).min(step.strain);
+        if here > 0.0 {
+            seconds += here / rate;
+        }
+        from += step.strain;
+    }
+    seconds
 }
 
 fn counted(count: u64, what: &str) -> String {

@@ -40,7 +40,7 @@ impl Plan {
         let resolved = resolved_strain(self.scene.particles.mean_aspect_ratio());
         (self.steps() > 0 && motion > resolved).then(|| {
             // They are equal in shear, to round-off.
-            let what = match motion > 1.5 * self.unit().strain / steps as f64 {
+            let what = match motion > 1.5 * self.elapsed(1.0).strain / steps as f64 {
                 true => "twice the angle by which the liquid turns in a step",
                 false => "the strain per step",
             };

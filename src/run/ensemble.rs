@@ -5,7 +5,7 @@ mod tests;
 
 use crate::model::work::Counters;
 use crate::observable::{self, Observable, Sum};
-use crate::plan::{Plan, Unit};
+use crate::plan::{Elapsed, Plan};
 use crate::run::{Replica, run_replica};
 use crate::scene::Error;
 use crate::suspension::snapshot::Snapshot;
@@ -64,8 +64,8 @@ pub struct Results {
     pub time_name: &'static str,
     /// The outputs' times.
     pub times: Vec<f64>,
-    /// What their unit is.
-    pub unit: Unit,
+    /// The same in s and in strain.
+    pub elapsed: Vec<Elapsed>,
     /// One per observable, in the order of the plan.
     pub series: Vec<Series>,
     /// Every rod at each output that the scene asks for them: replica by replica, and in each in the order of time.
@@ -280,7 +280,7 @@ impl Tally {
         Results {
             time_name: plan.time_name(),
             times: plan.times(),
-            unit: plan.unit(),
+            elapsed: plan.times().into_iter().map(|time| plan.elapsed(time)).collect(),
             series,
             snapshots: self.snapshots,
             counters: self.counters,

@@ -170,6 +170,13 @@ impl<'a> Table<'a> {
         self.entries.get(key)?.value()
     }
 
+    /// All of it, where it is of that type.
+    pub(super) fn whole<T: DeserializeOwned>(&self) -> Option<T> {
+        let all: Option<toml::Table> =
+            self.entries.iter().map(|(key, node)| Some((key.clone(), node.value()?))).collect();
+        Value::Table(all?).try_into().ok()
+    }
+
     /// The table of a key.
     pub fn table(&self, key: &str) -> Option<Table<'a>> {
         self.inner(key, self.entries.get(key)?)

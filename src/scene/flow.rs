@@ -1,12 +1,13 @@
 //! `[flow]`: the imposed velocity gradient.
 
-use super::keys::{Absent::Other, Holds, table};
+use super::document;
+use super::keys::{Absent::Other, Field, Holds, table};
 use super::read::Reader;
 use crate::model::flow::VelocityGradient;
 use nalgebra::Matrix3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-/// `[flow]`: one of its two keys.
+/// `[flow]`: one of its three keys.
 ///
 /// ```
 /// use shearbed::scene::{Flow, Scene, Time};
@@ -28,6 +29,103 @@ pub enum Flow {
         /// Row i and column j hold ∂u_i/∂x_j.
         gradient_per_s: [[f64; 3]; 3],
     },
+    /// One flow after another, for free rods: start-up, reversal, a path line.
+    Steps {
+        /// In the order of time; one at least.
+        steps: Vec<FlowStep>,
+    },
+}
+
+/// A flow that lasts for some strain.
+///
+/// ```
+/// use shearbed::scene::{Flow, FlowStep, Scene, Time};
+/// // Sheared by 10 and back: every rod ends as it began.
+/// let steps = vec![FlowStep::shear(0.5, 10.0), FlowStep::shear(-0.5, 10.0)];
+/// let scene = Scene { flow: Flow::Steps { steps }, time: Time::strain(20.0), ..Scene::default() };
+/// assert!(shearbed::Plan::new(&scene).is_ok());
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "FlowStepKeys")]
+pub struct FlowStep {
+    /// Row i and column j hold ∂u_i/∂x_j.
+    pub gradient_per_s: [[f64; 3]; 3],
+    /// How long, in shear strain ∫(2D:D)^½ dt.
+    pub strain: f64,
+}
+
+/// A step as a scene file has it: with one of the two rates.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FlowStepKeys {
+    shear_rate_per_s: Option<f64>,
+    gradient_per_s: Option<Vec<Vec<f64>>>,
+    strain: f64,
+}
+
+impl TryFrom<FlowStepKeys> for FlowStep {
+    type Error = &'static str;
+
+    fn try_from(keys: FlowStepKeys) -> Result<Self, &'static str> {
+        let FlowStepKeys { shear_rate_per_s, gradient_per_s, strain } = keys;
+        let rows = |rows: Vec<Vec<f64>>| -> Option<[[f64; 3]; 3]> {
+            let rows: Option<Vec<[f64; 3]>> = rows.into_iter().map(|row| row.try_into().ok()).collect();
+            rows?.try_into().ok()
+        };
+        match (shear_rate_per_s, gradient_per_s) {
+            (Some(rate), None) => Ok(Self::shear(rate, strain)),
+            (None, Some(given)) => match rows(given) {
+                Some(gradient_per_s) => Ok(Self { gradient_per_s, strain }),
+                None => Err("three rows of three numbers"),
+            },
+            _ => Err("shear_rate_per_s or gradient_per_s"),
+        }
+    }
+}
+
+impl FlowStep {
+    /// Plane Couette flow u_2 = G x_1 of this G in 1/s, which may be negative.
+    pub fn shear(shear_rate_per_s: f64, strain: f64) -> Self {
+        Self { gradient_per_s: [[0.0; 3], [shear_rate_per_s, 0.0, 0.0], [0.0; 3]], strain }
+    }
+
+    /// The first key of a step that is not allowed, with what is.
+    fn wrong_key(step: &document::Table<'_>) -> Option<(String, &'static str)> {
+        const KEYS: [&str; 3] = ["strain", "shear_rate_per_s", "gradient_per_s"];
+        let wrong = |key: &str, allowed| Some((key.to_owned(), allowed));
+        if let Some(unknown) = step.keys().find(|key| !KEYS.contains(key)) {
+            return wrong(unknown, "strain, shear_rate_per_s and gradient_per_s are the keys of a step");
+        }
+        let sound = |strain: f64| strain.is_finite() && strain > 0.0;
+        if !step.read("strain").is_some_and(sound) {
+            return wrong("strain", "a finite number > 0");
+        }
+        if step.has("shear_rate_per_s") == step.has("gradient_per_s") {
+            return wrong("shear_rate_per_s", "either it or gradient_per_s");
+        }
+        let whole =
+            || step.value("gradient_per_s").is_none_or(|value| <[[f64; 3]; 3]>::from_toml(value).is_some());
+        let read = || step.whole::<Self>().is_some_and(|step| step.is_allowed());
+        match (step.has("shear_rate_per_s"), whole() && read()) {
+            (_, true) => None,
+            (true, false) => wrong("shear_rate_per_s", "a finite number other than 0"),
+            (false, false) => wrong(
+                "gradient_per_s",
+                "three rows of three finite numbers, with a rate of strain that is not 0",
+            ),
+        }
+    }
+
+    /// The flow; `None` where a component is not finite.
+    pub(crate) fn gradient(&self) -> Option<VelocityGradient> {
+        VelocityGradient::new(Matrix3::from_fn(|i, j| self.gradient_per_s[i][j]))
+    }
+
+    /// True if its strain is finite and > 0, and its rate of strain too.
+    pub(super) fn is_allowed(&self) -> bool {
+        let sound = |x: f64| x.is_finite() && x > 0.0;
+        sound(self.strain) && self.gradient().is_some_and(|flow| sound(flow.magnitude_per_s()))
+    }
 }
 
 /// G = 0.5 1/s.
@@ -40,16 +138,22 @@ impl Default for Flow {
 table! {
     /// The keys of `[flow]`.
     pub(super) struct FlowKeys in "flow" {
-        shear_rate_per_s: Option<f64> = None, "1/s", Holds::Positive, Other("gradient_per_s"),
+        shear_rate_per_s: Option<f64> = None, "1/s", Holds::Positive, Other("gradient_per_s or steps"),
             "G of plane Couette flow u_2 = G x_1";
-        gradient_per_s: Option<[[f64; 3]; 3]> = None, "1/s", Holds::Gradient, Other("shear_rate_per_s"),
+        gradient_per_s: Option<[[f64; 3]; 3]> = None, "1/s", Holds::Gradient, Other("shear_rate_per_s or steps"),
             "row i and column j hold ∂u_i/∂x_j";
+        steps: Option<Vec<FlowStep>> = None, "", Holds::Steps, Other("shear_rate_per_s or gradient_per_s"),
+            "one flow after another, for free rods: each with its strain ∫(2D:D)^½ dt";
     }
 }
 
 impl From<Flow> for FlowKeys {
     fn from(flow: Flow) -> Self {
-        Self { shear_rate_per_s: flow.shear_rate_per_s(), gradient_per_s: flow.gradient_per_s() }
+        Self {
+            shear_rate_per_s: flow.shear_rate_per_s(),
+            gradient_per_s: flow.gradient_per_s(),
+            steps: flow.steps().map(<[_]>::to_vec),
+        }
     }
 }
 
@@ -58,38 +162,51 @@ impl Flow {
     pub fn shear_rate_per_s(&self) -> Option<f64> {
         match self {
             Self::Shear { shear_rate_per_s } => Some(*shear_rate_per_s),
-            Self::Gradient { .. } => None,
+            Self::Gradient { .. } | Self::Steps { .. } => None,
         }
     }
 
     /// The gradient where it is given as that.
     pub fn gradient_per_s(&self) -> Option<[[f64; 3]; 3]> {
         match self {
-            Self::Shear { .. } => None,
+            Self::Shear { .. } | Self::Steps { .. } => None,
             Self::Gradient { gradient_per_s } => Some(*gradient_per_s),
         }
     }
 
-    /// The flow; `None` where a value is not allowed.
+    /// The flows one after another where they are given as that.
+    pub fn steps(&self) -> Option<&[FlowStep]> {
+        match self {
+            Self::Steps { steps } => Some(steps),
+            _ => None,
+        }
+    }
+
+    /// The flow, of several the first; `None` where a value is not allowed.
     pub(crate) fn gradient(&self) -> Option<VelocityGradient> {
         match self {
             Self::Shear { shear_rate_per_s } => VelocityGradient::plane_couette(*shear_rate_per_s),
             Self::Gradient { gradient_per_s } => {
                 VelocityGradient::new(Matrix3::from_fn(|i, j| gradient_per_s[i][j]))
             }
+            Self::Steps { steps } => steps.first()?.gradient(),
         }
     }
 
     pub(super) fn read(reader: &mut Reader<'_>) -> Option<Self> {
         reader.one_of(
-            ["flow.shear_rate_per_s", "flow.gradient_per_s"],
-            "shear_rate_per_s or gradient_per_s must be given",
+            ["flow.shear_rate_per_s", "flow.gradient_per_s", "flow.steps"],
+            "shear_rate_per_s, gradient_per_s or steps must be given",
         );
+        if reader.refused_steps("flow.steps", FlowStep::wrong_key) {
+            return None;
+        }
         match FlowKeys::read_keys(reader)? {
             FlowKeys { shear_rate_per_s: Some(shear_rate_per_s), .. } => {
                 Some(Self::Shear { shear_rate_per_s })
             }
-            FlowKeys { gradient_per_s, .. } => Some(Self::Gradient { gradient_per_s: gradient_per_s? }),
+            FlowKeys { gradient_per_s: Some(gradient_per_s), .. } => Some(Self::Gradient { gradient_per_s }),
+            FlowKeys { steps, .. } => Some(Self::Steps { steps: steps? }),
         }
     }
 }

@@ -75,6 +75,8 @@ pub enum Holds {
     },
     /// Three rows of three finite numbers.
     Gradient,
+    /// Flows one after another.
+    Steps,
     /// Three finite numbers > 0.
     Sides,
     /// `"isotropic"` or two angles.
@@ -113,6 +115,11 @@ impl std::fmt::Display for Holds {
             Self::NotNegative => f.write_str("a finite number ≥ 0"),
             Self::Between { least, most } => write!(f, "a number from {least:e} to {most:e}"),
             Self::Gradient => f.write_str("three rows of three finite numbers"),
+            Self::Steps => write!(
+                f,
+                "1 to {MAX_FLOW_STEPS} tables [[flow.steps]], each with strain (a finite number > 0) and shear_rate_per_s (a finite \
+                 number other than 0) or gradient_per_s (three rows of three finite numbers, with a rate of strain)"
+            ),
             Self::Sides => f.write_str("[H1, H2, H3], three finite numbers > 0"),
             Self::Orientation => f.write_str(
                 "\"isotropic\" or { phi_deg = a finite number, theta_deg = a number from 0 to 180 }; rods of a file are \
@@ -138,6 +145,8 @@ impl std::fmt::Display for Holds {
 
 /// The largest count of rods: indices of rods are 32 bits wide, and 10⁸ rods fill several GB.
 pub const MAX_COUNT: usize = 100_000_000;
+/// The most flows one after another.
+pub const MAX_FLOW_STEPS: usize = 1000;
 /// The largest number of replicas.
 pub const MAX_REPLICAS: u64 = 10_000_000;
 /// The most steps or outputs per period, and outputs per unit of strain.
@@ -248,7 +257,7 @@ pub(super) const TITLE: Key = Key {
 /// The tables of a scene.
 #[rustfmt::skip]
 pub const TABLES: [Table; 6] = [
-    of("flow", "the imposed velocity gradient", "a table [flow] with shear_rate_per_s or gradient_per_s", Required, FlowKeys::KEYS),
+    of("flow", "the imposed velocity gradient", "a table [flow] with shear_rate_per_s, gradient_per_s or steps", Required, FlowKeys::KEYS),
     of("particles", "the rods", "a table [particles] with count, length_mm, aspect_ratio and orientation", Required, Particles::KEYS),
     of("interaction", "how rods meet", "a table [interaction] with concentration_per_cm3 or box_mm, and alpha, or none for free rods", Other("free rods"), Interaction::KEYS),
     of("time", "how long, and how finely", "a table [time] with periods or strain", Required, TimeKeys::KEYS),
@@ -416,6 +425,16 @@ impl Field for [[f64; 3]; 3] {
 }
 
 impl Field for Vec<toml::Value> {}
+
+impl Field for Vec<super::FlowStep> {
+    fn allowed(&self, _: &Holds) -> bool {
+        (1..=MAX_FLOW_STEPS).contains(&self.len()) && self.iter().all(super::FlowStep::is_allowed)
+    }
+
+    fn shown(&self) -> String {
+        super::document::as_toml(&toml::Value::try_from(self).unwrap_or_else(|_| Vec::<i64>::new().into()))
+    }
+}
 
 /// Times of outputs: that they are outputs depends on other keys.
 impl Field for Vec<f64> {

@@ -14,9 +14,11 @@ mod read;
 mod rods;
 mod steps;
 pub use error::{Error, Invalid, SceneProblem};
-pub use flow::Flow;
 use flow::FlowKeys;
-pub use keys::{Absent, Holds, Key, MAX_COUNT, MAX_PER_UNIT, MAX_REPLICAS, MAX_SEED, TABLES, Table, keys};
+pub use flow::{Flow, FlowStep};
+pub use keys::{
+    Absent, Holds, Key, MAX_COUNT, MAX_FLOW_STEPS, MAX_PER_UNIT, MAX_REPLICAS, MAX_SEED, TABLES, Table, keys,
+};
 use keys::{Absent::Default as Otherwise, Absent::Other, Absent::Required, table, whole};
 pub(crate) use keys::{find, refused};
 pub(crate) use particles::equivalent;

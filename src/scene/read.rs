@@ -111,22 +111,32 @@ impl Reader<'_> {
         }
     }
 
-    /// Which of two keys is given, where it is one: both are refused at the first, none as `missing`.
-    pub fn one_of(&mut self, keys: [&'static str; 2], missing: &str) -> Option<&'static str> {
-        let [first, second] = keys;
-        match keys.map(|key| self.has(key)) {
-            [true, true] => {
+    /// Which of some keys is given, where it is one: several are refused at the first of them, none as `missing`.
+    pub fn one_of<const N: usize>(&mut self, keys: [&'static str; N], missing: &str) -> Option<&'static str> {
+        let given: Vec<_> = keys.into_iter().filter(|key| self.has(key)).collect();
+        match given.as_slice() {
+            [one] => return Some(one),
+            [] if !keys.iter().any(|key| self.means(key)) => self.refuse(keys[0], missing),
+            [] => (),
+            [first, second, ..] => {
                 self.refuse(first, &format!("either {} or {}, not both", last(first), last(second)));
-                None
             }
-            [false, false] => {
-                if !keys.iter().any(|key| self.means(key)) {
-                    self.refuse(first, missing);
-                }
-                None
-            }
-            [is_first, _] => Some(if is_first { first } else { second }),
         }
+        None
+    }
+
+    /// Refuses the first of a key's tables in which a key is wrong, at its line; true if there is one.
+    pub fn refused_steps<'t>(
+        &mut self,
+        path: &str,
+        wrong_key: impl Fn(&document::Table<'_>) -> Option<(String, &'t str)>,
+    ) -> bool {
+        let tables = self.table.tables(last(path)).unwrap_or_default();
+        let refused = tables.iter().find_map(|table| Some((table, wrong_key(table)?)));
+        if let Some((table, (key, allowed))) = &refused {
+            self.wrong.push((table.offset(key), table.refusal(key, allowed)));
+        }
+        refused.is_some()
     }
 
     pub fn has(&self, path: &str) -> bool {

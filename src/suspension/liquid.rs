@@ -20,10 +20,10 @@ impl Liquid {
         let (flow, steps) = (plan.flow(), plan.scene().steps_per_unit() as f64);
         if let Some(shear_rate_per_s) = flow.shear_rate_per_s() {
             let sign = shear_rate_per_s.signum();
-            return (Self::Couette { volume, sign }, plan.unit().strain / steps);
+            return (Self::Couette { volume, sign }, plan.elapsed(1.0).strain / steps);
         }
         let rate_per_s = flow.per_s().amax();
-        let (gradient, step) = (flow.per_s() / rate_per_s, plan.unit().seconds * rate_per_s / steps);
+        let (gradient, step) = (flow.per_s() / rate_per_s, plan.elapsed(1.0).seconds * rate_per_s / steps);
         (Self::Any(Box::new(Inflow::new(&volume, gradient, step))), step)
     }
 

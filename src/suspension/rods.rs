@@ -10,7 +10,7 @@ use crate::model::work::Counters;
 use crate::motion::{Propagator, couette};
 use crate::observable::fault::Fault;
 use crate::observable::{BLOCK, Block};
-use crate::plan::free::{FreeMotion, MAX_ERROR_RAD, Way, directed, refused_direction};
+use crate::plan::free::{FreeMotion, MAX_ERROR_RAD, Way, directed, propagator, refused_direction};
 use crate::plan::{Clock, Plan, Stage};
 use crate::scene::step_maps;
 use draw::{draw_directions, draw_lengths, draw_shapes};
@@ -295,9 +295,9 @@ fn choose_motion(plan: &Plan, shapes: &Shapes) -> Motion {
     };
     let propagators = match (&motion.way, shapes) {
         (Way::Each { .. }, Shapes::Each(aspect_ratios)) => {
-            aspect_ratios.iter().map(|&r| Propagator::new(flow, r)).collect()
+            aspect_ratios.iter().map(|&r| propagator(plan.scene(), flow, r)).collect()
         }
-        (Way::Each { .. }, Shapes::Shared(r)) => vec![Propagator::new(flow, *r)],
+        (Way::Each { .. }, Shapes::Shared(r)) => vec![propagator(plan.scene(), flow, *r)],
         _ => Vec::new(),
     };
     Motion::Free { motion, propagators }

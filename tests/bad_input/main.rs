@@ -44,6 +44,18 @@ strain = 2
 outputs_per_strain = 10
 "#;
 
+const REVERSED: &str = r#"title = "t"
+[flow]
+steps = [{ shear_rate_per_s = 1, strain = 2 }, { strain = 3, gradient_per_s = [[0, 0, 0], [-1, 0, 0], [0, 0, 0]] }]
+[particles]
+count = 10
+length_mm = 0.72
+aspect_ratio = 11.6
+orientation = "isotropic"
+[time]
+strain = 5
+"#;
+
 /// The file's text with `table.key` set to `value`, and the line of the key. `None` where the text lacks it.
 fn set(text: &str, path: &str, value: &str) -> Option<(String, usize)> {
     let (table, key) = path.split_once('.').unwrap_or(("", path));
@@ -77,6 +89,7 @@ const KEYS: &[(&str, &str, &[&str])] = &[
     ("title", "a text in quotes", &["3", "true", "[]", "{ }", "1979-05-27"]),
     ("flow.shear_rate_per_s", "a finite number > 0", NOT_POSITIVE),
     ("flow.gradient_per_s", "three rows of three finite numbers", NOT_A_GRADIENT),
+    ("flow.steps", "1 to 1000 tables [[flow.steps]], each with strain", &["[]", "3", "[1]", "{ }", "[[]]"]),
     ("particles.count", "a whole number from 1 to 100000000", NOT_A_COUNT),
     ("particles.count", "a whole number from 1 to 100000000", &["100000001"]),
     ("particles.length_mm", "a finite number > 0", NOT_POSITIVE),
@@ -143,7 +156,7 @@ const NOT_OBSERVABLES: &[&str] = &[
 
 #[test]
 fn the_scenes_to_spoil_are_good() {
-    for text in [INTERACTING, EXTENSION] {
+    for text in [INTERACTING, EXTENSION, REVERSED] {
         assert_eq!(Plan::parse("s.toml", text).unwrap().scene().title, "t");
     }
 }
@@ -152,8 +165,8 @@ fn the_scenes_to_spoil_are_good() {
 fn a_bad_value_is_named_with_line_key_and_what_is_allowed() {
     for (key, allowed, values) in KEYS {
         for value in *values {
-            let spoiled = set(INTERACTING, key, value).or_else(|| set(EXTENSION, key, value));
-            let (text, line) = spoiled.expect("one of the two scenes has the key");
+            let spoiled = [INTERACTING, EXTENSION, REVERSED].iter().find_map(|text| set(text, key, value));
+            let (text, line) = spoiled.expect("one of the scenes has the key");
             let start = format!("dir/s.toml:{line}: {key} = {value} is not allowed: {allowed}");
             let refusal = refusal(&text);
             assert!(refusal.starts_with(&start), "{start}\n{refusal}");
@@ -164,7 +177,7 @@ fn a_bad_value_is_named_with_line_key_and_what_is_allowed() {
 
 #[test]
 fn every_key_of_a_scene_is_spoiled_above() {
-    let tables = [INTERACTING, EXTENSION].map(|text| text.parse::<toml::Table>().unwrap());
+    let tables = [INTERACTING, EXTENSION, REVERSED].map(|text| text.parse::<toml::Table>().unwrap());
     for (table, content) in tables.iter().flatten() {
         let keys = match content {
             toml::Value::Table(keys) => keys.keys().map(|key| format!("{table}.{key}")).collect(),
@@ -182,7 +195,7 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
     // A table or a key that is missing.
     (INTERACTING, "title = \"t\"\n", "", "1: title is missing: a text in quotes"),
     (INTERACTING, "[flow]\nshear_rate_per_s = 0.5\n", "", "1: flow is missing: a table [flow] with "),
-    (INTERACTING, "shear_rate_per_s = 0.5", "", "2: flow.shear_rate_per_s is missing: shear_rate_per_s or grad"),
+    (INTERACTING, "shear_rate_per_s = 0.5", "", "2: flow.shear_rate_per_s is missing: shear_rate_per_s, gradient_per_s or steps"),
     (INTERACTING, "count = 10\n", "", "4: particles.count is missing: a whole number from 1 to 100000000"),
     (INTERACTING, "alpha = 0.5\n", "", "10: interaction.alpha is missing: a finite number ≥ 0"),
     (INTERACTING, "periods = 1\n", "", "16: time.periods is missing: periods or strain must be given"),
@@ -236,6 +249,20 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
     // The same shear in other axes, in which eq. 13 holds no more.
     (EXTENSION, "[[-0.5, 0, 0], [0, 1, 0], [0, 0, -0.5]]", "[[0, 1, 0], [0, 0, 0], [0, 0, 0]]\n[output]\nobservables = [\"orbit_constant\"]",
      "5: output.observables = [\"orbit_constant\"] is not allowed: orbit_constant needs plane Couette flow"),
+    // Flows one after another.
+    (REVERSED, "strain = 3, ", "", "3: flow.steps.strain is missing: a finite number > 0"),
+    (REVERSED, "strain = 3", "strain = -3", "3: flow.steps.strain = -3 is not allowed: a finite number > 0"),
+    (REVERSED, "rate_per_s = 1", "rate_per_s = 0", "3: flow.steps.shear_rate_per_s = 0 is not allowed: a finite number other"),
+    (REVERSED, "strain = 3, ", "strain = 3, shear_rate_per_s = 1, ", "3: flow.steps.shear_rate_per_s = 1 is not allowed: either it or"),
+    (REVERSED, "[-1, 0, 0]", "[-1, 0]", "3: flow.steps.gradient_per_s = [[0, 0, 0], [-1, 0], [0, 0, 0]] is not allowed: three"),
+    (REVERSED, "[-1, 0, 0]", "[0, 0, 0]", "3: flow.steps.gradient_per_s = [[0, 0, 0], [0, 0, 0], [0, 0, 0]] is not allowed: three"),
+    (REVERSED, "strain = 3", "strain = 3, periods = 1", "3: flow.steps.periods = 1 is not allowed: strain, shear_rate"),
+    (REVERSED, "strain = 5", "strain = 6", "10: time.strain = 6 is not allowed: at most 5, the strain of all flow.steps"),
+    (REVERSED, "strain = 5", "periods = 1", "10: time.periods = 1 is not allowed: no periods where one flow follows"),
+    (REVERSED, "rate_per_s = 1", "rate_per_s = 1e-310", "3: flow.steps = 2 steps is not allowed: rates at which"),
+    (REVERSED, "[time]", "[interaction]\nalpha = 1\nconcentration_per_cm3 = 1\n[time]", "3: flow.steps = "),
+    (REVERSED, "strain = 5", "strain = 5\n[output]\nobservables = [\"orbit_constant\"]",
+     "12: output.observables = [\"orbit_constant\"] is not allowed: orbit_constant needs plane Couette flow"),
     // What is no TOML.
     (INTERACTING, "alpha = 0.5", "alpha =", "12: alpha =: "),
     (INTERACTING, "alpha = 0.5", "alpha = 0.5.1", "12: alpha = 0.5.1: "),

@@ -1,6 +1,6 @@
 //! What is wrong with a file as a whole: what it lacks, several mistakes at once, unknown keys, cuts and nesting.
 
-use super::{EXTENSION, INTERACTING, KEYS, refusal, set};
+use super::{EXTENSION, INTERACTING, KEYS, REVERSED, refusal, set};
 use shearbed::Plan;
 
 #[test]
@@ -88,8 +88,8 @@ fn an_unknown_key_is_told_what_it_may_have_meant() {
 fn every_key_has_words_for_what_it_allows() {
     // A key with a value that no key allows is refused with them, and not as unknown.
     for (key, ..) in KEYS {
-        let spoiled = set(INTERACTING, key, "{ x = 1 }").or_else(|| set(EXTENSION, key, "{ x = 1 }"));
-        let refusal = refusal(&spoiled.expect("one of the two scenes has the key").0);
+        let spoiled = [INTERACTING, EXTENSION, REVERSED].iter().find_map(|text| set(text, key, "{ x = 1 }"));
+        let refusal = refusal(&spoiled.expect("one of the scenes has the key").0);
         let start = format!("{key} = {{ x = 1 }} is not allowed: ");
         let allowed = refusal.split_once(&start).map(|(_, allowed)| allowed);
         assert!(allowed.is_some_and(|allowed| !allowed.is_empty()), "{refusal}");

@@ -177,8 +177,8 @@ fn dictionary<'py>(py: Python<'py>, plan: &Plan, results: Results) -> PyResult<B
     let channels = PyDict::new(py);
     let observables = PyDict::new(py);
     let labels = PyDict::new(py);
-    let scaled = |unit: f64| results.times.iter().map(|time| time * unit).collect();
-    let (time_s, strain) = (scaled(results.unit.seconds), scaled(results.unit.strain));
+    let time_s = results.elapsed.iter().map(|elapsed| elapsed.seconds).collect();
+    let strain = results.elapsed.iter().map(|elapsed| elapsed.strain).collect();
     let rods = rods::columns(py, plan, &results)?;
     for series in results.series {
         let mut names = Vec::new();

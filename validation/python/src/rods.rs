@@ -19,15 +19,15 @@ pub fn columns<'py>(py: Python<'py>, plan: &Plan, results: &Results) -> PyResult
         }
         PyArray1::from_vec(py, values)
     };
-    let time = |shot: &Snapshot, unit: f64| results.times[shot.output] * unit;
+    let elapsed = |shot: &Snapshot| results.elapsed[shot.output];
     let scene = plan.scene();
     let place = |shot: &Snapshot, axis: usize, rod: usize| {
         shot.place_mm(scene, rod).map_or(f64::NAN, |place| place[axis])
     };
     all.set_item("replica", each(&|shot, _| shot.replica as f64))?;
     all.set_item("rod", each(&|_, rod| rod as f64))?;
-    all.set_item("time_s", each(&|shot, _| time(shot, results.unit.seconds)))?;
-    all.set_item("strain", each(&|shot, _| time(shot, results.unit.strain)))?;
+    all.set_item("time_s", each(&|shot, _| elapsed(shot).seconds))?;
+    all.set_item("strain", each(&|shot, _| elapsed(shot).strain))?;
     all.set_item("aspect_ratio", each(&|shot, rod| shot.aspect_ratio[rod]))?;
     all.set_item("length_mm", each(&|shot, rod| shot.length_mm(scene, rod)))?;
     for (axis, name) in ["x1_mm", "x2_mm", "x3_mm"].into_iter().enumerate() {

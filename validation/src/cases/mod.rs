@@ -3,6 +3,7 @@
 mod averaged;
 mod begun_again;
 pub mod catalogue;
+mod changing_flows;
 mod cheapest_split;
 mod closed_forms;
 mod coefficients;
@@ -68,6 +69,7 @@ pub fn all() -> Vec<Case> {
         begun_again::cases(),
         extremes::cases(),
         general_flows::cases(),
+        changing_flows::cases(),
         extreme_scenes::cases(),
         reference::cases(),
         resolution::cases(),

@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 type UnitOf = fn(&Scene) -> [f64; 2];
 
 fn unit(scene: &Scene) -> [f64; 2] {
-    let unit = plan(scene).unit();
+    let unit = plan(scene).elapsed(1.0);
     [unit.seconds, unit.strain]
 }
 

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 use shearbed::Observable;
-use shearbed::scene::{Absent, Holds, Key, TABLES, keys};
+use shearbed::scene::{Absent, Holds, Key, MAX_FLOW_STEPS, TABLES, keys};
 
 /// Each key with what it means, its unit, what it may hold, and what it is where it is not given.
 pub fn rows() -> impl Iterator<Item = [String; 5]> {
@@ -62,6 +62,11 @@ fn object<'a>(keys: impl Iterator<Item = (&'a Key, Option<Value>)>) -> Value {
     json!({ "type": "object", "properties": properties, "required": required, "additionalProperties": false })
 }
 
+fn gradient() -> Value {
+    let row = json!({ "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 });
+    json!({ "type": "array", "items": row, "minItems": 3, "maxItems": 3 })
+}
+
 fn holds(holds: &Holds) -> Value {
     match *holds {
         Holds::Whole { least, most } => json!({ "type": "integer", "minimum": least, "maximum": most }),
@@ -71,9 +76,19 @@ fn holds(holds: &Holds) -> Value {
         Holds::Sides => json!({
             "type": "array", "minItems": 3, "maxItems": 3, "items": { "type": "number", "exclusiveMinimum": 0 }
         }),
-        Holds::Gradient => {
-            let row = json!({ "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 });
-            json!({ "type": "array", "items": row, "minItems": 3, "maxItems": 3 })
+        Holds::Gradient => gradient(),
+        Holds::Steps => {
+            let step = |rate: &str, holds: Value| {
+                json!({
+                    "type": "object",
+                    "properties": { rate: holds, "strain": { "type": "number", "exclusiveMinimum": 0 } },
+                    "required": [rate, "strain"],
+                    "additionalProperties": false
+                })
+            };
+            let steps =
+                [step("shear_rate_per_s", json!({ "type": "number" })), step("gradient_per_s", gradient())];
+            json!({ "type": "array", "minItems": 1, "maxItems": MAX_FLOW_STEPS, "items": { "oneOf": steps } })
         }
         Holds::Orientation => json!({ "oneOf": [
             { "const": "isotropic" },

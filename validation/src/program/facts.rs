@@ -50,10 +50,11 @@ impl Facts {
         let r = scene.particles.aspect_ratio;
         let cube_cm3 = (0.1 * scene.particles.length_mm).powi(3) * scene.particles.mean_cube();
         let n_a3 = scene.concentration_per_cm3().map(|n| n * cube_cm3);
-        let period_s = plan.unit().seconds;
+        let period_s = plan.elapsed(1.0).seconds;
         Self {
             period_s: (plan.time_name() != "strain" && period_s.is_finite()).then_some(period_s),
-            strain_per_step: (plan.steps() > 0).then(|| plan.unit().strain / scene.steps_per_unit() as f64),
+            strain_per_step: (plan.steps() > 0)
+                .then(|| plan.elapsed(1.0).strain / scene.steps_per_unit() as f64),
             // Divided through: r² is infinite for long rods.
             shape_factor: (r - 1.0 / r) / (r + 1.0 / r),
             n_a3,

@@ -2,6 +2,7 @@
 
 use crate::files::output::Output;
 use shearbed::nalgebra::Vector3;
+use shearbed::plan::Elapsed;
 use shearbed::suspension::snapshot::Snapshot;
 use shearbed::{Plan, Results, Scene};
 use std::fmt::Write;
@@ -41,7 +42,7 @@ pub(super) fn files(plan: &Plan, results: &Results, vtk: bool) -> Vec<Output> {
             format!("rods_{k:04}{replica}.vtp")
         };
         let line = |snapshot: &&Snapshot| {
-            let time_s = results.times[snapshot.output] * results.unit.seconds;
+            let time_s = results.elapsed[snapshot.output].seconds;
             (name(snapshot), time_s, snapshot.replica)
         };
         files.push(("rods.pvd".to_owned(), collection(parts.iter().map(line))));
@@ -54,8 +55,7 @@ pub(super) fn files(plan: &Plan, results: &Results, vtk: bool) -> Vec<Output> {
 fn csv(results: &Results, scene: &Scene) -> String {
     let mut text = COLUMNS.to_owned();
     for snapshot in &results.snapshots {
-        let time = results.times[snapshot.output];
-        let (time_s, strain) = (time * results.unit.seconds, time * results.unit.strain);
+        let Elapsed { seconds: time_s, strain } = results.elapsed[snapshot.output];
         for rod in 0..snapshot.aspect_ratio.len() {
             let place = snapshot.place_mm(scene, rod).map_or(",,".to_owned(), numbers);
             // A String takes all that is written.

@@ -7,27 +7,22 @@ use shearbed::{Plan, Results};
 /// the shortest text that reads back as the same bits.
 pub(super) fn csv(results: &Results, series: &Series) -> Result<String, String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let times = times(results);
-    let mut header: Vec<_> = times.iter().map(|(name, _)| (*name).to_owned()).collect();
+    // The scene's own time first.
+    let by_strain = results.time_name == "strain";
+    let names: &[_] = if by_strain { &["strain", "time_s"] } else { &["t_over_T", "time_s", "strain"] };
+    let mut header: Vec<_> = names.iter().map(|name| (*name).to_owned()).collect();
     for channel in &series.columns {
         header.extend([channel.name.clone(), format!("{}_se", channel.name)]);
     }
     writer.write_record(header).map_err(|error| error.to_string())?;
-    for (k, time) in results.times.iter().enumerate() {
-        let times = times.iter().map(|(_, unit)| time * unit);
+    for (k, (time, elapsed)) in results.times.iter().zip(&results.elapsed).enumerate() {
+        let times = [*time, elapsed.seconds, elapsed.strain].into_iter().take(names.len());
         let values = series.columns.iter().flat_map(|channel| [channel.mean[k], channel.se[k]]);
         let row: Vec<f64> = times.chain(values).collect();
         writer.serialize(row).map_err(|error| error.to_string())?;
     }
     let bytes = writer.into_inner().map_err(|error| error.to_string())?;
     String::from_utf8(bytes).map_err(|error| error.to_string())
-}
-
-/// The columns of the time, the scene's own first, and what a unit of that is in each.
-pub(super) fn times(results: &Results) -> Vec<(&'static str, f64)> {
-    let all = [(results.time_name, 1.0), ("time_s", results.unit.seconds), ("strain", results.unit.strain)];
-    let columns = if results.time_name == "strain" { 2 } else { 3 };
-    all[..columns].to_vec()
 }
 
 /// The most bytes of the tables and of the pictures of a plan's results, each observable's.

@@ -65,8 +65,8 @@ impl TimeColumn {
     pub fn per_unit(self, plan: &Plan) -> Option<f64> {
         match self {
             Self::Periods => (plan.time_name() == "t_over_T").then_some(1.0),
-            Self::Seconds => Some(plan.unit().seconds),
-            Self::Strain => Some(plan.unit().strain),
+            Self::Seconds => Some(plan.elapsed(1.0).seconds),
+            Self::Strain => Some(plan.elapsed(1.0).strain),
         }
     }
 

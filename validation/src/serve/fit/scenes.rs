@@ -179,6 +179,12 @@ impl Scenes {
         let refused = |error: String| format!("{}: {error}", self.sets[set].source);
         let mut scene = self.scene(set, values)?;
         let own = Plan::new(&scene).map_err(|error| refused(error.to_string()))?;
+        if scene.flow.steps().is_some() {
+            return Err(refused(
+                "a fit needs one flow throughout: shear_rate_per_s or gradient_per_s in place of flow.steps"
+                    .into(),
+            ));
+        }
         let per_unit = self.sets[set].time.per_unit(&own).ok_or_else(|| {
             refused("has no period: times as t_s or strain are allowed, not t_over_T".into())
         })?;
