@@ -259,7 +259,7 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
     (REVERSED, "strain = 3", "strain = 3, periods = 1", "3: flow.steps.periods = 1 is not allowed: strain, shear_rate"),
     (REVERSED, "strain = 5", "strain = 6", "10: time.strain = 6 is not allowed: at most 5, the strain of all flow.steps"),
     (REVERSED, "strain = 5", "periods = 1", "10: time.periods = 1 is not allowed: no periods where one flow follows"),
-    (REVERSED, "rate_per_s = 1", "rate_per_s = 1e-310", "3: flow.steps = 2 steps is not allowed: rates at which"),
+    (REVERSED, "rate_per_s = 1", "rate_per_s = 1e-310", "3: flow.steps = [{ shear_rate_per_s = 1e-310, strain = 2 }, "),
     (REVERSED, "[time]", "[interaction]\nalpha = 1\nconcentration_per_cm3 = 1\n[time]", "3: flow.steps = "),
     (REVERSED, "strain = 5", "strain = 5\n[output]\nobservables = [\"orbit_constant\"]",
      "12: output.observables = [\"orbit_constant\"] is not allowed: orbit_constant needs plane Couette flow"),
