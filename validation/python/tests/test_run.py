@@ -32,6 +32,10 @@ SCENES = {
     "extension": {
         key: value for key, value in FREE.items() if key not in ("shear_rate_per_s", "periods")
     } | dict(gradient_per_s=np.diag([1.0, -0.5, -0.5]), strain=3),
+    "reversal": {key: value for key, value in FREE.items() if key not in ("shear_rate_per_s", "periods")} | dict(
+        steps=[dict(shear_rate_per_s=0.5, strain=4), dict(gradient_per_s=[[0, 0, 0], [-2, 0, 0], [0, 0, 0]], strain=4)],
+        strain=8,
+    ),
     "interacting": SMALL | dict(replicas=4),
     "angles": SMALL | dict(update="angles", seed=7),
     "short arms": SMALL | dict(min_contact_arm=0.05, m=2.5),

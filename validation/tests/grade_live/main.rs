@@ -66,7 +66,7 @@ fn judge(case: &Case) -> Result<(), Failed> {
     if case.verdict == "PASS" {
         for found in grade["problems"].as_array().unwrap() {
             check(found["verdict"] == "PASS", "every problem")?;
-            // Two in a row within the tolerance, or one after errors that fall by one order, lest a chance crossing count.
+            // Two in a row within the tolerance, or one after errors that fall at one order: the error may cross zero by chance.
             let errors = found["errors"].as_array().unwrap().iter().rev().take(4);
             let errors: Vec<_> = errors.map(|error| error[1].as_f64().unwrap()).collect();
             let within = |k: usize| errors[k] <= found["tolerance"].as_f64().unwrap();

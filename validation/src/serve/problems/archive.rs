@@ -75,7 +75,7 @@ fn readme() -> String {
         "# Reference problems for rigid rods in shear flow\n\n{} problems with certified answers, version {VERSION}, format \
          {FORMAT}. Any program that moves rigid rods (fibres, ellipsoids) by Jeffery's equation, or after Lee & Springer (1982), \
          can be verified with them.\n\n\
-         Each folder has a page in words (`README.md`), the same for programs (`problem.json`), the start (`start.csv`, or pairs of \
+         Each folder has a description to read (`README.md`) and one for programs (`problem.json`), the start (`start.csv`, or pairs of \
          rods in `inputs.csv`) and the certified answer (`certified.csv`) with more digits than a double holds. \
          `sha256sum -c SHA256SUMS` checks the files.\n\n\
          Write your answers to `mine/NAME/answer.csv` and compare them as the pages say, or with the program that made the \

@@ -1,4 +1,4 @@
-//! A problem's page in words, `README.md` of its folder.
+//! A problem's description to read, `README.md` of its folder.
 
 use super::{Built, Ensemble, Kind, Metric, Problem};
 

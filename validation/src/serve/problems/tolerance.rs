@@ -2,8 +2,8 @@
 //!
 //! Such a code evaluates ṗ in units of the strain rate with an error of about ε (the rounding of Λ and of W·p + ΛD·p,
 //! which nearly cancel where a long rod lies along the flow), and a fourth-order method, whose truncation error per radian
-//! turned is about h⁴, reaches ε^{4/5} where truncation and the rounding of its steps, ε/h, meet. What is lost at strain
-//! s reaches the end multiplied by κ(s), the norm of ∂p(end)/∂p(s). So the error is at most about
+//! turned is about h⁴, reaches ε^{4/5} where truncation and the rounding of its steps, ε/h, meet. An error made at strain
+//! s is multiplied at the end by κ(s), the norm of ∂p(end)/∂p(s). So the error is at most about
 //!   ∫ κ (2ε + 10 ε^{4/5} |dp/ds|) ds,
 //! with 2 for two such roundings and 10 for what separates methods of one order.
 
