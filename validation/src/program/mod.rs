@@ -29,6 +29,7 @@ mod sweep;
 mod tables;
 mod terminal;
 mod threads;
+mod until;
 mod validate;
 mod words;
 
@@ -251,14 +252,22 @@ fn result_folder<N: AsRef<str>>(
     bytes: u64,
     names: &[N],
 ) -> Result<ResultFolder, Failure> {
-    /// Pictures and records.
-    const MORE: u64 = 1 << 20;
     let folder = ResultFolder::new(dir, command, inputs, force);
+    probe(dir, bytes)?;
     if cluster::is_root() {
-        output::probe(dir, bytes + MORE)?;
         folder.check(names)?;
     }
     Ok(folder)
+}
+
+/// Checks, on the root, that so many `bytes` and a little more can be written in a folder.
+fn probe(dir: &Path, bytes: u64) -> Result<(), Failure> {
+    /// Pictures and records.
+    const MORE: u64 = 1 << 20;
+    match cluster::is_root() {
+        true => Ok(output::probe(dir, bytes + MORE)?),
+        false => Ok(()),
+    }
 }
 
 /// Refuses ranks with other inputs than the root's, before anything runs.
