@@ -52,7 +52,7 @@ use threads::{Threads, on_threads};
 #[derive(Parser)]
 #[command(name = "shearbed", version, arg_required_else_help = true)]
 #[command(
-    after_help = "Exit codes: 0 all well, 1 a case failed, 2 bad input or usage, or a run that stopped."
+    after_help = "Exit codes: 0 all well, 1 a case failed or a target was not reached, 2 bad input or usage, or a run that stopped."
 )]
 struct Cli {
     #[command(subcommand)]
