@@ -12,9 +12,9 @@ use crate::model::jeffery::strain_per_period;
 use crate::observable::Observable;
 use crate::plan::free::FreeMotion;
 use crate::scene::document::Document;
-use crate::scene::{Error, FlowStep, Scene, TimeUnit, of_document};
-use stages::entries;
+use crate::scene::{Error, FlowStep, MAX_REPLICAS, Scene, TimeUnit, of_document};
 pub(crate) use stages::no_interaction;
+use stages::{entries, rod_errors};
 use std::fmt;
 use std::sync::Arc;
 
@@ -126,6 +126,24 @@ impl Plan {
             plan.entries.push(Entry { stage, kept: true, reason: reason() });
         }
         Some(plan)
+    }
+
+    /// The same plan with so many replicas, from 1 to [`crate::scene::MAX_REPLICAS`].
+    ///
+    /// ```
+    /// let plan = shearbed::Plan::new(&shearbed::Scene::default())?;
+    /// assert_eq!(plan.with_replicas(40).scene().ensemble.replicas, 40);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn with_replicas(&self, replicas: u64) -> Self {
+        let mut plan = self.clone();
+        plan.scene.ensemble.replicas = replicas.clamp(1, MAX_REPLICAS);
+        let errors = rod_errors(&plan.scene);
+        match plan.entries.iter_mut().find(|entry| entry.stage == errors.stage) {
+            Some(entry) => *entry = errors,
+            None => plan.entries.push(errors),
+        }
+        plan
     }
 
     /// The scene.

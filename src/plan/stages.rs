@@ -141,10 +141,16 @@ pub(super) fn entries(scene: &Scene) -> Vec<Entry> {
     if let Some(key) = scene.output.rods_key() {
         add(Stage::Rods, true, &format!("asked for by {key}"));
     }
-    if scene.ensemble.replicas == 1 {
-        add(Stage::RodErrors, true, "one replica: standard errors come from the rods");
-    } else {
-        add(Stage::RodErrors, false, "standard errors come from the replicas");
-    }
+    entries.push(rod_errors(scene));
     entries
+}
+
+/// Standard errors over rods are those of a single replica.
+pub(super) fn rod_errors(scene: &Scene) -> Entry {
+    let kept = scene.ensemble.replicas == 1;
+    let reason = match kept {
+        true => "one replica: standard errors come from the rods",
+        false => "standard errors come from the replicas",
+    };
+    Entry { stage: Stage::RodErrors, kept, reason: reason.to_owned() }
 }

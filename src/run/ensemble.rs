@@ -4,7 +4,7 @@
 mod tests;
 
 use crate::model::work::Counters;
-use crate::observable::{self, Observable, Sum};
+use crate::observable::{self, Channel, Observable, Sum};
 use crate::plan::{Elapsed, Plan};
 use crate::run::{Replica, run_replica};
 use crate::scene::Error;
@@ -122,23 +122,47 @@ pub fn fold<E>(
     mut run: impl FnMut(Range<u64>) -> Result<Vec<Replica>, E>,
 ) -> Result<Results, E> {
     let mut tally = Tally::new(plan);
-    in_batches(plan, width(plan), |replicas| {
-        // `run` may return no replicas, where another process collects them.
-        run(replicas).map(|replicas| replicas.into_iter().for_each(|replica| tally.add(replica)))
-    })?;
+    extend(plan, &mut tally, 0..plan.scene().ensemble.replicas, &mut run)?;
     Ok(tally.results(plan))
 }
 
-/// All replicas of a plan, as many at a time as may wait to be added where each output has `width` sums.
-pub(crate) fn in_batches<E>(
+/// Adds the next replicas of a plan to those that `tally` has, as [`fold`] does from the first on: the same bits as if all had
+/// been added at once.
+///
+/// ```
+/// use shearbed::run::ensemble::{Tally, extend, replicas_of, run};
+/// let plan = shearbed::Plan::new(&shearbed::Scene::default())?.with_replicas(5);
+/// let mut tally = Tally::new(&plan);
+/// extend(&plan, &mut tally, 0..2, |replicas| replicas_of(&plan, replicas, &|| ()))?;
+/// extend(&plan, &mut tally, 2..5, |replicas| replicas_of(&plan, replicas, &|| ()))?;
+/// assert_eq!(tally.results(&plan), run(&plan)?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// The first of `run`.
+pub fn extend<E>(
     plan: &Plan,
-    width: usize,
+    tally: &mut Tally,
+    replicas: Range<u64>,
+    mut run: impl FnMut(Range<u64>) -> Result<Vec<Replica>, E>,
+) -> Result<(), E> {
+    in_batches(batch(plan, width(plan)), replicas, |replicas| {
+        // `run` may return no replicas, where another process collects them.
+        run(replicas).map(|replicas| replicas.into_iter().for_each(|replica| tally.add(replica)))
+    })
+}
+
+/// All of these replicas, `most` at a time.
+pub(crate) fn in_batches<E>(
+    most: u64,
+    replicas: Range<u64>,
     mut each: impl FnMut(Range<u64>) -> Result<(), E>,
 ) -> Result<(), E> {
-    let replicas = plan.scene().ensemble.replicas;
-    let mut first = 0;
-    while first < replicas {
-        let last = replicas.min(first + batch(plan, width));
+    let mut first = replicas.start;
+    while first < replicas.end {
+        let last = replicas.end.min(first + most);
         each(first..last)?;
         first = last;
     }
@@ -246,6 +270,12 @@ impl Tally {
                 self.over_rods[k] = spread.standard_error();
             }
         }
+    }
+
+    /// The standard errors of a channel's mean at each output; `None` where the plan does not observe it.
+    pub fn standard_errors(&self, plan: &Plan, channel: Channel) -> Option<Vec<f64>> {
+        let place = channel.place(&plan.observables())?;
+        Some(self.column(channel.name(), place, width(plan)).se)
     }
 
     fn se(&self, k: usize) -> f64 {

@@ -60,6 +60,11 @@ impl Replica {
         Ok(())
     }
 
+    /// The same for a plan of several replicas, where standard errors over the rods of one are not kept. No mean changes.
+    pub fn drop_rod_errors(&mut self) {
+        self.sums.iter_mut().for_each(|sum| sum.spread = None);
+    }
+
     /// The mean of a channel over the rods at an output; `None` where the scene does not observe it or has no such output.
     pub fn mean(&self, channel: Channel, output: usize) -> Option<f64> {
         let place = channel.place(&self.observables)?;

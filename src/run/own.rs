@@ -5,7 +5,7 @@ mod tests;
 
 use crate::observable::{Observe, Sum, fault};
 use crate::plan::Plan;
-use crate::run::ensemble::{Column, Tally, in_batches};
+use crate::run::ensemble::{Column, Tally, batch, in_batches};
 use crate::run::{each_block, refused};
 use crate::scene::Error;
 use rayon::prelude::*;
@@ -20,7 +20,7 @@ pub fn observe(plan: &Plan, own: &dyn Observe) -> Result<Vec<Column>, Error> {
     let names = own.columns();
     let width = names.len();
     let mut tally = Tally::of(plan.outputs() * width);
-    in_batches(plan, width, |replicas| {
+    in_batches(batch(plan, width), 0..plan.scene().ensemble.replicas, |replicas| {
         let run = replicas.into_par_iter();
         let run = run.map(|replica| one(plan, own, replica));
         for sums in run.collect::<Result<Vec<_>, _>>()? {

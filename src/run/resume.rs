@@ -58,6 +58,11 @@ impl Halfway {
         (sums + plan.scene().particles.count * of_rod) as u64
     }
 
+    /// The same for a plan of several replicas, where standard errors over the rods of one are not kept. No mean changes.
+    pub fn drop_rod_errors(&mut self) {
+        self.sums.iter_mut().for_each(|sum| sum.spread = None);
+    }
+
     /// Outputs that are done.
     pub(crate) fn outputs(&self, plan: &Plan) -> usize {
         self.sums.len() / width(&plan.observables()).max(1)

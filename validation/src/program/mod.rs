@@ -29,6 +29,7 @@ mod sweep;
 mod tables;
 mod terminal;
 mod threads;
+mod until;
 mod validate;
 mod words;
 
@@ -51,7 +52,7 @@ use threads::{Threads, on_threads};
 #[derive(Parser)]
 #[command(name = "shearbed", version, arg_required_else_help = true)]
 #[command(
-    after_help = "Exit codes: 0 all well, 1 a case failed, 2 bad input or usage, or a run that stopped."
+    after_help = "Exit codes: 0 all well, 1 a case failed or a target was not reached, 2 bad input or usage, or a run that stopped."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -251,14 +252,22 @@ fn result_folder<N: AsRef<str>>(
     bytes: u64,
     names: &[N],
 ) -> Result<ResultFolder, Failure> {
-    /// Pictures and records.
-    const MORE: u64 = 1 << 20;
     let folder = ResultFolder::new(dir, command, inputs, force);
+    probe(dir, bytes)?;
     if cluster::is_root() {
-        output::probe(dir, bytes + MORE)?;
         folder.check(names)?;
     }
     Ok(folder)
+}
+
+/// Checks, on the root, that so many `bytes` and a little more can be written in a folder.
+fn probe(dir: &Path, bytes: u64) -> Result<(), Failure> {
+    /// Pictures and records.
+    const MORE: u64 = 1 << 20;
+    match cluster::is_root() {
+        true => Ok(output::probe(dir, bytes + MORE)?),
+        false => Ok(()),
+    }
 }
 
 /// Refuses ranks with other inputs than the root's, before anything runs.

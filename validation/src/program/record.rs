@@ -1,6 +1,7 @@
 //! `run.json`: what ran, so that it can be run again.
 
 use super::facts::{Facts, warnings};
+use super::until::Ended;
 use crate::files::build::{BUILD, Build};
 use crate::files::text::command;
 use serde::Serialize;
@@ -34,6 +35,9 @@ struct Record<'a> {
     /// What to know before trusting the results.
     warnings: Vec<String>,
     counters: Counters,
+    /// How the number of replicas was found, where `--until-se` did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    until_se: Option<&'a Ended>,
     /// Processes of an MPI job.
     ranks: usize,
     /// Of each rank.
@@ -49,6 +53,7 @@ pub(super) fn json(
     threads: usize,
     seconds: Seconds,
     files: Vec<&str>,
+    until_se: Option<&Ended>,
 ) -> Result<String, String> {
     let record = Record {
         build: BUILD,
@@ -60,6 +65,7 @@ pub(super) fn json(
         plan_text: plan.to_string(),
         warnings: warnings(plan),
         counters: results.counters,
+        until_se,
         ranks: crate::files::cluster::size(),
         threads,
         seconds,

@@ -1,25 +1,31 @@
 //! `shearbed run`.
 
+mod work;
+
 use super::record::Seconds;
-use super::scene::{Chosen, Ensemble};
+use super::scene::{Chosen, Ensemble, Named};
+use super::until::{self, LEAST, Until};
 use super::{
-    Failure, Threads, Writing, agree, checkpoint, facts, log, memory, on_threads, pictures, print, progress,
-    record, result_folder, rods, scene, tables, threads,
+    Failure, Threads, Writing, agree, checkpoint, facts, memory, on_threads, pictures, print, probe,
+    progress, record, rods, scene, tables, threads,
 };
-use crate::files::checkpoint::Replicas;
-use crate::files::cluster;
-use crate::files::output::Output;
+use crate::files::build::BUILD;
+use crate::files::checkpoint::{Progress, Replicas, without_replicas};
+use crate::files::output::{Origin, Output, Record, ResultFolder};
 use crate::files::text::Shown;
 use crate::files::text::line;
+use crate::files::{bounded, cluster};
 use crate::input::start::Starts;
 use crate::present::plot;
-use serde_json::json;
+use serde_json::{Value, json};
 use shearbed::Error;
 use shearbed::run::resume::Halfway;
+use shearbed::scene::MAX_REPLICAS;
 use shearbed::{Plan, Results};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use work::Work;
 
 /// Arguments of `run`.
 #[derive(clap::Args)]
@@ -37,7 +43,12 @@ pub(super) struct Args {
     /// Write the rods of output.rods_at and rods_every for ParaView too: rods.pvd, and a .vtp file for each time and replica
     #[arg(long)]
     vtk: bool,
-    /// Keep the run in this file while it runs, and go on from there where the file exists
+    #[command(flatten)]
+    until: Until,
+    /// With --until-se: begin no replica after this time, as 90s, 10min or 1.5h; the results of those that have begun are written
+    #[arg(long, value_name = "TIME", value_parser = until::time_limit, requires = "rules", allow_negative_numbers = true)]
+    time_limit: Option<Duration>,
+    /// Keep the run in this file while it runs, and go on from there where the file exists, with more --replicas too
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
     /// Seconds between two checkpoints [default: 60]
@@ -68,26 +79,77 @@ fn seconds(text: &str) -> Result<Duration, String> {
     Ok(Duration::from_secs_f64(seconds))
 }
 
-/// The run's checkpoint, if one is asked for. Prints its progress.
-fn open_checkpoint(args: &Args, plan: &Plan, path: Option<&Path>) -> Result<Option<Arc<Replicas>>, Failure> {
-    let Some(path) = path else {
-        return Ok(None);
-    };
-    let every = args.every.unwrap_or(Duration::from_secs(60));
-    let replicas = Replicas::open(plan, path, every)?;
-    let progress = replicas.progress();
-    if progress.done > 0 || progress.halfway > 0 {
-        let text = format!("goes on from {}: {progress}\n", path.shown());
-        print(if args.writing.quiet { "" } else { &text })?;
+/// The plan: with `--until-se` of as many replicas as may be added.
+fn planned(args: &Args, named: &Named) -> Result<Plan, Failure> {
+    let plan = named.plan()?;
+    args.until.check(&plan, &named.source)?;
+    if args.until.is_empty() {
+        return Ok(plan);
     }
-    Ok(Some(replicas))
+    if named.settings.iter().any(|setting| setting.key == "ensemble.replicas") {
+        return Err(Failure::Input(format!(
+            "{}: --until-se and a number of replicas (--replicas, or --set ensemble.replicas): --until-se finds the number; one of the \
+             two is allowed",
+            named.source
+        )));
+    }
+    Ok(plan.with_replicas(MAX_REPLICAS))
+}
+
+/// All that the results depend on. With `--until-se` the rules stand in place of the number of replicas.
+fn inputs(args: &Args, plan: &Plan) -> Value {
+    if args.until.is_empty() {
+        return json!({ "scene": plan.scene().resolved() });
+    }
+    let limit = args.time_limit.map(|limit| format!(", at most {} s", limit.as_secs_f64()));
+    let mut scene = json!(plan.scene().resolved());
+    scene["ensemble"]["replicas"] = (args.until.input() + &limit.unwrap_or_default()).into();
+    json!({ "scene": scene })
+}
+
+/// The record of a run of this scene in `dir` whose replicas are all among the `kept` ones of a checkpoint: results that go on from
+/// there contain its own.
+fn earlier(dir: &Path, plan: &Plan, kept: u64) -> Option<Origin> {
+    let record = Record::read(dir).ok()??;
+    let run: Value = serde_json::from_str(&bounded::text(&dir.join(RUN), MOST_OF_RECORD).ok()?).ok()?;
+    let replicas = run["scene"]["ensemble"]["replicas"].as_u64()?;
+    let mut scene = record.origin.inputs["scene"].clone();
+    if let Some(ensemble) = scene["ensemble"].as_object_mut() {
+        ensemble.remove("replicas");
+    }
+    let own = json!({ "scene": without_replicas(plan.scene()), "version": BUILD.version });
+    let own = Origin::new("run", own);
+    let found = json!({ "scene": scene, "version": record.origin.inputs["version"] });
+    let same = Origin::new(&record.origin.command, found) == own;
+    (same && replicas <= kept).then_some(record.origin)
+}
+
+/// The run's checkpoint, if one is asked for.
+fn open_checkpoint(args: &Args, plan: &Plan, path: Option<&Path>) -> Result<Option<Arc<Replicas>>, Failure> {
+    let every = args.every.unwrap_or(Duration::from_secs(60));
+    Ok(path.map(|path| Replicas::open(plan, path, every)).transpose()?)
+}
+
+/// Writes the checkpoint for the first time, and prints what of the run is in it.
+fn begin(args: &Args, replicas: &Replicas) -> Result<(), Failure> {
+    replicas.write()?;
+    let progress = replicas.progress();
+    if args.writing.quiet || progress.done == 0 && progress.halfway == 0 {
+        return Ok(());
+    }
+    let Progress { done, halfway, .. } = progress;
+    let progress = match args.until.is_empty() {
+        true => progress.to_string(),
+        false => format!("{done} replicas are done, {halfway} halfway"),
+    };
+    print(&format!("goes on from {}: {progress}\n", replicas.path().shown()))
 }
 
 /// Runs a scene and writes its results.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let start = Instant::now();
     let named = args.chosen.load(&args.ensemble, &[])?;
-    let plan = named.plan()?;
+    let plan = planned(args, &named)?;
     let scene = named.scene;
     if args.vtk && plan.rods_outputs().is_empty() {
         return Err(Failure::Input(format!(
@@ -99,7 +161,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let beside = args.checkpoint.as_ref().map_or(0, |_| Halfway::bytes(&plan));
     memory::check_beside(&plan, args.threads.given, args.vtk, &named.source, beside)?;
     let out = args.out.clone().unwrap_or_else(|| Path::new("out").join(&named.stem));
-    let inputs = json!({ "scene": plan.scene().resolved() });
+    let inputs = inputs(args, &plan);
     agree("run", inputs.clone())?;
     let path = args.checkpoint.as_deref();
     let path = path.map(|path| checkpoint::check(path, &out)).transpose()?;
@@ -108,37 +170,34 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if cluster::is_root() {
         reads_no_result(&named.starts, &out, &names)?;
     }
-    let folder = result_folder(&out, ("run", inputs, args.writing.force), bytes, &names)?;
+    probe(&out, bytes)?;
+    let checkpoint = open_checkpoint(args, &plan, path.as_deref())?;
+    let contained = checkpoint.as_ref().and_then(|replicas| earlier(&out, &plan, replicas.replicas()));
+    let folder = ResultFolder::new(&out, "run", inputs, args.writing.force).extends(contained);
+    if cluster::is_root() {
+        folder.check(&names)?;
+    }
     scene::warn(&named.source, &facts::warnings(&plan));
     let mut seconds = Seconds { plan: start.elapsed().as_secs_f64(), ..Seconds::default() };
 
-    let checkpoint = open_checkpoint(args, &plan, path.as_deref())?;
-    let bar = progress(scene.ensemble.replicas, "replicas", args.writing.quiet);
+    if let Some(replicas) = &checkpoint {
+        begin(args, replicas)?;
+    }
+    let first = if args.until.is_empty() { plan.scene().ensemble.replicas } else { LEAST };
+    let bar = progress(first, "replicas", args.writing.quiet);
     bar.inc(checkpoint.as_ref().map_or(0, |replicas| replicas.progress().done));
     let start = Instant::now();
     let threads = threads::count(args.threads.given)? as usize;
+    let work = Work { args, plan: &plan, bar: &bar, threads };
     let results = match &checkpoint {
-        Some(replicas) => replicas
-            .run(
-                threads,
-                || bar.inc(1),
-                |saved| match saved {
-                    Ok(progress) => {
-                        log(&format!("kept in {}: {progress}", replicas.path().display()), args.writing.quiet)
-                    }
-                    Err(error) => {
-                        let lost = format!("{error}; the run goes on, and what comes is not kept");
-                        scene::warn("--checkpoint", [&lost]);
-                    }
-                },
-            )
-            .map(Some),
-        None => on_threads(args.threads.given, || cluster::ensemble(&plan, || bar.inc(1)))?,
+        Some(replicas) => work.kept(replicas).map(Some),
+        None => on_threads(args.threads.given, || work.alone())?,
     };
     bar.finish_and_clear();
-    let Some(results) = ended(&named.source, results)? else {
+    let Some((results, until)) = ended(&named.source, results)? else {
         return Ok(());
     };
+    let plan = until.as_ref().map_or(plan.clone(), |until| plan.with_replicas(until.replicas));
     seconds.run = start.elapsed().as_secs_f64();
 
     let start = Instant::now();
@@ -146,22 +205,24 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     files.extend(rods::files(&plan, &results, args.vtk));
     seconds.tables_and_pictures = start.elapsed().as_secs_f64();
     let names = files.iter().map(|(name, _)| name.as_str()).collect();
-    let record = record::json(&plan, &results, threads, seconds, names).map_err(Failure::Failed)?;
+    let record =
+        record::json(&plan, &results, threads, seconds, names, until.as_ref()).map_err(Failure::Failed)?;
     files.push((RUN.to_owned(), record));
     let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
     folder.write(files)?;
-    if args.writing.quiet {
-        return Ok(());
+    if !args.writing.quiet {
+        let until = until.as_ref().map(|until| format!("{}\n\n", until.text())).unwrap_or_default();
+        print(&format!(
+            "{}\nMeans ± standard errors, rods: {}, replicas: {}\n\n{}{until}in {}: {}\n",
+            line(&scene.title),
+            scene.particles.count,
+            plan.scene().ensemble.replicas,
+            tables::summary(&results),
+            out.shown(),
+            names.join(", ")
+        ))?;
     }
-    print(&format!(
-        "{}\nMeans ± standard errors, rods: {}, replicas: {}\n\n{}in {}: {}\n",
-        line(&scene.title),
-        scene.particles.count,
-        scene.ensemble.replicas,
-        tables::summary(&results),
-        out.shown(),
-        names.join(", ")
-    ))
+    until.map_or(Ok(()), |until| until.failure())
 }
 
 /// The results of a run. The error of a stopped run names the scene; nothing is written then, and earlier results stay.
@@ -171,6 +232,8 @@ fn ended<T>(source: &str, results: Result<T, Error>) -> Result<T, Failure> {
 
 /// The scene, plan, counters and times of a run.
 const RUN: &str = "run.json";
+/// The longest one.
+const MOST_OF_RECORD: u64 = 64 << 20;
 
 /// The names of the files of a run, but for those of single times of its rods.
 fn names(plan: &Plan, vtk: bool) -> Vec<String> {

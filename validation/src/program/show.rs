@@ -3,6 +3,7 @@
 use super::duration;
 use super::facts::{self, Facts};
 use super::scene::{Chosen, Ensemble};
+use super::until::{LEAST, Until};
 use super::{Failure, memory, print};
 use crate::files::text::left_aligned;
 use crate::input::{scene_keys, scenes};
@@ -13,6 +14,8 @@ use crate::input::{scene_keys, scenes};
 pub(super) struct PlanArgs {
     #[command(flatten)]
     chosen: Chosen,
+    #[command(flatten)]
+    until: Until,
 }
 
 /// Arguments of `scenes`.
@@ -31,6 +34,8 @@ pub(super) struct ScenesArgs {
 pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
     let named = args.chosen.load(&Ensemble::default(), &[])?;
     let plan = named.plan()?;
+    args.until.check(&plan, &named.source)?;
+    let plan = if args.until.is_empty() { plan } else { plan.with_replicas(LEAST) };
     // The plan ends with its own warnings, and all of them come last.
     let said = |warnings: Vec<String>| -> String {
         let lines = warnings.iter().map(|warning| format!("warning: {warning}\n"));
@@ -39,9 +44,10 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
     let text = plan.to_string();
     let stages = text.strip_suffix(&said(plan.warnings())).unwrap_or(&text);
     print(&format!(
-        "{stages}{}{}{}",
+        "{stages}{}{}{}{}",
         Facts::of(&plan).text(),
         duration::of_scene(&plan),
+        args.until.planned(),
         said(facts::warnings(&plan))
     ))?;
     // What `run` would refuse here is still shown: it may fit on another machine.

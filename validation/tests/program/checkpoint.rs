@@ -156,7 +156,6 @@ fn a_checkpoint_of_other_work_is_refused() {
     let kept = fs::read(dir.path().join("kept")).unwrap();
     for (change, key) in [
         ("--seed 2", "scene.ensemble.seed was 1 and is 2 now"),
-        ("--replicas 4", "scene.ensemble.replicas was 3 and is 4 now"),
         ("--set interaction.alpha=0.6", "scene.interaction.alpha was 0.5 and is 0.6 now"),
     ] {
         let other = shearbed(dir.path(), &format!("{run}2 {change}"));

@@ -34,3 +34,4 @@ mod shape;
 mod studies;
 mod supply;
 mod sweep;
+mod until;

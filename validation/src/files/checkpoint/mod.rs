@@ -4,11 +4,13 @@
 //! all before in four bytes. It is replaced whole: a kill leaves the old one or the new one.
 
 mod replicas;
+mod saved;
 mod stop;
 #[cfg(test)]
 mod tests;
 
-pub use replicas::{Progress, Replicas};
+pub use replicas::Replicas;
+pub use saved::{Progress, without_replicas};
 pub(crate) use stop::{last_words, on_stop, stays};
 
 use crate::files::bounded;

@@ -3,9 +3,9 @@
 //! Replicas start in order, each in a pool of threads of its own: so few finished ones wait for their turn in the sum, and none
 //! waits in the middle of a step for another one, as it might in one pool for all.
 
+use super::saved::{Progress, Saved, without_replicas};
 use super::{Checkpoint, on_stop, stays};
 use crate::files::output::{OutputError, Refused};
-use serde::{Deserialize, Serialize};
 use serde_json::json;
 use shearbed::Error;
 use shearbed::run::ensemble::Tally;
@@ -13,47 +13,21 @@ use shearbed::run::resume::Halfway;
 use shearbed::run::{Replica, go_on};
 use shearbed::{Plan, Results};
 use std::collections::BTreeMap;
-use std::fmt;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// The longest wait for the states of replicas when a signal ends the program; a later one is saved as it last was.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// The contents of a checkpoint of a run.
-#[derive(Serialize, Deserialize)]
-struct Saved {
-    /// The first replicas, added up.
-    tally: Tally,
-    /// Finished replicas that wait for one before them.
-    done: BTreeMap<u64, Replica>,
-    /// The last state of replicas in work.
-    halfway: BTreeMap<u64, Halfway>,
-}
-
-/// The progress of a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Progress {
-    /// Replicas that are done.
-    pub done: u64,
-    /// Replicas that were left in the middle.
-    pub halfway: usize,
-    /// Replicas of the whole run.
-    pub all: u64,
-}
-
-impl fmt::Display for Progress {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { done, halfway, all } = self;
-        write!(f, "{done} of {all} replicas are done, {halfway} halfway")
-    }
-}
-
 struct State {
     saved: Saved,
+    /// The replicas of the run so far: none after them begins.
+    all: u64,
+    /// No replica begins after it, but for the first two.
+    deadline: Option<Instant>,
     /// True if the file lacks some of it.
     new: bool,
     /// The next replica to begin.
@@ -78,28 +52,16 @@ pub struct Replicas {
 }
 
 impl Replicas {
-    /// Opens or makes the checkpoint at `path`, to be written at least every `every`.
+    /// Opens the checkpoint at `path`, to be written at least every `every`, for at most the plan's replicas. One of fewer
+    /// replicas of the same scene is gone on with; [`Self::write`] makes the file where there is none.
     ///
     /// # Errors
     ///
-    /// A checkpoint of another run, a damaged one, one that cannot be written.
+    /// A checkpoint of another scene or seed, or of more replicas; a damaged one.
     pub fn open(plan: &Plan, path: &Path, every: Duration) -> Result<Arc<Self>, Refused> {
-        let file = Checkpoint::open(path, "run", json!({ "scene": plan.scene().resolved() }))?;
-        let saved: Option<Saved> = file.read()?;
-        let saved = saved.unwrap_or_else(|| Saved {
-            tally: Tally::new(plan),
-            done: BTreeMap::new(),
-            halfway: BTreeMap::new(),
-        });
-        let misfit = |why: &str| file.refused(&format!("is damaged: {why}"));
-        saved.tally.check(plan).map_err(misfit)?;
-        let left = saved.tally.replicas()..plan.scene().ensemble.replicas;
-        if !saved.done.keys().chain(saved.halfway.keys()).all(|replica| left.contains(replica)) {
-            return Err(misfit("it has a replica that this run has finished"));
-        }
-        saved.done.values().try_for_each(|done| done.check(plan)).map_err(misfit)?;
-        saved.halfway.values().try_for_each(|halfway| halfway.check(plan)).map_err(misfit)?;
-        file.write(&saved)?;
+        let file = Checkpoint::open(path, "run", json!({ "scene": without_replicas(plan.scene()) }))?;
+        let saved = Saved::read(&file, plan)?;
+        let all = plan.scene().ensemble.replicas;
         let replicas = Arc::new(Self {
             plan: plan.clone(),
             every,
@@ -107,6 +69,8 @@ impl Replicas {
             state: Mutex::new(State {
                 next: saved.tally.replicas(),
                 saved,
+                all,
+                deadline: None,
                 new: false,
                 in_work: BTreeMap::new(),
                 stopped: None,
@@ -129,28 +93,61 @@ impl Replicas {
         self.file.path()
     }
 
+    /// Writes the file as it was opened.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be written.
+    pub fn write(&self) -> Result<(), OutputError> {
+        self.file.write(&self.state().saved)
+    }
+
     /// The progress of the run.
     pub fn progress(&self) -> Progress {
-        self.progress_of(&self.state().saved)
+        let state = self.state();
+        state.saved.progress(state.all)
     }
 
-    fn progress_of(&self, saved: &Saved) -> Progress {
-        Progress {
-            done: saved.tally.replicas() + saved.done.len() as u64,
-            halfway: saved.halfway.len(),
-            all: self.plan.scene().ensemble.replicas,
-        }
+    /// The number of replicas in the sum.
+    pub fn replicas(&self) -> u64 {
+        self.state().saved.tally.replicas()
     }
 
-    /// Runs what is left. `finished` is called after each replica; `saved` after each checkpoint with something new, the last
-    /// one at the end of the run, or with the reason why it could not be written: the run ends after that call. The results are
-    /// the bits of [`shearbed::run::ensemble::run`].
+    /// The sum of the replicas so far.
+    pub fn tally(&self) -> Tally {
+        self.state().saved.tally.clone()
+    }
+
+    /// Runs the plan's replicas that are left. `finished` is called after each replica; `saved` after each checkpoint with something
+    /// new, the last one at the end of the run, or with the reason why it could not be written: the run ends after that call.
+    /// The results are the bits of [`shearbed::run::ensemble::run`].
     pub fn run(
         &self,
         threads: usize,
         finished: impl Fn() + Sync,
         saved: impl Fn(Result<Progress, OutputError>) + Sync,
     ) -> Result<Results, Error> {
+        self.run_to(threads, (self.plan.scene().ensemble.replicas, None), finished, saved)?;
+        Ok(self.tally().results(&self.plan))
+    }
+
+    /// The same for the first `all` replicas; after the deadline none begins, but for the first two.
+    pub fn run_to(
+        &self,
+        threads: usize,
+        (all, deadline): (u64, Option<Instant>),
+        finished: impl Fn() + Sync,
+        saved: impl Fn(Result<Progress, OutputError>) + Sync,
+    ) -> Result<(), Error> {
+        {
+            let mut state = self.state();
+            state.all = all.min(self.plan.scene().ensemble.replicas);
+            state.deadline = deadline;
+            state.ended = false;
+            state.next = state.saved.tally.replicas();
+            let all = state.all;
+            state.saved.add_up(all);
+        }
         let Progress { done, all, .. } = self.progress();
         let left = all - done;
         let at_once = (threads as u64).min(left) as usize;
@@ -181,7 +178,7 @@ impl Replicas {
         let mut state = self.state();
         match state.stopped.take() {
             Some((_, error)) => Err(error),
-            None => Ok(state.saved.tally.clone().results(&self.plan)),
+            None => Ok(()),
         }
     }
 
@@ -209,7 +206,8 @@ impl Replicas {
             state.next += 1;
         }
         let replica = state.next;
-        if state.stopped.is_some() || replica >= self.plan.scene().ensemble.replicas {
+        let late = replica > 1 && state.deadline.is_some_and(|deadline| Instant::now() >= deadline);
+        if state.stopped.is_some() || replica >= state.all || late {
             return None;
         }
         state.next += 1;
@@ -244,10 +242,8 @@ impl Replicas {
                 }
             }
         }
-        let Saved { tally, done, .. } = &mut state.saved;
-        while let Some(next) = done.remove(&tally.replicas()) {
-            tally.add(next);
-        }
+        let all = state.all;
+        state.saved.add_up(all);
         self.changed.notify_all();
     }
 
@@ -284,7 +280,7 @@ impl Replicas {
                 wait.unwrap_or_else(PoisonError::into_inner).0
             }
         };
-        let progress = self.progress_of(&state.saved);
+        let progress = state.saved.progress(state.all);
         if !state.new {
             return Ok((progress, false));
         }

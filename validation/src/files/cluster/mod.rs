@@ -16,7 +16,7 @@ mod replicas;
 pub use alone::{Joined, from_root, is_root, share, size};
 #[cfg(feature = "mpi")]
 pub use ranks::{Joined, from_root, is_root, share, size};
-pub use replicas::ensemble;
+pub use replicas::{ensemble, extend};
 
 use crate::files::build;
 use crate::files::difference::difference;

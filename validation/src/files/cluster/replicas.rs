@@ -2,15 +2,28 @@
 
 use super::{share, size};
 use shearbed::Error;
-use shearbed::run::ensemble;
+use shearbed::run::ensemble::{self, Tally};
 use shearbed::{Plan, Results};
+use std::ops::Range;
 
 /// Runs every replica of a plan, each rank its part of them on the threads of the current rayon pool; `finished` is
 /// called after each replica of this rank. On the root the results, bit for bit those of [`shearbed::run::ensemble::run`];
 /// elsewhere none.
 pub fn ensemble(plan: &Plan, finished: impl Fn() + Sync) -> Result<Option<Results>, Error> {
+    let mut tally = Tally::new(plan);
+    let root = extend(plan, &mut tally, 0..plan.scene().ensemble.replicas, finished)?;
+    Ok(root.then(|| tally.results(plan)))
+}
+
+/// Adds the next replicas of a plan to the root's `tally` in the same way. True on the root.
+pub fn extend(
+    plan: &Plan,
+    tally: &mut Tally,
+    replicas: Range<u64>,
+    finished: impl Fn() + Sync,
+) -> Result<bool, Error> {
     let mut root = true;
-    let results = ensemble::fold(plan, |replicas| {
+    ensemble::extend(plan, tally, replicas, |replicas| {
         let count = replicas.end - replicas.start;
         let parts = (size() as u64).min(count);
         let cut = |part: u64| replicas.start + part * count / parts;
@@ -22,5 +35,5 @@ pub fn ensemble(plan: &Plan, finished: impl Fn() + Sync) -> Result<Option<Result
         root = all.is_some();
         Ok(all.into_iter().flatten().flatten().collect())
     })?;
-    Ok(root.then_some(results))
+    Ok(root)
 }

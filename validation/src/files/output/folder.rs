@@ -26,6 +26,8 @@ pub struct ResultFolder {
     dir: PathBuf,
     origin: Origin,
     force: bool,
+    /// Earlier results that the new ones contain.
+    earlier: Option<Origin>,
     /// How another folder is given.
     other: &'static str,
 }
@@ -34,12 +36,23 @@ impl ResultFolder {
     /// `inputs` is an object with all that the results depend on; the program's version is added.
     pub fn new(dir: &Path, command: &str, mut inputs: Value, force: bool) -> Self {
         inputs["version"] = BUILD.version.into();
-        Self { dir: dir.to_owned(), origin: Origin::new(command, inputs), force, other: OTHER_OUT }
+        Self {
+            dir: dir.to_owned(),
+            origin: Origin::new(command, inputs),
+            force,
+            earlier: None,
+            other: OTHER_OUT,
+        }
     }
 
     /// The same for a command that has its folder as an argument, without `--out`.
     pub fn as_argument(self) -> Self {
         Self { other: "another folder", ..self }
+    }
+
+    /// The same where results of this origin may be replaced too: the new ones contain them.
+    pub fn extends(self, earlier: Option<Origin>) -> Self {
+        Self { earlier, ..self }
     }
 
     /// The folder.
@@ -59,7 +72,7 @@ impl ResultFolder {
     }
 
     /// Refuses to write files of these names, unless nothing is in the way, or this command has written the folder before
-    /// from the same inputs and nobody has changed these files since.
+    /// from the same inputs (or from those of [`Self::extends`]) and nobody has changed these files since.
     ///
     /// # Errors
     ///
@@ -84,7 +97,8 @@ impl ResultFolder {
             let what = format!("results of `shearbed {}` are kept here", found.origin.command);
             return Err(in_the_way(&record, &what));
         }
-        if let Some(difference) = found.origin.difference(&self.origin) {
+        let contained = self.earlier.as_ref() == Some(&found.origin);
+        if let Some(difference) = found.origin.difference(&self.origin).filter(|_| !contained) {
             let what =
                 format!("results of `shearbed {command}` from other input are kept here: {difference}");
             return Err(in_the_way(&record, &what));

@@ -1,0 +1,95 @@
+//! The work of a run: its replicas, with a checkpoint or without, as many as asked for or until a rule holds.
+
+use super::Args;
+use crate::files::checkpoint::{Progress, Replicas};
+use crate::files::cluster;
+use crate::files::output::OutputError;
+use crate::program::until::{Ended, Look, Measure};
+use crate::program::{log, scene};
+use indicatif::ProgressBar;
+use shearbed::run::ensemble::Tally;
+use shearbed::{Error, Plan, Results};
+use std::time::Instant;
+
+/// The results, and how the number of replicas was found where `--until-se` did.
+type Done = (Results, Option<Ended>);
+
+/// What a run works with.
+pub(super) struct Work<'a> {
+    pub(super) args: &'a Args,
+    pub(super) plan: &'a Plan,
+    pub(super) bar: &'a ProgressBar,
+    pub(super) threads: usize,
+}
+
+impl Work<'_> {
+    /// Runs the replicas on the threads of the current pool and all ranks; the results on the root.
+    pub(super) fn alone(&self) -> Result<Option<Done>, Error> {
+        let (plan, until) = (self.plan, &self.args.until);
+        let finished = || self.bar.inc(1);
+        if until.is_empty() {
+            return Ok(cluster::ensemble(plan, finished)?.map(|results| (results, None)));
+        }
+        let mut tally = Tally::new(plan);
+        let mut done = 0;
+        let add = |target: u64, deadline: Option<Instant>, measure: &Measure| -> Result<Look, Error> {
+            while done < target {
+                // The root decides for all ranks.
+                let end = cluster::from_root(|| Ok::<_, Error>(self.end_of_part(done, target, deadline)))?;
+                if end == done {
+                    break;
+                }
+                cluster::extend(plan, &mut tally, done..end, finished)?;
+                done = end;
+            }
+            cluster::from_root(|| Ok(measure(&tally)))
+        };
+        let ended = until.grow(plan, (0, self.args.time_limit), add, |ended| self.show(ended))?;
+        Ok(cluster::is_root().then(|| (tally.results(plan), Some(ended))))
+    }
+
+    /// How far to run before the clock is looked at again: to the target where there is no time limit, and no farther than now
+    /// after it. Two replicas run in any case.
+    fn end_of_part(&self, done: u64, target: u64, deadline: Option<Instant>) -> u64 {
+        match deadline {
+            None => target,
+            Some(deadline) if done > 1 && Instant::now() >= deadline => done,
+            Some(_) => target.min(done + (self.threads * cluster::size()) as u64),
+        }
+    }
+
+    /// Runs the replicas that a checkpoint lacks.
+    pub(super) fn kept(&self, replicas: &Replicas) -> Result<Done, Error> {
+        let (plan, until) = (self.plan, &self.args.until);
+        let finished = || self.bar.inc(1);
+        let saved = |saved| self.saved(replicas, saved);
+        if until.is_empty() {
+            return Ok((replicas.run(self.threads, finished, saved)?, None));
+        }
+        let add = |target: u64, deadline: Option<Instant>, measure: &Measure| -> Result<Look, Error> {
+            replicas.run_to(self.threads, (target, deadline), finished, saved)?;
+            Ok(measure(&replicas.tally()))
+        };
+        let from = (replicas.replicas(), self.args.time_limit);
+        let ended = until.grow(plan, from, add, |ended| self.show(ended))?;
+        Ok((replicas.tally().results(plan), Some(ended)))
+    }
+
+    /// Shows on the terminal how far the rules are from holding.
+    fn show(&self, ended: &Ended) {
+        self.bar.set_length(ended.expected());
+        self.bar.set_message(ended.text());
+    }
+
+    fn saved(&self, replicas: &Replicas, saved: Result<Progress, OutputError>) {
+        match saved {
+            Ok(progress) => {
+                log(&format!("kept in {}: {progress}", replicas.path().display()), self.args.writing.quiet)
+            }
+            Err(error) => {
+                let lost = format!("{error}; the run goes on, and what comes is not kept");
+                scene::warn("--checkpoint", [&lost]);
+            }
+        }
+    }
+}
