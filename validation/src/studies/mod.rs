@@ -9,6 +9,7 @@ pub mod readings;
 pub mod speed;
 pub mod stability;
 pub mod suspensions;
+pub mod tensors;
 pub mod work_precision;
 
 use crate::present::study::Study;
