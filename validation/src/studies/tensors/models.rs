@@ -66,6 +66,34 @@ impl Model {
         }
     }
 
+    /// Where it is from, and its equation in words.
+    pub fn source(self) -> &'static str {
+        match self {
+            Self::FolgarTucker { .. } => {
+                "da/dt = Wa − aW + Λ(Da + aD − 2 a_ijkl D_kl) + 2 C_I γ̇ (δ − 3a), γ̇ = (2D:D)^½: Folgar & Tucker 1984; Advani & \
+                 Tucker 1987"
+            }
+            Self::Rsc { .. } => {
+                "Folgar & Tucker's equation with the rates of a's eigenvalues times κ: Wang, O'Gara & Tucker 2008, J. Rheol. 52, 1179"
+            }
+            Self::PhelpsTucker { .. } => {
+                "anisotropic diffusion, C = b1 δ + b2 a + b3 a² + b4 D/γ̇ + b5 D²/γ̇²: Phelps & Tucker 2009, J. Non-Newton. Fluid \
+                 Mech. 156, 165"
+            }
+            Self::Iard { .. } => {
+                "anisotropic diffusion, C = C_I (δ − 4 C_M D²/γ̇²): Tseng, Chang & Hsu 2016, J. Rheol. 60, 215"
+            }
+            Self::Pard { .. } => {
+                "anisotropic diffusion, C = C_I diag(1, Ω, 1 − Ω) in the axes of a from its largest eigenvalue: Tseng, Chang & Hsu \
+                 2018, J. Rheol. 62, 313"
+            }
+            Self::Mrd { .. } => {
+                "anisotropic diffusion, C = C_I diag(D1, D2, D3) in the axes of a from its largest eigenvalue: Bakharev, Yu, Speight \
+                 & Wang 2018, ANTEC"
+            }
+        }
+    }
+
     /// C; `d` is D, `rate` γ̇.
     fn diffusivity(self, a: &Matrix3<f64>, d: &Matrix3<f64>, rate: f64) -> Matrix3<f64> {
         let one = Matrix3::identity();
@@ -81,6 +109,18 @@ impl Model {
             Self::Iard { c_i, c_m } => (one - d * d * (4.0 * c_m / (rate * rate))) * c_i,
             Self::Pard { c_i, omega } => along(c_i, [1.0, omega, 1.0 - omega]),
             Self::Mrd { c_i, d } => along(c_i, d),
+        }
+    }
+
+    /// Every parameter.
+    pub fn parameters(self) -> Vec<f64> {
+        match self {
+            Self::FolgarTucker { c_i } => vec![c_i],
+            Self::Rsc { c_i: one, kappa: other }
+            | Self::Iard { c_i: one, c_m: other }
+            | Self::Pard { c_i: one, omega: other } => vec![one, other],
+            Self::PhelpsTucker { b, kappa } => [&b[..], &[kappa]].concat(),
+            Self::Mrd { c_i, d } => [&[c_i], &d[..]].concat(),
         }
     }
 
