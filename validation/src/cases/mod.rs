@@ -5,6 +5,7 @@ mod begun_again;
 pub mod catalogue;
 mod cheapest_split;
 mod closed_forms;
+mod closures;
 mod coefficients;
 mod contact_rule;
 mod decay;
@@ -88,6 +89,7 @@ pub fn all() -> Vec<Case> {
         published::cases(),
         coefficients::cases(),
         folgar_tucker::cases(),
+        closures::cases(),
         orbits::cases(),
         diffusing_rods::cases(),
     ]

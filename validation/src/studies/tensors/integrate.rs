@@ -1,11 +1,14 @@
 //! a_ij in time.
 
 use super::models::Equation;
-use nalgebra::{Matrix3, Vector6};
+use nalgebra::{Matrix3, Matrix6, Vector6};
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, System};
 
 const PAIRS: [(usize, usize); 6] = super::closures::PAIRS;
+
+/// Steps to a time after which the method gives up: a hundred times what the problems take.
+const MOST_STEPS: u32 = 20_000;
 
 struct Rate<'a>(&'a Equation);
 
@@ -34,8 +37,12 @@ pub fn at(
     for time in times_s {
         if *time > now {
             let span = time - now;
-            let mut solver = Dop853::new(Rate(equation), 0.0, span, span, a, tolerance, tolerance);
-            solver.set_output(OutputType::Sparse);
+            // The defaults of the library, but for the steps after which it gives up: kinks of a closure are such a place.
+            let (rate, out) = (Rate(equation), OutputType::Sparse);
+            let mut solver = Dop853::from_param(
+                rate, 0.0, span, span, a, tolerance, tolerance, 0.9, 0.0, 0.333, 6.0, span, 0.0, MOST_STEPS,
+                1000, out,
+            );
             solver.integrate().ok()?;
             a = *solver.y_out().last()?;
             now = *time;
@@ -45,15 +52,34 @@ pub fn at(
     all.iter().all(|a| a.iter().all(|x| x.is_finite())).then_some(all)
 }
 
-/// a_ij once it no longer changes. `None` where it does not settle within a strain of about 4000.
+/// A steady a_ij: that to which Newton's method leads from where a is after a strain of about 100. `None` where it leads nowhere.
 pub fn steady(equation: &Equation, start: &Matrix3<f64>) -> Option<Matrix3<f64>> {
+    let norm = equation.gradient_per_s.norm();
     // Short stretches: a step at the edge of stability is no stiffness.
-    let span = 20.0 / equation.gradient_per_s.norm();
-    let mut a = *start;
-    for _ in 0..200 {
-        a = *at(equation, &a, &[span], 1e-13)?.first()?;
-        if equation.rate(&a).amax() <= 1e-12 * equation.gradient_per_s.norm() {
-            return Some(a);
+    let spans: Vec<f64> = (1..=10).map(|k| 10.0 * f64::from(k) / norm).collect();
+    let mut a = *at(equation, start, &spans, 1e-9)?.last()?;
+    let rate = |a: &Matrix3<f64>| {
+        let found = equation.rate(a) / norm;
+        Vector6::from_fn(|n, _| found[PAIRS[n]])
+    };
+    for _ in 0..50 {
+        let here = rate(&a);
+        // The trace stays: its row is one that adds it to the rate of a_33.
+        let slope = Matrix6::from_fn(|row, column| {
+            const STEP: f64 = 1e-6;
+            let away = |sign: f64| {
+                let mut off = Vector6::zeros();
+                off[column] = sign * STEP;
+                rate(&(a + matrix(&off)))[row]
+            };
+            let trace = if row == 2 && column < 3 { 1.0 } else { 0.0 };
+            (away(1.0) - away(-1.0)) / (2.0 * STEP) + trace
+        });
+        let step = slope.lu().solve(&here)?;
+        a -= matrix(&step);
+        let good = a.symmetric_eigenvalues().min() >= -1e-9 && a.iter().all(|x| x.is_finite());
+        if step.amax() < 1e-13 {
+            return good.then_some(a);
         }
     }
     None

@@ -7,8 +7,10 @@ pub mod closures;
 pub mod ibof;
 mod integrate;
 pub mod models;
+mod measure;
 mod natural;
 pub mod orthotropic;
+pub mod study;
 
 #[cfg(test)]
 mod tests;
