@@ -78,7 +78,7 @@ pub fn steady(equation: &Equation, start: &Matrix3<f64>) -> Option<Matrix3<f64>>
         let step = slope.lu().solve(&here)?;
         a -= matrix(&step);
         let good = a.symmetric_eigenvalues().min() >= -1e-9 && a.iter().all(|x| x.is_finite());
-        if step.amax() < 1e-13 {
+        if step.amax() < 1e-11 {
             return good.then_some(a);
         }
     }

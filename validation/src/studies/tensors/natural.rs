@@ -14,7 +14,9 @@ const LEAST: f64 = 1e-12;
 pub(super) fn fourth(a: &Matrix3<f64>) -> Fourth {
     let (values, axes) = principal(a);
     let values = values.map(|value| value.max(LEAST));
-    let values = values / values.sum();
+    // Of degree 1 in a, so that a trace that is off by a rounding stays so.
+    let trace = values.sum();
+    let values = values / trace;
     let mut z = values.map(|value| 2.0 * value.ln());
     let mut now = moments(&mut z);
     for _ in 0..60 {
@@ -25,18 +27,18 @@ pub(super) fn fourth(a: &Matrix3<f64>) -> Fourth {
         while part > 1e-3 {
             next.0 = z + step * part;
             next.1 = moments(&mut next.0);
-            if (values - next.1.0).norm() < residual.norm() {
+            // It converges quadratically: what a small step leaves is below a rounding, where nothing falls any more.
+            if step.amax() < 1e-8 || (values - next.1.0).norm() < residual.norm() {
                 break;
             }
             part *= 0.5;
         }
-        // Below a rounding nothing falls any more.
-        if part <= 1e-3 {
+        (z, now) = next;
+        if step.amax() < 1e-8 {
             break;
         }
-        (z, now) = next;
     }
-    Fourth::orthotropic(&axes, &values, &now.1)
+    Fourth::orthotropic(&axes, &(values * trace), &(now.1 * trace))
 }
 
 /// a_i, and a_2233, a_3311, a_1122, by the trapezoid rule in ln s, which leaves e^(−2π²/h). `z` is made to sum to 0.
