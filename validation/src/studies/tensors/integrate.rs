@@ -57,7 +57,8 @@ pub fn steady(equation: &Equation, start: &Matrix3<f64>) -> Option<Matrix3<f64>>
     let norm = equation.gradient_per_s.norm();
     // Short stretches: a step at the edge of stability is no stiffness.
     let spans: Vec<f64> = (1..=10).map(|k| 10.0 * f64::from(k) / norm).collect();
-    let mut a = *at(equation, start, &spans, 1e-9)?.last()?;
+    let settled = *at(equation, start, &spans, 1e-9)?.last()?;
+    let mut a = settled;
     let rate = |a: &Matrix3<f64>| {
         let found = equation.rate(a) / norm;
         Vector6::from_fn(|n, _| found[PAIRS[n]])
@@ -77,9 +78,9 @@ pub fn steady(equation: &Equation, start: &Matrix3<f64>) -> Option<Matrix3<f64>>
         });
         let step = slope.lu().solve(&here)?;
         a -= matrix(&step);
-        let good = a.symmetric_eigenvalues().min() >= -1e-9 && a.iter().all(|x| x.is_finite());
         if step.amax() < 1e-11 {
-            return good.then_some(a);
+            // Another root is no state that is settled into.
+            return ((a - settled).amax() < 0.05 && a.symmetric_eigenvalues().min() >= -1e-9).then_some(a);
         }
     }
     None
