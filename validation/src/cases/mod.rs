@@ -6,6 +6,7 @@ pub mod catalogue;
 mod changing_flows;
 mod cheapest_split;
 mod closed_forms;
+mod closures;
 mod coefficients;
 mod contact_rule;
 mod decay;
@@ -90,6 +91,7 @@ pub fn all() -> Vec<Case> {
         published::cases(),
         coefficients::cases(),
         folgar_tucker::cases(),
+        closures::cases(),
         orbits::cases(),
         diffusing_rods::cases(),
     ]

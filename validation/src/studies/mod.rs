@@ -9,12 +9,13 @@ pub mod readings;
 pub mod speed;
 pub mod stability;
 pub mod suspensions;
+pub mod tensors;
 pub mod work_precision;
 
 use crate::present::study::Study;
 
 /// Every study, in the order of the report.
-pub const ALL: [Study; 9] = [
+pub const ALL: [Study; 10] = [
     figures::STUDY,
     readings::STUDY,
     kicks::study::STUDY,
@@ -23,6 +24,7 @@ pub const ALL: [Study; 9] = [
     suspensions::free_study::STUDY,
     suspensions::interacting::STUDY,
     coefficients::study::STUDY,
+    tensors::study::STUDY,
     speed::STUDY,
 ];
 

@@ -6,6 +6,7 @@ mod grading;
 #[path = "../common/programs.rs"]
 mod programs;
 
+mod closures;
 mod edited;
 mod layouts;
 mod means;

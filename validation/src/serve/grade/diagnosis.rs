@@ -1,6 +1,7 @@
 //! Which known mistake's curve an answer is.
 
 use super::answer::Answer;
+use super::closures;
 use super::contact;
 use super::means;
 use super::mistakes::{self, Mistake, Setting};
@@ -11,7 +12,7 @@ use nalgebra::{Matrix3, Vector3};
 
 /// An answer is a mistake's curve where it is a thousand times nearer to it than to the truth: a chance coincidence of one
 /// direction with one of some fifty curves has a probability of 10⁻⁴, of several rows far less.
-const NEARER: f64 = 1e-3;
+pub(super) const NEARER: f64 = 1e-3;
 
 /// More names than these tell nothing: where a curve has come to rest, most mistakes have it.
 const MOST_NAMES: usize = 4;
@@ -42,6 +43,9 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Diagnosi
         Kind::Rods if rests(loaded, answer, NEARER * error) => {
             let said = "every rod is where it started: nothing has moved".to_owned();
             Diagnosis { said: Some(said), ..Diagnosis::default() }
+        }
+        Kind::Tensor if loaded.problem.c_i.is_some() || loaded.problem.closed.is_some() => {
+            closures::diagnose(loaded, answer, error)
         }
         _ => {
             let near: Vec<_> = (mistakes::all().into_iter())

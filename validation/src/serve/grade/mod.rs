@@ -3,6 +3,7 @@
 
 mod answer;
 mod axes;
+mod closures;
 mod compare;
 mod contact;
 mod diagnosis;

@@ -83,6 +83,7 @@ pub(super) fn check(folder: &Path, problem: &Problem) -> Result<(), Refused> {
     between("aspect_ratio", problem.aspect_ratio, RATIOS)?;
     spread(problem)?;
     diffusion(problem)?;
+    closed(problem)?;
     times(problem)?;
     ensemble(problem)
 }
@@ -174,6 +175,23 @@ fn diffusion(problem: &Problem) -> Result<(), Refused> {
         (None, _) => Ok(()),
         (Some(c_i), Kind::Tensor) => between("c_i", c_i, DIFFUSION),
         (Some(c_i), _) => Err(("c_i", format!("{c_i:e}: it belongs to the kind \"tensor\" alone"))),
+    }
+}
+
+fn closed(problem: &Problem) -> Result<(), Refused> {
+    const KEY: &str = "closed";
+    let Some(closed) = &problem.closed else { return Ok(()) };
+    if problem.columns.get(1).map(String::as_str) != Some("a11") || problem.c_i.is_some() {
+        return Err((KEY, "it belongs to problems of a11 to a23 without a c_i of their own".to_owned()));
+    }
+    // An anisotropic diffusivity may have parameters below 0.
+    let allowed = |x: &f64| between(KEY, *x, [-MOST, MOST]);
+    closed.model.parameters().iter().try_for_each(allowed)?;
+    let a = closed.start();
+    let whole = (a.trace() - 1.0).abs() <= 1e-12 && a == a.transpose();
+    match whole && a.symmetric_eigenvalues().iter().all(|x| *x >= -1e-12) {
+        true => Ok(()),
+        false => Err((KEY, "start must be symmetric, with trace 1 and no eigenvalue below 0".to_owned())),
     }
 }
 

@@ -88,6 +88,7 @@ fn built(
             aspect_ratio_sd_percent: 0.0,
             times_s: Vec::new(),
             c_i: None,
+            closed: None,
             time_step_s: step_s,
             columns: columns.collect(),
             metric: Metric::Relative,

@@ -156,6 +156,7 @@ fn built(def: &ProblemDef, setting: &Setting, values: std::ops::Range<usize>) ->
             aspect_ratio: setting.aspect_ratio,
             aspect_ratio_sd_percent: 0.0,
             c_i: Some(setting.c_i),
+            closed: None,
             times_s: setting.times_s(),
             time_step_s: None,
             columns,

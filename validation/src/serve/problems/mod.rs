@@ -7,6 +7,7 @@
 mod archive;
 mod asked;
 mod check;
+pub mod closed;
 pub(crate) mod contact;
 mod ensemble;
 mod export;
@@ -26,6 +27,7 @@ pub use export::{SCHEMA, export, files};
 pub use read::read;
 pub use table::{ReadError, Table};
 
+use crate::studies::tensors::{Closure, Model};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -107,6 +109,9 @@ pub struct Problem {
     /// C_I of rods with the rotary diffusivity C_I (2D:D)^½; none of free rods.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub c_i: Option<f64>,
+    /// The closed equation whose answer is asked for; none where it is the distribution's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub closed: Option<Closed>,
     /// When answers are wanted, s, ascending; empty where no time passes.
     pub times_s: Vec<f64>,
     /// Δt of A.14, s, where the answer has angles after a step.
@@ -127,6 +132,18 @@ pub struct Problem {
     /// What an ensemble is made of.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ensemble: Option<Ensemble>,
+}
+
+/// A closed equation of a_ij, and where it starts.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Closed {
+    /// What stands for a_ijkl.
+    pub closure: Closure,
+    /// The model with its parameters.
+    pub model: Model,
+    /// a_ij at t = 0.
+    pub start: [[f64; 3]; 3],
 }
 
 /// An ensemble of suspensions after Lee & Springer (1982).
@@ -269,6 +286,7 @@ pub fn all() -> &'static [ProblemDef] {
             rods::problems(),
             tensor::problems(),
             folgar_tucker::problems(),
+            closed::problems(),
             contact::problems(),
             ensemble::problems(),
         ];

@@ -26,6 +26,10 @@ pub(super) fn page(built: &Built) -> String {
         problem.tolerance,
         problem.because
     );
+    if problem.closed.is_some() {
+        page += &format!("The equation: {}.\n", problem.equations.join("; "));
+        return page;
+    }
     page +=
         &format!("The certified values in `certified.csv` come from: {}.\n", problem.equations.join("; "));
     page
@@ -45,6 +49,12 @@ fn asked(built: &Built) -> String {
                 1 => "rod".into(),
                 count => format!("{count} rods"),
             },
+            problem.aspect_ratio,
+            times()
+        ),
+        Kind::Tensor if problem.closed.is_some() => format!(
+            "a_ij of the closed equation below, for rods of r_e = {}, at t = {} s. `closed` in problem.json has the closure, the model \
+             with its parameters, and a_ij at t = 0.",
             problem.aspect_ratio,
             times()
         ),

@@ -120,6 +120,7 @@ fn problem(def: &ProblemDef, motion: &Motion, times_s: Vec<f64>, tolerance: f64)
         aspect_ratio_sd_percent: 0.0,
         times_s,
         c_i: None,
+        closed: None,
         time_step_s: None,
         columns: Vec::new(),
         metric: Metric::Absolute,

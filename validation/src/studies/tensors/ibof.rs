@@ -1,0 +1,78 @@
+//! The invariant-based optimal fitting closure (Chung & Kwon 2002, J. Rheol. 46, 169).
+//!
+//! a_ijkl = β₁S(δδ) + β₂S(δa) + β₃S(aa) + β₄S(δaa) + β₅S(a aa) + β₆S(aa aa), S the symmetric part. β₃, β₄, β₆ are polynomials of
+//! degree 5 of the invariants; the other three follow from a_ijkk = a_ij. The 63 coefficients were read in `closeA4.m` of
+//! charlestucker3/Fiber-Orientation-Tools, commit 266a6ee (MIT), and are the same in fiberoripy, commit 08d401d (MIT).
+
+use super::closures::Fourth;
+use nalgebra::Matrix3;
+
+/// The powers (of II, of III) of each row.
+#[rustfmt::skip]
+pub const POWERS: [(i32, i32); 21] = [
+    (0, 0), (1, 0), (2, 0), (0, 1), (0, 2), (1, 1), (2, 1), (1, 2), (3, 0), (0, 3), (3, 1), (2, 2), (1, 3), (4, 0), (0, 4), (4, 1),
+    (3, 2), (2, 3), (1, 4), (5, 0), (0, 5),
+];
+
+/// Of β₃, β₄, β₆.
+#[rustfmt::skip]
+pub const COEFFICIENTS: [[f64; 3]; 21] = [
+    [0.24940908165786e2, -0.497217790110754e0, 0.234146291570999e2],
+    [-0.435101153160329e3, 0.234980797511405e2, -0.412048043372534e3],
+    [0.372389335663877e4, -0.391044251397838e3, 0.319553200392089e4],
+    [0.703443657916476e4, 0.153965820593506e3, 0.573259594331015e4],
+    [0.823995187366106e6, 0.152772950743819e6, -0.485212803064813e5],
+    [-0.133931929894245e6, -0.213755248785646e4, -0.605006113515592e5],
+    [0.880683515327916e6, -0.400138947092812e4, -0.477173740017567e5],
+    [-0.991630690741981e7, -0.185949305922308e7, 0.599066486689836e7],
+    [-0.159392396237307e5, 0.296004865275814e4, -0.110656935176569e5],
+    [0.800970026849796e7, 0.247717810054366e7, -0.460543580680696e8],
+    [-0.237010458689252e7, 0.101013983339062e6, 0.203042960322874e7],
+    [0.379010599355267e8, 0.732341494213578e7, -0.556606156734835e8],
+    [-0.337010820273821e8, -0.147919027644202e8, 0.567424911007837e9],
+    [0.322219416256417e5, -0.104092072189767e5, 0.128967058686204e5],
+    [-0.257258805870567e9, -0.635149929624336e8, -0.152752854956514e10],
+    [0.214419090344474e7, -0.247435106210237e6, -0.499321746092534e7],
+    [-0.449275591851490e8, -0.902980378929272e7, 0.132124828143333e9],
+    [-0.213133920223355e8, 0.724969796807399e7, -0.162359994620983e10],
+    [0.157076702372204e10, 0.487093452892595e9, 0.792526849882218e10],
+    [-0.232153488525298e5, 0.138088690964946e5, 0.466767581292985e4],
+    [-0.395769398304473e10, -0.160162178614234e10, -0.128050778279459e11],
+];
+
+pub(super) fn fourth(a: &Matrix3<f64>) -> Fourth {
+    let square = a * a;
+    let second = 0.5 * (a.trace().powi(2) - square.trace());
+    let third = a.determinant();
+    let beta = |k: usize| -> f64 {
+        let terms = COEFFICIENTS.iter().zip(POWERS);
+        terms.map(|(row, (m, n))| row[k] * second.powi(m) * third.powi(n)).sum()
+    };
+    let (b3, b4, b6) = (beta(0), beta(1), beta(2));
+    let b1 = 0.6
+        * (-1.0 / 7.0 + 0.2 * b3 * (1.0 / 7.0 + 4.0 / 7.0 * second + 8.0 / 3.0 * third)
+            - b4 * (0.2 - 8.0 / 15.0 * second - 14.0 / 15.0 * third)
+            - b6 * (1.0 / 35.0 - 24.0 / 105.0 * third - 4.0 / 35.0 * second
+                + 16.0 / 15.0 * second * third
+                + 8.0 / 35.0 * second * second));
+    let b2 = 6.0 / 7.0
+        * (1.0 - 0.2 * b3 * (1.0 + 4.0 * second) + 1.4 * b4 * (1.0 / 6.0 - second)
+            - b6 * (-0.2 + 2.0 / 3.0 * third + 0.8 * second - 1.6 * second * second));
+    let b5 = -0.8 * b3 - 1.4 * b4 - 1.2 * b6 * (1.0 - 4.0 / 3.0 * second);
+    let one = Matrix3::identity();
+    let parts = [
+        (b1, one, one),
+        (b2, one, *a),
+        (b3, *a, *a),
+        (b4, one, square),
+        (b5, *a, square),
+        (b6, square, square),
+    ];
+    Fourth::from_fn(|i, j, k, l| {
+        let part = |(beta, p, q): &(f64, Matrix3<f64>, Matrix3<f64>)| {
+            let pairs = [[(i, j), (k, l)], [(i, k), (j, l)], [(i, l), (j, k)]];
+            beta / 6.0 * pairs.map(|[m, n]| p[m] * q[n] + p[n] * q[m]).iter().sum::<f64>()
+        };
+        parts.iter().map(part).sum()
+    })
+}

@@ -1,0 +1,87 @@
+//! a_ij in time.
+
+use super::models::Equation;
+use nalgebra::{Matrix3, Matrix6, Vector6};
+use ode_solvers::dop_shared::OutputType;
+use ode_solvers::{Dop853, System};
+
+const PAIRS: [(usize, usize); 6] = super::closures::PAIRS;
+
+/// Steps to a time after which the method gives up: a hundred times what the problems take.
+const MOST_STEPS: u32 = 20_000;
+
+struct Rate<'a>(&'a Equation);
+
+impl System<f64, Vector6<f64>> for Rate<'_> {
+    fn system(&self, _: f64, a: &Vector6<f64>, rate: &mut Vector6<f64>) {
+        let found = self.0.rate(&matrix(a));
+        *rate = Vector6::from_fn(|n, _| found[PAIRS[n]]);
+    }
+}
+
+fn matrix(a: &Vector6<f64>) -> Matrix3<f64> {
+    Matrix3::new(a[0], a[3], a[4], a[3], a[1], a[5], a[4], a[5], a[2])
+}
+
+/// a_ij at `times_s` ≥ 0, which ascend, from `start`; by Dormand & Prince's method of order 8 with this relative and absolute
+/// tolerance a step. `None` where it gives up or a is not finite.
+pub fn at(
+    equation: &Equation,
+    start: &Matrix3<f64>,
+    times_s: &[f64],
+    tolerance: f64,
+) -> Option<Vec<Matrix3<f64>>> {
+    let mut now = 0.0;
+    let mut a = Vector6::from_fn(|n, _| start[PAIRS[n]]);
+    let mut all = Vec::new();
+    for time in times_s {
+        if *time > now {
+            let span = time - now;
+            // The defaults of the library, but for the steps after which it gives up: kinks of a closure are such a place.
+            let (rate, out) = (Rate(equation), OutputType::Sparse);
+            let mut solver = Dop853::from_param(
+                rate, 0.0, span, span, a, tolerance, tolerance, 0.9, 0.0, 0.333, 6.0, span, 0.0, MOST_STEPS,
+                1000, out,
+            );
+            solver.integrate().ok()?;
+            a = *solver.y_out().last()?;
+            now = *time;
+        }
+        all.push(matrix(&a));
+    }
+    all.iter().all(|a| a.iter().all(|x| x.is_finite())).then_some(all)
+}
+
+/// A steady a_ij: that to which Newton's method leads from where a is after a strain of about 100. `None` where it leads nowhere.
+pub fn steady(equation: &Equation, start: &Matrix3<f64>) -> Option<Matrix3<f64>> {
+    let norm = equation.gradient_per_s.norm();
+    // Short stretches: a step at the edge of stability is no stiffness.
+    let spans: Vec<f64> = (1..=10).map(|k| 10.0 * f64::from(k) / norm).collect();
+    let settled = *at(equation, start, &spans, 1e-9)?.last()?;
+    let mut a = settled;
+    let rate = |a: &Matrix3<f64>| {
+        let found = equation.rate(a) / norm;
+        Vector6::from_fn(|n, _| found[PAIRS[n]])
+    };
+    for _ in 0..50 {
+        let here = rate(&a);
+        // The trace stays: its row is one that adds it to the rate of a_33.
+        let slope = Matrix6::from_fn(|row, column| {
+            const STEP: f64 = 1e-6;
+            let away = |sign: f64| {
+                let mut off = Vector6::zeros();
+                off[column] = sign * STEP;
+                rate(&(a + matrix(&off)))[row]
+            };
+            let trace = if row == 2 && column < 3 { 1.0 } else { 0.0 };
+            (away(1.0) - away(-1.0)) / (2.0 * STEP) + trace
+        });
+        let step = slope.lu().solve(&here)?;
+        a -= matrix(&step);
+        if step.amax() < 1e-11 {
+            // Another root is no state that is settled into.
+            return ((a - settled).amax() < 0.05 && a.symmetric_eigenvalues().min() >= -1e-9).then_some(a);
+        }
+    }
+    None
+}

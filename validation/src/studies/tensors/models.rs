@@ -1,0 +1,196 @@
+//! Models of the rate of a_ij, for a closure of a_ijkl.
+//!
+//! ȧ = Wa − aW + Λ(Da + aD − 2𝔸:D) + γ̇[2C − 2 tr(C) a − 5(Ca + aC) + 10𝔸:C] with a diffusivity C (1) of the model, γ̇ = (2D:D)^½
+//! (Phelps & Tucker 2009, J. Non-Newton. Fluid Mech. 156, 165). C = C_I δ is Folgar & Tucker's.
+
+use super::closures::{Closure, Fourth, principal};
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// A model with its parameters, all without a unit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Model {
+    /// C = C_I δ (Folgar & Tucker 1984; Advani & Tucker 1987, eq. 32).
+    FolgarTucker {
+        /// C_I.
+        c_i: f64,
+    },
+    /// Folgar & Tucker's with the eigenvalues' rates times κ (Wang, O'Gara & Tucker 2008, J. Rheol. 52, 1179).
+    Rsc {
+        /// C_I.
+        c_i: f64,
+        /// κ.
+        kappa: f64,
+    },
+    /// C = b₁δ + b₂a + b₃a² + b₄D/γ̇ + b₅D²/γ̇², with κ as above (Phelps & Tucker 2009).
+    PhelpsTucker {
+        /// b₁ to b₅.
+        b: [f64; 5],
+        /// κ.
+        kappa: f64,
+    },
+    /// C = C_I(δ − 4C_M D²/γ̇²) (Tseng, Chang & Hsu 2016, J. Rheol. 60, 215).
+    Iard {
+        /// C_I.
+        c_i: f64,
+        /// C_M.
+        c_m: f64,
+    },
+    /// C = C_I diag(1, Ω, 1 − Ω) in the axes of a, from the largest eigenvalue (Tseng, Chang & Hsu 2018, J. Rheol. 62, 313).
+    Pard {
+        /// C_I.
+        c_i: f64,
+        /// Ω.
+        omega: f64,
+    },
+    /// C = C_I diag(d) in the axes of a, from the largest eigenvalue (Bakharev, Yu, Speight & Wang 2018, ANTEC).
+    Mrd {
+        /// C_I.
+        c_i: f64,
+        /// D₁, D₂, D₃.
+        d: [f64; 3],
+    },
+}
+
+impl Model {
+    /// Its name in the field's words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::FolgarTucker { .. } => "Folgar–Tucker",
+            Self::Rsc { .. } => "RSC",
+            Self::PhelpsTucker { .. } => "Phelps–Tucker",
+            Self::Iard { .. } => "iARD",
+            Self::Pard { .. } => "pARD",
+            Self::Mrd { .. } => "MRD",
+        }
+    }
+
+    /// Where it is from, and its equation in words.
+    pub fn source(self) -> &'static str {
+        match self {
+            Self::FolgarTucker { .. } => {
+                "da/dt = Wa − aW + Λ(Da + aD − 2 a_ijkl D_kl) + 2 C_I γ̇ (δ − 3a), γ̇ = (2D:D)^½: Folgar & Tucker 1984; Advani & \
+                 Tucker 1987"
+            }
+            Self::Rsc { .. } => {
+                "Folgar & Tucker's equation with the rates of a's eigenvalues times κ: Wang, O'Gara & Tucker 2008, J. Rheol. 52, 1179"
+            }
+            Self::PhelpsTucker { .. } => {
+                "anisotropic diffusion, C = b1 δ + b2 a + b3 a² + b4 D/γ̇ + b5 D²/γ̇²: Phelps & Tucker 2009, J. Non-Newton. Fluid \
+                 Mech. 156, 165"
+            }
+            Self::Iard { .. } => {
+                "anisotropic diffusion, C = C_I (δ − 4 C_M D²/γ̇²): Tseng, Chang & Hsu 2016, J. Rheol. 60, 215"
+            }
+            Self::Pard { .. } => {
+                "anisotropic diffusion, C = C_I diag(1, Ω, 1 − Ω) in the axes of a from its largest eigenvalue: Tseng, Chang & Hsu \
+                 2018, J. Rheol. 62, 313"
+            }
+            Self::Mrd { .. } => {
+                "anisotropic diffusion, C = C_I diag(D1, D2, D3) in the axes of a from its largest eigenvalue: Bakharev, Yu, Speight \
+                 & Wang 2018, ANTEC"
+            }
+        }
+    }
+
+    /// C; `d` is D, `rate` γ̇.
+    fn diffusivity(self, a: &Matrix3<f64>, d: &Matrix3<f64>, rate: f64) -> Matrix3<f64> {
+        let one = Matrix3::identity();
+        let along = |c_i: f64, d: [f64; 3]| {
+            let (_, axes) = principal(a);
+            axes * Matrix3::from_diagonal(&(Vector3::from(d) * c_i)) * axes.transpose()
+        };
+        match self {
+            Self::FolgarTucker { c_i } | Self::Rsc { c_i, .. } => one * c_i,
+            Self::PhelpsTucker { b, .. } => {
+                one * b[0] + a * b[1] + a * a * b[2] + d * (b[3] / rate) + d * d * (b[4] / (rate * rate))
+            }
+            Self::Iard { c_i, c_m } => (one - d * d * (4.0 * c_m / (rate * rate))) * c_i,
+            Self::Pard { c_i, omega } => along(c_i, [1.0, omega, 1.0 - omega]),
+            Self::Mrd { c_i, d } => along(c_i, d),
+        }
+    }
+
+    /// Every parameter.
+    pub fn parameters(self) -> Vec<f64> {
+        match self {
+            Self::FolgarTucker { c_i } => vec![c_i],
+            Self::Rsc { c_i: one, kappa: other }
+            | Self::Iard { c_i: one, c_m: other }
+            | Self::Pard { c_i: one, omega: other } => vec![one, other],
+            Self::PhelpsTucker { b, kappa } => [&b[..], &[kappa]].concat(),
+            Self::Mrd { c_i, d } => [&[c_i], &d[..]].concat(),
+        }
+    }
+
+    /// κ.
+    fn slowness(self) -> f64 {
+        match self {
+            Self::Rsc { kappa, .. } | Self::PhelpsTucker { kappa, .. } => kappa,
+            _ => 1.0,
+        }
+    }
+}
+
+/// An equation for a_ij: closed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Equation {
+    /// L, 1/s.
+    pub gradient_per_s: Matrix3<f64>,
+    /// Λ.
+    pub shape_factor: f64,
+    /// What stands for a_ijkl.
+    pub closure: Closure,
+    /// What stands for what rods do to each other.
+    pub model: Model,
+}
+
+impl Equation {
+    /// da_ij/dt, 1/s.
+    pub fn rate(&self, a: &Matrix3<f64>) -> Matrix3<f64> {
+        self.rate_with(a, &self.closure.fourth(a))
+    }
+
+    /// da_ij/dt, 1/s, with these fourth moments.
+    pub fn rate_with(&self, a: &Matrix3<f64>, fourth: &Fourth) -> Matrix3<f64> {
+        let l = &self.gradient_per_s;
+        let (w, d) = ((l - l.transpose()) * 0.5, (l + l.transpose()) * 0.5);
+        let rate = (2.0 * d.dot(&d)).sqrt();
+        if rate == 0.0 {
+            return w * a - a * w;
+        }
+        let c = self.model.diffusivity(a, &d, rate);
+        let kappa = self.model.slowness();
+        let (fourth, source) = match kappa == 1.0 {
+            true => (*fourth, c),
+            false => slowed(kappa, a, fourth, &c),
+        };
+        let turned = w * a - a * w;
+        let stretched = d * a + a * d - fourth.contract(&d) * 2.0;
+        let diffused = diffusion(a, &fourth, &c) + (source - c) * 2.0 + a * (2.0 * (1.0 - kappa) * c.trace());
+        turned + stretched * self.shape_factor + diffused * rate
+    }
+}
+
+/// 2C − 2 tr(C) a − 5(Ca + aC) + 10𝔸:C.
+pub(super) fn diffusion(a: &Matrix3<f64>, fourth: &Fourth, c: &Matrix3<f64>) -> Matrix3<f64> {
+    c * 2.0 - a * (2.0 * c.trace()) - (c * a + a * c) * 5.0 + fourth.contract(c) * 10.0
+}
+
+/// 𝔸 + (1 − κ)(𝕃 − 𝕄:𝔸) and C − (1 − κ)𝕄:C, with 𝕃 = Σλ_i eeee and 𝕄 = Σ eeee over the axes of a.
+fn slowed(kappa: f64, a: &Matrix3<f64>, fourth: &Fourth, c: &Matrix3<f64>) -> (Fourth, Matrix3<f64>) {
+    let (values, axes) = principal(a);
+    let own = fourth.turned(&axes.transpose());
+    // In the axes of a: 𝕄 keeps the rows of eeee.
+    let slow = Fourth::from_fn(|i, j, k, l| match i == j {
+        true => {
+            let target = if k == i && l == i { values[i] } else { 0.0 };
+            own.at(i, i, k, l) + (1.0 - kappa) * (target - own.at(i, i, k, l))
+        }
+        false => own.at(i, j, k, l),
+    });
+    let inner = axes.transpose() * c * axes;
+    let kept = axes * Matrix3::from_diagonal(&inner.diagonal()) * axes.transpose();
+    (slow.turned(&axes), c - kept * (1.0 - kappa))
+}

@@ -1,0 +1,253 @@
+mod published;
+
+use super::closures::{Closure, Fourth, PAIRS, principal};
+use super::models::{Equation, Model, diffusion};
+use super::{at, isotropic, steady};
+use crate::oracle::reference::big::Bits;
+use crate::oracle::reference::isotropic::{Covariance, QUADRUPLES};
+use crate::oracle::reference::motion::{Motion, Unit};
+use nalgebra::{Matrix3, Rotation3, Vector3};
+
+pub const SHEAR: [[f64; 3]; 3] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]];
+const ASKEW: [[f64; 3]; 3] = [[0.25, -0.5, 0.125], [0.75, 0.125, -0.25], [0.375, 0.625, -0.375]];
+
+pub fn matrix(rows: [[f64; 3]; 3]) -> Matrix3<f64> {
+    Matrix3::from_fn(|i, j| rows[i][j])
+}
+
+/// a with these eigenvalues, in no one's axes.
+fn turned(values: [f64; 3]) -> Matrix3<f64> {
+    let axes = Rotation3::from_euler_angles(0.3, -0.8, 1.9);
+    axes.matrix() * Matrix3::from_diagonal(&Vector3::from(values)) * axes.matrix().transpose()
+}
+
+const SOME: [[f64; 3]; 5] =
+    [[0.5, 0.3, 0.2], [0.8, 0.15, 0.05], [0.4, 0.4, 0.2], [0.62, 0.19, 0.19], [0.97, 0.02, 0.01]];
+
+/// |a_iikk − a_ii| of a tensor that need not be symmetric in all its indices.
+fn trace_off(fourth: &Fourth, a: &Matrix3<f64>) -> f64 {
+    (fourth.contract(&Matrix3::identity()) - a).amax()
+}
+
+/// |a_ijkl − a_ikjl|.
+fn asymmetry(fourth: &Fourth) -> f64 {
+    let off = QUADRUPLES.iter().flat_map(|q| {
+        let [i, j, k, l] = q.map(|i| i - 1);
+        let first = fourth.at(i, j, k, l);
+        [fourth.at(i, k, j, l), fourth.at(i, l, j, k), fourth.at(k, l, i, j)].map(|x| (x - first).abs())
+    });
+    off.fold(0.0, f64::max)
+}
+
+#[test]
+fn every_closure_has_the_trace_of_a_and_all_but_two_every_symmetry() {
+    for values in SOME {
+        let a = turned(values);
+        for closure in Closure::ALL {
+            let fourth = closure.fourth(&a);
+            // IBOF's terms reach 10³ times its result.
+            let off = trace_off(&fourth, &a);
+            assert!(off < 1e-12, "{closure:?}: {off:e}");
+            assert!(trace_off(&fourth, &(a * 1.001)) > 1e-5);
+            let off = asymmetry(&fourth);
+            match closure {
+                Closure::Quadratic | Closure::Hybrid => assert!(off > 1e-3, "{closure:?}: {off:e}"),
+                _ => assert!(off < 1e-12, "{closure:?}: {off:e}"),
+            }
+        }
+    }
+}
+
+/// a_ijkl of a distribution that has these values in all orders of indices.
+fn apart(fourth: &Fourth, of: impl Fn([usize; 4]) -> f64) -> f64 {
+    let off = QUADRUPLES.iter().map(|q| {
+        let q = q.map(|i| i - 1);
+        (fourth.at(q[0], q[1], q[2], q[3]) - of(q)).abs()
+    });
+    off.fold(0.0, f64::max)
+}
+
+/// Random: a_ijkl = (δδ + δδ + δδ)/15. Aligned: p_i p_j p_k p_l. Random in a plane: the same with 1/8 and δ of the plane.
+#[test]
+fn closures_are_exact_in_the_limits_that_they_claim() {
+    let random = |d: Matrix3<f64>, share: f64| {
+        move |[i, j, k, l]: [usize; 4]| {
+            share * (d[(i, j)] * d[(k, l)] + d[(i, k)] * d[(j, l)] + d[(i, l)] * d[(j, k)])
+        }
+    };
+    let axes = Rotation3::from_euler_angles(0.3, -0.8, 1.9);
+    let p = axes * Vector3::x();
+    let plane = Matrix3::identity() - p * p.transpose();
+    let limits = |closure: Closure| {
+        let aligned = apart(&closure.fourth(&(p * p.transpose())), |q| q.iter().map(|i| p[*i]).product());
+        [
+            apart(&closure.fourth(&isotropic()), random(Matrix3::identity(), 1.0 / 15.0)),
+            aligned,
+            apart(&closure.fourth(&(plane * 0.5)), random(plane, 0.125)),
+        ]
+    };
+    for closure in Closure::ALL {
+        // The random, aligned and planar limit: 1 where nothing is claimed.
+        let allowed = match closure {
+            Closure::Linear => [1e-15, 1.0, 1.0],
+            Closure::Quadratic => [1.0, 1e-15, 1.0],
+            Closure::Hybrid => [1e-15, 1e-15, 1.0],
+            // Eigenvalues below 10⁻¹² are taken to be that; a_1122 is not above a_22.
+            Closure::Natural => [1e-14, 1e-11, 1e-11],
+            // 15 digits of coefficients that are made to meet the limits; others are fitted to C_I of 10⁻⁴ to 10⁻¹, to 1 % or so.
+            Closure::Ore => [1e-12; 3],
+            Closure::Orw | Closure::Ibof => [1e-2; 3],
+        };
+        let found = limits(closure);
+        for (found, allowed) in found.iter().zip(allowed) {
+            assert!(*found <= allowed, "{closure:?}: {found:e} > {allowed:e}");
+            // Where a limit is not claimed it is missed.
+            assert!(allowed < 1.0 || *found > 0.01, "{closure:?}: {found:e}");
+        }
+    }
+}
+
+/// a_ij and a_ijkl of free rods that started isotropic, exact, after a strain.
+fn free(motion: &Motion, strain: f64) -> (Matrix3<f64>, [f64; 15]) {
+    let exact = Covariance::at(motion, &Bits(64).of(strain), Unit::Second).unwrap();
+    let second = exact.second().map(|x| x.to_f64().value());
+    let mut a = Matrix3::zeros();
+    for (value, (i, j)) in second.iter().zip(PAIRS) {
+        (a[(i, j)], a[(j, i)]) = (*value, *value);
+    }
+    (a, exact.fourth().map(|x| x.to_f64().value()))
+}
+
+#[test]
+fn the_natural_closure_is_exact_for_free_rods_that_started_isotropic() {
+    for (gradient_per_s, aspect_ratio) in [(SHEAR, 1e100), (SHEAR, 5.0), (ASKEW, 3.0), (ASKEW, 0.2)] {
+        let motion = Motion { gradient_per_s, aspect_ratio };
+        for strain in [0.001, 0.5, 2.0, 6.0] {
+            let (a, exact) = free(&motion, strain);
+            let off = |closure: Closure, a: &Matrix3<f64>| {
+                let at =
+                    |q: [usize; 4]| exact[QUADRUPLES.iter().position(|r| r.map(|i| i - 1) == q).unwrap()];
+                apart(&closure.fourth(a), at)
+            };
+            let error = off(Closure::Natural, &a);
+            assert!(error < 1e-12, "{aspect_ratio} {strain}: {error:e}");
+            // Its fit is good to a few 10⁻³, and another a has another a_ijkl.
+            let fit = off(Closure::Ore, &a);
+            assert!(fit < 1e-2 && (strain < 0.1 || fit > 1e-6), "{fit:e}");
+            assert!(off(Closure::Natural, &(a * 0.999 + isotropic() * 0.001)) > 1e-6 || strain < 0.1);
+        }
+    }
+}
+
+/// ȧ of Jeffery's rods with the exact a_ijkl is the natural closure's: the path of a is that of the free rods.
+#[test]
+fn free_rods_follow_from_the_natural_closure_alone() {
+    let motion = Motion { gradient_per_s: ASKEW, aspect_ratio: 3.0 };
+    let equation = |closure, shape_factor| Equation {
+        gradient_per_s: matrix(ASKEW),
+        shape_factor,
+        closure,
+        model: Model::FolgarTucker { c_i: 0.0 },
+    };
+    let (exact, _) = free(&motion, 4.0);
+    let off = |closure, shape| {
+        let found = at(&equation(closure, shape), &isotropic(), &[1.0, 4.0], 1e-13).unwrap();
+        (found[1] - exact).amax()
+    };
+    let error = off(Closure::Natural, 0.8);
+    assert!(error < 1e-11, "{error:e}");
+    assert!(off(Closure::Hybrid, 0.8) > 1e-2);
+    assert!(off(Closure::Natural, 0.81) > 1e-4);
+}
+
+/// Rates of a single direction's pp by diffusion: ∇·(P C P ∇(x_i x_j/|x|²)) by differences, against 2C − 2 tr C a − 5(Ca + aC) +
+/// 10 𝔸:C with a = pp, 𝔸 = pppp.
+#[test]
+fn the_term_of_diffusion_is_the_mean_of_the_diffusion_operator() {
+    let c = turned([0.05, 0.02, 0.001]);
+    let p = Vector3::new(0.48, -0.6, 0.64);
+    let flux = |x: Vector3<f64>, i: usize, j: usize| {
+        let (r2, one) = (x.norm_squared(), Matrix3::identity());
+        let p = one - x * x.transpose() / r2;
+        let unit = |i: usize| Vector3::ith(i, 1.0);
+        let slope = (unit(i) * x[j] + unit(j) * x[i]) / r2 - x * (2.0 * x[i] * x[j] / (r2 * r2));
+        p * c * p * slope
+    };
+    let h = 1e-4;
+    let by_differences = Matrix3::from_fn(|i, j| {
+        (0..3)
+            .map(|k| {
+                let e = Vector3::ith(k, h);
+                let away = |n: f64| flux(p + e * n, i, j)[k];
+                (8.0 * (away(1.0) - away(-1.0)) - (away(2.0) - away(-2.0))) / (12.0 * h)
+            })
+            .sum()
+    });
+    let (a, fourth) = (p * p.transpose(), Fourth::from_fn(|i, j, k, l| p[i] * p[j] * p[k] * p[l]));
+    let off = (diffusion(&a, &fourth, &c) - by_differences).amax();
+    assert!(off < 1e-10, "{off:e}");
+    // A 4 in place of the 5.
+    assert!((diffusion(&a, &fourth, &c) + c * a + a * c - by_differences).amax() > 1e-3);
+}
+
+fn in_shear(closure: Closure, model: Model) -> Equation {
+    Equation { gradient_per_s: matrix(SHEAR), shape_factor: 1.0, closure, model }
+}
+
+/// In no one's symmetry, with all axes apart.
+fn start() -> Matrix3<f64> {
+    turned([0.5, 0.3, 0.2])
+}
+
+#[test]
+fn richer_models_reduce_to_folgar_and_tuckers() {
+    let c_i = 0.02;
+    let flow =
+        Equation { gradient_per_s: matrix(ASKEW), ..in_shear(Closure::Orw, Model::FolgarTucker { c_i }) };
+    let plain = flow.rate(&start());
+    let off = |model| (Equation { model, ..flow }.rate(&start()) - plain).amax();
+    for (same, other) in [
+        (Model::Rsc { c_i, kappa: 1.0 }, Model::Rsc { c_i, kappa: 0.9 }),
+        (Model::Iard { c_i, c_m: 0.0 }, Model::Iard { c_i, c_m: 0.1 }),
+        (Model::Mrd { c_i, d: [1.0; 3] }, Model::Mrd { c_i, d: [1.0, 0.9, 1.0] }),
+        (
+            Model::PhelpsTucker { b: [c_i, 0.0, 0.0, 0.0, 0.0], kappa: 1.0 },
+            Model::PhelpsTucker { b: [c_i, 0.0, 0.0, 0.01, 0.0], kappa: 1.0 },
+        ),
+    ] {
+        assert!(off(same) < 1e-14, "{same:?}: {:e}", off(same));
+        assert!(off(other) > 1e-4, "{other:?}");
+    }
+    // The paths of 𝔸 and C through the axes of a, with what leaves both as they are.
+    assert!(off(Model::Rsc { c_i, kappa: 1.0 - 1e-12 }) < 1e-11);
+    let rate = |model| Equation { model, ..flow }.rate(&start());
+    let pard = rate(Model::Pard { c_i, omega: 0.7 }) - rate(Model::Mrd { c_i, d: [1.0, 0.7, 0.3] });
+    assert!(pard.amax() < 1e-15);
+    // Phelps & Tucker's b₅ alone is iARD's C_M.
+    let iard = rate(Model::Iard { c_i, c_m: 0.5 });
+    let same = rate(Model::PhelpsTucker { b: [c_i, 0.0, 0.0, 0.0, -2.0 * c_i], kappa: 1.0 });
+    assert!((iard - same).amax() < 1e-15);
+    for b in [[0.0, c_i, 0.0, 0.0, 0.0], [0.0, 0.0, c_i, 0.0, 0.0]] {
+        let (values, _) = principal(&start());
+        let power = if b[1] > 0.0 { 1 } else { 2 };
+        let d = std::array::from_fn(|k| values[k].powi(power));
+        let off = rate(Model::PhelpsTucker { b, kappa: 1.0 }) - rate(Model::Mrd { c_i, d });
+        assert!(off.amax() < 1e-15);
+    }
+}
+
+/// RSC slows the eigenvalues' rates by κ and leaves the axes' (Wang, O'Gara & Tucker 2008, eqs 14, 15): so in the axes of a the diagonal
+/// of ȧ is κ times Folgar & Tucker's, and the rest is the same. Its steady state is theirs.
+#[test]
+fn rsc_slows_eigenvalues_alone() {
+    let (c_i, kappa) = (0.01, 0.1);
+    let (_, axes) = principal(&start());
+    let own = |model| axes.transpose() * in_shear(Closure::Ibof, model).rate(&start()) * axes;
+    let (plain, slow) = (own(Model::FolgarTucker { c_i }), own(Model::Rsc { c_i, kappa }));
+    let expected = Matrix3::from_fn(|i, j| if i == j { kappa * plain[(i, j)] } else { plain[(i, j)] });
+    assert!((slow - expected).amax() < 1e-13, "{}", slow - expected);
+    assert!((slow - plain * kappa).amax() > 1e-2);
+    let rest = |model| steady(&in_shear(Closure::Ibof, model), &start()).unwrap();
+    let off = (rest(Model::FolgarTucker { c_i }) - rest(Model::Rsc { c_i, kappa })).amax();
+    assert!(off < 1e-10, "{off:e}");
+}
