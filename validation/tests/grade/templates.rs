@@ -162,8 +162,7 @@ fn build_systems_hold_a_program_to_the_problems() {
     }
     if runs("fpm", &["--version"]) && runs("gfortran", &["--version"]) {
         put("fpm/fpm.toml", "fpm.toml", None);
-        let grader =
-            "shearbed grade --problem mid-flip-2 --protocol text --order 4 --brief --force --command";
+        let grader = "shearbed grade --problem mid-flip-2 --protocol text --order 4 --timeout 600 --brief --force --command";
         for change in [None, Some(("2*k2", "1.8d0*k2"))] {
             put("templates/my_code.f90", "test/my_code.f90", change);
             let (passed, words) = ends("fpm", &["test", "--runner", grader]);
