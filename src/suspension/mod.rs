@@ -262,7 +262,7 @@ impl Suspension {
                 Update::Angles => step_angles(&start, &rates[k], self.rule.step),
                 Update::Kick => {
                     let end = self.rods.after_step(pair[k], self.tick);
-                    let change = (rates[k] - free[k]) * 0.5;
+                    let change = rates[k] - free[k];
                     let end = kick(&end, &p[k], &change, self.rule.step);
                     (end, norm(&rates[k]) * self.rule.step)
                 }
