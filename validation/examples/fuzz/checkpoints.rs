@@ -11,7 +11,7 @@ use shearbed::scene;
 use std::collections::BTreeMap;
 use std::fs;
 use std::time::Duration;
-use validation::files::checkpoint::{Checkpoint, Replicas};
+use validation::files::checkpoint::{Checkpoint, Replicas, without_replicas};
 use validation::files::output::Refused;
 
 /// A scene that is soon run.
@@ -60,7 +60,7 @@ pub fn checkpoint() -> Target {
         };
         let dir = tempfile::tempdir().expect("the harness has a folder");
         let path = dir.path().join("kept");
-        let file = Checkpoint::open(&path, "run", json!({ "scene": plan.scene().resolved() }));
+        let file = Checkpoint::open(&path, "run", json!({ "scene": without_replicas(plan.scene()) }));
         let file = file.map_err(|Refused(why)| why).expect("a new one");
         file.write(&state).expect("the harness writes");
         vec![("kept", fs::read(&path).expect("it was written"))]
