@@ -37,6 +37,7 @@ replicas = 3
 /// As a checkpoint of a run has it.
 #[derive(Serialize)]
 struct Kept {
+    asked: u64,
     tally: Tally,
     done: BTreeMap<u64, Replica>,
     halfway: BTreeMap<u64, Halfway>,
@@ -54,6 +55,7 @@ pub fn checkpoint() -> Target {
         let last = go_on(&plan, 2, None, |state| states.push(state())).expect("it runs");
         let middle = states.swap_remove(states.len() / 2);
         let state = Kept {
+            asked: plan.scene().ensemble.replicas,
             tally,
             done: (added == 1).then_some((2, last)).into_iter().collect(),
             halfway: (added == 0).then_some((2, middle)).into_iter().collect(),
