@@ -108,8 +108,7 @@ fn check_flow_steps(scene: &Scene, steps: &[FlowStep]) -> Result<(), Invalid> {
             format!("at most {all}, the strain of all flow.steps together"),
         ));
     }
-    let rate = |step: &FlowStep| step.gradient().map_or(f64::NAN, |flow| flow.magnitude_per_s());
-    let seconds = || steps.iter().map(|step| step.strain / rate(step));
+    let seconds = || steps.iter().map(|step| step.strain / step.rate_per_s());
     match seconds().all(|seconds| seconds > 0.0) && seconds().sum::<f64>().is_finite() {
         true => Ok(()),
         false => refused("rates at which each lasts a finite number of seconds > 0".to_owned()),

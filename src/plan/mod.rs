@@ -1,18 +1,20 @@
 //! The plan of a scene: which stages run, which are left out, and why.
 
 mod check;
+mod elapsed;
 pub mod free;
 mod stages;
 mod warnings;
 
+pub use elapsed::Elapsed;
 pub use stages::{Entry, Stage};
 
 use crate::model::flow::VelocityGradient;
-use crate::model::jeffery::strain_per_period;
 use crate::observable::Observable;
 use crate::plan::free::FreeMotion;
 use crate::scene::document::Document;
-use crate::scene::{Error, FlowStep, MAX_REPLICAS, Scene, TimeUnit, of_document};
+use crate::scene::{Error, MAX_REPLICAS, Scene, TimeUnit, of_document};
+use elapsed::Timing;
 pub(crate) use stages::no_interaction;
 use stages::{entries, rod_errors};
 use std::fmt;
@@ -27,21 +29,6 @@ pub(crate) enum Clock {
     Strain { ticks: u64 },
 }
 
-/// A time of a plan in other units.
-///
-/// ```
-/// let period = shearbed::Plan::new(&shearbed::Scene::default())?.elapsed(1.0);
-/// assert_eq!(period.strain, shearbed::model::jeffery::strain_per_period(11.6));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Elapsed {
-    /// In s.
-    pub seconds: f64,
-    /// In shear strain ∫(2D:D)^½ dt.
-    pub strain: f64,
-}
-
 /// What will run for a scene: the scene, checked, and its stages.
 ///
 /// ```
@@ -53,6 +40,7 @@ pub struct Elapsed {
 pub struct Plan {
     scene: Scene,
     flow: VelocityGradient,
+    timing: Timing,
     /// Where rods that do not meet are, but in plane Couette flow by periods.
     free: Option<Arc<FreeMotion>>,
     entries: Vec<Entry>,
@@ -76,7 +64,8 @@ impl Plan {
             true => None,
             false => Some(Arc::new(FreeMotion::new(scene, &flow).map_err(one)?)),
         };
-        Ok(Self { scene: scene.clone(), flow, free, entries: entries(scene) })
+        let timing = Timing::of(scene, &flow);
+        Ok(Self { scene: scene.clone(), flow, timing, free, entries: entries(scene) })
     }
 
     /// Reads a scene file's text and plans it; `file` names the text in errors.
@@ -206,16 +195,7 @@ impl Plan {
 
     /// The seconds and the shear strain from the start to `time`, one of [`Plan::times`] or between them.
     pub fn elapsed(&self, time: f64) -> Elapsed {
-        if let Some(steps) = self.scene.flow.steps() {
-            return Elapsed { seconds: seconds_of_steps(steps, time), strain: time };
-        }
-        let seconds = self.scene.seconds_per_unit(&self.flow);
-        let strain = match (self.scene.time.unit, self.flow.shear_rate_per_s()) {
-            (TimeUnit::Strain, _) => 1.0,
-            (TimeUnit::Period, Some(_)) => strain_per_period(self.scene.particles.aspect_ratio),
-            (TimeUnit::Period, None) => seconds * self.flow.magnitude_per_s(),
-        };
-        Elapsed { seconds: time * seconds, strain: time * strain }
+        self.timing.at(time)
     }
 
     /// The times of the outputs, in periods or units of strain.
@@ -288,23 +268,6 @@ impl fmt::Display for Plan {
         }
         Ok(())
     }
-}
-
-/// The seconds in which flows that follow one another strain the liquid by `strain`.
-fn seconds_of_steps(steps: &[FlowStep], strain: f64) -> f64 {
-    let (mut seconds, mut from) = (0.0, 0.0);
-    for step in steps {
-        let rate = step.gradient().map_or(f64::NAN, |flow| {
-            // Of plane Couette flow without a rounding.
-            flow.shear_rate_per_s().map_or_else(|| flow.magnitude_per_s(), f64::abs)
-        });
-        let here = (strain - from).min(step.strain);
-        if here > 0.0 {
-            seconds += here / rate;
-        }
-        from += step.strain;
-    }
-    seconds
 }
 
 fn counted(count: u64, what: &str) -> String {

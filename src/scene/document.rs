@@ -170,11 +170,9 @@ impl<'a> Table<'a> {
         self.entries.get(key)?.value()
     }
 
-    /// All of it, where it is of that type.
-    pub(super) fn whole<T: DeserializeOwned>(&self) -> Option<T> {
-        let all: Option<toml::Table> =
-            self.entries.iter().map(|(key, node)| Some((key.clone(), node.value()?))).collect();
-        Value::Table(all?).try_into().ok()
+    /// All of it.
+    pub(super) fn whole(&self) -> Option<toml::Table> {
+        values(self.entries)
     }
 
     /// The table of a key.
@@ -243,6 +241,10 @@ fn entries(table: &DeTable<'_>) -> Entries {
     table.iter().map(node).collect()
 }
 
+fn values(entries: &Entries) -> Option<toml::Table> {
+    entries.iter().map(|(key, node)| Some((key.clone(), node.value()?))).collect()
+}
+
 impl Node {
     fn read(at: usize, value: &toml::Spanned<DeValue<'_>>) -> Self {
         let single = |value| Content::Single(Some(value));
@@ -276,10 +278,7 @@ impl Node {
 
     fn value(&self) -> Option<Value> {
         match &self.content {
-            Content::Table(entries) => {
-                let inner = entries.iter().map(|(key, node)| Some((key.clone(), node.value()?)));
-                inner.collect::<Option<_>>().map(Value::Table)
-            }
+            Content::Table(entries) => values(entries).map(Value::Table),
             Content::Array(all) => all.iter().map(Self::value).collect::<Option<_>>().map(Value::Array),
             Content::Single(value) => value.clone(),
         }

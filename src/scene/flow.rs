@@ -1,11 +1,10 @@
 //! `[flow]`: the imposed velocity gradient.
 
-use super::document;
 use super::keys::{Absent::Other, Field, Holds, table};
 use super::read::Reader;
 use crate::model::flow::VelocityGradient;
 use nalgebra::Matrix3;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// `[flow]`: one of its three keys.
 ///
@@ -45,8 +44,7 @@ pub enum Flow {
 /// let scene = Scene { flow: Flow::Steps { steps }, time: Time::strain(20.0), ..Scene::default() };
 /// assert!(shearbed::Plan::new(&scene).is_ok());
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "FlowStepKeys")]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FlowStep {
     /// Row i and column j hold ∂u_i/∂x_j.
     pub gradient_per_s: [[f64; 3]; 3],
@@ -54,33 +52,15 @@ pub struct FlowStep {
     pub strain: f64,
 }
 
-/// A step as a scene file has it: with one of the two rates.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct FlowStepKeys {
-    shear_rate_per_s: Option<f64>,
-    gradient_per_s: Option<Vec<Vec<f64>>>,
-    strain: f64,
+impl<'de> Deserialize<'de> for FlowStep {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let step = Self::of_keys(toml::Table::deserialize(deserializer)?);
+        step.map_err(|(key, allowed)| serde::de::Error::custom(format!("{key}: {allowed}")))
+    }
 }
 
-impl TryFrom<FlowStepKeys> for FlowStep {
-    type Error = &'static str;
-
-    fn try_from(keys: FlowStepKeys) -> Result<Self, &'static str> {
-        let FlowStepKeys { shear_rate_per_s, gradient_per_s, strain } = keys;
-        let rows = |rows: Vec<Vec<f64>>| -> Option<[[f64; 3]; 3]> {
-            let rows: Option<Vec<[f64; 3]>> = rows.into_iter().map(|row| row.try_into().ok()).collect();
-            rows?.try_into().ok()
-        };
-        match (shear_rate_per_s, gradient_per_s) {
-            (Some(rate), None) => Ok(Self::shear(rate, strain)),
-            (None, Some(given)) => match rows(given) {
-                Some(gradient_per_s) => Ok(Self { gradient_per_s, strain }),
-                None => Err("three rows of three numbers"),
-            },
-            _ => Err("shear_rate_per_s or gradient_per_s"),
-        }
-    }
+fn is_positive(x: f64) -> bool {
+    x.is_finite() && x > 0.0
 }
 
 impl FlowStep {
@@ -89,31 +69,27 @@ impl FlowStep {
         Self { gradient_per_s: [[0.0; 3], [shear_rate_per_s, 0.0, 0.0], [0.0; 3]], strain }
     }
 
-    /// The first key of a step that is not allowed, with what is.
-    fn wrong_key(step: &document::Table<'_>) -> Option<(String, &'static str)> {
-        const KEYS: [&str; 3] = ["strain", "shear_rate_per_s", "gradient_per_s"];
-        let wrong = |key: &str, allowed| Some((key.to_owned(), allowed));
-        if let Some(unknown) = step.keys().find(|key| !KEYS.contains(key)) {
-            return wrong(unknown, "strain, shear_rate_per_s and gradient_per_s are the keys of a step");
+    /// A step as a scene file has it, with one of the two rates; the error is the key that is wrong, and what is allowed.
+    fn of_keys(mut keys: toml::Table) -> Result<Self, (String, &'static str)> {
+        const RATES: [&str; 2] = ["shear_rate_per_s", "gradient_per_s"];
+        let wrong = |key: &str, allowed| (key.to_owned(), allowed);
+        if let Some(unknown) = keys.keys().find(|key| *key != "strain" && !RATES.contains(&&key[..])) {
+            return Err(wrong(unknown, "strain, shear_rate_per_s and gradient_per_s are the keys of a step"));
         }
-        let sound = |strain: f64| strain.is_finite() && strain > 0.0;
-        if !step.read("strain").is_some_and(sound) {
-            return wrong("strain", "a finite number > 0");
-        }
-        if step.has("shear_rate_per_s") == step.has("gradient_per_s") {
-            return wrong("shear_rate_per_s", "either it or gradient_per_s");
-        }
-        let whole =
-            || step.value("gradient_per_s").is_none_or(|value| <[[f64; 3]; 3]>::from_toml(value).is_some());
-        let read = || step.whole::<Self>().is_some_and(|step| step.is_allowed());
-        match (step.has("shear_rate_per_s"), whole() && read()) {
-            (_, true) => None,
-            (true, false) => wrong("shear_rate_per_s", "a finite number other than 0"),
-            (false, false) => wrong(
-                "gradient_per_s",
-                "three rows of three finite numbers, with a rate of strain that is not 0",
-            ),
-        }
+        let strain = keys.remove("strain").and_then(f64::from_toml).filter(|strain| is_positive(*strain));
+        let strain = strain.ok_or(wrong("strain", "a finite number > 0"))?;
+        let (key, allowed, step) = match RATES.map(|key| keys.remove(key)) {
+            [Some(rate), None] => {
+                let step = f64::from_toml(rate).map(|rate| Self::shear(rate, strain));
+                (RATES[0], "a finite number other than 0", step)
+            }
+            [None, Some(rows)] => {
+                let step = Field::from_toml(rows).map(|gradient_per_s| Self { gradient_per_s, strain });
+                (RATES[1], "three rows of three finite numbers, with a rate of strain that is not 0", step)
+            }
+            _ => (RATES[0], "either it or gradient_per_s", None),
+        };
+        step.filter(Self::is_allowed).ok_or(wrong(key, allowed))
     }
 
     /// The flow; `None` where a component is not finite.
@@ -121,10 +97,17 @@ impl FlowStep {
         VelocityGradient::new(Matrix3::from_fn(|i, j| self.gradient_per_s[i][j]))
     }
 
+    /// (2D:D)^½ in 1/s; NaN where a component is not finite.
+    pub(crate) fn rate_per_s(&self) -> f64 {
+        self.gradient().map_or(f64::NAN, |flow| {
+            // Of plane Couette flow without a rounding.
+            flow.shear_rate_per_s().map_or_else(|| flow.magnitude_per_s(), f64::abs)
+        })
+    }
+
     /// True if its strain is finite and > 0, and its rate of strain too.
     pub(super) fn is_allowed(&self) -> bool {
-        let sound = |x: f64| x.is_finite() && x > 0.0;
-        sound(self.strain) && self.gradient().is_some_and(|flow| sound(flow.magnitude_per_s()))
+        is_positive(self.strain) && is_positive(self.rate_per_s())
     }
 }
 
@@ -198,7 +181,7 @@ impl Flow {
             ["flow.shear_rate_per_s", "flow.gradient_per_s", "flow.steps"],
             "shear_rate_per_s, gradient_per_s or steps must be given",
         );
-        if reader.refused_steps("flow.steps", FlowStep::wrong_key) {
+        if reader.refuses_table("flow.steps", |step| FlowStep::of_keys(step).err()) {
             return None;
         }
         match FlowKeys::read_keys(reader)? {

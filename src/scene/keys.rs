@@ -1,5 +1,9 @@
 //! What a key of a scene is: its meaning, unit, allowed values and default. The rows are in `table!` blocks, one for each table.
 
+mod field;
+
+pub(super) use field::Field;
+
 use super::{Ensemble, FlowKeys, Interaction, Invalid, Output, Particles, TimeKeys};
 use crate::observable::Observable;
 
@@ -278,34 +282,6 @@ pub(crate) fn find(path: &str) -> Option<&'static Key> {
     keys().chain(ALL.iter().map(|table| &table.key)).find(|key| key.path == path)
 }
 
-/// A type that a key can have.
-pub(super) trait Field: serde::de::DeserializeOwned {
-    /// The value from TOML; `None` where it has another type.
-    fn from_toml(value: toml::Value) -> Option<Self> {
-        value.try_into().ok()
-    }
-
-    /// True if a key that allows `holds` allows it.
-    fn allowed(&self, _holds: &Holds) -> bool {
-        true
-    }
-
-    /// In an error.
-    fn shown(&self) -> String {
-        String::new()
-    }
-
-    /// False for a key that is left out.
-    fn is_given(&self) -> bool {
-        true
-    }
-
-    /// The value where a scene file lacks the key.
-    fn absent(default: Self) -> Self {
-        default
-    }
-}
-
 /// Checks a value by itself.
 pub(super) fn check(path: &'static str, value: &impl Field, wrong: &mut Vec<Invalid>) {
     if let Some(key) = find(path).filter(|key| !value.allowed(&key.holds)) {
@@ -316,145 +292,6 @@ pub(super) fn check(path: &'static str, value: &impl Field, wrong: &mut Vec<Inva
 /// A value that its key does not allow.
 pub(crate) fn refused(key: &'static str, value: impl ToString) -> Invalid {
     Invalid::new(key, value, find(key).map_or_else(String::new, |key| key.holds.to_string()))
-}
-
-impl<T: Field> Field for Option<T> {
-    fn from_toml(value: toml::Value) -> Option<Self> {
-        T::from_toml(value).map(Some)
-    }
-
-    fn allowed(&self, holds: &Holds) -> bool {
-        self.as_ref().is_none_or(|value| value.allowed(holds))
-    }
-
-    fn shown(&self) -> String {
-        self.as_ref().map_or_else(String::new, T::shown)
-    }
-
-    fn is_given(&self) -> bool {
-        self.is_some()
-    }
-
-    fn absent(_: Self) -> Self {
-        None
-    }
-}
-
-impl Field for f64 {
-    fn allowed(&self, holds: &Holds) -> bool {
-        holds.allows(*self)
-    }
-
-    fn shown(&self) -> String {
-        self.to_string()
-    }
-}
-
-impl Field for u64 {
-    fn allowed(&self, holds: &Holds) -> bool {
-        matches!(holds, Holds::Whole { least, most } if (least..=most).contains(&self))
-    }
-
-    fn shown(&self) -> String {
-        self.to_string()
-    }
-}
-
-impl Field for usize {
-    fn allowed(&self, holds: &Holds) -> bool {
-        (*self as u64).allowed(holds)
-    }
-
-    fn shown(&self) -> String {
-        self.to_string()
-    }
-}
-
-impl Field for String {}
-impl Field for super::Update {}
-impl Field for super::RodsFile {}
-impl Field for crate::model::shape::Correlation {}
-
-impl Field for super::Orientation {
-    fn allowed(&self, _: &Holds) -> bool {
-        match self {
-            Self::Random(_) => true,
-            Self::Given { phi_deg, theta_deg } => phi_deg.is_finite() && (0.0..=180.0).contains(theta_deg),
-        }
-    }
-
-    fn shown(&self) -> String {
-        match self {
-            Self::Random(_) => "\"isotropic\"".to_owned(),
-            Self::Given { phi_deg, theta_deg } => {
-                format!("{{ phi_deg = {phi_deg}, theta_deg = {theta_deg} }}")
-            }
-        }
-    }
-}
-
-impl Field for [f64; 3] {
-    /// Three of a list: reading into an array would ignore what follows.
-    fn from_toml(value: toml::Value) -> Option<Self> {
-        Vec::from_toml(value)?.try_into().ok()
-    }
-
-    fn allowed(&self, _: &Holds) -> bool {
-        self.iter().all(|side| side.is_finite() && *side > 0.0)
-    }
-
-    fn shown(&self) -> String {
-        format!("{self:?}")
-    }
-}
-
-impl Field for [[f64; 3]; 3] {
-    fn from_toml(value: toml::Value) -> Option<Self> {
-        let rows: Option<Vec<[f64; 3]>> =
-            Vec::<toml::Value>::from_toml(value)?.into_iter().map(Field::from_toml).collect();
-        rows?.try_into().ok()
-    }
-
-    fn allowed(&self, _: &Holds) -> bool {
-        self.iter().flatten().all(|component| component.is_finite())
-    }
-
-    fn shown(&self) -> String {
-        format!("{self:?}")
-    }
-}
-
-impl Field for Vec<toml::Value> {}
-
-impl Field for Vec<super::FlowStep> {
-    fn allowed(&self, _: &Holds) -> bool {
-        (1..=MAX_FLOW_STEPS).contains(&self.len()) && self.iter().all(super::FlowStep::is_allowed)
-    }
-
-    fn shown(&self) -> String {
-        super::document::as_toml(&toml::Value::try_from(self).unwrap_or_else(|_| Vec::<i64>::new().into()))
-    }
-}
-
-/// Times of outputs: that they are outputs depends on other keys.
-impl Field for Vec<f64> {
-    fn allowed(&self, _: &Holds) -> bool {
-        self.iter().all(|time| time.is_finite() && *time >= 0.0) && self.is_sorted_by(|a, b| a < b)
-    }
-
-    fn shown(&self) -> String {
-        format!("{self:?}")
-    }
-}
-
-impl Field for Vec<Observable> {
-    fn allowed(&self, _: &Holds) -> bool {
-        !self.is_empty() && self.iter().enumerate().all(|(k, one)| !self[..k].contains(one))
-    }
-
-    fn shown(&self) -> String {
-        format!("{:?}", self.iter().map(|one| one.name()).collect::<Vec<_>>())
-    }
 }
 
 #[cfg(test)]

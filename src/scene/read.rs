@@ -126,13 +126,13 @@ impl Reader<'_> {
     }
 
     /// Refuses the first of a key's tables in which a key is wrong, at its line; true if there is one.
-    pub fn refused_steps<'t>(
+    pub fn refuses_table<'t>(
         &mut self,
         path: &str,
-        wrong_key: impl Fn(&document::Table<'_>) -> Option<(String, &'t str)>,
+        wrong_key: impl Fn(toml::Table) -> Option<(String, &'t str)>,
     ) -> bool {
         let tables = self.table.tables(last(path)).unwrap_or_default();
-        let refused = tables.iter().find_map(|table| Some((table, wrong_key(table)?)));
+        let refused = tables.iter().find_map(|table| Some((table, wrong_key(table.whole()?)?)));
         if let Some((table, (key, allowed))) = &refused {
             self.wrong.push((table.offset(key), table.refusal(key, allowed)));
         }
