@@ -4,6 +4,7 @@ use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{changed, free_scene};
 use crate::judge::statistics::larger;
 use crate::oracle::exponential::{Rod, Span};
+use crate::studies::integrators::apart_rad;
 use shearbed::Plan;
 use shearbed::run::ensemble;
 use shearbed::scene::{Flow, FlowStep, Orientation, Scene, Time};
@@ -112,13 +113,9 @@ fn reversed(gradient_per_s: [[f64; 3]; 3], strain: f64) -> Vec<FlowStep> {
     vec![FlowStep { gradient_per_s, strain }, FlowStep { gradient_per_s: back, strain }]
 }
 
-/// The sine of the angle between two directions.
+/// The angle in rad between two directions.
 fn apart(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    let cross = [0, 1, 2].map(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        a[j] * b[k] - a[k] * b[j]
-    });
-    cross.iter().map(|component| component * component).sum::<f64>().sqrt()
+    apart_rad(&(*a).into(), &(*b).into())
 }
 
 fn changing_flows(run: &Run, effort: &Effort) -> Vec<Evidence> {

@@ -54,6 +54,13 @@ fn more_replicas_of_an_old_run_are_one_run() {
     }
 }
 
+/// A run of the scene into `a` that is bad input, and what its message says.
+fn refused(dir: &Path, arguments: &str, says: &[&str]) {
+    let ended = shearbed(dir, &format!("run small.toml --out a {arguments}"));
+    assert_eq!(ended.code, Some(2), "{arguments}: {}", ended.stderr);
+    assert!(says.iter().all(|part| ended.stderr.contains(part)), "{arguments}: {}", ended.stderr);
+}
+
 #[test]
 fn fewer_replicas_and_other_scenes_are_refused_and_change_nothing() {
     let dir = folder();
@@ -68,9 +75,7 @@ fn fewer_replicas_and_other_scenes_are_refused_and_change_nothing() {
         ("--replicas 9 --set interaction.alpha=0.6", "scene.interaction.alpha was 0.5 and is 0.6 now"),
         ("--replicas 9 --set particles.count=21", "scene.particles.count was 20 and is 21 now"),
     ] {
-        let ended = shearbed(dir, &format!("run small.toml --checkpoint kept --out a {arguments}"));
-        assert_eq!(ended.code, Some(2), "{arguments}: {}", ended.stderr);
-        assert!(ended.stderr.contains(why), "{arguments}: {}", ended.stderr);
+        refused(dir, &format!("--checkpoint kept {arguments}"), &[why]);
     }
     assert!(before == (files(&dir.join("a")), fs::read(dir.join("kept")).unwrap()));
 }
@@ -91,13 +96,7 @@ fn only_results_that_the_new_ones_contain_are_replaced() {
         ("--replicas 9 --seed 2 --checkpoint new", "scene.ensemble.replicas was 5 and is 9 now"),
         ("--until-se x1=0.1", "scene.ensemble.replicas was 5 and is \"until_se x1=0.1\" now"),
     ] {
-        let ended = shearbed(dir, &format!("run small.toml --out a {arguments}"));
-        assert_eq!(ended.code, Some(2), "{arguments}: {}", ended.stderr);
-        assert!(
-            ended.stderr.contains(why) && ended.stderr.contains("--force"),
-            "{arguments}: {}",
-            ended.stderr
-        );
+        refused(dir, arguments, &[why, "--force"]);
         assert!(before == files(&dir.join("a")) && !dir.join("new").exists(), "{arguments}");
     }
     // What somebody changed since stays too.

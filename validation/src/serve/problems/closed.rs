@@ -3,17 +3,16 @@
 mod second;
 
 use super::asked::{AXES, COUETTE, SHEAR_RATE_PER_S};
+use super::table::twelve_decimals;
 use super::{Built, Closed, FORMAT, Kind, Metric, Problem, ProblemDef};
 use crate::studies::tensors::closures::PAIRS;
-use crate::studies::tensors::{Closure, Equation, Model, at};
+use crate::studies::tensors::{APART, Closure, Equation, Model, at};
 use nalgebra::Matrix3;
 
 /// Λ = 1 in doubles.
 const NEEDLE: f64 = 1e100;
 const THIRD: f64 = 1.0 / 3.0;
 const RANDOM: [[f64; 3]; 3] = [[THIRD, 0.0, 0.0], [0.0, THIRD, 0.0], [0.0, 0.0, THIRD]];
-/// A start with axes of its own: some models have a rate only where a has them.
-const APART: [[f64; 3]; 3] = [[0.1875, 0.125, 0.0], [0.125, 0.5, 0.0], [0.0, 0.0, 0.3125]];
 const UNIAXIAL: [[f64; 3]; 3] = [[-0.25, 0.0, 0.0], [0.0, -0.25, 0.0], [0.0, 0.0, 0.5]];
 const ASKEW: [[f64; 3]; 3] = [[0.25, -0.5, 0.125], [0.75, 0.125, -0.25], [0.375, 0.625, -0.375]];
 
@@ -79,7 +78,7 @@ impl Setting {
 
 const COLUMNS: [&str; 6] = ["a11", "a22", "a33", "a12", "a13", "a23"];
 
-/// The certified answers, by `examples/certify_closed.rs`: a table is the same on every machine.
+/// The certified answers, by `examples/certify.rs`: a table is the same on every machine.
 const TABLE: &str = include_str!("data/closed.csv");
 
 /// By how much two solutions may differ.
@@ -102,9 +101,8 @@ pub fn certify() -> Result<String, String> {
             if off.is_nan() || off > AGREED {
                 return Err(format!("{name} at {time} s: two solutions differ by {off:e}"));
             }
-            let values = PAIRS.map(|place| format!("{:.12}", 0.5 * (first[place] + second[place]) + 0.0));
-            let values = values.map(|text| text.replace("-0.000000000000", "0.000000000000"));
-            table += &format!("{name},{time:?},{}\n", values.join(","));
+            let values = twelve_decimals(PAIRS.map(|place| 0.5 * (first[place] + second[place])));
+            table += &format!("{name},{time:?},{values}\n");
         }
     }
     Ok(table)
@@ -183,26 +181,16 @@ impl Closed {
 
 #[cfg(test)]
 mod tests {
+    use super::super::table::tables_apart;
     use super::*;
 
     #[test]
     fn the_table_is_computed_anew() {
         let anew = certify().unwrap();
-        let fields = |text: &str| text.split([',', '\n']).map(str::to_owned).collect::<Vec<_>>();
-        let apart = |a: &str, b: &str| {
-            let (a, b) = (fields(a), fields(b));
-            assert_eq!(a.len(), b.len());
-            let each = a.iter().zip(&b).map(|(a, b)| match (a.parse::<f64>(), b.parse::<f64>()) {
-                (Ok(a), Ok(b)) => (a - b).abs(),
-                _ if a == b => 0.0,
-                _ => 1.0,
-            });
-            each.fold(0.0, f64::max)
-        };
         // Half a unit of the twelfth decimal on either side, and what solutions on two machines differ by.
-        let off = apart(&anew, TABLE);
+        let off = tables_apart(&anew, TABLE);
         assert!(off < 2e-12, "{off:e}");
-        assert!(apart(&anew, &TABLE.replacen("0.6", "0.7", 1)) > 0.09);
+        assert!(tables_apart(&anew, &TABLE.replacen("0.6", "0.7", 1)) > 0.09);
     }
 
     /// Another closure, another model and another start are seen in every problem.

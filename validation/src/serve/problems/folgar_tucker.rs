@@ -1,6 +1,7 @@
 //! Problems of means over infinitely many rods with rotary diffusion D_r = C_I γ̇ (Folgar & Tucker 1984), without a closure.
 
 use super::asked::{AXES, COUETTE, SHEAR_RATE_PER_S};
+use super::table::twelve_decimals;
 use super::{Built, FORMAT, Kind, Metric, Problem, ProblemDef};
 use crate::oracle::diffusion::{self, Means, Motion, NoAnswer, Start};
 
@@ -81,7 +82,7 @@ pub(super) const FOURTH: [&str; 15] = [
     "a2333", "a3333",
 ];
 
-/// The certified answers, by `examples/certify_folgar_tucker.rs`: a table is the same on every machine.
+/// The certified answers, by `examples/certify.rs`: a table is the same on every machine.
 const TABLE: &str = include_str!("data/folgar-tucker.csv");
 
 /// The table anew: its header and its rows, with twelve decimals.
@@ -93,10 +94,8 @@ pub fn certify() -> Result<String, NoAnswer> {
     let mut table = format!("setting,time_s,{},{}\n", SECOND.join(","), FOURTH.join(","));
     for setting in &SETTINGS {
         for (time, means) in setting.times_s().iter().zip(setting.certified()?) {
-            let values = means.second.iter().chain(&means.fourth).map(|x| format!("{:.12}", x + 0.0));
-            let values: Vec<_> =
-                values.map(|text| text.replace("-0.000000000000", "0.000000000000")).collect();
-            table += &format!("{},{time:?},{}\n", setting.name, values.join(","));
+            let values = twelve_decimals(means.second.iter().chain(&means.fourth).copied());
+            table += &format!("{},{time:?},{values}\n", setting.name);
         }
     }
     Ok(table)
@@ -181,33 +180,17 @@ fn built(def: &ProblemDef, setting: &Setting, values: std::ops::Range<usize>) ->
 
 #[cfg(test)]
 mod tests {
+    use super::super::table::{certified_row, tables_apart};
     use super::*;
-
-    fn row(line: &str) -> (String, Vec<f64>) {
-        let (name, values) = line.split_once(',').unwrap();
-        (name.to_owned(), values.split(',').map(|field| field.parse().unwrap()).collect())
-    }
-
-    /// By how much two tables are apart; 1 where their rows are not of the same setting and time.
-    fn apart(a: &str, b: &str) -> f64 {
-        assert_eq!(a.lines().count(), b.lines().count());
-        let rows = a.lines().zip(b.lines()).skip(1).map(|(a, b)| (row(a), row(b)));
-        let each = rows.map(|((name, a), (other, b))| match name == other && a[0] == b[0] {
-            true => a.iter().zip(&b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max),
-            false => 1.0,
-        });
-        each.fold(0.0, f64::max)
-    }
 
     #[test]
     fn the_table_is_computed_anew() {
         let anew = certify().unwrap();
-        assert_eq!(anew.lines().next(), TABLE.lines().next());
         // Half a unit of the twelfth decimal on either side, and what solutions on two machines differ by.
-        let off = apart(&anew, TABLE);
+        let off = tables_apart(&anew, TABLE);
         assert!(off < 2e-12, "{off:e}");
         let digit = TABLE.replacen("0.6", "0.7", 1);
-        assert!(apart(&anew, &digit) > 0.09);
+        assert!(tables_apart(&anew, &digit) > 0.09);
     }
 
     /// Steady a_ij and a_ijkl fulfil the moments' own equation, written out here once more from the problem's file alone.
@@ -215,7 +198,7 @@ mod tests {
     fn steady_tables_stand_still_by_the_equation_of_second_moments() {
         let residual = |setting: &Setting, c_i: f64, transposed: bool| {
             let line = TABLE.lines().find(|line| line.starts_with(&format!("{},", setting.name))).unwrap();
-            let (_, values) = row(line);
+            let (_, values) = certified_row(line);
             let at =
                 |columns: &[&str], name: String| columns.iter().position(|column| *column == name).unwrap();
             let sorted = |mut indices: Vec<usize>| {

@@ -95,3 +95,29 @@ fn parse(path: &Path, text: &str, columns: &[&str]) -> Result<Table, ReadError> 
     }
     Ok(Table { columns: columns.iter().map(|column| (*column).to_owned()).collect(), rows })
 }
+
+/// The fields of a certified table: twelve decimals, and no −0.
+pub(super) fn twelve_decimals(values: impl IntoIterator<Item = f64>) -> String {
+    let field = |x: f64| format!("{:.12}", x + 0.0).replace("-0.000000000000", "0.000000000000");
+    values.into_iter().map(field).collect::<Vec<_>>().join(",")
+}
+
+/// A row of a certified table: its setting, and its numbers from the time on.
+#[cfg(test)]
+pub(super) fn certified_row(line: &str) -> (String, Vec<f64>) {
+    let (name, values) = line.split_once(',').unwrap();
+    (name.to_owned(), values.split(',').map(|field| field.parse().unwrap()).collect())
+}
+
+/// By how much two certified tables are apart; 1 where their rows are not of the same setting and time.
+#[cfg(test)]
+pub(super) fn tables_apart(a: &str, b: &str) -> f64 {
+    assert_eq!(a.lines().next(), b.lines().next());
+    assert_eq!(a.lines().count(), b.lines().count());
+    let rows = a.lines().zip(b.lines()).skip(1).map(|(a, b)| (certified_row(a), certified_row(b)));
+    let each = rows.map(|((name, a), (other, b))| match name == other && a[0] == b[0] {
+        true => a.iter().zip(&b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max),
+        false => 1.0,
+    });
+    each.fold(0.0, f64::max)
+}

@@ -99,7 +99,7 @@ fn unequal_rods(def: &ProblemDef) -> Built {
     }
 }
 
-/// The certified answer of `unequal-rods`, by `examples/certify_unequal_rods.rs`, which takes minutes.
+/// The certified answer of `unequal-rods`, by `examples/certify.rs`, which takes minutes.
 const UNEQUAL: &str = include_str!("data/unequal-rods.csv");
 
 fn unequal_table() -> Vec<Vec<String>> {

@@ -1,6 +1,6 @@
 //! What is measured of closures.
 
-use super::{Closure, Equation, Model, at, isotropic, steady};
+use super::{APART, Closure, Equation, Model, at, isotropic, steady};
 use crate::oracle::diffusion::{self, Means, Motion, Start};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
@@ -12,8 +12,6 @@ pub const FLOWS: [(&str, [[f64; 3]; 3]); 3] = [
     ("planar extension", [[-0.5, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0; 3]]),
     ("stretched shear", [[-0.125, 0.0, 0.0], [1.0, -0.125, 0.0], [0.0, 0.0, 0.25]]),
 ];
-/// With axes of its own, as ORW needs them.
-const START: [[f64; 3]; 3] = [[0.1875, 0.125, 0.0], [0.125, 0.5, 0.0], [0.0, 0.0, 0.3125]];
 
 /// A closure's steady a_ij beside the exact one.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
@@ -54,7 +52,7 @@ pub fn errors(c_i: &[f64]) -> Result<Vec<Off>, String> {
     let asked: Vec<_> = FLOWS.into_iter().flat_map(|flow| c_i.iter().map(move |c_i| (flow, *c_i))).collect();
     let of = |((flow, gradient), c_i): &((&'static str, [[f64; 3]; 3]), f64)| {
         let exact = diffusion::steady(&Motion::new(*gradient, 1e100, *c_i)).map_err(|why| why.to_string())?;
-        let start = Matrix3::from_fn(|i, j| START[i][j]);
+        let start = Matrix3::from_fn(|i, j| APART[i][j]);
         let row = |closure: Closure| {
             let a = steady(&equation(*gradient, closure, *c_i), &start)?;
             let (a22, exact_a22, error) = (a[(1, 1)], exact.second[1], apart(&a, &exact));
@@ -111,7 +109,7 @@ pub const MEASURED: f64 = 0.8261;
 
 /// C_I through each closure, and of the distribution.
 pub fn fitted() -> Vec<Fitted> {
-    let (start, shear) = (Matrix3::from_fn(|i, j| START[i][j]), FLOWS[0].1);
+    let (start, shear) = (Matrix3::from_fn(|i, j| APART[i][j]), FLOWS[0].1);
     let exact = |c_i: f64| Some(diffusion::steady(&Motion::new(shear, 1e100, c_i)).ok()?.second[1]);
     let by = |closure: Closure| move |c_i: f64| Some(steady(&equation(shear, closure, c_i), &start)?[(1, 1)]);
     let of = |method, c_i: Option<f64>| Some(Fitted { method, a22: MEASURED, c_i: c_i? });

@@ -19,6 +19,9 @@ pub use closures::{Closure, Fourth};
 pub use integrate::{at, steady};
 pub use models::{Equation, Model};
 
+/// a_ij at a start with axes of its own: some models, and ORW, need them.
+pub const APART: [[f64; 3]; 3] = [[0.1875, 0.125, 0.0], [0.125, 0.5, 0.0], [0.0, 0.0, 0.3125]];
+
 /// a of directions that are all alike.
 pub fn isotropic() -> nalgebra::Matrix3<f64> {
     nalgebra::Matrix3::identity() / 3.0

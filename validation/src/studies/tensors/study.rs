@@ -104,7 +104,9 @@ fn answer(work: &[Work], fitted: &[Fitted]) -> String {
     let quickest = closures().map(|row| row.seconds).fold(f64::INFINITY, f64::min);
     let of = |method: &str| fitted.iter().find(|row| row.method == method).map_or(f64::NAN, |row| row.c_i);
     format!(
-        "In the start-up of shear at C_I = 0.01 no closure comes nearer to a_ij than {least:.1e}, whatever its tolerance. The quickest          takes {:.2} ms, the exact solution {:.0} ms: for single histories a closure saves nothing that is needed. A C_I fitted          through one is not D_r/γ̇: {:.4} by IBOF where the distribution has {:.4}.",
+        "In the start-up of shear at C_I = 0.01 no closure comes nearer to a_ij than {least:.1e}, whatever its tolerance. The quickest \
+         takes {:.2} ms, the exact solution {:.0} ms: affordable for single histories, not for each cell of a flow solver. A C_I \
+         fitted through a closure is not D_r/γ̇: {:.4} by IBOF where the distribution has {:.4}.",
         1e3 * quickest,
         1e3 * work[0].seconds,
         of("IBOF"),
