@@ -40,7 +40,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
         Curve::of(closure.name(), of, |row| (1e3 * row.seconds, row.error))
     };
     let price = ReportFigure::new(
-        ["closures-work", "Work and precision: closures and the exact solution"],
+        ["closures-work-precision", "Work and precision: closures and the exact solution"],
         "a_ij at strains of 1 to 20 from isotropic rods, shear, C_I = 0.01. Tolerances of 10⁻² to 10⁻⁸ of Dormand & Prince's method; \
          the exact solution with its stated error. Smaller tolerances do not lower the error of a closure.",
         ["log time (ms)", "log largest error of a_ij"],
@@ -62,7 +62,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
         ],
     );
     let times = ReportTable::new(
-        ["closures-times", "Times of closures and of the exact solution"],
+        ["closures-work-precision-times", "Times of closures and of the exact solution"],
         "The shortest of three; on this machine.",
         work.iter().copied(),
         vec![
@@ -85,7 +85,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     let files = [
         ("closures-fitted.csv", rows_csv(fitted.iter().copied())?),
         ("closures.csv", rows_csv(rows.iter().copied())?),
-        ("closures-work.csv", rows_csv(work.iter().copied())?),
+        ("closures-work-precision.csv", rows_csv(work.iter().copied())?),
         (
             "closures.json",
             build::json(&serde_json::json!({ "errors": rows, "work": work, "fitted": fitted }))?,
