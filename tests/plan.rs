@@ -342,3 +342,19 @@ fn a_control_volume_has_a_side() {
         assert!(refused.to_string().starts_with("interaction.concentration_per_cm3 = "), "{refused}");
     }
 }
+
+/// The same plan as that of a scene of so many replicas.
+#[test]
+fn a_plan_of_another_number_of_replicas_is_that_of_such_a_scene() {
+    for (from, to) in [(1, 40), (40, 1), (3, 5)] {
+        let planned = |replicas: u64| {
+            let mut scene = plan(FREE).scene().clone();
+            scene.ensemble.replicas = replicas;
+            Plan::new(&scene).unwrap()
+        };
+        let (changed, anew) = (planned(from).with_replicas(to), planned(to));
+        assert_eq!((changed.scene(), changed.entries()), (anew.scene(), anew.entries()));
+    }
+    assert_eq!(plan(FREE).with_replicas(0).scene().ensemble.replicas, 1);
+    assert_eq!(plan(FREE).with_replicas(u64::MAX).scene().ensemble.replicas, scene::MAX_REPLICAS);
+}

@@ -199,3 +199,21 @@ fn replicas_and_tallies_of_other_scenes_are_refused() {
         assert_eq!(other.check(&plan), Err(cause), "{key}");
     }
 }
+
+/// A replica of a plan of one, whole or halfway, is one of a plan of several where it has dropped the errors over its rods.
+#[test]
+fn a_single_replica_becomes_the_first_of_several() {
+    for (one, _) in scenes() {
+        let (one, several) = (one.with_replicas(1), one.with_replicas(3));
+        let [(states, mut whole), (others, other)] = [&one, &several].map(|plan| watched(plan, None));
+        assert!(whole.check(&several).is_err());
+        whole.drop_rod_errors();
+        assert_eq!(whole.check(&several), Ok(()));
+        assert_eq!(whole, other);
+        for (mut state, other) in states.into_iter().zip(others) {
+            state.drop_rod_errors();
+            assert_eq!(state.check(&several), Ok(()));
+            assert_eq!(state, other);
+        }
+    }
+}
