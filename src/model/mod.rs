@@ -13,4 +13,5 @@ pub mod phase;
 pub mod random;
 pub mod shape;
 pub mod volume;
+pub(crate) mod widest;
 pub mod work;

@@ -24,7 +24,7 @@ pub(crate) struct Fault {
 #[inline]
 pub(crate) fn directions(block: &Block) -> Result<(), Fault> {
     let [p1, p2, p3] = &block.p;
-    let square = |k: usize| p1[k] * p1[k] + p2[k] * p2[k] + p3[k] * p3[k];
+    let square = move |k: usize| p1[k] * p1[k] + p2[k] * p2[k] + p3[k] * p3[k];
     let count = block.len as f64;
     // NaN is not within anything.
     match (lane_sum(block.len, square) - count).abs() <= count * DIRECTION {

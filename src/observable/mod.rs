@@ -20,6 +20,8 @@ pub use channel::Channel;
 pub use registry::Observable;
 pub use sum::{Spread, Sum};
 
+use crate::model::widest::widest;
+
 /// Rods handled at a time: their directions stay in the first cache while every observable reads them.
 pub const BLOCK: usize = 128;
 
@@ -53,13 +55,31 @@ impl Block {
     /// Puts every rod along `to(place in the block, direction in from, aspect ratio)`.
     #[inline(always)]
     pub(crate) fn turn(&mut self, from: [&[f64]; 3], to: impl Fn(usize, [f64; 3], f64) -> [f64; 3]) {
-        let [p1, p2, p3] = &mut self.p;
-        let ends = p1.iter_mut().zip(p2).zip(p3);
-        let starts = from[0].iter().zip(from[1]).zip(from[2]);
-        for (k, ((((p1, p2), p3), ((q1, q2), q3)), r)) in ends.zip(starts).zip(&self.aspect_ratio).enumerate()
-        {
-            [*p1, *p2, *p3] = to(k, [*q1, *q2, *q3], *r);
-        }
+        let Self { p: [p1, p2, p3], aspect_ratio, .. } = self;
+        widest(
+            #[inline(always)]
+            move || turned(from[0], from[1], from[2], aspect_ratio, p1, p2, p3, to),
+        );
+    }
+}
+
+/// Every place in turn. Arguments of their own, which the compiler knows not to overlap.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+fn turned(
+    q1: &[f64],
+    q2: &[f64],
+    q3: &[f64],
+    aspect_ratio: &[f64; BLOCK],
+    p1: &mut [f64; BLOCK],
+    p2: &mut [f64; BLOCK],
+    p3: &mut [f64; BLOCK],
+    to: impl Fn(usize, [f64; 3], f64) -> [f64; 3],
+) {
+    let len = q1.len().min(BLOCK);
+    let (q1, q2, q3) = (&q1[..len], &q2[..len], &q3[..len]);
+    for k in 0..len {
+        [p1[k], p2[k], p3[k]] = to(k, [q1[k], q2[k], q3[k]], aspect_ratio[k]);
     }
 }
 
@@ -130,8 +150,18 @@ const LANES: usize = 8;
 
 #[inline]
 pub(crate) fn lane_sum(len: usize, f: impl Fn(usize) -> f64) -> f64 {
+    widest(
+        #[inline(always)]
+        move || lanes(len, f),
+    )
+}
+
+/// The same as part of a loop that is compiled for the widest instructions.
+#[inline(always)]
+pub(crate) fn lanes(len: usize, f: impl Fn(usize) -> f64) -> f64 {
     let mut lanes = [0.0; LANES];
-    let whole = len.min(BLOCK) / LANES * LANES;
+    let len = len.min(BLOCK);
+    let whole = len / LANES * LANES;
     for first in (0..whole).step_by(LANES) {
         for (lane, sum) in lanes.iter_mut().enumerate() {
             *sum += f(first + lane);

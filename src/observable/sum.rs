@@ -1,6 +1,7 @@
 //! Sums over rods, and how far the rods' values differ.
 
-use super::{BLOCK, lane_sum};
+use super::{BLOCK, lane_sum, lanes};
+use crate::model::widest::widest;
 use serde::{Deserialize, Serialize};
 
 /// The sum of a value over rods, and how far the rods' values differ where standard errors over rods are wanted.
@@ -75,15 +76,10 @@ impl Sum {
     /// Adds the values f(0), …, f(len − 1) of a block's rods.
     #[inline]
     pub fn add_each(&mut self, len: usize, f: impl Fn(usize) -> f64) {
-        let Some(spread) = &mut self.spread else {
-            self.value += lane_sum(len, f);
-            return;
-        };
-        let mut values = [0.0; BLOCK];
-        let values = &mut values[..len];
-        values.iter_mut().enumerate().for_each(|(i, value)| *value = f(i));
-        self.value += lane_sum(len, |i| values[i]);
-        spread.add(values);
+        match &mut self.spread {
+            None => self.value += lane_sum(len, f),
+            Some(spread) => self.value += spread.add_each(len, f),
+        }
     }
 }
 
@@ -91,15 +87,30 @@ impl Spread {
     /// Adds the values of up to [`BLOCK`] rods.
     #[inline]
     pub fn add(&mut self, values: &[f64]) {
-        if self.rods == 0
-            && let Some(first) = values.first()
-        {
-            self.first = *first;
+        self.add_each(values.len(), |i| values[i]);
+    }
+
+    /// Adds the values f(0), …, f(len − 1) and returns their sum.
+    #[inline]
+    fn add_each(&mut self, len: usize, f: impl Fn(usize) -> f64) -> f64 {
+        if self.rods == 0 && len > 0 {
+            self.first = f(0);
         }
-        let difference = |i: usize| values[i] - self.first;
-        self.differences += lane_sum(values.len(), difference);
-        self.squares += lane_sum(values.len(), |i| difference(i) * difference(i));
-        self.rods += values.len() as u64;
+        let first = self.first;
+        let [sum, differences, squares] = widest(
+            #[inline(always)]
+            move || {
+                let mut values = [0.0; BLOCK];
+                (0..len.min(BLOCK)).for_each(|i| values[i] = f(i));
+                let difference = |i: usize| values[i] - first;
+                let square = |i: usize| difference(i) * difference(i);
+                [lanes(len, |i| values[i]), lanes(len, difference), lanes(len, square)]
+            },
+        );
+        self.differences += differences;
+        self.squares += squares;
+        self.rods += len as u64;
+        sum
     }
 
     /// Adds other rods.

@@ -133,7 +133,7 @@ fn straight(
     let (rods, counters) = Rods::draw(plan, replica);
     for first in (recorder.done..plan.outputs()).step_by(OUTPUTS) {
         let outputs = first..plan.outputs().min(first + OUTPUTS);
-        recorder.record(outputs, |first, output, block| rods.orient(first, output as u64, block))?;
+        recorder.record(outputs, &rods, |output| output as u64)?;
         look(&|| recorder.halfway(None));
     }
     let asked = plan.rods_outputs().into_iter();
@@ -163,7 +163,7 @@ fn stepped(
             look(&|| recorder.halfway(Some(suspension.placed())));
         }
         let (rods, tick) = (&suspension.rods, suspension.tick());
-        recorder.record(output..output + 1, |first, _, block| rods.orient(first, tick, block))?;
+        recorder.record(output..output + 1, rods, |_| tick)?;
         if asked.binary_search(&output).is_ok() {
             let snapshot = Snapshot::of_suspension(&suspension, recorder.replica, output);
             let snapshot = snapshot.map_err(|fault| recorder.refused(0, output, fault))?;
@@ -219,23 +219,24 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Sums the observables of all rods at these outputs; `orient(first, output, block)` fills a block with the
-    /// directions of the rods from `first` on, or says which is not known. Large runs: sums over chunks, and then their sum in order.
+    /// Sums the observables of all rods at these outputs, which are at `tick(output)`. Large runs: sums over chunks, and then their
+    /// sum in order.
     fn record(
         &mut self,
         outputs: Range<usize>,
-        orient: impl Fn(usize, usize, &mut Block) -> Result<(), Fault> + Sync,
+        rods: &Rods,
+        tick: impl Fn(usize) -> u64 + Sync,
     ) -> Result<(), Error> {
         let count = self.plan.scene().particles.count;
         let done = outputs.end;
         let mut sums = std::mem::take(&mut self.sums);
         let own = &mut sums[self.width * outputs.start..self.width * outputs.end];
         if count <= CHUNK {
-            self.add(0..count, outputs.clone(), &orient, own)?;
+            self.add(0..count, outputs.clone(), rods, &tick, own)?;
         } else {
             let parts = of_chunks(count, |part| {
                 let mut sums = vec![self.empty; own.len()];
-                self.add(part, outputs.clone(), &orient, &mut sums)?;
+                self.add(part, outputs.clone(), rods, &tick, &mut sums)?;
                 Ok(sums)
             });
             for part in parts {
@@ -257,14 +258,16 @@ impl<'a> Recorder<'a> {
         &self,
         part: Range<usize>,
         outputs: Range<usize>,
-        orient: impl Fn(usize, usize, &mut Block) -> Result<(), Fault>,
+        rods: &Rods,
+        tick: impl Fn(usize) -> u64,
         sums: &mut [Sum],
     ) -> Result<(), Error> {
         let mut block = Block::default();
         for first in part.step_by(BLOCK) {
+            rods.select(first, &mut block);
             for (output, sums) in outputs.clone().zip(sums.chunks_mut(self.width)) {
                 let refused = |fault| self.refused(first, output, fault);
-                orient(first, output, &mut block).map_err(refused)?;
+                rods.orient(first, tick(output), &mut block).map_err(refused)?;
                 fault::directions(&block).map_err(refused)?;
                 for (observable, start) in &self.observables {
                     let sums = &mut sums[*start..][..observable.width()];
@@ -303,6 +306,7 @@ pub(crate) fn each_block(
     let mut block = Block::default();
     let mut blocks = |output: usize, rods: &Rods, tick: u64| {
         (0..rods.count()).step_by(BLOCK).try_for_each(|first| {
+            rods.select(first, &mut block);
             rods.orient(first, tick, &mut block)
                 .and_then(|()| fault::directions(&block))
                 .map_err(|fault| refused(plan, replica, first, output, fault))?;

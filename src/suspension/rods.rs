@@ -73,6 +73,11 @@ impl Rods {
         self.p[0].len()
     }
 
+    #[inline]
+    fn of_several_shapes(&self) -> bool {
+        matches!(self.shapes, Shapes::Each(_))
+    }
+
     pub fn aspect_ratio(&self, rod: usize) -> f64 {
         match &self.shapes {
             Shapes::Shared(r) => *r,
@@ -122,7 +127,7 @@ impl Rods {
             return p.into();
         };
         let r = self.aspect_ratio(rod);
-        let phase = clock.phase(self.elapsed(rod, tick), clock.periods(&self.shapes, r));
+        let phase = clock.phase(self.elapsed(rod, tick), clock.periods(self.of_several_shapes(), r));
         couette(p, r, phase).into()
     }
 
@@ -149,43 +154,53 @@ impl Rods {
         });
     }
 
-    /// Fills `block` with the directions at `tick` (for flows other than plane Couette flow: at that
-    /// output) of up to [`BLOCK`] rods from `first` on.
-    ///
-    /// # Errors
-    ///
-    /// The first rod of the block whose direction is not known to [`MAX_ERROR_RAD`].
-    pub fn orient(&self, first: usize, tick: u64, block: &mut Block) -> Result<(), Fault> {
+    /// Makes `block` that of up to [`BLOCK`] rods from `first` on: how many, their aspect ratios and weights.
+    pub fn select(&self, first: usize, block: &mut Block) {
         block.len = BLOCK.min(self.count() - first);
         let rods = first..first + block.len;
         match &self.shapes {
             Shapes::Shared(r) => block.aspect_ratio[..block.len].fill(*r),
             Shapes::Each(r) => block.aspect_ratio[..block.len].copy_from_slice(&r[rods.clone()]),
         }
-        if let Some(lengths) = self.lengths.get(rods.clone()) {
+        if let Some(lengths) = self.lengths.get(rods) {
             for (weight, length) in block.weight.iter_mut().zip(lengths) {
                 *weight = self.per_cube * length.powi(3);
             }
         }
+    }
+
+    /// Fills a `block` that is [`Self::select`]ed from `first` on with the directions at `tick` (for flows other than plane Couette
+    /// flow: at that output).
+    ///
+    /// # Errors
+    ///
+    /// The first rod of the block whose direction is not known to [`MAX_ERROR_RAD`].
+    pub fn orient(&self, first: usize, tick: u64, block: &mut Block) -> Result<(), Fault> {
+        let rods = first..first + block.len;
         let from = self.p.each_ref().map(|axis| &axis[rods.clone()]);
-        match (&self.motion, &self.shapes) {
-            (Motion::Couette(clock), Shapes::Shared(r)) if self.since.is_empty() => {
-                let phase = clock.phase(tick as f64, clock.sign);
-                block.turn(from, |_, p, _| couette(p, *r, phase));
+        match &self.motion {
+            Motion::Couette(clock) if self.since.is_empty() && !self.of_several_shapes() => {
+                let (r, phase) = (block.aspect_ratio[0], clock.phase(tick as f64, clock.sign));
+                block.turn(
+                    from,
+                    #[inline(always)]
+                    move |_, p, _| couette(p, r, phase),
+                );
             }
-            (Motion::Couette(clock), shapes) if self.since.is_empty() => {
-                block.turn(from, |_, p, r| couette(p, r, clock.phase(tick as f64, clock.periods(shapes, r))));
-            }
-            (Motion::Couette(clock), shapes) => {
-                let mut elapsed = [0.0; BLOCK];
-                for (elapsed, since) in elapsed.iter_mut().zip(&self.since[rods]) {
+            Motion::Couette(clock) => {
+                let (clock, each, mut elapsed) = (*clock, self.of_several_shapes(), [tick as f64; BLOCK]);
+                for (elapsed, since) in elapsed.iter_mut().zip(self.since.get(rods).into_iter().flatten()) {
                     // At most 10⁹ steps, and none ahead of the present.
                     *elapsed = f64::from((tick as u32).wrapping_sub(*since) as i32);
                 }
-                block.turn(from, |k, p, r| couette(p, r, clock.phase(elapsed[k], clock.periods(shapes, r))));
+                block.turn(
+                    from,
+                    #[inline(always)]
+                    move |k, p, r| couette(p, r, clock.phase(elapsed[k], clock.periods(each, r))),
+                );
             }
-            (Motion::Steps(_), _) => block.turn(from, |_, p, _| p),
-            (Motion::Free { motion, propagators }, _) => match &motion.way {
+            Motion::Steps(_) => block.turn(from, |_, p, _| p),
+            Motion::Free { motion, propagators } => match &motion.way {
                 Way::Alike(ends) => {
                     let end = ends[tick as usize % ends.len()];
                     block.turn(from, |_, _, _| end);
@@ -243,13 +258,10 @@ struct Ticks {
 }
 
 impl Ticks {
-    /// How often a rod of aspect ratio `r` turns, with the sign of G, while the mean rod turns once.
+    /// How often a rod of aspect ratio `r` turns, with the sign of G, while the mean rod turns once: `each` has its own.
     #[inline(always)]
-    fn periods(&self, shapes: &Shapes, r: f64) -> f64 {
-        match shapes {
-            Shapes::Shared(_) => self.sign,
-            Shapes::Each(_) => self.strain_per_period / strain_per_period(r),
-        }
+    fn periods(&self, each: bool, r: f64) -> f64 {
+        if each { self.strain_per_period / strain_per_period(r) } else { self.sign }
     }
 
     /// The phase after `ticks` (a whole number) of a rod that turns `periods` times while the mean rod turns once. Whole

@@ -100,6 +100,7 @@ impl Snapshot {
         let mut p = [(); 3].map(|()| Vec::with_capacity(count));
         let mut block = Block::default();
         for first in (0..count).step_by(BLOCK) {
+            rods.select(first, &mut block);
             rods.orient(first, tick, &mut block)
                 .map_err(|fault| Fault { rod: fault.rod.map(|rod| first + rod), ..fault })?;
             for (axis, from) in p.iter_mut().zip(&block.p) {

@@ -1,6 +1,7 @@
 //! Nearest neighbours of a few rods, by looking at all pairs.
 
 use super::Nearest;
+use crate::model::widest::widest;
 use crate::model::work::Counters;
 
 /// Tells rods that have somebody near from those that have not, over all pairs, in whole numbers of a small unit.
@@ -67,21 +68,40 @@ impl Pairs {
         self.ahead.resize(whole, i16::MAX);
         self.behind.clear();
         self.behind.resize(whole + count, i16::MAX);
-        let own = self.units.each_ref().map(|units| &units[..whole]);
-        for ahead in 1..=count / 2 {
-            let other = self.units.each_ref().map(|units| &units[ahead..ahead + whole]);
-            let behind = &mut self.behind[ahead..ahead + whole];
-            let least = &mut self.ahead[..whole];
-            for rod in 0..whole {
-                let apart = |axis: usize| {
-                    let difference = own[axis][rod].wrapping_sub(other[axis][rod]);
-                    difference.max(difference.wrapping_neg())
-                };
-                let apart = apart(0).max(apart(1)).max(apart(2));
-                least[rod] = least[rod].min(apart);
-                behind[rod] = behind[rod].min(apart);
-            }
-        }
+        let Self { units, ahead, behind, .. } = self;
+        let units = units.each_ref().map(|units| &units[..]);
+        widest(
+            #[inline(always)]
+            || least_apart(units, count, ahead, behind),
+        );
+    }
+}
+
+/// Lowers the least distance of every rod to the partners ahead and behind, over all pairs.
+#[inline(always)]
+fn least_apart([u1, u2, u3]: [&[i16]; 3], count: usize, least: &mut [i16], behind: &mut [i16]) {
+    let whole = least.len();
+    for ahead in 1..=count / 2 {
+        let other = ahead..ahead + whole;
+        closer(
+            [&u1[..whole], &u2[..whole], &u3[..whole]],
+            [&u1[other.clone()], &u2[other.clone()], &u3[other.clone()]],
+            least,
+            &mut behind[other],
+        );
+    }
+}
+
+#[inline(always)]
+fn closer(own: [&[i16]; 3], other: [&[i16]; 3], ahead: &mut [i16], behind: &mut [i16]) {
+    for rod in 0..ahead.len() {
+        let apart = |axis: usize| {
+            let difference = own[axis][rod].wrapping_sub(other[axis][rod]);
+            difference.max(difference.wrapping_neg())
+        };
+        let apart = apart(0).max(apart(1)).max(apart(2));
+        ahead[rod] = ahead[rod].min(apart);
+        behind[rod] = behind[rod].min(apart);
     }
 }
 
