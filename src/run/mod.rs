@@ -133,7 +133,7 @@ fn straight(
     let (rods, counters) = Rods::draw(plan, replica);
     for first in (recorder.done..plan.outputs()).step_by(OUTPUTS) {
         let outputs = first..plan.outputs().min(first + OUTPUTS);
-        recorder.record(outputs, &rods, |output| output as u64)?;
+        recorder.record(outputs, &rods, |first, output, block| rods.orient(first, output as u64, block))?;
         look(&|| recorder.halfway(None));
     }
     let asked = plan.rods_outputs().into_iter();
@@ -163,7 +163,7 @@ fn stepped(
             look(&|| recorder.halfway(Some(suspension.placed())));
         }
         let (rods, tick) = (&suspension.rods, suspension.tick());
-        recorder.record(output..output + 1, rods, |_| tick)?;
+        recorder.record(output..output + 1, rods, |first, _, block| rods.orient(first, tick, block))?;
         if asked.binary_search(&output).is_ok() {
             let snapshot = Snapshot::of_suspension(&suspension, recorder.replica, output);
             let snapshot = snapshot.map_err(|fault| recorder.refused(0, output, fault))?;
@@ -219,24 +219,24 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Sums the observables of all rods at these outputs, which are at `tick(output)`. Large runs: sums over chunks, and then their
-    /// sum in order.
+    /// Sums the observables of all rods at these outputs; `orient(first, output, block)` fills a block of the rods from `first` on
+    /// with their directions, or says which is not known. Large runs: sums over chunks, and then their sum in order.
     fn record(
         &mut self,
         outputs: Range<usize>,
         rods: &Rods,
-        tick: impl Fn(usize) -> u64 + Sync,
+        orient: impl Fn(usize, usize, &mut Block) -> Result<(), Fault> + Sync,
     ) -> Result<(), Error> {
         let count = self.plan.scene().particles.count;
         let done = outputs.end;
         let mut sums = std::mem::take(&mut self.sums);
         let own = &mut sums[self.width * outputs.start..self.width * outputs.end];
         if count <= CHUNK {
-            self.add(0..count, outputs.clone(), rods, &tick, own)?;
+            self.add(0..count, outputs.clone(), rods, &orient, own)?;
         } else {
             let parts = of_chunks(count, |part| {
                 let mut sums = vec![self.empty; own.len()];
-                self.add(part, outputs.clone(), rods, &tick, &mut sums)?;
+                self.add(part, outputs.clone(), rods, &orient, &mut sums)?;
                 Ok(sums)
             });
             for part in parts {
@@ -259,7 +259,7 @@ impl<'a> Recorder<'a> {
         part: Range<usize>,
         outputs: Range<usize>,
         rods: &Rods,
-        tick: impl Fn(usize) -> u64,
+        orient: impl Fn(usize, usize, &mut Block) -> Result<(), Fault>,
         sums: &mut [Sum],
     ) -> Result<(), Error> {
         let mut block = Block::default();
@@ -267,7 +267,7 @@ impl<'a> Recorder<'a> {
             rods.select(first, &mut block);
             for (output, sums) in outputs.clone().zip(sums.chunks_mut(self.width)) {
                 let refused = |fault| self.refused(first, output, fault);
-                rods.orient(first, tick(output), &mut block).map_err(refused)?;
+                orient(first, output, &mut block).map_err(refused)?;
                 fault::directions(&block).map_err(refused)?;
                 for (observable, start) in &self.observables {
                     let sums = &mut sums[*start..][..observable.width()];

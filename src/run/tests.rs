@@ -15,7 +15,7 @@ fn plan(count: usize, replicas: u64) -> Plan {
 fn broken(count: usize, rod: usize, at: usize, wrong: [f64; 3]) -> Result<(), Error> {
     let plan = plan(count, 2);
     let (rods, _) = Rods::draw(&plan, 1);
-    Recorder::new(&plan, 1).record(0..plan.outputs(), |first, output, block| {
+    Recorder::new(&plan, 1).record(0..plan.outputs(), &rods, |first, output, block| {
         rods.orient(first, output as u64, block)?;
         if output == at && (first..first + block.len).contains(&rod) {
             (0..3).for_each(|axis| block.p[axis][rod - first] = wrong[axis]);
@@ -41,14 +41,8 @@ fn a_broken_propagation_stops_the_run_and_names_rod_output_and_replica() {
 #[test]
 fn of_several_wrong_rods_the_first_is_named_whatever_the_threads() {
     let plan = plan(3 * CHUNK, 1);
-    let recorder = |_| {
-        Recorder::new(&plan, 0)
-            .record(0..1, |_, _, block| {
-                block.len = BLOCK;
-                Ok(())
-            })
-            .unwrap_err()
-    };
+    let (rods, _) = Rods::draw(&plan, 0);
+    let recorder = |_| Recorder::new(&plan, 0).record(0..1, &rods, |_, _, _| Ok(())).unwrap_err();
     let errors: Vec<_> = (0..4).map(recorder).collect();
     assert!(errors.iter().all(|error| *error == errors[0]));
     assert!(errors[0].to_string().starts_with("rod 0, output 0 "), "{}", errors[0]);

@@ -7,4 +7,3 @@ mod length;
 mod links;
 mod numbers;
 mod pages;
-mod schema;

@@ -13,11 +13,12 @@ fn manifest(path: &str) -> toml::Table {
     text(path).parse().unwrap()
 }
 
-/// Name and version of every crate of the program, as cargo builds it on Linux.
-fn crates() -> BTreeSet<[String; 2]> {
+/// Name, version and features of every crate that packages of this workspace are built from on Linux.
+fn tree(packages: &[&str], edges: &str) -> BTreeSet<[String; 3]> {
     let tree = Command::new(env!("CARGO"))
-        .args(["tree", "--locked", "--prefix", "none", "--edges", "normal,build"])
-        .args(["--target", "x86_64-unknown-linux-gnu", "--package", "shearbed"])
+        .args(["tree", "--locked", "--prefix", "none", "--format", "{p} |{f}", "--edges", edges])
+        .args(["--target", "x86_64-unknown-linux-gnu"])
+        .args(packages.iter().flat_map(|package| ["--package", package]))
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()
         .unwrap();
@@ -25,9 +26,30 @@ fn crates() -> BTreeSet<[String; 2]> {
     let tree = String::from_utf8(tree.stdout).unwrap();
     let row = |line: &str| {
         let mut words = line.split(' ').map(str::to_owned);
-        Some([words.next()?, words.next()?])
+        let features = line.split_once('|')?.1.trim_end_matches(" (*)");
+        Some([words.next()?, words.next()?, features.to_owned()])
     };
     tree.lines().filter_map(row).collect()
+}
+
+/// Name and version of every crate of the program.
+fn crates() -> BTreeSet<[String; 2]> {
+    tree(&["shearbed"], "normal,build").into_iter().map(|[name, version, _]| [name, version]).collect()
+}
+
+/// `cargo test` uses what `cargo run -- validate` has built: a package of the tests that asks for another feature of a crate of the
+/// program would have nearly everything built a second time.
+#[test]
+fn the_tests_ask_for_no_other_features_than_the_program() {
+    let packages = ["shearbed", "shearbed-core", "shearbed-oracle"];
+    let program = tree(&packages, "normal,build");
+    let tests = tree(&packages, "normal,build,dev");
+    assert!(tests.len() > program.len());
+    let others: Vec<_> = program.difference(&tests).collect();
+    assert!(others.is_empty(), "{others:?}");
+    // Control: criterion does.
+    let benches = tree(&["shearbed", "shearbed-core", "shearbed-benches"], "normal,build,dev");
+    assert!(program.difference(&benches).any(|[name, ..]| name == "either"));
 }
 
 /// The crates of others that a manifest asks for, and where they are needed.
@@ -57,7 +79,7 @@ fn every_dependency_has_a_line_and_the_crates_are_counted() {
         assert!(!cells[2].is_empty(), "{row}");
     }
     let mut expected: BTreeMap<String, String> = BTreeMap::new();
-    for path in ["../Cargo.toml", "oracle/Cargo.toml", "Cargo.toml"] {
+    for path in ["../Cargo.toml", "oracle/Cargo.toml", "Cargo.toml", "benches/Cargo.toml"] {
         for (name, place) in asked_for(path) {
             let known = expected.entry(name).or_insert_with(|| place.to_owned());
             if place == "program" {
