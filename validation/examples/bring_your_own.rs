@@ -1,7 +1,7 @@
 //! Your own integrator, graded as those of the project are: `cargo run --release --example bring_your_own`.
 
 use nalgebra::Vector3;
-use validation::studies::integrators::{Integrator, RodProblem, Setting, grade};
+use validation::methods::integrators::{Integrator, RodProblem, Setting, grade};
 use validation::studies::work_precision::{Budget, curve, order};
 
 /// Heun's method: one step of length h (in 1/G) from p.

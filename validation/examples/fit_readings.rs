@@ -10,10 +10,10 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::iter::once;
 use validation::cases::fit_readings::{model, one_alpha, points};
 use validation::judge::case::Effort;
+use validation::methods::least_squares::Datum;
+use validation::methods::least_squares::emulator::{Prediction, Replica};
 use validation::oracle::naive::{self, Naive, mean_projections};
 use validation::serve::fit::Range;
-use validation::serve::fit::data::Datum;
-use validation::serve::fit::emulator::{Prediction, Replica};
 use validation::serve::fit::search::{FitProblem, Measured, Watch, search};
 use validation::studies::readings::{ALTERNATIVES, Change, SEED};
 

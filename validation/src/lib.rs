@@ -11,4 +11,5 @@ pub mod serve;
 pub mod cases;
 pub mod program;
 
+pub use shearbed_methods as methods;
 pub use shearbed_oracle as oracle;

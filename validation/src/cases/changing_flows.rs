@@ -3,8 +3,8 @@
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{changed, free_scene};
 use crate::judge::statistics::larger;
+use crate::methods::integrators::apart_rad;
 use crate::oracle::exponential::{Rod, Span};
-use crate::studies::integrators::apart_rad;
 use shearbed::Plan;
 use shearbed::run::ensemble;
 use shearbed::scene::{Flow, FlowStep, Orientation, Scene, Time};

@@ -2,10 +2,10 @@
 
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::worst;
+use crate::methods::tensors::{Closure, Equation, Fourth, Model};
 use crate::oracle::reference::big::{Bits, double};
 use crate::oracle::reference::isotropic::{Covariance, PAIRS, QUADRUPLES};
 use crate::oracle::reference::motion::{Motion, Unit};
-use crate::studies::tensors::{Closure, Equation, Fourth, Model};
 use nalgebra::Matrix3;
 
 type Of = fn(Closure, &Matrix3<f64>) -> Fourth;

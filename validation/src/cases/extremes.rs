@@ -2,7 +2,7 @@
 
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::larger;
-use crate::studies::integrators::{RodProblem, Setting, closed_form};
+use crate::methods::integrators::{RodProblem, Setting, closed_form};
 use crate::studies::stability::corners;
 use crate::studies::stability::map::{ASPECT_RATIOS, STEPS};
 use nalgebra::{Matrix3, Rotation3, UnitVector3, Vector3};

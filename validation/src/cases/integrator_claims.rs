@@ -4,7 +4,7 @@ use super::subjects::Integrators;
 use super::subjects::spoiled::in_p;
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::larger;
-use crate::studies::integrators::{self, *};
+use crate::methods::integrators::*;
 use crate::studies::stability::orbit::Place;
 use crate::studies::work_precision::order;
 use nalgebra::{Matrix3, Vector3};
@@ -71,7 +71,7 @@ pub fn cases() -> Vec<Case> {
             .claim("The integrators that do not claim to keep |p| lose it: each by more than round-off.")
             .source("p·ṗ = 0 (A.1)")
             .equations(&["A.1"])
-            .subject(integrators::own as Integrators)
+            .subject(crate::methods::integrators::own as Integrators)
             .mistake("projected RK4 not said to keep it", || {
                 in_p(4, false, |problem, p, h| rk4(|y| problem.rate(&y), p, h).normalize())
             })
@@ -93,7 +93,7 @@ pub fn cases() -> Vec<Case> {
             )
             .source("A.4, A.5")
             .equations(&["A.4", "A.5"])
-            .subject(integrators::own as Integrators)
+            .subject(crate::methods::integrators::own as Integrators)
             .mistake("explicit Euler said to be of order 3", || {
                 in_p(3, false, |problem, p, h| p + h * problem.tangent_rate(&p))
             })
@@ -219,7 +219,7 @@ fn coarse(strain: &f64, _: &Effort) -> Vec<Evidence> {
     let (problem, start) = RodProblem::mid_flip(11.6);
     let steps = Setting::Steps((problem.strain() / strain).round() as u64);
     let mut unlike = 0.0;
-    for subject in integrators::own() {
+    for subject in crate::methods::integrators::own() {
         let found = grade(&subject, &problem, &start, steps);
         let as_said = match (subject.name.as_str(), found) {
             ("RK4 in p", found) => found == Err(Failure::NotFinite),

@@ -4,8 +4,8 @@
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{self, Change};
 use crate::judge::statistics::larger;
+use crate::methods::integrators::apart_rad;
 use crate::oracle::{closed_form, jeffery as printed};
-use crate::studies::integrators::apart_rad;
 use nalgebra::{Matrix3, Vector3};
 use shearbed::Observable;
 use shearbed::model::jeffery::{couette_rate, shape_factor};

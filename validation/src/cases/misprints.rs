@@ -6,7 +6,7 @@ use crate::judge::accept::Rule;
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab;
 use crate::judge::statistics::larger;
-use crate::studies::integrators::rk4;
+use crate::methods::integrators::rk4;
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use shearbed::model::flow::VelocityGradient;
 use shearbed::model::orientation;

@@ -4,7 +4,7 @@ use super::subjects::Integrators;
 use super::subjects::spoiled::{in_angles, in_p, refuses, whole_turns};
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::larger;
-use crate::studies::integrators::{self, *};
+use crate::methods::integrators::*;
 use crate::studies::stability::map::{self, ASPECT_RATIOS, Cell, Fate, STEPS, TOLERANCES};
 use crate::studies::stability::orbit::Place;
 
@@ -18,7 +18,7 @@ pub fn cases() -> Vec<Case> {
             )
             .source("A.2 to A.5, eq. 13")
             .equations(&["13", "A.2", "A.3", "A.4", "A.5"])
-            .subject(integrators::own as Integrators)
+            .subject(crate::methods::integrators::own as Integrators)
             .mistake("whole turns are left in the phase", || vec![whole_turns()])
             .mistake("RK4 in p said to keep |p|", || {
                 in_p(4, true, |problem, p, h| rk4(|y| problem.rate(&y), p, h))

@@ -7,7 +7,7 @@ use super::subjects::Integrators;
 use super::subjects::spoiled::{in_angles, in_p};
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::larger;
-use crate::studies::integrators::{self, *};
+use crate::methods::integrators::*;
 use crate::studies::stability::limits::{Limit, ONE_STEP, Property, TEN_PERIODS, bisect, holds};
 use crate::studies::stability::theory;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -32,7 +32,7 @@ const OF_MIDPOINTS: f64 = 50.0;
 
 /// The project's subject of this name.
 fn own(name: &str) -> Vec<Integrator> {
-    let mut all = integrators::own();
+    let mut all = crate::methods::integrators::own();
     all.retain(|subject| subject.name == name);
     all
 }

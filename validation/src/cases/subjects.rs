@@ -4,7 +4,7 @@ pub(super) mod spoiled;
 
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::larger;
-use crate::studies::integrators::{self, *};
+use crate::methods::integrators::*;
 use crate::studies::work_precision::order::{self, ORDER_TOLERANCE};
 use nalgebra::{Vector2, Vector3};
 use spoiled::{in_angles, in_p, spoiled, whole_turns};
@@ -18,7 +18,7 @@ pub fn cases() -> Vec<Case> {
             .claim("The error of every fixed-step integrator falls with the order of its theory.")
             .source("A.2 to A.5; Jeffery's equation in p")
             .equations(&["A.2", "A.3", "A.4", "A.5"])
-            .subject(integrators::own as Integrators)
+            .subject(crate::methods::integrators::own as Integrators)
             .mistake("a stage of RK4 at the wrong place", || {
                 in_angles(4, |problem, y, h| {
                     let f = |y: Vector2<f64>| problem.angle_rates(&y);
@@ -46,7 +46,7 @@ pub fn cases() -> Vec<Case> {
             .claim("Integrators that are said to keep |p| = 1 keep it to round-off at any step.")
             .source("p·ṗ = 0 (A.1)")
             .equations(&["A.1"])
-            .subject(integrators::own as Integrators)
+            .subject(crate::methods::integrators::own as Integrators)
             .mistake("RK4 in p, not projected", || {
                 in_p(4, true, |problem, p, h| rk4(|y| problem.rate(&y), p, h))
             })

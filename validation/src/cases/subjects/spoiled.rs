@@ -1,6 +1,6 @@
 //! Integrators with a mistake, and integrators made from a step alone.
 
-use crate::studies::integrators::*;
+use crate::methods::integrators::*;
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::TAU;
 

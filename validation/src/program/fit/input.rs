@@ -2,10 +2,11 @@
 
 use super::Args;
 use crate::files::text::line;
+use crate::methods::least_squares::Datum;
+use crate::methods::least_squares::basis::MOST_PARAMETERS;
 use crate::program::{Failure, memory, scene};
 use crate::serve::fit::Range;
-use crate::serve::fit::basis::MOST_PARAMETERS;
-use crate::serve::fit::data::{self, Datum, MOST_POINTS, TimeColumn};
+use crate::serve::fit::data::{self, MOST_POINTS, TimeColumn};
 use crate::serve::fit::scenes::{AS_WRITTEN, Scenes, Set};
 use crate::serve::sweep;
 use shearbed::Plan;

@@ -1,8 +1,8 @@
 //! What other models would make of the same points.
 
 use super::input::Input;
+use crate::methods::least_squares::emulator::Model;
 use crate::serve::fit::budget::{self, Shift};
-use crate::serve::fit::emulator::Model;
 use crate::serve::fit::report::Report;
 use crate::serve::fit::scenes::{AS_WRITTEN, Variant};
 use crate::serve::fit::search::{Fit, Watch};

@@ -25,8 +25,9 @@ pub(super) fn points(path: &Path, run: &Run, channel: &str) -> Result<Points, Fa
             columns.join(", ")
         )));
     }
-    let each =
-        |value: &dyn Fn(&data::Datum) -> f64| own.iter().map(|point| value(point)).collect::<Vec<f64>>();
+    let each = |value: &dyn Fn(&crate::methods::least_squares::Datum) -> f64| {
+        own.iter().map(|point| value(point)).collect::<Vec<f64>>()
+    };
     Ok(Points {
         label: format!("{}, measured ± u", names::channel(channel)),
         x: each(&|point| point.time / unit),

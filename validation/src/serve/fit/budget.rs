@@ -1,9 +1,9 @@
 //! What an estimate's uncertainty is made of, and what a finer or larger model would change in it (JCGM 100, the "GUM").
 
-use super::data::Datum;
-use super::emulator::{Model, Prediction};
-use super::likelihood::CAUSES;
 use super::search::{Fit, Watch};
+use crate::methods::least_squares::Datum;
+use crate::methods::least_squares::emulator::{Model, Prediction};
+use crate::methods::least_squares::likelihood::CAUSES;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use serde::Serialize;

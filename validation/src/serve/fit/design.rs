@@ -10,12 +10,12 @@ mod known;
 #[cfg(test)]
 mod tests;
 
-use super::basis::Basis;
-use super::data::Datum;
-use super::emulator::{Emulator, coefficients};
-use super::likelihood::correlation_of;
 use super::scenes::{AS_WRITTEN, Scenes};
 use super::search::{Fit, Watch, values};
+use crate::methods::least_squares::Datum;
+use crate::methods::least_squares::basis::Basis;
+use crate::methods::least_squares::emulator::{Emulator, coefficients};
+use crate::methods::least_squares::likelihood::correlation_of;
 pub(super) use known::Known;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;

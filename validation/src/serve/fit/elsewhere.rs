@@ -1,11 +1,11 @@
 //! Whether the model itself, run along each range without polynomials, finds another place that describes the points as well. Where
 //! the curves oscillate with a parameter, χ² has several minima, and the search sees one of them.
 
-use super::data::Datum;
-use super::emulator::Prediction;
-use super::profile::rise_of;
 use super::range::Range;
 use super::search::{FIRST_REPLICAS, Fit, FitProblem, Watch};
+use crate::methods::least_squares::Datum;
+use crate::methods::least_squares::emulator::Prediction;
+use crate::methods::least_squares::profile::rise_of;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 

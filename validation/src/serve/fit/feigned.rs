@@ -1,15 +1,15 @@
 //! Points that hardly tell a parameter, and a model whose replicas are noisy: by chance its curves differ from one value to another,
 //! which would make intervals short.
 
-use super::basis::Basis;
-use super::data::Datum;
-use super::emulator::{Replica, coefficients};
-use super::profile::profile;
 use super::range::Range;
 use super::search::{Fit, Measured, fitted};
 use super::tests::{normal, share};
 use crate::judge::accept::{Design, Verdict, judge};
 use crate::judge::statistics::Sample;
+use crate::methods::least_squares::Datum;
+use crate::methods::least_squares::basis::Basis;
+use crate::methods::least_squares::emulator::{Replica, coefficients};
+use crate::methods::least_squares::profile::profile;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;

@@ -4,22 +4,15 @@
 //! found there, and generalised least squares through those. The covariance of the points holds reading off in both axes,
 //! the measured rods, the model's replicas and the polynomials' lack of fit. `docs/src/theory/fits.md` has the formulas.
 
-pub mod basis;
-mod best;
 pub mod budget;
 pub mod data;
 pub mod design;
 pub mod elsewhere;
-pub mod emulator;
 #[cfg(test)]
 mod feigned;
-pub mod likelihood;
-mod minimise;
 pub mod pictures;
-pub mod profile;
 mod range;
 pub mod report;
-mod scarce;
 #[cfg(test)]
 mod scarce_tests;
 pub mod scenes;

@@ -1,11 +1,12 @@
 //! A fit as pictures: points with the best curve and its band, residuals, profiles, and the region of two parameters.
 
-use super::data::{Datum, kinds};
-use super::emulator::Model;
-use super::likelihood::REPLICAS;
-use super::profile::{contour, rise_of_several};
+use super::data::kinds;
 use super::report::{Report, levels};
 use super::search::{Fit, Watch};
+use crate::methods::least_squares::Datum;
+use crate::methods::least_squares::emulator::Model;
+use crate::methods::least_squares::likelihood::REPLICAS;
+use crate::methods::least_squares::profile::{contour, rise_of_several};
 use crate::present::plot::{Curve, Figure, Points, names as letters};
 use rayon::prelude::*;
 

@@ -1,13 +1,13 @@
 //! A fit as plain data, as JSON and CSV, and in words.
 
 use super::budget::{self, Part, Residual, Shift};
-use super::data::Datum;
 use super::design::{Candidate, Step};
-use super::likelihood::{EMULATOR, REPLICAS, correlation_of};
-use super::profile::rise_of;
 use super::range::Range;
 use super::search::{Fit, MOST_SHARE};
 use crate::input::experiment::{Bias, bias};
+use crate::methods::least_squares::Datum;
+use crate::methods::least_squares::likelihood::{EMULATOR, REPLICAS, correlation_of};
+use crate::methods::least_squares::profile::rise_of;
 use nalgebra::DMatrix;
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -182,7 +182,7 @@ fn warnings(
             all.push(format!(
                 "{:.0} % of a parameter's variance is the model's own error ({}): {what} the interval shorter",
                 100.0 * share,
-                super::likelihood::CAUSES[cause],
+                crate::methods::least_squares::likelihood::CAUSES[cause],
             ));
         }
     }

@@ -1,14 +1,14 @@
 //! Fits whose points scatter as replicas do, with a covariance from few replicas.
 
-use super::basis::Basis;
-use super::data::Datum;
-use super::emulator::{Replica, coefficients};
-use super::likelihood::CAUSES;
-use super::profile::profile;
 use super::range::Range;
 use super::search::{Fit, Measured, fitted};
 use super::tests::{normal, share};
 use crate::judge::accept::{Design, Verdict, judge};
+use crate::methods::least_squares::Datum;
+use crate::methods::least_squares::basis::Basis;
+use crate::methods::least_squares::emulator::{Replica, coefficients};
+use crate::methods::least_squares::likelihood::CAUSES;
+use crate::methods::least_squares::profile::profile;
 use nalgebra::DMatrix;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Dxsm;

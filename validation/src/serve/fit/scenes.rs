@@ -1,10 +1,11 @@
 //! Scenes as a model of measured points: a scene's keys set to values, its replicas run, and looked at where points lie.
 
-use super::data::{Datum, TimeColumn};
-use super::emulator::{Prediction, Replica};
+use super::data::TimeColumn;
 use super::range::Range;
 use crate::input::experiment::interpolate;
 use crate::input::start::Starts;
+use crate::methods::least_squares::Datum;
+use crate::methods::least_squares::emulator::{Prediction, Replica};
 use crate::serve::sweep::{self, Setting};
 use shearbed::observable::Channel;
 use shearbed::run::run_replica;

@@ -1,13 +1,13 @@
 //! The search: runs over the whole range, then over the part of it that the data leave, until the model's own error is
 //! small beside the data's.
 
-use super::basis::Basis;
-use super::best::{Best, best};
-use super::data::Datum;
-use super::emulator::{Coefficients, Emulator, Model, Sides, coefficients};
-use super::likelihood::REPLICAS;
-use super::profile::{Interval, Profile, interval, profile, rise_of};
 use super::range::Range;
+use crate::methods::least_squares::Datum;
+use crate::methods::least_squares::basis::Basis;
+use crate::methods::least_squares::best::{Best, best};
+use crate::methods::least_squares::emulator::{Coefficients, Emulator, Model, Sides, coefficients};
+use crate::methods::least_squares::likelihood::REPLICAS;
+use crate::methods::least_squares::profile::{Interval, Profile, interval, profile, rise_of};
 use nalgebra::{DMatrix, DVector};
 
 /// Replicas of the first runs, which only say where to look closer.

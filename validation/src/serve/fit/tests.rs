@@ -1,15 +1,15 @@
 //! The whole fit on a model of one line, whose replicas cost nothing: planted values, coverage, χ², controls.
 
 use super::budget::residuals;
-use super::data::Datum;
 use super::elsewhere::look_elsewhere;
-use super::emulator::{Prediction, Replica};
 use super::pictures::best_curves;
-use super::profile::{contour, rise_of_several};
 use super::range::Range;
 use super::report::levels;
 use super::search::{Fit, FitProblem, Measured, Watch, search};
 use crate::judge::accept::{Design, Rule, Verdict, judge};
+use crate::methods::least_squares::Datum;
+use crate::methods::least_squares::emulator::{Prediction, Replica};
+use crate::methods::least_squares::profile::{contour, rise_of_several};
 use nalgebra::{DMatrix, DVector};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};

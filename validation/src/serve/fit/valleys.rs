@@ -1,10 +1,10 @@
 //! Profiles of a model with several valleys.
 
-use super::basis::Basis;
-use super::data::Datum;
-use super::emulator::{Replica, coefficients};
 use super::range::Range;
 use super::search::{Fit, Measured, fitted};
+use crate::methods::least_squares::Datum;
+use crate::methods::least_squares::basis::Basis;
+use crate::methods::least_squares::emulator::{Replica, coefficients};
 
 fn ranges(over: [&str; 2]) -> Vec<Range> {
     over.map(|text| Range::parse(text).unwrap()).to_vec()

@@ -2,10 +2,10 @@
 
 use super::answer::Answer;
 use super::diagnosis::{Diagnosis, NEARER, setting};
+use crate::methods::tensors::closures::PAIRS;
+use crate::methods::tensors::{Closure, Equation, Model, at, isotropic, steady};
 use crate::oracle::diffusion::{self, Motion, Start};
 use crate::serve::problems::{Closed, LoadedProblem, Problem};
-use crate::studies::tensors::closures::PAIRS;
-use crate::studies::tensors::{Closure, Equation, Model, at, isotropic, steady};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 

@@ -1,8 +1,8 @@
 //! How far an answer is from the certified one, and what it lost.
 
 use super::answer::Answer;
+use crate::methods::integrators::apart_rad;
 use crate::serve::problems::{LoadedProblem, Metric};
-use crate::studies::integrators::apart_rad;
 use nalgebra::{Matrix3, Vector3};
 use shearbed::model::flow::VelocityGradient;
 use shearbed::model::{jeffery, orientation};

@@ -6,8 +6,8 @@ use super::contact;
 use super::means;
 use super::mistakes::{self, Mistake, Setting};
 use super::rates;
+use crate::methods::integrators::apart_rad;
 use crate::serve::problems::{Kind, LoadedProblem};
-use crate::studies::integrators::apart_rad;
 use nalgebra::{Matrix3, Vector3};
 
 /// An answer is a mistake's curve where it is a thousand times nearer to it than to the truth: a chance coincidence of one

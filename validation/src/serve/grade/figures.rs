@@ -1,9 +1,9 @@
 //! Pictures of what was found.
 
 use super::Graded;
+use crate::methods::integrators::{Integrator, RodProblem, Setting, Theory};
 use crate::present::plot::{Curve, Figure};
 use crate::serve::problems::{Kind, LoadedProblem};
-use crate::studies::integrators::{self, Integrator, RodProblem, Setting, Theory};
 use nalgebra::{Matrix3, UnitVector3, Vector3};
 use shearbed::model::flow::VelocityGradient;
 use std::f64::consts::TAU;
@@ -34,7 +34,7 @@ pub fn steps(problems: &[LoadedProblem], graded: &[Graded]) -> Option<Figure> {
     let errors = drawn(graded);
     let counts: Vec<_> = errors.iter().map(|(steps, _)| *steps).collect();
     let mut curves = vec![curve(PROGRAM.to_owned(), &errors)];
-    for subject in integrators::own() {
+    for subject in crate::methods::integrators::own() {
         if matches!(subject.theory, Theory::Order(_)) {
             let errors = own_errors(&subject, loaded, rate, &counts);
             curves.push(curve(subject.name.clone(), &errors));
@@ -85,7 +85,8 @@ fn own_errors(subject: &Integrator, loaded: &LoadedProblem, rate: f64, counts: &
     let error = |steps: u64| {
         let of_rod = |p: &[f64; 3]| {
             let start = UnitVector3::new_normalize(Vector3::from(*p));
-            let errors = integrators::grade(subject, &problem, &start, Setting::Steps(steps)).ok()?;
+            let errors =
+                crate::methods::integrators::grade(subject, &problem, &start, Setting::Steps(steps)).ok()?;
             Some(errors.orientation_rad)
         };
         let errors: Option<Vec<_>> = loaded.start.iter().map(of_rod).collect();

@@ -5,8 +5,8 @@ mod second;
 use super::asked::{AXES, COUETTE, SHEAR_RATE_PER_S};
 use super::table::twelve_decimals;
 use super::{Built, Closed, FORMAT, Kind, Metric, Problem, ProblemDef};
-use crate::studies::tensors::closures::PAIRS;
-use crate::studies::tensors::{APART, Closure, Equation, Model, at};
+use crate::methods::tensors::closures::PAIRS;
+use crate::methods::tensors::{APART, Closure, Equation, Model, at};
 use nalgebra::Matrix3;
 
 /// Λ = 1 in doubles.

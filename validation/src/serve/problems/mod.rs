@@ -27,7 +27,7 @@ pub use export::{SCHEMA, export, files};
 pub use read::read;
 pub use table::{ReadError, Table};
 
-use crate::studies::tensors::{Closure, Model};
+use crate::methods::tensors::{Closure, Model};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;

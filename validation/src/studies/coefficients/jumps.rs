@@ -7,10 +7,11 @@ mod tests;
 
 pub(super) use show::{figures, tables};
 
-use super::{Coefficients, Diffusing, Diffusion, Setting, free, scene};
+use super::{Coefficients, Setting, scene};
 use crate::judge::case::Effort;
 use crate::judge::lab;
 use crate::judge::statistics::{Estimate, worst};
+use crate::methods::coefficients::{Diffusing, Diffusion, free};
 use nalgebra::Vector3;
 use rand::SeedableRng;
 use rand::seq::SliceRandom;

@@ -1,9 +1,9 @@
 //! The runs behind the coefficients.
 
-use super::Means;
 use crate::judge::case::Effort;
 use crate::judge::lab;
 use crate::judge::statistics::Estimate;
+use crate::methods::coefficients::Means;
 use crate::studies::readings::damping_rate;
 use nalgebra::Matrix3;
 use serde::Serialize;

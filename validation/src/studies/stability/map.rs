@@ -1,7 +1,7 @@
 //! What becomes of a rod in every corner: aspect ratio by step, by start, by duration.
 
 use super::orbit::Place;
-use crate::studies::integrators::{Failure, Integrator, RodProblem, Setting, Theory, apart_rad};
+use crate::methods::integrators::{Failure, Integrator, RodProblem, Setting, Theory, apart_rad};
 use nalgebra::Vector3;
 use serde::Serialize;
 use std::f64::consts::TAU;

@@ -4,9 +4,9 @@ use super::limits::Property;
 use super::map::{self, ASPECT_RATIOS, Cell, Fate, PERIODS, TOLERANCES};
 use super::orbit::Place;
 use super::theory::THEORIES;
+use crate::methods::integrators::{Integrator, Setting, Theory};
 use crate::present::plot::{Grid, Map, decade, power_of_ten};
 use crate::present::study::ReportFigure;
-use crate::studies::integrators::{Integrator, Setting, Theory};
 use shearbed::model::jeffery::strain_per_period;
 
 /// Steps that a run of the maps over steps and over starts may take; ten times as many over durations.

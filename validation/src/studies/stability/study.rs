@@ -4,9 +4,10 @@ use super::corners::{self, Worst};
 use super::limit_study;
 use super::map::{self, ASPECT_RATIOS, Cell, STEPS};
 use super::maps::{self, MOST_STEPS, of, ratio, tolerances_from_fine, with_tolerance};
+use crate::methods::integrators::{Integrator, Theory};
 use crate::present::study::{Exhibit, Findings, Request, Study};
 use crate::present::table::{ReportTable, decimals, number, of_words};
-use crate::studies::integrators::{self, Integrator, Theory};
+use crate::studies::integrators;
 
 /// Maps of what becomes of a rod, and the longest steps beside their theory.
 pub const STUDY: Study = Study {
@@ -124,7 +125,7 @@ mod tests {
     #[test]
     fn a_row_of_cells_says_where_it_leaves() {
         let (problem, end) = (map::by_step(Theory::Exact, 2.0, 1.0, 1), Place::mid_flip(2.0));
-        let exact = integrators::exact_propagator();
+        let exact = crate::methods::integrators::exact_propagator();
         let right = problem.of(&exact);
         let wrong = map::Run { end: end.before(0.1), ..problem };
         let late = map::Run { turns: 1.1, end, ..problem }.of(&exact);

@@ -6,7 +6,7 @@ use super::blocks::{Block, blocks, replicas_exponent};
 use super::fit::{Line, Means, Order};
 use super::job::{Job, PLACES, Trace};
 use super::{Estimate, correlation};
-use crate::studies::integrators::apart_rad;
+use crate::methods::integrators::apart_rad;
 use nalgebra::Vector3;
 use serde::Serialize;
 use shearbed::model::jeffery::strain_per_period;

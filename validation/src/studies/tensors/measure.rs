@@ -1,6 +1,6 @@
 //! What is measured of closures.
 
-use super::{APART, Closure, Equation, Model, at, isotropic, steady};
+use crate::methods::tensors::{APART, Closure, Equation, Model, at, isotropic, steady};
 use crate::oracle::diffusion::{self, Means, Motion, Start};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
@@ -40,7 +40,7 @@ fn equation(gradient: [[f64; 3]; 3], closure: Closure, c_i: f64) -> Equation {
 }
 
 fn apart(a: &Matrix3<f64>, exact: &Means) -> f64 {
-    super::closures::PAIRS
+    crate::methods::tensors::closures::PAIRS
         .iter()
         .zip(exact.second)
         .map(|(place, x)| (a[*place] - x).abs())

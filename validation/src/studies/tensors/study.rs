@@ -1,8 +1,8 @@
 //! The study of closures: their error over C_I and flow, and their work beside the exact solver's.
 
-use super::Closure;
 use super::measure::{FLOWS, Fitted, Off, Work, errors, fitted, work};
 use crate::files::build;
+use crate::methods::tensors::Closure;
 use crate::present::plot::{Curve, Points};
 use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
 use crate::present::table::{ReportTable, field, number, powers, rows_csv, words};

@@ -6,7 +6,7 @@ pub mod rows;
 pub mod study;
 mod time;
 
-use crate::studies::integrators::{Errors, Integrator, RodProblem, Setting, Theory, grade};
+use crate::methods::integrators::{Errors, Integrator, RodProblem, Setting, Theory, grade};
 use serde::Serialize;
 pub(crate) use time::measure;
 pub use time::{Budget, Seconds};
@@ -154,7 +154,7 @@ impl Bench {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::studies::integrators::Failure;
+    use crate::methods::integrators::Failure;
 
     const QUICK: Budget = Budget { seconds_per_run: 1e-4, runs: 1 };
 

@@ -1,7 +1,8 @@
 //! How the error of a fixed-step subject falls with the step: observed order with its sign, Richardson's value and
 //! Roache's grid convergence index.
 
-use crate::studies::integrators::{self, Errors, Integrator, RodProblem, Setting, Theory, grade};
+use crate::methods::integrators::{Errors, Integrator, RodProblem, Setting, Theory, grade};
+use crate::studies::integrators;
 use nalgebra::UnitVector3;
 use serde::Serialize;
 use shearbed::Scene;

@@ -2,8 +2,8 @@
 
 use super::order::{Convergence, Halving};
 use super::{Bench, IntegratorCurve, Point};
+use crate::methods::integrators::Errors;
 use crate::present::table::rows_csv;
-use crate::studies::integrators::Errors;
 use serde::Serialize;
 
 /// A row of bench.csv.

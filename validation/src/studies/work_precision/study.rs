@@ -4,10 +4,11 @@ use super::order::{self, Convergence, OrderVerdict, Orders, Richardson};
 use super::rows::bench_csv;
 use super::{Bench, Budget, IntegratorCurve, PARTS, Point, TARGETS_RAD};
 use crate::files::build;
+use crate::methods::integrators::{Errors, Theory};
 use crate::present::plot::{Curve, Points};
 use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
 use crate::present::table::{Column, NONE, ReportTable, decimals, field, number, powers, words};
-use crate::studies::integrators::{self, Errors, Theory};
+use crate::studies::integrators;
 use std::collections::BTreeMap;
 
 /// Every integrator at every aspect ratio.

@@ -2,10 +2,11 @@
 
 use super::program::{Program, Question};
 use super::protocol::Protocol;
+use crate::methods::integrators::{Setting, Theory};
 use crate::present::plot;
 use crate::present::table::{ReportTable, of_words};
 use crate::serve::grade::figures::{LEAST, PROGRAM};
-use crate::studies::integrators::{self, Setting, Theory};
+use crate::studies::integrators;
 use crate::studies::work_precision::study::{NOT_REACHED, time};
 use crate::studies::work_precision::{Budget, IntegratorCurve, TARGETS_RAD, curve};
 use serde::Serialize;

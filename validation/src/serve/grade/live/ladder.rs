@@ -7,6 +7,7 @@ mod tests;
 
 use super::last_time;
 use super::program::{Program, Question};
+use crate::methods::integrators::Setting;
 use crate::serve::grade::answer::Answer;
 use crate::serve::grade::compare::{Compared, compare};
 use crate::serve::grade::diagnosis::diagnose;
@@ -14,7 +15,6 @@ use crate::serve::grade::files::Claim;
 use crate::serve::grade::order::lower;
 use crate::serve::grade::{Graded, Order, Verdict};
 use crate::serve::problems::LoadedProblem;
-use crate::studies::integrators::Setting;
 use climb::{End, climb};
 use std::time::Duration;
 

@@ -2,7 +2,7 @@
 
 use super::pipe::Pipe;
 use super::protocol::{Answer, Protocol, Request};
-use crate::studies::integrators::{Failure, Integrator, RodProblem, Setting, Theory};
+use crate::methods::integrators::{Failure, Integrator, RodProblem, Setting, Theory};
 use nalgebra::{UnitVector3, Vector3};
 use std::hash::{BuildHasher, RandomState};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

@@ -2,8 +2,8 @@
 
 use super::physical::inverse;
 use super::*;
+use crate::methods::integrators::apart_rad;
 use crate::oracle::quadrature::spread;
-use crate::studies::integrators::apart_rad;
 use std::f64::consts::TAU;
 
 fn couette(aspect_ratio: f64) -> Setting {
@@ -18,7 +18,7 @@ fn integrated(a: &Matrix3<f64>, p: Vector3<f64>, time: f64) -> Vector3<f64> {
     let rate = |p: Vector3<f64>| a * p - p * p.dot(&(a * p));
     (0..steps).fold(p, |p, _| {
         let h = time / f64::from(steps);
-        crate::studies::integrators::rk4(rate, p, h)
+        crate::methods::integrators::rk4(rate, p, h)
     })
 }
 

@@ -1,11 +1,11 @@
 //! Closed equations written a second time, in the axes of a, with another integrator.
 //!
-//! Numbers of fits and the integrals of the natural closure, which exact distributions hold, are shared with `studies::tensors`;
+//! Numbers of fits and the integrals of the natural closure, which exact distributions hold, are shared with `methods::tensors`;
 //! eigenvectors (Jacobi's), invariants, contractions, models and steps are not.
 
-use crate::studies::tensors::ibof::{COEFFICIENTS, POWERS};
-use crate::studies::tensors::orthotropic::{ORE, ORW};
-use crate::studies::tensors::{Closure, Equation, Model};
+use crate::methods::tensors::ibof::{COEFFICIENTS, POWERS};
+use crate::methods::tensors::orthotropic::{ORE, ORW};
+use crate::methods::tensors::{Closure, Equation, Model};
 use nalgebra::{Matrix3, Vector3};
 
 type M = Matrix3<f64>;

@@ -1,10 +1,10 @@
 //! From coarse settings to fine ones, until the answers are within the tolerance, show that they will not be, or time is up.
 
 use super::{Mode, Rung, errors};
+use crate::methods::integrators::Setting;
 use crate::serve::grade::live::program::Asked;
 use crate::serve::grade::order::{Order, orders};
 use crate::serve::problems::LoadedProblem;
-use crate::studies::integrators::Setting;
 use std::time::{Duration, Instant};
 
 /// Doublings of the steps at most, from GΔt of about 1.

@@ -7,8 +7,8 @@
 
 use super::Rung;
 use super::climb::End;
+use crate::methods::integrators::Setting;
 use crate::serve::grade::live::program::Asked;
-use crate::studies::integrators::Setting;
 use std::f64::consts::FRAC_PI_2;
 
 /// How many times the error that the finer settings foretell is far: five orders more than the method's between two

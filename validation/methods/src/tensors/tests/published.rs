@@ -1,7 +1,7 @@
 //! Results that others published, in `validation/published/tensor-models`.
 
 use super::{SHEAR, matrix, turned};
-use crate::studies::tensors::{Closure, Equation, Model, at, isotropic, steady};
+use crate::tensors::{Closure, Equation, Model, at, isotropic, steady};
 use nalgebra::Matrix3;
 
 const TABLE: &str = include_str!("../../../../published/tensor-models/values.csv");

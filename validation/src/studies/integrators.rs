@@ -1,10 +1,10 @@
-//! Register yours here: it is graded in every table of `bench`, `converge` and the report beside the project's own, and no
-//! case judges it, so the gate stays green whatever it does.
+//! The integrators that studies compare, and where yours is registered: it is graded in every table of `bench`, `converge` and the
+//! report beside the project's own, and no case judges it, so the gate stays green whatever it does.
 
-use super::Integrator;
+use crate::methods::integrators::{Integrator, own};
 
-/// The guests.
-pub(super) fn all() -> Vec<Integrator> {
+/// Integrators of others.
+fn guests() -> Vec<Integrator> {
     vec![
         // Integrator::in_p("mine", 2, my_step),
         #[cfg(test)]
@@ -12,10 +12,15 @@ pub(super) fn all() -> Vec<Integrator> {
     ]
 }
 
+/// Every integrator in the tables: the project's own, then guests.
+pub fn all() -> Vec<Integrator> {
+    own().into_iter().chain(guests()).collect()
+}
+
 /// Whatever is tested is tested with a guest registered.
 #[cfg(test)]
 mod tests {
-    use super::super::{Integrator, all, own};
+    use super::{Integrator, all, own};
     use crate::judge::accept::Verdict;
     use crate::judge::case::{Effort, Judges};
     use crate::studies::work_precision::order;

@@ -3,10 +3,10 @@ mod published;
 use super::closures::{Closure, Fourth, PAIRS, principal};
 use super::models::{Equation, Model, diffusion};
 use super::{at, isotropic, steady};
-use crate::oracle::reference::big::Bits;
-use crate::oracle::reference::isotropic::{Covariance, QUADRUPLES};
-use crate::oracle::reference::motion::{Motion, Unit};
 use nalgebra::{Matrix3, Rotation3, Vector3};
+use shearbed_oracle::reference::big::Bits;
+use shearbed_oracle::reference::isotropic::{Covariance, QUADRUPLES};
+use shearbed_oracle::reference::motion::{Motion, Unit};
 
 pub const SHEAR: [[f64; 3]; 3] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]];
 const ASKEW: [[f64; 3]; 3] = [[0.25, -0.5, 0.125], [0.75, 0.125, -0.25], [0.375, 0.625, -0.375]];

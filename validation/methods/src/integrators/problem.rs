@@ -1,7 +1,7 @@
 //! The problem that every subject solves: one free rod in plane Couette flow u_2 = G x_1.
 
-use crate::oracle::closed_form;
 use nalgebra::{Matrix3, UnitVector3, Vector2, Vector3};
+use shearbed_oracle::closed_form;
 use std::f64::consts::TAU;
 
 /// One free rod in plane Couette flow, in units of 1/G, over a number of its periods.
@@ -116,7 +116,7 @@ fn direction(phi: f64, theta: f64) -> UnitVector3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oracle::jeffery;
+    use shearbed_oracle::jeffery;
 
     #[test]
     fn a_problem_into_the_flip_ends_where_phi_is_1() {

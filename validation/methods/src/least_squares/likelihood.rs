@@ -1,7 +1,7 @@
 //! χ² of the measured points over the box, with everything in their covariance that is known to be there.
 
+use super::Datum;
 use super::basis::Basis;
-use super::data::Datum;
 use super::emulator::Emulator;
 use nalgebra::{DMatrix, DVector};
 
@@ -61,12 +61,8 @@ pub struct ChiSquare {
 }
 
 impl ChiSquare {
-    pub(super) fn new(
-        data: &[Datum],
-        emulator: &Emulator,
-        covariance: &DMatrix<f64>,
-        near: &[f64],
-    ) -> Option<Self> {
+    /// χ² of the data with this covariance, about the parameters `near`; `None` where the covariance is not positive definite.
+    pub fn new(data: &[Datum], emulator: &Emulator, covariance: &DMatrix<f64>, near: &[f64]) -> Option<Self> {
         let terms = emulator.mean();
         let measured = DVector::from_iterator(data.len(), data.iter().map(|datum| datum.value));
         let error = measured - emulator.at(near);
@@ -98,8 +94,7 @@ impl ChiSquare {
     }
 
     /// As if the noise were the model: for a control.
-    #[cfg(test)]
-    pub(super) fn with_noise(&self) -> Self {
+    pub fn with_noise(&self) -> Self {
         Self {
             linear: &self.linear - &self.noise * &self.origin,
             noise: DMatrix::zeros(self.noise.nrows(), self.noise.ncols()),
@@ -108,20 +103,20 @@ impl ChiSquare {
     }
 
     /// What the replicas' noise adds on average to χ² at a place, beside another.
-    pub(super) fn noise_between(&self, place: &[f64], other: &[f64]) -> f64 {
+    pub fn noise_between(&self, place: &[f64], other: &[f64]) -> f64 {
         let away = self.basis.terms(place) - self.basis.terms(other);
         away.dot(&(&self.noise * &away))
     }
 
     /// What the replicas' noise adds to those second derivatives on average.
-    pub(super) fn noise(&self, place: &[f64]) -> DMatrix<f64> {
+    pub fn noise(&self, place: &[f64]) -> DMatrix<f64> {
         let slopes = self.basis.slopes(place);
         slopes.tr_mul(&(&self.noise * &slopes))
     }
 }
 
 /// The correlations that belong to a covariance.
-pub(super) fn correlation_of(covariance: &DMatrix<f64>) -> DMatrix<f64> {
+pub fn correlation_of(covariance: &DMatrix<f64>) -> DMatrix<f64> {
     DMatrix::from_fn(covariance.nrows(), covariance.ncols(), |i, j| {
         covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt()
     })

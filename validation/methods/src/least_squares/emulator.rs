@@ -24,7 +24,8 @@ const CERTAIN: f64 = 2.0;
 /// values cancels as it should.
 #[derive(Clone, Debug)]
 pub struct Emulator {
-    pub(super) basis: Basis,
+    /// The polynomials, and the nodes that they run through.
+    pub basis: Basis,
     /// A row for each coefficient, a column for each point: of the mean over replicas, at, before and after.
     mean: [DMatrix<f64>; 3],
     /// Each replica's coefficients less the mean's, at.
@@ -87,7 +88,7 @@ impl Emulator {
     }
 
     /// Coefficients of the mean, a row for each term and a column for each point.
-    pub(super) fn mean(&self) -> &DMatrix<f64> {
+    pub fn mean(&self) -> &DMatrix<f64> {
         &self.mean[0]
     }
 

@@ -5,7 +5,6 @@ mod adaptive;
 mod errors;
 mod exact;
 mod fixed;
-mod guests;
 mod integrator;
 mod problem;
 mod sphere;
@@ -117,11 +116,6 @@ pub fn own() -> Vec<Integrator> {
     own
 }
 
-/// Every integrator in the tables: the project's own, then guests.
-pub fn all() -> Vec<Integrator> {
-    own().into_iter().chain(guests::all()).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -167,7 +161,7 @@ mod tests {
     #[test]
     fn every_subject_comes_close_and_refuses_the_settings_of_others() {
         let (problem, start) = RodProblem::mid_flip(3.0);
-        for subject in all() {
+        for subject in own() {
             let (own, other) = match subject.theory {
                 Theory::Exact => (Setting::Once, Setting::Steps(10)),
                 Theory::Order(_) => (Setting::Steps(20_000), Setting::Tolerance(1e-6)),

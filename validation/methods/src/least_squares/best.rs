@@ -1,6 +1,6 @@
 //! The place that fits best.
 
-use super::data::Datum;
+use super::Datum;
 use super::emulator::Emulator;
 use super::likelihood::{CAUSES, Causes, ChiSquare, REPLICAS, causes};
 use super::minimise::minimise;
@@ -35,8 +35,7 @@ impl Best {
     }
 
     /// The best place where the replicas' noise is not subtracted: for a control.
-    #[cfg(test)]
-    pub(super) fn with_noise(&self) -> Self {
+    pub fn with_noise(&self) -> Self {
         let surface = self.surface.with_noise();
         let (place, chi_square) = minimise(&surface, &vec![None; self.place.len()], &[&self.place]);
         Self { place, chi_square, surface, ..self.clone() }
@@ -54,7 +53,7 @@ impl Best {
     }
 
     /// The share of the variance of a parameter that χ² shows by its curvature: the least of some parameters.
-    pub(super) fn shown(&self, axes: &[usize]) -> f64 {
+    pub fn shown(&self, axes: &[usize]) -> f64 {
         let (hidden, all) = (&self.spread[CAUSES.len()], self.covariance());
         axes.iter().map(|&axis| 1.0 - hidden[(axis, axis)] / all[(axis, axis)]).fold(1.0, f64::min)
     }

@@ -7,12 +7,12 @@
 //! replicas but for terms ∝ 1/n (J. Hartlap, P. Simon & P. Schneider, Astron. Astrophys. 464 (2007) 399, for the inverse;
 //! S. Dodelson & M. D. Schneider, Phys. Rev. D 88 (2013) 063537, for the estimates).
 
-use super::data::Datum;
+use super::Datum;
 use super::emulator::Emulator;
 use nalgebra::DMatrix;
 
 /// E[δV P δV], points × points. `rods_over_measured` as for `causes`.
-pub(super) fn scatter_of_covariance(
+pub fn scatter_of_covariance(
     data: &[Datum],
     emulator: &Emulator,
     of_replica: &DMatrix<f64>,
@@ -42,7 +42,7 @@ pub(super) fn scatter_of_covariance(
 
 /// What is to be added to a covariance of the parameters that is too small by `scatter`, and too small by it again as the
 /// estimates scatter: C(C − X)⁻¹C(C − X)⁻¹C − C. `None` where the replicas are too few for that.
-pub(super) fn added(covariance: &DMatrix<f64>, scatter: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+pub fn added(covariance: &DMatrix<f64>, scatter: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let rest = (covariance - scatter).cholesky()?;
     let ratio = rest.solve(covariance);
     Some(covariance * &ratio * &ratio - covariance)

@@ -1,0 +1,26 @@
+//! Orientation tensors as the field computes them: closures of the fourth moments, models of a_ij's rate, and their integration.
+//!
+//! This is code that is judged, by published values and by the exact distribution; no oracle uses it.
+//! a is symmetric with trace 1; axes as everywhere here, 1 = gradient, 2 = flow in shear.
+
+pub mod closures;
+pub mod ibof;
+mod integrate;
+pub mod models;
+mod natural;
+pub mod orthotropic;
+
+#[cfg(test)]
+mod tests;
+
+pub use closures::{Closure, Fourth};
+pub use integrate::{at, steady};
+pub use models::{Equation, Model};
+
+/// a_ij at a start with axes of its own: some models, and ORW, need them.
+pub const APART: [[f64; 3]; 3] = [[0.1875, 0.125, 0.0], [0.125, 0.5, 0.0], [0.0, 0.0, 0.3125]];
+
+/// a of directions that are all alike.
+pub fn isotropic() -> nalgebra::Matrix3<f64> {
+    nalgebra::Matrix3::identity() / 3.0
+}
