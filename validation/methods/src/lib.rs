@@ -7,4 +7,5 @@
 pub mod coefficients;
 pub mod integrators;
 pub mod least_squares;
+pub mod projections;
 pub mod tensors;

@@ -6,6 +6,7 @@ use std::fs;
 use std::io::{BufRead, Write};
 use std::process::{Command, ExitCode, Stdio};
 use std::time::Duration;
+use validation::methods::integrators::extrapolated::{extrapolated, rk4_in_p};
 
 /// Acts as a program that is to be graded. Where its name does not say when, it does what that says from its third answer on.
 pub fn program(name: &str, pids: Option<&str>) -> ExitCode {
@@ -97,22 +98,13 @@ fn answer(name: &str, request: &Value, count: u64) -> Value {
     let finer = if name == "ends_after_a_right_answer" { 1024 } else { 1 };
     let steps = finer * request["steps"].as_u64().unwrap();
     let h = number(&request["end_s"]) / steps as f64;
-    let rate = |p: Vector3<f64>| a * p - p * p.dot(&(a * p));
-    let (order, normalised) = method(name);
-    let rk4 = |p: Vector3<f64>| {
-        if let Some(order) = order {
-            let p = extrapolated(order, rate, p, h);
-            return if normalised { p.normalize() } else { p };
-        }
-        let k1 = rate(p);
-        let k2 = rate(p + k1 * (0.5 * h));
-        let k3 = rate(p + k2 * (0.5 * h));
-        let k4 = rate(p + k3 * h);
-        p + (k1 + (k2 + k3) * 2.0 + k4) * (h / 6.0)
+    let moved = |p: Vector3<f64>| match method(name) {
+        (Some(order), normalised) => extrapolated(order, normalised, &a, p, h, steps),
+        (None, _) => rk4_in_p(&a, p, h, steps),
     };
     let rods = request["start"].as_array().unwrap();
     let mut p: Vec<_> = (rods.iter())
-        .map(|p| (0..steps).fold(Vector3::from_fn(|i, _| number(&p[i])), |p, _| rk4(p)))
+        .map(|p| moved(Vector3::from_fn(|i, _| number(&p[i]))))
         .map(|p| if name == "is_off_by_1e-8" { off_by_1e_8(p) } else { p })
         .map(|p| json!([p.x, p.y, p.z]))
         .collect();
@@ -135,26 +127,6 @@ fn method(name: &str) -> (Option<usize>, bool) {
         ["rk", order, "normalised"] => (order.parse().ok(), true),
         _ => (None, false),
     }
-}
-
-/// A step of this order: Euler's method with 1, 2, … steps in it, extrapolated (Aitken & Neville; Hairer, Nørsett & Wanner,
-/// Solving Ordinary Differential Equations I, II.9).
-fn extrapolated(
-    order: usize,
-    rate: impl Fn(Vector3<f64>) -> Vector3<f64>,
-    p: Vector3<f64>,
-    h: f64,
-) -> Vector3<f64> {
-    let mut before: Vec<Vector3<f64>> = Vec::new();
-    for parts in 1..=order {
-        let mut row = vec![(0..parts).fold(p, |p, _| p + rate(p) * (h / parts as f64))];
-        for k in 1..parts {
-            let ratio = parts as f64 / (parts - k) as f64;
-            row.push(row[k - 1] + (row[k - 1] - before[k - 1]) / (ratio - 1.0));
-        }
-        before = row;
-    }
-    before[order - 1]
 }
 
 /// Turned by so many rad.

@@ -79,7 +79,9 @@ fn every_dependency_has_a_line_and_the_crates_are_counted() {
         assert!(!cells[2].is_empty(), "{row}");
     }
     let mut expected: BTreeMap<String, String> = BTreeMap::new();
-    for path in ["../Cargo.toml", "oracle/Cargo.toml", "Cargo.toml", "benches/Cargo.toml"] {
+    for path in
+        ["../Cargo.toml", "oracle/Cargo.toml", "methods/Cargo.toml", "Cargo.toml", "benches/Cargo.toml"]
+    {
         for (name, place) in asked_for(path) {
             let known = expected.entry(name).or_insert_with(|| place.to_owned());
             if place == "program" {

@@ -3,6 +3,7 @@
 
 mod adaptive;
 mod errors;
+pub mod extrapolated;
 mod exact;
 mod fixed;
 mod integrator;

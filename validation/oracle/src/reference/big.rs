@@ -83,6 +83,11 @@ pub fn digits(x: &Big, digits: usize) -> String {
     format!("{sign}{first}{point}{rest}e{exponent}")
 }
 
+/// The angle in rad from the first axis to (x, y), from −π to π.
+pub fn angle(y: &Big, x: &Big) -> Big {
+    y.atan2(x)
+}
+
 /// √(x² + y² + z²).
 pub fn length([x, y, z]: &[Big; 3]) -> Big {
     (x.sqr() + y.sqr() + z.sqr()).sqrt()

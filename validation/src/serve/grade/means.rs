@@ -3,6 +3,7 @@
 use super::answer::Answer;
 use super::compare::standard_errors;
 use super::mistakes::{self, Mistake, Setting, right_map};
+use crate::methods::projections::projections;
 use crate::serve::problems::{LoadedProblem, Problem};
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
@@ -11,27 +12,6 @@ use rayon::prelude::*;
 /// geometrically, and so many leave 10⁻⁹ after three periods.
 const NODES: usize = 401;
 const REACH: f64 = 6.0;
-
-/// ⟨|p_i|⟩ of directions M p(0)/|M p(0)| where p(0) is isotropic: (1/π) ∫ (adj N)_ii^½ x^½/det N d(ln x), N = (M Mᵀ)⁻¹ + x
-/// with det M = 1, by the trapezoid rule, which leaves e^(−2π²/h).
-pub(super) fn projections(map: &Matrix3<f64>) -> Option<Vector3<f64>> {
-    const STEP: f64 = 0.5;
-    let map = map / map.determinant().abs().cbrt();
-    let back = map.try_inverse()?;
-    let (sigma, inverse) = (map * map.transpose(), back.transpose() * back);
-    // The integrand rises as x^½ and falls as x^(−3/2).
-    let steps = |range: f64| (range / STEP).ceil() as i32;
-    let (left, right) = (steps(sigma.trace().ln() + 70.0), steps(inverse.trace().ln() + 25.0));
-    let at = |k: i32| {
-        let x = (STEP * f64::from(k)).exp();
-        let determinant = ((x + inverse.trace()) * x + sigma.trace()) * x + 1.0;
-        let adjugate = Vector3::from_fn(|i, _| (x + inverse.trace() - inverse[(i, i)]) * x + sigma[(i, i)]);
-        adjugate.map(|entry| (entry * x).sqrt()) / determinant
-    };
-    let sum: Vector3<f64> = (-left..=right).map(at).sum();
-    let means = sum * STEP / std::f64::consts::PI;
-    means.iter().all(|mean| mean.is_finite()).then_some(means)
-}
 
 /// The mean of `of(r_e)` over the aspect ratios of a problem (eq. 11).
 fn over_shapes(problem: &Problem, of: impl Fn(f64) -> Option<Vector3<f64>>) -> Option<Vector3<f64>> {

@@ -3,7 +3,7 @@
 use super::asked::{AXES, COUETTE, direction, period_s};
 use super::tolerance::rounded_up;
 use super::{Built, FORMAT, Kind, Metric, Problem, ProblemDef};
-use crate::oracle::reference::big::{Big, Bits, digits, double, length};
+use crate::oracle::reference::big::{Big, Bits, angle, digits, double, length};
 use nalgebra::Matrix3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
@@ -207,8 +207,8 @@ fn angles(rod: &Touched, step: &Big) -> Vec<Big> {
     let (along, across) = (p1 / &sine, p2 / &sine);
     let phi_rate = (v2 * &along - v1 * &across) / &sine;
     let theta_rate = (v1 * &along + v2 * &across) * p3 - v3 * &sine;
-    let phi = p2.atan2(p1) + &phi_rate * step;
-    let theta = sine.atan2(p3) + &theta_rate * step;
+    let phi = angle(p2, p1) + &phi_rate * step;
+    let theta = angle(&sine, p3) + &theta_rate * step;
     vec![phi_rate, theta_rate, phi, theta]
 }
 
