@@ -146,7 +146,7 @@ pub const ALTERNATIVES: [(&str, &str, Change); 17] = [
 
 /// The default and every alternative, run over all ranks; none but on the root.
 pub fn measure(effort: &Effort) -> Option<Vec<ReadingRow>> {
-    let replicas = effort.pick(200, 2000);
+    let replicas = effort.pick(40, 2000);
     let default: Change = |_| ();
     let changes: Vec<_> = once(default).chain(ALTERNATIVES.map(|(.., change)| change)).collect();
     let job = |k: usize| Ok::<_, Infallible>(traces(changes[k], replicas));

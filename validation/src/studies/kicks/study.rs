@@ -93,11 +93,11 @@ pub const PERIODS_AT: u64 = 400;
 pub fn measure(effort: &Effort) -> Result<Limit, String> {
     let built_in = scenes::find(SCENE).ok_or("no such scene")?;
     let scene = built_in.scene().map_err(|error| error.to_string())?;
-    let replicas = effort.pick([30, 20], [200, 100]);
-    let finest = effort.pick(3200, 12_800);
+    let replicas = effort.pick([10, 8], [200, 100]);
+    let finest = effort.pick(1600, 12_800);
     let steps = [50, 100, 200, 400, 800, 1600, 3200, 6400, 12_800];
     let steps = steps.into_iter().filter(|steps| *steps <= finest);
-    let averaged_finest = effort.pick(800, 6400);
+    let averaged_finest = effort.pick(400, 6400);
     let averaged_steps = [100, 200, 400, 800, 1600, 3200, 6400];
     let averaged_steps = averaged_steps.into_iter().filter(|steps| *steps <= averaged_finest);
     let mut dense = lab::interacting_scene(effort);

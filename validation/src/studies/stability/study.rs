@@ -120,7 +120,6 @@ mod tests {
     use super::super::map::Fate;
     use super::super::orbit::Place;
     use super::*;
-    use crate::studies::integrators;
 
     #[test]
     fn a_row_of_cells_says_where_it_leaves() {
