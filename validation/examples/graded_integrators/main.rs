@@ -7,16 +7,14 @@
 //! grades all of them and prints the table; as a test it grades a sample. It is also the programs that it grades.
 
 mod catalogue;
-mod methods;
-mod tableaus;
 
 use catalogue::Entry;
 use libtest_mimic::{Arguments, Failed, Trial};
-use methods::{Form, Setting, advance};
 use rayon::prelude::*;
 use std::io::{BufRead, Write};
 use std::process::ExitCode;
 use std::time::Duration;
+use validation::methods::textbook::{Form, Setting, advance};
 use validation::serve::grade::live::{self, Mode, Program, Protocol};
 use validation::serve::grade::{Claim, Graded, Order, Verdict, settle};
 use validation::serve::problems::LoadedProblem;

@@ -9,3 +9,4 @@ pub mod integrators;
 pub mod least_squares;
 pub mod projections;
 pub mod tensors;
+pub mod textbook;

@@ -2,6 +2,7 @@
 //! They may use `present` and what is below. A study is a module with a `STUDY`, and a line of [`ALL`].
 
 pub mod coefficients;
+pub mod cost;
 pub mod figures;
 pub mod integrators;
 pub mod kicks;
@@ -15,7 +16,7 @@ pub mod work_precision;
 use crate::present::study::Study;
 
 /// Every study, in the order of the report.
-pub const ALL: [Study; 10] = [
+pub const ALL: [Study; 11] = [
     figures::STUDY,
     readings::STUDY,
     kicks::study::STUDY,
@@ -25,6 +26,7 @@ pub const ALL: [Study; 10] = [
     suspensions::interacting::STUDY,
     coefficients::study::STUDY,
     tensors::study::STUDY,
+    cost::STUDY,
     speed::STUDY,
 ];
 

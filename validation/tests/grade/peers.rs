@@ -60,6 +60,48 @@ fn numpy_rk4_passes_with_order_4_and_euler_fails_with_order_1() {
     assert_eq!(live.code, Some(0), "{}", live.words);
 }
 
+/// The suspension that `bench --case cost-of-accuracy` times, held to the core's: 40 replicas of 100 rods know X̄₁ to 0.006, and a
+/// right one is 4.5 standard errors off at one seed in 10⁵; without collisions X̄₁ is ½.
+#[test]
+fn a_suspension_in_numpy_has_the_mean_of_the_core() {
+    use validation::judge::statistics::Sample;
+    let Some(python) = python("numpy") else {
+        return skipped("numpy_suspension.py", "no python3 with numpy");
+    };
+    let code = std::fs::read_to_string(peers().join("numpy_suspension.py")).unwrap();
+    let answer = |code: &str| {
+        let output = std::process::Command::new(&python)
+            .args(["-c", code, "40", "50", "1"])
+            .envs(crate::programs::ONE_THREAD)
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let x1: Vec<_> = answer["x1"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+        Sample::of(&x1)
+    };
+    let mut scene = shearbed::Scene {
+        interaction: Some(shearbed::scene::Interaction::default()),
+        ..shearbed::Scene::default()
+    };
+    scene.time.duration = 2.0;
+    scene.time.outputs_per_unit = Some(1);
+    scene.time.steps_per_unit = Some(50);
+    scene.ensemble.replicas = 400;
+    let core = shearbed::run::ensemble::run(&shearbed::Plan::new(&scene).unwrap()).unwrap();
+    let core = core.column("x1").unwrap();
+    let (mean, se) = (core.mean.last().unwrap(), core.se.last().unwrap());
+    let off = |found: Sample| (found.mean - mean).abs() / found.se.hypot(*se);
+    let (right, free) = (
+        off(answer(&code)),
+        off(answer(&code.replace(
+            "N, G, LENGTH, R_E, ALPHA, M, PER_MM3 = 100, 0.5, 0.72, 11.6, 0.5,",
+            "N, G, LENGTH, R_E, ALPHA, M, PER_MM3 = 100, 0.5, 0.72, 11.6, 0.0,",
+        ))),
+    );
+    assert!(right < 4.5 && free > 10.0, "{right} {free}");
+}
+
 #[test]
 fn c_compiled_with_cc_passes_with_order_4() {
     if !runs("cc", &["--version"]) {

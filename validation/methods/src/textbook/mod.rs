@@ -1,11 +1,15 @@
-//! Ways to step ṗ = Ap − p(p·Ap) in doubles. They share no code with what grades them.
+//! Ways to step ṗ = Ap − p(p·Ap) in doubles, by which the grader's rules are tried. They share no code with what grades them.
 
-use super::tableaus::Tableau;
+pub mod tableaus;
+
 use nalgebra::Vector3;
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, System};
+use tableaus::Tableau;
 
+/// p, or q.
 pub type Vector = [f64; 3];
+/// Rows of a matrix.
 pub type Matrix = [[f64; 3]; 3];
 
 /// What is stepped.
@@ -24,38 +28,52 @@ pub enum Form {
 /// A method with its coefficients.
 #[derive(Clone)]
 pub enum Method {
+    /// An explicit Runge–Kutta method.
     RungeKutta(Tableau),
     /// Adams–Bashforth, with coefficients from the newest rate to the oldest, and the steps that start it.
     Adams {
+        /// Weights.
         b: Vec<f64>,
+        /// Steps that start it.
         starter: Tableau,
     },
     /// Adams–Bashforth, then Adams–Moulton once (PECE).
     PredictorCorrector {
+        /// Weights.
         b: Vec<f64>,
+        /// Weights of the corrector.
         moulton: Vec<f64>,
+        /// Steps that start it.
         starter: Tableau,
     },
     /// Implicit Runge–Kutta by fixed-point iteration: a, b.
     Implicit {
+        /// Weights of the stages.
         a: Vec<Vec<f64>>,
+        /// Weights.
         b: Vec<f64>,
     },
     /// Implicit midpoint steps of these lengths, one after the other.
     Composed(Vec<f64>),
     /// Rotations about ω = p × Ap: stages and weights as of a tableau, with the commutators of order 4 where `rkmk`.
     LieGroup {
+        /// Stages and weights.
         tableau: Tableau,
+        /// True with commutators.
         rkmk: bool,
     },
     /// Exact steps of W and of ΛD by turns, with these lengths.
     Splitting {
+        /// Lengths of the steps of W.
         turning: Vec<f64>,
+        /// Lengths of the steps of ΛD.
         stretching: Vec<f64>,
     },
     /// An embedded pair with step control by a tolerance: b of the estimate's other method.
     Adaptive {
+        /// Stages and weights.
         tableau: Tableau,
+        /// Weights of the estimate.
         other: Vec<f64>,
     },
     /// Dormand and Prince's 8(5,3) with its own step, of `ode_solvers`.
@@ -150,7 +168,9 @@ fn stages(motion: &Motion, tableau: &Tableau, x: &Vector, h: f64, k: &mut Vec<Ve
 /// How far to go.
 #[derive(Clone, Copy)]
 pub enum Setting {
+    /// So many equal steps.
     Steps(u64),
+    /// Steps chosen by a tolerance.
     Tolerance(f64),
 }
 

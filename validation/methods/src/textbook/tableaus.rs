@@ -3,9 +3,13 @@
 /// An explicit Runge–Kutta method.
 #[derive(Clone)]
 pub struct Tableau {
+    /// Its name.
     pub name: &'static str,
+    /// Its order.
     pub order: u32,
+    /// Weights of the stages before, row by row.
     pub a: Vec<Vec<f64>>,
+    /// Weights of the stages in the step.
     pub b: Vec<f64>,
 }
 
