@@ -10,3 +10,23 @@ pub mod least_squares;
 pub mod projections;
 pub mod tensors;
 pub mod textbook;
+
+/// A plain sum, in lanes that the compiler may keep side by side: what the machine must do at the least with an array.
+pub fn plain_sum(values: &[f64]) -> f64 {
+    let mut lanes = [0.0; 8];
+    for chunk in values.chunks_exact(8) {
+        for (lane, value) in lanes.iter_mut().zip(chunk) {
+            *lane += value;
+        }
+    }
+    lanes.iter().sum::<f64>() + values.chunks_exact(8).remainder().iter().sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn a_plain_sum_is_one() {
+        let values: Vec<f64> = (1..=1003).map(f64::from).collect();
+        assert_eq!(super::plain_sum(&values), 1003.0 * 1004.0 / 2.0);
+    }
+}

@@ -5,6 +5,7 @@ mod tests;
 
 use super::{Amount, Check, Speed, Step, Target};
 use crate::judge::lab;
+use crate::methods::plain_sum;
 use crate::oracle::naive::{Naive, NaiveProblem};
 use rayon::prelude::*;
 use shearbed::run::run_replica;
@@ -165,7 +166,7 @@ fn memory_rate(all: &rayon::ThreadPool, amount: Amount) -> Check {
     let per_output = (run(&many) - run(&few)) / (many.outputs() - few.outputs()) as f64;
     let arrays = [0.25f64, 0.5, 0.75].map(|value| vec![value; amount.free_rods]);
     let sum = least(amount, || {
-        let total = |axis: &Vec<f64>| -> f64 { axis.par_chunks(1 << 16).map(lane_sum).sum() };
+        let total = |axis: &Vec<f64>| -> f64 { axis.par_chunks(1 << 16).map(plain_sum).sum() };
         all.install(|| seconds(|| arrays.iter().map(total).sum::<f64>()))
     });
     Check {
@@ -180,17 +181,6 @@ fn memory_rate(all: &rayon::ThreadPool, amount: Amount) -> Check {
             1e-9 * bytes / sum
         ),
     }
-}
-
-/// A sum that the compiler may keep in registers side by side.
-fn lane_sum(values: &[f64]) -> f64 {
-    let mut lanes = [0.0; 8];
-    for chunk in values.chunks_exact(8) {
-        for (lane, value) in lanes.iter_mut().zip(chunk) {
-            *lane += value;
-        }
-    }
-    lanes.iter().sum::<f64>() + values.chunks_exact(8).remainder().iter().sum::<f64>()
 }
 
 /// The same replicas on one thread and on all.
