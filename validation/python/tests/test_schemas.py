@@ -61,20 +61,21 @@ def test_the_schema_of_scenes_refuses_what_the_program_refuses(tmp_path: Path) -
         text = program("scenes", "--show", name, cwd=tmp_path).stdout
         assert schema.is_valid(tomllib.loads(text)), name
     text = program("scenes", "--show", "fig4-n50", cwd=tmp_path).stdout
-    seen = set()
+    tried = 0
     for line in text.splitlines():
         key, is_value, _ = line.partition(" = ")
         for wrong in ("-1", "[]", "{ a = 1 }", "1e999") if is_value else ():
             spoilt = text.replace(line, f"{key} = {wrong}")
             try:
-                table = tomllib.loads(spoilt)
+                # JSON has no infinity: null stands in its place.
+                table = json.loads(json.dumps(tomllib.loads(spoilt)), parse_constant=lambda _: None)
             except tomllib.TOMLDecodeError:
                 continue
             try:
-                shearbed.Scene(spoilt)
+                shearbed.Scene(toml=spoilt)
                 refused = False
-            except (ValueError, TypeError):
+            except shearbed.SceneError:
                 refused = True
             assert schema.is_valid(table) != refused, f"{key} = {wrong}"
-            seen.add(refused)
-    assert seen == {True, False}
+            tried += 1
+    assert tried > 40
