@@ -47,3 +47,26 @@ fn of_several_wrong_rods_the_first_is_named_whatever_the_threads() {
     assert!(errors.iter().all(|error| *error == errors[0]));
     assert!(errors[0].to_string().starts_with("rod 0, output 0 "), "{}", errors[0]);
 }
+
+/// Beyond the first block: aspect ratio and weight are those of the block's own rods.
+#[test]
+fn every_block_has_its_own_rods() {
+    let mut scene = plan(300, 1).scene().clone();
+    (scene.particles.aspect_ratio_sd_percent, scene.particles.length_sd_percent) = (5.0, 30.0);
+    scene.output.observables = vec![Observable::ParticleStress];
+    let plan = Plan::new(&scene).unwrap();
+    let (rods, _) = Rods::draw(&plan, 0);
+    let cubes: Vec<_> = rods.lengths().iter().map(|length| length.powi(3)).collect();
+    let mean = cubes.iter().sum::<f64>() / 300.0;
+    let mut block = Block::default();
+    let mut seen = 0;
+    for first in (0..300).step_by(BLOCK) {
+        rods.select(first, &mut block);
+        for k in 0..block.len {
+            assert_eq!(block.aspect_ratio[k], rods.aspect_ratio(first + k));
+            assert!((block.weight[k] * mean / cubes[first + k] - 1.0).abs() < 1e-14, "{first} {k}");
+        }
+        seen += block.len;
+    }
+    assert_eq!(seen, 300);
+}

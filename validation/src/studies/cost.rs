@@ -272,8 +272,8 @@ mod tests {
         let steps = [step(25, 4e-3, 1e-4), step(50, 8e-4, 2e-4), step(USUAL, 1e-4, 1e-3)];
         let other = Measured { program: "other", x1: Sample::of(&[0.3, 0.31]), seconds: 0.1 };
         let [own, others] = costs(0.005, &steps, std::slice::from_ref(&other))[..] else { panic!() };
-        // 0.04²/(0.005² − 0.004²) = 177.8 replicas of the longest step.
-        assert_eq!((own.steps_per_period, own.replicas), (25, 178));
+        // 0.04²/(0.005² − 0.0008²) = 65.7 replicas; with 25 steps 177.8 of half the time.
+        assert_eq!((own.steps_per_period, own.replicas), (50, 66));
         // 50 steps take a quarter of the time of 200, and 66 replicas.
         assert_eq!((others.steps_per_period, others.replicas), (50, 66));
         assert!((others.seconds - 66.0 * 0.025).abs() < 1e-12);
