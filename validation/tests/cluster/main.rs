@@ -189,8 +189,14 @@ fn converge_has_the_bytes_of_one_process() {
 }
 
 /// Tables and figures of the report that hold times.
-const TIMED: [&str; 5] =
-    ["work-precision", "exact-against-adaptive", "speed", "suspension-starts", "suspension-splits"];
+const TIMED: [&str; 6] = [
+    "work-precision",
+    "exact-against-adaptive",
+    "speed",
+    "suspension-starts",
+    "suspension-splits",
+    "cost-of-accuracy",
+];
 
 /// All of the report but times, and what is measured in times.
 #[test]
