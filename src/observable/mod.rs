@@ -63,7 +63,7 @@ impl Block {
     }
 }
 
-/// Every place in turn. Arguments of their own, which the compiler knows not to overlap.
+/// Moves every rod. The arrays are separate arguments, so that the compiler knows that they do not overlap.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
 fn turned(
@@ -156,11 +156,15 @@ pub(crate) fn lane_sum(len: usize, f: impl Fn(usize) -> f64) -> f64 {
     )
 }
 
-/// The same as part of a loop that is compiled for the widest instructions.
+/// [`lane_sum`] for use inside [`widest`].
+///
+/// # Panics
+///
+/// If `len` is larger than [`BLOCK`].
 #[inline(always)]
 pub(crate) fn lanes(len: usize, f: impl Fn(usize) -> f64) -> f64 {
     let mut lanes = [0.0; LANES];
-    let len = len.min(BLOCK);
+    assert!(len <= BLOCK, "a block has at most {BLOCK} rods, not {len}");
     let whole = len / LANES * LANES;
     for first in (0..whole).step_by(LANES) {
         for (lane, sum) in lanes.iter_mut().enumerate() {

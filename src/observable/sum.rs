@@ -101,7 +101,7 @@ impl Spread {
             #[inline(always)]
             move || {
                 let mut values = [0.0; BLOCK];
-                (0..len.min(BLOCK)).for_each(|i| values[i] = f(i));
+                values[..len].iter_mut().enumerate().for_each(|(i, value)| *value = f(i));
                 let difference = |i: usize| values[i] - first;
                 let square = |i: usize| difference(i) * difference(i);
                 [lanes(len, |i| values[i]), lanes(len, difference), lanes(len, square)]

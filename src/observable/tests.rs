@@ -59,6 +59,14 @@ fn the_columns_are_as_many_as_the_sums() {
 }
 
 #[test]
+fn more_rods_than_a_block_has_are_refused() {
+    for spread in [false, true] {
+        let added = |len| std::panic::catch_unwind(|| Sum::none(spread).add_each(len, |_| 1.0));
+        assert!(added(BLOCK).is_ok() && added(BLOCK + 1).is_err(), "{spread}");
+    }
+}
+
+#[test]
 fn lanes_sum_every_rod_once() {
     for len in [0, 1, 7, 8, 9, 100, BLOCK] {
         assert_eq!(lane_sum(len, |i| (i + 1) as f64), (len * (len + 1) / 2) as f64);

@@ -154,7 +154,7 @@ impl Rods {
         });
     }
 
-    /// Makes `block` that of up to [`BLOCK`] rods from `first` on: how many, their aspect ratios and weights.
+    /// Sets the length, aspect ratios and weights of `block` to those of the rods from `first` on, at most [`BLOCK`].
     pub fn select(&self, first: usize, block: &mut Block) {
         block.len = BLOCK.min(self.count() - first);
         let rods = first..first + block.len;
@@ -189,9 +189,11 @@ impl Rods {
             }
             Motion::Couette(clock) => {
                 let (clock, each, mut elapsed) = (*clock, self.of_several_shapes(), [tick as f64; BLOCK]);
-                for (elapsed, since) in elapsed.iter_mut().zip(self.since.get(rods).into_iter().flatten()) {
-                    // At most 10⁹ steps, and none ahead of the present.
-                    *elapsed = f64::from((tick as u32).wrapping_sub(*since) as i32);
+                if !self.since.is_empty() {
+                    for (elapsed, since) in elapsed.iter_mut().zip(&self.since[rods]) {
+                        // At most 10⁹ steps, and none ahead of the present.
+                        *elapsed = f64::from((tick as u32).wrapping_sub(*since) as i32);
+                    }
                 }
                 block.turn(
                     from,
@@ -258,7 +260,8 @@ struct Ticks {
 }
 
 impl Ticks {
-    /// How often a rod of aspect ratio `r` turns, with the sign of G, while the mean rod turns once: `each` has its own.
+    /// How often a rod of aspect ratio `r` turns, with the sign of G, while the mean rod turns once; `each`: rods have
+    /// aspect ratios of their own.
     #[inline(always)]
     fn periods(&self, each: bool, r: f64) -> f64 {
         if each { self.strain_per_period / strain_per_period(r) } else { self.sign }
