@@ -6,7 +6,7 @@ use std::fs;
 use std::io::{BufRead, Write};
 use std::process::{Command, ExitCode, Stdio};
 use std::time::Duration;
-use validation::methods::integrators::extrapolated::{extrapolated, rk4_in_p};
+use validation::methods::textbook::extrapolated::{extrapolated, rk4_in_p};
 
 /// Acts as a program that is to be graded. Where its name does not say when, it does what that says from its third answer on.
 pub fn program(name: &str, pids: Option<&str>) -> ExitCode {

@@ -3,7 +3,6 @@
 
 mod adaptive;
 mod errors;
-pub mod extrapolated;
 mod exact;
 mod fixed;
 mod integrator;

@@ -1,6 +1,6 @@
-//! Textbook methods of any order, as other programs have them.
+//! The classical fourth order, and extrapolated methods of any order.
 
-use super::fixed::rk4;
+use crate::integrators::rk4;
 use nalgebra::{Matrix3, Vector3};
 
 /// ṗ = Ap − p(p·Ap), Jeffery's equation with A = W + ΛD.
@@ -46,7 +46,8 @@ fn one_step(order: usize, a: &Matrix3<f64>, p: Vector3<f64>, h: f64) -> Vector3<
 mod tests {
     use super::*;
 
-    /// Twice the steps: 2ᵖ times as near. Errors of higher orders are too near round-off for this.
+    /// Twice the steps: 2ᵖ times as near. With 32 steps the errors of higher orders are no larger than that of
+    /// the reference, some 10⁻¹².
     #[test]
     fn they_are_of_their_order() {
         let a = Matrix3::new(0.0, -0.1, 0.2, 0.9, 0.1, -0.3, 0.0, 0.4, -0.2);
