@@ -31,7 +31,7 @@ pub const STUDY: Study = Study {
 const STEPS: [u64; 5] = [50, 100, 200, 400, 800];
 /// With so many the other programs are measured.
 const USUAL: u64 = 200;
-const ERRORS: [f64; 4] = [0.01, 0.005, 0.002, 0.001];
+const ERRORS: [f64; 5] = [0.02, 0.01, 0.005, 0.002, 0.001];
 
 /// X̄₁ at two periods with steps of one length.
 #[derive(Clone, Copy, Debug, Serialize)]
