@@ -9,9 +9,10 @@ use validation::serve::problems::{self, closed, folgar_tucker};
 fn main() {
     let table = match std::env::args().nth(1).as_deref() {
         Some("closed") => closed::certify(),
+        Some(name @ ("contact-rule" | "contact-angles")) => Ok(contact(name)),
         Some("folgar-tucker") => folgar_tucker::certify().map_err(|why| why.to_string()),
         Some("unequal-rods") => Ok(unequal_rods()),
-        _ => Err("closed, folgar-tucker or unequal-rods is allowed".to_owned()),
+        _ => Err("closed, contact-angles, contact-rule, folgar-tucker or unequal-rods is allowed".to_owned()),
     };
     match table {
         Ok(table) => print!("{table}"),
@@ -20,6 +21,11 @@ fn main() {
             std::process::exit(1);
         }
     }
+}
+
+fn contact(name: &str) -> String {
+    let tables = problems::certify_contacts();
+    tables.into_iter().find(|(of, _)| *of == name).map(|(_, table)| table).unwrap_or_default()
 }
 
 fn unequal_rods() -> String {

@@ -150,7 +150,9 @@ where
         let size = TEXT * f64::from(room) / f64::from(text_width(name, TEXT));
         size.clamp(0.7 * TEXT, TEXT)
     };
-    let right = (24 * FINE).max(legend.width());
+    // Half of a label stands beyond the end of the axis.
+    let beyond = x.ticks.iter().map(|(_, label)| text_width(label, TEXT) / 2 + FINE).max().unwrap_or(0);
+    let right = (24 * FINE).max(legend.width()).max(beyond);
     let (width, height) = area.dim_in_pixel();
     let (across, up) = (width as i32 - left - right - 16 * FINE, height as i32 - bottom);
     let name_size = fit(&figure.x_name, across).min(fit(&figure.y_name, up));

@@ -129,6 +129,15 @@ fn no_text_leaves_its_picture_or_overlaps_another() {
         let faults = boxes::faults(&svg);
         assert!(faults.is_empty(), "{}: {faults:#?}", figure.title);
     }
+    // The label at the end of an axis is a wide one.
+    for x in [[5e-3, 0.5], [2e5, 5e6]] {
+        let curve = Curve { x: x.into(), y: vec![1.0, 2.0], ..Default::default() };
+        for x_log in [true, false] {
+            let figure = Figure { curves: vec![curve.clone()], x_log, ..Default::default() };
+            let faults = boxes::faults(&svg(&figure).unwrap());
+            assert!(faults.is_empty(), "{x:?}: {faults:#?}");
+        }
+    }
     // What a user may write: words without end, and more runs than there is room for.
     let long = |name: &str| format!("{name}{}", "unendliches".repeat(20));
     for count in [3, 30] {

@@ -23,6 +23,7 @@ mod tolerance;
 
 pub use archive::archive;
 pub use check::tolerances;
+pub use contact::certify as certify_contacts;
 pub use export::{SCHEMA, export, files};
 pub use read::read;
 pub use table::{ReadError, Table};

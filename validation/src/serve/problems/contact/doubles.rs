@@ -14,9 +14,6 @@ pub(crate) struct Variant {
     pub(crate) printed: bool,
 }
 
-/// The rule, with A.13 corrected.
-pub(crate) const RIGHT: Variant = Variant { kick: 1.0, printed: false };
-
 /// For rods a and b of a pair (of each the centre in mm, the axis and r_e): ṗ′ in 1/s, or with Δt in s the four numbers of
 /// A.13 and A.14.
 pub(crate) fn answers(
@@ -31,6 +28,25 @@ pub(crate) fn answers(
     })
 }
 
+/// Where the lines of two rods come nearest each other.
+pub(super) struct Geometry {
+    /// Of the angle between them.
+    pub(super) sine: f64,
+    /// The signed arms, mm.
+    pub(super) arms: [f64; 2],
+}
+
+/// The feet of the common normal: (x_b + r_b p_b − x_a − r_a p_a) ∥ ℓ.
+pub(super) fn geometry(pair: &[f64]) -> Geometry {
+    let [a, b] = [3, 10].map(|at| Vector3::from_row_slice(&pair[at..at + 3]).normalize());
+    let apart = Vector3::from_fn(|i, _| pair[7 + i] - pair[i]);
+    let cosine = a.dot(&b);
+    let sine_squared = 1.0 - cosine * cosine;
+    let arm_a = (apart.dot(&a) - cosine * apart.dot(&b)) / sine_squared;
+    let arm_b = (cosine * apart.dot(&a) - apart.dot(&b)) / sine_squared;
+    Geometry { sine: sine_squared.sqrt(), arms: [arm_a, arm_b] }
+}
+
 /// p and ṗ′ in 1/s of both rods; of each centre, axis and r_e are given.
 fn rates(gradient: &Matrix3<f64>, pair: &[f64], kick: f64) -> [(Vector3<f64>, Vector3<f64>); 2] {
     let (w, d) = (0.5 * (gradient - gradient.transpose()), 0.5 * (gradient + gradient.transpose()));
@@ -43,11 +59,7 @@ fn rates(gradient: &Matrix3<f64>, pair: &[f64], kick: f64) -> [(Vector3<f64>, Ve
     };
     let (a, b) = (rod(&pair[..7]), rod(&pair[7..14]));
     let line = a.1.cross(&b.1).normalize();
-    // The feet of the common normal: (x_b + r_b p_b − x_a − r_a p_a) ∥ ℓ.
-    let (apart, cosine) = (b.0 - a.0, a.1.dot(&b.1));
-    let sine_squared = 1.0 - cosine * cosine;
-    let arm_a = (apart.dot(&a.1) - cosine * apart.dot(&b.1)) / sine_squared;
-    let arm_b = (cosine * apart.dot(&a.1) - apart.dot(&b.1)) / sine_squared;
+    let [arm_a, arm_b] = geometry(pair).arms;
     let along = |(x, _, free): &(Vector3<f64>, Vector3<f64>, Vector3<f64>), arm: f64| {
         line.dot(&(gradient * x + free * arm))
     };
