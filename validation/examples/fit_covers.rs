@@ -114,7 +114,8 @@ fn main() -> Result<(), String> {
     }
     let behind: Vec<f64> = over.iter().map(planted).collect::<Result<_, _>>()?;
     let model = scenes(1, &over)?.model(&points(|_| f64::NAN), AS_WRITTEN, &behind)?;
-    let rows: Vec<_> = (0..TRUTH).into_par_iter().map(model).collect::<Result<_, _>>()?;
+    let rows: Vec<_> =
+        (0..TRUTH).into_par_iter().map(|replica| model.run(replica)).collect::<Result<_, _>>()?;
     let truth: Vec<f64> =
         (0..rows[0].len()).map(|k| rows.iter().map(|row| row[k][0]).sum::<f64>() / TRUTH as f64).collect();
     let freedom = (truth.len() - over.len()) as f64;

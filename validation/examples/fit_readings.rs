@@ -87,7 +87,7 @@ fn main() -> Result<(), String> {
     for (open, reading, change) in all {
         let model = move |values: &[f64]| -> Result<Replica, String> {
             let alpha = values[0];
-            Ok(Box::new(move |replica| Ok(curve(change, alpha, 1, replica))))
+            Ok(Replica::whole(move |replica| Ok(curve(change, alpha, 1, replica))))
         };
         let problem = FitProblem {
             measured: Measured {

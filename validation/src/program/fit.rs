@@ -3,7 +3,7 @@
 mod input;
 mod shifts;
 
-use super::{Failure, Threads, Writing, on_threads, print, progress, result_folder, scene, whole};
+use super::{Failure, Threads, Writing, on_threads, print, progress, restart, result_folder, scene, whole};
 use crate::files::build::BUILD;
 use crate::files::output::Output;
 use crate::files::text::command;
@@ -14,7 +14,7 @@ use crate::serve::fit::elsewhere::look_elsewhere;
 use crate::serve::fit::report::{self, Report};
 use crate::serve::fit::scenes::AS_WRITTEN;
 use crate::serve::fit::search::{Fit, FitProblem, Measured, Watch, search};
-use crate::serve::fit::{Range, pictures, terminal};
+use crate::serve::fit::{Hypothesis, Range, pictures, terminal};
 use crate::serve::sweep::Setting;
 use input::{Input, input};
 use serde_json::{Value, json};
@@ -56,6 +56,10 @@ pub(super) struct Args {
     /// Rods that each measured point is a mean over; without it the points' uncertainties must include the scatter of rods
     #[arg(long, value_name = "N", value_parser = whole(1, u64::MAX), allow_negative_numbers = true)]
     rods: Option<u64>,
+    /// Test a value of a fitted key, or whether it has the same value in two sets (1:interaction.alpha=2:interaction.alpha);
+    /// can be given more than once
+    #[arg(long, value_name = "[SET:]KEY=VALUE", value_parser = Hypothesis::parse)]
+    test: Vec<Hypothesis>,
     /// A key of every scene and the value to give it; can be given more than once
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = Setting::parse)]
     settings: Vec<Setting>,
@@ -81,13 +85,18 @@ struct Done {
 
 /// Fits keys of a scene to measured points.
 pub(super) fn fit(args: &Args) -> Result<(), Failure> {
+    args.test.iter().try_for_each(|held| held.check(&args.over)).map_err(Failure::Input)?;
     let input = input(args)?;
     let out = (args.out.clone()).unwrap_or_else(|| Path::new("out").join(format!("fit-{}", input.stem)));
     let asked = asked(args, &input)?;
     let names = [FIT, "residuals.csv", "profiles.csv", "design.csv", super::plot::FIGURES];
     let folder = result_folder(&out, ("fit", asked.clone(), args.writing.force), 0, &names)?;
     let bar = progress(0, "runs", args.writing.quiet);
-    let watch = Watch { planned: &|runs| bar.inc_length(runs), done: &|| bar.inc(1) };
+    let watch = Watch {
+        stage: &|name| restart(&bar, name),
+        planned: &|runs| bar.inc_length(runs),
+        done: &|| bar.inc(1),
+    };
     let done = on_threads(args.threads.given, || work(args, &input, &watch))?;
     bar.finish_and_clear();
     let done = done?;
@@ -117,8 +126,9 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
     let design = (done.report.design.as_ref())
         .map_or(String::new(), |steps| terminal::design(&done.fit, steps, &times) + "\n");
     print(&format!(
-        "{}\n\n{}\n{design}in {}: {names}\n",
+        "{}\n{}\n{}\n{design}in {}: {names}\n",
         terminal::sentence(&done.fit, &done.report),
+        terminal::tests(&done.report),
         terminal::table(&done.fit, &done.report),
         out.display(),
     ))
@@ -145,6 +155,7 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     let shifts = shifts(input, &fit, &model, watch).map_err(stopped)?;
     let mut report = report::report(&fit, data, shifts);
     report.warnings.extend(unsearched);
+    report.tests = args.test.iter().map(|held| held.test(&fit)).collect::<Result<_, _>>().map_err(stopped)?;
     let known = taken_as_known(&report);
     report.warnings.extend(known);
     let mut candidates = Vec::new();
@@ -178,13 +189,18 @@ fn asked(args: &Args, input: &Input) -> Result<Value, Failure> {
         }));
     }
     let set = |setting: &Setting| format!("{}={}", setting.key, setting.value);
-    Ok(json!({
+    let mut asked = json!({
         "data": data,
         "over": args.over,
         "set": args.settings.iter().map(set).collect::<Vec<_>>(),
         "rods": args.rods,
         "most_replicas": args.replicas,
-    }))
+    });
+    // A fit without any is what it was before there were tests.
+    if !args.test.is_empty() {
+        asked["test"] = json!(args.test.iter().map(Hypothesis::text).collect::<Vec<_>>());
+    }
+    Ok(asked)
 }
 
 /// The text of `fit.json`.

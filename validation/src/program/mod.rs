@@ -45,7 +45,7 @@ use std::ffi::OsString;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use terminal::{log, print, progress};
+use terminal::{log, print, progress, restart};
 use threads::{Threads, on_threads};
 
 /// Rigid slender rods in a sheared viscous liquid, after Lee & Springer (1982).

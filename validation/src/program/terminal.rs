@@ -42,14 +42,23 @@ pub(super) fn log(line: &str, quiet: bool) {
     complain(&format!("{}\n", readable(line)));
 }
 
+/// Lets a bar show another part of the work, whose steps are not known yet.
+pub(super) fn restart(bar: &ProgressBar, part: &str) {
+    bar.set_message(part.to_owned());
+    bar.set_length(0);
+    bar.set_position(0);
+    bar.reset_elapsed();
+}
+
 /// A bar for a slow part on a terminal, and nothing elsewhere. It shows the time left once a step is done, from the mean rate;
-/// for a single step it shows the time so far.
+/// for a single step it shows the time so far. With 0 steps it is one for [`restart`].
 pub(super) fn progress(steps: u64, what: &str, quiet: bool) -> ProgressBar {
     if quiet || !cluster::is_root() || !io::stderr().is_terminal() {
         return ProgressBar::hidden();
     }
     let template = match steps {
-        0 | 1 => "{spinner} running for {elapsed} {msg}".to_owned(),
+        1 => "{spinner} running for {elapsed} {msg}".to_owned(),
+        0 => format!("{{msg}} {{wide_bar}} {{pos}}/{{len}} {what}, {{left}}"),
         _ => format!("{{wide_bar}} {{pos}}/{{len}} {what}, {{left}} {{msg}}"),
     };
     let left = |state: &ProgressState, text: &mut dyn fmt::Write| {

@@ -208,7 +208,8 @@ fn two_sets_have_values_of_their_own() {
     points(dir.path());
     points_of(dir.path(), "interaction.alpha=2.4", "more.csv");
     let args = "fit small.toml --data points.csv --data small.toml=more.csv --over 1:interaction.alpha=0.4:1.4 \
-                --over 2:interaction.alpha=1.2:4.8 --replicas 20 --out own";
+                --over 2:interaction.alpha=1.2:4.8 --replicas 20 --out own --test 1:interaction.alpha=2:interaction.alpha \
+                --test 1:interaction.alpha=0.8";
     let done = shearbed(dir.path(), args);
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     assert!(done.stdout.starts_with("alpha_1 = ") && done.stdout.contains("; alpha_2 = "), "{}", done.stdout);
@@ -222,6 +223,16 @@ fn two_sets_have_values_of_their_own() {
     // Each set tells its own value, and the points of one say nothing of the other.
     let apart = record["parameters"]["2:interaction.alpha"]["low_95"].as_f64();
     assert!(apart > record["parameters"]["1:interaction.alpha"]["high_95"].as_f64(), "{record:#}");
+    // That both have one value is rejected, that the first has its own is not (at p = 6e-5: χ² 16 above its least).
+    let p_value = |k: usize| record["tests"][k]["p_value"].as_f64().unwrap();
+    assert!(p_value(0) < 1e-3 && p_value(1) > 6e-5, "{}", record["tests"]);
+    let difference = &record["tests"][0]["difference"];
+    assert!(difference["high_95"].as_f64() < Some(0.0), "{difference}");
+    assert!(
+        done.stdout.contains("\n1:interaction.alpha=2:interaction.alpha: difference -"),
+        "{}",
+        done.stdout
+    );
     for file in ["profile_alpha_1.svg", "profile_alpha_2.svg", "points_2.svg", "region_alpha_1_alpha_2.svg"] {
         assert!(dir.path().join("own").join(file).is_file(), "{file}");
     }
@@ -362,6 +373,15 @@ fn bad_input_ends_with_two_and_leaves_nothing() {
         (format!("{good} --over interaction.alpha=0.1:1 --rods 0"), "a whole number from 1"),
         (format!("{good} --over interaction.alpha=0.1:1 --over 1:interaction.alpha=0.1:2"), "both set it"),
         (format!("{good} --over 2:interaction.alpha=0.1:1"), "there is no set 2; --data is given 1 times"),
+        (format!("{good} --over interaction.alpha=0.1:1 --test interaction.alpha"), "KEY=VALUE is allowed"),
+        (
+            format!("{good} --over interaction.alpha=0.1:1 --test interaction.m=1"),
+            "interaction.m is not fitted",
+        ),
+        (
+            format!("{good} --over interaction.alpha=0.1:1 --test interaction.alpha=2"),
+            "outside the range of --over",
+        ),
         (good.into(), "--over"),
     ] {
         let done = shearbed(dir.path(), &format!("fit small.toml {arguments} --out out"));

@@ -3,12 +3,64 @@
 use super::basis::Basis;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
+use std::collections::HashMap;
 
 /// What the model says of one measured point: at its time, and at √3 standard deviations of that time before and after.
 pub type Prediction = [f64; 3];
 
-/// A replica of the model with given parameters: every prediction, in the order of the points.
-pub type Replica = Box<dyn Fn(u64) -> Result<Vec<Prediction>, String> + Send + Sync>;
+/// Some points by their places among all, and what the model says of them.
+pub type Predictions = Vec<(usize, Prediction)>;
+
+/// Parts that have run in a replica, by what they depend on.
+pub type Known = HashMap<Vec<u64>, Predictions>;
+
+/// A part of the model with given parameters, as one of several suspensions.
+pub struct Part {
+    /// What its predictions depend on: parts that have the same need to run once. None of one that is like no other.
+    pub depends_on: Option<Vec<u64>>,
+    /// A replica: some of the points, each by its place among all.
+    pub run: Box<dyn Fn(u64) -> Result<Predictions, String> + Send + Sync>,
+}
+
+/// The model with given parameters, whose parts predict each point once.
+pub struct Replica(pub Vec<Part>);
+
+impl Replica {
+    /// A model of one part, which predicts all points in their order.
+    pub fn whole(run: impl Fn(u64) -> Result<Vec<Prediction>, String> + Send + Sync + 'static) -> Self {
+        let run = move |replica| Ok(run(replica)?.into_iter().enumerate().collect());
+        Self(vec![Part { depends_on: None, run: Box::new(run) }])
+    }
+
+    /// Every prediction of a replica, in the order of the points.
+    ///
+    /// # Errors
+    ///
+    /// Why a run was not finished.
+    pub fn run(&self, replica: u64) -> Result<Vec<Prediction>, String> {
+        self.run_beside(replica, &mut Known::new())
+    }
+
+    /// The same, without the parts that have run in this replica already: `known` gets those that run now.
+    ///
+    /// # Errors
+    ///
+    /// Why a run was not finished.
+    pub fn run_beside(&self, replica: u64, known: &mut Known) -> Result<Vec<Prediction>, String> {
+        let mut all = Vec::new();
+        for part in &self.0 {
+            if let Some(found) = part.depends_on.as_ref().and_then(|depends_on| known.get(depends_on)) {
+                all.extend_from_slice(found);
+                continue;
+            }
+            let found = (part.run)(replica)?;
+            all.extend_from_slice(&found);
+            known.extend(part.depends_on.clone().map(|depends_on| (depends_on, found)));
+        }
+        all.sort_unstable_by_key(|(point, _)| *point);
+        Ok(all.into_iter().map(|(_, prediction)| prediction).collect())
+    }
+}
 
 /// The model with parameters of these values. The same replica has the same random numbers whatever the values.
 pub type Model<'a> = dyn Fn(&[f64]) -> Result<Replica, String> + Sync + 'a;
@@ -36,7 +88,7 @@ pub struct Emulator {
 pub type Coefficients = [DMatrix<f64>; 3];
 
 /// Runs some replicas at every node of a box; `value` turns a node's coordinates into parameters. The order of the result
-/// is that of the replicas, on any number of threads.
+/// is that of the replicas, on any number of threads. A part that depends on the same at several nodes runs once in each replica.
 pub fn coefficients(
     basis: &Basis,
     model: &Model<'_>,
@@ -47,9 +99,9 @@ pub fn coefficients(
     let nodes = basis.nodes.iter().map(|node| model(&value(node)));
     let nodes = nodes.collect::<Result<Vec<_>, String>>()?;
     let one = |replica: u64| {
-        let mut rows = Vec::with_capacity(nodes.len());
+        let (mut rows, mut known) = (Vec::with_capacity(nodes.len()), Known::new());
         for node in &nodes {
-            rows.push(node(replica)?);
+            rows.push(node.run_beside(replica, &mut known)?);
             done();
         }
         let of = |which: usize| {
@@ -141,5 +193,41 @@ impl Emulator {
     /// The derivative of every prediction by every parameter, on the box's scale: points × parameters.
     pub fn slopes(&self, place: &[f64]) -> DMatrix<f64> {
         self.mean[0].tr_mul(&self.basis.slopes(place))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    /// Two suspensions with a parameter each: the runs of either are those of its own values, and the answer is as if all had run.
+    #[test]
+    fn a_part_runs_once_for_each_of_its_own_values() {
+        static RUNS: AtomicUsize = AtomicUsize::new(0);
+        let model = |shared: bool| {
+            move |values: &[f64]| -> Result<Replica, String> {
+                let part = |set: usize| {
+                    let value = values[set];
+                    let run = move |replica: u64| {
+                        RUNS.fetch_add(1, Ordering::Relaxed);
+                        // Points of the two by turns.
+                        Ok(vec![(set, [value + replica as f64; 3]), (2 + set, [value * value; 3])])
+                    };
+                    Part { depends_on: shared.then(|| vec![set as u64, value.to_bits()]), run: Box::new(run) }
+                };
+                Ok(Replica(vec![part(1), part(0)]))
+            }
+        };
+        let basis = Basis::new(2);
+        let found = |shared| {
+            RUNS.store(0, Ordering::Relaxed);
+            let found = coefficients(&basis, &model(shared), |node| node.to_vec(), 0..3, &|| ()).unwrap();
+            (found, RUNS.load(Ordering::Relaxed))
+        };
+        let ((shared, fewer), (alone, all)) = (found(true), found(false));
+        assert_eq!(shared, alone);
+        let own = (basis.nodes.len() as f64).sqrt() as usize;
+        assert_eq!((fewer, all), (3 * 2 * own, 3 * 2 * own * own));
     }
 }

@@ -173,6 +173,12 @@ pub fn interval(best: &Best, axis: usize, profile: &Profile, level: f64) -> Inte
     Interval { low, high, open, jumps: [low_jumps, high_jumps] }
 }
 
+/// How far χ² rises, as it counts beside the noise of the replicas, where some parameters are fixed and the others follow.
+pub fn rise_to(best: &Best, fixed: &[Option<f64>]) -> f64 {
+    let axes: Vec<usize> = (0..fixed.len()).filter(|axis| fixed[*axis].is_some()).collect();
+    best.shown(&axes) * Rise::to(best, fixed, &[&best.place]).beside_noise()
+}
+
 /// Where the region of two parameters, `axes`, ends in every direction from the best place: a closed curve, cut at the edges
 /// of the box. Directions are even where the covariance is a circle, so that a long thin region has its share of them. Other
 /// parameters are at their best.

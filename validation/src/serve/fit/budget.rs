@@ -54,9 +54,10 @@ pub fn shift(
     let values = fit.values(&fit.best.place);
     let (own, changed) = (own(&values)?, changed(&values)?);
     let replicas = (fit.emulator.replicas() as u64).min(MOST_REPLICAS);
+    (watch.stage)(&format!("shift by {change}"));
     (watch.planned)(replicas);
     let pair = |replica: u64| {
-        let (before, after): (Vec<Prediction>, _) = (own(replica)?, changed(replica)?);
+        let (before, after): (Vec<Prediction>, _) = (own.run(replica)?, changed.run(replica)?);
         (watch.done)();
         let difference = before.iter().zip(&after).map(|(before, after)| after[0] - before[0]);
         // The points stay: where the model rises, the estimate goes the other way.

@@ -124,6 +124,7 @@ pub fn design(fit: &Fit, scenes: &Scenes, data: &[Datum], watch: &Watch<'_>) -> 
             continue;
         }
         let model = |values: &[f64]| at.model(&of, AS_WRITTEN, values);
+        (watch.stage)(&format!("design at {factor} times the concentration"));
         (watch.planned)(replicas * basis.nodes.len() as u64);
         let emulator = match coefficients(&basis, &model, value, 0..replicas, watch.done) {
             Ok(rows) => Emulator::new(&basis, &rows),

@@ -4,7 +4,7 @@
 use super::range::Range;
 use super::search::{FIRST_REPLICAS, Fit, FitProblem, Watch};
 use crate::methods::least_squares::Datum;
-use crate::methods::least_squares::emulator::Prediction;
+use crate::methods::least_squares::emulator::{Known, Prediction};
 use crate::methods::least_squares::profile::rise_of;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -48,12 +48,14 @@ struct Tried {
 /// Another place describes the points as well, or better than the fit does.
 pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) -> Result<Vec<String>, String> {
     let values = fit.values(&fit.best.place);
+    (watch.stage)("best values");
+    let (own_rows, known) = known(problem, &values, fit.emulator.replicas() as u64, watch)?;
     let mut warnings = Vec::new();
     for (axis, range) in fit.ranges.iter().enumerate() {
-        let line =
-            Line { problem, watch, values: &values, axis, range, replicas: fit.emulator.replicas() as u64 };
+        (watch.stage)(&format!("other minima along {}", range.label()));
+        let line = Line { problem, watch, values: &values, known: &known, axis, range };
         let best = range.scaled(values[axis]);
-        let own = line.run(best, line.replicas)?;
+        let own = line.tried(best, &own_rows)?;
         let emulated = fit.best.chi_square;
         if own.chi_square > emulated + emulated.max(NOISE) {
             return Err(format!(
@@ -64,7 +66,7 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
                 own.chi_square
             ));
         }
-        let few = line.run(best, line.few())?.chi_square;
+        let few = line.tried(best, &own_rows[..line.few()])?.chi_square;
         let (tried, searched) = line.scan()?;
         if !searched {
             warnings.push(format!(
@@ -92,7 +94,7 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
                 true => own.chi_square + rise_of(0.95),
                 false => own.chi_square - NOISE.max(0.5 * own.chi_square),
             };
-            let found = line.run(found.at, line.replicas)?;
+            let found = line.run(found.at, known.len())?;
             if found.chi_square < allowed {
                 return Err(format!(
                     "--over {}: the points are described as well by {:.4} (χ² = {:.1}) as by {:.4} (χ² = {:.1}): χ² has \
@@ -109,37 +111,61 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
     Ok(warnings)
 }
 
+/// Every prediction of the first replicas at the best values, and the parts of the model that ran for it: those that do not depend on
+/// a parameter run once for its whole range.
+fn known(
+    problem: &FitProblem<'_>,
+    values: &[f64],
+    replicas: u64,
+    watch: &Watch<'_>,
+) -> Result<(Vec<Vec<Prediction>>, Vec<Known>), String> {
+    let replica = (problem.model)(values)?;
+    (watch.planned)(replicas);
+    let one = |k: u64| {
+        let mut known = Known::new();
+        let found = replica.run_beside(k, &mut known);
+        (watch.done)();
+        found.map(|found| (found, known))
+    };
+    let all: Result<Vec<_>, String> = (0..replicas).into_par_iter().map(one).collect();
+    Ok(all?.into_iter().unzip())
+}
+
 /// A range along which the model is run.
 struct Line<'a> {
     problem: &'a FitProblem<'a>,
     watch: &'a Watch<'a>,
     /// The best ones.
     values: &'a [f64],
+    /// What ran there, of every replica of the fit.
+    known: &'a [Known],
     axis: usize,
     range: &'a Range,
-    /// Of the fit.
-    replicas: u64,
 }
 
 impl Line<'_> {
     /// Replicas that say where to look closer.
-    fn few(&self) -> u64 {
-        FIRST_REPLICAS.min(self.problem.most_replicas)
+    fn few(&self) -> usize {
+        (FIRST_REPLICAS as usize).min(self.known.len())
     }
 
-    fn run(&self, at: f64, replicas: u64) -> Result<Tried, String> {
+    /// The first replicas at a place.
+    fn run(&self, at: f64, replicas: usize) -> Result<Tried, String> {
         let mut values = self.values.to_vec();
         values[self.axis] = self.range.value(at);
         let replica = (self.problem.model)(&values)?;
-
-        (self.watch.planned)(replicas);
-        let one = |k: u64| {
-            let found = replica(k);
+        (self.watch.planned)(replicas as u64);
+        let one = |(k, known): (usize, &Known)| {
+            let found = replica.run_beside(k as u64, &mut known.clone());
             (self.watch.done)();
             found
         };
-        let rows: Vec<Vec<Prediction>> = (0..replicas).into_par_iter().map(one).collect::<Result<_, _>>()?;
-        let (mean, se, covariance) = self.covariance(&rows);
+        let rows: Result<Vec<_>, String> = self.known[..replicas].par_iter().enumerate().map(one).collect();
+        self.tried(at, &rows?)
+    }
+
+    fn tried(&self, at: f64, rows: &[Vec<Prediction>]) -> Result<Tried, String> {
+        let (mean, se, covariance) = self.covariance(rows);
         let data = self.problem.measured.data;
         let error = DVector::from_fn(data.len(), |i, _| data[i].value) - &mean;
         let solver = covariance.cholesky().ok_or("the covariance of the points is not positive")?;

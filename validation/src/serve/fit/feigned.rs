@@ -35,7 +35,7 @@ fn model(slope: f64, seed: u64) -> impl Fn(&[f64]) -> Result<Replica, String> + 
         let here = values.iter().fold(seed, |hash, value| {
             (hash ^ value.to_bits()).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29)
         });
-        Ok(Box::new(move |replica| {
+        Ok(Replica::whole(move |replica| {
             let mut rng = Pcg64Dxsm::seed_from_u64(here.wrapping_add(replica));
             let one = |mean: &f64| [mean + SCATTER * normal(&mut rng); 3];
             Ok(mean.iter().map(one).collect())

@@ -10,6 +10,7 @@ pub mod design;
 pub mod elsewhere;
 #[cfg(test)]
 mod feigned;
+mod hypothesis;
 pub mod pictures;
 mod range;
 pub mod report;
@@ -23,4 +24,5 @@ mod tests;
 #[cfg(test)]
 mod valleys;
 
+pub use hypothesis::{Difference, Hypothesis, Tested};
 pub use range::Range;

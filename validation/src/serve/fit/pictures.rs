@@ -37,7 +37,7 @@ fn mean(model: &Model<'_>, values: &[f64], replicas: u64, watch: &Watch<'_>) -> 
     let replica = model(values)?;
     (watch.planned)(replicas);
     let one = |k: u64| {
-        let found = replica(k);
+        let found = replica.run(k);
         (watch.done)();
         found
     };
@@ -60,6 +60,7 @@ pub fn best_curves(
     watch: &Watch<'_>,
 ) -> Result<Vec<(f64, f64)>, String> {
     let replicas = (fit.emulator.replicas() as u64).min(MOST_REPLICAS);
+    (watch.stage)("curves");
     let best = mean(model, &fit.values(&fit.best.place), replicas, watch)?;
     let mut variance: Vec<f64> = best.iter().map(|(_, square)| *square).collect();
     let axes = fit.best.covariance().symmetric_eigen();

@@ -2,6 +2,7 @@
 
 use super::budget::{self, Part, Residual, Shift};
 use super::design::{Candidate, Step};
+use super::hypothesis::Tested;
 use super::range::Range;
 use super::search::{Fit, MOST_SHARE};
 use crate::input::experiment::{Bias, bias};
@@ -56,6 +57,9 @@ pub struct Report {
     /// What further points would leave; none where it was not asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub design: Option<Vec<Step>>,
+    /// What was held of the parameters, and what the points say of it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub tests: Vec<Tested>,
     /// What a finer step and more rods would change; not part of the intervals, which are of the scene as it is written.
     pub shifts: Vec<Shift>,
     /// FDS's bias δ and scatter σ_M of the best model; none where a value is not positive.
@@ -118,6 +122,7 @@ pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
         correlation: rows(&correlation),
         budget: budget::parts(fit),
         shifts,
+        tests: Vec::new(),
         design: None,
         bias: bias(&pairs, sigma_e),
         residuals,

@@ -48,7 +48,7 @@ fn fit(seed: u64) -> Fit {
     let data: Vec<Datum> = curve(PLANTED).enumerate().map(point).collect();
     let model = move |values: &[f64]| -> Result<Replica, String> {
         let mean: Vec<f64> = curve(values[0]).collect();
-        Ok(Box::new(move |replica| {
+        Ok(Replica::whole(move |replica| {
             let mut rng = Pcg64Dxsm::seed_from_u64(seed.wrapping_mul(1_000_003).wrapping_add(1 + replica));
             let scatter = scatter(&mut rng);
             Ok(mean.iter().zip(scatter).map(|(mean, own)| [mean + own; 3]).collect())

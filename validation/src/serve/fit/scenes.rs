@@ -5,7 +5,7 @@ use super::range::Range;
 use crate::input::experiment::interpolate;
 use crate::input::start::Starts;
 use crate::methods::least_squares::Datum;
-use crate::methods::least_squares::emulator::{Prediction, Replica};
+use crate::methods::least_squares::emulator::{Part, Prediction, Replica};
 use crate::serve::sweep::{self, Setting};
 use shearbed::observable::Channel;
 use shearbed::run::run_replica;
@@ -218,20 +218,16 @@ impl Scenes {
 
     /// The model of these points with parameters of these values.
     pub fn model(&self, data: &[Datum], variant: Variant, values: &[f64]) -> Result<Replica, String> {
-        let sets: Vec<(Plan, Vec<Look>)> = (self.plans(values, data, variant)?.into_iter().enumerate())
-            .map(|(set, plan)| {
-                let looks = looks(&plan, self.sets[set].time, data, set);
-                (plan, looks)
-            })
-            .collect();
-        let points = data.len();
-        Ok(Box::new(move |replica| {
-            let mut all = vec![[f64::NAN; 3]; points];
-            for (plan, looks) in &sets {
-                predict(plan, looks, replica, &mut all)?;
+        let part = |(set, plan): (usize, Plan)| {
+            let looks = looks(&plan, self.sets[set].time, data, set);
+            let own = self.ranges.iter().zip(values).filter(|(range, _)| range.is_of(set));
+            let depends_on = std::iter::once(set as u64).chain(own.map(|(_, value)| value.to_bits()));
+            Part {
+                depends_on: Some(depends_on.collect()),
+                run: Box::new(move |replica| predict(&plan, &looks, replica)),
             }
-            Ok(all)
-        }))
+        };
+        Ok(Replica(self.plans(values, data, variant)?.into_iter().enumerate().map(part).collect()))
     }
 }
 
@@ -261,14 +257,14 @@ fn looks(plan: &Plan, time: TimeColumn, data: &[Datum], set: usize) -> Vec<Look>
     .collect()
 }
 
-fn predict(plan: &Plan, looks: &[Look], replica: u64, all: &mut [Prediction]) -> Result<(), String> {
+fn predict(plan: &Plan, looks: &[Look], replica: u64) -> Result<Vec<(usize, Prediction)>, String> {
     let found = run_replica(plan, replica).map_err(|error| error.to_string())?;
-    for look in looks {
+    let one = |look: &Look| {
         let mean = |output: usize| found.mean(look.channel, output).unwrap_or(f64::NAN);
         let at = |outputs: f64| interpolate(plan.outputs(), outputs, 4, mean);
-        all[look.point] = [0.0, -OUTER, OUTER].map(|side| at(look.outputs + side * look.u_outputs));
-    }
-    Ok(())
+        (look.point, [0.0, -OUTER, OUTER].map(|side| at(look.outputs + side * look.u_outputs)))
+    };
+    Ok(looks.iter().map(one).collect())
 }
 
 #[cfg(test)]

@@ -58,6 +58,8 @@ pub struct FitProblem<'a> {
 
 /// Told of the runs that are to come, and of each that is done.
 pub struct Watch<'a> {
+    /// A part of the work begins.
+    pub stage: &'a (dyn Fn(&str) + Sync),
     /// So many more runs.
     pub planned: &'a (dyn Fn(u64) + Sync),
     /// One is done.
@@ -66,7 +68,7 @@ pub struct Watch<'a> {
 
 impl Watch<'_> {
     /// Nobody is told.
-    pub const SILENT: Self = Self { planned: &|_| (), done: &|| () };
+    pub const SILENT: Self = Self { stage: &|_| (), planned: &|_| (), done: &|| () };
 }
 
 /// A fit.
@@ -100,6 +102,7 @@ pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, String
     loop {
         let new = found.len() as u64..wanted;
         let planned = (wanted - new.start) * basis.nodes.len() as u64;
+        (watch.stage)(&format!("search, box {rounds}"));
         (watch.planned)(planned);
         runs += planned;
         let value = |node: &[f64]| values(ranges, &sides, node);
@@ -268,6 +271,12 @@ impl Fit {
         let mut all = vec![0.0; self.ranges.len()];
         all[axis] = place;
         self.values(&all)[axis]
+    }
+
+    /// The place in the box of a value of one parameter.
+    pub(super) fn place(&self, axis: usize, value: f64) -> f64 {
+        let (low, high) = self.sides[axis];
+        (2.0 * self.ranges[axis].scaled(value) - low - high) / (high - low)
     }
 
     /// By how much each parameter changes with its place in the box, at the best place.

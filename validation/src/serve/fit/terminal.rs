@@ -1,6 +1,7 @@
 //! A fit in words: the answer in one line, and its budget, for the terminal.
 
 use super::design::{Added, Step};
+use super::hypothesis::Tested;
 use super::report::Report;
 use super::search::Fit;
 
@@ -24,10 +25,7 @@ pub fn sentence(fit: &Fit, report: &Report) -> String {
         all.join("; "),
         report.chi2,
         report.degrees_of_freedom,
-        match report.p_value {
-            p if p < 0.01 => format!("{p:.1e}"),
-            p => format!("{p:.2}"),
-        }
+        probability(report.p_value)
     )
 }
 
@@ -45,6 +43,29 @@ pub fn table(fit: &Fit, report: &Report) -> String {
         text += &format!("{:<34}{both}\n", format!("shift by {}", shift.change));
     }
     format!("{text}runs: {}, replicas at each value: {}\n", report.runs, report.replicas)
+}
+
+/// What was tested, a line each, for the terminal.
+pub fn tests(report: &Report) -> String {
+    let line = |tested: &Tested| {
+        let p = match tested.beyond_the_box {
+            true => format!("p below {:.1e}", tested.p_value),
+            false => format!("p = {}", probability(tested.p_value)),
+        };
+        let difference = tested.difference.map_or(String::new(), |found| {
+            let digits = decimals(0.25 * (found.high_95 - found.low_95));
+            format!(
+                "difference {:.digits$}, 95 % from {:.digits$} to {:.digits$}; ",
+                found.estimate, found.low_95, found.high_95
+            )
+        });
+        format!("{}: {difference}χ² rises by {:.1}, {p}\n", tested.hypothesis, tested.rise_of_chi2)
+    };
+    report.tests.iter().map(line).collect()
+}
+
+fn probability(p: f64) -> String {
+    if p < 0.01 { format!("{p:.1e}") } else { format!("{p:.2}") }
 }
 
 /// What further points would leave, for the terminal. `times` are the units of the sets' times.

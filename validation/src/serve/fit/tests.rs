@@ -35,7 +35,7 @@ pub(super) fn normal(rng: &mut Pcg64Dxsm) -> f64 {
 fn model(seed: u64, scatter: f64) -> impl Fn(&[f64]) -> Result<Replica, String> + Sync {
     move |values| {
         let (rate, frequency) = (values[0], values.get(1).copied().unwrap_or(1.0));
-        Ok(Box::new(move |replica| {
+        Ok(Replica::whole(move |replica| {
             let mut rng = Pcg64Dxsm::seed_from_u64(seed.wrapping_mul(1_000_003).wrapping_add(replica));
             let (offset, faster) = (scatter * normal(&mut rng), 10.0 * scatter * normal(&mut rng));
             let one = |time: f64| {
@@ -195,7 +195,7 @@ fn intervals_hold_the_planted_value_as_often_as_they_say() {
 /// A straight line a + b t, whose replicas are off by an offset each.
 fn line(values: &[f64]) -> Result<Replica, String> {
     let (a, b) = (values[0], values[1]);
-    Ok(Box::new(move |replica| {
+    Ok(Replica::whole(move |replica| {
         let offset = line_offset(replica);
         Ok(times().map(|time| [a + b * (1.0 + time) + offset; 3]).collect())
     }))

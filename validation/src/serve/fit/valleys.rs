@@ -19,7 +19,7 @@ fn points(values: &[(f64, f64)]) -> Vec<Datum> {
 /// b² tells the size of b, a b its sign given that of a, and a is hardly told: as a passes 0, b changes its sign.
 fn two_signs(values: &[f64]) -> Result<Replica, String> {
     let (a, b) = (values[0], values[1]);
-    Ok(Box::new(move |_| Ok([b * b, a * b, a].map(|value| [value; 3]).to_vec())))
+    Ok(Replica::whole(move |_| Ok([b * b, a * b, a].map(|value| [value; 3]).to_vec())))
 }
 
 fn of_two_signs() -> Fit {

@@ -1,0 +1,236 @@
+//! Tests of what somebody holds of the fitted keys: a value of one, or that it has one value in two sets. By the likelihood ratio: how
+//! far χ² rises where it is so.
+
+use super::range::Range;
+use super::search::Fit;
+use crate::methods::least_squares::profile::{rise_of, rise_to};
+use crate::serve::sweep::key_and_text;
+use serde::Serialize;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+/// Places along the box where two keys are tied, before the least is sought between them.
+const PLACES: usize = 17;
+
+/// Halvings of an end of an interval: to 1e-5 of a box.
+const HALVINGS: usize = 18;
+
+/// Steps of the golden section towards the least χ²: to 4e-4 of a box, of which χ² sees the square.
+const STEPS: usize = 12;
+
+/// What is held, as it is given after `--test`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hypothesis {
+    text: String,
+    /// The label of a fitted key.
+    key: String,
+    against: Against,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Against {
+    Value(f64),
+    /// The label of another.
+    Key(String),
+}
+
+/// What the points say of a hypothesis.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Tested {
+    /// As it is given.
+    pub hypothesis: String,
+    /// By how much the least χ² is larger where it holds.
+    pub rise_of_chi2: f64,
+    /// The probability of a larger rise if it holds, by χ² of one degree of freedom.
+    pub p_value: f64,
+    /// Whether it holds nowhere in the box that was searched at last: the rise is one at the box's edge, and p at most this.
+    pub beyond_the_box: bool,
+    /// Of two keys: the first less the second.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub difference: Option<Difference>,
+}
+
+/// A difference of two values in their unit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Difference {
+    /// The best.
+    pub estimate: f64,
+    /// The 68 % interval by profile likelihood.
+    pub low_68: f64,
+    /// Its upper end.
+    pub high_68: f64,
+    /// The 95 % interval.
+    pub low_95: f64,
+    /// Its upper end.
+    pub high_95: f64,
+    /// Whether the 95 % interval ends at an edge of the box, below and above.
+    pub ends_at_edge: [bool; 2],
+}
+
+impl Hypothesis {
+    /// Reads what stands after `--test`.
+    ///
+    /// # Errors
+    ///
+    /// What is allowed.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        const SHAPE: &str = "KEY=VALUE is allowed, as interaction.alpha=1, and SET:KEY=OTHER:KEY for two sets with a value each";
+        let (key, other) =
+            text.split_once('=').ok_or_else(|| format!("{text:?} is no hypothesis; {SHAPE}"))?;
+        let (key, other) = (key.trim(), other.trim());
+        let against = match (other.parse::<f64>(), other.split_once(':')) {
+            (Ok(value), _) if value.is_finite() => Against::Value(value),
+            (_, Some((_, last)))
+                if key.split_once(':').is_some_and(|(_, own)| own == last) && key != other =>
+            {
+                Against::Key(other.to_owned())
+            }
+            _ => return Err(format!("{other:?} is no value; {SHAPE}")),
+        };
+        key_and_text(&format!("{}=", key.rsplit(':').next().unwrap_or(key)), SHAPE)?;
+        Ok(Self { text: format!("{key}={other}"), key: key.to_owned(), against })
+    }
+
+    /// As it is given.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The places among the fitted keys of those that it is about.
+    fn axes(&self, ranges: &[Range]) -> Result<Vec<usize>, String> {
+        let place = |label: &String| {
+            let found = ranges.iter().position(|range| range.label() == *label);
+            found.ok_or_else(|| {
+                let all: Vec<_> = ranges.iter().map(Range::label).collect();
+                format!("--test {}: {label} is not fitted; --over has {}", self.text, all.join(", "))
+            })
+        };
+        let other = match &self.against {
+            Against::Value(_) => None,
+            Against::Key(label) => Some(label),
+        };
+        std::iter::once(&self.key).chain(other).map(place).collect()
+    }
+
+    /// Refuses a key that is not fitted, and a value outside its range.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong, and what is allowed.
+    pub fn check(&self, ranges: &[Range]) -> Result<(), String> {
+        let axes = self.axes(ranges)?;
+        match self.against {
+            Against::Value(value) if !(ranges[axes[0]].from..=ranges[axes[0]].to).contains(&value) => {
+                let Range { from, to, .. } = ranges[axes[0]];
+                Err(format!("--test {}: {value} is outside the range of --over, {from} to {to}", self.text))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// What the points say of it.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Hypothesis::check`].
+    pub fn test(&self, fit: &Fit) -> Result<Tested, String> {
+        self.check(&fit.ranges)?;
+        let axes = self.axes(&fit.ranges)?;
+        let mut difference = None;
+        let (rise, beyond_the_box) = match self.against {
+            Against::Value(value) => {
+                let place = fit.place(axes[0], value);
+                let mut fixed = vec![None; fit.ranges.len()];
+                fixed[axes[0]] = Some(place.clamp(-1.0, 1.0));
+                // The value of the box's edge differs from the edge by rounding.
+                (rise_to(&fit.best, &fixed), place.abs() > 1.0 + 1e-9)
+            }
+            Against::Key(_) => {
+                let tied = Tied { fit, axes: [axes[0], axes[1]] };
+                difference = Some(tied.difference());
+                let (low, high) = tied.ends();
+                (tied.rise(0.0_f64.clamp(low, high)), !(low..=high).contains(&0.0))
+            }
+        };
+        Ok(Tested {
+            hypothesis: self.text.clone(),
+            rise_of_chi2: rise,
+            p_value: ChiSquared::new(1.0).map_or(f64::NAN, |law| law.sf(rise)),
+            beyond_the_box,
+            difference,
+        })
+    }
+}
+
+/// Two keys whose difference is given.
+struct Tied<'a> {
+    fit: &'a Fit,
+    axes: [usize; 2],
+}
+
+impl Tied<'_> {
+    /// The differences that there are in the box.
+    fn ends(&self) -> (f64, f64) {
+        let [a, b] = self.axes.map(|axis| [-1.0, 1.0].map(|place| self.fit.value(axis, place)));
+        (a[0] - b[1], a[1] - b[0])
+    }
+
+    /// How far χ² rises to the best pair of this difference.
+    fn rise(&self, difference: f64) -> f64 {
+        let [a, b] = self.axes;
+        let at = |place: f64| {
+            let other = self.fit.place(b, self.fit.value(a, place) - difference);
+            // Rounding at the edges.
+            if other.abs() > 1.0 + 1e-9 {
+                return f64::INFINITY;
+            }
+            let mut fixed = vec![None; self.fit.ranges.len()];
+            (fixed[a], fixed[b]) = (Some(place), Some(other.clamp(-1.0, 1.0)));
+            rise_to(&self.fit.best, &fixed)
+        };
+        // The part of the box where both are in it.
+        let [low, high] = [-1.0, 1.0].map(|side| {
+            let place = self.fit.place(a, self.fit.value(b, side) + difference);
+            place.clamp(-1.0, 1.0)
+        });
+        let place = |k: usize| low + (high - low) * k as f64 / (PLACES - 1) as f64;
+        let least = (0..PLACES).min_by(|i, j| at(place(*i)).total_cmp(&at(place(*j)))).unwrap_or_default();
+        let (mut from, mut to) = (place(least.saturating_sub(1)), place((least + 1).min(PLACES - 1)));
+        for _ in 0..STEPS {
+            let [left, right] = [0.382, 0.618].map(|part| from + part * (to - from));
+            match at(left) < at(right) {
+                true => to = right,
+                false => from = left,
+            }
+        }
+        at(0.5 * (from + to)).min(at(place(least)))
+    }
+
+    fn difference(&self) -> Difference {
+        let [a, b] = self.axes.map(|axis| self.fit.value(axis, self.fit.best.place[axis]));
+        let (low, high) = self.ends();
+        let end = |confidence: f64, edge: f64| {
+            let level = rise_of(confidence);
+            if self.rise(edge) <= level {
+                return edge;
+            }
+            let (mut inner, mut outer) = (a - b, edge);
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (inner + outer);
+                *(if self.rise(middle) <= level { &mut inner } else { &mut outer }) = middle;
+            }
+            0.5 * (inner + outer)
+        };
+        let [inner, outer] = [0.68, 0.95].map(|confidence| [end(confidence, low), end(confidence, high)]);
+        Difference {
+            estimate: a - b,
+            low_68: inner[0],
+            high_68: inner[1],
+            low_95: outer[0],
+            high_95: outer[1],
+            ends_at_edge: [outer[0] == low, outer[1] == high],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
