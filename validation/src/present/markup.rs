@@ -1,5 +1,7 @@
 //! Plain text as the writers show it: `code`, equations and figures that are cited, subscripts.
 
+use super::plot::power_of_ten;
+
 /// A part of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Piece<'a> {
@@ -145,6 +147,40 @@ fn below(text: &str) -> &str {
     }
 }
 
+/// A text whose numbers like 1.2e-3 are written 1.2·10⁻³, 1e-9 as 10⁻⁹, and 4e0 as 4.
+pub(crate) fn powers(text: &str) -> String {
+    let mut typeset = String::new();
+    let mut rest = text;
+    while let Some(at) = rest.find('e') {
+        let (before, after) = (&rest[..at], &rest[at + 1..]);
+        let mantissa = before.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.');
+        let (head, mantissa) = before.split_at(mantissa.len());
+        let sign = usize::from(after.starts_with('-'));
+        let digits = after[sign..].bytes().take_while(u8::is_ascii_digit).count();
+        let (exponent, tail) = after.split_at(sign + digits);
+        // No part of a word or of a name, as in `a1e2`.
+        let alone = !head.ends_with(|c: char| c.is_alphanumeric() || c == '_')
+            && !tail.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+        match (exponent.parse::<i32>(), mantissa.parse::<f64>().is_ok() && alone) {
+            (Ok(exponent), true) => {
+                typeset += head;
+                typeset += &match (mantissa, exponent) {
+                    (mantissa, _) if mantissa.bytes().all(|c| matches!(c, b'0' | b'.')) => "0".into(),
+                    (mantissa, 0) => mantissa.to_owned(),
+                    ("1", exponent) => power_of_ten(exponent),
+                    (mantissa, exponent) => format!("{mantissa}·{}", power_of_ten(exponent)),
+                };
+                rest = tail;
+            }
+            _ => {
+                typeset += &rest[..=at];
+                rest = after;
+            }
+        }
+    }
+    typeset + rest
+}
+
 /// A text with its subscripts as characters, where all of a subscript's are there.
 pub(crate) fn unicode(text: &str) -> String {
     let mut typeset = String::new();
@@ -191,6 +227,18 @@ pub(crate) fn markdown(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn powers_of_ten_are_raised() {
+        for (text, typeset) in [
+            ("p = 1.2e-3; at", "p = 1.2·10⁻³; at"),
+            ("1e-16, -4e0 ± 2.0e12, 0.0e0", "10⁻¹⁶, -4 ± 2.0·10¹², 0"),
+            ("the end, e-3, 1e, 3e-x and a1e2", "the end, e-3, 1e, 3e-x and a1e2"),
+            ("1e99999999999", "1e99999999999"),
+        ] {
+            assert_eq!(powers(text), typeset);
+        }
+    }
 
     #[test]
     fn citations_are_found() {

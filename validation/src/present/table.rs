@@ -147,8 +147,24 @@ pub fn number<'a, R, T: Into<Option<f64>>>(
     })
 }
 
-/// A column of numbers with their standard errors in a format; its data are two columns.
+/// A column of numbers with two digits of their standard errors; its data are two columns.
 pub fn estimate<'a, R, T: Into<Option<(f64, f64)>>>(
+    name: impl Into<String>,
+    of: impl Fn(&R) -> T + 'a,
+) -> Column<'a, R> {
+    with_errors(name, two_digits, of)
+}
+
+/// The same of differences, with their signs.
+pub fn difference<'a, R, T: Into<Option<(f64, f64)>>>(
+    name: impl Into<String>,
+    of: impl Fn(&R) -> T + 'a,
+) -> Column<'a, R> {
+    let sign = |number: f64| if number.is_sign_negative() { "−" } else { "+" };
+    with_errors(name, move |number, se| format!("{}{}", sign(number), two_digits(number.abs(), se)), of)
+}
+
+fn with_errors<'a, R, T: Into<Option<(f64, f64)>>>(
     name: impl Into<String>,
     format: impl Fn(f64, f64) -> String + 'a,
     of: impl Fn(&R) -> T + 'a,
@@ -173,23 +189,14 @@ pub fn powers(places: usize) -> impl Fn(f64) -> String + Copy {
     move |number| format!("{number:.places$e}")
 }
 
-/// A format of a number with its standard error, both with so many decimals.
-pub fn plus_minus(places: usize) -> impl Fn(f64, f64) -> String + Copy {
-    move |number, se| format!("{number:.places$} ± {se:.places$}")
-}
-
-/// The same with the sign of the number.
-pub fn signed(places: usize) -> impl Fn(f64, f64) -> String + Copy {
-    move |number, se| format!("{number:+.places$} ± {se:.places$}")
-}
-
-/// A number with two digits of its standard error.
+/// A number with two digits of its standard error; without one, with six decimals at most.
 pub fn two_digits(number: f64, se: f64) -> String {
     if !(se > 0.0 && se.is_finite()) {
-        return number.to_string();
+        let rounded = (1e6 * number).round() / 1e6;
+        return if rounded == 0.0 { "0".into() } else { rounded.to_string() };
     }
     let places = (1.0 - se.log10().floor()).clamp(0.0, 9.0) as usize;
-    plus_minus(places)(number, se)
+    format!("{number:.places$} ± {se:.places$}")
 }
 
 /// Records as CSV: the heads are the names of their fields, also where there is no record. Every number is the shortest text that reads back as the same bits;

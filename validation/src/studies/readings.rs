@@ -15,7 +15,7 @@ use crate::oracle::naive::{
     Images, Length, Lines, Naive, NaiveProblem, Replacement, Update, Who, mean_projections,
 };
 use crate::present::study::{Findings, Request, Study};
-use crate::present::table::{ReportTable, estimate, plus_minus, signed, words};
+use crate::present::table::{ReportTable, difference, estimate, words};
 use rayon::prelude::*;
 use std::convert::Infallible;
 use std::iter::once;
@@ -59,9 +59,8 @@ pub fn table(rows: &[ReadingRow]) -> ReportTable {
         words("read as", |row: &ReadingRow| row.reading),
     ];
     for (k, (name, _)) in QUANTITIES.iter().enumerate() {
-        columns.push(estimate(*name, plus_minus(4), move |row: &ReadingRow| row.values[k]));
-        let minus = |x: f64, se: f64| signed(4)(x, se).replace('-', "−");
-        columns.push(estimate("change", minus, move |row: &ReadingRow| {
+        columns.push(estimate(*name, move |row: &ReadingRow| row.values[k]));
+        columns.push(difference("change", move |row: &ReadingRow| {
             row.changes.as_ref().map(|changes| changes[k].into())
         }));
     }

@@ -30,6 +30,23 @@ fn half_the_tolerance_passes_and_twice_fails_in_every_problem_and_metric() {
     }
 }
 
+/// The page begins with what fails, has no column that is empty throughout, and says each reason once.
+#[test]
+fn the_page_begins_with_what_fails() {
+    let dir = tempfile::tempdir().unwrap();
+    for (name, part) in [("isotropic-3", 0.5), ("mid-flip-2", 0.5), ("isotropic-11.6", 2.0)] {
+        write(dir.path(), name, "answer.csv", text(&off_by(name, part)));
+    }
+    let html = files(REFERENCE.path(), dir.path(), &[]).html.unwrap();
+    let place = |name: &str| html.find(&format!("id=\"problem-{name}\"")).unwrap();
+    assert!(place("isotropic-11.6") < place("isotropic-3") && place("isotropic-3") < place("mid-flip-2"));
+    let titled = |title: &str| html.contains(&format!("data-label=\"{title}\""));
+    assert!(titled("error") && titled("C_b drift") && !titled("order") && !titled("reference"), "{html}");
+    let reasons = html.split_once("Why these tolerances").unwrap().1;
+    let named = |name: &str| reasons.matches(name).count();
+    assert_eq!([named("isotropic-3"), named("mid-flip-2"), named("isotropic-11.6")], [1; 3]);
+}
+
 #[test]
 fn what_is_not_finite_is_an_answer_that_fails() {
     for word in ["nan", "NaN", "inf", "-Infinity"] {

@@ -9,7 +9,8 @@ pub(super) fn number(value: f64) -> String {
     digits(value, 3)
 }
 
-fn digits(value: f64, digits: i32) -> String {
+/// A number to so many significant digits.
+pub(crate) fn digits(value: f64, digits: i32) -> String {
     let sign = if value < 0.0 { "−" } else { "" };
     let size = value.abs();
     if value.is_nan() {

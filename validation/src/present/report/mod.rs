@@ -15,7 +15,9 @@ mod sections;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use formats::digits;
 pub(crate) use json::FORMAT;
+pub(crate) use prose::typeset;
 
 use crate::files::output::Output;
 use crate::judge::accept::{FALSE_ALARM_BUDGET, Verdict};

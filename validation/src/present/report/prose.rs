@@ -2,7 +2,7 @@
 
 use super::Report;
 use crate::files::text::escaped;
-use crate::present::markup::{Piece, pieces, subscripts};
+use crate::present::markup::{Piece, pieces, powers, subscripts};
 use std::collections::BTreeSet;
 
 /// The anchors of a report.
@@ -59,9 +59,9 @@ fn anchor(target: &str, html: &str) -> String {
     format!("<a href=\"#{}\">{html}</a>", escaped(target))
 }
 
-fn typeset(text: &str) -> String {
+pub(crate) fn typeset(text: &str) -> String {
     // An error stays with its sign where a line is broken.
-    let text = text.replace("± ", "±\u{a0}");
+    let text = powers(text).replace("± ", "±\u{a0}");
     let parts = subscripts(&text).into_iter().map(|(below, part)| match below {
         true => format!("<sub>{}</sub>", escaped(part)),
         false => escaped(part),

@@ -10,18 +10,19 @@ fn a_column_is_declared_once_and_written_everywhere() {
         vec![
             field("n", |r: &Row| r.0),
             number("x (s)", |x| format!("{x:.1}"), |r: &Row| r.1),
-            estimate("y", |y, se| format!("{y} ± {se}"), |r: &Row| r.1.map(|x| (2.0, x))),
+            estimate("y", |r: &Row| r.1.map(|x| (2.0, x))),
+            difference("less", |r: &Row| r.1.map(|x| (-2.0, x))),
             words("said", |r: &Row| if r.0 == 1 { "=1" } else { "a, b" }),
         ],
     );
-    assert_eq!(table.columns, ["n", "x (s)", "y", "said"]);
-    assert_eq!(table.rows[1], ["2", "–", "–", "a, b"]);
+    assert_eq!(table.columns, ["n", "x (s)", "y", "less", "said"]);
+    assert_eq!(table.rows[1], ["2", "–", "–", "–", "a, b"]);
     assert_eq!(
         table.csv().unwrap(),
-        "n,x (s),y,± y,said\n1,0.30000000000000004,2.0,0.30000000000000004,'=1\n2,,,,\"a, b\"\n"
+        "n,x (s),y,± y,less,± less,said\n1,0.30000000000000004,2.0,0.30000000000000004,-2.0,0.30000000000000004,'=1\n2,,,,,,\"a, b\"\n"
     );
     assert!(table.text().starts_with("Synthetic\n\nn  x (s)  y"));
-    assert!(table.markdown().contains("| 1 | 0.3 | 2 ± 0.30000000000000004 | =1 |"));
+    assert!(table.markdown().contains("| 1 | 0.3 | 2.00 ± 0.30 | −2.00 ± 0.30 | =1 |"));
 }
 
 #[test]
@@ -46,5 +47,6 @@ fn rows_are_written_by_the_names_of_their_fields() {
     assert_eq!(rows_csv(rows().into_iter().take(0)).unwrap(), "text,x_error,rods\n");
     assert_eq!(two_digits(0.26154, 0.00842), "0.2615 ± 0.0084");
     assert_eq!(two_digits(83.878, 0.53), "83.88 ± 0.53");
-    assert_eq!(two_digits(0.0, 0.0), "0");
+    assert_eq!(two_digits(-0.0, 0.0), "0");
+    assert_eq!(two_digits(0.1 + 0.2, 0.0), "0.3");
 }

@@ -1,11 +1,13 @@
 //! The report as one HTML file with its pictures, which needs nothing else.
 
-use super::report::{missing, number, origin, tables, words};
+use super::report::{missing, tables, words};
 use super::{Graded, Report, Verdict};
 use crate::files::text::readable;
+use crate::present::report::{digits, typeset};
 use crate::present::table::ReportTable;
+use crate::serve::problems::Origin;
 use minijinja::value::Serde;
-use minijinja::{Environment, UndefinedBehavior};
+use minijinja::{Environment, UndefinedBehavior, Value};
 use serde::Serialize;
 
 /// All that the template shows.
@@ -17,7 +19,9 @@ struct Page<'a> {
     shearbed: &'a str,
     headline: String,
     good: bool,
+    columns: Vec<Column>,
     rows: Vec<ProblemRow<'a>>,
+    reasons: Vec<Reason<'a>>,
     pictures: Vec<&'a str>,
     tables: Vec<ReportTable>,
     diagnosis: &'a [String],
@@ -31,22 +35,73 @@ struct ProblemRow<'a> {
     word: &'static str,
     class: &'static str,
     name: &'a str,
-    origin: &'static str,
-    error: String,
-    tolerance: String,
-    because: &'a str,
-    order: String,
-    setting: String,
-    length: String,
-    orbit: String,
-    phase: String,
+    /// What the shown columns have.
+    cells: Vec<String>,
     said: Vec<&'a str>,
+}
+
+/// A column beside verdict and name.
+#[derive(Clone, Copy, Serialize)]
+struct Column {
+    title: &'static str,
+    numeric: bool,
+    #[serde(skip)]
+    of: fn(&Graded) -> String,
+}
+
+const COLUMNS: [Column; 8] = [
+    Column { title: "reference", numeric: false, of: |graded| foreign(graded).into() },
+    Column { title: "error", numeric: true, of: |graded| shown(graded.error) },
+    Column { title: "tolerance", numeric: true, of: |graded| shown(Some(graded.tolerance)) },
+    Column { title: "order", numeric: true, of: Graded::order_text },
+    Column { title: "setting", numeric: false, of: Graded::setting_text },
+    Column { title: "|p| off by", numeric: true, of: |graded| shown(graded.length_drift) },
+    Column { title: "C_b drift", numeric: true, of: |graded| shown(graded.orbit_drift) },
+    Column { title: "phase lost a period", numeric: true, of: |graded| shown(graded.phase_lost_per_period) },
+];
+
+const NOTHING: &str = "–";
+
+fn foreign(graded: &Graded) -> &'static str {
+    match graded.reference {
+        Origin::BuiltIn => NOTHING,
+        Origin::Foreign => "FOREIGN",
+    }
+}
+
+fn shown(number: Option<f64>) -> String {
+    number.map_or(NOTHING.into(), |number| digits(number, 2))
+}
+
+/// The reason for the tolerances of some problems.
+#[derive(Serialize)]
+struct Reason<'a> {
+    text: &'a str,
+    names: Vec<&'a str>,
+}
+
+fn reasons<'a>(graded: &[&'a Graded]) -> Vec<Reason<'a>> {
+    let mut reasons: Vec<Reason> = Vec::new();
+    for graded in graded {
+        match reasons.iter_mut().find(|reason| reason.text == graded.because) {
+            Some(reason) => reason.names.push(&graded.name),
+            None => reasons.push(Reason { text: &graded.because, names: vec![&graded.name] }),
+        }
+    }
+    reasons
 }
 
 /// The page, with pictures as SVG.
 pub fn html(report: &Report, good: bool, pictures: &[&str]) -> Result<String, String> {
     let mut environment = Environment::new();
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
+    environment.add_filter("prose", |text: &str| Value::from_safe_string(typeset(text)));
+    let mut answered: Vec<&Graded> =
+        report.problems.iter().filter(|g| g.verdict != Verdict::Missing).collect();
+    // What needs a look comes first.
+    answered.sort_by_key(|graded| graded.verdict == Verdict::Pass);
+    let said = |column: &Column| answered.iter().any(|graded| (column.of)(graded) != NOTHING);
+    let columns: Vec<Column> = COLUMNS.into_iter().filter(said).collect();
     let page = Page {
         style: include_str!("../../present/report/report.css"),
         answers: &report.answers,
@@ -54,7 +109,9 @@ pub fn html(report: &Report, good: bool, pictures: &[&str]) -> Result<String, St
         shearbed: &report.shearbed,
         headline: report.headline(),
         good,
-        rows: report.problems.iter().filter(|graded| graded.verdict != Verdict::Missing).map(row).collect(),
+        rows: answered.iter().map(|graded| row(graded, &columns)).collect(),
+        reasons: reasons(&answered),
+        columns,
         pictures: pictures.to_vec(),
         // The first is that of the rows.
         tables: tables(report).split_off(1),
@@ -70,7 +127,7 @@ pub fn html(report: &Report, good: bool, pictures: &[&str]) -> Result<String, St
         .map_err(|error| format!("cannot write the report: {error}"))
 }
 
-fn row(graded: &Graded) -> ProblemRow<'_> {
+fn row<'a>(graded: &'a Graded, columns: &[Column]) -> ProblemRow<'a> {
     ProblemRow {
         word: graded.verdict.word(),
         class: match graded.verdict {
@@ -80,15 +137,7 @@ fn row(graded: &Graded) -> ProblemRow<'_> {
             Verdict::NotReached => "underpowered",
         },
         name: &graded.name,
-        origin: origin(graded),
-        error: number(graded.error),
-        tolerance: number(Some(graded.tolerance)),
-        because: &graded.because,
-        order: graded.order_text(),
-        setting: graded.setting_text(),
-        length: number(graded.length_drift),
-        orbit: number(graded.orbit_drift),
-        phase: number(graded.phase_lost_per_period),
+        cells: columns.iter().map(|column| (column.of)(graded)).collect(),
         said: words(graded),
     }
 }

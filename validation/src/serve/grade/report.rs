@@ -74,12 +74,12 @@ pub fn json(report: &Report) -> Result<String, String> {
 }
 
 /// A number with two digits.
-pub(super) fn number(value: Option<f64>) -> String {
+fn number(value: Option<f64>) -> String {
     value.map_or("–".into(), |value| format!("{value:.1e}"))
 }
 
 /// Whose problem it is, in a word.
-pub(super) fn origin(graded: &Graded) -> &'static str {
+fn origin(graded: &Graded) -> &'static str {
     match graded.reference {
         Origin::BuiltIn => "built-in",
         Origin::Foreign => "FOREIGN",

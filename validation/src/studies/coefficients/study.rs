@@ -8,7 +8,7 @@ use crate::judge::statistics::{Estimate, Sample, slope, student};
 use crate::oracle::diffusion::orbits::{mean_over_orbits, shear_stress_of_isotropic, shear_stress_of_orbit};
 use crate::present::plot::Points;
 use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
-use crate::present::table::{Column, ReportTable, decimals, estimate, field, number, plus_minus, words};
+use crate::present::table::{Column, ReportTable, decimals, estimate, field, number, words};
 use shearbed::scene::Update;
 
 /// C_I, and the rods' stress.
@@ -121,8 +121,7 @@ fn settings<'a>() -> Vec<Column<'a, Coefficients>> {
 }
 
 fn measured<'a>(name: &str, value: impl Fn(&Coefficients) -> Estimate + 'a) -> Column<'a, Coefficients> {
-    let digits = |x: f64, se: f64| plus_minus((2.0 - se.log10()).floor().clamp(2.0, 6.0) as usize)(x, se);
-    estimate(name, digits, move |row: &Coefficients| value(row))
+    estimate(name, move |row: &Coefficients| value(row))
 }
 
 /// C_I of each suspension, and how well one number does.
@@ -135,9 +134,8 @@ fn coefficients(rows: &[Coefficients]) -> ReportTable {
         columns.push(measured(name, move |row| row.own[k]));
     }
     columns.push(measured("left over", |row| row.misfit));
-    columns.push(estimate("X̄₁'s decay per T", plus_minus(2), |row: &Coefficients| {
-        row.damping_per_period.map(Into::into)
-    }));
+    columns
+        .push(estimate("X̄₁'s decay per T", |row: &Coefficients| row.damping_per_period.map(Into::into)));
     ReportTable::new(
         ["folgar-tucker", "The effective Folgar–Tucker coefficient"],
         format!(

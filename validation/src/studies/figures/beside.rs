@@ -2,7 +2,7 @@
 
 use crate::present::plot::{Curve, Figure};
 use crate::present::study::ReportFigure;
-use crate::present::table::{Column, ReportTable, decimals, estimate, field, number, plus_minus, two_digits};
+use crate::present::table::{Column, ReportTable, decimals, estimate, field, number};
 
 /// A row for each point of the first series, or against time for each quarter of a period at which a series has a value:
 /// free rods are where they were every half period, so whole and half periods alone would show them as still. A column for
@@ -48,11 +48,7 @@ fn column<'a>(curve: Curve) -> Column<'a, f64> {
     let label = curve.label.clone();
     match curve.half_band.clone() {
         Some(half) => {
-            let format = |y: f64, half: f64| match half > 0.0 {
-                true => two_digits(y, half),
-                false => plus_minus(3)(y, half),
-            };
-            estimate(label, format, move |wanted: &f64| near(&curve, *wanted).map(|k| (curve.y[k], half[k])))
+            estimate(label, move |wanted: &f64| near(&curve, *wanted).map(|k| (curve.y[k], half[k])))
         }
         None => number(label, decimals(3), move |wanted: &f64| near(&curve, *wanted).map(|k| curve.y[k])),
     }
@@ -68,11 +64,7 @@ mod tests {
         let figure = ReportFigure::new(["synthetic", "Synthetic"], "", ["t/T", "A₁"])
             .curves([maxima, Curve::of("b", [0.5], |t| (t, 0.25))])
             .spans(Some((0.0, 6.0)), None);
-        let rows = [
-            ["0", "0.500 ± 0.000", "–"],
-            ["0.5", "0.45200 ± 0.00059", "0.250"],
-            ["1", "0.3980 ± 0.0013", "–"],
-        ];
+        let rows = [["0", "0.5", "–"], ["0.5", "0.45200 ± 0.00059", "0.250"], ["1", "0.3980 ± 0.0013", "–"]];
         assert_eq!(table(&figure).rows, rows.map(|row| row.map(String::from).to_vec()));
     }
 }

@@ -8,9 +8,7 @@ use crate::judge::lab;
 use crate::judge::statistics::Sample;
 use crate::present::plot::Points;
 use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
-use crate::present::table::{
-    Column, ReportTable, decimals, estimate, field, number, plus_minus, two_digits, words,
-};
+use crate::present::table::{Column, ReportTable, decimals, estimate, field, number, words};
 use shearbed::scene::Scene;
 
 /// Kicks, averaged motion and updates as Δt → 0.
@@ -149,7 +147,7 @@ fn tails(scene: &Scene, replicas: u64) -> Vec<(String, Exponent)> {
 }
 
 fn mean<'a>(name: &str, of: fn(&Counts) -> f64) -> Column<'a, StepCounts> {
-    estimate(name, two_digits, move |row: &StepCounts| row.mean(of))
+    estimate(name, move |row: &StepCounts| row.mean(of))
 }
 
 /// What the liquid does to the gap.
@@ -231,7 +229,7 @@ fn exponents(study: &Limit) -> ReportTable {
             words("kicks", |t: &Tail| t.0.clone()),
             field("threshold", |t: &Tail| t.1.threshold),
             field("above it", |t: &Tail| t.1.count),
-            estimate("exponent", plus_minus(3), |t: &Tail| (t.1.alpha, t.1.se)),
+            estimate("exponent", |t: &Tail| (t.1.alpha, t.1.se)),
         ],
     )
 }
@@ -250,9 +248,9 @@ fn averages(study: &Limit) -> ReportTable {
         vec![
             number("min_contact_arm", decimals(4), |r: &Of| r.min_contact_arm),
             field("steps per period", |r: &Of| r.steps_per_period),
-            estimate("averaged X̄₁", two_digits, |r: &Of| r.averaged_x1),
-            estimate("model − averaged", two_digits, |r: &Of| r.x1),
-            estimate("mean sin² between paths", two_digits, |r: &Of| r.square),
+            estimate("averaged X̄₁", |r: &Of| r.averaged_x1),
+            estimate("model − averaged", |r: &Of| r.x1),
+            estimate("mean sin² between paths", |r: &Of| r.square),
         ],
     )
 }
@@ -271,8 +269,8 @@ fn update(study: &Limit) -> ReportTable {
         vec![
             number("min_contact_arm", decimals(4), |r: &Of| r.min_contact_arm),
             field("steps per period", |r: &Of| r.steps_per_period),
-            estimate("X̄₁ by rotation", two_digits, |r: &Of| r.rotation_x1),
-            estimate("angles − rotation", two_digits, |r: &Of| r.change),
+            estimate("X̄₁ by rotation", |r: &Of| r.rotation_x1),
+            estimate("angles − rotation", |r: &Of| r.change),
         ],
     )
 }

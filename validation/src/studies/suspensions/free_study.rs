@@ -5,7 +5,7 @@ use super::starts;
 use crate::files::build;
 use crate::present::plot::Curve;
 use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
-use crate::present::table::{Column, ReportTable, estimate, number, rows_csv, signed, words};
+use crate::present::table::{Column, ReportTable, difference, number, rows_csv, words};
 use crate::studies::work_precision::Budget;
 use crate::studies::work_precision::study::{NOT_REACHED, time};
 use serde::Serialize;
@@ -93,7 +93,7 @@ fn table(benches: &[Bench]) -> ReportTable {
         words("scene", |r: &Of| r.0.free.scene),
         words("start", |r: &Of| r.1.start),
         number("theory", |x| format!("{x:+.2}"), |r: &Of| r.1.theory),
-        estimate("exponent", signed(2), |r: &Of| (r.1.exponent, r.1.exponent_se)),
+        difference("exponent", |r: &Of| (r.1.exponent, r.1.exponent_se)),
     ];
     columns.extend(TARGETS.map(|target| {
         words(format!("error {target:.0e}"), move |r: &Of| match r.1.cheapest(target) {

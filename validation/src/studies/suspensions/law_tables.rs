@@ -5,9 +5,7 @@ use super::blocks::Block;
 use super::law::{Change, JobMean, Law};
 use crate::present::plot::{Curve, Points};
 use crate::present::study::ReportFigure;
-use crate::present::table::{
-    ReportTable, decimals, estimate, field, number, plus_minus, rows_csv, signed, words,
-};
+use crate::present::table::{ReportTable, decimals, difference, estimate, field, number, rows_csv, words};
 use serde::Serialize;
 
 /// Against steps, rods and replicas; `strain` is that of a period.
@@ -71,10 +69,10 @@ fn steps(law: &Law, strain: f64) -> ReportTable {
             field("replicas", |r: &Row| r.0.replicas),
             number("X̄₁", decimals(5), |r: &Row| r.0.x1),
             number("± se", decimals(5), |r: &Row| r.0.se),
-            estimate("less the next", signed(5), change(|c| c.x1)),
+            difference("less the next", change(|c| c.x1)),
             words("readable", readable),
-            estimate("share below |p_1|", signed(5), change(|c| c.p1_distribution)),
-            estimate("share below C_b", signed(5), change(|c| c.orbit_distribution)),
+            difference("share below |p_1|", change(|c| c.p1_distribution)),
+            difference("share below C_b", change(|c| c.orbit_distribution)),
         ],
     )
 }
@@ -95,7 +93,7 @@ fn paths(law: &Law) -> ReportTable {
             }),
             number("same rod apart (rad, rms)", decimals(3), |r: &Row| r.1.apart_rad),
             number("other rods", decimals(3), |r: &Row| r.1.unrelated_rad),
-            estimate("correlation of X̄₁", plus_minus(3), |r: &Row| r.1.correlation),
+            estimate("correlation of X̄₁", |r: &Row| r.1.correlation),
             number("variance of the difference / variance", decimals(2), |r: &Row| {
                 2.0 * (1.0 - r.1.correlation.value)
             }),
@@ -135,7 +133,7 @@ fn rods(law: &Law) -> ReportTable {
             field("replicas", |s: &JobMean| s.replicas),
             number("X̄₁", decimals(5), |s: &JobMean| s.x1),
             number("± se", decimals(5), |s: &JobMean| s.se),
-            estimate("less the most", signed(5), less),
+            difference("less the most", less),
         ],
     )
 }

@@ -7,7 +7,7 @@ use crate::oracle::closed_form::orbit_constant_cdf;
 use crate::oracle::diffusion::orbits::cdf;
 use crate::present::plot::Curve;
 use crate::present::study::ReportFigure;
-use crate::present::table::{Column, ReportTable, decimals, estimate, field, number, plus_minus, words};
+use crate::present::table::{Column, ReportTable, decimals, estimate, field, number, words};
 
 /// One of the two samples of a comparison.
 struct Sided<'a> {
@@ -28,11 +28,7 @@ fn sides(all: &[Compared]) -> Vec<Sided<'_>> {
 
 /// In per cent of the rods, with two digits of the standard error.
 fn per_cent<'a>(name: impl Into<String>, quantity: Quantity, edge: f64) -> Column<'a, Sided<'a>> {
-    let digits = |x: f64, se: f64| {
-        let places = if se > 0.0 { (1.0 - se.log10().floor()).clamp(0.0, 4.0) as usize } else { 0 };
-        plus_minus(places)(x, se)
-    };
-    estimate(name, digits, move |side: &Sided<'_>| {
+    estimate(name, move |side: &Sided<'_>| {
         let Sample { mean, se, .. } = Sample::of(&above(side.shares, quantity, edge));
         (100.0 * mean, 100.0 * se)
     })
