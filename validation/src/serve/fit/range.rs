@@ -65,9 +65,9 @@ impl Range {
         self.from > 0.0 && self.to / self.from >= DECADE
     }
 
-    /// The value on the scale on which the range is covered evenly.
+    /// The value on the scale on which the range is covered evenly; −∞ where there is no logarithm.
     pub fn scaled(&self, value: f64) -> f64 {
-        if self.is_logarithmic() { value.ln() } else { value }
+        if self.is_logarithmic() { value.max(0.0).ln() } else { value }
     }
 
     /// The value of a place on that scale, never outside the range.
