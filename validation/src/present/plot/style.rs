@@ -93,13 +93,14 @@ pub(super) fn is_coloured(index: usize) -> bool {
     index % THEORY < PALETTE.len()
 }
 
-/// The colours of a map's classes, from right to not run: told apart also in grey, and by their glyphs.
+/// The colours of a map's classes, from right to not run: told apart also in grey, on a dark page that turns lightness round, and
+/// by their glyphs.
 pub(super) const CLASSES: [RGBColor; 6] = [
-    RGBColor(178, 223, 205),
-    RGBColor(240, 228, 66),
+    RGBColor(70, 145, 200),
+    RGBColor(245, 232, 110),
     RGBColor(230, 159, 0),
     RGBColor(170, 60, 0),
-    RGBColor(86, 130, 200),
+    RGBColor(204, 121, 167),
     RGBColor(235, 235, 235),
 ];
 

@@ -13,7 +13,8 @@ const AMPLITUDE: &str = "amplitude A₁ of X̄₁ (rod lengths)";
 
 /// All figures, in the paper's order.
 pub(super) fn figures(runs: &Runs, effort: &Effort) -> Result<Vec<ReportFigure>, String> {
-    let mut figures = vec![fig4(runs, effort)?, fig5(runs, effort)?, fig6_overlaid(runs)?];
+    let mut figures =
+        vec![fig4(runs, effort)?, fig4_differences(runs)?, fig5(runs, effort)?, fig6_overlaid(runs)?];
     figures.extend(fig6(runs)?);
     figures.extend(amplitudes(runs)?);
     figures.push(fig11(runs)?);
@@ -60,6 +61,22 @@ fn fig4(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
          {supplied}"
     );
     Ok(figure)
+}
+
+/// The curves of Fig. 4 lie too close to be told apart there.
+fn fig4_differences(runs: &Runs) -> Result<ReportFigure, String> {
+    let first = runs.get("fig4-n20")?;
+    let curve =
+        |n: u32| Ok(runs.get(&format!("fig4-n{n}"))?.less(first, "x1", format!("n = {n} less n = 20")));
+    Ok(ReportFigure::new(
+        ["fig4-differences", "Fig. 4: what a larger concentration changes in X̄₁"],
+        "Where n is larger, the maxima are lower and the minima higher. Replicas with the same random numbers are compared, so \
+         that the band is narrower than those of the curves.",
+        ["time t/T (periods)", "difference of X̄₁ (rod lengths)"],
+    )
+    .curves([50, 100].map(curve).into_iter().collect::<Result<Vec<_>, String>>()?)
+    .spans(Some((0.0, 6.0)), None)
+    .judged("Fig. 4, eqs 4, 15", &[]))
 }
 
 /// What Fig. 4 says in numbers.

@@ -32,13 +32,28 @@ impl Run {
     /// The sample over replicas of what `value` makes of a channel's means against time. Empty where the scene
     /// does not observe the channel.
     pub(super) fn sample(&self, channel: &str, value: impl Fn(&dyn Fn(usize) -> f64) -> f64) -> Sample {
+        Sample::of(&self.values(channel, value))
+    }
+
+    /// What `value` makes of each replica.
+    fn values(&self, channel: &str, value: impl Fn(&dyn Fn(usize) -> f64) -> f64) -> Vec<f64> {
         let channel = Channel::named(channel);
         let observed = |replica: &Replica| channel.is_some_and(|channel| replica.mean(channel, 0).is_some());
         let mean = |replica: &Replica, output| {
             channel.and_then(|channel| replica.mean(channel, output)).unwrap_or(f64::NAN)
         };
         let replicas = self.replicas.iter().filter(|replica| observed(replica));
-        Sample::of(&replicas.map(|replica| value(&|output| mean(replica, output))).collect::<Vec<_>>())
+        replicas.map(|replica| value(&|output| mean(replica, output))).collect()
+    }
+
+    /// A channel's mean less that of another scene with the same outputs, from pairs of replicas with the same random numbers.
+    pub(super) fn less(&self, other: &Self, channel: &str, label: impl Into<String>) -> Curve {
+        let times = self.times();
+        let sample = |output: usize| {
+            let [own, other] = [self, other].map(|run| run.values(channel, |mean| mean(output)));
+            Sample::of_differences(&own, &other)
+        };
+        with_band(label, times.iter().copied().zip((0..times.len()).map(sample)))
     }
 
     /// A channel's mean against t/T with its 95 % band.
