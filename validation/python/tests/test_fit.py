@@ -57,6 +57,8 @@ def test_the_result_is_that_of_the_program(points: dict[str, np.ndarray], tmp_pa
     assert np.array_equal(found.residuals["measured"], points["x1"])
     values, rise = found.profiles["interaction.alpha"]
     assert len(values) == len(rise) > 5 and rise.min() >= 0
+    [tested] = shearbed.fit(SCENE, points, OVER, replicas=60, seed=3, test=["interaction.alpha=0.8"]).tests
+    assert tested["hypothesis"] == "interaction.alpha=0.8" and tested["p_value"] > 6e-5 and found.tests == []
     # The points as a file, and in two sets with a value that was not measured.
     assert shearbed.fit(SCENE, tmp_path / "points.csv", OVER, replicas=60, seed=3)["interaction.alpha"] == alpha
     halves = [{name: column[half] for name, column in points.items()} for half in (slice(0, 5), slice(5, 10))]

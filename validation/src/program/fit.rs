@@ -29,6 +29,7 @@ const MOST_REPLICAS: u64 = 1000;
 
 /// Arguments of `fit`.
 #[derive(clap::Args)]
+#[command(override_usage = "shearbed fit <SCENE> --data <FILE.csv> --over <KEY=FROM:TO> [OPTIONS]")]
 #[command(after_help = "\
 FILE.csv has the columns t_over_T (or t_s, strain), x1, x1_u, and as you like x2, x2_u, … (docs/src/user/fitting.md).
 Examples:

@@ -54,7 +54,7 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     }
     match report.passes(args.all) {
         true => Ok(()),
-        false => Err(Failure::Failed(format!("not every problem passed: {}", report.headline()))),
+        false => Err(Failure::Failed(format!("not every problem passed: {}", report.counts()))),
     }
 }
 

@@ -78,6 +78,12 @@ fn named(args: &Args, dir: &Path, kept: Vec<(String, Figure)>) -> Result<(Figure
             dir.shown()
         )));
     }
+    if kept.is_empty() {
+        return Err(Failure::Input(format!(
+            "{}: has no picture: `validate` draws them where it runs all cases",
+            dir.shown()
+        )));
+    }
     let names = kept.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
     let is_it = |(name, _): &(String, Figure)| args.channel.as_ref().is_none_or(|asked| asked == name);
     let found = kept.into_iter().find(is_it).ok_or_else(|| {

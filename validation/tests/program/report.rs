@@ -1,8 +1,10 @@
 //! A real report, with the figures of a few replicas, as its reader gets it.
 
+use crate::common::shearbed;
 use std::sync::LazyLock;
 use validation::cases;
 use validation::cases::catalogue;
+use validation::files::output::ResultFolder;
 use validation::judge::case::Effort;
 use validation::present::report::{self, Report, ReportStudy, Sections};
 use validation::studies::figures::{self, Replicas};
@@ -26,6 +28,28 @@ static REPORT: LazyLock<Report> = LazyLock::new(|| {
     let outcomes = chosen.map(|case| case.run(&effort)).collect();
     report::build(outcomes, sections, &effort, "shearbed validate".into())
 });
+
+/// `plot` draws a picture of a report's folder anew, and says which there are.
+#[test]
+fn a_picture_of_a_report_is_drawn_anew() {
+    let dir = crate::common::folder();
+    let folder = ResultFolder::new(&dir.path().join("report"), "validate", serde_json::json!({}), false);
+    folder.write(vec![("report.json".into(), REPORT.json())]).unwrap();
+    let drawn = shearbed(dir.path(), "plot report --y fig11 --out f.svg --title Mine");
+    assert_eq!(drawn.code, Some(0), "{}", drawn.stderr);
+    let svg = std::fs::read_to_string(dir.path().join("f.svg")).unwrap();
+    assert!(svg.contains("Mine") && svg.contains("aspect ratio"), "{svg}");
+    let other = shearbed(dir.path(), "plot report --y fig13 --out g.svg");
+    assert_eq!(other.code, Some(2));
+    assert!(
+        other.stderr.contains("has no such picture") && other.stderr.contains("fig4, fig4-differences, fig5")
+    );
+    let done = shearbed(dir.path(), "validate --case jeffery-period --quiet --out one");
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    let none = shearbed(dir.path(), "plot one --out g.svg");
+    assert_eq!(none.code, Some(2));
+    assert!(none.stderr.contains("one: has no picture"), "{}", none.stderr);
+}
 
 #[test]
 fn a_real_report_is_whole() {

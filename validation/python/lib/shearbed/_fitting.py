@@ -65,6 +65,8 @@ class Fit:
             for rows in [profiles["parameter"] == key]
         }
         """Of each parameter: its values, and chi2 above its least there."""
+        self.tests: list[dict[str, Any]] = self.record.get("tests", [])
+        """What was asked by ``test=``: hypothesis, rise_of_chi2, p_value, beyond_the_box, and of two keys their difference."""
         self.warnings: list[str] = self.record["warnings"]
         """What to know before trusting it."""
         self.design: dict[str, NDArray[Any]] | None = columns(folder / "design.csv") if (folder / "design.csv").exists() else None
@@ -105,6 +107,7 @@ def fit(
     rods: int | None = None,
     set: Mapping[str, Any] | None = None,
     design: bool = False,
+    test: Sequence[str] = (),
     threads: int | None = None,
 ) -> Fit:
     """Fits keys of a scene to measured points, as ``shearbed fit`` does, with the same result.
@@ -115,7 +118,8 @@ def fit(
     A key may have a value of its own for each scene: ``over={"1:interaction.alpha": ..., "2:interaction.alpha": ...}``.
     ``set={"particles.count": 50}`` gives a key of every scene another value. ``replicas`` is the most at each value,
     ``rods`` how many each point is a mean over. ``design=True`` lists further points, with what each would leave of the
-    uncertainties, in ``design``.
+    uncertainties, in ``design``. ``test=["interaction.alpha=1"]`` tests values of fitted keys, and
+    ``test=["1:interaction.alpha=2:interaction.alpha"]`` whether two scenes have the same: see ``tests``.
 
     The work is done in a process of its own: other Python threads go on meanwhile, and Ctrl-C ends it. Raises ``ValueError``
     with the program's words for what is not allowed, ``RuntimeError`` for a fit that cannot go on.
@@ -132,6 +136,7 @@ def fit(
             words += ["--over", f"{key}={float(low)!r}:{float(high)!r}"]
         words += options(replicas=replicas, seed=seed, rods=rods, threads=threads, set=set)
         words += ["--design"] if design else []
+        words += [word for held in test for word in ("--test", held)]
         said = program(words, folder)
         # The last line names a folder that is no more.
         return Fit(folder / "out", said.rsplit("\nin out", 1)[0])

@@ -41,20 +41,27 @@ impl Report {
         self.count(Verdict::Pass) > 0 && not == 0 && !(all && missing > 0)
     }
 
-    /// The counts in words.
+    /// The counts.
+    pub fn counts(&self) -> String {
+        self.counted(|_| "")
+    }
+
+    /// How many problems have each verdict, and what `meaning` says of it.
+    fn counted(&self, meaning: impl Fn(Verdict) -> &'static str) -> String {
+        let others = [Verdict::Fail, Verdict::Missing, Verdict::NotReached];
+        let found = others.into_iter().filter(|verdict| self.count(*verdict) > 0);
+        let found = found.map(|v| format!(", {} {}{}", self.count(v), v.word(), meaning(v)));
+        let pass = self.count(Verdict::Pass);
+        format!("{pass} of {} problems pass{}", self.problems.len(), found.collect::<String>())
+    }
+
+    /// The counts, and what they mean.
     pub fn headline(&self) -> String {
-        let [pass, fail, missing, late] =
-            [Verdict::Pass, Verdict::Fail, Verdict::Missing, Verdict::NotReached].map(|v| self.count(v));
-        let mut words = format!("{pass} of {} problems pass", self.problems.len());
-        if fail > 0 {
-            words += &format!(", {fail} FAIL");
-        }
-        if missing > 0 {
-            words += &format!(", {missing} MISSING (no answer: neither passed nor failed)");
-        }
-        if late > 0 {
-            words += &format!(", {late} NOT REACHED (time ran out: not passed)");
-        }
+        let mut words = self.counted(|verdict| match verdict {
+            Verdict::Missing => " (no answer: neither passed nor failed)",
+            Verdict::NotReached => " (time ran out: not passed)",
+            Verdict::Pass | Verdict::Fail => "",
+        });
         let foreign = self.problems.iter().filter(|graded| graded.reference == Origin::Foreign);
         match foreign.count() {
             0 => {}
