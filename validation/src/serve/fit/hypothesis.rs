@@ -17,6 +17,9 @@ const HALVINGS: usize = 18;
 /// Steps of the golden section towards the least χ²: to 4e-4 of a box, of which χ² sees the square.
 const STEPS: usize = 12;
 
+/// Smaller probabilities are not told apart.
+const LEAST_P: f64 = 1e-6;
+
 /// What is held, as it is given after `--test`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hypothesis {
@@ -40,10 +43,12 @@ pub struct Tested {
     pub hypothesis: String,
     /// By how much the least χ² is larger where it holds.
     pub rise_of_chi2: f64,
-    /// The probability of a larger rise if it holds, by χ² of one degree of freedom.
+    /// The probability of a larger rise if it holds, by χ² of one degree of freedom; 10⁻⁶ where it is less, as no simulation has
+    /// looked farther.
     pub p_value: f64,
-    /// Whether it holds nowhere in the box that was searched at last: the rise is one at the box's edge, and p at most this.
-    pub beyond_the_box: bool,
+    /// Whether p is at most this: below 10⁻⁶, or where the hypothesis holds nowhere in the box that was searched at last and the rise
+    /// is one at the box's edge.
+    pub at_most: bool,
     /// Of two keys: the first less the second.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub difference: Option<Difference>,
@@ -151,11 +156,12 @@ impl Hypothesis {
                 (tied.rise(0.0_f64.clamp(low, high)), !(low..=high).contains(&0.0))
             }
         };
+        let p = ChiSquared::new(1.0).map_or(f64::NAN, |law| law.sf(rise));
         Ok(Tested {
             hypothesis: self.text.clone(),
             rise_of_chi2: rise,
-            p_value: ChiSquared::new(1.0).map_or(f64::NAN, |law| law.sf(rise)),
-            beyond_the_box,
+            p_value: p.max(LEAST_P),
+            at_most: beyond_the_box || p < LEAST_P,
             difference,
         })
     }

@@ -48,8 +48,8 @@ pub fn table(fit: &Fit, report: &Report) -> String {
 /// What was tested, a line each, for the terminal.
 pub fn tests(report: &Report) -> String {
     let line = |tested: &Tested| {
-        let p = match tested.beyond_the_box {
-            true => format!("p below {:.1e}", tested.p_value),
+        let p = match tested.at_most {
+            true => format!("p below {:.0e}", tested.p_value),
             false => format!("p = {}", probability(tested.p_value)),
         };
         let difference = tested.difference.map_or(String::new(), |found| {
