@@ -160,7 +160,7 @@ impl Hypothesis {
         Ok(Tested {
             hypothesis: self.text.clone(),
             rise_of_chi2: rise,
-            p_value: p.max(LEAST_P),
+            p_value: if p < LEAST_P { LEAST_P } else { p },
             at_most: beyond_the_box || p < LEAST_P,
             difference,
         })
