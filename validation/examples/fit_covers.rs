@@ -3,6 +3,7 @@
 //!
 //!     cargo run --release -p shearbed --example fit_covers -- 200 interaction.alpha=0.2:3 interaction.m=1.2:6
 //!
+//! `100..200` goes on where 100 repeats have ended.
 //! Keys are `interaction.alpha`, `interaction.m`, `particles.aspect_ratio`, `particles.aspect_ratio_sd_percent` and
 //! `interaction.concentration_per_cm3` (of the second suspension).
 
@@ -101,8 +102,10 @@ fn whole_fit(k: u64, truth: &[f64], over: &[Range]) -> Result<Fit, String> {
 
 fn main() -> Result<(), String> {
     let mut args = std::env::args().skip(1);
-    let repeats: u64 =
-        (args.next().map_or(Ok(20), |text| text.parse())).map_err(|error| format!("{error}"))?;
+    let text = args.next().unwrap_or("20".into());
+    let (from, to) = text.split_once("..").unwrap_or(("0", &text));
+    let number = |text: &str| text.parse::<u64>().map_err(|error| format!("{text}: {error}"));
+    let repeats = number(from)?..number(to)?;
     let mut over: Vec<Range> = args.map(|text| Range::parse(&text)).collect::<Result<_, _>>()?;
     if over.is_empty() {
         over.push(Range::parse("interaction.alpha=0.2:3")?);
@@ -129,7 +132,7 @@ fn main() -> Result<(), String> {
     println!(
         "repeat,chi2,p,replicas,runs,share_of_replicas,share_of_emulator,feigned,key,estimate,low_68,high_68,low_95,high_95"
     );
-    for k in 0..repeats {
+    for k in repeats.clone() {
         let fit = match whole_fit(k, &truth, &over) {
             Ok(fit) => fit,
             Err(why) => {
@@ -169,7 +172,8 @@ fn main() -> Result<(), String> {
     }
     let share = |count: u32| 100.0 * f64::from(count) / f64::from(answered);
     println!(
-        "# answered {answered} of {repeats}; χ² per degree of freedom {:.3}; p below 0.05 in {:.1} %, above 0.95 in {:.1} %",
+        "# answered {answered} of {}; χ² per degree of freedom {:.3}; p below 0.05 in {:.1} %, above 0.95 in {:.1} %",
+        repeats.end - repeats.start,
         chi_square / f64::from(answered) / freedom,
         share(low_p),
         share(high_p)
