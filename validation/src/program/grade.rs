@@ -38,7 +38,7 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     };
     let pictures = pictures(&report, &wanted).map_err(Failure::Failed)?;
     let inside: Vec<_> = pictures.iter().map(|(_, svg)| svg.as_str()).collect();
-    let html = grade::html(&report, report.passes(args.all), &inside).map_err(Failure::Failed)?;
+    let html = grade::html(&report, report.passes(), &inside).map_err(Failure::Failed)?;
     let pages = [
         grade::json(&report).map_err(Failure::Failed)?,
         html,
@@ -52,7 +52,7 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
         let place = args.out.join("grade.html");
         print(&format!("{}\nreport: {}\n", grade::terminal(&report), place.shown()))?;
     }
-    match report.passes(args.all) {
+    match report.passes() {
         true => Ok(()),
         false => Err(Failure::Failed(format!("not every problem passed: {}", report.counts()))),
     }
@@ -137,7 +137,7 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
         let lines: Vec<_> = errors.iter().map(ToString::to_string).collect();
         Failure::Input(lines.join("\n"))
     })?;
-    let mut report = report(reference.shown(), mine.shown(), problems, unknown_folders(mine, &names));
+    let mut report = report(args, [reference.shown(), mine.shown()], problems, unknown_folders(mine, &names));
     report.diagnosis = grade::overall(&wanted, &report.problems);
     report.remarks.extend(grade::remark(&report.problems, args.order));
     let inputs = inputs::of_files(args, reference, mine, &wanted)?;
@@ -156,8 +156,14 @@ fn unknown_folders(mine: &Path, names: &[String]) -> Vec<String> {
     unknown.into_iter().map(remark).collect()
 }
 
-fn report(reference: String, answers: String, problems: Vec<Graded>, remarks: Vec<String>) -> Report {
+fn report(
+    args: &Args,
+    [reference, answers]: [String; 2],
+    problems: Vec<Graded>,
+    remarks: Vec<String>,
+) -> Report {
     Report {
+        all: args.all,
         format: 1,
         shearbed: env!("CARGO_PKG_VERSION").to_owned(),
         reference,
@@ -226,7 +232,7 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
         remarks.push(format!("the program's end: {end}"));
     }
     let reference = reference.map_or("built-in problems".to_owned(), |dir| dir.shown());
-    let mut report = report(reference, command.to_owned(), problems, remarks);
+    let mut report = report(args, [reference, command.to_owned()], problems, remarks);
     report.live = studies;
     let asked: Vec<_> = wanted.iter().map(live::last_time).collect();
     report.diagnosis = grade::overall(&asked, &report.problems);

@@ -229,10 +229,11 @@ fn two_sets_have_values_of_their_own() {
     let difference = &record["tests"][0]["difference"];
     assert!(difference["high_95"].as_f64() < Some(0.0), "{difference}");
     assert!(
-        done.stdout.contains("\n1:interaction.alpha=2:interaction.alpha: difference -"),
+        done.stdout.contains("\n1:interaction.alpha=2:interaction.alpha: χ² rises by "),
         "{}",
         done.stdout
     );
+    assert!(done.stdout.contains("\n    difference -"), "{}", done.stdout);
     for file in ["profile_alpha_1.svg", "profile_alpha_2.svg", "points_2.svg", "region_alpha_1_alpha_2.svg"] {
         assert!(dir.path().join("own").join(file).is_file(), "{file}");
     }

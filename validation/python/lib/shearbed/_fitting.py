@@ -66,7 +66,7 @@ class Fit:
         }
         """Of each parameter: its values, and chi2 above its least there."""
         self.tests: list[dict[str, Any]] = self.record.get("tests", [])
-        """What was asked by ``test=``: hypothesis, rise_of_chi2, p_value (at most that where at_most), and of two keys their difference."""
+        """What was asked by ``test=``: hypothesis, rise_of_chi2, p_value (at most that where beyond_the_box, and not below 1e-6), and of two keys their difference."""
         self.warnings: list[str] = self.record["warnings"]
         """What to know before trusting it."""
         self.design: dict[str, NDArray[Any]] | None = columns(folder / "design.csv") if (folder / "design.csv").exists() else None

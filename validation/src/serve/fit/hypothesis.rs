@@ -11,6 +11,9 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 /// Places along the box where two keys are tied, before the least is sought between them.
 const PLACES: usize = 17;
 
+/// A place this near the edge of a box is at it: the golden section ends within 4e-4.
+const EDGE: f64 = 1e-3;
+
 /// Halvings of an end of an interval: to 1e-5 of a box.
 const HALVINGS: usize = 18;
 
@@ -18,7 +21,7 @@ const HALVINGS: usize = 18;
 const STEPS: usize = 12;
 
 /// Smaller probabilities are not told apart.
-const LEAST_P: f64 = 1e-6;
+pub(super) const LEAST_P: f64 = 1e-6;
 
 /// What is held, as it is given after `--test`.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,12 +46,11 @@ pub struct Tested {
     pub hypothesis: String,
     /// By how much the least χ² is larger where it holds.
     pub rise_of_chi2: f64,
+    /// Whether it holds nowhere in the box that was searched at last: the rise is that at the box's edge, and p at most that there.
+    pub beyond_the_box: bool,
     /// The probability of a larger rise if it holds, by χ² of one degree of freedom; 10⁻⁶ where it is less, as no simulation has
     /// looked farther.
     pub p_value: f64,
-    /// Whether p is at most this: below 10⁻⁶, or where the hypothesis holds nowhere in the box that was searched at last and the rise
-    /// is one at the box's edge.
-    pub at_most: bool,
     /// Of two keys: the first less the second.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub difference: Option<Difference>,
@@ -67,7 +69,7 @@ pub struct Difference {
     pub low_95: f64,
     /// Its upper end.
     pub high_95: f64,
-    /// Whether the 95 % interval ends at an edge of the box, below and above.
+    /// Whether the 95 % interval ends where a key is at an edge of the box, below and above: the points may allow more.
     pub ends_at_edge: [bool; 2],
 }
 
@@ -128,7 +130,17 @@ impl Hypothesis {
                 let Range { from, to, .. } = ranges[axes[0]];
                 Err(format!("--test {}: {value} is outside the range of --over, {from} to {to}", self.text))
             }
-            _ => Ok(()),
+            Against::Key(_) => {
+                let [a, b] = [&ranges[axes[0]], &ranges[axes[1]]];
+                match a.from.max(b.from) <= a.to.min(b.to) {
+                    true => Ok(()),
+                    false => Err(format!(
+                        "--test {}: the ranges of --over, {} to {} and {} to {}, have no value in common",
+                        self.text, a.from, a.to, b.from, b.to
+                    )),
+                }
+            }
+            Against::Value(_) => Ok(()),
         }
     }
 
@@ -153,7 +165,7 @@ impl Hypothesis {
                 let tied = Tied { fit, axes: [axes[0], axes[1]] };
                 difference = Some(tied.difference());
                 let (low, high) = tied.ends();
-                (tied.rise(0.0_f64.clamp(low, high)), !(low..=high).contains(&0.0))
+                (tied.rise(0.0_f64.clamp(low, high)).0, !(low..=high).contains(&0.0))
             }
         };
         let p = ChiSquared::new(1.0).map_or(f64::NAN, |law| law.sf(rise));
@@ -161,7 +173,7 @@ impl Hypothesis {
             hypothesis: self.text.clone(),
             rise_of_chi2: rise,
             p_value: if p < LEAST_P { LEAST_P } else { p },
-            at_most: beyond_the_box || p < LEAST_P,
+            beyond_the_box,
             difference,
         })
     }
@@ -180,8 +192,8 @@ impl Tied<'_> {
         (a[0] - b[1], a[1] - b[0])
     }
 
-    /// How far χ² rises to the best pair of this difference.
-    fn rise(&self, difference: f64) -> f64 {
+    /// How far χ² rises to the best pair of this difference, and whether that is at an edge of the box.
+    fn rise(&self, difference: f64) -> (f64, bool) {
         let [a, b] = self.axes;
         let at = |place: f64| {
             let other = self.fit.place(b, self.fit.value(a, place) - difference);
@@ -208,7 +220,8 @@ impl Tied<'_> {
                 false => from = left,
             }
         }
-        at(0.5 * (from + to)).min(at(place(least)))
+        let best = if at(0.5 * (from + to)) < at(place(least)) { 0.5 * (from + to) } else { place(least) };
+        (at(best), (best - low).min(high - best) < EDGE)
     }
 
     fn difference(&self) -> Difference {
@@ -216,24 +229,25 @@ impl Tied<'_> {
         let (low, high) = self.ends();
         let end = |confidence: f64, edge: f64| {
             let level = rise_of(confidence);
-            if self.rise(edge) <= level {
-                return edge;
+            if self.rise(edge).0 <= level {
+                return (edge, true);
             }
             let (mut inner, mut outer) = (a - b, edge);
             for _ in 0..HALVINGS {
                 let middle = 0.5 * (inner + outer);
-                *(if self.rise(middle) <= level { &mut inner } else { &mut outer }) = middle;
+                *(if self.rise(middle).0 <= level { &mut inner } else { &mut outer }) = middle;
             }
-            0.5 * (inner + outer)
+            let found = 0.5 * (inner + outer);
+            (found, self.rise(found).1)
         };
         let [inner, outer] = [0.68, 0.95].map(|confidence| [end(confidence, low), end(confidence, high)]);
         Difference {
             estimate: a - b,
-            low_68: inner[0],
-            high_68: inner[1],
-            low_95: outer[0],
-            high_95: outer[1],
-            ends_at_edge: [outer[0] == low, outer[1] == high],
+            low_68: inner[0].0,
+            high_68: inner[1].0,
+            low_95: outer[0].0,
+            high_95: outer[1].0,
+            ends_at_edge: outer.map(|(_, at_edge)| at_edge),
         }
     }
 }

@@ -310,7 +310,22 @@ impl Fit {
         }
     }
 
-    /// Whether every profile rises through the ends of its intervals without a jump, and those of 68 % lie inside those of 95 %.
+    /// The parts of a parameter's range in which its profile is within the 95 % interval's level, where what lies between them is
+    /// ruled out by four standard deviations: a lower rise in between is no more than a ripple.
+    fn valleys(&self, axis: usize) -> Vec<(f64, f64)> {
+        let profile = &self.profiles[axis];
+        let mut parts: Vec<(usize, usize)> = Vec::new();
+        for (k, _) in profile.rise.iter().enumerate().filter(|(_, rise)| **rise <= rise_of(0.95)) {
+            match parts.last_mut() {
+                Some((_, last)) if profile.rise[*last..k].iter().all(|between| *between < FAR) => *last = k,
+                _ => parts.push((k, k)),
+            }
+        }
+        let value = |k: usize| self.value(axis, profile.place[k]);
+        parts.into_iter().map(|(first, last)| (value(first), value(last))).collect()
+    }
+
+    /// Whether every profile has one valley within its intervals, rises through the ends of its intervals without a jump, and those of 68 % lie inside those of 95 %.
     ///
     /// # Errors
     ///
@@ -320,6 +335,16 @@ impl Fit {
             let [inner, outer] = [0.68, 0.95]
                 .map(|confidence| interval(&self.best, axis, &self.profiles[axis], rise_of(confidence)));
             let centre = self.best.place[axis];
+            let valleys = self.valleys(axis);
+            if valleys.len() > 1 {
+                let ends = valleys.iter().map(|(from, to)| format!("{from:.4} to {to:.4}"));
+                return Err(format!(
+                    "--over {}: χ² has several minima in this range that describe the points as well: {}; give a narrower one without \
+                     impossible values",
+                    range.label(),
+                    ends.collect::<Vec<_>>().join(", ")
+                ));
+            }
             let same = |inner: f64, outer: f64, open: bool| {
                 !open && (outer - inner).abs() < SAME * (outer - centre).abs()
             };

@@ -1,7 +1,7 @@
 //! A fit in words: the answer in one line, and its budget, for the terminal.
 
 use super::design::{Added, Step};
-use super::hypothesis::Tested;
+use super::hypothesis::{LEAST_P, Tested};
 use super::report::Report;
 use super::search::Fit;
 
@@ -48,24 +48,42 @@ pub fn table(fit: &Fit, report: &Report) -> String {
 /// What was tested, a line each, for the terminal.
 pub fn tests(report: &Report) -> String {
     let line = |tested: &Tested| {
-        let p = match tested.at_most {
-            true => format!("p below {:.0e}", tested.p_value),
-            false => format!("p = {}", probability(tested.p_value)),
+        let (beyond, p) = (tested.beyond_the_box, tested.p_value);
+        let more = if beyond { " or more" } else { "" };
+        let p = match beyond || p <= LEAST_P {
+            true => format!("p below {}", rounded_up(p)),
+            false => format!("p = {}", probability(p)),
         };
+        let found = format!("χ² rises by {:.1}{more}, {p}", tested.rise_of_chi2);
         let difference = tested.difference.map_or(String::new(), |found| {
             let digits = decimals(0.25 * (found.high_95 - found.low_95));
+            let cut = match found.ends_at_edge {
+                [false, false] => "",
+                _ => ", or more: a range cuts it",
+            };
             format!(
-                "difference {:.digits$}, 95 % from {:.digits$} to {:.digits$}; ",
+                "    difference {:.digits$}, 95 % from {:.digits$} to {:.digits$}{cut}\n",
                 found.estimate, found.low_95, found.high_95
             )
         });
-        format!("{}: {difference}χ² rises by {:.1}, {p}\n", tested.hypothesis, tested.rise_of_chi2)
+        format!("{}: {found}\n{difference}", tested.hypothesis)
     };
     report.tests.iter().map(line).collect()
 }
 
+/// With two digits where it is small, so that 0.046 is not 0.05.
 fn probability(p: f64) -> String {
-    if p < 0.01 { format!("{p:.1e}") } else { format!("{p:.2}") }
+    match p {
+        p if p < 0.01 => format!("{p:.1e}"),
+        p if p < 0.1 => format!("{p:.3}"),
+        p => format!("{p:.2}"),
+    }
+}
+
+/// A bound with one digit, never below it.
+fn rounded_up(p: f64) -> String {
+    let unit = 10f64.powf(p.log10().floor());
+    format!("{:.0e}", (p / unit - 1e-9).ceil() * unit)
 }
 
 /// What further points would leave, for the terminal. `times` are the units of the sets' times.
@@ -108,5 +126,20 @@ fn decimals(number: f64) -> usize {
     match number.log10().floor() {
         log if log.is_finite() => (1.0 - log).clamp(0.0, 12.0) as usize,
         _ => 4,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn probabilities_are_on_the_right_side_of_a_limit() {
+        assert_eq!([0.0458, 0.5, 0.003].map(probability), ["0.046", "0.50", "3.0e-3"]);
+        // Bounds are never below what they bound.
+        assert_eq!(
+            [0.0646, 3.28e-6, 1e-6, 0.86, 1.0].map(rounded_up),
+            ["7e-2", "4e-6", "1e-6", "9e-1", "1e0"]
+        );
     }
 }

@@ -50,13 +50,25 @@ fn a_profile_changes_to_the_valley_that_is_lower() {
 #[test]
 fn a_profile_that_jumps_is_no_answer() {
     let mut fit = of_two_signs();
-    assert_eq!(fit.is_smooth(), Ok(()));
-    let profile = &mut fit.profiles[0];
-    for (place, rise) in profile.place.iter().zip(&mut profile.rise) {
-        if *place > -0.4 {
-            *rise = 152.0;
+    let mut beyond = |from: f64| {
+        for profile in &mut fit.profiles {
+            for (place, rise) in profile.place.iter().zip(&mut profile.rise) {
+                if *place > from {
+                    *rise = 152.0;
+                }
+            }
         }
-    }
-    let said = fit.is_smooth().unwrap_err();
+        fit.is_smooth()
+    };
+    // The valley of the best place alone.
+    assert_eq!(beyond(0.0), Ok(()));
+    let said = beyond(-0.4).unwrap_err();
     assert!(said.contains("--over a.a") && said.contains("jumps"), "{said}");
+}
+
+/// What lies between two valleys is in no interval, and an interval from one to the other would hold it.
+#[test]
+fn two_valleys_are_no_answer() {
+    let said = of_two_signs().is_smooth().unwrap_err();
+    assert!(said.contains("--over a.a: χ² has several minima") && said.contains("-0.63"), "{said}");
 }

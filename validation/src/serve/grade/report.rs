@@ -26,6 +26,10 @@ pub struct Report {
     pub diagnosis: Vec<String>,
     /// What else is to be said.
     pub remarks: Vec<String>,
+    /// Whether an answer is wanted to every problem: a missing one is a failure then, and otherwise neither pass nor failure, as a case
+    /// without data is in `validate`.
+    #[serde(skip)]
+    pub all: bool,
 }
 
 impl Report {
@@ -33,12 +37,17 @@ impl Report {
         self.problems.iter().filter(|graded| graded.verdict == verdict).count()
     }
 
-    /// Whether a problem passes, and none fails or was not reached. A missing answer is neither, as a case without data is
-    /// in `validate`, but where `all` are wanted.
-    pub fn passes(&self, all: bool) -> bool {
-        let not = self.count(Verdict::Fail) + self.count(Verdict::NotReached);
-        let missing = self.count(Verdict::Missing);
-        self.count(Verdict::Pass) > 0 && not == 0 && !(all && missing > 0)
+    /// Whether a problem passes, and none fails.
+    pub fn passes(&self) -> bool {
+        self.count(Verdict::Pass) > 0 && !self.problems.iter().any(|graded| self.is_failure(graded.verdict))
+    }
+
+    fn is_failure(&self, verdict: Verdict) -> bool {
+        match verdict {
+            Verdict::Pass => false,
+            Verdict::Fail | Verdict::NotReached => true,
+            Verdict::Missing => self.all,
+        }
     }
 
     /// The counts.
@@ -58,6 +67,7 @@ impl Report {
     /// The counts, and what they mean.
     pub fn headline(&self) -> String {
         let mut words = self.counted(|verdict| match verdict {
+            Verdict::Missing if self.all => " (no answer: not passed)",
             Verdict::Missing => " (no answer: neither passed nor failed)",
             Verdict::NotReached => " (time ran out: not passed)",
             Verdict::Pass | Verdict::Fail => "",
@@ -236,10 +246,11 @@ pub fn markdown(report: &Report) -> String {
     text
 }
 
-/// junit.xml: a test case for each problem. A missing answer is skipped; one that was not reached is a failure.
+/// junit.xml: a test case for each problem. A missing answer is skipped, or a failure where all are wanted; one that was not
+/// reached is a failure.
 pub fn junit(report: &Report) -> String {
-    let failed = report.count(Verdict::Fail) + report.count(Verdict::NotReached);
-    let skipped = report.count(Verdict::Missing);
+    let failed = report.problems.iter().filter(|graded| report.is_failure(graded.verdict)).count();
+    let skipped = report.problems.len() - failed - report.count(Verdict::Pass);
     let mut xml = format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"shearbed grade\" tests=\"{}\" \
          failures=\"{failed}\" errors=\"0\" skipped=\"{skipped}\">\n",
@@ -256,7 +267,7 @@ pub fn junit(report: &Report) -> String {
                 number(Some(graded.tolerance)),
                 words(graded).join("; ")
             );
-            let element = if graded.verdict == Verdict::Missing { "skipped" } else { "failure" };
+            let element = if report.is_failure(graded.verdict) { "failure" } else { "skipped" };
             xml += &format!("<{element} message=\"{}\"></{element}>", escaped(&message));
         }
         xml += "</testcase>\n";
@@ -294,6 +305,7 @@ mod tests {
             live: None,
             diagnosis: vec!["one mistake explains both".into()],
             remarks: vec!["a remark".into()],
+            all: false,
         }
     }
 
@@ -303,6 +315,9 @@ mod tests {
         let xml = junit(&report);
         assert!(is_well_formed(xml.split_once("?>\n").unwrap().1), "{xml}");
         assert!(xml.contains("tests=\"4\" failures=\"2\"") && xml.contains("<skipped"));
+        let wanted = Report { all: true, ..report.clone() };
+        assert!(junit(&wanted).contains("failures=\"3\" errors=\"0\" skipped=\"0\""));
+        assert!(wanted.headline().contains("1 MISSING (no answer: not passed)"));
         assert!(xml.contains("&quot;x&quot; &amp; &lt;y&gt;\\u{1}"));
         let json: serde_json::Value = serde_json::from_str(&json(&report).unwrap()).unwrap();
         assert_eq!(json["problems"][1]["verdict"], "FAIL");
@@ -360,14 +375,14 @@ mod tests {
     #[test]
     fn a_report_passes_where_one_passes_and_none_fails() {
         let mut report = report();
-        assert!(!report.passes(false));
+        assert!(!report.passes());
         report.problems.remove(1);
-        assert!(!report.passes(false), "one is not reached");
+        assert!(!report.passes(), "one is not reached");
         report.problems.pop();
-        assert!(report.passes(false) && !report.passes(true), "one is missing");
+        assert!(report.passes() && !Report { all: true, ..report.clone() }.passes(), "one is missing");
         report.problems.remove(0);
-        assert!(!report.passes(false), "none passes");
+        assert!(!report.passes(), "none passes");
         report.problems.clear();
-        assert!(!report.passes(false));
+        assert!(!report.passes());
     }
 }

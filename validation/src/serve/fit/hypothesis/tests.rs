@@ -72,7 +72,7 @@ fn a_straight_model_has_the_tests_of_the_textbook() {
     let value = tested(&fit, "2:a.rate=1.01");
     let expected = (b - 1.01_f64).powi(2) / covariance[(1, 1)];
     assert!((value.rise_of_chi2 / expected - 1.0).abs() < 0.05, "{value:?} {expected}");
-    assert_eq!((value.difference, value.at_most), (None, false));
+    assert_eq!((value.difference, value.beyond_the_box), (None, false));
     let law = ChiSquared::new(1.0).unwrap();
     assert_eq!(value.p_value, law.sf(value.rise_of_chi2));
 
@@ -93,7 +93,7 @@ fn a_straight_model_has_the_tests_of_the_textbook() {
 
     // Far away, where the last box does not reach.
     let far = tested(&fit, "1:a.rate=1.95");
-    assert!(far.at_most && far.p_value == 1e-6, "{far:?}");
+    assert!(far.beyond_the_box && far.p_value == 1e-6, "{far:?}");
 }
 
 /// At the level of 5 % a true hypothesis is rejected in 5 % of the fits, and a wrong one nearly always.
@@ -125,7 +125,8 @@ fn a_true_hypothesis_is_rejected_as_often_as_the_level_says() {
 
 #[test]
 fn what_is_no_hypothesis_is_refused_with_what_is_allowed() {
-    let ranges = ["1:a.rate=0.1:4", "2:a.rate=0.1:4", "a.b=1:2"].map(|text| Range::parse(text).unwrap());
+    let ranges = ["1:a.rate=0.1:4", "2:a.rate=0.1:4", "a.b=1:2", "4:a.rate=5:6"];
+    let ranges = ranges.map(|text| Range::parse(text).unwrap());
     for (text, named) in [
         ("alpha", "KEY=VALUE"),
         ("a.b=x", "\"x\" is no value"),
@@ -133,8 +134,9 @@ fn what_is_no_hypothesis_is_refused_with_what_is_allowed() {
         ("1:a.rate=1:a.rate", "SET:KEY=OTHER:KEY"),
         ("1:a.rate=2:a.b", "\"2:a.b\" is no value"),
         ("a b=1", "no key"),
-        ("a.c=1", "a.c is not fitted; --over has 1:a.rate, 2:a.rate, a.b"),
+        ("a.c=1", "a.c is not fitted; --over has 1:a.rate, 2:a.rate, a.b, 4:a.rate"),
         ("1:a.rate=3:a.rate", "3:a.rate is not fitted"),
+        ("1:a.rate=4:a.rate", "have no value in common"),
         ("a.b=3", "3 is outside the range of --over, 1 to 2"),
     ] {
         let error = Hypothesis::parse(text).and_then(|held| held.check(&ranges)).unwrap_err();
