@@ -270,6 +270,22 @@ impl ReportTable {
         }
     }
 
+    /// How many letters the table is wide where sentences are broken and numbers are not, with two between columns.
+    pub(crate) fn letters_across(&self) -> usize {
+        /// Where a sentence is broken.
+        const SENTENCE: usize = 24;
+        let word = |text: &str| text.split(' ').map(|word| word.chars().count()).max().unwrap_or(0);
+        let cell = |text: &String| match text.contains('±') {
+            true => text.chars().count(),
+            false => text.chars().count().min(SENTENCE).max(word(text)),
+        };
+        let column = |k: usize| {
+            let cells = self.rows.iter().map(|row| cell(&row[k]));
+            2 + cells.chain([word(&self.columns[k])]).max().unwrap_or(0)
+        };
+        (0..self.columns.len()).map(column).sum()
+    }
+
     /// The data as CSV. Every number is the shortest text that reads back as the same bits; what is not there is empty,
     /// and a text that a spreadsheet would take for a formula has an apostrophe before it.
     pub fn csv(&self) -> Result<String, String> {

@@ -140,14 +140,14 @@ fn studies(report: &Report) -> Result<Vec<StudyView<'_>>, String> {
 }
 
 fn view<'a>(report: &'a Report, exhibit: &'a Exhibit) -> Result<ExhibitView<'a>, String> {
-    /// The most columns of a table beside a picture.
-    const BESIDE: usize = 6;
+    /// The most letters across a table beside a picture.
+    const BESIDE: usize = 72;
     let figure = exhibit.figure.as_ref().map(|f| self::figure(report, f));
-    let columns = exhibit.table.as_ref().map_or(0, |table| table.columns.len());
+    let narrow = exhibit.table.as_ref().is_some_and(|table| table.letters_across() <= BESIDE);
     Ok(ExhibitView {
         figure: figure.transpose()?,
         table: exhibit.table.as_ref().map(table),
-        beside: exhibit.figure.is_some() && (1..=BESIDE).contains(&columns),
+        beside: exhibit.figure.is_some() && narrow,
     })
 }
 
