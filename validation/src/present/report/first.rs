@@ -92,12 +92,14 @@ fn count(part: &Part) -> String {
 /// The pictures of the first screen, as far as they are there: the paper's Fig. 4, error against run time, and one map of
 /// stability.
 pub(super) fn thumbnails(report: &Report) -> Result<Vec<Thumbnail<'_>>, String> {
-    let wanted = ["fig4", "work-precision-re11.6", "stability-steps"];
-    let figures =
-        wanted.iter().filter_map(|name| report.sections.figures().find(|figure| figure.name == *name));
-    figures
-        .map(|figure| {
-            let mut small: Figure = figure.figure.clone();
+    // Three stand side by side, and letters are to be read: what has room for larger ones has them.
+    let wanted = [("fig4", Some((420, 320))), ("work-precision-re11.6", None), ("stability-steps", None)];
+    let found = |(name, size)| {
+        let figure = report.sections.figures().find(|figure| figure.name == name)?;
+        Some((figure, Figure { size, ..figure.figure.clone() }))
+    };
+    (wanted.into_iter().filter_map(found))
+        .map(|(figure, mut small)| {
             if let Some(grid) = &mut small.grid {
                 // One with a line of theory, and with more than one way to be wrong.
                 let shown = grid.maps.iter().position(|map| map.title == "implicit midpoint in p");
