@@ -32,6 +32,7 @@ pub(crate) fn pieces(text: &str) -> Vec<Piece<'_>> {
             _ => pieces.push(Piece::Code(part)),
         }
     }
+    pieces.retain(|piece| *piece != Piece::Text(""));
     pieces
 }
 

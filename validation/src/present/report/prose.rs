@@ -23,16 +23,32 @@ impl Anchors {
 
     /// A text as HTML.
     pub(super) fn html(&self, text: &str) -> String {
-        let html = pieces(text).into_iter().map(|piece| match piece {
-            Piece::Text(text) => typeset(text),
+        let pieces = pieces(text);
+        let linked = |k: usize| match pieces.get(k) {
+            Some(Piece::Figure(number)) => self.figure(number),
+            _ => None,
+        };
+        let html = pieces.iter().enumerate().map(|(k, piece)| match piece {
+            // The word is part of the link: a digit alone is hard to hit.
+            Piece::Text(text) => match (text.strip_suffix("Fig. "), linked(k + 1)) {
+                (Some(before), Some(_)) => typeset(before),
+                _ => typeset(text),
+            },
             Piece::Code(code) => {
                 self.link(&format!("case-{code}"), format!("<code>{}</code>", escaped(code)))
             }
             Piece::Equation(number) => self.link(&format!("equation-{number}"), escaped(number)),
-            Piece::Figure(number) => match self.figure(number) {
-                Some(name) => anchor(&format!("figure-{name}"), &escaped(number)),
-                None => escaped(number),
-            },
+            Piece::Figure(number) => {
+                let before = k.checked_sub(1).and_then(|k| pieces.get(k));
+                let word = match before {
+                    Some(Piece::Text(text)) if text.ends_with("Fig. ") => "Fig.\u{a0}",
+                    _ => "",
+                };
+                match self.figure(number) {
+                    Some(name) => anchor(&format!("figure-{name}"), &format!("{word}{}", escaped(number))),
+                    None => escaped(number),
+                }
+            }
         });
         html.collect()
     }
@@ -82,7 +98,8 @@ mod tests {
         for (text, html) in [
             ("`a` & `b`", "<a href=\"#case-a\"><code>a</code></a> &amp; <code>b</code>"),
             ("eqs 5, A.7", "eqs 5, <a href=\"#equation-A.7\">A.7</a>"),
-            ("Fig. 4", "Fig. <a href=\"#figure-fig4-n20\">4</a>"),
+            ("Fig. 4", "<a href=\"#figure-fig4-n20\">Fig.\u{a0}4</a>"),
+            ("in Figs 4 and 1", "in Figs <a href=\"#figure-fig4-n20\">4</a> and 1"),
             ("Fig. 1", "Fig. 1"),
             ("0.5 ± 0.1", "0.5 ±\u{a0}0.1"),
             ("r_e < \"5\"", "r<sub>e</sub> &lt; &quot;5&quot;"),
