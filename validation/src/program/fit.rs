@@ -197,7 +197,7 @@ fn asked(args: &Args, input: &Input) -> Result<Value, Failure> {
         "rods": args.rods,
         "most_replicas": args.replicas,
     });
-    // A fit without any is what it was before there were tests.
+    // Without tests the record is as it was before there was `--test`.
     if !args.test.is_empty() {
         asked["test"] = json!(args.test.iter().map(Hypothesis::text).collect::<Vec<_>>());
     }

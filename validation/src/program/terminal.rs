@@ -42,7 +42,7 @@ pub(super) fn log(line: &str, quiet: bool) {
     complain(&format!("{}\n", readable(line)));
 }
 
-/// Lets a bar show another part of the work, whose steps are not known yet.
+/// Restarts a bar for the next part of the work, without steps: `inc_length` adds them.
 pub(super) fn restart(bar: &ProgressBar, part: &str) {
     bar.set_message(part.to_owned());
     bar.set_length(0);

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 /// What the model says of one measured point: at its time, and at √3 standard deviations of that time before and after.
 pub type Prediction = [f64; 3];
 
-/// Some points by their places among all, and what the model says of them.
+/// Predictions of some points, each with the point's place among all.
 pub type Predictions = Vec<(usize, Prediction)>;
 
 /// Parts that have run in a replica, by what they depend on.
@@ -16,9 +16,9 @@ pub type Known = HashMap<Vec<u64>, Predictions>;
 
 /// A part of the model with given parameters, as one of several suspensions.
 pub struct Part {
-    /// What its predictions depend on: parts that have the same need to run once. None of one that is like no other.
+    /// The values that its predictions depend on: of parts with the same values one runs. `None`: it always runs.
     pub depends_on: Option<Vec<u64>>,
-    /// A replica: some of the points, each by its place among all.
+    /// The predictions of a replica.
     pub run: Box<dyn Fn(u64) -> Result<Predictions, String> + Send + Sync>,
 }
 

@@ -185,11 +185,10 @@ pub fn rise_to(best: &Best, fixed: &[Option<f64>]) -> f64 {
 pub fn contour(best: &Best, axes: [usize; 2], level: f64) -> Vec<[f64; 2]> {
     const DIRECTIONS: usize = 144;
     let [a, b] = axes;
-    let shown = best.shown(&axes);
     let rise = |point: [f64; 2]| {
         let mut fixed = vec![None; best.place.len()];
         (fixed[a], fixed[b]) = (Some(point[0]), Some(point[1]));
-        shown * Rise::to(best, &fixed, &[&best.place]).beside_noise()
+        rise_to(best, &fixed)
     };
     let spread = best.covariance();
     let (along_a, shared) = (spread[(a, a)].sqrt(), spread[(a, b)] / spread[(a, a)].sqrt());

@@ -2,7 +2,7 @@
 
 use super::Line;
 use crate::judge::accept::{Rule, Verdict};
-use crate::present::plot::power_of_ten;
+use crate::present::markup::powers;
 
 /// A number to three significant digits.
 pub(super) fn number(value: f64) -> String {
@@ -29,10 +29,7 @@ pub(crate) fn digits(value: f64, digits: i32) -> String {
                 let plain = format!("{size:.decimals$}");
                 format!("{sign}{}", trimmed(&plain))
             }
-            exponent => match trimmed(mantissa) {
-                "1" => format!("{sign}{}", power_of_ten(exponent)),
-                mantissa => format!("{sign}{mantissa}·{}", power_of_ten(exponent)),
-            },
+            exponent => format!("{sign}{}", powers(&format!("{}e{exponent}", trimmed(mantissa)))),
         }
     }
 }

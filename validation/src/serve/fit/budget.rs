@@ -2,10 +2,9 @@
 
 use super::search::{Fit, Watch};
 use crate::methods::least_squares::Datum;
-use crate::methods::least_squares::emulator::{Model, Prediction};
+use crate::methods::least_squares::emulator::Model;
 use crate::methods::least_squares::likelihood::CAUSES;
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 use serde::Serialize;
 
 /// One line of the budget.
@@ -55,15 +54,12 @@ pub fn shift(
     let (own, changed) = (own(&values)?, changed(&values)?);
     let replicas = (fit.emulator.replicas() as u64).min(MOST_REPLICAS);
     (watch.stage)(&format!("shift by {change}"));
-    (watch.planned)(replicas);
-    let pair = |replica: u64| {
-        let (before, after): (Vec<Prediction>, _) = (own.run(replica)?, changed.run(replica)?);
-        (watch.done)();
+    let moves: Vec<DVector<f64>> = watch.replicas(replicas, |replica| {
+        let (before, after) = (own.run(replica)?, changed.run(replica)?);
         let difference = before.iter().zip(&after).map(|(before, after)| after[0] - before[0]);
         // The points stay: where the model rises, the estimate goes the other way.
         Ok(-&fit.best.influence * DVector::from_iterator(before.len(), difference))
-    };
-    let moves: Vec<DVector<f64>> = (0..replicas).into_par_iter().map(pair).collect::<Result<_, String>>()?;
+    })?;
     let n = moves.len() as f64;
     let mean = moves.iter().fold(DVector::zeros(fit.sides.len()), |sum, one| sum + one) / n;
     let square = moves

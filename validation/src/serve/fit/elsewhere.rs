@@ -7,7 +7,6 @@ use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::emulator::{Known, Prediction};
 use crate::methods::least_squares::profile::rise_of;
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
 /// Parts of each range at first; a part is halved where the curves change too much over it.
 const PARTS: usize = 16;
@@ -49,7 +48,7 @@ struct Tried {
 pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) -> Result<Vec<String>, String> {
     let values = fit.values(&fit.best.place);
     (watch.stage)("best values");
-    let (own_rows, known) = known(problem, &values, fit.emulator.replicas() as u64, watch)?;
+    let (own_rows, known) = at_best(problem, &values, fit.emulator.replicas() as u64, watch)?;
     let mut warnings = Vec::new();
     for (axis, range) in fit.ranges.iter().enumerate() {
         (watch.stage)(&format!("other minima along {}", range.label()));
@@ -111,24 +110,20 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
     Ok(warnings)
 }
 
-/// Every prediction of the first replicas at the best values, and the parts of the model that ran for it: those that do not depend on
-/// a parameter run once for its whole range.
-fn known(
+/// Predictions of each replica at the best values, and the parts of the model behind them: a part that does not depend on a parameter
+/// need not run again along that parameter's range.
+fn at_best(
     problem: &FitProblem<'_>,
     values: &[f64],
     replicas: u64,
     watch: &Watch<'_>,
 ) -> Result<(Vec<Vec<Prediction>>, Vec<Known>), String> {
     let replica = (problem.model)(values)?;
-    (watch.planned)(replicas);
     let one = |k: u64| {
         let mut known = Known::new();
-        let found = replica.run_beside(k, &mut known);
-        (watch.done)();
-        found.map(|found| (found, known))
+        replica.run_beside(k, &mut known).map(|found| (found, known))
     };
-    let all: Result<Vec<_>, String> = (0..replicas).into_par_iter().map(one).collect();
-    Ok(all?.into_iter().unzip())
+    Ok(watch.replicas(replicas, one)?.into_iter().unzip())
 }
 
 /// A range along which the model is run.
@@ -137,7 +132,7 @@ struct Line<'a> {
     watch: &'a Watch<'a>,
     /// The best ones.
     values: &'a [f64],
-    /// What ran there, of every replica of the fit.
+    /// Parts of the model that ran there, for each replica of the fit.
     known: &'a [Known],
     axis: usize,
     range: &'a Range,
@@ -154,16 +149,11 @@ impl Line<'_> {
         let mut values = self.values.to_vec();
         values[self.axis] = self.range.value(at);
         let replica = (self.problem.model)(&values)?;
-        (self.watch.planned)(replicas as u64);
-        let one = |(k, known): (usize, &Known)| {
-            let found = replica.run_beside(k as u64, &mut known.clone());
-            (self.watch.done)();
-            found
-        };
-        let rows: Result<Vec<_>, String> = self.known[..replicas].par_iter().enumerate().map(one).collect();
-        self.tried(at, &rows?)
+        let one = |k: u64| replica.run_beside(k, &mut self.known[k as usize].clone());
+        self.tried(at, &self.watch.replicas(replicas as u64, one)?)
     }
 
+    /// χ² at a place from these predictions.
     fn tried(&self, at: f64, rows: &[Vec<Prediction>]) -> Result<Tried, String> {
         let (mean, se, covariance) = self.covariance(rows);
         let data = self.problem.measured.data;

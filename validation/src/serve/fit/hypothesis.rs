@@ -1,5 +1,5 @@
-//! Tests of what somebody holds of the fitted keys: a value of one, or that it has one value in two sets. By the likelihood ratio: how
-//! far χ² rises where it is so.
+//! Likelihood-ratio tests of hypotheses about fitted keys: that a key has a given value, or that two sets of points share one value.
+//! The statistic is the rise of χ² from its least to its least under the hypothesis.
 
 use super::range::Range;
 use super::search::Fit;
@@ -20,10 +20,10 @@ const HALVINGS: usize = 18;
 /// Steps of the golden section towards the least χ²: to 4e-4 of a box, of which χ² sees the square.
 const STEPS: usize = 12;
 
-/// Smaller probabilities are not told apart.
+/// The least p-value that is reported.
 pub(super) const LEAST_P: f64 = 1e-6;
 
-/// What is held, as it is given after `--test`.
+/// A hypothesis, as it is given after `--test`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hypothesis {
     text: String,
@@ -35,23 +35,30 @@ pub struct Hypothesis {
 #[derive(Clone, Debug, PartialEq)]
 enum Against {
     Value(f64),
-    /// The label of another.
+    /// The label of another fitted key.
     Key(String),
 }
 
-/// What the points say of a hypothesis.
+/// A hypothesis about parameters of a fit, by their places.
+enum Asked {
+    Value(usize, f64),
+    /// That the difference of two is 0.
+    Difference([usize; 2]),
+}
+
+/// The result of a test.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Tested {
     /// As it is given.
     pub hypothesis: String,
-    /// By how much the least χ² is larger where it holds.
+    /// χ² at its least under the hypothesis, less χ² at its least.
     pub rise_of_chi2: f64,
-    /// Whether it holds nowhere in the box that was searched at last: the rise is that at the box's edge, and p at most that there.
+    /// True if the hypothesis lies outside the last box of the search: then the rise is at least, and p at most, what is given here.
     pub beyond_the_box: bool,
-    /// The probability of a larger rise if it holds, by χ² of one degree of freedom; 10⁻⁶ where it is less, as no simulation has
-    /// looked farther.
+    /// The probability of a larger rise under the hypothesis, by χ² of one degree of freedom; never below 10⁻⁶, as smaller ones were not
+    /// tried by simulation.
     pub p_value: f64,
-    /// Of two keys: the first less the second.
+    /// The first value less the second, where two keys are compared.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub difference: Option<Difference>,
 }
@@ -69,16 +76,16 @@ pub struct Difference {
     pub low_95: f64,
     /// Its upper end.
     pub high_95: f64,
-    /// Whether the 95 % interval ends where a key is at an edge of the box, below and above: the points may allow more.
+    /// True where an end of the 95 % interval, lower and upper, is set by an edge of the box: the points may allow more.
     pub ends_at_edge: [bool; 2],
 }
 
 impl Hypothesis {
-    /// Reads what stands after `--test`.
+    /// Reads the argument of `--test`.
     ///
     /// # Errors
     ///
-    /// What is allowed.
+    /// A text of another form, with the forms that are allowed.
     pub fn parse(text: &str) -> Result<Self, String> {
         const SHAPE: &str = "KEY=VALUE is allowed, as interaction.alpha=1, and SET:KEY=OTHER:KEY for two sets with a value each";
         let (key, other) =
@@ -102,70 +109,69 @@ impl Hypothesis {
         &self.text
     }
 
-    /// The places among the fitted keys of those that it is about.
-    fn axes(&self, ranges: &[Range]) -> Result<Vec<usize>, String> {
-        let place = |label: &String| {
+    /// The places of its keys among the fitted ones.
+    fn asked(&self, ranges: &[Range]) -> Result<Asked, String> {
+        let axis = |label: &String| {
             let found = ranges.iter().position(|range| range.label() == *label);
             found.ok_or_else(|| {
                 let all: Vec<_> = ranges.iter().map(Range::label).collect();
                 format!("--test {}: {label} is not fitted; --over has {}", self.text, all.join(", "))
             })
         };
-        let other = match &self.against {
-            Against::Value(_) => None,
-            Against::Key(label) => Some(label),
-        };
-        std::iter::once(&self.key).chain(other).map(place).collect()
-    }
-
-    /// Refuses a key that is not fitted, and a value outside its range.
-    ///
-    /// # Errors
-    ///
-    /// What is wrong, and what is allowed.
-    pub fn check(&self, ranges: &[Range]) -> Result<(), String> {
-        let axes = self.axes(ranges)?;
-        match self.against {
-            Against::Value(value) if !(ranges[axes[0]].from..=ranges[axes[0]].to).contains(&value) => {
-                let Range { from, to, .. } = ranges[axes[0]];
-                Err(format!("--test {}: {value} is outside the range of --over, {from} to {to}", self.text))
+        let own = axis(&self.key)?;
+        match &self.against {
+            Against::Value(value) => {
+                let Range { from, to, .. } = ranges[own];
+                match (from..=to).contains(value) {
+                    true => Ok(Asked::Value(own, *value)),
+                    false => Err(format!(
+                        "--test {}: {value} is outside the range of --over, {from} to {to}",
+                        self.text
+                    )),
+                }
             }
-            Against::Key(_) => {
-                let [a, b] = [&ranges[axes[0]], &ranges[axes[1]]];
+            Against::Key(label) => {
+                let axes = [own, axis(label)?];
+                let [a, b] = axes.map(|axis| &ranges[axis]);
                 match a.from.max(b.from) <= a.to.min(b.to) {
-                    true => Ok(()),
+                    true => Ok(Asked::Difference(axes)),
                     false => Err(format!(
                         "--test {}: the ranges of --over, {} to {} and {} to {}, have no value in common",
                         self.text, a.from, a.to, b.from, b.to
                     )),
                 }
             }
-            Against::Value(_) => Ok(()),
         }
     }
 
-    /// What the points say of it.
+    /// Checks it against the fitted keys and their ranges.
+    ///
+    /// # Errors
+    ///
+    /// A key that is not fitted, a value outside its range, or two ranges without a common value.
+    pub fn check(&self, ranges: &[Range]) -> Result<(), String> {
+        self.asked(ranges).map(|_| ())
+    }
+
+    /// The likelihood-ratio test.
     ///
     /// # Errors
     ///
     /// Those of [`Hypothesis::check`].
     pub fn test(&self, fit: &Fit) -> Result<Tested, String> {
-        self.check(&fit.ranges)?;
-        let axes = self.axes(&fit.ranges)?;
-        let mut difference = None;
-        let (rise, beyond_the_box) = match self.against {
-            Against::Value(value) => {
-                let place = fit.place(axes[0], value);
+        let (rise, beyond_the_box, difference) = match self.asked(&fit.ranges)? {
+            Asked::Value(axis, value) => {
+                let place = fit.place(axis, value);
                 let mut fixed = vec![None; fit.ranges.len()];
-                fixed[axes[0]] = Some(place.clamp(-1.0, 1.0));
+                fixed[axis] = Some(place.clamp(-1.0, 1.0));
                 // The value of the box's edge differs from the edge by rounding.
-                (rise_to(&fit.best, &fixed), place.abs() > 1.0 + 1e-9)
+                (rise_to(&fit.best, &fixed), place.abs() > 1.0 + 1e-9, None)
             }
-            Against::Key(_) => {
-                let tied = Tied { fit, axes: [axes[0], axes[1]] };
-                difference = Some(tied.difference());
+            Asked::Difference(axes) => {
+                let tied = Tied { fit, axes };
                 let (low, high) = tied.ends();
-                (tied.rise(0.0_f64.clamp(low, high)).0, !(low..=high).contains(&0.0))
+                let rise = tied.rise(0.0_f64.clamp(low, high)).0;
+                (rise, !(low..=high).contains(&0.0), Some(tied.difference()))
             }
         };
         let p = ChiSquared::new(1.0).map_or(f64::NAN, |law| law.sf(rise));

@@ -8,7 +8,6 @@ use crate::methods::least_squares::emulator::Model;
 use crate::methods::least_squares::likelihood::REPLICAS;
 use crate::methods::least_squares::profile::{contour, rise_of_several};
 use crate::present::plot::{Curve, Figure, Points, names as letters};
-use rayon::prelude::*;
 
 /// Times of a drawn curve.
 const TIMES: usize = 200;
@@ -35,13 +34,7 @@ type Mean = Vec<(f64, f64)>;
 
 fn mean(model: &Model<'_>, values: &[f64], replicas: u64, watch: &Watch<'_>) -> Result<Mean, String> {
     let replica = model(values)?;
-    (watch.planned)(replicas);
-    let one = |k: u64| {
-        let found = replica.run(k);
-        (watch.done)();
-        found
-    };
-    let rows: Vec<_> = (0..replicas).into_par_iter().map(one).collect::<Result<_, String>>()?;
+    let rows = watch.replicas(replicas, |k| replica.run(k))?;
     let n = rows.len() as f64;
     let of = |place: usize| {
         let mean = rows.iter().map(|row| row[place][0]).sum::<f64>() / n;

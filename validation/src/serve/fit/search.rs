@@ -9,6 +9,7 @@ use crate::methods::least_squares::emulator::{Coefficients, Emulator, Model, Sid
 use crate::methods::least_squares::likelihood::REPLICAS;
 use crate::methods::least_squares::profile::{Interval, Profile, interval, profile, rise_of};
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
 /// Replicas of the first runs, which only say where to look closer.
 pub const FIRST_REPLICAS: u64 = 50;
@@ -58,7 +59,7 @@ pub struct FitProblem<'a> {
 
 /// Told of the runs that are to come, and of each that is done.
 pub struct Watch<'a> {
-    /// A part of the work begins.
+    /// Called with the name of each part of the work as it begins.
     pub stage: &'a (dyn Fn(&str) + Sync),
     /// So many more runs.
     pub planned: &'a (dyn Fn(u64) + Sync),
@@ -69,6 +70,25 @@ pub struct Watch<'a> {
 impl Watch<'_> {
     /// Nobody is told.
     pub const SILENT: Self = Self { stage: &|_| (), planned: &|_| (), done: &|| () };
+
+    /// The results of replicas from 0 on, in their order on any number of threads.
+    ///
+    /// # Errors
+    ///
+    /// The error of a replica that fails.
+    pub(super) fn replicas<T: Send>(
+        &self,
+        count: u64,
+        one: impl Fn(u64) -> Result<T, String> + Sync,
+    ) -> Result<Vec<T>, String> {
+        (self.planned)(count);
+        let watched = |replica: u64| {
+            let found = one(replica);
+            (self.done)();
+            found
+        };
+        (0..count).into_par_iter().map(watched).collect()
+    }
 }
 
 /// A fit.

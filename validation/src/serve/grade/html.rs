@@ -1,11 +1,10 @@
 //! The report as one HTML file with its pictures, which needs nothing else.
 
-use super::report::{missing, tables, words};
+use super::report::{BUILT_IN, COLUMNS, Column, NOTHING, missing, tables, words};
 use super::{Graded, Report, Verdict};
 use crate::files::text::readable;
 use crate::present::report::{digits, typeset};
 use crate::present::table::ReportTable;
-use crate::serve::problems::Origin;
 use minijinja::value::Serde;
 use minijinja::{Environment, UndefinedBehavior, Value};
 use serde::Serialize;
@@ -35,45 +34,16 @@ struct ProblemRow<'a> {
     word: &'static str,
     class: &'static str,
     name: &'a str,
-    /// What the shown columns have.
+    /// One for each column that is shown.
     cells: Vec<String>,
     said: Vec<&'a str>,
-}
-
-/// A column beside verdict and name.
-#[derive(Clone, Copy, Serialize)]
-struct Column {
-    title: &'static str,
-    numeric: bool,
-    #[serde(skip)]
-    of: fn(&Graded) -> String,
-}
-
-const COLUMNS: [Column; 8] = [
-    Column { title: "reference", numeric: false, of: |graded| foreign(graded).into() },
-    Column { title: "error", numeric: true, of: |graded| shown(graded.error) },
-    Column { title: "tolerance", numeric: true, of: |graded| shown(Some(graded.tolerance)) },
-    Column { title: "order", numeric: true, of: Graded::order_text },
-    Column { title: "setting", numeric: false, of: Graded::setting_text },
-    Column { title: "|p| off by", numeric: true, of: |graded| shown(graded.length_drift) },
-    Column { title: "C_b drift", numeric: true, of: |graded| shown(graded.orbit_drift) },
-    Column { title: "phase lost a period", numeric: true, of: |graded| shown(graded.phase_lost_per_period) },
-];
-
-const NOTHING: &str = "–";
-
-fn foreign(graded: &Graded) -> &'static str {
-    match graded.reference {
-        Origin::BuiltIn => NOTHING,
-        Origin::Foreign => "FOREIGN",
-    }
 }
 
 fn shown(number: Option<f64>) -> String {
     number.map_or(NOTHING.into(), |number| digits(number, 2))
 }
 
-/// The reason for the tolerances of some problems.
+/// A reason for a tolerance, and the problems that have it.
 #[derive(Serialize)]
 struct Reason<'a> {
     text: &'a str,
@@ -98,9 +68,10 @@ pub fn html(report: &Report, good: bool, pictures: &[&str]) -> Result<String, St
     environment.add_filter("prose", |text: &str| Value::from_safe_string(typeset(text)));
     let mut answered: Vec<&Graded> =
         report.problems.iter().filter(|g| g.verdict != Verdict::Missing).collect();
-    // What needs a look comes first.
+    // Failures first.
     answered.sort_by_key(|graded| graded.verdict == Verdict::Pass);
-    let said = |column: &Column| answered.iter().any(|graded| (column.of)(graded) != NOTHING);
+    let says = |cell: String| ![NOTHING, BUILT_IN].contains(&&cell[..]);
+    let said = |column: &Column| answered.iter().any(|graded| says((column.of)(graded, shown)));
     let columns: Vec<Column> = COLUMNS.into_iter().filter(said).collect();
     let page = Page {
         style: include_str!("../../present/report/report.css"),
@@ -137,7 +108,7 @@ fn row<'a>(graded: &'a Graded, columns: &[Column]) -> ProblemRow<'a> {
             Verdict::NotReached => "underpowered",
         },
         name: &graded.name,
-        cells: columns.iter().map(|column| (column.of)(graded)).collect(),
+        cells: columns.iter().map(|column| (column.of)(graded, shown)).collect(),
         said: words(graded),
     }
 }

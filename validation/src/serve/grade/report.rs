@@ -92,49 +92,63 @@ pub fn json(report: &Report) -> Result<String, String> {
 
 /// A number with two digits.
 fn number(value: Option<f64>) -> String {
-    value.map_or("–".into(), |value| format!("{value:.1e}"))
+    value.map_or(NOTHING.into(), |value| format!("{value:.1e}"))
 }
 
 /// Whose problem it is, in a word.
 fn origin(graded: &Graded) -> &'static str {
     match graded.reference {
-        Origin::BuiltIn => "built-in",
+        Origin::BuiltIn => BUILT_IN,
         Origin::Foreign => "FOREIGN",
     }
 }
 
-/// The verdicts as a table, without what is missing.
+/// How a number is written, or its absence.
+type Format = fn(Option<f64>) -> String;
+
+/// A column of the table of verdicts, after the verdict and the problem's name.
+#[derive(Clone, Copy, Serialize)]
+pub(super) struct Column {
+    title: &'static str,
+    numeric: bool,
+    /// A problem's cell, with numbers in a format.
+    #[serde(skip)]
+    pub(super) of: fn(&Graded, Format) -> String,
+}
+
+/// A cell without a value.
+pub(super) const NOTHING: &str = "–";
+/// The reference of a problem of this program.
+pub(super) const BUILT_IN: &str = "built-in";
+
+pub(super) const COLUMNS: [Column; 8] = [
+    Column { title: "reference", numeric: false, of: |graded, _| origin(graded).into() },
+    Column { title: "error", numeric: true, of: |graded, number| number(graded.error) },
+    Column { title: "tolerance", numeric: true, of: |graded, number| number(Some(graded.tolerance)) },
+    Column { title: "order", numeric: true, of: |graded, _| graded.order_text() },
+    Column { title: "setting", numeric: false, of: |graded, _| graded.setting_text() },
+    Column { title: "|p| off by", numeric: true, of: |graded, number| number(graded.length_drift) },
+    Column { title: "C_b drift", numeric: true, of: |graded, number| number(graded.orbit_drift) },
+    Column {
+        title: "phase lost/period",
+        numeric: true,
+        of: |graded, number| number(graded.phase_lost_per_period),
+    },
+];
+
+/// The table of verdicts, without problems that have no answer.
 fn verdicts(report: &Report) -> ReportTable {
     let row = |graded: &Graded| {
-        vec![
-            graded.verdict.word().to_owned(),
-            graded.name.clone(),
-            origin(graded).to_owned(),
-            number(graded.error),
-            number(Some(graded.tolerance)),
-            graded.order_text(),
-            graded.setting_text(),
-            number(graded.length_drift),
-            number(graded.orbit_drift),
-            number(graded.phase_lost_per_period),
-        ]
+        let cells = COLUMNS.iter().map(|column| (column.of)(graded, number));
+        [graded.verdict.word().to_owned(), graded.name.clone()].into_iter().chain(cells).collect()
     };
+    let titles: Vec<_> =
+        ["verdict", "problem"].into_iter().chain(COLUMNS.map(|column| column.title)).collect();
     of_words(
         "grade",
         &format!("{} on {}", report.answers, report.reference),
         &format!("{}.", report.headline()),
-        &[
-            "verdict",
-            "problem",
-            "reference",
-            "error",
-            "tolerance",
-            "order",
-            "setting",
-            "|p| off by",
-            "C_b drift",
-            "phase lost/period",
-        ],
+        &titles,
         report.problems.iter().filter(|graded| graded.verdict != Verdict::Missing).map(row).collect(),
     )
 }
