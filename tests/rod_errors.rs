@@ -2,8 +2,7 @@
 
 use shearbed::observable::{Block, Observable, Sum};
 use shearbed::run::ensemble;
-use shearbed::scene::Time;
-use shearbed::scene::{Orientation, Scene};
+use shearbed::scene::{Interaction, Orientation, Scene, Time};
 use shearbed::suspension::snapshot::Snapshot;
 use shearbed::{Plan, Results};
 
@@ -43,6 +42,10 @@ fn hardly_apart() -> Scene {
     scene.particles.count = 500;
     scene.particles.aspect_ratio_sd_percent = 3.6;
     scene.particles.orientation = alike([20.0, 60.0]);
+    // The stress counts in 1 Pa, as that of a block by itself.
+    let interaction = Interaction { alpha: 0.0, concentration_per_cm3: Some(50.0), ..Interaction::default() };
+    scene.interaction = Some(interaction);
+    scene.liquid.viscosity_pa_s = Some(1.0 / (0.5 * 50.0 * 0.072 * 0.072 * 0.072));
     scene.output.observables = Observable::ALL.to_vec();
     scene.output.rods_at = vec![1e-6, 2e-6];
     scene

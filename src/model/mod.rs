@@ -12,6 +12,7 @@ pub mod orientation;
 pub mod phase;
 pub mod random;
 pub mod shape;
+pub mod stress;
 pub mod volume;
 pub(crate) mod widest;
 pub mod work;

@@ -12,6 +12,7 @@ mod particle_stress;
 mod planar_projections;
 mod projections;
 mod registry;
+mod stress;
 mod sum;
 #[cfg(test)]
 mod tests;
@@ -20,6 +21,7 @@ pub use channel::Channel;
 pub use registry::Observable;
 pub use sum::{Spread, Sum};
 
+use crate::model::stress::Body;
 use crate::model::widest::widest;
 
 /// Rods handled at a time: their directions stay in the first cache while every observable reads them.
@@ -41,13 +43,24 @@ pub struct Block {
     pub aspect_ratio: [f64; BLOCK],
     /// Of each rod in a stress: its cubed length over the mean cubed length of the suspension's rods.
     pub weight: [f64; BLOCK],
+    /// What every rod is, for its stress.
+    pub body: Body,
+    /// μ G n⟨a³⟩ in Pa, where the scene has a viscosity and a concentration.
+    pub stress_pa: f64,
     /// How many rods are in the block.
     pub len: usize,
 }
 
 impl Default for Block {
     fn default() -> Self {
-        Self { p: [[0.0; BLOCK]; 3], aspect_ratio: [1.0; BLOCK], weight: [1.0; BLOCK], len: 0 }
+        Self {
+            p: [[0.0; BLOCK]; 3],
+            aspect_ratio: [1.0; BLOCK],
+            weight: [1.0; BLOCK],
+            body: Body::Spheroid,
+            stress_pa: 1.0,
+            len: 0,
+        }
     }
 }
 
@@ -126,6 +139,11 @@ pub trait Observe: Sync {
 
     /// True if its formula holds in plane Couette flow u_2 = G x_1 alone.
     fn needs_couette(&self) -> bool {
+        false
+    }
+
+    /// True if it needs the liquid's viscosity and the rods' concentration.
+    fn needs_viscosity(&self) -> bool {
         false
     }
 

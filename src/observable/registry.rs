@@ -52,6 +52,8 @@ observables! {
     OrientationTensor4: orientation_tensor_4,
     /// What dilute slender rods add to the stress in plane Couette flow.
     ParticleStress: particle_stress,
+    /// What dilute rods of their own shape add to the stress in plane Couette flow, in Pa.
+    Stress: stress,
 }
 
 impl Observable {

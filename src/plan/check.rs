@@ -54,9 +54,19 @@ pub(super) fn closed_form(scene: &Scene, flow: &VelocityGradient) -> bool {
     flow.shear_rate_per_s().is_some() && scene.time.unit == TimeUnit::Period
 }
 
-/// Orbit constants (eq. 13), shear stress and normal stress differences are those of plane Couette flow along the axes.
+/// Stresses in Pa need a viscosity and a concentration. Orbit constants (eq. 13), shear stress and normal stress differences are those of plane Couette flow along the axes.
 fn check_observed(scene: &Scene, flow: &VelocityGradient) -> Result<(), Invalid> {
     let observables = &scene.output.observables;
+    if let Some(asked) = observables.iter().find(|o| o.needs_viscosity()) {
+        let needs = format!("give it, for {} is in Pa", asked.name());
+        if scene.liquid.viscosity_pa_s.is_none() {
+            return Err(Invalid::missing("liquid.viscosity_pa_s", &needs));
+        }
+        if scene.interaction.is_none() {
+            let needs = format!("{needs} (with alpha = 0 for rods that do not collide)");
+            return Err(Invalid::missing("interaction.concentration_per_cm3", &needs));
+        }
+    }
     let asked = observables.iter().find(|o| o.needs_couette());
     let other_flow = flow.shear_rate_per_s().is_none() || scene.flow.steps().is_some();
     let Some(asked) = asked.filter(|_| other_flow) else {

@@ -158,7 +158,7 @@ impl Plan {
         (self.keeps(Stage::Observe(Observable::ParticleStress)) && r < SLENDER).then(|| {
             format!(
                 "{}: particle_stress is the limit of slender rods, r_e ≫ 1. Below {SLENDER} the terms that it leaves out are not \
-                 small (docs/src/theory/coefficients.md)",
+                 small; the observable \"stress\" has them (docs/src/theory/coefficients.md)",
                 self.mean_and_its_key()
             )
         })

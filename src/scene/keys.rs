@@ -4,7 +4,7 @@ mod field;
 
 pub(super) use field::Field;
 
-use super::{Ensemble, FlowKeys, Interaction, Invalid, Output, Particles, TimeKeys};
+use super::{Ensemble, FlowKeys, Interaction, Invalid, Liquid, Output, Particles, TimeKeys};
 use crate::observable::Observable;
 
 /// A table of a scene file, or one of its keys.
@@ -260,8 +260,9 @@ pub(super) const TITLE: Key = Key {
 
 /// The tables of a scene.
 #[rustfmt::skip]
-pub const TABLES: [Table; 6] = [
+pub const TABLES: [Table; 7] = [
     of("flow", "the imposed velocity gradient", "a table [flow] with shear_rate_per_s, gradient_per_s or steps", Required, FlowKeys::KEYS),
+    of("liquid", "the liquid", "a table [liquid]", Other("its keys' defaults"), Liquid::KEYS),
     of("particles", "the rods", "a table [particles] with count, length_mm, aspect_ratio and orientation", Required, Particles::KEYS),
     of("interaction", "how rods meet", "a table [interaction] with concentration_per_cm3 or box_mm, and alpha, or none for free rods", Other("free rods"), Interaction::KEYS),
     of("time", "how long, and how finely", "a table [time] with periods or strain", Required, TimeKeys::KEYS),

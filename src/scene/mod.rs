@@ -49,6 +49,9 @@ pub struct Scene {
     pub title: String,
     /// The imposed velocity gradient.
     pub flow: Flow,
+    /// The liquid.
+    #[serde(skip_serializing_if = "Liquid::is_default")]
+    pub liquid: Liquid,
     /// The rods.
     pub particles: Particles,
     /// How rods interact; without it they are free.
@@ -67,6 +70,28 @@ impl<'de> Deserialize<'de> for Scene {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let document = document::Document::of(toml::Table::deserialize(deserializer)?);
         of_document(&document).map_err(|error| serde::de::Error::custom(error.messages().join("; ")))
+    }
+}
+
+table! {
+    /// `[liquid]`.
+    ///
+    /// ```
+    /// use shearbed::scene::{Interaction, Liquid, Output, Scene};
+    /// let liquid = Liquid { viscosity_pa_s: Some(10.0) };
+    /// let output = Output { observables: vec![shearbed::Observable::Stress], ..Output::default() };
+    /// let scene = Scene { liquid, output, interaction: Some(Interaction::default()), ..Scene::default() };
+    /// assert!(shearbed::Plan::new(&scene).is_ok());
+    /// ```
+    pub struct Liquid in "liquid" {
+        viscosity_pa_s: Option<f64> = None, "Pa s", Holds::Positive, Other("no stress in Pa"),
+            "μ of the liquid, for the stress in Pa";
+    }
+}
+
+impl Liquid {
+    fn is_default(&self) -> bool {
+        *self == Self::default()
     }
 }
 
@@ -168,6 +193,7 @@ impl Default for Scene {
         Self {
             title: "Rods of Fig. 6".to_owned(),
             flow: Flow::default(),
+            liquid: Liquid::default(),
             particles: Particles::default(),
             interaction: None,
             time: Time::default(),
@@ -213,6 +239,12 @@ impl Scene {
         self.particles.count = count;
     }
 
+    /// μ G n⟨a³⟩ in Pa of plane Couette flow, where the viscosity and the concentration are given: what rods' stresses count in.
+    pub(crate) fn stress_pa(&self) -> Option<f64> {
+        let cubes = self.concentration()? * self.particles.mean_cube();
+        Some(self.liquid.viscosity_pa_s? * self.flow.gradient()?.shear_rate_per_s()? * cubes)
+    }
+
     /// n a³, rods per cubed mean rod length.
     pub(crate) fn concentration(&self) -> Option<f64> {
         Some(self.concentration_per_cm3()? * (self.particles.length_mm / 10.0).powi(3))
@@ -247,6 +279,7 @@ impl Scene {
     pub(crate) fn out_of_range(&self) -> Vec<Invalid> {
         let mut wrong = Vec::new();
         FlowKeys::from(self.flow.clone()).check(&mut wrong);
+        self.liquid.check(&mut wrong);
         self.particles.check(&mut wrong);
         if self.particles.physical_aspect_ratio.is_some() {
             // What a correlation makes of it is checked with the correlation.

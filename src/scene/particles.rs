@@ -5,6 +5,7 @@ use super::keys::{
 };
 use super::read::Reader;
 use crate::model::shape::{ALLOWED, Correlation};
+use crate::model::stress::Body;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -58,6 +59,7 @@ impl Particles {
         }
         Some(particles)
     }
+
     /// ⟨a³⟩ over the cube of `length_mm`: of the rods of a file, or 1 + 3σ² of Gaussian lengths.
     pub fn mean_cube(&self) -> f64 {
         match self.own().and_then(|own| own.length_mm.as_ref()) {
@@ -66,6 +68,14 @@ impl Particles {
                 cubes.sum::<f64>() / own.len() as f64
             }
             None => 1.0 + 3.0 * (self.length_sd_percent / 100.0).powi(2),
+        }
+    }
+
+    /// A cylinder where its length over diameter is given, else a spheroid.
+    pub(crate) fn body(&self) -> Body {
+        match self.physical_aspect_ratio {
+            Some(aspect_ratio) => Body::Cylinder { aspect_ratio },
+            None => Body::Spheroid,
         }
     }
 

@@ -5,7 +5,7 @@ mod tests;
 
 use super::document::{self, Document, shortened};
 use super::keys::{Field, Key, TABLES, TITLE, find};
-use super::{Absent, Ensemble, Error, Flow, Interaction, Output, Particles, Scene, Time, keys};
+use super::{Absent, Ensemble, Error, Flow, Interaction, Liquid, Output, Particles, Scene, Time, keys};
 
 /// A byte of the text, and what is wrong there.
 type Mistake = (Option<usize>, String);
@@ -42,6 +42,7 @@ pub fn of_document(document: &Document) -> Result<Scene, Error> {
     let mut reader = Reader { table: root.clone(), meant: &meant, wrong: &mut wrong };
     let title = reader.key(TITLE.path, String::new());
     let flow = reader.table("flow", Flow::read);
+    let liquid = reader.table("liquid", Liquid::read_keys);
     let particles = reader.table("particles", Particles::read);
     let interaction = reader.table("interaction", |reader| Interaction::read_keys(reader).map(Some));
     let time = reader.table("time", Time::read);
@@ -51,6 +52,7 @@ pub fn of_document(document: &Document) -> Result<Scene, Error> {
         Some(Scene {
             title: title?,
             flow: flow?,
+            liquid: liquid?,
             particles: particles?,
             interaction: interaction?,
             time: time?,

@@ -6,6 +6,7 @@ mod draw;
 use crate::model::chunks::{CHUNK, over_chunks};
 use crate::model::jeffery::strain_per_period;
 use crate::model::phase::{Phase, nearest_whole};
+use crate::model::stress::Body;
 use crate::model::work::Counters;
 use crate::motion::{Propagator, couette};
 use crate::observable::fault::Fault;
@@ -30,6 +31,9 @@ pub(crate) struct Rods {
     lengths: Vec<f64>,
     /// One over the mean of their cubes.
     per_cube: f64,
+    body: Body,
+    /// μ G n⟨a³⟩ in Pa; 1 where nothing asks.
+    stress_pa: f64,
     motion: Motion,
 }
 
@@ -63,6 +67,8 @@ impl Rods {
             shapes,
             per_cube: lengths.len() as f64 / lengths.iter().map(|length| length.powi(3)).sum::<f64>(),
             lengths,
+            body: plan.scene().particles.body(),
+            stress_pa: plan.scene().stress_pa().unwrap_or(1.0),
             motion,
         };
         let counters = Counters { aspect_ratios_redrawn, lengths_redrawn, ..Counters::default() };
@@ -154,9 +160,10 @@ impl Rods {
         });
     }
 
-    /// Sets the length, aspect ratios and weights of `block` to those of the rods from `first` on, at most [`BLOCK`].
+    /// Sets the length, aspect ratios, weights and stress of `block` to those of the rods from `first` on, at most [`BLOCK`].
     pub fn select(&self, first: usize, block: &mut Block) {
         block.len = BLOCK.min(self.count() - first);
+        (block.body, block.stress_pa) = (self.body, self.stress_pa);
         let rods = first..first + block.len;
         match &self.shapes {
             Shapes::Shared(r) => block.aspect_ratio[..block.len].fill(*r),

@@ -244,6 +244,10 @@ const OTHER_MISTAKES: &[(&str, &str, &str, &str)] = &[
      "10: time.strain = 2 is not allowed: this flow has no strain rate: give periods"),
     (EXTENSION, "outputs_per_strain = 10", "outputs_per_strain = 10\n[output]\nobservables = [\"particle_stress\"]",
      "13: output.observables = [\"particle_stress\"] is not allowed: particle_stress needs plane Couette flow"),
+    (INTERACTING, "[\"projections\"]", "[\"projections\", \"stress\"]",
+     "1: liquid.viscosity_pa_s is missing: give it, for stress is in Pa"),
+    (INTERACTING, "[particles]", "[liquid]\nviscosity_pa_s = 0\n[particles]",
+     "5: liquid.viscosity_pa_s = 0 is not allowed: a finite number > 0"),
     (EXTENSION, "outputs_per_strain = 10", "outputs_per_strain = 10\n[output]\nobservables = [\"orbit_constant\"]",
      "13: output.observables = [\"orbit_constant\"] is not allowed: orbit_constant needs plane Couette flow"),
     // The same shear in other axes, in which eq. 13 holds no more.

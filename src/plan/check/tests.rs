@@ -38,6 +38,17 @@ fn an_aspect_ratio_beside_a_cylinder_is_the_one_that_its_formula_makes() {
     assert!(refusal(&scene).contains(&format!("Cox 1971 makes {made}")), "{}", refusal(&scene));
 }
 
+#[test]
+fn a_stress_in_pa_needs_a_viscosity_and_a_concentration() {
+    let mut scene = Scene::default();
+    scene.output.observables = vec![crate::Observable::Stress];
+    assert!(refusal(&scene).contains("liquid.viscosity_pa_s"), "{}", refusal(&scene));
+    scene.liquid.viscosity_pa_s = Some(2.0);
+    assert!(refusal(&scene).contains("interaction.concentration_per_cm3"), "{}", refusal(&scene));
+    scene.interaction = Some(Interaction { alpha: 0.0, ..Interaction::default() });
+    assert!(crate::Plan::new(&scene).is_ok());
+}
+
 /// Two rods in 2 cm³: H = 12.6 mm.
 #[test]
 fn rods_that_cannot_be_are_refused_by_number() {

@@ -40,11 +40,24 @@ fn integrals(r: f64) -> [f64; 4] {
     ]
 }
 
+/// [`stress_coefficients`] over those of a volume: of σ/(μ n a³), with n spheroids of length a per volume.
+pub fn by_number(r: f64) -> [f64; 3] {
+    // 2φ/(na³), with φ = πna³/(6r²).
+    stress_coefficients(r).map(|k| PI / (3.0 * r * r) * k)
+}
+
+/// The same of blunt cylinders of length over diameter r. Along them, a slender body's π/(6 ln 2r) times Batchelor's series in 1/ln 2r (1970b,
+/// as others quote it); across them 4φD, that of an endless cylinder, with φ = πna³/(4r²).
+pub fn of_cylinder(r: f64) -> [f64; 3] {
+    let log = r.ln() + 2f64.ln();
+    let series = (log + 0.64) / (log - 1.5) + 1.659 / (log * log);
+    [series * 2.0 * PI / log / 12.0, 0.0, 4.0 * PI / (4.0 * r * r)]
+}
+
 /// σ₁₂/(μG n a³) of spheroids of length a and aspect ratio r in plane Couette flow, from ⟨p₁²p₂²⟩ and ⟨p₁²⟩ + ⟨p₂²⟩.
 pub fn shear_stress(r: f64, sheared: f64, in_plane: f64) -> f64 {
-    let [a, b, c] = stress_coefficients(r);
-    // φ = πna³/(6r²).
-    PI / (6.0 * r * r) * (2.0 * a * sheared + b * in_plane + c)
+    let [a, b, c] = by_number(r);
+    a * sheared + 0.5 * (b * in_plane + c)
 }
 
 #[cfg(test)]

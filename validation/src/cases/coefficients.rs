@@ -4,10 +4,11 @@ use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{self, Change};
 use crate::judge::statistics::{Sample, worst};
-use crate::oracle::moments;
+use crate::oracle::{moments, spheroid};
 use shearbed::Observable;
+use shearbed::model::shape::Correlation;
 use shearbed::observable::Channel;
-use shearbed::scene::Scene;
+use shearbed::scene::{Particles, Scene};
 
 pub fn cases() -> Vec<Case> {
     let right = Read { change: |_| {}, place: |k| k };
@@ -43,6 +44,26 @@ pub fn cases() -> Vec<Case> {
             .mistake("D counted twice", |stress| stress.map(|s| 2.0 * s))
             .mistake("N₁ and N₂ exchanged", |[s12, n1, n2]| [s12, n2, n1])
             .check(particle_stress),
+        Case::core("stress-in-pascals")
+            .claim(
+                "The rods' stress in Pa is that of the same run's ⟨pp⟩ and ⟨pppp⟩, with the coefficients of spheroids of r_e by \
+                 Jeffery's integrals, or of cylinders of r by Batchelor's series.",
+            )
+            .source("Jeffery 1922; Leal & Hinch 1971; Batchelor 1970; docs/src/theory/coefficients.md")
+            .subject(Pascals { change: |_| {}, stress: |stress| stress })
+            .mistake("viscosity in poise", Pascals {
+                change: |scene| scene.liquid.viscosity_pa_s = scene.liquid.viscosity_pa_s.map(|mu| 10.0 * mu),
+                stress: |stress| stress,
+            })
+            .mistake("cylinders taken for spheroids of their r_e", Pascals {
+                change: |Scene { particles, .. }| {
+                    (particles.physical_aspect_ratio, particles.shape_correlation) = (None, None);
+                },
+                stress: |stress| stress,
+            })
+            .mistake("N₁ as gradient less flow", Pascals { change: |_| {}, stress: |[s12, n1, n2]| [s12, -n1, n2] })
+            .mistake("N₁ and N₂ exchanged", Pascals { change: |_| {}, stress: |[s12, n1, n2]| [s12, n2, n1] })
+            .check(stress_in_pascals),
     ]
 }
 
@@ -181,4 +202,58 @@ fn particle_stress(stress: &Stress, effort: &Effort) -> Vec<Evidence> {
         }
     }
     evidence
+}
+
+/// A scene's change, and what is made of σ₁₂, N₁ and N₂.
+#[derive(Clone, Copy)]
+struct Pascals {
+    change: Change,
+    stress: Stress,
+}
+
+fn stress_in_pascals(subject: &Pascals, effort: &Effort) -> Vec<Evidence> {
+    // μ G n a³ of 50 rods of 0.72 mm per cm³ at G = 0.5 1/s in a liquid of 20 Pa s.
+    let unit = 20.0 * 0.5 * 50.0 * 0.072f64.powi(3);
+    let of_shape = |name: &str, cylinder: Option<f64>, k: [f64; 3]| {
+        let mut scene = lab::interacting_scene(effort);
+        scene.particles = Particles {
+            count: 50,
+            // By the formula of Zhang et al. a cylinder of r = 10 turns as a spheroid of 7.612.
+            aspect_ratio: if cylinder.is_some() { 7.612 } else { 3.0 },
+            physical_aspect_ratio: cylinder,
+            shape_correlation: cylinder.map(|_| Correlation::Zhang),
+            ..Particles::default()
+        };
+        scene.liquid.viscosity_pa_s = Some(20.0);
+        scene.output.observables =
+            vec![Observable::OrientationTensor, Observable::OrientationTensor4, Observable::Stress];
+        (subject.change)(&mut scene);
+        let off = lab::per_replica(&scene, 1, |mean| {
+            worst((0..=50).map(|output| {
+                let named =
+                    |name: &str| Channel::named(name).map_or(f64::NAN, |channel| mean(channel, output));
+                let [a, b, c] = k.map(|k| unit * k);
+                let s12 = a * named("a1122") + 0.5 * (b * (named("a11") + named("a22")) + c);
+                let n1 = a * (named("a1222") - named("a1112"));
+                let n2 = a * (named("a1112") - named("a1233")) + b * named("a12");
+                let found = (subject.stress)(["s12_pa", "n1_pa", "n2_pa"].map(named));
+                worst(
+                    [s12, n1, n2]
+                        .into_iter()
+                        .zip(found)
+                        .map(|(expected, found)| (found - expected).abs() / unit),
+                )
+            }))
+        });
+        Evidence::within(
+            format!("the largest difference over μ G n a³, {name}"),
+            worst(off),
+            1e-13,
+            "sums of 50 rods' products with coefficients up to 1, each rounded a few times by 1.1e-16 of itself",
+        )
+    };
+    vec![
+        of_shape("spheroids of r_e = 3", None, spheroid::by_number(3.0)),
+        of_shape("cylinders of r = 10", Some(10.0), spheroid::of_cylinder(10.0)),
+    ]
 }

@@ -139,6 +139,7 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
     let scene = |change: fn(&mut Scene)| {
         let mut scene = lab::interacting_scene(effort);
         scene.particles.count = 20;
+        scene.liquid.viscosity_pa_s = Some(1.0);
         scene.output.observables = Observable::ALL.to_vec();
         change(&mut scene);
         scene
