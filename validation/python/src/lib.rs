@@ -28,7 +28,7 @@ create_exception!(
     "A scene that cannot be run; the message is the program's."
 );
 
-fn plan(name: &str, text: &str, replicas: Option<u64>, seed: Option<u64>) -> PyResult<Plan> {
+fn plan(name: &str, text: &str, replicas: Option<i128>, seed: Option<i128>) -> PyResult<Plan> {
     let refused = |error: &dyn std::fmt::Display| SceneError::new_err(error.to_string());
     let mut document = Document::parse(name, text).map_err(|error| refused(&error))?;
     for (key, value) in [("ensemble.replicas", replicas), ("ensemble.seed", seed)] {
@@ -92,8 +92,8 @@ fn run<'py>(
     py: Python<'py>,
     name: &str,
     text: &str,
-    replicas: Option<u64>,
-    seed: Option<u64>,
+    replicas: Option<i128>,
+    seed: Option<i128>,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {

@@ -110,8 +110,9 @@ class Results:
         label_of = {name: self.labels[observable] for observable, names in self.observables.items() for name in names}
         variables: dict[str, Any] = {}
         for name, (mean, se) in self._channels.items():
-            variables[name] = (self.time_name, mean, {"long_name": f"{name}: {label_of[name]}"})
-            variables[f"{name}_se"] = (self.time_name, se, {"long_name": f"standard error of {name}"})
+            unit = {"units": "Pa" if name.endswith("_pa") else "rad" if name == "phi" else "1"}
+            variables[name] = (self.time_name, mean, {"long_name": f"{name}: {label_of[name]}", **unit})
+            variables[f"{name}_se"] = (self.time_name, se, {"long_name": f"standard error of {name}", **unit})
         coordinates = {
             "time_s": (self.time_name, self.time_s, {"units": "s"}),
             "strain": (self.time_name, self.strain, {"units": "1"}),

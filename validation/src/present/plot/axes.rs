@@ -164,7 +164,7 @@ where
         .margin_left(8 * FINE)
         .x_label_area_size(bottom)
         .y_label_area_size(left)
-        .build_cartesian_2d(x, y)?;
+        .build_cartesian_2d(x.legible(across), y)?;
     (chart.configure_mesh())
         .bold_line_style(RGBColor(224, 224, 224).stroke_width(FINE as u32))
         .light_line_style(TRANSPARENT)

@@ -1,5 +1,6 @@
 //! An axis: what it covers, where its ticks are and what they say.
 
+use super::style::{FINE, TEXT, text_width};
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use std::ops::Range;
 
@@ -46,6 +47,17 @@ impl Axis {
             ticks: axis.ticks.into_iter().filter(|(tick, _)| inside(*tick)).collect(),
             between: axis.between.into_iter().filter(|tick| inside(*tick)).collect(),
         }
+    }
+
+    /// Without the labels that would meet their neighbours where the axis is so long.
+    pub(super) fn legible(mut self, length: i32) -> Self {
+        let widest = self.ticks.iter().map(|(_, label)| text_width(label, TEXT)).max().unwrap_or(0);
+        let apart = self.ticks.windows(2).map(|pair| pair[1].0 - pair[0].0).fold(f64::INFINITY, f64::min);
+        let room = apart / (self.high - self.low) * f64::from(length);
+        let every = (f64::from(widest + 4 * FINE) / room).ceil().max(1.0) as usize;
+        let others = self.ticks.iter_mut().enumerate().filter(|(k, _)| !k.is_multiple_of(every));
+        others.for_each(|(_, (_, label))| label.clear());
+        self
     }
 }
 
@@ -240,5 +252,17 @@ mod tests {
             }
         }
         assert_eq!(labels(&[0.5, 0.5 + 1e-14], false), ["0.46", "0.48", "0.50", "0.52", "0.54"]);
+    }
+
+    #[test]
+    fn labels_that_would_meet_are_left_out_and_the_first_stays() {
+        let shown = |length: i32| -> Vec<bool> {
+            let axis = logarithmic(-12.0, -4.0).legible(length * FINE);
+            axis.ticks.iter().map(|(_, label)| !label.is_empty()).collect()
+        };
+        let long = shown(600);
+        assert!(long.iter().all(|shown| *shown), "{long:?}");
+        let short = shown(150);
+        assert!(short[0] && short.iter().filter(|shown| **shown).count() < long.len(), "{short:?}");
     }
 }

@@ -1,7 +1,7 @@
 //! Maps of classes, as small multiples: a cell for each row and column, told apart by colour and by a glyph.
 
 use super::axis::power_of_ten;
-use super::style::{CLASSES, FINE, MARGIN, ROW, SMALL_BOLD, TEXT, WIDTH, class_ink, glyph, text, text_width};
+use super::style::{CLASSES, FINE, MARGIN, ROW, SMALL_BOLD, TEXT, class_ink, glyph, text, text_width};
 use super::{Drawn, Figure, Grid, Map};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -19,24 +19,26 @@ pub(super) struct Layout {
     /// The room for the rows' names, left of each panel.
     names: i32,
     cell_width: i32,
+    /// Of the picture.
+    width: i32,
     /// The legend, in rows of classes with their left edges.
     keys: Vec<Vec<(usize, i32)>>,
     pub(super) height: i32,
 }
 
 impl Layout {
-    pub(super) fn of(grid: &Grid) -> Self {
+    pub(super) fn of(grid: &Grid, width: i32) -> Self {
         let names = grid.rows.iter().map(|name| text_width(name, SMALL)).max();
         let names = names.unwrap_or(0) + GAP;
         let columns = grid.columns.len().max(1) as i32;
-        let room = WIDTH - 2 * MARGIN;
+        let room = width - 2 * MARGIN;
         // Cells no narrower than a glyph, names no wider than they are.
         let widest = |across: usize| (room / across as i32 - names - GAP) / columns;
         let least = (grid.columns.iter().map(|c| text_width(c, SMALL) / 3).max()).unwrap_or(0);
         let fits = |across: &usize| widest(*across) >= least.max(9 * FINE);
         let across = (1..=3).rev().find(fits).unwrap_or(1).min(grid.maps.len().max(1));
         let cell_width = widest(across).min(36 * FINE);
-        let keys = keys(grid);
+        let keys = keys(grid, width);
         let lines = grid.maps.len().div_ceil(across) as i32;
         let axes = ROW + keys.len() as i32 * ROW;
         let limit = grid.maps.iter().any(|map| !map.limit.is_empty());
@@ -44,6 +46,7 @@ impl Layout {
             across,
             names,
             cell_width,
+            width,
             height: axes + ROW * i32::from(limit) + lines * (Self::panel_height(grid) + GAP) + MARGIN,
             keys,
         }
@@ -56,14 +59,14 @@ impl Layout {
 }
 
 /// The classes that occur, in rows no wider than the figure.
-fn keys(grid: &Grid) -> Vec<Vec<(usize, i32)>> {
+fn keys(grid: &Grid, most: i32) -> Vec<Vec<(usize, i32)>> {
     let occurs =
         |class: &usize| grid.maps.iter().flat_map(|map| map.cells.iter().flatten()).any(|c| c == class);
     let mut rows: Vec<Vec<(usize, i32)>> = vec![Vec::new()];
     let mut x = MARGIN;
     for class in (0..grid.classes.len()).filter(occurs) {
         let width = KEY + GAP / 2 + text_width(&grid.classes[class], TEXT) + 2 * GAP;
-        if x + width > WIDTH - MARGIN && x > MARGIN {
+        if x + width > most - MARGIN && x > MARGIN {
             rows.push(Vec::new());
             x = MARGIN;
         }
@@ -108,7 +111,7 @@ where
     };
     canvas.draw(&Text::new(axes, (MARGIN, y + 3 * FINE), text(0.85 * TEXT)))?;
     y += ROW;
-    let across = (WIDTH - 2 * MARGIN) / layout.across as i32;
+    let across = (layout.width - 2 * MARGIN) / layout.across as i32;
     for (k, map) in grid.maps.iter().enumerate() {
         let left = MARGIN + (k % layout.across) as i32 * across;
         let down = (k / layout.across) as i32 * (Layout::panel_height(grid) + GAP);

@@ -235,12 +235,12 @@ struct Parts {
 
 impl Parts {
     fn of(figure: &Figure) -> Self {
-        // Maps are as wide as their cells.
+        let width = figure.size.map_or(WIDTH, |(width, _)| width as i32 * FINE);
+        // Maps are as high as their cells.
         let asked = figure.size.filter(|_| figure.grid.is_none());
-        let width = asked.map_or(WIDTH, |(width, _)| width as i32 * FINE);
         let title = style::wrap(&figure.title, width - 2 * MARGIN, TITLE);
         let legend = Legend::of(figure, width);
-        let grid = figure.grid.as_ref().map(grid::Layout::of);
+        let grid = figure.grid.as_ref().map(|grid| grid::Layout::of(grid, width));
         let head = MARGIN + title.len() as i32 * ROW + if grid.is_some() { 0 } else { legend.height() };
         let own = asked.map_or(AXES_HEIGHT, |(_, height)| height as i32 * FINE - head);
         let axes = own.max(LEAST_AXES).max(legend.height_beside() + style::AXES_FRAME);

@@ -93,7 +93,11 @@ fn count(part: &Part) -> String {
 /// stability.
 pub(super) fn thumbnails(report: &Report) -> Result<Vec<Thumbnail<'_>>, String> {
     // Three stand side by side, and letters are to be read: what has room for larger ones has them.
-    let wanted = [("fig4", Some((420, 320))), ("work-precision-re11.6", None), ("stability-steps", None)];
+    let wanted = [
+        ("fig4", Some((420, 320))),
+        ("work-precision-re11.6", Some((420, 440))),
+        ("stability-steps", Some((420, 0))),
+    ];
     let found = |(name, size)| {
         let figure = report.sections.figures().find(|figure| figure.name == name)?;
         Some((figure, Figure { size, ..figure.figure.clone() }))

@@ -141,7 +141,7 @@ fn studies(report: &Report) -> Result<Vec<StudyView<'_>>, String> {
 
 fn view<'a>(report: &'a Report, exhibit: &'a Exhibit) -> Result<ExhibitView<'a>, String> {
     /// The most letters across a table beside a picture.
-    const BESIDE: usize = 72;
+    const BESIDE: usize = 68;
     let figure = exhibit.figure.as_ref().map(|f| self::figure(report, f));
     let narrow = exhibit.table.as_ref().is_some_and(|table| table.letters_across() <= BESIDE);
     Ok(ExhibitView {

@@ -115,7 +115,8 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
         };
         if let Some(first) = data[..k].iter().find(same) {
             return Err(Failure::Input(format!(
-                "{}:{}: {} = {} at {} is in {}:{} already: each point of a scene once is allowed",
+                "{}:{}: {} = {} at {} is in {}:{} already: leave one out, or put all points of one scene into one file if two experiments \
+                 gave it",
                 files[point.set].display(),
                 point.line,
                 point.column,

@@ -48,12 +48,21 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Diagnosi
             closures::diagnose(loaded, answer, error)
         }
         _ => {
-            let near: Vec<_> = (mistakes::all().into_iter())
-                .filter_map(|mistake| Some((distance(loaded, answer, &mistake)?, mistake.name)))
-                .filter(|(distance, _)| *distance <= NEARER * error)
+            let nearer_than = NEARER * error;
+            let known = mistakes::all();
+            let near: Vec<_> = (known.iter())
+                .filter_map(|mistake| Some((distance(loaded, answer, mistake)?, mistake.name.clone())))
+                .filter(|(distance, _)| *distance <= nearer_than)
                 .collect();
-            let rates = rates::rates(loaded, answer, &setting(loaded), NEARER * error);
-            Diagnosis { rates, ..said(near, tolerance) }
+            let found = said(near, tolerance);
+            let rests = |name: &String| {
+                let mistake = known.iter().find(|mistake| mistake.name == *name);
+                mistake.is_some_and(|mistake| has_come_to_rest(loaded, mistake, nearer_than))
+            };
+            // What other mistakes come to as well is no sign of this one.
+            let said = found.said.filter(|_| !found.suspects.iter().any(rests));
+            let rates = rates::rates(loaded, answer, &setting(loaded), nearer_than);
+            Diagnosis { said, suspects: found.suspects, rates }
         }
     }
 }
@@ -65,11 +74,19 @@ pub(super) fn setting(loaded: &LoadedProblem) -> Setting {
 
 /// How far an answer about rods or tensors is from a mistake's curve; `None` where the mistake has no meaning.
 fn distance(loaded: &LoadedProblem, answer: &Answer, mistake: &Mistake) -> Option<f64> {
-    match loaded.problem.kind {
-        Kind::Rods => rods(loaded, answer, &setting(loaded), mistake),
-        Kind::Tensor => tensor(loaded, answer, &setting(loaded), mistake),
-        Kind::Contact | Kind::Ensemble => None,
-    }
+    between(loaded, &answer.rows, &rows(loaded, mistake, 1.0)?, mistake.has_length)
+}
+
+/// An earlier time, over the time that is asked for: no curve that turns is likely to be where it was.
+const EARLIER: f64 = 0.731;
+
+/// Whether a mistake's curve was at its end long before.
+fn has_come_to_rest(loaded: &LoadedProblem, mistake: &Mistake, nearer_than: f64) -> bool {
+    let moved = || {
+        let [early, late] = [EARLIER, 1.0].map(|part| rows(loaded, mistake, part));
+        between(loaded, &early?, &late?, mistake.has_length)
+    };
+    moved().is_some_and(|moved| moved <= nearer_than)
 }
 
 /// Whether a mistake would show on a problem: its curve is not within the tolerance of the certified answer.
@@ -117,14 +134,58 @@ fn largest(distances: impl Iterator<Item = Option<f64>>) -> Option<f64> {
     distances.map(finite).try_fold(0.0, |a: f64, b| Some(a.max(b?)))
 }
 
-fn rods(loaded: &LoadedProblem, answer: &Answer, setting: &Setting, mistake: &Mistake) -> Option<f64> {
-    let count = loaded.start.len();
-    let of_row = |(row, values): (usize, &Vec<f64>)| {
-        let time = loaded.problem.times_s[row / count];
-        let expected = mistake.direction(setting, &Vector3::from(loaded.start[row % count]), time)?;
-        Some(apart(&Vector3::from_row_slice(values), &expected, mistake.has_length))
+/// What a mistake makes of a problem after this part of each time, as rows of an answer.
+fn rows(loaded: &LoadedProblem, mistake: &Mistake, part: f64) -> Option<Vec<Vec<f64>>> {
+    let (problem, setting) = (&loaded.problem, setting(loaded));
+    match problem.kind {
+        Kind::Rods => {
+            let starts = |time: &f64| {
+                let time = part * time;
+                loaded.start.iter().map(move |start| (Vector3::from(*start), time))
+            };
+            let all = problem.times_s.iter().flat_map(starts);
+            all.map(|(start, time)| Some(mistake.direction(&setting, &start, time)?.as_slice().to_vec()))
+                .collect()
+        }
+        Kind::Tensor => {
+            let columns = second_moments(&problem.columns)?;
+            let of_time = |time: &f64| {
+                let map = mistake.map(&setting, part * time)?;
+                let a = match mistake.has_length {
+                    // ⟨qq⟩ of isotropic p(0).
+                    true => map * map.transpose() / 3.0,
+                    false => mistakes::isotropic_tensor(&map)?,
+                };
+                let scale = if mistake.has_length { a.amax() } else { 1.0 };
+                Some(columns.iter().map(|place| a[*place]).chain([scale]).collect())
+            };
+            problem.times_s.iter().map(of_time).collect()
+        }
+        Kind::Contact | Kind::Ensemble => None,
+    }
+}
+
+/// The components of a_ij that a problem asks for; `None` where it asks for others.
+fn second_moments(columns: &[String]) -> Option<Vec<(usize, usize)>> {
+    let one = |name: &String| match name.as_bytes() {
+        [b'a', i @ b'1'..=b'3', j @ b'1'..=b'3'] => Some((usize::from(i - b'1'), usize::from(j - b'1'))),
+        _ => None,
     };
-    largest(answer.rows.iter().enumerate().map(of_row))
+    columns.iter().skip(1).map(one).collect()
+}
+
+/// How far rows are from a mistake's: directions by angle, components of tensors over the last of the mistake's own row.
+fn between(loaded: &LoadedProblem, found: &[Vec<f64>], curve: &[Vec<f64>], has_length: bool) -> Option<f64> {
+    largest(found.iter().zip(curve).map(|(found, curve)| match loaded.problem.kind {
+        Kind::Rods => {
+            let [found, curve] = [found, curve].map(|row| Vector3::from_row_slice(row));
+            Some(apart(&found, &curve, has_length))
+        }
+        _ => {
+            let (scale, components) = curve.split_last()?;
+            largest(found.iter().zip(components).map(|(a, b)| Some((a - b).abs() / scale)))
+        }
+    }))
 }
 
 /// The angle, and what |p| is off by where that is more; or, of a mistake with a length of its own, the relative distance.
@@ -136,27 +197,57 @@ pub(super) fn apart(found: &Vector3<f64>, expected: &Vector3<f64>, has_length: b
     }
 }
 
-fn tensor(loaded: &LoadedProblem, answer: &Answer, setting: &Setting, mistake: &Mistake) -> Option<f64> {
-    let columns: Vec<(usize, usize)> = (loaded.problem.columns.iter().skip(1))
-        .map(|name| match name.as_bytes() {
-            [b'a', i @ b'1'..=b'3', j @ b'1'..=b'3'] => Some((usize::from(i - b'1'), usize::from(j - b'1'))),
-            _ => None,
-        })
-        .collect::<Option<_>>()?;
-    let of_row = |(row, values): (usize, &Vec<f64>)| {
-        let map = mistake.map(setting, loaded.problem.times_s[row])?;
-        let expected = match mistake.has_length {
-            // ⟨qq⟩ of isotropic p(0).
-            true => map * map.transpose() / 3.0,
-            false => mistakes::isotropic_tensor(&map)?,
-        };
-        let scale = if mistake.has_length { expected.amax() } else { 1.0 };
-        largest(
-            columns
-                .iter()
-                .zip(values)
-                .map(|((i, j), value)| Some((value - expected[(*i, *j)]).abs() / scale)),
-        )
-    };
-    largest(answer.rows.iter().enumerate().map(of_row))
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::serve::problems;
+
+    fn loaded(name: &str) -> LoadedProblem {
+        problems::named(name).unwrap().loaded(name.into())
+    }
+
+    /// The answer of a program that is right but for this mistake.
+    fn answer(loaded: &LoadedProblem, name: &str) -> Answer {
+        let mistake = mistakes::all().into_iter().find(|mistake| mistake.name == name).unwrap();
+        Answer { rows: rows(loaded, &mistake, 1.0).unwrap(), ..Answer::certified(loaded) }
+    }
+
+    /// A = W/2 + ΛD and A = W + 2ΛD come to rest in the same direction: they tell themselves apart at 2.7 s, and not at 150 s.
+    #[test]
+    fn a_mistake_is_not_named_by_where_it_has_come_to_rest() {
+        let whole = loaded("mid-flip-11.6");
+        let found = diagnose(&whole, &answer(&whole, "W halved twice"), 0.35);
+        assert_eq!(found.suspects, ["W halved twice"]);
+        assert!(found.said.is_some());
+        // A live program is asked for the last time alone.
+        let mut loaded = whole;
+        loaded.problem.times_s.drain(..2);
+        loaded.certified.rows.drain(..2);
+        for (name, is_named) in
+            [("W halved twice", false), ("D without its ½", false), ("half the shear rate", true)]
+        {
+            let found = diagnose(&loaded, &answer(&loaded, name), 0.35);
+            assert_eq!(found.said.is_some(), is_named, "{name}: {found:?}");
+            assert!(found.suspects.iter().any(|suspect| suspect == name), "{name}: {found:?}");
+        }
+        let at_rest = diagnose(&loaded, &answer(&loaded, "W halved twice"), 0.35).suspects;
+        assert!(at_rest.iter().any(|suspect| suspect == "D without its ½"), "{at_rest:?}");
+    }
+
+    #[test]
+    fn time_at_another_rate_is_seen_in_any_flow() {
+        for name in ["spiral", "couette-turned", "couette-mirrored", "mid-flip-11.6"] {
+            let loaded = loaded(name);
+            let of_row = |row: usize| {
+                let (start, time) = (loaded.start[row % loaded.start.len()], row / loaded.start.len());
+                let p = Vector3::from(start);
+                let p = mistakes::at_a_rate(&setting(&loaded), &p, loaded.problem.times_s[time], 0.833);
+                p.unwrap().as_slice().to_vec()
+            };
+            let certified = Answer::certified(&loaded);
+            let rows = (0..certified.rows.len()).map(of_row).collect();
+            let found = diagnose(&loaded, &Answer { rows, ..certified }, 0.2);
+            assert!(found.rates.iter().any(|rate| (rate - 0.833).abs() < 1e-3), "{name}: {found:?}");
+        }
+    }
 }

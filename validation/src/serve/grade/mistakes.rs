@@ -65,8 +65,11 @@ pub fn right_map(setting: &Setting, time_s: f64) -> Option<Matrix3<f64>> {
     unimodular(map)
 }
 
+/// The map with determinant 1, as far as its doubles have one: where it has stretched very much, its size is arbitrary.
 fn unimodular(map: Matrix3<f64>) -> Option<Matrix3<f64>> {
-    let scaled = map / map.determinant().cbrt();
+    let map = map / map.amax();
+    let determinant = map.determinant();
+    let scaled = if determinant > 0.0 { map / determinant.cbrt() } else { map };
     scaled.iter().all(|component| component.is_finite()).then_some(scaled)
 }
 

@@ -1,4 +1,5 @@
-//! Time that runs at another rate: in plane Couette flow the phase of an answer says for how long a right rod has turned.
+//! Time that runs at another rate: in plane Couette flow the phase of an answer says for how long a right rod has turned, in other flows
+//! the rate at which a right rod comes nearest is looked for.
 
 use super::answer::Answer;
 use super::diagnosis::{apart, setting};
@@ -16,30 +17,71 @@ const HALF_TURNS: f64 = 50.0;
 /// A rod nearer to the vorticity axis than this has no phase to read.
 const IN_PLANE: f64 = 1e-3;
 
-/// The rates at which all rows of an answer are those of right rods, to `nearer_than`; none but in plane Couette flow.
+/// Rates in other flows that are tried for the nearest.
+const TRIED: u32 = 500;
+
+/// The rates at which all rows of an answer are those of right rods, to `nearer_than`; none where rods are at rest, which fit any.
 pub(super) fn rates(
     loaded: &LoadedProblem,
     answer: &Answer,
     setting: &Setting,
     nearer_than: f64,
 ) -> Vec<f64> {
-    let found = || {
-        let turns = |p: &[f64; 3]| p[0].hypot(p[1]) > IN_PLANE;
-        let rod = loaded.start.iter().position(turns)?;
-        let at = |p: &[f64]| (p[1] / setting.aspect_ratio).atan2(p[0]);
-        // The first time leaves the fewest half turns to choose from.
-        let turned = (at(answer.rows.get(rod)?) - at(&loaded.start[rod])).rem_euclid(PI);
-        let due = phase(setting, *loaded.problem.times_s.first()?)?;
-        let most = (MOST * due / PI).ceil();
-        (most <= HALF_TURNS).then_some((turned, due, most as u32))
-    };
-    let Some((turned, due, most)) = found().filter(|_| loaded.problem.kind == Kind::Rods) else {
+    if loaded.problem.kind != Kind::Rods {
         return Vec::new();
+    }
+    let first = loaded.problem.times_s.first().copied().unwrap_or(f64::NAN);
+    let candidates = match phase(setting, first) {
+        Some(due) => by_phase(loaded, answer, setting, due).unwrap_or_default(),
+        None => nearest(loaded, answer, setting),
     };
-    let rates = (0..=most).map(|half_turns| (turned + PI * f64::from(half_turns)) / due);
-    rates
-        .filter(|rate| (0.01..=MOST).contains(rate) && fits(loaded, answer, setting, *rate, nearer_than))
+    let fit = |rate: f64| fits(loaded, answer, setting, rate, nearer_than);
+    let rests = |rate: f64| fit(0.95 * rate) && fit(1.05 * rate);
+    candidates
+        .into_iter()
+        .filter(|rate| (0.01..=MOST).contains(rate) && fit(*rate) && !rests(*rate))
         .collect()
+}
+
+/// By the phase of the first rod that turns, which is `due` at the first time.
+fn by_phase(loaded: &LoadedProblem, answer: &Answer, setting: &Setting, due: f64) -> Option<Vec<f64>> {
+    let turns = |p: &[f64; 3]| p[0].hypot(p[1]) > IN_PLANE;
+    let rod = loaded.start.iter().position(turns)?;
+    let at = |p: &[f64]| (p[1] / setting.aspect_ratio).atan2(p[0]);
+    // The first time leaves the fewest half turns to choose from.
+    let turned = (at(answer.rows.get(rod)?) - at(&loaded.start[rod])).rem_euclid(PI);
+    let most = (MOST * due / PI).ceil();
+    (most <= HALF_TURNS)
+        .then(|| (0..=most as u32).map(|half_turns| (turned + PI * f64::from(half_turns)) / due).collect())
+}
+
+/// Where the first time's rods come nearest, by a search about each least of many tried rates.
+fn nearest(loaded: &LoadedProblem, answer: &Answer, setting: &Setting) -> Vec<f64> {
+    let off = |rate: f64| {
+        let of_rod = |(start, values): (&[f64; 3], &Vec<f64>)| {
+            let p = at_a_rate(setting, &Vector3::from(*start), loaded.problem.times_s[0], rate);
+            p.map_or(f64::INFINITY, |p| apart(&Vector3::from_row_slice(values), &p, false))
+        };
+        loaded.start.iter().zip(&answer.rows).map(of_rod).fold(0.0, f64::max)
+    };
+    let step = MOST / f64::from(TRIED);
+    let tried: Vec<f64> = (0..=TRIED).map(|k| off(step * f64::from(k))).collect();
+    let least = tried.windows(3).enumerate().filter(|(_, of)| of[1] <= of[0] && of[1] <= of[2]);
+    least.map(|(k, _)| golden(off, [step * k as f64, step * (k + 2) as f64])).collect()
+}
+
+/// Where f is least between two ends, by the golden section.
+fn golden(f: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
+    let section = 0.5 * (5f64.sqrt() - 1.0);
+    for _ in 0..80 {
+        let [a, b] = [high - section * (high - low), low + section * (high - low)];
+        if f(a) < f(b) {
+            high = b;
+        } else {
+            low = a;
+        }
+    }
+    0.5 * (low + high)
 }
 
 /// Whether time at another rate would show on a problem: its curve is not within the tolerance of the certified answer.

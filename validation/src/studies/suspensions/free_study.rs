@@ -32,7 +32,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     let steepest = curves.iter().min_by(|a, b| a.exponent.total_cmp(&b.exponent));
     let answer = steepest.map_or(String::new(), |curve| {
         format!(
-            "Of {} ways the error falls fastest with {}: as N^({:+.2} ± {:.2}).",
+            "Of {} ways the error falls fastest with {}: with the slope {:+.2} ± {:.2} against N.",
             curves.len(),
             curve.start,
             curve.exponent,
@@ -115,7 +115,7 @@ fn table(benches: &[Bench]) -> ReportTable {
 fn figure(bench: &Bench) -> ReportFigure {
     let free = &bench.free;
     let curve = |curve: &StartCurve| {
-        let label = format!("{}: N^({:+.2} ± {:.2})", curve.start, curve.exponent, curve.exponent_se);
+        let label = format!("{}: slope {:+.2} ± {:.2}", curve.start, curve.exponent, curve.exponent_se);
         Curve::of(label, &curve.points, |point| (point.seconds.least, point.error))
     };
     let title =
