@@ -48,8 +48,8 @@ const NEARLY_ROUND: f64 = 1e-3;
 fn spheroid(r: f64) -> [f64; 3] {
     let d = r - 1.0;
     if d.abs() < NEARLY_ROUND {
-        // Leal & Hinch (1972), with terms of d³ left out.
-        let c = 2.5 * (1.0 - 2.0 / 7.0 * d + d * d / 3.0);
+        // Of the integrals, with terms of d³ left out.
+        let c = 2.5 * (1.0 - 2.0 / 7.0 * d + 47.0 / 147.0 * d * d);
         return [395.0 / 147.0 * d * d, 15.0 / 14.0 * d - 895.0 / 588.0 * d * d, c];
     }
     let q = 1.0 / (r * r);
@@ -66,15 +66,37 @@ fn spheroid(r: f64) -> [f64; 3] {
 mod tests {
     use super::*;
 
+    /// Jeffery's integrals by quadrature in 30 digits.
     #[test]
-    fn the_series_and_the_closed_form_agree_where_they_meet() {
-        for side in [-1.0, 1.0] {
-            let [inside, outside] = [0.999, 1.001].map(|k| spheroid(1.0 + side * k * NEARLY_ROUND));
+    fn spheroids_have_the_values_of_the_integrals() {
+        for (r, expected, tolerance) in [
+            (11.6, [36.654_316_979_630_66, 0.063_528_879_597_003_64, 2.007_150_485_313_602_4], 1e-12),
+            (2.0, [1.416_958_338_639_655_2, 0.329_968_777_760_879_76, 2.173_640_553_771_307_3], 1e-12),
+            (0.5, [1.091_828_633_569_259_3, -1.203_282_817_282_500_4, 3.266_553_537_693_038_4], 1e-12),
+            (1.0005, [6.714_948_135_242_478e-7, 5.353_339_330_335_213e-4, 2.499_643_056_868_923_6], 1e-9),
+            (0.9995, [6.720_427_860_171_161e-7, -5.360_949_875_867_232e-4, 2.500_357_342_791_045_7], 1e-9),
+        ] {
+            let found = spheroid(r);
             for k in 0..3 {
-                // Between the two places C itself changes by 1.4e-6.
-                assert!((inside[k] - outside[k]).abs() < 3e-6, "{inside:?} {outside:?}");
+                assert!(
+                    (found[k] - expected[k]).abs() <= tolerance * expected[k].abs().max(1.0),
+                    "{r}: {found:?}"
+                );
             }
         }
+        let [a, b, c] = spheroid(1.0 + 1e-6);
+        assert!(
+            a.abs() < 1e-11 && (b - 15.0 / 14.0 * 1e-6).abs() < 1e-11 && (c - 2.5).abs() < 1e-6,
+            "{a} {b} {c}"
+        );
+    }
+
+    /// Batchelor's series at r = 10 by hand, and 4φ/(na³).
+    #[test]
+    fn cylinders_have_the_series() {
+        let [a, b, c] = Body::Cylinder { aspect_ratio: 10.0 }.coefficients(7.0);
+        assert!((a - 0.457_158_004_868_943_5).abs() < 1e-15 && b == 0.0, "{a} {b}");
+        assert!((c - PI / 100.0).abs() < 1e-15);
     }
 
     /// A = r²/(2(ln 2r − 3/2)), B = (6 ln 2r − 11)/r² and C = 2 (Leal & Hinch 1971).

@@ -1,4 +1,5 @@
 use super::*;
+use crate::model::stress::Body;
 use approx::assert_relative_eq;
 
 /// One rod, worked by hand: p = (2, −3, 6)/7 and r_e = 2.
@@ -42,6 +43,10 @@ fn one_rod_by_hand() {
     close(observe(Observable::OrientationTensor4), quads.map(|x| x / 2401.0).to_vec());
     // p₁p₂ = −6/49; p₂² − p₁² = 5/49; p₁² − p₃² = −32/49.
     close(observe(Observable::ParticleStress), [36.0, -30.0, 192.0].map(|x| x / 2401.0).to_vec());
+    // With k_A, k_B and k_C of r = 2: k_A p₁²p₂² + ½k_B(p₁² + p₂²) + ½k_C, k_A p₁p₂(p₂² − p₁²), p₁p₂(k_A(p₁² − p₃²) + k_B).
+    let [a, b, c] = Body::Spheroid.coefficients(2.0);
+    let (a, b) = (a / 2401.0, b / 49.0);
+    close(observe(Observable::Stress), vec![36.0 * a + 6.5 * b + 0.5 * c, -30.0 * a, 192.0 * a - 6.0 * b]);
     // C = (4·4 + 9)^½/(2·6) = 5/12, so C_b = 5/17 = 0.294.
     let orbit = observe(Observable::OrbitConstant);
     assert_relative_eq!(orbit[0], 5.0 / 17.0, max_relative = 1e-15);

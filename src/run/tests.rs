@@ -70,3 +70,45 @@ fn every_block_has_its_own_rods() {
     }
     assert_eq!(seen, 300);
 }
+
+/// One rod, or many of several lengths, along `p`: σ₁₂, N₁ and N₂ in Pa at the start.
+fn stress_pa(change: impl Fn(&mut scene::Scene)) -> [f64; 3] {
+    let mut scene = scene::Scene::default();
+    scene.particles.count = 300;
+    scene.liquid.viscosity_pa_s = Some(20.0);
+    scene.interaction = Some(scene::Interaction { alpha: 0.0, ..scene::Interaction::default() });
+    scene.output.observables = vec![Observable::Stress];
+    change(&mut scene);
+    let results = ensemble::run(&Plan::new(&scene).unwrap()).unwrap();
+    ["s12_pa", "n1_pa", "n2_pa"].map(|name| results.column(name).unwrap().mean[0])
+}
+
+/// 50 bodies of 0.72 mm per cm³ at 0.5 1/s in 20 Pa s.
+const UNIT_PA: f64 = 20.0 * 0.5 * 50.0 * 0.072 * 0.072 * 0.072;
+
+/// Einstein: 2.5 μφG to a billionth from a sphere, whatever way they point, and of several lengths with ⟨a³⟩ = 1 + 3·0.3².
+#[test]
+fn spheres_have_einsteins_stress() {
+    let einstein = 2.5 * std::f64::consts::PI / 6.0 * UNIT_PA;
+    for (sd_percent, expected) in [(0.0, einstein), (30.0, 1.27 * einstein)] {
+        let [s12, n1, n2] = stress_pa(|scene| {
+            scene.particles.aspect_ratio = 1.0 + 1e-9;
+            scene.particles.length_sd_percent = sd_percent;
+        });
+        assert!((s12 / expected - 1.0).abs() < 1e-8, "{s12} {expected}");
+        assert!(n1.abs() < 1e-8 && n2.abs() < 1e-8, "{n1} {n2}");
+    }
+}
+
+/// Along the vorticity axis a cylinder of length over diameter r has 2μφG, with φ = πna³/(4r²).
+#[test]
+fn a_cylinder_counts_by_its_own_aspect_ratio() {
+    let [s12, n1, n2] = stress_pa(|scene::Scene { particles, .. }| {
+        (particles.physical_aspect_ratio, particles.shape_correlation) =
+            (Some(10.0), Some(crate::model::shape::Correlation::Zhang));
+        particles.aspect_ratio = 7.612;
+        particles.orientation = scene::Orientation::Given { phi_deg: 0.0, theta_deg: 0.0 };
+    });
+    assert!((s12 / (UNIT_PA * std::f64::consts::PI / 200.0) - 1.0).abs() < 1e-12, "{s12}");
+    assert!(n1.abs() < 1e-12 && n2.abs() < 1e-12, "{n1} {n2}");
+}

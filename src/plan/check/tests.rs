@@ -47,6 +47,16 @@ fn a_stress_in_pa_needs_a_viscosity_and_a_concentration() {
     assert!(refusal(&scene).contains("interaction.concentration_per_cm3"), "{}", refusal(&scene));
     scene.interaction = Some(Interaction { alpha: 0.0, ..Interaction::default() });
     assert!(crate::Plan::new(&scene).is_ok());
+    // The viscosity is written and read, and no empty table.
+    let written = serde_json::to_value(&scene).unwrap();
+    assert_eq!(serde_json::from_value::<Scene>(written).unwrap(), scene);
+    scene.liquid.viscosity_pa_s = None;
+    assert!(serde_json::to_value(&scene).unwrap().get("liquid").is_none());
+    scene.liquid.viscosity_pa_s = Some(2.0);
+    let gradient_per_s = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0; 3]];
+    scene.flow = crate::scene::Flow::Gradient { gradient_per_s };
+    scene.time = crate::scene::Time::strain(1.0);
+    assert!(refusal(&scene).contains("stress needs plane Couette flow"), "{}", refusal(&scene));
 }
 
 /// Two rods in 2 cm³: H = 12.6 mm.
