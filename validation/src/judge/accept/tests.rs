@@ -28,6 +28,7 @@ fn a_difference_needs_to_be_seen() {
     // Below the bound by four of its errors: hidden; by six: a failure.
     assert_eq!(above(-0.4, 0.1), Verdict::Underpowered);
     assert_eq!(above(-0.6, 0.1), Verdict::Fail);
+    assert_eq!(above(0.0, 0.0), Verdict::Fail, "values that are all at the bound do not exceed it");
     assert_eq!(above(f64::NAN, f64::NAN), Verdict::Fail);
     assert_eq!(above(f64::NAN, 0.01), Verdict::Fail);
 }
