@@ -153,6 +153,21 @@ mod tests {
     }
 
     #[test]
+    fn shares_have_the_digits_that_they_need() {
+        for (used, text) in [
+            (0.0, "0 %"),
+            (0.0009, "< 0.1 %"),
+            (0.0123, "1.2 %"),
+            (0.123, "12 %"),
+            (9.87, "987 %"),
+            (f64::INFINITY, "> 1000 %"),
+            (f64::NAN, "not a number"),
+        ] {
+            assert_eq!(share(used), text);
+        }
+    }
+
+    #[test]
     fn dates_are_civil() {
         for (seconds, date) in [
             (0, "1970-01-01T00:00:00Z"),
