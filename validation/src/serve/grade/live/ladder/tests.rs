@@ -139,6 +139,44 @@ fn what_may_yet_come_within_the_tolerance_is_asked_on() {
     assert_eq!(climbed(|k| (second(k), start(k))), None);
 }
 
+/// Climbs on one problem with a timeout of a minute: the steps and errors that were asked for, and how it ended.
+fn climbed_to(claimed: Option<f64>, rungs: impl Fn(i32) -> (f64, f64)) -> (LoadedProblem, Vec<f64>, End) {
+    let problem = crate::serve::problems::named("mid-flip-2").unwrap().loaded("mid-flip-2".into());
+    let asked = Cell::new(0);
+    let ask = |setting: Setting| -> Result<Rung, Asked> {
+        let (error, seconds) = rungs(asked.replace(asked.get() + 1));
+        Ok(rung(setting, error, seconds))
+    };
+    let (rungs, end) = climb(&problem, Mode::Steps, Duration::from_secs(60), claimed, ask);
+    (problem, rungs.iter().map(Rung::error).collect(), end)
+}
+
+#[test]
+fn an_order_is_no_answer_and_one_that_is_unclear_is_asked_on_to_round_off() {
+    let fourth = |k: i32| (0.05 * 16f64.powi(-k), 0.0);
+    for claimed in [None, Some(4.0)] {
+        let (problem, errors, end) = climbed_to(claimed, fourth);
+        assert_eq!(end, End::Reached);
+        let tolerance = problem.problem.tolerance;
+        assert!(errors[errors.len() - 1] <= tolerance && errors[errors.len() - 2] > tolerance, "{errors:?}");
+    }
+    // Neither the claimed one nor off by a whole order.
+    let (problem, errors, end) = climbed_to(Some(4.6), fourth);
+    assert_eq!(end, End::Reached);
+    assert!(errors[errors.len() - 1] <= 0.01 * problem.own_tolerance, "{errors:?}");
+}
+
+#[test]
+fn what_would_take_too_long_is_not_asked_unless_it_confirms() {
+    let end = |error: f64, seconds: f64| climbed_to(None, |_| (error, seconds)).2;
+    assert!(
+        matches!(end(0.5, 16.0), End::OutOfTime(words) if words.contains("finer ones would take too long"))
+    );
+    // One that is within the tolerance is confirmed in twice its time.
+    assert_eq!(end(1e-15, 29.0), End::Reached);
+    assert!(matches!(end(1e-15, 31.0), End::OutOfTime(_)));
+}
+
 /// How the rungs of a program are judged whose error at so many steps, asked for the n-th time, is this.
 fn judged(error: impl Fn(u64, u32) -> f64) -> End {
     let count = Cell::new(0);
