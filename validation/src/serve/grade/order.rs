@@ -251,6 +251,42 @@ mod tests {
     }
 
     #[test]
+    fn a_claim_that_is_too_low_fails_where_no_problem_shows_it_and_none_explains_it() {
+        let loaded = |name: &str| crate::serve::problems::named(name).unwrap().loaded(name.into());
+        let settled = |of: &[(&str, Order, Verdict)]| {
+            let problems: Vec<_> = of.iter().map(|(name, ..)| loaded(name)).collect();
+            let one = |(loaded, (_, order, verdict)): (&LoadedProblem, &(&str, Order, Verdict))| Graded {
+                verdict: *verdict,
+                order_found: Some(*order),
+                observed_order: Some(5.0),
+                ..Graded::without_answer(loaded)
+            };
+            let mut graded: Vec<_> = problems.iter().zip(of).map(one).collect();
+            settle(&problems, &mut graded, Some(4.0));
+            graded
+                .into_iter()
+                .map(|graded| (graded.verdict, graded.note.unwrap_or_default()))
+                .collect::<Vec<_>>()
+        };
+        let (plane, space) = ("shear-plane", "spiral");
+        let too_low = "observed order +5.00 where 4 is claimed";
+        let no_error = "observed order +5.00: this problem has no error of order 4";
+        let none = String::new;
+        assert_eq!(
+            settled(&[(plane, Order::Higher, Verdict::Pass), (space, Order::Higher, Verdict::Pass)]),
+            [(Verdict::Pass, no_error.into()), (Verdict::Fail, too_low.into())]
+        );
+        assert_eq!(
+            settled(&[(space, Order::Higher, Verdict::Pass), (plane, Order::Seen, Verdict::Pass)]),
+            [(Verdict::Pass, no_error.into()), (Verdict::Pass, none())]
+        );
+        assert_eq!(
+            settled(&[(space, Order::Higher, Verdict::NotReached), (space, Order::Unclear, Verdict::Pass)]),
+            [(Verdict::NotReached, none()), (Verdict::Pass, none())]
+        );
+    }
+
+    #[test]
     fn of_two_orders_the_nearer_to_the_claim_is_named() {
         let found = falling(&[3.0, 4.0, 4.4]);
         assert!((found.observed(Some(4.0)).unwrap() - 4.0).abs() < 1e-9);
