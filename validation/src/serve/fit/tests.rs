@@ -97,7 +97,6 @@ fn without_noise_the_planted_values_are_found() {
     }
 }
 
-/// Points at every tenth of a period do not tell a frequency of 1 from one of 9 or 11.
 /// χ² of one degree of freedom reaches 0.99 with a probability of 68 % and 3.84 with one of 95 %.
 #[test]
 fn the_levels_of_a_profile_are_those_of_its_intervals() {
@@ -106,6 +105,7 @@ fn the_levels_of_a_profile_are_those_of_its_intervals() {
     assert!((low - 0.988_946).abs() < 1e-5 && (high - 3.841_459).abs() < 1e-5, "{low} {high}");
 }
 
+/// Points at every tenth of a period do not tell a frequency of 1 from one of 9 or 11.
 #[test]
 fn another_minimum_of_the_range_is_seen() {
     let (data, model) = (points(0.3, 1.0, 0.01, 1), model(1, 1e-9));
