@@ -291,5 +291,7 @@ mod tests {
         let found = falling(&[3.0, 4.0, 4.4]);
         assert!((found.observed(Some(4.0)).unwrap() - 4.0).abs() < 1e-9);
         assert!((found.observed(None).unwrap() - 4.4).abs() < 1e-9);
+        let found = falling(&[3.0, 4.4, 4.0]);
+        assert!((found.observed(Some(4.0)).unwrap() - 4.0).abs() < 1e-9);
     }
 }
