@@ -94,6 +94,7 @@ def test_a_function_that_fails_has_no_answer_and_a_wrong_shape_is_said() -> None
         report = shearbed.grade(fails, kind=kind, names=["mid-flip-2"])
         assert not report and report["mid-flip-2"]["verdict"] == "MISSING"
         assert "ZeroDivisionError" in report["mid-flip-2"]["raised"] and "ZeroDivisionError" in str(report)
+        assert report["mid-flip-2"]["note"] is None
     with pytest.raises(TypeError, match="times, rods, 3"):
         shearbed.grade(lambda *_: np.zeros(3), kind="solver", names=["mid-flip-2"])
     for kind in ("rhs", "step"):

@@ -143,6 +143,12 @@ def test_a_scene_that_is_not_allowed_says_key_value_and_what_is(changed: dict[st
         shearbed.Scene(**(FREE | changed))
 
 
+def test_a_number_of_replicas_that_is_not_allowed_is_refused_as_in_a_scene() -> None:
+    for replicas in (-1, 0):
+        with pytest.raises(shearbed.SceneError, match=f"ensemble.replicas = {replicas} is not allowed"):
+            shearbed.run(FREE, replicas=replicas)
+
+
 def test_other_mistakes_are_type_errors() -> None:
     for call in (lambda: shearbed.Scene(), lambda: shearbed.Scene({}, toml=""), lambda: shearbed.Scene(count=object())):
         with pytest.raises(TypeError):

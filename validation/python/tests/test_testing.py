@@ -27,8 +27,10 @@ def test_a_right_function_passes(problem: shearbed.testing.Checked) -> None:
 
 def test_a_wrong_function_fails_in_the_grader_s_words() -> None:
     problem = next(one for one in shearbed.testing.problems() if str(one) == "mid-flip-11.6")
-    with pytest.raises(AssertionError, match="(?s)mid-flip-11.6 +FAIL.*transpose"):
+    with pytest.raises(AssertionError, match="(?s)mid-flip-11.6 +FAIL.*transpose") as error:
         problem.check(lambda gradient_per_s, aspect_ratio, p: rhs(gradient_per_s.T, aspect_ratio, p))
+    # The folder is gone when this is read.
+    assert "mid-flip-11.6/answer.csv" in str(error.value) and "shearbed-" not in str(error.value)
     names = [str(one) for one in shearbed.testing.problems()]
     assert "ten-thousand-periods" not in names and len(names) == len(set(names)) > 5
     with pytest.raises(ValueError, match="'moments'.*'rods' is allowed"):
@@ -100,6 +102,10 @@ def test_an_xarray_has_units_seed_and_scene() -> None:
     assert np.array_equal(found["x1"].values, results.x1) and np.array_equal(found["x1_se"].values, results.x1_se)
     assert found["time_s"].attrs["units"] == "s" and found.attrs["seed"] == 7 and found.attrs["replicas"] == 2
     assert "Fig. 4" in found.attrs["scene"]
+    assert found["x1"].attrs["units"] == "1"
+    rods = dict(count=10, length_mm=1, aspect_ratio=10, orientation="isotropic", alpha=0.5, concentration_per_cm3=50, shear_rate_per_s=1)
+    stress = shearbed.run(dict(title="t", periods=1, viscosity_pa_s=2, observables=["stress"], **rods)).to_xarray()
+    assert stress["s12_pa"].attrs["units"] == "Pa" and float(stress["s12_pa"][0]) > 0
     strained = shearbed.run("extension", replicas=1).to_xarray()
     assert "strain" in strained.dims
 
