@@ -137,23 +137,33 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
         let lines: Vec<_> = errors.iter().map(ToString::to_string).collect();
         Failure::Input(lines.join("\n"))
     })?;
-    let mut report = report(args, [reference.shown(), mine.shown()], problems, unknown_folders(mine, &names));
+    let mut report = report(args, [reference.shown(), mine.shown()], problems, not_read(mine, &names));
     report.diagnosis = grade::overall(&wanted, &report.problems);
     report.remarks.extend(grade::remark(&report.problems, args.order));
     let inputs = inputs::of_files(args, reference, mine, &wanted)?;
     Ok((report, wanted, inputs))
 }
 
-/// Folders of answers to problems that there are not.
-fn unknown_folders(mine: &Path, names: &[String]) -> Vec<String> {
+/// Folders of answers to problems that there are not, and files that are in no folder but have a problem's name.
+fn not_read(mine: &Path, names: &[String]) -> Vec<String> {
+    let remark = |entry: std::fs::DirEntry| {
+        let (path, name) = (entry.path(), entry.file_name().to_string_lossy().into_owned());
+        let stem = name.strip_suffix(".csv").filter(|stem| names.iter().any(|known| known == stem));
+        match stem {
+            _ if path.is_dir() && !names.contains(&name) => {
+                Some(format!("{}: no problem has this name; it was not read", path.shown()))
+            }
+            Some(stem) => {
+                let place = mine.join(stem).join("answer.csv");
+                Some(format!("{}: it was not read; an answer is read from {}", path.shown(), place.shown()))
+            }
+            _ => None,
+        }
+    };
     let entries = std::fs::read_dir(mine).into_iter().flatten().flatten();
-    let folders = entries.filter(|entry| entry.path().is_dir());
-    let mut unknown: Vec<_> = folders.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-    unknown.retain(|name| !names.contains(name));
-    unknown.sort();
-    let remark =
-        |name: String| format!("{}: no problem has this name; it was not read", mine.join(name).shown());
-    unknown.into_iter().map(remark).collect()
+    let mut remarks: Vec<_> = entries.filter_map(remark).collect();
+    remarks.sort();
+    remarks
 }
 
 fn report(

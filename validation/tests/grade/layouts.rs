@@ -96,6 +96,31 @@ fn layouts_of_other_programs_are_read_as_they_are() {
     }
 }
 
+/// A closed equation's own answer, in the layouts of two programs; and where it lies in no folder, that is said.
+#[test]
+fn layouts_of_other_programs_answer_closed_equations_too() {
+    let name = "closed-ft-hybrid-0.01";
+    let (_, rows) = problem(name);
+    // time, 11, 22, 33, 12, 13, 23 of ours.
+    let in_order = |order: &[usize]| {
+        let line = |row: &Vec<String>| order.iter().map(|k| row[*k].as_str()).collect::<Vec<_>>().join(" ");
+        rows[1..].iter().map(line).collect::<Vec<_>>().join("\n") + "\n"
+    };
+    for (layout, order) in
+        [("fiberoripy", &[0, 1, 4, 5, 4, 2, 6, 5, 6, 3][..]), ("openfoam", &[0, 1, 4, 5, 2, 6, 3])]
+    {
+        let dir = tempfile::tempdir().unwrap();
+        write(dir.path(), name, "answer.csv", in_order(order));
+        let found = files(REFERENCE.path(), dir.path(), &["--layout", layout]);
+        assert_eq!(found.verdict(name), "PASS", "{layout}: {}", found.words);
+        fs::rename(dir.path().join(name).join("answer.csv"), dir.path().join(format!("{name}.csv"))).unwrap();
+        let found = files(REFERENCE.path(), dir.path(), &["--layout", layout]);
+        assert_eq!(found.verdict(name), "MISSING");
+        let words = found.words.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains(&format!("{name}.csv: it was not read; an answer is read from")), "{words}");
+    }
+}
+
 /// Quaternions that turn axis x of the body onto p: w = 1 + p₁, (i, j, k) = x × p. Their conjugates mirror p.
 #[test]
 fn a_dump_without_times_and_shapes_is_told_what_it_does_not_say() {

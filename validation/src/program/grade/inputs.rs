@@ -1,10 +1,11 @@
 //! What a grading depends on: references and answers by their checksums, and how they are read.
 
-use super::{Args, options};
+use super::Args;
 use crate::files::bounded;
 use crate::files::text::Shown;
 use crate::program::Failure;
 use crate::serve::problems::LoadedProblem;
+use clap::ValueEnum;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fs;
@@ -42,7 +43,13 @@ pub(super) fn of_program(
         "timeout": args.timeout,
         "brief": args.brief,
         "all": args.all,
-        "reading": format!("{:?}", options(args)),
+        "columns": args.columns,
+        "layout": args.layout.and_then(|layout| Some(layout.to_possible_value()?.get_name().to_owned())),
+        "axes": args.axes.to_string(),
+        "windows_text": args.windows_text,
+        "timestep_s": args.timestep_s,
+        "rod_axis": args.rod_axis,
+        "order": args.order,
     }))
 }
 

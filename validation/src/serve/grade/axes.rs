@@ -36,6 +36,19 @@ impl std::str::FromStr for Axes {
     }
 }
 
+impl std::fmt::Display for Axes {
+    /// As it is given.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let mut words = [""; 3];
+        for (ours, axis) in
+            [["gradient", "-gradient"], ["flow", "-flow"], ["vorticity", "-vorticity"]].iter().enumerate()
+        {
+            words[self.theirs[ours]] = axis[usize::from(self.sign[ours] < 0.0)];
+        }
+        f.write_str(&words.join(","))
+    }
+}
+
 fn allowed() -> String {
     "gradient, flow and vorticity are allowed, each once, each with a - before it where it is reversed"
         .to_owned()
@@ -87,6 +100,9 @@ mod tests {
     #[test]
     fn columns_find_their_names() {
         let axes: Axes = "flow,-gradient,vorticity".parse().unwrap();
+        assert_eq!(axes.to_string(), "flow,-gradient,vorticity");
+        let turned = "vorticity,gradient,-flow";
+        assert_eq!(turned.parse::<Axes>().unwrap().to_string(), turned);
         for (ours, theirs, sign) in [
             ("p1", "p2", -1.0),
             ("p2", "p1", 1.0),
