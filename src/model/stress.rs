@@ -1,5 +1,5 @@
 //! The stress that a rigid body without Brownian motion adds to a dilute suspension, with all that it does to the liquid around it:
-//!   σ = μ n a³ G [k_A ⟨pppp⟩:D + k_B (⟨pp⟩·D + D·⟨pp⟩) + k_C D]/G + isotropic,
+//!   σ = μ n a³ [k_A ⟨pppp⟩:D + k_B (⟨pp⟩·D + D·⟨pp⟩) + k_C D] + isotropic,
 //! for n bodies of length a per volume (Leal & Hinch 1971; docs/src/theory/coefficients.md).
 
 use std::f64::consts::PI;

@@ -147,6 +147,11 @@ pub trait Observe: Sync {
         false
     }
 
+    /// True if rods count by their cubed length in it, as [`Block::weight`] says.
+    fn weighs_rods(&self) -> bool {
+        false
+    }
+
     /// True if its columns after the first are a density over [0, 1].
     fn is_density(&self) -> bool {
         false

@@ -29,4 +29,8 @@ impl Observe for ParticleStress {
     fn needs_couette(&self) -> bool {
         true
     }
+
+    fn weighs_rods(&self) -> bool {
+        true
+    }
 }

@@ -48,6 +48,10 @@ impl Observe for Stress {
         true
     }
 
+    fn weighs_rods(&self) -> bool {
+        true
+    }
+
     fn needs_viscosity(&self) -> bool {
         true
     }

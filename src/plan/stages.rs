@@ -105,9 +105,7 @@ pub(super) fn entries(scene: &Scene) -> Vec<Entry> {
         let asked = [
             (no_interaction(scene).is_none(), "P_c and contact arms use each rod's own length"),
             (
-                [Observable::ParticleStress, Observable::Stress]
-                    .iter()
-                    .any(|stress| scene.output.observables.contains(stress)),
+                scene.output.observables.iter().any(|observable| observable.weighs_rods()),
                 "a rod's stress is proportional to its cubed length",
             ),
             (scene.output.rods_key().is_some(), "rods.csv has each rod's length"),
