@@ -345,7 +345,7 @@ fn a_control_volume_has_a_side() {
     }
 }
 
-/// The same plan as that of a scene of so many replicas.
+/// The plan of another number of replicas is that of a scene that asks for it.
 #[test]
 fn a_plan_of_another_number_of_replicas_is_that_of_such_a_scene() {
     for (from, to) in [(1, 40), (40, 1), (3, 5)] {

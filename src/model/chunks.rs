@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Rods that one thread takes on at a time. A run of so many or fewer stays on one thread: its replicas are shared.
+/// Rods of one chunk, the least that a thread takes. A run of one chunk stays on one thread: its replicas are shared over threads.
 pub(crate) const CHUNK: usize = 1 << 16;
 
 /// What `each` makes of every chunk of three arrays of coordinates and its number, in the order of chunks.

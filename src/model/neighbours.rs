@@ -44,7 +44,7 @@ enum Search {
     Grid(Grid),
 }
 
-/// Up to so many rods, looking at all pairs is faster than sorting them into cells.
+/// Up to this number of rods, looking at all pairs is faster than sorting them into cells.
 const FEW: usize = 256;
 
 impl Neighbours {

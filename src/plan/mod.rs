@@ -117,7 +117,7 @@ impl Plan {
         Some(plan)
     }
 
-    /// The same plan with so many replicas, from 1 to [`crate::scene::MAX_REPLICAS`].
+    /// The same plan with this number of replicas, from 1 to [`crate::scene::MAX_REPLICAS`].
     ///
     /// ```
     /// let plan = shearbed::Plan::new(&shearbed::Scene::default())?;

@@ -256,7 +256,7 @@ impl Tally {
         self.snapshots.extend(replica.snapshots);
     }
 
-    /// Adds the sums of the next replica over so many rods.
+    /// Adds the sums of the next replica over its `rods` rods.
     pub(crate) fn add_sums(&mut self, rods: usize, sums: &[Sum]) {
         let n = rods as f64;
         self.replicas += 1;

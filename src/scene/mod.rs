@@ -230,7 +230,7 @@ impl Scene {
         }
     }
 
-    /// Gives the control volume so many rods at the same concentration: a box grows or shrinks in proportion.
+    /// Sets the number of rods at the same concentration: a box grows or shrinks in proportion.
     pub fn set_count(&mut self, count: usize) {
         let grown = libm::cbrt(count as f64 / self.particles.count as f64);
         if let Some(Interaction { box_mm: Some(sides), .. }) = &mut self.interaction {

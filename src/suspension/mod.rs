@@ -84,7 +84,7 @@ pub struct Suspension {
 /// The square of a distance, the rod that drew R, its nearest neighbour.
 type Candidate = (f64, u32, u32);
 
-/// From so many candidates on, their contacts are computed on all threads.
+/// From this number of candidates on, their contacts are computed on all threads.
 const MANY: usize = 1024;
 
 /// What a collision does to its two rods.

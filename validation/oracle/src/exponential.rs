@@ -50,8 +50,8 @@ impl Rod {
             .unwrap_or_else(|| panic!("{self:?} after {span:?} is not settled by {MOST_BITS} bits"))
     }
 
-    /// The same, or none where 20 000 bits do not settle it: a start on a dividing plane of the flow, from which it would take
-    /// more than so many to see that it leaves.
+    /// The same, or none where 20 000 bits do not settle it: a start so near a dividing plane of the
+    /// flow that more bits would be needed to see that it leaves.
     pub fn settled(&self, span: Span) -> Option<[f64; 3]> {
         let mut bits = self.bits_of_the_input();
         while bits < MOST_BITS {

@@ -74,7 +74,7 @@ fn again_less_straight(scene: &Scene, way: Way, replica: u64) -> f64 {
     x1(&mut again) - x1(&mut straight)
 }
 
-/// X̄₁ after so many steps; `None` where one failed.
+/// X̄₁ after `steps` steps; `None` where one failed.
 fn stepped(suspension: &mut Suspension, steps: u64) -> Option<f64> {
     (0..steps).try_for_each(|_| suspension.step().map(|_| ())).ok()?;
     let directions = suspension.directions();

@@ -18,7 +18,7 @@ use shearbed::{Observable, Suspension};
 
 /// What steps rods, and what a control puts in its place.
 struct Model {
-    /// The directions after so many steps.
+    /// The directions after the steps that were taken.
     directions: fn(&Suspension) -> Vec<Vector3<f64>>,
     /// What a step makes of two rods that were put down by hand.
     pair: Pair,

@@ -111,7 +111,7 @@ fn range() -> Result<Range, String> {
     Range::parse("interaction.alpha=0.4:1.2")
 }
 
-/// So many replicas of the model at the nodes of its α.
+/// `replicas` replicas of the model at the nodes of its α.
 pub fn model(effort: &Effort, replicas: u64) -> Result<Vec<Coefficients>, String> {
     let set = |(k, concentration): (usize, f64)| {
         Ok(Set {
@@ -131,7 +131,7 @@ pub fn model(effort: &Effort, replicas: u64) -> Result<Vec<Coefficients>, String
     coefficients(&Basis::new(1), &model, value, 0..replicas, &|| ())
 }
 
-/// One α of both suspensions for points that are means of so many replicas.
+/// One α of both suspensions for points that are means of `replicas` replicas.
 pub fn one_alpha(points: &[f64], u: f64, replicas: u64, model: &[Coefficients]) -> Result<Fit, String> {
     let range = range()?;
     let measured = Measured {
@@ -160,7 +160,7 @@ fn accepted(change: &Change, effort: &Effort) -> Result<Vec<Evidence>, String> {
             enough: REPLICAS,
             distance: None,
             because:
-                "of so many replicas χ² of cut lines is 5.5 of its standard deviations above what is accepted"
+                "with these replicas χ² of cut lines is 5.5 of its standard deviations above what is accepted"
                     .into(),
         },
     )])

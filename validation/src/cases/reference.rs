@@ -206,7 +206,7 @@ fn apart<const K: usize>(a: &[[f64; 3]], b: &[[f64; 3]], signs: [f64; K]) -> f64
     a.iter().zip(b).map(nearest).fold(0.0, larger)
 }
 
-/// The same concentration in a box whose sides are so many times the cube's.
+/// The same concentration in a box; `sides` are over those of the cube.
 fn in_a_box(scene: &mut Scene, sides: [f64; 3]) {
     let per_mm3 = 1e-3 * scene.concentration_per_cm3().unwrap_or(f64::NAN);
     let cube = (scene.particles.count as f64 / per_mm3).cbrt();

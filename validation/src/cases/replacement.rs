@@ -50,7 +50,7 @@ pub fn cases() -> Vec<Case> {
 
 /// Who moves and replaces the rods.
 enum Volume {
-    /// The core, by steps that are so many times the usual.
+    /// The core; `step` is over the usual time step.
     Core { step: u64 },
     /// Rods at random places that are carried, and a wrong rule for those that left; places in units of H.
     Wrong(fn(&mut [f64; 3], &mut Pcg64Dxsm)),

@@ -9,7 +9,7 @@ use shearbed::model::jeffery::strain_per_period;
 use shearbed::observable::Channel;
 use shearbed::scene::Scene;
 
-/// Fig. 7's rods for half a period, with another mean aspect ratio and so many rods per cm³.
+/// Fig. 7's rods for half a period, with another mean aspect ratio and concentration.
 pub fn scene(effort: &Effort, aspect_ratio: f64, concentration_per_cm3: f64) -> Scene {
     let mut scene = lab::interacting_scene(effort);
     scene.particles.aspect_ratio = aspect_ratio;
@@ -24,7 +24,7 @@ pub fn steps(aspect_ratio: f64, strain: f64) -> u64 {
     2 * (0.5 * strain_per_period(aspect_ratio) / strain).round() as u64
 }
 
-/// X̄₁ at t/T = ½ of replicas 0 to `replicas`, at so many steps a period.
+/// X̄₁ at t/T = ½ of replicas 0 to `replicas`.
 pub fn x1(scene: &Scene, steps_per_period: u64, replicas: u64) -> Vec<f64> {
     let mut scene = scene.clone();
     scene.time.steps_per_unit = Some(steps_per_period);

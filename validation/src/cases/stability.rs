@@ -93,7 +93,7 @@ fn corners(subjects: &Integrators, effort: &Effort) -> Vec<Evidence> {
     ]
 }
 
-/// Every map's cells that a subject has within so many steps.
+/// Every map's cells that a subject can fill with at most `most_steps` steps.
 fn tried(subject: &Integrator, most_steps: u64) -> Vec<Tried> {
     let theory = subject.theory;
     let mut all = Vec::new();

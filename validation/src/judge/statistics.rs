@@ -117,7 +117,7 @@ pub fn student(level: f64, samples: u64) -> f64 {
 /// terms leave 10⁻⁸ of a critical value of 6, and 10⁻¹² of one of 2.
 const MANY: f64 = 1000.0;
 
-/// The degrees of freedom of the standard deviation of so many values.
+/// The degrees of freedom of the standard deviation of `samples` values.
 pub fn freedom(samples: u64) -> f64 {
     samples.saturating_sub(1).max(1) as f64
 }

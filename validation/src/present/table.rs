@@ -179,12 +179,12 @@ fn with_errors<'a, R, T: Into<Option<(f64, f64)>>>(
     Column { heads, ..column(name, cell) }
 }
 
-/// A format with so many decimals.
+/// A format with `places` decimals.
 pub fn decimals(places: usize) -> impl Fn(f64) -> String + Copy {
     move |number| format!("{number:.places$}")
 }
 
-/// A format as 1.2e-3, with so many decimals.
+/// A format as 1.2e-3, with `places` decimals.
 pub fn powers(places: usize) -> impl Fn(f64) -> String + Copy {
     move |number| format!("{number:.places$e}")
 }

@@ -86,7 +86,7 @@ struct Moved<'a> {
     by: String,
 }
 
-/// Means that differ by more than so many standard errors have moved: 1 in 15 000 does by chance.
+/// Means that differ by more than this number of standard errors have moved: 1 in 15 000 does by chance.
 const NOISE: f64 = 4.0;
 
 /// Errors without noise have moved where they change by this part of their tolerance.

@@ -8,7 +8,7 @@ use shearbed::plan::Stage;
 /// A step of one rod takes 26 to 58 ns of one core, for 10² to 10⁶ rods (docs/src/developer/performance.md).
 const SECONDS_PER_ROD_AND_STEP: f64 = 40e-9;
 
-/// So many rods times steps, in words: `4.0e9 rods × steps, some 3 min of one core`.
+/// A number of rods times steps, in words: `4.0e9 rods × steps, some 3 min of one core`.
 fn text(rod_steps: f64) -> String {
     let seconds = rod_steps * SECONDS_PER_ROD_AND_STEP;
     let time = match seconds {

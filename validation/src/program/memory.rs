@@ -20,7 +20,7 @@ pub(super) fn check(plan: &Plan, threads: Option<u64>, vtk: bool, source: &str) 
     check_beside(plan, threads, vtk, source, 0)
 }
 
-/// The same where so many bytes are held beside each replica.
+/// The same where `beside` bytes are held beside each replica.
 pub(super) fn check_beside(
     plan: &Plan,
     threads: Option<u64>,
@@ -69,7 +69,7 @@ fn left_by(job: &Job) -> u64 {
     looks + job.followed.min(job.replicas) * 24 * job.scene.particles.count as u64
 }
 
-/// What a run of a plan holds, with its results and their tables and pictures at its end, and so many bytes beside each
+/// What a run of a plan holds, with its results and their tables and pictures at its end, and `beside` bytes for each
 /// replica.
 fn needed(plan: &Plan, threads: u64, vtk: bool, beside: u64) -> u64 {
     // A text that grows has twice its room.

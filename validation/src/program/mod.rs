@@ -181,7 +181,7 @@ fn with_name(arguments: Vec<OsString>) -> Vec<OsString> {
     std::iter::once("shearbed".into()).chain(arguments).collect()
 }
 
-/// Whether a plan fits into memory, with so many replicas at a time; why not.
+/// Checks that a plan fits into memory with a replica on each thread; the error says why not.
 pub fn fits(plan: &shearbed::Plan, threads: Option<u64>, source: &str) -> Result<(), String> {
     memory::check(plan, threads, false, source).map_err(|failure| failure.message_and_code().0)
 }
@@ -244,8 +244,8 @@ struct Writing {
     quiet: bool,
 }
 
-/// The folder for a command's results. The root checks it before the work: so many `bytes` and a little more can be written,
-/// and nothing is in the way of files of these names.
+/// The folder for a command's results. The root checks before the work that `bytes` bytes and a little more can be written,
+/// and that nothing is in the way of files of these names.
 fn result_folder<N: AsRef<str>>(
     dir: &Path,
     (command, inputs, force): (&str, Value, bool),
@@ -260,7 +260,7 @@ fn result_folder<N: AsRef<str>>(
     Ok(folder)
 }
 
-/// Checks, on the root, that so many `bytes` and a little more can be written in a folder.
+/// Checks, on the root, that `bytes` bytes and a little more can be written in a folder.
 fn probe(dir: &Path, bytes: u64) -> Result<(), Failure> {
     /// Pictures and records.
     const MORE: u64 = 1 << 20;

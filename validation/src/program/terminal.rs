@@ -61,13 +61,14 @@ pub(super) fn progress(steps: u64, what: &str, quiet: bool) -> ProgressBar {
         0 => format!("{{msg}} {{wide_bar}} {{pos}}/{{len}} {what}, {{left}}"),
         _ => format!("{{wide_bar}} {{pos}}/{{len}} {what}, {{left}} {{msg}}"),
     };
-    let left = |state: &ProgressState, text: &mut dyn fmt::Write| {
+    let of_what = if steps == 0 { " in this part" } else { "" };
+    let left = move |state: &ProgressState, text: &mut dyn fmt::Write| {
         let elapsed = state.elapsed().as_secs_f64();
         let words = match (state.pos(), state.len()) {
             (0, _) | (_, None) => format!("{elapsed:.0} s so far"),
             (done, Some(all)) => {
                 let rate = done as f64 / elapsed.max(1e-9);
-                format!("{rate:.2} a second, {:.0} s left", all.saturating_sub(done) as f64 / rate)
+                format!("{rate:.2} a second, {:.0} s left{of_what}", all.saturating_sub(done) as f64 / rate)
             }
         };
         // Where even this cannot be written, there is no bar.

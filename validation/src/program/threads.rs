@@ -42,7 +42,7 @@ fn of_environment(value: Option<OsString>) -> Result<Option<u64>, Failure> {
     }
 }
 
-/// Calls `work` on so many threads.
+/// Calls `work` on this number of threads.
 pub(super) fn on_threads<T: Send>(
     threads: Option<u64>,
     work: impl FnOnce() -> T + Send,

@@ -29,7 +29,7 @@ pub const STUDY: Study = Study {
 
 /// Steps per period that a program may choose from; against the last the error of the step is measured.
 const STEPS: [u64; 5] = [50, 100, 200, 400, 800];
-/// With so many the other programs are measured.
+/// The steps per period of the other programs.
 const USUAL: u64 = 200;
 const ERRORS: [f64; 5] = [0.02, 0.01, 0.005, 0.002, 0.001];
 

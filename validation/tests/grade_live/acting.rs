@@ -129,7 +129,7 @@ fn method(name: &str) -> (Option<usize>, bool) {
     }
 }
 
-/// Turned by so many rad.
+/// Turned by 10⁻⁸ rad.
 fn off_by_1e_8(p: Vector3<f64>) -> Vector3<f64> {
     let across = p.cross(&Vector3::z()).normalize();
     p + across * 1e-8

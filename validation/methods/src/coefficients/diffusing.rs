@@ -57,7 +57,7 @@ impl Diffusing {
         }
     }
 
-    /// The means over so many steps.
+    /// The means over `steps` steps.
     pub fn means(&mut self, steps: usize, strain: f64) -> Means {
         let first = self.moments();
         let mut sums = first.map(|tensor| tensor * 0.5);

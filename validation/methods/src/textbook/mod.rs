@@ -169,7 +169,7 @@ fn stages(motion: &Motion, tableau: &Tableau, x: &Vector, h: f64, k: &mut Vec<Ve
 /// How far to go.
 #[derive(Clone, Copy)]
 pub enum Setting {
-    /// So many equal steps.
+    /// This number of equal steps.
     Steps(u64),
     /// Steps chosen by a tolerance.
     Tolerance(f64),

@@ -142,7 +142,7 @@ fn cause(error: rmp_serde::encode::Error) -> io::Error {
     io::Error::other(error)
 }
 
-/// The next line of at most so many bytes, without its end.
+/// The next line, of at most `most` bytes, without its end.
 fn line(file: &mut impl BufRead, most: u64) -> io::Result<String> {
     let mut bytes = Vec::new();
     file.take(most).read_until(b'\n', &mut bytes)?;

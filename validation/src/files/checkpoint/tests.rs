@@ -175,7 +175,7 @@ fn nothing_that_is_done_is_run_again() {
     }
 }
 
-/// A disk that is full after so many bytes.
+/// A disk with room for this number of bytes.
 struct Full(usize);
 
 impl Write for Full {

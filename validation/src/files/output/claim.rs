@@ -18,7 +18,7 @@ const READY: &str = ".shearbed-ready";
 /// Prefix of lock and temporary files.
 const OURS: &str = ".shearbed-";
 
-/// Between two steps of one claim, so many other processes may make the folder and remove it again.
+/// The most other processes that may make the folder and remove it again between two steps of one claim.
 const OTHERS: usize = 1000;
 
 /// A lock on a folder: no other process that claims the folder writes there.

@@ -73,7 +73,7 @@ impl Sum {
         Self::from_parts(contents.len() as u64, crc32fast::hash(contents))
     }
 
-    /// The sum of a file of so many bytes and this checksum.
+    /// The sum of a file of `bytes` bytes with the checksum `crc32`.
     pub fn from_parts(bytes: u64, crc32: u32) -> Self {
         let crc32 = format!("{crc32:08x}");
         Self { bytes, crc32 }

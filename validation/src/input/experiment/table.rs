@@ -29,7 +29,7 @@ struct Record {
     cells: StringRecord,
 }
 
-/// The most lines of a file: no figure has so many points, and comparing them takes half a minute.
+/// The most lines of a file: more than any figure has points; comparing them takes half a minute.
 const MOST_LINES: usize = 20_000;
 
 /// Refuses a first line whose cells are apart by semicolons or tabs, with the mend: numbers have decimal commas there.
@@ -63,7 +63,7 @@ fn records(file: &str, text: &str) -> Result<Vec<Record>, DataError> {
                 ReaderBuilder::new().has_headers(false).trim(Trim::All).from_reader(text.as_bytes());
             let line = index + 1;
             if line > MOST_LINES {
-                let message = format!("more than {MOST_LINES} lines; at most so many are allowed");
+                let message = format!("more than the {MOST_LINES} lines that are allowed");
                 return Err(DataError::at(file, line, message));
             }
             reader.read_record(&mut cells).map_err(|error| DataError::at(file, line, error.to_string()))?;

@@ -21,7 +21,7 @@ mod theme;
 mod window;
 
 use crate::files::text::{escaped, readable};
-use crate::present::markup::unicode;
+use crate::present::markup::{powers, unicode};
 pub(crate) use axis::power_of_ten;
 pub(crate) use grid::decade;
 use legend::Legend;
@@ -292,7 +292,7 @@ fn typeset(figure: &Figure) -> Figure {
     });
     for text in texts.into_iter().chain(curves).chain(points).chain(maps) {
         // XML has no place for some characters, not even escaped.
-        *text = readable(&unicode(text)).into_owned();
+        *text = readable(&unicode(&powers(text))).into_owned();
     }
     figure
 }

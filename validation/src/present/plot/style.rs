@@ -150,7 +150,7 @@ pub(super) fn dashes(index: usize) -> String {
 }
 
 /// The mark of a point about the origin: a disc, a diamond, a triangle, a square, a triangle on its tip, as a polygon
-/// with so many corners and the first of them at an angle.
+/// given by its number of corners and the angle of the first.
 pub(super) fn marker(index: usize, size: i32) -> Polygon<(i32, i32)> {
     let (corners, first) = [(16, 0.0), (4, 0.0), (3, 0.75), (4, 0.125), (3, 0.25)][index % 5];
     let radius = f64::from(size) * if corners == 16 { 0.85 } else { 1.1 };

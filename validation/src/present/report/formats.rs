@@ -9,7 +9,7 @@ pub(super) fn number(value: f64) -> String {
     digits(value, 3)
 }
 
-/// A number to so many significant digits.
+/// A number to `digits` significant digits.
 pub(crate) fn digits(value: f64, digits: i32) -> String {
     let sign = if value < 0.0 { "−" } else { "" };
     let size = value.abs();

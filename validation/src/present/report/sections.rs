@@ -41,7 +41,7 @@ pub struct ReportStudy {
 }
 
 impl ReportStudy {
-    /// What a study found in so many seconds.
+    /// What a study found, and how long it took.
     pub fn new(study: &Study, found: Findings, seconds: f64) -> Self {
         Self {
             name: study.name.into(),

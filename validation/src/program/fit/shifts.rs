@@ -69,5 +69,5 @@ pub(super) fn taken_as_known(report: &Report) -> Vec<String> {
     without.flat_map(large).collect()
 }
 
-/// A shift is one, and no noise of its replicas, beyond so many standard errors.
+/// Beyond this number of standard errors a shift is more than the noise of its replicas.
 const CERTAIN: f64 = 3.0;

@@ -70,7 +70,7 @@ struct Table<R> {
 }
 
 impl<R: Read> Table<R> {
-    /// Reads the header of a table that is to have so many bytes.
+    /// Reads the header of a table whose record says that it has `bytes` bytes.
     fn new(file: R, bytes: u64) -> Result<Self, String> {
         let summed = Summed {
             // One more, by which a longer file is seen.

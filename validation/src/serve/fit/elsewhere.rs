@@ -14,7 +14,7 @@ const PARTS: usize = 16;
 /// How often a part is halved at most.
 const HALVED: u32 = 4;
 
-/// A change is one of the model, and no noise of its replicas, beyond so many standard errors.
+/// Beyond this number of standard errors a change is the model's, not the noise of its replicas.
 const CERTAIN: f64 = 5.0;
 
 /// The lowest minima that are looked into.

@@ -172,7 +172,7 @@ fn profile_of(fit: &Fit, axis: usize) -> (String, Figure) {
         level("95 %", outer),
     ];
     let figure = Figure {
-        title: format!("How far {} can go", range.label()),
+        title: format!("How far {} can go", letters::key(&range.label())),
         x_name: letters::key(&range.label()),
         y_name: "χ² above its least".into(),
         curves,
@@ -194,10 +194,11 @@ fn region_of(fit: &Fit, axes: [usize; 2]) -> (String, Figure) {
         }
     });
     let best = fit.values(&fit.best.place);
+    let [x_name, y_name] = axes.map(|axis| letters::key(&fit.ranges[axis].label()));
     let figure = Figure {
-        title: format!("{} and {} together", fit.ranges[a].label(), fit.ranges[b].label()),
-        x_name: letters::key(&fit.ranges[a].label()),
-        y_name: letters::key(&fit.ranges[b].label()),
+        title: format!("{x_name} and {y_name} together"),
+        x_name,
+        y_name,
         curves: curves.into(),
         points: vec![Points {
             label: "best".into(),

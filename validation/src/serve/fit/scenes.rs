@@ -113,7 +113,7 @@ impl Scenes {
         (self.sets[set].time.end_of(&plan)).ok_or_else(|| refused("has no period".into()))
     }
 
-    /// The same scenes at so many times their concentration, and that; none of rods that do not interact, or whose
+    /// The same scenes at `factor` times their concentration, and that concentration; none for rods that do not interact, or whose
     /// concentration is fitted. A box is changed in proportion.
     pub fn at_concentration(&self, factor: f64, values: &[f64]) -> Result<(Self, Vec<Option<f64>>), String> {
         const KEY: &str = "interaction.concentration_per_cm3";

@@ -6,7 +6,7 @@ use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::Basis;
 use crate::methods::least_squares::best::{Best, best};
 use crate::methods::least_squares::emulator::{Coefficients, Emulator, Model, Sides, coefficients};
-use crate::methods::least_squares::likelihood::REPLICAS;
+use crate::methods::least_squares::likelihood::{EMULATOR, REPLICAS};
 use crate::methods::least_squares::profile::{Interval, Profile, interval, profile, rise_of};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -32,6 +32,10 @@ const MOST_ROUNDS: u64 = 12;
 
 /// By how much χ² rises where the box may end: four standard deviations from the best place.
 const FAR: f64 = 16.0;
+
+/// The same where polynomials over that box are too blunt, by [`MOST_SHARE`] of a parameter's variance: three standard deviations,
+/// over which the error of degree 4 is a quarter. The 95 % interval, two of them, must end inside.
+const NEAR: f64 = 9.0;
 
 /// A box is made smaller only when a side shrinks below this share of it: runs anew cost more than that gains.
 const WORTH: f64 = 0.6;
@@ -61,9 +65,9 @@ pub struct FitProblem<'a> {
 pub struct Watch<'a> {
     /// Called with the name of each part of the work as it begins.
     pub stage: &'a (dyn Fn(&str) + Sync),
-    /// So many more runs.
+    /// Called with a number of runs that will follow.
     pub planned: &'a (dyn Fn(u64) + Sync),
-    /// One is done.
+    /// Called when one of them has ended.
     pub done: &'a (dyn Fn() + Sync),
 }
 
@@ -119,6 +123,7 @@ pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, String
     let mut wanted = FIRST_REPLICAS.min(problem.most_replicas);
     let (mut runs, mut rounds) = (0, 1);
     let mut found: Vec<Coefficients> = Vec::new();
+    let mut far = FAR;
     loop {
         let new = found.len() as u64..wanted;
         let planned = (wanted - new.start) * basis.nodes.len() as u64;
@@ -134,9 +139,13 @@ pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, String
             wanted = enough(wanted, fit.feigned(), CLEAR).min(problem.most_replicas);
             continue;
         }
-        if rounds < MOST_ROUNDS
-            && let Some(other) = other_sides(&fit, &whole)
-        {
+        let (mut other, mut gains) = other_sides(&fit, &whole, far);
+        if !gains && far == FAR && fit.best.share(EMULATOR) > MOST_SHARE {
+            far = NEAR;
+            other = other_sides(&fit, &whole, far).0;
+            gains = other != sides;
+        }
+        if gains && rounds < MOST_ROUNDS {
             sides = other;
             found.clear();
             rounds += 1;
@@ -220,15 +229,15 @@ fn enough(replicas: u64, share: f64, allowed: f64) -> u64 {
     (1.1 * needed).ceil().min(10.0 * replicas as f64) as u64 + 1
 }
 
-/// The box in which to look next; none where this one will do. Each side is to end some five standard deviations from the
-/// best place: nearer, the interval may be cut, farther, polynomials of this degree are blunt.
-fn other_sides(fit: &Fit, whole: &Sides) -> Option<Sides> {
+/// The box in which to look next, and whether it gains enough to run anew. Each side is to end a quarter beyond where χ² has risen
+/// by `far`: nearer, the interval may be cut, farther, polynomials of this degree are blunt.
+fn other_sides(fit: &Fit, whole: &Sides, far: f64) -> (Sides, bool) {
     let mut change = false;
     let sides = (0..whole.len())
         .map(|axis| {
             let (low, high) = fit.sides[axis];
             let at = |place: f64| 0.5 * (low + high) + 0.5 * (high - low) * place;
-            let far = interval(&fit.best, axis, &fit.profiles[axis], FAR);
+            let far = interval(&fit.best, axis, &fit.profiles[axis], far);
             let centre = fit.best.place[axis];
             let end = |place: f64, open: bool| match open {
                 // Not seen yet: beyond this box, far beyond where even the best place is at its edge.
@@ -243,7 +252,7 @@ fn other_sides(fit: &Fit, whole: &Sides) -> Option<Sides> {
             wanted
         })
         .collect();
-    change.then_some(sides)
+    (sides, change)
 }
 
 /// Whether every 95 % interval ends inside its box or at the edge of its range.
@@ -255,7 +264,7 @@ fn enclosed(fit: &Fit, whole: &Sides) -> bool {
     })
 }
 
-/// Standard uncertainties beyond so many ranges, and intervals that are all of it, say that no model value changes with a parameter.
+/// A standard uncertainty above this number of ranges, with an interval that is the whole range, says that no model value changes with the parameter.
 const UNTOLD: f64 = 10.0;
 
 /// Ends of 68 and 95 % closer than this share of the distance from the best place are one end: those of a parabola are half of it apart.

@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
 /// Nodes in r_e from −6 to 6 standard deviations: the trapezoid rule of a Gaussian times what is analytic converges
-/// geometrically, and so many leave 10⁻⁹ after three periods.
+/// geometrically, and this number leaves 10⁻⁹ after three periods.
 const NODES: usize = 401;
 const REACH: f64 = 6.0;
 

@@ -159,15 +159,22 @@ pub(super) fn words(graded: &Graded) -> Vec<&str> {
     parts.into_iter().flatten().collect()
 }
 
-/// What several problems say, what is said of single ones, all that are missing in one line, and the remarks.
+/// What several problems say together, what is said of each, once where it is the same, all that are missing in one line, and the
+/// remarks.
 fn lines(report: &Report) -> Vec<String> {
-    let of = |graded: &Graded| {
-        let parts = words(graded);
-        (!parts.is_empty() && graded.verdict != Verdict::Missing)
-            .then(|| format!("{} {}: {}", graded.verdict.word(), graded.name, parts.join("; ")))
+    let mut said: Vec<(Verdict, String, Vec<&str>)> = Vec::new();
+    for graded in report.problems.iter().filter(|graded| graded.verdict != Verdict::Missing) {
+        let text = words(graded).join("; ");
+        match said.iter_mut().find(|(verdict, same, _)| *verdict == graded.verdict && *same == text) {
+            Some((.., names)) => names.push(&graded.name),
+            None => said.push((graded.verdict, text, vec![&graded.name])),
+        }
+    }
+    let of = |(verdict, text, names): (Verdict, String, Vec<&str>)| {
+        (!text.is_empty()).then(|| format!("{} {}: {text}", verdict.word(), names.join(", ")))
     };
     let mut lines = report.diagnosis.clone();
-    lines.extend(report.problems.iter().filter_map(of));
+    lines.extend(said.into_iter().filter_map(of));
     lines.extend(missing(report));
     lines.extend(report.remarks.iter().cloned());
     lines
@@ -290,113 +297,4 @@ pub fn junit(report: &Report) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::present::xml::is_well_formed;
-    use crate::serve::problems;
-
-    fn report() -> Report {
-        let sphere = problems::named("sphere").unwrap().loaded("sphere".into());
-        let graded = |name: &str, verdict, error| Graded {
-            name: name.to_owned(),
-            verdict,
-            error,
-            ..Graded::without_answer(&sphere)
-        };
-        let mut bad = graded("b", Verdict::Fail, Some(0.5));
-        bad.diagnosis = Some("this is the curve of \"x\" & <y>\u{1}, to 1e-9".into());
-        Report {
-            format: 1,
-            shearbed: "0".into(),
-            reference: "ref".into(),
-            answers: "mine".into(),
-            problems: vec![
-                graded("a", Verdict::Pass, Some(1e-10)),
-                bad,
-                graded("c", Verdict::Missing, None),
-                Graded { reference: Origin::Foreign, ..graded("d", Verdict::NotReached, Some(1e-3)) },
-            ],
-            live: None,
-            diagnosis: vec!["one mistake explains both".into()],
-            remarks: vec!["a remark".into()],
-            all: false,
-        }
-    }
-
-    #[test]
-    fn every_writer_has_every_problem_and_its_verdict() {
-        let report = report();
-        let xml = junit(&report);
-        assert!(is_well_formed(xml.split_once("?>\n").unwrap().1), "{xml}");
-        assert!(xml.contains("tests=\"4\" failures=\"2\"") && xml.contains("<skipped"));
-        let wanted = Report { all: true, ..report.clone() };
-        assert!(junit(&wanted).contains("failures=\"3\" errors=\"0\" skipped=\"0\""));
-        assert!(wanted.headline().contains("1 MISSING (no answer: not passed)"));
-        assert!(xml.contains("&quot;x&quot; &amp; &lt;y&gt;\\u{1}"));
-        let json: serde_json::Value = serde_json::from_str(&json(&report).unwrap()).unwrap();
-        assert_eq!(json["problems"][1]["verdict"], "FAIL");
-        assert_eq!(json["problems"][2]["error"], serde_json::Value::Null);
-        assert_eq!(json["problems"][3]["verdict"], "NOT REACHED");
-        let origins = [2, 3].map(|k| json["problems"][k]["reference"].clone());
-        assert_eq!(origins, ["built-in", "foreign"]);
-        for text in [terminal(&report), markdown(&report)] {
-            for word in [
-                "PASS",
-                "FAIL",
-                "MISSING",
-                "curve of",
-                "a remark",
-                "one mistake explains both",
-                "1 of 4 problems pass",
-                "1 NOT REACHED",
-                "FOREIGN",
-            ] {
-                assert!(text.contains(word), "{word}: {text}");
-            }
-        }
-    }
-
-    #[test]
-    fn the_terminal_has_80_columns_and_one_line_for_all_that_is_missing() {
-        let mut report = report();
-        report.answers = "python3 my_code.py ".repeat(20);
-        report.remarks = vec!["words and words ".repeat(30).trim().to_owned()];
-        for k in 0..20 {
-            report.problems.push(Graded { name: format!("missing-{k}"), ..report.problems[2].clone() });
-        }
-        let text = terminal(&report);
-        let longest = text.lines().map(|line| line.chars().count()).max().unwrap();
-        assert!(longest <= 80, "{longest}: {text}");
-        assert_eq!(text.matches("MISSING").count(), 2, "the headline and one line: {text}");
-        assert!(text.contains("21 MISSING, no answer: c, missing-0, missing-1"), "{text}");
-        let short = Report {
-            problems: vec![report.problems[0].clone()],
-            diagnosis: vec![],
-            remarks: vec![],
-            ..report.clone()
-        };
-        for text in [&text, &terminal(&short)] {
-            assert!(!text.contains("\n\n\n") && text.ends_with('\n') && !text.ends_with("\n\n"), "{text:?}");
-        }
-        let whole = text.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(
-            whole.contains(&report.remarks[0]) && whole.contains("missing-19"),
-            "nothing is lost: {text}"
-        );
-        assert_eq!(wrapped("a  b\n"), "a  b\n");
-    }
-
-    #[test]
-    fn a_report_passes_where_one_passes_and_none_fails() {
-        let mut report = report();
-        assert!(!report.passes());
-        report.problems.remove(1);
-        assert!(!report.passes(), "one is not reached");
-        report.problems.pop();
-        assert!(report.passes() && !Report { all: true, ..report.clone() }.passes(), "one is missing");
-        report.problems.remove(0);
-        assert!(!report.passes(), "none passes");
-        report.problems.clear();
-        assert!(!report.passes());
-    }
-}
+mod tests;

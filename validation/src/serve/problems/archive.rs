@@ -3,6 +3,7 @@
 //! A tar file (POSIX ustar, not compressed), the same bytes each time: names ascend, times are 0.
 
 use super::{FORMAT, all, built, files};
+use crate::files::build::BUILD;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
@@ -91,6 +92,7 @@ fn citation() -> String {
     format!(
         "cff-version: 1.2.0\nmessage: \"If you use these problems, please cite them as below.\"\ntype: dataset\n\
          title: \"Reference problems for rigid rods in shear flow\"\nauthors:\n  - name: \"The shearbed authors\"\n\
-         version: \"{VERSION}\"\nlicense: MIT\nkeywords:\n  - verification\n  - Jeffery orbits\n  - fibre orientation\n"
+         version: \"{VERSION}\"\ncommit: \"{}\"\nlicense: MIT\nkeywords:\n  - verification\n  - Jeffery orbits\n  - fibre orientation\n",
+        BUILD.commit,
     )
 }

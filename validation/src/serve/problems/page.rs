@@ -43,28 +43,28 @@ fn asked(built: &Built) -> String {
     };
     match problem.kind {
         Kind::Rods => format!(
-            "The directions at t = {2} s of the {0} of `start.csv` (`rod,p1,p2,p3` at t = 0, of aspect ratio r_e = {1}). Numbers are \
+            "The directions at t = {2} s of the {0} of `start.csv` (`rod,p1,p2,p3` at t = 0, of aspect ratio {1}). Numbers are \
              doubles and are exact.",
             match built.start.len() {
                 1 => "rod".into(),
                 count => format!("{count} rods"),
             },
-            problem.aspect_ratio,
+            aspect_ratio(problem.aspect_ratio),
             times()
         ),
         Kind::Tensor if problem.closed.is_some() => format!(
-            "a_ij of the closed equation below, for rods of r_e = {}, at t = {} s. `closed` in problem.json has the closure, the model \
+            "a_ij of the closed equation below, for rods of {}, at t = {} s. `closed` in problem.json has the closure, the model \
              with its parameters, and a_ij at t = 0.",
-            problem.aspect_ratio,
+            aspect_ratio(problem.aspect_ratio),
             times()
         ),
         Kind::Tensor => format!(
-            "Means over infinitely many {}, isotropic at t = 0, of aspect ratio r_e = {}{}, at t = {} s.",
+            "Means over infinitely many {}, isotropic at t = 0, of aspect ratio {}{}, at t = {} s.",
             match problem.c_i {
                 None => "free rods".to_owned(),
                 Some(c_i) => format!("rods with rotary diffusion, C_I = {c_i}"),
             },
-            problem.aspect_ratio,
+            aspect_ratio(problem.aspect_ratio),
             match problem.aspect_ratio_sd_percent {
                 0.0 => String::new(),
                 sd => format!(" (Gaussian, standard deviation {sd} % of the mean)"),
@@ -81,6 +81,14 @@ fn asked(built: &Built) -> String {
             }
         ),
         Kind::Ensemble => format!("Means with standard errors at t = {} s.", times()),
+    }
+}
+
+/// "r_e = 11.6". From 1e9 on Λ is 1 in doubles: rods without a thickness.
+fn aspect_ratio(r_e: f64) -> String {
+    match r_e < 1e9 {
+        true => format!("r_e = {r_e}"),
+        false => format!("r_e = {r_e:e} (Λ = 1)"),
     }
 }
 

@@ -74,7 +74,7 @@ pub struct Watch {
 }
 
 impl Watch {
-    /// Jumps over a strain of 1 or little else, in the steps of the scene, after so many periods and for so many.
+    /// Jumps over a strain of about 1, in the steps of the scene, from `before` periods on and for `periods`.
     pub fn new(scene: &Scene, before: f64, periods: f64) -> Self {
         let period = strain_per_period(scene.particles.aspect_ratio);
         let strain = period / scene.steps_per_unit() as f64;

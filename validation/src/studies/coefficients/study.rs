@@ -99,7 +99,7 @@ fn kicked(row: &Coefficients) -> bool {
     row.setting.update == Update::Kick
 }
 
-/// The suspensions of r_e = 11.6 and α = 0.5 with so many times the steps that resolve the motion.
+/// The suspensions of r_e = 11.6 and α = 0.5 with `finer` times the default number of steps.
 fn base(rows: &[Coefficients], finer: u64) -> Vec<&Coefficients> {
     let chosen = |row: &&Coefficients| kicked(row) && kind(row) == (11.6, 0.5) && row.setting.finer == finer;
     rows.iter().filter(chosen).collect()

@@ -21,7 +21,7 @@ pub struct Apart {
     pub averaged_x1: f64,
 }
 
-/// Runs both for so many steps. Places and replacements depend on no direction, so they are the same. `change` is what
+/// Runs both for `steps` steps. Places and replacements depend on no direction, so they are the same. `change` is what
 /// is done to the averaged motion alone.
 pub fn apart(scene: &Scene, steps: u64, change: fn(&mut NaiveProblem), replica: u64) -> Apart {
     let mut core = lab::suspension(scene, replica);

@@ -90,7 +90,7 @@ impl Amount {
     pub const FULL: Self = Self { half_decades: 12, trials: 64 };
 }
 
-/// Trials are put into so many groups, and the spread of their exponents is the error.
+/// Groups of trials: the spread of their exponents is the error.
 pub const GROUPS: usize = 8;
 
 impl Free {

@@ -44,7 +44,7 @@ pub struct Trace {
 }
 
 impl Job {
-    /// The scene's replicas 0 to `replicas` at so many steps per period and rods, looked at after whole periods.
+    /// The scene's replicas 0 to `replicas` with `rods` rods and `steps_per_period` steps a period, looked at after whole periods.
     pub fn new(scene: &Scene, steps_per_period: u64, rods: usize, replicas: u64, periods: u64) -> Self {
         let mut scene = scene.clone();
         scene.time = Time {

@@ -30,7 +30,7 @@ const FOLLOWED: u64 = 16;
 pub enum Replicas {
     /// The same for all.
     Each(u64),
-    /// As many as keep a job below so many rods times steps, at least 8 and at most `most`.
+    /// As many as keep a job below `rod_steps`, at least 8 and at most `most`.
     Within {
         /// Rods times steps of a job.
         rod_steps: u64,

@@ -68,8 +68,8 @@ fn what_a_killed_run_left_is_put_right_by_the_next() {
     assert!(x.join("run.json").exists());
 }
 
-/// Killed when so many of its files are written under their hidden name: a moment that the test may miss on a loaded machine, but
-/// whatever the moment is, the set is whole or not there.
+/// Killed when some of its files are written under their hidden names. A loaded machine may miss that moment; whatever the moment
+/// is, the set is whole or not there.
 #[test]
 fn a_run_killed_at_any_moment_leaves_a_whole_set_or_none() {
     let dir = folder();

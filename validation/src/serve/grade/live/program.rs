@@ -8,10 +8,10 @@ use std::hash::{BuildHasher, RandomState};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// After so many answers that did not come in time the program is not asked again.
+/// After this number of answers that did not come in time the program is not asked again.
 const MOST_HANGS: u32 = 2;
 
-/// After so many breaches of the protocol it is not started again.
+/// After this number of breaches of the protocol it is not started again.
 const MOST_BREACHES: u32 = 20;
 
 /// What is asked of free rods: their directions at `end_s`.

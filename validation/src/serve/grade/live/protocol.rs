@@ -44,7 +44,7 @@ impl Protocol {
         }
     }
 
-    /// Reads the answer to the request `id` about so many rods. `Err` says what is wrong with the line.
+    /// Reads the answer to the request `id` about `rods` rods. `Err` says what is wrong with the line.
     pub(super) fn read(self, line: &str, id: u64, rods: usize) -> Result<Answer, String> {
         match self {
             Self::Json => read(line, id, rods),
@@ -81,7 +81,7 @@ pub struct Request<'a> {
     pub start: &'a [[f64; 3]],
     /// The time in s for which directions are asked.
     pub end_s: f64,
-    /// So many equal steps.
+    /// The number of equal steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<u64>,
     /// In place of steps: the relative and absolute tolerance.
@@ -98,7 +98,7 @@ pub enum Answer {
     Error(String),
 }
 
-/// Reads the answer to the request `id` about so many rods. `Err` says what is wrong with the line.
+/// Reads the answer to the request `id` about `rods` rods. `Err` says what is wrong with the line.
 pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
     let answer = parse(line)?;
     match answer.id.as_ref().map(|found| (found, found.as_u64())) {

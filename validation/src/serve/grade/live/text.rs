@@ -20,7 +20,7 @@ pub fn write(request: &Request<'_>) -> String {
     line
 }
 
-/// Reads the answer to the request `id` about so many rods: `id` and three numbers for each rod, or `id error REASON`.
+/// Reads the answer to the request `id` about `rods` rods: `id` and three numbers for each rod, or `id error REASON`.
 /// `Err` says what is wrong with the line.
 pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
     let mut words = line.split_ascii_whitespace();

@@ -177,7 +177,7 @@ fn what_would_take_too_long_is_not_asked_unless_it_confirms() {
     assert!(matches!(end(1e-15, 31.0), End::OutOfTime(_)));
 }
 
-/// How the rungs of a program are judged whose error at so many steps, asked for the n-th time, is this.
+/// How a program is judged whose error, by the number of steps and of times it was asked, is `error`.
 fn judged(error: impl Fn(u64, u32) -> f64) -> End {
     let count = Cell::new(0);
     let ask = |setting: Setting| -> Result<Rung, Asked> {
