@@ -35,6 +35,11 @@ impl Channel {
         self.observable.columns()[self.index].to_owned()
     }
 
+    /// The least and the largest mean that it can have.
+    pub fn range(self) -> [f64; 2] {
+        self.observable.range(self.index)
+    }
+
     /// The channel whose column has this name.
     pub fn named(name: &str) -> Option<Self> {
         let mut all = Observable::ALL.into_iter().flat_map(Observable::channels);

@@ -18,6 +18,10 @@ impl Observe for Cos2Phi {
         &["cos_2phi"]
     }
 
+    fn range(&self, _column: usize) -> [f64; 2] {
+        [-1.0, 1.0]
+    }
+
     fn add(&self, block: &Block, sums: &mut [Sum]) {
         let [p1, p2, _] = &block.p;
         sums[0].add_each(block.len, |i| {

@@ -18,6 +18,10 @@ impl Observe for MeanAngle {
         &["phi"]
     }
 
+    fn range(&self, _column: usize) -> [f64; 2] {
+        [0.0, std::f64::consts::FRAC_PI_2]
+    }
+
     fn add(&self, block: &Block, sums: &mut [Sum]) {
         let [p1, p2, _] = &block.p;
         sums[0].add_each(block.len, |i| folded_phi(p1[i], p2[i]));

@@ -137,6 +137,12 @@ pub trait Observe: Sync {
     /// Adds the block's rods to the sums of its columns.
     fn add(&self, block: &Block, sums: &mut [Sum]);
 
+    /// The least and the largest mean that a column can have, by its place in [`Observe::columns`]: measured values beyond are
+    /// refused. Unbounded unless the observable says otherwise.
+    fn range(&self, _column: usize) -> [f64; 2] {
+        [f64::NEG_INFINITY, f64::INFINITY]
+    }
+
     /// True if its formula holds in plane Couette flow u_2 = G x_1 alone.
     fn needs_couette(&self) -> bool {
         false
@@ -161,6 +167,17 @@ pub trait Observe: Sync {
     fn trace(&self, _sums: &[Sum]) -> Option<(&'static str, f64)> {
         None
     }
+}
+
+/// The range of a mean of products of direction components, by a column's name: `a1123` for p₁²p₂p₃. With exponents e of sum d a
+/// product is at most Π (e/d)^(e/2).
+fn range_of_product(column: &str) -> [f64; 2] {
+    let axes = &column[1..];
+    let exponents = ['1', '2', '3'].map(|axis| axes.matches(axis).count() as i32);
+    let all = axes.len() as f64;
+    let square: f64 = exponents.iter().map(|e| (f64::from(*e) / all).powi(*e)).product();
+    let most = square.sqrt();
+    [if exponents.iter().all(|e| e % 2 == 0) { 0.0 } else { -most }, most]
 }
 
 /// Sums per output.

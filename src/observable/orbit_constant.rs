@@ -47,6 +47,10 @@ impl Observe for OrbitConstant {
         &COLUMNS
     }
 
+    fn range(&self, column: usize) -> [f64; 2] {
+        [0.0, if column == 0 { 1.0 } else { BINS as f64 }]
+    }
+
     fn add(&self, block: &Block, sums: &mut [Sum]) {
         let [p1, p2, p3] = &block.p;
         let mut bounded = [0.0; BLOCK];

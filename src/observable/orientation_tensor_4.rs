@@ -1,6 +1,6 @@
 //! ⟨pppp⟩: its 15 components that differ.
 
-use super::{Block, Observe, Sum};
+use super::{Block, Observe, Sum, range_of_product};
 
 /// The components that differ, each as two of the pairs 11, 22, 33, 12, 13, 23 by their places.
 const QUADS: [[usize; 2]; 15] = [
@@ -40,6 +40,10 @@ impl Observe for OrientationTensor4 {
             "a1111", "a1112", "a1113", "a1122", "a1123", "a1133", "a1222", "a1223", "a1233", "a1333",
             "a2222", "a2223", "a2233", "a2333", "a3333",
         ]
+    }
+
+    fn range(&self, column: usize) -> [f64; 2] {
+        range_of_product(self.columns()[column])
     }
 
     fn add(&self, block: &Block, sums: &mut [Sum]) {

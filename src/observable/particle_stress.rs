@@ -19,6 +19,12 @@ impl Observe for ParticleStress {
         &["s12_per_mu_fiber_g", "n1_per_mu_fiber_g", "n2_per_mu_fiber_g"]
     }
 
+    fn range(&self, column: usize) -> [f64; 2] {
+        // sin²2φ/4, sin 4φ/4, and p₁³p₂, largest at p₁² = ¾.
+        let n2 = 3.0 * 3f64.sqrt() / 16.0;
+        [[0.0, 0.25], [-0.25, 0.25], [-n2, n2]][column]
+    }
+
     fn add(&self, block: &Block, sums: &mut [Sum]) {
         let ([p1, p2, p3], weight) = (&block.p, &block.weight);
         sums[0].add_each(block.len, |i| weight[i] * (p1[i] * p2[i]).powi(2));

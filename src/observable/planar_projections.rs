@@ -17,6 +17,10 @@ impl Observe for PlanarProjections {
         &["x1x2", "x2x3", "x1x3"]
     }
 
+    fn range(&self, _column: usize) -> [f64; 2] {
+        [0.0, 1.0]
+    }
+
     fn add(&self, block: &Block, sums: &mut [Sum]) {
         let [p1, p2, p3] = &block.p;
         for (sum, (a, b)) in sums.iter_mut().zip([(p1, p2), (p2, p3), (p1, p3)]) {

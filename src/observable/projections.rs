@@ -17,6 +17,10 @@ impl Observe for Projections {
         &["x1", "x2", "x3"]
     }
 
+    fn range(&self, _column: usize) -> [f64; 2] {
+        [0.0, 1.0]
+    }
+
     fn add(&self, block: &Block, sums: &mut [Sum]) {
         for (sum, p) in sums.iter_mut().zip(&block.p) {
             sum.add_each(block.len, |i| p[i].abs());

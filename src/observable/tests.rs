@@ -68,6 +68,35 @@ fn one_rod_by_hand() {
     assert_eq!(filled, [(5, &20.0)]);
 }
 
+/// Against the least and the largest value of a rod over a fine grid of directions: a mean lies between.
+#[test]
+fn every_column_has_the_range_of_its_formula() {
+    const PARTS: i32 = 240;
+    let part = |whole: f64, k: i32| whole * f64::from(k) / f64::from(PARTS);
+    for observable in Observable::ALL {
+        let mut found = vec![[f64::INFINITY, f64::NEG_INFINITY]; observable.width()];
+        for (i, j) in (0..=PARTS).flat_map(|i| (0..PARTS).map(move |j| (i, j))) {
+            let ((st, ct), (sp, cp)) =
+                (part(std::f64::consts::PI, i).sin_cos(), part(std::f64::consts::TAU, j).sin_cos());
+            for (found, value) in found.iter_mut().zip(observe_rod(observable, [st * cp, st * sp, ct])) {
+                *found = [found[0].min(value), found[1].max(value)];
+            }
+        }
+        for (channel, [least, most]) in observable.channels().zip(found) {
+            let range = channel.range();
+            if range == [f64::NEG_INFINITY, f64::INFINITY] {
+                assert_eq!(observable, Observable::Stress);
+                continue;
+            }
+            // The grid misses an extreme by half a step, (π/240)², times the curvature.
+            for (range, found, outward) in [(range[0], least, -1.0), (range[1], most, 1.0)] {
+                let beyond = (found - range) * outward;
+                assert!((-2e-3..=1e-12).contains(&beyond), "{}: {range} {found}", channel.name());
+            }
+        }
+    }
+}
+
 #[test]
 fn the_columns_are_as_many_as_the_sums() {
     for observable in Observable::ALL {

@@ -285,12 +285,20 @@ impl Node {
     }
 }
 
+/// A number, with a power of ten where it would have many zeros.
+pub(crate) fn decimal(number: f64) -> String {
+    match number == 0.0 || !number.is_finite() || (1e-5..1e16).contains(&number.abs()) {
+        true => number.to_string(),
+        false => format!("{number:e}"),
+    }
+}
+
 /// A value in TOML, on one line.
 pub(crate) fn as_toml(value: &Value) -> String {
     match value {
         Value::String(text) => format!("{text:?}"),
         Value::Integer(number) => number.to_string(),
-        Value::Float(number) => number.to_string(),
+        Value::Float(number) => decimal(*number),
         Value::Boolean(is) => is.to_string(),
         Value::Datetime(date) => date.to_string(),
         Value::Array(all) => format!("[{}]", all.iter().map(as_toml).collect::<Vec<_>>().join(", ")),

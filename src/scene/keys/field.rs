@@ -2,7 +2,7 @@
 
 use super::{Holds, MAX_FLOW_STEPS};
 use crate::observable::Observable;
-use crate::scene::document::as_toml;
+use crate::scene::document::{as_toml, decimal};
 use crate::scene::{FlowStep, Orientation, RodsFile, Update};
 
 /// A type that a key can have.
@@ -61,7 +61,7 @@ impl Field for f64 {
     }
 
     fn shown(&self) -> String {
-        self.to_string()
+        decimal(*self)
     }
 }
 

@@ -154,12 +154,13 @@ pub fn followed(path: &Path) -> PathBuf {
 }
 
 /// Writes a new folder beside its place, under a hidden name, and moves it there; false where somebody else made one in
-/// between. What a killed process left under the hidden name is replaced.
+/// between. What a killed process left under the hidden name is replaced; what is not of this program's making is refused.
 fn appear<C: AsRef<[u8]>>(dir: &Path, files: &[(String, C)]) -> Result<bool, OutputError> {
     let Some(name) = dir.file_name() else {
         return Ok(false);
     };
     let part = dir.with_file_name(format!(".{}.shearbed-part", name.to_string_lossy()));
+    own(&part, claim::is_locked)?;
     let claim = Claim::new(&part, PATIENCE).map_err(|error| at(dir)(error.reason))?;
     let _writing = claim::writing();
     let moved = refill(&part, dir, files).and_then(|()| match fs::rename(&part, dir) {
@@ -169,17 +170,39 @@ fn appear<C: AsRef<[u8]>>(dir: &Path, files: &[(String, C)]) -> Result<bool, Out
     });
     match moved {
         Ok(true) => claim.moved_to(dir),
-        _ => drop(fs::remove_dir_all(&part)),
+        _ => {
+            // The first error is the one to report. The lock goes last, for files without one are taken for a user's.
+            let _ = refill::<&[u8]>(&part, dir, &[]);
+            drop(claim);
+            let _ = fs::remove_dir(&part);
+        }
     }
     moved
+}
+
+/// Refuses what stands in the place of a hidden folder of this program without being one: a link, which leads elsewhere, or a
+/// folder that holds files and is not `marked` as this program's.
+fn own(part: &Path, marked: impl Fn(&Path) -> bool) -> Result<(), OutputError> {
+    let empty = || fs::read_dir(part).is_ok_and(|mut entries| entries.next().is_none());
+    let own = match fs::symlink_metadata(part) {
+        // Twice: between the first two looks another process may have begun or ended its work there.
+        Ok(found) if found.is_dir() => [marked(part), empty(), marked(part), empty()].contains(&true),
+        Ok(_) => false,
+        Err(_) => true,
+    };
+    let why =
+        "this name is kept for files that are being written, and what is there is not shearbed's; move it";
+    own.then_some(()).ok_or_else(|| at(part)(io::Error::new(io::ErrorKind::AlreadyExists, why)))
 }
 
 /// Writes a new folder of files inside one that is claimed. It appears whole or not at all; what a killed process left
 /// of it is replaced.
 pub fn write_folder(dir: &Path, files: &[Output]) -> Result<(), OutputError> {
     let name = dir.file_name().unwrap_or_default().to_string_lossy();
-    let part = dir.with_file_name(format!(".{name}.part"));
+    let part = dir.with_file_name(format!(".{name}.shearbed-part"));
     let _writing = claim::writing();
+    // In a folder that is claimed, what has this name and is no link is half of an earlier set.
+    own(&part, Path::is_dir)?;
     fs::create_dir_all(&part).map_err(at(dir))?;
     let written = refill(&part, dir, files).and_then(|()| fs::rename(&part, dir).map_err(at(dir)));
     if written.is_err() {
@@ -194,8 +217,9 @@ pub fn write_folder(dir: &Path, files: &[Output]) -> Result<(), OutputError> {
 fn refill<C: AsRef<[u8]>>(part: &Path, dir: &Path, files: &[(String, C)]) -> Result<(), OutputError> {
     let empty = || {
         for entry in fs::read_dir(part)? {
-            let path = entry?.path();
-            if path.is_dir() {
+            let entry = entry?;
+            let path = entry.path();
+            if entry.file_type()?.is_dir() {
                 fs::remove_dir_all(&path)?;
             } else if !path.ends_with(claim::LOCK) {
                 fs::remove_file(&path)?;

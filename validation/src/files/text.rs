@@ -101,6 +101,37 @@ pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
     Cow::Owned(format!("{head} … ({left_out} characters are left out here) … {tail}"))
 }
 
+/// A message for the terminal: what commands one is written out, a number of many digits is a power of ten, and the middle of a
+/// long text is left out.
+pub(crate) fn message(text: &str) -> String {
+    readable(&shortened(&with_short_numbers(text))).into_owned()
+}
+
+/// The most characters of a number in a message.
+const DIGITS: usize = 24;
+
+/// A text in which a longer number is a power of ten. One that is cut, with `…` behind it, stays.
+fn with_short_numbers(text: &str) -> String {
+    let is_of_number = |c: char| c.is_ascii_digit() || c == '.';
+    let (mut short, mut rest) = (String::new(), text);
+    while let Some(start) = rest.find(is_of_number) {
+        let (before, from) = rest.split_at(start);
+        let (run, after) = from.split_at(from.find(|c| !is_of_number(c)).unwrap_or(from.len()));
+        // A full stop ends the sentence.
+        let number = run.trim_end_matches('.');
+        let value = number.parse::<f64>().ok().filter(|value| value.is_finite());
+        short += before;
+        match value {
+            Some(value) if number.len() > DIGITS && !after.trim_start().starts_with(['…', 'e']) => {
+                short += &format!("{value:e}{}", &run[number.len()..]);
+            }
+            _ => short += run,
+        }
+        rest = after;
+    }
+    short + rest
+}
+
 /// A number with four decimals, or as a power of ten where it would have hundreds of digits.
 pub(crate) fn four_decimals(x: f64) -> String {
     match x.abs() < 1e12 {
@@ -182,6 +213,19 @@ mod tests {
         let unseen = "a\u{200b}b\u{ad}c\u{feff}d\u{2060}e\u{e0041}";
         assert_eq!(readable(unseen), r"a\u{200b}b\u{ad}c\u{feff}d\u{2060}e\u{e0041}");
         assert_eq!(readable("X̄₁, é, 中文, العربية"), "X̄₁, é, 中文, العربية");
+    }
+
+    #[test]
+    fn a_number_of_hundreds_of_digits_is_a_power_of_ten() {
+        for (text, short) in [
+            (format!("periods = {}: at most 1e6.", 1e300), "periods = 1e300: at most 1e6."),
+            (format!("-{} and {}.", 1.5e299, 1e-300), "-1.5e299 and 1e-300."),
+            ("0.1234567890123456789, 1.2.3, 2e5".into(), "0.1234567890123456789, 1.2.3, 2e5"),
+        ] {
+            assert_eq!(with_short_numbers(&text), short);
+        }
+        let kept = [format!("{} …", 1e30), format!("{}e5", 1e30), "9".repeat(400)];
+        kept.iter().for_each(|text| assert_eq!(with_short_numbers(text), *text));
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 mod table;
 
+use crate::files::text::Shown;
 use shearbed::scene::{OwnRods, RodsFile, Scene};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -49,7 +50,7 @@ impl Starts {
             return Ok(());
         };
         let path = self.folder.join(file);
-        let refused = |what: String| format!("particles.rods: {}{what}", path.display());
+        let refused = |what: String| format!("particles.rods: {}{what}", path.shown());
         let start = match self.read.get(file) {
             Some(start) => start.clone(),
             None => {

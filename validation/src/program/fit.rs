@@ -6,6 +6,7 @@ mod shifts;
 use super::{Failure, Threads, Writing, on_threads, print, progress, restart, result_folder, scene, whole};
 use crate::files::build::BUILD;
 use crate::files::output::Output;
+use crate::files::text::Shown;
 use crate::files::text::command;
 use crate::input::experiment::MOST_BYTES;
 use crate::present::plot;
@@ -131,7 +132,7 @@ pub(super) fn fit(args: &Args) -> Result<(), Failure> {
         terminal::sentence(&done.fit, &done.report),
         terminal::tests(&done.report),
         terminal::table(&done.fit, &done.report),
-        out.display(),
+        out.shown(),
     ))
 }
 
@@ -183,7 +184,7 @@ fn asked(args: &Args, input: &Input) -> Result<Value, Failure> {
     let mut data = Vec::new();
     for (set, path) in input.scenes.sets.iter().zip(&input.files) {
         let (_, crc32) = crate::files::bounded::length_and_crc32(path, MOST_BYTES)
-            .map_err(|error| Failure::Input(format!("{}: cannot be read: {error}", path.display())))?;
+            .map_err(|error| Failure::Input(format!("{}: cannot be read: {error}", path.shown())))?;
         data.push(json!({
             "scene": set.source, "file": path.display().to_string(), "crc32": crc32, "time": set.time,
             "seed": set.seed, "scene_text": set.text, "starts": set.starts.checksums()

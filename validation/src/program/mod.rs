@@ -36,9 +36,10 @@ mod words;
 pub use manual::commands;
 
 use crate::files::output::{self, ResultFolder};
-use crate::files::text::{complain, readable};
+use crate::files::text::complain;
 use crate::files::{cluster, text};
 use crate::present::plot::Figure;
+use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand};
 use serde_json::{Value, json};
 use std::ffi::OsString;
@@ -186,11 +187,19 @@ pub fn fits(plan: &shearbed::Plan, threads: Option<u64>, source: &str) -> Result
     memory::check(plan, threads, false, source).map_err(|failure| failure.message_and_code().0)
 }
 
+/// The message with the value that it is about on one line.
+fn on_one_line(error: &clap::Error, message: String) -> String {
+    match error.get(ContextKind::InvalidValue) {
+        Some(ContextValue::String(value)) => message.replacen(value, &text::line(value), 1),
+        _ => message,
+    }
+}
+
 /// Prints what is wrong with the arguments, or the help; returns the exit code.
 fn print_usage(error: &clap::Error) -> ExitCode {
     let (message, code) = (error.to_string(), error.exit_code());
     match error.use_stderr() {
-        true => complain(&readable(&text::shortened(&message))),
+        true => complain(&text::message(&on_one_line(error, message))),
         // Where even this cannot be written, the exit code has to say it.
         false => drop(io::stdout().write_all(message.as_bytes())),
     }

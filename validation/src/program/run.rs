@@ -65,8 +65,8 @@ fn reads_no_result(starts: &Starts, out: &Path, names: &[impl AsRef<Path>]) -> R
     match starts.files().find(|file| there(file.clone()).is_some_and(|file| results.contains(&file))) {
         Some(file) => Err(Failure::Input(format!(
             "--out {}: a result would replace {}, which particles.rods reads: choose another folder",
-            out.display(),
-            file.display()
+            out.shown(),
+            file.shown()
         ))),
         None => Ok(()),
     }

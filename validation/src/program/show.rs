@@ -5,7 +5,7 @@ use super::facts::{self, Facts};
 use super::scene::{Chosen, Ensemble};
 use super::until::{LEAST, Until};
 use super::{Failure, memory, print};
-use crate::files::text::left_aligned;
+use crate::files::text::{left_aligned, line};
 use crate::input::{scene_keys, scenes};
 
 /// Arguments of `plan`.
@@ -67,7 +67,10 @@ pub(super) fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
         None => {
             let names: Vec<_> = scenes::ALL.iter().map(|built_in| built_in.name).collect();
             let names = names.join(", ");
-            Err(Failure::Input(format!("--show {name}: no built-in scene has this name; there are {names}")))
+            Err(Failure::Input(format!(
+                "--show {}: no built-in scene has this name; there are {names}",
+                line(name)
+            )))
         }
     }
 }

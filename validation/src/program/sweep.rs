@@ -94,7 +94,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let new = jobs.len() - usize::from(checked.is_some());
     let finished = total - new;
     if finished > 0 && !args.writing.quiet {
-        print(&format!("goes on from {}: {finished} of {total} points are finished\n", out.display()))?;
+        print(&format!("goes on from {}: {finished} of {total} points are finished\n", out.shown()))?;
     }
     let mut ended = finished;
     let bar = progress(jobs.len() as u64, "points", args.writing.quiet);
@@ -120,7 +120,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
             _ => {
                 folder.write(k, tables)?;
                 ended += 1;
-                let line = format!("kept in {}: {ended} of {total} points are finished", out.display());
+                let line = format!("kept in {}: {ended} of {total} points are finished", out.shown());
                 log(&line, args.writing.quiet);
                 Ok(())
             }

@@ -1,6 +1,6 @@
 //! What lies in a folder already, and what is left where a run cannot be.
 
-use crate::common::{UNEQUAL, limited, names, read, shearbed, unequal};
+use crate::common::{UNEQUAL, files, folder, limited, names, read, shearbed, unequal};
 use std::fs;
 
 #[test]
@@ -202,6 +202,53 @@ fn a_file_is_written_where_a_link_leads_and_a_pipe_keeps_nobody_waiting() {
         assert!(!fs::metadata(dir.path().join(pipe)).unwrap().is_file());
     }
     assert!(!dir.path().join("k/run.json").exists());
+}
+
+/// Under the hidden names that files have while they are written may stand a link, or a user's own folder.
+#[cfg(unix)]
+#[test]
+fn files_outside_the_results_stay_whatever_stands_under_a_hidden_name() {
+    use std::os::unix::fs::symlink;
+    let dir = folder();
+    let at = |name: &str| dir.path().join(name);
+    let own = |name: &str| {
+        fs::create_dir_all(at(name)).unwrap();
+        fs::write(at(name).join("notes.txt"), "mine").unwrap();
+    };
+    let stays = |name: &str| {
+        let found = files(&at(name));
+        assert!(found.len() == 1 && found["notes.txt"] == b"mine", "{name}: {:?}", found.keys());
+    };
+    own("linked");
+    own(".mine.shearbed-part");
+    symlink(at("linked"), at(".new.shearbed-part")).unwrap();
+    for (out, theirs) in [("new", "linked"), ("mine", ".mine.shearbed-part")] {
+        for command in ["run small.toml --quiet --out", "problems export --quiet"] {
+            let ended = shearbed(dir.path(), &format!("{command} {out}"));
+            assert_eq!(ended.code, Some(2), "{command} {out}: {}", ended.stderr);
+            let said = format!(".{out}.shearbed-part: cannot be written: this name is kept for files");
+            assert!(ended.stderr.contains(&said), "{}", ended.stderr);
+            assert!(!at(out).exists());
+            stays(theirs);
+        }
+    }
+    // Inside a folder of results these names are this program's: a link goes, and what it leads to stays.
+    for hidden in [".shearbed-ready", ".shearbed-part", ".shearbed-other"] {
+        let out = format!("out{hidden}");
+        fs::create_dir(at(&out)).unwrap();
+        symlink(at("linked"), at(&out).join(hidden)).unwrap();
+        let ended = shearbed(dir.path(), &format!("run small.toml --quiet --out {out}"));
+        assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+        assert!(fs::symlink_metadata(at(&out).join(hidden)).is_err());
+        stays("linked");
+    }
+    let sweep = "sweep small.toml --quiet --over interaction.alpha=1,2 --out sweep";
+    fs::create_dir_all(at("sweep/points")).unwrap();
+    symlink(at("linked"), at("sweep/points/.1.shearbed-part")).unwrap();
+    let ended = shearbed(dir.path(), sweep);
+    assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+    assert!(ended.stderr.contains("this name is kept for files"), "{}", ended.stderr);
+    stays("linked");
 }
 
 #[test]

@@ -70,8 +70,8 @@ fn a_killed_sweep_goes_on_to_the_same_bytes() {
     }
     assert!(!killed.join("sweep.csv").exists());
     // What a kill in the middle of a point leaves.
-    fs::create_dir_all(killed.join("points/.12.part")).unwrap();
-    fs::write(killed.join("points/.12.part/projections.csv"), "half a ta").unwrap();
+    fs::create_dir_all(killed.join("points/.12.shearbed-part")).unwrap();
+    fs::write(killed.join("points/.12.shearbed-part/projections.csv"), "half a ta").unwrap();
 
     let text = succeeds(dir.path(), &format!("{sweep} 2"));
     assert!(text.starts_with("goes on from killed: 3 of 12 points are finished\n"), "{text}");

@@ -52,17 +52,44 @@ pub fn at(
     all.iter().all(|a| a.iter().all(|x| x.is_finite())).then_some(all)
 }
 
-/// A steady a_ij: that to which Newton's method leads from where a is after a strain of about 100. `None` where it leads nowhere.
+/// The longest strain after which a steady state is looked for, about.
+const MOST_STRAIN: f64 = 10_000.0;
+
+/// Steps of Newton's method below this end it where they do not fall any more: polynomials of high degree, as IBOF's near alignment,
+/// are known no better.
+const ROUGH: f64 = 1e-6;
+
+/// A steady a_ij: that to which Newton's method leads from where a is after some strain, close by. `None` where a comes near none.
 pub fn steady(equation: &Equation, start: &Matrix3<f64>) -> Option<Matrix3<f64>> {
     let norm = equation.gradient_per_s.norm();
     // Short stretches: a step at the edge of stability is no stiffness.
-    let spans: Vec<f64> = (1..=10).map(|k| 10.0 * f64::from(k) / norm).collect();
-    let settled = *at(equation, start, &spans, 1e-9)?.last()?;
-    let mut a = settled;
+    let (mut a, mut strain, mut stretch) = (*start, 0.0, 10.0);
+    while strain < MOST_STRAIN {
+        for tolerance in [1e-9, ROUGH] {
+            if let Some(found) = at(equation, &a, &[stretch / norm], tolerance) {
+                a = found[0];
+                break;
+            }
+        }
+        strain += stretch;
+        if strain >= 100.0 {
+            if let Some(found) = newton(equation, &a) {
+                return Some(found);
+            }
+            stretch = strain;
+        }
+    }
+    None
+}
+
+/// The steady a_ij to which Newton's method leads from `settled`; `None` where it leads farther than 0.05, or to no state of rods.
+fn newton(equation: &Equation, settled: &Matrix3<f64>) -> Option<Matrix3<f64>> {
+    let norm = equation.gradient_per_s.norm();
     let rate = |a: &Matrix3<f64>| {
         let found = equation.rate(a) / norm;
         Vector6::from_fn(|n, _| found[PAIRS[n]])
     };
+    let (mut a, mut least) = (*settled, f64::INFINITY);
     for _ in 0..50 {
         let here = rate(&a);
         // The trace stays: its row is one that adds it to the rate of a_33.
@@ -78,10 +105,13 @@ pub fn steady(equation: &Equation, start: &Matrix3<f64>) -> Option<Matrix3<f64>>
         });
         let step = slope.lu().solve(&here)?;
         a -= matrix(&step);
-        if step.amax() < 1e-11 {
+        let size = step.amax();
+        if size < 1e-11 || size < ROUGH && size >= least {
             // Another root is no state that is settled into.
-            return ((a - settled).amax() < 0.05 && a.symmetric_eigenvalues().min() >= -1e-9).then_some(a);
+            let near = (a - settled).amax() < 0.05 && (a.trace() - 1.0).abs() < ROUGH;
+            return (near && a.symmetric_eigenvalues().min() >= -ROUGH).then_some(a);
         }
+        least = least.min(size);
     }
     None
 }

@@ -169,7 +169,9 @@ impl Equation {
         let turned = w * a - a * w;
         let stretched = d * a + a * d - fourth.contract(&d) * 2.0;
         let diffused = diffusion(a, &fourth, &c) + (source - c) * 2.0 + a * (2.0 * (1.0 - kappa) * c.trace());
-        turned + stretched * self.shape_factor + diffused * rate
+        let all = turned + stretched * self.shape_factor + diffused * rate;
+        // tr a = 1 stays by the closure's own trace. Where a closure is not linear, as 𝔸 = aa, rounding would grow: 𝔸:δ = a tr a.
+        all - Matrix3::identity() * (all.trace() / 3.0)
     }
 }
 

@@ -251,3 +251,43 @@ fn rsc_slows_eigenvalues_alone() {
     let off = (rest(Model::FolgarTucker { c_i }) - rest(Model::Rsc { c_i, kappa })).amax();
     assert!(off < 1e-10, "{off:e}");
 }
+
+/// Against an outsider's code (implicit steps in Python, 2026-11): the trace does not drift, slow states are waited for.
+#[test]
+fn steady_states_are_found_where_they_settle_slowly_or_their_trace_would_drift() {
+    let flows = [
+        ("shear", [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]]),
+        ("planar extension", [[-0.5, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0; 3]]),
+        ("stretched shear", [[-0.125, 0.0, 0.0], [1.0, -0.125, 0.0], [0.0, 0.0, 0.25]]),
+    ];
+    for (flow, closure, c_i, a22) in [
+        (0, Closure::Quadratic, 1.0, 0.3450),
+        (0, Closure::Quadratic, 0.3, 0.4225),
+        (1, Closure::Quadratic, 0.3, 0.5279),
+        (1, Closure::Quadratic, 1.0, 0.3914),
+        (2, Closure::Quadratic, 0.3, 0.3529),
+        (2, Closure::Quadratic, 1.0, 0.3293),
+        (0, Closure::Linear, 1e-4, 0.57681),
+        (0, Closure::Linear, 1e-3, 0.57680),
+        (1, Closure::Ibof, 1e-4, 0.998639),
+        (1, Closure::Ibof, 1e-3, 0.992951),
+        (1, Closure::Ibof, 3e-3, 0.980997),
+    ] {
+        let (name, gradient) = flows[flow];
+        let equation = Equation {
+            gradient_per_s: matrix(gradient),
+            shape_factor: 1.0,
+            closure,
+            model: Model::FolgarTucker { c_i },
+        };
+        let found = steady(&equation, &start());
+        let found = found.unwrap_or_else(|| panic!("{} {name} {c_i}", closure.name()));
+        println!("{} {name} {c_i}: {} {}", closure.name(), found[(1, 1)], found.trace() - 1.0);
+        assert!(
+            (found[(1, 1)] - a22).abs() < 1e-4,
+            "{} {name} {c_i}: {} {a22}",
+            closure.name(),
+            found[(1, 1)]
+        );
+    }
+}

@@ -6,6 +6,7 @@
 use super::saved::{Progress, Saved, without_replicas};
 use super::{Checkpoint, on_stop, stays};
 use crate::files::output::{OutputError, Refused};
+use crate::files::text::Shown;
 use serde_json::json;
 use shearbed::Error;
 use shearbed::run::ensemble::Tally;
@@ -297,7 +298,7 @@ impl Replicas {
 
     /// Saves before the program ends; returns how to go on.
     fn last_words(&self) -> String {
-        let path = self.file.path().display();
+        let path = self.file.path().shown();
         match self.save(Some(PATIENCE)) {
             Ok((progress, _)) => {
                 format!("{progress}; the run is kept in {path}, and the same command goes on from there")

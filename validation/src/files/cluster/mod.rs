@@ -20,7 +20,7 @@ pub use replicas::{ensemble, extend};
 
 use crate::files::build;
 use crate::files::difference::difference;
-use crate::files::text::{complain, readable, shortened};
+use crate::files::text::{self, complain};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -67,7 +67,7 @@ where
 
 /// Says why this process failed; its exit code.
 pub fn failed(message: &str, code: u8) -> ExitCode {
-    complain(&format!("error: {}\n", readable(&shortened(message))));
+    complain(&format!("error: {}\n", text::message(message)));
     ExitCode::from(code)
 }
 

@@ -47,6 +47,11 @@ fn held<T>(mutex: &'static Mutex<T>) -> MutexGuard<'static, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// True if a process of this program works in a folder, or was killed there.
+pub(super) fn is_locked(dir: &Path) -> bool {
+    fs::symlink_metadata(dir.join(LOCK)).is_ok()
+}
+
 /// Keeps [`stop`] waiting.
 pub(super) fn writing() -> MutexGuard<'static, ()> {
     held(&WRITING)
@@ -143,7 +148,8 @@ impl Claim {
     }
 
     fn put_right(&self) -> Result<(), OutputError> {
-        if self.dir.join(READY).is_dir() {
+        // A link leads to files that are not this program's.
+        if fs::symlink_metadata(self.dir.join(READY)).is_ok_and(|ready| ready.is_dir()) {
             self.move_into_place()?;
         }
         for entry in fs::read_dir(&self.dir).map_err(at(&self.dir))? {
@@ -151,7 +157,7 @@ impl Claim {
             let name = entry.file_name().to_string_lossy().into_owned();
             let path = entry.path();
             if name.starts_with(OURS) && name != LOCK {
-                let removed = match path.is_dir() {
+                let removed = match entry.file_type().is_ok_and(|kind| kind.is_dir()) {
                     true => fs::remove_dir_all(&path),
                     false => fs::remove_file(&path),
                 };

@@ -4,6 +4,7 @@ use super::error::{DataError, read_text};
 use super::provenance::{Axis, Key, Layout, OBSERVABLES, Projection, Provenance};
 use super::table::{self, DataRow, Dataset};
 use super::{Measured, MeasuredCurve, Source, provenance_file};
+use crate::files::text::Shown;
 use crate::input::scenes;
 use std::collections::HashMap;
 use std::path::Path;
@@ -19,7 +20,7 @@ const TIME_UNCERTAINTY: &str =
 pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, DataError> {
     let csv_path = path.with_extension("csv");
     if !csv_path.is_file() {
-        let message = format!("it has no {} beside it", csv_path.display());
+        let message = format!("it has no {} beside it", csv_path.shown());
         return Err(DataError::whole(path, message));
     }
     let file = csv_path.display().to_string();
@@ -67,7 +68,7 @@ pub(super) fn read(path: &Path, source: &Source) -> Result<Vec<MeasuredCurve>, D
         let dataset = dataset.ok_or_else(|| {
             let wanted = wanted.unwrap_or_else(|| "missing".to_owned());
             let message =
-                format!("curve.dataset = {wanted} is not allowed: {} has {names}", csv_path.display());
+                format!("curve.dataset = {wanted} is not allowed: {} has {names}", csv_path.shown());
             DataError::at(&path.display().to_string(), key.line, message)
         })?;
         convert(&file, key, dataset, &provenance, source)

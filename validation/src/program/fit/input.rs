@@ -1,6 +1,7 @@
 //! What `shearbed fit` starts from: scenes, points and ranges, checked.
 
 use super::Args;
+use crate::files::text::Shown;
 use crate::files::text::line;
 use crate::methods::least_squares::Datum;
 use crate::methods::least_squares::basis::MOST_PARAMETERS;
@@ -73,7 +74,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
         if files.iter().any(same) {
             return Err(Failure::Input(format!(
                 "--data {}: given twice, and its points would count twice; each file once is allowed",
-                path.display()
+                path.shown()
             )));
         }
         let points = data::read(path, k).map_err(|error| Failure::Input(error.to_string()))?;
@@ -117,12 +118,12 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
             return Err(Failure::Input(format!(
                 "{}:{}: {} = {} at {} is in {}:{} already: leave one out, or put all points of one scene into one file if two experiments \
                  gave it",
-                files[point.set].display(),
+                files[point.set].shown(),
                 point.line,
                 point.column,
                 point.value,
                 point.time,
-                files[first.set].display(),
+                files[first.set].shown(),
                 first.line
             )));
         }
@@ -170,7 +171,7 @@ fn within_scene(
     let end = time.end_of(&plan).ok_or_else(|| {
         Failure::Input(format!(
             "{}: {} has no periods; t_s or strain are allowed in place of t_over_T",
-            path.display(),
+            path.shown(),
             named.source
         ))
     })?;
@@ -183,7 +184,7 @@ fn within_scene(
     if let Some(point) = points.iter().find(|point| point.u_time > most * (1.0 + 1e-12)) {
         return Err(Failure::Input(format!(
             "{}:{}: column {}_u: `{}` is not allowed: one standard deviation of at most {what}, {most}",
-            path.display(),
+            path.shown(),
             point.line,
             time.name(),
             point.u_time
@@ -194,7 +195,7 @@ fn within_scene(
         None => Ok(()),
         Some(point) => Err(Failure::Input(format!(
             "{}:{}: column {}: `{}` is not allowed: {} ends at {} there; --set {key}=… moves that",
-            path.display(),
+            path.shown(),
             point.line,
             time.name(),
             point.time,

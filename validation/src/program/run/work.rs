@@ -4,6 +4,7 @@ use super::Args;
 use crate::files::checkpoint::{Progress, Replicas};
 use crate::files::cluster;
 use crate::files::output::OutputError;
+use crate::files::text::Shown;
 use crate::program::until::{Ended, Look, Measure};
 use crate::program::{log, scene};
 use indicatif::ProgressBar;
@@ -84,7 +85,7 @@ impl Work<'_> {
     fn saved(&self, replicas: &Replicas, saved: Result<Progress, OutputError>) {
         match saved {
             Ok(progress) => {
-                log(&format!("kept in {}: {progress}", replicas.path().display()), self.args.writing.quiet)
+                log(&format!("kept in {}: {progress}", replicas.path().shown()), self.args.writing.quiet)
             }
             Err(error) => {
                 let lost = format!("{error}; the run goes on, and what comes is not kept");

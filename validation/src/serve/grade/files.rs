@@ -8,6 +8,7 @@ use super::layout::FileOptions;
 use super::order;
 use super::read::read;
 use super::{Graded, Verdict};
+use crate::files::text::Shown;
 use crate::serve::problems::{LoadedProblem, Metric, ReadError};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -76,7 +77,7 @@ fn find(dir: &Path) -> Result<AnswerFiles, ReadError> {
         }
         if stem == "answer" {
             if let Some(other) = &found.answer {
-                let other = other.display();
+                let other = other.shown();
                 return Err(ReadError::whole(&path, format!("there is {other} too; one of them is allowed")));
             }
             found.answer = Some(path);
@@ -112,7 +113,7 @@ fn one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, 
     }
     let mut graded = Graded::without_answer(loaded);
     let Some((steps, answer)) = finest else {
-        graded.note = Some(format!("no answer.csv and no steps-N.csv in {}", dir.display()));
+        graded.note = Some(format!("no answer.csv and no steps-N.csv in {}", dir.shown()));
         return Ok(graded);
     };
     graded.set_orders(errors, loaded, options.claim.order);
@@ -149,6 +150,6 @@ fn place(loaded: &LoadedProblem, answer: &Answer, row: usize) -> String {
         Metric::Relative => "relative",
         Metric::StandardErrors => "standard errors",
     };
-    let place = format!("{}:{}", answer.path.display(), answer.lines[row]);
+    let place = format!("{}:{}", answer.path.shown(), answer.lines[row]);
     format!("worst ({unit}) at {}, in {place}", key.join(", "))
 }

@@ -28,7 +28,7 @@ pub fn points(text: &str, starts: &Starts, fixed: &[Setting], axes: &[Axis]) -> 
     let count = (axes.iter())
         .try_fold(1_usize, |count, axis| count.checked_mul(axis.values.len()))
         .filter(|count| *count <= MAX_POINTS)
-        .ok_or_else(|| format!("--over: more than the {MAX_POINTS} points that are allowed"))?;
+        .ok_or_else(|| format!("--over: more than {MAX_POINTS} points; at most {MAX_POINTS} are allowed"))?;
     let mut starts = starts.clone();
     let point = |k| {
         let values = at(axes, k);

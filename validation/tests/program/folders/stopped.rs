@@ -40,6 +40,7 @@ fn what_a_killed_run_left_is_put_right_by_the_next() {
         fs::create_dir_all(dir.path().join(name)).unwrap();
         fs::write(dir.path().join(name).join("half.csv"), "half a ta").unwrap();
     }
+    fs::write(dir.path().join(".y.shearbed-part/.shearbed-lock"), "").unwrap();
     fs::write(x.join(".shearbed-Ab3dE6"), "half a ta").unwrap();
     fs::write(x.join("notes.txt"), "the user's own").unwrap();
     assert_eq!(shearbed(dir.path(), run).code, Some(0));

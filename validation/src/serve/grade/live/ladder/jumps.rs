@@ -26,6 +26,9 @@ const FOLLOWS: f64 = 1e-3;
 /// error of a right one is about proportional to its tolerance, which changes by ten.
 const OUTLIER: f64 = 1000.0;
 
+/// From this tolerance on a right program follows the motion; with larger ones its steps may pass over a flip.
+const SHARP: f64 = 1e-6;
+
 /// Judges every rung of a ladder whose last ones are within the tolerance.
 pub(super) fn judged(rungs: &[Rung], tolerance: f64, ask: impl Fn(Setting) -> Result<Rung, Asked>) -> End {
     let order = falling_order(rungs, tolerance);
@@ -38,7 +41,7 @@ pub(super) fn judged(rungs: &[Rung], tolerance: f64, ask: impl Fn(Setting) -> Re
             (Setting::Steps(coarse), Setting::Steps(fine)) => {
                 let foretold = Foretold::from(&rungs[k + 1..], fine, tolerance, order);
                 match far(&rungs[k], foretold.at(coarse)) {
-                    true => jump(coarse, fine, &foretold, &ask),
+                    true => jump([&rungs[k], &rungs[k + 1]], [coarse, fine], &foretold, &ask),
                     false => Ok(None),
                 }
             }
@@ -109,28 +112,23 @@ pub(super) fn falling_order(rungs: &[Rung], tolerance: f64) -> f64 {
     orders.get(orders.len() / 2).copied().unwrap_or(HIGHEST)
 }
 
-/// Bisects from a number of steps whose answer is far off to one whose answer is not, and says where the answers jump.
+/// Bisects from a number of steps whose answer is far off to one whose answer is not, and says where the answers jump. What was
+/// answered counts: the ends are not asked again, where a program might do better.
 fn jump(
-    mut bad: u64,
-    mut good: u64,
+    ends: [&Rung; 2],
+    [mut bad, mut good]: [u64; 2],
     foretold: &Foretold,
     ask: impl Fn(Setting) -> Result<Rung, Asked>,
 ) -> Result<Option<String>, Asked> {
-    let mut error = [None; 2];
+    let [mut bad_error, mut good_error] = ends.map(capped);
     while good - bad > 1 {
         let middle = bad + (good - bad) / 2;
         let rung = ask(Setting::Steps(middle))?;
         match far(&rung, foretold.at(middle)) {
-            true => (bad, error[0]) = (middle, Some(capped(&rung))),
-            false => (good, error[1]) = (middle, Some(capped(&rung))),
+            true => (bad, bad_error) = (middle, capped(&rung)),
+            false => (good, good_error) = (middle, capped(&rung)),
         }
     }
-    // The ends are asked again where the bisection has not moved from them.
-    let of = |steps: u64, known: Option<f64>| match known {
-        Some(error) => Ok(error),
-        None => ask(Setting::Steps(steps)).map(|rung| capped(&rung)),
-    };
-    let [bad_error, good_error] = [of(bad, error[0])?, of(good, error[1])?];
     let jumps = good_error < FOLLOWS && bad_error > FAR * good_error.max(foretold.at(good));
     Ok(jumps.then(|| {
         format!(
@@ -140,20 +138,17 @@ fn jump(
     }))
 }
 
-/// Of a program that chooses its steps: an error far above those of both neighbouring tolerances.
+/// Of a program that chooses its steps: an error far above those of both neighbouring tolerances, or of the next smaller one where
+/// any right program follows the motion.
 fn outlier(rungs: &[Rung], k: usize, tolerance: f64) -> Option<String> {
+    let (own, finer) = (&rungs[k], &rungs[k + 1]);
+    let above = |errors: f64| capped(own) > OUTLIER * errors.max(tolerance);
+    let named = |rung: &Rung| format!("with {} by {:.1e}", rung.setting, capped(rung));
+    let off = format!("with {} it is off by {:.1e}", own.setting, capped(own));
+    if own.setting.tolerance().is_ok_and(|asked| asked <= SHARP) && above(10.0 * capped(finer)) {
+        return Some(format!("{off}, {}: an error is about proportional to its tolerance", named(finer)));
+    }
     let coarser = &rungs[k.checked_sub(1)?];
-    let finer = &rungs[k + 1];
-    let most = OUTLIER * capped(coarser).max(capped(finer)).max(tolerance);
-    (capped(&rungs[k]) > most).then(|| {
-        format!(
-            "with {} it is off by {:.1e}, with {} by {:.1e} and with {} by {:.1e}",
-            rungs[k].setting,
-            capped(&rungs[k]),
-            coarser.setting,
-            capped(coarser),
-            finer.setting,
-            capped(finer)
-        )
-    })
+    above(capped(coarser).max(capped(finer)))
+        .then(|| format!("{off}, {} and {}", named(coarser), named(finer)))
 }

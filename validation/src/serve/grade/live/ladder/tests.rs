@@ -228,19 +228,30 @@ fn answers_that_are_wrong_at_some_numbers_of_steps_are_no_methods() {
         }
         let once = judged(|steps, _| if steps == 512 { 1.2 } else { right(steps) });
         assert!(order > 4.0 || jumps(once), "{order}");
+        // Right when the same is asked again: what came first counts.
+        let spoilt = Cell::new(false);
+        let first =
+            judged(|steps, _| if steps == 512 && !spoilt.replace(true) { 1.2 } else { right(steps) });
+        assert!(order > 4.0 || jumps(first), "{order}");
     }
 }
 
 #[test]
 fn a_tolerance_far_worse_than_both_its_neighbours_is_no_methods() {
-    let judged = |spoilt: i32, error: f64| {
-        let of = |k: i32| if k == spoilt { error } else { 3.0 * 10f64.powi(-k) };
+    let judged_where = |spoilt: &dyn Fn(i32) -> bool, error: f64| {
+        let of = |k: i32| if spoilt(k) { error } else { 3.0 * 10f64.powi(-k) };
         let rungs: Vec<_> = (2..=9).map(|k| rung(Setting::Tolerance(10f64.powi(-k)), of(k), 0.0)).collect();
         jumps::judged(&rungs, TOLERANCE, |_| Err(Asked::Says("it is not asked".to_owned())))
     };
+    let judged = |spoilt: i32, error: f64| judged_where(&|k| k == spoilt, error);
     assert_eq!(judged(0, 0.0), End::Reached);
     // Coarse tolerances miss the motion.
     assert_eq!(judged(2, 1.5), End::Reached);
     assert_eq!(judged(4, 0.03), End::Reached);
     assert!(matches!(judged(6, 1.2), End::Jumps(_)));
+    // So may all of them, but not those from which any program follows it.
+    assert_eq!(judged_where(&|k| k <= 5, 1.2), End::Reached);
+    for last in [6, 7] {
+        assert!(matches!(judged_where(&|k| k <= last, 1.2), End::Jumps(_)), "{last}");
+    }
 }
