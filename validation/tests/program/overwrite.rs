@@ -243,7 +243,8 @@ fn files_outside_the_results_stay_whatever_stands_under_a_hidden_name() {
         stays("linked");
     }
     let sweep = "sweep small.toml --quiet --over interaction.alpha=1,2 --out sweep";
-    fs::create_dir_all(at("sweep/points")).unwrap();
+    assert_eq!(shearbed(dir.path(), sweep).code, Some(0));
+    fs::remove_dir_all(at("sweep/points/1")).unwrap();
     symlink(at("linked"), at("sweep/points/.1.shearbed-part")).unwrap();
     let ended = shearbed(dir.path(), sweep);
     assert_eq!(ended.code, Some(2), "{}", ended.stderr);
