@@ -1,4 +1,4 @@
-//! Tools for others: reference problems, grading, fits, sweeps. It may use `studies` and what is below.
+//! Tools for users: reference problems, grading, fits, sweeps. They may use `studies` and the modules below it.
 
 pub mod fit;
 pub mod grade;

@@ -10,24 +10,24 @@ use serde::Serialize;
 /// One line of the budget.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Part {
-    /// What it comes from.
+    /// The cause of the uncertainty.
     pub source: &'static str,
     /// One standard uncertainty of each parameter, in the parameter's unit.
     pub u: Vec<f64>,
 }
 
-/// What another model would make of the same points.
+/// How another model would move the estimates at the same points.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Shift {
     /// How the model is changed.
     pub change: &'static str,
-    /// By how much each estimate would move, in the parameter's unit.
+    /// The change of each estimate, in the parameter's unit.
     pub shift: Vec<f64>,
-    /// The standard error of that.
+    /// The standard error of each change.
     pub se: Vec<f64>,
 }
 
-/// The budget of a fit: one part for each cause in the covariance of the points, then all of them.
+/// The uncertainty budget of a fit: one part for each cause in the covariance of the points, then their total.
 pub fn parts(fit: &Fit) -> Vec<Part> {
     let u = |spread: &DMatrix<f64>| -> Vec<f64> {
         let diagonal = spread.diagonal();
@@ -38,11 +38,11 @@ pub fn parts(fit: &Fit) -> Vec<Part> {
     own.chain([Part { source: "all of these", u: u(&fit.best.covariance()) }]).collect()
 }
 
-/// The most replicas by which a shift is measured.
+/// The largest number of replicas from which a shift is measured.
 const MOST_REPLICAS: u64 = 200;
 
-/// By how much the estimate would move with a changed model, from pairs of replicas at the best values: the changed model
-/// predicts `changed`, the fitted one `own`. Linear in the change.
+/// The change of the estimates, to first order, if the model were `changed` instead of `own`: from pairs of replicas at the
+/// best values, with the standard error over the pairs.
 pub fn shift(
     fit: &Fit,
     change: &'static str,
@@ -57,7 +57,7 @@ pub fn shift(
     let moves: Vec<DVector<f64>> = watch.replicas(replicas, |replica| {
         let (before, after) = (own.run(replica)?, changed.run(replica)?);
         let difference = before.iter().zip(&after).map(|(before, after)| after[0] - before[0]);
-        // The points stay: where the model rises, the estimate goes the other way.
+        // The points are fixed: where the model rises, the estimate must fall.
         Ok(-&fit.best.influence * DVector::from_iterator(before.len(), difference))
     })?;
     let n = moves.len() as f64;
@@ -74,7 +74,7 @@ pub fn shift(
     })
 }
 
-/// Each point beside the best model.
+/// The residual of each point of `data` at the best values.
 pub fn residuals(fit: &Fit, data: &[Datum]) -> Vec<Residual> {
     let simulated = fit.emulator.at(&fit.best.place);
     let one = |(k, datum): (usize, &Datum)| {
@@ -97,9 +97,9 @@ pub fn residuals(fit: &Fit, data: &[Datum]) -> Vec<Residual> {
 pub struct Residual {
     /// The data set.
     pub set: usize,
-    /// As `x1`.
+    /// The column's name, such as `x1`.
     pub column: String,
-    /// In the unit of the file.
+    /// Time of the point, in the unit of the file.
     pub time: f64,
     /// D.
     pub measured: f64,

@@ -13,7 +13,7 @@ pub const MOST_POINTS: usize = 1000;
 /// The unit of a file's times: the name of its first column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum TimeColumn {
-    /// Periods of the scene's mean aspect ratio, whatever that is when it is fitted.
+    /// Periods of the scene's mean aspect ratio, also where that aspect ratio is fitted.
     #[serde(rename = "t_over_T")]
     Periods,
     /// Seconds.
@@ -36,7 +36,7 @@ impl TimeColumn {
         }
     }
 
-    /// How much of it is one unit of a plan's times; none where the plan has no periods to count.
+    /// This column's unit per unit of the plan's times; none for `t_over_T` if the plan's times are not periods.
     pub fn per_unit(self, plan: &Plan) -> Option<f64> {
         match self {
             Self::Periods => (plan.time_name() == "t_over_T").then_some(1.0),
@@ -45,7 +45,7 @@ impl TimeColumn {
         }
     }
 
-    /// Where a plan's scene ends.
+    /// The end of the plan's scene, in this unit.
     pub fn end_of(self, plan: &Plan) -> Option<f64> {
         Some(plan.scene().time.duration * self.per_unit(plan)?)
     }
@@ -54,9 +54,9 @@ impl TimeColumn {
 /// The points of one file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Points {
-    /// The unit of their times.
+    /// The unit of the points' times.
     pub time: TimeColumn,
-    /// In the order of the columns, then of the lines.
+    /// The points, in the order of the columns, then of the lines.
     pub points: Vec<Datum>,
 }
 
@@ -141,7 +141,7 @@ pub fn read(path: &Path, set: usize) -> Result<Points, DataError> {
                     dataset.name, row.y
                 )));
             }
-            // A smaller one is lost in the rounding of the model, a larger one says nothing.
+            // A smaller u is lost in the rounding of the model, a larger one carries no information.
             if !(LEAST_U..=most - least).contains(&u) {
                 return Err(refused(format!(
                     "column {}_u: `{u:?}` is not allowed: one standard deviation from {LEAST_U:?} to {}, the width of what {} can be",
@@ -200,7 +200,7 @@ fn check(file: &str, points: &[Datum]) -> Result<(), DataError> {
     Ok(())
 }
 
-/// Every data set and column, in order.
+/// Each pair of data set and column that occurs in `data`, sorted, once.
 pub(super) fn kinds(data: &[Datum]) -> Vec<(usize, String)> {
     let mut kinds: Vec<_> = data.iter().map(|datum| (datum.set, datum.column.clone())).collect();
     kinds.sort();
@@ -253,7 +253,7 @@ mod tests {
         }
     }
 
-    /// What the message says to do makes the file one that is read.
+    /// The repair that the message recommends makes the file readable.
     #[test]
     fn semicolons_are_mended_as_the_message_says() {
         let text = "t_s;x1;x1_u\n1,5;0,5;0,1\n";

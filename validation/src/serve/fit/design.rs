@@ -1,8 +1,8 @@
-//! Which further points would tell the parameters: each point that could be measured, at all times of a scene and at half and
-//! twice its concentration, by what it would leave of their uncertainties, and the best ones by turns.
+//! Which further points would determine the parameters best: evaluates each point that could be measured, at all times of a
+//! scene and at half and twice its concentration, by the uncertainties that it would leave, and chooses the best in sequence.
 //!
-//! What the measured points leave is exp(−χ²/2) over the last box, on the scale of its ranges, as far as it has risen. There the
-//! parameters and each new point have means, variances and covariances; a point with a standard uncertainty of u then leaves
+//! The measured points give exp(−χ²/2) as the density over the last box, evenly on the scales of the ranges. It gives the
+//! parameters and each new point means, variances and covariances; a point with a standard uncertainty of u then leaves
 //! C − c cᵀ/(u² + v), with c its covariances with the parameters and v its own variance (linear Bayes estimation: Goldstein &
 //! Wooff, *Bayes Linear Statistics*, 2007). So a bent region is judged as a whole, not by the slopes at its best place.
 
@@ -20,48 +20,48 @@ pub(super) use known::Known;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
-/// Times of a scene at which a point could be measured, evenly, and of all sets, columns and concentrations together: their
-/// values at all places take a quarter of a gigabyte at most.
+/// Evenly spaced times of a scene at which a point could be measured, and the largest number of candidates over all sets, columns
+/// and concentrations: their values at all places take a quarter of a gigabyte at most.
 const TIMES: usize = 300;
 const MOST_CANDIDATES: usize = 1800;
 /// Concentrations, in multiples of the scene's.
 const CONCENTRATIONS: [f64; 3] = [0.5, 1.0, 2.0];
-/// How many of the best points are named.
+/// Number of best points that are listed.
 const CHOSEN: usize = 6;
-/// The most replicas behind a point's values.
+/// The largest number of replicas behind a point's values.
 const MOST_REPLICAS: u64 = 100;
 /// Places along each side of the box, for one, two and three parameters.
 const PLACES: [usize; 3] = [401, 101, 25];
-/// Places whose likelihood is below this share of the largest do not count.
+/// Places whose likelihood is at most this share of the largest are left out.
 const SMALL: f64 = 1e-7;
 
 /// A point that could be measured.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Candidate {
-    /// The set whose scene it is of, counted from 0.
+    /// The data set of the point's scene, counted from 0.
     pub set: usize,
-    /// The concentration of that scene; none where rods do not interact, or it is fitted.
+    /// The concentration of that scene; none where rods do not interact or the concentration is fitted.
     pub concentration_per_cm3: Option<f64>,
-    /// As `x1`.
+    /// The column's name, such as `x1`.
     pub column: String,
-    /// In the unit of the set's times.
+    /// Time of the point, in the unit of the set's times.
     pub time: f64,
-    /// Its standard uncertainty: as those of the set that were measured, in the middle, with that of their times.
+    /// Standard uncertainty of the new point: the median of the set's measured points in this column, including that of their times.
     pub u: f64,
-    /// What the measured points leave of it: one standard deviation of its value.
+    /// Standard deviation of the point's value, given the measured points.
     pub spread: f64,
-    /// What it alone would leave of each parameter: one standard uncertainty.
+    /// Standard uncertainty of each parameter if this point alone were added.
     pub leaves: Vec<f64>,
 }
 
-/// What is left once points are added.
+/// The uncertainty that is left after points are added.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Step {
-    /// Which.
+    /// The added points.
     pub added: Added,
-    /// One standard uncertainty of each parameter then.
+    /// Standard uncertainty of each parameter after that.
     pub u: Vec<f64>,
-    /// The correlation of two parameters that is largest in size; none of one parameter.
+    /// The correlation of two parameters that is largest in size; none for a single parameter.
     pub correlation: Option<f64>,
 }
 
@@ -69,36 +69,36 @@ pub struct Step {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "what", rename_all = "snake_case")]
 pub enum Added {
-    /// None: the measured ones alone.
+    /// No point: the measured ones alone.
     Nothing,
-    /// As many points as were measured of this set, evenly over its scene's time.
+    /// As many points as were measured in this set, evenly over the candidates of its scene.
     AsMany {
-        /// The set.
+        /// The data set, counted from 0.
         set: usize,
-        /// How many.
+        /// The number of points.
         points: usize,
-        /// Of its scene.
+        /// The concentration of its scene.
         concentration_per_cm3: Option<f64>,
     },
-    /// One more, beside those above it.
+    /// One more point, in addition to those of the earlier steps.
     Point {
-        /// The set.
+        /// The data set, counted from 0.
         set: usize,
-        /// Of its scene.
+        /// The concentration of its scene.
         concentration_per_cm3: Option<f64>,
-        /// As `x1`.
+        /// The column's name, such as `x1`.
         column: String,
-        /// In the unit of the set's times.
+        /// Time of the point, in the unit of the set's times.
         time: f64,
     },
 }
 
-/// Points that could be measured, what they would tell, and what could not be looked at.
+/// Points that could be measured, the uncertainties that they would leave, and warnings.
 #[derive(Clone, Debug, Default)]
 pub struct Design {
-    /// All of them.
+    /// All points that were examined.
     pub candidates: Vec<Candidate>,
-    /// The measured points, then as many more of each kind, then the best points by turns.
+    /// The measured points, then as many more of each set and concentration, then the best points in sequence.
     pub steps: Vec<Step>,
     /// Concentrations whose scene is refused, and why.
     pub warnings: Vec<String>,
@@ -160,7 +160,7 @@ pub fn design(fit: &Fit, scenes: &Scenes, data: &[Datum], watch: &Watch<'_>) -> 
     Ok(found)
 }
 
-/// Where points of each set and column could be measured.
+/// The points of each set and column that could be measured, with the uncertainties of the measured ones.
 fn places(scenes: &Scenes, best: &[f64], data: &[Datum]) -> Result<Vec<Datum>, String> {
     let mut all = Vec::new();
     let kinds = super::data::kinds(data);
@@ -182,7 +182,7 @@ fn places(scenes: &Scenes, best: &[f64], data: &[Datum]) -> Result<Vec<Datum>, S
     Ok(all)
 }
 
-/// Places evenly over the last box that the measured points leave, and their weights, which add up to 1.
+/// Places evenly over the last box and their weights, the likelihood normalised to a sum of 1.
 fn weighted(fit: &Fit) -> (Vec<Vec<f64>>, Vec<f64>) {
     let parameters = fit.sides.len();
     let count = PLACES[parameters - 1];
@@ -212,7 +212,7 @@ fn deviations(covariance: &DMatrix<f64>) -> Vec<f64> {
     covariance.diagonal().iter().map(|square| square.max(0.0).sqrt()).collect()
 }
 
-/// What the measured points leave, what as many more would, and the best points by turns.
+/// The uncertainties left by the measured points, by as many more of each kind, and by the best points in sequence.
 pub(super) fn steps(known: &Known, candidates: &[Candidate], data: &[Datum]) -> Vec<Step> {
     let mut steps = vec![Step::of(Added::Nothing, known)];
     let mut kinds: Vec<(usize, Option<f64>)> = Vec::new();

@@ -1,5 +1,5 @@
-//! Whether the model itself, run along each range without polynomials, finds another place that describes the points as well. Where
-//! the curves oscillate with a parameter, χ² has several minima, and the search sees one of them.
+//! A search for further minima of χ²: the model itself, without polynomials, is run along each range. Where the curves
+//! oscillate with a parameter, χ² has several minima, and the fit finds only one of them.
 
 use super::range::Range;
 use super::search::{FIRST_REPLICAS, Fit, FitProblem, Watch};
@@ -11,20 +11,20 @@ use nalgebra::{DMatrix, DVector};
 /// Parts of each range at first; a part is halved where the curves change too much over it.
 const PARTS: usize = 16;
 
-/// How often a part is halved at most.
+/// The largest number of times that a part is halved.
 const HALVED: u32 = 4;
 
-/// Beyond this number of standard errors a change is the model's, not the noise of its replicas.
+/// A change beyond this number of standard errors is due to the model, not to the noise of its replicas.
 const CERTAIN: f64 = 5.0;
 
-/// The lowest minima that are looked into.
+/// The number of lowest minima that are examined.
 const MINIMA: usize = 8;
 
-/// A part is short enough where no prediction changes by more than this share of how much it changes over the range, or by more
-/// than the point's uncertainty.
+/// A part is short enough if every prediction changes over it by at most this share of its change over the whole range, or by
+/// at most the point's uncertainty.
 const SHARE: f64 = 0.25;
 
-/// Differences of χ² that the noise of some replicas may make.
+/// A difference of χ² that the noise of the replicas can cause.
 const NOISE: f64 = 16.0;
 
 /// Steps of the golden section towards a minimum: each leaves 0.62 of the way.
@@ -35,16 +35,16 @@ const STEPS: usize = 12;
 struct Tried {
     at: f64,
     mean: DVector<f64>,
-    /// Its standard errors.
+    /// Standard errors of `mean`.
     se: DVector<f64>,
     chi_square: f64,
 }
 
-/// Looks along each range, the other parameters at their best values, and returns what of it could not be searched.
+/// Searches along each range, with the other parameters at their best values, and returns warnings on what could not be searched.
 ///
 /// # Errors
 ///
-/// Another place describes the points as well, or better than the fit does.
+/// An error if another place describes the points as well as the fit, or better.
 pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) -> Result<Vec<String>, String> {
     let values = fit.values(&fit.best.place);
     (watch.stage)("best values");
@@ -87,8 +87,8 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
             if found.chi_square > few + NOISE {
                 continue;
             }
-            // In the box the polynomials' minimum and the model's differ by the noise of runs at different values; what lies beyond it is
-            // in no interval.
+            // Within the box, the minima of the polynomials and of the model differ by the noise of runs at different values; no interval
+            // contains a place outside the box.
             let allowed = match found.at < low || found.at > high {
                 true => own.chi_square + rise_of(0.95),
                 false => own.chi_square - NOISE.max(0.5 * own.chi_square),
@@ -110,8 +110,8 @@ pub fn look_elsewhere(problem: &FitProblem<'_>, fit: &Fit, watch: &Watch<'_>) ->
     Ok(warnings)
 }
 
-/// Predictions of each replica at the best values, and the parts of the model behind them: a part that does not depend on a parameter
-/// need not run again along that parameter's range.
+/// Predictions of each replica at the best values, and the parts of the model behind them: a part that does not depend on a
+/// parameter need not run again along that parameter's range.
 fn at_best(
     problem: &FitProblem<'_>,
     values: &[f64],
@@ -130,21 +130,21 @@ fn at_best(
 struct Line<'a> {
     problem: &'a FitProblem<'a>,
     watch: &'a Watch<'a>,
-    /// The best ones.
+    /// The best values of all parameters.
     values: &'a [f64],
-    /// Parts of the model that ran there, for each replica of the fit.
+    /// Parts of the model at those values, for each replica of the fit.
     known: &'a [Known],
     axis: usize,
     range: &'a Range,
 }
 
 impl Line<'_> {
-    /// Replicas that say where to look closer.
+    /// The number of replicas that suffices for a first look.
     fn few(&self) -> usize {
         (FIRST_REPLICAS as usize).min(self.known.len())
     }
 
-    /// The first replicas at a place.
+    /// Runs the first `replicas` replicas at the place `at` of the range.
     fn run(&self, at: f64, replicas: usize) -> Result<Tried, String> {
         let mut values = self.values.to_vec();
         values[self.axis] = self.range.value(at);
@@ -153,7 +153,7 @@ impl Line<'_> {
         self.tried(at, &self.watch.replicas(replicas as u64, one)?)
     }
 
-    /// χ² at a place from these predictions.
+    /// χ² at the place `at` from the predictions `rows` of its replicas.
     fn tried(&self, at: f64, rows: &[Vec<Prediction>]) -> Result<Tried, String> {
         let (mean, se, covariance) = self.covariance(rows);
         let data = self.problem.measured.data;
@@ -162,7 +162,7 @@ impl Line<'_> {
         Ok(Tried { at, chi_square: error.dot(&solver.solve(&error)), mean, se })
     }
 
-    /// Means over replicas with their standard errors, and the covariance of what was measured less those: as that of a fit, but for the polynomials.
+    /// Means over replicas, their standard errors, and the covariance of measured less predicted values: as in a fit, without polynomials.
     fn covariance(&self, rows: &[Vec<Prediction>]) -> (DVector<f64>, DVector<f64>, DMatrix<f64>) {
         let measured = &self.problem.measured;
         let (points, n) = (measured.data.len(), rows.len() as f64);
@@ -182,7 +182,7 @@ impl Line<'_> {
         (at, (of_replica.diagonal() / n).map(f64::sqrt), covariance)
     }
 
-    /// Places along the range, close enough that none of the curves is missed in between; whether they are.
+    /// Places along the range, and true if they are close enough that no curve changes unseen between two of them.
     fn scan(&self) -> Result<(Vec<Tried>, bool), String> {
         let (from, to) = (self.range.scaled(self.range.from), self.range.scaled(self.range.to));
         let place = |k: usize| from + (to - from) * k as f64 / PARTS as f64;
@@ -219,7 +219,7 @@ impl Line<'_> {
         Ok((tried, false))
     }
 
-    /// The least χ² between `ends`, from a place between them where it is less.
+    /// The place of least χ² between two ends by golden section, from a place `best` between them where χ² is less.
     fn least(&self, mut best: Tried, [mut low, mut high]: [f64; 2]) -> Result<Tried, String> {
         for _ in 0..STEPS {
             let golden = 0.5 * (3.0 - 5f64.sqrt());
@@ -232,7 +232,7 @@ impl Line<'_> {
                 true => std::mem::replace(&mut best, new),
                 false => new,
             };
-            // What is worse is an end from now on.
+            // The worse place becomes an end.
             match worse.at > best.at {
                 true => high = worse.at,
                 false => low = worse.at,

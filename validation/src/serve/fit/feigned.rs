@@ -1,5 +1,5 @@
-//! Points that hardly tell a parameter, and a model whose replicas are noisy: by chance its curves differ from one value to another,
-//! which would make intervals short.
+//! Fits of points that hardly determine a parameter, with a noisy model: by chance its curves differ from one value to another,
+//! which would make intervals too short.
 
 use super::range::Range;
 use super::search::{Fit, Measured, fitted};
@@ -21,14 +21,14 @@ const PLANTED: f64 = 0.2;
 /// One standard deviation of a replica.
 const SCATTER: f64 = 0.03;
 
-/// A slope by which the points tell the parameter to 0.2 of its range, −1 to 1.
+/// A slope at which the points determine the parameter to 0.2 of its range, −1 to 1.
 const SLOPE: f64 = 0.008;
 
 fn curve(slope: f64, value: f64) -> impl Iterator<Item = f64> {
     (0..POINTS).map(move |k| 0.5 + slope * value * (k as f64).cos().signum())
 }
 
-/// Replicas whose noise is another at each value of the parameters: no random numbers in common.
+/// Replicas whose noise differs at each value of the parameters: no random numbers in common.
 fn model(slope: f64, seed: u64) -> impl Fn(&[f64]) -> Result<Replica, String> + Sync {
     move |values| {
         let mean: Vec<f64> = curve(slope, values[0]).collect();
@@ -64,13 +64,13 @@ fn fit(data: &[Datum], slope: f64, seed: u64) -> Fit {
     fitted(&measured, &basis, &vec![(-1.0, 1.0)], &found.unwrap()).unwrap()
 }
 
-/// The control: the noise in the slopes is taken for the points' word.
+/// The control: the noise in the slopes counts as information of the points.
 fn believed(fit: &Fit) -> Fit {
     let best = fit.best.with_noise();
     Fit { profiles: vec![profile(&best, 0)], best, ..fit.clone() }
 }
 
-/// Whether the intervals of 68 and 95 % hold the planted value, and the p-value.
+/// Returns whether the intervals of 68 and 95 % contain the planted value, and the p-value.
 fn asked(fit: &Fit) -> ([bool; 2], f64) {
     let inside = [0.68, 0.95].map(|confidence| {
         let ends = fit.interval(0, confidence);
@@ -80,10 +80,10 @@ fn asked(fit: &Fit) -> ([bool; 2], f64) {
     (inside, law.sf(fit.best.chi_square))
 }
 
-/// Where 0.4 of what the points seem to tell is noise, intervals would be √0.6 as long and hold the truth in 56 and 87 %.
+/// If 0.4 of the points' apparent information is noise, intervals are √0.6 as long and contain the truth in 56 and 87 %.
 const EFFECT: f64 = 0.1;
 
-/// The covariance of a replica, half of V, is estimated itself: from [`REPLICAS`] of them.
+/// Allows for the covariance of a replica, half of V, being itself estimated from [`REPLICAS`] replicas.
 const ALLOWANCE: f64 = 0.02;
 const REPLICAS: u64 = 100;
 
@@ -103,14 +103,14 @@ fn the_noise_of_replicas_makes_no_interval_short() {
     }
     let believed = share(all.iter().map(|(_, believed, _)| believed.0[0]), 0.68, ALLOWANCE, EFFECT);
     assert_eq!(judge(&believed), Verdict::Fail, "{believed:?}");
-    // χ² is neither too large nor too kind.
+    // χ² is neither too large nor too small.
     for above in [0.05, 0.95] {
         let own = share(all.iter().map(|(own, ..)| own.1 > above), 1.0 - above, ALLOWANCE, EFFECT);
         assert_eq!(judge(&own), Verdict::Pass, "{own:?}");
     }
 }
 
-/// What the noise adds to the squares of the slopes is all there is where the model does not change with the parameter.
+/// If the model does not change with the parameter, the squares of its slopes are nothing but the noise's contribution.
 #[test]
 fn the_noise_of_a_flat_model_is_all_of_its_slopes() {
     let one = |seed: u64| {

@@ -1,5 +1,5 @@
 //! Likelihood-ratio tests of hypotheses about fitted keys: that a key has a given value, or that two sets of points share one value.
-//! The statistic is the rise of χ² from its least to its least under the hypothesis.
+//! The statistic is the rise of χ²: its minimum under the hypothesis less its minimum.
 
 use super::range::Range;
 use super::search::Fit;
@@ -8,22 +8,22 @@ use crate::serve::sweep::key_and_text;
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-/// Places along the box where two keys are tied, before the least is sought between them.
+/// Places along the box of two tied keys, before the minimum is sought between them.
 const PLACES: usize = 17;
 
-/// A place this near the edge of a box is at it: the golden section ends within 4e-4.
+/// A place nearer than this to an edge of the box counts as at the edge: the golden section ends within 4e-4.
 const EDGE: f64 = 1e-3;
 
-/// Halvings of an end of an interval: to 1e-5 of a box.
+/// Number of bisections for an end of an interval: to 1e-5 of a box.
 const HALVINGS: usize = 18;
 
-/// Steps of the golden section towards the least χ²: to 4e-4 of a box, of which χ² sees the square.
+/// Steps of the golden section towards the least χ²: to 4e-4 of a box, and χ² depends on the square of that.
 const STEPS: usize = 12;
 
-/// The least p-value that is reported.
+/// The smallest p-value that is reported.
 pub(super) const LEAST_P: f64 = 1e-6;
 
-/// A hypothesis, as it is given after `--test`.
+/// A hypothesis, as given after `--test`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hypothesis {
     text: String,
@@ -39,26 +39,26 @@ enum Against {
     Key(String),
 }
 
-/// A hypothesis about parameters of a fit, by their places.
+/// A hypothesis about parameters of a fit, by their indices.
 enum Asked {
     Value(usize, f64),
-    /// That the difference of two is 0.
+    /// The difference of two parameters is 0.
     Difference([usize; 2]),
 }
 
 /// The result of a test.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Tested {
-    /// As it is given.
+    /// The text of the hypothesis.
     pub hypothesis: String,
     /// χ² at its least under the hypothesis, less χ² at its least.
     pub rise_of_chi2: f64,
     /// True if the hypothesis lies outside the last box of the search: then the rise is at least, and p at most, what is given here.
     pub beyond_the_box: bool,
-    /// The probability of a larger rise under the hypothesis, by χ² of one degree of freedom; never below 10⁻⁶, as smaller ones were not
-    /// tried by simulation.
+    /// The probability of a larger rise under the hypothesis, by χ² of one degree of freedom; never below 10⁻⁶, as simulations
+    /// did not test smaller values.
     pub p_value: f64,
-    /// The first value less the second, where two keys are compared.
+    /// The first value less the second, for a comparison of two keys.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub difference: Option<Difference>,
 }
@@ -66,7 +66,7 @@ pub struct Tested {
 /// A difference of two values in their unit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Difference {
-    /// The best.
+    /// The best value.
     pub estimate: f64,
     /// The 68 % interval by profile likelihood.
     pub low_68: f64,
@@ -81,11 +81,11 @@ pub struct Difference {
 }
 
 impl Hypothesis {
-    /// Reads the argument of `--test`.
+    /// Parses the argument of `--test`.
     ///
     /// # Errors
     ///
-    /// A text of another form, with the forms that are allowed.
+    /// A text of another form; the message lists the allowed forms.
     pub fn parse(text: &str) -> Result<Self, String> {
         const SHAPE: &str = "KEY=VALUE is allowed, as interaction.alpha=1, and SET:KEY=OTHER:KEY for two sets with a value each";
         let (key, other) =
@@ -104,12 +104,12 @@ impl Hypothesis {
         Ok(Self { text: format!("{key}={other}"), key: key.to_owned(), against })
     }
 
-    /// As it is given.
+    /// The text of the hypothesis.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// The places of its keys among the fitted ones.
+    /// The hypothesis with the indices of its keys among the fitted ones.
     fn asked(&self, ranges: &[Range]) -> Result<Asked, String> {
         let axis = |label: &String| {
             let found = ranges.iter().position(|range| range.label() == *label);
@@ -144,7 +144,7 @@ impl Hypothesis {
         }
     }
 
-    /// Checks it against the fitted keys and their ranges.
+    /// Checks the hypothesis against the fitted keys and their ranges.
     ///
     /// # Errors
     ///
@@ -153,7 +153,7 @@ impl Hypothesis {
         self.asked(ranges).map(|_| ())
     }
 
-    /// The likelihood-ratio test.
+    /// Performs the likelihood-ratio test.
     ///
     /// # Errors
     ///
@@ -164,7 +164,7 @@ impl Hypothesis {
                 let place = fit.place(axis, value);
                 let mut fixed = vec![None; fit.ranges.len()];
                 fixed[axis] = Some(place.clamp(-1.0, 1.0));
-                // The value of the box's edge differs from the edge by rounding.
+                // The value at the box's edge differs from the edge by rounding.
                 (rise_to(&fit.best, &fixed), place.abs() > 1.0 + 1e-9, None)
             }
             Asked::Difference(axes) => {
@@ -185,25 +185,25 @@ impl Hypothesis {
     }
 }
 
-/// Two keys whose difference is given.
+/// Two keys with a given difference.
 struct Tied<'a> {
     fit: &'a Fit,
     axes: [usize; 2],
 }
 
 impl Tied<'_> {
-    /// The differences that there are in the box.
+    /// The smallest and the largest difference within the box.
     fn ends(&self) -> (f64, f64) {
         let [a, b] = self.axes.map(|axis| [-1.0, 1.0].map(|place| self.fit.value(axis, place)));
         (a[0] - b[1], a[1] - b[0])
     }
 
-    /// How far χ² rises to the best pair of this difference, and whether that is at an edge of the box.
+    /// The rise of χ² at the best pair with this difference, and true if that pair is at an edge of the box.
     fn rise(&self, difference: f64) -> (f64, bool) {
         let [a, b] = self.axes;
         let at = |place: f64| {
             let other = self.fit.place(b, self.fit.value(a, place) - difference);
-            // Rounding at the edges.
+            // Allows for rounding at the edges.
             if other.abs() > 1.0 + 1e-9 {
                 return f64::INFINITY;
             }
@@ -211,7 +211,7 @@ impl Tied<'_> {
             (fixed[a], fixed[b]) = (Some(place), Some(other.clamp(-1.0, 1.0)));
             rise_to(&self.fit.best, &fixed)
         };
-        // The part of the box where both are in it.
+        // The part of the box in which both keys are inside it.
         let [low, high] = [-1.0, 1.0].map(|side| {
             let place = self.fit.place(a, self.fit.value(b, side) + difference);
             place.clamp(-1.0, 1.0)

@@ -1,7 +1,7 @@
 //! From measured points to a model's parameters: estimate, intervals, goodness of fit, and what limits them.
 //!
-//! The model runs at the nodes of a box of parameters, with the same random numbers at each; polynomials run through what is
-//! found there, and generalised least squares through those. The covariance of the points holds reading off in both axes,
+//! The model runs at the nodes of a box of parameters, with the same random numbers at each; polynomials interpolate the
+//! results, and generalised least squares fits them. The covariance of the points includes reading errors in both axes,
 //! the measured rods, the model's replicas and the polynomials' lack of fit. `docs/src/theory/fits.md` has the formulas.
 
 pub mod budget;

@@ -9,13 +9,13 @@ use crate::methods::least_squares::likelihood::REPLICAS;
 use crate::methods::least_squares::profile::{contour, rise_of_several};
 use crate::present::plot::{Curve, Figure, Points, names as letters};
 
-/// Times of a drawn curve.
+/// Number of times of a drawn curve.
 const TIMES: usize = 200;
 
-/// The most replicas behind a drawn curve.
+/// The largest number of replicas behind a drawn curve.
 const MOST_REPLICAS: u64 = 100;
 
-/// 95 % of a Gaussian.
+/// Half the width of 95 % of a Gaussian, in standard deviations.
 const WIDE: f64 = 1.96;
 
 /// The places at which the curve of each data set and column is drawn, as points without a value.
@@ -44,8 +44,8 @@ fn mean(model: &Model<'_>, values: &[f64], replicas: u64, watch: &Watch<'_>) -> 
     Ok((0..rows[0].len()).map(of).collect())
 }
 
-/// The best curve at the `places` of [`places`], of which `model` is the model, and half its 95 % band: the replicas' error,
-/// and what one standard deviation along each axis of the parameters' covariance changes.
+/// The best curve at `places`, which [`places`] returned, by `model`, and half its 95 % band: the replicas' standard error, and
+/// the change by one standard deviation along each axis of the parameters' covariance.
 pub fn best_curves(
     fit: &Fit,
     places: &[Datum],
@@ -74,7 +74,7 @@ pub fn best_curves(
         .collect())
 }
 
-/// Every picture with the stem of its file's name. `names` are those of the data sets, `times` of their time columns.
+/// Every picture with the stem of its file name. `names` are the names of the data sets, `times` those of their time columns.
 pub fn figures(
     fit: &Fit,
     report: &Report,
@@ -101,7 +101,7 @@ pub fn figures(
             let best = curve(column);
             Curve { y: vec![0.0; best.x.len()], ..best }
         };
-        // Of a point alone: reading in y and in time, and the rods that were measured.
+        // The uncertainty of the point alone: reading in y and in time, and the measured rods.
         let of_point =
             |k: usize| fit.best.causes[..REPLICAS].iter().map(|cause| cause[(k, k)]).sum::<f64>().sqrt();
         let points = |column: &String, value: &dyn Fn(usize) -> f64| {
@@ -151,7 +151,7 @@ pub fn figures(
 fn profile_of(fit: &Fit, axis: usize) -> (String, Figure) {
     let (range, profile) = (&fit.ranges[axis], &fit.profiles[axis]);
     let [(_, inner), (_, outer)] = levels();
-    // Far beyond the 95 % interval there is nothing to see.
+    // The profile far beyond the 95 % interval is not drawn.
     let near: Vec<usize> = (0..profile.place.len()).filter(|k| profile.rise[*k] <= 3.0 * outer).collect();
     let x: Vec<f64> = near.iter().map(|k| fit.value(axis, profile.place[*k])).collect();
     let ends = [x.first(), x.last()].map(|end| end.copied().unwrap_or(f64::NAN));

@@ -1,27 +1,27 @@
-//! `[SET:]KEY=FROM:TO`: a key of the scene and the range in which it is sought, for all sets of points or for one.
+//! `[SET:]KEY=FROM:TO`: a key of the scene and the range in which its value is sought, for all sets of points or for one.
 
 use crate::serve::sweep::key_and_text;
 use serde::Serialize;
 
-/// From this ratio of its ends on, a range of positive values is covered evenly in the logarithm.
+/// A range of positive values is covered evenly in the logarithm if its ends have at least this ratio.
 const DECADE: f64 = 10.0;
 
 /// A key of the scene with the range of its value.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Range {
-    /// As `interaction.alpha`.
+    /// The key, such as `interaction.alpha`.
     pub key: String,
-    /// The set of points whose scene alone has it, counted from 1; none where all scenes share it.
+    /// The set of points whose scene alone has this parameter, counted from 1; none where all scenes share it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub set: Option<usize>,
-    /// The least value, in the unit of the key.
+    /// The smallest value, in the unit of the key.
     pub from: f64,
-    /// The most, above the least.
+    /// The largest value, above `from`.
     pub to: f64,
 }
 
 impl Range {
-    /// Reads what stands after `--over`.
+    /// Parses the argument of `--over`.
     pub fn parse(text: &str) -> Result<Self, String> {
         const SHAPE: &str = "KEY=FROM:TO is allowed, as interaction.alpha=0.05:5, and SET:KEY=FROM:TO with the number of a --data";
         let (set, text) = match text.split_once(':') {
@@ -44,7 +44,7 @@ impl Range {
         }
     }
 
-    /// As it is given: `interaction.alpha`, `2:interaction.alpha`.
+    /// The parameter as given: `interaction.alpha`, `2:interaction.alpha`.
     pub fn label(&self) -> String {
         self.set.map_or_else(|| self.key.clone(), |set| format!("{set}:{}", self.key))
     }
@@ -55,28 +55,28 @@ impl Range {
         self.set.map_or_else(|| last.to_owned(), |set| format!("{last}_{set}"))
     }
 
-    /// Whether the scene of this set, counted from 0, has it.
+    /// True if the parameter applies to the scene of `set`, counted from 0.
     pub fn is_of(&self, set: usize) -> bool {
         self.set.is_none_or(|own| own == set + 1)
     }
 
-    /// Whether the range is covered evenly in the logarithm: both ends positive and a factor of ten apart.
+    /// True if the range is covered evenly in the logarithm: both ends positive and at least a factor of ten apart.
     pub fn is_logarithmic(&self) -> bool {
         self.from > 0.0 && self.to / self.from >= DECADE
     }
 
-    /// The value on the scale on which the range is covered evenly; −∞ where there is no logarithm.
+    /// `value` on the scale on which the range is covered evenly; −∞ for a value without a logarithm.
     pub fn scaled(&self, value: f64) -> f64 {
         if self.is_logarithmic() { value.max(0.0).ln() } else { value }
     }
 
-    /// The value of a place on that scale, never outside the range.
+    /// The value at `scaled` on that scale, clamped to the range.
     pub fn value(&self, scaled: f64) -> f64 {
         let value = if self.is_logarithmic() { scaled.exp() } else { scaled };
         value.clamp(self.from, self.to)
     }
 
-    /// Change of the value with its place on that scale.
+    /// Derivative of the value with respect to its place on that scale.
     pub fn slope(&self, scaled: f64) -> f64 {
         if self.is_logarithmic() { scaled.exp() } else { 1.0 }
     }

@@ -14,7 +14,7 @@ use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use std::collections::BTreeMap;
 
-/// A parameter as the points have it, in the unit of its key.
+/// The estimate of a parameter, in the unit of its key.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Parameter {
     /// The best value.
@@ -27,18 +27,18 @@ pub struct Parameter {
     pub low_95: f64,
     /// Its upper end.
     pub high_95: f64,
-    /// One standard uncertainty, of the linear theory.
+    /// Standard uncertainty by linear theory.
     pub standard_uncertainty: f64,
     /// The range in which it was sought.
     pub range: [f64; 2],
-    /// Whether the 95 % interval ends at an edge of the range, below and above: the points do not say where it does.
+    /// True where the 95 % interval ends at an edge of the range, below and above: the points do not determine that end.
     pub ends_at_edge: [bool; 2],
 }
 
-/// Everything that a fit says.
+/// All results of a fit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
-    /// By the key of the scene, `SET:KEY` where it is of one set alone.
+    /// Parameters by the key of the scene, `SET:KEY` for a parameter of one set alone.
     pub parameters: BTreeMap<String, Parameter>,
     /// The least χ².
     pub chi2: f64,
@@ -46,43 +46,43 @@ pub struct Report {
     pub degrees_of_freedom: usize,
     /// The probability of a larger χ² if the model were right.
     pub p_value: f64,
-    /// The order of the parameters in what follows.
+    /// The order of the parameters in the lists below.
     pub order: Vec<String>,
-    /// The covariance of the estimates, of the linear theory.
+    /// The covariance of the estimates by linear theory.
     pub covariance: Vec<Vec<f64>>,
-    /// Their correlation.
+    /// The correlation of the estimates.
     pub correlation: Vec<Vec<f64>>,
-    /// What the standard uncertainties are made of.
+    /// The causes of the standard uncertainties.
     pub budget: Vec<Part>,
-    /// What further points would leave; none where it was not asked for.
+    /// The uncertainties that further points would leave; none without `--design`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub design: Option<Vec<Step>>,
-    /// What was held of the parameters, and what the points say of it.
+    /// The tested hypotheses, with their results.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub tests: Vec<Tested>,
-    /// What a finer step and more rods would change; not part of the intervals, which are of the scene as it is written.
+    /// The change by a finer step and by more rods; not part of the intervals, which hold for the scene as written.
     pub shifts: Vec<Shift>,
-    /// FDS's bias δ and scatter σ_M of the best model; none where a value is not positive.
+    /// FDS's bias δ and scatter σ_M of the best model; none if a value is not positive.
     pub bias: Option<Bias>,
-    /// Each point beside the best model.
+    /// The residual of each point at the best values.
     pub residuals: Vec<Residual>,
     /// Replicas at each value of the parameters in the last box.
     pub replicas: usize,
     /// Runs over all boxes.
     pub runs: u64,
-    /// Boxes that were tried.
+    /// Number of boxes that were tried.
     pub boxes: u64,
-    /// What to know before trusting it.
+    /// Reasons to doubt the fit.
     pub warnings: Vec<String>,
 }
 
-/// Below this p-value a model is said not to describe the points.
+/// Below this p-value a warning says that the model does not describe the points.
 const NOT_DESCRIBED: f64 = 0.001;
 
-/// Above this correlation two parameters are said to be hardly told apart.
+/// Above this correlation a warning says that the points hardly distinguish two parameters.
 const ALIKE: f64 = 0.95;
 
-/// The report of a fit of some points.
+/// The report of a fit of the points `data`.
 pub fn report(fit: &Fit, data: &[Datum], shifts: Vec<Shift>) -> Report {
     let freedom = data.len() - fit.ranges.len();
     let p_value =
@@ -178,7 +178,7 @@ fn warnings(
         ));
     }
     for (cause, what) in [(REPLICAS, "more --replicas make"), (EMULATOR, "a narrower --over range makes")] {
-        // Noise of the replicas is in the curves and in their slopes.
+        // The noise of the replicas enters the curves and their slopes.
         let share = match cause {
             REPLICAS => fit.best.share(cause).max(fit.feigned()),
             _ => fit.best.share(cause),
@@ -209,7 +209,7 @@ pub fn residuals_csv(report: &Report, times: &[&str]) -> Result<String, String> 
     csv_of(&rows)
 }
 
-/// `profiles.csv`: χ² − χ²_min along each parameter, as it counts beside the noise of the replicas.
+/// `profiles.csv`: χ² − χ²_min along each parameter, corrected for the noise of the replicas.
 pub fn profiles_csv(fit: &Fit) -> Result<String, String> {
     let mut rows = vec![["parameter", "value", "rise_of_chi2"].map(String::from).to_vec()];
     for (axis, profile) in fit.profiles.iter().enumerate() {
@@ -220,8 +220,8 @@ pub fn profiles_csv(fit: &Fit) -> Result<String, String> {
     csv_of(&rows)
 }
 
-/// `design.csv`: each point that could be measured, what the measured ones leave of it, and what it would leave of the
-/// parameters.
+/// `design.csv`: each point that could be measured, its standard deviation given the measured points, and the uncertainties of
+/// the parameters that it would leave.
 pub fn design_csv(fit: &Fit, candidates: &[Candidate], times: &[&str]) -> Result<String, String> {
     let head = ["set", "time_unit", "time", "column", "concentration_per_cm3", "u", "spread"];
     let own = (fit.ranges.iter()).map(|range| format!("u_{}_with_it", range.name()));
@@ -249,7 +249,7 @@ fn csv_of(rows: &[Vec<String>]) -> Result<String, String> {
     String::from_utf8(bytes).map_err(|error| error.to_string())
 }
 
-/// The levels of a profile that are drawn.
+/// The confidence levels of the drawn profiles, each with its rise of χ².
 pub fn levels() -> [(f64, f64); 2] {
     [0.68, 0.95].map(|confidence| (confidence, rise_of(confidence)))
 }

@@ -1,4 +1,4 @@
-//! Fits whose points scatter as replicas do, with a covariance from few replicas.
+//! Fits of points that scatter as replicas do, with a covariance from few replicas.
 
 use super::range::Range;
 use super::search::{Fit, Measured, fitted};
@@ -18,7 +18,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 const POINTS: usize = 20;
 const REPLICAS: u64 = 100;
 const PLANTED: f64 = 0.1;
-/// One standard deviation of reading off, of a rod's worth of scatter at each point, and of a walk from point to point.
+/// Standard deviations of the reading error, of each point's own scatter, and of each step of a random walk along the points.
 const NOISE: f64 = 0.002;
 const OWN: f64 = 0.01;
 const WALK: f64 = 0.005;
@@ -36,7 +36,7 @@ fn scatter(rng: &mut Pcg64Dxsm) -> Vec<f64> {
     (0..POINTS).map(&mut next).collect()
 }
 
-/// The fit of points that are one replica each, read off, with the covariance of [`REPLICAS`] others.
+/// The fit of one replica with reading errors, with the covariance of [`REPLICAS`] other replicas.
 fn fit(seed: u64) -> Fit {
     let mut rng = Pcg64Dxsm::seed_from_u64(seed);
     let own = scatter(&mut rng);
@@ -60,7 +60,7 @@ fn fit(seed: u64) -> Fit {
     fitted(&measured, &basis, &vec![(-1.0, 1.0)], &found).unwrap()
 }
 
-/// The control: V is taken for known.
+/// The control: V counts as known.
 fn believed(fit: &Fit) -> Fit {
     let mut best = fit.best.clone();
     best.spread[CAUSES.len()] = DMatrix::zeros(1, 1);
@@ -68,7 +68,7 @@ fn believed(fit: &Fit) -> Fit {
     Fit { profiles: vec![profile(&best, 0)], best, ..fit.clone() }
 }
 
-/// Whether the intervals of 68 and 95 % hold the planted value, and the p-value.
+/// Returns whether the intervals of 68 and 95 % contain the planted value, and the p-value.
 fn asked(fit: &Fit) -> ([bool; 2], f64) {
     let inside = [0.68, 0.95].map(|confidence| {
         let ends = fit.interval(0, confidence);
@@ -77,10 +77,10 @@ fn asked(fit: &Fit) -> ([bool; 2], f64) {
     (inside, ChiSquared::new((POINTS - 1) as f64).unwrap().sf(fit.best.chi_square_of_points()))
 }
 
-/// With q = 19 and n − 1 = 99 a covariance that is taken for known is 0.81 of the right one and the estimates' is 1.24 of it: its
-/// intervals hold the truth in 57 and 88 %.
+/// With q = 19 and n − 1 = 99 a covariance taken as known is 0.81 of the right one and the estimates' covariance is 1.24 of it: its
+/// intervals contain the truth in 57 and 88 %.
 const EFFECT: f64 = 0.09;
-/// The correction is exact but for terms ∝ 1/n, 1 % here.
+/// The correction is exact up to terms ∝ 1/n, 1 % here.
 const ALLOWANCE: f64 = 0.01;
 
 #[test]
@@ -92,7 +92,7 @@ fn a_covariance_of_few_replicas_makes_no_interval_short() {
         (asked(&fit), asked(&believed(&fit)), fit.best.excess)
     };
     let all: Vec<_> = (0..count).into_par_iter().map(one).collect();
-    // (1 + q)/(n − 1) where V is all from replicas.
+    // The excess is (1 + q)/(n − 1) if V comes from replicas alone.
     let excess = all.iter().map(|(.., excess)| excess).sum::<f64>() / count as f64;
     assert!((0.15..20.0 / 99.0).contains(&excess), "{excess}");
     for (which, confidence) in [0.68, 0.95].into_iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Scenes as a model of measured points: a scene's keys set to values, its replicas run, and looked at where points lie.
+//! Scenes as a model of measured points: sets keys of scenes to values, runs the replicas, and evaluates them at the points' times.
 
 use super::data::TimeColumn;
 use super::range::Range;
@@ -19,43 +19,43 @@ pub struct Set {
     pub source: String,
     /// The text of the scene's file.
     pub text: String,
-    /// The starts of rods that have theirs in a file beside the scene's, read once for all values of the parameters.
+    /// The initial directions of rods that are given in a file beside the scene, read once for all values of the parameters.
     pub starts: Starts,
-    /// Keys that have other values than in the text, the same for all parameters.
+    /// Keys whose values differ from the text, the same for all values of the parameters.
     pub settings: Vec<Setting>,
     /// The seed of all random numbers.
     pub seed: u64,
-    /// The unit of its points' times.
+    /// The unit of the points' times.
     pub time: TimeColumn,
 }
 
-/// How a model differs from the scene as it is written, to see what that changes.
+/// A change of the model from the scene as written, to measure its effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Variant {
-    /// Steps, in multiples of the scene's.
+    /// Number of steps, in multiples of the scene's.
     pub steps: u64,
-    /// Rods, in multiples of the scene's.
+    /// Number of rods, in multiples of the scene's.
     pub rods: usize,
-    /// Whether all rods have the mean r_e.
+    /// True if all rods have the mean r_e.
     pub one_aspect_ratio: bool,
 }
 
-/// The scene as it is written.
+/// The scene as written.
 pub const AS_WRITTEN: Variant = Variant { steps: 1, rods: 1, one_aspect_ratio: false };
 
-/// Several scenes with parameters that they share or have each for itself.
+/// Several scenes, with parameters that they share or that belong to one of them.
 #[derive(Clone, Debug)]
 pub struct Scenes {
     /// The scenes.
     pub sets: Vec<Set>,
     /// The parameters.
     pub ranges: Vec<Range>,
-    /// Steps per period or unit of strain of each scene, the same for all values of the parameters: so they keep their random numbers.
+    /// Steps per period or unit of strain of each scene, the same for all parameter values, so that the random numbers stay the same.
     steps: Vec<u64>,
 }
 
-/// Why rods that start in one direction do not disturb each other, where they do not: parallel ones have no contact line; in
-/// the shear plane it is along axis 3, along which nothing moves.
+/// The reason why rods with a common initial direction do not disturb each other; none if they do. Parallel rods have no contact
+/// line; in the shear plane it is along axis 3, along which nothing moves.
 fn apart(scene: &Scene) -> Option<&'static str> {
     let [_, theta_deg] = scene.particles.common_start_deg()?;
     match theta_deg.rem_euclid(180.0) {
@@ -66,18 +66,18 @@ fn apart(scene: &Scene) -> Option<&'static str> {
     }
 }
 
-/// √3: Gauss–Hermite's outer nodes in standard deviations.
+/// √3: the outer nodes of Gauss–Hermite quadrature, in standard deviations.
 const OUTER: f64 = 1.732_050_807_568_877_2;
 
-/// Outputs per unit of strain, where time is no period.
+/// Outputs per unit of strain, for scenes whose unit of time is the strain.
 const PER_STRAIN: u64 = 40;
 
-/// Outputs per period of free rods that start alike: |p_i| has a kink where p_i changes its sign, all of them at once, which a cubic
-/// between outputs rounds off by a share of their distance.
+/// Outputs per period of free rods with a common initial direction: |p_i| has a kink where p_i changes its sign, for all rods at once,
+/// which a cubic between outputs rounds off by an error in proportion to the outputs' distance.
 const KINKED: u64 = 5000;
 
 impl Scenes {
-    /// Checks every scene at all corners of the ranges. On error, which scene, which values, and why.
+    /// Checks every scene at all corners of the ranges. An error says which scene, which values, and why.
     pub fn new(sets: Vec<Set>, ranges: Vec<Range>) -> Result<Self, String> {
         let mut scenes = Self { steps: vec![0; sets.len()], sets, ranges };
         for set in 0..scenes.sets.len() {
@@ -90,7 +90,7 @@ impl Scenes {
         Ok(scenes)
     }
 
-    /// Refuses to fit the interaction of rods that never disturb each other: what their curves say of it is nothing.
+    /// Refuses to fit the interaction of rods that never disturb each other: their curves do not depend on it.
     fn says_something(&self, set: usize, scene: &Scene) -> Result<(), String> {
         let fitted =
             self.ranges.iter().find(|range| range.is_of(set) && range.key.starts_with("interaction."));
@@ -106,7 +106,7 @@ impl Scenes {
         }
     }
 
-    /// Where the scene of a set ends with these values, in the unit of its points' times.
+    /// The end of the set's scene with these values, in the unit of its points' times.
     pub fn end(&self, set: usize, values: &[f64]) -> Result<f64, String> {
         let refused = |error: String| format!("{}: {error}", self.sets[set].source);
         let plan = Plan::new(&self.scene(set, values)?).map_err(|error| refused(error.to_string()))?;
@@ -114,7 +114,7 @@ impl Scenes {
     }
 
     /// The same scenes at `factor` times their concentration, and that concentration; none for rods that do not interact, or whose
-    /// concentration is fitted. A box is changed in proportion.
+    /// concentration is fitted. A box is scaled in proportion.
     pub fn at_concentration(&self, factor: f64, values: &[f64]) -> Result<(Self, Vec<Option<f64>>), String> {
         const KEY: &str = "interaction.concentration_per_cm3";
         const BOX: &str = "interaction.box_mm";
@@ -151,7 +151,7 @@ impl Scenes {
             .collect()
     }
 
-    /// The scene of a set with these values, as its file has it otherwise.
+    /// The scene of a set with these values; the other keys are as in its file.
     pub fn scene(&self, set: usize, values: &[f64]) -> Result<Scene, String> {
         let Set { source, text, starts, settings, seed, .. } = &self.sets[set];
         let own = || self.ranges.iter().zip(values).filter(|(range, _)| range.is_of(set));
@@ -170,7 +170,7 @@ impl Scenes {
         Ok(scene)
     }
 
-    /// The plans of all scenes with these values that reach the last of these times (in the unit of each set), with an
+    /// The plans of all scenes with these values, each until the last time in `data` (in the unit of its set), with an
     /// output in every step.
     pub fn plans(&self, values: &[f64], data: &[Datum], variant: Variant) -> Result<Vec<Plan>, String> {
         (0..self.sets.len()).map(|set| self.plan(set, values, data, variant)).collect()
@@ -191,7 +191,7 @@ impl Scenes {
         })?;
         let here = data.iter().filter(|datum| datum.set == set);
         let last = here.map(|datum| (datum.time + OUTER * datum.u_time) / per_unit).fold(0.0, f64::max);
-        // One output more than the last point needs, for the cubic.
+        // One output more than the last point needs, for the cubic interpolation.
         let kinked = scene.interaction.is_none() && scene.particles.common_start_deg().is_some();
         let by_strain = scene.time.unit == shearbed::scene::TimeUnit::Strain;
         let outputs = match (&scene.interaction, by_strain) {
@@ -216,7 +216,7 @@ impl Scenes {
         Plan::new(&scene).map_err(|error| refused(error.to_string()))
     }
 
-    /// The model of these points with parameters of these values.
+    /// The model of the points `data` at these parameter values.
     pub fn model(&self, data: &[Datum], variant: Variant, values: &[f64]) -> Result<Replica, String> {
         let part = |(set, plan): (usize, Plan)| {
             let looks = looks(&plan, self.sets[set].time, data, set);
@@ -231,14 +231,14 @@ impl Scenes {
     }
 }
 
-/// Where a scene is looked at for one point.
+/// The place of one point in the outputs of a scene.
 #[derive(Clone, Copy, Debug)]
 struct Look {
-    /// Which point.
+    /// Index of the point.
     point: usize,
-    /// What was measured.
+    /// The measured column.
     channel: Channel,
-    /// Its time, and one standard deviation, in outputs.
+    /// Its time, and the standard uncertainty of that, in outputs.
     outputs: f64,
     u_outputs: f64,
 }

@@ -1,5 +1,5 @@
-//! The search: runs over the whole range, then over the part of it that the data leave, until the model's own error is
-//! small beside the data's.
+//! The search for the best fit: runs over the whole range, then over the part that the data leave, until the model's own error
+//! is small beside the data's.
 
 use super::range::Range;
 use crate::methods::least_squares::Datum;
@@ -11,71 +11,71 @@ use crate::methods::least_squares::profile::{Interval, Profile, interval, profil
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-/// Replicas of the first runs, which only say where to look closer.
+/// Number of replicas of the first runs, which only show where to look closer.
 pub const FIRST_REPLICAS: u64 = 50;
 
-/// The share that the model's own sampling error may have in the variance of a parameter before replicas are added: it
-/// makes the interval 5 % longer.
+/// The largest share of a parameter's variance that may come from the model's own sampling error; above it replicas are added.
+/// At this share the interval is 5 % longer.
 pub const MOST_SHARE: f64 = 0.1;
 
-/// The share that the replicas' noise may have in what the points seem to tell, before the box is drawn closer.
+/// The largest share of the points' apparent information that may be noise of the replicas before the box is reduced.
 const CLEAR: f64 = 0.2;
 
-/// From this share on there is no answer.
+/// A fit with at least this share is refused.
 const NOTHING_ELSE: f64 = 0.7;
 
 /// The share of χ² that may come from a covariance of few replicas.
 const MOST_EXCESS: f64 = 0.5;
 
-/// The most times that the box changes.
+/// The largest number of changes of the box.
 const MOST_ROUNDS: u64 = 12;
 
-/// By how much χ² rises where the box may end: four standard deviations from the best place.
+/// The rise of χ² at which the box may end: four standard deviations from the best place.
 const FAR: f64 = 16.0;
 
-/// The same where polynomials over that box are too blunt, by [`MOST_SHARE`] of a parameter's variance: three standard deviations,
+/// The same rise where polynomials over that box exceed [`MOST_SHARE`] of a parameter's variance: three standard deviations,
 /// over which the error of degree 4 is a quarter. The 95 % interval, two of them, must end inside.
 const NEAR: f64 = 9.0;
 
-/// A box is made smaller only when a side shrinks below this share of it: runs anew cost more than that gains.
+/// A box is made smaller only when a side shrinks below this share of it: otherwise new runs cost more than they gain.
 const WORTH: f64 = 0.6;
 
-/// What was measured, and the parameters that it is to tell.
+/// The measured points, and the parameters to fit.
 #[derive(Clone, Copy, Debug)]
 pub struct Measured<'a> {
     /// The measured points.
     pub data: &'a [Datum],
     /// The parameters.
     pub ranges: &'a [Range],
-    /// For each data set: rods of a replica over rods that each point is a mean of; 0 where that is not known.
+    /// For each data set: rods of a replica over rods that each point is a mean of; 0 where the latter number is not known.
     pub rods_over_measured: &'a [f64],
 }
 
-/// What is to be fitted.
+/// The input of a fit.
 pub struct FitProblem<'a> {
     /// The points and the parameters.
     pub measured: Measured<'a>,
-    /// What predicts the points.
+    /// The model that predicts the points.
     pub model: &'a Model<'a>,
-    /// The most replicas at each parameter value.
+    /// The largest number of replicas at each parameter value.
     pub most_replicas: u64,
 }
 
-/// Told of the runs that are to come, and of each that is done.
+/// Callbacks for the progress of the runs.
 pub struct Watch<'a> {
     /// Called with the name of each part of the work as it begins.
     pub stage: &'a (dyn Fn(&str) + Sync),
-    /// Called with a number of runs that will follow.
+    /// Called with the number of runs that follow.
     pub planned: &'a (dyn Fn(u64) + Sync),
-    /// Called when one of them has ended.
+    /// Called when a run has ended.
     pub done: &'a (dyn Fn() + Sync),
 }
 
 impl Watch<'_> {
-    /// Nobody is told.
+    /// Callbacks that do nothing.
     pub const SILENT: Self = Self { stage: &|_| (), planned: &|_| (), done: &|| () };
 
-    /// The results of replicas from 0 on, in their order on any number of threads.
+    /// Runs `one` for the replicas from 0 to `count` on any number of threads and returns the results in order.
     ///
     /// # Errors
     ///
@@ -114,7 +114,7 @@ pub struct Fit {
     pub rounds: u64,
 }
 
-/// Fits the parameters. On error, why a run could not be or was not finished.
+/// Fits the parameters. An error says why a run was impossible or did not finish.
 pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, String> {
     let ranges = problem.measured.ranges;
     let basis = Basis::new(ranges.len());
@@ -134,7 +134,7 @@ pub fn search(problem: &FitProblem<'_>, watch: &Watch<'_>) -> Result<Fit, String
         found.extend(coefficients(&basis, problem.model, value, new, watch.done)?);
         let fit = fitted(&problem.measured, &basis, &sides, &found)?;
         let more = wanted < problem.most_replicas;
-        // Where to look closer is for the points to tell, and not for the replicas' noise.
+        // The points, not the replicas' noise, must decide where to look closer.
         if more && fit.feigned() > CLEAR {
             wanted = enough(wanted, fit.feigned(), CLEAR).min(problem.most_replicas);
             continue;
@@ -192,7 +192,7 @@ fn whole(ranges: &[Range]) -> Sides {
     (ranges.iter()).map(|range| (range.scaled(range.from), range.scaled(range.to))).collect()
 }
 
-/// The values of the parameters at a place of a box.
+/// The values of the parameters at `place` of the box `sides`.
 pub fn values(ranges: &[Range], sides: &Sides, place: &[f64]) -> Vec<f64> {
     let one = |((range, (low, high)), place): ((&Range, &(f64, f64)), &f64)| {
         range.value(0.5 * (low + high) + 0.5 * (high - low) * place)
@@ -200,7 +200,7 @@ pub fn values(ranges: &[Range], sides: &Sides, place: &[f64]) -> Vec<f64> {
     ranges.iter().zip(sides).zip(place).map(one).collect()
 }
 
-/// The fit of some replicas over a box.
+/// The fit over the box `sides`, from the coefficients of its replicas.
 pub fn fitted(
     measured: &Measured<'_>,
     basis: &Basis,
@@ -221,16 +221,16 @@ pub fn fitted(
     })
 }
 
-/// The replicas that bring the share of the sampling variance, which falls as one over their number, to what is allowed;
-/// some more, as the share is known no better than the variance itself. At most ten times as many at once.
+/// The number of replicas that reduces the share of the sampling variance, which falls as one over that number, to `allowed`;
+/// a tenth more, as the share is known no better than the variance itself, and at most ten times as many at once.
 fn enough(replicas: u64, share: f64, allowed: f64) -> u64 {
     let others = (1.0 - share).max(0.05);
     let needed = replicas as f64 * (share / others) * (1.0 - allowed) / allowed;
     (1.1 * needed).ceil().min(10.0 * replicas as f64) as u64 + 1
 }
 
-/// The box in which to look next, and whether it gains enough to run anew. Each side is to end a quarter beyond where χ² has risen
-/// by `far`: nearer, the interval may be cut, farther, polynomials of this degree are blunt.
+/// The next box, and true if it gains enough to run again. Each side should end a quarter beyond the place where χ² has risen
+/// by `far`: nearer, the interval may be cut; farther, polynomials of this degree are too inaccurate.
 fn other_sides(fit: &Fit, whole: &Sides, far: f64) -> (Sides, bool) {
     let mut change = false;
     let sides = (0..whole.len())
@@ -240,7 +240,7 @@ fn other_sides(fit: &Fit, whole: &Sides, far: f64) -> (Sides, bool) {
             let far = interval(&fit.best, axis, &fit.profiles[axis], far);
             let centre = fit.best.place[axis];
             let end = |place: f64, open: bool| match open {
-                // Not seen yet: beyond this box, far beyond where even the best place is at its edge.
+                // The end is not known yet: go beyond this box, and far beyond it if even the best place is at its edge.
                 true if centre.abs() > 0.99 => at(place + 4.0 * place.signum()),
                 true => at(place + place.signum()),
                 false => at(place + 0.25 * (place - centre)),
@@ -255,7 +255,7 @@ fn other_sides(fit: &Fit, whole: &Sides, far: f64) -> (Sides, bool) {
     (sides, change)
 }
 
-/// Whether every 95 % interval ends inside its box or at the edge of its range.
+/// True if every 95 % interval ends inside its box or at the edge of its range.
 fn enclosed(fit: &Fit, whole: &Sides) -> bool {
     (0..whole.len()).all(|axis| {
         let found = interval(&fit.best, axis, &fit.profiles[axis], rise_of(0.95));
@@ -264,14 +264,14 @@ fn enclosed(fit: &Fit, whole: &Sides) -> bool {
     })
 }
 
-/// A standard uncertainty above this number of ranges, with an interval that is the whole range, says that no model value changes with the parameter.
+/// A standard uncertainty above this multiple of the range, with an interval of the whole range: no prediction depends on the parameter.
 const UNTOLD: f64 = 10.0;
 
 /// Ends of 68 and 95 % closer than this share of the distance from the best place are one end: those of a parabola are half of it apart.
 const SAME: f64 = 0.02;
 
 impl Fit {
-    /// A parameter of which the points tell nothing.
+    /// The first parameter that the points do not determine at all.
     fn untold(&self) -> Option<usize> {
         let covariance = self.best.covariance();
         (0..self.ranges.len()).find(|&axis| {
@@ -284,50 +284,50 @@ impl Fit {
         })
     }
 
-    /// The share that the replicas' noise would have in the rise of χ² at the ends of the 95 % intervals, where it is largest.
+    /// The largest share of the replicas' noise in the rise of χ² at the ends of the 95 % intervals.
     pub fn feigned(&self) -> f64 {
         let all = self.profiles.iter().map(|profile| profile.feigned(rise_of(0.95)));
         all.fold(0.0, f64::max)
     }
 
-    /// The values of the parameters at a place of the box.
+    /// The values of the parameters at `place` of the box.
     pub fn values(&self, place: &[f64]) -> Vec<f64> {
         values(&self.ranges, &self.sides, place)
     }
 
-    /// The value of one parameter at its place in the box.
+    /// The value of parameter `axis` at its place in the box.
     pub fn value(&self, axis: usize, place: f64) -> f64 {
         let mut all = vec![0.0; self.ranges.len()];
         all[axis] = place;
         self.values(&all)[axis]
     }
 
-    /// The place in the box of a value of one parameter.
+    /// The place of a value of parameter `axis` in the box.
     pub(super) fn place(&self, axis: usize, value: f64) -> f64 {
         let (low, high) = self.sides[axis];
         (2.0 * self.ranges[axis].scaled(value) - low - high) / (high - low)
     }
 
-    /// By how much each parameter changes with its place in the box, at the best place.
+    /// Derivative of parameter `axis` with respect to its place in the box, at the best place.
     pub fn scale(&self, axis: usize) -> f64 {
         let (low, high) = self.sides[axis];
         let scaled = 0.5 * (low + high) + 0.5 * (high - low) * self.best.place[axis];
         0.5 * (high - low) * self.ranges[axis].slope(scaled)
     }
 
-    /// The covariance of the parameters in their units, of the linear theory.
+    /// The covariance of the parameters in their units, by linear theory.
     pub fn covariance(&self) -> DMatrix<f64> {
         let scales = DVector::from_fn(self.sides.len(), |axis, _| self.scale(axis));
         self.best.covariance().component_mul(&(&scales * scales.transpose()))
     }
 
-    /// The interval of a parameter at a confidence, in the parameter's unit. It is open at an end that is the edge of the
+    /// The interval of parameter `axis` at a confidence level, in the parameter's unit. It is open at an end that is the edge of the
     /// parameter's range.
     pub fn interval(&self, axis: usize, confidence: f64) -> Interval {
         let found = interval(&self.best, axis, &self.profiles[axis], rise_of(confidence));
         let range = &self.ranges[axis];
         let (low, high) = self.sides[axis];
-        // To the last digit where the box ends where the range does.
+        // Exact to the last digit where the box ends at the end of the range.
         let end = |open: bool, side: f64, edge: f64, place: f64| match open && side == range.scaled(edge) {
             true => edge,
             false => self.value(axis, place),
@@ -354,11 +354,11 @@ impl Fit {
         parts.into_iter().map(|(first, last)| (value(first), value(last))).collect()
     }
 
-    /// Whether every profile has one valley within its intervals, rises through the ends of its intervals without a jump, and those of 68 % lie inside those of 95 %.
+    /// Checks that every profile has one valley in its intervals and no jump at their ends, and that the 68 % interval is within 95 %'s.
     ///
     /// # Errors
     ///
-    /// The parameter whose intervals cannot be told, and what to do.
+    /// The parameter whose intervals cannot be determined, and what to do.
     pub(super) fn is_smooth(&self) -> Result<(), String> {
         for (axis, range) in self.ranges.iter().enumerate() {
             let [inner, outer] = [0.68, 0.95]
@@ -397,12 +397,12 @@ impl Fit {
 mod tests {
     use super::*;
 
-    /// A share s of the variance at n replicas is s/(s + (1 − s) k) at k n of them.
+    /// A share s of the variance at n replicas becomes s/(s + (1 − s) k) at k n replicas.
     #[test]
     fn replicas_for_a_share_are_enough_and_a_tenth_more() {
-        // 0.2 to 0.1: k = 0.25 · 9 = 2.25.
+        // From 0.2 to 0.1: k = 0.25 · 9 = 2.25.
         assert_eq!(enough(100, 0.2, 0.1), 249);
-        // Ten times at most, and never of a share that is all.
+        // At most ten times as many, also for a share of 1.
         assert_eq!(enough(100, 0.9, 0.1), 1001);
         assert_eq!(enough(100, 1.0, 0.5), 1001);
     }

@@ -1,15 +1,15 @@
-//! A fit in words: the answer in one line, and its budget, for the terminal.
+//! A fit as text for the terminal: one line with the answer, and the budget.
 
 use super::design::{Added, Step};
 use super::hypothesis::{LEAST_P, Tested};
 use super::report::Report;
 use super::search::Fit;
 
-/// The answer in one line for each parameter, and the goodness of fit.
+/// One line with the estimate of each parameter and the goodness of fit.
 pub fn sentence(fit: &Fit, report: &Report) -> String {
     let parameter = |range: &super::Range| {
         let found = &report.parameters[&range.label()];
-        // Two digits of the uncertainty, which where the points tell little is no more than the range.
+        // Two digits of the uncertainty, which counts as at most the range if the points determine little.
         let digits = decimals(found.standard_uncertainty.min(range.to - range.from));
         format!(
             "{} = {:.digits$}, 95 % from {:.digits$} to {:.digits$}",
@@ -29,7 +29,7 @@ pub fn sentence(fit: &Fit, report: &Report) -> String {
     )
 }
 
-/// The budget and the shifts, for the terminal.
+/// The uncertainty budget and the shifts, as text for the terminal.
 pub fn table(fit: &Fit, report: &Report) -> String {
     let names: String = fit.ranges.iter().map(|range| format!("  {:>18}", range.name())).collect();
     let numbers = |all: &[f64]| all.iter().map(|u| format!("  {u:>18.2e}")).collect::<String>();
@@ -45,7 +45,7 @@ pub fn table(fit: &Fit, report: &Report) -> String {
     format!("{text}runs: {}, replicas at each value: {}\n", report.runs, report.replicas)
 }
 
-/// What was tested, a line each, for the terminal.
+/// One line for each tested hypothesis, as text for the terminal.
 pub fn tests(report: &Report) -> String {
     let line = |tested: &Tested| {
         let (beyond, p) = (tested.beyond_the_box, tested.p_value);
@@ -71,7 +71,7 @@ pub fn tests(report: &Report) -> String {
     report.tests.iter().map(line).collect()
 }
 
-/// With two digits where it is small, so that 0.046 is not 0.05.
+/// The probability as text: three decimals below 0.1, so that 0.046 does not become 0.05, and two digits below 0.01.
 fn probability(p: f64) -> String {
     match p {
         p if p < 0.01 => format!("{p:.1e}"),
@@ -80,13 +80,13 @@ fn probability(p: f64) -> String {
     }
 }
 
-/// A bound with one digit, never below it.
+/// The number rounded up to one digit, for an upper bound.
 fn rounded_up(p: f64) -> String {
     let unit = 10f64.powf(p.log10().floor());
     format!("{:.0e}", (p / unit - 1e-9).ceil() * unit)
 }
 
-/// What further points would leave, for the terminal. `times` are the units of the sets' times.
+/// The table of uncertainties that further points would leave, for the terminal. `times` are the units of the sets' times.
 pub fn design(fit: &Fit, steps: &[Step], times: &[&str]) -> String {
     let head = "what further points would leave".to_owned();
     let all: Vec<String> = (steps.iter()).map(|step| added(&step.added, times)).collect();
@@ -121,7 +121,7 @@ fn added(added: &Added, times: &[&str]) -> String {
     }
 }
 
-/// The decimals that show two digits of a number, up to 12.
+/// The number of decimals that show two digits of `number`, at most 12.
 fn decimals(number: f64) -> usize {
     match number.log10().floor() {
         log if log.is_finite() => (1.0 - log).clamp(0.0, 12.0) as usize,
@@ -136,7 +136,7 @@ mod tests {
     #[test]
     fn probabilities_are_on_the_right_side_of_a_limit() {
         assert_eq!([0.0458, 0.5, 0.003].map(probability), ["0.046", "0.50", "3.0e-3"]);
-        // Bounds are never below what they bound.
+        // A rounded bound is never below the bound itself.
         assert_eq!(
             [0.0646, 3.28e-6, 1e-6, 0.86, 1.0].map(rounded_up),
             ["7e-2", "4e-6", "1e-6", "9e-1", "1e0"]

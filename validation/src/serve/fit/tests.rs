@@ -18,7 +18,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 const TIMES: usize = 22;
 
-/// A curve that a rate and a frequency damp and turn, as X̄₁ is.
+/// A curve with a damping rate and a frequency, like X̄₁.
 fn curve(rate: f64, frequency: f64, time: f64) -> f64 {
     0.3 + 0.2 * (-rate * time).exp() * (std::f64::consts::TAU * frequency * time).cos()
 }
@@ -31,7 +31,7 @@ pub(super) fn normal(rng: &mut Pcg64Dxsm) -> f64 {
     StandardNormal.sample(rng)
 }
 
-/// A model whose replicas are off by a share in the offset and in the rate, the same at every parameter value.
+/// A model whose replicas deviate in the offset and in the rate, by the same amount at every parameter value.
 fn model(seed: u64, scatter: f64) -> impl Fn(&[f64]) -> Result<Replica, String> + Sync {
     move |values| {
         let (rate, frequency) = (values[0], values.get(1).copied().unwrap_or(1.0));
@@ -84,7 +84,7 @@ fn without_noise_the_planted_values_are_found() {
         }
         data
     };
-    // What is left is the polynomial over the last box, some five standard deviations wide: below a hundredth of one.
+    // The rest is the error of the polynomial over the last box, some five standard deviations wide: below a hundredth of one.
     let found = fit(&exact(0.8, 1.0), &ONE, 1, 1e-9, 100);
     let interval = found.interval(0, 0.68);
     let value = found.value(0, found.best.place[0]);
@@ -105,7 +105,7 @@ fn the_levels_of_a_profile_are_those_of_its_intervals() {
     assert!((low - 0.988_946).abs() < 1e-5 && (high - 3.841_459).abs() < 1e-5, "{low} {high}");
 }
 
-/// Points at every tenth of a period do not tell a frequency of 1 from one of 9 or 11.
+/// Points at every tenth of a period do not distinguish a frequency of 1 from 9 or 11.
 #[test]
 fn another_minimum_of_the_range_is_seen() {
     let (data, model) = (points(0.3, 1.0, 0.01, 1), model(1, 1e-9));
@@ -130,7 +130,7 @@ fn another_minimum_of_the_range_is_seen() {
     assert!(said.contains("do not follow"), "{said}");
 }
 
-/// What repeats of a fit with fresh data and a fresh seed have in common.
+/// The outcome of a fit with fresh data and a fresh seed.
 struct Repeat {
     inside: [bool; 2],
     /// The control: the interval half as long.
@@ -157,7 +157,7 @@ fn repeats(count: u64, over: &[&str], scatter: f64, most_replicas: u64) -> Vec<R
     (0..count).into_par_iter().map(one).collect()
 }
 
-/// The share of repeats of which something holds, against what it should be. `allowance`: what the share may be off by.
+/// The rule that the share of true values is `reference`, up to an error of `allowance`, and that it must detect `effect`.
 pub(super) fn share(inside: impl Iterator<Item = bool>, reference: f64, allowance: f64, effect: f64) -> Rule {
     let all: Vec<bool> = inside.collect();
     let n = all.len() as f64;
@@ -172,7 +172,7 @@ pub(super) fn share(inside: impl Iterator<Item = bool>, reference: f64, allowanc
     }
 }
 
-/// Profile intervals are exact for models that are straight in their parameters; this one bends.
+/// Profile intervals are exact for models that are linear in their parameters; this one is not.
 const ALLOWANCE: f64 = 0.01;
 /// An interval half as long holds the planted value in 0.38 and 0.67 of the repeats, 0.30 and 0.28 fewer.
 const EFFECT: f64 = 0.27;
@@ -180,7 +180,7 @@ const EFFECT: f64 = 0.27;
 #[test]
 fn intervals_hold_the_planted_value_as_often_as_they_say() {
     let enough = Design { effect: EFFECT, sd: (0.68_f64 * 0.32).sqrt() }.samples();
-    // Sampling noise that replicas do not quite outgrow, so that leaving it out would show. The case `fit-covers` has one key.
+    // Sampling noise that replicas do not quite remove, so that a fit without it would fail. The case `fit-covers` has one key.
     let found = repeats(enough, &TWO, 0.02, 40);
     for (which, confidence) in [(0, 0.68), (1, 0.95)] {
         let rule = share(found.iter().map(|repeat| repeat.inside[which]), confidence, ALLOWANCE, EFFECT);
@@ -192,7 +192,7 @@ fn intervals_hold_the_planted_value_as_often_as_they_say() {
     assert_eq!(judge(&rule), Verdict::Pass, "{rule:?}");
 }
 
-/// A straight line a + b t, whose replicas are off by an offset each.
+/// A straight line a + b t whose replicas have an offset each.
 fn line(values: &[f64]) -> Result<Replica, String> {
     let (a, b) = (values[0], values[1]);
     Ok(Replica::whole(move |replica| {
@@ -249,7 +249,7 @@ fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
         assert!(close(ends.high, expected[axis] + 1.959_964 * se), "{axis}: {ends:?} {se}");
     }
 
-    // The band of the best curve is what the covariance leaves of a + b (1 + t), beside the replicas' own.
+    // The band of the best curve is the covariance's contribution to a + b (1 + t), and the replicas' own error.
     let curves = best_curves(&fit, &data, &line, &Watch::SILENT).unwrap();
     for (k, (value, half_band)) in curves.iter().enumerate() {
         let row = x.row(k);
@@ -264,7 +264,7 @@ fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
         assert!((row.simulated - curves[k].0).abs() < 1e-3 && row.u >= 0.05, "{row:?}");
     }
 
-    // The region of both is an ellipse, and closed.
+    // The region of both parameters is a closed ellipse.
     let level = rise_of_several(0.68, 2);
     let inverse = covariance.try_inverse().unwrap();
     let ring = contour(&fit.best, [0, 1], level);
@@ -274,7 +274,7 @@ fn a_straight_line_has_the_estimate_and_the_intervals_of_the_textbook() {
         let values = fit.values(point);
         let away = DVector::from_fn(2, |k, _| values[k] - expected[k]);
         let rise = (away.transpose() * &inverse * &away)[0];
-        // Ends are known to 0.02 of a standard uncertainty, as above, and this level is at 1.5 of them.
+        // Ends are known to 0.02 of a standard uncertainty, as above, and this level lies at 1.5 of them.
         assert!((rise / level - 1.0).abs() < 2.0 * 0.02 / 1.5, "{point:?}: {rise} {level}");
     }
     // A level beyond the box ends at its edges.

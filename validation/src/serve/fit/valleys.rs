@@ -16,7 +16,7 @@ fn points(values: &[(f64, f64)]) -> Vec<Datum> {
         .collect()
 }
 
-/// b² tells the size of b, a b its sign given that of a, and a is hardly told: as a passes 0, b changes its sign.
+/// b² determines the size of b, a b its sign given that of a, and a is hardly determined: as a passes 0, b changes its sign.
 fn two_signs(values: &[f64]) -> Result<Replica, String> {
     let (a, b) = (values[0], values[1]);
     Ok(Replica::whole(move |_| Ok([b * b, a * b, a].map(|value| [value; 3]).to_vec())))
@@ -66,7 +66,7 @@ fn a_profile_that_jumps_is_no_answer() {
     assert!(said.contains("--over a.a") && said.contains("jumps"), "{said}");
 }
 
-/// What lies between two valleys is in no interval, and an interval from one to the other would hold it.
+/// Values between two valleys are in no interval, and an interval from one valley to the other would contain them.
 #[test]
 fn two_valleys_are_no_answer() {
     let said = of_two_signs().is_smooth().unwrap_err();

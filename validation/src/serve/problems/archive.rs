@@ -1,6 +1,6 @@
-//! All problems as one archive, as a data repository takes it: versioned, with checksums, licence and citation.
+//! All problems as one archive for a data repository: versioned, with checksums, licence and citation.
 //!
-//! A tar file (POSIX ustar, not compressed), the same bytes each time: names ascend, times are 0.
+//! A tar file (POSIX ustar, not compressed) with the same bytes each time: names ascend, times are 0.
 
 use super::{FORMAT, all, built, files};
 use crate::files::build::BUILD;
@@ -15,7 +15,7 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// A block of a tar file, in bytes.
 const BLOCK: usize = 512;
 
-/// The name of the archive's one folder.
+/// The name of the archive's only folder.
 fn folder() -> String {
     format!("shearbed-problems-{VERSION}")
 }
@@ -41,7 +41,7 @@ pub fn archive() -> Vec<u8> {
         tar.extend(text.as_bytes());
         tar.resize(tar.len().next_multiple_of(BLOCK), 0);
     }
-    // Two empty blocks end it.
+    // Two empty blocks end the archive.
     tar.resize(tar.len() + 2 * BLOCK, 0);
     tar
 }
@@ -50,7 +50,7 @@ fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// The header of a file: fields of fixed places, numbers in octal, and their sum.
+/// The header of a file: fields at fixed places, numbers in octal, and a checksum.
 fn header(path: &str, length: usize) -> [u8; BLOCK] {
     let mut block = [0; BLOCK];
     let mut put = |at: usize, text: &str| block[at..at + text.len()].copy_from_slice(text.as_bytes());
@@ -61,7 +61,7 @@ fn header(path: &str, length: usize) -> [u8; BLOCK] {
     put(116, "0000000");
     put(124, &format!("{length:011o}"));
     put(136, "00000000000");
-    // The sum counts its own field as blanks.
+    // The checksum counts its own field as blanks.
     put(148, "        ");
     put(156, "0");
     put(257, "ustar\x0000");

@@ -1,18 +1,18 @@
-//! What a problem must be before anything is compared with it: kind, metric and columns belong together, and every number is
-//! in its range. The JSON Schema (`schemas/problem.schema.json`) says the same.
+//! Validation of a problem before anything is compared with it: kind, metric and columns must match, and every number must be
+//! in its range. The JSON Schema (`schemas/problem.schema.json`) has the same rules.
 
 use super::folgar_tucker::FOURTH;
 use super::table::ReadError;
 use super::{Ensemble, Kind, LoadedProblem, Metric, Problem};
 use std::path::Path;
 
-/// The columns of a kind of problem after its keys: one of these lists.
+/// The allowed lists of columns of a kind of problem, after its keys.
 type Columns = &'static [&'static [&'static str]];
 
-/// What belongs to a kind: its metric, the tolerances that are allowed, and its columns.
+/// A kind's metric, its smallest and largest tolerance, and its columns.
 ///
-/// Directions are at most π/2 apart, means and relative errors are about 1 where an answer is wrong: a larger tolerance
-/// would let anything pass.
+/// Directions differ by at most π/2, and means and relative errors of a wrong answer are about 1: a larger tolerance would let
+/// anything pass.
 fn form(kind: Kind) -> (Metric, [f64; 2], Columns) {
     const LEAST: f64 = 1e-300;
     match kind {
@@ -47,27 +47,27 @@ const ANGLES: [&str; 8] = [
     "b_theta_rad",
 ];
 
-/// The largest |L_ij| in 1/s, length in mm, and the like.
+/// The largest |L_ij| in 1/s, and the largest of lengths in mm and other numbers.
 const MOST: f64 = 1e9;
-/// The largest strain |L| t: a ladder of 24 doublings from a step of about 1/|L| must have numbers of steps.
+/// The largest strain |L| t: the numbers of steps must stay finite over 24 doublings from a step of about 1/|L|.
 const MOST_STRAIN: f64 = 1e9;
-/// r_e of scenes.
+/// The range of r_e in scenes.
 const RATIOS: [f64; 2] = [1e-100, 1e100];
-/// C_I.
+/// The range of C_I.
 const DIFFUSION: [f64; 2] = [1e-9, 1e9];
-/// σ of r_e in percent: six of them leave r_e positive.
+/// The largest σ of r_e in percent: r_e is still positive six σ below its mean.
 const MOST_SPREAD: f64 = 15.0;
-/// The most characters of a text.
+/// The largest number of characters of a text.
 const LONGEST: usize = 10_000;
 
-/// A key that is refused: its name, and what is wrong.
+/// A refused key: its name, and the reason.
 pub(super) type Refused = (&'static str, String);
 
-/// Refuses a problem whose keys do not belong together or are out of range.
+/// Refuses a problem whose keys do not match or are out of range.
 ///
 /// # Errors
 ///
-/// The key, with what was found and what is allowed.
+/// The key, with the value that was found and the allowed ones.
 pub(super) fn check(folder: &Path, problem: &Problem) -> Result<(), Refused> {
     name(folder, problem)?;
     texts(problem)?;
@@ -99,7 +99,7 @@ fn between(key: &'static str, found: f64, [least, most]: [f64; 2]) -> Result<(),
     }
 }
 
-/// Answers are looked for in the folder of this name.
+/// Refuses a name that is not plain or not the folder's: answers are sought in the folder of this name.
 fn name(folder: &Path, problem: &Problem) -> Result<(), Refused> {
     let folder = folder.file_name().unwrap_or_default().to_string_lossy();
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || matches!(c, '.' | '-');
@@ -150,7 +150,7 @@ fn columns(problem: &Problem, lists: Columns) -> Result<(), Refused> {
             ),
         ));
     };
-    // Angles are asked for after a step, rates without one.
+    // Angles need a time step, rates must have none.
     match (problem.time_step_s, *found == &ANGLES[..]) {
         (Some(step), true) => between("time_step_s", step, [1e-300, MOST]),
         (None, false) => Ok(()),
@@ -184,7 +184,7 @@ fn closed(problem: &Problem) -> Result<(), Refused> {
     if problem.columns.get(1).map(String::as_str) != Some("a11") || problem.c_i.is_some() {
         return Err((KEY, "it belongs to problems of a11 to a23 without a c_i of their own".to_owned()));
     }
-    // An anisotropic diffusivity may have parameters below 0.
+    // Parameters of an anisotropic diffusivity may be negative.
     let allowed = |x: &f64| between(KEY, *x, [-MOST, MOST]);
     closed.model.parameters().iter().try_for_each(allowed)?;
     let a = closed.start();
@@ -250,7 +250,7 @@ fn ensemble(problem: &Problem) -> Result<(), Refused> {
     })
 }
 
-/// Refuses tables whose numbers cannot be what their columns say: directions that are not of length 1, means out of range.
+/// Refuses tables with impossible numbers: directions that are not of length 1, means out of range.
 pub(super) fn tables(loaded: &LoadedProblem) -> Result<(), ReadError> {
     let dir = &loaded.dir;
     if let Some(inputs) = &loaded.inputs {
@@ -279,7 +279,7 @@ pub(super) fn tables(loaded: &LoadedProblem) -> Result<(), ReadError> {
     Ok(())
 }
 
-/// The values of a certified row.
+/// Refuses the values of a certified row if they are out of range.
 fn certified(problem: &Problem, values: &[f64]) -> Result<(), String> {
     let within = |values: &[f64]| match values.iter().all(|x| (0.0..=1.0).contains(x)) {
         true => Ok(()),
@@ -307,7 +307,7 @@ fn certified(problem: &Problem, values: &[f64]) -> Result<(), String> {
     }
 }
 
-/// Refuses a direction that is not of length 1 but for the rounding of three numbers near 1.
+/// Refuses a direction whose length differs from 1 by more than the rounding of three numbers near 1.
 pub(super) fn unit(p: &[f64]) -> Result<(), String> {
     let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
     match (length - 1.0).abs() <= 4.0 * f64::EPSILON {
@@ -316,7 +316,7 @@ pub(super) fn unit(p: &[f64]) -> Result<(), String> {
     }
 }
 
-/// The start of a text of somebody else, for messages.
+/// The start of a foreign text, for messages.
 pub(super) fn cut(text: &str) -> String {
     const MOST: usize = 300;
     let start: String = text.chars().take(MOST).collect();

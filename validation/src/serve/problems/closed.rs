@@ -1,4 +1,4 @@
-//! Problems whose answer is that of a closed equation: a tensor code is held to what it claims to solve.
+//! Problems whose answer is the solution of a closed equation: they test whether a tensor code solves its own equation.
 
 mod second;
 
@@ -9,7 +9,7 @@ use crate::methods::tensors::closures::PAIRS;
 use crate::methods::tensors::{APART, Closure, Equation, Model, at};
 use nalgebra::Matrix3;
 
-/// Λ = 1 in doubles.
+/// An aspect ratio at which Λ = 1 in doubles.
 const NEEDLE: f64 = 1e100;
 const THIRD: f64 = 1.0 / 3.0;
 const RANDOM: [[f64; 3]; 3] = [[THIRD, 0.0, 0.0], [0.0, THIRD, 0.0], [0.0, 0.0, THIRD]];
@@ -43,7 +43,7 @@ const SETTINGS: [Setting; 15] = [
     ft("closed-ft-hybrid-0.01", Closure::Hybrid, 0.01),
     ft("closed-ft-natural-0.01", Closure::Natural, 0.01),
     ft("closed-ft-ore-0.01", Closure::Ore, 0.01),
-    // ORW is not quite random where a is: its answer from there depends on the axes that an eigensolver happens to give.
+    // ORW is not exactly isotropic where a is: its answer from there depends on the axes that an eigensolver happens to return.
     shear("closed-ft-orw-0.01", Closure::Orw, Model::FolgarTucker { c_i: 0.01 }, APART),
     ft("closed-ft-ibof-0.01", Closure::Ibof, 0.01),
     Setting { times: TO_REST, ..ft("closed-ft-ibof-0.0311", Closure::Ibof, 0.0311) },
@@ -54,7 +54,7 @@ const SETTINGS: [Setting; 15] = [
     },
     Setting { gradient_per_s: ASKEW, aspect_ratio: 3.0, ..ft("closed-ft-ibof-mixed", Closure::Ibof, 0.02) },
     shear("closed-rsc-ore-0.01", Closure::Ore, Model::Rsc { c_i: 0.01, kappa: 0.1 }, APART),
-    // The parameters of the rest are published: see `published/README.md` and fiberoripy's comparison in perfect shear.
+    // The parameters of the other settings are published: see `published/README.md` and fiberoripy's comparison in perfect shear.
     shear(
         "closed-phelps-tucker-ibof",
         Closure::Ibof,
@@ -78,17 +78,17 @@ impl Setting {
 
 const COLUMNS: [&str; 6] = ["a11", "a22", "a33", "a12", "a13", "a23"];
 
-/// The certified answers, by `examples/certify.rs`: a table is the same on every machine.
+/// The certified answers, written by `examples/certify.rs`: a table is the same on every machine.
 const TABLE: &str = include_str!("data/closed.csv");
 
-/// By how much two solutions may differ.
+/// The largest difference of two solutions.
 const AGREED: f64 = 1e-12;
 
-/// The table anew, with twelve decimals: each value is worked out by two writings of the equation with two integrators.
+/// Computes the table afresh, with twelve decimals: each value from two formulations of the equation with two integrators.
 ///
 /// # Errors
 ///
-/// Where the two differ by more than 10⁻¹², or one gives up.
+/// An error if the two differ by more than 10⁻¹², or if one fails.
 pub fn certify() -> Result<String, String> {
     let mut table = format!("setting,time_s,{}\n", COLUMNS.join(","));
     for setting in &SETTINGS {
@@ -162,11 +162,11 @@ fn built(def: &ProblemDef, setting: &Setting) -> Built {
 }
 
 impl Closed {
-    /// The equation in this flow.
+    /// The equation in a flow with this velocity gradient, 1/s.
     pub fn equation(&self, gradient_per_s: &[[f64; 3]; 3], aspect_ratio: f64) -> Equation {
         Equation {
             gradient_per_s: Matrix3::from_fn(|i, j| gradient_per_s[i][j]),
-            // (r² − 1)/(r² + 1), for r² beyond what doubles hold too.
+            // (r² − 1)/(r² + 1), also where r² overflows a double.
             shape_factor: 1.0 - 2.0 / (1.0 + aspect_ratio * aspect_ratio),
             closure: self.closure,
             model: self.model,
@@ -187,20 +187,20 @@ mod tests {
     #[test]
     fn the_table_is_computed_anew() {
         let anew = certify().unwrap();
-        // Half a unit of the twelfth decimal on either side, and what solutions on two machines differ by.
+        // Half a unit of the twelfth decimal on either side, and the difference between machines.
         let off = tables_apart(&anew, TABLE);
         assert!(off < 2e-12, "{off:e}");
         assert!(tables_apart(&anew, &TABLE.replacen("0.6", "0.7", 1)) > 0.09);
     }
 
-    /// Another closure, another model and another start are seen in every problem.
+    /// Every problem detects another closure, another model and another start.
     #[test]
     fn every_problem_tells_its_equation_from_others() {
         for setting in &SETTINGS {
             let times_s = setting.times_s();
             let right = at(&setting.equation(), &setting.closed.start(), &times_s, 1e-11).unwrap();
             let off = |equation: Equation| {
-                // No solution is another one.
+                // A failed solution counts as different.
                 let found = at(&equation, &setting.closed.start(), &times_s, 1e-11);
                 let apart = |all: Vec<Matrix3<f64>>| {
                     all.iter().zip(&right).map(|(a, b)| (a - b).amax()).fold(0.0, f64::max)

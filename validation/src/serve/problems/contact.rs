@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
 const SNAPSHOTS: usize = 1000;
-/// The paper's rods.
+/// Length and aspect ratio of the paper's rods.
 const LENGTH_MM: f64 = 0.72;
 const ASPECT_RATIO: f64 = 11.6;
 
@@ -19,16 +19,16 @@ pub(crate) use doubles::{Variant, answers};
 /// The pair of a row of `inputs.csv`, without its number: centre, axis and r_e of a, then of b.
 type Pair = [f64; 14];
 
-/// What is asked of a pair.
+/// The question about each pair.
 struct Setting {
     name: &'static str,
     title: &'static str,
-    /// The step of A.14.
+    /// The time step of A.14, s; none if rates are asked for.
     step_s: Option<f64>,
     /// The largest condition number of the pairs, rounded to a whole number.
     condition: f64,
     equation: &'static str,
-    /// The certified answers, by `examples/certify.rs`: a table is the same on every machine.
+    /// The certified answers, written by `examples/certify.rs`: a table is the same on every machine.
     table: &'static str,
 }
 
@@ -117,8 +117,8 @@ fn summary(step_s: Option<f64>) -> String {
 
 /// Pairs with fixed random numbers: directions isotropic, centres up to a rod length apart along each axis, r_e from 5 to 20.
 ///
-/// Kept are those that a contact rule can be asked about without losing digits: the lines cross at 17° or more, the arms are
-/// between a tenth of a rod and a rod, and both rods are 12° or more off the vorticity axis, where φ has no value.
+/// Only pairs are kept for which the contact rule loses no digits: the lines cross at 17° or more, the arms are between a
+/// tenth of a rod and a rod, and both rods are 12° or more off the vorticity axis, where φ is undefined.
 fn pairs() -> Vec<Pair> {
     candidates().filter(is_kept).take(SNAPSHOTS).collect()
 }

@@ -1,8 +1,8 @@
 //! Problems of suspensions with collisions after Lee & Springer (1982).
 //!
-//! The certified means are a shipped table, not made at export: they take 20 000 replicas and minutes, and a table is the same
+//! The certified means are a shipped table, not computed at export: they take 20 000 replicas and minutes, and a table is the same
 //! on every machine. `shearbed run fig7-n50 --set interaction.update=rotation --replicas 20000 --seed 1982` wrote `data/fig7-n50.csv`, and
-//! the same with fig4-n50 `data/fig4-n50.csv`; rows of other times are left out.
+//! the same with fig4-n50 wrote `data/fig4-n50.csv`; rows at other times are left out.
 
 use super::asked::{AXES, COUETTE, period_s};
 use super::{Built, Ensemble, FORMAT, Kind, Metric, Problem, ProblemDef};
@@ -13,7 +13,7 @@ const EQUAL: &str = include_str!("data/fig7-n50.csv");
 const UNEQUAL: &str = include_str!("data/fig4-n50.csv");
 
 const REPLICAS: u64 = 20_000;
-/// The fewest replicas of an answer.
+/// The smallest number of replicas of an answer.
 const LEAST: u64 = 1000;
 const ASPECT_RATIO: f64 = 11.6;
 
@@ -30,7 +30,7 @@ pub(super) fn problems() -> Vec<ProblemDef> {
     ]
 }
 
-/// The probability that a right answer fails by chance, over both problems.
+/// The probability that a correct answer fails by chance, over both problems.
 const FALSE_ALARM_RATE: f64 = 5e-3;
 
 fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
@@ -42,7 +42,7 @@ fn built(def: &ProblemDef, sd_percent: f64, table: &str) -> Built {
         let values = row[1..].iter().map(|text| (*text).to_owned());
         std::iter::once(format!("{time:?}")).chain(values).collect()
     });
-    // Two problems, three means a time, two sides.
+    // Two problems, three means per time, two sides.
     let level = FALSE_ALARM_RATE / (2.0 * 3.0 * rows.len() as f64);
     let critical = (100.0 * student(level, LEAST)).ceil() / 100.0;
     Built {

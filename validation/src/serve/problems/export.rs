@@ -1,4 +1,4 @@
-//! Writing problems as folders of files.
+//! Export of problems as folders of files.
 
 use super::{Built, INPUT_COLUMNS, ProblemDef, all, built, page};
 use crate::files::output::{self, Output, Refused, ResultFolder};
@@ -12,12 +12,12 @@ pub const SCHEMA: &str = include_str!("../../../schemas/problem.schema.json");
 ///
 /// # Errors
 ///
-/// A file in the way that no export wrote, or that was changed since, without `force`; what cannot be written.
+/// Without `force`: a file in the way that no export wrote, or that was changed since. A file that cannot be written.
 pub fn export(dir: &Path, force: bool) -> Result<Vec<&'static str>, Refused> {
     let folder = ResultFolder::new(dir, "problems export", json!({}), force).as_argument();
     let always =
         |def: &ProblemDef| ["problem.json", "certified.csv"].map(|file| format!("{}/{file}", def.name));
-    // Before the problems are built, which takes seconds.
+    // Checked before the problems are built, which takes seconds.
     folder.check(&all().iter().flat_map(always).collect::<Vec<_>>())?;
     output::probe(dir, 0)?;
     let of_problem = |problem: &Built| {

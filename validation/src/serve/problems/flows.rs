@@ -15,7 +15,7 @@ pub(super) fn extension(rates_per_s: [f64; 3], name: &str) -> Asked {
             direction(1.5, 1.3),
             direction(0.1, 0.7),
             direction(2.5, 2.0),
-            // Near what repels.
+            // Near the repelling direction.
             direction(1.57, 1.57),
             direction(4.7, 1.5),
         ],

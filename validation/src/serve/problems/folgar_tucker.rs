@@ -5,17 +5,17 @@ use super::table::twelve_decimals;
 use super::{Built, FORMAT, Kind, Metric, Problem, ProblemDef};
 use crate::oracle::diffusion::{self, Means, Motion, NoAnswer, Start};
 
-/// Λ = 1 in doubles.
+/// An aspect ratio at which Λ = 1 in doubles.
 const NEEDLE: f64 = 1e100;
 /// A time at which every distribution here is steady, s: e^{−6D_r t} is below e^{−1000}.
 const LATE_S: f64 = 1e8;
 const PLANAR: [[f64; 3]; 3] = [[-0.25, 0.0, 0.0], [0.0, 0.25, 0.0], [0.0; 3]];
 const UNIAXIAL: [[f64; 3]; 3] = [[-0.25, 0.0, 0.0], [0.0, -0.25, 0.0], [0.0, 0.0, 0.5]];
-/// Shear with an extension along the vorticity axis, and one with all nine entries.
+/// Shear with an extension along the vorticity axis, and a gradient with all nine entries.
 const STRETCHED: [[f64; 3]; 3] = [[-0.0625, 0.0, 0.0], [0.5, -0.0625, 0.0], [0.0, 0.0, 0.125]];
 const ASKEW: [[f64; 3]; 3] = [[0.25, -0.5, 0.125], [0.75, 0.125, -0.25], [0.375, 0.625, -0.375]];
 
-/// A flow, rods, and the times at which they are asked about in units of 1/G, G = 0.5/s; none for the steady distribution.
+/// A flow, rods, and the times of the answer in units of 1/G, G = 0.5/s; no times for the steady distribution.
 struct Setting {
     name: &'static str,
     title: &'static str,
@@ -23,7 +23,7 @@ struct Setting {
     aspect_ratio: f64,
     c_i: f64,
     times: &'static [f64],
-    /// The problem's name where the fourth moments are asked for too.
+    /// The name of a further problem that asks for the fourth moments too.
     fourth: Option<&'static str>,
 }
 
@@ -82,14 +82,14 @@ pub(super) const FOURTH: [&str; 15] = [
     "a2333", "a3333",
 ];
 
-/// The certified answers, by `examples/certify.rs`: a table is the same on every machine.
+/// The certified answers, written by `examples/certify.rs`: a table is the same on every machine.
 const TABLE: &str = include_str!("data/folgar-tucker.csv");
 
-/// The table anew: its header and its rows, with twelve decimals.
+/// Computes the table afresh: its header and its rows, with twelve decimals.
 ///
 /// # Errors
 ///
-/// Where a distribution is not found.
+/// An error if a distribution cannot be computed.
 pub fn certify() -> Result<String, NoAnswer> {
     let mut table = format!("setting,time_s,{},{}\n", SECOND.join(","), FOURTH.join(","));
     for setting in &SETTINGS {
@@ -118,7 +118,7 @@ pub(super) fn problems() -> Vec<ProblemDef> {
     second.chain(fourth).collect()
 }
 
-/// The problem with these values of the table's rows.
+/// The problem with the columns `values` of the table's rows.
 fn built(def: &ProblemDef, setting: &Setting, values: std::ops::Range<usize>) -> Built {
     let fields = TABLE.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let of = |row: Vec<&str>| {
@@ -186,14 +186,14 @@ mod tests {
     #[test]
     fn the_table_is_computed_anew() {
         let anew = certify().unwrap();
-        // Half a unit of the twelfth decimal on either side, and what solutions on two machines differ by.
+        // Half a unit of the twelfth decimal on either side, and the difference between machines.
         let off = tables_apart(&anew, TABLE);
         assert!(off < 2e-12, "{off:e}");
         let digit = TABLE.replacen("0.6", "0.7", 1);
         assert!(tables_apart(&anew, &digit) > 0.09);
     }
 
-    /// Steady a_ij and a_ijkl fulfil the moments' own equation, written out here once more from the problem's file alone.
+    /// Steady a_ij and a_ijkl satisfy the moment equation, written here a second time from the problem's file alone.
     #[test]
     fn steady_tables_stand_still_by_the_equation_of_second_moments() {
         let residual = |setting: &Setting, c_i: f64, transposed: bool| {

@@ -1,8 +1,8 @@
-//! Reference problems for any program: what is asked, from which start, and the certified answer, as folders of files.
+//! Reference problems for any program: the question, the start, and the certified answer, as folders of files.
 //!
-//! `all` is the registry. `export` writes a folder a problem: `problem.json` ([`Problem`]), `start.csv` where rods are
-//! given, `inputs.csv` where pairs in contact are given, `certified.csv`, `README.md`. `read` reads such folders back. A folder
-//! with the name of a built-in problem is refused where it differs from it; one of another name is [`Origin::Foreign`].
+//! `all` is the registry. `export` writes one folder per problem: `problem.json` ([`Problem`]), `start.csv` for given rods,
+//! `inputs.csv` for given pairs in contact, `certified.csv`, `README.md`. `read` reads such folders back. A folder with the
+//! name of a built-in problem is refused if it differs from that problem; a folder of another name is [`Origin::Foreign`].
 
 mod archive;
 mod asked;
@@ -34,7 +34,7 @@ use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::{LazyLock, OnceLock};
 
-/// The version of the files' format that is written and read.
+/// The version of the file format.
 pub const FORMAT: u32 = 1;
 
 /// What a problem asks for.
@@ -45,14 +45,14 @@ pub enum Kind {
     Rods,
     /// Means over infinitely many rods, free or with rotary diffusion, that are isotropic at t = 0. Key of a row: `time_s`.
     Tensor,
-    /// What the contact rule makes of given pairs of rods. Key of a row: `snapshot`.
+    /// The rates or angles of given pairs of rods after the contact rule. Key of a row: `snapshot`.
     Contact,
     /// Means over replicas of a suspension with collisions, with standard errors. Key of a row: `time_s`.
     Ensemble,
 }
 
 impl Kind {
-    /// The columns that tell rows apart; they come first.
+    /// The columns that identify a row; they come first.
     pub fn keys(self) -> &'static [&'static str] {
         match self {
             Self::Rods => &["time_s", "rod"],
@@ -62,7 +62,7 @@ impl Kind {
     }
 }
 
-/// How an answer's error is measured. The largest over all rows counts.
+/// The measure of an answer's error. The largest over all rows counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Metric {
@@ -70,19 +70,19 @@ pub enum Metric {
     Angle,
     /// The largest |answer − certified| of a row.
     Absolute,
-    /// Of a row, for each rod (columns `a_…` and `b_…`): the length of answer − certified over the length of certified.
+    /// For each rod of a row (columns `a_…` and `b_…`): the length of answer − certified over the length of certified.
     Relative,
     /// |answer − certified| / (se² + certified se²)^½, the largest of a row; column `x` has its error in `x_se`.
     StandardErrors,
 }
 
-/// Whose problem it is.
+/// The author of a problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Origin {
     /// A problem of this program, unchanged.
     BuiltIn,
-    /// Somebody else's: what it certifies has not been checked.
+    /// A problem of another author, whose certified values have not been checked.
     Foreign,
 }
 
@@ -94,11 +94,11 @@ pub struct Problem {
     pub format: u32,
     /// The folder's name.
     pub name: String,
-    /// One line.
+    /// The title, one line.
     pub title: String,
-    /// What is asked and why it is hard, in words.
+    /// The question, and why it is hard, in words.
     pub summary: String,
-    /// What is asked for.
+    /// The kind of answer.
     pub kind: Kind,
     /// L, row i and column j: ∂u_i/∂x_j, 1/s.
     pub gradient_per_s: [[f64; 3]; 3],
@@ -107,39 +107,39 @@ pub struct Problem {
     /// Standard deviation of r_e, percent of the mean.
     #[serde(default)]
     pub aspect_ratio_sd_percent: f64,
-    /// C_I of rods with the rotary diffusivity C_I (2D:D)^½; none of free rods.
+    /// C_I of rods with the rotary diffusivity C_I (2D:D)^½; none for free rods.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub c_i: Option<f64>,
-    /// The closed equation whose answer is asked for; none where it is the distribution's.
+    /// The closed equation to solve; none if the answer is that of the distribution itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub closed: Option<Closed>,
-    /// When answers are wanted, s, ascending; empty where no time passes.
+    /// Times of the answer, s, ascending; empty where no time passes.
     pub times_s: Vec<f64>,
-    /// Δt of A.14, s, where the answer has angles after a step.
+    /// Δt of A.14, s, if the answer has angles after a step.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time_step_s: Option<f64>,
     /// The columns of the answer, keys first.
     pub columns: Vec<String>,
-    /// How the error is measured.
+    /// The measure of the error.
     pub metric: Metric,
     /// The largest error that passes, in the metric's unit.
     pub tolerance: f64,
-    /// Why that much.
+    /// The reason for this tolerance.
     pub because: String,
-    /// Where the certified values come from, in words, with equation numbers of Lee & Springer (1982) or another source.
+    /// The source of the certified values, in words, with equation numbers of Lee & Springer (1982) or another source.
     pub equations: Vec<String>,
-    /// Which axis is which.
+    /// Names of the axes, and conventions.
     pub axes: String,
-    /// What an ensemble is made of.
+    /// The suspension of an ensemble problem.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ensemble: Option<Ensemble>,
 }
 
-/// A closed equation of a_ij, and where it starts.
+/// A closed equation of a_ij, and its start.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Closed {
-    /// What stands for a_ijkl.
+    /// The closure for a_ijkl.
     pub closure: Closure,
     /// The model with its parameters.
     pub model: Model,
@@ -161,20 +161,20 @@ pub struct Ensemble {
     pub alpha: f64,
     /// m of eq. 7.
     pub m: f64,
-    /// Steps a period of the mean aspect ratio; P_c has no Δt, so this is part of the model.
+    /// Steps per period of the mean aspect ratio; P_c has no Δt, so this is part of the model.
     pub steps_per_period: u64,
-    /// How many replicas the certified means are from.
+    /// The number of replicas behind the certified means.
     pub certified_replicas: u64,
-    /// A larger standard error of an answer is too little data to judge.
+    /// The largest standard error of an answer; above it there is too little data to judge.
     pub largest_standard_error: f64,
 }
 
 /// A problem as read from its folder.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadedProblem {
-    /// Its folder.
+    /// The problem's folder.
     pub dir: PathBuf,
-    /// Whose problem it is.
+    /// The author of the problem.
     pub origin: Origin,
     /// `problem.json`.
     pub problem: Problem,
@@ -184,7 +184,7 @@ pub struct LoadedProblem {
     pub inputs: Option<Table>,
     /// `certified.csv`: its columns are `problem.columns`.
     pub certified: Table,
-    /// The tolerance of `problem.json`, where the one in `problem` is a user's.
+    /// The tolerance in `problem.json`; the one in `problem` may be a user's.
     pub own_tolerance: f64,
 }
 
@@ -202,7 +202,7 @@ impl LoadedProblem {
     }
 }
 
-/// The columns of `inputs.csv`: of rods a and b the centre (mm), the axis and r_e.
+/// The columns of `inputs.csv`: centre (mm), axis and r_e of the rods a and b.
 #[rustfmt::skip]
 pub const INPUT_COLUMNS: [&str; 15] = [
     "snapshot",
@@ -210,12 +210,12 @@ pub const INPUT_COLUMNS: [&str; 15] = [
     "b_x1_mm", "b_x2_mm", "b_x3_mm", "b_p1", "b_p2", "b_p3", "b_aspect_ratio",
 ];
 
-/// A problem with its tables as they are written: certified numbers have more digits than a double.
+/// A problem with its tables as text: certified numbers have more digits than a double.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Built {
-    /// What is asked.
+    /// The question.
     pub problem: Problem,
-    /// p of each rod at t = 0, where rods are given.
+    /// p of each rod at t = 0, if rods are given.
     pub start: Vec<[f64; 3]>,
     /// The rows of `inputs.csv` below its header.
     pub inputs: Vec<Vec<f64>>,
@@ -225,9 +225,9 @@ pub struct Built {
 
 /// A problem of the registry.
 pub struct ProblemDef {
-    /// Its name, and its folder's.
+    /// The name of the problem and of its folder.
     pub name: &'static str,
-    /// One line.
+    /// The title, one line.
     pub title: &'static str,
     build: Build,
     built: OnceLock<Built>,
@@ -249,18 +249,18 @@ impl ProblemDef {
         if let Some(built) = self.built.get() {
             return built;
         }
-        // Not under the lock: a thread that waits for parts of it may take up another task that needs it.
+        // Not under the lock: a thread that waits for parts of the work may start another task that needs the lock.
         let built = (self.build)(self);
         self.built.get_or_init(|| built)
     }
 }
 
 impl Built {
-    /// The problem as it is read from a folder to which it was exported.
+    /// The problem as it would be read from the folder `dir` after an export.
     ///
     /// # Panics
     ///
-    /// Where a certified number is no number: the tests of the problems hold that none is.
+    /// If a certified number cannot be parsed: the tests of the problems exclude that.
     pub fn loaded(&self, dir: PathBuf) -> LoadedProblem {
         let number = |text: &String| text.parse::<f64>().expect("a certified number");
         let rows = self.certified.iter().map(|row| row.iter().map(number).collect());
@@ -301,7 +301,7 @@ pub fn built() -> Vec<&'static Built> {
     all().par_iter().map(ProblemDef::built).collect()
 }
 
-/// The names of those about given free rods.
+/// The names of the problems of given free rods.
 pub fn free_rods() -> Vec<&'static str> {
     rods::problems().iter().map(|def| def.name).collect()
 }

@@ -1,4 +1,4 @@
-//! Whose problem a folder holds: one of this program's, as `problems export` writes it, or somebody else's.
+//! The author of a problem in a folder: this program, as `problems export` writes it, or somebody else.
 
 use super::check::cut;
 use super::table::{ReadError, Table};
@@ -6,12 +6,12 @@ use super::{LoadedProblem, Origin, named};
 use crate::files::difference::difference;
 use std::path::Path;
 
-/// Tells a built-in problem from a foreign one by its name.
+/// Distinguishes a built-in problem from a foreign one by its name.
 ///
 /// # Errors
 ///
-/// A problem with the name of a built-in one that differs from it in anything that is read: file, line, key or column,
-/// with what was found and what this program has there.
+/// A problem with the name of a built-in one that differs from it in any value: file, line, key or column, with the value that
+/// was found and this program's own.
 pub(super) fn origin(loaded: &LoadedProblem, json: &str) -> Result<Origin, ReadError> {
     let Some(built) = named(&loaded.problem.name) else {
         return Ok(Origin::Foreign);

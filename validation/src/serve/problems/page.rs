@@ -1,8 +1,8 @@
-//! A problem's description to read, `README.md` of its folder.
+//! The description of a problem, `README.md` of its folder.
 
 use super::{Built, Ensemble, Kind, Metric, Problem};
 
-/// The page.
+/// The text of `README.md`.
 pub(super) fn page(built: &Built) -> String {
     let problem = &built.problem;
     let mut page = format!("# {}\n\n{}\n\n", problem.title, problem.summary);
@@ -84,7 +84,7 @@ fn asked(built: &Built) -> String {
     }
 }
 
-/// "r_e = 11.6". From 1e9 on Λ is 1 in doubles: rods without a thickness.
+/// The aspect ratio as text, such as "r_e = 11.6". From 1e9 on Λ is 1 in doubles: rods without thickness.
 fn aspect_ratio(r_e: f64) -> String {
     match r_e < 1e9 {
         true => format!("r_e = {r_e}"),

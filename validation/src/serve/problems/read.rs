@@ -1,4 +1,4 @@
-//! Reading exported problems back.
+//! Reading exported problems.
 
 use super::check;
 use super::origin::origin;
@@ -7,7 +7,7 @@ use super::{FORMAT, Kind, LoadedProblem, Origin, Problem};
 use std::fs;
 use std::path::Path;
 
-/// The problems in the folders of `dir`, by name. Folders without `problem.json` are not looked at.
+/// The problems in the folders of `dir`, by name. Folders without `problem.json` are ignored.
 ///
 /// # Errors
 ///
@@ -67,7 +67,7 @@ fn read_one(dir: &Path) -> Result<LoadedProblem, ReadError> {
     Ok(loaded)
 }
 
-/// The line of a key in a text of JSON, 0 where it is not there.
+/// The line of a key in a JSON text, 0 if the key is missing.
 pub(super) fn line_of(json: &str, key: &str) -> u64 {
     let key = format!("\"{key}\"");
     let lines = json.lines().position(|line| line.contains(&key));
@@ -78,7 +78,7 @@ fn problem(path: &Path, text: &str) -> Result<Problem, ReadError> {
     let wrong = |error: serde_json::Error| {
         ReadError::at(path, error.line() as u64, error.column() as u64, check::cut(&error.to_string()))
     };
-    // The version first: another format may have other keys.
+    // The version is checked first: another format may have other keys.
     let value: serde_json::Value = serde_json::from_str(text).map_err(wrong)?;
     if value["format"] != FORMAT {
         let found = check::cut(&value["format"].to_string());
@@ -101,7 +101,7 @@ fn start(path: &Path) -> Result<Vec<[f64; 3]>, ReadError> {
     table.rows.iter().enumerate().map(direction).collect()
 }
 
-/// Rows must be there once each, in order: by time, then by rod.
+/// Checks that every row occurs once, in order: by time, then by rod.
 fn check_keys(path: &Path, loaded: &LoadedProblem) -> Result<(), ReadError> {
     let wanted = keys(loaded);
     let rows = &loaded.certified.rows;

@@ -99,7 +99,7 @@ const COUETTE_EQUATIONS: &[&str] = &[
 ];
 
 fn mid_flip(aspect_ratio: f64) -> Asked {
-    // Where φ = 1 next: there rods and discs both turn at more than a quarter of their fastest rate.
+    // The next time at which φ = 1: there both rods and discs turn at more than a quarter of their fastest rate.
     let phase = |phi: f64| (phi.sin() / aspect_ratio).atan2(phi.cos()) / TAU;
     let first = phase(1.0) - phase(0.2);
     let times = [first, first + 0.5, first + 1.0];
@@ -160,7 +160,7 @@ fn poles() -> Asked {
         gradient_per_s: COUETTE,
         aspect_ratio,
         start,
-        // At whole periods every rod is back, one that never moved too; a program that runs is asked at the last time.
+        // After whole periods every rod is back, as would be a rod that never moved; a program that runs is asked at the last time.
         times_s: vec![0.1 * t, 0.25 * t, 0.6 * t, 1.1 * t],
         summary: "Eight free rods of r_e = 11.6 in plane Couette flow: one at each pole θ = 0 and θ = π of the angles, and three \
                   10⁻⁶ rad beside each. Those at a pole stay, the others go round it on small ellipses. A code in φ and θ divides \

@@ -11,37 +11,37 @@ use std::path::{Path, PathBuf};
 pub struct Table {
     /// The header.
     pub columns: Vec<String>,
-    /// One number a column.
+    /// The rows, one number per column.
     pub rows: Vec<Vec<f64>>,
 }
 
 impl Table {
-    /// The place of a column.
+    /// The index of a column.
     pub fn column(&self, name: &str) -> Option<usize> {
         self.columns.iter().position(|column| column == name)
     }
 }
 
-/// Why a file of a problem is refused.
+/// The reason why a file of a problem is refused.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReadError {
     /// The file or folder.
     pub path: PathBuf,
-    /// The line from 1, 0 where the whole file is meant.
+    /// The line, from 1; 0 for the whole file.
     pub line: u64,
-    /// The column from 1: of a table the field, of JSON the character; 0 where the whole line is meant.
+    /// The column, from 1: the field of a table, the character of JSON; 0 for the whole line.
     pub column: u64,
     /// What is wrong, and what is allowed.
     pub message: String,
 }
 
 impl ReadError {
-    /// About a whole file or folder.
+    /// An error in a whole file or folder.
     pub fn whole(path: &Path, message: impl Into<String>) -> Self {
         Self::at(path, 0, 0, message)
     }
 
-    /// About a place in a file.
+    /// An error at a place in a file.
     pub fn at(path: &Path, line: u64, column: u64, message: impl Into<String>) -> Self {
         Self { path: path.to_owned(), line, column, message: message.into() }
     }
@@ -59,7 +59,7 @@ impl fmt::Display for ReadError {
 
 impl std::error::Error for ReadError {}
 
-/// A file's text, of at most 100 MB.
+/// The text of a file of at most 100 MB.
 pub(super) fn text(path: &Path) -> Result<String, ReadError> {
     const MOST: u64 = 100_000_000;
     bounded::text(path, MOST).map_err(|error| ReadError::whole(path, format!("cannot be read: {error}")))
@@ -96,7 +96,7 @@ fn parse(path: &Path, text: &str, columns: &[&str]) -> Result<Table, ReadError> 
     Ok(Table { columns: columns.iter().map(|column| (*column).to_owned()).collect(), rows })
 }
 
-/// The fields of a certified table: twelve decimals, and no −0.
+/// The fields of a certified table: twelve decimals, without −0.
 pub(super) fn twelve_decimals(values: impl IntoIterator<Item = f64>) -> String {
     let field = |x: f64| format!("{:.12}", x + 0.0).replace("-0.000000000000", "0.000000000000");
     values.into_iter().map(field).collect::<Vec<_>>().join(",")
@@ -109,7 +109,7 @@ pub(super) fn certified_row(line: &str) -> (String, Vec<f64>) {
     (name.to_owned(), values.split(',').map(|field| field.parse().unwrap()).collect())
 }
 
-/// By how much two certified tables are apart; 1 where their rows are not of the same setting and time.
+/// The largest difference of two certified tables; 1 if their rows are not of the same setting and time.
 #[cfg(test)]
 pub(super) fn tables_apart(a: &str, b: &str) -> f64 {
     assert_eq!(a.lines().next(), b.lines().next());

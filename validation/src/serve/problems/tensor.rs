@@ -29,7 +29,7 @@ pub(super) fn problems() -> Vec<ProblemDef> {
     ]
 }
 
-/// Up to a period, not at its symmetric points alone.
+/// Times up to a period, not only at its points of symmetry.
 fn couette_times(aspect_ratio: f64) -> Vec<f64> {
     let turns = [0.02, 0.1, 0.2, 0.25, 0.4, 0.5, 0.7, 1.0];
     turns.map(|turns| turns * period_s(aspect_ratio)).into()
@@ -99,7 +99,7 @@ fn unequal_rods(def: &ProblemDef) -> Built {
     }
 }
 
-/// The certified answer of `unequal-rods`, by `examples/certify.rs`, which takes minutes.
+/// The certified answer of `unequal-rods`, written by `examples/certify.rs`, which takes minutes.
 const UNEQUAL: &str = include_str!("data/unequal-rods.csv");
 
 fn unequal_table() -> Vec<Vec<String>> {
@@ -107,7 +107,7 @@ fn unequal_table() -> Vec<Vec<String>> {
     UNEQUAL.lines().skip(1).map(fields).collect()
 }
 
-/// What these problems share.
+/// The problem with the values that these problems share.
 fn problem(def: &ProblemDef, motion: &Motion, times_s: Vec<f64>, tolerance: f64) -> Problem {
     Problem {
         format: FORMAT,
@@ -140,7 +140,7 @@ fn because(tolerance: f64) -> String {
     )
 }
 
-/// Directions all round, none of them on an axis.
+/// Directions all around, none of them on an axis.
 fn all_round() -> Vec<[f64; 3]> {
     let thetas = (0..8).map(|i| 0.1 + 0.19 * f64::from(i));
     thetas.flat_map(|theta| (0..6).map(move |k| direction(0.2 + f64::from(k), theta))).collect()
@@ -172,10 +172,10 @@ mod tests {
                 let found = row[1..].iter().map(|x| x.parse::<f64>().unwrap());
                 found.zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
             };
-            // What is claimed of the quadrature in doubles.
+            // The claimed accuracy of the quadrature in doubles.
             assert!(off(by_doubles(sd_percent)) < 2e-12, "{time}");
             assert!(off(by_doubles(3.7)) > 1e-6, "{time}");
-            // More digits than a double can lose, but for zeros at the end.
+            // More digits than rounding in doubles can lose, except for zeros at the end.
             let most = row[1..].iter().map(|x| x.len()).max().unwrap();
             assert!(most >= DIGITS, "{row:?}");
         }

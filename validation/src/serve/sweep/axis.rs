@@ -1,21 +1,21 @@
-//! `KEY=FROM:TO:COUNT` and `KEY=A,B,C`: a key of a scene and the values it takes.
+//! `KEY=FROM:TO:COUNT` and `KEY=A,B,C`: a key of a scene and its values.
 
 use toml::{Table, Value};
 
-/// The most points of a sweep.
+/// The largest number of points of a sweep.
 pub const MAX_POINTS: usize = 100_000;
 
 /// A key of the scene with its values, at least one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// As `interaction.alpha`.
+    /// The key, such as `interaction.alpha`.
     pub key: String,
-    /// In the order given.
+    /// The values, in the order given.
     pub values: Vec<Value>,
 }
 
 impl Axis {
-    /// Reads what stands after `--over`.
+    /// Parses the argument of `--over`.
     pub fn parse(text: &str) -> Result<Self, String> {
         let shape = "KEY=FROM:TO:COUNT or KEY=A,B,C is allowed, as interaction.alpha=0.1:1:10";
         let (key, values) = key_and_text(text, shape)?;
@@ -30,17 +30,17 @@ impl Axis {
     }
 }
 
-/// A key of the scene with the value it is to have.
+/// A key of the scene with a new value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {
-    /// As `interaction.alpha`.
+    /// The key, such as `interaction.alpha`.
     pub key: String,
-    /// In place of the scene's own.
+    /// The value that replaces the scene's own.
     pub value: Value,
 }
 
 impl Setting {
-    /// Reads what stands after `--set`: a key, and one value as it may stand in a list after `--over`.
+    /// Parses the argument of `--set`: a key, and one value in the form of a list element after `--over`.
     pub fn parse(text: &str) -> Result<Self, String> {
         let (key, text) = key_and_text(text, "KEY=VALUE is allowed, as interaction.alpha=0.5")?;
         Ok(Self { key: key.to_owned(), value: value(text)? })
@@ -52,10 +52,10 @@ impl Setting {
     }
 }
 
-/// The most parts of a key, as `particles.orientation.phi_deg` has: more would be tables without end.
+/// The largest number of parts of a key, as in `particles.orientation.phi_deg`; without a limit a key could nest tables without end.
 const DEEPEST: usize = 3;
 
-/// What stands before and after the first `=`; the first is a key.
+/// The texts before and after the first `=`; the first must be a key.
 pub(crate) fn key_and_text<'a>(text: &'a str, shape: &str) -> Result<(&'a str, &'a str), String> {
     let (key, text) = text.split_once('=').ok_or(shape)?;
     let (key, text) = (key.trim(), text.trim());
@@ -70,7 +70,7 @@ pub(crate) fn key_and_text<'a>(text: &'a str, shape: &str) -> Result<(&'a str, &
     }
 }
 
-/// A value as it stands in tables: numbers shortest, texts without quotes.
+/// The text of a value in tables: the shortest form of a number, a text without quotes.
 pub fn shown(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),
@@ -79,7 +79,7 @@ pub fn shown(value: &Value) -> String {
     }
 }
 
-/// The parts between separators that stand in no quotes and no brackets.
+/// The parts of `text` between separators that are outside quotes and brackets.
 fn split(text: &str, separator: char) -> Vec<&str> {
     let (mut parts, mut start, mut depth, mut quote) = (Vec::new(), 0, 0_i32, None);
     for (at, c) in text.char_indices() {
@@ -99,7 +99,7 @@ fn split(text: &str, separator: char) -> Vec<&str> {
     parts
 }
 
-/// A value as in a scene file; a word needs no quotes.
+/// Parses a value as in a scene file; a word needs no quotes.
 fn value(text: &str) -> Result<Value, String> {
     let mut table: Table = format!("value = {text}").parse().unwrap_or_default();
     let word = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
@@ -112,7 +112,7 @@ fn value(text: &str) -> Result<Value, String> {
     }
 }
 
-/// `count` values from `from` to `to`, both included. Between whole numbers a whole number is one.
+/// `count` values from `from` to `to`, both included. If both are integers, so are whole values between them.
 fn evenly(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
     let number = |text: &str| match text.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
@@ -140,7 +140,7 @@ fn evenly(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
             let (above, below) = (a * (steps - k) + b * k, unit * steps);
             match i64::try_from(above / below) {
                 Ok(number) if whole && above % below == 0 => Value::Integer(number),
-                // Both are exact, so the quotient is the number nearest to the decimal one: 0.3, not
+                // Both are exact, so the quotient is the double nearest to the decimal number: 0.3, not
                 // 0.30000000000000004.
                 _ if above.abs().max(below) < 1 << 53 => Value::Float(above as f64 / below as f64),
                 _ => Value::Float(inexact),
@@ -149,7 +149,7 @@ fn evenly(from: &str, to: &str, count: &str) -> Result<Vec<Value>, String> {
         .collect())
 }
 
-/// Digits after the point; `None` where there is an exponent or too many.
+/// The number of digits after the point; `None` for a number with an exponent or with too many digits.
 fn decimals(text: &str) -> Option<u32> {
     let digits = text.split_once('.').map_or("", |(_, digits)| digits);
     let plain = text.chars().all(|c| c.is_ascii_digit() || matches!(c, '.' | '-' | '+'));
@@ -178,7 +178,7 @@ mod tests {
         assert_eq!(shown_values("a=-1:1:5"), ["-1", "-0.5", "0", "0.5", "1"]);
         assert_eq!(shown_values("a=1e-3:2e-3:2"), ["0.001", "0.002"]);
         assert_eq!(shown_values("a=1:0:3"), ["1", "0.5", "0"]);
-        // Steps added in floating point miss some of these.
+        // Adding steps in floating point misses some of these values.
         let added: Vec<_> = (0..10).map(|k| (0.1 + 0.1 * f64::from(k)).to_string()).collect();
         assert_ne!(added, tenths);
     }

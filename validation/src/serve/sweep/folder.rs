@@ -17,8 +17,8 @@ use std::io;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// The inputs of a sweep, all that its results depend on: this build, the scene without the swept keys, the grid, the warnings
-/// of the points' plans, and the checksums of the files that rods start from.
+/// The inputs of a sweep, everything on which its results depend: this build, the scene without the swept keys, the grid, the
+/// warnings of the points' plans, and the checksums of files with initial directions.
 pub fn inputs(scene: &Scene, axes: &[Axis], points: &[Point], warnings: &[String]) -> Value {
     let over = axes.iter().map(|axis| {
         let values: Vec<_> = axis.values.iter().map(shown).collect();
@@ -39,18 +39,18 @@ pub fn inputs(scene: &Scene, axes: &[Axis], points: &[Point], warnings: &[String
 /// The name of a point in the inputs of its record: `interaction.alpha=0.3`.
 pub const POINT: &str = "point";
 
-/// The longest table of a point, and the longest record.
+/// The largest size of a point's table or record, in bytes.
 const MOST_BYTES: u64 = 1 << 30;
 
-/// The points of a sweep, as its folder knows them.
+/// The points of a sweep with the names of their tables.
 pub struct Points {
-    /// Each point as `interaction.alpha=0.3`, which no two share.
+    /// The description of each point, such as `interaction.alpha=0.3`; no two are equal.
     pub described: Vec<String>,
     /// The names of the tables that each point has.
     pub tables: Vec<String>,
 }
 
-/// The folder of one sweep, in which no other process writes while this lives.
+/// The folder of one sweep; no other process writes to it during the lifetime of this value.
 pub struct Folder {
     folder: ResultFolder,
     /// The text of `sweep.json`.
@@ -60,16 +60,16 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// Opens the folder, or makes it.
+    /// Opens the folder, or creates it.
     ///
     /// # Errors
     ///
-    /// Another sweep in the folder, files of unknown origin under the names of a sweep's, or a point that was changed, all left
-    /// as they are; `folder` with force empties the folder of sweeps instead. Another process at work in it.
+    /// Another sweep in the folder, files of unknown origin under the names of a sweep's, or a point that was changed: all are left
+    /// as they are, unless `folder` has force, which empties the folder of sweeps. Another process at work in the folder.
     pub fn open(folder: ResultFolder, inputs: &Value, points: Points) -> Result<Self, Refused> {
         let claim = Claim::new(folder.dir(), Duration::ZERO)?;
         let own = folder.is_own();
-        // Without a record, points are of unknown origin too.
+        // Without a record, points are of unknown origin, too.
         let names = ["sweep.json", "sweep.csv", "points"];
         folder.check(if own { &names[..2] } else { &names })?;
         let folder = Self { folder, inputs: format!("{inputs:#}\n"), points, claim };
@@ -98,18 +98,18 @@ impl Folder {
         self.claim.write_all(&[files, vec![record]].concat(), &left_over)
     }
 
-    /// The folder of point k, from 0; its name counts from 1.
+    /// The folder of point `k`, counted from 0; its name counts from 1.
     pub fn point(&self, k: usize) -> PathBuf {
         self.folder.dir().join(self.name(k))
     }
 
-    /// `points/03`.
+    /// The name of point `k`'s folder, such as `points/03`.
     fn name(&self, k: usize) -> String {
         let width = self.points.described.len().to_string().len();
         format!("points/{:0width$}", k + 1)
     }
 
-    /// The finished points, in order.
+    /// The indices of the finished points, in order.
     pub fn finished(&self) -> Vec<usize> {
         let all = 0..self.points.described.len();
         all.filter(|k| self.point(*k).is_dir()).collect()
@@ -119,7 +119,7 @@ impl Folder {
     pub fn write(&self, k: usize, tables: &[Output]) -> Result<(), OutputError> {
         let files = [tables, &[self.record(k, tables).file()]].concat();
         self.is_there()?;
-        // Where the folder went meanwhile, that is the reason.
+        // If the folder is gone meanwhile, that is the reason to report.
         output::write_folder(&self.point(k), &files).map_err(|error| self.is_there().err().unwrap_or(error))
     }
 
@@ -133,7 +133,7 @@ impl Folder {
         Err(OutputError { path: path.to_owned(), reason: gone })
     }
 
-    /// The record of a point with these tables.
+    /// The record of point `k` with these tables.
     fn record(&self, k: usize, tables: &[Output]) -> Record {
         let Origin { command, mut inputs } = self.folder.origin().clone();
         inputs[POINT] = json!(self.points.described[k]);
@@ -144,7 +144,7 @@ impl Folder {
     ///
     /// # Errors
     ///
-    /// A table or the record that cannot be read or was changed.
+    /// A table or the record cannot be read or was changed.
     pub fn tables(&self, k: usize) -> Result<Vec<Output>, Refused> {
         let dir = self.point(k);
         let read = |name: &str| {
@@ -176,8 +176,8 @@ impl Folder {
         Refused(format!("{why}; remove {} to have this point run again; nothing was changed", dir.shown()))
     }
 
-    /// Writes `sweep.csv` from the tables of all points, which must all be there: the swept values, then the last
-    /// row of each of the tables; and the record of all. Numbers are the tables' own texts. Returns the header and the rows.
+    /// Writes `sweep.csv` from the tables of all points, which must all exist (the swept values, then the last row of each of the
+    /// tables), and the record of the sweep. Numbers are copied as texts from the tables. Returns the header and the rows.
     pub fn gather(&self, axes: &[Axis], values: &[Vec<toml::Value>]) -> Result<Rows, Refused> {
         let mut rows = Vec::new();
         let mut records = Vec::new();
@@ -191,7 +191,7 @@ impl Folder {
                 let (columns, last) = last_row(&text)
                     .map_err(|why| Refused(format!("{}: {why}", self.point(k).join(&name).shown())))?;
                 for (column, value) in columns.into_iter().zip(last) {
-                    // Every table has the time.
+                    // Every table has the time; it is copied once.
                     if !head.contains(&column) {
                         head.push(column);
                         row.push(value);

@@ -1,4 +1,4 @@
-//! A sweep: one scene at every point of a grid of its keys' values.
+//! A sweep: one scene at every point of a grid of key values.
 
 mod axis;
 mod folder;
@@ -17,12 +17,12 @@ use toml::Value;
 pub struct Point {
     /// The value of each axis.
     pub values: Vec<Value>,
-    /// What to run.
+    /// The plan to run.
     pub plan: Plan,
 }
 
-/// Every point, the last axis varying fastest, checked as a scene file is. `fixed` are keys that all points have in
-/// place of the scene's own; `starts` are of the scene's folder. On error, which point and why.
+/// Every point of the grid, the last axis varying fastest, checked like a scene file. `fixed` are keys that all points have in
+/// place of the scene's own; `starts` belong to the scene's folder. An error says which point and why.
 pub fn points(text: &str, starts: &Starts, fixed: &[Setting], axes: &[Axis]) -> Result<Vec<Point>, String> {
     let base = document(text)?;
     let count = (axes.iter())
@@ -44,14 +44,14 @@ pub fn points(text: &str, starts: &Starts, fixed: &[Setting], axes: &[Axis]) -> 
     (0..count).map(point).collect()
 }
 
-/// A point in words: `interaction.alpha=0.3 particles.count=10`.
+/// The description of a point: `interaction.alpha=0.3 particles.count=10`.
 pub fn described(axes: &[Axis], values: &[Value]) -> String {
     let pairs = axes.iter().zip(values);
     let words: Vec<_> = pairs.map(|(axis, value)| format!("{}={}", axis.key, shown(value))).collect();
     words.join(" ")
 }
 
-/// Why the keys set by several hands cannot all be: each key has one owner, and a table owns every key in it.
+/// Checks that no two flags set the same key; a table owns every key in it. An error says which two.
 pub fn one_owner(flags: &[(&str, &str)]) -> Result<(), String> {
     for (k, (flag, key)) in flags.iter().enumerate() {
         let within = |inner: &str, outer: &str| {
@@ -70,7 +70,7 @@ pub fn one_owner(flags: &[(&str, &str)]) -> Result<(), String> {
     Ok(())
 }
 
-/// The values of point k.
+/// The values of point `k`.
 fn at(axes: &[Axis], mut k: usize) -> Vec<Value> {
     let mut values = Vec::new();
     for axis in axes.iter().rev() {
@@ -81,7 +81,7 @@ fn at(axes: &[Axis], mut k: usize) -> Vec<Value> {
     values
 }
 
-/// The plan of the scene `base` with some keys set.
+/// The plan of the scene `base` with the keys `settings`.
 fn plan<'a>(
     base: &Document,
     starts: &mut Starts,
@@ -92,7 +92,7 @@ fn plan<'a>(
     Plan::new(&scene).map_err(|error| error.to_string())
 }
 
-/// The scene of a file's text with some keys set, checked as the file is.
+/// The scene in `text` with the keys `settings`, checked like a scene file.
 pub fn scene_with(text: &str, settings: &[Setting]) -> Result<Scene, String> {
     with(&document(text)?, settings.iter().map(Setting::pair))
 }

@@ -1,25 +1,25 @@
-//! What measured points tell of parameters and of points to come, by linear Bayes estimation.
+//! What measured points determine about the parameters and about points to come, by linear Bayes estimation.
 
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
-/// What is known of the parameters and of each candidate.
+/// The covariances of the parameters and of each candidate, given the points measured so far.
 #[derive(Clone, Debug)]
 pub struct Known {
     /// The covariance of the parameters.
     pub parameters: DMatrix<f64>,
-    /// Parameters × candidates: their covariances.
+    /// Covariances, parameters × candidates.
     cross: DMatrix<f64>,
     /// The variance of each candidate.
     pub own: DVector<f64>,
-    /// Places × candidates: values less their mean, times the root of the weight.
+    /// Values less their mean, times the root of the weight: places × candidates.
     values: Arc<DMatrix<f64>>,
-    /// Of each point that was measured: its covariances with all candidates, and its whole variance.
+    /// For each point that was added: its covariances with all candidates, and its variance including the error of measurement.
     measured: Vec<(DVector<f64>, f64)>,
 }
 
 impl Known {
-    /// From the parameters at weighted places, and each candidate's values there.
+    /// The covariances from `parameters` at places with `weights`, and from each candidate's values there (`columns`).
     pub fn new(parameters: &[Vec<f64>], columns: &[DVector<f64>], weights: &[f64]) -> Self {
         let weights = DVector::from_column_slice(weights);
         let centred = |column: &DVector<f64>| {
@@ -44,13 +44,13 @@ impl Known {
         }
     }
 
-    /// The covariance of the parameters once a point with a variance of its own is known.
+    /// The covariance of the parameters after candidate `k` is measured with error variance `variance`.
     pub fn left(&self, k: usize, variance: f64) -> DMatrix<f64> {
         let with_parameters = self.cross.column(k);
         &self.parameters - with_parameters * with_parameters.transpose() / (variance + self.own[k])
     }
 
-    /// One more point is known, with a variance of its own.
+    /// Adds a measurement of candidate `k` with error variance `variance`.
     pub fn measure(&mut self, k: usize, variance: f64) {
         let mut with_all = self.values.tr_mul(&self.values.column(k));
         for (earlier, whole) in &self.measured {
@@ -64,10 +64,10 @@ impl Known {
         self.measured.push((with_all, whole));
     }
 
-    /// The point that leaves the least determinant of the parameters' covariance, each with a variance of its own.
+    /// The candidate that leaves the smallest determinant of the parameters' covariance; `variance` gives each error variance.
     pub fn best(&self, variance: impl Fn(usize) -> f64) -> Option<usize> {
         let information = self.parameters.clone().try_inverse()?;
-        // The share of the determinant that a point takes away.
+        // The share by which a candidate reduces the determinant.
         let gain = |k: usize| {
             let with_parameters = self.cross.column(k);
             with_parameters.dot(&(&information * with_parameters)) / (variance(k) + self.own[k])

@@ -1,9 +1,9 @@
-//! Against closed forms of a straight line.
+//! The design against closed forms for a straight line.
 
 use super::*;
 use crate::serve::fit::tests::points;
 
-/// Points of the line a + b t that could be measured, and what is known where a and b are Gaussian with this covariance.
+/// Candidate points of the line a + b t, and the state of knowledge if a and b are Gaussian with this covariance.
 fn line_known(covariance: &DMatrix<f64>, times: &[f64], u: f64) -> (Vec<Candidate>, Known) {
     let candidate = |time: &f64| Candidate {
         set: 0,
@@ -15,7 +15,7 @@ fn line_known(covariance: &DMatrix<f64>, times: &[f64], u: f64) -> (Vec<Candidat
         leaves: Vec::new(),
     };
     let half = covariance.clone().cholesky().unwrap().l();
-    // Evenly over eight standard deviations to each side: the rule of the trapezium is exact to 14 digits.
+    // Evenly over eight standard deviations to each side: the trapezium rule is exact to 14 digits.
     let (mut places, mut weights) = (Vec::new(), Vec::new());
     for (x, y) in (-40..=40).flat_map(|i| (-40..=40).map(move |j| (0.2 * f64::from(i), 0.2 * f64::from(j)))) {
         let place = &half * DVector::from_vec(vec![x, y]);
@@ -57,10 +57,10 @@ fn further_points_leave_what_the_textbook_says_and_the_best_are_the_ends() {
         assert!((step.correlation.unwrap() - r).abs() < 1e-10, "{step:?} {r}");
     };
     is(&steps[0], &[]);
-    // Ten more, evenly over 21 times.
+    // Ten more points, evenly over 21 times.
     let evenly: Vec<f64> = [1, 3, 5, 7, 9, 11, 13, 15, 17, 19].map(|k: usize| times[k]).to_vec();
     is(&steps[1], &evenly);
-    // The measured ones are near one end; the best next ones are at the other.
+    // The measured points are near one end; the best next ones are at the other end.
     let time_of = |step: &Step| match &step.added {
         Added::Point { time, .. } => *time,
         other => panic!("{other:?}"),
@@ -70,7 +70,7 @@ fn further_points_leave_what_the_textbook_says_and_the_best_are_the_ends() {
     for (k, step) in steps[2..].iter().enumerate() {
         is(step, &best[..=k]);
     }
-    // Of a line of which next to nothing is known the textbook's points are the two ends, by turns.
+    // For a line of which next to nothing is known, the textbook's points are the two ends, in turn.
     let (candidates, known) = line_known(&(DMatrix::identity(2, 2) * 1e4), &times, u);
     let unknown = super::steps(&known, &candidates, &data);
     let mut best: Vec<f64> = unknown[2..].iter().map(time_of).collect();

@@ -1,4 +1,4 @@
-//! Tests of hypotheses: by the textbook where the model is a line, and how often a true one is rejected where it bends.
+//! Tests of hypotheses: against the textbook for a straight model, and the rate at which a true one is rejected for a curved model.
 
 use super::super::search::{Measured, fitted, values};
 use super::super::tests::{normal, share};
@@ -15,7 +15,7 @@ const TIMES: usize = 20;
 const NOISE: f64 = 0.02;
 const REPLICAS: u64 = 30;
 
-/// Two sets that each have a rate: what is seen of either, decaying or straight.
+/// A curve of two sets with a rate each, decaying or straight.
 type Curve = fn(rate: f64, time: f64) -> f64;
 
 fn decay(rate: f64, time: f64) -> f64 {
@@ -40,7 +40,7 @@ fn points(curve: Curve, rates: [f64; 2], seed: u64) -> Vec<Datum> {
     places().map(point).collect()
 }
 
-/// The fit over one box, without the search for it.
+/// The fit over one fixed box.
 fn fit(curve: Curve, rates: [f64; 2], seed: u64) -> Fit {
     let data = points(curve, rates, seed);
     let ranges = ["1:a.rate=0.2:2", "2:a.rate=0.3:1.8"].map(|text| Range::parse(text).unwrap());
@@ -68,7 +68,7 @@ fn a_straight_model_has_the_tests_of_the_textbook() {
     let fit = fit(straight, [1.0, 1.005], 1);
     let [a, b] = [0, 1].map(|axis| fit.value(axis, fit.best.place[axis]));
     let covariance = fit.covariance();
-    // Wald's test, which is the likelihood ratio where the model is straight.
+    // Wald's test, which equals the likelihood ratio for a linear model.
     let value = tested(&fit, "2:a.rate=1.01");
     let expected = (b - 1.01_f64).powi(2) / covariance[(1, 1)];
     assert!((value.rise_of_chi2 / expected - 1.0).abs() < 0.05, "{value:?} {expected}");
@@ -91,7 +91,7 @@ fn a_straight_model_has_the_tests_of_the_textbook() {
     assert!((turned.rise_of_chi2 - both.rise_of_chi2).abs() < 1e-3 * both.rise_of_chi2);
     assert!((turned.difference.unwrap().high_95 + found.low_95).abs() < 0.01 * u);
 
-    // Far away, where the last box does not reach.
+    // A value far away, outside the last box.
     let far = tested(&fit, "1:a.rate=1.95");
     assert!(far.beyond_the_box && far.p_value == 1e-6, "{far:?}");
 }
@@ -118,7 +118,7 @@ fn a_true_hypothesis_is_rejected_as_often_as_the_level_says() {
     assert!(apart.iter().filter(|found| found.p_value < 0.05).count() > 15, "{apart:?}");
     for found in alike.iter().filter_map(|found| Some((found.p_value, found.difference?))) {
         let (p, difference) = found;
-        // The interval holds 0 where the test does not reject.
+        // The interval contains 0 exactly if the test does not reject.
         assert_eq!((difference.low_95..=difference.high_95).contains(&0.0), p >= 0.05, "{found:?}");
     }
 }

@@ -1,7 +1,7 @@
-//! Closed equations written a second time, in the axes of a, with another integrator.
+//! A second formulation of the closed equations, in the axes of a, with another integrator.
 //!
-//! Numbers of fits and the integrals of the natural closure, which exact distributions hold, are shared with `methods::tensors`;
-//! eigenvectors (Jacobi's), invariants, contractions, models and steps are not.
+//! The coefficients of fits and the integrals of the natural closure, which exact distributions check, are shared with
+//! `methods::tensors`; eigenvectors (Jacobi's), invariants, contractions, models and steps are not.
 
 use crate::methods::tensors::ibof::{COEFFICIENTS, POWERS};
 use crate::methods::tensors::orthotropic::{ORE, ORW};
@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 
 type M = Matrix3<f64>;
 
-/// Units of strain of a step, and how many midpoint rules it takes: order 16.
+/// Units of strain per step, and the number of midpoint rules in a step: order 16.
 const STEP: f64 = 0.25;
 const RULES: usize = 8;
 
@@ -80,7 +80,7 @@ fn rate(equation: &Equation, a: &M) -> M {
     let w = (l - l.transpose()) * 0.5;
     let mut found = w * a - a * w + g * a + a * g - contracted(equation.closure, &axes, &values, &g) * 2.0
         + (c - a * c.trace()) * (2.0 * speed);
-    // κ slows what changes the eigenvalues.
+    // κ slows the change of the eigenvalues.
     (0..3).for_each(|i| found[(i, i)] *= kappa);
     axes * found * axes.transpose()
 }
@@ -129,7 +129,7 @@ fn fitted(values: &Vector3<f64>, m: &M, of: impl Fn(usize, f64, f64) -> f64) -> 
     M::from_fn(|i, j| if i == j { diagonal[i] } else { 2.0 * pairs[(i, j)] * m[(i, j)] })
 }
 
-/// β₅, β₂ and β₁ from a_ijkk = a_ij: its parts in a², a and δ by Cayley & Hamilton, which the printed formulas say too.
+/// β₅, β₂ and β₁ from a_ijkk = a_ij: its parts in a², a and δ by Cayley & Hamilton, in agreement with the printed formulas.
 fn ibof(values: &Vector3<f64>, m: &M) -> M {
     let second = values.x * values.y + values.y * values.z + values.z * values.x;
     let third = values.product();
@@ -160,7 +160,7 @@ fn ibof(values: &Vector3<f64>, m: &M) -> M {
         + symmetric(&square, &square) * b6
 }
 
-/// Eigenvalues from the largest with their axes, by Jacobi's rotations.
+/// Eigenvalues in descending order with their axes, by Jacobi's rotations.
 fn eigen(a: &M) -> (Vector3<f64>, M) {
     let (mut a, mut axes) = (*a, M::identity());
     for _ in 0..12 {

@@ -1,4 +1,4 @@
-//! The contact rule in many digits, for the tables of certified answers.
+//! The contact rule in extended precision, for the tables of certified answers.
 
 use super::{COUETTE, SETTINGS, Setting, pairs};
 use crate::oracle::reference::big::{Big, Bits, angle, digits, length};
@@ -9,7 +9,7 @@ const DIGITS: usize = 25;
 
 pub(super) type Vector = [Big; 3];
 
-/// The certified answers of both problems anew, by name: a header, and a row a pair.
+/// Computes the certified answers of both problems afresh, by name: a header, and one row per pair.
 pub fn certify() -> Vec<(&'static str, String)> {
     let pairs = pairs();
     let rods: Vec<_> = pairs.par_iter().map(|pair| touched(&pair.map(|x| BITS.of(x)))).collect();
@@ -36,7 +36,7 @@ impl Setting {
         std::iter::once("snapshot".to_owned()).chain(of_a).chain(of_b).collect()
     }
 
-    /// What is asked of a rod after the contact.
+    /// The answer for a rod after the contact: ṗ′, or the angles and their rates.
     pub(super) fn answer(&self, rod: &Touched) -> Vec<Big> {
         match self.step_s {
             None => rod.rate.to_vec(),
@@ -51,7 +51,7 @@ pub(super) struct Touched {
     pub(super) rate: Vector,
 }
 
-/// The signed arms, mm: x_a + r_a p_a and x_b + r_b p_b are the feet of the shortest line between the two.
+/// The signed arms, mm: x_a + r_a p_a and x_b + r_b p_b are the feet of the shortest segment between the two lines.
 pub(super) fn arms(pair: &[Big; 14], a: &Vector, b: &Vector) -> [Big; 2] {
     let apart: Vector = [0, 1, 2].map(|i| &pair[7 + i] - &pair[i]);
     let normal = cross(a, b);
@@ -60,7 +60,7 @@ pub(super) fn arms(pair: &[Big; 14], a: &Vector, b: &Vector) -> [Big; 2] {
     [b, a].map(|p| dot(&cross(&apart, p), &normal) / &square)
 }
 
-/// A.7 to A.12 and the division by the arm of A.13.
+/// Both rods after the contact, by A.7 to A.12 and the division by the arm of A.13.
 pub(super) fn touched(pair: &[Big; 14]) -> [Touched; 2] {
     let [a, b] = [axis(&pair[3..6]), axis(&pair[10..13])];
     let normal = cross(&a, &b);
@@ -72,7 +72,7 @@ pub(super) fn touched(pair: &[Big; 14]) -> [Touched; 2] {
     let carried = [0, 7].map(|at| BITS.of(COUETTE[1][0]) * &pair[at]);
     let speed = [0, 1].map(|rod| &line[1] * &carried[rod] + dot(&line, &free[rod]) * &arms[rod]);
     let mean = (&speed[0] + &speed[1]) / BITS.of(2.0);
-    // The part along the line becomes the mean; all else, u included, stays: ṗ′ = ṗ + ℓ(v̄ − v)/r.
+    // The component along the line becomes the mean; all else, u included, stays: ṗ′ = ṗ + ℓ(v̄ − v)/r.
     let mut axes = [a, b].into_iter();
     [0, 1].map(|rod| Touched {
         p: axes.next().expect("two rods"),
@@ -80,7 +80,7 @@ pub(super) fn touched(pair: &[Big; 14]) -> [Touched; 2] {
     })
 }
 
-/// A.1 in u_2 = G x_1: ṗ = Ap − p(p·Ap), A₁₂ = −G/(r_e² + 1), A₂₁ = G r_e²/(r_e² + 1).
+/// ṗ by A.1 in u_2 = G x_1: ṗ = Ap − p(p·Ap), A₁₂ = −G/(r_e² + 1), A₂₁ = G r_e²/(r_e² + 1).
 fn jeffery(p: &Vector, r: &Big) -> Vector {
     let (rate, square) = (BITS.of(COUETTE[1][0]), r.sqr());
     let whole = &square + BITS.of(1.0);
@@ -89,7 +89,7 @@ fn jeffery(p: &Vector, r: &Big) -> Vector {
     [0, 1, 2].map(|i| &pull[i] - &p[i] * &along)
 }
 
-/// φ̇′, θ̇′ of A.13, corrected, and φ, θ of A.14.
+/// φ̇′, θ̇′ by A.13, corrected, and φ, θ by A.14.
 pub(super) fn angles(rod: &Touched, step: &Big) -> Vec<Big> {
     let [p1, p2, p3] = &rod.p;
     let [v1, v2, v3] = &rod.rate;
@@ -102,7 +102,7 @@ pub(super) fn angles(rod: &Touched, step: &Big) -> Vec<Big> {
     vec![phi_rate, theta_rate, phi, theta]
 }
 
-/// The unit vector along three numbers.
+/// The unit vector in the direction of `p`.
 pub(super) fn axis(p: &[Big]) -> Vector {
     let p = [0, 1, 2].map(|i| p[i].clone());
     let size = length(&p);

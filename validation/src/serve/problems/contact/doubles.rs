@@ -1,21 +1,21 @@
-//! The contact rule in doubles, right or with a known mistake: for condition numbers, and for what mistakes give.
+//! The contact rule in double precision, correct or with a known mistake: for condition numbers and for the effect of mistakes.
 //!
-//! The rule changes what lies along the contact line ℓ ∝ p_a × p_b alone: ṗ′ = ṗ + ℓ (v̄ − v)/r for each rod, v = ℓ·V_c the
+//! The rule changes only the component along the contact line ℓ ∝ p_a × p_b: ṗ′ = ṗ + ℓ (v̄ − v)/r for each rod, v = ℓ·V_c the
 //! velocity of its contact point x + r p along ℓ, v̄ the mean of both.
 
 use nalgebra::{Matrix3, Vector3};
 
-/// How the rule is applied.
+/// The rule, correct or with a mistake.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Variant {
     /// The factor on the change of ṗ.
     pub(crate) kick: f64,
-    /// Whether A.13 is taken as it is printed.
+    /// True for A.13 as printed.
     pub(crate) printed: bool,
 }
 
-/// For rods a and b of a pair (of each the centre in mm, the axis and r_e): ṗ′ in 1/s, or with Δt in s the four numbers of
-/// A.13 and A.14.
+/// ṗ′ in 1/s for rods a and b of `pair` (centre in mm, axis and r_e of each), or with Δt in s the four numbers of A.13 and
+/// A.14.
 pub(crate) fn answers(
     gradient_per_s: &Matrix3<f64>,
     pair: &[f64],
@@ -28,9 +28,9 @@ pub(crate) fn answers(
     })
 }
 
-/// Where the lines of two rods come nearest each other.
+/// The place of nearest approach of two rods' lines.
 pub(super) struct Geometry {
-    /// Of the angle between them.
+    /// The sine of the angle between the lines.
     pub(super) sine: f64,
     /// The signed arms, mm.
     pub(super) arms: [f64; 2],
@@ -47,7 +47,7 @@ pub(super) fn geometry(pair: &[f64]) -> Geometry {
     Geometry { sine: sine_squared.sqrt(), arms: [arm_a, arm_b] }
 }
 
-/// p and ṗ′ in 1/s of both rods; of each centre, axis and r_e are given.
+/// p and ṗ′ in 1/s of both rods; `pair` has centre, axis and r_e of each.
 fn rates(gradient: &Matrix3<f64>, pair: &[f64], kick: f64) -> [(Vector3<f64>, Vector3<f64>); 2] {
     let (w, d) = (0.5 * (gradient - gradient.transpose()), 0.5 * (gradient + gradient.transpose()));
     let rod = |of: &[f64]| {

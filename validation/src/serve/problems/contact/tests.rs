@@ -62,7 +62,7 @@ fn the_tables_are_computed_anew() {
     }
 }
 
-/// Another rounding of sines or arms keeps the same pairs.
+/// A different rounding of sines or arms selects the same pairs.
 #[test]
 fn no_pair_is_near_where_it_would_be_kept_or_not() {
     let last = pairs()[SNAPSHOTS - 1];
@@ -85,8 +85,8 @@ fn no_pair_is_near_where_it_would_be_kept_or_not() {
     }
 }
 
-/// The sum over the pair's numbers of |∂answer/∂x||x|/|answer|, of the worse of the two rods. A few digits of it are
-/// enough: central differences in doubles, whose truncation and rounding meet at ε^(2/3).
+/// The sum over the pair's numbers of |∂answer/∂x||x|/|answer|, for the worse of the two rods. A few digits are enough:
+/// central differences in doubles, whose truncation and rounding meet at ε^(2/3).
 fn condition(pair: &Pair, step_s: Option<f64>) -> f64 {
     let small = f64::EPSILON.cbrt();
     let gradient = Matrix3::from_fn(|i, j| COUETTE[i][j]);
@@ -108,7 +108,7 @@ fn condition(pair: &Pair, step_s: Option<f64>) -> f64 {
     sums[0].max(sums[1])
 }
 
-/// By differences in many digits, of the certified answer itself.
+/// The condition number of the certified answer itself, by differences in extended precision.
 fn condition_in_many_digits(pair: &Pair, setting: &Setting) -> f64 {
     let small = BITS.of(2f64.powi(-64));
     let of = |pair: &[Big; 14]| touched(pair).map(|rod| setting.answer(&rod));
@@ -141,7 +141,7 @@ fn condition_numbers_are_those_of_the_certified_answers() {
 
 #[test]
 fn angles_are_those_of_a_turning_axis() {
-    // A.13 corrected says how the angles of p turn when p turns at ṗ′: by differences of atan2 and acos.
+    // A.13 corrected gives the rates of p's angles when p turns at ṗ′: checked by differences of atan2 and acos.
     let step = BITS.of(1e-20);
     for pair in &pairs()[..50] {
         for rod in touched(&pair.map(|x| BITS.of(x))) {
@@ -150,7 +150,7 @@ fn angles_are_those_of_a_turning_axis() {
             let theta = (moved[0].sqr() + moved[1].sqr()).sqrt().atan2(&moved[2]);
             let phi = moved[1].atan2(&moved[0]);
             for (angle, expected) in [(&found[2], phi), (&found[3], theta)] {
-                // Of second order in the step: 1e-40 times the curvature, some hundreds.
+                // The error is of second order in the step: 1e-40 times the curvature, some hundreds.
                 assert!(double(&(angle - expected)).abs() < 1e-36);
             }
             assert!(double(&found[0]) != 0.0 && double(&found[1]) != 0.0);
