@@ -4,17 +4,17 @@ use crate::judge::statistics::worst;
 use crate::serve::problems::{Kind, LoadedProblem, ReadError};
 use std::path::{Path, PathBuf};
 
-/// How far a time may be from the problem's, in parts of the gap to the next one: it is a label, printed with some digits.
+/// The largest difference of a time from the problem's, as a share of the gap to the next one: times are labels, with few digits.
 const LABEL: f64 = 1e-4;
 
-/// An answer.
+/// An answer to a problem.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
     /// The file.
     pub path: PathBuf,
-    /// The values asked for, without keys, a row for each of the problem's; finite or not.
+    /// The values without keys, one row for each of the problem's; they need not be finite.
     pub rows: Vec<Vec<f64>>,
-    /// The line that each row was in.
+    /// The line number of each row.
     pub lines: Vec<u64>,
 }
 
@@ -29,22 +29,22 @@ impl Answer {
         }
     }
 
-    /// The largest difference of a value from the same value of another answer; NaN where one is not finite.
+    /// The largest difference of a value from the same value of `other`; NaN if one of them is not finite.
     pub fn largest_change(&self, other: &Self) -> f64 {
         let pairs = self.rows.iter().flatten().zip(other.rows.iter().flatten());
         worst(pairs.map(|(a, b)| (a - b).abs()))
     }
 }
 
-/// Rows as they come, put where they belong. They come in the problem's order: a shuffled file is a mistake in the making.
+/// Collects rows by their keys. They must come in the problem's order: a shuffled file suggests a mistake.
 pub(super) struct Collector<'a> {
     problem: &'a LoadedProblem,
     rods: usize,
-    /// Rows at t = 0 that come before those that are asked for.
+    /// Number of rows at t = 0, which may precede the rows of the answer.
     ahead: usize,
-    /// The line of each row that was there, those at t = 0 first.
+    /// The line number of each row that was read, those at t = 0 first.
     lines: Vec<Option<u64>>,
-    /// The place of the last one.
+    /// The index of the last row.
     last: usize,
     rows: Vec<Vec<f64>>,
 }
@@ -60,7 +60,7 @@ impl<'a> Collector<'a> {
         Self { problem, rods, ahead, lines: vec![None; ahead + rows], last: 0, rows: vec![Vec::new(); rows] }
     }
 
-    /// Adds the row with these keys. `Err` has the key that is wrong, and why.
+    /// Adds the row with these keys. `Err` has the index of the wrong key, and the reason.
     pub(super) fn add(&mut self, line: u64, keys: &[f64], values: Vec<f64>) -> Result<(), (usize, String)> {
         let at = self.place(keys)?;
         let names = self.problem.problem.kind.keys().join(" and ");
@@ -80,7 +80,7 @@ impl<'a> Collector<'a> {
         Ok(())
     }
 
-    /// Its place among rows at t = 0 and those that are asked for.
+    /// The index of a row with these keys, rows at t = 0 included.
     fn place(&self, keys: &[f64]) -> Result<usize, (usize, String)> {
         let whole = |key: usize, count: usize| {
             let found = keys[key];
@@ -101,7 +101,7 @@ impl<'a> Collector<'a> {
         Ok(time.map_or(0, |time| time + 1) * self.rods + rod)
     }
 
-    /// Which time; `None` at the start, where it is not asked for.
+    /// The index of the time `found`; `None` at the start if the problem does not ask for it.
     fn time(&self, found: f64) -> Result<Option<usize>, (usize, String)> {
         let times = &self.problem.problem.times_s;
         let after = times.partition_point(|time| *time < found);

@@ -1,9 +1,9 @@
-//! Axes in another order, and which column of a program is which of the problem's.
+//! Axes in another order: the map between a program's columns and the problem's.
 
-/// Which of a program's axes is which of ours (1 gradient, 2 flow, 3 vorticity), and whether it is reversed.
+/// The map from a program's axes to ours (1 gradient, 2 flow, 3 vorticity), with signs for reversed axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axes {
-    /// For each of our axes the program's, from 0.
+    /// The index of the program's axis for each of our axes, from 0.
     theirs: [usize; 3],
     sign: [f64; 3],
 }
@@ -17,7 +17,7 @@ impl Default for Axes {
 impl std::str::FromStr for Axes {
     type Err = String;
 
-    /// As `flow,gradient,vorticity`: what the program's axes 1, 2, 3 are; `-flow` is against the flow.
+    /// Parses text such as `flow,gradient,vorticity`: the meaning of the program's axes 1, 2, 3; `-flow` is against the flow.
     fn from_str(text: &str) -> Result<Self, String> {
         let mut found = [None; 3];
         let words: Vec<_> = text.split(',').map(str::trim).collect();
@@ -37,7 +37,7 @@ impl std::str::FromStr for Axes {
 }
 
 impl std::fmt::Display for Axes {
-    /// As it is given.
+    /// The text that `from_str` parses.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let mut words = [""; 3];
         for (ours, axis) in
@@ -55,8 +55,8 @@ fn allowed() -> String {
 }
 
 impl Axes {
-    /// The program's name of one of the problem's columns, and the sign that its values get: `p1` is `p2` where the
-    /// program's second axis is the gradient. Columns without an axis keep their names.
+    /// The program's name of one of the problem's columns, and the sign for its values: `p1` is `p2` if the program's second
+    /// axis is the gradient. Columns without an axis keep their names.
     pub fn theirs(&self, column: &str) -> (String, f64) {
         let tail = ["_se", "_per_s"].into_iter().find(|tail| column.ends_with(tail)).unwrap_or("");
         let stem = &column[..column.len() - tail.len()];
@@ -74,7 +74,7 @@ impl Axes {
                 let sign = if name == "x" { 1.0 } else { self.sign[axis(i)] };
                 (format!("{name}{}{tail}", self.theirs[axis(i)] + 1), sign_of(sign, tail))
             }
-            // A fourth moment: its digits ascend.
+            // A fourth moment: its digits are sorted.
             [_, _, _, _] => {
                 let axes = stem.bytes().skip(name.len()).map(axis);
                 let sign = axes.clone().map(|axis| self.sign[axis]).product();
@@ -88,7 +88,7 @@ impl Axes {
     }
 }
 
-/// A standard error has no sign.
+/// The sign of a column's values; standard errors have none.
 fn sign_of(sign: f64, tail: &str) -> f64 {
     if tail == "_se" { 1.0 } else { sign }
 }

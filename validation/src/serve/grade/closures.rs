@@ -1,4 +1,4 @@
-//! Which closure an answer about rods with diffusion comes from.
+//! Diagnosis of answers about rods with diffusion: the closure from which an answer comes.
 
 use super::answer::Answer;
 use super::diagnosis::{Diagnosis, NEARER, setting};
@@ -9,18 +9,18 @@ use crate::serve::problems::{Closed, LoadedProblem, Problem};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 
-/// A strain after which a problem asks for the steady state.
+/// From this strain on, a problem asks for the steady state.
 const LATE: f64 = 1e6;
 
-/// An equation that an answer may come from.
+/// An equation that may have produced the answer.
 struct Candidate {
-    /// To stand after "this is the curve of".
+    /// The name, to stand after "this is the curve of".
     name: String,
     equation: Equation,
     start: Matrix3<f64>,
 }
 
-/// What C_I may be off by, and the words for it.
+/// Factors on C_I, with the words for each.
 const FACTORS: [(f64, &str); 4] = [
     (1.0, ""),
     (std::f64::consts::FRAC_1_SQRT_2, ", with γ̇ = (D:D)^½"),
@@ -54,7 +54,7 @@ fn candidates(problem: &Problem) -> Vec<Candidate> {
         .collect()
 }
 
-/// The columns' values of a and of its fourth moments by the closure.
+/// The values of the problem's columns for a, with the fourth moments by the closure; `None` for other columns.
 fn values(problem: &Problem, closure: Closure, a: &Matrix3<f64>) -> Option<Vec<f64>> {
     let fourth = closure.fourth(a);
     let value = |name: &String| {
@@ -73,7 +73,7 @@ fn apart(found: &[f64], expected: &[f64]) -> f64 {
     each.fold(0.0, |a: f64, b| if b.is_nan() { f64::INFINITY } else { a.max(b) })
 }
 
-/// How far an answer is from a candidate's curve; `None` where it is farther than `most`.
+/// The distance of an answer from a candidate's curve; `None` if it is larger than `most`.
 fn distance(problem: &Problem, answer: &Answer, candidate: &Candidate, most: f64) -> Option<f64> {
     let Candidate { equation, start, .. } = candidate;
     let norm = equation.gradient_per_s.norm();
@@ -87,7 +87,7 @@ fn distance(problem: &Problem, answer: &Answer, candidate: &Candidate, most: f64
     if times[0] * norm > LATE {
         let row = &answer.rows[0];
         if row.len() == PAIRS.len() {
-            // Most are far: then a is not at rest.
+            // Saves time: most candidates are far, and then a is not at rest.
             let mut a = Matrix3::zeros();
             PAIRS.iter().zip(row).for_each(|((i, j), x)| (a[(*i, *j)], a[(*j, *i)]) = (*x, *x));
             if equation.rate(&a).amax() > 100.0 * most * norm {
@@ -96,12 +96,12 @@ fn distance(problem: &Problem, answer: &Answer, candidate: &Candidate, most: f64
         }
         return near(times, vec![steady(equation, start)?]);
     }
-    // Most are far at the first time.
+    // Saves time: most candidates are far already at the first time.
     near(&times[..1], at(equation, start, &times[..1], 1e-11)?)?;
     near(times, at(equation, start, times, 1e-11)?)
 }
 
-/// How far an answer to a closed problem is from the distribution itself.
+/// The distance of an answer to a closed problem from the distribution itself.
 fn from_exact(problem: &Problem, answer: &Answer) -> Option<f64> {
     let closed = problem.closed?;
     let Model::FolgarTucker { c_i } = closed.model else { return None };
@@ -114,7 +114,7 @@ fn from_exact(problem: &Problem, answer: &Answer) -> Option<f64> {
     Some(rows.fold(0.0, f64::max))
 }
 
-/// Names the closure that gives an answer whose error is this; nothing where none does.
+/// Names the closures whose curve the answer is, given its `error`; the diagnosis is empty if there is none.
 pub(super) fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Diagnosis {
     let problem = &loaded.problem;
     let most = NEARER * error;

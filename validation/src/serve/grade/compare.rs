@@ -1,4 +1,4 @@
-//! How far an answer is from the certified one, and what it lost.
+//! The error of an answer against the certified one, and its drifts.
 
 use super::answer::Answer;
 use crate::files::text::Shown;
@@ -9,24 +9,24 @@ use shearbed::model::flow::VelocityGradient;
 use shearbed::model::{jeffery, orientation};
 use std::f64::consts::{PI, TAU};
 
-/// What an answer comes to.
+/// The result of comparing an answer with the certified one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Compared {
-    /// The largest error of a row by the problem's metric; for directions not less than ||p| − 1|. NaN where a value is
+    /// The largest error of a row by the problem's metric; for directions at least ||p| − 1|. NaN if a value is
     /// not finite.
     pub error: f64,
-    /// The row that has it.
+    /// The row with the largest error.
     pub row: usize,
-    /// What is wrong apart from the error.
+    /// A fault other than the error.
     pub remark: Option<String>,
     /// The largest ||p| − 1|.
     pub length_drift: Option<f64>,
     /// The largest change of C_b = C/(1 + C) from the start (eq. 13), in plane Couette flow.
     pub orbit_drift: Option<f64>,
-    /// The phase lost per period in periods, negative where it was won: of the worst rod at the last time, in plane
+    /// The phase lost per period, in periods, negative for a program that is ahead: of the worst rod at the last time, in plane
     /// Couette flow.
     pub phase_lost_per_period: Option<f64>,
-    /// Standard errors that are too large to judge by, where there are any.
+    /// True if a standard error is too large for a verdict.
     pub too_little_data: bool,
 }
 
@@ -64,7 +64,7 @@ pub fn compare(loaded: &LoadedProblem, answer: &Answer) -> Compared {
     }
 }
 
-/// The largest, or NaN where one is.
+/// The largest value, or NaN if one of them is NaN.
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |a: f64, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) })
 }
@@ -78,7 +78,7 @@ fn direction_error(p: &[f64], certified: &[f64]) -> f64 {
     apart_rad(&p, &certified).max(length)
 }
 
-/// Columns of rods a and b, each by the length of its difference.
+/// The larger relative error of the rods a and b: the length of the difference over that of the certified columns.
 fn relative(names: &[String], values: &[f64], certified: &[f64]) -> f64 {
     let of_rod = |rod: &str| {
         let columns: Vec<_> = (0..names.len()).filter(|k| names[*k].starts_with(rod)).collect();
@@ -91,7 +91,7 @@ fn relative(names: &[String], values: &[f64], certified: &[f64]) -> f64 {
     largest(["a_", "b_"].into_iter().map(of_rod))
 }
 
-/// Pairs of columns x and `x_se`.
+/// Indices of the pairs of columns x and `x_se`.
 fn with_errors(names: &[String]) -> impl Iterator<Item = (usize, usize)> + '_ {
     names.iter().enumerate().filter_map(|(k, name)| {
         let error = format!("{name}_se");
@@ -99,7 +99,7 @@ fn with_errors(names: &[String]) -> impl Iterator<Item = (usize, usize)> + '_ {
     })
 }
 
-/// The largest difference of means in their common standard errors.
+/// The largest difference of means, in units of their combined standard error.
 pub(super) fn standard_errors(names: &[String], values: &[f64], certified: &[f64]) -> f64 {
     largest(with_errors(names).map(|(mean, se)| {
         let se = values[se].hypot(certified[se]);
@@ -107,7 +107,7 @@ pub(super) fn standard_errors(names: &[String], values: &[f64], certified: &[f64
     }))
 }
 
-/// NaN where one is not above 0: the mean of a random sample has an error.
+/// The largest standard error; NaN if one is not above 0, as the mean of a random sample has an error.
 fn largest_standard_error(names: &[String], answer: &Answer) -> f64 {
     let of_row = |row: &Vec<f64>| {
         largest(with_errors(names).map(|(_, se)| if row[se] > 0.0 { row[se] } else { f64::NAN }))
@@ -115,7 +115,7 @@ fn largest_standard_error(names: &[String], answer: &Answer) -> f64 {
     largest(answer.rows.iter().map(of_row))
 }
 
-/// A standard error that is not above 0.
+/// A message about a standard error that is not above 0, if there is one.
 fn without_error(loaded: &LoadedProblem, answer: &Answer) -> Option<String> {
     let names = &loaded.problem.columns[loaded.problem.kind.keys().len()..];
     let none = |(row, values): (usize, &Vec<f64>)| {
@@ -155,7 +155,7 @@ fn remark(
     if let (Some(a), Some(b), Some(c)) = (column("a11"), column("a22"), column("a33")) {
         let values = &answer.rows[row];
         let trace = values[a] + values[b] + values[c];
-        // Six printed digits and an integrator's drift are less.
+        // Six printed digits and an integrator's drift change the trace by less.
         if (trace - 1.0).abs() > 1e-3 {
             return Some(format!("{}: the trace is {trace:.4}; are the columns in another order?", place()));
         }

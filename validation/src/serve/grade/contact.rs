@@ -1,4 +1,4 @@
-//! Which known mistake about two rods in contact (A.7 to A.14) an answer has.
+//! Diagnosis of answers about two rods in contact: known mistakes in A.7 to A.14.
 
 use super::answer::Answer;
 use crate::serve::problems::LoadedProblem;
@@ -16,7 +16,7 @@ const fn kicked(kick: f64) -> Variant {
     Variant { kick, printed: false }
 }
 
-/// The mistakes whose answers are near, and how near.
+/// The mistakes whose answers are nearer than `nearer_than`, each with its distance.
 pub(super) fn near(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Vec<(f64, String)> {
     let Some(inputs) = &loaded.inputs else {
         return Vec::new();
@@ -36,7 +36,7 @@ pub(super) fn near(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) ->
         }
         Some((largest, (*name).to_owned()))
     };
-    // A.13 makes angles; ṗ′ does not need it.
+    // A.13 concerns the angles only, not ṗ′.
     let applies = |(_, variant): &&(&str, Variant)| !variant.printed || step_s.is_some();
     let near = MISTAKES.iter().filter(applies).filter_map(of_mistake);
     near.filter(|(distance, _)| *distance <= nearer_than).collect()
@@ -47,7 +47,7 @@ mod tests {
     use super::*;
     use crate::serve::problems;
 
-    /// Answers with a mistake have that one and no other; right answers have none.
+    /// Each mistake is recognised from its own answers and from no others; correct answers have none.
     #[test]
     fn each_mistake_is_named_by_its_own_answers() {
         for name in ["contact-rule", "contact-angles"] {

@@ -1,4 +1,4 @@
-//! Which known mistake's curve an answer is.
+//! Diagnosis of a wrong answer: the known mistake that produces the same curve.
 
 use super::answer::Answer;
 use super::closures;
@@ -10,25 +10,25 @@ use crate::methods::integrators::apart_rad;
 use crate::serve::problems::{Kind, LoadedProblem};
 use nalgebra::{Matrix3, Vector3};
 
-/// An answer is a mistake's curve where it is a thousand times nearer to it than to the truth: a chance coincidence of one
-/// direction with one of some fifty curves has a probability of 10⁻⁴, of several rows far less.
+/// An answer belongs to a mistake's curve if it is a thousand times nearer to it than to the truth: for one direction and some
+/// fifty curves this happens by chance with a probability of 10⁻⁴, for several rows far more rarely.
 pub(super) const NEARER: f64 = 1e-3;
 
-/// More names than these tell nothing: where a curve has come to rest, most mistakes have it.
+/// Above this number of names none is reported: most mistakes share a curve that has come to rest.
 const MOST_NAMES: usize = 4;
 
-/// What is found of an answer on one problem.
+/// The diagnosis of an answer to one problem.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Diagnosis {
-    /// In words, where it is certain.
+    /// The diagnosis in words, if it is certain.
     pub said: Option<String>,
-    /// The mistakes whose curve it is.
+    /// The mistakes whose curve the answer is.
     pub suspects: Vec<String>,
-    /// The parts of the true time after which a right rod is there, as far as one problem tells.
+    /// The factors on time at which a correct rod has the answer's direction, as far as one problem determines them.
     pub rates: Vec<f64>,
 }
 
-/// What is to be said of an answer that is `error` from the truth.
+/// The diagnosis of an answer whose error is `error`; empty if the error is within the tolerance or NaN.
 pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Diagnosis {
     if error.is_nan() || error <= loaded.problem.tolerance {
         return Diagnosis::default();
@@ -59,7 +59,7 @@ pub fn diagnose(loaded: &LoadedProblem, answer: &Answer, error: f64) -> Diagnosi
                 let mistake = known.iter().find(|mistake| mistake.name == *name);
                 mistake.is_some_and(|mistake| has_come_to_rest(loaded, mistake, nearer_than))
             };
-            // What other mistakes come to as well is no sign of this one.
+            // A result that other mistakes reach as well is no evidence for this one.
             let said = found.said.filter(|_| !found.suspects.iter().any(rests));
             let rates = rates::rates(loaded, answer, &setting(loaded), nearer_than);
             Diagnosis { said, suspects: found.suspects, rates }
@@ -72,15 +72,15 @@ pub(super) fn setting(loaded: &LoadedProblem) -> Setting {
     Setting { gradient_per_s: Matrix3::from_fn(|i, j| l[i][j]), aspect_ratio: loaded.problem.aspect_ratio }
 }
 
-/// How far an answer about rods or tensors is from a mistake's curve; `None` where the mistake has no meaning.
+/// The distance of an answer about rods or tensors from a mistake's curve; `None` if the mistake does not apply.
 fn distance(loaded: &LoadedProblem, answer: &Answer, mistake: &Mistake) -> Option<f64> {
     between(loaded, &answer.rows, &rows(loaded, mistake, 1.0)?, mistake.has_length)
 }
 
-/// An earlier time, over the time that is asked for: no curve that turns is likely to be where it was.
+/// An earlier time, as a share of the time asked for, at which a rotating curve is unlikely to have the same value.
 const EARLIER: f64 = 0.731;
 
-/// Whether a mistake's curve was at its end long before.
+/// True if the mistake's curve had reached its end value long before.
 fn has_come_to_rest(loaded: &LoadedProblem, mistake: &Mistake, nearer_than: f64) -> bool {
     let moved = || {
         let [early, late] = [EARLIER, 1.0].map(|part| rows(loaded, mistake, part));
@@ -89,7 +89,7 @@ fn has_come_to_rest(loaded: &LoadedProblem, mistake: &Mistake, nearer_than: f64)
     moved().is_some_and(|moved| moved <= nearer_than)
 }
 
-/// Whether a mistake would show on a problem: its curve is not within the tolerance of the certified answer.
+/// True if a mistake is detectable on a problem: its curve is not within the tolerance of the certified answer.
 pub(super) fn shows(loaded: &LoadedProblem, mistake: &Mistake) -> bool {
     if loaded.problem.aspect_ratio_sd_percent > 0.0 {
         return false;
@@ -98,7 +98,7 @@ pub(super) fn shows(loaded: &LoadedProblem, mistake: &Mistake) -> bool {
     distance(loaded, &certified, mistake).is_some_and(|distance| distance > 2.0 * loaded.problem.tolerance)
 }
 
-/// Whether no rod has moved: then many curves are alike, and none is named.
+/// True if no rod has moved: then many curves are alike, and none is named.
 fn rests(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> bool {
     let count = loaded.start.len();
     let stays = |(row, values): (usize, &Vec<f64>)| {
@@ -108,7 +108,7 @@ fn rests(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> bool {
     answer.rows.iter().enumerate().all(stays)
 }
 
-/// The nearest curve, and those that cannot be told from it here.
+/// The nearest curve, and those that are indistinguishable from it here.
 fn said(mut near: Vec<(f64, String)>, tolerance: f64) -> Diagnosis {
     near.sort_by(|a, b| a.0.total_cmp(&b.0));
     let Some((nearest, _)) = near.first() else {
@@ -116,7 +116,7 @@ fn said(mut near: Vec<(f64, String)>, tolerance: f64) -> Diagnosis {
     };
     let nearest = nearest.max(f64::EPSILON);
     near.retain(|(distance, _)| *distance <= (10.0 * nearest).max(tolerance));
-    // Plane Couette flow is its own mirror image in axis 3: a reversal in the start is one in the answer.
+    // Plane Couette flow is its own mirror image in axis 3: reversals in the start and in the answer are the same.
     let found: Vec<_> = near.iter().map(|(_, name)| name.clone()).collect();
     near.retain(|(_, name)| {
         !name.strip_suffix(mistakes::IN_THE_START).is_some_and(|name| found.iter().any(|other| other == name))
@@ -134,7 +134,7 @@ fn largest(distances: impl Iterator<Item = Option<f64>>) -> Option<f64> {
     distances.map(finite).try_fold(0.0, |a: f64, b| Some(a.max(b?)))
 }
 
-/// What a mistake makes of a problem after this part of each time, as rows of an answer.
+/// The rows of an answer with this mistake, at times multiplied by `part`; `None` if the mistake does not apply.
 fn rows(loaded: &LoadedProblem, mistake: &Mistake, part: f64) -> Option<Vec<Vec<f64>>> {
     let (problem, setting) = (&loaded.problem, setting(loaded));
     match problem.kind {
@@ -165,7 +165,7 @@ fn rows(loaded: &LoadedProblem, mistake: &Mistake, part: f64) -> Option<Vec<Vec<
     }
 }
 
-/// The components of a_ij that a problem asks for; `None` where it asks for others.
+/// Indices of the components of a_ij that a problem asks for; `None` if it asks for other columns.
 fn second_moments(columns: &[String]) -> Option<Vec<(usize, usize)>> {
     let one = |name: &String| match name.as_bytes() {
         [b'a', i @ b'1'..=b'3', j @ b'1'..=b'3'] => Some((usize::from(i - b'1'), usize::from(j - b'1'))),
@@ -174,7 +174,7 @@ fn second_moments(columns: &[String]) -> Option<Vec<(usize, usize)>> {
     columns.iter().skip(1).map(one).collect()
 }
 
-/// How far rows are from a mistake's: directions by angle, components of tensors over the last of the mistake's own row.
+/// The distance of rows from a mistake's curve: directions by angle, tensor components relative to the last entry of the curve's row.
 fn between(loaded: &LoadedProblem, found: &[Vec<f64>], curve: &[Vec<f64>], has_length: bool) -> Option<f64> {
     largest(found.iter().zip(curve).map(|(found, curve)| match loaded.problem.kind {
         Kind::Rods => {
@@ -188,8 +188,8 @@ fn between(loaded: &LoadedProblem, found: &[Vec<f64>], curve: &[Vec<f64>], has_l
     }))
 }
 
-/// The angle, and what |p| is off by where that is more; or, of a mistake with a length of its own, the relative distance.
-/// Head or tail alike.
+/// The angle between two directions or ||p| − 1|, whichever is larger; for a mistake with a length of its own, the relative
+/// distance. Opposite directions are the same.
 pub(super) fn apart(found: &Vector3<f64>, expected: &Vector3<f64>, has_length: bool) -> f64 {
     match has_length {
         true => (found - expected).norm().min((found + expected).norm()) / expected.norm(),
@@ -206,20 +206,20 @@ mod tests {
         problems::named(name).unwrap().loaded(name.into())
     }
 
-    /// The answer of a program that is right but for this mistake.
+    /// The answer of a program that has this mistake and is correct otherwise.
     fn answer(loaded: &LoadedProblem, name: &str) -> Answer {
         let mistake = mistakes::all().into_iter().find(|mistake| mistake.name == name).unwrap();
         Answer { rows: rows(loaded, &mistake, 1.0).unwrap(), ..Answer::certified(loaded) }
     }
 
-    /// A = W/2 + ΛD and A = W + 2ΛD come to rest in the same direction: they tell themselves apart at 2.7 s, and not at 150 s.
+    /// A = W/2 + ΛD and A = W + 2ΛD come to rest in the same direction: they can be distinguished at 2.7 s, but not at 150 s.
     #[test]
     fn a_mistake_is_not_named_by_where_it_has_come_to_rest() {
         let whole = loaded("mid-flip-11.6");
         let found = diagnose(&whole, &answer(&whole, "W halved twice"), 0.35);
         assert_eq!(found.suspects, ["W halved twice"]);
         assert!(found.said.is_some());
-        // A live program is asked for the last time alone.
+        // A live program is asked only for the last time.
         let mut loaded = whole;
         loaded.problem.times_s.drain(..2);
         loaded.certified.rows.drain(..2);

@@ -1,4 +1,4 @@
-//! Pictures of what was found.
+//! Pictures of the results.
 
 use super::Graded;
 use crate::methods::integrators::{Integrator, RodProblem, Setting, Theory};
@@ -8,17 +8,17 @@ use nalgebra::{Matrix3, UnitVector3, Vector3};
 use shearbed::model::flow::VelocityGradient;
 use std::f64::consts::TAU;
 
-/// More steps than this are not taken by the project's own integrators: they draw a background.
+/// The largest number of steps of the project's own integrators, which are only a background.
 const MOST_STEPS: u64 = 20_000;
 
-/// An error of 0 has no place on a logarithmic axis; it is drawn here.
+/// The place of an error of 0 on a logarithmic axis.
 pub(super) const LEAST: f64 = 1e-17;
 
-/// How the program is called in a picture: its own name may be long, and _ would lower what follows.
+/// The program's label in a picture: its own name may be long, and _ would set the next letter as an index.
 pub(super) const PROGRAM: &str = "the graded program";
 
-/// Error against the number of steps on one problem about rods in plane Couette flow, the program's first, then the
-/// project's own; `None` where the program has answered none of them with two numbers of steps.
+/// Error against the number of steps on one problem about rods in plane Couette flow, first for the program, then for the
+/// project's own integrators; `None` if the program answered no such problem with two numbers of steps.
 pub fn steps(problems: &[LoadedProblem], graded: &[Graded]) -> Option<Figure> {
     let with_steps = |name: &str| {
         let of = |graded: &&Graded| graded.name == name && drawn(graded).len() >= 2;
@@ -28,7 +28,7 @@ pub fn steps(problems: &[LoadedProblem], graded: &[Graded]) -> Option<Figure> {
         let graded = with_steps(&loaded.problem.name)?;
         Some((loaded, graded, couette_per_s(loaded)?))
     });
-    // The paper's aspect ratio, where it is there.
+    // Prefers the paper's aspect ratio.
     let (loaded, graded, rate) =
         candidates.min_by_key(|(loaded, ..)| loaded.problem.name != "mid-flip-11.6")?;
     let errors = drawn(graded);
@@ -54,7 +54,7 @@ pub fn steps(problems: &[LoadedProblem], graded: &[Graded]) -> Option<Figure> {
     })
 }
 
-/// What has a place on the axes.
+/// The errors that can be drawn.
 fn drawn(graded: &Graded) -> Vec<(u64, f64)> {
     let finite = graded.errors.iter().filter(|(_, error)| error.is_finite());
     finite.copied().collect()
@@ -77,7 +77,7 @@ fn couette_per_s(loaded: &LoadedProblem) -> Option<f64> {
     (loaded.problem.kind == Kind::Rods).then_some(rate)
 }
 
-/// The worst rod's error at the last time.
+/// The worst rod's error at the last time, for each number of steps.
 fn own_errors(subject: &Integrator, loaded: &LoadedProblem, rate: f64, counts: &[u64]) -> Vec<(u64, f64)> {
     let r = loaded.problem.aspect_ratio;
     let end_s = loaded.problem.times_s.last().copied().unwrap_or_default();

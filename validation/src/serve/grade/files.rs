@@ -13,25 +13,25 @@ use crate::serve::problems::{LoadedProblem, Metric, ReadError};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What a user says of a program's error.
+/// A user's claim about the error of a program.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Claim {
-    /// The order of its error in the step.
+    /// The order with which the error falls with the step.
     pub order: Option<f64>,
 }
 
-/// How answers are to be read and judged.
+/// Options for reading and judging answers.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// What the columns are.
+    /// The form of the answer files.
     pub file: FileOptions,
-    /// What a dump does not say.
+    /// Information that a LAMMPS dump lacks.
     pub dump: lammps::DumpOptions,
-    /// What the program is said to do.
+    /// The user's claim about the program.
     pub claim: Claim,
 }
 
-/// Grades the answers in `mine/NAME/` to each problem. `Err` has every file that cannot be read.
+/// Grades the answers in `mine/NAME/` to each problem. `Err` lists every file that cannot be read.
 pub fn grade(
     problems: &[LoadedProblem],
     mine: &Path,
@@ -49,13 +49,13 @@ pub fn grade(
     if errors.is_empty() { Ok(all) } else { Err(errors) }
 }
 
-/// The files of an answer: one, or one for each number of steps from few to many.
+/// The files of an answer: a single one, or one for each number of steps, in ascending order.
 struct AnswerFiles {
     answer: Option<PathBuf>,
     steps: Vec<(u64, PathBuf)>,
 }
 
-/// Endings of an answer's file.
+/// Allowed extensions of an answer's file.
 const ENDINGS: [&str; 5] = ["csv", "txt", "dat", "dump", "lammpstrj"];
 
 fn find(dir: &Path) -> Result<AnswerFiles, ReadError> {
@@ -107,7 +107,7 @@ fn one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, 
         errors.push((*steps, compare(loaded, &answer).error));
         finest = Some((Some(*steps), answer));
     }
-    // A file without steps is the answer, and the others show the order.
+    // A file without steps is the answer; the others only give the order.
     if let Some(path) = &found.answer {
         finest = Some((None, read(path)?));
     }
@@ -122,7 +122,7 @@ fn one(loaded: &LoadedProblem, dir: &Path, options: &Options) -> Result<Graded, 
     Ok(graded)
 }
 
-/// The verdict on an answer.
+/// Sets the verdict on `answer` and the reasons in `graded`.
 fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer, claim: Claim) {
     let compared = compare(loaded, answer);
     let within = compared.error <= loaded.problem.tolerance && !compared.too_little_data;
@@ -139,7 +139,7 @@ fn judge(graded: &mut Graded, loaded: &LoadedProblem, answer: &Answer, claim: Cl
     };
 }
 
-/// Where the largest error is.
+/// The place of the largest error, in words.
 fn place(loaded: &LoadedProblem, answer: &Answer, row: usize) -> String {
     let keys = loaded.problem.kind.keys();
     let values = &loaded.certified.rows[row];

@@ -1,4 +1,4 @@
-//! The report as one HTML file with its pictures, which needs nothing else.
+//! The report as one self-contained HTML file with its pictures.
 
 use super::report::{BUILT_IN, COLUMNS, Column, NOTHING, missing, tables, words};
 use super::{Graded, Report, Verdict};
@@ -9,7 +9,7 @@ use minijinja::value::Serde;
 use minijinja::{Environment, UndefinedBehavior, Value};
 use serde::Serialize;
 
-/// All that the template shows.
+/// The values of the template.
 #[derive(Serialize)]
 struct Page<'a> {
     style: &'static str,
@@ -28,13 +28,13 @@ struct Page<'a> {
     remarks: &'a [String],
 }
 
-/// A problem as text.
+/// A row of the table of problems.
 #[derive(Serialize)]
 struct ProblemRow<'a> {
     word: &'static str,
     class: &'static str,
     name: &'a str,
-    /// One for each column that is shown.
+    /// One cell for each column that is shown.
     cells: Vec<String>,
     said: Vec<&'a str>,
 }
@@ -43,7 +43,7 @@ fn shown(number: Option<f64>) -> String {
     number.map_or(NOTHING.into(), |number| digits(number, 2))
 }
 
-/// A reason for a tolerance, and the problems that have it.
+/// A reason for a tolerance, and the problems to which it applies.
 #[derive(Serialize)]
 struct Reason<'a> {
     text: &'a str,
@@ -61,14 +61,14 @@ fn reasons<'a>(graded: &[&'a Graded]) -> Vec<Reason<'a>> {
     reasons
 }
 
-/// The page, with pictures as SVG.
+/// The report as an HTML page, with `pictures` as SVG.
 pub fn html(report: &Report, good: bool, pictures: &[&str]) -> Result<String, String> {
     let mut environment = Environment::new();
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
     environment.add_filter("prose", |text: &str| Value::from_safe_string(typeset(text)));
     let mut answered: Vec<&Graded> =
         report.problems.iter().filter(|g| g.verdict != Verdict::Missing).collect();
-    // Failures first.
+    // Failures come first.
     answered.sort_by_key(|graded| graded.verdict == Verdict::Pass);
     let says = |cell: String| ![NOTHING, BUILT_IN].contains(&&cell[..]);
     let said = |column: &Column| answered.iter().any(|graded| says((column.of)(graded, shown)));
@@ -84,13 +84,13 @@ pub fn html(report: &Report, good: bool, pictures: &[&str]) -> Result<String, St
         reasons: reasons(&answered),
         columns,
         pictures: pictures.to_vec(),
-        // The first is that of the rows.
+        // The first table repeats the rows above.
         tables: tables(report).split_off(1),
         diagnosis: &report.diagnosis,
         missing: missing(report),
         remarks: &report.remarks,
     };
-    // The name's ending turns the escaping on.
+    // The extension of the name turns escaping on.
     environment
         .template_from_named_str("grade.html", include_str!("grade.html.j2"))
         .and_then(|template| template.render(Serde(&page)))

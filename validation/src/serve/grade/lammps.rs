@@ -7,16 +7,16 @@ use super::lines::{Lines, number};
 use crate::serve::problems::{Kind, LoadedProblem, ReadError};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-/// What the flags add to a LAMMPS dump.
+/// Options for a LAMMPS dump.
 #[derive(Clone, Copy, Debug)]
 pub struct DumpOptions {
-    /// The length of a time step in s, where the dump has no `ITEM: TIME`.
+    /// The length of a time step in s, for a dump without `ITEM: TIME`.
     pub timestep_s: Option<f64>,
-    /// The rod's axis in its body frame, 0 to 2; the one that the columns shapex, shapey, shapez single out where `None`.
+    /// The rod's axis in its body frame, 0 to 2; `None` for the axis that the columns shapex, shapey, shapez single out.
     pub rod_axis: Option<usize>,
 }
 
-/// The columns of a dump that are used.
+/// The indices of the columns of a dump that are used.
 struct Columns {
     count: usize,
     id: usize,
@@ -24,7 +24,7 @@ struct Columns {
     shape: Option<[usize; 3]>,
 }
 
-/// Names of the quaternion's components (w, i, j, k): of the atoms themselves, or of a compute c_ID[1] to c_ID[4].
+/// Finds the columns by name, the quaternion (w, i, j, k) as that of the atoms or as c_ID[1] to c_ID[4] of a compute.
 fn columns(header: &str) -> Result<Columns, String> {
     let names: Vec<_> = header.split_whitespace().collect();
     let at = |name: &str| names.iter().position(|found| *found == name);
@@ -44,7 +44,7 @@ fn columns(header: &str) -> Result<Columns, String> {
     Ok(Columns { count: names.len(), id: at("id").ok_or("no column id")?, quaternion, shape: shape() })
 }
 
-/// Reads a dump whose first line has been read. Rod k is the atom with the (k+1)-th smallest id.
+/// Reads a dump whose first line is `first`. Rod k is the atom with the (k+1)-th smallest id.
 pub(super) fn read(
     mut lines: Lines,
     first: String,
@@ -63,7 +63,7 @@ pub(super) fn read(
         match line.strip_prefix("ITEM:").map(str::trim) {
             Some("TIMESTEP") => {
                 let step = value(&mut lines)?;
-                // ITEM: TIME, where it is there, comes before it.
+                // `ITEM: TIME`, if present, comes first.
                 time_s = time_s.or(options.timestep_s.map(|length| step * length));
             }
             Some("TIME") => time_s = Some(value(&mut lines)?),
@@ -116,7 +116,7 @@ fn snapshot(
     axes: Axes,
     options: &DumpOptions,
 ) -> Result<(), ReadError> {
-    // LAMMPS writes atoms in any order: by id they are the rods.
+    // LAMMPS writes atoms in any order: the id identifies the rod.
     let mut found = Vec::new();
     for _ in 0..atoms {
         let line = lines.next_line()?.ok_or_else(|| lines.error(0, "the dump ends here"))?;
@@ -163,7 +163,7 @@ fn snapshot(
     Ok(())
 }
 
-/// The axis whose diameter differs from the two others, which are alike.
+/// The axis whose diameter differs from the other two, which are equal.
 fn odd_one([x, y, z]: [f64; 3]) -> Option<usize> {
     match (x == y, y == z, x == z) {
         (true, false, false) => Some(2),

@@ -1,30 +1,30 @@
-//! Which field of a row is what: by the header, by `--columns`, or by the layout of a known program.
+//! The meaning of each field of a row: by the header, by `--columns`, or by the layout of a known program.
 
 use super::axes::Axes;
 use super::lines::LineEnds;
 use crate::serve::problems::{Kind, Problem};
 
-/// What the field of a row is.
+/// The meaning of a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Field {
-    /// The key with this number.
+    /// The key with this index.
     Key(usize),
-    /// The value with this number, times a sign.
+    /// The value with this index, times a sign.
     Value(usize, f64),
-    /// The other half of a symmetric tensor: the value with this number once more.
+    /// The value with this index again, from the other half of a symmetric tensor.
     Again(usize),
-    /// Nothing that is asked for.
+    /// A field that the problem does not ask for.
     Nothing,
 }
 
-/// How the rows of a file are laid out.
+/// The layout of a file's rows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
-    /// A letter, or white space where it is a blank.
+    /// The separator of fields; a blank stands for any white space.
     pub separator: char,
-    /// One for each field of a row.
+    /// The meaning of each field of a row.
     pub fields: Vec<Field>,
-    /// Whether the first line is a row.
+    /// True if the first line is a row, not a header.
     pub first_is_row: bool,
 }
 
@@ -49,7 +49,7 @@ impl Foreign {
     }
 }
 
-/// Names in a header that other programs write for ours.
+/// Our name for a column's name in the header of another program.
 fn known(name: &str) -> &str {
     match name {
         "time" | "t" => "time_s",
@@ -63,21 +63,21 @@ fn known(name: &str) -> &str {
     }
 }
 
-/// What the flags say of the form of answer files.
+/// Options for the form of answer files.
 #[derive(Clone, Debug, Default)]
 pub struct FileOptions {
-    /// The names of the columns in the order of the file, `-` for one to leave out.
+    /// The names of the columns in the order of the file; `-` skips a column.
     pub columns: Option<Vec<String>>,
-    /// A known program's layout.
+    /// The layout of a known program.
     pub foreign: Option<Foreign>,
-    /// Axes in another order.
+    /// The order of the program's axes.
     pub axes: Axes,
-    /// How lines may end.
+    /// The allowed line ends.
     pub ends: LineEnds,
 }
 
 impl Layout {
-    /// The layout of a file with this first line. `Err` has the field from 1, or 0, and what is wrong.
+    /// The layout of a file whose first line is `first`. `Err` has the field from 1, or 0, and what is wrong.
     pub fn find(first: &str, problem: &Problem, options: &FileOptions) -> Result<Self, (usize, String)> {
         let separator = [',', ';', '\t'].into_iter().find(|letter| first.contains(*letter)).unwrap_or(' ');
         let header: Vec<_> = split(first.trim_start_matches('#').trim(), separator).collect();
@@ -113,7 +113,7 @@ impl Layout {
 }
 
 fn split(line: &str, separator: char) -> impl Iterator<Item = &str> {
-    // White space may be several blanks; empty fields between commas are fields.
+    // White space may be several blanks; between commas a field may be empty.
     let blank = separator == ' ';
     let parts =
         line.split(move |letter: char| if blank { letter.is_whitespace() } else { letter == separator });
@@ -157,7 +157,7 @@ fn fields(names: &[String], problem: &Problem, axes: Axes) -> Result<Vec<Field>,
         }
     };
     for (k, key) in keys.iter().enumerate() {
-        // One rod needs no number.
+        // A single rod needs no number.
         if *key != "rod" {
             there(key, &|field| *field == Field::Key(k))?;
         }

@@ -1,4 +1,4 @@
-//! Lines of a text file, read one by one in bounded memory, with their numbers.
+//! Lines of a text file with their numbers, read one by one in bounded memory.
 
 use crate::files::bounded;
 use crate::serve::problems::ReadError;
@@ -6,18 +6,18 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
-/// The longest line that is read, in bytes: a row of numbers has a few hundred.
+/// The largest length of a line in bytes: a row of numbers has a few hundred.
 const LONGEST: usize = 1 << 16;
 
-/// What a text by a program on Windows may have and others may not: a byte order mark, and CR LF at line ends.
+/// Features that a text from Windows may have: a byte order mark, and CR LF at line ends.
 ///
-/// Unasked they are refused: a program that reads such a file on its way elsewhere takes them for part of a name or a value.
+/// By default both are refused: a program that reads such a file later would take them for part of a name or a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LineEnds {
-    /// LF alone.
+    /// LF only.
     #[default]
     Unix,
-    /// CR LF or LF, with or without a byte order mark; both are taken off.
+    /// CR LF or LF, with or without a byte order mark; both are removed.
     Windows,
 }
 
@@ -46,12 +46,12 @@ impl Lines {
         &self.path
     }
 
-    /// The number of the line that was read last, from 1.
+    /// The number of the last line read, from 1.
     pub fn number(&self) -> u64 {
         self.number
     }
 
-    /// An error about the line that was read last, at a field from 1; 0 for the whole line.
+    /// An error in the last line read, at field `column` from 1; 0 for the whole line.
     pub fn error(&self, column: usize, message: impl Into<String>) -> ReadError {
         ReadError::at(&self.path, self.number, column as u64, message)
     }
@@ -79,7 +79,7 @@ impl Lines {
         }
     }
 
-    /// A line without its end.
+    /// The line without its end and byte order mark, or an error if they are not allowed.
     fn plain<'a>(&self, line: &'a str) -> Result<&'a str, ReadError> {
         let windows = self.ends == LineEnds::Windows;
         let line = line.strip_suffix('\n').unwrap_or(line);
@@ -103,8 +103,8 @@ const MARKED: &str = "begins with a byte order mark: write UTF-8 without it (in 
 const CARRIED: &str =
     "ends in CR LF: write LF alone (csv.writer of Python has lineterminator=\"\\n\"), or give --windows-text";
 
-/// A field as a number. NaN and infinities that are written as such are answers; a number that is too large for a double
-/// is none.
+/// Parses a field as a number. NaN and infinities written as such are valid; a number too large for a double
+/// is an error.
 pub fn number(field: &str) -> Result<f64, String> {
     match field.parse::<f64>() {
         Ok(value) if value.is_infinite() && field.contains(|c: char| c.is_ascii_digit()) => {

@@ -1,4 +1,4 @@
-//! What known mistakes make of the means |p_i| of rods that were isotropic at t = 0: of unequal rods, and of suspensions.
+//! Effects of known mistakes on the means |p_i| of rods that were isotropic at t = 0: for unequal rods and for suspensions.
 
 use super::answer::Answer;
 use super::compare::standard_errors;
@@ -8,8 +8,8 @@ use crate::serve::problems::{LoadedProblem, Problem};
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
-/// Nodes in r_e from −6 to 6 standard deviations: the trapezoid rule of a Gaussian times what is analytic converges
-/// geometrically, and this number leaves 10⁻⁹ after three periods.
+/// Nodes in r_e from −6 to 6 standard deviations: the trapezoid rule for a Gaussian times an analytic function converges
+/// geometrically, and this number leaves an error of 10⁻⁹ after three periods.
 const NODES: usize = 401;
 const REACH: f64 = 6.0;
 
@@ -35,7 +35,7 @@ fn setting(problem: &Problem, aspect_ratio: f64) -> Setting {
     Setting { gradient_per_s: Matrix3::from_fn(|i, j| l[i][j]), aspect_ratio }
 }
 
-/// ⟨|p_i|⟩ of free rods by a mistake.
+/// ⟨|p_i|⟩ of free rods in a program with this mistake.
 fn by_mistake(problem: &Problem, mistake: &Mistake, time_s: f64) -> Option<Vector3<f64>> {
     over_shapes(problem, |r| {
         let map = mistake.map(&setting(problem, r), time_s)?;
@@ -55,7 +55,7 @@ fn free_of_one_shape(problem: &Problem, time_s: f64) -> Option<Vector3<f64>> {
     projections(&right_map(&setting(problem, problem.aspect_ratio), time_s)?)
 }
 
-/// Of free unequal rods: the mistakes that are nearer than this, with their distances.
+/// The mistakes about free unequal rods whose answers are nearer than `nearer_than`, each with its distance.
 pub(super) fn unequal(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64) -> Vec<(f64, String)> {
     let problem = &loaded.problem;
     let distance = |of: &dyn Fn(f64) -> Option<Vector3<f64>>| {
@@ -80,7 +80,7 @@ pub(super) fn unequal(loaded: &LoadedProblem, answer: &Answer, nearer_than: f64)
 
 const ONE_SHAPE: &str = "rods of one r_e, the mean";
 
-/// Of a suspension: what its means agree with as well as a right answer's may with the right ones.
+/// A diagnosis of a suspension: the wrong means with which the answer agrees as well as a right answer may with the right ones.
 pub(super) fn ensemble(loaded: &LoadedProblem, answer: &Answer) -> Option<String> {
     let problem = &loaded.problem;
     let names = &problem.columns[1..];
@@ -95,7 +95,7 @@ pub(super) fn ensemble(loaded: &LoadedProblem, answer: &Answer) -> Option<String
         };
         problem.times_s.iter().map(row).collect::<Option<Vec<_>>>()
     };
-    // Means and their errors change places together.
+    // A mean and its error are exchanged together.
     let exchanged = |order: [usize; 3]| {
         let row = |certified: &Vec<f64>| {
             let mut row = certified[1..].to_vec();
@@ -144,7 +144,7 @@ mod tests {
         problems::named("unequal-rods").unwrap().problem.clone()
     }
 
-    /// Isotropic rods have ⟨|p_i|⟩ = ½, with their length or without it.
+    /// Isotropic rods have ⟨|p_i|⟩ = ½, for mistakes with and without a length.
     #[test]
     fn every_mistake_starts_from_isotropic_rods() {
         let problem = problem();
@@ -170,7 +170,7 @@ mod tests {
             problem.aspect_ratio_sd_percent = 0.0;
             assert!(off(free(&problem, time_s), mean_projections(11.6, turns)) < 1e-12);
             problem.aspect_ratio_sd_percent = 3.6;
-            // Six standard deviations leave 2·10⁻⁹ of the Gaussian.
+            // Values beyond six standard deviations are 2·10⁻⁹ of the Gaussian.
             let expected = mean_projections_polydisperse(11.6, 3.6, turns);
             assert!(off(free(&problem, time_s), expected) < 2e-9, "{turns}");
             let wrong = mean_projections_polydisperse(11.6, 3.7, turns);

@@ -1,6 +1,6 @@
-//! The curves that known mistakes give: what a program computes that has one of them and is right otherwise.
+//! The curves of known mistakes: the answers of a program that has one of them and is correct otherwise.
 //!
-//! The exact motion is p = q/|q|, q = exp(At) p(0), A = W + ΛD. A mistake spoils flow, r_e, start, map or answer alone.
+//! The exact motion is p = q/|q|, q = exp(At) p(0), A = W + ΛD. A mistake changes only flow, r_e, start, map or answer.
 
 mod physical;
 
@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 use shearbed::model::flow::VelocityGradient;
 use shearbed::motion::{Propagator, Span};
 
-/// What a free rod moves in.
+/// The flow and the aspect ratio of a free rod.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setting {
     /// L in 1/s.
@@ -22,9 +22,9 @@ type Map = Box<dyn Fn(&Setting, f64) -> Option<Matrix3<f64>> + Send + Sync>;
 
 /// A known mistake.
 pub struct Mistake {
-    /// What it is, to stand after "this is the curve of".
+    /// A description, to stand after "this is the curve of".
     pub name: String,
-    /// Whether the answer's length belongs to the mistake.
+    /// True if the length of the answer is part of the mistake.
     pub has_length: bool,
     kind: Kind,
 }
@@ -32,13 +32,13 @@ pub struct Mistake {
 enum Kind {
     /// q = R M S p(0), with another map M, and with R and S for the components of answer and start.
     Linear { map: Map, start: Matrix3<f64>, end: Matrix3<f64> },
-    /// Anything else.
+    /// Any other mistake.
     Curve(Curve),
 }
 
 impl Mistake {
-    /// Where a rod that starts along `p` is after `time_s` by this mistake; `None` where it has no meaning. The length
-    /// is 1 but for mistakes that have one of their own.
+    /// The direction after `time_s` of a rod that starts along `p`, by this mistake; `None` if the mistake does not apply. The
+    /// length is 1 except for mistakes with a length of their own.
     pub fn direction(&self, setting: &Setting, p: &Vector3<f64>, time_s: f64) -> Option<Vector3<f64>> {
         let q = match &self.kind {
             Kind::Linear { map, start, end } => end * map(setting, time_s)? * start * p,
@@ -48,8 +48,8 @@ impl Mistake {
         q.iter().all(|component| component.is_finite()).then_some(q)
     }
 
-    /// The linear map of directions that were isotropic at t = 0, up to a rotation before it; `None` where the mistake
-    /// is no linear map.
+    /// The linear map of directions that were isotropic at t = 0, up to a rotation before it; `None` for a mistake that is
+    /// not a linear map.
     pub fn map(&self, setting: &Setting, time_s: f64) -> Option<Matrix3<f64>> {
         match &self.kind {
             Kind::Linear { map, end, .. } => Some(end * map(setting, time_s)?),
@@ -58,14 +58,14 @@ impl Mistake {
     }
 }
 
-/// The right map, with determinant 1, in an incompressible flow; `None` where it is not finite.
+/// The correct map, with determinant 1, in an incompressible flow; `None` if it is not finite.
 pub fn right_map(setting: &Setting, time_s: f64) -> Option<Matrix3<f64>> {
     let flow = VelocityGradient::new(setting.gradient_per_s)?;
     let (map, _) = Propagator::new(&flow, setting.aspect_ratio).map(Span::Seconds(time_s))?;
     unimodular(map)
 }
 
-/// The map with determinant 1, as far as its doubles have one: where it has stretched very much, its size is arbitrary.
+/// The map scaled to determinant 1, within double precision: the size of a very strongly stretched map is arbitrary.
 fn unimodular(map: Matrix3<f64>) -> Option<Matrix3<f64>> {
     let map = map / map.amax();
     let determinant = map.determinant();
@@ -73,7 +73,7 @@ fn unimodular(map: Matrix3<f64>) -> Option<Matrix3<f64>> {
     scaled.iter().all(|component| component.is_finite()).then_some(scaled)
 }
 
-/// exp(At) for A as it stands.
+/// exp(At) for a given A, scaled to determinant 1.
 fn map_of(a: &Matrix3<f64>, time_s: f64) -> Option<Matrix3<f64>> {
     // r_e = √3 has Λ = ½: this flow has the strain rate 2 sym A, and so W + ΛD = A.
     let gradient_per_s = 0.5 * (a - a.transpose()) + (a + a.transpose());
@@ -85,7 +85,7 @@ fn shape(aspect_ratio: f64) -> f64 {
     (square - 1.0) / (square + 1.0)
 }
 
-/// The shear rate where the flow is u_2 = G x_1 with G > 0.
+/// The shear rate in 1/s of a flow u_2 = G x_1 with G > 0; `None` for other flows.
 fn couette_per_s(setting: &Setting) -> Option<f64> {
     let flow = VelocityGradient::new(setting.gradient_per_s)?;
     flow.shear_rate_per_s().filter(|rate| *rate > 0.0)
@@ -102,12 +102,12 @@ fn linear(
     }
 }
 
-/// The right motion of another flow and aspect ratio.
+/// The correct motion in another flow or with another aspect ratio.
 fn moved(name: &str, spoil: impl Fn(Setting) -> Setting + Send + Sync + 'static) -> Mistake {
     linear(name, move |setting, time| right_map(&spoil(*setting), time))
 }
 
-/// The motion by another A, made from W, D and Λ.
+/// The motion by another A, computed from W, D and Λ.
 fn rate(name: &str, a: fn(Matrix3<f64>, Matrix3<f64>, f64) -> Matrix3<f64>) -> Mistake {
     linear(name, move |setting, time| {
         let l = setting.gradient_per_s;
@@ -116,7 +116,7 @@ fn rate(name: &str, a: fn(Matrix3<f64>, Matrix3<f64>, f64) -> Matrix3<f64>) -> M
     })
 }
 
-/// The right motion with components changed at its ends.
+/// The correct motion with components changed in the start and in the answer.
 fn components(name: String, start: Matrix3<f64>, end: Matrix3<f64>) -> Mistake {
     Mistake { name, has_length: false, kind: Kind::Linear { map: Box::new(right_map), start, end } }
 }
@@ -136,14 +136,14 @@ pub fn all() -> Vec<Mistake> {
             aspect_ratio: s.aspect_ratio.max(1.0 / s.aspect_ratio),
             ..s
         }),
-        // Of a disc that is Λ without its sign.
+        // For a disc this is Λ without its sign.
         linear("Λ with the wrong sign (1/r_e for r_e)", |s, time| {
             let aspect_ratio = 1.0 / s.aspect_ratio;
             let spoilt = Setting { aspect_ratio, ..*s };
             (aspect_ratio < 1.0).then(|| right_map(&spoilt, time)).flatten()
         }),
         rate("no 1/r_e (Λ = 1, an infinitely slender rod)", |w, d, _| w + d),
-        // That is Λ of √r_e.
+        // This is Λ of √r_e.
         moved("(r_e − 1)/(r_e + 1) for Λ", |s| Setting { aspect_ratio: s.aspect_ratio.sqrt(), ..s }),
         rate("D without its ½", |w, d, shape| w + 2.0 * shape * d),
         rate("W without its ½", |w, d, shape| 2.0 * w + shape * d),
@@ -164,7 +164,7 @@ pub fn all() -> Vec<Mistake> {
         curve("no 1/r_e in the initial phase", |setting, p, time| {
             let phase = p.y.atan2(p.x) + right_phase(setting, time)?;
             let r = setting.aspect_ratio;
-            // A.5 keeps C: the part in the plane has the length C r_e p_3 in (r_e p_1, p_2).
+            // A.5 conserves C: the component in the plane has the length C r_e p_3 in (r_e p_1, p_2).
             let c = p.x.hypot(p.y / r);
             Some(Vector3::new(c * phase.cos(), r * c * phase.sin(), p.z))
         }),
@@ -191,13 +191,13 @@ fn scaled(setting: Setting, factor: f64) -> Setting {
     Setting { gradient_per_s: factor * setting.gradient_per_s, ..setting }
 }
 
-/// ωt = Gt/(r_e + 1/r_e).
+/// The phase ωt = Gt/(r_e + 1/r_e).
 fn right_phase(setting: &Setting, time_s: f64) -> Option<f64> {
     let r = setting.aspect_ratio;
     Some(couette_per_s(setting)? * time_s / (r + 1.0 / r))
 }
 
-/// q₁ = p₁ cos − k p₂ sin, q₂ = r_e p₁ sin + p₂ cos, q₃ = p₃.
+/// The map q₁ = p₁ cos − k p₂ sin, q₂ = r_e p₁ sin + p₂ cos, q₃ = p₃.
 fn turned(aspect_ratio: f64, k: f64, phase: f64) -> Matrix3<f64> {
     let (sin, cos) = phase.sin_cos();
     Matrix3::new(cos, -k * sin, 0.0, aspect_ratio * sin, cos, 0.0, 0.0, 0.0, 1.0)
@@ -210,18 +210,18 @@ fn by_angles(p: &Vector3<f64>, convert: fn(f64) -> f64) -> Vector3<f64> {
     Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos())
 }
 
-/// The right motion of a rod whose time runs at `factor` of the true one; `None` where it has no meaning.
+/// The correct direction of a rod whose time runs at `factor` times the true rate; `None` if it is not finite.
 pub fn at_a_rate(setting: &Setting, p: &Vector3<f64>, time_s: f64, factor: f64) -> Option<Vector3<f64>> {
     let q = (right_map(setting, factor * time_s)? * p).normalize();
     q.iter().all(|component| component.is_finite()).then_some(q)
 }
 
-/// ωt of the right motion, 2π a period, in plane Couette flow.
+/// ωt of the correct motion, 2π per period, in plane Couette flow.
 pub fn phase(setting: &Setting, time_s: f64) -> Option<f64> {
     right_phase(setting, time_s)
 }
 
-/// What a name ends with where the start is changed in place of the answer.
+/// The end of a mistake's name if the start is changed in place of the answer.
 pub const IN_THE_START: &str = ", in the start";
 
 /// Components in another order or with another sign, in the answer or in the start.

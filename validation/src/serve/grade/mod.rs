@@ -35,23 +35,23 @@ pub use report::{Report, json, junit, markdown, terminal};
 use crate::serve::problems::{Kind, LoadedProblem, Origin};
 use serde::Serialize;
 
-/// How a problem ended.
+/// The verdict on a problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "UPPERCASE")]
 pub enum Verdict {
-    /// The error is at most the tolerance, and the order, where one is claimed, is as claimed.
+    /// The error is at most the tolerance, and a claimed order is not refuted.
     Pass,
-    /// Not.
+    /// The error is larger, or the claimed order is refuted.
     Fail,
     /// There is no answer.
     Missing,
-    /// Time ran out before the answers came within the tolerance, or showed that they would not: no pass, and no failure.
+    /// Time ran out before the answers came within the tolerance, or showed that they would not: neither a pass nor a failure.
     #[serde(rename = "NOT REACHED")]
     NotReached,
 }
 
 impl Verdict {
-    /// In capitals.
+    /// The verdict in capitals.
     pub fn word(self) -> &'static str {
         match self {
             Self::Pass => "PASS",
@@ -62,26 +62,26 @@ impl Verdict {
     }
 }
 
-/// What is said of a program on one problem.
+/// The result of a program on one problem.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Graded {
     /// The problem.
     pub name: String,
-    /// Whose problem it is.
+    /// The author of the problem.
     pub reference: Origin,
-    /// What it asks for.
+    /// The kind of problem.
     pub kind: Kind,
     /// The verdict.
     pub verdict: Verdict,
-    /// The error in the problem's metric; none where there is no answer, or where it is not finite.
+    /// The error in the problem's metric; none without an answer or if the error is not finite.
     pub error: Option<f64>,
-    /// The largest that passes.
+    /// The largest error that passes.
     pub tolerance: f64,
-    /// Why that much.
+    /// The reason for this tolerance.
     pub because: String,
-    /// The exponent with which the error falls with the step, with its sign, on the last pair above round-off.
+    /// The exponent with which the error falls with the step, with its sign, for the last pair above round-off.
     pub observed_order: Option<f64>,
-    /// What the orders say about the one that is claimed.
+    /// The comparison of the observed orders with a claimed order.
     pub order_found: Option<Order>,
     /// The known mistake whose curve the answer is.
     pub diagnosis: Option<String>,
@@ -90,21 +90,21 @@ pub struct Graded {
     pub suspects: Vec<String>,
     #[serde(skip)]
     rates: Vec<f64>,
-    /// Where the error is, or why there is none.
+    /// The place of the error, or the reason why there is none.
     pub note: Option<String>,
     /// The steps of the answer that is judged.
     pub steps: Option<u64>,
-    /// The tolerance asked of the program, where it chooses its steps.
+    /// The tolerance asked of a program that chooses its steps.
     pub asked_tolerance: Option<f64>,
-    /// Errors (steps, error) from coarse to fine, where several numbers of steps were answered.
+    /// Errors (steps, error) from coarse to fine; empty without answers for several numbers of steps.
     pub errors: Vec<(u64, f64)>,
-    /// The order between each two neighbours of these.
+    /// The order between each two neighbours of `errors`.
     pub orders: Vec<Option<f64>>,
     /// The largest ||p| − 1|.
     pub length_drift: Option<f64>,
     /// The largest change of C_b (1).
     pub orbit_drift: Option<f64>,
-    /// In periods a period, negative where the program is ahead.
+    /// The phase lost per period, in periods; negative for a program that is ahead.
     pub phase_lost_per_period: Option<f64>,
 }
 
@@ -136,7 +136,7 @@ impl Graded {
         }
     }
 
-    /// Takes the errors (steps, error) from coarse to fine, and what they say about a claimed order.
+    /// Sets the errors (steps, error) from coarse to fine, and their orders compared with the claimed one.
     fn set_orders(&mut self, errors: Vec<(u64, f64)>, loaded: &LoadedProblem, claimed: Option<f64>) {
         let found = order::orders(&errors, loaded.own_tolerance);
         self.observed_order = found.observed(claimed);
@@ -145,23 +145,23 @@ impl Graded {
         self.errors = errors;
     }
 
-    /// Takes what is found of an answer.
+    /// Sets the diagnosis of an answer.
     fn set_diagnosis(&mut self, found: diagnosis::Diagnosis) {
         (self.diagnosis, self.suspects, self.rates) = (found.said, found.suspects, found.rates);
     }
 
-    /// What is wrong with the order, where it is refuted.
+    /// A message about the order if it is refuted.
     fn order_off(&self, claimed: Option<f64>) -> Option<String> {
         let lower = self.order_found == Some(Order::Lower);
         claimed.filter(|_| lower).map(|claimed| order::lower(self.observed_order, claimed))
     }
 
-    /// The observed order with its sign.
+    /// The observed order with its sign, as text.
     fn order_text(&self) -> String {
         self.observed_order.map_or("–".into(), |order| format!("{order:+.2}"))
     }
 
-    /// What the program was set to.
+    /// The setting of the program, as text.
     fn setting_text(&self) -> String {
         match (self.steps, self.asked_tolerance) {
             (Some(steps), _) => format!("{steps} steps"),

@@ -1,63 +1,63 @@
-//! The order with which errors fall, and what it says about one that is claimed.
+//! The order with which errors fall, compared with a claimed order.
 //!
-//! Orders are read between neighbours of a ladder of ever more steps, from where the method follows the motion down to
-//! round-off: a hundredth of the tolerance, which allows for 10 ε^(4/5) a radian, or the first error below the tolerance that no
-//! longer falls. There a right method's order wanders (rods or error terms take turns as the largest) and comes to the
-//! claimed one from either side, or to a higher one where a problem has no such error term. A wrong coefficient takes away
-//! whole orders, and what is left settles. So an order is refuted by two pairs in a row that agree and are nearly a whole order
-//! lower, and by nothing else. `examples/graded_integrators` holds this against several hundred integrators.
+//! Orders come from neighbours of a ladder with more and more steps, from where the method follows the motion down to
+//! round-off: a hundredth of the tolerance, which allows for 10 ε^(4/5) per radian, or the first error below the tolerance that no
+//! longer falls. In that range a correct method's order wanders (rods or error terms take turns as the largest) and approaches
+//! the claimed one from either side, or a higher one if a problem has no such error term. A wrong coefficient removes whole
+//! orders, and the remaining order settles. So an order is refuted by two consecutive pairs that agree and are nearly a whole
+//! order lower, and by nothing else. `examples/graded_integrators` tests this with several hundred integrators.
 
 use super::{Graded, Verdict};
 use crate::serve::problems::LoadedProblem;
 use serde::Serialize;
 
-/// How far an observed order may be from the one claimed, and two orders from each other that agree.
+/// The largest difference between an observed order and the claimed one, and between two orders that agree.
 pub const ORDER_TOLERANCE: f64 = crate::studies::work_precision::order::ORDER_TOLERANCE;
 
-/// A whole order, but for what is missing from it before it has settled.
+/// A whole order, less what may be missing from it before it settles.
 const WHOLE: f64 = 0.8;
 
-/// An error in rad above which a method does not follow the motion yet.
+/// The error in rad above which a method does not follow the motion yet.
 const FOLLOWS: f64 = 0.1;
 
-/// The part of a problem's own tolerance below which differences of errors are round-off. Between that and the tolerance a
-/// right code may have met its round-off.
+/// The share of a problem's own tolerance below which differences of errors are round-off. Between that and the tolerance, a
+/// correct code may have reached its round-off.
 const ROUND_OFF: f64 = 0.01;
 
-/// Round-off does not fall with this order, however many steps there are: what does is a method's error.
+/// Errors that fall with a higher order than this are the method's, not round-off.
 const NO_ROUND_OFF: f64 = 1.5;
 
-/// An error in rad that follows the motion closely.
+/// The error in rad below which a method follows the motion closely.
 const CLOSE: f64 = 0.01;
 
-/// What a ladder says about a claimed order.
+/// The evidence of a ladder about a claimed order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Order {
-    /// A pair, or the mean of the last few, has it.
+    /// A pair, or the mean of the last few, has the claimed order.
     Seen,
-    /// Lower by whole orders: the method is not what is claimed.
+    /// Lower by whole orders: the method is not the claimed one.
     Lower,
-    /// Higher by whole orders, settled: the claim is too low, or the problem does not have the error term.
+    /// Higher by whole orders, settled: the claim is too low, or the problem lacks the error term.
     Higher,
     /// Too few pairs above round-off, or orders that still wander.
     Unclear,
 }
 
-/// The orders of a ladder, from coarse to fine, that are no round-off and follow the motion.
+/// The orders of a ladder, from coarse to fine, for pairs above round-off that follow the motion.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Orders {
-    /// Between each two neighbours; none where an error is 0 or not finite.
+    /// The order between each two neighbours; none if an error is 0 or not finite.
     pub all: Vec<Option<f64>>,
-    /// Those that count, each with its finer error.
+    /// The usable orders, each with the finer error of its pair.
     usable: Vec<(f64, f64)>,
     /// The problem's own tolerance.
     tolerance: f64,
-    /// Finer steps would show round-off alone.
+    /// True if finer steps would show only round-off.
     pub ended: bool,
 }
 
-/// Reads the orders off errors (steps, error) from coarse to fine, of a problem with this tolerance of its own.
+/// The orders of `errors` (steps, error) from coarse to fine, for a problem with this tolerance of its own.
 pub fn orders(errors: &[(u64, f64)], tolerance: f64) -> Orders {
     let order = |pair: &[(u64, f64)]| {
         let order = (pair[0].1 / pair[1].1).ln() / (pair[1].0 as f64 / pair[0].0 as f64).ln();
@@ -72,7 +72,7 @@ pub fn orders(errors: &[(u64, f64)], tolerance: f64) -> Orders {
             break;
         }
         match order {
-            // It has stopped falling, and the pair before has met round-off too.
+            // The error has stopped falling, and the pair before has reached round-off too.
             Some(order) if coarse <= tolerance && *order < 0.5 => {
                 found.usable.pop();
                 found.ended = true;
@@ -86,7 +86,7 @@ pub fn orders(errors: &[(u64, f64)], tolerance: f64) -> Orders {
 }
 
 impl Orders {
-    /// The observed order with its sign: the last that counts, or the one before where that is nearer to the claimed one.
+    /// The observed order with its sign: the last usable one, or the one before if that is nearer to the claimed order.
     pub fn observed(&self, claimed: Option<f64>) -> Option<f64> {
         let last = self.usable.iter().rev().take(2).map(|(order, _)| *order);
         match claimed {
@@ -95,7 +95,7 @@ impl Orders {
         }
     }
 
-    /// What is to be said of a claimed order.
+    /// The evidence about a claimed order.
     pub fn judged(&self, claimed: f64) -> Order {
         let agree = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).abs() < ORDER_TOLERANCE;
         if let [.., before, newest] = self.certain()
@@ -110,20 +110,20 @@ impl Orders {
         {
             return Order::Higher;
         }
-        // Where orders wander, the mean over the last few pairs has the errors' fall without their waves.
+        // Where orders wander, the mean over the last few pairs averages out the oscillations.
         let last: Vec<f64> = self.usable.iter().rev().take(4).map(|(order, _)| *order).collect();
         let means = (1..=last.len()).map(|few| last[..few].iter().sum::<f64>() / few as f64);
         let seen = means.chain(last.get(1).copied()).any(|order| (order - claimed).abs() < ORDER_TOLERANCE);
         if seen { Order::Seen } else { Order::Unclear }
     }
 
-    /// The pairs that are certainly no round-off: above the problem's own tolerance, or falling fast.
+    /// The pairs that are certainly above round-off: above the problem's own tolerance, or falling fast.
     fn certain(&self) -> &[(f64, f64)] {
         let certain = |(order, error): &&(f64, f64)| *error > self.tolerance || *order > NO_ROUND_OFF;
         &self.usable[..self.usable.iter().take_while(certain).count()]
     }
 
-    /// Whether three pairs in a row say already that the order is too low, whatever finer steps would show.
+    /// True if three pairs in a row prove the order too low, whatever finer steps would show.
     pub fn refuted_early(&self, claimed: f64) -> bool {
         let Some(last) = self.certain().last_chunk::<3>() else {
             return false;
@@ -135,14 +135,14 @@ impl Orders {
     }
 }
 
-/// What is wrong with an order, in words.
+/// A message about an order that is lower than claimed.
 pub fn lower(observed: Option<f64>, claimed: f64) -> String {
     let observed = observed.map_or("–".into(), |order| format!("{order:+.2}"));
     format!("observed order {observed} where {claimed} is claimed")
 }
 
-/// A claim that is too low on every problem that shows an order is wrong; one that some problem shows is right, and others
-/// have no error term of that order.
+/// Decides on orders higher than the claimed one: if no problem shows the claimed order, the claim is wrong; otherwise these
+/// problems have no error term of that order.
 pub fn settle(problems: &[LoadedProblem], graded: &mut [Graded], claimed: Option<f64>) {
     let Some(claimed) = claimed else {
         return;
@@ -164,7 +164,7 @@ pub fn settle(problems: &[LoadedProblem], graded: &mut [Graded], claimed: Option
     }
 }
 
-/// Where a claimed order was seen, and where it is not clear, in a sentence; none without a claim.
+/// A sentence that lists where a claimed order was seen and where it is unclear; none without a claim.
 pub fn remark(graded: &[Graded], claimed: Option<f64>) -> Option<String> {
     let claimed = claimed?;
     let found = |order: Order| -> Vec<&str> {
@@ -180,7 +180,7 @@ pub fn remark(graded: &[Graded], claimed: Option<f64>) -> Option<String> {
     Some(said)
 }
 
-/// There a rod has a phase alone, whose error is of one order more where a method is linear.
+/// True if all rods lie in the shear plane: they have only a phase, whose error is of one order more for a linear method.
 fn in_the_shear_plane(loaded: &LoadedProblem) -> bool {
     loaded.start.iter().all(|p| p[2] == 0.0)
 }
@@ -194,7 +194,7 @@ mod tests {
         orders(&errors, 1e-8)
     }
 
-    /// Errors that fall from 0.01 by these orders.
+    /// The orders of errors that fall from 0.01 by these orders.
     fn falling(orders: &[f64]) -> Orders {
         let mut errors = vec![0.01];
         errors.extend(orders.iter().scan(0.01, |error, order| {
@@ -223,7 +223,7 @@ mod tests {
     fn what_right_methods_show_is_not_refuted_and_lost_orders_are() {
         for (orders, claimed, expected) in [
             (&[4.5, 4.3, 4.1, 4.05][..], 4.0, Order::Seen),
-            // RK4 with p/|p| on the disc: the mean.
+            // RK4 with p/|p| on the disc: only the mean counts.
             (&[5.57, 3.53], 4.0, Order::Unclear),
             (&[3.5, 3.53, 3.8], 4.0, Order::Unclear),
             (&[3.5, 3.6, 3.81], 4.0, Order::Seen),
@@ -237,7 +237,7 @@ mod tests {
             (&[-1.0, -1.0], 4.0, Order::Lower),
             (&[4.0, 4.0], 3.0, Order::Higher),
             (&[5.9, 5.8, 5.6], 5.0, Order::Unclear),
-            // To 1e-10, a hundredth of the tolerance: round-off, and a method of order 7.
+            // Down to 1e-10, a hundredth of the tolerance: round-off, and a method of order 7.
             (&[5.0, 5.0, 5.0, 5.0, 5.0, 1.0, 0.9], 5.0, Order::Seen),
             (&[7.0, 7.1, 7.0], 8.0, Order::Lower),
             (&[], 3.0, Order::Unclear),

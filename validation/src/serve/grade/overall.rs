@@ -1,4 +1,4 @@
-//! What all problems say together: one mistake that explains several of them, or time that runs at another rate.
+//! Findings from all problems together: one mistake that explains several of them, or time that runs at another rate.
 
 use super::diagnosis::shows;
 use super::mistakes::{self, Mistake};
@@ -6,13 +6,13 @@ use super::rates;
 use super::{Graded, Verdict};
 use crate::serve::problems::LoadedProblem;
 
-/// More names than these are no finding.
+/// The largest number of names in a finding.
 const MOST_NAMES: usize = 3;
 
-/// By how much, relatively, two problems may say another rate: a method with long steps adds its own error.
+/// The largest relative difference of two problems' rates that count as equal: a method with long steps adds its own error.
 const SAME_RATE: f64 = 1e-3;
 
-/// What explains more than one problem, in sentences. Nothing is said that a problem which passes contradicts.
+/// Sentences on what explains more than one problem. A problem that passes rules out an explanation that contradicts it.
 pub fn overall(problems: &[LoadedProblem], graded: &[Graded]) -> Vec<String> {
     let wrong: Vec<_> = graded
         .iter()
@@ -25,7 +25,7 @@ pub fn overall(problems: &[LoadedProblem], graded: &[Graded]) -> Vec<String> {
     }
 }
 
-/// The problems that are passed.
+/// The problems that pass.
 fn passing<'a>(problems: &'a [LoadedProblem], graded: &[Graded]) -> Vec<&'a LoadedProblem> {
     let passes = |loaded: &&LoadedProblem| {
         let of = |graded: &&Graded| graded.name == loaded.problem.name;
@@ -34,7 +34,7 @@ fn passing<'a>(problems: &'a [LoadedProblem], graded: &[Graded]) -> Vec<&'a Load
     problems.iter().filter(passes).collect()
 }
 
-/// Takes the mistake that explains the most problems, with all that explain the same ones, then goes on with the rest.
+/// Takes the mistake that explains the most problems, with all that explain the same ones, then continues with the rest.
 fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> Vec<String> {
     let passing = passing(problems, graded);
     let contradicted = |mistake: &Mistake| passing.iter().any(|loaded| shows(loaded, mistake));
@@ -57,7 +57,7 @@ fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> 
         };
         let best: Vec<_> = names.into_iter().filter(|name| explained(name).len() == most).collect();
         let of = explained(best[0]);
-        // Others explain as many, but not the same ones: no one mistake is certain.
+        // If others explain as many problems, but not the same ones, no mistake is certain.
         let alike = best.iter().all(|name| explained(name) == of);
         if alike && best.len() <= MOST_NAMES {
             let names: Vec<_> = best.iter().map(|name| name.as_str()).collect();
@@ -74,7 +74,7 @@ fn by_name(problems: &[LoadedProblem], graded: &[Graded], wrong: &[&Graded]) -> 
     }
 }
 
-/// The one rate that more problems agree on than on any other.
+/// The rate on which more problems agree than on any other.
 fn by_rate(passing: &[&LoadedProblem], wrong: &[&Graded]) -> Option<String> {
     let same = |a: f64, b: f64| (a / b - 1.0).abs() < SAME_RATE;
     let agree = |rate: f64| -> Vec<&str> {
@@ -141,14 +141,14 @@ mod tests {
             (Pass, &[], &[]),
             (Pass, &[], &[]),
         ]);
-        // Both would show on what passes.
+        // Both mistakes would show on a problem that passes.
         assert_eq!(both, [""; 0]);
         let both = said(&[(Fail, &[half, twice], &[]), (Fail, &[twice, half], &[])]);
         assert!(
             both[0].contains("half the shear rate, or twice the shear rate (their curves are equal here)"),
             "{both:?}"
         );
-        // One problem is no pattern, and two that differ are none.
+        // One problem is not enough, nor are two with different mistakes.
         assert_eq!(said(&[(Fail, &[half], &[]), (Fail, &[twice], &[])]), [""; 0]);
     }
 

@@ -1,5 +1,5 @@
-//! Time that runs at another rate: in plane Couette flow the phase of an answer says for how long a right rod has turned, in other flows
-//! the rate at which a right rod comes nearest is looked for.
+//! Time that runs at another rate: in plane Couette flow the phase of an answer shows for how long a correct rod has turned; in
+//! other flows, the rate is sought at which a correct rod comes nearest.
 
 use super::answer::Answer;
 use super::diagnosis::{apart, setting};
@@ -8,19 +8,19 @@ use crate::serve::problems::{Kind, LoadedProblem};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
-/// The highest rate that is looked for.
+/// The highest rate that is tried.
 const MOST: f64 = 4.0;
 
-/// With more half turns than these to choose from, some rate fits anything.
+/// Above this number of possible half turns, some rate fits any answer.
 const HALF_TURNS: f64 = 50.0;
 
-/// A rod nearer to the vorticity axis than this has no phase to read.
+/// A rod nearer to the vorticity axis than this has no usable phase.
 const IN_PLANE: f64 = 1e-3;
 
-/// Rates in other flows that are tried for the nearest.
+/// Number of rates that are tried in other flows.
 const TRIED: u32 = 500;
 
-/// The rates at which all rows of an answer are those of right rods, to `nearer_than`; none where rods are at rest, which fit any.
+/// The rates at which all rows of an answer are those of correct rods, to `nearer_than`; none for rods at rest, which fit any rate.
 pub(super) fn rates(
     loaded: &LoadedProblem,
     answer: &Answer,
@@ -43,19 +43,19 @@ pub(super) fn rates(
         .collect()
 }
 
-/// By the phase of the first rod that turns, which is `due` at the first time.
+/// The rates by the phase of the first rod that turns; a correct rod has the phase `due` at the first time.
 fn by_phase(loaded: &LoadedProblem, answer: &Answer, setting: &Setting, due: f64) -> Option<Vec<f64>> {
     let turns = |p: &[f64; 3]| p[0].hypot(p[1]) > IN_PLANE;
     let rod = loaded.start.iter().position(turns)?;
     let at = |p: &[f64]| (p[1] / setting.aspect_ratio).atan2(p[0]);
-    // The first time leaves the fewest half turns to choose from.
+    // The first time leaves the smallest number of possible half turns.
     let turned = (at(answer.rows.get(rod)?) - at(&loaded.start[rod])).rem_euclid(PI);
     let most = (MOST * due / PI).ceil();
     (most <= HALF_TURNS)
         .then(|| (0..=most as u32).map(|half_turns| (turned + PI * f64::from(half_turns)) / due).collect())
 }
 
-/// Where the first time's rods come nearest, by a search about each least of many tried rates.
+/// The rates at which the rods come nearest at the first time, by a search around each minimum of many tried rates.
 fn nearest(loaded: &LoadedProblem, answer: &Answer, setting: &Setting) -> Vec<f64> {
     let off = |rate: f64| {
         let of_rod = |(start, values): (&[f64; 3], &Vec<f64>)| {
@@ -70,7 +70,7 @@ fn nearest(loaded: &LoadedProblem, answer: &Answer, setting: &Setting) -> Vec<f6
     least.map(|(k, _)| golden(off, [step * k as f64, step * (k + 2) as f64])).collect()
 }
 
-/// Where f is least between two ends, by the golden section.
+/// The place of the minimum of `f` between two ends, by golden section.
 fn golden(f: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
     let section = 0.5 * (5f64.sqrt() - 1.0);
     for _ in 0..80 {
@@ -84,7 +84,7 @@ fn golden(f: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
     0.5 * (low + high)
 }
 
-/// Whether time at another rate would show on a problem: its curve is not within the tolerance of the certified answer.
+/// True if another rate of time is detectable on a problem: its curve is not within the tolerance of the certified answer.
 pub(super) fn shows(loaded: &LoadedProblem, rate: f64) -> bool {
     let certified = Answer::certified(loaded);
     let nearer_than = 2.0 * loaded.problem.tolerance;

@@ -7,7 +7,7 @@ use super::lines::{Lines, number};
 use crate::serve::problems::{LoadedProblem, ReadError};
 use std::path::Path;
 
-/// How far a tensor's two halves may be apart: beyond six digits they are two answers.
+/// The largest difference between the two halves of a symmetric tensor: beyond six digits they are two answers.
 const SYMMETRIC: f64 = 1e-6;
 
 /// Reads an answer.
@@ -46,7 +46,7 @@ pub fn read(
     }
 }
 
-/// Keys and values of a row. `Err` has the field from 1, or 0, and what is wrong.
+/// The keys and values of a row. `Err` has the field from 1, or 0, and what is wrong.
 fn fields(
     line: &str,
     layout: &Layout,

@@ -1,4 +1,4 @@
-//! What was found, for people and for machines.
+//! The results as text for the terminal and as JSON, Markdown and JUnit files.
 
 use super::live::Studies;
 use super::{Graded, Verdict};
@@ -7,27 +7,27 @@ use crate::present::table::{ReportTable, of_words};
 use crate::serve::problems::Origin;
 use serde::Serialize;
 
-/// Everything that is said of a program.
+/// All results of a program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
-    /// The version of this report's form.
+    /// The version of the report's format.
     pub format: u32,
     /// The version of shearbed.
     pub shearbed: String,
-    /// Where the problems are from.
+    /// The source of the problems.
     pub reference: String,
-    /// Whose answers: a folder, or a command.
+    /// The source of the answers: a folder, or a command.
     pub answers: String,
-    /// One for each problem.
+    /// The result on each problem.
     pub problems: Vec<Graded>,
-    /// What was measured of a program that runs, beyond verdicts.
+    /// Studies of a running program, beyond verdicts.
     pub live: Option<Studies>,
-    /// What several problems say together.
+    /// Findings from several problems together.
     pub diagnosis: Vec<String>,
-    /// What else is to be said.
+    /// Other remarks.
     pub remarks: Vec<String>,
-    /// Whether an answer is wanted to every problem: a missing one is a failure then, and otherwise neither pass nor failure, as a case
-    /// without data is in `validate`.
+    /// True if every problem needs an answer: a missing one is then a failure, and otherwise neither a pass nor a failure, like a case
+    /// without data in `validate`.
     #[serde(skip)]
     pub all: bool,
 }
@@ -37,7 +37,7 @@ impl Report {
         self.problems.iter().filter(|graded| graded.verdict == verdict).count()
     }
 
-    /// Whether a problem passes, and none fails.
+    /// True if at least one problem passes and none fails.
     pub fn passes(&self) -> bool {
         self.count(Verdict::Pass) > 0 && !self.problems.iter().any(|graded| self.is_failure(graded.verdict))
     }
@@ -50,12 +50,12 @@ impl Report {
         }
     }
 
-    /// The counts.
+    /// The counts of verdicts, as text.
     pub fn counts(&self) -> String {
         self.counted(|_| "")
     }
 
-    /// How many problems have each verdict, and what `meaning` says of it.
+    /// The number of problems with each verdict, each followed by the text `meaning`.
     fn counted(&self, meaning: impl Fn(Verdict) -> &'static str) -> String {
         let others = [Verdict::Fail, Verdict::Missing, Verdict::NotReached];
         let found = others.into_iter().filter(|verdict| self.count(*verdict) > 0);
@@ -64,7 +64,7 @@ impl Report {
         format!("{pass} of {} problems pass{}", self.problems.len(), found.collect::<String>())
     }
 
-    /// The counts, and what they mean.
+    /// The counts of verdicts with explanations.
     pub fn headline(&self) -> String {
         let mut words = self.counted(|verdict| match verdict {
             Verdict::Missing if self.all => " (no answer: not passed)",
@@ -85,17 +85,17 @@ impl Report {
     }
 }
 
-/// grade.json.
+/// The content of grade.json.
 pub fn json(report: &Report) -> Result<String, String> {
     crate::files::build::json(report)
 }
 
-/// A number with two digits.
+/// A number with two digits, as text.
 fn number(value: Option<f64>) -> String {
     value.map_or(NOTHING.into(), |value| format!("{value:.1e}"))
 }
 
-/// Whose problem it is, in a word.
+/// The author of the problem, in one word.
 fn origin(graded: &Graded) -> &'static str {
     match graded.reference {
         Origin::BuiltIn => BUILT_IN,
@@ -103,7 +103,7 @@ fn origin(graded: &Graded) -> &'static str {
     }
 }
 
-/// How a number is written, or its absence.
+/// The text of a number or of its absence.
 type Format = fn(Option<f64>) -> String;
 
 /// A column of the table of verdicts, after the verdict and the problem's name.
@@ -111,7 +111,7 @@ type Format = fn(Option<f64>) -> String;
 pub(super) struct Column {
     title: &'static str,
     numeric: bool,
-    /// A problem's cell, with numbers in a format.
+    /// A problem's cell, with numbers in the given format.
     #[serde(skip)]
     pub(super) of: fn(&Graded, Format) -> String,
 }
@@ -153,13 +153,13 @@ fn verdicts(report: &Report) -> ReportTable {
     )
 }
 
-/// What is said of a problem beyond numbers.
+/// The remarks on a problem.
 pub(super) fn words(graded: &Graded) -> Vec<&str> {
     let parts = [graded.diagnosis.as_deref(), graded.note.as_deref()];
     parts.into_iter().flatten().collect()
 }
 
-/// What several problems say together, what is said of each, once where it is the same, all that are missing in one line, and the
+/// Findings from several problems, the remarks on each (equal ones once), all missing problems in one line, and the other
 /// remarks.
 fn lines(report: &Report) -> Vec<String> {
     let mut said: Vec<(Verdict, String, Vec<&str>)> = Vec::new();
@@ -194,14 +194,14 @@ pub(super) fn missing(report: &Report) -> Option<String> {
     Some(format!("{} MISSING, no answer: {}{why}", names.len(), names.join(", ")))
 }
 
-/// The verdicts, then what was measured.
+/// The table of verdicts, then those of the studies.
 pub(super) fn tables(report: &Report) -> Vec<ReportTable> {
     let mut tables = vec![verdicts(report)];
     tables.extend(report.live.iter().flat_map(Studies::tables));
     tables
 }
 
-/// For the terminal, in 80 columns: what is missing has a line, no rows; the drifts are in the files.
+/// The report for the terminal, in 80 columns: missing answers share a line; the drifts are only in the files.
 pub fn terminal(report: &Report) -> String {
     let answered = |graded: &&Graded| graded.verdict != Verdict::Missing;
     let row = |graded: &Graded| {
@@ -211,7 +211,7 @@ pub fn terminal(report: &Report) -> String {
         [vec![graded.verdict.word().to_owned(), name], numbers.into(), vec![graded.setting_text()]].concat()
     };
     let title = format!("{} on {}", report.answers, report.reference);
-    // Two blanks in a row are a table's.
+    // Two blanks in a row would mark a table's row.
     let title = title.split_whitespace().collect::<Vec<_>>().join(" ");
     let table = of_words(
         "grade",
@@ -226,11 +226,11 @@ pub fn terminal(report: &Report) -> String {
     wrapped(&parts.join("\n\n"))
 }
 
-/// The most characters of a line on a terminal.
+/// The largest number of characters of a line on a terminal.
 const WIDTH: usize = 80;
 
-/// Lines of words that are too long are broken between words and go on indented; a table's rows, whose cells stand two blanks
-/// apart, stay.
+/// Breaks lines that are too long between words and indents their continuation; rows of tables, whose cells are separated by
+/// two blanks, stay as they are.
 fn wrapped(text: &str) -> String {
     let mut all = String::new();
     for line in text.lines() {
@@ -254,7 +254,7 @@ fn wrapped(text: &str) -> String {
     all
 }
 
-/// grade.md.
+/// The content of grade.md.
 pub fn markdown(report: &Report) -> String {
     let mut text = String::from("# Grades\n");
     for (k, table) in tables(report).iter().enumerate() {
@@ -267,8 +267,8 @@ pub fn markdown(report: &Report) -> String {
     text
 }
 
-/// junit.xml: a test case for each problem. A missing answer is skipped, or a failure where all are wanted; one that was not
-/// reached is a failure.
+/// The content of junit.xml: a test case for each problem. A missing answer is skipped, or a failure if all are needed; a problem
+/// that was not reached is a failure.
 pub fn junit(report: &Report) -> String {
     let failed = report.problems.iter().filter(|graded| report.is_failure(graded.verdict)).count();
     let skipped = report.problems.len() - failed - report.count(Verdict::Pass);

@@ -1,4 +1,4 @@
-//! Error against run time of a program beside the project's own integrators, and what the pipe itself costs.
+//! Error against run time of a program and of the project's own integrators, and the cost of the pipe itself.
 
 use super::program::{Program, Question};
 use super::protocol::Protocol;
@@ -13,10 +13,10 @@ use serde::Serialize;
 use std::io::{BufRead, Write};
 use std::time::Duration;
 
-/// The aspect ratio of the bench: the paper's.
+/// The aspect ratio of the benchmark: the paper's.
 pub const ASPECT_RATIO: f64 = 11.6;
 
-/// Requests from which the pipe's cost is taken, after some to warm up.
+/// Number of requests that measure the pipe's cost, after some for warming up.
 const ECHOES: usize = 200;
 
 /// A program's error against its run time.
@@ -24,15 +24,15 @@ const ECHOES: usize = 200;
 pub struct Bench {
     /// r_e.
     pub aspect_ratio: f64,
-    /// The program's curve; its times have the pipe's cost in them.
+    /// The program's curve; its times include the pipe's cost.
     pub program: IntegratorCurve,
-    /// The least time in s of a request to a program that does nothing, which is taken off in tables and pictures.
+    /// The least time in s of a request to a program that does nothing; tables and pictures subtract it.
     pub pipe_s: Option<f64>,
-    /// The project's own integrators, without a pipe.
+    /// The curves of the project's own integrators, which need no pipe.
     pub ours: Vec<IntegratorCurve>,
 }
 
-/// Answers every request with its start, until the input ends: what the pipe and its JSON cost without any work.
+/// Answers every request with its start until the input ends: this measures the cost of the pipe and the protocol alone.
 pub fn echo(protocol: Protocol, input: impl BufRead, mut output: impl Write) -> Result<(), String> {
     for line in input.lines() {
         let line = line.map_err(|error| error.to_string())?;
@@ -42,7 +42,7 @@ pub fn echo(protocol: Protocol, input: impl BufRead, mut output: impl Write) -> 
     Ok(())
 }
 
-/// The least time in s of a request for one rod to this echo program.
+/// The least time in s of a request for one rod to the program `echo`.
 fn pipe_s(echo: &str, protocol: Protocol, timeout: Duration) -> Option<f64> {
     let program = Program::start(echo, protocol, timeout).ok()?;
     let question = Question {
@@ -68,7 +68,7 @@ pub fn bench(program: &Program, echo: &str) -> Bench {
 }
 
 impl Bench {
-    /// The program's curve without the pipe's cost; what is not longer than that is left at a tenth of it.
+    /// The program's curve without the pipe's cost; times that do not exceed a tenth more than it are set to a tenth of it.
     pub fn without_pipe(&self) -> IntegratorCurve {
         let pipe = self.pipe_s.unwrap_or(0.0);
         let mut program = self.program.clone();
@@ -80,7 +80,7 @@ impl Bench {
         program
     }
 
-    /// The program's curve in bold beside ours in grey, as SVG. A program that takes no steps is a dash.
+    /// The program's curve in bold and ours in grey, as SVG. A program that takes no steps has a dashed line.
     pub fn picture(&self) -> Result<String, String> {
         let mut program = self.without_pipe();
         program.subject = PROGRAM.to_owned();
@@ -107,7 +107,7 @@ impl Bench {
         })
     }
 
-    /// For each error the time of the program and of ours.
+    /// The times of the program and of our integrators for each target error.
     pub fn table(&self) -> ReportTable {
         let row = |curve: &IntegratorCurve, name: String| {
             let mut row = vec![name];
@@ -138,7 +138,7 @@ impl Bench {
     }
 }
 
-/// What the program is taken for by an observed order.
+/// The assumed theory of the program's error, from an observed order.
 pub fn theory(by_tolerance: bool, observed_order: Option<f64>) -> Theory {
     match (by_tolerance, observed_order) {
         (true, _) => Theory::Adaptive,

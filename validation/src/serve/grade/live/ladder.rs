@@ -1,4 +1,4 @@
-//! A problem asked with more and more steps, or with smaller and smaller tolerances.
+//! A ladder: one problem with more and more steps, or with smaller and smaller tolerances.
 
 mod climb;
 mod jumps;
@@ -18,7 +18,7 @@ use crate::serve::problems::LoadedProblem;
 use climb::{End, climb};
 use std::time::Duration;
 
-/// What a program takes.
+/// The setting that a program accepts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// Equal steps.
@@ -27,7 +27,7 @@ pub enum Mode {
     Tolerance,
 }
 
-/// Asks for a rod of r_e = 2 over a short time: by steps, and where the program has an error for that, by tolerance.
+/// Asks for a rod of r_e = 2 over a short time, with steps; if the program returns an error, its mode is the tolerance.
 pub fn mode(program: &Program) -> Mode {
     program.during("the first request");
     let question = Question {
@@ -43,7 +43,7 @@ pub fn mode(program: &Program) -> Mode {
     }
 }
 
-/// One setting and what came.
+/// One setting with its answer.
 struct Rung {
     setting: Setting,
     answer: Answer,
@@ -66,7 +66,7 @@ impl Rung {
     }
 }
 
-/// Steps and errors of the settings that are numbers of steps.
+/// (steps, error) of the rungs whose setting is a number of steps.
 fn errors(rungs: &[Rung]) -> Vec<(u64, f64)> {
     rungs.iter().filter_map(|rung| Some((rung.setting.steps().ok()?, rung.error()))).collect()
 }
@@ -120,14 +120,14 @@ pub fn grade(program: &Program, problem: &LoadedProblem, mode: Mode, claim: Clai
     graded
 }
 
-/// The coarse settings of a ladder that passes whose answers are not finite.
+/// A message that lists the coarse settings of a passing ladder whose answers are not finite.
 fn not_finite(rungs: &[Rung]) -> Option<String> {
     let names = rungs.iter().filter(|rung| !rung.error().is_finite());
     let names: Vec<_> = names.map(|rung| rung.setting.to_string()).collect();
     (!names.is_empty()).then(|| format!("with {} the answer is not finite", names.join(", ")))
 }
 
-/// What is to be said of an answer that is not within the tolerance.
+/// The reason why an answer is not within the tolerance.
 fn why(graded: &Graded, finest: Option<&Rung>, words: String) -> String {
     let Some(finest) = finest else {
         return words;

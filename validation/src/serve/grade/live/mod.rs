@@ -1,4 +1,4 @@
-//! Grading a program that runs: it is asked over its standard input and answers over its standard output.
+//! Grading a running program: requests go to its standard input, answers come from its standard output.
 
 mod bench;
 mod ladder;
@@ -19,7 +19,7 @@ pub use studies::{Studies, studies};
 use crate::serve::problems::{self, LoadedProblem};
 use rayon::prelude::*;
 
-/// Problems about free rods that this build has, as they would be exported: those of the names that are wanted.
+/// Problems about free rods of this build, as they would be exported, whose names `wanted` accepts.
 pub fn built_in(wanted: impl Fn(&str) -> bool) -> Vec<LoadedProblem> {
     let mut rods = problems::free_rods();
     rods.retain(|name| wanted(name));
@@ -29,7 +29,7 @@ pub fn built_in(wanted: impl Fn(&str) -> bool) -> Vec<LoadedProblem> {
         .collect()
 }
 
-/// The problem with its last time alone: what a request asks for.
+/// The problem with only its last time, as in a request.
 pub fn last_time(problem: &LoadedProblem) -> LoadedProblem {
     let mut last = problem.clone();
     let rods = problem.start.len();

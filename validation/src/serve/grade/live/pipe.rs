@@ -1,4 +1,4 @@
-//! A program at the other end of two pipes: lines in, lines out, each wait bounded in time and memory.
+//! A program behind two pipes: lines in, lines out, with each wait bounded in time and memory.
 
 use super::signals;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -8,20 +8,20 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// The longest line that is read, in bytes: ten times the longest answer that is asked for.
+/// The longest line that is read, in bytes: ten times the longest answer.
 pub const LONGEST_LINE: usize = 1 << 20;
 
-/// Lines that are held while nobody reads them. A program that writes more waits.
+/// The number of unread lines that are buffered. A program that writes more must wait.
 const LINES_HELD: usize = 4;
 
-/// How much is kept of the end of what the program writes to standard error, in bytes.
+/// The number of bytes kept from the end of the program's standard error.
 const LAST_WORDS: usize = 2048;
 
-/// How long a program may take to end once its input or its output is closed: thousands of times what that takes, as the
-/// machine may be busy. No verdict hangs on it, a remark alone.
+/// The time that a program has to end once its input or its output is closed: thousands of times what it needs, as the
+/// machine may be busy. Only a remark depends on it, no verdict.
 const GRACE: Duration = Duration::from_secs(10);
 
-/// Why there is no next line.
+/// The reason why there is no next line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Trouble {
     /// Nothing came in time.
@@ -57,17 +57,17 @@ enum Heard {
     TooLong,
 }
 
-/// A running program. When dropped, it and all that it started in its process group are killed and waited for.
+/// A running program. When dropped, the program and all processes in its process group are killed and waited for.
 pub struct Pipe {
     child: Child,
     requests: Option<Sender<Vec<u8>>>,
     lines: Receiver<Heard>,
     last_words: Arc<Mutex<Vec<u8>>>,
-    /// Nothing is sent: it is closed when standard error has been read to its end.
+    /// Carries no message: it is closed when standard error has been read to its end.
     all_said: Receiver<()>,
-    /// Lines heard so far.
+    /// Number of lines received so far.
     heard: u64,
-    /// How it ended, once that has been noted: its number may then be another's.
+    /// The exit status, once the process has been reaped: its id may then be in use again.
     status: Option<ExitStatus>,
 }
 
@@ -86,7 +86,7 @@ impl Pipe {
         let (heard, lines) = mpsc::sync_channel(LINES_HELD);
         let last_words = Arc::new(Mutex::new(Vec::new()));
         let (saying, all_said) = mpsc::channel();
-        // The threads are never joined: what escaped the process group may hold a pipe open for ever.
+        // The threads are never joined: a process outside the process group may hold a pipe open for ever.
         if let (Some(stdin), Some(stdout), Some(stderr)) = (stdin, stdout, stderr) {
             let words = Arc::clone(&last_words);
             thread::spawn(move || write_requests(stdin, to_write));
@@ -99,15 +99,15 @@ impl Pipe {
         Ok(Self { child, requests: Some(requests), lines, last_words, all_said, heard: 0, status: None })
     }
 
-    /// Sends a line. A program that does not read it is noticed when its answer does not come.
+    /// Sends a line. If the program does not read it, the missing answer shows that.
     pub fn send(&mut self, line: String) {
         if let Some(requests) = &self.requests {
-            // The writer is gone where the program has closed its input; its answer will be missing.
+            // The writer is gone if the program has closed its input; its answer will be missing.
             let _ = requests.send((line + "\n").into_bytes());
         }
     }
 
-    /// The next line within `limit`, with its number from 1 on.
+    /// The next line within `limit`, with its number counted from 1.
     pub fn line(&mut self, limit: Duration) -> Result<(u64, String), Trouble> {
         match self.lines.recv_timeout(limit) {
             Ok(heard) => self.counted(heard),
@@ -127,7 +127,7 @@ impl Pipe {
         }
     }
 
-    /// Closes the program's input and waits for its end. `Err` says what was wrong with how it ended.
+    /// Closes the program's input and waits for its end. `Err` says what was wrong with the end.
     pub fn close(mut self) -> Result<(), String> {
         drop(self.requests.take());
         let deadline = Instant::now() + GRACE;
@@ -141,11 +141,11 @@ impl Pipe {
                 ));
             }
         }
-        // What it wrote last may still be on its way; a child may hold standard output open.
+        // Its last output may still be on the way; a child process may hold standard output open.
         self.nothing_more(GRACE)
     }
 
-    /// Waits for a line that nobody asked for. `Err` says that one came.
+    /// Waits for an unexpected line. `Err` says that there was one.
     pub fn nothing_more(&mut self, limit: Duration) -> Result<(), String> {
         let Ok(heard) = self.lines.recv_timeout(limit) else {
             return Ok(());
@@ -159,7 +159,7 @@ impl Pipe {
     }
 
     fn ended(&mut self) -> Trouble {
-        // Its output is closed: if it is about to end, that takes moments.
+        // Its output is closed: if it is about to end, it ends soon.
         let deadline = Instant::now() + GRACE;
         while !self.has_ended() && Instant::now() < deadline {
             thread::sleep(Duration::from_millis(5));
@@ -174,7 +174,7 @@ impl Pipe {
                 "it closed its standard output and went on; it was stopped".to_owned()
             }
         };
-        // What it wrote last may still be on its way; a child may hold standard error open.
+        // Its last output may still be on the way; a child process may hold standard error open.
         let _ = self.all_said.recv_timeout(GRACE);
         let words = self.last_words.lock().unwrap_or_else(PoisonError::into_inner);
         let words = String::from_utf8_lossy(&words).trim().replace('\n', " | ");
@@ -182,7 +182,7 @@ impl Pipe {
         Trouble::Ended(how, words[start..].to_owned())
     }
 
-    /// Whether the program has ended, without taking note of it: its number stays taken until [`Pipe::stop`].
+    /// True if the program has ended; it is not reaped, so that its id stays reserved until [`Pipe::stop`].
     #[cfg(unix)]
     fn has_ended(&mut self) -> bool {
         if self.status.is_some() {
@@ -199,7 +199,7 @@ impl Pipe {
         !matches!(self.child.try_wait(), Ok(None))
     }
 
-    /// Kills the program's whole process group, and takes note of its end: no zombie stays.
+    /// Kills the program's whole process group and reaps the program, so that no zombie remains.
     fn stop(&mut self) -> Option<ExitStatus> {
         if self.status.is_some() {
             return self.status;
@@ -207,7 +207,7 @@ impl Pipe {
         signals::running().remove(&self.child.id());
         #[cfg(unix)]
         {
-            // An error means that nobody is left in the group.
+            // An error means that the group is empty.
             let group = rustix::process::Pid::from_child(&self.child);
             let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
         }
@@ -250,7 +250,7 @@ fn read_lines(stdout: ChildStdout, heard: SyncSender<Heard>) {
     }
 }
 
-/// Reads all there is, so that the program never waits for a reader, and keeps the end of it.
+/// Reads all output, so that the program never waits for a reader, and keeps its end.
 fn keep_last_words(mut stderr: ChildStderr, kept: &Mutex<Vec<u8>>) {
     let mut buffer = [0; 4096];
     while let Ok(count @ 1..) = stderr.read(&mut buffer) {

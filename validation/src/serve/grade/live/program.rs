@@ -1,4 +1,4 @@
-//! A program that is asked, kept within its bounds, and started anew after it has broken the protocol.
+//! A program that answers requests, kept within its limits, and restarted after a breach of the protocol.
 
 use super::pipe::Pipe;
 use super::protocol::{Answer, Protocol, Request};
@@ -8,13 +8,13 @@ use std::hash::{BuildHasher, RandomState};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// After this number of answers that did not come in time the program is not asked again.
+/// The program is not asked again after this number of answers that did not come in time.
 const MOST_HANGS: u32 = 2;
 
-/// After this number of breaches of the protocol it is not started again.
+/// The program is not started again after this number of breaches of the protocol.
 const MOST_BREACHES: u32 = 20;
 
-/// What is asked of free rods: their directions at `end_s`.
+/// A question about free rods: their directions at `end_s`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// L in 1/s.
@@ -23,7 +23,7 @@ pub struct Question {
     pub aspect_ratio: f64,
     /// Directions at t = 0.
     pub start: Vec<[f64; 3]>,
-    /// In s.
+    /// Time of the answer, s.
     pub end_s: f64,
 }
 
@@ -41,28 +41,28 @@ pub struct Program {
 #[derive(Default)]
 struct State {
     pipe: Option<Pipe>,
-    /// The last request's id.
+    /// The id of the last request.
     asked: u64,
     hangs: u32,
     breaches: u32,
-    /// Why it is not asked again.
+    /// The reason why the program is not asked again.
     given_up: Option<String>,
-    /// What is asked for at the moment, for messages.
+    /// The current task, for messages.
     during: String,
-    /// Every breach, with what was asked.
+    /// Every breach, with the request.
     log: Vec<String>,
-    /// When a study has to end.
+    /// The time at which the current study must end.
     deadline: Option<Instant>,
 }
 
-/// Why there is no answer.
+/// The reason why there is no answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Asked {
-    /// The program's own error.
+    /// The program's own error message.
     Says(String),
-    /// It broke the protocol, now or so often that it is not asked again.
+    /// The program broke the protocol, now or too often to be asked again.
     Breach(String),
-    /// No answer came in time, or it is not asked again because of that.
+    /// No answer came in time, or earlier answers were late too often.
     Late(String),
 }
 
@@ -91,37 +91,37 @@ impl Program {
         })
     }
 
-    /// The same program, to be taken as one whose error falls so.
+    /// The same program with an assumed theory of its error.
     pub fn with_theory(self, theory: Theory) -> Self {
         Self { theory, ..self }
     }
 
-    /// The longest that one answer may take.
+    /// The longest time for one answer.
     pub fn timeout(&self) -> Duration {
         self.timeout
     }
 
-    /// The form of its lines.
+    /// The form of the program's lines.
     pub fn protocol(&self) -> Protocol {
         self.protocol
     }
 
-    /// Says what the following questions are for.
+    /// Sets the task of the following questions, for messages.
     pub fn during(&self, what: &str) {
         self.state().during = what.to_owned();
     }
 
-    /// Every breach of the protocol so far, and what was asked then; the same one after the other in one line.
+    /// Every breach of the protocol so far with its request; equal ones in a row share a line.
     pub fn breaches(&self) -> Vec<String> {
         in_a_row(&self.state().log)
     }
 
-    /// Why the program is not asked again, where it is not.
+    /// The reason why the program is not asked again; none if it is still asked.
     pub fn given_up(&self) -> Option<String> {
         self.state().given_up.clone()
     }
 
-    /// Asks, and takes the time of the answer. Directions may be NaN.
+    /// Asks a question and returns directions, which may be NaN, and the time that the answer took.
     pub fn ask(&self, question: &Question, setting: Setting) -> Result<(Vec<[f64; 3]>, Duration), Asked> {
         let mut state = self.state();
         if let Some(reason) = &state.given_up {
@@ -143,8 +143,8 @@ impl Program {
         }
     }
 
-    /// Does a study that asks for no longer than one answer may take, but for the last one. `None` where that was too
-    /// short, or the program was given up.
+    /// Runs a study that may ask for as long as one answer may take, and then for the current answer. `None` if that was too
+    /// short, the program broke the protocol, or it was given up.
     pub fn within_time<T>(&self, what: &str, study: impl FnOnce() -> T) -> Option<T> {
         self.during(what);
         let deadline = Instant::now() + self.timeout;
@@ -156,7 +156,7 @@ impl Program {
         (in_time && self.given_up().is_none()).then_some(found)
     }
 
-    /// Closes the program's input and waits for its end. `Err` says what was wrong with that.
+    /// Closes the program's input and waits for its end. `Err` says what was wrong with the end.
     pub fn close(&self) -> Result<(), String> {
         match self.state().pipe.take() {
             Some(pipe) => pipe.close(),
@@ -164,12 +164,12 @@ impl Program {
         }
     }
 
-    /// How its error is taken to fall.
+    /// The assumed theory of the program's error.
     pub fn theory(&self) -> Theory {
         self.theory
     }
 
-    /// The program as an integrator of one rod in plane Couette flow with G = 1/s: what the project's own are judged by.
+    /// The program as an integrator of one rod in plane Couette flow with G = 1/s, comparable with the project's own.
     pub fn integrator(&self) -> Integrator {
         let (one, many) = (self.clone(), self.clone());
         Integrator::new(&self.name, self.theory, move |problem, start, setting| {
@@ -201,7 +201,7 @@ impl Program {
     }
 }
 
-/// A breach of the protocol: what is wrong, and whether nothing came at all.
+/// A breach of the protocol: a message, and true in `hung` if nothing came at all.
 struct Breach {
     what: String,
     hung: bool,
@@ -251,13 +251,13 @@ impl State {
     }
 }
 
-/// Ascending ids with gaps that nobody can foretell: an answer that is written before its request has the wrong one.
+/// Ascending ids with unpredictable gaps: an answer written before its request has the wrong id.
 fn next_id(last: u64) -> u64 {
     const LARGEST_GAP: u64 = 1000;
     last + 1 + RandomState::new().hash_one(last) % LARGEST_GAP
 }
 
-/// Lines, those that come again at once in one.
+/// The lines, with equal lines in a row merged into one.
 fn in_a_row(lines: &[String]) -> Vec<String> {
     let one = |same: &[String]| match same.len() {
         1 => same[0].clone(),

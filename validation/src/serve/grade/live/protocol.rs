@@ -1,4 +1,4 @@
-//! Requests and answers as lines of JSON (`docs/src/user/grading.md`), and which form of lines a program takes.
+//! Requests and answers as lines of JSON (`docs/src/user/grading.md`), and the form of lines that a program uses.
 
 use super::pipe::excerpt;
 use super::text;
@@ -8,10 +8,10 @@ use serde_json::Value;
 /// The form of the lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Protocol {
-    /// An object a line.
+    /// One JSON object per line.
     #[default]
     Json,
-    /// Numbers apart by blanks.
+    /// Numbers separated by blanks.
     Text,
 }
 
@@ -28,7 +28,7 @@ impl std::str::FromStr for Protocol {
 }
 
 impl Protocol {
-    /// As it is written after `--protocol`.
+    /// The value of `--protocol`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Json => "json",
@@ -44,7 +44,7 @@ impl Protocol {
         }
     }
 
-    /// Reads the answer to the request `id` about `rods` rods. `Err` says what is wrong with the line.
+    /// Parses the answer to request `id` about `rods` rods. `Err` says what is wrong with the line.
     pub(super) fn read(self, line: &str, id: u64, rods: usize) -> Result<Answer, String> {
         match self {
             Self::Json => read(line, id, rods),
@@ -52,7 +52,7 @@ impl Protocol {
         }
     }
 
-    /// The answer of a program that returns what it is given.
+    /// The answer of a program that returns the start directions.
     pub(super) fn echo(self, line: &str) -> Result<String, String> {
         match self {
             Self::Json => {
@@ -71,7 +71,7 @@ impl Protocol {
 /// A request: one line to the program.
 #[derive(Clone, Debug, Serialize)]
 pub struct Request<'a> {
-    /// Ascends from request to request; the answer repeats it.
+    /// The request's id, which ascends; the answer repeats it.
     pub id: u64,
     /// L in 1/s, row i and column j holding ∂u_i/∂x_j.
     pub gradient_per_s: &'a [[f64; 3]; 3],
@@ -79,17 +79,17 @@ pub struct Request<'a> {
     pub aspect_ratio: f64,
     /// The rods' directions at t = 0.
     pub start: &'a [[f64; 3]],
-    /// The time in s for which directions are asked.
+    /// The time in s of the directions to return.
     pub end_s: f64,
     /// The number of equal steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<u64>,
-    /// In place of steps: the relative and absolute tolerance.
+    /// The relative and absolute tolerance, in place of steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
 }
 
-/// What a line says that is a well-formed answer.
+/// The content of a well-formed answer.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
     /// A direction for each rod; components that were NaN, infinite or null are NaN.
@@ -98,7 +98,7 @@ pub enum Answer {
     Error(String),
 }
 
-/// Reads the answer to the request `id` about `rods` rods. `Err` says what is wrong with the line.
+/// Parses the answer to request `id` about `rods` rods. `Err` says what is wrong with the line.
 pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
     let answer = parse(line)?;
     match answer.id.as_ref().map(|found| (found, found.as_u64())) {
@@ -146,7 +146,7 @@ fn direction(rod: usize, value: &Value) -> Result<[f64; 3], String> {
     Ok(p)
 }
 
-/// The keys of an answer, once each; others are passed over.
+/// The keys of an answer, each at most once; others are ignored.
 #[derive(Deserialize)]
 struct Line {
     #[serde(default)]
@@ -157,7 +157,7 @@ struct Line {
     p: Option<Value>,
 }
 
-/// JSON, and what Python and JavaScript print for numbers that are none.
+/// Parses JSON that may also contain the texts of Python and JavaScript for NaN and infinities.
 fn parse(line: &str) -> Result<Line, String> {
     if !line.trim_start().starts_with('{') {
         return match serde_json::from_str::<Value>(line) {
@@ -170,7 +170,7 @@ fn parse(line: &str) -> Result<Line, String> {
         Ok(value) => return Ok(value),
         Err(error) => error,
     };
-    // The longer words first: what is left of them is no word of its own.
+    // Longer words first, as they contain the shorter ones.
     let words = ["-Infinity", "Infinity", "-inf", "inf", "-NaN", "NaN", "-nan", "nan"];
     let without = words.iter().fold(line.to_owned(), |text, word| text.replace(word, "null"));
     match serde_json::from_str(&without) {

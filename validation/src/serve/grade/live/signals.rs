@@ -1,16 +1,16 @@
-//! Graded programs end with this one.
+//! Ends graded programs together with this one.
 
 use std::collections::BTreeSet;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The process groups that run now, to be killed where this program is ended by a signal.
+/// The process groups that run now, to be killed if a signal ends this program.
 static RUNNING: Mutex<BTreeSet<u32>> = Mutex::new(BTreeSet::new());
 
 pub(super) fn running() -> MutexGuard<'static, BTreeSet<u32>> {
     RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Kills every program that was started and still runs: this one is about to end.
+/// Kills every program that was started and still runs, before this program ends.
 #[cfg(unix)]
 pub fn end_all() {
     use rustix::process::{Pid, Signal, kill_process_group};
@@ -19,6 +19,6 @@ pub fn end_all() {
     }
 }
 
-/// There are no process groups.
+/// Does nothing: this system has no process groups.
 #[cfg(not(unix))]
 pub fn end_all() {}

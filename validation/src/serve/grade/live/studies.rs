@@ -1,4 +1,4 @@
-//! What every integrator of the project gets beyond a verdict: work–precision, longest steps, a stability map.
+//! Studies of a program beyond a verdict, as for the project's integrators: work–precision, longest steps, a stability map.
 
 use super::bench::{self, Bench};
 use super::program::Program;
@@ -8,25 +8,25 @@ use crate::studies::stability::limits::{Ladder, Limit, Property, bisect, holds};
 use crate::studies::stability::map;
 use serde::Serialize;
 
-/// Everything that was measured; `None` where there was not enough time for it (`--timeout`).
+/// All measurements; `None` for a study that had not enough time (`--timeout`).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Studies {
     /// Error against run time.
     pub work_precision: Option<Bench>,
     /// The longest steps.
     pub limits: Option<Vec<Longest>>,
-    /// What becomes of a rod by aspect ratio and step.
+    /// The fate of a rod by aspect ratio and step.
     pub map: Option<Vec<MapRow>>,
 }
 
-/// The longest step with which a program keeps a property.
+/// The longest step at which a program keeps a property.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Longest {
-    /// What is kept.
+    /// The property that is kept.
     pub property: Property,
     /// r_e.
     pub aspect_ratio: f64,
-    /// GΔt.
+    /// The longest step, GΔt.
     pub strain: Limit,
 }
 
@@ -35,7 +35,7 @@ pub struct Longest {
 pub struct MapRow {
     /// r_e.
     pub aspect_ratio: f64,
-    /// One for each of [`STEPS`] or [`TOLERANCES`].
+    /// The fate at each of [`STEPS`] or [`TOLERANCES`].
     pub found: Vec<map::Fate>,
 }
 
@@ -45,19 +45,19 @@ const LIMIT_RATIOS: [f64; 2] = [2.0, 11.6];
 /// Aspect ratios of the map.
 const MAP_RATIOS: [f64; 6] = [0.1, 1.01, 2.0, 11.6, 100.0, 1e4];
 
-/// Steps of the map in periods.
+/// Steps of the map, in periods.
 const STEPS: [f64; 5] = [1e-4, 1e-3, 1e-2, 0.1, 1.0];
 
 /// Tolerances of the map.
 const TOLERANCES: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10];
 
-/// Steps that a run of the map may take.
+/// The largest number of steps in a run of the map.
 const MOST_STEPS: u64 = 20_000;
 
-/// Rungs from a step that every consistent method takes up to a hundred times 1/G.
+/// Rungs from a step at which every consistent method works up to a hundred times 1/G.
 const LADDER: Ladder = Ladder { least: 0.01, most: 100.0, factor: 1.25 };
 
-/// Measures, each study for no longer than an answer may take.
+/// Runs all studies, each for no longer than one answer may take.
 pub fn studies(program: &Program, echo: &str) -> Studies {
     Studies {
         work_precision: program.within_time("work against precision", || bench::bench(program, echo)),
@@ -100,7 +100,7 @@ fn rows(program: &Program) -> Vec<MapRow> {
 }
 
 impl Studies {
-    /// What was measured as tables.
+    /// The measurements as tables.
     pub fn tables(&self) -> Vec<ReportTable> {
         let mut tables: Vec<_> = self.work_precision.iter().map(Bench::table).collect();
         tables
@@ -109,7 +109,7 @@ impl Studies {
         tables
     }
 
-    /// What was not measured, in words.
+    /// A message about the studies that were left out.
     pub fn left_out(&self) -> Vec<String> {
         let parts = [
             ("work against precision", self.work_precision.is_none()),

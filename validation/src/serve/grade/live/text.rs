@@ -1,4 +1,4 @@
-//! Requests and answers as lines of numbers apart by blanks, for programs without JSON (`docs/src/user/grading.md`).
+//! Requests and answers as lines of numbers separated by blanks, for programs without JSON (`docs/src/user/grading.md`).
 
 use super::pipe::excerpt;
 use super::protocol::{Answer, Request};
@@ -20,7 +20,7 @@ pub fn write(request: &Request<'_>) -> String {
     line
 }
 
-/// Reads the answer to the request `id` about `rods` rods: `id` and three numbers for each rod, or `id error REASON`.
+/// Parses the answer to request `id` about `rods` rods: `id` and three numbers for each rod, or `id error REASON`.
 /// `Err` says what is wrong with the line.
 pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
     let mut words = line.split_ascii_whitespace();
@@ -42,7 +42,7 @@ pub fn read(line: &str, id: u64, rods: usize) -> Result<Answer, String> {
     Ok(Answer::Directions(numbers.chunks(3).map(|p| [p[0], p[1], p[2]]).collect()))
 }
 
-/// A number as C, C++, Fortran, Julia, Octave and Python print it. What is not finite is NaN.
+/// Parses a number as printed by C, C++, Fortran, Julia, Octave or Python. Infinities become NaN.
 fn number(word: &str) -> Result<f64, String> {
     let wrong = || format!("{} is not a number", excerpt(word));
     // Fortran's double precision: 1.0D-3.

@@ -2,8 +2,8 @@
 
 use super::{Mistake, Setting, linear, right_map};
 
-/// r_p for r_e: the physical aspect ratio of a cylinder where the equivalent one of an ellipsoid belongs, by each formula
-/// of `docs/src/reference/files.md`, both ways: r_e = f(r_p) taken twice, and not taken.
+/// r_p for r_e: the physical aspect ratio of a cylinder in place of the equivalent one of an ellipsoid, by each formula
+/// of `docs/src/reference/files.md`, in both directions: r_e = f(r_p) applied twice, and not at all.
 pub(super) fn all() -> Vec<Mistake> {
     type Formula = fn(f64) -> f64;
     let formulas: [(&str, Formula); 4] = [
@@ -24,7 +24,7 @@ pub(super) fn all() -> Vec<Mistake> {
         .collect()
 }
 
-/// As [`moved`], where the aspect ratio that comes out is one.
+/// As [`moved`], if the resulting aspect ratio is valid.
 fn valid(name: &str, spoil: impl Fn(Setting) -> Setting + Send + Sync + 'static) -> Mistake {
     linear(name, move |setting, time| {
         let spoilt = spoil(*setting);
@@ -33,7 +33,7 @@ fn valid(name: &str, spoil: impl Fn(Setting) -> Setting + Send + Sync + 'static)
     })
 }
 
-/// r with f(r) = value between r = 2 and 200, where the formulas rise; NaN where there is none.
+/// r with f(r) = value between r = 2 and 200, where the formulas rise; NaN if there is no such r.
 pub(super) fn inverse(formula: fn(f64) -> f64, value: f64) -> f64 {
     let (mut low, mut high) = (2.0, 200.0);
     if !(formula(low)..=formula(high)).contains(&value) {

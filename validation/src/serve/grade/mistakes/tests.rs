@@ -12,7 +12,7 @@ fn couette(aspect_ratio: f64) -> Setting {
     Setting { gradient_per_s, aspect_ratio }
 }
 
-/// RK4 of ṗ = Ap − p (p·Ap) with many steps: shares nothing with the maps above.
+/// RK4 of ṗ = Ap − p (p·Ap) with many steps, independent of the maps above.
 fn integrated(a: &Matrix3<f64>, p: Vector3<f64>, time: f64) -> Vector3<f64> {
     let steps = 20_000;
     let rate = |p: Vector3<f64>| a * p - p * p.dot(&(a * p));

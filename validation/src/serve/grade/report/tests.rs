@@ -104,7 +104,7 @@ fn a_report_passes_where_one_passes_and_none_fails() {
     assert!(!report.passes());
 }
 
-/// A program that crashes says the same at every problem.
+/// A program that crashes has the same remark on every problem.
 #[test]
 fn what_several_problems_say_alike_stands_once() {
     let mut report = report();

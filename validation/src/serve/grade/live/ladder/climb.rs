@@ -1,4 +1,4 @@
-//! From coarse settings to fine ones, until the answers are within the tolerance, show that they will not be, or time is up.
+//! From coarse settings to fine ones, until the answers are within the tolerance, prove that they will not be, or time is up.
 
 use super::{Mode, Rung, errors};
 use crate::methods::integrators::Setting;
@@ -7,33 +7,33 @@ use crate::serve::grade::order::{Order, orders};
 use crate::serve::problems::LoadedProblem;
 use std::time::{Duration, Instant};
 
-/// Doublings of the steps at most, from GΔt of about 1.
+/// The largest number of doublings of the steps, from GΔt of about 1.
 const DOUBLINGS: u32 = 24;
 
-/// Rungs from which nothing is foretold: from here on a step is at most a hundredth of a unit of strain.
+/// Number of rungs that allow no prediction: after them a step is at most a hundredth of a unit of strain.
 const RESOLVING: usize = 7;
 
-/// An error in rad below which a method follows the motion: what does not change any more is then a result.
+/// An error in rad below which a method follows the motion, so that an answer that no longer changes is a result.
 const FOLLOWED: f64 = 0.01;
 
-/// How a ladder ended. Only what time has no part in is a failure.
+/// The end of a ladder. Running out of time is not a failure.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum End {
     /// The answers came within the tolerance.
     Reached,
-    /// The program broke the protocol, whatever it answered before.
+    /// The program broke the protocol, even if it answered before.
     Broke(String),
-    /// Its answers jump from one number of steps to the next.
+    /// The error jumps from one number of steps to the next.
     Jumps(String),
-    /// Finer settings would not come within the tolerance, or there are none.
+    /// Finer settings would not come within the tolerance, or there are no finer settings.
     Wrong(String),
-    /// The errors fall with a lower order than the claimed one.
+    /// The errors fall with an order lower than the claimed one.
     Lower,
     /// Time ran out first.
     OutOfTime(String),
 }
 
-/// Climbs, and says how that ended. Where an order is claimed it goes on until that is seen, refuted, or below round-off.
+/// Climbs, and returns the rungs and the end. If an order is claimed, it goes on until that is confirmed, refuted, or below round-off.
 pub(super) fn climb(
     problem: &LoadedProblem,
     mode: Mode,
@@ -52,7 +52,7 @@ pub(super) fn climb(
                 rungs.push(rung);
                 took
             }
-            // It may do better with shorter steps.
+            // Shorter steps may help.
             Err(Asked::Says(words)) => {
                 says = Some(format!("with {setting} the program says: {words}"));
                 Duration::ZERO
@@ -87,14 +87,14 @@ pub(super) fn climb(
             return (rungs, End::OutOfTime(words));
         }
     }
-    // There is no finer setting by which the last one could be confirmed.
+    // No finer setting can confirm the last one.
     match within(&rungs, tolerance) {
         true => (rungs, End::Reached),
         false => (rungs, End::Wrong(says.unwrap_or_else(|| "there is no finer setting".to_owned()))),
     }
 }
 
-/// Whether there is time for one more setting. One that would confirm an answer is asked for where it may come in time.
+/// True if there is time for one more setting. A setting that would confirm an answer is allowed if it can finish within the timeout.
 fn affordable(spent: Duration, took: Duration, timeout: Duration, confirms: bool) -> bool {
     match confirms {
         true => 2 * took <= timeout,
@@ -106,8 +106,8 @@ pub(super) fn within(rungs: &[Rung], tolerance: f64) -> bool {
     rungs.last().is_some_and(|rung| rung.error() <= tolerance)
 }
 
-/// Whether two settings in a row are within the tolerance, or one to which the error fell by a steady order: one alone may be a
-/// chance crossing.
+/// True if two settings in a row are within the tolerance, or one to which the error fell by a steady order: a single one may be
+/// an accidental crossing.
 pub(super) fn reached(rungs: &[Rung], tolerance: f64) -> bool {
     let within = |rung: &&Rung| rung.error() <= tolerance;
     match rungs.iter().rev().take_while(within).count() {
@@ -117,9 +117,9 @@ pub(super) fn reached(rungs: &[Rung], tolerance: f64) -> bool {
     }
 }
 
-/// Why finer settings would not come within the tolerance, where that can be told from those that were tried.
+/// The reason why finer settings would not come within the tolerance, if the settings so far prove it.
 pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration) -> Option<End> {
-    // From coarse steps nothing follows: they may be unstable, or miss the motion.
+    // Coarse steps prove nothing: they may be unstable, or miss the motion.
     let resolving = &rungs[RESOLVING.min(rungs.len())..];
     let [.., third, second, first, last] = resolving else {
         return None;
@@ -130,7 +130,7 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration) -> Opt
     }
     let changes = [(third, second), (second, first), (first, last)];
     let changes = changes.map(|(coarse, fine)| coarse.answer.largest_change(&fine.answer));
-    // A method that follows the motion, of any order above 0.02, changes by more than a hundredth of its error.
+    // A method that follows the motion, with any order above 0.02, changes by more than a hundredth of its error.
     let still = match errors[3] < FOLLOWED {
         true => 0.01 * errors[3],
         false => 0.01 * tolerance,
@@ -141,7 +141,7 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration) -> Opt
     if converge_elsewhere(resolving) && errors[3] > tolerance {
         return Some(End::Wrong("the answers converge, but not to the certified one".to_owned()));
     }
-    // A steady order foretells the steps, and two times that double what they take.
+    // A steady order predicts the number of steps, and two times that double predict the run time.
     let order = steady_order(resolving)?;
     let doubles = first.took > Duration::from_millis(200) && last.took < 3 * first.took;
     let more = (errors[3] / tolerance).powf(1.0 / order);
@@ -151,8 +151,8 @@ pub(super) fn hopeless(rungs: &[Rung], tolerance: f64, timeout: Duration) -> Opt
     })
 }
 
-/// Whether the last five answers converge to another one than the certified: the changes between them shrink each time as those
-/// of a method of order 0.8 at least, and all that are still to come are within a hundredth of the error.
+/// True if the last five answers converge to another answer than the certified one: the changes between them shrink each time like
+/// those of a method of order 0.8 at least, and all further changes together are within a hundredth of the error.
 fn converge_elsewhere(rungs: &[Rung]) -> bool {
     let Some(last) = rungs.last_chunk::<5>() else {
         return false;
@@ -162,7 +162,7 @@ fn converge_elsewhere(rungs: &[Rung]) -> bool {
     shrink && 2.0 * changes[3] <= 0.01 * last[4].error()
 }
 
-/// The order by which the last four errors fall, where it is nearly the same from each to the next.
+/// The order with which the last four errors fall, if it is nearly the same for each pair.
 fn steady_order(rungs: &[Rung]) -> Option<f64> {
     let last = rungs.last_chunk::<4>()?.each_ref().map(Rung::error);
     let orders = [0, 1, 2].map(|k| (last[k] / last[k + 1]).log2());

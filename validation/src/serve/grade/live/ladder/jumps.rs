@@ -1,9 +1,9 @@
-//! Every setting that was asked is judged, not the finest alone: a method's error is a continuous function of its step.
+//! Judges every setting, not the finest alone: a method's error is a continuous function of its step.
 //!
-//! Where a method follows the motion, its error falls by its order from one number of steps to twice as many. Where an error
-//! falls by far more, the numbers of steps between the two are bisected down to neighbours N and N + 1. A method that is
-//! unstable with long steps, or misses the motion, comes right over many N. Answers that are wrong from one N to the next
-//! are no method's.
+//! If a method follows the motion, its error falls by its order when the number of steps doubles. If an error falls by far more,
+//! the numbers of steps between the two are bisected down to neighbours N and N + 1. A method that is unstable with long steps,
+//! or misses the motion, becomes correct gradually, over many N. Answers that are wrong at N and right at N + 1 do not come from
+//! a method.
 
 use super::Rung;
 use super::climb::End;
@@ -11,19 +11,19 @@ use crate::methods::integrators::Setting;
 use crate::serve::grade::live::program::Asked;
 use std::f64::consts::FRAC_PI_2;
 
-/// How many times the error that the finer settings foretell is far: five orders more than the method's between two
-/// settings, and between neighbours, whose steps differ by an eighth at most, an order of thirty.
+/// An error is far off if it exceeds the prediction of finer settings by this factor: between two settings that is five orders
+/// more than the method's, and between neighbours, whose steps differ by an eighth at most, an order of thirty.
 const FAR: f64 = 32.0;
 
-/// The order where the errors above the tolerance do not show one: of the highest methods in use.
+/// The order assumed where errors above the tolerance do not show one: that of the highest methods in use.
 const HIGHEST: f64 = 8.0;
 
-/// An error in rad of a method that follows the motion closely: before that a right one may lose it from one number of steps to
-/// the next, as AB3 in angles does beside a pole.
+/// An error in rad of a method that follows the motion closely: at larger errors a correct method may lose the motion from one
+/// number of steps to the next, as AB3 in angles does beside a pole.
 const FOLLOWS: f64 = 1e-3;
 
-/// Of a program that chooses its steps: how many times the errors of both neighbouring tolerances an error may be. The
-/// error of a right one is about proportional to its tolerance, which changes by ten.
+/// For a program that chooses its steps: the largest ratio of an error to the errors of both neighbouring tolerances. The
+/// error of a correct program is about proportional to its tolerance, which changes by ten.
 const OUTLIER: f64 = 1000.0;
 
 /// From this tolerance on a right program follows the motion; with larger ones its steps may pass over a flip.
@@ -33,7 +33,7 @@ const SHARP: f64 = 1e-6;
 pub(super) fn judged(rungs: &[Rung], tolerance: f64, ask: impl Fn(Setting) -> Result<Rung, Asked>) -> End {
     let order = falling_order(rungs, tolerance);
     for k in (0..rungs.len().saturating_sub(1)).rev() {
-        // Unstable to the end: nothing but this can be said of the coarsest.
+        // All coarser rungs are unstable: nothing else can be said of them.
         if !rungs[..=k].iter().any(|rung| rung.error().is_finite()) {
             return End::Reached;
         }
@@ -58,7 +58,7 @@ pub(super) fn judged(rungs: &[Rung], tolerance: f64, ask: impl Fn(Setting) -> Re
     End::Reached
 }
 
-/// The error that finer settings foretell for coarser ones, by a power of the number of steps.
+/// The error that finer settings predict for coarser ones, by a power of the number of steps.
 struct Foretold {
     steps: f64,
     error: f64,
@@ -66,7 +66,7 @@ struct Foretold {
 }
 
 impl Foretold {
-    /// From the next finer settings. The first error may be small by chance: the second foretells it too.
+    /// The prediction from the next finer settings. As the first error may be small by chance, the second predicts it too.
     fn from(finer: &[Rung], steps: u64, tolerance: f64, order: f64) -> Self {
         let second = finer.get(1).and_then(|rung| {
             let ratio = rung.setting.steps().ok()? as f64 / steps as f64;
@@ -84,7 +84,7 @@ impl Foretold {
     }
 }
 
-/// A rung's error, where one that is not finite, or larger than a direction's can be, is a right angle.
+/// A rung's error, at most a right angle, which also stands for an error that is not finite.
 fn capped(rung: &Rung) -> f64 {
     match rung.error() {
         error if error.is_finite() => error.min(FRAC_PI_2),

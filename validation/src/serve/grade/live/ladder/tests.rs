@@ -6,7 +6,7 @@ use std::cell::Cell;
 
 const TOLERANCE: f64 = 1e-6;
 
-/// Fifteen rungs, one for each doubling: the angle by which a rod is off, which is its error too, and how long it took.
+/// Fifteen rungs, one per doubling, each with a rod that is off by its error, and a run time.
 fn ladder(rungs: impl Fn(i32) -> (f64, f64)) -> Vec<Rung> {
     let rung = |k: i32| {
         let (error, seconds) = rungs(k);
@@ -57,10 +57,10 @@ fn a_steady_order_or_a_second_rung_tells_an_answer_from_a_chance_crossing() {
         let rungs = ladder(|k| (error(k), seconds(k)));
         (1..=rungs.len()).find(|asked| reached(&rungs[..*asked], TOLERANCE))
     };
-    // 0.3/16⁵ is within 10⁻⁶: the sixth rung. Where orders wander, one more.
+    // 0.3/16⁵ is within 10⁻⁶: the sixth rung. If orders wander, one rung more.
     assert_eq!(asked(&|k| 0.3 * 16f64.powi(-k)), Some(6));
     assert_eq!(asked(&|k| 0.3 * 16f64.powi(-k) * if k % 2 == 0 { 1.0 } else { 1.2 }), Some(7));
-    // Zeros crossed by chance, among coarse and fine steps.
+    // Accidental zeros, at coarse and fine steps.
     let crossing = |k: i32| {
         if k == 2 || k == 8 { 0.0 } else { 0.3 * 2f64.powi(-k) }
     };
@@ -104,10 +104,10 @@ fn what_no_longer_changes_is_not_asked_on() {
 
 #[test]
 fn answers_that_converge_to_another_one_are_not_asked_on() {
-    // Euler's with a weight of 0.9: far from the tolerance in what changes, and wrong.
+    // Euler's with a weight of 0.9: changes far above the tolerance, and a wrong limit.
     let elsewhere = climbed(|k| (0.3 + 0.1 * 2f64.powi(-k), seconds(k)));
     assert_eq!(elsewhere.as_deref(), Some("the answers converge, but not to the certified one"));
-    // What is still to come is more than a hundredth of the error; and what falls to 0.
+    // Further changes are more than a hundredth of the error; and an error that falls to 0.
     assert_eq!(climbed(|k| (1e-3 + 2f64.powi(-k), 1e-9)), None);
     assert_eq!(climbed(|k| (0.3 * 2f64.powi(-k), 1e-9)), None);
 }
@@ -132,14 +132,14 @@ fn what_may_yet_come_within_the_tolerance_is_asked_on() {
         if k < 9 { 1.5 + 1e-4 * f64::from(k) } else { second(k) }
     };
     assert_eq!(climbed(|k| (missed(k), seconds(k))), None);
-    // A pause of the machine; what takes long to start.
+    // A pause of the machine; a program that starts slowly.
     let pause = |k: i32| seconds(k) + if k == 10 { 3.0 } else { 0.0 };
     assert_eq!(climbed(|k| (0.3 * 2f64.powi(-k), pause(k))), None);
     let start = |k: i32| if k == 0 { 3.0 } else { 1e-4 };
     assert_eq!(climbed(|k| (second(k), start(k))), None);
 }
 
-/// Climbs on one problem with a timeout of a minute: the steps and errors that were asked for, and how it ended.
+/// Climbs on one problem with a timeout of a minute: returns the problem, the errors that were asked for, and the end.
 fn climbed_to(claimed: Option<f64>, rungs: impl Fn(i32) -> (f64, f64)) -> (LoadedProblem, Vec<f64>, End) {
     let problem = crate::serve::problems::named("mid-flip-2").unwrap().loaded("mid-flip-2".into());
     let asked = Cell::new(0);
@@ -160,7 +160,7 @@ fn an_order_is_no_answer_and_one_that_is_unclear_is_asked_on_to_round_off() {
         let tolerance = problem.problem.tolerance;
         assert!(errors[errors.len() - 1] <= tolerance && errors[errors.len() - 2] > tolerance, "{errors:?}");
     }
-    // Neither the claimed one nor off by a whole order.
+    // Neither the claimed order nor lower by a whole order.
     let (problem, errors, end) = climbed_to(Some(4.6), fourth);
     assert_eq!(end, End::Reached);
     assert!(errors[errors.len() - 1] <= 0.01 * problem.own_tolerance, "{errors:?}");
@@ -172,12 +172,12 @@ fn what_would_take_too_long_is_not_asked_unless_it_confirms() {
     assert!(
         matches!(end(0.5, 16.0), End::OutOfTime(words) if words.contains("finer ones would take too long"))
     );
-    // One that is within the tolerance is confirmed in twice its time.
+    // An answer within the tolerance is confirmed in twice its time.
     assert_eq!(end(1e-15, 29.0), End::Reached);
     assert!(matches!(end(1e-15, 31.0), End::OutOfTime(_)));
 }
 
-/// How a program is judged whose error, by the number of steps and of times it was asked, is `error`.
+/// The judgement on a program with the error `error(steps, count)`, where `count` is the number of requests.
 fn judged(error: impl Fn(u64, u32) -> f64) -> End {
     let count = Cell::new(0);
     let ask = |setting: Setting| -> Result<Rung, Asked> {
@@ -200,15 +200,15 @@ fn what_comes_right_over_many_numbers_of_steps_is_a_method() {
     for order in [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 14.0] {
         let right = of_order(order);
         assert_eq!(judged(|steps, _| right(steps)), End::Reached, "{order}");
-        // Unstable with fewer than some 200 steps: what grows does so by a factor a step.
+        // Unstable with fewer than some 200 steps: errors grow by a factor per step.
         let unstable = |steps: u64| right(steps) + 1e-12 * 1.5f64.powi(200 - steps as i32);
         assert_eq!(judged(|steps, _| unstable(steps)), End::Reached, "{order}");
-        // Not finite where it is unstable, or too long.
+        // Not finite, or too long, where it is unstable.
         for wild in [f64::NAN, f64::INFINITY, 1e30] {
             let found = judged(|steps, _| if steps < 16 { wild } else { right(steps) });
             assert_eq!(found, End::Reached, "{order} {wild}");
         }
-        // A zero crossed by chance, at a rung.
+        // An accidental zero at a rung.
         let crossing = |steps: u64| right(steps) * (1.0 - 64.0 / steps as f64).abs();
         assert_eq!(judged(|steps, _| crossing(steps)), End::Reached, "{order}");
     }
