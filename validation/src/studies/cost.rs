@@ -1,5 +1,5 @@
-//! What an answer costs: seconds to a stated error of X̄₁ at two periods, by this program, by the naive reference, and by a code as a
-//! researcher writes it with NumPy.
+//! The cost of an answer: seconds to a stated error of X̄₁ at two periods, for this program, for the naive reference, and for a
+//! NumPy code as a researcher would write it.
 
 use crate::files::build;
 use crate::judge::lab;
@@ -15,7 +15,7 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-/// The cost of accuracy.
+/// The study of the cost of accuracy.
 pub const STUDY: Study = Study {
     name: "cost-of-accuracy",
     title: "What an answer costs: error against run time",
@@ -27,13 +27,13 @@ pub const STUDY: Study = Study {
     run,
 };
 
-/// Steps per period that a program may choose from; against the last the error of the step is measured.
+/// Steps per period that a program may choose from; the error of the step is measured against the last of them.
 const STEPS: [u64; 5] = [50, 100, 200, 400, 800];
 /// The steps per period of the other programs.
 const USUAL: u64 = 200;
 const ERRORS: [f64; 5] = [0.02, 0.01, 0.005, 0.002, 0.001];
 
-/// X̄₁ at two periods with steps of one length.
+/// X̄₁ at two periods for one length of the steps.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct Step {
     steps_per_period: u64,
@@ -41,13 +41,13 @@ struct Step {
     x1_se: f64,
     /// Standard deviation between replicas.
     sd: f64,
-    /// The most that the step's error may be: its difference from the finest step, and two standard errors of that.
+    /// Upper bound of the step's error: its difference from the finest step, plus two standard errors of that.
     step_error: f64,
-    /// One core's time for a replica.
+    /// Time of a replica on one core, s.
     seconds: f64,
 }
 
-/// What a stated error costs one program.
+/// The cost of a stated error for one program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 struct Cost {
     error: f64,
@@ -58,7 +58,7 @@ struct Cost {
     seconds: f64,
 }
 
-/// A program's replicas: their mean X̄₁, scatter and time.
+/// The results of a program's replicas: their mean X̄₁, scatter and time.
 struct Measured {
     program: &'static str,
     x1: Sample,
@@ -131,7 +131,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
 
 const OWN: &str = "shearbed";
 
-/// The least that a stated error costs each program.
+/// The lowest cost of a stated error for each program.
 fn costs(error: f64, steps: &[Step], others: &[Measured]) -> Vec<Cost> {
     let cost = |program, step: &Step, sd: f64, seconds: f64| {
         let left = error * error - step.step_error * step.step_error;
@@ -149,7 +149,7 @@ fn costs(error: f64, steps: &[Step], others: &[Measured]) -> Vec<Cost> {
         |costs: &mut dyn Iterator<Item = Cost>| costs.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
     let own = cheapest(&mut steps.iter().filter_map(|step| cost(OWN, step, step.sd, step.seconds)));
     let others = others.iter().filter_map(|other| {
-        // Each of their steps takes as long, whatever its length.
+        // Their steps all take the same time, whatever the length.
         let seconds = |step: &Step| other.seconds * step.steps_per_period as f64 / USUAL as f64;
         cheapest(&mut steps.iter().filter_map(|step| cost(other.program, step, step.sd, seconds(step))))
     });
@@ -165,7 +165,7 @@ fn scene(steps_per_period: u64) -> Scene {
     scene
 }
 
-/// X̄₁ with steps of each length: all on all cores, the time of a replica on one.
+/// X̄₁ with steps of each length: replicas run on all cores, the time of a replica is measured on one.
 fn steps(replicas: u64) -> Result<Vec<Step>, String> {
     let found: Result<Vec<_>, String> = STEPS
         .into_iter()
@@ -192,7 +192,7 @@ fn steps(replicas: u64) -> Result<Vec<Step>, String> {
         let se = step.x1_se.hypot(finest.x1_se);
         step.step_error = (step.x1 - finest.x1).abs() + 2.0 * se;
     }
-    // Against itself the finest has no error that could be seen.
+    // The finest has no measurable error, as it is compared with itself.
     found.pop();
     Ok(found)
 }
@@ -215,7 +215,7 @@ fn naive(replicas: u64) -> Measured {
     }
 }
 
-/// The peer in `peers/`, where there is a python3 with NumPy.
+/// The NumPy code in `peers/`; `None` without a python3 with NumPy.
 fn numpy(replicas: u64) -> Option<Measured> {
     #[derive(Deserialize)]
     struct Answer {
@@ -236,7 +236,7 @@ fn numpy(replicas: u64) -> Option<Measured> {
     Some(Measured { program: "NumPy, as people write it", x1: Sample::of(&answer.x1), seconds })
 }
 
-/// Whether the others have the same answer: a faster wrong one would be no comparison.
+/// A sentence that says if the other programs have the same answer: a faster wrong one would be no comparison.
 fn agreement(steps: &[Step], others: &[Measured]) -> String {
     let usual = steps.iter().find(|step| step.steps_per_period == USUAL);
     let said = others.iter().filter_map(|other| {
@@ -272,12 +272,12 @@ mod tests {
         let steps = [step(25, 4e-3, 1e-4), step(50, 8e-4, 2e-4), step(USUAL, 1e-4, 1e-3)];
         let other = Measured { program: "other", x1: Sample::of(&[0.3, 0.31]), seconds: 0.1 };
         let [own, others] = costs(0.005, &steps, std::slice::from_ref(&other))[..] else { panic!() };
-        // 0.04²/(0.005² − 0.0008²) = 65.7 replicas; with 25 steps 177.8 of half the time.
+        // 0.04²/(0.005² − 0.0008²) = 65.7 replicas; with 25 steps 177.8, each in half the time.
         assert_eq!((own.steps_per_period, own.replicas), (50, 66));
         // 50 steps take a quarter of the time of 200, and 66 replicas.
         assert_eq!((others.steps_per_period, others.replicas), (50, 66));
         assert!((others.seconds - 66.0 * 0.025).abs() < 1e-12);
-        // Near the error of 50 steps they leave so little room that 200 are cheaper: 0.04²/(0.00085² − 0.0001²) = 2245.6 replicas.
+        // Near the error of 50 steps, 200 steps are cheaper: 0.04²/(0.00085² − 0.0001²) = 2245.6 replicas.
         let own = costs(8.5e-4, &steps, &[])[0];
         assert_eq!((own.steps_per_period, own.replicas), (USUAL, 2246));
         // An error that no step allows has no cost.

@@ -1,9 +1,9 @@
-//! The integrators that studies compare, and where yours is registered: it is graded in every table of `bench`, `converge` and the
-//! report beside the project's own, and no case judges it, so the gate stays green whatever it does.
+//! The integrators that studies compare. Register your own here: it appears in every table of `bench`, `converge` and the report
+//! with the project's own, and no case judges it, so that it cannot fail the gate.
 
 use crate::methods::integrators::{Integrator, own};
 
-/// Integrators of others.
+/// Integrators registered by users.
 fn guests() -> Vec<Integrator> {
     vec![
         // Integrator::in_p("mine", 2, my_step),
@@ -17,7 +17,7 @@ pub fn all() -> Vec<Integrator> {
     own().into_iter().chain(guests()).collect()
 }
 
-/// Whatever is tested is tested with a guest registered.
+/// Tests that run with a guest registered.
 #[cfg(test)]
 mod tests {
     use super::{Integrator, all, own};
@@ -41,7 +41,7 @@ mod tests {
         let heun = studies.iter().find(|study| study.subject == NAME);
         assert_eq!(heun.unwrap().found, order::OrderVerdict::AsTheory);
         for case in crate::cases::all() {
-            // Those that ask for every subject.
+            // The cases that ask for every integrator.
             if case.about.judges == Judges::Integrator && ASK_FOR_ALL.contains(&case.about.name) {
                 let outcome = case.run(&Effort::gate());
                 assert_eq!(outcome.verdict, Verdict::Pass, "{outcome:?}");

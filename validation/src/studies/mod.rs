@@ -1,5 +1,5 @@
-//! The studies, which the report, `shearbed bench` and their files are made from, and the integrators that they compare.
-//! They may use `present` and what is below. A study is a module with a `STUDY`, and a line of [`ALL`].
+//! The studies, from which the report, `shearbed bench` and their files are made, and the integrators that they compare.
+//! They may use `present` and the modules below it. A study is a module with a `STUDY`, and a line of [`ALL`].
 
 pub mod coefficients;
 pub mod cost;

@@ -1,9 +1,9 @@
-//! What other interpretations of the paper change: each alternative alone, run by the naive reference against the
-//! interpretation that the project takes, with the same random numbers.
+//! The effect of other interpretations of the paper: the naive reference runs each alternative alone and the
+//! interpretation that the project uses, with the same random numbers.
 //!
-//! The scene is that of Fig. 7 at 50 per cm³. Seeds are shared, and places do not depend on directions: where the time step and
-//! the replacement are the same, two interpretations have the same rods at the same places with the same draws, and
-//! differ only in what collisions do. The errors of the differences use that.
+//! The scene is that of Fig. 7 at 50 per cm³. Seeds are shared, and places do not depend on directions: with the same time step
+//! and replacement, two interpretations have the same rods at the same places with the same draws, and
+//! differ only in the effect of collisions. The errors of the differences rely on that.
 
 #[cfg(test)]
 mod tests;
@@ -20,7 +20,7 @@ use rayon::prelude::*;
 use std::convert::Infallible;
 use std::iter::once;
 
-/// What the paper leaves open.
+/// The study of the paper's open choices.
 pub const STUDY: Study = Study {
     name: "readings",
     title: "What the paper leaves open",
@@ -51,7 +51,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     Ok(Some(Findings::new(answer, vec![table(&rows).into()], [])))
 }
 
-/// A row for each interpretation; for each quantity a column and one of its change.
+/// A row for each interpretation; for each quantity a column of its value and one of its change.
 pub fn table(rows: &[ReadingRow]) -> ReportTable {
     let replicas = rows.iter().map(|row| row.replicas).min().unwrap_or(0);
     let mut columns = vec![
@@ -81,31 +81,31 @@ pub fn table(rows: &[ReadingRow]) -> ReportTable {
 /// The seed of all replicas.
 pub const SEED: u64 = 1;
 
-/// Quarters of a period in a run: free rods have their maxima of X̄₁ at the even ones, their minima between.
+/// Quarters of a period in a run: free rods have maxima of X̄₁ at even quarters, and minima between them.
 const QUARTERS: usize = 8;
 
 /// The means of one replica: X̄₁ at every quarter of a period, then collisions per rod and period.
 pub type Trace = [f64; QUARTERS + 2];
 
-/// One reading, measured.
+/// The results of one interpretation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReadingRow {
-    /// What is left open.
+    /// The open choice.
     pub open: &'static str,
-    /// How it is read here.
+    /// The interpretation of it.
     pub reading: &'static str,
-    /// Independent replicas.
+    /// Number of independent replicas.
     pub replicas: u64,
-    /// Each of [`QUANTITIES`].
+    /// The value of each of [`QUANTITIES`].
     pub values: Vec<Estimate>,
-    /// Each less that of the default, from pairs of replicas; none for the default itself.
+    /// Each value less that of the default, from pairs of replicas; none for the default itself.
     pub changes: Option<Vec<Estimate>>,
 }
 
-/// A quantity that follows from mean traces.
+/// A function that computes a quantity from a mean trace.
 pub type Quantity = fn(&Trace) -> f64;
 
-/// What is measured, by name.
+/// The measured quantities, by name.
 pub const QUANTITIES: [(&str, Quantity); 4] = [
     ("X̄₁ at t/T = 1", |x| x[4]),
     ("X̄₁ at t/T = 2", |x| x[8]),
@@ -116,8 +116,8 @@ pub const QUANTITIES: [(&str, Quantity); 4] = [
 /// A change of the problem.
 pub type Change = fn(&mut NaiveProblem);
 
-/// The alternatives: what is left open, how it is read, and that as a change of the default. The last two are
-/// those whose effect depends on the time step.
+/// The alternatives: the open choice, the interpretation, and the change of the default for it. The effect of the last two
+/// depends on the time step.
 #[rustfmt::skip]
 pub const ALTERNATIVES: [(&str, &str, Change); 17] = [
     ("who collides", "one draw per mutual pair", |p| p.reading.who = Who::PairDraws),
@@ -143,7 +143,7 @@ pub const ALTERNATIVES: [(&str, &str, Change); 17] = [
     }),
 ];
 
-/// The default and every alternative, run over all ranks; none but on the root.
+/// The rows of the default and of every alternative, run over all ranks; `None` except on the root.
 pub fn measure(effort: &Effort) -> Option<Vec<ReadingRow>> {
     let replicas = effort.pick(40, 2000);
     let default: Change = |_| ();
@@ -163,7 +163,7 @@ pub fn measure(effort: &Effort) -> Option<Vec<ReadingRow>> {
     Some(rows)
 }
 
-/// The trace of each of the first `replicas` replicas of a changed problem.
+/// The traces of the first `replicas` replicas of the paper's problem with `change`.
 pub fn traces(change: Change, replicas: u64) -> Vec<Trace> {
     let run = |replica| {
         let mut problem = NaiveProblem::paper(SEED, replica);
@@ -173,7 +173,7 @@ pub fn traces(change: Change, replicas: u64) -> Vec<Trace> {
     (0..replicas).into_par_iter().map(run).collect()
 }
 
-/// Two periods of a problem with steps in multiples of four to the period.
+/// Runs two periods of a problem whose number of steps per period is a multiple of four.
 fn trace(problem: NaiveProblem) -> Trace {
     let (steps, rods) = (problem.steps_per_period / 4, problem.count as f64);
     let mut naive = Naive::new(problem);
@@ -183,14 +183,14 @@ fn trace(problem: NaiveProblem) -> Trace {
         (0..steps).for_each(|_| naive.step());
         *x1 = mean_projections(&naive.orientations)[0];
     }
-    // each collision turns two rods
+    // Each collision turns two rods.
     trace[QUARTERS + 1] = 2.0 * naive.collisions as f64 / rods / (QUARTERS as f64 / 4.0);
     trace
 }
 
-/// How fast the oscillation of a mean X̄₁ dies away, 1/T: minus the slope, by least squares over four half
+/// The decay rate of the oscillation of a mean X̄₁, 1/T: minus the slope, by least squares over four half
 /// periods, of ln A. A, at the minimum between two maxima, is the mean of these maxima less the minimum.
-/// Maxima and minima are taken where those of free rods are.
+/// Maxima and minima are taken at the times of those of free rods.
 pub fn damping_rate(x1: &Trace) -> f64 {
     let ln_a = [1, 3, 5, 7].map(|k| (0.5 * (x1[k - 1] + x1[k + 1]) - x1[k]).ln());
     let t: [f64; 4] = [-0.75, -0.25, 0.25, 0.75];
@@ -199,13 +199,13 @@ pub fn damping_rate(x1: &Trace) -> f64 {
     -slope(&t)
 }
 
-/// A quantity of the mean trace.
+/// The estimate of a quantity of the mean trace, with an error by the jackknife.
 pub fn value(quantity: Quantity, traces: &[Trace]) -> Estimate {
     let without: Vec<_> = means_without_one(traces).iter().map(quantity).collect();
     Estimate::jackknife(quantity(&mean(traces)), &without)
 }
 
-/// A quantity of the mean of `traces` less that of `default`, replica by replica from the same random numbers.
+/// A quantity of the mean of `traces` less that of `default`, from pairs of replicas with the same random numbers.
 pub fn change(quantity: Quantity, default: &[Trace], traces: &[Trace]) -> Estimate {
     let less = |after: &Trace, before: &Trace| quantity(after) - quantity(before);
     let (after, before) = (means_without_one(traces), means_without_one(default));
@@ -217,7 +217,7 @@ fn mean(traces: &[Trace]) -> Trace {
     std::array::from_fn(|i| traces.iter().map(|trace| trace[i]).sum::<f64>() / traces.len() as f64)
 }
 
-/// For each replica, the mean of all others.
+/// For each replica, the mean of all other traces.
 fn means_without_one(traces: &[Trace]) -> Vec<Trace> {
     let (n, mean) = (traces.len() as f64, mean(traces));
     let without = |trace: &Trace| std::array::from_fn(|i| (n * mean[i] - trace[i]) / (n - 1.0));

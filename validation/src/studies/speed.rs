@@ -1,4 +1,4 @@
-//! How fast the core is, against the naive reference and against what the machine can do: all measured side by side in one run.
+//! The speed of the core against the naive reference and against the limits of the machine, all measured in one run.
 
 mod measure;
 
@@ -9,7 +9,7 @@ use crate::present::table::{ReportTable, decimals, number, words};
 pub use measure::measure;
 use serde::Serialize;
 
-/// The core's speed beside targets.
+/// The study of the core's speed, with targets.
 pub const STUDY: Study = Study {
     name: "speed",
     title: "Speed of the core",
@@ -28,7 +28,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     Ok(Some(Findings::new(answer(&speed.checks), exhibits, [("speed.json", build::json(&speed)?)])))
 }
 
-/// The targets.
+/// The table of targets and measurements.
 fn table(speed: &Speed) -> ReportTable {
     let target = |check: &Check| match check.target {
         Target::AtMost(most) => format!("≤ {most} {}", check.unit),
@@ -91,53 +91,53 @@ fn answer(checks: &[Check]) -> String {
     format!("{met} of {all} targets are met on this machine; times depend on what else runs on it.")
 }
 
-/// How much is measured.
+/// The size of the study.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Amount {
-    /// Measurements, of which the least counts.
+    /// Number of measurements; the least of them counts.
     repeats: usize,
-    /// Rods for the memory rate.
+    /// Number of rods for the memory rate.
     free_rods: usize,
-    /// Seconds that the steps of one measurement take, about.
+    /// Approximate duration of the steps of one measurement, s.
     seconds: f64,
 }
 
 impl Amount {
-    /// For `shearbed bench`.
+    /// The amount for `shearbed bench`.
     pub const FULL: Self = Self { repeats: 7, free_rods: 10_000_000, seconds: 0.2 };
-    /// For the report of every day.
+    /// The amount for daily reports.
     pub const QUICK: Self = Self { repeats: 3, free_rods: 2_000_000, seconds: 0.02 };
 }
 
-/// What was measured.
+/// The results of the study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Speed {
-    /// Threads of the runs that share their work.
+    /// Number of threads of the runs on all cores.
     pub threads: usize,
-    /// A target each.
+    /// The measurements with their targets.
     pub checks: Vec<Check>,
-    /// A step of the paper's suspension against the number of rods, on one core.
+    /// Time of a step of the paper's suspension against the number of rods, on one core.
     pub by_rods: Vec<Step>,
-    /// A step against the concentration, from dilute to dense, on one core.
+    /// Time of a step against the concentration, from dilute to dense, on one core.
     pub by_concentration: Vec<Step>,
 }
 
-/// A target and what was measured.
+/// A measurement with its target.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Check {
-    /// What it is about.
+    /// The subject of the measurement.
     pub what: &'static str,
     /// The measured number.
     pub measured: f64,
-    /// What it ought to be at most or at least.
+    /// The target for the measured number.
     pub target: Target,
-    /// Its unit.
+    /// The unit of both.
     pub unit: &'static str,
-    /// The numbers behind it.
+    /// The numbers from which it is computed.
     pub behind: String,
 }
 
-/// What a number ought to be.
+/// The target of a measured number.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Target {
@@ -145,12 +145,12 @@ pub enum Target {
     AtMost(f64),
     /// No smaller than this.
     AtLeast(f64),
-    /// There is none.
+    /// No target.
     None,
 }
 
 impl Check {
-    /// What was measured over what it ought to be.
+    /// The measured number over its target.
     pub fn over_target(&self) -> Option<f64> {
         match self.target {
             Target::AtMost(target) | Target::AtLeast(target) => Some(self.measured / target),
@@ -173,11 +173,11 @@ impl Check {
 pub struct Step {
     /// Rods in the control volume.
     pub rods: usize,
-    /// n.
+    /// n, rods per cm³.
     pub concentration_per_cm3: f64,
     /// The core's time per rod and step in ns.
     pub core_ns: f64,
-    /// That of the naive reference, where it was measured.
+    /// The naive reference's time per rod and step in ns, if it was measured.
     pub naive_ns: Option<f64>,
 }
 

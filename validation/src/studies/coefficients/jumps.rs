@@ -1,5 +1,5 @@
-//! Kicks beside rotary diffusion of the same C_I: how far rods are off Jeffery's motion after a fixed strain, and in which
-//! orbits and phases they end up.
+//! Kicks compared with rotary diffusion of the same C_I: how far rods deviate from Jeffery's motion after a fixed strain, and
+//! their final orbits and phases.
 
 mod show;
 #[cfg(test)]
@@ -22,21 +22,21 @@ use shearbed::model::orientation::bounded_orbit_constant;
 use shearbed::scene::Scene;
 use std::f64::consts::FRAC_PI_2;
 
-/// What is looked at, of every rod at the end of each jump.
+/// A quantity that is evaluated for every rod at the end of each jump.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// The angle in rad between the rod and where Jeffery's motion alone would have taken it.
+    /// The angle in rad between the rod and the direction that Jeffery's motion alone would have given it.
     Angle,
-    /// |ΔC_b|, 0 by Jeffery's motion alone.
+    /// |ΔC_b|, 0 for Jeffery's motion alone.
     Change,
     /// C_b = C/(1 + C).
     Orbit,
-    /// The phase atan(tan φ/r_e) over π/2, through which free rods pass evenly.
+    /// The phase atan(tan φ/r_e) over π/2, which free rods pass through at a constant rate.
     Phase,
 }
 
 impl Quantity {
-    /// All.
+    /// All quantities.
     pub const ALL: [Self; 4] = [Self::Angle, Self::Change, Self::Orbit, Self::Phase];
 
     /// The values above which rods are counted.
@@ -60,21 +60,21 @@ pub fn above(all: &[Shares], quantity: Quantity, edge: f64) -> Vec<f64> {
     all.iter().map(share).collect()
 }
 
-/// How long is looked at.
+/// The duration of the observation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Watch {
-    /// Time steps of a jump.
+    /// Number of time steps in a jump.
     pub steps: u64,
     /// Strain of a time step.
     pub strain: f64,
-    /// Jumps before the state is steady.
+    /// Number of jumps before the state is steady.
     pub before: u64,
-    /// Jumps that are counted.
+    /// Number of jumps that are counted.
     pub jumps: u64,
 }
 
 impl Watch {
-    /// Jumps over a strain of about 1, in the steps of the scene, from `before` periods on and for `periods`.
+    /// Jumps over a strain of about 1, in the steps of the scene: `before` periods without counting, then `periods` with it.
     pub fn new(scene: &Scene, before: f64, periods: f64) -> Self {
         let period = strain_per_period(scene.particles.aspect_ratio);
         let strain = period / scene.steps_per_unit() as f64;
@@ -89,7 +89,7 @@ impl Watch {
     }
 }
 
-/// Replicas of interacting rods.
+/// Shares of `replicas` replicas of interacting rods.
 pub fn kicked(scene: &Scene, watch: Watch, replicas: u64) -> Vec<Shares> {
     let one = |replica| {
         let mut rods = lab::suspension(scene, replica);
@@ -101,7 +101,7 @@ pub fn kicked(scene: &Scene, watch: Watch, replicas: u64) -> Vec<Shares> {
     (0..replicas).into_par_iter().map(one).collect()
 }
 
-/// As many rods in the same steps that turn by Jeffery's equation and rotary diffusion of C_I. They have the seeds of the
+/// The same for as many rods in the same steps that turn by Jeffery's equation and rotary diffusion of C_I. Their seeds are the
 /// effort's streams from `stream` on.
 pub fn diffused(
     scene: &Scene,
@@ -122,7 +122,7 @@ pub fn diffused(
     (0..replicas).into_par_iter().map(one).collect()
 }
 
-/// What is seen of rods that `next` takes through one jump after the other; NaN where it stops.
+/// The shares of rods that `next` takes through one jump after the other; NaN if it stops.
 fn observed(aspect_ratio: f64, watch: Watch, mut next: impl FnMut() -> Option<Vec<Vector3<f64>>>) -> Shares {
     let carry = free(shape_factor(aspect_ratio), watch.length());
     let mut values: [Vec<f64>; 4] = Default::default();
@@ -142,7 +142,7 @@ fn observed(aspect_ratio: f64, watch: Watch, mut next: impl FnMut() -> Option<Ve
     Quantity::ALL.map(|quantity| shares(&mut values[quantity as usize], &quantity.edges()))
 }
 
-/// Every quantity of a rod that went from one direction to another, and would have come along `expected` by itself.
+/// Every quantity of a rod that went from `from` to `to`, and would have gone to `expected` by Jeffery's motion alone.
 fn seen(aspect_ratio: f64, from: &Vector3<f64>, expected: &Vector3<f64>, to: &Vector3<f64>) -> [f64; 4] {
     let orbit = |p: &Vector3<f64>| bounded_orbit_constant((*p).into(), aspect_ratio);
     [
@@ -153,7 +153,7 @@ fn seen(aspect_ratio: f64, from: &Vector3<f64>, expected: &Vector3<f64>, to: &Ve
     ]
 }
 
-/// The share of values above each edge; one that is no number is above all.
+/// The share of values above each edge; NaN is above all edges.
 fn shares(values: &mut [f64], edges: &[f64]) -> Vec<f64> {
     values.sort_unstable_by(f64::total_cmp);
     let share = |edge: &f64| {
@@ -163,19 +163,19 @@ fn shares(values: &mut [f64], edges: &[f64]) -> Vec<f64> {
     edges.iter().map(share).collect()
 }
 
-/// Two samples of replicas side by side.
+/// The distance between two samples of replicas.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Apart {
     /// The largest difference between the mean shares above an edge: Kolmogorov's distance, at the edges.
     pub distance: f64,
-    /// The probability that replicas dealt out to the two samples at random are as far apart.
+    /// The probability of at least this distance if the replicas are assigned to the two samples at random.
     pub p: f64,
 }
 
-/// Random deals behind a p-value.
+/// Number of random assignments behind a p-value.
 const DEALS: u64 = 999;
 
-/// How far apart two samples are, by a permutation test: it asks nothing of the rods of a replica, which depend on each other.
+/// The distance of two samples, by a permutation test: it may treat the rods of a replica as dependent.
 pub fn apart(one: &[Shares], other: &[Shares], quantity: Quantity, seed: u64) -> Apart {
     let mut all: Vec<&Vec<f64>> = one.iter().chain(other).map(|r| &r[quantity as usize]).collect();
     let distance = |all: &[&Vec<f64>]| {
@@ -189,18 +189,18 @@ pub fn apart(one: &[Shares], other: &[Shares], quantity: Quantity, seed: u64) ->
     let mut rng = Pcg64Dxsm::seed_from_u64(seed);
     let as_far = (0..DEALS).filter(|_| {
         all.shuffle(&mut rng);
-        // Sums in another order differ by rounding.
+        // Sums in a different order differ by rounding.
         distance(&all) > found - 1e-12
     });
     Apart { distance: found, p: (1 + as_far.count()) as f64 / (1 + DEALS) as f64 }
 }
 
-/// A suspension, and diffusion of the C_I that was measured of it.
+/// A suspension, and diffusion with its measured C_I.
 #[derive(Clone, Debug)]
 pub struct Compared {
     /// The suspension.
     pub setting: Setting,
-    /// Its C_I.
+    /// The suspension's C_I.
     pub c_i: Estimate,
     /// Strain of a jump.
     pub strain: f64,
@@ -210,7 +210,7 @@ pub struct Compared {
     pub diffusion: Vec<Shares>,
 }
 
-/// Compares the suspensions whose C_I is known to be above 0: there is no diffusion of another.
+/// Compares the suspensions whose C_I is known to be above 0: diffusion needs a positive C_I.
 pub fn compared(rows: &[&Coefficients], effort: &Effort) -> Vec<Compared> {
     let diffusive = rows.iter().filter(|row| row.c_i.readable() && row.c_i.value > 0.0);
     let compare = |row: &&Coefficients| {
@@ -227,5 +227,5 @@ pub fn compared(rows: &[&Coefficients], effort: &Effort) -> Vec<Compared> {
     diffusive.map(compare).collect()
 }
 
-/// The first stream of the study's diffusion.
+/// The first stream of seeds for the study's diffusion.
 const STREAM: u64 = 1 << 20;

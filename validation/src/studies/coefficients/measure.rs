@@ -1,4 +1,4 @@
-//! The runs behind the coefficients.
+//! The runs from which the coefficients are measured.
 
 use crate::judge::case::Effort;
 use crate::judge::lab;
@@ -21,9 +21,9 @@ pub struct Setting {
     pub aspect_ratio: f64,
     /// α, with m = 3.
     pub alpha: f64,
-    /// How a colliding rod takes its step.
+    /// How colliding rods take their step.
     pub update: Update,
-    /// Time steps over those that resolve the motion.
+    /// Factor on the number of time steps that resolves the motion.
     pub finer: u64,
 }
 
@@ -31,7 +31,7 @@ const fn kick(n_a3: f64, aspect_ratio: f64, alpha: f64, finer: u64) -> Setting {
     Setting { n_a3, aspect_ratio, alpha, update: Update::Kick, finer }
 }
 
-/// The suspension of which updates and time steps are compared.
+/// The suspension in which updates and time steps are compared.
 const fn stepped(update: Update, finer: u64) -> Setting {
     Setting { update, ..kick(0.2, 11.6, 0.5, finer) }
 }
@@ -62,7 +62,7 @@ const FULL: [Setting; 22] = [
     kick(0.2, 11.6, 2.0, 4),
 ];
 
-/// Those of the report.
+/// The suspensions of the report.
 const QUICK: [Setting; 9] = [
     kick(0.2, 11.6, 0.5, 1),
     kick(0.2, 11.6, 0.5, 4),
@@ -75,46 +75,46 @@ const QUICK: [Setting; 9] = [
     kick(0.2, 11.6, 1.0, 4),
 ];
 
-/// How much is measured.
+/// The size of the study.
 #[derive(Clone, Copy, Debug)]
 pub struct Amount {
     /// The suspensions.
     pub settings: &'static [Setting],
-    /// Time steps over those that resolve the motion, where the rest is compared.
+    /// Factor on the number of time steps that resolves the motion, for the comparison of suspensions.
     pub finer: u64,
-    /// Replicas of each.
+    /// Replicas of each suspension.
     pub replicas: u64,
 }
 
 impl Amount {
-    /// For the report.
+    /// The amount for the report.
     pub const QUICK: Self = Self { settings: &QUICK, finer: 4, replicas: 12 };
-    /// For `shearbed bench`.
+    /// The amount for `shearbed bench`.
     pub const FULL: Self = Self { settings: &FULL, finer: 4, replicas: 48 };
 }
 
-/// What was found of a suspension.
+/// The results for one suspension.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Coefficients {
     /// The suspension.
     pub setting: Setting,
-    /// φ r_p of cylinders as long, with r_p = r_e.
+    /// φ r_p of cylinders of the same length, with r_p = r_e.
     pub phi_rp: f64,
     /// Replicas of 100 rods.
     pub replicas: u64,
-    /// Periods before the window, and in it.
+    /// Periods before the window; the window has as many.
     pub periods: u64,
     /// C_I.
     pub c_i: Estimate,
-    /// C_I of the components 11, 22, 33 and 12 of J, each by itself.
+    /// C_I from each of the components 11, 22, 33 and 12 of J alone.
     pub own: [Estimate; 4],
-    /// The relative residual of a fit by a single C_I.
+    /// The relative residual of a fit with a single C_I.
     pub misfit: Estimate,
-    /// The rate at which X̄₁'s oscillation decays from an isotropic start, per period; none where it is lost in noise.
+    /// The decay rate of X̄₁'s oscillation from an isotropic start, per period; none if the oscillation is lost in noise.
     pub damping_per_period: Option<Estimate>,
     /// Steady σ₁₂, N₁ and N₂ of the rods over μ_fiber G.
     pub stress: [Estimate; 3],
-    /// Steady σ₁₂/(μG n a³) of rods that are spheroids.
+    /// Steady σ₁₂/(μG n a³) for rods that are spheroids.
     pub spheroids: Estimate,
 }
 
@@ -124,13 +124,13 @@ const OUTPUTS: usize = 100;
 /// Rods of a replica.
 const RODS: usize = 100;
 
-/// Measures one suspension after the other.
+/// Measures the suspensions one after the other.
 pub fn rows(amount: Amount, effort: &Effort) -> Vec<Coefficients> {
     let settings = amount.settings.iter();
     settings.map(|setting| row(*setting, amount.replicas, effort)).collect()
 }
 
-/// Periods until the state is steady and as many of the window: collisions are as many in each suspension.
+/// Number of periods until the state is steady, and of the window: about equal numbers of collisions in each suspension.
 fn periods(setting: Setting) -> u64 {
     (1.0 / (setting.n_a3 * setting.alpha / 0.5)).ceil().clamp(5.0, 50.0) as u64
 }
@@ -186,7 +186,7 @@ fn row(setting: Setting, replicas: u64, effort: &Effort) -> Coefficients {
     }
 }
 
-/// The decay of X̄₁'s oscillation by the mean of all replicas but each.
+/// The decay of X̄₁'s oscillation from the mean over replicas, with an error by the jackknife.
 fn damping(quarters: &[[f64; 9]]) -> Option<Estimate> {
     let rate = |without: Option<usize>| {
         let kept = || quarters.iter().enumerate().filter(|(k, _)| Some(*k) != without);
@@ -199,7 +199,7 @@ fn damping(quarters: &[[f64; 9]]) -> Option<Estimate> {
     (found.value.is_finite() && found.se.is_finite() && found.readable()).then_some(found)
 }
 
-/// The channels of ⟨pp⟩ and of ⟨pp p₁p₂⟩, found once.
+/// The channels of ⟨pp⟩ and of ⟨pp p₁p₂⟩, looked up once.
 struct Channels {
     second: Vec<([usize; 2], Channel)>,
     sheared: Vec<([usize; 2], Channel)>,
@@ -229,7 +229,7 @@ impl Channels {
         tensor
     }
 
-    /// Means over a window of outputs, each `strain` after the one before, by the trapezoidal rule.
+    /// Means over a window of outputs `strain` apart, by the trapezoidal rule.
     fn window(
         &self,
         mean: &dyn Fn(Channel, usize) -> f64,

@@ -1,4 +1,4 @@
-//! What collisions do to ⟨pp⟩, measured in runs: C_I with ⟨pppp⟩ measured and not closed, J per collision, and the rods' stress.
+//! The effect of collisions on ⟨pp⟩, measured in runs: C_I with measured ⟨pppp⟩ (no closure), J per collision, and the rods' stress.
 
 pub mod jumps;
 mod measure;

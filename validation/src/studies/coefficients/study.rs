@@ -1,4 +1,4 @@
-//! The study of the effective coefficients: C_I against concentration, shape and α, and what becomes of rods at equal C_I.
+//! The study of the effective coefficients: C_I against concentration, shape and α, and how rods move at equal C_I.
 
 use super::jumps::{self, Compared, Quantity, above};
 use super::{Amount, Coefficients, rows};
@@ -74,7 +74,7 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     Ok(Some(Findings::new(answer + &finest.map_or(String::new(), no_diffusion), exhibits, files)))
 }
 
-/// What becomes of rods at equal C_I, in a sentence.
+/// A sentence on the difference between kicks and diffusion of the same C_I.
 fn no_diffusion(one: &Compared) -> String {
     let per_cent = |all, edge| 100.0 * Sample::of(&above(all, Quantity::Angle, edge)).mean;
     format!(
@@ -88,13 +88,13 @@ fn no_diffusion(one: &Compared) -> String {
     )
 }
 
-/// r_e and α.
+/// r_e and α of a row.
 fn kind(row: &Coefficients) -> (f64, f64) {
     (row.setting.aspect_ratio, row.setting.alpha)
 }
 
-/// Whether colliding rods take Jeffery's step and then the kick. With the other updates they take a straight step, whose error is as
-/// large as C_I at the default's time step.
+/// True if colliding rods take Jeffery's step and then the kick. With the other updates they take a straight step, whose error is as
+/// large as C_I at the default time step.
 fn kicked(row: &Coefficients) -> bool {
     row.setting.update == Update::Kick
 }
@@ -124,7 +124,7 @@ fn measured<'a>(name: &str, value: impl Fn(&Coefficients) -> Estimate + 'a) -> C
     estimate(name, move |row: &Coefficients| value(row))
 }
 
-/// C_I of each suspension, and how well one number does.
+/// C_I of each suspension, and the residual of a fit by a single C_I.
 fn coefficients(rows: &[Coefficients]) -> ReportTable {
     let replicas = rows.first().map_or(0, |row| row.replicas);
     let mut columns = settings();

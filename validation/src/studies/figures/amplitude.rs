@@ -1,8 +1,8 @@
 //! A₁, the amplitude of the oscillation of X̄₁ (Figs 7 to 10).
 //!
 //! The paper defines A₁ in the drawing of Fig. 7, which is not at hand. Here A₁ is the height of a maximum of X̄₁
-//! above the mean of the minima on its two sides, at the time of the maximum. Of the usual readings this is one that
-//! the text allows: it gives free rods of one size an amplitude of "approximately 1/2", and half of it would not.
+//! above the mean of the minima on its two sides, at the time of the maximum. The text allows this interpretation:
+//! it gives free rods of one size an amplitude of "approximately 1/2", and half of this height would not.
 
 use super::run::{Run, with_band};
 use crate::present::plot::Curve;
@@ -27,7 +27,7 @@ pub(super) fn amplitude(run: &Run, label: impl Into<String>) -> Curve {
     with_band(label, heights)
 }
 
-/// The outputs at which maxima and minima lie, in turns, the first a maximum.
+/// The outputs of maxima and minima, alternating, the first a maximum.
 fn extremes(times: &[f64], mean: &[f64]) -> Vec<usize> {
     let last = times.last().copied().unwrap_or(0.0);
     (0u32..)
@@ -51,7 +51,7 @@ mod tests {
         let wave = |t: &f64| 0.3 + 0.2 * (-0.2 * t).exp() * (2.0 * TAU * (t - 0.02)).cos();
         let mean: Vec<f64> = times.iter().map(wave).collect();
         let found: Vec<f64> = extremes(&times, &mean).iter().map(|k| times[*k]).collect();
-        // 0.27, 0.77 and so on lie between two outputs; the damping puts maxima a little earlier.
+        // 0.27, 0.77 and so on lie between two outputs; damping moves maxima to a slightly earlier time.
         let expected = [0.02, 0.26, 0.52, 0.76, 1.02, 1.26, 1.52, 1.76, 2.0];
         assert_eq!(found.len(), expected.len());
         for (found, expected) in found.iter().zip(expected) {

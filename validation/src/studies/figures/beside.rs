@@ -1,12 +1,12 @@
-//! The numbers beside a figure: its own curves and points at a few abscissas.
+//! The table for a figure: its own curves and points at a few abscissas.
 
 use crate::present::plot::{Curve, Figure};
 use crate::present::study::ReportFigure;
 use crate::present::table::{Column, ReportTable, decimals, estimate, field, number};
 
 /// A row for each point of the first series, or against time for each quarter of a period at which a series has a value:
-/// free rods are where they were every half period, so whole and half periods alone would show them as still. A column for
-/// each series.
+/// free rods return every half period, so that whole and half periods alone would show no motion. One column for each
+/// series.
 pub(super) fn table(figure: &ReportFigure) -> ReportTable {
     let picture = &figure.figure;
     let series = series(picture);
@@ -25,7 +25,7 @@ pub(super) fn table(figure: &ReportFigure) -> ReportTable {
     )
 }
 
-/// Curves, and points as curves; measured points have abscissas of their own and are in the CSV alone.
+/// Curves, and points as curves; measured points have abscissas of their own and are only in the CSV.
 fn series(figure: &Figure) -> Vec<Curve> {
     let curves = figure.curves.iter().cloned();
     let points = (figure.points.iter().filter(|_| figure.x_span.is_none())).map(|points| Curve {

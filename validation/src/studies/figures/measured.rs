@@ -1,10 +1,10 @@
-//! The measured points of a scene's experiment, where the user has them.
+//! The measured points of a scene's experiment, if the user supplies them.
 
 use crate::input::experiment::{self, Measured};
 use crate::judge::case::Effort;
 use crate::present::plot::{Figure, Points};
 
-/// Adds the measured points of a scene to its figure, and says for the caption whether there are any.
+/// Adds the measured points of a scene to its figure, and returns a sentence on them for the caption.
 pub(super) fn measured(scene: &str, effort: &Effort, figure: &mut Figure) -> Result<String, String> {
     let all = experiment::points_for(effort.data.as_deref(), scene).map_err(|error| error.to_string())?;
     if all.is_empty() {

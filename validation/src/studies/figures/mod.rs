@@ -10,7 +10,7 @@ use crate::judge::case::Effort;
 use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
 use run::Runs;
 
-/// How many replicas of a scene are run.
+/// The number of replicas of each scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Replicas {
     /// Replicas of a scene with interaction, usually of 100 rods each.
@@ -20,7 +20,7 @@ pub struct Replicas {
 }
 
 impl Replicas {
-    /// The number for a quick or a full run. The quick run of an interacting scene is the scene as its file says.
+    /// The number for a quick or a full run. The quick run of an interacting scene has the number in the scene's file.
     pub fn of(effort: &Effort) -> Self {
         Self { interacting: effort.pick(100, 1000), free: effort.pick(20, 200) }
     }
@@ -58,13 +58,13 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     draw(request.effort, Replicas::of(request.effort), request.finished)
 }
 
-/// How often [`draw`] calls `finished`.
+/// The number of calls of `finished` by [`draw`].
 pub fn work(replicas: Replicas) -> Result<u64, String> {
     let plans = run::plans(replicas)?;
     Ok(plans.iter().map(|(_, plan)| plan.scene().ensemble.replicas).sum())
 }
 
-/// Runs the scenes over all ranks and draws the figures, each beside its numbers, on the root, none elsewhere;
+/// Runs the scenes over all ranks and returns the figures, each with its table of numbers; `None` except on the root.
 /// `finished` is called on the root for each replica, after its scene.
 pub fn draw(effort: &Effort, replicas: Replicas, finished: &dyn Fn()) -> Result<Option<Findings>, String> {
     let plans = run::plans(replicas)?;

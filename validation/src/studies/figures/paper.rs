@@ -1,4 +1,4 @@
-//! What each figure shows, with its caption.
+//! The content of each figure, with its caption.
 
 use super::amplitude::amplitude;
 use super::measured::measured;
@@ -22,7 +22,7 @@ pub(super) fn figures(runs: &Runs, effort: &Effort) -> Result<Vec<ReportFigure>,
     Ok(figures)
 }
 
-/// A figure of the paper against time, its vertical axis up to `most`; the catalogue knows the cases that cite it.
+/// A figure of the paper against time, its vertical axis up to `most`; the catalogue has the cases that cite it.
 fn against_time(
     [name, title]: [&str; 2],
     source: &str,
@@ -63,7 +63,7 @@ fn fig4(runs: &Runs, effort: &Effort) -> Result<ReportFigure, String> {
     Ok(figure)
 }
 
-/// The curves of Fig. 4 lie too close to be told apart there.
+/// The differences between the curves of Fig. 4, which are too close to be distinguished there.
 fn fig4_differences(runs: &Runs) -> Result<ReportFigure, String> {
     let first = runs.get("fig4-n20")?;
     let curve =
@@ -79,7 +79,7 @@ fn fig4_differences(runs: &Runs) -> Result<ReportFigure, String> {
     .judged("Fig. 4, eqs 4, 15", &[]))
 }
 
-/// What Fig. 4 says in numbers.
+/// The results of Fig. 4 in numbers.
 pub(super) fn answer(runs: &Runs) -> Result<String, String> {
     let at = |n: u32| {
         let run = runs.get(&format!("fig4-n{n}"))?;
@@ -151,7 +151,7 @@ fn fig6(runs: &Runs) -> Result<Vec<ReportFigure>, String> {
 /// The scenes of a figure with their labels.
 type Compared = &'static [(&'static str, &'static str)];
 
-/// Figs 7 to 10: number, scenes, title, what to see.
+/// Figs 7 to 10: number, scenes, title, expected feature.
 const AMPLITUDES: [(u32, Compared, &str, &str); 4] = [
     (
         7,
@@ -202,7 +202,7 @@ fn amplitudes(runs: &Runs) -> Result<Vec<ReportFigure>, String> {
     AMPLITUDES.into_iter().map(draw).collect()
 }
 
-/// φ̄ is averaged over the last periods of a run: over whole periods, so that what oscillates still averages out.
+/// φ̄ is averaged over the last periods of a run: whole periods, so that remaining oscillations average out.
 const STEADY_PERIODS: f64 = 3.0;
 
 fn fig11(runs: &Runs) -> Result<ReportFigure, String> {

@@ -1,4 +1,4 @@
-//! The built-in scenes behind the figures, run replica by replica, and the curves read from them.
+//! The built-in scenes of the figures, run replica by replica, and their curves.
 
 use crate::files::cluster;
 use crate::input::scenes::{self, BuiltIn};
@@ -29,13 +29,13 @@ impl Run {
         self.plan.scene()
     }
 
-    /// The sample over replicas of what `value` makes of a channel's means against time. Empty where the scene
+    /// The sample over replicas of `value`, a function of a channel's means against time. Empty if the scene
     /// does not observe the channel.
     pub(super) fn sample(&self, channel: &str, value: impl Fn(&dyn Fn(usize) -> f64) -> f64) -> Sample {
         Sample::of(&self.values(channel, value))
     }
 
-    /// What `value` makes of each replica.
+    /// `value` for each replica.
     fn values(&self, channel: &str, value: impl Fn(&dyn Fn(usize) -> f64) -> f64) -> Vec<f64> {
         let channel = Channel::named(channel);
         let observed = |replica: &Replica| channel.is_some_and(|channel| replica.mean(channel, 0).is_some());
@@ -69,11 +69,11 @@ pub(super) fn with_band(label: impl Into<String>, samples: impl Iterator<Item = 
     Curve::with_band(label, samples, |(x, sample)| (x, sample.mean, sample.half_width()))
 }
 
-/// The runs of all scenes, by the scenes' names. Scenes that differ in their titles only share a run.
+/// The runs of all scenes, by the scenes' names. Scenes that differ only in their titles share a run.
 pub(super) struct Runs(BTreeMap<&'static str, Arc<Run>>);
 
 impl Runs {
-    /// Runs the scenes over all ranks; `finished` is called on the root for each replica, after its scene. None but on
+    /// Runs the scenes over all ranks; `finished` is called on the root for each replica, after its scene. `None` except on
     /// the root.
     pub(super) fn new(plans: Vec<(&'static str, Plan)>, finished: &dyn Fn()) -> Result<Option<Self>, String> {
         let alike = |a: &(_, Plan), b: &(_, Plan)| same(a.1.scene(), b.1.scene());
@@ -120,7 +120,7 @@ fn same(a: &Scene, b: &Scene) -> bool {
     untitled(a) == untitled(b)
 }
 
-/// The plans of the scenes that figures are drawn from, with as many replicas as asked for.
+/// The plans of the figures' scenes, with the number of replicas in `replicas`.
 pub(super) fn plans(replicas: super::Replicas) -> Result<Vec<(&'static str, Plan)>, String> {
     let scenes = scenes::ALL.iter().filter(|scene| scene.name.starts_with("fig"));
     let plan = |built_in: &BuiltIn| {
@@ -135,7 +135,7 @@ pub(super) fn plans(replicas: super::Replicas) -> Result<Vec<(&'static str, Plan
     scenes.map(plan).collect()
 }
 
-/// A plan as the report shows it.
+/// The report's entry for a plan.
 pub(super) fn shown((name, plan): &(&'static str, Plan)) -> ScenePlan {
     let ensemble = &plan.scene().ensemble;
     ScenePlan {

@@ -1,5 +1,5 @@
-//! The core beside the averaged motion: the same rods at the same places, with and without draws; and the update `angles`
-//! beside `rotation`, with the same draws.
+//! The core against the averaged motion: the same rods at the same places, with and without draws; and the update `angles`
+//! against `rotation`, with the same draws.
 
 use crate::judge::case::Effort;
 use crate::judge::lab;
@@ -9,20 +9,20 @@ use rayon::prelude::*;
 use shearbed::observable::Channel;
 use shearbed::scene::{Scene, Update};
 
-/// How far one replica of the model is from the averaged motion.
+/// The distance of one replica of the model from the averaged motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Apart {
     /// X̄₁ of the model less that of the averaged motion.
     pub x1: f64,
     /// The mean over rods of sin² of the angle between a rod and itself in the averaged motion: 0 on the same path,
-    /// ⅔ if it points anywhere.
+    /// ⅔ for unrelated directions.
     pub square: f64,
     /// X̄₁ of the averaged motion.
     pub averaged_x1: f64,
 }
 
-/// Runs both for `steps` steps. Places and replacements depend on no direction, so they are the same. `change` is what
-/// is done to the averaged motion alone.
+/// Runs both for `steps` steps. Places and replacements do not depend on directions, so they are the same. `change` is
+/// applied to the averaged motion alone.
 pub fn apart(scene: &Scene, steps: u64, change: fn(&mut NaiveProblem), replica: u64) -> Apart {
     let mut core = lab::suspension(scene, replica);
     let mut problem = lab::problem(scene, replica, None);
@@ -45,7 +45,7 @@ pub fn apart(scene: &Scene, steps: u64, change: fn(&mut NaiveProblem), replica: 
     }
 }
 
-/// The model against the averaged motion at one step.
+/// The comparison of the model with the averaged motion at one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AveragedStep {
     /// Steps per period.
@@ -60,7 +60,7 @@ pub struct AveragedStep {
     pub averaged_x1: Sample,
 }
 
-/// Runs `replicas` with this step and shortest arm.
+/// Runs `replicas` replicas with this step and shortest arm.
 pub fn row(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replicas: u64) -> AveragedStep {
     let scene = scene(effort, steps_per_period, min_contact_arm);
     let found: Vec<_> = (0..replicas)
@@ -77,7 +77,7 @@ pub fn row(effort: &Effort, steps_per_period: u64, min_contact_arm: f64, replica
     }
 }
 
-/// 50 rods at 400 per cm³: eight times as dense as in Fig. 7, so that a few replicas show the limit. One period.
+/// 50 rods at 400 per cm³, for one period: eight times as dense as in Fig. 7, so that a few replicas show the limit.
 pub fn scene(effort: &Effort, steps_per_period: u64, min_contact_arm: f64) -> Scene {
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = 50;
@@ -88,20 +88,20 @@ pub fn scene(effort: &Effort, steps_per_period: u64, min_contact_arm: f64) -> Sc
     scene
 }
 
-/// Both updates at one step.
+/// The comparison of both updates at one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BothUpdates {
     /// Steps per period.
     pub steps_per_period: u64,
     /// `min_contact_arm` in rod lengths.
     pub min_contact_arm: f64,
-    /// X̄₁ at t/T = 1 by `rotation`.
+    /// X̄₁ at t/T = 1 with `rotation`.
     pub rotation_x1: Sample,
-    /// By `angles`, less that.
+    /// X̄₁ with `angles` less that with `rotation`.
     pub change: Sample,
 }
 
-/// Runs `replicas` of the scene of the averaged motion by both updates for a period.
+/// Runs `replicas` replicas of the scene of the averaged motion with both updates for a period.
 pub fn both_updates(
     effort: &Effort,
     steps_per_period: u64,

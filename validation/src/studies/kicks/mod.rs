@@ -1,8 +1,8 @@
-//! The limit Δt → 0: how often collisions kick rods by large angles, how heavy the tail is, and what is left where
+//! The limit Δt → 0: how often collisions kick rods by large angles, how heavy the tail is, and what remains if
 //! the arms are bounded (docs/src/theory/time-step.md).
 //!
-//! A kick is |ṗ′ − ṗ|Δt, what the collision does. The whole turn |ṗ′|Δt holds Jeffery's own |ṗ|Δt too, which at
-//! 200 steps a period passes 0.1 rad in every flip with no collision at all.
+//! A kick is |ṗ′ − ṗ|Δt, the effect of the collision. The whole turn |ṗ′|Δt also contains Jeffery's own |ṗ|Δt, which at
+//! 200 steps a period exceeds 0.1 rad in every flip without any collision.
 
 pub mod averaged;
 pub mod study;
@@ -22,7 +22,7 @@ use std::ops::Range;
 /// The angles above which kicks are counted.
 pub const THRESHOLDS_RAD: [f64; 4] = [0.01, 0.1, 1.0, 10.0];
 
-/// The angles that are counted as kicks; a check may put something else in their place.
+/// A function that returns the angles of a collision; a check may replace it by another.
 pub type Angles = fn(&Collision) -> [f64; 2];
 
 /// |ṗ′ − ṗ|Δt of both rods.
@@ -30,18 +30,18 @@ pub fn kicks_rad(collision: &Collision) -> [f64; 2] {
     collision.kicks_rad
 }
 
-/// What is counted, and on which side.
+/// The definition of counted kicks and of their sides.
 #[derive(Clone, Copy)]
 pub struct Counted {
     /// The angles that count as kicks.
     pub angles: Angles,
     /// True if the liquid pulls the contact points of two rods apart.
     pub opens: fn(&Vector3<f64>, &Vector3<f64>) -> bool,
-    /// How often the formula looks at the directions.
+    /// How many times per period the formula is evaluated for the directions.
     pub looks_per_period: u64,
 }
 
-/// Kicks, by what the gap does.
+/// Kicks, separated by closing and opening gaps.
 pub const KICKS: Counted = Counted { angles: kicks_rad, opens: is_opening, looks_per_period: 200 };
 
 /// GΔt of a scene in plane Couette flow.
@@ -56,15 +56,15 @@ pub struct Counts {
     pub closing: [f64; 4],
     /// The same where it was opening.
     pub opening: [f64; 4],
-    /// What the formula for fresh arms gives for the closing ones, from the directions and collisions of the run.
+    /// The prediction for the closing ones by the formula for fresh arms, from the directions and collisions of the run.
     pub fresh_closing: [f64; 4],
-    /// The same for the opening ones.
+    /// The same prediction for the opening ones.
     pub fresh_opening: [f64; 4],
-    /// Turns by a collision, two for each.
+    /// Number of turns by a collision, two for each collision.
     pub turns: f64,
 }
 
-/// Counts the kicks of one replica over whole periods. NaN where the run stopped.
+/// Counts the kicks of one replica over whole periods. NaN if the run stopped.
 pub fn count(scene: &Scene, replica: u64, periods: Range<u64>, counted: Counted) -> Counts {
     let mut suspension = lab::suspension(scene, replica);
     let (steps, strain) = (scene.steps_per_unit(), step_strain(scene));
@@ -95,7 +95,7 @@ pub fn count(scene: &Scene, replica: u64, periods: Range<u64>, counted: Counted)
     counts.over((aspect_ratios.len() as u64 * (periods.end - periods.start)) as f64)
 }
 
-/// True if a kick is above a threshold, or is NaN, which must not go unseen.
+/// True if a kick is above a threshold or NaN, so that NaN is detected.
 pub fn is_above(kick_rad: f64, threshold_rad: f64) -> bool {
     kick_rad > threshold_rad || kick_rad.is_nan()
 }
@@ -106,8 +106,8 @@ fn is_opening(a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
     normal.x * normal.y > 0.0
 }
 
-/// The formula's chances of a kick above each threshold, closing and opening, over pairs of rods that know nothing
-/// of each other.
+/// The formula's chances of a kick above each threshold, closing and opening, over pairs of statistically independent
+/// rods.
 fn mean_chances(
     directions: &[Vector3<f64>],
     aspect_ratios: &[f64],
@@ -156,20 +156,20 @@ impl Counts {
         self.closing[index] + self.opening[index]
     }
 
-    /// The formula's number of them.
+    /// The number of them that the formula predicts.
     pub fn fresh(&self, index: usize) -> f64 {
         self.fresh_closing[index] + self.fresh_opening[index]
     }
 }
 
-/// The counts of many replicas of a scene with a step of its own.
+/// The counts of many replicas of a scene at one step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepCounts {
     /// Steps per period.
     pub steps_per_period: u64,
-    /// The window.
+    /// The window, in periods.
     pub periods: Range<u64>,
-    /// One per replica.
+    /// The counts of each replica.
     pub counts: Vec<Counts>,
 }
 

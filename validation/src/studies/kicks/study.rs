@@ -62,7 +62,7 @@ fn answer(limit: &Limit) -> String {
     )
 }
 
-/// Everything that was measured.
+/// All measurements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
     /// Kicks in the first two periods of Fig. 4's suspension against the step.
@@ -71,23 +71,23 @@ pub struct Limit {
     pub dense: Vec<StepCounts>,
     /// Kicks in each period at one step.
     pub periods: Vec<StepCounts>,
-    /// Exponents of the tail, and of what.
+    /// Exponents of the tail, each with a description of its kicks.
     pub tails: Vec<(String, Exponent)>,
     /// The model against the averaged motion.
     pub averaged: Vec<averaged::AveragedStep>,
     /// `angles` against `rotation`.
     pub updates: Vec<averaged::BothUpdates>,
-    /// Replicas behind the counts and behind the averaged motion.
+    /// Replicas behind the counts, and behind the averaged motion.
     pub replicas: [u64; 2],
 }
 
 /// The scene whose kicks are counted.
 pub const SCENE: &str = "fig4-n50";
 
-/// The steps per period of the study of single periods.
+/// The steps per period for the counts in single periods.
 pub const PERIODS_AT: u64 = 400;
 
-/// Measures everything: a few replicas for the report of a quick run, enough for the documents in a full one.
+/// Measures everything: with a few replicas for the report of a quick run, with enough for the documents in a full one.
 pub fn measure(effort: &Effort) -> Result<Limit, String> {
     let built_in = scenes::find(SCENE).ok_or("no such scene")?;
     let scene = built_in.scene().map_err(|error| error.to_string())?;
@@ -103,7 +103,7 @@ pub fn measure(effort: &Effort) -> Result<Limit, String> {
     (interaction.concentration_per_cm3, interaction.alpha) = (Some(400.0), 2.0);
     let dense_steps = [100, 400, 1600, 6400, 25_600];
     let dense_steps = (dense_steps.into_iter()).filter(|steps| *steps <= 2 * finest);
-    // The second is the rods' radius.
+    // The second arm is the rods' radius.
     let arms = [0.25, 0.5 / 11.6, 0.0];
     Ok(Limit {
         steps: steps.map(|steps| rates(&scene, steps, 0..2, replicas[0], KICKS)).collect(),
@@ -136,7 +136,7 @@ fn tails(scene: &Scene, replicas: u64) -> Vec<(String, Exponent)> {
         scene
     };
     let run = |steps, arm| tail::hill(tail::in_runs(&with(steps, arm), replicas, kicks_rad), 0.3);
-    // One step in place of two periods of 200: as many collisions from as many starts.
+    // One step in place of two periods of 200 steps: as many collisions from as many starts.
     let fresh = tail::hill(tail::fresh(&with(200, 0.0), 400 * replicas, kicks_rad), 2.0);
     let mut tails = vec![("fresh arms, kicks over GΔt".to_owned(), fresh)];
     for steps in [100, 400, 1600] {
@@ -150,7 +150,7 @@ fn mean<'a>(name: &str, of: fn(&Counts) -> f64) -> Column<'a, StepCounts> {
     estimate(name, move |row: &StepCounts| row.mean(of))
 }
 
-/// What the liquid does to the gap.
+/// Columns by the side of the kick, for closing and opening gaps.
 fn sides<'a>() -> [Column<'a, StepCounts>; 5] {
     [
         mean("> 0.1, closing", |c| c.closing[1]),

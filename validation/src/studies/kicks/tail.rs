@@ -1,4 +1,4 @@
-//! How heavy the tail of the kicks is.
+//! The exponent of the tail of the kicks.
 
 use super::{Angles, is_above, of_one_step};
 use crate::judge::lab;
@@ -8,17 +8,17 @@ use shearbed::scene::Scene;
 /// An exponent of a tail P(κ > x) ∝ x^−α.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exponent {
-    /// The values above this were used.
+    /// The threshold; only values above it are used.
     pub threshold: f64,
-    /// How many they were.
+    /// The number of values above it.
     pub count: u64,
     /// Hill's estimate.
     pub alpha: f64,
-    /// Its standard error α/√count.
+    /// The standard error α/√count.
     pub se: f64,
 }
 
-/// Hill's estimate from the values above a threshold u that is given beforehand: 1/α is the mean of ln(x/u).
+/// Hill's estimate from the values above a fixed threshold u: 1/α is the mean of ln(x/u).
 pub fn hill(values: impl IntoIterator<Item = f64>, threshold: f64) -> Exponent {
     let logarithms: Vec<_> = (values.into_iter())
         .filter(|value| is_above(*value, threshold))
@@ -39,7 +39,7 @@ pub fn fresh(scene: &Scene, replicas: u64, angles: Angles) -> Vec<f64> {
         .collect()
 }
 
-/// Kicks in rad over whole runs, as long as the scene says.
+/// Kicks in rad over whole runs of the scene's own duration.
 pub fn in_runs(scene: &Scene, replicas: u64, angles: Angles) -> Vec<f64> {
     let steps = (scene.time.duration * scene.steps_per_unit() as f64).round() as u64;
     let run = |replica| {

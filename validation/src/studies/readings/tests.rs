@@ -2,13 +2,13 @@ use super::*;
 
 #[test]
 fn the_rate_of_an_exponential_is_exact() {
-    // Maxima on 0.4, minima below by a mean of their neighbours times a factor: A ∝ exp(−0.3 t/T)
+    // Maxima at 0.4; each minimum lies below them by an amplitude A ∝ exp(−0.3 t/T).
     let mut x1 = [0.4; QUARTERS + 2];
     for k in [1, 3, 5, 7] {
         x1[k] -= 0.2 * (-0.3 * k as f64 / 4.0).exp();
     }
     assert!((damping_rate(&x1) - 0.3).abs() < 1e-14);
-    // a drift of the whole, as of a changing plateau, is no damping
+    // A linear drift, such as that of a changing plateau, does not count as damping.
     let mut drifting = x1;
     (0..=QUARTERS).for_each(|k| drifting[k] += 0.01 * k as f64);
     assert!((damping_rate(&drifting) - 0.3).abs() < 1e-13);

@@ -1,4 +1,4 @@
-//! The measurements: each is the least of several, after one to warm up.
+//! The measurements: each is the least of several, after one for warming up.
 
 #[cfg(test)]
 mod tests;
@@ -17,10 +17,10 @@ use std::time::Instant;
 
 const RODS: [usize; 6] = [30, 100, 1_000, 10_000, 100_000, 1_000_000];
 const CONCENTRATIONS_PER_CM3: [f64; 6] = [0.5, 5.0, 50.0, 500.0, 5_000.0, 50_000.0];
-/// More rods than these take the naive reference too long.
+/// The largest number of rods for the naive reference, which is slow.
 const NAIVE_RODS: usize = 10_000;
 
-/// Measures everything; takes no notice of the threads of the caller.
+/// Runs all measurements; ignores the number of threads of the caller.
 pub fn measure(amount: Amount) -> Result<Speed, String> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let one = pool(1)?;
@@ -47,7 +47,7 @@ fn pool(threads: usize) -> Result<rayon::ThreadPool, String> {
     built.map_err(|error| format!("cannot start {threads} threads: {error}"))
 }
 
-/// The least of several measurements in seconds, after one to warm up.
+/// The least of several measurements in seconds, after one for warming up.
 fn least(amount: Amount, mut measure: impl FnMut() -> f64) -> f64 {
     measure();
     (0..amount.repeats).map(|_| measure()).fold(f64::INFINITY, f64::min)
@@ -59,7 +59,7 @@ fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
     start.elapsed().as_secs_f64()
 }
 
-/// The time of a step, from as many steps as take about the wanted time.
+/// The time of a step, from a number of steps that takes about the time in `amount`.
 fn step(rods: usize, concentration_per_cm3: f64, amount: Amount) -> Result<Step, String> {
     let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
     scene.particles.count = rods;
@@ -97,7 +97,7 @@ fn step(rods: usize, concentration_per_cm3: f64, amount: Amount) -> Result<Step,
     Ok(Step { rods, concentration_per_cm3, core_ns: per_rod(core, count), naive_ns })
 }
 
-/// The core against the naive reference.
+/// The core's time compared with the naive reference's, and its growth with the number of rods.
 fn against_naive(by_rods: &[Step]) -> Vec<Check> {
     let at = |rods: usize| by_rods.iter().find(|step| step.rods == rods);
     let ratio = |what, rods, target| {
@@ -138,7 +138,7 @@ fn free_plan(rods: usize, outputs: u64, sd_percent: f64) -> Plan {
     lab::plan(&scene)
 }
 
-/// The time of whole runs, including the draws of the rods.
+/// The time of whole runs of free rods, including the draws of the rods.
 fn free(
     what: &'static str,
     sd_percent: f64,
@@ -157,12 +157,12 @@ fn free(
     }
 }
 
-/// Bytes of directions per second that outputs are made from, over the rate at which the same arrays are summed.
+/// The rate at which outputs process the bytes of directions, over the rate of summing the same arrays.
 fn memory_rate(all: &rayon::ThreadPool, amount: Amount) -> Check {
     let bytes = 24.0 * amount.free_rods as f64;
     let (few, many) = (free_plan(amount.free_rods, 1, 0.0), free_plan(amount.free_rods, 33, 0.0));
     let run = |plan: &Plan| least(amount, || all.install(|| seconds(|| run_replica(plan, 0))));
-    // The difference: drawing the rods is left out.
+    // The difference removes the time for drawing the rods.
     let per_output = (run(&many) - run(&few)) / (many.outputs() - few.outputs()) as f64;
     let arrays = [0.25f64, 0.5, 0.75].map(|value| vec![value; amount.free_rods]);
     let sum = least(amount, || {
@@ -183,7 +183,7 @@ fn memory_rate(all: &rayon::ThreadPool, amount: Amount) -> Check {
     }
 }
 
-/// The same replicas on one thread and on all.
+/// The parallel efficiency of replicas: the time on one thread over that on all, and over their number.
 fn replicas(
     one: &rayon::ThreadPool,
     all: &rayon::ThreadPool,
@@ -219,7 +219,7 @@ fn one_large_run(one: &rayon::ThreadPool, all: &rayon::ThreadPool, amount: Amoun
     })
 }
 
-/// What a run of 10⁶ rods holds, as `tests/memory.rs` counts it to within a quarter.
+/// The memory of a run of 10⁶ rods, which `tests/memory.rs` confirms to within a quarter.
 fn held() -> Check {
     let mut scene = lab::interacting_scene(&crate::judge::case::Effort::gate());
     scene.particles.count = 1_000_000;

@@ -6,10 +6,10 @@ use nalgebra::{UnitVector3, Vector3};
 use shearbed::model::flow::VelocityGradient;
 use shearbed::motion::Propagator;
 
-/// The direction after a number of turns, of a rod of aspect ratio r at the shear rate G.
+/// A function that returns the direction of a rod of aspect ratio r at the shear rate G after a number of periods.
 pub type Motion = dyn Fn(f64, f64, &UnitVector3<f64>, f64) -> Vector3<f64>;
 
-/// The propagator of the core; NaN where it has none.
+/// The core's propagator; NaN if it has none.
 pub fn exact(aspect_ratio: f64, shear_rate_per_s: f64, p: &UnitVector3<f64>, turns: f64) -> Vector3<f64> {
     let end = VelocityGradient::plane_couette(shear_rate_per_s)
         .and_then(|flow| Propagator::new(&flow, aspect_ratio).after_turns(p, turns));
@@ -23,18 +23,18 @@ pub const SHEAR_RATES: [f64; 3] = [1e-30, 0.5, 1e30];
 pub const TURNS: [f64; 14] =
     [1e-9, 1e-6, 1e-3, 0.25, 1.0 / 3.0, 0.37, 0.5, 1.0, 10.0, 1e3, 1e6, 1e8, 1e8 + 0.25, 1e8 + 0.37];
 
-/// The largest errors over shear rates, durations and starts. NaN stays.
+/// The largest errors over shear rates, durations and starts; NaN is kept.
 #[derive(Clone, Copy, Debug)]
 pub struct Worst {
     /// ||p| − 1|.
     pub length: f64,
     /// The change of C_b.
     pub orbit: f64,
-    /// The angle to the closed form over [`map::round_off_at_once`].
+    /// The angle to the closed form over the bound of [`map::round_off_at_once`].
     pub angle: f64,
 }
 
-/// The worst at this aspect ratio.
+/// The largest errors at this aspect ratio.
 pub fn worst(aspect_ratio: f64, motion: &Motion) -> Worst {
     let mut worst = Worst { length: 0.0, orbit: 0.0, angle: 0.0 };
     for turns in TURNS {

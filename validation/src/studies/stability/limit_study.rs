@@ -1,4 +1,4 @@
-//! The longest steps beside their theory, as tables and pictures.
+//! The longest steps and their theory, as tables and pictures.
 
 use super::limits::{Ladder, Limit, ONE_STEP, Property, TEN_PERIODS, bisect, holds};
 use super::maps::ratio;
@@ -11,13 +11,13 @@ use crate::present::table::{ReportTable, of_words};
 /// The aspect ratios at which limits are sought: all of them over one step, the first seven over ten periods.
 const LIMIT_RATIOS: [f64; 9] = [1.01, 1.5, 2.0, 2.5, 3.0, 11.6, 100.0, 1e4, 1e5];
 
-/// What is shown of a property.
+/// How a property is shown.
 struct Shown {
     name: &'static str,
     title: &'static str,
     caption: &'static str,
     property: Property,
-    /// The title of its picture and the case that judges it, if there is a theory to draw.
+    /// The title of the picture and the case that judges it, if there is a theory to draw.
     picture: Option<[&'static str; 2]>,
 }
 
@@ -68,7 +68,7 @@ const SHOWN: [Shown; 6] = [
     },
 ];
 
-/// A table for each property, beside its picture where there is a theory.
+/// A table for each property, with a picture if there is a theory.
 pub fn exhibits(subjects: &[Integrator]) -> impl Iterator<Item = Exhibit> {
     let stepped: Vec<_> =
         subjects.iter().filter(|subject| matches!(subject.theory, Theory::Order(_))).collect();

@@ -1,4 +1,4 @@
-//! The longest step with which a fixed-step subject keeps a property, by bisection.
+//! The longest step with which a fixed-step integrator keeps a property, by bisection.
 
 use crate::methods::integrators::{Errors, Failure, Integrator, RodProblem, Setting, Theory};
 use nalgebra::{UnitVector3, Vector3};
@@ -6,13 +6,13 @@ use serde::Serialize;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// What a subject keeps with short steps and may lose with long ones.
+/// A property that an integrator keeps with short steps and may lose with long ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Property {
     /// In the plane of shear no rod overtakes another within a step.
     Order,
-    /// In the plane of shear every rod turns forward within a step, by less than half a turn: none rests, as p ≡ −p.
+    /// In the plane of shear every rod turns forward within a step by less than half a turn: none rests, as p ≡ −p.
     Turning,
     /// No rod crosses the plane of shear within a step: p_3 keeps its sign.
     Side,
@@ -24,7 +24,7 @@ pub enum Property {
     Solvable,
 }
 
-/// What a search found.
+/// The result of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Limit {
@@ -43,30 +43,30 @@ pub struct Ladder {
     pub least: f64,
     /// The longest.
     pub most: f64,
-    /// From rung to rung.
+    /// The ratio of neighbouring rungs.
     pub factor: f64,
 }
 
-/// The steps GΔt tried for what one step decides.
+/// The steps GΔt for properties of a single step.
 pub const ONE_STEP: Ladder = Ladder { least: 0.1, most: 1e3, factor: 1.1 };
 
-/// The steps GΔt tried for what ten periods decide.
+/// The steps GΔt for properties of ten periods.
 pub const TEN_PERIODS: Ladder = Ladder { least: 0.02, most: 20.0, factor: 1.25 };
 
-/// Periods over which a length or an orbit is judged.
+/// The number of periods after which length and orbit are judged.
 pub const PERIODS: f64 = 10.0;
 
 /// p_3 of a rod just beside the plane of shear.
 const NEAR_PLANE: f64 = 1e-9;
 
-/// Rods in half of the plane of shear.
+/// Number of rods over half of the plane of shear.
 const RODS: u32 = 512;
 
-/// Those that are stepped at once.
+/// Number of rods that are stepped at once.
 const PART: u32 = 64;
 
-/// The longest step on the ladder up to which `holds`, refined by bisection between the last rung where it does and the
-/// first where it does not.
+/// The longest step up to which `holds` is true on the ladder, refined by bisection between the last rung where it is true
+/// and the first where it is false.
 pub fn bisect(ladder: Ladder, holds: impl Fn(f64) -> bool) -> Limit {
     let mut good = ladder.least;
     if !holds(good) {
@@ -92,7 +92,7 @@ pub fn bisect(ladder: Ladder, holds: impl Fn(f64) -> bool) -> Limit {
     }
 }
 
-/// True if an integrator has a property with steps of GΔt = `strain` at this aspect ratio.
+/// True if an integrator keeps a property with steps of GΔt = `strain` at this aspect ratio.
 pub fn holds(subject: &Integrator, property: Property, aspect_ratio: f64, strain: f64) -> bool {
     let stepped = |p3: f64, more: u32| {
         let parts = (0..RODS).step_by(PART as usize);
@@ -129,17 +129,17 @@ pub fn holds(subject: &Integrator, property: Property, aspect_ratio: f64, strain
     }
 }
 
-/// φ of one of the rods over half of the plane of shear. Halfway between two is the steepest place of φ̇, φ = π/4.
+/// φ of rod `k` over half of the plane of shear. Halfway between two rods is the steepest place of φ̇, φ = π/4.
 fn phi(k: u32) -> f64 {
     PI * (f64::from(k) + 0.5) / f64::from(RODS)
 }
 
-/// True if b is ahead of a by less than half a turn, or by round-off behind it.
+/// True if b is ahead of a by less than half a turn, or behind it by round-off.
 fn forward(a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
     (a.x * b.y - a.y * b.x) / (a.norm() * b.norm()) >= -4.0 * f64::EPSILON
 }
 
-/// Rods before and after one step that start beside the plane of shear by `p3`; NaN where the step cannot be taken.
+/// Pairs of directions before and after one step, which start beside the plane of shear by `p3`; NaN if the step fails.
 fn near_plane(
     subject: &Integrator,
     aspect_ratio: f64,

@@ -1,4 +1,4 @@
-//! What becomes of a rod in every corner: aspect ratio by step, by start, by duration.
+//! The fate of a rod over wide ranges: aspect ratio by step, by start, by duration.
 
 use super::orbit::Place;
 use crate::methods::integrators::{Failure, Integrator, RodProblem, Setting, Theory, apart_rad};
@@ -6,34 +6,34 @@ use nalgebra::Vector3;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// What was found at the end of a run.
+/// The outcome of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fate {
     /// The angle to the closed form is at most [`Run::round_off`], and accurate.
     RoundOff,
-    /// It is at most [`ACCURATE_RAD`].
+    /// The angle is at most [`ACCURATE_RAD`].
     Accurate,
-    /// It is more, but |p| is 1 to [`LENGTH_KEPT`].
+    /// The angle is larger, but |p| is 1 to [`LENGTH_KEPT`].
     Wrong,
-    /// |p| is not.
+    /// |p| differs from 1 by more than that.
     LengthLost,
-    /// A component is infinite or no number.
+    /// A component is infinite or NaN.
     NotFinite,
-    /// The subject gave an error of its own.
+    /// The integrator returned an error.
     Refused,
-    /// It would take more steps than the budget has.
+    /// The run would take more steps than the budget allows.
     NotRun,
 }
 
-/// An angle to the closed form that still counts as accurate, in rad.
+/// The largest angle to the closed form, in rad, that counts as accurate.
 pub const ACCURATE_RAD: f64 = 1e-2;
 
-/// How far |p| may be from 1 and still count as kept.
+/// The largest ||p| − 1| that counts as kept.
 pub const LENGTH_KEPT: f64 = 1e-2;
 
 impl Fate {
-    /// In a letter or a sign.
+    /// A one-character code.
     pub fn sign(self) -> &'static str {
         match self {
             Self::RoundOff => "=",
@@ -46,7 +46,7 @@ impl Fate {
         }
     }
 
-    /// In words.
+    /// A description in words.
     pub fn words(self) -> &'static str {
         match self {
             Self::RoundOff => "round-off",
@@ -65,44 +65,44 @@ impl Fate {
     }
 }
 
-/// One run: a rod that is to end at a place after some turns.
+/// One run: a rod that must end at a place after some periods.
 #[derive(Clone, Copy, Debug)]
 pub struct Run {
     /// r_e.
     pub aspect_ratio: f64,
     /// t/T.
     pub turns: f64,
-    /// Where it is to end.
+    /// The place where it must end.
     pub end: Place,
-    /// How hard the subject is to try.
+    /// The setting of the integrator.
     pub setting: Setting,
 }
 
-/// What a run came to.
+/// The result of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cell {
-    /// What was found.
+    /// The outcome.
     pub found: Fate,
-    /// The angle to the closed form in rad, where there is one.
+    /// The angle to the closed form in rad, if the end is finite.
     pub error_rad: Option<f64>,
-    /// ||p| − 1|, where there is one.
+    /// ||p| − 1|, if the end is finite.
     pub length: Option<f64>,
-    /// The change of C_b, where there is one.
+    /// The change of C_b, if the end is finite.
     pub orbit: Option<f64>,
-    /// The subject's error, or why it was not run.
+    /// The integrator's error, or the reason why it was not run.
     pub reason: Option<String>,
 }
 
-/// How far a direction may be off by rounding alone after `turns` at once: what is left of the phase without whole turns
-/// is rounded to ε, and φ moves by max(r_e, 1/r_e) times that; some sixteen roundings: 16 ε(1 + 2π max(r_e, 1/r_e)|rest|).
+/// The largest error of a direction by rounding alone after `turns` periods at once: the phase without whole periods is
+/// rounded to ε, and φ moves by max(r_e, 1/r_e) times that; some sixteen roundings: 16 ε(1 + 2π max(r_e, 1/r_e)|rest|).
 pub fn round_off_at_once(aspect_ratio: f64, turns: f64) -> f64 {
     let stretch = aspect_ratio.max(1.0 / aspect_ratio);
     16.0 * f64::EPSILON * (1.0 + TAU * stretch * (turns - turns.round()).abs())
 }
 
 impl Run {
-    /// How far a direction may be off by rounding alone. With steps the time itself is rounded, φ moves by max(r_e, 1/r_e)
-    /// times the phase, and thousands of roundings add up: 1000 ε max(r_e, 1/r_e) max(t/T, 1), as `work_precision::order`.
+    /// The largest error of a direction by rounding alone. With steps the time itself is rounded, φ moves by max(r_e, 1/r_e)
+    /// times the phase, and thousands of roundings add up: 1000 ε max(r_e, 1/r_e) max(t/T, 1), as in `work_precision::order`.
     pub fn round_off(&self) -> f64 {
         let stretch = self.aspect_ratio.max(1.0 / self.aspect_ratio);
         match self.setting {
@@ -111,7 +111,7 @@ impl Run {
         }
     }
 
-    /// Runs a subject and says what was found.
+    /// Runs an integrator and returns the outcome.
     pub fn of(&self, subject: &Integrator) -> Cell {
         let start = self.end.before(self.turns).direction(self.aspect_ratio);
         let problem = RodProblem::new(self.aspect_ratio, self.turns);
@@ -145,7 +145,7 @@ impl Cell {
         Self { found, error_rad: None, length: None, orbit: None, reason }
     }
 
-    /// Not run, and why.
+    /// The cell of a run that was skipped, with the reason.
     pub fn not_run(reason: String) -> Self {
         Self::without(Fate::NotRun, Some(reason))
     }
@@ -154,23 +154,23 @@ impl Cell {
 /// The aspect ratios of the map: nearly a sphere, rods up to 10⁸, discs down to 10⁻⁸.
 pub const ASPECT_RATIOS: [f64; 11] = [1e-8, 1e-4, 0.1, 1.0 + 1e-12, 1.01, 2.0, 11.6, 100.0, 1e4, 1e6, 1e8];
 
-/// The steps of the map in periods.
+/// The steps of the map, in periods.
 pub const STEPS: [f64; 13] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3];
 
 /// The tolerances of the map.
 pub const TOLERANCES: [f64; 7] = [1e-1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 
-/// The durations of the map in periods.
+/// The durations of the map, in periods.
 pub const PERIODS: [f64; 6] = [1.0, 10.0, 1e2, 1e4, 1e6, 1e8];
 
-/// From φ = 0.2 to φ = 1 in periods: what a run has beyond whole ones, so that it covers a flip.
+/// The time from φ = 0.2 to φ = 1 in periods, which is added to whole periods so that a run covers a flip.
 fn flip(aspect_ratio: f64) -> f64 {
     let phase = |phi: f64| (phi.sin() / aspect_ratio).atan2(phi.cos());
     (phase(1.0) - phase(0.2)) / TAU
 }
 
-/// A run into a flip by steps of `step` periods, at most `most_steps` of them, or at once. At least twenty
-/// steps are taken, so at long steps it lasts for many periods; at short ones it stops before one is over.
+/// A run into a flip by steps of `step` periods, at most about `most_steps` of them, or at once. At least twenty
+/// steps are taken, so that long steps cover many periods; with short steps the run ends within the first period.
 pub fn by_step(theory: Theory, aspect_ratio: f64, step: f64, most_steps: u64) -> Run {
     let (turns, setting) = match theory {
         Theory::Exact => (step, Setting::Once),
@@ -188,7 +188,7 @@ pub fn by_step(theory: Theory, aspect_ratio: f64, step: f64, most_steps: u64) ->
     Run { aspect_ratio, turns, end, setting }
 }
 
-/// A run of `periods` periods and a flip to a place at a setting; `None`, with the reason, where it takes too many steps.
+/// A run of `periods` periods and a flip, to the place `end`; `Err` with the reason if it takes too many steps.
 pub fn by_duration(
     theory: Theory,
     aspect_ratio: f64,
@@ -211,13 +211,13 @@ pub fn by_duration(
     Ok(Run { aspect_ratio, turns, end, setting })
 }
 
-/// GΔt of the runs by start and by duration: a tenth of explicit Euler's limit, below every other's.
+/// GΔt of the runs by start and by duration: a tenth of explicit Euler's limit, and below the limit of every other method.
 pub const STRAIN_PER_STEP: f64 = 0.1;
 
 /// The tolerance of the runs by start and by duration.
 pub const TOLERANCE: f64 = 1e-9;
 
-/// Where runs by start end, and their names: both poles, the flip with head and tail, along the flow, and
+/// The ends of the runs by start, with their names: both poles, the flip with both signs, along the flow, and
 /// C = 0, 10⁻³⁰⁰, 10³⁰⁰, ∞.
 pub fn places(aspect_ratio: f64) -> Vec<(&'static str, Place)> {
     let at = |c, z, xy| Place::new(c, z, xy, aspect_ratio);

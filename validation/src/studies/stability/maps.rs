@@ -1,4 +1,4 @@
-//! The maps: what was found in every corner, as pictures.
+//! The maps of outcomes as pictures.
 
 use super::limits::Property;
 use super::map::{self, ASPECT_RATIOS, Cell, Fate, PERIODS, TOLERANCES};
@@ -9,20 +9,20 @@ use crate::present::plot::{Grid, Map, decade, power_of_ten};
 use crate::present::study::ReportFigure;
 use shearbed::model::jeffery::strain_per_period;
 
-/// Steps that a run of the maps over steps and over starts may take; ten times as many over durations.
+/// The largest number of steps in a run of the maps over steps and over starts; ten times as many over durations.
 pub const MOST_STEPS: u64 = 20_000;
 
-/// The steps GΔt of the picture: quarter decades.
+/// Exponents of the picture's steps GΔt: quarter decades.
 const STRAINS: std::ops::RangeInclusive<i32> = -6..=10;
 
-/// The aspect ratios of the picture, which theory's limits cover.
+/// The aspect ratios of the picture, for which theory has limits.
 const RODS: [f64; 10] = [1.01, 1.5, 2.0, 3.0, 5.0, 11.6, 30.0, 100.0, 1e3, 1e4];
 
 fn strain(quarter: i32) -> f64 {
     10f64.powf(0.25 * f64::from(quarter))
 }
 
-/// The limit of the order by theory, in columns and rows of the picture by steps.
+/// The theoretical limit of the property `Order`, in columns and rows of the picture by steps.
 fn limit(subject: &str) -> Vec<(f64, f64)> {
     let theory = (THEORIES.iter()).find(|theory| theory.0 == subject && theory.1 == Property::Order);
     let Some((_, _, theory)) = theory else {
@@ -34,8 +34,8 @@ fn limit(subject: &str) -> Vec<(f64, f64)> {
     points.filter(|(column, _)| column.is_finite()).collect()
 }
 
-/// How far each method with steps is right at every aspect ratio of the picture: the longest step of the grid up to
-/// which nothing else was found, from the worst method to the best.
+/// A sentence on the worst and the best method with steps: the longest step of the grid up to which it is right at every aspect
+/// ratio of the picture.
 pub fn answer(figures: &[ReportFigure]) -> String {
     let grid = figures.first().and_then(|figure| figure.figure.grid.as_ref());
     let maps = grid.iter().flat_map(|grid| &grid.maps);
@@ -104,7 +104,7 @@ fn steps(subjects: &[Integrator]) -> Panels<'static> {
     }
 }
 
-/// From fine to coarse, as steps are from short to long.
+/// The tolerances from fine to coarse, as steps are from short to long.
 pub(super) fn tolerances_from_fine() -> impl Iterator<Item = f64> {
     TOLERANCES.into_iter().rev()
 }
@@ -207,7 +207,7 @@ fn durations(subjects: &[Integrator]) -> Panels<'static> {
     }
 }
 
-/// What was found of one subject, or at one aspect ratio: a row and a column for each cell.
+/// The outcomes of one integrator, or at one aspect ratio: a row and a column for each cell.
 struct Panel {
     title: String,
     cells: Vec<Vec<Cell>>,
@@ -247,11 +247,11 @@ impl Panels<'_> {
 }
 
 impl Fate {
-    /// What a map tells apart.
+    /// The classes that a map distinguishes.
     const CLASSES: [&'static str; 6] =
         ["right", "stable but wrong", "length lost", "not finite", "refused", "not run"];
 
-    /// Its place among [`Self::CLASSES`].
+    /// The index of the outcome's class in [`Self::CLASSES`].
     fn class(self) -> usize {
         match self {
             Self::RoundOff | Self::Accurate => 0,
@@ -264,7 +264,7 @@ impl Fate {
     }
 }
 
-/// An aspect ratio in few letters.
+/// An aspect ratio as a short text.
 pub(super) fn ratio(r: f64) -> String {
     match r {
         r if r > 1.0 && r < 1.0 + 1e-9 => format!("1 + {}", power_of_ten((r - 1.0).log10().round() as i32)),

@@ -1,5 +1,5 @@
-//! Where integrators of a free rod leave their region of stability: maps of what was found in every corner, and the
-//! longest steps by bisection beside theory. Derived in `docs/src/developer/step-limits.md`.
+//! Limits of stability of integrators of a free rod: maps of outcomes over wide ranges, and the longest steps by bisection
+//! compared with theory. Derived in `docs/src/developer/step-limits.md`.
 
 pub mod corners;
 pub mod limit_study;

@@ -1,5 +1,5 @@
-//! A rod at a place of its orbit, from its poles to the plane of shear, without angles: at any aspect ratio every
-//! component keeps all its digits.
+//! A rod at a place of its orbit, from the poles to the plane of shear, without angles: every component keeps all its digits
+//! at any aspect ratio.
 
 use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::TAU;
@@ -14,26 +14,26 @@ pub struct Place {
 }
 
 impl Place {
-    /// On the orbit C = `c`/|`z`| at the azimuth of (`x`, `y`), which need not be a unit vector.
+    /// The place on the orbit C = `c`/|`z`| at the azimuth of (`x`, `y`), which need not be a unit vector.
     pub fn new(c: f64, z: f64, [x, y]: [f64; 2], aspect_ratio: f64) -> Self {
         let (cos, sin) = (x, y / aspect_ratio);
         let length = cos.hypot(sin);
         Self { c, z, cos: cos / length, sin: sin / length }
     }
 
-    /// φ = 1 and θ = 1: in the flip of a rod, and of a disc.
+    /// The place φ = 1 and θ = 1: in the flip of a rod, and of a disc.
     pub fn mid_flip(aspect_ratio: f64) -> Self {
         let (sin, cos) = 1f64.sin_cos();
         Self::new(1f64.tan() * cos.hypot(sin / aspect_ratio), 1.0, [cos, sin], aspect_ratio)
     }
 
-    /// `turns` periods earlier. Whole turns change nothing, and are taken out exactly.
+    /// The place `turns` periods earlier. Whole periods change nothing, and are removed exactly.
     pub fn before(&self, turns: f64) -> Self {
         let (sin, cos) = (TAU * (turns - turns.round())).sin_cos();
         Self { cos: self.cos * cos + self.sin * sin, sin: self.sin * cos - self.cos * sin, ..*self }
     }
 
-    /// The direction there.
+    /// The direction at this place.
     pub fn direction(&self, aspect_ratio: f64) -> UnitVector3<f64> {
         let p = Vector3::new(self.c * self.cos, aspect_ratio * self.c * self.sin, self.z);
         // Scaled first: no square overflows or vanishes.
@@ -60,7 +60,7 @@ mod tests {
                 let theta = p.x.hypot(p.y).atan2(p.z);
                 let (phi, theta) = angles_at(p.y.atan2(p.x), theta, r, turns);
                 let moved = Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos());
-                // A start along the flow is told in angles to ε, which is r_e² ε in the flip.
+                // A start along the flow is known in angles to ε, which is r_e² ε in the flip.
                 let enough = 1e-14 * (r + 1.0 / r).powi(2);
                 assert!(moved.cross(&end.direction(r)).norm() < enough, "{r} {turns}");
             }

@@ -1,4 +1,4 @@
-//! The study of stability: maps of what becomes of a rod, and the longest steps beside their theory.
+//! The study of stability: maps of outcomes, and the longest steps compared with theory.
 
 use super::corners::{self, Worst};
 use super::limit_study;
@@ -9,7 +9,7 @@ use crate::present::study::{Exhibit, Findings, Request, Study};
 use crate::present::table::{ReportTable, decimals, number, of_words};
 use crate::studies::integrators;
 
-/// Maps of what becomes of a rod, and the longest steps beside their theory.
+/// The study of stability.
 pub const STUDY: Study = Study {
     name: "stability",
     title: "Integrators: stability",
@@ -46,7 +46,7 @@ fn run(_: &Request) -> Result<Option<Findings>, String> {
     Ok(Some(Findings::new(answer, exhibits, [])))
 }
 
-/// The last setting before the first whose end is not right, and what comes then.
+/// A text on the last setting before the first whose end is not right, and on the outcome of the latter.
 fn leaves(cells: &[Cell], setting: impl Fn(usize) -> String) -> String {
     match cells.iter().position(|cell| !cell.found.is_right()) {
         Some(0) => format!("never: {}", cells[0].found.words()),
@@ -55,7 +55,7 @@ fn leaves(cells: &[Cell], setting: impl Fn(usize) -> String) -> String {
     }
 }
 
-/// Where each subject leaves, by the step as a part of the period and by the tolerance: a row for each r_e.
+/// The limits of each integrator, by the step in periods and by the tolerance: a row for each r_e.
 fn ends(subjects: &[Integrator]) -> [ReportTable; 2] {
     let by_step = |subject: &Integrator, r: f64| {
         let run = |step| map::by_step(subject.theory, r, step, MOST_STEPS).of(subject);
@@ -94,7 +94,7 @@ fn ends(subjects: &[Integrator]) -> [ReportTable; 2] {
     ]
 }
 
-/// The worst at each aspect ratio.
+/// The largest errors at each aspect ratio.
 fn corners_table() -> ReportTable {
     type Row = (f64, Worst);
     ReportTable::new(

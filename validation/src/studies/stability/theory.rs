@@ -1,12 +1,12 @@
-//! Longest steps GΔt by theory, where there is one; derived in `docs/src/developer/step-limits.md`.
+//! Longest steps GΔt by theory, for some integrators and properties; derived in `docs/src/developer/step-limits.md`.
 
 use super::limits::Property;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-/// A theory of a limit: which subject, its property, and GΔt against r_e.
+/// A theory of a limit: the integrator, its property, and GΔt against r_e.
 pub type LimitTheory = (&'static str, Property, fn(f64) -> f64);
 
-/// Every limit of which there is a theory at all r_e.
+/// Every limit that has a theory at all r_e.
 pub const THEORIES: [LimitTheory; 6] = [
     ("explicit Euler in angles", Property::Order, euler_order),
     ("implicit midpoint in p", Property::Order, implicit_midpoint_order),
@@ -39,7 +39,7 @@ pub fn euler_side(aspect_ratio: f64) -> f64 {
 }
 
 /// The implicit midpoint rule has one solution in the plane of shear, which keeps the order of rods, up to
-/// 2/(Λ(1 − u²)^{3/2}), with u the root of 2u³ − 3u + 1/Λ = 0 in (0, 1/√2]. Infinite where there is no root: 1/Λ > √2,
+/// 2/(Λ(1 − u²)^{3/2}), with u the root of 2u³ − 3u + 1/Λ = 0 in (0, 1/√2]. Infinite if there is no root: 1/Λ > √2,
 /// that is r_e < 1 + √2.
 pub fn implicit_midpoint_order(aspect_ratio: f64) -> f64 {
     let shape = shape(aspect_ratio);
@@ -64,8 +64,8 @@ pub fn implicit_midpoint_side(aspect_ratio: f64) -> f64 {
     4.0 / shape(aspect_ratio)
 }
 
-/// The implicit midpoint rule has one solution on the whole sphere up to the shorter of the two: only so far is it sure
-/// that no rod crosses the plane of shear.
+/// The implicit midpoint rule has one solution on the whole sphere up to the shorter of the two steps: only up to it is it
+/// certain that no rod crosses the plane of shear.
 pub fn implicit_midpoint_one_solution(aspect_ratio: f64) -> f64 {
     implicit_midpoint_side(aspect_ratio).min(implicit_midpoint_order(aspect_ratio))
 }

@@ -1,4 +1,4 @@
-//! How the standard deviation of a mean falls with its replicas.
+//! The standard deviation of a mean against its number of replicas.
 
 use super::{Estimate, covariance, slope};
 use serde::Serialize;
@@ -7,15 +7,15 @@ use statrs::function::gamma::digamma;
 /// The standard deviation of means over blocks of replicas.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Block {
-    /// Replicas in a block.
+    /// Number of replicas in a block.
     pub replicas: u64,
-    /// Blocks.
+    /// Number of blocks.
     pub blocks: u64,
-    /// The standard deviation of their means.
+    /// The standard deviation of the blocks' means.
     pub deviation: f64,
 }
 
-/// Block means of 1, 2, 4, … replicas, as long as there are eight blocks.
+/// Block means of 1, 2, 4, … replicas, while there are at least eight blocks.
 pub fn blocks(x1: &[f64]) -> Vec<Block> {
     let sizes = (0..).map(|power| 1usize << power);
     (sizes.take_while(|size| x1.len() / size >= 8))
@@ -32,7 +32,7 @@ pub fn blocks(x1: &[f64]) -> Vec<Block> {
 }
 
 /// The exponent of M in the standard deviation of a mean over M replicas: the mean and standard error over sixteen
-/// groups of the replicas. By theory −½, as replicas have nothing in common.
+/// groups of the replicas. By theory it is −½, as replicas are independent.
 pub fn replicas_exponent(x1: &[f64]) -> Option<Estimate> {
     let size = x1.len() / 16;
     if size < 64 {
@@ -46,7 +46,7 @@ pub fn replicas_exponents(x1: &[f64], size: usize) -> Vec<f64> {
     let of_group = |group: &[f64]| {
         let points: Vec<_> = (blocks(group).iter())
             .map(|block| {
-                // The logarithm of a deviation from few blocks is low in the mean, by this much for normal means.
+                // The logarithm of a deviation from few blocks is too low on average, for normal means by this much.
                 let half = 0.5 * (block.blocks - 1) as f64;
                 let low = 0.5 * (digamma(half) - half.ln());
                 ((block.replicas as f64).ln(), block.deviation.ln() - low)

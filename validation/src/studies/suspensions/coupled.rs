@@ -1,7 +1,7 @@
-//! Runs that share their random numbers: what the sharing saves. Three ways, each by its correlations.
+//! Savings by runs that share their random numbers, in three ways, each from its correlations.
 //!
 //! - *Multilevel*: the same scene at S and 2S steps per period, to correct cheap coarse runs by few fine ones.
-//! - *Common random numbers*: the same scene at two values of α, to know their difference.
+//! - *Common random numbers*: the same scene at two values of α, for their difference.
 //! - *Control variate*: the same rods without collisions, whose mean has a closed form, to correct the mean.
 
 use super::job::Job;
@@ -14,65 +14,65 @@ use shearbed::observable::Channel;
 use shearbed::run::run_replica;
 use shearbed::{Observable, Plan, Scene};
 
-/// X̄₁ at each mark, replica by replica.
+/// X̄₁ at each mark, for each replica.
 pub type Values = Vec<Vec<f64>>;
 
-/// Quarters of a period that are looked at.
+/// The number of quarters of a period that are evaluated.
 pub const QUARTERS: u64 = 8;
 
 /// The factor on α of the second scene: 0.4 for 0.5.
 pub const OTHER_ALPHA: f64 = 0.8;
 
-/// What sharing saves at one time.
+/// The correlations at one time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Saving {
     /// t/T.
     pub turns: f64,
     /// The correlation with the same run at half the time step.
     pub finer: f64,
-    /// With the other α.
+    /// The correlation with the other α.
     pub other_alpha: f64,
-    /// With the free rods.
+    /// The correlation with the free rods.
     pub free: f64,
 }
 
-/// Everything.
+/// The results on shared random numbers.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Coupled {
-    /// Steps per period, and twice as many.
+    /// Steps per period of the coarse runs; the fine ones have twice as many.
     pub steps_per_period: u64,
-    /// Replicas of each.
+    /// Replicas of each run.
     pub replicas: u64,
-    /// One for each quarter of a period.
+    /// The correlations at each quarter of a period.
     pub rows: Vec<Saving>,
 }
 
 impl Saving {
-    /// The most that levels in Δt save in the cost of a mean, where coarse runs cost nothing: one over the share of
+    /// The largest factor by which levels in Δt reduce the cost of a mean, if coarse runs cost nothing: one over the share of
     /// the variance that is left to the fine ones, 1 − ρ².
     pub fn multilevel_at_best(&self) -> f64 {
         1.0 / (1.0 - self.finer * self.finer)
     }
 
-    /// The same for coarse runs at an eighth of the cost: fine runs with coarse ones beside them, and more coarse
-    /// ones, in the best proportion (Peherstorfer, Willcox & Gunzburger 2016). Below 1 it costs more than it saves.
+    /// The same for coarse runs at an eighth of the cost: coupled pairs of fine and coarse runs, and more coarse runs
+    /// in the best proportion (Peherstorfer, Willcox & Gunzburger 2016). Below 1 the cost exceeds the saving.
     pub fn multilevel(&self) -> f64 {
         let square = self.finer * self.finer;
         ((1.0 - square).sqrt() + (square / 8.0).sqrt()).powi(-2)
     }
 
-    /// Independent runs for the difference between two α, over those that share.
+    /// The number of independent runs for the difference between two α, over that of coupled runs.
     pub fn common_numbers(&self) -> f64 {
         1.0 / (1.0 - self.other_alpha)
     }
 
-    /// Runs for the mean, over those with the free rods beside them.
+    /// The number of runs for the mean, over that of runs with the free rods as control variate.
     pub fn control_variate(&self) -> f64 {
         1.0 / (1.0 - self.free * self.free)
     }
 }
 
-/// Measures all three on a scene.
+/// Measures all three correlations on a scene.
 pub fn measure(scene: &Scene, replicas: u64) -> Result<Coupled, String> {
     let steps = scene.steps_per_unit().div_ceil(4) * 4;
     let own = interacting(scene, steps, 1.0, QUARTERS, replicas)?;
@@ -88,7 +88,7 @@ pub fn measure(scene: &Scene, replicas: u64) -> Result<Coupled, String> {
     Ok(Coupled { steps_per_period: steps, replicas, rows: (0..QUARTERS as usize).map(row).collect() })
 }
 
-/// X̄₁ at every quarter of a period of a scene, α times a factor.
+/// X̄₁ at every quarter of a period of a scene whose α is multiplied by `alpha`.
 pub fn interacting(
     scene: &Scene,
     steps: u64,
@@ -105,7 +105,7 @@ pub fn interacting(
     Ok(job.run(&|| ())?.into_iter().map(looks).collect())
 }
 
-/// The same of its rods without collisions: the same starts and aspect ratios, as their streams are their own.
+/// The same for the scene's rods without collisions: starts and aspect ratios are the same, as they have streams of their own.
 pub fn free(scene: &Scene, quarters: u64, replicas: u64) -> Result<Values, String> {
     let mut scene = scene.clone();
     scene.interaction = None;
@@ -125,26 +125,26 @@ pub fn free(scene: &Scene, quarters: u64, replicas: u64) -> Result<Values, Strin
         .collect()
 }
 
-/// The mean of the free rods at t/T, over all starts.
+/// The mean of the free rods at t/T = `turns`, over all initial directions.
 pub fn free_mean(scene: &Scene, turns: f64) -> f64 {
     let particles = &scene.particles;
     let sd = particles.aspect_ratio_sd_percent;
     isotropic::mean_projections_polydisperse(particles.aspect_ratio, sd, turns)[0]
 }
 
-/// The mean of `x1` less what the free rods beside were off their own known mean, in the best proportion.
+/// The mean of `x1`, corrected by the deviation of the free rods from their known mean, in the best proportion.
 pub fn controlled(x1: &[f64], free: &[f64], free_mean: f64) -> Estimate {
     let share = covariance(x1, free) / covariance(free, free);
     let corrected: Vec<_> = (x1.iter().zip(free)).map(|(x1, free)| x1 - share * (free - free_mean)).collect();
     Estimate::mean_of(&corrected)
 }
 
-/// One mark of all replicas.
+/// The values of all replicas at one mark.
 pub fn at(values: &Values, mark: usize) -> Vec<f64> {
     values.iter().map(|replica| replica[mark]).collect()
 }
 
-/// What shared random numbers save.
+/// The table of savings by shared random numbers.
 pub fn table(coupled: &Coupled) -> ReportTable {
     ReportTable::new(
         ["suspension-coupled", "Shared random numbers: the factor by which they save runs"],

@@ -1,4 +1,4 @@
-//! Straight lines through means that share random numbers, and the order that they show.
+//! Straight lines through means that share random numbers, and the observed order.
 
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
@@ -9,9 +9,9 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 pub struct Means {
     /// The means.
     pub values: Vec<f64>,
-    /// The covariance of every two.
+    /// The covariance of each pair of means.
     pub covariance: DMatrix<f64>,
-    /// The fewest replicas of a mean.
+    /// The smallest number of replicas of a mean.
     fewest: usize,
 }
 
@@ -20,15 +20,15 @@ pub struct Means {
 pub struct Line {
     /// y at x = 0.
     pub intercept: f64,
-    /// Its standard error.
+    /// The standard error of `intercept`.
     pub intercept_se: f64,
     /// The slope.
     pub slope: f64,
-    /// Its standard error.
+    /// The standard error of `slope`.
     pub slope_se: f64,
-    /// The sum of squares that is left, in units of the covariances.
+    /// The residual sum of squares, weighted by the inverse covariances.
     pub chi_square: f64,
-    /// The probability of more than that, if the line is right. No number where two points make the line.
+    /// The probability of a larger χ² if the line is right. None if the line has only two points.
     pub p: Option<f64>,
 }
 
@@ -37,13 +37,13 @@ pub struct Line {
 pub struct Order {
     /// w.
     pub order: f64,
-    /// Half of where χ² is within 1 of its least.
+    /// Half the width of the interval in which χ² is within 1 of its minimum.
     pub se: f64,
 }
 
 impl Means {
-    /// The means over replicas of samples whose members with one index share their random numbers. The correlation
-    /// is taken as the same for every two samples: that of what they share.
+    /// The means over replicas of samples whose members with the same index share their random numbers. The correlation
+    /// is taken as the same for every two samples, and estimated from the replicas that they share.
     pub fn of(samples: &[Vec<f64>]) -> Self {
         let variances: Vec<_> = (samples.iter()).map(|sample| super::covariance(sample, sample)).collect();
         let scale = |i: usize, j: usize| (variances[i] * variances[j]).sqrt();
@@ -58,7 +58,7 @@ impl Means {
         }
         let correlation = if pairs > 0.0 { shared / pairs } else { 0.0 };
         let of_means = |i: usize, j: usize| {
-            // Replicas that only the longer one has are independent of the shorter.
+            // Replicas that only the longer sample has are independent of the shorter.
             let most = samples[i].len().max(samples[j].len()) as f64;
             let correlation = if i == j { 1.0 } else { correlation };
             correlation * scale(i, j) / most
@@ -70,9 +70,9 @@ impl Means {
         }
     }
 
-    /// The line through the means at `x`: least squares weighted by the inverse of the covariances, the same as of
-    /// the differences of neighbours. `None` for fewer than two levels, fewer than eight replicas of one, or
-    /// samples without a spread.
+    /// The line through the means at `x`: least squares weighted by the inverse of the covariances, equivalent to a fit of
+    /// the differences of neighbours. `None` for fewer than two levels, fewer than eight replicas of a level, or
+    /// samples without scatter.
     pub fn line(&self, x: &[f64]) -> Option<Line> {
         let count = self.values.len();
         if self.fewest < 8 {
@@ -96,8 +96,8 @@ impl Means {
         })
     }
 
-    /// The w of a + b hʷ with the least χ², for h of at least three levels. `None` where noise leaves it open: no end
-    /// of the interval between ¼ and 4, or a slope within two standard errors of 0.
+    /// The w of a + b hʷ with the least χ², for h of at least three levels. `None` if noise hides it: an end of its interval
+    /// outside ¼ to 4, or a slope within two standard errors of 0.
     pub fn order(&self, h: &[f64]) -> Option<Order> {
         if h.len() < 3 {
             return None;
@@ -108,7 +108,7 @@ impl Means {
         };
         let chi_square = |order: f64| line(order).map_or(f64::INFINITY, |line| line.chi_square);
         let (low, high) = (0.25, 4.0);
-        // By trial, and then between the neighbours of the best.
+        // On a coarse grid, then on a fine one around its best value.
         let tried = (0..=375).map(|k| low + 0.01 * f64::from(k));
         let near = tried.min_by(|a, b| chi_square(*a).total_cmp(&chi_square(*b)))?;
         let tried = (-100..=100).map(|k| near + 1e-4 * f64::from(k));
@@ -142,7 +142,7 @@ impl Means {
         }
     }
 
-    /// A level's mean less another's, and its standard error.
+    /// The mean of level `one` less that of level `other`, and its standard error.
     pub fn difference(&self, one: usize, other: usize) -> (f64, f64) {
         let c = &self.covariance;
         let variance = c[(one, one)] + c[(other, other)] - 2.0 * c[(one, other)];
@@ -160,7 +160,7 @@ mod tests {
 
     const H: [f64; 4] = [0.08, 0.04, 0.02, 0.01];
 
-    /// 1 + hʷ with noise of which a part is shared between levels.
+    /// 1 + hʷ with noise, partly shared between levels.
     fn samples(order: f64, noise: f64, seed: u64) -> Vec<Vec<f64>> {
         let mut rng = Pcg64Dxsm::seed_from_u64(seed);
         let mut normal = || -> f64 { StandardNormal.sample(&mut rng) };
@@ -190,7 +190,7 @@ mod tests {
         let Estimate { value: mean, se } = Estimate::mean_of(&slopes);
         assert!((mean - 1.0).abs() < 4.0 * se, "{mean} {se}");
         let (spread, said) = (se * 300f64.sqrt(), lines[0].slope_se);
-        // 300 repeats know their spread to 4 %, and a single run its own error to some 5 %.
+        // 300 repeats determine their spread to 4 %, and a single run its own error to some 5 %.
         assert!((spread / said - 1.0).abs() < 0.25, "{spread} {said}");
         let p: f64 = lines.iter().map(|line| line.p.unwrap()).sum::<f64>() / 300.0;
         assert!((p - 0.5).abs() < 0.07, "{p}");

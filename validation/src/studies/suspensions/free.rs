@@ -1,5 +1,5 @@
-//! Free suspensions: the error of X̄₁ against the rods and the run time, for every way to lay the rods. No step is
-//! taken: what is left of the error is that of the sample.
+//! Free suspensions: the error of X̄₁ against the rods and the run time, for every way to choose initial directions. No time
+//! step is needed: the remaining error is that of the sample.
 
 use super::starts::{Rod, Start};
 use crate::oracle::isotropic;
@@ -15,12 +15,12 @@ use statrs::distribution::{ContinuousCDF, Normal};
 /// The errors of X̄₁ for which the cheapest start is sought.
 pub const TARGETS: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-6];
 
-/// A free suspension whose X̄₁ is asked for at one time: isotropic at first, in plane Couette flow.
+/// A free suspension, isotropic at first, in plane Couette flow, and a time at which X̄₁ is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Free {
-    /// The built-in scene it is of.
+    /// The built-in scene with these rods.
     pub scene: &'static str,
-    /// r_e, or its mean.
+    /// r_e, or its mean for unequal rods.
     pub aspect_ratio: f64,
     /// σ of r_e, in percent of its mean.
     pub sd_percent: f64,
@@ -34,7 +34,7 @@ pub const SCENES: [Free; 2] = [
     Free { scene: "fig6-polydisperse", aspect_ratio: 11.6, sd_percent: 3.6, turns: 0.95 },
 ];
 
-/// One number of rods.
+/// The error and time for one number of rods.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Point {
     /// N.
@@ -43,7 +43,7 @@ pub struct Point {
     pub error: f64,
     /// The number of trials, each with rods of its own.
     pub trials: usize,
-    /// What laying and moving the rods once took.
+    /// The time to choose and move the rods once.
     pub seconds: Seconds,
 }
 
@@ -54,27 +54,27 @@ pub struct StartCurve {
     pub start: &'static str,
     /// The exponent by theory.
     pub theory: f64,
-    /// The exponent found over the points with 10³ rods and more: below, the lattice does not resolve the stretched
+    /// The exponent found over the points with 10³ rods and more: with fewer, the lattice does not resolve the stretched
     /// rods yet.
     pub exponent: f64,
-    /// Its standard error, over groups of trials.
+    /// The standard error of `exponent`, over groups of trials.
     pub exponent_se: f64,
-    /// From few rods to many.
+    /// The points, from few rods to many.
     pub points: Vec<Point>,
 }
 
-/// Every start on one suspension.
+/// All starts for one suspension.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Bench {
     /// The suspension.
     pub free: Free,
     /// X̄₁ by the closed form.
     pub exact: f64,
-    /// One for each start.
+    /// The curve of each start.
     pub curves: Vec<StartCurve>,
 }
 
-/// How much is measured.
+/// The size of the study.
 #[derive(Clone, Copy, Debug)]
 pub struct Amount {
     /// N = 10², 10^2.5, … up to 10^this/2.
@@ -84,13 +84,13 @@ pub struct Amount {
 }
 
 impl Amount {
-    /// For the report of every day.
+    /// The amount for daily reports.
     pub const QUICK: Self = Self { half_decades: 10, trials: 32 };
-    /// For `shearbed bench` and full reports.
+    /// The amount for `shearbed bench` and full reports.
     pub const FULL: Self = Self { half_decades: 12, trials: 64 };
 }
 
-/// Groups of trials: the spread of their exponents is the error.
+/// Number of groups of trials; the spread of their exponents gives the standard error.
 pub const GROUPS: usize = 8;
 
 impl Free {
@@ -98,12 +98,12 @@ impl Free {
         self.sd_percent > 0.0
     }
 
-    /// X̄₁ by the closed form, or the quadrature over it.
+    /// X̄₁ by the closed form, or by quadrature over it for unequal rods.
     pub fn exact(&self) -> f64 {
         isotropic::mean_projections_polydisperse(self.aspect_ratio, self.sd_percent, self.turns)[0]
     }
 
-    /// X̄₁ of these rods, each taken straight to the time.
+    /// X̄₁ of these rods, each moved directly to the time.
     pub fn mean(&self, rods: &[Rod]) -> f64 {
         let r = self.aspect_ratio;
         let sum: f64 = match Normal::new(r, 0.01 * self.sd_percent * r) {
@@ -122,7 +122,7 @@ impl Free {
         sum / rods.len() as f64
     }
 
-    /// The rods that `start` lays, and the errors of X̄₁ in `trials` of them.
+    /// The number of rods that `start` chooses for `count`, and the errors of X̄₁ in `trials` trials.
     pub fn errors(&self, start: &Start, count: usize, trials: usize, seed: u64) -> (usize, Vec<f64>) {
         let exact = self.exact();
         let found: Vec<_> = (0..trials as u64)
@@ -136,7 +136,7 @@ impl Free {
         (rods, found.into_iter().map(|(_, error)| error).collect())
     }
 
-    /// Every one of `starts`; run times are of one core.
+    /// The curves of all `starts`; run times are of one core.
     pub fn bench(&self, starts: &[Start], amount: Amount, budget: Budget) -> Bench {
         Bench {
             free: *self,
@@ -183,13 +183,13 @@ impl StartCurve {
 /// The seed of [`Free::bench`].
 const SEED: u64 = 0;
 
-/// A stream of its own for each seed, number of rods and trial.
+/// A random stream for each seed, number of rods and trial.
 fn generator(seed: u64, count: usize, trial: u64) -> Pcg64Dxsm {
     Pcg64Dxsm::seed_from_u64(seed ^ (count as u64) << 32 ^ trial)
 }
 
 /// The exponents of N in the root-mean-square error, by least squares of the logarithms, one for each of `groups`
-/// of the trials.
+/// groups of trials.
 pub fn exponents(tried: &[(usize, Vec<f64>)], groups: usize) -> Vec<f64> {
     let slope = |group: usize| {
         let of_group = |errors: &[f64]| {

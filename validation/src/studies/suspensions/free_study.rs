@@ -1,4 +1,4 @@
-//! The study of free suspensions: how to place free rods.
+//! The study of free suspensions: how to choose their initial directions.
 
 use super::free::{Amount, Bench, Point, SCENES, StartCurve, TARGETS};
 use super::starts;
@@ -11,7 +11,7 @@ use crate::studies::work_precision::study::{NOT_REACHED, time};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Free rods: how to lay them.
+/// The study of the initial directions of free rods.
 pub const STUDY: Study = Study {
     name: "free-suspensions",
     title: "Free suspensions: error against run time",
@@ -85,7 +85,7 @@ impl From<(&Bench, &StartCurve, &Point)> for StartRow {
     }
 }
 
-/// The time that each start takes to each error.
+/// The time that each start needs for each error.
 fn table(benches: &[Bench]) -> ReportTable {
     type Of<'a> = (&'a Bench, &'a StartCurve);
     let rows = benches.iter().flat_map(|bench| bench.curves.iter().map(move |c| (bench, c)));

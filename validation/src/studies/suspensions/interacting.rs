@@ -1,4 +1,4 @@
-//! The study of an interacting scene: its law, constants, cheapest splits and what they gave, coupled estimates.
+//! The study of an interacting scene: its law of errors, constants, cheapest splits and their realised errors, coupled estimates.
 
 use super::coupled::{self, Coupled};
 use super::job::Job;
@@ -15,7 +15,7 @@ use crate::studies::work_precision::{Budget, measure as clock};
 use serde::Serialize;
 use shearbed::model::jeffery::strain_per_period;
 
-/// Interacting rods: steps, rods and replicas.
+/// The study of steps, rods and replicas of interacting rods.
 pub const STUDY: Study = Study {
     name: "interacting-suspensions",
     title: "Interacting suspensions: steps, rods and replicas",
@@ -60,26 +60,26 @@ fn run(request: &Request) -> Result<Option<Findings>, String> {
     Ok(Some(Findings::new(answer, exhibits, files)))
 }
 
-/// The built-in scene that is studied: the paper's Fig. 7, rods of one size.
+/// The built-in scene of the study: the paper's Fig. 7, rods of one size.
 pub const SCENE: &str = "fig7-n50";
 
-/// How much is measured.
+/// The size of the study.
 #[derive(Clone, Copy, Debug)]
 pub struct Amount {
     /// Replicas of the jobs over steps and rods.
     pub replicas: Replicas,
     /// Steps per period and replicas of the reference with the scene's own rods.
     pub reference: (u64, u64),
-    /// Steps per period, rods and replicas of the one without faces.
+    /// Steps per period, rods and replicas of the reference without faces.
     pub unbounded: Option<(u64, usize, u64)>,
-    /// How often the split for each of [`TARGETS`] is run.
+    /// The number of runs of the split for each of [`TARGETS`].
     pub repeats: [u64; 3],
     /// Replicas of the coupled runs.
     pub coupled: u64,
 }
 
 impl Amount {
-    /// For the report of every day: seconds.
+    /// The amount for daily reports: seconds.
     pub const QUICK: Self = Self {
         replicas: Replicas::Within { rod_steps: 10_000_000, most: 2000 },
         reference: (800, 400),
@@ -87,7 +87,7 @@ impl Amount {
         repeats: [16, 0, 0],
         coupled: 200,
     };
-    /// For `shearbed bench` and full reports: a minute or two.
+    /// The amount for `shearbed bench` and full reports: a minute or two.
     pub const FULL: Self = Self {
         replicas: Replicas::Within { rod_steps: 100_000_000, most: 20_000 },
         reference: (3200, 5000),
@@ -97,39 +97,39 @@ impl Amount {
     };
 }
 
-/// A split, its time, and what it gave where it was run.
+/// A split, its time, and its realised error if it was run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Answer {
-    /// What to run.
+    /// The split to run.
     pub split: Split,
-    /// Its time on one core, from the time of a rod's step.
+    /// The split's time on one core, from the time of a rod's step.
     pub seconds: f64,
-    /// What it gave.
+    /// The realised error.
     pub realised: Option<Realised>,
 }
 
-/// Everything.
+/// The results of the study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Interacting {
     /// The scene's name.
     pub scene: String,
     /// G T: the strain of a period.
     pub strain_per_period: f64,
-    /// Steps, rods and replicas.
+    /// The dependence on steps, rods and replicas.
     pub law: Law,
-    /// What the error is made of.
+    /// The constants of the error.
     pub constants: Constants,
     /// The time of one rod's step on one core in s, with the scene's own rods.
     pub rod_step_s: f64,
     /// For each of [`TARGETS`]: with the scene's own rods, and without faces.
     pub answers: Vec<Answer>,
-    /// What the realised errors are counted from: the scene's own rods, and without faces.
+    /// The references for realised errors: with the scene's own rods, and without faces.
     pub references: Vec<JobMean>,
     /// The savings by shared random numbers.
     pub coupled: Coupled,
 }
 
-/// Studies [`SCENE`] on the threads of the current pool; the time of a rod's step is of one core.
+/// Studies [`SCENE`] on the threads of the current pool; the time of a rod's step is measured on one core.
 fn measure(amount: Amount, budget: Budget) -> Result<Interacting, String> {
     let built_in = scenes::find(SCENE).ok_or("no such scene")?;
     let scene = built_in.scene().map_err(|error| error.to_string())?;
@@ -149,7 +149,7 @@ fn measure(amount: Amount, budget: Budget) -> Result<Interacting, String> {
     for (scope, reference) in [(own, references.first()), (Scope::Unbounded, references.get(1))] {
         for (target, repeats) in TARGETS.into_iter().zip(amount.repeats) {
             let split = constants.cheapest(scope, target);
-            // A reference is no judge of errors as small as its own.
+            // A reference cannot judge errors as small as its own.
             let judge = reference
                 .filter(|reference| repeats > 0 && off_at_most(&constants, scope, reference) < target);
             let realised = judge.map(|reference| {
@@ -175,7 +175,7 @@ fn measure(amount: Amount, budget: Budget) -> Result<Interacting, String> {
     })
 }
 
-/// What a reference may itself be off: its bias at most, and two standard errors.
+/// The error of a reference itself: the largest bias, and two standard errors.
 fn off_at_most(constants: &Constants, scope: Scope, reference: &JobMean) -> f64 {
     let bias = constants.bias(scope, reference.steps_per_period as f64, reference.rods as f64);
     bias.hypot(2.0 * reference.se)
@@ -226,7 +226,7 @@ impl<'a> SplitRow<'a> {
     }
 }
 
-/// The rule as the measured constants give it, in words.
+/// The rule with the measured constants, in words.
 fn rule(constants: &Constants) -> String {
     format!(
         "Mean-square error = (b/S + c N^(−1/3))² + v/(N M) for S steps per period, N rods and M replicas, with b = {:.2} \
@@ -253,7 +253,7 @@ fn split_columns<'a, R>(of: impl Fn(&R) -> Split + Copy + 'a) -> Vec<Column<'a, 
     ]
 }
 
-/// What to run for an error, for any scene.
+/// The table of the splits for given errors, for any scene.
 pub fn splits_table(constants: &Constants, splits: &[Split]) -> ReportTable {
     ReportTable::new(
         ["splits", "The cheapest steps, rods and replicas for an error of X̄₁ at t/T = 1"],
@@ -263,7 +263,7 @@ pub fn splits_table(constants: &Constants, splits: &[Split]) -> ReportTable {
     )
 }
 
-/// The same with times, and what was realised.
+/// The table of splits with times and realised errors.
 fn answers(study: &Interacting) -> ReportTable {
     let realised = |answer: &Answer| match &answer.realised {
         Some(realised) => format!(
@@ -304,7 +304,7 @@ fn answers(study: &Interacting) -> ReportTable {
     )
 }
 
-/// The error that the rule gives, that of a fixed step, and the errors realised, against the run time.
+/// The error by the rule, by a fixed step, and the realised errors, against the run time.
 fn figure(study: &Interacting) -> ReportFigure {
     let (constants, seconds) = (&study.constants, |rod_steps: f64| rod_steps * study.rod_step_s);
     let errors = || (0..=40).map(|k| 0.03 * 10f64.powf(-0.05 * f64::from(k)));

@@ -1,5 +1,5 @@
-//! One run of an interacting scene: replicas at one time step and one number of rods. Jobs do not depend on each
-//! other, and what they find is plain data, so that they may run anywhere.
+//! One run of an interacting scene: replicas at one time step and one number of rods. Jobs are independent of each
+//! other and return plain data, so that they may run anywhere.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -7,19 +7,19 @@ use shearbed::model::orientation::bounded_orbit_constant;
 use shearbed::scene::Time;
 use shearbed::{Plan, Scene, Suspension};
 
-/// Where distribution functions are looked at: 0.1, 0.2, … 0.9.
+/// Number of values at which distribution functions are evaluated: 0.1, 0.2, … 0.9.
 pub const PLACES: usize = 9;
 
-/// What is to be run.
+/// The input of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Job {
-    /// The scene as it is run; its own replicas, periods and outputs are not looked at.
+    /// The scene to run; its own replicas, periods and outputs are ignored.
     pub scene: Scene,
-    /// Replicas 0 to this.
+    /// Number of replicas, counted from 0.
     pub replicas: u64,
-    /// Steps after which the rods are looked at, rising.
+    /// Numbers of steps after which the rods are evaluated, ascending.
     pub marks: Vec<u64>,
-    /// The number of replicas, the first ones, that keep the directions of their rods at the last mark.
+    /// The number of replicas, from the first, that keep the directions of their rods at the last mark.
     pub followed: u64,
 }
 
@@ -34,17 +34,17 @@ pub struct Look {
     pub orbit_below: [f64; PLACES],
 }
 
-/// One replica.
+/// The results of one replica.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Trace {
-    /// One for each mark.
+    /// The rods at each mark.
     pub looks: Vec<Look>,
-    /// The directions at the last mark, of a replica that is followed.
+    /// The directions at the last mark, for a replica that keeps them.
     pub directions: Vec<[f64; 3]>,
 }
 
 impl Job {
-    /// The scene's replicas 0 to `replicas` with `rods` rods and `steps_per_period` steps a period, looked at after whole periods.
+    /// The scene's replicas 0 to `replicas` with `rods` rods and `steps_per_period` steps a period, evaluated after whole periods.
     pub fn new(scene: &Scene, steps_per_period: u64, rods: usize, replicas: u64, periods: u64) -> Self {
         let mut scene = scene.clone();
         scene.time = Time {
@@ -62,13 +62,13 @@ impl Job {
         }
     }
 
-    /// Rods times steps over all replicas: what it costs.
+    /// The cost: rods times steps over all replicas.
     pub fn rod_steps(&self) -> u64 {
         let steps = self.marks.last().copied().unwrap_or(0);
         self.replicas * self.scene.particles.count as u64 * steps
     }
 
-    /// Runs it on the threads of the current pool. `finished` is called after each replica.
+    /// Runs the job on the threads of the current pool. `finished` is called after each replica.
     pub fn run(&self, finished: &(dyn Fn() + Sync)) -> Result<Vec<Trace>, String> {
         let plan = Plan::new(&self.scene).map_err(|error| error.to_string())?;
         (0..self.replicas)

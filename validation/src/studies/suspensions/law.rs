@@ -1,6 +1,6 @@
-//! How an interacting scene's X̄₁ at t/T = 1, and the distribution of its directions, depend on the steps per period,
-//! the rods and the replicas: convergence in law. The study is a list of independent jobs, and what is read from
-//! what they found.
+//! Convergence in law: how an interacting scene's X̄₁ at t/T = 1, and the distribution of its directions, depend on the
+//! steps per period, the rods and the replicas. The study is a list of independent jobs, and an evaluation of their
+//! results.
 
 use super::blocks::{Block, blocks, replicas_exponent};
 use super::fit::{Line, Means, Order};
@@ -12,35 +12,35 @@ use serde::Serialize;
 use shearbed::model::jeffery::strain_per_period;
 use shearbed::{Plan, Scene};
 
-/// Steps per period that are tried.
+/// The numbers of steps per period that are tried.
 pub const STEPS_PER_PERIOD: [u64; 10] = [20, 50, 100, 200, 400, 800, 1600, 3200, 6400, 12800];
 
-/// Rods that are tried.
+/// The numbers of rods that are tried.
 pub const RODS: [usize; 6] = [25, 50, 100, 200, 400, 1000];
 
 /// The exponent of N in the bias: rods near a face of the volume lack neighbours, and the share of the volume within
 /// a rod length of a face is ∝ 1/H ∝ N^(−1/3).
 pub const FACES: f64 = -1.0 / 3.0;
 
-/// Replicas whose rods are compared one by one between two steps.
+/// Number of replicas whose rods are compared one by one between two steps.
 const FOLLOWED: u64 = 16;
 
-/// How many replicas each job has.
+/// The number of replicas of each job.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Replicas {
-    /// The same for all.
+    /// The same number for all jobs.
     Each(u64),
-    /// As many as keep a job below `rod_steps`, at least 8 and at most `most`.
+    /// The largest number that keeps a job below `rod_steps`, at least 8 and at most `most`.
     Within {
-        /// Rods times steps of a job.
+        /// Rods times steps of a job, over all replicas.
         rod_steps: u64,
-        /// The most replicas.
+        /// The largest number of replicas.
         most: u64,
     },
 }
 
 impl Replicas {
-    /// For `shearbed converge`: about three minutes of one core.
+    /// The choice for `shearbed converge`: about three minutes of one core.
     pub const CONVERGE: Self = Self::Within { rod_steps: 400_000_000, most: 20_000 };
 
     fn of(self, steps_per_period: u64, rods: usize) -> u64 {
@@ -51,68 +51,68 @@ impl Replicas {
     }
 }
 
-/// What one job found of X̄₁ at t/T = 1.
+/// The result of one job for X̄₁ at t/T = 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct JobMean {
     /// Steps per period.
     pub steps_per_period: u64,
     /// Rods in the control volume.
     pub rods: usize,
-    /// Independent runs.
+    /// Number of independent runs.
     pub replicas: u64,
     /// The mean of |p_1| over rods and replicas.
     pub x1: f64,
-    /// Its standard error over replicas.
+    /// The standard error of `x1` over replicas.
     pub se: f64,
 }
 
-/// One number of steps per period less the next finer one, at the same seeds.
+/// The change from one number of steps per period to the next finer one, at the same seeds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Change {
     /// The change of X̄₁.
     pub x1: Estimate,
-    /// The correlation of X̄₁ between the two; its error is that of normal variables.
+    /// The correlation of X̄₁ between the two; its standard error is that for normal variables.
     pub correlation: Estimate,
-    /// The change of the share of rods with |p_1| below 0.1, 0.2, … 0.9, where it is largest in its standard errors.
+    /// The change of the share of rods with |p_1| below 0.1, 0.2, … 0.9, for the bound where it is largest in standard errors.
     pub p1_distribution: Estimate,
-    /// The same of C_b.
+    /// The same change for C_b.
     pub orbit_distribution: Estimate,
-    /// The root mean square angle between the same rod in both, head or tail alike.
+    /// The root mean square angle between the same rod in both, up to sign.
     pub apart_rad: f64,
-    /// The same between different rods: no connection left.
+    /// The same angle between different rods, for comparison: unrelated directions.
     pub unrelated_rad: f64,
 }
 
-/// Everything.
+/// The results of the study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Law {
-    /// Against the steps per period, coarse to fine.
+    /// Results against the steps per period, coarse to fine.
     pub steps: Vec<JobMean>,
-    /// Each to the next finer.
+    /// The change from each level to the next finer one.
     pub changes: Vec<Change>,
-    /// The first of the levels with GΔt ≤ 1, which resolve a flip: where an order may be read.
+    /// The first of the levels with GΔt ≤ 1, which resolve a flip: from it on an order may be determined.
     pub resolved_from: usize,
-    /// The weak order over those, where the noise lets it be read and two differences are known from 0.
+    /// The weak order over those levels, if the noise allows it and two differences are distinct from 0.
     pub order: Option<Order>,
-    /// X̄₁ against 1/(steps per period) over those, or from a finer level where no straight line fits: first order.
+    /// X̄₁ against 1/(steps per period) over those levels, or from a finer level if no straight line fits: first order.
     pub steps_line: Option<Line>,
-    /// The level from which that line is.
+    /// The first level of that line.
     pub line_from: usize,
-    /// Against the rods.
+    /// Results against the rods.
     pub rods: Vec<JobMean>,
-    /// X̄₁ against N^(−1/3), and against 1/N.
+    /// Lines of X̄₁ against N^(−1/3), and against 1/N.
     pub rods_lines: [Option<Line>; 2],
-    /// Blocks of replicas of the scene as it stands.
+    /// Blocks of replicas of the scene as it is.
     pub blocks: Vec<Block>,
-    /// The exponent of the replicas in the standard deviation of their mean; `None` for fewer than 1024.
+    /// The exponent of the number of replicas in the standard deviation of their mean; `None` for fewer than 1024.
     pub replicas_exponent: Option<Estimate>,
-    /// N times the variance of X̄₁ over replicas: what one rod more brings.
+    /// N times the variance of X̄₁ over replicas.
     pub variance_per_rod: f64,
     /// Rods times steps of all jobs.
     pub rod_steps: u64,
 }
 
-/// True if a plan's scene can be studied so: it is in plane Couette flow, and its time is in periods.
+/// True if the study applies to a plan's scene: plane Couette flow, with its time in periods.
 pub fn judges(plan: &Plan) -> bool {
     plan.flow().shear_rate_per_s().is_some() && plan.scene().time.unit == shearbed::scene::TimeUnit::Period
 }
@@ -141,7 +141,7 @@ pub fn run(jobs: &[Job], finished: &(dyn Fn() + Sync)) -> Result<Vec<Vec<Trace>>
     jobs.iter().map(|job| job.run(finished)).collect()
 }
 
-/// Reads what the jobs of [`jobs`] found.
+/// Evaluates the results `found` of the jobs of [`jobs`].
 pub fn read(scene: &Scene, jobs: &[Job], found: &[Vec<Trace>]) -> Law {
     let (own_steps, own_rods) = (scene.steps_per_unit(), scene.particles.count);
     let x1: Vec<Vec<f64>> =
@@ -205,7 +205,7 @@ fn sample(job: &Job, x1: &[f64]) -> JobMean {
     }
 }
 
-/// The line a + b/S over the resolved levels; from a finer one where the line is refuted (p < 0.001).
+/// The line a + b/S over the resolved levels, or from a finer level if the line is refuted (p < 0.001), with its first level.
 fn first_order(means: &Means, h: &[f64], resolved_from: usize) -> (usize, Option<Line>) {
     let lines = (resolved_from..h.len().saturating_sub(2))
         .filter_map(|first| Some((first, means.from(first).line(&h[first..])?)));
@@ -234,7 +234,7 @@ fn change(means: &Means, level: usize, coarse: &[Trace], fine: &[Trace]) -> Chan
     }
 }
 
-/// The largest difference of two distribution functions in its standard errors.
+/// The largest difference of two distribution functions, in units of its standard error.
 fn furthest(coarse: &[Trace], fine: &[Trace], share: impl Fn(&Trace, usize) -> f64) -> Estimate {
     let at = |k: usize| {
         let shares = [coarse, fine].map(|traces| traces.iter().map(|trace| share(trace, k)).collect());
@@ -249,7 +249,7 @@ fn furthest(coarse: &[Trace], fine: &[Trace], share: impl Fn(&Trace, usize) -> f
     places.max_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(none)
 }
 
-/// The root mean square angle between rod i of one and rod i + `shift` of the other, replica by replica.
+/// The root mean square angle between rod i of one and rod i + `shift` of the other, over all replicas.
 pub fn apart(one: &[Trace], other: &[Trace], shift: usize) -> f64 {
     let mut squares = Vec::new();
     for (a, b) in one.iter().zip(other) {

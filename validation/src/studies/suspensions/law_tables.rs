@@ -1,4 +1,4 @@
-//! Convergence in law as tables, rows and a picture.
+//! Convergence in law as tables, rows of CSV and a picture.
 
 use super::Estimate;
 use super::blocks::Block;
@@ -8,12 +8,12 @@ use crate::present::study::ReportFigure;
 use crate::present::table::{ReportTable, decimals, difference, estimate, field, number, rows_csv, words};
 use serde::Serialize;
 
-/// Against steps, rods and replicas; `strain` is that of a period.
+/// Tables against steps, rods and replicas; `strain` is that of a period.
 pub fn law(law: &Law, strain: f64) -> [ReportTable; 4] {
     [steps(law, strain), paths(law), rods(law), replicas(law)]
 }
 
-/// How the weak order was read, or that it was not.
+/// A sentence on the weak order, or on why there is none.
 pub fn order_in_words(law: &Law) -> String {
     let from = law.steps.get(law.resolved_from).map_or(0, |s| s.steps_per_period);
     let order = match &law.order {

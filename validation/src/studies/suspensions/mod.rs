@@ -1,5 +1,5 @@
-//! Suspensions: error against run time of free ones; of interacting ones how the mean depends on steps, rods and
-//! replicas, what a given error costs, and which coupled estimates pay. Plain data; the
+//! Suspensions. For free ones: error against run time. For interacting ones: how the mean depends on steps, rods and
+//! replicas, the cost of a given error, and which coupled estimates pay. Results are plain data; the
 //! studies are [`free_study`] and [`interacting`].
 
 pub mod blocks;

@@ -1,4 +1,4 @@
-//! What a given error of X̄₁ at t/T = 1 costs: the cheapest steps per period, rods and replicas, from measured
+//! The cost of a given error of X̄₁ at t/T = 1: the cheapest steps per period, rods and replicas, from measured
 //! constants alone.
 //!
 //! Mean-square error = (b/S + c N^(−1/3))² + v/(N M) for S steps per period, N rods and M replicas; cost = N M S rods
@@ -11,41 +11,41 @@ use super::law::{FACES, JobMean, Law};
 use serde::Serialize;
 use shearbed::Scene;
 
-/// The errors of X̄₁ that are asked for.
+/// The errors of X̄₁ for which splits are sought.
 pub const TARGETS: [f64; 3] = [1e-2, 3e-3, 1e-3];
 
-/// The fewest replicas: fewer do not show their scatter.
+/// The smallest number of replicas: fewer do not show their scatter.
 pub const FEWEST_REPLICAS: u64 = 8;
 
-/// What a scene's error is made of.
+/// The constants of a scene's error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Constants {
-    /// b: the bias of the steps is b/S at most. The largest that the measurement allows: |slope| + 2 standard errors.
+    /// b: the bias of the steps is at most b/S. The largest value that the measurement allows: |slope| + 2 standard errors.
     pub steps_bias: f64,
-    /// The fewest steps per period for which that holds.
+    /// The smallest number of steps per period for which that holds.
     pub fewest_steps: u64,
-    /// c: the bias of the rods is c N^(−1/3) at most, estimated in the same way.
+    /// c: the bias of the rods is at most c N^(−1/3), estimated in the same way.
     pub rods_bias: f64,
     /// v: the variance of X̄₁ over replicas, times N.
     pub variance_per_rod: f64,
 }
 
-/// What the error is counted from.
+/// The exact value against which the error is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Scope {
-    /// The scene with the rods it has, as Δt → 0: their number is part of the model.
+    /// The scene with its own number of rods, as Δt → 0: that number is part of the model.
     OwnRods(usize),
-    /// A suspension without faces: N → ∞ too.
+    /// A suspension without faces: also N → ∞.
     Unbounded,
 }
 
-/// Steps, rods and replicas, and what they are said to give.
+/// A choice of steps, rods and replicas, with its predicted error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Split {
-    /// The error asked for.
+    /// The required error.
     pub target: f64,
-    /// What it is counted from.
+    /// The exact value for the error.
     pub scope: Scope,
     /// Steps per period.
     pub steps_per_period: u64,
@@ -53,29 +53,29 @@ pub struct Split {
     pub rods: usize,
     /// M.
     pub replicas: u64,
-    /// The bias, at most.
+    /// The largest bias.
     pub bias: f64,
-    /// The scatter: one standard deviation.
+    /// The scatter, one standard deviation.
     pub scatter: f64,
 }
 
-/// What a split gave, run again and again with new seeds.
+/// The results of a split that was run several times with new seeds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Realised {
-    /// What was run.
+    /// The split that was run.
     pub split: Split,
-    /// Runs.
+    /// Number of runs.
     pub repeats: u64,
-    /// Their mean less the reference, with the reference's error in its own.
+    /// The runs' mean less the reference; the standard error includes the reference's.
     pub bias: Estimate,
     /// The standard deviation of one run.
     pub scatter: Estimate,
-    /// The root mean square of what a run is off the reference, without the reference's own error.
+    /// The root mean square difference of a run from the reference, without the reference's own error.
     pub error: f64,
 }
 
 impl Constants {
-    /// From a study of the scene. `None` where it has no line to read.
+    /// The constants from a study of the scene. `None` if the study has no lines.
     pub fn of(law: &Law) -> Option<Self> {
         let steps = law.steps_line?;
         let rods = law.rods_lines[0]?;
@@ -87,7 +87,7 @@ impl Constants {
         })
     }
 
-    /// The bias at these steps per period and rods, at most.
+    /// The largest bias at these steps per period and rods.
     pub fn bias(&self, scope: Scope, steps: f64, rods: f64) -> f64 {
         self.steps_bias / steps
             + match scope {
@@ -99,8 +99,8 @@ impl Constants {
     /// The split with the least cost for an error > 0.
     ///
     /// With the scene's own rods: S = √3 b/ε, where the bias is 1/√3 of the error and the scatter √(2/3) (Duffie &
-    /// Glynn 1995), but not below the fewest steps; then N M = v/(ε² − (b/S)²). Without faces as few replicas as
-    /// there may be, because scatter knows N M alone and the bias falls with N; then S by trial.
+    /// Glynn 1995), but not below the fewest steps; then N M = v/(ε² − (b/S)²). Without faces: as few replicas as
+    /// allowed, because scatter depends only on N M and the bias falls with N; then S by trial.
     pub fn cheapest(&self, scope: Scope, target: f64) -> Split {
         let fewest = self.fewest_steps as f64;
         let best = 3f64.sqrt() * self.steps_bias / target;
@@ -114,7 +114,7 @@ impl Constants {
         cheapest.expect("√3 b/ε steps leave room for the scatter")
     }
 
-    /// The fewest rods and replicas at these steps; `None` where the steps' bias alone is too large.
+    /// The fewest rods and replicas at these steps; `None` if the steps' bias alone is too large.
     fn filled(&self, scope: Scope, target: f64, steps: f64) -> Option<Split> {
         let split = |rods: f64, replicas: f64| Split {
             target,
@@ -136,7 +136,7 @@ impl Constants {
                 split(rods, (self.variance_per_rod / (room * rods)).ceil().max(fewest))
             }
             Scope::Unbounded => {
-                // The error falls with N: halve the interval of ln N.
+                // The error falls with N: bisects the interval of ln N.
                 let (mut low, mut high) = (0.0f64, 100.0f64);
                 for _ in 0..60 {
                     let middle = 0.5 * (low + high);
@@ -152,12 +152,12 @@ impl Constants {
 }
 
 impl Split {
-    /// The root-mean-square error that it is said to have, at most.
+    /// The predicted upper bound of the root-mean-square error.
     pub fn error(&self) -> f64 {
         self.bias.hypot(self.scatter)
     }
 
-    /// Rods times steps over a period: what it costs.
+    /// The cost: rods times steps over a period.
     pub fn rod_steps(&self) -> u64 {
         (self.rods as u64).saturating_mul(self.replicas).saturating_mul(self.steps_per_period)
     }
@@ -167,7 +167,7 @@ impl Split {
         Job::new(scene, self.steps_per_period, self.rods, self.replicas, 1)
     }
 
-    /// Runs it `repeats` times with seeds of its own, and compares with a reference.
+    /// Runs the split `repeats` times with new seeds, and compares the results with a reference.
     pub fn realise(&self, scene: &Scene, repeats: u64, reference: Estimate) -> Result<Realised, String> {
         let run = |repeat: u64| {
             let mut job = self.job(scene);
@@ -191,8 +191,8 @@ impl Split {
     }
 }
 
-/// X̄₁ of a scene at steps and rods much finer than a split's, with seeds of its own; of many replicas with the free
-/// rods as control variate.
+/// X̄₁ of a scene at steps and rods much finer than a split's, with other seeds; with 100 replicas or more, the free
+/// rods serve as control variate.
 pub fn reference(scene: &Scene, steps: u64, rods: usize, replicas: u64) -> Result<JobMean, String> {
     let mut job = Job::new(scene, steps, rods, replicas, 1);
     job.scene.ensemble.seed = scene.ensemble.seed + 1_000_000;
@@ -214,7 +214,7 @@ mod tests {
     const SYNTHETIC: Constants =
         Constants { steps_bias: 0.6, fewest_steps: 100, rods_bias: 0.04, variance_per_rod: 0.1 };
 
-    /// Every split on a fine grid, to be cheaper than none.
+    /// The cheapest cost of all splits on a fine grid.
     fn by_trial(scope: Scope, target: f64) -> f64 {
         let mut least = f64::INFINITY;
         for s in 0..600 {
@@ -222,7 +222,7 @@ mod tests {
             let room = |rods: f64| target.powi(2) - SYNTHETIC.bias(scope, steps, rods).powi(2);
             for n in 0..3000 {
                 let total = 8.0 * 1.01f64.powi(n);
-                // All that a larger N could bring: as few replicas as there may be.
+                // With the largest N: as few replicas as allowed.
                 if room(total / 8.0) > 0.0 && SYNTHETIC.variance_per_rod / total <= room(total / 8.0) {
                     least = least.min(steps * total);
                     break;
@@ -239,7 +239,7 @@ mod tests {
                 let split = SYNTHETIC.cheapest(scope, target);
                 assert!(split.error() <= target * (1.0 + 1e-12), "{split:?}");
                 let ratio = split.rod_steps() as f64 / by_trial(scope, target);
-                // Whole rods, replicas and steps, and the grid's 1 %.
+                // Errors by whole rods, replicas and steps, and the grid's 1 %.
                 assert!((0.97..1.02).contains(&ratio), "{scope:?} {target} {ratio}");
             }
         }

@@ -1,5 +1,5 @@
-//! Ways to choose initial directions of a free suspension: each rod is isotropic by itself, but the rods need not know
-//! nothing of each other. The fewer clusters and gaps, the smaller the error of a mean.
+//! Ways to choose initial directions of a free suspension: each rod is isotropic by itself, but the rods need not be
+//! independent of each other. The fewer clusters and gaps, the smaller the error of a mean.
 
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 use rand::RngExt;
@@ -10,21 +10,21 @@ use shearbed::model::orientation::isotropic;
 /// A rod: its direction, and the quantile of its aspect ratio in (0, 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rod {
-    /// Its direction.
+    /// The rod's direction.
     pub p: [f64; 3],
-    /// The quantile of its aspect ratio; ½ where all have the same.
+    /// The quantile of the rod's aspect ratio; ½ if all rods have the same.
     pub quantile: f64,
 }
 
-/// A way to lay rods.
+/// A way to choose initial directions.
 #[derive(Clone, Copy, Debug)]
 pub struct Start {
-    /// Its name, in a few words.
+    /// A short name.
     pub name: &'static str,
     /// The exponent of N with which the root-mean-square error of X̄₁ falls by theory: for rods of one aspect ratio
     /// (directions alone, two numbers a rod), and for rods of unequal ones (three numbers a rod).
     pub exponents: [f64; 2],
-    /// About `count` rods; with aspect ratios of their own where `unequal`.
+    /// Chooses about `count` rods, with different aspect ratios if `unequal`.
     pub lay: fn(count: usize, unequal: bool, rng: &mut Pcg64Dxsm) -> Vec<Rod>,
 }
 
@@ -51,7 +51,7 @@ fn random(count: usize, unequal: bool, rng: &mut Pcg64Dxsm) -> Vec<Rod> {
     (0..count).map(lay).collect()
 }
 
-/// One rod drawn in each of kᵈ cells of equal probability.
+/// One rod drawn from each of kᵈ cells of equal probability.
 fn stratified(count: usize, unequal: bool, rng: &mut Pcg64Dxsm) -> Vec<Rod> {
     let d = if unequal { 3 } else { 2 };
     let k = (count as f64).powf(1.0 / f64::from(d)).round().max(1.0) as usize;
@@ -62,7 +62,7 @@ fn stratified(count: usize, unequal: bool, rng: &mut Pcg64Dxsm) -> Vec<Rod> {
     (0..k.pow(d)).map(cell).collect()
 }
 
-/// The spherical Fibonacci lattice (Hannay & Nye 2004), turned as a whole by a random rotation, so that each rod is
+/// The spherical Fibonacci lattice (Hannay & Nye 2004), rotated as a whole at random, so that each rod is
 /// isotropic; aspect ratios by a further coordinate of Roberts' R₂ sequence, shifted at random.
 fn fibonacci(count: usize, unequal: bool, rng: &mut Pcg64Dxsm) -> Vec<Rod> {
     // 1/g and 1/g² for the root of g^(d+1) = g + 1: the golden ratio, and the plastic number.
@@ -81,7 +81,7 @@ fn fibonacci(count: usize, unequal: bool, rng: &mut Pcg64Dxsm) -> Vec<Rod> {
     (0..count).map(lay).collect()
 }
 
-/// ½ where all rods have the same aspect ratio.
+/// The quantile of an aspect ratio; ½ if all rods have the same.
 fn own(unequal: bool, mut quantile: impl FnMut() -> f64) -> f64 {
     if unequal { quantile() } else { 0.5 }
 }
@@ -91,7 +91,7 @@ fn rod([r4, r5, quantile]: [f64; 3]) -> Rod {
     Rod { p: [p.x, p.y, p.z], quantile }
 }
 
-/// A rotation, every one equally likely: four normal numbers are an isotropic quaternion.
+/// A uniformly distributed rotation: four normal numbers are an isotropic quaternion.
 fn rotation(rng: &mut Pcg64Dxsm) -> Rotation3<f64> {
     let mut normal = || StandardNormal.sample(rng);
     let quaternion = Quaternion::new(normal(), normal(), normal(), normal());
@@ -118,7 +118,7 @@ mod tests {
                         rods += 1.0;
                     }
                 }
-                // 40 000 rods, deviations of 0.29 to 0.8 each: 0.0014 to 0.004.
+                // 40 000 rods with deviations of 0.29 to 0.8 each: standard errors of 0.0014 to 0.004.
                 for moment in moments {
                     assert!((moment / rods - 0.5).abs() < 0.02, "{} {moments:?}", start.name);
                 }

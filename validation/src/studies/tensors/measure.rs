@@ -1,4 +1,4 @@
-//! What is measured of closures.
+//! Measurements of closures.
 
 use crate::methods::tensors::{APART, Closure, Equation, Model, at, isotropic, steady};
 use crate::oracle::diffusion::{self, Means, Motion, Start};
@@ -13,7 +13,7 @@ pub const FLOWS: [(&str, [[f64; 3]; 3]); 3] = [
     ("stretched shear", [[-0.125, 0.0, 0.0], [1.0, -0.125, 0.0], [0.0, 0.0, 0.25]]),
 ];
 
-/// A closure's steady a_ij beside the exact one.
+/// A closure's steady a_ij and the exact one.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Off {
     pub flow: &'static str,
@@ -25,7 +25,7 @@ pub struct Off {
     pub error: f64,
 }
 
-/// A way to a_ij(t) in shear, C_I = 0.01, at strains of 1 to 20.
+/// A method for a_ij(t) in shear, C_I = 0.01, at strains of 1 to 20.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Work {
     pub method: &'static str,
@@ -47,7 +47,7 @@ fn apart(a: &Matrix3<f64>, exact: &Means) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Closures that do not settle are left out.
+/// The errors of closures at each flow and C_I; closures that do not settle are left out.
 pub fn errors(c_i: &[f64]) -> Result<Vec<Off>, String> {
     let asked: Vec<_> = FLOWS.into_iter().flat_map(|flow| c_i.iter().map(move |c_i| (flow, *c_i))).collect();
     let of = |((flow, gradient), c_i): &((&'static str, [[f64; 3]; 3]), f64)| {
@@ -64,7 +64,7 @@ pub fn errors(c_i: &[f64]) -> Result<Vec<Off>, String> {
     Ok(all?.into_iter().flatten().collect())
 }
 
-/// The shortest of three times.
+/// The result with the shortest of three run times.
 fn timed<T>(of: impl Fn() -> Option<T>) -> Option<(f64, T)> {
     let run = || {
         let begun = Instant::now();
@@ -96,7 +96,7 @@ pub fn work() -> Result<Vec<Work>, String> {
     Ok(rows)
 }
 
-/// C_I by which a steady state in shear has the a_22 that was measured.
+/// The C_I at which a steady state in shear has the measured a_22.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Fitted {
     pub method: &'static str,
@@ -107,7 +107,7 @@ pub struct Fitted {
 /// A measured a_22 of polycarbonate with 30 % of glass by weight, from `FitCI.mlx` of charlestucker3/Fiber-Orientation-Tools.
 pub const MEASURED: f64 = 0.8261;
 
-/// C_I through each closure, and of the distribution.
+/// The fitted C_I with each closure, and with the distribution itself.
 pub fn fitted() -> Vec<Fitted> {
     let (start, shear) = (Matrix3::from_fn(|i, j| APART[i][j]), FLOWS[0].1);
     let exact = |c_i: f64| Some(diffusion::steady(&Motion::new(shear, 1e100, c_i)).ok()?.second[1]);
@@ -118,7 +118,7 @@ pub fn fitted() -> Vec<Fitted> {
     std::iter::once(of("exact", root(exact))).chain(closures).flatten().collect()
 }
 
-/// The C_I from 10⁻³ to 10⁻¹ at which a_22, which falls, is the measured one, to 10⁻⁶ of it. `None` where it is not in between.
+/// The C_I from 10⁻³ to 10⁻¹ at which a_22, which falls with C_I, is the measured one, to 10⁻⁶. `None` if it is not in this range.
 fn root(a22: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     let (mut low, mut high) = (1e-3f64, 1e-1f64);
     if a22(low)? < MEASURED || a22(high)? > MEASURED {

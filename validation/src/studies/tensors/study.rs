@@ -1,4 +1,4 @@
-//! The study of closures: their error over C_I and flow, and their work beside the exact solver's.
+//! The study of closures: their error over C_I and flow, and their work compared with the exact solver's.
 
 use super::measure::{FLOWS, Fitted, Off, Work, errors, fitted, work};
 use crate::files::build;
@@ -7,7 +7,7 @@ use crate::present::plot::{Curve, Points};
 use crate::present::study::{Exhibit, Findings, ReportFigure, Request, Study};
 use crate::present::table::{ReportTable, field, number, powers, rows_csv, words};
 
-/// What closures cost.
+/// The study of closures.
 pub const STUDY: Study = Study {
     name: "closures",
     title: "Closures against the exact distribution",

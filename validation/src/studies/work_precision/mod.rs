@@ -1,4 +1,4 @@
-//! Error against run time of every subject, and how its error falls with the step: plain data. [`study`] shows
+//! Error against run time of every integrator, and the fall of its error with the step, as plain data. [`study`] shows
 //! them.
 
 pub mod order;
@@ -14,46 +14,46 @@ pub use time::{Budget, Seconds};
 /// The aspect ratios of the benches.
 pub const ASPECT_RATIOS: [f64; 4] = [2.0, 11.6, 100.0, 1e4];
 
-/// The names of the benches, as [`name`] makes them.
+/// The names of the benches, as [`name`] returns them.
 const PARTS: [&str; 4] = ["re2", "re11.6", "re100", "re10000"];
 
-/// The errors in rad for which the cheapest subject is sought.
+/// The errors in rad for which the cheapest integrator is sought.
 pub const TARGETS_RAD: [f64; 3] = [1e-3, 1e-6, 1e-9];
 
-/// One setting of a subject, tried.
+/// The result of one setting of an integrator.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Point {
     /// The setting.
     pub setting: Setting,
-    /// The errors at the end, or nothing where the run failed.
+    /// The errors at the end; none if the run failed.
     pub errors: Option<Errors>,
-    /// Why it failed.
+    /// The reason if the run failed.
     pub failure: Option<String>,
-    /// What a run took, failed or not.
+    /// The time of a run, failed or not.
     pub seconds: Seconds,
 }
 
-/// A subject's error against its run time.
+/// The error of an integrator against its run time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct IntegratorCurve {
-    /// The subject's name.
+    /// The integrator's name.
     pub subject: String,
-    /// How its error is said to fall.
+    /// The theory of its error.
     pub theory: Theory,
-    /// From the coarsest setting to the finest that the budget allows.
+    /// The points, from the coarsest setting to the finest that the budget allows.
     pub points: Vec<Point>,
 }
 
-/// Every subject on one problem.
+/// The curves of all integrators for one problem.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Bench {
-    /// Its name, as `re11.6`.
+    /// The bench's name, such as `re11.6`.
     pub name: String,
     /// r_e.
     pub aspect_ratio: f64,
     /// t/T at the end.
     pub turns: f64,
-    /// One for each subject.
+    /// The curve of each integrator.
     pub curves: Vec<IntegratorCurve>,
 }
 
@@ -62,7 +62,7 @@ pub fn name(aspect_ratio: f64) -> String {
     format!("re{aspect_ratio}")
 }
 
-/// Runs every subject on a rod of this aspect ratio ([`RodProblem::mid_flip`]), on this thread alone.
+/// Runs every integrator on a rod of this aspect ratio ([`RodProblem::mid_flip`]), on this thread alone.
 pub fn run(aspect_ratio: f64, subjects: &[Integrator], budget: Budget) -> Bench {
     let (problem, _) = RodProblem::mid_flip(aspect_ratio);
     Bench {
@@ -73,7 +73,7 @@ pub fn run(aspect_ratio: f64, subjects: &[Integrator], budget: Budget) -> Bench 
     }
 }
 
-/// One subject's curve: settings from coarse to fine until a run takes longer than half the budget, as the next would
+/// An integrator's curve: settings from coarse to fine until a run takes longer than half the budget, as the next would
 /// take twice as long.
 pub fn curve(subject: &Integrator, aspect_ratio: f64, budget: Budget) -> IntegratorCurve {
     let (problem, start) = RodProblem::mid_flip(aspect_ratio);
@@ -93,7 +93,7 @@ pub fn curve(subject: &Integrator, aspect_ratio: f64, budget: Budget) -> Integra
     IntegratorCurve { subject: subject.name.clone(), theory: subject.theory, points }
 }
 
-/// 16, 32, … 2³⁰ steps, or tolerances from 10⁻² to 10⁻¹⁴.
+/// The settings for a theory: 16, 32, … 2³⁰ steps, tolerances from 10⁻² to 10⁻¹⁴, or a single exact one.
 fn settings(theory: Theory) -> Vec<Setting> {
     match theory {
         Theory::Exact => vec![Setting::Once],
@@ -103,7 +103,7 @@ fn settings(theory: Theory) -> Vec<Setting> {
 }
 
 impl Point {
-    /// The angle to the closed form in rad; infinite where the run failed.
+    /// The angle to the closed form in rad; infinite if the run failed.
     pub fn error_rad(&self) -> f64 {
         self.errors.map_or(f64::INFINITY, |errors| errors.orientation_rad)
     }
@@ -124,14 +124,14 @@ impl IntegratorCurve {
         (self.points.iter()).min_by(|a, b| a.error_rad().total_cmp(&b.error_rad()))
     }
 
-    /// How many settings failed.
+    /// The number of settings that failed.
     pub fn failures(&self) -> usize {
         self.points.iter().filter(|point| point.errors.is_none()).count()
     }
 }
 
 impl Bench {
-    /// The cheapest curve and point with at most this error, of the curves that `which` lets in.
+    /// The cheapest point with at most this error, and its curve, of the curves whose theory `which` accepts.
     pub fn cheapest(
         &self,
         error_rad: f64,
@@ -143,7 +143,7 @@ impl Bench {
             .min_by(|a, b| a.1.seconds.least.total_cmp(&b.1.seconds.least))
     }
 
-    /// The time of the first exact subject over that of the cheapest adaptive one with an error of 10⁻⁶.
+    /// The time of the first exact integrator over that of the cheapest adaptive one with an error of 10⁻⁶.
     pub fn exact_over_adaptive(&self) -> Option<f64> {
         let exact = self.curves.iter().find(|curve| curve.theory == Theory::Exact)?;
         let (_, adaptive) = self.cheapest(1e-6, |theory| theory == Theory::Adaptive)?;
@@ -200,7 +200,7 @@ mod tests {
         let found = curve(&refuses, 2.0, QUICK);
         assert_eq!((found.points.len(), found.failures()), (13, 13));
 
-        // What failed is in every writing.
+        // Failed runs appear in every form of output.
         let bench = Bench { name: name(2.0), aspect_ratio: 2.0, turns: 1.0, curves: vec![found] };
         let benches = [bench];
         let csv = rows::bench_csv(&benches).unwrap();

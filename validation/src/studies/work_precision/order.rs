@@ -1,4 +1,4 @@
-//! How the error of a fixed-step subject falls with the step: observed order with its sign, Richardson's value and
+//! The convergence of a fixed-step integrator: observed order with its sign, Richardson's value and
 //! Roache's grid convergence index.
 
 use crate::methods::integrators::{Errors, Integrator, RodProblem, Setting, Theory, grade};
@@ -8,32 +8,32 @@ use serde::Serialize;
 use shearbed::Scene;
 use shearbed::scene::TimeUnit;
 
-/// How far an observed order may be from theory (DiffEqDevTools.jl's convergence tests). Its sign is kept.
+/// The largest difference of an observed order from theory (DiffEqDevTools.jl's convergence tests). Its sign is kept.
 pub const ORDER_TOLERANCE: f64 = 0.2;
 
 /// Roache's safety factor for three grids.
 const SAFETY: f64 = 1.25;
 
-/// One of a sequence of runs with ever twice as many steps.
+/// One of a sequence of runs that each have twice as many steps as the one before.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Halving {
-    /// Equal steps over the problem.
+    /// Number of equal steps over the problem.
     pub steps: u64,
-    /// The errors against the closed form, where the run ended.
+    /// The errors against the closed form, if the run ended.
     pub errors: Option<Errors>,
-    /// |p_1| at the end, the number that is extrapolated.
+    /// |p_1| at the end, the number to extrapolate.
     pub value: Option<f64>,
-    /// log₂ of the orientation's last error over this one: negative where the error grows.
+    /// log₂ of the previous run's orientation error over this run's: negative if the error grows.
     pub order: Option<f64>,
 }
 
-/// How an observed order compares with theory.
+/// The comparison of an observed order with theory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum OrderVerdict {
     /// Within [`ORDER_TOLERANCE`] on the last two pairs above round-off.
     AsTheory,
-    /// Not.
+    /// Not within it.
     Not,
     /// Fewer than two pairs are above round-off.
     RoundOff,
@@ -48,52 +48,52 @@ pub struct Richardson {
     pub order: f64,
     /// The value extrapolated to Δt = 0 by the order of theory.
     pub value: f64,
-    /// How far that is from the closed form.
+    /// The distance of `value` from the closed form.
     pub error: f64,
     /// The grid convergence index of the finest grid, relative.
     pub index: f64,
-    /// The relative error that it is to bound.
+    /// The relative error that the index should bound.
     pub true_error: f64,
 }
 
-/// A fixed-step subject's convergence.
+/// The convergence of a fixed-step integrator.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Convergence {
-    /// The subject's name.
+    /// The integrator's name.
     pub subject: String,
-    /// Its order by theory.
+    /// The order by theory.
     pub theory: u32,
-    /// From coarse to fine.
+    /// The runs, from coarse to fine.
     pub halvings: Vec<Halving>,
-    /// The last two pairs above round-off, which are judged.
+    /// The orders of the last two pairs above round-off, which are compared with theory.
     pub judged: Vec<f64>,
-    /// What they say.
+    /// The result of that comparison.
     pub found: OrderVerdict,
-    /// The extrapolation, where three grids converge.
+    /// The extrapolation, if three grids converge.
     pub richardson: Option<Richardson>,
 }
 
-/// What the orders are of, in words, and those of every fixed-step subject of the project.
+/// The problem in words, and the convergence of every fixed-step integrator of the project.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Orders {
     /// The rod, its start and its end.
     pub problem: String,
-    /// One for each subject.
+    /// The convergence of each integrator.
     pub studies: Vec<Convergence>,
 }
 
-/// A rod of this aspect ratio ([`RodProblem::mid_flip`]).
+/// Convergence on a rod of this aspect ratio ([`RodProblem::mid_flip`]).
 pub fn of_rod(aspect_ratio: f64) -> Orders {
     of_all(aspect_ratio, 0.2, 1.0, 1.0, "as in the benches")
 }
 
-/// A scene of free rods in plane Couette flow: one rod of its mean aspect ratio from its own start, through its own
-/// periods. `None` for other flows, and where the time is given as a strain.
+/// Convergence on a scene of free rods in plane Couette flow: one rod of its mean aspect ratio from its own start, for its own
+/// number of periods. `None` for other flows, and if the time is given as a strain.
 pub fn of_scene(scene: &Scene) -> Option<Orders> {
     let shear_rate = scene.flow.shear_rate_per_s()?;
     let periods = Some(scene.time.duration).filter(|_| scene.time.unit == TimeUnit::Period)?;
     let (phi, theta, whose) = match scene.particles.common_start_deg() {
-        // The flow turned round is its own mirror image, φ ↔ −φ.
+        // The reversed flow is its own mirror image, φ ↔ −φ.
         Some([phi_deg, theta_deg]) => {
             (shear_rate.signum() * phi_deg.to_radians(), theta_deg.to_radians(), "the scene's own start")
         }
@@ -103,7 +103,7 @@ pub fn of_scene(scene: &Scene) -> Option<Orders> {
     Some(of_all(scene.particles.aspect_ratio, phi, theta, periods, whose))
 }
 
-/// From GΔt of about 1 to 1/4096, or to 2²² steps where that is coarser.
+/// Convergence from GΔt of about 1 to 1/4096, or to 2²² steps if that is coarser.
 fn of_all(aspect_ratio: f64, phi: f64, theta: f64, turns: f64, whose: &str) -> Orders {
     let (problem, start) = RodProblem::into_flip(aspect_ratio, phi, theta, turns);
     let doublings = 22u32.saturating_sub(coarsest(&problem).ilog2()).clamp(4, 12);
@@ -124,7 +124,7 @@ fn coarsest(problem: &RodProblem) -> u64 {
     (problem.strain().ceil() as u64).next_power_of_two().max(8)
 }
 
-/// Halves the step `doublings` times, from GΔt of about 1. `None` for a subject that takes no equal steps.
+/// Halves the step `doublings` times, from GΔt of about 1. `None` for an integrator without equal steps.
 pub fn study(
     subject: &Integrator,
     problem: &RodProblem,
@@ -163,7 +163,7 @@ pub fn study(
     })
 }
 
-/// An error that is not round-off: the time has the relative error ε, φ moves by max(r_e, 1/r_e) times the phase, and
+/// The largest error that may be round-off: the time has the relative error ε, φ moves by max(r_e, 1/r_e) times the phase, and
 /// thousands of steps add up.
 fn round_off(problem: &RodProblem) -> f64 {
     let r = problem.aspect_ratio;
@@ -172,7 +172,7 @@ fn round_off(problem: &RodProblem) -> f64 {
 
 fn judged(halvings: &[Halving], floor: f64) -> Vec<f64> {
     let above = |halving: &&Halving| halving.errors.is_some_and(|errors| errors.orientation_rad > floor);
-    // From the first run at round-off on, whatever follows is noise.
+    // From the first run at round-off on, all orders are noise.
     let orders: Vec<f64> = (halvings.iter().take_while(above)).filter_map(|halving| halving.order).collect();
     orders[orders.len().saturating_sub(2)..].to_vec()
 }

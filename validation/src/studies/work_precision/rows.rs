@@ -1,4 +1,4 @@
-//! The records of the study as rows of CSV: the names of the fields are those of the columns.
+//! The records of the study as rows of CSV: the fields' names are the columns' names.
 
 use super::order::{Convergence, Halving};
 use super::{Bench, IntegratorCurve, Point};
@@ -24,7 +24,7 @@ struct BenchRow<'a> {
     length_error: Option<f64>,
 }
 
-/// bench.csv.
+/// The content of bench.csv.
 pub fn bench_csv(benches: &[Bench]) -> Result<String, String> {
     let row = |bench, curve, point| -> BenchRow {
         let (bench, curve, point): (&Bench, &IntegratorCurve, &Point) = (bench, curve, point);
@@ -63,7 +63,7 @@ struct OrderRow<'a> {
     observed_order: Option<f64>,
 }
 
-/// converge.csv of a free scene.
+/// The content of converge.csv for a free scene.
 pub fn orders_csv(studies: &[Convergence]) -> Result<String, String> {
     let row = |study, halving| -> OrderRow {
         let (study, halving): (&Convergence, &Halving) = (study, halving);

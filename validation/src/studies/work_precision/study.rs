@@ -11,7 +11,7 @@ use crate::present::table::{Column, NONE, ReportTable, decimals, field, number, 
 use crate::studies::integrators;
 use std::collections::BTreeMap;
 
-/// Every integrator at every aspect ratio.
+/// The study of every integrator at every aspect ratio.
 pub const STUDY: Study = Study {
     name: "work-precision",
     title: "Integrators: error against run time",
@@ -70,17 +70,17 @@ fn answer(benches: &[Bench], orders: &order::Orders) -> String {
     )
 }
 
-/// Where failed runs are drawn: above every error, which is π/2 at most.
+/// The ordinate of failed runs: above every error, which is π/2 at most.
 const FAILED: f64 = 10.0;
 
-/// An error of 0 has no place on a logarithmic axis; it is drawn here.
+/// The ordinate of an error of 0 on a logarithmic axis.
 const LEAST: f64 = 1e-17;
 
 fn drawn(errors: Option<Errors>) -> f64 {
     errors.map_or(f64::NAN, |errors| errors.orientation_rad.max(LEAST))
 }
 
-/// Error against run time: curves of methods with steps, points of exact ones and of runs that failed.
+/// Error against run time: curves of methods with steps, points of exact methods and of failed runs.
 pub(super) fn figure(bench: &Bench) -> ReportFigure {
     let place = |point: &Point| (point.seconds.least, drawn(point.errors));
     let (exact, stepped): (Vec<_>, Vec<_>) =
@@ -121,7 +121,7 @@ fn orders_figure(orders: &Orders) -> ReportFigure {
     .judged("A.1 to A.5", &["subject-orders", "grid-convergence-index"])
 }
 
-/// A curve and one of its points, of a bench.
+/// A curve of a bench and one of its points.
 type Chosen<'a> = Option<(&'a IntegratorCurve, &'a Point)>;
 
 fn named(chosen: Chosen) -> String {
@@ -132,7 +132,7 @@ fn timed(chosen: Chosen) -> Option<f64> {
     chosen.map(|(_, point)| point.seconds.least)
 }
 
-/// For each error and aspect ratio the cheapest subject.
+/// The cheapest integrator for each error and aspect ratio.
 pub(super) fn cheapest(benches: &[Bench]) -> ReportTable {
     type Row<'a> = (&'a Bench, f64, Chosen<'a>, Chosen<'a>);
     let row = |bench, target| -> Row {
@@ -154,7 +154,7 @@ pub(super) fn cheapest(benches: &[Bench]) -> ReportTable {
     )
 }
 
-/// The exact propagator's time against the cheapest adaptive subject's.
+/// The exact propagator's time over the cheapest adaptive integrator's.
 fn ratio(benches: &[Bench]) -> ReportTable {
     let exact = |bench: &Bench| {
         let exact = bench.curves.iter().find(|curve| curve.theory == Theory::Exact);
@@ -183,7 +183,7 @@ fn ratio(benches: &[Bench]) -> ReportTable {
     )
 }
 
-/// Every subject of a bench: the time for each error, then the best it can do.
+/// The time of every integrator of a bench for each error, then its smallest error.
 pub(super) fn every_subject(bench: &Bench) -> ReportTable {
     let best = |curve: &IntegratorCurve| Some((curve.best()?.clone(), curve.best()?.errors?));
     let mut columns: Vec<Column<IntegratorCurve>> =
@@ -218,7 +218,7 @@ pub(super) fn every_subject(bench: &Bench) -> ReportTable {
     )
 }
 
-/// Observed orders.
+/// The table of observed orders.
 pub fn orders_table(orders: &Orders) -> ReportTable {
     let found = |study: &Convergence| match study.found {
         OrderVerdict::AsTheory => "as theory",
@@ -257,10 +257,10 @@ pub fn orders_table(orders: &Orders) -> ReportTable {
     )
 }
 
-/// Where no setting reaches an error.
+/// The text for an error that no setting reaches.
 pub(crate) const NOT_REACHED: &str = "not reached";
 
-/// Seconds in a unit that leaves three digits.
+/// Seconds as a text with a suitable unit.
 pub(crate) fn time(seconds: f64) -> String {
     let (scale, unit) = match seconds {
         s if s < 1e-6 => (1e9, "ns"),

@@ -4,41 +4,41 @@ use serde::Serialize;
 use std::hint::black_box;
 use std::time::Instant;
 
-/// How long may be measured.
+/// Limits of the time for measurements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Budget {
-    /// A setting whose run takes half of this is the last that is tried.
+    /// The last setting that is tried is one whose run takes half of this.
     pub seconds_per_run: f64,
-    /// Measurements of each setting, after one to warm up; long runs get three at most.
+    /// Measurements of each setting, after one for warming up; at most three for long runs.
     pub runs: usize,
 }
 
 impl Budget {
-    /// For `shearbed bench`.
+    /// The budget for `shearbed bench`.
     pub const FULL: Self = Self { seconds_per_run: 0.1, runs: 9 };
-    /// For the report of every day.
+    /// The budget for daily reports.
     pub const QUICK: Self = Self { seconds_per_run: 0.01, runs: 5 };
 }
 
-/// What a run took, in seconds.
+/// The time of a run, in seconds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Seconds {
-    /// The least of all measurements: what the work itself takes.
+    /// The least of all measurements, which is the time of the work itself.
     pub least: f64,
-    /// The most: with the least, the spread that the machine adds.
+    /// The largest; with the least it shows the scatter due to the machine.
     pub most: f64,
-    /// Measurements.
+    /// Number of measurements.
     pub measurements: usize,
 }
 
 impl Seconds {
-    /// One measurement.
+    /// The result of a single measurement.
     pub fn same(seconds: f64) -> Self {
         Self { least: seconds, most: seconds, measurements: 1 }
     }
 }
 
-/// A measurement is at least this long: a hundred times the clock's own step and cost.
+/// The shortest measurement in s: a hundred times the clock's own step and cost.
 const SHORTEST: f64 = 2e-5;
 
 /// Times `run` on this thread.
@@ -57,7 +57,7 @@ pub(crate) fn measure<T>(budget: Budget, run: impl Fn() -> T) -> Seconds {
     }
 }
 
-/// Seconds a run, over `repeats` of them.
+/// Seconds per run, over `repeats` runs.
 fn clock<T>(repeats: u32, run: &impl Fn() -> T) -> f64 {
     let start = Instant::now();
     for _ in 0..repeats {

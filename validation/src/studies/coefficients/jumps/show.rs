@@ -1,4 +1,4 @@
-//! Kicks beside diffusion as tables and pictures.
+//! Kicks compared with diffusion, as tables and pictures.
 
 use super::{Apart, Compared, Quantity, Shares, above, apart};
 use crate::judge::case::Effort;
@@ -26,7 +26,7 @@ fn sides(all: &[Compared]) -> Vec<Sided<'_>> {
     all.iter().flat_map(both).collect()
 }
 
-/// In per cent of the rods, with two digits of the standard error.
+/// A column of the share above an edge in per cent of the rods, with two digits of the standard error.
 fn per_cent<'a>(name: impl Into<String>, quantity: Quantity, edge: f64) -> Column<'a, Sided<'a>> {
     estimate(name, move |side: &Sided<'_>| {
         let Sample { mean, se, .. } = Sample::of(&above(side.shares, quantity, edge));
@@ -34,7 +34,7 @@ fn per_cent<'a>(name: impl Into<String>, quantity: Quantity, edge: f64) -> Colum
     })
 }
 
-/// How many rods jumped how far, and how far apart the two samples are.
+/// The shares of rods above each edge, and the distances of the two samples.
 pub(in crate::studies::coefficients) fn tables(all: &[Compared], effort: &Effort) -> [ReportTable; 2] {
     let replicas = all.first().map_or(0, |one| one.kicks.len());
     let mut columns = vec![
@@ -87,7 +87,7 @@ pub(in crate::studies::coefficients) fn tables(all: &[Compared], effort: &Effort
     [jumps, distances]
 }
 
-/// The mean share above each edge; NaN where there is none: a logarithmic axis has no place for it.
+/// The mean share above each edge; NaN for a share of 0, which a logarithmic axis cannot show.
 fn curve(label: &str, all: &[Shares], quantity: Quantity) -> Curve {
     let mean = |edge: f64| Sample::of(&above(all, quantity, edge)).mean;
     Curve::of(label, quantity.edges(), |edge| {

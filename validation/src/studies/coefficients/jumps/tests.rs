@@ -11,7 +11,7 @@ fn direction(phi: f64, theta: f64) -> Vector3<f64> {
 fn a_rod_that_nothing_kicks_has_made_no_jump() {
     let (from, carry) = (direction(0.3, 1.1), free(shape_factor(RATIO), 1.0));
     let to = (carry * from).normalize();
-    // A rod has no head.
+    // Opposite directions are the same rod.
     for to in [to, -to] {
         let [angle, change, orbit, phase] = seen(RATIO, &from, &(carry * from), &to);
         assert!(angle < 1e-15 && change < 1e-15, "{angle} {change}");
@@ -41,7 +41,7 @@ fn shares_are_of_values_above_the_edges() {
     assert_eq!(shares(&mut values, &[0.0, 0.1, 0.2, 9.0]), [1.0, 0.75, 0.5, 0.25]);
 }
 
-/// Replicas that share nothing but a mean.
+/// Independent replicas with a common mean.
 fn made(mean: f64, seed: u64) -> Vec<Shares> {
     let mut rng = Pcg64Dxsm::seed_from_u64(seed);
     let one = || {
@@ -57,7 +57,7 @@ fn only_samples_that_differ_are_told_apart() {
     let p = |mean: f64, seed: u64| apart(&made(0.0, seed), &made(mean, 1000 + seed), Quantity::Orbit, seed).p;
     let trials = 200;
     let low = (0..trials).filter(|seed| p(0.0, *seed) <= 0.1).count() as f64;
-    // A tenth of the deals is as rare, to five standard errors of a share of 200: 0.106.
+    // A p-value is at most 0.1 in a tenth of the trials, to five standard errors of a share of 200: 0.106.
     assert!((low / trials as f64 - 0.1).abs() < 0.106, "{low}");
     assert!((0..10).all(|seed| p(0.8, seed) <= 0.002));
 }
