@@ -1,4 +1,4 @@
-//! What the model tends to as Δt → 0 where the arms are bounded, and how the two updates differ where they are not
+//! The model's limit as Δt → 0 if the arms are bounded, and the difference of the two updates if they are not
 //! (docs/src/theory/time-step.md).
 
 use crate::judge::accept::Design;
@@ -60,7 +60,7 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// The shortest arm, and what is changed in the averaged motion.
+/// The shortest arm, and the change of the averaged motion.
 struct Limit {
     min_arm: f64,
     change: fn(&mut NaiveProblem),
@@ -72,9 +72,9 @@ fn averaged(limit: &Limit, effort: &Effort) -> Vec<Evidence> {
     let steps = [100, 800];
     let [coarse, fine] = steps.map(|steps| -> Vec<Apart> {
         let mut scene = scene(effort, steps, limit.min_arm);
-        // Few rods and many replicas, as the naive average looks at every pair.
+        // Few rods and many replicas, as the naive average examines every pair.
         scene.particles.count = 16;
-        // Many collisions, so that their push is seen soon.
+        // Many collisions, so that their effect shows soon.
         lab::interaction(&mut scene).alpha = 2.0;
         (0..effort.samples(design))
             .into_par_iter()
@@ -109,7 +109,7 @@ fn updates([rotation, angles]: &[Update; 2], _: &Effort) -> Vec<Evidence> {
     let propagator = Propagator::new(&flow, 11.6);
     let mut same = 0.0f64;
     let mut distance = 0.0;
-    // Summed over rods, so that no rod whose second-order term is small by chance decides; at Δt, and at 2Δt.
+    // Summed over rods, so that no single rod with a small second-order term decides; at Δt, and at 2Δt.
     let (mut rated, mut off_path) = ([0.0; 2], [[0.0; 2]; 2]);
     for k in 0..20 {
         let p = from_angles(0.3 + 0.3 * f64::from(k), 0.4 + 0.05 * f64::from(k));
@@ -120,11 +120,11 @@ fn updates([rotation, angles]: &[Update; 2], _: &Effort) -> Vec<Evidence> {
         let kicked = [1e-2, 1e-8].map(|time| ends_apart(&p, &(way / time), time));
         same = larger(same, (kicked[0] - kicked[1]).abs());
         distance += kicked[0] / 20.0;
-        // Rates that have a bound: the two differ in the second order.
+        // Bounded rates: the two updates differ in the second order.
         for (sum, time) in rated.iter_mut().zip(TIMES) {
             *sum += ends_apart(&p, &way, time);
         }
-        // A collision that changes nothing turns the rod straight, where Jeffery's path is curved.
+        // Such a collision turns the rod along a straight line, while Jeffery's path is curved.
         let rate = direction_rate_per_s(flow.per_s(), 11.6, &p);
         for (sums, update) in off_path.iter_mut().zip([rotation, angles]) {
             for (sum, time) in sums.iter_mut().zip(TIMES) {
@@ -132,7 +132,7 @@ fn updates([rotation, angles]: &[Update; 2], _: &Effort) -> Vec<Evidence> {
             }
         }
     }
-    // No distance at all has no order; that is not 2 either.
+    // A distance of 0 has no order; infinity makes the check fail.
     let order = |[one, two]: [f64; 2]| {
         if one > 0.0 { (two / one).log2() - 2.0 } else { f64::INFINITY }
     };
@@ -166,10 +166,10 @@ fn updates([rotation, angles]: &[Update; 2], _: &Effort) -> Vec<Evidence> {
     ]
 }
 
-/// What turns A beside Jeffery's rate, from the changes ṗ′ − ṗ of A and of B.
+/// The change of A's rate, from the changes ṗ′ − ṗ of A and of B.
 type Kick = fn([Vector3<f64>; 2]) -> Vector3<f64>;
 
-/// How A's arm changes per time when a collision turns A alone, by the core: contact, kick, turn, and contact again.
+/// The rate of change of A's arm when a collision turns A alone, by the core: contact, kick, turn, and contact again.
 fn arm_rate(kick: Kick, p: [Vector3<f64>; 2], separation: &Vector3<f64>, time: f64) -> Option<f64> {
     let flow = shearbed::model::flow::VelocityGradient::plane_couette(1.0)?;
     let units = p.map(UnitVector3::new_unchecked);
@@ -190,7 +190,7 @@ fn pushed(kick: &Kick, _: &Effort) -> Vec<Evidence> {
     let (mut worst, mut wrong, mut opening) = (0.0f64, 0, 0);
     for k in 0..400 {
         let k = f64::from(k);
-        // Spread over both directions, the gap and the other arm; the arm of A is ARM.
+        // Directions, gap and the other arm vary; the arm of A is ARM.
         let p = [
             from_angles(2.4 * k, 0.2 + (0.61 * k) % 2.7),
             from_angles(1.1 + 1.7 * k, 0.3 + (0.37 * k) % 2.5),

@@ -1,4 +1,4 @@
-//! A suspension that is written and begun again from what was written: every rod's length, r_e, direction and place.
+//! A suspension that is written and restarted from the file: every rod's length, r_e, direction and place.
 
 use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use shearbed::Suspension;
 use shearbed::scene::{OwnRods, RodsFile, Scene};
 
-/// What is done to the rods that were written.
+/// A change of the rods that were written.
 type Way = fn(&mut OwnRods);
 
 pub fn cases() -> Vec<Case> {
@@ -68,13 +68,13 @@ fn again_less_straight(scene: &Scene, way: Way, replica: u64) -> f64 {
     way(&mut own);
     let mut scene = scene.clone();
     scene.particles.rods = Some(RodsFile::with("rods.csv", own));
-    // Other random numbers than any straight run's.
+    // Random numbers that no uninterrupted run uses.
     let mut again = lab::suspension(&scene, u64::MAX / 2 + replica);
     let x1 = |suspension: &mut Suspension| stepped(suspension, STEPS_PER_PERIOD / 2).unwrap_or(f64::NAN);
     x1(&mut again) - x1(&mut straight)
 }
 
-/// X̄₁ after `steps` steps; `None` where one failed.
+/// X̄₁ after `steps` steps; `None` if a step failed.
 fn stepped(suspension: &mut Suspension, steps: u64) -> Option<f64> {
     (0..steps).try_for_each(|_| suspension.step().map(|_| ())).ok()?;
     let directions = suspension.directions();

@@ -1,4 +1,4 @@
-//! Which cases test which equation, made from the registry: for the report and for the book.
+//! The table of equations and the cases that test them, made from the registry: for the report and for the book.
 
 use crate::cases;
 use crate::cases::equations;
@@ -6,7 +6,7 @@ use crate::present::markup::{self, cites_figure};
 use crate::present::report::{ReportEquation, Sections};
 use std::ops::RangeInclusive;
 
-/// Which cases test which equation, as a page of the book.
+/// The equations and the cases that test them, as a page of the book.
 pub fn markdown() -> String {
     let equation = |equation: ReportEquation| {
         let cases = equation.cases.join("`, `");
@@ -20,7 +20,7 @@ pub fn markdown() -> String {
     )
 }
 
-/// Names beside each figure of the paper the cases that cite it. Other figures name theirs themselves.
+/// Adds to each figure of the paper the names of the cases that cite it. Other figures have names already.
 pub fn name_judges(sections: &mut Sections) {
     let about: Vec<_> = cases::all().into_iter().map(|case| case.about).collect();
     for figure in sections.figures_mut().filter(|figure| figure.cases.is_empty()) {
@@ -31,7 +31,7 @@ pub fn name_judges(sections: &mut Sections) {
     }
 }
 
-/// Those of the paper.
+/// The numbers of the paper's figures.
 const FIGURES: RangeInclusive<u32> = 1..=12;
 
 /// Every equation with the cases of the registry that test it.

@@ -10,9 +10,9 @@ use shearbed::run::ensemble;
 use shearbed::scene::{Flow, FlowStep, Orientation, Scene, Time};
 use shearbed::suspension::snapshot::Snapshot;
 
-/// What a scene makes of its rods.
+/// The result of a scene.
 struct Moved {
-    /// Of each rod its aspect ratio, its direction at the start and at the end.
+    /// Aspect ratio, initial direction and final direction of each rod.
     rods: Vec<(f64, [f64; 3], [f64; 3])>,
     /// The bound that the plan states on a direction's error, in rad.
     error_rad: f64,
@@ -59,7 +59,7 @@ fn with(scene: &Scene, change: impl FnOnce(&mut Vec<FlowStep>)) -> Scene {
     changed(scene.clone(), |scene| {
         if let Flow::Steps { steps } = &mut scene.flow {
             change(steps);
-            // A step that is longer than it was ends the scene later.
+            // A longer step would end the scene later.
             scene.time.duration = scene.time.duration.min(steps.iter().map(|step| step.strain).sum());
         }
     })
@@ -89,7 +89,7 @@ const SHEAR: [[f64; 3]; 3] = [[0.0; 3], [0.5, 0.0, 0.0], [0.0; 3]];
 const EXTENSION: [[f64; 3]; 3] = [[2.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]];
 const MIXED: [[f64; 3]; 3] = [[0.3, -0.2, 0.1], [0.7, -0.4, 0.0], [-0.6, 0.5, 0.1]];
 
-/// (2 D:D)^½.
+/// The shear rate (2 D:D)^½ of a velocity gradient.
 fn rate_per_s(l: &[[f64; 3]; 3]) -> f64 {
     let entries = (0..9).map(|k| (k / 3, k % 3));
     (0.5 * entries.map(|(i, j)| (l[i][j] + l[j][i]).powi(2)).sum::<f64>()).sqrt()
@@ -107,7 +107,7 @@ fn scene(effort: &Effort, steps: Vec<FlowStep>) -> Scene {
     })
 }
 
-/// One flow, and back.
+/// Two steps: a flow over `strain`, then its reverse.
 fn reversed(gradient_per_s: [[f64; 3]; 3], strain: f64) -> Vec<FlowStep> {
     let back = gradient_per_s.map(|row| row.map(|component| -component));
     vec![FlowStep { gradient_per_s, strain }, FlowStep { gradient_per_s: back, strain }]

@@ -1,4 +1,4 @@
-//! The cheapest split of a run: what `docs/src/verification/integrators.md` says of it.
+//! The claims of `docs/src/verification/integrators.md` about the cheapest split of a run.
 
 use super::work_precision_coupled::first;
 use crate::judge::case::{Case, Effort, Evidence};
@@ -9,7 +9,7 @@ use crate::studies::suspensions::coupled::interacting;
 use crate::studies::suspensions::split::{Constants, Scope, Split};
 use shearbed::Scene;
 
-/// A change to what is run for an error.
+/// A change of the split to run.
 type Respell = fn(&mut Split);
 
 pub fn cases() -> Vec<Case> {
@@ -28,7 +28,7 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// What a small study of the steps says of 25 rods, and X̄₁ at its finest.
+/// The constants of 25 rods from a small study of the steps, and X̄₁ at its finest step.
 struct Known {
     constants: Constants,
     reference: Estimate,
@@ -40,7 +40,7 @@ const RODS: usize = 25;
 /// Steps of the study, coarse and fine, and replicas of each.
 const STUDY: ([u64; 2], u64) = ([100, 400], 400);
 
-/// The bias of the steps from two of them, with the same random numbers, and the variance.
+/// Estimates the bias from two numbers of steps with the same random numbers, and the variance.
 fn study(scene: &Scene) -> Known {
     let (steps, replicas) = STUDY;
     let [coarse, fine] = steps.map(|steps| first(interacting(scene, steps, 1.0, 4, replicas), 3));
@@ -51,7 +51,7 @@ fn study(scene: &Scene) -> Known {
         constants: Constants {
             steps_bias: (difference.abs() + 2.0 * se) / (coarse_step - fine_step),
             fewest_steps: steps[0],
-            // The rods are the scene's own.
+            // The number of rods is the scene's own.
             rods_bias: 0.0,
             variance_per_rod: covariance(&coarse, &coarse) * RODS as f64,
         },
@@ -74,7 +74,7 @@ fn realised(respell: &Respell, effort: &Effort) -> Vec<Evidence> {
     let Ok(found) = run.realise(&scene, repeats, known.reference) else {
         return vec![Evidence::exact("runs that stopped", 1.0)];
     };
-    // The cube root of a variance's ratio is normal to a part in 10³ (Wilson & Hilferty 1931), where the ratio is not.
+    // The cube root of a ratio of variances is normal to a part in 10³ (Wilson & Hilferty 1931), the ratio itself is not.
     let ratio = (found.scatter.value / said.scatter).powi(2);
     let [of_repeats, of_study] = [repeats, STUDY.1].map(|count| 2.0 / (9.0 * (count as f64 - 1.0)));
     vec![

@@ -24,12 +24,12 @@ struct Orbit {
     constant: fn([f64; 3], f64) -> f64,
 }
 
-/// Orbits as the core has them.
+/// The core's orbit constant with a change of the scene.
 fn orbit(change: Change) -> Orbit {
     Orbit { change, constant: orientation::bounded_orbit_constant }
 }
 
-/// The direction after `turns` of a rod of aspect ratio r.
+/// A function that returns the direction of a rod of aspect ratio r after `turns` periods.
 type Motion = fn(f64, &UnitVector3<f64>, f64) -> UnitVector3<f64>;
 
 pub fn cases() -> Vec<Case> {
@@ -134,7 +134,7 @@ fn phase_means(motion: &Motion, _: &Effort) -> Vec<Evidence> {
 }
 
 fn orbit_distribution(orbit: &Orbit, effort: &Effort) -> Vec<Evidence> {
-    // The distribution functions of C with and without r_e are 0.20 apart, by the closed form; half of that is seen.
+    // The distribution functions of C with and without r_e are 0.20 apart, by the closed form; the check detects half of that.
     let distance = 0.1;
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = effort.pick(1, 4) * kolmogorov_samples(distance) as usize;

@@ -1,4 +1,4 @@
-//! Closures of orientation tensors, which problems, verdicts and a study use.
+//! Closures of orientation tensors, which are used by problems, verdicts and a study.
 
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::worst;

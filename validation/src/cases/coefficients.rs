@@ -67,14 +67,14 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// A scene's change, and which channel is read for which component.
+/// A change of the scene, and the channel that is used for each component.
 #[derive(Clone, Copy)]
 struct Read {
     change: Change,
     place: fn(usize) -> usize,
 }
 
-/// The aspect ratio of the closed integrals: no component is lost beside the largest.
+/// The aspect ratio of the closed integrals, at which all components are of similar size.
 const ASPECT_RATIO: f64 = 3.0;
 
 /// Free rods up to t/T = 0.2.
@@ -129,7 +129,7 @@ fn indices(channel: Channel) -> [usize; 4] {
     std::array::from_fn(|k| usize::from(name[k + 1] - b'1'))
 }
 
-/// How far ⟨pp⟩ is from the traces of ⟨pppp⟩ over the outputs of one interacting replica.
+/// The largest difference of ⟨pp⟩ from the traces of ⟨pppp⟩ over the outputs of one interacting replica.
 fn traces(read: &Read, effort: &Effort) -> f64 {
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = 50;
@@ -156,10 +156,10 @@ fn traces(read: &Read, effort: &Effort) -> f64 {
     worst(off)
 }
 
-/// What is made of σ₁₂, N₁ and N₂.
+/// A function of σ₁₂, N₁ and N₂ as the model reports them.
 type Stress = fn([f64; 3]) -> [f64; 3];
 
-/// σ₁₂, N₁ and N₂ of the closed integral.
+/// σ₁₂, N₁ and N₂ from the closed integral.
 fn exact_stress(turns: f64) -> [f64; 3] {
     let sheared = |i, j| moments::fourth(ASPECT_RATIO, turns, [i, j, 0, 1]);
     [sheared(0, 1), sheared(1, 1) - sheared(0, 0), sheared(0, 0) - sheared(2, 2)]
@@ -204,7 +204,7 @@ fn particle_stress(stress: &Stress, effort: &Effort) -> Vec<Evidence> {
     evidence
 }
 
-/// A scene's change, and what is made of σ₁₂, N₁ and N₂.
+/// A change of the scene, and a function of σ₁₂, N₁ and N₂.
 #[derive(Clone, Copy)]
 struct Pascals {
     change: Change,
@@ -212,7 +212,7 @@ struct Pascals {
 }
 
 fn stress_in_pascals(subject: &Pascals, effort: &Effort) -> Vec<Evidence> {
-    // μ G n a³ of 50 rods of 0.72 mm per cm³ at G = 0.5 1/s in a liquid of 20 Pa s.
+    // μ G n a³ for 50 rods of 0.72 mm per cm³ at G = 0.5 1/s in a liquid of 20 Pa s.
     let unit = 20.0 * 0.5 * 50.0 * 0.072f64.powi(3);
     let of_shape = |name: &str, cylinder: Option<f64>, k: [f64; 3]| {
         let mut scene = lab::interacting_scene(effort);

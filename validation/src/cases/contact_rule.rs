@@ -22,7 +22,7 @@ struct Pair {
     rate: [Vector3<f64>; 2],
 }
 
-/// ṗ′ of both rods; `None` where they have no contact.
+/// A rule that returns ṗ′ of both rods; `None` if they have no contact.
 type ContactRule = fn(&Pair) -> Option<[Vector3<f64>; 2]>;
 
 fn core_rule(pair: &Pair) -> Option<[Vector3<f64>; 2]> {
@@ -30,20 +30,20 @@ fn core_rule(pair: &Pair) -> Option<[Vector3<f64>; 2]> {
     Some(share_velocity(&found, &(pair.u[1] - pair.u[0]), pair.rate))
 }
 
-/// The core's rule with its contact spoilt.
+/// The core's rule with changed arms.
 fn spoilt(pair: &Pair, arms: fn([f64; 2]) -> [f64; 2]) -> Option<[Vector3<f64>; 2]> {
     let mut found = contact(&(pair.x[1] - pair.x[0]), &pair.p[0], &pair.p[1], [0.0; 2])?;
     found.arms = arms(found.arms);
     Some(share_velocity(&found, &(pair.u[1] - pair.u[0]), pair.rate))
 }
 
-/// The core's change of ṗ, scaled.
+/// The core's rule with its change of ṗ times `factor`.
 fn scaled_change(pair: &Pair, factor: f64) -> Option<[Vector3<f64>; 2]> {
     let after = core_rule(pair)?;
     Some([0, 1].map(|k| pair.rate[k] + (after[k] - pair.rate[k]) * factor))
 }
 
-/// ℓ and the arms, from the normal equations of the shortest line: another way than the core's.
+/// ℓ and the arms from the normal equations of the shortest line, by another method than the core's.
 fn geometry(pair: &Pair) -> (Vector3<f64>, [f64; 2]) {
     let d = pair.x[1] - pair.x[0];
     let (a, b) = (pair.p[0].into_inner(), pair.p[1].into_inner());
@@ -59,8 +59,8 @@ fn contact_velocities(pair: &Pair, rate: &[Vector3<f64>; 2]) -> [Vector3<f64>; 2
     [0, 1].map(|k| pair.u[k] + arms[k] * rate[k])
 }
 
-/// What a property compares against: the kick, ∝ 1/r, times how ill-conditioned the arm is. Round-off ε in
-/// the places and directions moves the contact points by ε|d|/sin², with sin the crossing angle's.
+/// The scale of a property's violation: the kick, ∝ 1/r, times the condition number of the arm. Round-off ε in
+/// the places and directions moves the contact points by ε|d|/sin², with sin that of the crossing angle.
 fn scale(pair: &Pair) -> f64 {
     let (_, arms) = geometry(pair);
     let shortest = arms[0].abs().min(arms[1].abs());
@@ -114,7 +114,7 @@ fn invariants(rule: &ContactRule, effort: &Effort) -> Vec<Evidence> {
         .collect()
 }
 
-/// (φ̇′, θ̇′) from a direction and ṗ′.
+/// A function that returns (φ̇′, θ̇′) from a direction and ṗ′.
 type AngleRates = fn(&UnitVector3<f64>, &Vector3<f64>) -> (f64, f64);
 
 /// A.13 as printed: φ̇′ without 1/sin θ, θ̇′ with sin θ and cos θ exchanged.
@@ -126,7 +126,7 @@ fn printed_a13(p: &UnitVector3<f64>, rate: &Vector3<f64>) -> (f64, f64) {
     )
 }
 
-/// The rates against those of the angles of a rod that really turns, by central differences.
+/// Compares the rates with those of a turning rod's angles, by central differences.
 fn against_turning(rates: &AngleRates, _: &Effort) -> Vec<Evidence> {
     let mut worst = [0.0f64; 2];
     for (phi, theta) in [(0.3, 0.2), (1.0, 0.8), (2.2, 1.4), (-1.5, 2.6), (-2.8, 1.0)] {

@@ -1,7 +1,7 @@
-//! How oscillations start and die, in the paper's words.
+//! The start and the decay of oscillations, in the paper's words.
 //!
-//! The amplitude is that of Fig. 7's ordinate as far as the text tells: peak to trough of X̄₁, taken here as
-//! X̄₁(t) − X̄₁(t + T/4) at t = 0, T/2, T, …, where free rods peak. Effects and deviations are of pilots at seed 99, each
+//! The amplitude follows Fig. 7's ordinate as far as the text defines it: peak to trough of X̄₁, taken here as
+//! X̄₁(t) − X̄₁(t + T/4) at t = 0, T/2, T, …, where free rods peak. Effects and deviations come from pilots at seed 99, each
 //! effect three standard errors below its pilot's mean, unless a closed form is named.
 
 mod dying;
@@ -16,15 +16,15 @@ use shearbed::observable::Channel;
 use shearbed::scene::Scene;
 use std::f64::consts::E;
 
-/// Changes of a scene in the order in which the paper says that oscillations die out faster.
+/// Changes of a scene, in the order in which the paper says that oscillations decay faster.
 #[derive(Clone, Copy)]
 struct Order {
     scenes: [Change; 3],
-    /// What the amplitude at t/T = 1½ falls by from one to the next, at least, and how that scatters.
+    /// The least fall of the amplitude at t/T = 1½ from one scene to the next, and its scatter.
     design: Design,
 }
 
-/// The scenes that X̄_1 and that X̄_2 and X̄_3 are of: the same, but for a mistake.
+/// The scenes for X̄_1, and for X̄_2 and X̄_3: equal, except in a control.
 type Axes = [Change; 2];
 
 pub fn cases() -> Vec<Case> {
@@ -188,13 +188,13 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// |X̄_i(kT/2) − X̄_i(kT/2 + T/4)|, signed so that free rods give a positive one; four outputs a period.
+/// |X̄_i(kT/2) − X̄_i(kT/2 + T/4)|, with a sign that is positive for free rods; for four outputs per period.
 fn swing(mean: &dyn Fn(Channel, usize) -> f64, half_periods: usize, axis: usize) -> f64 {
     let fall = mean(Channel::X[axis], 2 * half_periods) - mean(Channel::X[axis], 2 * half_periods + 1);
     if axis == 1 { -fall } else { fall }
 }
 
-/// The amplitude of X̄₁ at t = kT/2, replica by replica.
+/// The amplitudes of X̄₁ at t = kT/2, for each replica.
 fn amplitudes(scene: &Scene, replicas: u64, half_periods: &[usize]) -> Vec<Vec<f64>> {
     let last = half_periods.iter().max().copied().unwrap_or(0);
     let found = per_replica(&quarters(scene.clone(), last), replicas, |mean| {

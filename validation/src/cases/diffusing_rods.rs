@@ -1,4 +1,4 @@
-//! The distribution of rods with rotary diffusion, against what is known of it without harmonics.
+//! The distribution of rods with rotary diffusion, against results that need no harmonics.
 
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::larger;
@@ -13,7 +13,7 @@ use rand_pcg::Pcg64Dxsm;
 
 /// A flow, an aspect ratio and C_I.
 type Asked = ([[f64; 3]; 3], f64, f64);
-/// The motion that is solved for what was asked.
+/// A function that returns the motion to solve.
 type Model = fn(Asked) -> Motion;
 
 pub fn cases() -> Vec<Case> {
@@ -83,7 +83,7 @@ fn extension(model: Model) -> Result<f64, NoAnswer> {
         const NODES: usize = 400;
         let mut sums = [0.0; 3];
         for node in 0..NODES {
-            // Cut where the slope of z is below 1e-16: what is left converges geometrically.
+            // Cut where the slope of z is below 1e-16: the sum converges geometrically.
             let x = 20.0 * ((node as f64 + 0.5) / NODES as f64 * 2.0 - 1.0);
             let z = x.tanh();
             let weight = x.cosh().powi(-2) * (k * z * z - k.max(0.0)).exp();
@@ -95,7 +95,7 @@ fn extension(model: Model) -> Result<f64, NoAnswer> {
     Ok(worst)
 }
 
-/// W a − a W + Λ(D a + a D − 2 D:a₄) + 2D_r(1 − 3a) of steady densities, worked out from the gradient.
+/// The largest component of W a − a W + Λ(D a + a D − 2 D:a₄) + 2D_r(1 − 3a) of steady densities, computed from the gradient.
 fn standing(model: Model, effort: &Effort) -> Result<f64, NoAnswer> {
     let couette = |rate: f64| [[0.0; 3], [rate, 0.0, 0.0], [0.0; 3]];
     let mut asked = vec![(couette(1.0), 11.6, 1e-3), (couette(-0.5), 0.3, 0.05), (couette(2.0), 4.0, 1.0)];

@@ -1,4 +1,4 @@
-//! Who collides: P_c and its empirical frequency.
+//! The choice of colliding rods: P_c and its empirical frequency.
 
 use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
@@ -34,7 +34,7 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// s* of R, α and m, in rod lengths.
+/// A function that returns s* for R, α and m, in rod lengths.
 type Formula = fn(f64, f64, f64) -> f64;
 
 fn limits(reach: &Formula, _: &Effort) -> Vec<Evidence> {
@@ -72,12 +72,12 @@ fn limits(reach: &Formula, _: &Effort) -> Vec<Evidence> {
     ]
 }
 
-/// Candidates less the sum of P_c over all rods and steps: a martingale, so that its increments are
-/// uncorrelated and runs with different seeds independent. Places know nothing of the draws, so that the ratio of
+/// Candidates less the sum of P_c over all rods and steps is a martingale, so that its increments are
+/// uncorrelated, and runs with different seeds are independent. Places do not depend on the draws, so that the ratio of
 /// the two has the mean 1.
 fn frequency(change: &Change, effort: &Effort) -> Vec<Evidence> {
-    // Few rods where all pairs are searched, and as many as are sorted into cells. The last is the deviation of a
-    // replica's ratio: 0.172 of 14,000 replicas and 0.122 of 6,180 at seeds 9001 to 9010, and a sixth.
+    // Few rods, for which all pairs are searched, and many rods, which are sorted into cells. The last number is the deviation of
+    // a replica's ratio: 0.172 from 14,000 replicas and 0.122 from 6,180 at seeds 9001 to 9010, plus a sixth.
     let settings = [((0.5, 3.0, 50.0), 25, 100, 0.2), ((0.3, 1.7, 400.0), 300, 2, 0.14)];
     let evidence = settings.map(|((alpha, m, concentration), count, steps, sd)| {
         let mut scene = lab::interacting_scene(effort);
@@ -119,7 +119,7 @@ fn frequency(change: &Change, effort: &Effort) -> Vec<Evidence> {
     evidence.into()
 }
 
-/// Σ P_c over all rods' nearest neighbours, by looking at every pair.
+/// Σ P_c over all rods' nearest neighbours, found by checking every pair.
 fn expected_candidates(positions: &[Vec<f64>; 3], alpha: f64, m: f64) -> f64 {
     let count = positions[0].len();
     (0..count)

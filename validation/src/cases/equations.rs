@@ -1,13 +1,13 @@
-//! The paper's equations, and the code by which a run has them: with the registry of cases this makes the traceability table.
+//! The paper's equations, and the code that implements them: with the registry of cases this makes the traceability table.
 
 /// One numbered equation of the paper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Equation {
-    /// Its number, as `15` or `A.13`.
+    /// The number, such as `15` or `A.13`.
     pub number: &'static str,
-    /// What it says.
+    /// The content in words.
     pub says: &'static str,
-    /// Where a run has it, as `file.rs: item` (or a folder of that name).
+    /// The implementation in a run, as `file.rs: item` (or a folder in place of the file).
     pub code: &'static [&'static str],
 }
 

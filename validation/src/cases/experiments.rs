@@ -1,4 +1,4 @@
-//! Experiments (Figs 4 and 5): judged where the measured points are at hand, `NoData` where they are not.
+//! Experiments (Figs 4 and 5): judged if the measured points are supplied, `NoData` otherwise.
 
 use crate::input::experiment::{
     self, ANCZUROWSKI, Comparison, DataError, MeasuredCurve, OKAGAWA_MASON, Runs, Source,
@@ -56,7 +56,7 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// How far curves of α = 0.05 and 5 are apart, and whether they may be fitted, of rods that start at this θ.
+/// The distance of the curves for α = 0.05 and 5, and the refusal of a fit, for rods that start at this θ.
 fn not_fitted(theta_deg: &f64, effort: &Effort) -> Result<Vec<Evidence>, String> {
     let mut scene = lab::interacting_scene(effort);
     scene.particles.orientation = Orientation::Given { phi_deg: 0.0, theta_deg: *theta_deg };
@@ -64,7 +64,7 @@ fn not_fitted(theta_deg: &f64, effort: &Effort) -> Result<Vec<Evidence>, String>
     scene.particles.aspect_ratio_sd_percent = 3.0;
     let text = toml::to_string(&scene).map_err(|error| error.to_string())?;
     if *theta_deg == 90.0 {
-        // Unequal rods are parallel no more after a while, and kick each other in the plane by the error of a time step.
+        // Unequal rods do not stay parallel, and kick each other in the plane by the error of a time step.
         scene.particles.aspect_ratio_sd_percent = 0.0;
     }
     let curve = |alpha: f64| {
@@ -110,12 +110,12 @@ fn no_data(what: impl Into<String>) -> Vec<Evidence> {
     vec![Evidence::new(what, Rule::NoData { supply: SUPPLY.into() })]
 }
 
-/// What cannot be judged fails, and says why.
+/// Evidence that fails, with the reason.
 fn failed(what: impl Into<String>) -> Evidence {
     Evidence::exact(what, f64::NAN)
 }
 
-/// The points of a source that are judged, and how many are not.
+/// The points of a source that are judged, and the number of those that are not.
 fn judged(source: &Source, effort: &Effort) -> Result<(Vec<MeasuredCurve>, usize), DataError> {
     let Some(data) = &effort.data else {
         return Ok((Vec::new(), 0));
@@ -131,7 +131,7 @@ fn judged(source: &Source, effort: &Effort) -> Result<(Vec<MeasuredCurve>, usize
     Ok((curves, late))
 }
 
-/// The runs of the model that are compared with the points of one curve after another: `stream` tells them apart.
+/// The model runs for the points of one curve; each curve has its own `stream`.
 fn runs(effort: &Effort, stream: u64) -> Runs {
     Runs { replicas: effort.pick(100, 2000), seed: effort.seed(stream) }
 }
@@ -191,7 +191,7 @@ fn fit(comparison: &Comparison, late: usize, source: &Source) -> Evidence {
     Evidence::new(what, rule)
 }
 
-/// The difference of the two best α. The control doubles α in the model at r_e = 14.2 behind the estimate's back.
+/// The difference of the two best α. The control doubles α in the model at r_e = 14.2, which the estimate does not know.
 fn same_alpha(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let both =
         judged(&OKAGAWA_MASON, effort).and_then(|short| Ok((short.0, judged(&ANCZUROWSKI, effort)?.0)));

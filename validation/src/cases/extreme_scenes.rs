@@ -1,4 +1,4 @@
-//! Interacting rods, and whole scenes as the program runs them, where they are extreme.
+//! Extreme interacting rods, and extreme whole scenes as the program runs them.
 
 mod placed;
 mod whole;
@@ -16,20 +16,20 @@ use shearbed::run::ensemble;
 use shearbed::scene::{Orientation, Scene, Update};
 use shearbed::{Observable, Suspension};
 
-/// What steps rods, and what a control puts in its place.
+/// The functions that step rods; a control replaces one of them.
 struct Model {
-    /// The directions after the steps that were taken.
+    /// Returns the directions of the rods after the steps so far.
     directions: fn(&Suspension) -> Vec<Vector3<f64>>,
-    /// What a step makes of two rods that were put down by hand.
+    /// The result of a step for two rods at given places.
     pair: Pair,
-    /// A change to the scenes that say how often rods meet.
+    /// A change to the scenes that count how often rods meet.
     meeting: fn(&mut Scene),
 }
 
 const CORE: Model =
     Model { directions: |suspension| suspension.directions(), pair: step_of_the_core, meeting: |_| {} };
 
-/// What runs a scene.
+/// A function that runs a scene.
 type Program = fn(&Scene) -> Ended;
 
 pub fn cases() -> Vec<Case> {
@@ -117,7 +117,7 @@ fn extreme_suspensions(model: &Model, effort: &Effort) -> Vec<Evidence> {
     ]
 }
 
-/// Scenes in which rods meet although they are far apart, or never although everything reaches.
+/// The number of scenes in which distant rods meet, or in which rods never meet although every one is within reach.
 fn meetings(model: &Model, effort: &Effort) -> f64 {
     let met = |change: fn(&mut Scene)| {
         let mut scene = lab::interacting_scene(effort);
@@ -165,7 +165,7 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
             scene.time.steps_per_unit = Some(200);
         }),
         scene(|scene| {
-            // Every rod parallel to every other: no contact line.
+            // Every rod is parallel to every other: no contact line.
             scene.particles.orientation = Orientation::Given { phi_deg: 90.0, theta_deg: 0.0 };
             lab::interaction(scene).alpha = 1e3;
         }),
@@ -190,7 +190,7 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
     ]
 }
 
-/// The core's directions a step later, by p + ṗΔt.
+/// The core's directions one step later, by p + ṗΔt.
 fn stepped_by_euler(suspension: &Suspension) -> Vec<Vector3<f64>> {
     let rods = suspension.directions().into_iter().zip(suspension.aspect_ratios());
     rods.map(|(p, r)| p + 1e-3 * couette_rate(&p, shape_factor(r), 1.0)).collect()

@@ -1,4 +1,4 @@
-//! The core where it is stiff or extreme: no NaN, no panic, |p| = 1 to 4 ulp, C to its bound.
+//! The core in stiff and extreme cases: no NaN, no panic, |p| = 1 to 4 ulp, C to its bound.
 
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::statistics::larger;
@@ -13,9 +13,9 @@ use shearbed::model::phase::Phase;
 use shearbed::motion::Propagator;
 use std::f64::consts::TAU;
 
-/// The direction after a number of turns, of a rod of aspect ratio r at the shear rate G.
+/// A function that returns the direction of a rod of aspect ratio r at the shear rate G after a number of periods.
 type Motion = fn(f64, f64, &UnitVector3<f64>, f64) -> Vector3<f64>;
-/// The direction after a time in s in any flow.
+/// A function that returns the direction after a time in s in any flow.
 type FlowMotion = fn(&VelocityGradient, f64, &UnitVector3<f64>, f64) -> Vector3<f64>;
 
 pub fn cases() -> Vec<Case> {
@@ -125,7 +125,7 @@ fn extreme_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
     ]
 }
 
-/// The largest ||p| − 1| and change of C_b over a thousand steps, each taken from where the last one ended.
+/// The largest ||p| − 1| and change of C_b over a thousand consecutive steps.
 fn thousand_steps(motion: &Motion) -> (f64, f64) {
     let (mut length, mut drift) = (0.0f64, 0.0f64);
     for r in ASPECT_RATIOS {
@@ -143,7 +143,7 @@ fn thousand_steps(motion: &Motion) -> (f64, f64) {
 
 fn extreme_flows(motion: &FlowMotion, _: &Effort) -> Vec<Evidence> {
     let (mut length, mut end, mut lost) = (0.0f64, 0.0f64, 0.0);
-    // Flows that lead every rod of r_e > 1 to axis 1, and the strain rate of each.
+    // Flows in which every rod of r_e > 1 aligns with axis 1, and the strain rate of each.
     for rows in [
         [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 0.0]],
         [[1.0, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, -0.5]],
@@ -190,8 +190,8 @@ fn extreme_flows(motion: &FlowMotion, _: &Effort) -> Vec<Evidence> {
     ]
 }
 
-/// The largest angle to the closed form of uncoupled axes, two of which lengthen equally fast, or nearly so, and the third
-/// shrinks. Nearly all of the start lies along that.
+/// The largest angle to the closed form for uncoupled axes, two of which lengthen equally fast, or nearly so, while the third
+/// shrinks. The start lies almost along the third axis.
 fn apart_where_rates_meet(motion: &FlowMotion) -> f64 {
     let next = 1.0 + f64::EPSILON;
     let (near, beside) = (5.4e-15, 7.06e-16);
@@ -209,11 +209,11 @@ fn apart_where_rates_meet(motion: &FlowMotion) -> f64 {
             for r in [1.5, 11.6, 1e8] {
                 for strain in [1e2, 1861.0, 2550.0, 1e6, 1e12] {
                     let time_s = strain / rate;
-                    // Differences of rates that nearly meet are exact, and the third axis comes to 0.
+                    // Differences of rates that nearly meet are exact, and the component along the third axis tends to 0.
                     let grown = l.map(|l_ii| (shape_factor(r) * (l_ii - l.max()) * time_s).exp());
                     let expected = start.component_mul(&grown).normalize();
                     let off = motion(&flow, r, &start, time_s).cross(&expected).norm();
-                    // What is no direction is as wrong as a right angle.
+                    // A result that is not finite counts as a right angle.
                     worst = worst.max(if off.is_finite() { off } else { 1.0 });
                 }
             }

@@ -1,10 +1,10 @@
-//! `shearbed fit` on synthetic points: intervals hold the planted α as often as they say, χ² has its law, and a model
+//! `shearbed fit` on synthetic points: intervals contain the planted α as often as stated, χ² has its distribution, and a model
 //! without the spread of r_e is refused.
 //!
-//! The points are made here and are nobody's measurement. Simulated curves are run once, at every node of the emulator;
-//! each repeat draws its replicas from these with replacement and its noise anew. The curve behind the points is the
-//! emulator's of all replicas at the planted α: what a repeat's emulator of some of them would be on average. Repeats are
-//! then independent, at a thousandth of the cost of runs. What the emulator misses between its nodes they cannot see:
+//! The points are made here and are nobody's measurement. Curves are simulated once, at every node of the emulator;
+//! each repeat draws its replicas from these with replacement, and new noise. The curve behind the points is the
+//! emulator's curve of all replicas at the planted α: the average of the repeats' emulators. Repeats are
+//! then independent, at a thousandth of the cost of runs. They cannot detect the emulator's errors between its nodes:
 //! `outright.rs` has a set that is simulated between them. The example `fit_covers` repeats whole fits.
 
 mod outright;
@@ -32,26 +32,26 @@ use std::sync::Arc;
 /// The α behind the synthetic points, and its place between the ends of the range, −1 and 1, at no node.
 const PLANTED: f64 = 0.8;
 const PLACE: f64 = (PLANTED - 1.0) / 0.6;
-/// One standard deviation of their noise.
+/// One standard deviation of the points' noise.
 const NOISE: f64 = 0.008;
-/// How many there are, evenly up to t/T = 1.5.
+/// Number of points, evenly up to t/T = 1.5.
 const POINTS: usize = 22;
-/// Replicas that are run, and those that each repeat draws; few rods, so that the replicas' own error counts.
+/// Number of replicas that are run, and number that each repeat draws; few rods, so that the replicas' own error counts.
 const POOL: u64 = 240;
 const DRAWN: usize = 80;
 const RODS: usize = 25;
 /// Coarse steps: the model judges itself, so that no step needs to be resolved.
 const STEPS_PER_PERIOD: u64 = 100;
 
-/// What each repeat does with the points; all but the first are mistakes.
+/// The treatment of the points in a repeat; all but the first are mistakes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Way {
     AsItIs,
     /// The interval is half as long.
     HalfAsLong,
-    /// The simulated curve is taken for exact.
+    /// The simulated curve counts as exact.
     SimulationExact,
-    /// Every r_e is taken for the mean: σ = 0 %.
+    /// Every r_e is set to the mean: σ = 0 %.
     NoSpread,
     /// The polynomials between the nodes are straight lines.
     StraightLines,
@@ -81,9 +81,9 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// What is simulated once.
+/// The simulations, which run once.
 struct Pool {
-    /// Each replica at every node, with the model's spread of r_e, and without.
+    /// Each replica at every node: with the model's spread of r_e, then without it.
     replicas: Vec<Coefficients>,
     without_spread: Vec<Coefficients>,
     /// The emulator's curve of all replicas at the planted α.
@@ -101,7 +101,7 @@ fn data(values: impl Fn(usize) -> f64) -> Vec<Datum> {
     (0..POINTS).map(point).collect()
 }
 
-/// The simulations behind one set of points.
+/// The scenes behind one set of points.
 fn one_set(scene: &Scene, range: &Range, seed: u64, time: TimeColumn) -> Result<Scenes, String> {
     let set = Set {
         source: "a case".into(),
@@ -168,18 +168,18 @@ fn repeat(pool: &Pool, way: Way, seed: u64, k: u64) -> Result<Fit, String> {
     fitted(&measured, &pool.basis, &vec![(pool.range.from, pool.range.to)], &drawn)
 }
 
-/// What the cases ask of a fit.
+/// The results of a fit that the cases use.
 struct Fitted {
-    /// Its 68 and 95 % intervals, from and to.
+    /// Lower and upper ends of the 68 and 95 % intervals.
     intervals: [(f64, f64); 2],
     estimate: f64,
     chi_square: f64,
 }
 
-/// Fits of one model, which several ways read.
+/// Fits of each model; several treatments share them.
 static FITTED: Shared<Way, Result<Vec<Fitted>, String>> = Shared::new();
 
-/// As many repeats as either case needs.
+/// The fits, as many as either case needs.
 fn repeats(way: Way, effort: &Effort) -> Arc<Result<Vec<Fitted>, String>> {
     let simulated = match way {
         Way::HalfAsLong | Way::StraightLines => Way::AsItIs,
@@ -207,24 +207,24 @@ fn repeats(way: Way, effort: &Effort) -> Arc<Result<Vec<Fitted>, String>> {
     })
 }
 
-/// What cannot be done fails, and says why.
+/// Evidence that fails, with the reason.
 fn failed(why: String) -> Vec<Evidence> {
     vec![Evidence::exact(why, f64::NAN)]
 }
 
-/// Allowed beside the stated share, 68 and 95 %: profile intervals are exact where the model is straight in α and the
-/// covariance is known; it bends, and is estimated from [`DRAWN`] replicas. Some 0.44 of the variance of α are the replicas'
-/// (by the lengths of intervals with and without them), and so much of it, estimated from 80, has a standard deviation of
-/// 0.44 √(2/80) = 7 % of the whole, 3.5 % of the interval's length; by the density at its ends that is 0.017 and 0.008 of
-/// the share, if it never averaged out.
+/// Allowed difference from the stated share, 68 and 95 %: profile intervals are exact if the model is linear in α and the
+/// covariance is known; here the model is curved, and the covariance is estimated from [`DRAWN`] replicas. Some 0.44 of the variance
+/// of α are the replicas' (by the lengths of intervals with and without them), and that part, estimated from 80, has a standard
+/// deviation of 0.44 √(2/80) = 7 % of the whole, 3.5 % of the interval's length; by the density at its ends that is 0.017 and 0.008
+/// of the share, if it never averaged out.
 const ALLOWANCE: [f64; 2] = [0.017, 0.008];
-/// What must be seen beyond that. Half the length misses 0.30 and 0.28. A curve taken for exact misses 0.16 and 0.11, with
+/// The effect to detect beyond that. Half the length misses 0.30 and 0.28. A curve taken as exact misses 0.16 and 0.11, with
 /// standard deviations of 0.012 and 0.008 over the replicas that a seed runs (30 seeds); these are less by 3.5 of them.
 const EFFECT: [f64; 2] = [0.1, 0.07];
 
 const CONFIDENCES: [f64; 2] = [0.68, 0.95];
 
-/// Repeats that show [`EFFECT`] in the first share; that one of the two shows it is enough. A share scatters by 0.5 at most;
+/// Number of repeats that show [`EFFECT`] in the first share; one of the two shares is enough. A share scatters by 0.5 at most;
 /// that of a mistake by more than the right one.
 fn shares(effort: &Effort) -> u64 {
     effort.samples(Design::new(EFFECT[0], 0.5))
@@ -258,10 +258,10 @@ fn covers(way: &Way, effort: &Effort) -> Vec<Evidence> {
     vec![rule(0), rule(1), outright]
 }
 
-/// The distance from the law of χ² that must be seen.
+/// The distance from the distribution of χ² to detect.
 const DISTANCE: f64 = 0.15;
 
-/// Repeats that show [`DISTANCE`].
+/// Number of repeats that show [`DISTANCE`].
 fn laws(effort: &Effort) -> u64 {
     effort.pick(1, 4) * kolmogorov_samples(DISTANCE)
 }

@@ -1,8 +1,8 @@
-//! What points of two suspensions with one α tell of the readings that the paper leaves open.
+//! The information of two suspensions with one α about the interpretations that the paper leaves open.
 //!
-//! The points are made here by the naive reference, and are nobody's measurement. Points of one suspension tell no reading: each
-//! describes them with an α of its own. A contact line cut at the rods' ends is felt less where rods are far apart, so that it asks
-//! for another α at another concentration. Who draws cannot be told so: `docs/src/theory/fits.md` has the numbers.
+//! The points are made here by the naive reference, and are nobody's measurement. Points of one suspension do not distinguish
+//! interpretations: each describes them with an α of its own. A contact line cut at the rods' ends has less effect where rods are
+//! far apart, so that α would depend on the concentration. Who draws cannot be found in this way: `docs/src/theory/fits.md`.
 
 use crate::input::start::Starts;
 use crate::judge::accept::Rule;
@@ -32,14 +32,14 @@ const RODS: usize = 50;
 /// One standard deviation of the points' noise.
 const NOISE: f64 = 0.002;
 const COLUMNS: [&str; 3] = ["x1", "x2", "x3"];
-/// Times of each suspension, up to half a period.
+/// Number of times of each suspension, up to half a period.
 const TIMES: usize = 10;
 const STEPS: usize = 5;
 const STEPS_PER_PERIOD: u64 = 100;
 
 /// Replicas behind the points, and behind each node of the model. In a pilot of other seeds χ² of cut lines exceeds that of
-/// whole ones by 248. Of 59 degrees of freedom χ² is above 124 with the probability [`crate::judge::accept::LEVEL`]; with 248 more it is
-/// 307 with a standard deviation of √(2·59 + 4·248) = 33, 5.5 of these above.
+/// whole ones by 248. For 59 degrees of freedom χ² is above 124 with the probability [`crate::judge::accept::LEVEL`]; with 248 more
+/// it is 307 with a standard deviation of √(2·59 + 4·248) = 33, 5.5 of these above.
 const REPLICAS: u64 = 600;
 
 pub(super) fn cases() -> Vec<Case> {
@@ -86,7 +86,7 @@ fn curve(change: Change, effort: &Effort, replica: u64) -> Vec<f64> {
     values
 }
 
-/// Means over replicas of X̄₁ to X̄₃ of both suspensions, under a reading of the paper.
+/// Means over replicas of X̄₁ to X̄₃ of both suspensions, with an interpretation of the paper.
 pub fn points(change: Change, effort: &Effort, replicas: u64) -> Vec<f64> {
     let rows: Vec<Vec<f64>> =
         (0..replicas).into_par_iter().map(|replica| curve(change, effort, replica)).collect();
@@ -94,7 +94,7 @@ pub fn points(change: Change, effort: &Effort, replicas: u64) -> Vec<f64> {
     (0..rows[0].len()).map(mean).collect()
 }
 
-/// The points' places, with their values and one standard deviation of noise.
+/// The points' places, with their values and the standard deviation `u` of their noise.
 fn data(value: impl Fn(usize) -> f64, u: f64) -> Vec<Datum> {
     let point = |k: usize| {
         let (set, column) = (k / (TIMES * COLUMNS.len()), COLUMNS[k % COLUMNS.len()]);
@@ -104,7 +104,7 @@ fn data(value: impl Fn(usize) -> f64, u: f64) -> Vec<Datum> {
     (0..CONCENTRATIONS.len() * TIMES * COLUMNS.len()).map(point).collect()
 }
 
-/// The model at its nodes, which both ways read.
+/// The coefficients of the model at its nodes, shared by the case and its control.
 static MODEL: Shared<(), Result<Vec<Coefficients>, String>> = Shared::new();
 
 fn range() -> Result<Range, String> {
@@ -131,7 +131,7 @@ pub fn model(effort: &Effort, replicas: u64) -> Result<Vec<Coefficients>, String
     coefficients(&Basis::new(1), &model, value, 0..replicas, &|| ())
 }
 
-/// One α of both suspensions for points that are means of `replicas` replicas.
+/// The fit of a common α of both suspensions to points that are means of `replicas` replicas.
 pub fn one_alpha(points: &[f64], u: f64, replicas: u64, model: &[Coefficients]) -> Result<Fit, String> {
     let range = range()?;
     let measured = Measured {

@@ -1,4 +1,4 @@
-//! The coefficient of Folgar & Tucker, and what it cannot describe.
+//! The coefficient of Folgar & Tucker, and its limits as a description.
 
 use crate::input::published::folgar_tucker;
 use crate::judge::accept::Design;
@@ -56,14 +56,14 @@ pub fn cases() -> Vec<Case> {
             .subject(Turned::ByKicks(|_| {}))
             .mistake("diffusion in place of kicks", Turned::ByDiffusion)
             .mistake("no contact by arms shorter than five rods", Turned::ByKicks(|scene| {
-                // A kick is then about 0.01 rad at most, and a strain of 1 has five steps.
+                // The largest kick is then about 0.01 rad, and a strain of 1 has five steps.
                 lab::interaction(scene).min_contact_arm = 5.0;
             }))
             .check(no_diffusion),
     ]
 }
 
-/// C_I of each replica at n a³ = 0.02 and 1, with four times the steps that resolve the motion.
+/// C_I of each replica at n a³ = 0.02 and 1, with four times the number of steps that resolves the motion.
 static OF_MODEL: Shared<(), [Vec<f64>; 2]> = Shared::new();
 
 fn seven(read: &fn(f64) -> f64, effort: &Effort) -> Vec<Evidence> {
@@ -113,12 +113,12 @@ fn seven(read: &fn(f64) -> f64, effort: &Effort) -> Vec<Evidence> {
     ]
 }
 
-/// C_I of what was observed.
+/// A function that estimates C_I from observed means.
 type Estimator = fn(&Means) -> f64;
 
-/// What was put into the synthetic rods.
+/// The planted C_I of the synthetic rods.
 const PLANTED: f64 = 0.01;
-/// Λ of r_e = 3, where Λ = 1 shows.
+/// Λ of r_e = 3, at which the mistake Λ = 1 shows.
 const LAMBDA: f64 = 0.8;
 /// Strain of a step, steps, and rods of a replica.
 const STEP: f64 = 0.05;
@@ -148,7 +148,7 @@ fn effective(estimator: &Estimator, effort: &Effort) -> Vec<Evidence> {
     )]
 }
 
-/// What turns rods beside the liquid.
+/// The cause of rotation in addition to the liquid.
 #[derive(Clone, Copy)]
 enum Turned {
     /// The suspension's collisions, with a change.
@@ -157,7 +157,7 @@ enum Turned {
     ByDiffusion,
 }
 
-/// The C_I of the suspension, and as many replicas with rotary diffusion of it as asked for.
+/// The C_I of the suspension, and the requested number of replicas with rotary diffusion of that C_I.
 static OF_DIFFUSION: Shared<(), (f64, Vec<Shares>)> = Shared::new();
 
 fn no_diffusion(turned: &Turned, effort: &Effort) -> Vec<Evidence> {
@@ -168,7 +168,7 @@ fn no_diffusion(turned: &Turned, effort: &Effort) -> Vec<Evidence> {
     let samples = samples.into_iter().fold(0, u64::max);
     let setting = Setting { n_a3: 0.5, aspect_ratio: 11.6, alpha: 0.5, update: Update::Rotation, finer: 2 };
     let scene = coefficients::scene(setting, effort);
-    // Orbits are steady after four periods to a tenth of what is seen; kicks are from the first on.
+    // After four periods orbits are steady to a tenth of the effect; kicks are so from the first.
     let watch = Watch::new(&scene, 4.0, 1.0);
     let diffusion = |c_i, stream| diffused(&scene, c_i, watch, samples, (effort, stream));
     let of_diffusion = OF_DIFFUSION.get(effort, (), || {

@@ -1,4 +1,4 @@
-//! Whole runs of free rods against closed forms with no simulation in them.
+//! Whole runs of free rods against closed forms that contain no simulation.
 
 use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
@@ -51,7 +51,7 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// What must be seen of every mean. |p_i| of a rod scatters by 0.294 at most in a pilot at seed 99; the controls change a
+/// The effect to detect in every mean. |p_i| of a rod scatters by 0.294 at most in a pilot at seed 99; the controls change a
 /// mean by 0.016 (r_e 5 % longer, r_e = 1.5, t/T = 2/7) and 0.015 (r_e 10 % longer, r_e = 5, σ = 7.2 %), by the closed forms.
 const DESIGN: Design = Design::new(0.01, 0.31);
 

@@ -1,4 +1,4 @@
-//! The core in any flow, at any aspect ratio and strain: right to the bound it states, or it says that it is not.
+//! The core in any flow, at any aspect ratio and strain: correct to its stated bound, or refused.
 
 mod problems;
 mod scenes;
@@ -13,7 +13,7 @@ use shearbed::motion::{Moved, Propagator, Span};
 use shearbed::plan::free::MAX_ERROR_RAD;
 use std::sync::Arc;
 
-/// What moves a rod and says how well.
+/// A function that moves a rod and states a bound of the error.
 type Motion = fn(&FlowProblem) -> Moved;
 
 pub fn cases() -> Vec<Case> {
@@ -106,14 +106,14 @@ fn gradient(problem: &FlowProblem) -> (Matrix3<f64>, f64) {
     (l - Matrix3::identity() * (l.trace() / 3.0), time)
 }
 
-/// A in the same units, and the time.
+/// A in the same units, and the time, in double.
 fn rates(problem: &FlowProblem) -> (Matrix3<f64>, f64) {
     let (l, time) = gradient(problem);
     let square = problem.rod.aspect_ratio.powi(2);
     (l / (1.0 + 1.0 / square) - l.transpose() / (1.0 + square), time)
 }
 
-/// The direction by a map in double, with the core's bound.
+/// The direction by a map in double precision, with the core's bound.
 fn in_double(problem: &FlowProblem, map: fn(&Matrix3<f64>, f64) -> Matrix3<f64>) -> Moved {
     let (a, time) = rates(problem);
     Moved { p: UnitVector3::new_normalize(map(&a, time) * start(problem).as_ref()), ..core(problem) }
@@ -143,12 +143,12 @@ fn planar(a: &Matrix3<f64>, time: f64) -> Matrix3<f64> {
     Matrix3::identity() + a * once + a * a * twice
 }
 
-/// Hard problems. Of 10 000 at another seed 525 show a bound that is too wide and 585 one that is missing, so that at least
+/// Number of hard problems. Of 10 000 at another seed 525 show a bound that is too wide and 585 a missing one, so that at least
 /// 0.047 of all do: none of 300 does with a probability of 0.953³⁰⁰ = 5·10⁻⁷, below [`crate::judge::accept::MISS`]. Of problems of any
 /// kind only 0.005 and 0.009 do, and 400 of these alone missed one or the other at one seed in nine.
 const HARD: u64 = 300;
 
-/// Problems with answers, worked out once for the check and its controls.
+/// The problems with their answers, computed once for the check and its controls.
 fn shared(effort: &Effort) -> Arc<Vec<FlowProblem>> {
     static PROBLEMS: Shared<u64, Vec<FlowProblem>> = Shared::new();
     PROBLEMS.get(effort, 0, || {
@@ -158,15 +158,15 @@ fn shared(effort: &Effort) -> Arc<Vec<FlowProblem>> {
     })
 }
 
-/// Head or tail alike: 2|sin| of half the angle, which does not cancel.
+/// The distance of two unit vectors up to sign: 2|sin| of half the angle, which has no cancellation.
 fn apart(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
     (a - b).norm().min((a + b).norm())
 }
 
-/// Whether numbers of 106 bits leave 10⁻⁶ rad. Where two roots meet their distance is known from the equation to the root of a
-/// rounding only: coefficients of e^{At} are off by (|L|t)² roundings, and are |L|t times as large as what is left of them: roundings
-/// are those of L, also where little of it is left in A, near spheres. What is left of the start's direction is smaller by the
-/// condition number. A thousand roundings are allowed for.
+/// True if numbers of 106 bits leave at most 10⁻⁶ rad. Where two roots meet, the equation gives their distance only to the root of a
+/// rounding: coefficients of e^{At} have errors of (|L|t)² roundings, and are |L|t times as large as what remains after cancellation:
+/// roundings are those of L, even if little of it remains in A, near spheres. The remaining part of the start's direction is smaller
+/// by the condition number. A thousand roundings are allowed for.
 fn answerable(problem: &FlowProblem) -> bool {
     let (l, time) = gradient(problem);
     let turned = (l.norm() * time).max(1.0);
@@ -177,7 +177,7 @@ fn answerable(problem: &FlowProblem) -> bool {
     condition < 1e12 && 1e3 * 2f64.powi(-106) * turned.powi(3) * condition <= MAX_ERROR_RAD
 }
 
-/// What happened to problems of similar condition numbers.
+/// The outcomes of problems with similar condition numbers.
 #[derive(Clone, Copy, Default)]
 struct Decades {
     answered: u32,
@@ -187,7 +187,7 @@ struct Decades {
 }
 
 fn general_flows(motion: &Motion, effort: &Effort) -> Vec<Evidence> {
-    // Up to 10², 10⁴, … and beyond.
+    // Condition numbers up to 10², 10⁴, … and beyond.
     let mut decades = [Decades::default(); 9];
     let (mut wrong, mut share, mut needless) = (0.0, 0.0f64, 0.0);
     for problem in shared(effort).iter() {

@@ -1,4 +1,4 @@
-//! Rods in any flow that keeps the liquid's volume: it stays evenly filled.
+//! Rods in flows that keep the liquid's volume: the control volume stays evenly filled.
 
 use crate::judge::accept::kolmogorov_samples;
 use crate::judge::case::{Case, Effort, Evidence};
@@ -27,24 +27,24 @@ pub fn cases() -> Vec<Case> {
 
 enum Subject {
     Core,
-    /// The naive rule with a mistake, or with none.
+    /// The naive rule, with a mistake or without one.
     Wrong(Option<Mistake>),
 }
 
 /// L in 1/s, row by row.
 type Gradient = [[f64; 3]; 3];
 
-/// Shear that is oblique to the volume, extension, and a flow with all components, each with a volume that is no cube.
+/// Shear that is oblique to the volume, extension, and a flow with all components, each in a volume that is not a cube.
 const FLOWS: [(&str, Gradient, [f64; 3]); 3] = [
     ("oblique shear", [[0.5, -0.5, 0.0], [0.5, -0.5, 0.0], [0.0; 3]], [10.0, 5.0, 5.0]),
     ("extension", [[1.0, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, -0.5]], [5.0, 5.0, 20.0]),
     ("all components", [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]], [5.0, 8.0, 10.0]),
 ];
 
-/// Steps of a quarter of a unit of strain: what comes in twice within one is below a thousandth of the volume.
+/// Steps of a quarter of a unit of strain: less than a thousandth of the volume is replaced twice within a step.
 const STEPS_PER_STRAIN: u64 = 4;
 const STEPS: u64 = 16;
-/// What is told of the distribution function of a coordinate.
+/// The distance of a coordinate's distribution function to detect.
 const DISTANCE: f64 = 0.02;
 
 fn even(subject: &Subject, effort: &Effort) -> Vec<Evidence> {
@@ -65,7 +65,7 @@ fn even(subject: &Subject, effort: &Effort) -> Vec<Evidence> {
     evidence
 }
 
-/// Where rods are in the end, over the sides.
+/// The rods' final places, in units of the sides.
 fn ends(
     subject: &Subject,
     effort: &Effort,

@@ -1,4 +1,4 @@
-//! What `docs/src/verification/integrators.md` says of the problem and of the subjects, beyond orders and limits.
+//! The claims of `docs/src/verification/integrators.md` on the problem and the integrators, beyond orders and limits.
 
 use super::subjects::Integrators;
 use super::subjects::spoiled::in_p;
@@ -10,10 +10,10 @@ use crate::studies::work_precision::order;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::PI;
 
-/// The right-hand side in p at an aspect ratio, in units of G.
+/// A function that returns ṗ at an aspect ratio, in units of G.
 type Rate = fn(&RodProblem, &Vector3<f64>) -> Vector3<f64>;
 
-/// ∂ṗ_i/∂p_j at an aspect ratio, in units of G.
+/// A function that returns ∂ṗ_i/∂p_j at an aspect ratio, in units of G.
 type Slope = fn(&RodProblem, &Vector3<f64>) -> Matrix3<f64>;
 
 pub fn cases() -> Vec<Case> {
@@ -134,7 +134,7 @@ fn digits(rate: &Rate, _: &Effort) -> Vec<Evidence> {
         let problem = RodProblem::new(r, 1.0);
         let long = rate(&problem, &Vector3::x()).y;
         let short = -rate(&problem, &Vector3::y()).x;
-        // r_e² = long/short, without a difference.
+        // r_e² = long/short, without cancellation.
         worst = larger(worst, ((long / short).sqrt() / r - 1.0).abs());
         let turns = 2.0 * PI / (long * short).sqrt();
         period = larger(period, (turns / (2.0 * PI * (r + 1.0 / r)) - 1.0).abs());
@@ -151,12 +151,12 @@ fn digits(rate: &Rate, _: &Effort) -> Vec<Evidence> {
     ]
 }
 
-/// The largest eigenvalue over G by theory, and φ where a rod in the plane of shear has it: there the
+/// The largest eigenvalue over G by theory, and its place φ of a rod in the plane of shear: there the
 /// eigenvalues are −2Λxy ± i(½(1 − Λ) + Λx²) with x = cos φ, y = sin φ; out of the plane |λ|² is linear in y² and less.
 fn largest_eigenvalue(r: f64) -> (f64, f64) {
     let shape = (r * r - 1.0) / (r * r + 1.0);
     let size = shape.abs();
-    // A disc is a rod turned by a right angle.
+    // A disc behaves as a rod rotated by a right angle.
     let first = if shape < 0.0 { PI / 2.0 } else { 0.0 };
     if size < 1.0 / 3.0 {
         return (0.5 * (1.0 + size), first);

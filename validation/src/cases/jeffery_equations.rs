@@ -13,7 +13,7 @@ use shearbed::model::orientation;
 use shearbed::run::ensemble;
 use shearbed::scene::{Orientation, Scene};
 
-/// ṗ per unit of strain of a rod along p with the aspect ratio r, by the sign of G.
+/// A function that returns ṗ per unit of strain for direction p, aspect ratio r and the sign of G.
 type Rate = fn(&Vector3<f64>, f64, f64) -> Vector3<f64>;
 
 fn rate_in_a_run(p: &Vector3<f64>, r: f64, sign: f64) -> Vector3<f64> {
@@ -138,7 +138,7 @@ fn one_rod(change: &Change, effort: &Effort) -> Vec<Evidence> {
             change(&mut scene);
             let (phi0, theta0) = (f64::to_radians(phi_deg), f64::to_radians(theta_deg));
             let expected = |output: usize| {
-                // Whole periods change nothing, and would cost the phase its digits.
+                // Whole periods change nothing, and would reduce the precision of the phase.
                 let turns = ((output + OUTPUTS / 2) % OUTPUTS) as f64 - (OUTPUTS / 2) as f64;
                 let turns = turns / OUTPUTS as f64;
                 let (phi, theta) = closed_form::angles_at(phi0, theta0, r, turns);
@@ -190,7 +190,7 @@ struct Rod {
     c_b: f64,
 }
 
-/// Runs a scene of one rod as the program does; head or tail is not told.
+/// Runs a scene of one rod as the program does; directions are known up to sign.
 fn run(scene: &Scene) -> Vec<Rod> {
     let results = ensemble::run(&lab::plan(scene)).expect("free rods do not stop");
     let at = |name: &str, output: usize| {

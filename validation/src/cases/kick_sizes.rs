@@ -1,4 +1,4 @@
-//! Kicks: how heavy their tail is, and what bounds them (docs/src/theory/time-step.md).
+//! The tail of the kicks and their upper bound (docs/src/theory/time-step.md).
 
 use super::kicks::fresh_scene;
 use crate::judge::accept::Design;
@@ -102,7 +102,7 @@ fn bounded((angles, share): &(Angles, f64), effort: &Effort) -> Vec<Evidence> {
                     let expected = kicks(separation, pair, [ratios[a], ratios[b]]);
                     for (k, kick) in angles(collision).into_iter().map(|kick| kick / strain).enumerate() {
                         let (own, other) = (ratios[collision.rods[k]], ratios[collision.rods[1 - k]]);
-                        // The arm is known to ε s/sin², and the gap's velocity to as much.
+                        // The arm is known to ε s/sin², and the gap's velocity with the same precision.
                         let scale = (1.0 + distance) * (1.0 + expected[k]) / (sine * sine * MIN_ARM);
                         let off = (kick - expected[k]).abs() / scale;
                         let over = kick / largest_kick(distance, MIN_ARM, own, other) - 1.0;

@@ -1,4 +1,4 @@
-//! Kicks: how often, and what the time step has to do with it (docs/src/theory/time-step.md).
+//! The frequency of kicks, and its dependence on the time step (docs/src/theory/time-step.md).
 
 use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
@@ -44,17 +44,17 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// The expected number of rods of one replica that are kicked: from the pairs, the sum of their chances to collide, and
-/// the chance that a collision kicks a rod by more than some factor times κ.
+/// A function that returns the expected number of kicked rods of one replica, from its pairs, the sum of their chances to collide,
+/// and the chance that a collision kicks a rod by more than some factor times κ.
 type Expected = fn(&Fresh, &dyn Fn(f64) -> f64) -> f64;
 
-/// The first step of one replica.
+/// The results of the first step of one replica.
 struct Fresh {
-    /// Nearest pairs.
+    /// Number of nearest pairs.
     pairs: f64,
-    /// The sum of their chances to collide.
+    /// The sum of the pairs' chances to collide.
     chances: f64,
-    /// Rods that were kicked by more than κ.
+    /// Number of rods that were kicked by more than κ.
     kicked: f64,
 }
 
@@ -113,7 +113,7 @@ fn first_step(scene: &Scene, replica: u64, threshold_rad: f64) -> Fresh {
     }
 }
 
-/// Isotropic rods so near each other that a third collides in a step.
+/// Isotropic rods so close to each other that a third of them collides in a step.
 pub(super) fn fresh_scene(effort: &Effort, count: usize, steps_per_period: u64) -> Scene {
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = count;
@@ -144,7 +144,7 @@ fn memory(counted: &Counted, effort: &Effort) -> Vec<Evidence> {
         let counted = Counted { looks_per_period, ..*counted };
         rates(&scene, steps, 0..1, replicas, counted).counts
     };
-    // α = 4 for the opening ones: the more collisions a pair has, the sooner its memory shows.
+    // α = 4 for the opening ones: the more often a pair collides, the sooner the dependence on its past shows.
     // Pilot of 1,200 replicas at seeds 9001 to 9008: a fall of 0.731 ± 0.012 from 1.1, with a deviation of 0.395: 0.5 and
     // 0.27 of the sum of both rates.
     let fall = Design::new(0.37, 0.29);

@@ -1,4 +1,4 @@
-//! Misprints of the paper: the printed form fails where the corrected one passes.
+//! Misprints of the paper: the printed form fails, and the corrected form passes.
 //!
 //! A.13 is in `contact_rule`, eq. 14's text in `encounters`, the period's number (eq. 15) in `motion`.
 
@@ -56,7 +56,7 @@ pub fn cases() -> Vec<Case> {
 
 /// A steady velocity field.
 type Field = fn(Vector3<f64>) -> Vector3<f64>;
-/// The component G_ij read off a field.
+/// A function that returns the component G_ij of a field.
 type Gradient = fn(Field, usize, usize) -> f64;
 
 /// ∂u_i/∂x_j of a linear field.
@@ -105,10 +105,10 @@ fn gives_back_velocity(component: &Gradient, _: &Effort) -> Vec<Evidence> {
         .collect()
 }
 
-/// How long lines and threads turn.
+/// The duration for which lines and threads rotate, s.
 const TIME_S: f64 = 0.5;
 
-/// The line from the origin, which rests, to a point that the field carries along from `x`.
+/// The line from the origin, which is at rest, to a point that the field carries along from `x`.
 fn carried(u: Field, mut x: Vector3<f64>) -> Vector3<f64> {
     let steps = 2000;
     for _ in 0..steps {
@@ -117,7 +117,7 @@ fn carried(u: Field, mut x: Vector3<f64>) -> Vector3<f64> {
     x
 }
 
-/// The projections of one rod on the planes x₁x₂, x₂x₃, x₁x₃.
+/// A function that returns the projections of one rod on the planes x₁x₂, x₂x₃, x₁x₃.
 type Shadows = fn(f64, f64) -> [f64; 3];
 
 fn observed_shadows(phi: f64, theta: f64) -> [f64; 3] {
@@ -135,7 +135,7 @@ fn shadows(model: &Shadows, _: &Effort) -> Vec<Evidence> {
     let mut worst = 0.0f64;
     for (phi, theta) in [(0.0f64, 0.3f64), (0.4, 1.0), (1.3, 1.5), (2.5, 2.2), (-0.9, 0.0)] {
         let p = Vector3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos());
-        // A shadow on a plane is the rod's own length seen along the plane's normal: |p × e|.
+        // The projection on a plane is the rod's length as seen along the plane's normal: |p × e|.
         let expected = [2, 0, 1].map(|axis| p.cross(&Vector3::ith(axis, 1.0)).norm());
         for (found, expected) in model(phi, theta).into_iter().zip(expected) {
             worst = larger(worst, (found - expected).abs());
@@ -149,7 +149,7 @@ fn shadows(model: &Shadows, _: &Effort) -> Vec<Evidence> {
     )]
 }
 
-/// Whether a rod is taken to move by A.7–A.14, from whether it collided.
+/// An interpretation: true if a rod moves by A.7–A.14, given whether it collided.
 type Reading = fn(bool) -> bool;
 
 fn free_rods_keep_c(reading: &Reading, effort: &Effort) -> Vec<Evidence> {
@@ -187,12 +187,12 @@ fn free_rods_keep_c(reading: &Reading, effort: &Effort) -> Vec<Evidence> {
         ),
         Evidence::new(
             format!("of {colliding} colliding rods, those whose C_b stayed to round-off"),
-            // Where no rod is said to collide, every rod is said to be free, and the evidence above is of all.
+            // If no rod is said to collide, every rod counts as free, and the evidence above covers all rods.
             Rule::exact(f64::from(unchanged)),
         ),
     ]
 }
 
-/// Of C_b ≤ 1, over one evaluation of the exact motion and of C_b before and after. A kick changes C_b by less than 10⁻⁵ once
-/// in a hundred (11 of 994), and the share falls as that bound: some 10⁻⁹ of the collisions of a run by chance.
+/// The bound for C_b ≤ 1, over one evaluation of the exact motion and of C_b before and after. A kick changes C_b by less than 10⁻⁵
+/// once in a hundred (11 of 994), and the share falls as that bound: some 10⁻⁹ of the collisions of a run by chance.
 const ROUND_OFF: f64 = 16.0 * f64::EPSILON;

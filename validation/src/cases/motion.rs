@@ -16,7 +16,7 @@ use shearbed::model::phase::Phase;
 use shearbed::motion::{self, Propagator};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 
-/// The direction after a time in s, of a rod of some aspect ratio in some flow.
+/// A function that returns the direction after a time in s, for a rod of some aspect ratio in some flow.
 type Motion = fn(&VelocityGradient, f64, &UnitVector3<f64>, f64) -> UnitVector3<f64>;
 
 fn exact(flow: &VelocityGradient, r: f64, p: &UnitVector3<f64>, time_s: f64) -> UnitVector3<f64> {
@@ -27,14 +27,14 @@ fn couette(shear_rate_per_s: f64) -> VelocityGradient {
     VelocityGradient::plane_couette(shear_rate_per_s).expect("a finite shear rate")
 }
 
-/// Plane Couette flow with its axes renamed, so that the core does not know it as such: u_3 = G x_2.
+/// Plane Couette flow with renamed axes, which the core does not recognise: u_3 = G x_2.
 fn turned_couette(shear_rate_per_s: f64) -> VelocityGradient {
     let mut l = Matrix3::zeros();
     l[(2, 1)] = shear_rate_per_s;
     VelocityGradient::new(l).expect("finite components")
 }
 
-/// Head or tail alike: the angle between two directions, for small angles.
+/// The angle between two directions up to sign, for small angles.
 fn apart(a: &UnitVector3<f64>, b: &UnitVector3<f64>) -> f64 {
     a.cross(b).norm()
 }
@@ -120,10 +120,10 @@ fn period(motion: &Motion, _: &Effort) -> Vec<Evidence> {
             [(0, couette(0.5), Vector3::x_axis(), 1), (1, turned_couette(0.5), Vector3::y_axis(), 2)]
         {
             let expected = closed_form::period_s(0.5, r);
-            // The component along the flow goes from − to + only where the rod has turned round.
+            // The component along the flow goes from − to + only when the rod has turned round.
             let flow_component = |t: f64| motion(&flow, r, &start, t)[across];
             let found = root(flow_component, 0.8 * expected, 1.2 * expected);
-            // A rod that does not come back within a fifth is off by that much at least.
+            // If a rod does not return within a fifth of a period, the error is at least that much.
             let error = found.map_or(0.2, |t| (t / expected - 1.0).abs());
             worst[which] = larger(worst[which], error);
         }
@@ -172,7 +172,7 @@ fn orbit_constant(motion: &Motion, _: &Effort) -> Vec<Evidence> {
             let c = start.x.hypot(start.y / r) / start.z.abs();
             for turns in [0.1, 0.3, 17.77, 999.9, 1e4 - 0.123, 1e4] {
                 let p = motion(&flow, r, &start, turns * period);
-                // From p itself (eq. 13): tan θ would lose digits where the rod is nearly in the plane.
+                // C from p itself (eq. 13): tan θ would lose digits for a rod nearly in the plane.
                 let now = p.x.hypot(p.y / r) / p.z.abs();
                 worst = larger(worst, (now / c - 1.0).abs());
             }
@@ -228,10 +228,10 @@ fn rk4_step(flow: &VelocityGradient, r: f64, p: &UnitVector3<f64>, dt: f64) -> U
     UnitVector3::new_normalize(p + dt / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4))
 }
 
-/// φ in [0, π/2] from r_e and t/T.
+/// A function that returns φ in [0, π/2] for r_e and t/T.
 type Angle = fn(f64, f64) -> f64;
 
-/// That of a run: the propagator's map of a rod that starts along axis 1, and the angle that `mean_angle` averages.
+/// The angle in a run: the propagator's map of a rod that starts along axis 1, and the angle that `mean_angle` averages.
 fn angle_in_a_run(r: f64, turns: f64) -> f64 {
     let [p1, p2, _] = motion::couette([1.0, 0.0, 0.0], r, Phase::of_turns(turns));
     orientation::folded_phi(p1, p2)
@@ -242,7 +242,7 @@ const QUARTER: f64 = 1e-14;
 
 fn mean_angle(angle: &Angle, _: &Effort) -> Vec<Evidence> {
     let mean = |r: f64| {
-        // Panels for the steep part of φ(t), of width 1/r_e in phase, and then ever wider ones.
+        // Panels for the steep part of φ(t), of width 1/r_e in phase, and then of increasing width.
         let edge = (1.0 / r).atan() / (2.0 * PI);
         let mut breaks = vec![0.0];
         breaks.extend((0..).map(|k| edge * 4f64.powi(k)).take_while(|at| *at < 0.2));

@@ -1,4 +1,4 @@
-//! In which orbits rods end up: by weak rotary diffusion, whose distribution of C is known, and by collisions.
+//! The orbits of rods: with weak rotary diffusion, whose distribution of C is known, and with collisions.
 
 use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
@@ -13,13 +13,13 @@ use shearbed::scene::Update;
 
 const ASPECT_RATIO: f64 = 11.6;
 
-/// Weak: C_I r_e³ is 0.3.
+/// Weak diffusion: C_I r_e³ is 0.3.
 const C_I: f64 = 2e-4;
 
-/// What is compared.
+/// The two sides of the comparison.
 #[derive(Clone, Copy)]
 struct Orbits {
-    /// The distribution function of C_b that weak diffusion is held to.
+    /// The distribution function of C_b for weak diffusion.
     weak: fn(f64, f64) -> f64,
     collisions: Change,
 }
@@ -47,7 +47,7 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// Replicas with diffusion, which the controls share.
+/// Replicas with diffusion, shared by the controls.
 static OF_DIFFUSION: Shared<(), Vec<Shares>> = Shared::new();
 
 fn orbits(subject: &Orbits, effort: &Effort) -> Vec<Evidence> {
@@ -55,7 +55,7 @@ fn orbits(subject: &Orbits, effort: &Effort) -> Vec<Evidence> {
     let setting =
         Setting { n_a3: 0.5, aspect_ratio: ASPECT_RATIO, alpha: 0.5, update: Update::Kick, finer: 1 };
     let scene = coefficients::scene(setting, effort);
-    // C_I times the strain before is 0.07, and A(C)'s r_e²/2 makes it long. Diffusing rods turn exactly between coarse steps.
+    // C_I times the strain before is 0.07, and A(C)'s r_e²/2 makes that long enough. Diffusing rods turn exactly between coarse steps.
     let watch = Watch::new(&scene, 5.0, 1.0);
     let coarse = Watch { steps: 1, strain: strain_per_period(ASPECT_RATIO) / 50.0, before: 250, jumps: 1 };
     let of_diffusion = OF_DIFFUSION

@@ -1,11 +1,11 @@
-//! The model beside numbers that others published on related suspensions.
+//! The model against numbers that others published on related suspensions.
 
 use crate::input::published::{SPH_ASPECT_RATIO, first_half_turn, sph_fibres};
 use crate::judge::case::{Case, Evidence};
 use shearbed::model::jeffery::strain_per_period;
 use shearbed::model::shape::spread;
 
-/// The least and the greatest strain of half a turn of a cylinder of this physical aspect ratio.
+/// A function that returns the least and the greatest strain of half a turn of a cylinder of this physical aspect ratio.
 type HalfTurn = fn(f64) -> (f64, f64);
 
 pub fn cases() -> Vec<Case> {
@@ -30,7 +30,7 @@ pub fn cases() -> Vec<Case> {
                 let found: Vec<f64> = sph_fibres().rows.iter().filter_map(first_half_turn).collect();
                 let mean = found.iter().sum::<f64>() / found.len() as f64;
                 let (least, most) = half_turn(SPH_ASPECT_RATIO);
-                // Of no number, outside is NaN, which fails.
+                // Without a mean, `outside` is NaN, which fails.
                 let outside = match (least..=most).contains(&mean) {
                     true => 0.0,
                     false => (least - mean).max(mean - most),
@@ -46,7 +46,7 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// T/2 of the least and the greatest r_e that published formulas give.
+/// T/2 for the least and the greatest r_e of published formulas, as strains.
 fn of_formulas(r: f64) -> (f64, f64) {
     let (least, most) = spread(r).unwrap_or((f64::NAN, f64::NAN));
     (0.5 * strain_per_period(least), 0.5 * strain_per_period(most))

@@ -1,4 +1,4 @@
-//! What the paper leaves open: which readings change X̄₁ of Fig. 7's rods, and which do not.
+//! What the paper leaves open: interpretations that change X̄₁ of Fig. 7's rods, and some that do not.
 
 use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
@@ -15,25 +15,25 @@ pub(super) const LINE: f64 = 0.005;
 
 const CONCENTRATION_PER_CM3: f64 = 200.0;
 
-/// An alternative reading, and what it does to X̄₁.
+/// An alternative interpretation, and its effect on X̄₁.
 #[derive(Clone, Copy)]
 struct Alternative {
     model: Model,
-    /// +1 where X̄₁ should be larger, as rods are damped less.
+    /// +1 if X̄₁ should be larger because rods are damped less, −1 if it should be smaller.
     sign: f64,
-    /// By how much at least.
+    /// The least change.
     bound: f64,
-    /// What is left beyond the bound, three standard errors below the pilot's mean, and its scatter.
+    /// The effect beyond the bound, three standard errors below the pilot's mean, and its scatter.
     design: Design,
 }
 
-/// Who runs an alternative, and the default next to it with the same random numbers: Fig. 7's rods at 200 per cm³, up to
-/// the first maximum of X̄₁, t/T = ½, where the readings are told apart by the least work.
+/// The program that runs an alternative and the default with the same random numbers: Fig. 7's rods at 200 per cm³, up to
+/// the first maximum of X̄₁, t/T = ½, where the least work distinguishes the interpretations.
 #[derive(Clone, Copy)]
 enum Model {
-    /// The core, where it has the option: 100 rods.
+    /// The core, if it has the option: 100 rods.
     Core(fn(&mut Interaction)),
-    /// The naive reference: 25 rods, for its work is as their square.
+    /// The naive reference: 25 rods, as its work is proportional to their square.
     Naive(Change),
 }
 
@@ -145,7 +145,7 @@ fn does_not_matter(model: &Model, effort: &Effort) -> Vec<Evidence> {
     )]
 }
 
-/// The changes of X̄₁ at the end from the project's reading, replica by replica with the same random numbers.
+/// The changes of X̄₁ at the end from the project's interpretation, for each replica with the same random numbers.
 fn changes(model: Model, effort: &Effort, replicas: u64) -> Vec<f64> {
     let (changed, default) = match model {
         Model::Core(change) => (by_core(change, effort, replicas), by_core(|_| (), effort, replicas)),

@@ -7,7 +7,7 @@ use shearbed::observable::Channel;
 use shearbed::run::ensemble::{self, Results};
 use shearbed::scene::Scene;
 
-/// How far each limit is taken.
+/// The value of each parameter at its limit.
 #[derive(Clone, Copy)]
 struct Limits {
     alpha: f64,
@@ -27,7 +27,7 @@ const TAKEN: Limits = Limits {
     aspect_ratio: 1.0 + 1e-12,
 };
 
-/// The standard error of the mean of independent values.
+/// A function that returns the standard error of the mean of independent values.
 type StandardError = fn(&[f64]) -> f64;
 
 pub fn cases() -> Vec<Case> {
@@ -69,7 +69,7 @@ fn run(scene: &Scene) -> Option<Results> {
     ensemble::run(&lab::plan(scene)).ok()
 }
 
-/// The largest difference of any channel at any output.
+/// The largest difference of any channel at any output between the scenes `a` and `b`; NaN if one of them stops.
 pub(super) fn difference(a: &Scene, b: &Scene) -> f64 {
     let (Some(a), Some(b)) = (run(a), run(b)) else {
         return f64::NAN;
@@ -138,7 +138,7 @@ fn standard_errors(standard_error: &StandardError, effort: &Effort) -> Vec<Evide
         let expected = |output| standard_error(&per_replica(&scene, 16, |mean| mean(Channel::X[0], output)));
         worst_ratio(&results, |output| Some(expected(output)))
     });
-    // One replica of rods whose projections at t = 0 are known one by one.
+    // One replica of rods whose projections at t = 0 are known individually.
     let mut one = lab::free_scene(effort);
     one.particles.count = 16;
     one.time.duration = 0.0;
@@ -156,7 +156,7 @@ fn standard_errors(standard_error: &StandardError, effort: &Effort) -> Vec<Evide
     ]
 }
 
-/// The largest relative error of X̄₁'s standard errors where one is expected.
+/// The largest relative error of X̄₁'s standard errors at outputs with an expected one.
 fn worst_ratio(results: &Results, expected: impl Fn(usize) -> Option<f64>) -> f64 {
     let Some(channel) = results.column("x1") else {
         return f64::NAN;

@@ -57,13 +57,13 @@ fn name(mistake: Mistake) -> &'static str {
     }
 }
 
-/// What steps beside the reference: the core, or a naive model with a mistake that stands in for it.
+/// The model that is compared with the reference: the core, or a naive model with a mistake.
 enum Model {
     Core(Box<Suspension>),
     Broken(Box<Naive>),
 }
 
-/// The state after a step: places in rod lengths, directions, and who collided.
+/// The state after a step: places in rod lengths, directions, and colliding pairs.
 struct State {
     places: Vec<[f64; 3]>,
     directions: Vec<[f64; 3]>,
@@ -78,7 +78,7 @@ impl Model {
         }
     }
 
-    /// Takes a step; `None` where the model stopped.
+    /// Takes a step; `None` if the model stopped.
     fn step(&mut self, length_mm: f64) -> Option<State> {
         Some(match self {
             Self::Core(core) => {
@@ -106,14 +106,14 @@ fn state(naive: &Naive, length_mm: f64) -> State {
     }
 }
 
-/// What was off, at worst.
+/// The largest differences.
 #[derive(Default)]
 struct Off {
     steps: u64,
     collisions: u64,
     pairs: u64,
     places: f64,
-    /// Over one step from the same state, over [`condition`].
+    /// The difference after one step from the same state, over [`condition`].
     step: f64,
 }
 
@@ -176,7 +176,7 @@ fn compare(scene: &Scene, replica: u64, mistake: Option<Mistake>, off: &mut Off)
             .fold(scene.particles.aspect_ratio, f64::max);
         off.step = larger(off.step, directions / condition);
         if expected.pairs != found.pairs {
-            // From here on they are other rods, which tell no more.
+            // From here on the rods differ, and further comparison is useless.
             off.pairs += 1;
             return;
         }
@@ -184,7 +184,7 @@ fn compare(scene: &Scene, replica: u64, mistake: Option<Mistake>, off: &mut Off)
     }
 }
 
-/// By how much a collision that turns a rod by up to `turn` rad stretches a difference of ε in places and directions.
+/// The factor by which a collision that turns a rod by up to `turn` rad stretches a difference of ε in places and directions.
 fn condition(before: &State, (i, j): (usize, usize), turn: f64) -> f64 {
     let places = [i, j].map(|rod| Vector3::from(before.places[rod]));
     let (d, farthest) = (places[1] - places[0], places[0].norm().max(places[1].norm()));
@@ -206,7 +206,7 @@ fn apart<const K: usize>(a: &[[f64; 3]], b: &[[f64; 3]], signs: [f64; K]) -> f64
     a.iter().zip(b).map(nearest).fold(0.0, larger)
 }
 
-/// The same concentration in a box; `sides` are over those of the cube.
+/// The same concentration in a box with `sides` relative to those of the cube.
 fn in_a_box(scene: &mut Scene, sides: [f64; 3]) {
     let per_mm3 = 1e-3 * scene.concentration_per_cm3().unwrap_or(f64::NAN);
     let cube = (scene.particles.count as f64 / per_mm3).cbrt();
@@ -244,13 +244,13 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
             scene.time.steps_per_unit = Some(100);
         }),
         scene(200, 50.0, |_| {}),
-        // Enough to be sorted into cells, thin and dense.
+        // Enough rods to be sorted into cells, dilute and dense.
         scene(400, 50.0, |scene| scene.time.steps_per_unit = Some(50)),
         scene(300, 1000.0, |scene| {
             lab::interaction(scene).min_contact_arm = 0.1;
             scene.time.steps_per_unit = Some(50);
         }),
-        // Rods of unequal length, in a cube and in boxes: of pairs, of cells, and one that is a cell thick.
+        // Rods of unequal length, in a cube and in boxes: small enough for pairs, with cells, and one cell thick.
         scene(100, 1000.0, |scene| {
             scene.particles.length_sd_percent = 30.0;
             lab::interaction(scene).min_contact_arm = 0.3;
@@ -271,7 +271,7 @@ fn scenes(effort: &Effort) -> Vec<Scene> {
             lab::interaction(scene).min_contact_arm = 0.1;
             in_a_flow(scene, [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]]);
         }),
-        // The exact step and the kick, in both ways of motion.
+        // The exact step and the kick, for both ways of motion.
         scene(100, 100.0, |scene| {
             scene.particles.aspect_ratio_sd_percent = 3.6;
             lab::interaction(scene).update = scene::Update::Kick;

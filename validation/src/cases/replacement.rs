@@ -1,4 +1,4 @@
-//! The control volume: rods that leave it come back by eq. 14.
+//! The control volume: rods that leave it are replaced by eq. 14.
 
 use crate::judge::accept::kolmogorov_samples;
 use crate::judge::case::{Case, Effort, Evidence};
@@ -48,11 +48,11 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// Who moves and replaces the rods.
+/// The program that moves and replaces the rods.
 enum Volume {
-    /// The core; `step` is over the usual time step.
+    /// The core; `step` is a factor on the usual time step.
     Core { step: u64 },
-    /// Rods at random places that are carried, and a wrong rule for those that left; places in units of H.
+    /// Rods at random places that are carried, with a wrong rule for those that left; places in units of H.
     Wrong(fn(&mut [f64; 3], &mut Pcg64Dxsm)),
 }
 
@@ -60,23 +60,23 @@ fn root(draws: &mut Pcg64Dxsm) -> f64 {
     draws.random::<f64>().sqrt()
 }
 
-/// Places in units of H.
+/// Places in units of H, for the statistics.
 #[derive(Default)]
 struct Places {
     /// x_2 of new rods less the overshoot modulo H.
     new_x2_off: Vec<f64>,
     new_x1: Vec<f64>,
     new_x3: Vec<f64>,
-    /// New rods whose x_1 or x_3 is what it was.
+    /// Number of new rods that kept their x_1 or x_3.
     kept: usize,
     end: [Vec<f64>; 3],
     outside: usize,
 }
 
-/// Eq. 14 draws x_1 apart from the overshoot, which fills the volume unevenly by O(GΔt): 0.02 in the distribution
-/// function at 200 steps per period (docs/src/theory/index.md), so 0.0005 at this many, a hundredth of what is told here.
+/// Eq. 14 draws x_1 independently of the overshoot, which fills the volume unevenly by O(GΔt): 0.02 in the distribution
+/// function at 200 steps per period (docs/src/theory/index.md), so 0.0005 at this many, a hundredth of the effect to detect.
 const STEPS_PER_PERIOD: u64 = 8000;
-/// A strain of 3.7.
+/// Number of steps, for a strain of 3.7.
 const STEPS: u64 = 400;
 
 fn replacement(volume: &Volume, effort: &Effort) -> Vec<Evidence> {
@@ -87,7 +87,7 @@ fn replacement(volume: &Volume, effort: &Effort) -> Vec<Evidence> {
     let outside = places.outside + places.end.iter().flatten().filter(|x| !inside(x)).count();
     let overshoot_off = places.new_x2_off.iter().fold(0.0, |worst, off| larger(worst, off.abs()));
     let squares = places.new_x1.iter().map(|x| x * x).collect();
-    // The test is of values in [0, 1]; those outside are counted above.
+    // The test needs values in [0, 1]; those outside are counted above.
     let end = places.end.map(|axis| axis.iter().filter(inside).copied().collect::<Vec<_>>());
     let [x1, x2, x3] = end;
     let even = "Kolmogorov–Smirnov; long steps move x_1 by 0.12 at the least";
@@ -114,7 +114,7 @@ fn replacement(volume: &Volume, effort: &Effort) -> Vec<Evidence> {
     ]
 }
 
-/// Follows `count` rods: the places of all new ones, and everyone's at the end.
+/// Follows `count` rods: the places of all new ones, and of all rods at the end.
 fn follow(volume: &Volume, effort: &Effort, count: usize) -> Places {
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = count;

@@ -1,5 +1,5 @@
-//! Whether a step resolves the motion: X̄₁ of interacting rods at half a period, where free rods are back at their
-//! start and a step that is too long shows most, against one of twice the length.
+//! Resolution of the motion by a step: X̄₁ of interacting rods at half a period, where free rods return to their
+//! start and too long a step has the largest effect, compared with X̄₁ at another step.
 
 use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
@@ -19,19 +19,19 @@ pub fn scene(effort: &Effort, aspect_ratio: f64, concentration_per_cm3: f64) -> 
     scene
 }
 
-/// The even number of steps a period whose strain GΔt is next to `strain`.
+/// The even number of steps a period whose strain GΔt is closest to `strain`.
 pub fn steps(aspect_ratio: f64, strain: f64) -> u64 {
     2 * (0.5 * strain_per_period(aspect_ratio) / strain).round() as u64
 }
 
-/// X̄₁ at t/T = ½ of replicas 0 to `replicas`.
+/// X̄₁ at t/T = ½ of the replicas 0 to `replicas`.
 pub fn x1(scene: &Scene, steps_per_period: u64, replicas: u64) -> Vec<f64> {
     let mut scene = scene.clone();
     scene.time.steps_per_unit = Some(steps_per_period);
     lab::per_replica(&scene, replicas, |mean| mean(Channel::X[0], 1))
 }
 
-/// The mean of a − b, replica by replica: both start from the same rods.
+/// The mean of a − b over replicas, which start from the same rods.
 pub fn change(a: &[f64], b: &[f64]) -> Sample {
     let changes: Vec<_> = a.iter().zip(b).map(|(a, b)| a - b).collect();
     Sample::of(&changes)
@@ -40,25 +40,25 @@ pub fn change(a: &[f64], b: &[f64]) -> Sample {
 /// How one aspect ratio is judged.
 struct Size {
     aspect_ratio: f64,
-    /// Steps a period that must be seen not to resolve the motion.
+    /// A number of steps a period that must be detected as too small.
     coarse: u64,
-    /// What they change X̄₁ beyond a drawn line, and the scatter of a replica's change.
+    /// The change of X̄₁ by those steps beyond a drawn line, and the scatter of a replica's change.
     design: Design,
 }
 
-/// A drawn line of the paper's figures.
+/// The width of a drawn line in the paper's figures.
 const LINE: f64 = 0.01;
 
 /// Coarse steps change X̄₁ against the default step by 0.0295 and 0.061 (the table of docs/src/theory/time-step.md, and for the first
-/// the same with these steps). X̄₁ of 100 rods, less that of the same replica at the default step, has a standard deviation
-/// of 0.025 at r_e = 11.6 and of 0.035 at 100 (2000 replicas; a tenth more is taken). Twice the default step changes X̄₁ by
+/// the same with these steps). The difference of X̄₁ of 100 rods from the same replica at the default step has a standard deviation
+/// of 0.025 at r_e = 11.6 and of 0.035 at 100 (2000 replicas; a tenth more is used). Twice the default step changes X̄₁ by
 /// 0.003, so that a correct default fails with less than the gate's level.
 const SIZES: [Size; 2] = [
     Size { aspect_ratio: 11.6, coarse: 4, design: Design::new(0.0195, 0.0275) },
     Size { aspect_ratio: 100.0, coarse: 200, design: Design::new(0.051, 0.0385) },
 ];
 
-/// Which of [`SIZES`] is run, and at which steps; by default those of the scene.
+/// The [`SIZES`] that are run, at the coarse steps or at the scene's own.
 struct Integrator {
     sizes: &'static [Size],
     coarse: bool,
@@ -90,7 +90,7 @@ fn coarser_step(size: &Size, coarse: bool, effort: &Effort) -> Evidence {
     let default = scene.steps_per_unit();
     let steps = if coarse { size.coarse } else { default / 2 };
     let replicas = effort.samples(size.design);
-    // By far the longest of the runs.
+    // Cached, as it is by far the longest of the runs.
     static DEFAULT: Shared<u64, Vec<f64>> = Shared::new();
     let fine = DEFAULT.get(effort, default, || x1(&scene, default, replicas));
     Evidence::new(

@@ -1,4 +1,4 @@
-//! Where integrators of a free rod leave their region of stability: what `docs/src/verification/integrators.md` says.
+//! Limits of stability of integrators of a free rod, as stated in `docs/src/verification/integrators.md`.
 
 use super::subjects::Integrators;
 use super::subjects::spoiled::{in_angles, in_p, refuses, whole_turns};
@@ -31,7 +31,7 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// A cell with what it is a cell of.
+/// A cell of a map with the step that it belongs to.
 struct Tried {
     cell: Cell,
     strain_per_step: f64,
@@ -59,7 +59,7 @@ fn corners(subjects: &Integrators, effort: &Effort) -> Vec<Evidence> {
             if let (true, Some(off)) = (subject.keeps_length, cell.length) {
                 length = larger(length, off);
             }
-            // Whoever gives no direction says why: a reason, or that it is not finite.
+            // An integrator without a direction gives a reason, or its result is not finite.
             let told = cell.error_rad.is_some() || cell.found == Fate::NotFinite || cell.reason.is_some();
             silent += f64::from(!told);
         }
@@ -93,7 +93,7 @@ fn corners(subjects: &Integrators, effort: &Effort) -> Vec<Evidence> {
     ]
 }
 
-/// Every map's cells that a subject can fill with at most `most_steps` steps.
+/// The cells of all maps that an integrator can fill with at most `most_steps` steps.
 fn tried(subject: &Integrator, most_steps: u64) -> Vec<Tried> {
     let theory = subject.theory;
     let mut all = Vec::new();
@@ -102,7 +102,7 @@ fn tried(subject: &Integrator, most_steps: u64) -> Vec<Tried> {
         all.push(Tried {
             cell: run.of(subject),
             strain_per_step: match run.setting {
-                // Long runs are another matter: the phase error grows with the time.
+                // Long runs do not count here: their phase error grows with the time.
                 Setting::Steps(steps) if run.turns < 2.0 => strain / steps as f64,
                 _ => f64::INFINITY,
             },

@@ -1,5 +1,5 @@
 //! The paper's sentences as tests: each claim with the place of its sentence, a number and a confidence.
-//! How oscillations die is in `decay`. Effects and deviations are of pilots at seed 99.
+//! The decay of oscillations is in `decay`. Effects and deviations come from pilots at seed 99.
 
 use super::readings::LINE;
 use crate::judge::accept::Design;
@@ -58,7 +58,7 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// The frequency of X̄₁'s oscillation in 1/T, replica by replica.
+/// The frequency of X̄₁'s oscillation in 1/T, for each replica.
 fn period(change: &Change, effort: &Effort) -> Vec<Evidence> {
     let polydisperse: Change = |scene| scene.particles.aspect_ratio_sd_percent = 3.6;
     let interacting: Change = |scene| {
@@ -95,7 +95,7 @@ fn period(change: &Change, effort: &Effort) -> Vec<Evidence> {
 
 /// The frequency of the strongest line of a series near 2, per unit of time, with `per_unit` values each.
 ///
-/// Slow changes are taken out by the mean over a full oscillation on either side, and the ends are tapered.
+/// The mean over a full oscillation on either side removes slow changes, and the ends are tapered.
 fn peak_frequency(series: &[f64], per_unit: f64) -> f64 {
     let half = (per_unit / 4.0) as usize;
     let inner = half..series.len() - half;
@@ -122,14 +122,14 @@ fn peak_frequency(series: &[f64], per_unit: f64) -> f64 {
     grid.max_by(|a, b| power(*a).total_cmp(&power(*b))).unwrap_or(f64::NAN)
 }
 
-/// Rods in the control volume.
+/// Number of rods in the control volume.
 type Count = usize;
 
-/// X̄₁ with few rods less X̄₁ with 500, at the same concentration: as many few as make 500, a hundred at most,
-/// for every 500.
+/// X̄₁ with few rods less X̄₁ with 500, at the same concentration. For every run of 500 there are as many small runs as make up
+/// 500 rods, at most a hundred.
 fn enough_rods(count: &Count, effort: &Effort) -> Vec<Evidence> {
     const MANY: usize = 500;
-    // Every rod is back after a whole period where nothing collides: less where it was, means scatter less.
+    // Without collisions every rod returns after a whole period: the means scatter less if the start is subtracted.
     let changes = |count: usize, replicas: u64, stream: u64| {
         let mut scene = lab::paper_scene(effort);
         scene.ensemble.seed = effort.seed(stream);
@@ -162,10 +162,10 @@ fn enough_rods(count: &Count, effort: &Effort) -> Vec<Evidence> {
         .collect()
 }
 
-/// When the steady state is taken to be reached, in T.
+/// The time at which the steady state is taken as reached, in T.
 type Periods = f64;
 
-/// X̄_i over one period less X̄_i over the period before, in a dense suspension.
+/// X̄_i averaged over one period less its average over the period before, in a dense suspension.
 fn stays_put(from: &Periods, effort: &Effort) -> Vec<Evidence> {
     let mut scene = lab::paper_scene(effort);
     lab::interaction(&mut scene).concentration_per_cm3 = Some(1000.0);
@@ -198,7 +198,7 @@ fn stays_put(from: &Periods, effort: &Effort) -> Vec<Evidence> {
         .collect()
 }
 
-/// θ of every rod at first.
+/// The initial θ of every rod.
 type ThetaDeg = f64;
 
 fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {
@@ -213,7 +213,7 @@ fn in_plane(theta_deg: &ThetaDeg, effort: &Effort) -> Vec<Evidence> {
         scene.time.outputs_per_unit = Some(5);
         let mut free = scene.clone();
         lab::interaction(&mut free).alpha = 0.0;
-        // Every rod's own difference, not that of the means.
+        // The difference of each rod, not that of the means.
         let mut out_of_plane = 0.0f64;
         let (mut with, mut without) = (lab::suspension(&scene, replica), lab::stepped(&free, replica));
         for _ in 0..steps_per_period {

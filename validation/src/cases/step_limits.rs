@@ -1,4 +1,4 @@
-//! The longest steps of fixed-step subjects against theory, by bisection (`docs/src/developer/step-limits.md`).
+//! The longest steps of fixed-step integrators against theory, by bisection (`docs/src/developer/step-limits.md`).
 
 mod in_p;
 
@@ -12,25 +12,25 @@ use crate::studies::stability::limits::{Limit, ONE_STEP, Property, TEN_PERIODS, 
 use crate::studies::stability::theory;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Integrators that are to lose a property at a step given by theory.
+/// Integrators that should lose a property at a step given by theory.
 struct Claimed {
     subjects: Integrators,
     property: Property,
     theory: fn(f64) -> f64,
-    /// How much too long the longest step is found, in δ², δ = π/1024: of 512 rods one is as near to the extreme one.
+    /// The error of the longest step, which is found too long, in δ², δ = π/1024: one of the 512 rods is that close to the extreme one.
     found_late: f64,
 }
 
-/// The extreme rods of explicit Euler are where Λ sin 2φ or Λ cos 2φ is largest: 1 − 2δ² of it.
+/// The extreme rods of explicit Euler are those with the largest Λ sin 2φ or Λ cos 2φ: the nearest rod has 1 − 2δ² of it.
 const OF_EULER: f64 = 3.0;
-/// The Lie-group midpoint rule takes the rate half a step ahead, where rods are up to 1 + π/2 times as far apart:
+/// The Lie-group midpoint rule evaluates the rate half a step ahead, where rods are up to 1 + π/2 times as far apart:
 /// (1 + π/2)²δ² of the largest rate.
 const HALF_A_STEP_AHEAD: f64 = 7.0;
-/// Midpoints are up to three times as far apart as the rods where p_3 changes its sign, 2(3δ)², and more where that
+/// Midpoints are up to three times as far apart as the rods where p_3 changes its sign, 2(3δ)², and farther where that
 /// limit meets that of the order, r_e = 2.5: five times is allowed.
 const OF_MIDPOINTS: f64 = 50.0;
 
-/// The project's subject of this name.
+/// The project's integrator of this name.
 fn own(name: &str) -> Vec<Integrator> {
     let mut all = crate::methods::integrators::own();
     all.retain(|subject| subject.name == name);
@@ -202,7 +202,7 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// The implicit midpoint rule given up too early.
+/// The implicit midpoint rule, stopped after two iterations.
 fn two_changes() -> Vec<Integrator> {
     in_p(2, true, |problem, p, h| {
         let mut m = p;
@@ -215,7 +215,7 @@ fn two_changes() -> Vec<Integrator> {
     })
 }
 
-/// Rods, and discs, which are rods turned by a right angle.
+/// Aspect ratios of rods, and of a disc, which behaves as a rod rotated by a right angle.
 const RATIOS: [f64; 9] = [0.1, 1.1, 1.5, 2.0, 2.5, 3.0, 11.6, 100.0, 1e4];
 
 fn agrees(claimed: &Claimed, _: &Effort) -> Vec<Evidence> {
@@ -248,7 +248,7 @@ fn rest(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
             let limit = theory::euler_turning(r);
             for k in 0..32 {
                 let start = shearbed::model::orientation::from_angles(PI * f64::from(k) / 32.0, FRAC_PI_2);
-                // The angle of the last of many steps, head or tail alike.
+                // The angle turned in the last of many steps, up to sign.
                 let last = |strain: f64| {
                     let steps = |steps: u64| {
                         let turns = steps as f64 * strain / RodProblem::new(r, 1.0).strain();

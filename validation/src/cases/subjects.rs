@@ -1,4 +1,4 @@
-//! The integrators of a free rod: what `docs/src/verification/integrators.md` says of them. Nothing here is timed.
+//! Integrators of a free rod: the claims of `docs/src/verification/integrators.md`. Nothing here is timed.
 
 pub(super) mod spoiled;
 
@@ -9,7 +9,7 @@ use crate::studies::work_precision::order::{self, ORDER_TOLERANCE};
 use nalgebra::{Vector2, Vector3};
 use spoiled::{in_angles, in_p, spoiled, whole_turns};
 
-/// What is judged: made anew for each check.
+/// A function that makes the integrators to judge, anew for each check.
 pub(super) type Integrators = fn() -> Vec<Integrator>;
 
 pub fn cases() -> Vec<Case> {
@@ -96,7 +96,7 @@ fn orders(subjects: &Integrators, _: &Effort) -> Vec<Evidence> {
             let Some(study) = order::study(&subject, &problem, &start, 8) else {
                 continue;
             };
-            // Fewer than two pairs above round-off show no order at all: 0.
+            // Fewer than two pairs above round-off show no order: it counts as 0.
             let enough = if study.judged.len() == 2 { 0.0 } else { f64::from(study.theory) };
             worst = (study.judged.iter())
                 .map(|order| (order - f64::from(study.theory)).abs())

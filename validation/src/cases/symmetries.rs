@@ -1,4 +1,4 @@
-//! Whole runs keep the symmetries of the equations.
+//! Symmetries of the equations in whole runs.
 
 use super::reductions::difference;
 use crate::judge::accept::Design;
@@ -9,18 +9,18 @@ use nalgebra::UnitVector3;
 use shearbed::observable::Channel;
 use shearbed::scene::{Orientation, Scene};
 
-/// How the second run of each pair is made.
+/// The mapping from the first run of each pair to the second.
 #[derive(Clone, Copy)]
 struct Mapping {
-    /// Whether the directions are put in reverse order as the places are.
+    /// True if the directions are reversed in order together with the places.
     directions_too: bool,
-    /// What the number of rods per volume is divided by when lengths are 8 times larger.
+    /// Divisor of the number of rods per volume for lengths 8 times larger.
     per_volume: f64,
-    /// Steps a period when the shear rate is 10³⁰ times less.
+    /// Steps per period at a shear rate 10³⁰ times smaller.
     steps_per_period: u64,
-    /// The angles of (25°, 70°) turned head to tail, in degrees.
+    /// The angles of the opposite direction of (25°, 70°), in degrees.
     tail_deg: [f64; 2],
-    /// φ of 25° in the mirrored flow, in degrees.
+    /// The image of φ = 25° in the mirrored flow, in degrees.
     mirrored_phi_deg: f64,
 }
 
@@ -97,7 +97,7 @@ fn symmetries(mapping: &Mapping, effort: &Effort) -> Vec<Evidence> {
         scene.particles.orientation = Orientation::Given { phi_deg, theta_deg };
         scene
     };
-    // A fifth of a period: kicks grow the 10⁻¹⁶ of the turned start.
+    // A fifth of a period: kicks amplify the 10⁻¹⁶ of the opposite start.
     let mut short = base.clone();
     short.time.duration = 0.2;
     let head = given(&short, [25.0, 70.0]);
@@ -131,8 +131,8 @@ fn symmetries(mapping: &Mapping, effort: &Effort) -> Vec<Evidence> {
 }
 
 /// The largest difference of a rod's direction after ten steps, with the rods in reverse order. α is huge, so
-/// that every draw makes a candidate, and the steps so short that no rod leaves: only then are the random
-/// numbers, which belong to places in the list, without effect.
+/// that every draw makes a candidate, and the steps are so short that no rod leaves: only then do the random
+/// numbers, which belong to places in the list, have no effect.
 fn relabelled(directions_too: bool, effort: &Effort) -> f64 {
     let mut scene = lab::interacting_scene(effort);
     lab::interaction(&mut scene).alpha = 1e30;
@@ -174,7 +174,7 @@ fn mirrored(mirror: &Mirror, effort: &Effort) -> Vec<Evidence> {
     // and 0.022, differences by √2 as much; half the concentration already takes off 0.027, 0.040 and 0.027.
     let designs = [(0.035, 0.036), (0.055, 0.055), (0.035, 0.036)].map(|(effect, sd)| Design { effect, sd });
     let replicas = designs.map(|design| effort.samples(design)).into_iter().max();
-    // Every rod is back after a whole period where nothing collides: less where it was, means scatter less.
+    // Without collisions every rod returns after a whole period: the means scatter less if the start is subtracted.
     let changes = |scene: &Scene| {
         per_replica(scene, replicas.unwrap_or(0), |mean| Channel::X.map(|axis| mean(axis, 1) - mean(axis, 0)))
     };

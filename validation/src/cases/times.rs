@@ -1,4 +1,4 @@
-//! What a run tells its times in: seconds and strain.
+//! The units of a run's times: seconds and strain.
 
 use crate::judge::case::{Case, Effort, Evidence};
 use crate::judge::lab::{changed, free_scene, plan};
@@ -8,7 +8,7 @@ use shearbed::scene::Scene;
 use shearbed::scene::{Flow, TimeUnit};
 use std::f64::consts::TAU;
 
-/// The seconds and the strain of one unit of a run's times: a period, or a unit of strain.
+/// A function that returns the seconds and the strain of one unit of a run's times: a period, or a unit of strain.
 type UnitOf = fn(&Scene) -> [f64; 2];
 
 fn unit(scene: &Scene) -> [f64; 2] {
@@ -48,7 +48,7 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// A scene, and what its unit is by closed forms.
+/// A scene, and its unit by closed forms.
 type Expected = (Scene, [f64; 2]);
 
 fn units(unit: &UnitOf, effort: &Effort) -> Vec<Evidence> {

@@ -1,5 +1,5 @@
-//! The shape of the control volume, which counts however many rods it holds: eq. 14 gives a rod that left other
-//! neighbours, H₁/(2H₂) times a rod and unit of strain.
+//! The shape of the control volume, which has an effect at any number of rods: eq. 14 gives a rod that left other
+//! neighbours, H₁/(2H₂) times per rod and unit of strain.
 
 use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
@@ -8,11 +8,11 @@ use crate::judge::statistics::Sample;
 use shearbed::observable::Channel;
 use std::sync::Arc;
 
-/// Sides over those of the cube of the same volume.
+/// Sides relative to those of the cube of the same volume.
 type Shape = [f64; 3];
 
 const CUBE: Shape = [1.0; 3];
-/// H₁/H₂ = 1 as of the cube.
+/// H₁/H₂ = 1, as for the cube.
 const FLAT: Shape = [2.0, 2.0, 0.25];
 /// H₁/H₂ = 8.
 const TALL: Shape = [4.0, 0.5, 0.5];
@@ -37,7 +37,7 @@ pub fn cases() -> Vec<Case> {
 /// seeds (160,000 rods) the same ratio changed X̄₁ by −0.0005 ± 0.0012 and eight times the ratio by −0.0095 ± 0.0011.
 const RODS: usize = 2000;
 const DESIGN: Design = Design::new(0.006, 0.011);
-/// Of 2000 rods some are near a face, and have fewer neighbours.
+/// Allowed for the rods near a face, which have fewer neighbours, in a volume of 2000 rods.
 const FACES: f64 = 0.002;
 
 fn shapes([same, other]: &[Shape; 2], effort: &Effort) -> Vec<Evidence> {

@@ -1,4 +1,4 @@
-//! How the error of a suspension's mean falls with the rods: what `docs/src/verification/integrators.md` says. Nothing is timed.
+//! The error of a suspension's mean against the rods, as claimed by `docs/src/verification/integrators.md`. Nothing is timed.
 
 use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
@@ -13,10 +13,10 @@ use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Ways to lay rods, with the exponents that are claimed of them.
+/// Ways to choose initial directions, with their claimed exponents.
 type Starts = Vec<Start>;
 
-/// What is claimed of the bias of the rods: its exponent of N.
+/// The claimed exponent of N in the bias of the rods.
 type Exponent = f64;
 
 pub fn cases() -> Vec<Case> {
@@ -69,7 +69,7 @@ pub fn cases() -> Vec<Case> {
 }
 
 fn rates(starts: &Starts, effort: &Effort) -> Vec<Evidence> {
-    // Rods that are stretched little, so that a thousand of them resolve what there is.
+    // Rods that are stretched little, so that a thousand of them resolve the distribution.
     let free = Free { scene: "a case", aspect_ratio: 1.5, sd_percent: 0.0, turns: 0.2 };
     const TRIALS: usize = 4;
     // Pilot of 100 groups at seed 99: 0.185 for the lattice; 600 at seeds 9001 to 9008: 0.19 for random starts.
@@ -92,7 +92,7 @@ fn rates(starts: &Starts, effort: &Effort) -> Vec<Evidence> {
     starts.iter().map(exponent).collect()
 }
 
-/// Which replica stands for one of a number.
+/// A function from the number of a replica to the number that is used in its place.
 type Number = fn(u64) -> u64;
 
 fn replicas(number: &Number, effort: &Effort) -> Vec<Evidence> {
@@ -123,17 +123,17 @@ fn replicas(number: &Number, effort: &Effort) -> Vec<Evidence> {
     )]
 }
 
-/// The interaction whose candidates are counted: a long reach, so that many are.
+/// α and m of the interaction whose candidates are counted: a long reach gives many.
 const ALPHA_AND_M: f64 = 10.0;
 
-/// P_c averaged over the nearest neighbour's distance among `density` rods per a³ without an end:
-/// exp(−4πns³/3) of them have none nearer than s.
+/// P_c averaged over the nearest neighbour's distance among `density` rods per a³ in infinite space:
+/// exp(−4πns³/3) of them have no neighbour nearer than s.
 fn without_faces(density: f64) -> f64 {
     let at = |empty: f64| {
         let s = (-3.0 * empty.ln() / (4.0 * PI * density)).cbrt();
         collision_probability(s, 1.0, ALPHA_AND_M, ALPHA_AND_M)
     };
-    // P_c falls to 0 with the share, so that no end is singular: the midpoint rule is off by 10⁻⁸ or so.
+    // P_c falls to 0 with the share, so that no end is singular: the midpoint rule is accurate to about 10⁻⁸.
     let count = 10_000;
     let middles = (0..count).map(|k| (f64::from(k) + 0.5) / f64::from(count));
     middles.map(at).sum::<f64>() / f64::from(count)
@@ -142,14 +142,14 @@ fn without_faces(density: f64) -> f64 {
 fn faces(exponent: &Exponent, effort: &Effort) -> Vec<Evidence> {
     const RODS: [usize; 2] = [64, 512];
     let mut scene = lab::interacting_scene(effort);
-    // So short that nobody moves: the rods are at random places.
+    // Steps so short that no rod moves: the rods stay at random places.
     scene.time.steps_per_unit = Some(100_000);
     let interaction = lab::interaction(&mut scene);
     (interaction.alpha, interaction.m) = (ALPHA_AND_M, ALPHA_AND_M);
     let per_mm3 = 1e-3 * scene.concentration_per_cm3().unwrap_or(f64::NAN);
     let density = per_mm3 * scene.particles.length_mm.powi(3);
     let unbounded = without_faces(density);
-    // The share of candidates that is lost, over five draws.
+    // The share of lost candidates, over five draws.
     let lost = |count: usize, replica| {
         let mut scene = scene.clone();
         scene.ensemble.seed = effort.seed(count as u64);
@@ -162,7 +162,7 @@ fn faces(exponent: &Exponent, effort: &Effort) -> Vec<Evidence> {
     // Pilot of 2,898 replicas at seeds 9001 to 9006: 0.19 where the second loss is doubled; some 0.43 where it counts
     // eight times, as the control has it.
     let design = Design::new(0.22, 0.45);
-    // Losses ∝ Nᵉ are 8⁻ᵉ to 1.
+    // For losses ∝ Nᵉ the ratio is 8⁻ᵉ to 1.
     let ratio = (RODS[1] as f64 / RODS[0] as f64).powf(-exponent);
     let differences: Vec<_> = (0..effort.samples(design))
         .into_par_iter()

@@ -1,4 +1,4 @@
-//! Runs that share random numbers: what `docs/src/verification/integrators.md` says of them.
+//! Runs that share random numbers, as claimed by `docs/src/verification/integrators.md`.
 
 use crate::judge::accept::Design;
 use crate::judge::case::{Case, Effort, Evidence};
@@ -12,7 +12,7 @@ use crate::studies::suspensions::law;
 use shearbed::Scene;
 use statrs::statistics::Statistics;
 
-/// Which scene runs beside, and which closed form is taken for its mean.
+/// The changes of the free scene, of the scene with the other α, and of the scene whose closed form gives the mean.
 #[derive(Clone, Copy)]
 struct Beside {
     free: Change,
@@ -57,7 +57,7 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// Mean squares of angles between the same rod at two steps, replica by replica, at T/4.
+/// Mean squares of angles between the same rod at two steps, for each replica, at T/4.
 fn mean_squares(scene: &Scene, steps: u64, replicas: u64) -> Vec<f64> {
     let run = |steps: u64| {
         let mut job = Job::new(scene, steps, scene.particles.count, replicas, 1);
@@ -89,7 +89,7 @@ fn paths(change: &Change, effort: &Effort) -> Vec<Evidence> {
     )]
 }
 
-/// X̄₁ at T/4 of the scene, and of the same at half the step.
+/// X̄₁ at T/4 of the scene, and of the same scene at half the step.
 struct Runs {
     own: Vec<f64>,
     finer: Vec<f64>,
@@ -99,7 +99,7 @@ pub(super) fn first(values: Result<Vec<Vec<f64>>, String>, mark: usize) -> Vec<f
     at(&values.unwrap_or_default(), mark)
 }
 
-/// One value for each pair, whose mean is the correlation r and whose scatter is that of r: r plus its influence,
+/// One value for each pair, whose mean is the correlation r and whose scatter is that of r: r plus its influence function,
 /// xy − r(x² + y²)/2 in standard units.
 fn correlations(a: &[f64], b: &[f64]) -> Vec<f64> {
     let standard = |values: &[f64]| {
@@ -128,7 +128,7 @@ fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
     });
     let other = first(interacting(&changed(beside.other), 100, 0.8, 1, of_common), 0);
     let free = first(free(&changed(beside.free), 1, of_more.max(of_mean)), 0);
-    // The square of r moves by 2r times what r does.
+    // A change of r changes its square by 2r times as much.
     let squares = |values: &[f64]| {
         let own = &runs.own[..values.len()];
         let r = correlation(own, values);
@@ -139,7 +139,7 @@ fn shared(beside: &Beside, effort: &Effort) -> Vec<Evidence> {
     let gains: Vec<_> = (by_free.iter().zip(&by_finer)).map(|(free, finer)| free - finer).collect();
     let own = &runs.own[..other.len()];
     let rho = correlation(own, &other);
-    // Fisher's transform, which scatters alike whatever ρ is.
+    // Fisher's transform, whose scatter does not depend on ρ.
     let fisher: Vec<_> = (correlations(own, &other).iter())
         .map(|value| rho.atanh() + (value - rho) / (1.0 - rho * rho))
         .collect();

@@ -1,8 +1,8 @@
-//! How unequal rods fall out of step, and rods that start in the plane of shear.
+//! The loss of phase of unequal rods, and rods that start in the plane of shear.
 
 use super::*;
 
-/// By how much the model's σ is wrong.
+/// A factor on the model's σ.
 pub(super) type Factor = f64;
 
 /// The first harmonic's amplitude around t, ∫ X̄_1 cos(4πt/T) over half a period, at t* against t = ¼.

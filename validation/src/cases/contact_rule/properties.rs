@@ -1,4 +1,4 @@
-//! What the contact rule keeps, each with its violation.
+//! The invariants of the contact rule, each with its violation.
 
 use super::*;
 
@@ -87,7 +87,7 @@ pub(super) const PROPERTIES: [(&str, Property); 11] = [
         Some((once[0] - twice[0]).norm() + (once[1] - twice[1]).norm())
     }),
     ("rods in the shear plane unaffected", |rule, pair| {
-        // Both directions laid into the plane of axes 1 and 2, with rates in it; the flow is along axis 2.
+        // Both directions projected into the plane of axes 1 and 2, with rates in it; the flow is along axis 2.
         let mut flat = *pair;
         for k in 0..2 {
             let (phi, _) = orientation::angles(&pair.p[k]);

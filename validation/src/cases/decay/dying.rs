@@ -1,4 +1,4 @@
-//! How oscillations die on all axes.
+//! The decay of oscillations on all axes.
 
 use super::*;
 
@@ -23,7 +23,7 @@ pub(super) fn dies_out(change: &Change, effort: &Effort) -> Vec<Evidence> {
             "\"a few\" is read as four, \"die out\" as below 1/e, where a decay has its time",
         ),
     )];
-    // Below 1/e the spread of r_e brings it alone: what collisions add is judged against that.
+    // The spread of r_e alone brings the amplitude below 1/e: the effect of collisions is judged against that.
     let mut free = scene(3.6);
     free.interaction = None;
     let (without, with) = (found(&free, added), found(&scene(3.6), added));
@@ -49,8 +49,8 @@ pub(super) fn damped(scene: &mut Scene) {
 
 pub(super) fn undamped(_: &mut Scene) {}
 
-/// What is left of the amplitudes after two periods: b, of X̄_i or X̄_1, and a, of the other. X̄_i decays less than
-/// twice as fast as X̄_j where a_i > a_j².
+/// The remaining share of the amplitudes after two periods: b for X̄_i or X̄_1, and a for the other. X̄_i decays less than
+/// twice as fast as X̄_j if a_i > a_j².
 pub(super) fn on_all_axes(axes: &Axes, effort: &Effort) -> Vec<Evidence> {
     // A pilot of 200 replicas: a − b² of 0.127 ± 0.039 (mean and deviation), 0.213 ± 0.055, 0.284 ± 0.046, 0.234 ± 0.051.
     let narrow = Design::new(0.11, 0.046);
@@ -63,7 +63,7 @@ pub(super) fn on_all_axes(axes: &Axes, effort: &Effort) -> Vec<Evidence> {
         })
     };
     let [first, others] = axes.map(swings);
-    // The share of the means, with each replica's deviation to first order: a replica's own ratio is noisy and so biased.
+    // The ratio of the means, plus each replica's deviation to first order: a replica's own ratio is noisy and therefore biased.
     let left = [0, 1, 2].map(|axis| {
         let swings = if axis == 0 { &first } else { &others };
         let mean = |k: usize| swings.iter().map(|s| s[axis][k]).sum::<f64>() / swings.len() as f64;
@@ -75,7 +75,7 @@ pub(super) fn on_all_axes(axes: &Axes, effort: &Effort) -> Vec<Evidence> {
         .into_iter()
         .map(|(i, j, design)| {
             let mean = Sample::of(&left[j]).mean;
-            // a − b² to first order in each replica's deviation: its mean is that of the means.
+            // a − b² to first order in each replica's deviation, so that its mean is a − b² of the means.
             let difference: Vec<f64> =
                 left[i].iter().zip(&left[j]).map(|(a, b)| a - 2.0 * mean * b + mean * mean).collect();
             Evidence::new(

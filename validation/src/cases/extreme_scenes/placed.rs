@@ -1,4 +1,4 @@
-//! Two rods put down by hand, so near to overflow as no drawn rods come.
+//! Two rods at given places, closer to overflow than drawn rods ever are.
 
 use crate::judge::case::Effort;
 use crate::judge::lab;
@@ -8,23 +8,23 @@ use shearbed::model::contact::contact;
 use shearbed::model::jeffery::{couette_rate, shape_factor, strain_per_period};
 use shearbed::scene::Scene;
 
-/// Two rods put down by hand.
+/// A pair of rods at given places.
 pub(super) struct Placed {
     second: UnitVector3<f64>,
     /// A's arm, in rod lengths.
     arm: f64,
 }
 
-/// What became of two rods in a step.
+/// The result of a step for two rods.
 pub(super) enum Stepped {
     Turned(Vec<Vector3<f64>>),
-    /// They made no contact.
+    /// The rods made no contact.
     Free,
     /// The run stopped, with this message.
     Stopped(String),
 }
 
-/// What a step makes of two rods.
+/// A function that steps two rods.
 pub(super) type Pair = fn(&Scene, &Placed) -> Stepped;
 
 /// The direction of A: between axes 1 and 3.
@@ -32,7 +32,7 @@ fn first() -> UnitVector3<f64> {
     UnitVector3::new_normalize(Vector3::new(1.0, 0.0, 1.0))
 }
 
-/// B beside A by `arm` along A's axis: A's arm is that, and ℓ has a part along the flow's difference.
+/// The core's step with B at `arm` along A's axis and `BESIDE` along axis 2: A's arm is `arm`, ℓ has a part along the flow's difference.
 pub(super) fn step_of_the_core(scene: &Scene, placed: &Placed) -> Stepped {
     let mut suspension = lab::suspension(scene, 0);
     let middle = 0.5 * suspension.sides_in_lengths()[1];
@@ -48,10 +48,10 @@ pub(super) fn step_of_the_core(scene: &Scene, placed: &Placed) -> Stepped {
     }
 }
 
-/// How far B is from A along axis 2, in rod lengths.
+/// The distance of B from A along axis 2, in rod lengths.
 const BESIDE: f64 = 0.3;
 
-/// The same step with |ṗ| by squares, which overflow where the kick does not.
+/// The same step with |ṗ| computed by squares, which overflow where the kick does not.
 pub(super) fn step_with_squares(scene: &Scene, placed: &Placed) -> Stepped {
     let p = [first(), placed.second];
     let separation = placed.arm * p[0].into_inner() + Vector3::new(0.0, BESIDE, 0.0);
@@ -73,7 +73,7 @@ pub(super) fn step_with_squares(scene: &Scene, placed: &Placed) -> Stepped {
     }
 }
 
-/// Directions of pairs put down by hand after one step, and how many ended otherwise than they should.
+/// Directions after one step of pairs at given places, and the number of pairs that ended wrongly.
 pub(super) fn ends(pair: Pair, effort: &Effort) -> (Vec<Vector3<f64>>, f64) {
     let mut scene = lab::interacting_scene(effort);
     scene.particles.count = 2;

@@ -3,24 +3,24 @@
 use super::*;
 use shearbed::scene::TimeUnit;
 
-/// tr⟨pp⟩ is the mean of |p|².
+/// Bound of |tr⟨pp⟩ − 1|, where the trace is the mean of |p|².
 pub(super) const TRACE: f64 = 64.0 * f64::EPSILON;
 
 pub(super) const TRACE_BECAUSE: &str =
     "2 · 4 ulp of |p|², and the roundings of a mean over twenty rods and two replicas";
 
-/// How a scene ended.
+/// The end of a scene.
 pub(super) struct Ended {
     /// The largest |tr⟨pp⟩ − 1|.
     pub(super) trace: f64,
-    /// Whether it ended, with finite means and standard errors.
+    /// True if the run finished with finite means and standard errors.
     pub(super) finite: bool,
     /// X̄₁ at the end.
     pub(super) last_x1: f64,
 }
 
 impl Ended {
-    /// It stopped, or had a result that is no number: it is counted, and says nothing else.
+    /// A run that stopped or had a result that is not finite: it counts as not finite and has no other effect.
     const LOST: Self = Self { trace: 0.0, finite: false, last_x1: 1.0 };
 }
 
@@ -46,7 +46,7 @@ pub(super) fn whole_run(scene: &Scene) -> Ended {
     Ended { trace: (0..=last).map(trace).fold(0.0, larger), finite, last_x1: mean("x1", last) }
 }
 
-/// One rod at the end of a scene by q = exp(At) p as it stands: no growth is shifted away, no turn taken out.
+/// One rod at the end of a scene by a plain q = exp(At) p: without shifting growth away or removing whole periods.
 pub(super) fn by_exponential(scene: &Scene, rescaled: bool) -> Ended {
     let plan = lab::plan(scene);
     let flow = plan.flow();
@@ -65,7 +65,7 @@ pub(super) fn by_exponential(scene: &Scene, rescaled: bool) -> Ended {
     Ended { trace: (p.norm_squared() - 1.0).abs(), finite: true, last_x1: p.x.abs() }
 }
 
-/// What is enough where there are very many outputs.
+/// The observables for scenes with very many outputs.
 const FEW: [Observable; 2] = [Observable::Projections, Observable::OrientationTensor];
 
 pub(super) fn extreme_scenes(program: &Program, effort: &Effort) -> Vec<Evidence> {

@@ -1,5 +1,5 @@
-//! Points of free rods that are simulated at their own r_e, between the nodes: by how much a fit of them is off. Free rods start
-//! alike in every replica, so that hardly any noise of them is left.
+//! Points of free rods simulated at their own r_e, between the nodes, and the error of a fit to them. Free rods start alike in
+//! every replica, so that hardly any noise remains.
 
 use super::{POINTS, data, one_set};
 use crate::judge::case::{Effort, Evidence};
@@ -19,17 +19,17 @@ const RANGE: &str = "particles.aspect_ratio=11.1:11.6";
 const OWN: f64 = 11.43;
 const PLACE: f64 = 4.0 * (OWN - 11.1) - 1.0;
 const REPLICAS: u64 = 120;
-/// What the polynomials may be off, in standard uncertainties, and what must be seen beyond that.
+/// The allowed error of the polynomials in standard uncertainties, and the effect to detect beyond that.
 const OFF: f64 = 0.1;
 const EFFECT: f64 = 0.3;
 
-/// What is simulated once.
+/// The simulations, which run once.
 struct Simulated {
     basis: Basis,
-    /// Each replica: at every node, and the points at [`OWN`].
+    /// For each replica: the coefficients at every node, then the points at [`OWN`].
     at_nodes: Vec<Coefficients>,
     at_own: Vec<DVector<f64>>,
-    /// From what points are off by to what r_e is off by, in its standard uncertainties.
+    /// Maps errors of the points to the error of r_e, in its standard uncertainties.
     influence: DMatrix<f64>,
 }
 
@@ -65,7 +65,7 @@ fn simulated(effort: &Effort) -> Result<Simulated, String> {
     Ok(Simulated { influence: &fit.best.influence / uncertainty, basis, at_nodes, at_own })
 }
 
-/// What the r_e of such points is off by, over the replicas; straight lines between the nodes are a mistake.
+/// The error of r_e from such points, over the replicas; straight lines between the nodes are a mistake.
 pub fn off(straight: bool, effort: &Effort) -> Result<Evidence, String> {
     let simulated = SIMULATED.get(effort, (), || simulated(effort));
     let simulated = simulated.as_ref().as_ref().map_err(Clone::clone)?;

@@ -1,5 +1,5 @@
-//! Rods in random flows that aim at the seams: eigenvalues that nearly meet, tiny, huge, equal; planar, spiral and real;
-//! turned in space; rods from 10⁻¹⁰⁰ to 10¹⁰⁰ and near 1; strains from 10⁻¹³ to 10⁶; starts on axes and in planes.
+//! Rods in random flows that aim at difficult cases: eigenvalues that nearly meet, are tiny, huge or equal; planar, spiral and
+//! real; rotated in space; rods from 10⁻¹⁰⁰ to 10¹⁰⁰ and near 1; strains from 10⁻¹³ to 10⁶; starts on axes and in planes.
 
 use crate::oracle::exponential::{Rod, Span};
 use nalgebra::{Matrix3, Rotation3, Vector3};
@@ -7,7 +7,7 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
-/// A rod, how long it moves, and where the oracle has it then.
+/// A rod, its strain, and the oracle's final direction.
 #[derive(Clone, Copy, Debug)]
 pub struct FlowProblem {
     pub rod: Rod,
@@ -16,19 +16,19 @@ pub struct FlowProblem {
 }
 
 impl FlowProblem {
-    /// With the oracle's answer, where it has one.
+    /// A problem with the oracle's answer, if there is one.
     pub fn new(rod: Rod, strain: f64) -> Option<Self> {
         let truth = rod.settled(Span::Strain(strain))?;
         Some(Self { rod, strain, truth })
     }
 }
 
-/// Which problems are drawn.
+/// The kind of problems that are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Of every kind.
+    /// Problems of every kind.
     Any,
-    /// Long, and from the start that the flow turns most of the way or beside it: where a bound counts.
+    /// Long ones that start at or beside the direction that the flow rotates most: there a bound counts.
     Hard,
 }
 
@@ -46,11 +46,11 @@ fn one(kind: Kind, seed: u64, index: u64) -> FlowProblem {
     }
 }
 
-/// None where the oracle has no answer, some one in 10⁵.
+/// A random problem; `None` if the oracle has no answer, about once in 10⁵.
 fn drawn(kind: Kind, rng: &mut impl Rng) -> Option<FlowProblem> {
     let gradient = loop {
         let gradient = gradient(rng);
-        // Without a strain rate there is no strain.
+        // Without a strain rate, time cannot be measured as strain.
         if (gradient + gradient.transpose()).amax() > 1e-30 * gradient.amax() {
             break gradient;
         }
@@ -65,7 +65,7 @@ fn drawn(kind: Kind, rng: &mut impl Rng) -> Option<FlowProblem> {
         Kind::Hard => size(rng, 0.0, 6.0),
     };
     if kind == Kind::Hard || rng.random_range(0..3) == 0 {
-        // From the end backwards: the start that the flow turns most of the way, where the condition number is largest; and
+        // From the end backwards: the start that the flow rotates most, where the condition number is largest; and
         // starts at any distance from it, for the condition numbers between.
         let back = Rod { gradient_per_s: rod.gradient_per_s.map(|row| row.map(|x| -x)), ..rod };
         let most = Vector3::from(back.settled(Span::Strain(strain))?);
@@ -154,13 +154,13 @@ fn couette() -> Matrix3<f64> {
     Matrix3::new(0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 }
 
-/// Turned in space: rounded, or by axes, or by 45° where the halves of Couette flow are exact in binary.
+/// A flow rotated in space: at random with rounding, by exchanged axes, or by 45°, where Couette flow's halves are exact in binary.
 fn turned(rng: &mut impl Rng, l: Matrix3<f64>) -> Matrix3<f64> {
     let any = Rotation3::new(Vector3::from_fn(|_, _| 3.0 * signed(rng))).into_inner();
     let turn = match rng.random_range(0..4) {
         0 => Matrix3::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0),
         1 => {
-            // √2 times a rotation by 45°, from either side: exact.
+            // √2 times a rotation by 45°, applied from both sides: exact.
             let doubled = Matrix3::new(1.0, -1.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0);
             let back = Matrix3::new(0.5, 0.5, 0.0, -0.5, 0.5, 0.0, 0.0, 0.0, 1.0);
             return doubled * l * back;
@@ -170,7 +170,7 @@ fn turned(rng: &mut impl Rng, l: Matrix3<f64>) -> Matrix3<f64> {
     turn * l * turn.transpose()
 }
 
-/// A swirl beside an extension along its axis, the one 10⁻¹⁶ to 10¹⁶ times the other.
+/// A swirl and an extension along its axis, with a ratio of 10⁻¹⁶ to 10¹⁶.
 fn spiral(rng: &mut impl Rng) -> Matrix3<f64> {
     let ratio = size(rng, -16.0, 16.0);
     let (swirl, e) = if ratio > 1.0 { (1.0, 1.0 / ratio) } else { (ratio, 1.0) };

@@ -1,5 +1,5 @@
-//! Whole scenes that were wrong once: overflowing spirals, extreme shapes, near-parabolic flows, Couette flow turned by 45°,
-//! a weak strain in a strong rotation.
+//! Whole scenes that once gave wrong results: overflowing spirals, extreme shapes, near-parabolic flows, Couette flow rotated
+//! by 45°, a weak strain in a strong rotation.
 
 use crate::judge::case::{Effort, Evidence};
 use crate::judge::lab;
@@ -10,7 +10,7 @@ use shearbed::scene::Time;
 use shearbed::scene::{Orientation, Scene};
 use shearbed::{Observable, Plan};
 
-/// Runs a scene of one rod: |p_i| at its end and the bound on its error, `None` where it is refused.
+/// A function that runs a scene of one rod: |p_i| at its end and the bound on its error, `None` if the scene is refused.
 pub type Run = fn(&Scene) -> Option<([f64; 3], f64)>;
 
 /// ∂u_i/∂x_j, r_e, φ and θ in degrees, strain or (with Couette flow of the shear rate 1 1/s) eighths of a period.
@@ -32,7 +32,7 @@ const LISTED: [Listed; 16] = [
     (TURNED, 1e6, [20.0, 70.0], Err(11.0)),
     (TURNED, 1e8, [20.0, 70.0], Err(11.0)),
     (TURNED, 1e8, [20.0, 70.0], Ok(3e3)),
-    // On the way back to its start: what is left of 10⁸.
+    // On the way back to its start, where numbers of 10⁸ cancel.
     (TURNED, 1e8, [20.0, 70.0], Err(16.0)),
     ([[0.0, -1.0, 0.0], [1.0 + 2e-13, 0.0, 0.0], [0.0; 3]], 11.6, [20.0, 70.0], Ok(1000.0)),
     ([[-1.0, -1.0, 0.0], [-2.0, 2.0, -1.0], [0.0, -2.0, -1.0]], 2.0, [20.0, 70.0], Ok(10.0)),
@@ -52,7 +52,7 @@ fn scene(&(gradient, r, [phi_deg, theta_deg], time): &Listed) -> Scene {
     scene
 }
 
-/// As the program does.
+/// Runs a scene as the program does.
 pub fn program(scene: &Scene) -> Option<([f64; 3], f64)> {
     let plan = Plan::new(scene).ok()?;
     let results = ensemble::run(&plan).ok()?;

@@ -35,7 +35,7 @@ pub(super) fn integrated_motion(motion: &Motion, _: &Effort) -> Vec<Evidence> {
     evidence
 }
 
-/// Jeffery's equation written out anew, as an integrator wants it.
+/// Jeffery's equation written independently, in the form that the integrator needs.
 struct Jeffery {
     rows: [[f64; 3]; 3],
     shape: f64,
@@ -64,14 +64,14 @@ impl System<f64, SVector<f64, 3>> for Jeffery {
 /// rtol and atol of the integrator.
 const TOLERANCE: f64 = 1e-13;
 
-/// By how much the longest rod's motion, r_e = 11.6, stretches a difference.
+/// The factor by which the motion of the longest rod, r_e = 11.6, stretches a difference.
 const GROWTH: f64 = 11.6 * 11.6;
 
-/// The direction, and how many steps were taken.
+/// The final direction, and the number of steps.
 fn integrate(rows: [[f64; 3]; 3], r: f64, start: &UnitVector3<f64>, time: f64) -> (UnitVector3<f64>, u32) {
     let system = Jeffery { rows, shape: (r * r - 1.0) / (r * r + 1.0) };
     let mut solver = Dop853::new(system, 0.0, time, time, start.into_inner(), TOLERANCE, TOLERANCE);
-    // Steps, not dense output: the last one ends at `time`.
+    // Steps, not dense output: the last step ends at `time`.
     solver.set_output(OutputType::Sparse);
     let steps = solver.integrate().map_or(0, |stats| stats.accepted_steps);
     let last = solver.y_out().last().copied();

@@ -1,4 +1,4 @@
-//! Limits of integrators in p, and the least that an order promises.
+//! Limits of integrators in p, and the lower bound by their order.
 
 use super::*;
 
@@ -45,7 +45,7 @@ pub(super) fn near_a_sphere(subjects: &Integrators, _: &Effort) -> Vec<Evidence>
     let r = 1.0 + 1e-5;
     let off = |limit: Limit, expected: f64| match limit {
         Limit::At(strain) => strain / expected - 1.0,
-        // No limit at all where one is said to be.
+        // No limit was found although there should be one.
         _ => 1.0,
     };
     let mut evidence = Vec::new();

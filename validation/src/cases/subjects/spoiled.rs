@@ -1,10 +1,10 @@
-//! Integrators with a mistake, and integrators made from a step alone.
+//! Integrators with a mistake, and integrators from a step function alone.
 
 use crate::methods::integrators::*;
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::TAU;
 
-/// An integrator of this step in (φ, θ).
+/// An integrator from a step function in (φ, θ).
 pub(in crate::cases) fn in_angles(
     order: u32,
     step: fn(&RodProblem, Vector2<f64>, f64) -> Vector2<f64>,
@@ -12,7 +12,7 @@ pub(in crate::cases) fn in_angles(
     vec![Integrator::in_angles("in angles", order, step)]
 }
 
-/// An integrator of this step in p.
+/// An integrator from a step function in p.
 pub(in crate::cases) fn in_p(
     order: u32,
     keeps_length: bool,
@@ -22,7 +22,7 @@ pub(in crate::cases) fn in_p(
     vec![if keeps_length { own.keeping_length() } else { own }]
 }
 
-/// The exact propagator with the phase as it comes.
+/// The exact propagator without removal of whole periods from the phase.
 pub(in crate::cases) fn whole_turns() -> Integrator {
     Integrator::new("whole turns", Theory::Exact, |problem, p, _| {
         let (sin, cos) = (TAU * problem.turns).sin_cos();
@@ -31,7 +31,7 @@ pub(in crate::cases) fn whole_turns() -> Integrator {
     })
 }
 
-/// Dormand–Prince on another problem, with another factor on its tolerance.
+/// Dormand–Prince applied to a changed problem, with a factor on its tolerance.
 pub(super) fn spoiled(change: fn(RodProblem) -> (RodProblem, f64)) -> Integrator {
     Integrator::new("spoiled", Theory::Adaptive, move |problem, start, setting| {
         let (problem, factor) = change(*problem);
@@ -39,7 +39,7 @@ pub(super) fn spoiled(change: fn(RodProblem) -> (RodProblem, f64)) -> Integrator
     })
 }
 
-/// An integrator that always gives an error.
+/// An integrator that always returns an error.
 pub(in crate::cases) fn refuses() -> Integrator {
     Integrator::new("refuses", Theory::Exact, |_, _, _| Err(Failure::Gave("no".into())))
 }
