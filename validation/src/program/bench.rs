@@ -1,4 +1,4 @@
-//! `shearbed bench`: the studies that have named parts, alone and measured longer.
+//! `shearbed bench`: runs the studies that have named parts, alone and with longer measurements.
 
 use super::{Failure, Writing, on_threads, print, result_folder};
 use crate::files::text::Shown;
@@ -23,8 +23,8 @@ pub(super) struct Args {
     writing: Writing,
 }
 
-/// Measures errors against run times, one bench after the other: of a rod on one core, of suspensions by runs on all
-/// cores and the time of one, and of the core its speed.
+/// Measures errors against run times, one bench after the other: for a rod on one core, and for suspensions by runs on all
+/// cores with the time of one. Measures the speed of the core, too.
 pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     check(&args.cases)?;
     let wanted = |name: &str| args.cases.is_empty() || args.cases.iter().any(|case| case == name);
@@ -59,7 +59,7 @@ pub(super) fn bench(args: &Args) -> Result<(), Failure> {
     print(&format!("{tables}in {}: {}\n", args.out.shown(), names.join(", ")))
 }
 
-/// Refuses names that no bench has.
+/// Refuses names that no bench has; `names` are the arguments of `--case`.
 fn check(names: &[String]) -> Result<(), Failure> {
     let known: Vec<_> = studies::ALL.iter().flat_map(|study| study.parts).copied().collect();
     match names.iter().find(|name| !known.contains(&name.as_str())) {

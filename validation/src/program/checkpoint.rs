@@ -1,4 +1,4 @@
-//! Which files a command may use as its checkpoint.
+//! Validation of a checkpoint's path.
 
 use super::Failure;
 use crate::files::checkpoint::{on_stop, stays};
@@ -6,14 +6,14 @@ use crate::files::text::Shown;
 use crate::files::{cluster, output};
 use std::path::{Component, Path, PathBuf};
 
-/// The endings of the names of results.
+/// The extensions of result files.
 const ENDINGS: [&str; 9] = ["csv", "svg", "json", "pvd", "vtp", "html", "md", "xml", "png"];
 
-/// Checks a checkpoint's path and follows its links; from then on a signal says that the file stays.
+/// Checks a checkpoint's path and resolves its links; from then on the message after a signal says that the file is kept.
 ///
 /// # Errors
 ///
-/// More than one rank; a name that the results in `out` may have, whether these files and folders exist yet or not.
+/// More than one rank; a name that the results in `out` may have, whether or not these files and folders exist.
 pub(super) fn check(checkpoint: &Path, out: &Path) -> Result<PathBuf, Failure> {
     let refused = |what: &str| Failure::Input(format!("--checkpoint {}: {what}", checkpoint.shown()));
     if cluster::size() > 1 {
@@ -40,7 +40,7 @@ pub(super) fn check(checkpoint: &Path, out: &Path) -> Result<PathBuf, Failure> {
     Ok(path)
 }
 
-/// The path of a file or folder, which need not exist, without links.
+/// The path with links resolved; the file or folder need not exist.
 fn resolved(path: &Path) -> PathBuf {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let mut resolved = PathBuf::new();

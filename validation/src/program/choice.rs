@@ -1,17 +1,17 @@
-//! Which cases `validate` runs: by name, by tag, or all.
+//! The choice of cases for `validate`: by name, by tag, or all.
 
 use super::Failure;
 use crate::cases;
 use crate::judge::case::Case;
 
-/// The most names that an error suggests.
+/// The largest number of names that an error suggests.
 const MOST_SUGGESTED: usize = 10;
 
-/// The least likeness, by Jaro and Winkler, of a name that is suggested: two names of cases that have nothing in common
-/// are alike to 0.5 or so.
+/// The least similarity, by Jaro and Winkler, of a suggested name: unrelated names of cases have a similarity of about
+/// 0.5.
 const NEAR: f64 = 0.7;
 
-/// The cases of these names and tags in the order of the registry; all, where neither is given.
+/// The cases with these names and tags in the order of the registry; all cases if both lists are empty.
 pub(super) fn chosen(names: &[String], tags: &[String]) -> Result<Vec<Case>, Failure> {
     let mut all = cases::all();
     let known: Vec<_> = all.iter().map(|case| case.about.name.to_owned()).collect();
@@ -49,7 +49,7 @@ fn unknown(flag: &str, word: &str, what: &str, known: &[String]) -> Failure {
     Failure::Input(format!("{flag} {word}: {what}{suggested}. `shearbed validate --list` has all"))
 }
 
-/// The cases, one a line: name, tags, claim.
+/// The list of cases: name and tags, then the claim on a line of its own.
 pub(super) fn list(cases: &[Case]) -> String {
     let line = |case: &Case| {
         let about = &case.about;
@@ -90,7 +90,7 @@ mod tests {
         assert!(error.matches(',').count() <= MOST_SUGGESTED, "{error}");
         let error = names(&[], &["measurements"]).unwrap_err();
         assert!(error.contains("did you mean measurement?"), "{error}");
-        // What is like nothing gets no guess.
+        // A name that resembles no other gets no suggestion.
         let error = names(&["zzz"], &[]).unwrap_err();
         assert!(error.contains("zzz") && !error.contains("did you mean"), "{error}");
     }

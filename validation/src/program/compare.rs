@@ -1,4 +1,4 @@
-//! `shearbed compare`: what changed between two reports.
+//! `shearbed compare`: the changes between two reports.
 
 use super::{Failure, print};
 use crate::files::bounded;
@@ -24,7 +24,7 @@ pub(super) struct Args {
     after: PathBuf,
 }
 
-/// What is read of a report.
+/// The parts of a report that are read.
 #[derive(Deserialize)]
 struct Report {
     format: u32,
@@ -64,7 +64,7 @@ struct Case {
 #[derive(Deserialize)]
 struct Line {
     what: String,
-    /// Null where it is no number.
+    /// Null if the error is not finite.
     error: Option<f64>,
     tolerance: Option<f64>,
     judged_by: Rule,
@@ -77,7 +77,7 @@ struct Rule {
     se: Option<f64>,
 }
 
-/// A line of both reports: in words, and as one number of how far it moved.
+/// A line of evidence that moved between two reports.
 struct Moved<'a> {
     case: &'a str,
     what: &'a str,
@@ -86,13 +86,13 @@ struct Moved<'a> {
     by: String,
 }
 
-/// Means that differ by more than this number of standard errors have moved: 1 in 15 000 does by chance.
+/// Means count as changed if they differ by more than this number of standard errors: 1 in 15 000 does so by chance.
 const NOISE: f64 = 4.0;
 
-/// Errors without noise have moved where they change by this part of their tolerance.
+/// Errors without noise count as changed if they change by this share of their tolerance.
 const PART: f64 = 0.01;
 
-/// Prints what changed.
+/// Prints the changes.
 pub(super) fn compare(args: &Args) -> Result<(), Failure> {
     let (a, b) = (read(&args.before)?, read(&args.after)?);
     let mut text = format!(
@@ -120,7 +120,7 @@ pub(super) fn compare(args: &Args) -> Result<(), Failure> {
     print(&text)
 }
 
-/// The longest report.
+/// The largest size of a report, in bytes.
 const MOST_BYTES: u64 = 256 << 20;
 
 fn read(path: &Path) -> Result<Report, Failure> {
@@ -131,7 +131,7 @@ fn read(path: &Path) -> Result<Report, Failure> {
     Ok(report)
 }
 
-/// Refuses a report that was changed after `shearbed validate` wrote it. One without its folder has nothing to be held to.
+/// Refuses a report that was changed after `shearbed validate` wrote it. A report outside its folder cannot be checked.
 fn as_written(path: &Path, text: &str) -> Result<(), String> {
     let (Some(dir), Some(name)) = (path.parent(), path.file_name().and_then(|name| name.to_str())) else {
         return Ok(());
@@ -142,7 +142,7 @@ fn as_written(path: &Path, text: &str) -> Result<(), String> {
     }
 }
 
-/// A report of this version's format, in which every case and every study stands once.
+/// Parses a report of this version's format, in which every case and every study occurs once.
 fn parse(text: &str) -> Result<Report, String> {
     let report: Report = serde_json::from_str(text)
         .map_err(|error| format!("is no report.json that `shearbed validate` wrote: {error}"))?;
@@ -163,7 +163,7 @@ fn parse(text: &str) -> Result<Report, String> {
     Ok(report)
 }
 
-/// Cases that ended otherwise, and those that only one report has.
+/// Lists cases with different verdicts, and those that only one report has.
 fn verdicts(a: &Report, b: &Report) -> String {
     let mut lines = Vec::new();
     for before in &a.cases {
@@ -204,7 +204,7 @@ fn moved<'a>(a: &'a Report, b: &'a Report) -> Vec<Moved<'a>> {
     moved
 }
 
-/// By how much a line of evidence moved, where it did beyond its noise.
+/// The change of a line of evidence in words; none if it is within the noise.
 fn by(a: &Line, b: &Line) -> Option<String> {
     let means = (a.judged_by.mean.zip(a.judged_by.se)).zip(b.judged_by.mean.zip(b.judged_by.se));
     if let Some(((mean_a, se_a), (mean_b, se_b))) = means {
@@ -212,7 +212,7 @@ fn by(a: &Line, b: &Line) -> Option<String> {
         return (deviations.abs() > NOISE).then(|| format!("{deviations:+.1} standard errors"));
     }
     match (a.error, b.error) {
-        // A p-value is noise itself: its verdict says what there is to say.
+        // A p-value is itself noise: only its verdict counts.
         _ if a.judged_by.rule == "p_value" => None,
         (Some(before), Some(after)) => {
             let tolerance = a.tolerance.unwrap_or(0.0).abs();
@@ -246,7 +246,7 @@ fn moved_table(moved: Vec<Moved>) -> ReportTable {
     )
 }
 
-/// Shorter times are noise.
+/// Shorter times, in s, are noise and are left out.
 const LEAST_SECONDS: f64 = 0.05;
 
 fn speeds(a: &Report, b: &Report) -> ReportTable {
@@ -316,7 +316,7 @@ mod tests {
                 "judged_by": { "rule": "mean", "mean": mean, "se": 0.1 },
             }))
         };
-        // √2 · 0.1 is a standard error of the difference.
+        // A standard error of the difference is √2 · 0.1.
         assert_eq!(by(&mean(1.0), &mean(1.5)), None);
         assert_eq!(by(&mean(1.0), &mean(1.6)).as_deref(), Some("+4.2 standard errors"));
         let within = |error: Option<f64>| {

@@ -43,7 +43,7 @@ pub(super) struct Args {
     writing: Writing,
 }
 
-/// Studies a scene: where rods meet by the law of its mean and directions, else by every fixed-step subject.
+/// Studies a scene: an interacting one by the law of its mean and directions, a free one by every fixed-step integrator.
 pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     let named = args.chosen.load(&Ensemble::default(), &[])?;
     let at = |message: String| format!("{}: {message}", named.source);
@@ -70,7 +70,7 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
             scene::warn(&named.source, &warnings);
             on_threads(args.threads.given, || interacting(&named.scene, replicas, warnings, args))?
         }
-        // Milliseconds: no work for many.
+        // This takes milliseconds, so that the root does it alone.
         false if cluster::is_root() => free(&named.scene).map(Some),
         false => Ok(None),
     }
@@ -93,11 +93,11 @@ pub(super) fn converge(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// What a study leaves.
+/// The results of a study.
 struct Done {
     tables: Vec<ReportTable>,
     files: Vec<Output>,
-    /// The subjects whose order is not that of theory.
+    /// The integrators whose order differs from theory.
     wrong: Option<String>,
 }
 
@@ -107,7 +107,7 @@ fn done(tables: Vec<ReportTable>, files: Vec<(&str, Result<String, String>)>) ->
     Ok(Done { tables, files: files.map_err(Failure::Failed)?, wrong: None })
 }
 
-/// Every fixed-step subject on one rod of the scene's mean aspect ratio, from its start, through its periods.
+/// Studies every fixed-step integrator on one rod of the scene's mean aspect ratio, from its start, for its number of periods.
 fn free(scene: &Scene) -> Result<Done, Failure> {
     if scene.flow.shear_rate_per_s().is_none() {
         return Err(Failure::Input(
@@ -130,7 +130,7 @@ fn free(scene: &Scene) -> Result<Done, Failure> {
     })
 }
 
-/// Which of the steps that are tried do not resolve the motion.
+/// A sentence on the tried steps that do not resolve the motion.
 fn coarse(scene: &Scene) -> String {
     let strain = |steps: u64| strain_per_period(scene.particles.aspect_ratio) / steps as f64;
     let resolved = resolved_strain(scene.particles.aspect_ratio);
@@ -147,7 +147,7 @@ fn coarse(scene: &Scene) -> String {
     )
 }
 
-/// converge.json of an interacting scene.
+/// The content of converge.json for an interacting scene.
 #[derive(Serialize)]
 struct Written {
     warnings: Vec<String>,
@@ -156,8 +156,8 @@ struct Written {
     splits: Vec<Split>,
 }
 
-/// X̄₁ and the directions of an interacting scene against steps, rods and replicas, and what follows for its cost; none
-/// but on the root.
+/// Studies X̄₁ and the directions of an interacting scene against steps, rods and replicas, and derives the cost of accuracy;
+/// `None` except on the root.
 fn interacting(
     scene: &Scene,
     replicas: Replicas,

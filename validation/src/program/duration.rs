@@ -1,4 +1,4 @@
-//! How long work on suspensions takes, roughly, before it starts.
+//! A rough estimate of the run time of suspensions before they start.
 
 use crate::studies::suspensions::job::Job;
 use crate::studies::suspensions::law::{self, Replicas};
@@ -8,7 +8,7 @@ use shearbed::plan::Stage;
 /// A step of one rod takes 26 to 58 ns of one core, for 10² to 10⁶ rods (docs/src/developer/performance.md).
 const SECONDS_PER_ROD_AND_STEP: f64 = 40e-9;
 
-/// A number of rods times steps, in words: `4.0e9 rods × steps, some 3 min of one core`.
+/// The text for a number of rods times steps: `4.0e9 rods × steps, some 3 min of one core`.
 fn text(rod_steps: f64) -> String {
     let seconds = rod_steps * SECONDS_PER_ROD_AND_STEP;
     let time = match seconds {
@@ -20,12 +20,12 @@ fn text(rod_steps: f64) -> String {
     format!("{rod_steps:.1e} rods × steps, {time} of one core")
 }
 
-/// What the jobs of a study take.
+/// The cost of a study's jobs, as text.
 pub(super) fn of_jobs(jobs: &[Job]) -> String {
     text(jobs.iter().map(|job| job.rod_steps() as f64).sum())
 }
 
-/// What a run and a study of a scene take, where rods meet: free ones take no time that counts.
+/// The cost of a run and of a study of an interacting scene, as text; empty for free rods, whose time is negligible.
 pub(super) fn of_scene(plan: &Plan) -> String {
     if !plan.keeps(Stage::Contacts) {
         return String::new();

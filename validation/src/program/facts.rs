@@ -1,30 +1,30 @@
-//! What follows from a scene before anything runs: its period, its step, its shape factor, and how dilute it is.
+//! Properties of a scene that are known before a run: its period, its step, its shape factor, and how dilute it is.
 
 use super::rods;
 use crate::files::text::four_decimals;
 use serde::Serialize;
 use shearbed::Plan;
 
-/// What a scene is in numbers; null where there is no such thing.
+/// Properties of a scene in numbers; null if a property does not exist.
 #[derive(Serialize)]
 pub(super) struct Facts {
-    /// T, where the flow has a period.
+    /// T, if the flow has a period.
     period_s: Option<f64>,
-    /// GΔt, where steps are taken.
+    /// GΔt, if the run takes steps.
     strain_per_step: Option<f64>,
     /// Λ = (r_e² − 1)/(r_e² + 1) of the mean aspect ratio.
     shape_factor: f64,
-    /// n⟨a³⟩ with the full length a, where rods interact.
+    /// n⟨a³⟩ with the full length a, for interacting rods.
     n_a3: Option<f64>,
-    /// n that count and box make, where a box is given.
+    /// n from the number of rods and the box, if a box is given.
     #[serde(skip_serializing_if = "Option::is_none")]
     concentration_per_cm3: Option<f64>,
     /// `dilute`, `semi-dilute` or `concentrated`.
     regime: Option<&'static str>,
-    /// r_e, and the formula that made it of the physical aspect ratio, where one did.
+    /// r_e with the formula that computed it from a physical aspect ratio; none without such a formula.
     #[serde(skip_serializing_if = "Option::is_none")]
     equivalent: Option<Equivalent>,
-    /// The rows of rods.csv and its most bytes, where there is one.
+    /// The number of rows and the largest size of rods.csv; none without that file.
     #[serde(skip_serializing_if = "Option::is_none")]
     rods: Option<RodsOut>,
 }
@@ -37,7 +37,7 @@ struct Equivalent {
     by: &'static str,
 }
 
-/// What `rods.csv` will be.
+/// The size of `rods.csv`.
 #[derive(Serialize)]
 struct RodsOut {
     rows: u64,
@@ -55,7 +55,7 @@ impl Facts {
             period_s: (plan.time_name() != "strain" && period_s.is_finite()).then_some(period_s),
             strain_per_step: (plan.steps() > 0)
                 .then(|| plan.elapsed(1.0).strain / scene.steps_per_unit() as f64),
-            // Divided through: r² is infinite for long rods.
+            // r² would be infinite for long rods, so numerator and denominator are divided by r.
             shape_factor: (r - 1.0 / r) / (r + 1.0 / r),
             n_a3,
             concentration_per_cm3: scene.box_mm().and(scene.concentration_per_cm3()),
@@ -70,7 +70,7 @@ impl Facts {
         }
     }
 
-    /// In a line.
+    /// The facts on one line.
     pub(super) fn text(&self) -> String {
         let mut parts = Vec::new();
         parts.extend(self.period_s.map(|period| format!("T = {} s", four_decimals(period))));
@@ -92,8 +92,8 @@ impl Facts {
     }
 }
 
-/// Doi & Edwards: rods turn freely below one rod in the cube of a rod's length; above, they hinder each other, and at a
-/// volume fraction of about 1/r_e, which is n a³ = r_e, they do so everywhere.
+/// The regime by Doi & Edwards: rods turn freely below one rod in the cube of a rod's length; above, they hinder each other, and
+/// from a volume fraction of about 1/r_e, which is n a³ = r_e, they do so everywhere.
 fn regime(n_a3: f64, aspect_ratio: f64) -> &'static str {
     match n_a3 {
         n_a3 if n_a3 < 1.0 => "dilute",
@@ -102,7 +102,7 @@ fn regime(n_a3: f64, aspect_ratio: f64) -> &'static str {
     }
 }
 
-/// What to know before trusting the results.
+/// Reasons to doubt the results of a plan.
 pub(super) fn warnings(plan: &Plan) -> Vec<String> {
     let mut warnings = plan.warnings();
     warnings.extend(cut_short(plan));
@@ -127,7 +127,7 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
     warnings
 }
 
-/// That the control volume is thinner than a rod is long.
+/// A warning if the control volume is thinner than a rod is long.
 fn thin_box(plan: &Plan) -> Option<String> {
     let scene = plan.scene();
     let (sides, length) = (scene.box_mm()?, scene.particles.length_mm);
@@ -140,13 +140,13 @@ fn thin_box(plan: &Plan) -> Option<String> {
     })
 }
 
-/// A scene that ends between two outputs: nothing is run after the last of them.
+/// A warning if a scene ends between two outputs, as nothing is run after the last output.
 fn cut_short(plan: &Plan) -> Option<String> {
     let time = &plan.scene().time;
     let (key, end) = (time.unit.duration_key(), time.duration);
     let times = plan.times();
     let last = *times.last()?;
-    // A product that was rounded is no end between outputs.
+    // An end that differs from an output by rounding is not between outputs.
     (last < end * (1.0 - 1e-12)).then(|| {
         format!(
             "{key} = {end} ends between two outputs: the last one is at {last}; choose an output interval that divides {end}"

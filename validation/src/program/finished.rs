@@ -31,7 +31,7 @@ pub(super) struct Finished {
 }
 
 impl Finished {
-    /// Opens or makes the checkpoint. One from another input or build is an error.
+    /// Opens or creates the checkpoint. A checkpoint of other input or of another build is an error.
     pub(super) fn open(path: &Path, input: Value, quiet: bool) -> Result<Self, Failure> {
         let file = Checkpoint::open(path, "validate", input)?;
         let state: State = file.read()?.unwrap_or_default();
@@ -88,7 +88,7 @@ mod tests {
     use crate::present::table::{ReportTable, field, of_words};
     use serde_json::json;
 
-    /// Everything that a study can find, with numbers that texts lose and whole ones that are no counts.
+    /// Findings of every kind, with numbers that lose digits in text, and whole numbers that are not counts.
     fn found() -> Findings {
         let cells = vec![Some(0.1), Some(-0.0), Some(3.0), None];
         let column = field("x", |x: &Option<f64>| *x);

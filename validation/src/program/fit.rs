@@ -25,7 +25,7 @@ use shifts::{shifts, taken_as_known};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// The most replicas at each value of the parameters, unless asked for more.
+/// The default of the largest number of replicas at each value of the parameters.
 const MOST_REPLICAS: u64 = 1000;
 
 /// Arguments of `fit`.
@@ -77,7 +77,7 @@ pub(super) struct Args {
 /// The record of a fit.
 const FIT: &str = "fit.json";
 
-/// What a fit leaves.
+/// The results of a fit.
 struct Done {
     fit: Fit,
     report: Report,
@@ -179,7 +179,7 @@ fn work(args: &Args, input: &Input, watch: &Watch<'_>) -> Result<Done, Failure> 
     Ok(Done { fit, report, figures, candidates })
 }
 
-/// What a fit is of: everything that its results depend on.
+/// The inputs of a fit, on which all its results depend.
 fn asked(args: &Args, input: &Input) -> Result<Value, Failure> {
     let mut data = Vec::new();
     for (set, path) in input.scenes.sets.iter().zip(&input.files) {
@@ -198,7 +198,7 @@ fn asked(args: &Args, input: &Input) -> Result<Value, Failure> {
         "rods": args.rods,
         "most_replicas": args.replicas,
     });
-    // Without tests the record is as it was before there was `--test`.
+    // Without tests the record is the same as before `--test` existed.
     if !args.test.is_empty() {
         asked["test"] = json!(args.test.iter().map(Hypothesis::text).collect::<Vec<_>>());
     }

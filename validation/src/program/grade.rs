@@ -18,13 +18,13 @@ use std::io;
 use std::path::Path;
 use std::time::Duration;
 
-/// Beside the report: error against steps, and error against run time.
+/// Pictures of the report: error against steps, and error against run time.
 const PICTURES: [&str; 2] = ["steps.svg", "work-precision.svg"];
 
-/// The report.
+/// The report in four formats.
 const PAGES: [&str; 4] = ["grade.json", "grade.html", "grade.md", "junit.xml"];
 
-/// Grades answers in files, or a program.
+/// Grades answers in files, or a running program.
 pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     if args.echo {
         return live::echo(args.protocol, io::stdin().lock(), io::stdout().lock()).map_err(Failure::Input);
@@ -58,7 +58,7 @@ pub(super) fn grade(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// The program in bold beside the project's own integrators, as SVG by the name of its file.
+/// Pictures of the program in bold and of the project's own integrators, as SVG with file names.
 fn pictures(report: &Report, problems: &[LoadedProblem]) -> Result<Vec<output::Output>, String> {
     let mut pictures = Vec::new();
     if let Some(steps) = grade::figures::steps(problems, &report.problems) {
@@ -86,12 +86,12 @@ fn options(args: &Args) -> Options {
     }
 }
 
-/// Whether a problem of this name is to be graded.
+/// True if a problem of this name should be graded.
 fn asked_for(args: &Args, name: &str) -> bool {
     args.problems.is_empty() || args.problems.iter().any(|asked| asked == name)
 }
 
-/// That every name after `--problem` is one of these.
+/// Refuses a name after `--problem` that is not one of `names`.
 fn check_names(args: &Args, names: &[String]) -> Result<(), Failure> {
     match args.problems.iter().find(|name| !names.contains(name)) {
         None => Ok(()),
@@ -102,7 +102,7 @@ fn check_names(args: &Args, names: &[String]) -> Result<(), Failure> {
     }
 }
 
-/// The problems that are to be graded.
+/// The problems to grade.
 fn chosen(args: &Args, mut all: Vec<LoadedProblem>) -> Result<Vec<LoadedProblem>, Failure> {
     all.retain(|loaded| {
         let of_kind = args.kind.is_none_or(|kind| kind == loaded.problem.kind);
@@ -118,7 +118,7 @@ fn names(all: &[LoadedProblem]) -> Vec<String> {
     all.iter().map(|loaded| loaded.problem.name.clone()).collect()
 }
 
-/// A report, the problems it is about, and what it depends on.
+/// A report, the problems that it covers, and the inputs on which it depends.
 type Done = (Report, Vec<LoadedProblem>, Value);
 
 fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
@@ -144,7 +144,7 @@ fn files(args: &Args, reference: &Path, mine: &Path) -> Result<Done, Failure> {
     Ok((report, wanted, inputs))
 }
 
-/// Folders of answers to problems that there are not, and files that are in no folder but have a problem's name.
+/// Remarks on folders of answers without a problem, and on files outside a folder with a problem's name.
 fn not_read(mine: &Path, names: &[String]) -> Vec<String> {
     let remark = |entry: std::fs::DirEntry| {
         let (path, name) = (entry.path(), entry.file_name().to_string_lossy().into_owned());
@@ -185,7 +185,7 @@ fn report(
     }
 }
 
-/// A problem about anything else is a mistake of the caller, not of a name.
+/// Refuses other problems than those about rods: for a running program such a name is a wrong request, not an unknown name.
 fn check_rods_alone(args: &Args) -> Result<(), Failure> {
     const INSTEAD: &str =
         "a program that runs is asked about single rods only; other answers go into files (grade REF MINE)";
@@ -202,7 +202,7 @@ fn check_rods_alone(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// The problems that a program is asked.
+/// The problems to ask a program.
 fn about_rods(args: &Args, reference: Option<&Path>) -> Result<Vec<LoadedProblem>, Failure> {
     check_rods_alone(args)?;
     let Some(dir) = reference else {
@@ -249,7 +249,7 @@ fn program(args: &Args, command: &str, reference: Option<&Path>) -> Result<Done,
     Ok((report, wanted, inputs))
 }
 
-/// This program as an echo.
+/// The command line of this program as an echo.
 fn echo(protocol: Protocol) -> String {
     let words = super::words::again();
     let words: Vec<_> = words.iter().map(|word| word.to_string_lossy()).collect();

@@ -1,4 +1,4 @@
-//! `shearbed completions` and `shearbed man`: what the parser of the command line can hand to a shell and to `man`.
+//! `shearbed completions` and `shearbed man`: scripts for shells and manual pages, made from the parser of the command line.
 
 use super::{Cli, Failure, Writing, print};
 use crate::files::output::{Output, ResultFolder};
@@ -26,7 +26,7 @@ pub(super) struct Man {
     writing: Writing,
 }
 
-/// Prints the script for a shell.
+/// Prints the completion script for a shell.
 pub(super) fn completions(args: &Completions) -> Result<(), Failure> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "shearbed", &mut script);
@@ -48,7 +48,7 @@ pub(super) fn man(args: &Man) -> Result<(), Failure> {
     }
 }
 
-/// The page of a command, then those of the commands below it.
+/// Adds the page of a command, then those of its subcommands.
 fn add_pages(command: &clap::Command, pages: &mut Vec<Output>) -> std::io::Result<()> {
     let page = clap_mangen::Man::new(command.clone());
     let mut text = Vec::new();
@@ -80,7 +80,7 @@ mod tests {
     }
 
     fn parses(line: &str, more: &[&str]) -> Result<(), String> {
-        // What is after > is the shell's.
+        // Text after > is for the shell.
         let mut words = shlex::split(line.split(" >").next().unwrap()).unwrap();
         words.extend(more.iter().map(|word| (*word).to_owned()));
         Cli::try_parse_from(words).map(drop).map_err(|error| error.to_string())
@@ -117,7 +117,7 @@ mod tests {
                 "{name}"
             );
         }
-        // Pages are results as any: what somebody else put there stays.
+        // Pages are results like others: files of unknown origin are kept.
         std::fs::remove_file(out.join("shearbed.json")).unwrap();
         assert!(man(&args(out)).is_err());
     }

@@ -1,6 +1,6 @@
-//! Ctrl-C and its like: an end in order.
+//! An orderly end after Ctrl-C and similar signals.
 
-/// From now on SIGINT, SIGTERM and SIGHUP end the program with a message and the exit code that a shell expects, 128 and
+/// Makes SIGINT, SIGTERM and SIGHUP end the program with a message and the exit code that a shell expects, 128 plus
 /// the signal's number, and never in the middle of writing files.
 #[cfg(unix)]
 pub(super) fn watch() {
@@ -8,7 +8,7 @@ pub(super) fn watch() {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
 
-    // Without it the system ends the program as it always did.
+    // If this fails, the system ends the program in its usual way.
     let Ok(mut signals) = Signals::new([SIGINT, SIGTERM, SIGHUP]) else {
         return;
     };
@@ -35,6 +35,6 @@ pub(super) fn watch() {
     std::thread::spawn(wait);
 }
 
-/// The system ends the program.
+/// Does nothing: the system ends the program.
 #[cfg(not(unix))]
 pub(super) fn watch() {}

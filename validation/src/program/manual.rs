@@ -1,4 +1,4 @@
-//! The page of commands in the book, made from the parser itself.
+//! The page of commands in the book, made from the parser.
 
 use clap::{Arg, Command, CommandFactory};
 use std::fmt::Write;
@@ -16,7 +16,7 @@ pub fn commands() -> String {
     page
 }
 
-/// A command and the commands below it.
+/// Adds a command and its subcommands to the page.
 fn add(page: &mut String, command: &Command, above: &str) {
     let name = format!("{above} {}", command.get_name());
     let usage = command.clone().render_usage().to_string();
@@ -44,7 +44,7 @@ fn add(page: &mut String, command: &Command, above: &str) {
     }
 }
 
-/// An argument as it is written on the command line.
+/// An argument in the form of the command line.
 fn written(arg: &Arg) -> String {
     let values = arg.get_value_names().unwrap_or_default();
     let values: Vec<_> = values.iter().map(ToString::to_string).collect();
@@ -53,7 +53,7 @@ fn written(arg: &Arg) -> String {
     flag.into_iter().chain(takes_value.then(|| values.join(" "))).collect::<Vec<_>>().join(" ")
 }
 
-/// What an argument means, with the values that it may have and its default.
+/// The help of an argument, with its possible values and its default.
 fn meaning(arg: &Arg) -> String {
     let mut text = arg.get_help().map(ToString::to_string).unwrap_or_default();
     let takes_values = arg.get_action().takes_values();
@@ -70,7 +70,7 @@ fn meaning(arg: &Arg) -> String {
     text
 }
 
-/// Text on one line, of which no sign is HTML.
+/// The text on one line, with `<` escaped for HTML.
 fn plain(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ").replace('<', "&lt;")
 }

@@ -1,4 +1,4 @@
-//! A scene that would not fit in memory says so before it starts.
+//! Refusal of scenes that need too much memory, before they start.
 
 mod available;
 
@@ -8,19 +8,19 @@ use available::available;
 use shearbed::Plan;
 use shearbed::run::memory;
 
-/// What the program takes beside its work, and what the allocator does not give back.
+/// Bytes that the program needs in addition to its work, including memory that the allocator does not return.
 const PROGRAM: u64 = 32 << 20;
 
-/// What a thread takes beside its replica: its stack.
+/// Bytes that a thread needs in addition to its replica: its stack.
 const THREAD: u64 = 2 << 20;
 
-/// Refuses a plan that needs more memory than there is, with `threads` replicas at a time, and with `vtk` files for
-/// ParaView. Where the system does not say what there is, nothing is refused.
+/// Refuses a plan that needs more memory than is available, with `threads` replicas at a time, and with `vtk` files for
+/// ParaView. If the available memory is unknown, nothing is refused.
 pub(super) fn check(plan: &Plan, threads: Option<u64>, vtk: bool, source: &str) -> Result<(), Failure> {
     check_beside(plan, threads, vtk, source, 0)
 }
 
-/// The same where `beside` bytes are held beside each replica.
+/// The same with `beside` further bytes for each replica.
 pub(super) fn check_beside(
     plan: &Plan,
     threads: Option<u64>,
@@ -36,7 +36,7 @@ pub(super) fn check_beside(
     }
 }
 
-/// Refuses jobs of which one needs more memory than there is, beside what all leave.
+/// Refuses jobs if one of them needs more memory than is available next to the results of all.
 pub(super) fn check_jobs(jobs: &[Job], threads: Option<u64>) -> Result<(), Failure> {
     let threads = threads::count(threads)?;
     let free = available().unwrap_or(u64::MAX);
@@ -46,7 +46,7 @@ pub(super) fn check_jobs(jobs: &[Job], threads: Option<u64>) -> Result<(), Failu
         scene.ensemble.replicas = job.replicas;
         let plan = Plan::new(&scene).map_err(|error| Failure::Input(error.to_string()))?;
         let at_once = threads.min(job.replicas);
-        // Directions are copied to be looked at.
+        // Directions are copied for evaluation.
         let copies = at_once * 24 * scene.particles.count as u64;
         let needed = memory::bytes(&plan, at_once) + copies + threads * THREAD + PROGRAM + left;
         if needed > free {
@@ -63,23 +63,23 @@ pub(super) fn check_jobs(jobs: &[Job], threads: Option<u64>) -> Result<(), Failu
     Ok(())
 }
 
-/// What a job leaves until all are done.
+/// The bytes of a job's results, which are kept until all jobs are done.
 fn left_by(job: &Job) -> u64 {
     let looks = job.replicas * (job.marks.len() * size_of::<Look>()) as u64;
     looks + job.followed.min(job.replicas) * 24 * job.scene.particles.count as u64
 }
 
-/// What a run of a plan holds, with its results and their tables and pictures at its end, and `beside` bytes for each
-/// replica.
+/// The bytes that a run of a plan needs, with its results and their tables and pictures at its end, and `beside` bytes for
+/// each replica.
 fn needed(plan: &Plan, threads: u64, vtk: bool, beside: u64) -> u64 {
-    // A text that grows has twice its room.
+    // A growing text may reserve twice its length.
     let rods = rods::most_bytes(plan, vtk).saturating_mul(2);
     let replicas = threads.min(plan.scene().ensemble.replicas);
     let rest = replicas * beside + threads * THREAD + PROGRAM + tables::most_memory(plan);
     memory::bytes(plan, threads).saturating_add(rest).saturating_add(rods)
 }
 
-/// Refuses every rod at every time that is asked for, where it is they that do not fit.
+/// Refuses the output of every rod at the requested times, if the plan would fit in memory without it.
 fn rods_fit(plan: &Plan, threads: u64, vtk: bool, free: u64) -> Result<(), String> {
     let mut scene = plan.scene().clone();
     scene.output.drop_rods();
@@ -162,14 +162,14 @@ mod tests {
         scene.output.rods_at = vec![0.0, 0.5, 1.0];
         let plan = lab::plan(&scene);
         let (table, lines) = (needed(&plan, 1, false, 0), needed(&plan, 1, true, 0));
-        // 300 rods: 57 bytes each, and the text of their rows twice.
+        // 300 rods: 57 bytes for each, and the text of their rows twice.
         assert_eq!(table - without, 300 * (57 + 2 * 261));
         assert_eq!(fits(&plan, 1, true, lines, 0), Ok(()));
         let refused = fits(&plan, 1, true, lines - 1, 0).unwrap_err();
         let expected =
             "output.rods_at = [0.0, 0.5, 1.0]: 3 times of 100 rods in each of 1 replicas make files of up to";
         assert!(refused.starts_with(expected), "{refused}");
-        // Where the run alone does not fit, the rods are not to blame.
+        // If the run alone does not fit, the message does not blame the rods.
         let refused = fits(&plan, 1, true, without - 1, 0).unwrap_err();
         assert!(refused.starts_with("particles.count"), "{refused}");
         scene.ensemble.replicas = 10_000_000;

@@ -99,12 +99,12 @@ enum Command {
     Man(handed_out::Man),
 }
 
-/// Why a command did not end well.
+/// The reason why a command failed.
 #[derive(Debug)]
 enum Failure {
     /// Bad input or usage, a scene that cannot be computed, or a file that cannot be read or written.
     Input(String),
-    /// A case failed, or the program did.
+    /// A case failed, or the program itself.
     Failed(String),
 }
 
@@ -117,7 +117,7 @@ impl Failure {
     }
 }
 
-/// Runs the command of the process's arguments.
+/// Runs the command given by the process's arguments.
 pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
@@ -128,7 +128,7 @@ pub fn main() -> ExitCode {
         Err(message) => return cluster::failed(&message, 2),
     };
     if cluster::size() == 1 {
-        // Else the job's starter tells all ranks to end, and says why.
+        // In a larger job its starter tells all ranks to end, and says why.
         interrupt::watch();
     }
     match joined.caught(|| command(cli.command)) {
@@ -142,8 +142,8 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// The same in a process of another program, and without ranks: `program` are the words that start it, `arguments` what
-/// follows them. The exit code.
+/// The same inside another program's process, and without ranks: `program` are the words that start that program, `arguments`
+/// those that follow. Returns the exit code.
 pub fn main_of(program: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
     words::give(program, arguments.clone());
     let cli = match Cli::try_parse_from(with_name(arguments)) {
@@ -164,15 +164,15 @@ pub fn main_of(program: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
     }
 }
 
-/// Runs a command, without its name as the first word, inside another program: no signal is watched for, and what went
-/// wrong comes back in the program's words, with its exit code.
+/// Runs a command, without its name as the first word, inside another program: no signal is watched for. An error has the
+/// program's message and its exit code.
 pub fn call(arguments: Vec<OsString>) -> Result<(), (String, u8)> {
     let cli = Cli::try_parse_from(with_name(arguments))
         .map_err(|error| (error.to_string(), error.exit_code() as u8))?;
     command(cli.command).map_err(Failure::message_and_code)
 }
 
-/// What `shearbed plot` draws of these folders; on error, why not.
+/// The picture that `shearbed plot` draws for these folders; the error says why there is none.
 pub fn figure(dirs: &[PathBuf], channel: Option<&str>) -> Result<Figure, String> {
     let drawn = plot::figure(dirs, channel);
     drawn.map(|drawn| drawn.figure).map_err(|failure| failure.message_and_code().0)
@@ -182,7 +182,7 @@ fn with_name(arguments: Vec<OsString>) -> Vec<OsString> {
     std::iter::once("shearbed".into()).chain(arguments).collect()
 }
 
-/// Checks that a plan fits into memory with a replica on each thread; the error says why not.
+/// Checks that a plan fits into memory with a replica on each thread; the error says why it does not.
 pub fn fits(plan: &shearbed::Plan, threads: Option<u64>, source: &str) -> Result<(), String> {
     memory::check(plan, threads, false, source).map_err(|failure| failure.message_and_code().0)
 }
@@ -207,7 +207,7 @@ fn print_usage(error: &clap::Error) -> ExitCode {
 }
 
 impl Command {
-    /// Whether ranks share its work; such a command tells them its input itself.
+    /// True if ranks share the command's work; such a command checks itself that their inputs agree.
     fn is_shared(&self) -> bool {
         matches!(self, Self::Run(_) | Self::Validate(_) | Self::Sweep(_) | Self::Converge(_))
     }
@@ -253,8 +253,8 @@ struct Writing {
     quiet: bool,
 }
 
-/// The folder for a command's results. The root checks before the work that `bytes` bytes and a little more can be written,
-/// and that nothing is in the way of files of these names.
+/// The folder for a command's results. Before the work the root checks that `bytes` bytes and a little more can be written,
+/// and that no other file has one of these names.
 fn result_folder<N: AsRef<str>>(
     dir: &Path,
     (command, inputs, force): (&str, Value, bool),
@@ -269,9 +269,9 @@ fn result_folder<N: AsRef<str>>(
     Ok(folder)
 }
 
-/// Checks, on the root, that `bytes` bytes and a little more can be written in a folder.
+/// Checks on the root that `bytes` bytes and a little more can be written to a folder.
 fn probe(dir: &Path, bytes: u64) -> Result<(), Failure> {
-    /// Pictures and records.
+    /// Additional bytes for pictures and records.
     const MORE: u64 = 1 << 20;
     match cluster::is_root() {
         true => Ok(output::probe(dir, bytes + MORE)?),
@@ -279,12 +279,12 @@ fn probe(dir: &Path, bytes: u64) -> Result<(), Failure> {
     }
 }
 
-/// Refuses ranks with other inputs than the root's, before anything runs.
+/// Refuses ranks whose inputs differ from the root's, before anything runs.
 fn agree(command: &str, input: Value) -> Result<(), Failure> {
     cluster::agree(command, input).map_err(Failure::Input)
 }
 
-/// A parser of whole numbers whose error says what is allowed.
+/// A parser of whole numbers from `least` to `most`, whose error states that range.
 fn whole(least: u64, most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone + Send + Sync + 'static {
     move |text| match text.parse() {
         Ok(number) if (least..=most).contains(&number) => Ok(number),

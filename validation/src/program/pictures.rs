@@ -55,8 +55,8 @@ pub(super) fn figures(scene: &Scene, results: &Results, series: &Series) -> Vec<
     }
 }
 
-/// Half the width of a 95 % band in standard errors: Student's t for the replicas, or for the rods of one replica.
-/// `None` where one value has no standard error.
+/// Half the width of a 95 % band in standard errors: Student's t for the number of replicas, or of rods for a single replica.
+/// `None` if there is only one value, which has no standard error.
 pub(super) fn half_widths(scene: &Scene) -> Option<f64> {
     let samples = match scene.ensemble.replicas {
         1 => scene.particles.count as u64,

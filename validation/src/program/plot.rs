@@ -47,7 +47,7 @@ fn picture(text: &str) -> Result<PathBuf, String> {
     }
 }
 
-/// Draws a channel of every folder, or a picture that a folder keeps.
+/// Draws a channel of every folder, or a picture stored in a folder.
 pub(super) fn plot(args: &Args) -> Result<(), Failure> {
     let (mut figure, said) = match &args.dirs[..] {
         [dir] => match kept(dir)? {
@@ -70,7 +70,7 @@ fn of_runs(args: &Args) -> Result<(Figure, String), Failure> {
     Ok((figure, format!("{} of {} runs", drawn.channel, drawn.runs.len())))
 }
 
-/// The picture of a fit or a report that is asked for, the first where none is.
+/// The requested picture of a fit or a report, by default the first.
 fn named(args: &Args, dir: &Path, kept: Vec<(String, Figure)>) -> Result<(Figure, String), Failure> {
     if args.data.is_some() {
         return Err(Failure::Input(format!(
@@ -93,15 +93,15 @@ fn named(args: &Args, dir: &Path, kept: Vec<(String, Figure)>) -> Result<(Figure
     Ok((found.1, format!("{} of {}", found.0, dir.shown())))
 }
 
-/// A channel of runs as a picture.
+/// A picture of a channel for several runs.
 pub(super) struct Drawn {
     pub(super) figure: Figure,
     channel: String,
-    /// At least one.
+    /// The runs, at least one.
     runs: Vec<Run>,
 }
 
-/// A channel of every folder, the first that there is where none is asked for.
+/// A channel of every folder; by default the first channel of the first folder.
 pub(super) fn figure(dirs: &[PathBuf], channel: Option<&str>) -> Result<Drawn, Failure> {
     let mut runs = Vec::new();
     for dir in dirs {
@@ -112,7 +112,7 @@ pub(super) fn figure(dirs: &[PathBuf], channel: Option<&str>) -> Result<Drawn, F
     let mut rows = MOST_ROWS;
     for run in &runs {
         let of_run = table::channel(run, wanted.as_deref(), &mut rows)?;
-        // What the first has is asked of the others.
+        // The first run's channel is required of the others.
         wanted.get_or_insert_with(|| of_run.channel.clone());
         found.push(of_run);
     }
@@ -140,7 +140,7 @@ pub(super) fn figure(dirs: &[PathBuf], channel: Option<&str>) -> Result<Drawn, F
         curves: found.into_iter().map(|found| found.curve).collect(),
         ..Figure::default()
     };
-    // Scenes of different titles are told apart by these.
+    // Scenes of different titles are labelled by them.
     if runs.len() > 1 && titles.len() == runs.len() {
         for (curve, run) in figure.curves.iter_mut().zip(&runs) {
             curve.label.clone_from(&run.scene.title);

@@ -1,4 +1,4 @@
-//! `run.json`: what ran, so that it can be run again.
+//! `run.json`: a record of the run, which allows to repeat it.
 
 use super::facts::{Facts, warnings};
 use super::until::Ended;
@@ -26,21 +26,21 @@ struct Record<'a> {
     build: Build,
     /// The command line, for a shell.
     command: String,
-    /// With every default written out.
+    /// The scene, with every default written out.
     scene: Scene,
     facts: Facts,
     seed: u64,
     plan: &'a [Entry],
     plan_text: String,
-    /// What to know before trusting the results.
+    /// Reasons to doubt the results.
     warnings: Vec<String>,
     counters: Counters,
-    /// How the number of replicas was found, where `--until-se` did.
+    /// The choice of the number of replicas by `--until-se`; none without it.
     #[serde(skip_serializing_if = "Option::is_none")]
     until_se: Option<&'a Ended>,
-    /// Processes of an MPI job.
+    /// Number of processes of an MPI job.
     ranks: usize,
-    /// Of each rank.
+    /// Number of threads of each rank.
     threads: usize,
     seconds: Seconds,
     files: Vec<&'a str>,

@@ -61,14 +61,14 @@ pub(super) struct Args {
     force: bool,
 }
 
-/// What `--start` says.
+/// The value of `--start`.
 #[derive(Clone, Copy, Debug)]
 enum From {
     Isotropic,
     Angles { phi_deg: f64, theta_deg: f64 },
 }
 
-/// What `--times` says.
+/// The value of `--times`.
 #[derive(Clone, Debug)]
 struct Times(Vec<f64>);
 
@@ -98,7 +98,7 @@ pub(super) fn reference(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// What values are of.
+/// The rods of the requested values.
 enum Asked {
     /// Free rods.
     Free(Start),
@@ -108,7 +108,7 @@ enum Asked {
 
 fn asked(args: &Args, motion: &Motion, direction: Option<Direction>) -> Result<Asked, Failure> {
     let sd = args.aspect_ratio_sd_percent;
-    // Without diffusion they are free rods, whose means have all digits; those have no steady distribution.
+    // Without diffusion the rods are free; their means have full precision, but there is no steady distribution.
     if let Some(c_i) = args.c_i.filter(|c_i| *c_i > 0.0 || args.steady) {
         if direction.is_some() {
             return Err(isotropic_only(&format!("--c-i {c_i}")));
@@ -285,7 +285,7 @@ fn gradient(text: &str) -> Result<[[f64; 3]; 3], String> {
     }
 }
 
-/// The most times at once.
+/// The largest number of times.
 const MOST: u64 = 100_000;
 
 fn times(text: &str) -> Result<Times, String> {
@@ -305,14 +305,14 @@ fn times(text: &str) -> Result<Times, String> {
     if from > to {
         return Err(refuse());
     }
-    // Exact until the end, so that a time is the double nearest to its decimal.
+    // Exact until the end, so that each time is the double nearest to its decimal.
     let gaps = Bits(400).of((count - 1).max(1) as f64);
     let span = to - &from;
     let time = |k: u64| &from + &span * Bits(400).of(k as f64) / &gaps;
     Ok(Times((0..count).map(|k| double(&time(k))).collect()))
 }
 
-/// Times that are written out.
+/// Parses a list of times, which must ascend.
 fn listed(text: &str) -> Option<Times> {
     let times = text.split(',').map(|time| decimal(time).map(|time| double(&time)));
     let times: Vec<f64> = times.collect::<Option<_>>()?;

@@ -1,4 +1,4 @@
-//! Every rod of a run at the times that its scene asks for: a table, and lines for ParaView.
+//! Every rod of a run at the times that its scene requests: a table, and lines for ParaView.
 
 use crate::files::output::Output;
 use shearbed::nalgebra::Vector3;
@@ -11,20 +11,20 @@ use std::fmt::Write;
 const COLUMNS: &str =
     "replica,rod,time_s,strain,aspect_ratio,length_mm,x1_mm,x2_mm,x3_mm,p1,p2,p3,collided\n";
 
-/// The most bytes of a row: ten numbers of 24 letters with their comma, replica and rod of 8 and 9 and a digit.
+/// The largest number of bytes of a row: ten numbers of 24 letters with their comma, replica and rod of 8 and 9 and a digit.
 const ROW: u64 = 10 * 24 + 9 + 10 + 2;
 
-/// The most bytes of a rod in a `.vtp` file: two ends and a direction of three numbers, its r_e and length, whether it collided, its
-/// replica, and the four places at which its line's ends are counted.
+/// The largest number of bytes of a rod in a `.vtp` file: three vectors of three numbers (two ends and a direction), its r_e and
+/// length, whether it collided, its replica, and the four places at which its line's ends are counted.
 const LINE: u64 = 11 * 24 + 2 + 9 + 4 * 11;
 
-/// The most bytes of the files of every rod.
+/// The largest number of bytes of the files with every rod.
 pub(super) fn most_bytes(plan: &Plan, vtk: bool) -> u64 {
     let of_rod = ROW + if vtk { LINE } else { 0 };
     plan.rods_out().saturating_mul(of_rod)
 }
 
-/// `rods.csv`, with `vtk` also `rods.pvd` and the file of each time that it names. None where no rods are asked for.
+/// `rods.csv`, and with `vtk` also `rods.pvd` and the file of each time that it names. Empty if the scene requests no rods.
 pub(super) fn files(plan: &Plan, results: &Results, vtk: bool) -> Vec<Output> {
     let outputs = plan.rods_outputs();
     if outputs.is_empty() {
@@ -51,14 +51,14 @@ pub(super) fn files(plan: &Plan, results: &Results, vtk: bool) -> Vec<Output> {
     files
 }
 
-/// A row for each rod; free rods have no place, and its cells are empty. Numbers read back as the same bits.
+/// A row for each rod; the cells of a free rod's place are empty. Numbers read back as the same bits.
 fn csv(results: &Results, scene: &Scene) -> String {
     let mut text = COLUMNS.to_owned();
     for snapshot in &results.snapshots {
         let Elapsed { seconds: time_s, strain } = results.elapsed[snapshot.output];
         for rod in 0..snapshot.aspect_ratio.len() {
             let place = snapshot.place_mm(scene, rod).map_or(",,".to_owned(), numbers);
-            // A String takes all that is written.
+            // Writing to a String cannot fail.
             let _ = writeln!(
                 text,
                 "{},{rod},{time_s:?},{strain:?},{:?},{:?},{place},{},{}",

@@ -58,7 +58,7 @@ pub(super) struct Args {
     writing: Writing,
 }
 
-/// Refuses a folder in which a result would replace a file that the scene's rods are read from, with --force too.
+/// Refuses a folder in which a result would replace a file from which the scene reads rods, also with --force.
 fn reads_no_result(starts: &Starts, out: &Path, names: &[impl AsRef<Path>]) -> Result<(), Failure> {
     let there = |path: PathBuf| path.canonicalize().ok();
     let results: Vec<_> = names.iter().filter_map(|name| there(out.join(name))).collect();
@@ -72,14 +72,14 @@ fn reads_no_result(starts: &Starts, out: &Path, names: &[impl AsRef<Path>]) -> R
     }
 }
 
-/// A time between checkpoints.
+/// Parses the time between checkpoints, in s.
 fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok().filter(|s| (0.01..=86_400.0).contains(s));
     let seconds = seconds.ok_or("seconds from 0.01 to 86400 are allowed")?;
     Ok(Duration::from_secs_f64(seconds))
 }
 
-/// The plan: with `--until-se` of as many replicas as may be added.
+/// The plan of the run; with `--until-se` it allows the largest number of replicas.
 fn planned(args: &Args, named: &Named) -> Result<Plan, Failure> {
     let plan = named.plan()?;
     args.until.check(&plan, &named.source)?;
@@ -96,7 +96,7 @@ fn planned(args: &Args, named: &Named) -> Result<Plan, Failure> {
     Ok(plan.with_replicas(MAX_REPLICAS))
 }
 
-/// All that the results depend on. With `--until-se` the rules stand in place of the number of replicas.
+/// The inputs on which the results depend. With `--until-se` the rules replace the number of replicas.
 fn inputs(args: &Args, plan: &Plan) -> Value {
     if args.until.is_empty() {
         return json!({ "scene": plan.scene().resolved() });
@@ -107,8 +107,8 @@ fn inputs(args: &Args, plan: &Plan) -> Value {
     json!({ "scene": scene })
 }
 
-/// The record of a run of this scene in `dir` whose replicas are all among the `kept` ones of a checkpoint: results that go on from
-/// there contain its own.
+/// The record of an earlier run of this scene in `dir` whose replicas are all among the first `kept` of a checkpoint: results that
+/// continue from there contain the earlier ones.
 fn earlier(dir: &Path, plan: &Plan, kept: u64) -> Option<Origin> {
     let record = Record::read(dir).ok()??;
     let run: Value = serde_json::from_str(&bounded::text(&dir.join(RUN), MOST_OF_RECORD).ok()?).ok()?;
@@ -124,13 +124,13 @@ fn earlier(dir: &Path, plan: &Plan, kept: u64) -> Option<Origin> {
     (same && replicas <= kept).then_some(record.origin)
 }
 
-/// The run's checkpoint, if one is asked for.
+/// The run's checkpoint, if one is requested.
 fn open_checkpoint(args: &Args, plan: &Plan, path: Option<&Path>) -> Result<Option<Arc<Replicas>>, Failure> {
     let every = args.every.unwrap_or(Duration::from_secs(60));
     Ok(path.map(|path| Replicas::open(plan, path, every)).transpose()?)
 }
 
-/// Writes the checkpoint for the first time, and prints what of the run is in it.
+/// Writes the checkpoint for the first time, and prints how much of the run it contains.
 fn begin(args: &Args, replicas: &Replicas) -> Result<(), Failure> {
     replicas.write()?;
     let progress = replicas.progress();
@@ -225,17 +225,17 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     until.map_or(Ok(()), |until| until.failure())
 }
 
-/// The results of a run. The error of a stopped run names the scene; nothing is written then, and earlier results stay.
+/// Adds the scene's name to the error of a stopped run, which writes nothing, so that earlier results stay.
 fn ended<T>(source: &str, results: Result<T, Error>) -> Result<T, Failure> {
     results.map_err(|error| Failure::Input(format!("{source}: {error}")))
 }
 
-/// The scene, plan, counters and times of a run.
+/// The file with the scene, plan, counters and times of a run.
 const RUN: &str = "run.json";
-/// The longest one.
+/// The largest size of that file, in bytes.
 const MOST_OF_RECORD: u64 = 64 << 20;
 
-/// The names of the files of a run, but for those of single times of its rods.
+/// The names of the files of a run, except those of single times of its rods.
 fn names(plan: &Plan, vtk: bool) -> Vec<String> {
     let of_each = plan.observables().into_iter().flat_map(|observable| {
         let stems = pictures::stems(observable).into_iter();

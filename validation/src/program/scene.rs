@@ -1,4 +1,4 @@
-//! Finding the scene that the command line names, with the keys that it sets.
+//! Loads the scene that the command line names, with the keys that it sets.
 
 use super::{Failure, whole};
 use crate::files::bounded;
@@ -60,32 +60,32 @@ impl Chosen {
     }
 }
 
-/// A scene with the name of what is made from it.
+/// A scene with its source, and a name for results made from it.
 pub(super) struct Named {
     pub(super) scene: Scene,
-    /// The text it was read from.
+    /// The text from which the scene was read.
     pub(super) text: String,
-    /// The same with the keys that were set.
+    /// The text as a document, with the keys that were set.
     document: Document,
-    /// The keys set in place of the text's.
+    /// The keys that replace those of the text.
     pub(super) settings: Vec<Setting>,
     /// The file as given, or the built-in scene's name: for messages.
     pub(super) source: String,
-    /// What was read of files of starts beside it.
+    /// The initial directions from files beside the scene.
     pub(super) starts: Starts,
     /// The stem of the file's name, or the built-in scene's name.
     pub(super) stem: String,
 }
 
 impl Named {
-    /// Its plan; an error names the line of the key, or the keys that were set.
+    /// The scene's plan; an error names the line of the key, or the keys that were set.
     pub(super) fn plan(&self) -> Result<Plan, Failure> {
         Plan::new(&self.scene)
             .map_err(|error| wrong(&self.source, &self.settings, &self.document.located(error)))
     }
 }
 
-/// Mistakes of the file with their lines, those of keys that were set with `--set`.
+/// The failure for an invalid scene: faults of the file have lines, those of `--set` have the flag.
 fn wrong(source: &str, settings: &[Setting], error: &Error) -> Failure {
     let Error::Text { problems, .. } = error else {
         return refused(source, &error.to_string());
@@ -103,7 +103,7 @@ fn refused(source: &str, error: &str) -> Failure {
     Failure::Input(format!("{source}: {error}"))
 }
 
-/// Reads the file `given`, or where there is none the built-in scene of that name, with these keys set.
+/// Reads the file `given`, or if there is none the built-in scene of that name, with the keys `settings`.
 pub(super) fn load(given: &OsStr, settings: Vec<Setting>) -> Result<Named, Failure> {
     let path = Path::new(given);
     let source = path.shown();
@@ -125,7 +125,7 @@ pub(super) fn load(given: &OsStr, settings: Vec<Setting>) -> Result<Named, Failu
     Ok(Named { scene, text, document, settings, source, starts, stem })
 }
 
-/// Says on standard error, from the root, what the reader of the results should know before trusting them.
+/// Prints warnings about the results on standard error, on the root only.
 pub(super) fn warn<'a>(source: &str, warnings: impl IntoIterator<Item = &'a String>) {
     if !cluster::is_root() {
         return;
@@ -135,7 +135,7 @@ pub(super) fn warn<'a>(source: &str, warnings: impl IntoIterator<Item = &'a Stri
     }
 }
 
-/// The longest scene file.
+/// The largest size of a scene file, in bytes.
 const MOST_BYTES: u64 = 64 << 20;
 
 fn read(path: &Path) -> Result<String, Failure> {

@@ -30,13 +30,13 @@ pub(super) struct ScenesArgs {
     keys: bool,
 }
 
-/// Prints a scene's plan. Fails where `run` would for want of memory.
+/// Prints a scene's plan. Fails if `run` would fail because of memory.
 pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
     let named = args.chosen.load(&Ensemble::default(), &[])?;
     let plan = named.plan()?;
     args.until.check(&plan, &named.source)?;
     let plan = if args.until.is_empty() { plan } else { plan.with_replicas(LEAST) };
-    // The plan ends with its own warnings, and all of them come last.
+    // The plan's text ends with its own warnings; they are removed and printed last with all others.
     let said = |warnings: Vec<String>| -> String {
         let lines = warnings.iter().map(|warning| format!("warning: {warning}\n"));
         lines.collect()
@@ -50,7 +50,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<(), Failure> {
         args.until.planned(),
         said(facts::warnings(&plan))
     ))?;
-    // What `run` would refuse here is still shown: it may fit on another machine.
+    // A plan that `run` would refuse here is still shown: it may fit on another machine.
     memory::check(&plan, None, false, &named.source)
 }
 

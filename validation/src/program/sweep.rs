@@ -38,7 +38,7 @@ pub(super) struct Args {
     writing: Writing,
 }
 
-/// Runs the points of a sweep that are not finished, and writes one row a point.
+/// Runs the unfinished points of a sweep, and writes one row per point.
 pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let named = args.chosen.load(&args.ensemble, &args.over)?;
     check(&args.over)?;
@@ -69,7 +69,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let inputs = sweep::inputs(&named.scene, &args.over, &points, &warned);
     agree("sweep", inputs.clone())?;
 
-    // Only the root may see the folder.
+    // Only the root can access the folder.
     let mut folder = None;
     let open = || {
         let bytes = (points.iter()).map(|point| tables::most_bytes(&point.plan)).sum();
@@ -108,7 +108,7 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     let arrived = |job: usize, tables: &Vec<Output>| {
         bar.inc(1);
         let k = jobs[job];
-        // Results arrive on the root alone.
+        // Results arrive only on the root.
         let Some(folder) = &folder else {
             return Ok(());
         };
@@ -144,10 +144,10 @@ pub(super) fn sweep(args: &Args) -> Result<(), Failure> {
     ))
 }
 
-/// The most warnings of points on the terminal.
+/// The largest number of warnings of points on the terminal.
 const MOST_WARNINGS: usize = 10;
 
-/// What to know before trusting a point's results, point by point.
+/// Reasons to doubt results, for each point.
 fn warnings(points: &[Point], over: &[Axis]) -> Vec<String> {
     let of_point = |point: &Point| {
         let at = sweep::described(over, &point.values);
@@ -157,7 +157,7 @@ fn warnings(points: &[Point], over: &[Axis]) -> Vec<String> {
     points.iter().flat_map(of_point).collect()
 }
 
-/// Refuses a key that changes what is observed.
+/// Refuses a key that changes the columns of the results.
 fn check(axes: &[Axis]) -> Result<(), Failure> {
     match axes.iter().find(|axis| axis.key.starts_with("output")) {
         Some(axis) => Err(Failure::Input(format!(
@@ -168,15 +168,15 @@ fn check(axes: &[Axis]) -> Result<(), Failure> {
     }
 }
 
-/// The points to run: those that are missing; where others are finished, the first of these comes before them, to be
-/// compared with what is kept: a program whose numbers have changed is to be noticed.
+/// The points to run: the missing ones; if others are finished, the first of these comes before them, and its result is
+/// compared with the stored one, to detect a program whose numbers have changed.
 fn jobs(finished: &[usize], points: usize) -> (Option<usize>, Vec<usize>) {
     let missing: Vec<_> = (0..points).filter(|k| finished.binary_search(k).is_err()).collect();
     let checked = finished.first().copied().filter(|_| !missing.is_empty());
     (checked, checked.into_iter().chain(missing).collect())
 }
 
-/// A table of each observable of a point.
+/// Runs a point and returns a table for each observable.
 fn tables_of(point: &Point) -> Result<Vec<Output>, String> {
     let results = ensemble::run(&point.plan).map_err(|error| error.to_string())?;
     let table = |series: &ensemble::Series| {
@@ -194,10 +194,10 @@ fn other_numbers(point: &Path) -> Failure {
     ))
 }
 
-/// The most rows and columns of a table for the terminal.
+/// The largest numbers of rows and columns of a table for the terminal.
 const MOST: (usize, usize) = (32, 9);
 
-/// The rows with numbers shortened, where they are few enough to read.
+/// A table with shortened numbers; empty if there are too many rows to read.
 fn table(rows: &[Vec<String>], swept: usize) -> String {
     if rows.len() > MOST.0 + 1 {
         return String::new();

@@ -1,9 +1,9 @@
-//! Results as tables: CSV for files, a short one for the terminal.
+//! Results as tables: CSV for files, and a short one for the terminal.
 
 use shearbed::run::ensemble::{Column, Series};
 use shearbed::{Plan, Results};
 
-/// An observable's file: the time, also in s and as strain, then each channel with its standard error. Every number is
+/// The CSV file of an observable: the time, also in s and as strain, then each channel with its standard error. Every number is
 /// the shortest text that reads back as the same bits.
 pub(super) fn csv(results: &Results, series: &Series) -> Result<String, String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
@@ -25,7 +25,7 @@ pub(super) fn csv(results: &Results, series: &Series) -> Result<String, String> 
     String::from_utf8(bytes).map_err(|error| error.to_string())
 }
 
-/// The most bytes of the tables and of the pictures of a plan's results, each observable's.
+/// The largest number of bytes of the table and of the pictures of each observable.
 fn most_of_each(plan: &Plan) -> impl Iterator<Item = (u64, u64)> {
     // A number is at most 24 letters long with its comma, as -2.2250738585072014e-308; a picture has a curve and the two
     // sides of its band, each point of two numbers of seven digits.
@@ -33,30 +33,30 @@ fn most_of_each(plan: &Plan) -> impl Iterator<Item = (u64, u64)> {
     const POINT: u64 = 3 * 16;
     let rows = plan.outputs() as u64 + 1;
     plan.observables().into_iter().map(move |observable| {
-        // Of a density only the ends are drawn.
+        // For a density only the mean is drawn, not its many bins.
         let drawn = if observable.is_density() { 1 } else { observable.width() };
         let table = rows * NUMBER * (3 + 2 * observable.width() as u64);
         (table, rows * POINT * drawn as u64)
     })
 }
 
-/// The most bytes that the tables and pictures of a plan's results take.
+/// The largest number of bytes of the tables and pictures of a plan's results.
 pub(super) fn most_bytes(plan: &Plan) -> u64 {
     most_of_each(plan).map(|(table, picture)| table + picture).sum()
 }
 
-/// The most memory that the results of a plan, their tables and their pictures take.
+/// The largest memory for the results of a plan, their tables and their pictures, in bytes.
 pub(super) fn most_memory(plan: &Plan) -> u64 {
     // Means and standard errors.
     let channels: usize = plan.observables().iter().map(|o| o.width()).sum();
     let results = plan.outputs() as u64 * 16 * channels as u64;
-    // A text that grows has twice its room; a point that is drawn is held as numbers, placed and in a path, about eight
+    // A growing text may reserve twice its length; a drawn point is stored as numbers, as a place and in a path, about eight
     // times the length of its text.
     let (table, picture) = most_of_each(plan).fold((0, 0), |(a, b), (c, d)| (a.max(c), b.max(d)));
     results + most_bytes(plan) + table.max(8 * picture)
 }
 
-/// Of each channel the first and the last mean, the least and the largest with their times, and a sparkline.
+/// For each channel the first and the last mean, the least and the largest with their times, and a sparkline.
 pub(super) fn summary(results: &Results) -> String {
     let name = match results.time_name {
         "strain" => "strain",
@@ -98,16 +98,16 @@ pub(super) fn summary(results: &Results) -> String {
     text
 }
 
-/// A time to three decimals at most.
+/// A time rounded to three decimals.
 fn shortest(time: f64) -> f64 {
     (time * 1e3).round() / 1e3
 }
 
-/// The widest sparkline.
+/// The largest number of bars in a sparkline.
 const WIDEST: usize = 72;
 
-/// Means in bars of eight heights, from the least to the largest. Where there are more means than bars, every other bar is
-/// the largest and the next the least of what it stands for: a fast oscillation is a comb, and never looks like a
+/// Means as bars of eight heights, from the least to the largest. If there are more means than bars, bars show in turn
+/// the largest and the least of the means that they represent: a fast oscillation looks like a comb, and never like a
 /// slow one or none.
 fn sparkline(means: &[f64]) -> String {
     const BARS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
@@ -126,7 +126,7 @@ fn sparkline(means: &[f64]) -> String {
     (0..bars).map(bar).collect()
 }
 
-/// Every channel but the many of a density.
+/// The columns for the summary: for a density only the first.
 fn shown(series: &Series) -> &[Column] {
     match (series.observable.is_density(), series.columns.as_slice()) {
         (true, [mean, ..]) => std::slice::from_ref(mean),
@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn a_fast_oscillation_looks_like_no_slow_one() {
-        // Of 1200 outputs a bar stands for some 17, and the wave has a period of 16: sampled, it would look slow.
+        // Each bar represents some 17 of 1200 outputs, and the wave has a period of 16: sampling would make it look slow.
         let wave: Vec<f64> = (0..1200).map(|k| (TAU * f64::from(k) / 16.0).sin()).collect();
         let line: Vec<char> = sparkline(&wave).chars().collect();
         assert_eq!(line.len(), WIDEST);

@@ -1,4 +1,4 @@
-//! What a command says on the terminal while it runs.
+//! Output of a command on the terminal while it runs.
 
 use super::Failure;
 use crate::files::cluster;
@@ -12,7 +12,7 @@ use std::time::Duration;
 /// The last progress bar.
 static BAR: Mutex<Option<WeakProgressBar>> = Mutex::new(None);
 
-/// Removes the progress bar from the terminal: an error starts on a line of its own.
+/// Removes the progress bar from the terminal, so that an error starts on a line of its own.
 pub(super) fn clear() {
     let bar = BAR.lock().unwrap_or_else(PoisonError::into_inner).take();
     if let Some(bar) = bar.and_then(|bar| bar.upgrade()) {
@@ -20,7 +20,7 @@ pub(super) fn clear() {
     }
 }
 
-/// Prints to standard output. A reader that has gone away, as `head` does, is no error.
+/// Prints to standard output. It is no error if the reader has closed the pipe, as `head` does.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
     if !cluster::is_root() {
         return Ok(());
@@ -34,7 +34,7 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Prints a line about progress to standard error where no bar shows it: in the log of a job.
+/// Prints a line about progress to standard error if no bar shows it, as in the log of a job.
 pub(super) fn log(line: &str, quiet: bool) {
     if quiet || !cluster::is_root() || io::stderr().is_terminal() {
         return;
@@ -42,7 +42,7 @@ pub(super) fn log(line: &str, quiet: bool) {
     complain(&format!("{}\n", readable(line)));
 }
 
-/// Restarts a bar for the next part of the work, without steps: `inc_length` adds them.
+/// Restarts a bar for the next part of the work, with 0 steps: `inc_length` adds some.
 pub(super) fn restart(bar: &ProgressBar, part: &str) {
     bar.set_message(part.to_owned());
     bar.set_length(0);
@@ -50,8 +50,8 @@ pub(super) fn restart(bar: &ProgressBar, part: &str) {
     bar.reset_elapsed();
 }
 
-/// A bar for a slow part on a terminal, and nothing elsewhere. It shows the time left once a step is done, from the mean rate;
-/// for a single step it shows the time so far. With 0 steps it is one for [`restart`].
+/// A bar for slow work on a terminal, hidden elsewhere. It shows the time left once a step is done, from the mean rate;
+/// for a single step it shows the elapsed time. With 0 steps it is prepared for [`restart`].
 pub(super) fn progress(steps: u64, what: &str, quiet: bool) -> ProgressBar {
     if quiet || !cluster::is_root() || !io::stderr().is_terminal() {
         return ProgressBar::hidden();
@@ -71,7 +71,7 @@ pub(super) fn progress(steps: u64, what: &str, quiet: bool) -> ProgressBar {
                 format!("{rate:.2} a second, {:.0} s left{of_what}", all.saturating_sub(done) as f64 / rate)
             }
         };
-        // Where even this cannot be written, there is no bar.
+        // If even this cannot be written, there is no bar.
         let _ = text.write_str(&words);
     };
     let style = ProgressStyle::with_template(&template);

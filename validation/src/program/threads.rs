@@ -1,12 +1,12 @@
-//! How many threads a command runs on.
+//! The number of threads of a command.
 
 use super::{Failure, whole};
 use std::ffi::OsString;
 
-/// The most threads that can be asked for.
+/// The largest allowed number of threads.
 const MAX_THREADS: u64 = 1024;
 
-/// Rayon's own setting, which counts where `--threads` is not given.
+/// Rayon's own setting, which is used without `--threads`.
 const VARIABLE: &str = "RAYON_NUM_THREADS";
 
 /// The option of every command that runs replicas.
@@ -17,19 +17,19 @@ pub(super) struct Threads {
     pub(super) given: Option<u64>,
 }
 
-/// Refuses more threads in the environment than can be asked for.
+/// Refuses a number of threads in the environment that is not allowed.
 pub(super) fn check() -> Result<(), Failure> {
     of_environment(std::env::var_os(VARIABLE)).map(drop)
 }
 
-/// Threads for a command: as given, or as the environment says, or one for each core.
+/// The number of threads for a command: `given`, or that of the environment, or one for each core.
 pub(super) fn count(given: Option<u64>) -> Result<u64, Failure> {
     let cores = || std::thread::available_parallelism().map_or(1, |cores| cores.get() as u64);
     let set = of_environment(std::env::var_os(VARIABLE))?;
     Ok(given.or(set).unwrap_or_else(|| cores().min(MAX_THREADS)))
 }
 
-/// 0 and nothing stand for one for each core, as rayon has it.
+/// Parses the variable; 0 and an empty text mean one thread for each core, as for rayon.
 fn of_environment(value: Option<OsString>) -> Result<Option<u64>, Failure> {
     let text = value.unwrap_or_default().to_string_lossy().into_owned();
     match text.parse() {

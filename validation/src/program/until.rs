@@ -1,7 +1,7 @@
-//! `run --until-se`: replicas are added until standard errors are small enough.
+//! `run --until-se`: adds replicas until standard errors are small enough.
 //!
 //! The number of replicas is one of 32, 40, 48, … ([`next`]): the first at which every rule holds. It depends on the scene, the
-//! seed and the rules alone, never on threads, load, or where an earlier run had stopped.
+//! seed and the rules alone, never on threads, load, or the place where an earlier run stopped.
 
 use super::Failure;
 use serde::Serialize;
@@ -11,7 +11,7 @@ use shearbed::scene::MAX_REPLICAS;
 use shearbed::{Error, Plan};
 use std::time::{Duration, Instant};
 
-/// The fewest replicas: a standard error over 32 is itself known to 13 %.
+/// The smallest number of replicas: a standard error over 32 is itself known to 13 %.
 pub(super) const LEAST: u64 = 32;
 
 /// Options of `run` and `plan`.
@@ -23,7 +23,7 @@ pub(super) struct Until {
     rules: Vec<(String, f64)>,
 }
 
-/// A column and its largest standard error.
+/// Parses a column and its largest allowed standard error.
 fn rule(text: &str) -> Result<(String, f64), String> {
     let parts = text.split_once('=').map(|(name, value)| (name.trim(), value.trim().parse::<f64>()));
     match parts {
@@ -34,7 +34,7 @@ fn rule(text: &str) -> Result<(String, f64), String> {
     }
 }
 
-/// A time limit, as `90s`, `10min` or `1.5h`.
+/// Parses a time limit such as `90s`, `10min` or `1.5h`.
 pub(super) fn time_limit(text: &str) -> Result<Duration, String> {
     let units = [("min", 60.0), ("s", 1.0), ("h", 3600.0)];
     let value = units.into_iter().find_map(|(unit, seconds)| {
@@ -52,29 +52,29 @@ pub(super) fn time_limit(text: &str) -> Result<Duration, String> {
 pub(super) struct Reached {
     /// The column.
     channel: String,
-    /// The largest standard error that is asked for.
+    /// The largest allowed standard error.
     asked: f64,
-    /// The largest at any output.
+    /// The largest standard error at any output.
     reached: f64,
 }
 
-/// How the replicas were added, for `run.json`.
+/// The outcome of adding replicas, for `run.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Ended {
-    /// The replicas of the results.
+    /// Number of replicas in the results.
     pub(super) replicas: u64,
     /// True if every rule holds.
     pub(super) holds: bool,
-    /// Each rule, and what is reached.
+    /// Each rule's column, with its standard error.
     columns: Vec<Reached>,
     #[serde(skip_serializing_if = "Option::is_none")]
     time_limit_s: Option<f64>,
 }
 
-/// The replicas of a sum, and for each rule what they reach.
+/// The number of replicas in a sum, and for each rule the largest standard error.
 pub(super) type Look = (u64, Vec<f64>);
 
-/// Measures a sum of replicas.
+/// A function that measures a sum of replicas.
 pub(super) type Measure<'a> = dyn Fn(&Tally) -> Look + Sync + 'a;
 
 impl Until {
@@ -87,7 +87,7 @@ impl Until {
     ///
     /// # Errors
     ///
-    /// A column that the scene does not have, one that is named twice, or rods of every replica that are asked for.
+    /// A column that the scene does not have, a column that is named twice, or a scene that requests rods of every replica.
     pub(super) fn check(&self, plan: &Plan, source: &str) -> Result<(), Failure> {
         let refused = |what: String| Err(Failure::Input(format!("{source}: --until-se {what}")));
         for (k, (name, value)) in self.rules.iter().enumerate() {
@@ -112,7 +112,7 @@ impl Until {
         format!("until_se {}", rules.join(" "))
     }
 
-    /// What is known before the run.
+    /// A text on the rules before the run.
     pub(super) fn planned(&self) -> String {
         let rules: Vec<_> = self.rules.iter().map(|(name, value)| format!("{name} ≤ {value}")).collect();
         match rules.is_empty() {
@@ -125,18 +125,18 @@ impl Until {
         }
     }
 
-    /// The largest standard error that each rule has reached.
+    /// The largest standard error so far for each rule.
     fn reached(&self, plan: &Plan, tally: &Tally) -> Vec<f64> {
         let largest = |name: &str| {
             let errors = tally.standard_errors(plan, channel(plan, name)?)?;
-            // NaN stays: it holds no rule.
+            // NaN is kept, so that no rule holds.
             errors.into_iter().reduce(|a, b| if a.is_nan() || a > b { a } else { b })
         };
         self.rules.iter().map(|(name, _)| largest(name).unwrap_or(f64::NAN)).collect()
     }
 
-    /// Adds replicas to those that there are (`has`) until every rule holds, or no more may be added. `add` runs the replicas up
-    /// to a number, or fewer after the deadline, and measures their sum; it returns the same on every rank.
+    /// Adds replicas to the existing ones (`has`) until every rule holds, or no more may be added. `add` runs the replicas up
+    /// to a number, or fewer after the deadline, and measures their sum; it must return the same on every rank.
     pub(super) fn grow(
         &self,
         plan: &Plan,
@@ -167,7 +167,7 @@ impl Until {
     }
 }
 
-/// The number of replicas after `replicas` at which the rules are looked at: an eighth more, and at least 8.
+/// The number of replicas after `replicas` at which the rules are checked: an eighth more, and at least 8 more.
 fn next(replicas: u64) -> u64 {
     (replicas + (replicas / 8).max(8)).min(MAX_REPLICAS)
 }
@@ -190,14 +190,14 @@ fn allowed(plan: &Plan) -> String {
 }
 
 impl Ended {
-    /// The replicas that the rules will need, by the standard errors so far.
+    /// The expected final number of replicas, from the standard errors so far.
     pub(super) fn expected(&self) -> u64 {
         let times = |column: &Reached| (column.reached / column.asked).powi(2);
         let most = self.columns.iter().map(times).fold(1.0, f64::max);
         ((self.replicas as f64 * most).ceil() as u64).clamp(self.replicas, MAX_REPLICAS)
     }
 
-    /// In words: `standard error of x1: 0.0009, at most 0.001 was asked for`.
+    /// A text on each rule, with the standard error reached and the allowed one.
     pub(super) fn text(&self) -> String {
         let of = |column: &Reached| {
             let Reached { channel, asked, reached } = column;
@@ -206,7 +206,7 @@ impl Ended {
         self.columns.iter().map(of).collect::<Vec<_>>().join("; ")
     }
 
-    /// The failure where a rule does not hold; the results are written before.
+    /// A failure if a rule does not hold; the results have been written before.
     pub(super) fn failure(&self) -> Result<(), Failure> {
         if self.holds {
             return Ok(());
@@ -230,7 +230,7 @@ impl Ended {
     }
 }
 
-/// A number with two digits.
+/// A number rounded to two digits.
 fn two_digits(value: f64) -> f64 {
     format!("{value:.1e}").parse().unwrap_or(value)
 }
@@ -255,8 +255,8 @@ mod tests {
         assert_eq!(next(MAX_REPLICAS), MAX_REPLICAS);
     }
 
-    /// How far the true standard error, σ/√N, is above the one asked for where N is found by the noisy one, for a single column at
-    /// a single output: the hardest case. Mean, and what 5 % of normal samples exceed, asked for what `enough` replicas have.
+    /// The ratio of the true standard error σ/√N to the allowed one, which `enough` replicas have, if N is found from the noisy one,
+    /// for a single column at a single output, the hardest case: its mean and its 95 % quantile.
     fn excess(least: u64, enough: f64) -> (f64, f64) {
         let mut random = rand_pcg::Pcg64Dxsm::seed_from_u64(82);
         let mut ratios: Vec<f64> = (0..4000)

@@ -62,17 +62,17 @@ fn folder(text: &str) -> Result<PathBuf, String> {
     }
 }
 
-/// What a report has beside its curves and tables.
+/// Files of a report other than its curves and tables.
 const PAGES: [&str; 4] = ["report.html", "report.json", "report.md", "junit.xml"];
 
-/// Runs the cases and writes the report. Where cases are chosen, the report holds them alone.
+/// Runs the cases and writes the report. If cases are chosen, the report contains only them.
 pub(super) fn validate(args: Args) -> Result<(), Failure> {
     let chosen = choice::chosen(&args.cases, &args.tags)?;
     if args.list {
         return print(&choice::list(&chosen));
     }
     if let Some(data) = &args.data {
-        // Bad points are bad input, not a case that failed.
+        // Invalid points are bad input, not a failed case.
         experiment::check(data).map_err(|error| Failure::Input(error.to_string()))?;
     }
     let names: Vec<_> = chosen.iter().map(|case| case.about.name).collect();
@@ -108,7 +108,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     folder.write(files)?;
     let red: String = report.cases.iter().map(CaseRow::reasons).collect();
     if !red.is_empty() && cluster::is_root() {
-        // Also where nothing else is printed: what is red is an error.
+        // Printed even with --quiet: a failed case is an error.
         complain(&format!("\n{red}"));
     }
     if !args.writing.quiet {
@@ -121,7 +121,7 @@ pub(super) fn validate(args: Args) -> Result<(), Failure> {
     }
 }
 
-/// Runs every study and gathers what the report shows beside its cases on the root; nothing elsewhere.
+/// Runs every study and collects the report's sections on the root; `None` elsewhere.
 fn gather(effort: &Effort, finished: Option<&Finished>, quiet: bool) -> Result<Option<Sections>, Failure> {
     let mut sections = Sections { equations: catalogue::equations(), ..Default::default() };
     for study in studies::ALL {
@@ -132,7 +132,7 @@ fn gather(effort: &Effort, finished: Option<&Finished>, quiet: bool) -> Result<O
         if !quiet {
             print(&format!("study: {}\n", study.title))?;
         }
-        // One study alone calls back for its pieces of work.
+        // Only this study reports its pieces of work.
         let work = match study.name == figures::STUDY.name {
             true => figures::work(figures::Replicas::of(effort)).map_err(Failure::Failed)?,
             false => 0,
@@ -152,7 +152,7 @@ fn gather(effort: &Effort, finished: Option<&Finished>, quiet: bool) -> Result<O
 }
 
 /// Runs the cases, each rank its part one after the other, and prints how each ended. All outcomes on the root, and
-/// none elsewhere.
+/// `None` elsewhere.
 fn outcomes(
     chosen: &[Case],
     effort: &Effort,
@@ -160,7 +160,7 @@ fn outcomes(
     quiet: bool,
 ) -> Result<Option<Vec<Outcome>>, Failure> {
     let bar = progress(chosen.len() as u64, "cases", quiet);
-    // What a case says of itself every rank knows.
+    // Every rank has the cases' own descriptions.
     let run = |k: usize| {
         let case: &Case = &chosen[k];
         if let Some(found) = finished.and_then(|finished| finished.case(case.about.name)) {

@@ -1,9 +1,9 @@
-//! By which words this program was started.
+//! The words by which this program was started.
 
 use std::ffi::OsString;
 use std::sync::OnceLock;
 
-/// What stands in place of the process's own words where another program holds this one.
+/// Words that replace the process's own if another program contains this one.
 struct Words {
     program: Vec<OsString>,
     arguments: Vec<OsString>,
@@ -11,9 +11,9 @@ struct Words {
 
 static GIVEN: OnceLock<Words> = OnceLock::new();
 
-/// From now on the program was started by the words `program` and has these arguments. The first call counts.
+/// Sets the words `program` that started the program, and its arguments. Only the first call has an effect.
 pub(super) fn give(program: Vec<OsString>, arguments: Vec<OsString>) {
-    // A second call is of the same process, and so of the same words.
+    // A second call comes from the same process, and so has the same words.
     let _ = GIVEN.set(Words { program, arguments });
 }
 
@@ -25,7 +25,7 @@ pub(super) fn words() -> Vec<OsString> {
     }
 }
 
-/// The command that was given, as `run`; empty where there is none.
+/// The name of the given command, such as `run`; empty if there is none.
 pub(super) fn command() -> String {
     let first = |words: &[OsString]| words.first().map(|word| word.to_string_lossy().into_owned());
     let own = || std::env::args_os().skip(1).take(1).collect::<Vec<_>>();

@@ -1,4 +1,4 @@
-//! What `shearbed fit` starts from: scenes, points and ranges, checked.
+//! The input of `shearbed fit`: scenes, points and ranges, checked.
 
 use super::Args;
 use crate::files::text::Shown;
@@ -16,20 +16,20 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Tables of a scene that hold no property of rods, liquid or interaction.
+/// Tables of a scene without properties of rods, liquid or interaction.
 const NOT_FITTED: [&str; 3] = ["ensemble", "output", "time"];
 
-/// Everything a fit starts from.
+/// The checked input of a fit.
 pub(super) struct Input {
     pub(super) scenes: Scenes,
     pub(super) data: Vec<Datum>,
-    /// What each data set is called, and the file it is from.
+    /// The name of each data set, and its file.
     pub(super) names: Vec<String>,
     pub(super) files: Vec<PathBuf>,
     pub(super) stem: String,
 }
 
-/// Reads scenes and points. Every fault of either is found here, before anything runs.
+/// Reads scenes and points. Every fault in them is found here, before anything runs.
 pub(super) fn input(args: &Args) -> Result<Input, Failure> {
     if args.over.len() > MOST_PARAMETERS {
         return Err(Failure::Input(format!(
@@ -138,7 +138,7 @@ pub(super) fn input(args: &Args) -> Result<Input, Failure> {
     Ok(Input { scenes, data, names, files, stem })
 }
 
-/// That each key of a set's scene is set by one flag.
+/// Checks that each key of a set's scene is set by one flag.
 fn one_owner(args: &Args, set: usize) -> Result<(), Failure> {
     let over = args.over.iter().filter(|range| range.is_of(set));
     let over = over.map(|range| ("--over", range.key.as_str()));
@@ -148,7 +148,7 @@ fn one_owner(args: &Args, set: usize) -> Result<(), Failure> {
     sweep::one_owner(&owners).map_err(Failure::Input)
 }
 
-/// `FILE` belongs to the scene of the command, `SCENE2=FILE` to another. What exists as a file is one, whatever its name.
+/// `FILE` belongs to the scene of the command, `SCENE2=FILE` to another. A name with `=` that exists as a file is that file.
 fn scene_and_file<'a>(scene: &'a OsStr, given: &'a OsStr) -> (&'a OsStr, &'a Path) {
     match given.to_str().and_then(|text| text.split_once('=')) {
         Some((other, file)) if !Path::new(given).exists() => (OsStr::new(other), Path::new(file)),
@@ -156,7 +156,7 @@ fn scene_and_file<'a>(scene: &'a OsStr, given: &'a OsStr) -> (&'a OsStr, &'a Pat
     }
 }
 
-/// Refuses points later than the scene runs: they would make it run for long, and are mostly of another unit.
+/// Refuses points later than the scene's end: they would make it run for long, and usually have another unit.
 fn within_scene(
     named: &scene::Named,
     args: &Args,
@@ -190,7 +190,7 @@ fn within_scene(
             point.u_time
         )));
     }
-    // A point at the very end may be rounded beyond it.
+    // A point at the very end may be rounded to a later time.
     match points.iter().find(|point| point.time > end * (1.0 + 1e-12)) {
         None => Ok(()),
         Some(point) => Err(Failure::Input(format!(

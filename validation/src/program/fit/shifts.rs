@@ -1,4 +1,4 @@
-//! What other models would make of the same points.
+//! The shifts of a fit by changes of the model.
 
 use super::input::Input;
 use crate::methods::least_squares::emulator::Model;
@@ -8,13 +8,13 @@ use crate::serve::fit::scenes::{AS_WRITTEN, Variant};
 use crate::serve::fit::search::{Fit, Watch};
 use shearbed::scene::Scene;
 
-/// The key that tells how far r_e scatters.
+/// The key of the scatter of r_e.
 const SPREAD: &str = "particles.aspect_ratio_sd_percent";
 
-/// The name of the shift by its absence.
+/// The name of the shift by removing that scatter.
 const ONE_ASPECT_RATIO: &str = "rods of one r_e";
 
-/// What half the step, twice the rods, and rods of one r_e would change: of rods that interact.
+/// The shifts by half the step, twice the rods, and rods of one r_e; empty if no rods interact.
 pub(super) fn shifts(
     input: &Input,
     fit: &Fit,
@@ -36,7 +36,7 @@ pub(super) fn shifts(
     if !fitted && (best.iter()).any(|scene| scene.particles.aspect_ratio_sd_percent > 0.0) {
         variants.push((ONE_ASPECT_RATIO, one_aspect_ratio));
     }
-    // As many rods as a file has rows, no more.
+    // The number of rods cannot exceed the rows of a file.
     let from_a_file = |scene: &Scene| scene.particles.rods.is_some();
     let fixed = best.iter().any(from_a_file);
     let variants = (variants.into_iter()).filter(|(_, variant)| variant.rods == 1 || !fixed);
@@ -47,8 +47,8 @@ pub(super) fn shifts(
     variants.map(shift).collect()
 }
 
-/// That the spread of r_e, which is taken as known, counts for as much as the points: where it is wrong, a key that is fitted makes up
-/// for it, and χ² hardly shows it.
+/// Warnings that the assumed spread of r_e affects a parameter as much as the points do: if the spread is wrong, a fitted key
+/// compensates for it, and χ² hardly shows the error.
 pub(super) fn taken_as_known(report: &Report) -> Vec<String> {
     let without = (report.shifts.iter()).filter(|shift| shift.change == ONE_ASPECT_RATIO);
     let large = |shift: &Shift| {
@@ -69,5 +69,5 @@ pub(super) fn taken_as_known(report: &Report) -> Vec<String> {
     without.flat_map(large).collect()
 }
 
-/// Beyond this number of standard errors a shift is more than the noise of its replicas.
+/// A shift beyond this number of standard errors is more than the noise of its replicas.
 const CERTAIN: f64 = 3.0;

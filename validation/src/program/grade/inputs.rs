@@ -1,4 +1,4 @@
-//! What a grading depends on: references and answers by their checksums, and how they are read.
+//! The inputs of a grading: references and answers by their checksums, and the options for reading them.
 
 use super::Args;
 use crate::files::bounded;
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-/// The longest file of an answer.
+/// The largest file of an answer, in bytes.
 const MOST_BYTES: u64 = 1 << 36;
 
 /// The input of a grading of files.
@@ -26,7 +26,7 @@ pub(super) fn of_files(
     Ok(inputs)
 }
 
-/// The input of a grading of a program, which may answer otherwise another time.
+/// The input of a grading of a program, whose answers may differ from one run to the next.
 pub(super) fn of_program(
     args: &Args,
     reference: Option<&Path>,
@@ -53,11 +53,11 @@ pub(super) fn of_program(
     }))
 }
 
-/// The checksums of the files in a folder's folder of each problem, by their names.
+/// The checksums of the files in each problem's folder inside `dir`, by `NAME/FILE`.
 fn checksums(dir: &Path, wanted: &[LoadedProblem]) -> Result<BTreeMap<String, String>, Failure> {
     let mut sums = BTreeMap::new();
     for name in wanted.iter().map(|loaded| &loaded.problem.name) {
-        // Where there is none, no file of it was read.
+        // Without a folder no file was read for this problem.
         for entry in fs::read_dir(dir.join(name)).into_iter().flatten().flatten() {
             let path = entry.path();
             if !path.is_file() {

@@ -4,10 +4,10 @@ use crate::program::Failure;
 use crate::serve::problems::{Kind, LoadedProblem, tolerances};
 use std::str::FromStr;
 
-/// A tolerance of the user's.
+/// A tolerance given by the user.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tolerance {
-    /// The problem; none for all.
+    /// The problem; none for all problems.
     name: Option<String>,
     value: f64,
 }
@@ -27,8 +27,8 @@ impl FromStr for Tolerance {
     }
 }
 
-/// The problems with the user's tolerances: that of a problem's name before that of all. One of all is not that of an ensemble,
-/// which counts standard errors, and never lowers a problem's own.
+/// The problems with the user's tolerances; one for a named problem has priority over one for all. A tolerance for all does not
+/// apply to ensembles, which count standard errors, and never lowers a problem's own.
 pub(super) fn with(given: &[Tolerance], problems: Vec<LoadedProblem>) -> Result<Vec<LoadedProblem>, Failure> {
     let known = |name: &String| problems.iter().any(|loaded| loaded.problem.name == *name);
     if let Some(name) = given.iter().filter_map(|tolerance| tolerance.name.as_ref()).find(|name| !known(name))

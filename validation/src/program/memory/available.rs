@@ -1,10 +1,10 @@
-//! How much memory this process can still have.
+//! The memory that is still available to this process.
 
 use crate::files::bounded;
 use std::path::Path;
 
-/// Bytes that can still be had: of the machine, of the control groups that the process is in, and of what a shell's
-/// `ulimit -v` and `-d` leave. None where the system does not say.
+/// Bytes still available: the least of the machine's, of those of the process's control groups, and of those within a shell's
+/// `ulimit -v` and `-d`. `None` if the system does not report them.
 pub(super) fn available() -> Option<u64> {
     let read = |file: &str| text(Path::new(file)).unwrap_or_default();
     let machine = number_of(&read("/proc/meminfo"), "MemAvailable:")?;
@@ -14,23 +14,23 @@ pub(super) fn available() -> Option<u64> {
     others.chain([machine]).min()
 }
 
-/// A short file of the system.
+/// The text of a short file of the system.
 fn text(path: &Path) -> Option<String> {
     bounded::text(path, 1 << 20).ok()
 }
 
-/// A line as `MemAvailable:  17 kB`, in bytes.
+/// The value of a line such as `MemAvailable:  17 kB`, in bytes.
 fn number_of(text: &str, name: &str) -> Option<u64> {
     let line = text.lines().find_map(|line| line.strip_prefix(name))?;
     let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     Some(kilobytes * 1024)
 }
 
-/// What the process's own limits leave of what it has: of address space, and of data.
+/// Bytes left within the process's own limits of address space and of data.
 fn of_limits(limits: &str, status: &str) -> Option<u64> {
     let left = |limit: &str, used: &str| {
         let line = limits.lines().find_map(|line| line.strip_prefix(limit))?;
-        // "unlimited" is no number.
+        // "unlimited" is not a number.
         let most: u64 = line.split_whitespace().next()?.parse().ok()?;
         Some(most.saturating_sub(number_of(status, used)?))
     };
@@ -38,8 +38,8 @@ fn of_limits(limits: &str, status: &str) -> Option<u64> {
     space.into_iter().chain(left("Max data size", "VmData:")).min()
 }
 
-/// What the control groups leave: each limits all that are below it. `groups` is `/proc/self/cgroup`, its lines
-/// `0::/a/b` (version 2) or `4:memory:/a/b` (version 1).
+/// Bytes left within the control groups: each limits all groups below it. `groups` is the text of `/proc/self/cgroup`, with
+/// lines such as `0::/a/b` (version 2) or `4:memory:/a/b` (version 1).
 fn of_groups(root: &Path, groups: &str) -> Option<u64> {
     let mut least = None;
     for line in groups.lines() {
@@ -57,7 +57,7 @@ fn of_groups(root: &Path, groups: &str) -> Option<u64> {
             ),
             _ => continue,
         };
-        // In a container the path is often that of the host, and only the top is there.
+        // In a container the path is often that of the host, and only the top folder exists.
         let own = top.join(path.trim_start_matches('/'));
         for group in own.ancestors().take_while(|group| group.starts_with(&top)) {
             let text = |file: &str| text(&group.join(file));
@@ -120,7 +120,7 @@ mod tests {
         let stat = "anon 30\ninactive_file 15\n";
         group("a", [("memory.max", "100\n"), ("memory.current", "40\n"), ("memory.stat", stat)]);
         assert_eq!(of("0::/a/b\n"), Some(75));
-        // The files of version 1 lie elsewhere; in a container the path may be that of the host.
+        // The files of version 1 are in other places; in a container the path may be that of the host.
         let v1 = [
             ("memory.limit_in_bytes", "90\n"),
             ("memory.usage_in_bytes", "20\n"),

@@ -1,4 +1,4 @@
-//! The runs that folders of `shearbed run` and `shearbed sweep` hold, if they are as they were written.
+//! The runs in folders of `shearbed run` and `shearbed sweep`, checked to be unchanged.
 
 use crate::files::bounded;
 use crate::files::output::{RECORD, Record, Sum};
@@ -10,7 +10,7 @@ use serde_json::Value;
 use shearbed::Scene;
 use std::path::{Path, PathBuf};
 
-/// A folder of tables, what it is called, its scene, and its record.
+/// A folder of tables, its label, its scene, and its record.
 pub(super) struct Run {
     pub(super) dir: PathBuf,
     pub(super) label: String,
@@ -18,10 +18,10 @@ pub(super) struct Run {
     pub(super) record: Record,
 }
 
-/// The longest record.
+/// The largest size of a record, in bytes.
 const MOST_BYTES: u64 = 64 << 20;
 
-/// The runs that a folder holds: itself, or all points of a sweep.
+/// The runs in a folder: the folder itself, or all points of a sweep.
 pub(super) fn runs_in(dir: &Path) -> Result<Vec<Run>, Failure> {
     let refused = |path: &Path, what: &str| Failure::Input(format!("{}: {what}", path.shown()));
     let is_there = |name: &str| dir.join(name).symlink_metadata().is_ok();
@@ -50,10 +50,10 @@ pub(super) fn runs_in(dir: &Path) -> Result<Vec<Run>, Failure> {
     }
 }
 
-/// The pictures that a folder of `shearbed fit` or `shearbed validate` keeps as data, by their names; none where it is of runs.
+/// The pictures that a folder of `shearbed fit` or `shearbed validate` keeps as data, with their names; none for a folder of runs.
 pub(super) fn kept(dir: &Path) -> Result<Option<Vec<(String, Figure)>>, Failure> {
     let Ok(Some(record)) = Record::read(dir) else {
-        // What is wrong with it, `runs_in` says.
+        // `runs_in` reports what is wrong with the record.
         return Ok(None);
     };
     match record.origin.command.as_str() {
@@ -70,10 +70,10 @@ pub(super) fn kept(dir: &Path) -> Result<Option<Vec<(String, Figure)>>, Failure>
     }
 }
 
-/// The pictures of a fit as data.
+/// The file with the pictures of a fit as data.
 pub(in crate::program) const FIGURES: &str = "figures.json";
 
-/// What is read of a report.
+/// The parts of a report that are read.
 #[derive(serde::Deserialize)]
 struct Report {
     figures: Vec<Kept>,
@@ -90,7 +90,7 @@ fn name(dir: &Path) -> String {
     own.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// The points of a sweep, which must be finished.
+/// The points of a sweep; an error if the sweep is not finished.
 fn points(dir: &Path, record: &Record) -> Result<Vec<Run>, Failure> {
     if !record.files.contains_key("sweep.csv") {
         return Err(Failure::Input(format!(
@@ -116,7 +116,7 @@ fn scene(dir: &Path, name: &str, record: &Record) -> Result<Scene, Failure> {
     })
 }
 
-/// A file in JSON that is as it was written.
+/// Parses a JSON file, checked to be unchanged.
 fn json<T: serde::de::DeserializeOwned>(dir: &Path, name: &str, record: &Record) -> Result<T, Failure> {
     let path = dir.join(name);
     let at = |what: String| Failure::Input(format!("{}: {what}", path.shown()));

@@ -45,7 +45,7 @@ fn range(text: &str) -> Result<(f64, f64), String> {
     finite.ok_or_else(|| "FROM:TO is allowed, two finite numbers of which the second is larger".to_owned())
 }
 
-/// Letters of 16 pixels and their axes need so much; a page is no larger than the most.
+/// The range of a side in pixels: the axes with letters of 16 pixels need the least, and a page is no larger than the most.
 const SIZES: std::ops::RangeInclusive<u32> = 240..=4000;
 
 fn size(text: &str) -> Result<(u32, u32), String> {
@@ -57,7 +57,7 @@ fn size(text: &str) -> Result<(u32, u32), String> {
 }
 
 impl Look {
-    /// Changes a figure as the flags ask.
+    /// Applies the flags to a figure.
     pub(super) fn apply(&self, figure: &mut Figure) -> Result<(), Failure> {
         let set =
             |text: &mut String, asked: &Option<String>| asked.iter().for_each(|asked| text.clone_from(asked));

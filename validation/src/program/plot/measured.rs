@@ -8,7 +8,7 @@ use crate::serve::fit::data;
 use shearbed::Plan;
 use std::path::Path;
 
-/// The points of a channel, their times in the unit of the runs', with bars of one standard uncertainty.
+/// The points of a channel, with times in the unit of the runs, and with bars of one standard uncertainty.
 pub(super) fn points(path: &Path, run: &Run, channel: &str) -> Result<Points, Failure> {
     let at = |what: String| Failure::Input(format!("--data {}: {what}", path.shown()));
     let read = data::read(path, 0).map_err(|error| Failure::Input(error.to_string()))?;

@@ -1,4 +1,4 @@
-//! A channel of a run's tables, read row by row: only what is drawn is held.
+//! A channel of a run's tables, read row by row: only the drawn columns are kept in memory.
 
 use super::folders::Run;
 use crate::files::bounded;
@@ -10,7 +10,7 @@ use crate::program::{Failure, pictures};
 use csv::StringRecord;
 use std::io::{self, Read};
 
-/// The most rows of all curves of a picture: a page has some thousand points across, and each row takes some 400 bytes.
+/// The largest number of rows of all curves of a picture: a page has some thousand points across, and each row takes some 400 bytes.
 pub(super) const MOST_ROWS: usize = 200_000;
 
 /// A channel of a run against time.
@@ -20,7 +20,7 @@ pub(super) struct Found {
     pub(super) curve: Curve,
 }
 
-/// The column `wanted` of the run's tables, or the first of the first. `left` counts down the rows that may still be read.
+/// The column `wanted` of the run's tables, by default the first of the first table. `left` counts down the rows that may be read.
 pub(super) fn channel(run: &Run, wanted: Option<&str>, left: &mut usize) -> Result<Found, Failure> {
     let mut known = Vec::new();
     for observable in &run.scene.output.observables {
@@ -73,7 +73,7 @@ impl<R: Read> Table<R> {
     /// Reads the header of a table whose record says that it has `bytes` bytes.
     fn new(file: R, bytes: u64) -> Result<Self, String> {
         let summed = Summed {
-            // One more, by which a longer file is seen.
+            // One byte more, to detect a longer file.
             file: file.take(bytes.saturating_add(1)),
             bytes: 0,
             hasher: crc32fast::Hasher::new(),
@@ -90,14 +90,14 @@ impl<R: Read> Table<R> {
         }
     }
 
-    /// The columns that have a standard error.
+    /// The names of columns with a standard error.
     fn channels(&self) -> Vec<String> {
         let has = |name: String| self.header.iter().any(|other| other == name);
         let channels = self.header.iter().filter(|name| has(format!("{name}_se")));
         channels.map(str::to_owned).collect()
     }
 
-    /// The times, the means of a channel and its standard errors, each checked. `left` counts down the rows that may be read.
+    /// The times, and the means and standard errors of a channel, each checked. `left` counts down the rows that may be read.
     fn columns(&mut self, channel: &str, left: &mut usize) -> Result<[Vec<f64>; 3], String> {
         let place = |name: &str| self.header.iter().position(|head| head == name).unwrap_or(0);
         let places = [0, place(channel), place(&format!("{channel}_se"))];
@@ -118,7 +118,7 @@ impl<R: Read> Table<R> {
             if !mean.is_finite() {
                 return Err(refused(1, "a finite number"));
             }
-            // Of a single rod it is not known.
+            // For a single rod the standard error is unknown.
             if se.is_infinite() || se < 0.0 {
                 return Err(refused(2, "a finite number ≥ 0, or NaN of a single rod"));
             }
@@ -137,7 +137,7 @@ impl<R: Read> Table<R> {
         }
     }
 
-    /// The sum of what was read.
+    /// The size and checksum of what was read.
     fn sum(&self) -> Sum {
         let read = self.reader.get_ref();
         Sum::from_parts(read.bytes, read.hasher.clone().finalize())
@@ -154,7 +154,7 @@ fn no_table(error: csv::Error) -> String {
     }
 }
 
-/// A reader that sums up what it reads.
+/// A reader that computes the checksum of what it reads.
 struct Summed<R> {
     file: io::Take<R>,
     bytes: u64,

@@ -1,4 +1,4 @@
-//! The work of a run: its replicas, with a checkpoint or without, as many as asked for or until a rule holds.
+//! The work of a run: its replicas, with a checkpoint or without, a given number or until a rule holds.
 
 use super::Args;
 use crate::files::checkpoint::{Progress, Replicas};
@@ -12,10 +12,10 @@ use shearbed::run::ensemble::Tally;
 use shearbed::{Error, Plan, Results};
 use std::time::Instant;
 
-/// The results, and how the number of replicas was found where `--until-se` did.
+/// The results, and the choice of the number of replicas by `--until-se`; none without it.
 type Done = (Results, Option<Ended>);
 
-/// What a run works with.
+/// The input of a run's work.
 pub(super) struct Work<'a> {
     pub(super) args: &'a Args,
     pub(super) plan: &'a Plan,
@@ -49,8 +49,8 @@ impl Work<'_> {
         Ok(cluster::is_root().then(|| (tally.results(plan), Some(ended))))
     }
 
-    /// How far to run before the clock is looked at again: to the target where there is no time limit, and no farther than now
-    /// after it. Two replicas run in any case.
+    /// The total of replicas to reach before the clock is checked again: the target if there is no time limit, and no more than `done`
+    /// after the deadline. Two replicas run in any case.
     fn end_of_part(&self, done: u64, target: u64, deadline: Option<Instant>) -> u64 {
         match deadline {
             None => target,
@@ -59,7 +59,7 @@ impl Work<'_> {
         }
     }
 
-    /// Runs the replicas that a checkpoint lacks.
+    /// Runs the replicas that are missing in a checkpoint.
     pub(super) fn kept(&self, replicas: &Replicas) -> Result<Done, Error> {
         let (plan, until) = (self.plan, &self.args.until);
         let finished = || self.bar.inc(1);
@@ -76,7 +76,7 @@ impl Work<'_> {
         Ok((replicas.tally().results(plan), Some(ended)))
     }
 
-    /// Shows on the terminal how far the rules are from holding.
+    /// Shows on the terminal how far the standard errors are from the rules.
     fn show(&self, ended: &Ended) {
         self.bar.set_length(ended.expected());
         self.bar.set_message(ended.text());
