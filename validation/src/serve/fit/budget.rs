@@ -1,4 +1,4 @@
-//! What an estimate's uncertainty is made of, and what a finer or larger model would change in it (JCGM 100, the "GUM").
+//! The causes of an estimate's uncertainty, and the shifts by a finer or larger model (JCGM 100, the "GUM").
 
 use super::search::{Fit, Watch};
 use crate::methods::least_squares::Datum;

@@ -104,7 +104,7 @@ pub struct Design {
     pub warnings: Vec<String>,
 }
 
-/// The design beside a fit of `data`.
+/// The design of further points for a fit of `data`.
 pub fn design(fit: &Fit, scenes: &Scenes, data: &[Datum], watch: &Watch<'_>) -> Result<Design, String> {
     let best = fit.values(&fit.best.place);
     let basis = Basis::new(fit.sides.len());

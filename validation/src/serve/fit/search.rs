@@ -21,7 +21,7 @@ pub const MOST_SHARE: f64 = 0.1;
 /// The largest share of the points' apparent information that may be noise of the replicas before the box is reduced.
 const CLEAR: f64 = 0.2;
 
-/// A fit with at least this share is refused.
+/// A fit with a larger share is refused.
 const NOTHING_ELSE: f64 = 0.7;
 
 /// The share of χ² that may come from a covariance of few replicas.

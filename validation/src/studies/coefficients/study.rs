@@ -203,7 +203,7 @@ fn against_concentration(rows: &[Coefficients], finer: u64) -> ReportFigure {
     .judged(SOURCE, &["effective-ci", "folgar-tucker-seven"])
 }
 
-/// C_I against φ r_p, beside measured values of far denser suspensions.
+/// C_I against φ r_p, with measured values of far denser suspensions.
 fn beside_measured(base: &[&Coefficients]) -> ReportFigure {
     let seven = "measured: Folgar & Tucker 1984, n a³ > 3";
     ReportFigure::new(

@@ -66,7 +66,7 @@ pub struct JobMean {
     pub se: f64,
 }
 
-/// The change from one number of steps per period to the next finer one, at the same seeds.
+/// The results at one number of steps per period less those at the next finer one, at the same seeds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Change {
     /// The change of X̄₁.
@@ -88,7 +88,7 @@ pub struct Change {
 pub struct Law {
     /// Results against the steps per period, coarse to fine.
     pub steps: Vec<JobMean>,
-    /// The change from each level to the next finer one.
+    /// Each level less the next finer one.
     pub changes: Vec<Change>,
     /// The first of the levels with GΔt ≤ 1, which resolve a flip: from it on an order may be determined.
     pub resolved_from: usize,
