@@ -1,7 +1,7 @@
 //! Synthetic rods that turn by Jeffery's equation and by rotary diffusion: Folgar & Tucker's model itself, rod by rod. It shares
 //! no code with the core.
 
-use super::Means;
+use super::{Means, Watched};
 use nalgebra::{Matrix3, Vector3};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
@@ -12,10 +12,17 @@ use rand_pcg::Pcg64Dxsm;
 pub struct Diffusion {
     /// Λ.
     pub shape_factor: f64,
-    /// C_I: rotary diffusivity over G.
-    pub c_i: f64,
+    /// Rotary diffusivity over G; C_I δ is Folgar & Tucker's.
+    pub diffusivity: Matrix3<f64>,
     /// Strain of a step.
     pub strain: f64,
+}
+
+impl Diffusion {
+    /// Folgar & Tucker's with this C_I.
+    pub fn isotropic(shape_factor: f64, c_i: f64, strain: f64) -> Self {
+        Self { shape_factor, diffusivity: Matrix3::identity() * c_i, strain }
+    }
 }
 
 /// The rods of one replica.
@@ -24,7 +31,9 @@ pub struct Diffusing {
     /// Their directions.
     pub rods: Vec<Vector3<f64>>,
     half: Matrix3<f64>,
-    length: f64,
+    diffusion: Diffusion,
+    /// The root of 2C times the strain of a step.
+    root: Matrix3<f64>,
     rng: Pcg64Dxsm,
 }
 
@@ -40,50 +49,38 @@ impl Diffusing {
     /// `count` rods in random directions.
     pub fn isotropic(count: usize, diffusion: Diffusion, seed: u64) -> Self {
         let mut rng = Pcg64Dxsm::seed_from_u64(seed);
+        let spread = (diffusion.diffusivity * (2.0 * diffusion.strain)).symmetric_eigen();
+        let roots = Matrix3::from_diagonal(&spread.eigenvalues.map(|value| value.max(0.0).sqrt()));
         Self {
             rods: (0..count).map(|_| drawn(&mut rng).normalize()).collect(),
             half: free(diffusion.shape_factor, 0.5 * diffusion.strain),
-            length: (2.0 * diffusion.c_i * diffusion.strain).sqrt(),
+            diffusion,
+            root: spread.eigenvectors * roots * spread.eigenvectors.transpose(),
             rng,
         }
     }
 
-    /// Half a step of Jeffery's equation, a step of diffusion, half a step of Jeffery's equation.
+    /// Half a step of Jeffery's equation, a step of diffusion, half a step of Jeffery's equation. The diffusion is that of
+    /// ∇·(C·∇ψ) on the sphere (Phelps & Tucker 2009): a random step in space, made a direction again, and a drift −C·p, which an
+    /// isotropic C does not have across p.
     pub fn step(&mut self) {
+        let drift = self.diffusion.diffusivity * self.diffusion.strain;
         for p in &mut self.rods {
             let turned = (self.half * *p).normalize();
-            let moved = (turned + drawn(&mut self.rng) * self.length).normalize();
+            let moved = (turned + self.root * drawn(&mut self.rng) - drift * turned).normalize();
             *p = (self.half * moved).normalize();
         }
     }
 
     /// The means over `steps` steps.
-    pub fn means(&mut self, steps: usize, strain: f64) -> Means {
-        let first = self.moments();
-        let mut sums = first.map(|tensor| tensor * 0.5);
-        let mut last = first;
-        for step in 1..=steps {
+    pub fn means(&mut self, steps: usize) -> Means {
+        let mut watched = Watched::new(self.diffusion.shape_factor, self.diffusion.strain);
+        for _ in 0..steps {
+            let before = self.rods.clone();
             self.step();
-            last = self.moments();
-            let weight = if step == steps { 0.5 } else { 1.0 };
-            (0..2).for_each(|k| sums[k] += last[k] * weight);
+            watched.step(&before, &self.rods);
         }
-        Means {
-            second: sums[0] / steps as f64,
-            sheared: sums[1] / steps as f64,
-            change: (last[0] - first[0]) / (steps as f64 * strain),
-        }
-    }
-
-    /// ⟨pp⟩ and ⟨pp p₁p₂⟩ now.
-    fn moments(&self) -> [Matrix3<f64>; 2] {
-        let mut tensors = [Matrix3::zeros(); 2];
-        for p in &self.rods {
-            let square = p * p.transpose() / self.rods.len() as f64;
-            tensors[0] += square;
-            tensors[1] += square * (p.x * p.y);
-        }
-        tensors
+        watched.means()
     }
 }
 
@@ -98,7 +95,7 @@ mod tests {
     #[test]
     fn directions_are_forgotten_at_twice_the_diffusivity() {
         // Without strain (Λ = 0) the liquid turns rods about axis 3 alone, and ⟨p₃⟩ falls as exp(−2 C_I γ).
-        let diffusion = Diffusion { shape_factor: 0.0, c_i: 0.1, strain: 0.01 };
+        let diffusion = Diffusion::isotropic(0.0, 0.1, 0.01);
         let mut rods = Diffusing::isotropic(20_000, diffusion, 1);
         rods.rods.fill(Vector3::z());
         (0..500).for_each(|_| rods.step());

@@ -176,7 +176,7 @@ impl Equation {
 }
 
 /// 2C − 2 tr(C) a − 5(Ca + aC) + 10𝔸:C.
-pub(super) fn diffusion(a: &Matrix3<f64>, fourth: &Fourth, c: &Matrix3<f64>) -> Matrix3<f64> {
+pub(crate) fn diffusion(a: &Matrix3<f64>, fourth: &Fourth, c: &Matrix3<f64>) -> Matrix3<f64> {
     c * 2.0 - a * (2.0 * c.trace()) - (c * a + a * c) * 5.0 + fourth.contract(c) * 10.0
 }
 

@@ -230,8 +230,7 @@ fn answers_that_are_wrong_at_some_numbers_of_steps_are_no_methods() {
         assert!(order > 4.0 || jumps(once), "{order}");
         // Right when the same is asked again: what came first counts.
         let spoilt = Cell::new(false);
-        let first =
-            judged(|steps, _| if steps == 512 && !spoilt.replace(true) { 1.2 } else { right(steps) });
+        let first = judged(|steps, _| if steps == 512 && !spoilt.replace(true) { 1.2 } else { right(steps) });
         assert!(order > 4.0 || jumps(first), "{order}");
     }
 }
