@@ -14,8 +14,8 @@
 //! become their mean (eqs 5 and 6), and for that step each rod turns accordingly (A.7 to A.14). All other
 //! rods take Jeffery's exact motion ([`suspension`]).
 //!
-//! What comes out are means over rods against time ([`observable`]): projections (eqs 4 and 21), the mean
-//! angle (eq. 18), the orbit constant (eq. 13), ⟨pp⟩; or one's own ([`run::own`]).
+//! The results are means over rods against time ([`observable`]): projections (eqs 4 and 21), the mean angle (eq. 18), the orbit
+//! constant (eq. 13), ⟨pp⟩; or an observable of your own ([`run::own`]).
 //!
 //! # Data goes one way
 //!
@@ -55,7 +55,7 @@ pub mod plan;
 pub mod suspension;
 pub mod run;
 
-/// The vectors and matrices of this crate's interface.
+/// Re-exported because vectors and matrices in this crate's interface are nalgebra's.
 pub use nalgebra;
 
 pub use observable::Observable;
@@ -64,7 +64,7 @@ pub use run::ensemble::Results;
 pub use scene::{Error, Scene};
 pub use suspension::Suspension;
 
-/// Property tests draw the same examples in every run: a failure is the code's, not the day's.
+/// Configuration of property tests: a fixed seed, so that every run draws the same examples.
 #[cfg(test)]
 fn fixed_seed(cases: u32) -> proptest::test_runner::Config {
     proptest::test_runner::Config {

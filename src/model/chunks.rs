@@ -1,13 +1,12 @@
-//! Sharing the rods of one large run over threads. What comes out does not depend on how many threads share the
-//! chunks.
+//! Shares the rods of one large run among threads. The results do not depend on the number of threads.
 
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Rods of one chunk, the least that a thread takes. A run of one chunk stays on one thread: its replicas are shared over threads.
+/// Rods per chunk, the least work given to a thread. A run of one chunk stays on one thread; then replicas are shared among threads.
 pub(crate) const CHUNK: usize = 1 << 16;
 
-/// What `each` makes of every chunk of three arrays of coordinates and its number, in the order of chunks.
+/// Calls `each` with the number and the coordinates of every chunk of `axes`; returns the results in the order of chunks.
 pub(crate) fn over_chunks<T: Send>(
     axes: &mut [Vec<f64>; 3],
     each: impl Fn(usize, [&mut [f64]; 3]) -> T + Sync,
@@ -22,7 +21,7 @@ pub(crate) fn over_chunks<T: Send>(
         .collect()
 }
 
-/// What `each` makes of every chunk of `count` rods, in the order of chunks.
+/// Calls `each` with the range of rods of every chunk of `count` rods; returns the results in the order of chunks.
 pub(crate) fn of_chunks<T: Send>(count: usize, each: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
     (0..count.div_ceil(CHUNK)).into_par_iter().map(|k| each(k * CHUNK..count.min((k + 1) * CHUNK))).collect()
 }

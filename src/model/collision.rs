@@ -4,14 +4,14 @@ use crate::model::contact::Contact;
 use crate::model::orientation::{angles, from_angles};
 use nalgebra::{UnitVector3, Vector3};
 
-/// The reach s*/a = α(R^{−1/m} − 1) in rod lengths, where P_c = (α/(s/a + α))^m is R (eq. 7; eq. 10 with m = 3): P_c > R
-/// is the same as s < s* (eqs 8 and 9). α > 0 and m > 0 are real. Infinite for R = 0.
+/// The reach s*/a = α(R^{−1/m} − 1) in rod lengths at R = `r`: the separation at which P_c = (α/(s/a + α))^m equals R (eq. 7; eq. 10
+/// with m = 3). P_c > R is the same as s < s* (eqs 8 and 9). `alpha` and `m` are positive. Infinite for R = 0.
 #[inline]
 pub fn reach(r: f64, alpha: f64, m: f64) -> f64 {
     alpha * libm::expm1(-libm::log(r) / m)
 }
 
-/// The reach of eqs 8 and 9 for given α and m, with a bound on it that costs no logarithm.
+/// The reach of eqs 8 and 9 at fixed α and m, with an upper bound that needs no logarithm.
 ///
 /// ```
 /// let reach = shearbed::model::collision::Reach::new(0.5, 3.0);
@@ -21,7 +21,7 @@ pub fn reach(r: f64, alpha: f64, m: f64) -> f64 {
 pub struct Reach {
     alpha: f64,
     m: f64,
-    /// s*(k/BINS), not below s* of any R in the bin.
+    /// Upper bounds of s*(R): entry k holds for all R in [k, k + 1)/BINS.
     bounds: Vec<f64>,
 }
 
@@ -40,7 +40,7 @@ impl Reach {
         reach(r, self.alpha, self.m)
     }
 
-    /// A number not below s*(R), for R in [0, 1): s* itself where a bound would be loose.
+    /// An upper bound of s*(R) for R in [0, 1); s*(R) itself in the first bin, where a bound would be loose.
     #[inline]
     pub fn bound(&self, r: f64) -> f64 {
         match (r * BINS as f64) as usize {
@@ -52,9 +52,9 @@ impl Reach {
 
 /// The direction rates ṗ′ of both rods after a collision, from those before it (eqs 5 and 6, A.7 to A.12).
 ///
-/// `relative_velocity` is u(x_B) − u(x_A), `rates` are ṗ_A and ṗ_B; all in one unit of length and time. The
-/// contact points' velocities along ℓ become their mean; what is normal to ℓ stays. As ℓ is normal to both
-/// rods, only ṗ·ℓ changes: ṗ′_A = ṗ_A + ℓ (v̄ − v_A)/r_A.
+/// `relative_velocity` is u(x_B) − u(x_A), `rates` are ṗ_A and ṗ_B; all in one unit of length and time. The contact points' velocities
+/// along ℓ become their mean; the components normal to ℓ do not change. As ℓ is normal to both rods, only ṗ·ℓ changes:
+/// ṗ′_A = ṗ_A + ℓ (v̄ − v_A)/r_A.
 pub fn share_velocity(
     contact: &Contact,
     relative_velocity: &Vector3<f64>,
@@ -91,9 +91,9 @@ pub fn turn(p: &UnitVector3<f64>, rate: &Vector3<f64>, time: f64) -> (UnitVector
     (UnitVector3::new_normalize(turned), angle)
 }
 
-/// The direction after A.14 to the letter: φ′ = φ + φ̇′Δt, θ′ = θ + θ̇′Δt, and the angle |ṗ′|Δt in rad.
+/// The direction after A.14 taken literally, φ′ = φ + φ̇′Δt and θ′ = θ + θ̇′Δt, and the angle |ṗ′|Δt in rad.
 ///
-/// At the pole, where φ has no value, the rod turns as in [`turn`].
+/// At the pole, where φ is undefined, the rod turns as in [`turn`].
 pub fn step_angles(p: &UnitVector3<f64>, rate: &Vector3<f64>, time: f64) -> (UnitVector3<f64>, f64) {
     if p.x == 0.0 && p.y == 0.0 {
         return turn(p, rate, time);
@@ -104,8 +104,7 @@ pub fn step_angles(p: &UnitVector3<f64>, rate: &Vector3<f64>, time: f64) -> (Uni
     (stepped, norm(rate) * time)
 }
 
-/// Where a rod is that moved freely from `p` to `end` in the step and is turned besides by the `change` of its rate: about p × change
-/// by |change|·time.
+/// The direction after a step with a collision: `end`, where free motion took `p`, turned by |`change`|·`time` about p × `change`.
 pub fn kick(end: &Vector3<f64>, p: &Vector3<f64>, change: &Vector3<f64>, time: f64) -> UnitVector3<f64> {
     let speed = norm(change);
     if speed == 0.0 {
@@ -133,7 +132,7 @@ mod tests {
     #[test]
     fn the_reach_inverts_the_probability() {
         let probability = |distance: f64, alpha: f64, m: f64| (alpha / (distance + alpha)).powf(m);
-        // By hand: P_c = 1/8 at s = α for m = 3, and R = 1 reaches nothing.
+        // By hand: P_c = 1/8 at s = α for m = 3, and the reach at R = 1 is 0.
         assert_relative_eq!(reach(0.125, 0.5, 3.0), 0.5, max_relative = 1e-15);
         assert_eq!(reach(1.0, 0.5, 3.0), 0.0);
         for (alpha, m) in [(0.5, 3.0), (0.01, 0.1), (7.0, 50.0), (0.3, 1.7)] {
@@ -194,7 +193,7 @@ mod tests {
         assert_relative_eq!(of(y), Vector3::new(-sin, cos, 0.0), max_relative = 1e-15);
         assert_relative_eq!(of(z), z);
         assert_eq!(kick(&y, &x, &Vector3::zeros(), 0.25), Vector3::y_axis());
-        // A rod that did not move by itself turns as by its whole rate.
+        // A rod without free motion turns as by its whole rate.
         let (turned, _) = turn(&Vector3::x_axis(), &(2.0 * y), 0.25);
         assert_relative_eq!(of(x), turned.into_inner(), max_relative = 1e-15);
     }
@@ -204,7 +203,7 @@ mod tests {
         assert_eq!(norm(&Vector3::zeros()), 0.0);
         assert_eq!(norm(&Vector3::new(0.0, f64::INFINITY, 1.0)), f64::INFINITY);
         assert_relative_eq!(norm(&Vector3::new(3e300, -4e300, 0.0)), 5e300, max_relative = 1e-15);
-        // A rod that nothing turns stays where it is.
+        // A rod with rate 0 keeps its direction.
         assert_eq!(turn(&Vector3::x_axis(), &Vector3::zeros(), 1.0), (Vector3::x_axis(), 0.0));
     }
 
@@ -218,7 +217,7 @@ mod tests {
             (0.0, Vector3::new(0.0, 0.6, 0.0), 0.6 / 0.4f64.sin()),
         ] {
             let mut p = from_angles(phi, 0.4).into_inner();
-            // To the last digit in the plane.
+            // Exactly in the plane: rounding errors are set to 0.
             p.iter_mut().filter(|x| x.abs() < 1e-15).for_each(|x| *x = 0.0);
             let (stepped, angle) = step_angles(&UnitVector3::new_unchecked(p), &rate, 0.5);
             let expected = from_angles(phi + 0.5 * phi_rate, 0.4);

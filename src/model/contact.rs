@@ -2,7 +2,7 @@
 
 use nalgebra::{UnitVector3, Vector3};
 
-/// Where the lines through two rods A and B come closest.
+/// The contact line of two rods A and B: where the lines through their axes come closest.
 ///
 /// ```
 /// use shearbed::model::contact::contact;
@@ -21,8 +21,8 @@ pub struct Contact {
 
 /// The contact of two rods with directions `p_a`, `p_b` and `separation` = x_B − x_A.
 ///
-/// `None` where there is no unique contact line (parallel rods), or where an arm is shorter than
-/// `min_arms` or exactly 0, so that no turn of that rod could move its contact point.
+/// `None` if there is no unique contact line (parallel rods), or if an arm is exactly 0 or shorter than
+/// `min_arms`: turning such a rod could not move its contact point.
 pub fn contact(
     separation: &Vector3<f64>,
     p_a: &Vector3<f64>,

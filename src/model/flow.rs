@@ -21,7 +21,7 @@ impl VelocityGradient {
         per_s.iter().all(|c| c.is_finite()).then_some(Self(per_s))
     }
 
-    /// Plane Couette flow u_2 = G x_1 with the shear rate G in 1/s, which is finite.
+    /// Plane Couette flow u_2 = G x_1 with the shear rate G in 1/s; `None` if G is not finite.
     pub fn plane_couette(shear_rate_per_s: f64) -> Option<Self> {
         let mut per_s = Matrix3::zeros();
         per_s[(1, 0)] = shear_rate_per_s;
@@ -60,13 +60,13 @@ impl VelocityGradient {
         self.scaled(Self::vorticity)
     }
 
-    /// √2 times the norm of a part of the gradient.
+    /// √2 times the norm of `part` of the gradient, in 1/s.
     fn scaled(&self, part: impl Fn(&Self) -> Matrix3<f64>) -> f64 {
         let largest = self.0.amax();
         if largest == 0.0 {
             return 0.0;
         }
-        // Scaled first, so that neither 10⁻³⁰⁰ nor 10³⁰⁸ is lost in the squares or the sums.
+        // Scaled first, so that components of 10⁻³⁰⁰ or 10³⁰⁸ neither underflow nor overflow in the squares and sums.
         largest * part(&Self(self.0 / largest)).norm() * std::f64::consts::SQRT_2
     }
 }

@@ -1,12 +1,12 @@
 //! Gaussian numbers by the ziggurat method with 256 layers (Doornik 2005, ZIGNOR; Marsaglia & Tsang 2000).
 //!
-//! They are those of `rand_distr`, draw by draw. That crate takes its exponential and logarithm from the machine's
-//! mathematical library as soon as any crate of the build asks `num-traits` for `std`; here they are the same everywhere.
+//! The numbers equal those of `rand_distr`, draw by draw. That crate takes its exponential and logarithm from the machine's
+//! mathematical library if any crate of the build enables `std` of `num-traits`; here they are the same on every machine.
 
 use rand::distr::Open01;
 use rand::{Rng, RngExt};
 
-/// The next number of mean 0 and standard deviation 1.
+/// The next number of a Gaussian with mean 0 and standard deviation 1.
 pub(crate) fn standard(rng: &mut impl Rng) -> f64 {
     loop {
         let bits = rng.next_u64();
@@ -28,12 +28,12 @@ pub(crate) fn standard(rng: &mut impl Rng) -> f64 {
     }
 }
 
-/// √(2π) times the density.
+/// √(2π) times the probability density at `x`.
 fn density(x: f64) -> f64 {
     libm::exp(-x * x / 2.0)
 }
 
-/// A number beyond X[1] (Marsaglia 1964).
+/// A number from the tail beyond X[1] (Marsaglia 1964).
 fn tail(rng: &mut impl Rng) -> f64 {
     loop {
         let [x, y] = [(); 2].map(|()| -libm::log(rng.sample(Open01)));
@@ -44,8 +44,8 @@ fn tail(rng: &mut impl Rng) -> f64 {
     }
 }
 
-/// The right ends of the layers, which have equal areas under exp(−x²/2), from the lowest up: X[1] = 3.654… is where the
-/// tail begins, and X[0] the area over the density there.
+/// The right ends of the layers, from the lowest up; all have the same area under exp(−x²/2). The tail begins at X[1] = 3.654…,
+/// and X[0] is a layer's area over the density there.
 #[rustfmt::skip]
 const X: [f64; 257] = [
     3.910_757_959_537_09, 3.654_152_885_361_009, 3.449_278_298_560_964_5, 3.320_244_733_839_166,
@@ -129,14 +129,14 @@ mod tests {
         for _ in 0..1_000_000 {
             let (x, expected): (f64, f64) = (standard(&mut own), StandardNormal.sample(&mut theirs));
             if expected.abs() > X[1] {
-                // Of logarithms that may differ in the last bit.
+                // Tail numbers come from logarithms that may differ in the last bit.
                 assert!((x - expected).abs() <= 2.0 * f64::EPSILON * expected.abs());
                 beyond += 1;
             } else {
                 assert_eq!(x, expected);
             }
         }
-        // 258 are expected; and the streams stand at the same place.
+        // 258 tail numbers are expected. Afterwards both streams are at the same position.
         assert!(beyond > 150, "{beyond}");
         assert_eq!(own.next_u64(), theirs.next_u64());
     }
@@ -144,10 +144,10 @@ mod tests {
     #[test]
     fn the_layers_have_equal_areas() {
         let area = X[0] * density(X[1]);
-        // But for the topmost, which takes what the others leave: the published area has 12 digits.
+        // The topmost layer is left out: it takes what remains, and the published area has 12 digits.
         for pair in X[1..256].windows(2) {
             let of_layer = pair[0] * (density(pair[1]) - density(pair[0]));
-            // x exp(−x²/2) is at most 0.61, and comes with a few roundings.
+            // x exp(−x²/2) is at most 0.61 and has a few roundings.
             assert!((of_layer - area).abs() < 4.0 * f64::EPSILON, "{pair:?}");
         }
         assert_eq!(X[256], 0.0);

@@ -1,6 +1,6 @@
 //! Jeffery's motion of a free spheroid: shape factor, period, and the rate at which a direction turns.
 //!
-//! Jeffery (1922) as printed in the appendix of Lee & Springer (1982). Nothing here takes a step: the exact
+//! After Jeffery (1922) as printed in the appendix of Lee & Springer (1982). Time steps are elsewhere: the exact
 //! motion over a finite time is in [`crate::motion`].
 
 use nalgebra::{Matrix3, Vector3};
@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 /// Λ = (r_e² − 1)/(r_e² + 1): 1 for a thread, 0 for a sphere, −1 for a disc.
 pub fn shape_factor(aspect_ratio: f64) -> f64 {
-    // In r and 1/r, which do not overflow; the difference of squares keeps the digits near r = 1.
+    // Written in r and 1/r, which do not overflow; their difference keeps its digits near r = 1.
     let inverse = 1.0 / aspect_ratio;
     (aspect_ratio - inverse) / (aspect_ratio + inverse)
 }
@@ -23,8 +23,8 @@ pub fn strain_per_period(aspect_ratio: f64) -> f64 {
     TAU * (aspect_ratio + 1.0 / aspect_ratio)
 }
 
-/// ṗ = ω × p per unit of strain in plane Couette flow u_2 = ±x_1 (`sign` of G) at Λ = `shape_factor`: A.1 for the
-/// direction alone, without the spin about it, and with A.2 and A.3 the rates of its angles.
+/// ṗ = ω × p per unit of strain in plane Couette flow u_2 = ±x_1 (`sign` of G) at Λ = `shape_factor`: A.1 for the direction, without
+/// the spin about it. A.2 and A.3 follow as the rates of its angles.
 pub fn couette_rate(p: &Vector3<f64>, shape_factor: f64, sign: f64) -> Vector3<f64> {
     let (half, stretch) = (0.5 * sign, shape_factor * sign * p.x * p.y);
     Vector3::new(
@@ -34,7 +34,7 @@ pub fn couette_rate(p: &Vector3<f64>, shape_factor: f64, sign: f64) -> Vector3<f
     )
 }
 
-/// ṗ = W·p + Λ(D·p − p p·D·p) in a liquid with this gradient, in its unit of time.
+/// ṗ = W·p + Λ(D·p − p p·D·p) in a liquid with the velocity gradient `gradient`, per its unit of time.
 pub fn rate(gradient: &Matrix3<f64>, p: &Vector3<f64>, shape_factor: f64) -> Vector3<f64> {
     let (along, across) = (gradient * p, gradient.tr_mul(p));
     let stretch = 0.5 * shape_factor * (along + across);

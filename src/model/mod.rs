@@ -1,5 +1,5 @@
-//! The physics of the paper, each formula in a plain function: flow, directions, Jeffery's equation, contacts and collisions,
-//! the control volume, nearest neighbours, random numbers. Nothing here knows a scene.
+//! The physics of the paper, each formula as a plain function: flow, directions, Jeffery's equation, contacts and collisions,
+//! the control volume, nearest neighbours, random numbers. These modules do not depend on scenes.
 
 pub(crate) mod chunks;
 pub mod collision;

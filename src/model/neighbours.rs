@@ -1,4 +1,4 @@
-//! Who is nearest to whom inside the control volume.
+//! The search for every rod's nearest neighbour in the control volume.
 
 mod branchless;
 mod grid;
@@ -17,15 +17,15 @@ use pairs::Pairs;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
-    /// The rod that looks.
+    /// Index of the rod that searches.
     pub rod: u32,
-    /// The nearest other rod; of equally near ones the lowest index.
+    /// Index of the nearest other rod; the lowest index if several are equally near.
     pub other: u32,
-    /// The square of their distance.
+    /// The square of the distance between the two rods.
     pub square: f64,
 }
 
-/// The search for nearest neighbours in a volume [0, H₁) × [0, H₂) × [0, H₃). Nothing is allocated after the first step.
+/// Searches for nearest neighbours in a volume [0, H₁) × [0, H₂) × [0, H₃). Allocates nothing after the first step.
 ///
 /// ```
 /// use shearbed::model::{neighbours::Neighbours, work::Counters};
@@ -44,11 +44,11 @@ enum Search {
     Grid(Grid),
 }
 
-/// Up to this number of rods, looking at all pairs is faster than sorting them into cells.
+/// Up to this number of rods, testing all pairs is faster than sorting rods into cells.
 const FEW: usize = 256;
 
 impl Neighbours {
-    /// The search for `count` rods in a volume of the given sides.
+    /// A search for `count` rods in a volume with these `sides`.
     pub fn new(sides: [f64; 3], count: usize) -> Self {
         Self(if count <= FEW {
             Search::Pairs(Pairs::new(sides))
@@ -57,8 +57,8 @@ impl Neighbours {
         })
     }
 
-    /// Hands every rod that has another one closer than its `reach` to `found`, with the nearest. `positions` are
-    /// three arrays of coordinates in the volume; `work` counts what was looked at.
+    /// Calls `found` with every rod that has another rod closer than its `reach`, and with the nearest one. `positions` are
+    /// three arrays of coordinates in the volume; `work` counts the cells and distances.
     pub fn each_nearest(
         &mut self,
         positions: &[Vec<f64>; 3],
@@ -90,8 +90,8 @@ mod tests {
             .min_by(|a, b| a.square.total_cmp(&b.square).then(a.other.cmp(&b.other)))
     }
 
-    /// What a search finds, in the order of rods, of which it may find more than was asked for: the caller judges by
-    /// the exact reach.
+    /// What `search` finds, in the order of rods. A search may report rods a little beyond the reach; they are removed here by the
+    /// exact reach.
     fn found(search: Search, positions: &[Vec<f64>; 3], reach: &[f64]) -> Vec<Nearest> {
         let mut all = Vec::new();
         Neighbours(search).each_nearest(
@@ -122,7 +122,7 @@ mod tests {
             fine in prop_oneof![Just(0.0), 0.0f64..1.0],
             shape in prop::sample::select(vec![[1.0, 1.0, 1.0], [4.0, 0.5, 0.5], [0.5, 1.0, 2.0], [1.0, 1e-4, 1.0], [1e-3, 1.0, 1e-3]]),
         ) {
-            // Coordinates on a coarse lattice, so that ties and coincident rods occur; or drawn off it.
+            // Coordinates on a coarse lattice, so that ties and coincident rods occur; or shifted off it by `fine`.
             let place = |k: usize, i: usize, x: u8| {
                 let off = fine * ((i * 3 + k) as f64 * 0.618_033_988_749).fract();
                 (f64::from(x) + off) * shape[k] * side / 40.0
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn who_is_near_in_the_next_cell_but_beyond_the_window_is_found() {
-        // Cells are 1 wide. Rod 0 is close to the border; four others of its cell and one of the next stand between it
+        // Cells are 1 wide. Rod 0 is close to a cell's face; four others in its cell and one in the next lie between it
         // and its partner, all of them farther than the reach.
         let far = [0.05, 0.05];
         let row = [
@@ -195,7 +195,7 @@ mod tests {
     fn rods_at_the_walls_are_found() {
         let side = 10.0;
         let last = side - 1e-9;
-        // Eight corners, and a partner for each a tenth away along axis 1, 2 or 3.
+        // Eight corners, and for each a partner 0.1 away along axis 1, 2 or 3.
         let corners: Vec<[f64; 3]> =
             (0..8).map(|k| [k & 1, k & 2, k & 4].map(|bit| if bit > 0 { last } else { 0.0 })).collect();
         for axis in 0..3 {

@@ -1,4 +1,4 @@
-//! A rod's direction p = (sin θ cos φ, sin θ sin φ, cos θ), with p ≡ −p, and what is read off it.
+//! A rod's direction p = (sin θ cos φ, sin θ sin φ, cos θ), with p ≡ −p, and quantities computed from it.
 //!
 //! θ is measured from axis 3 (vorticity), φ from axis 1 (gradient) towards axis 2 (flow).
 
@@ -11,8 +11,8 @@ pub fn from_angles(phi_rad: f64, theta_rad: f64) -> UnitVector3<f64> {
     UnitVector3::new_normalize(Vector3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta))
 }
 
-/// The direction with the angles `phi_deg` and `theta_deg` in degrees: exact at multiples of 90°, and every component to a
-/// few roundings of itself.
+/// The direction with the angles `phi_deg` and `theta_deg` in degrees: exact at multiples of 90°, with a relative error of a few
+/// roundings in every component.
 pub fn from_degrees(phi_deg: f64, theta_deg: f64) -> UnitVector3<f64> {
     let ([cos_phi, sin_phi], [cos_theta, sin_theta]) = (of_degrees(phi_deg), of_degrees(theta_deg));
     UnitVector3::new_normalize(Vector3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta))
@@ -109,7 +109,7 @@ mod tests {
                 (found[0] - cos).abs() < 16.0 * f64::EPSILON && (found[1] - sin).abs() < 16.0 * f64::EPSILON
             );
         }
-        // cos(90° − 10⁻⁹ °) to its own digits, where that of radians has six.
+        // cos(90° − 10⁻⁹ °) to full relative precision; computed from radians it has six digits.
         let [cos, _] = of_degrees(90.0 - 2f64.powi(-30));
         assert!((cos / 2f64.powi(-30).to_radians() - 1.0).abs() < 2.0 * f64::EPSILON);
     }

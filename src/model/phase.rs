@@ -1,4 +1,4 @@
-//! The phase of a turning rod: sine and cosine of its turns, the same bits for one rod or many side by side.
+//! The phase of a turning rod: sine and cosine, with the same bits for a single rod and for many side by side.
 
 use std::f64::consts::TAU;
 
@@ -22,9 +22,9 @@ impl Phase {
         Self::of_part(turns.fract())
     }
 
-    /// The phase of `turns`, |turns| < 2⁵¹, without a branch or a call, so that it runs side by side over rods: the
-    /// nearest quarter turn is taken out, and the polynomials of fdlibm (Sun Microsystems 1993, `k_sin.c` and
-    /// `k_cos.c`), good to 1 ulp up to π/4, give the rest.
+    /// The phase of `turns`, |turns| < 2⁵¹, without a branch or a call, so that it vectorises over rods: the nearest quarter turn is
+    /// removed, and the polynomials of fdlibm (Sun Microsystems 1993, `k_sin.c` and `k_cos.c`), good to 1 ulp up to π/4, give the
+    /// rest.
     #[inline(always)]
     pub(crate) fn of_part(turns: f64) -> Self {
         let rest = turns - nearest_whole(turns);
@@ -65,14 +65,14 @@ const COS: [f64; 6] = [
     -1.135_964_755_778_819_5e-11,
 ];
 
-/// Σ cₖ zᵏ.
+/// The polynomial Σ cₖ zᵏ.
 #[inline(always)]
 fn horner(c: &[f64; 6], z: f64) -> f64 {
     c[0] + z * (c[1] + z * (c[2] + z * (c[3] + z * (c[4] + z * c[5]))))
 }
 
-/// The nearest whole number (ties to even), for |x| < 2⁵¹: adding 1.5 · 2⁵² leaves no digits for a fraction. Unlike
-/// `f64::round`, it is two instructions on every machine.
+/// The nearest whole number (ties to even) for |x| < 2⁵¹: adding 1.5 · 2⁵² leaves no digits for a fraction. Takes two instructions on
+/// every machine, unlike `f64::round`.
 #[inline(always)]
 pub(crate) fn nearest_whole(x: f64) -> f64 {
     const SHIFT: f64 = 6_755_399_441_055_744.0;
@@ -89,7 +89,7 @@ mod tests {
             let turns = f64::from(k) / 16_384.0 + 1e-5 * f64::from(k % 7);
             let phase = Phase::of_turns(turns);
             let (sin, cos) = (TAU * (turns - turns.round())).sin_cos();
-            // The library's argument is rounded too: by up to π ε/2.
+            // The library's argument is rounded too, by up to π ε/2.
             assert!((phase.sin - sin).abs() <= 4.0 * f64::EPSILON, "{turns}");
             assert!((phase.cos - cos).abs() <= 4.0 * f64::EPSILON, "{turns}");
             assert!((phase.sin.hypot(phase.cos) - 1.0).abs() <= 2.0 * f64::EPSILON, "{turns}");

@@ -1,11 +1,11 @@
-//! Random streams: one per replica and purpose, so that leaving a draw out moves no other draw.
+//! Random streams: one per replica and purpose, so that omitting a draw does not shift any other.
 
 use crate::model::chunks::CHUNK;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Dxsm;
 use rayon::prelude::*;
 
-/// What a stream is drawn for. Each purpose has its own stream, which exists only where it is drawn from.
+/// What a random stream is for. Each purpose has its own stream, created only where it is used.
 ///
 /// ```
 /// use shearbed::model::random::{Purpose, stream};
@@ -31,8 +31,8 @@ pub enum Purpose {
 
 /// The PCG64-DXSM stream of one replica and purpose.
 ///
-/// The 32 seed bytes are a SplitMix64 hash of (seed, replica, purpose): PCG streams that differ in a few
-/// bits of their state only would be correlated.
+/// The 32 seed bytes are a SplitMix64 hash of (seed, replica, purpose): PCG streams whose states differ in only a few
+/// bits would be correlated.
 pub fn stream(seed: u64, replica: u64, purpose: Purpose) -> Pcg64Dxsm {
     let key = [replica, purpose as u64]
         .iter()
@@ -45,7 +45,7 @@ pub fn stream(seed: u64, replica: u64, purpose: Purpose) -> Pcg64Dxsm {
     Pcg64Dxsm::from_seed(bytes)
 }
 
-/// Fills `out` with the stream's next uniform numbers from [0, 1), a chunk per thread where there are many.
+/// Fills `out` with the stream's next uniform numbers from [0, 1); many numbers are shared among threads by chunks.
 pub(crate) fn fill_uniform(rng: &mut Pcg64Dxsm, out: &mut [f64]) {
     if out.len() <= CHUNK {
         out.fill_with(|| rng.random());
@@ -58,7 +58,7 @@ pub(crate) fn fill_uniform(rng: &mut Pcg64Dxsm, out: &mut [f64]) {
     *rng = ahead(rng, out.len() as u64);
 }
 
-/// The stream after `count` more numbers.
+/// A copy of the stream advanced by `count` numbers.
 pub(crate) fn ahead(rng: &Pcg64Dxsm, count: impl Into<u128>) -> Pcg64Dxsm {
     let mut rng = rng.clone();
     rng.advance(count.into());

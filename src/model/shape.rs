@@ -1,9 +1,9 @@
-//! Equivalent aspect ratios: a cylinder of length over diameter r turns in shear as an ellipsoid of r_e does (Bretherton
-//! 1962), and these formulas say which.
+//! Equivalent aspect ratios: a cylinder of length over diameter r turns in shear as an ellipsoid of aspect ratio r_e does (Bretherton
+//! 1962). The formulas give r_e for r.
 
 use serde::{Deserialize, Serialize};
 
-/// Which of [`FORMULAS`], by the name that a scene gives.
+/// One of [`FORMULAS`], by its name in a scene.
 ///
 /// ```
 /// use shearbed::model::shape::Correlation;
@@ -26,12 +26,12 @@ impl Correlation {
     /// The names, in the order of [`FORMULAS`].
     pub const NAMES: [&str; 4] = ["goldsmith-mason", "cox", "harris-pittman", "zhang"];
 
-    /// Its formula.
+    /// The formula of this correlation.
     pub fn formula(self) -> &'static Formula {
         &FORMULAS[self as usize]
     }
 
-    /// Its name in a scene.
+    /// The name of this correlation in a scene.
     pub fn name(self) -> &'static str {
         Self::NAMES[self as usize]
     }
@@ -45,23 +45,23 @@ impl Correlation {
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Formula {
-    /// Who gave it, and when.
+    /// Authors and year.
     pub name: &'static str,
-    /// As it is written.
+    /// The formula as text.
     pub formula: &'static str,
-    /// Its range of validity, as stated.
+    /// Range of validity as stated by the authors.
     pub range: &'static str,
-    /// Where it was first published.
+    /// First publication.
     pub source: &'static str,
-    /// Where this project read it: none of the sources was at hand.
+    /// Where this project read the formula: none of the original sources was at hand.
     pub read_in: &'static str,
     value: fn(f64) -> f64,
 }
 
-/// The least and the most r: shorter cylinders are none of what the formulas are for, longer ones no experiment's.
+/// The smallest and the largest r allowed: the formulas are not meant for shorter cylinders, and no experiment has longer ones.
 pub const ALLOWED: (f64, f64) = (2.0, 1000.0);
 
-/// Every formula.
+/// All formulas.
 pub const FORMULAS: [Formula; 4] = [
     Formula {
         name: "Goldsmith & Mason 1967",
@@ -98,8 +98,8 @@ pub const FORMULAS: [Formula; 4] = [
 ];
 
 impl Formula {
-    /// r_e of a cylinder of aspect ratio r; none where the formula cannot mean it: where r_e is above r, which no long
-    /// cylinder's is, or falls as r grows.
+    /// r_e of a cylinder of aspect ratio `r`; `None` outside the formula's meaning: where r_e exceeds r, which is true of no long
+    /// cylinder, or falls as r grows.
     pub fn equivalent(&self, r: f64) -> Option<f64> {
         let value = (self.value)(r);
         let rises = (self.value)(1.001 * r) > value;
@@ -107,7 +107,7 @@ impl Formula {
     }
 }
 
-/// The least and the greatest r_e that the formulas give; none where none of them gives one.
+/// The smallest and the largest r_e that the formulas give for `r`; `None` if no formula gives a value.
 pub fn spread(r: f64) -> Option<(f64, f64)> {
     let values: Vec<f64> = FORMULAS.iter().filter_map(|formula| formula.equivalent(r)).collect();
     let least = values.iter().copied().reduce(f64::min)?;

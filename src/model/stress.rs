@@ -1,10 +1,10 @@
-//! The stress that a rigid body without Brownian motion adds to a dilute suspension, with all that it does to the liquid around it:
+//! The particle stress of a dilute suspension of rigid bodies without Brownian motion, with their whole effect on the liquid around them:
 //!   σ = μ n a³ [k_A ⟨pppp⟩:D + k_B (⟨pp⟩·D + D·⟨pp⟩) + k_C D] + isotropic,
-//! for n bodies of length a per volume (Leal & Hinch 1971; docs/src/theory/coefficients.md).
+//! Here n is the number of bodies of length a per volume (Leal & Hinch 1971; docs/src/theory/coefficients.md).
 
 use std::f64::consts::PI;
 
-/// What a rod is, as far as its stress goes.
+/// The body whose stress a rod has.
 ///
 /// ```
 /// use shearbed::model::stress::Body;
@@ -14,18 +14,18 @@ use std::f64::consts::PI;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Body {
-    /// A spheroid of the aspect ratio r_e by which it turns (Jeffery 1922).
+    /// A spheroid with the aspect ratio r_e of its Jeffery motion (Jeffery 1922).
     Spheroid,
-    /// A cylinder with blunt ends: it turns by r_e, and drags by its own length over diameter r.
+    /// A cylinder with blunt ends: it turns with r_e, and its drag is that of its own length over diameter r.
     Cylinder {
-        /// r.
+        /// Length over diameter r.
         aspect_ratio: f64,
     },
 }
 
 impl Body {
-    /// k_A, k_B and k_C. Of a cylinder, k_A is Batchelor's series in 1/ln 2r (1970b), and k_C is that of the strain across an endless
-    /// one.
+    /// k_A, k_B and k_C at the aspect ratio `r_e`. For a cylinder, k_A is Batchelor's series in 1/ln 2r (1970b), and k_C is that of strain
+    /// across an infinite cylinder.
     pub fn coefficients(self, r_e: f64) -> [f64; 3] {
         match self {
             // 2φ/(na³) = π/(3r²).
@@ -40,15 +40,15 @@ impl Body {
     }
 }
 
-/// Distance of r from 1 below which [`spheroid`] takes its series: both ways are good to 1e-8 there.
+/// Distance of r from 1 below which [`spheroid`] uses its series: at this distance both ways are good to 1e-8.
 const NEARLY_ROUND: f64 = 1e-3;
 
-/// A, B and C of σ = 2μφ[A ⟨pppp⟩:D + B (⟨pp⟩·D + D·⟨pp⟩) + C D], with φ the spheroids' share of the volume, from Jeffery's integrals in
+/// A, B and C of σ = 2μφ[A ⟨pppp⟩:D + B (⟨pp⟩·D + D·⟨pp⟩) + C D], with φ the spheroids' volume fraction, from Jeffery's integrals in
 /// closed form: the stress in strains along p (k_x), in a plane through p (k_y) and across p (k_z).
 fn spheroid(r: f64) -> [f64; 3] {
     let d = r - 1.0;
     if d.abs() < NEARLY_ROUND {
-        // Of the integrals, with terms of d³ left out.
+        // Series of the integrals without terms of order d³.
         let c = 2.5 * (1.0 - 2.0 / 7.0 * d + 47.0 / 147.0 * d * d);
         return [395.0 / 147.0 * d * d, 15.0 / 14.0 * d - 895.0 / 588.0 * d * d, c];
     }

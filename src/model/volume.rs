@@ -24,7 +24,7 @@ pub struct ControlVolume {
 }
 
 impl ControlVolume {
-    /// The volume with these sides.
+    /// The volume with these `sides` in rod lengths.
     pub fn of(sides: [f64; 3]) -> Self {
         Self { sides }
     }
@@ -40,13 +40,13 @@ impl ControlVolume {
         self.sides
     }
 
-    /// How often the liquid would cross the volume in a unit of time, along the axis where that is most often.
+    /// The number of times per unit of time that the liquid crosses the volume, along the axis where it is largest.
     pub(crate) fn crossings(&self, gradient: &Matrix3<f64>) -> f64 {
         let along = |k: usize| (0..3).map(|j| gradient[(k, j)].abs() * (self.sides[j] / self.sides[k])).sum();
         (0..3).map(along).fold(0.0, f64::max)
     }
 
-    /// True if its content in cubed rod lengths and the inverse are finite.
+    /// True if the volume in cubed rod lengths and its inverse are normal numbers.
     pub(crate) fn is_known(&self) -> bool {
         let content: f64 = self.sides.iter().product();
         content.is_normal() && content.recip().is_normal()
@@ -66,22 +66,22 @@ impl ControlVolume {
         positions
     }
 
-    /// Positions of rods at these places, in units of `length`; what rounding puts beyond a face is at it.
+    /// Positions in rod lengths of rods at `places`, given in the unit of `length`. Positions rounded beyond a face are set to the face.
     pub fn within(&self, places: &[Vec<f64>; 3], length: f64) -> [Vec<f64>; 3] {
         let axis =
             |axis: usize| places[axis].iter().map(move |x| (x / length).min(self.sides[axis])).collect();
         std::array::from_fn(axis)
     }
 
-    /// Moves every rod with the liquid of plane Couette flow u_2 = ±x_1 over `strain` ≥ 0 (`sign` of G), and replaces the rods
-    /// that left through the faces normal to axis 2: x_1 = H₁√R, x_3 = H₃R, x_2 by the overshoot modulo H₂ (eq. 14 with the
-    /// text's second coordinate read as x_3). Returns how many were replaced.
+    /// Moves every rod with the liquid of plane Couette flow u_2 = ±x_1 over `strain` ≥ 0 (`sign` of G) and replaces the rods that left
+    /// through the faces normal to axis 2: x_1 = H₁√R, x_3 = H₃R, x_2 is the overshoot modulo H₂ (eq. 14 with the text's second coordinate
+    /// read as x_3). Returns the number of rods replaced.
     pub fn advance(&self, positions: &mut [Vec<f64>; 3], strain: f64, sign: f64, rng: &mut Pcg64Dxsm) -> u64 {
         let carry = |[x1, x2, _]: [&mut [f64]; 3]| self.carry(x1, x2, sign * strain);
         advance(positions, COUETTE_NUMBERS, rng, carry, |axes, rng| self.replace(axes, rng))
     }
 
-    /// Moves rods along axis 2, and counts those that are outside then.
+    /// Moves rods along axis 2 and returns how many are then outside.
     fn carry(&self, x1: &[f64], x2: &mut [f64], strain: f64) -> u64 {
         let mut left = 0;
         let side = self.sides[1];
@@ -99,7 +99,7 @@ impl ControlVolume {
             if (0.0..h2).contains(x2) {
                 continue;
             }
-            // The inflow through a face is proportional to u_2, that is to x_1: hence the root.
+            // The inflow through a face is proportional to u_2, and so to x_1: hence the root.
             *x1 = h1 * rng.random::<f64>().sqrt();
             let overshoot = x2.rem_euclid(h2);
             // Just below 0, the remainder rounds up to the side itself.
@@ -109,11 +109,11 @@ impl ControlVolume {
     }
 }
 
-/// Numbers of the stream for each rod that is replaced in plane Couette flow.
+/// Random numbers used per replaced rod in plane Couette flow.
 pub(crate) const COUETTE_NUMBERS: u128 = 2;
 
-/// Carries all rods, of which `carry` counts those that leave, and then replaces these, each with the next `numbers` of the
-/// stream, and in the order of rods. Returns how many are replaced.
+/// Moves all rods by `carry`, which returns how many left, then replaces those in the order of rods, each with the next `numbers` of the
+/// stream. Returns the number of rods replaced.
 fn advance(
     positions: &mut [Vec<f64>; 3],
     numbers: u128,

@@ -1,11 +1,11 @@
-//! What was done, counted.
+//! Counts of the work done by a run.
 
 #[cfg(test)]
 mod tests;
 
 use serde::{Deserialize, Serialize};
 
-/// What was done: counts of work, the same on every machine.
+/// Counts of the work done by a run, the same on every machine.
 ///
 /// ```
 /// use shearbed::scene::{Interaction, Scene};
@@ -23,7 +23,7 @@ pub struct Counters {
     pub draws: u64,
     /// Pairs rejected by the single-precision test.
     pub pairs_screened: u64,
-    /// Cells looked into.
+    /// Cells of the grid searched.
     pub cells: u64,
     /// Distances between rods computed.
     pub distances: u64,

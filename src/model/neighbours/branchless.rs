@@ -1,15 +1,15 @@
-//! Small loops whose outcome cannot be foretold, without branches.
+//! Small loops without branches, for conditions that a processor cannot predict.
 
 use std::ops::Range;
 
-/// Rods that are looked at together.
+/// Number of rods in a block.
 pub(super) const BLOCK: usize = 128;
 
 /// Calls `found` with every rod whose cell is in `range`, in the order of rods.
 pub(super) fn each_rod_in(cells: &[u32], range: Range<usize>, mut found: impl FnMut(usize)) {
     let (first, len) = (range.start as u32, range.len() as u32);
     for (block, cells) in cells.chunks(BLOCK).enumerate() {
-        // Listed without a branch: which rod is in the range cannot be foretold.
+        // The list is made without a branch: the processor cannot predict which rods are in the range.
         let mut list = [0u8; BLOCK];
         let mut listed = 0;
         for (k, cell) in cells.iter().enumerate() {
@@ -22,7 +22,7 @@ pub(super) fn each_rod_in(cells: &[u32], range: Range<usize>, mut found: impl Fn
     }
 }
 
-/// As one instruction: `f32::min` minds NaN too.
+/// The smaller of two numbers in one instruction; `f32::min` would also treat NaN.
 pub(super) fn lesser(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }

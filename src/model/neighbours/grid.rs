@@ -7,35 +7,35 @@ use crate::model::work::Counters;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// A rod in its cell.
+/// A rod as stored in its cell.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(align(32))]
 struct Entry {
     position: [f64; 3],
-    /// How far the rod looks, rounded up.
+    /// The rod's reach, rounded up.
     reach: f32,
     rod: u32,
 }
 
 /// Rods sorted into the cells of a volume [0, H₁) × [0, H₂) × [0, H₃), for one step, each with its reach.
 ///
-/// Cells, and so the rods in memory, follow one another along axis 3, then 2, then 1: a search reads what lies
-/// together. The buffers are kept from step to step.
+/// Cells, and so the rods in memory, follow one another along axis 3, then 2, then 1, so that a search reads neighbouring memory.
+/// The buffers are reused in every step.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Grid {
     sides: [f64; 3],
-    /// The longest of them.
+    /// The longest of `sides`.
     longest: f64,
-    /// Cells along each side.
+    /// Number of cells along each side.
     along: [usize; 3],
-    /// Cells per length.
+    /// Number of cells per unit of length along each axis.
     per_length: [f64; 3],
     /// The cell of each rod.
     cells: Vec<u32>,
-    /// Where each cell's rods start in `sorted`; one more entry ends the last cell.
+    /// Index in `sorted` of each cell's first rod; one more entry ends the last cell.
     starts: Vec<u32>,
     sorted: Vec<Entry>,
-    /// Places in `sorted` of the rods that need a search.
+    /// Indices in `sorted` of the rods that need a search.
     crowded: Vec<u32>,
 }
 
@@ -52,7 +52,7 @@ impl Grid {
         }
     }
 
-    /// As [`super::Neighbours::each_nearest`], in the order of cells.
+    /// Like [`super::Neighbours::each_nearest`], in the order of cells.
     pub fn each_nearest(
         &mut self,
         positions: &[Vec<f64>; 3],
@@ -100,13 +100,13 @@ impl Grid {
         self.cells = cells;
     }
 
-    /// Sorts the rods by cell: each thread those of a range of cells, in the order of rods.
+    /// Sorts the rods by cell; each thread sorts those of a range of cells, in the order of rods.
     fn sort(&mut self, positions: &[Vec<f64>; 3], reach: impl Fn(usize) -> f64 + Sync) {
         let cells = self.along.iter().product::<usize>();
         let rods = &self.cells;
         let threads = if rods.len() <= CHUNK { 1 } else { rayon::current_num_threads() };
         let own = cells.div_ceil(threads);
-        // Counted two places up, so that filling leaves `starts[cell]` at the start of its cell.
+        // Counts are stored two entries up, so that filling leaves `starts[cell]` at the start of its cell.
         self.starts.clear();
         self.starts.resize(cells + 2, 0);
         let count = |(part, counts): (usize, &mut [u32])| {
@@ -154,7 +154,7 @@ impl Grid {
         (parts.into_par_iter()).for_each(|(first, places, sorted)| place(first, places, sorted));
     }
 
-    /// Hands every rod at these places that has another one within its reach to `found`.
+    /// Calls `found` with every rod in `places` that has another rod within its reach.
     fn search(
         &self,
         places: Range<usize>,
@@ -174,10 +174,10 @@ impl Grid {
         }
     }
 
-    /// Adds those of at most [`BLOCK`] places whose rods may have another one within their reach.
+    /// Adds to `crowded` those of at most [`BLOCK`] places whose rods may have another rod within their reach.
     ///
-    /// Most rods have no rod that near, and are skipped without a branch: none is near among the next [`WINDOW`]
-    /// rods before and behind, and these are all that the reach can touch.
+    /// Most rods have none and are skipped without a branch: no rod is near among the next [`WINDOW`]
+    /// rods before and behind, and the reach can touch no others.
     fn find_crowded(&self, places: Range<usize>, crowded: &mut Vec<u32>) {
         let mut x = [[FAR; PADDED]; 3];
         let mut cell = [[0.0f32; PADDED]; 3];
@@ -186,10 +186,10 @@ impl Grid {
         let end = self.sorted.len().min(places.end + MARGIN);
         let shift = before + MARGIN - places.start;
         let [slabs, rows] = [self.along[0] as f32, self.along[1] as f32];
-        // Beyond the first and the last rod: rows that do not exist.
+        // Places beyond the first and the last rod get rows that do not exist.
         cell[0][..shift].fill(-1.0);
         cell[0][shift + end - before..].fill(slabs);
-        // Single precision: what the rounding of a coordinate and of a cell's border can do is added to the reach.
+        // The reach is enlarged by the single-precision rounding of a coordinate and of a cell's border.
         let slack = 1e-6 * self.longest as f32;
         for (k, entry) in self.sorted[before..end].iter().enumerate() {
             for axis in 0..3 {
@@ -215,7 +215,7 @@ impl Grid {
                 least = lesser(least, lesser(squares[k], squares[k - offset]));
             }
             let near = least <= reach[k] * reach[k];
-            // What reaches over a wall meets nobody there.
+            // There are no rods beyond the walls of the volume.
             let within = |axis: usize| {
                 let low = greater(x[axis][k] - reach[k], 0.0);
                 let high = lesser(x[axis][k] + reach[k], inner[axis]);
@@ -230,7 +230,7 @@ impl Grid {
         crowded.extend(flagged.map(|(place, _)| place as u32));
     }
 
-    /// The nearest other rod closer than its reach to the rod of `entry`, with the square of its distance.
+    /// The nearest other rod closer than the reach of `entry`, with the square of its distance.
     fn nearest_within(&self, entry: &Entry, work: &mut Counters) -> Option<(u32, f64)> {
         let reach = f64::from(entry.reach).min(2.0 * self.longest);
         let widest = 1.0 / self.per_length.into_iter().fold(f64::INFINITY, f64::min);
@@ -273,7 +273,7 @@ impl Grid {
         best.map(|index| (index, best_square))
     }
 
-    /// The cell index along one axis; a negative coordinate counts to the first cell.
+    /// The cell index of coordinate `x` along `axis`; coordinates outside belong to the first or last cell.
     fn index(&self, axis: usize, x: f64) -> usize {
         ((x * self.per_length[axis]) as i32).clamp(0, self.along[axis] as i32 - 1) as usize
     }
@@ -284,11 +284,11 @@ impl Grid {
     }
 }
 
-/// The most cells along a side.
+/// The largest number of cells along a side.
 const MOST_ALONG: usize = 256;
 
-/// Cells along each side, as cubic as can be, for about `count` of them: a side thinner than a cell has one, and the others share
-/// what that leaves.
+/// Numbers of cells along each side for about `count` cells, as cubic as possible. A side thinner than a cube gets one cell; the others
+/// share the rest.
 fn cells_along(sides: [f64; 3], count: usize) -> [usize; 3] {
     let count = count as f64;
     let ratio = |axis: usize, other: usize| sides[axis] / sides[other];
@@ -305,15 +305,15 @@ fn cells_along(sides: [f64; 3], count: usize) -> [usize; 3] {
                 axis => (count * ratio(axis, a + b - axis)).sqrt().min(count),
             })
         }
-        // Two thin ones at the most: their product is `count`.
+        // At most two sides are thin: the product of `cubic` is `count`.
         _ => std::array::from_fn(|axis| if thin.contains(&axis) { 1.0 } else { count }),
     };
     along.map(|cells| (cells.floor() as usize).clamp(1, MOST_ALONG))
 }
 
-/// How many rods before and behind, in the order of cells, are looked at first.
+/// How many rods before and behind, in the order of cells, are tested first.
 const WINDOW: usize = 4;
 const MARGIN: usize = WINDOW + 1;
 const PADDED: usize = BLOCK + 2 * MARGIN;
-/// Farther than any rod.
+/// A coordinate farther away than any rod.
 const FAR: f32 = f32::MAX;

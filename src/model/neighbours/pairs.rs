@@ -1,19 +1,19 @@
-//! Nearest neighbours of a few rods, by looking at all pairs.
+//! Nearest neighbours of a few rods, by testing all pairs.
 
 use super::Nearest;
 use crate::model::widest::widest;
 use crate::model::work::Counters;
 
-/// Tells rods that have somebody near from those that have not, over all pairs, in whole numbers of a small unit.
+/// Separates the rods that have a near neighbour from those that have none, over all pairs, in integers of a small unit.
 ///
-/// The buffers are kept from step to step.
+/// The buffers are reused in every step.
 #[derive(Clone, Debug)]
 pub(super) struct Pairs {
-    /// Units per length.
+    /// Number of units per length.
     per_length: f64,
-    /// The rods' coordinates in units, twice over: the partner `k` places on is a slice.
+    /// The rods' coordinates in units, stored twice over: the partners `k` places ahead are a slice.
     units: [Vec<i16>; 3],
-    /// The least distance, in the largest of its three components, to the partners ahead and behind.
+    /// For each rod the smallest distance (largest of the three components) to the partners ahead, and behind.
     ahead: Vec<i16>,
     behind: Vec<i16>,
 }
@@ -28,7 +28,7 @@ impl Pairs {
         }
     }
 
-    /// As [`super::Neighbours::each_nearest`], in the order of rods.
+    /// Like [`super::Neighbours::each_nearest`], in the order of rods.
     pub fn each_nearest(
         &mut self,
         positions: &[Vec<f64>; 3],
@@ -42,7 +42,7 @@ impl Pairs {
         for rod in 0..count {
             let least = self.ahead[rod].min(self.behind[rod]).min(self.behind[rod + count]);
             let reach = reach(rod);
-            // Both coordinates were rounded down: the difference is off by less than one unit.
+            // Both coordinates were rounded down, so their difference has an error of less than one unit.
             if f64::from(least) > reach * self.per_length + 1.0 {
                 continue;
             }
@@ -55,7 +55,7 @@ impl Pairs {
 
     fn find_least(&mut self, positions: &[Vec<f64>; 3]) {
         let count = positions[0].len();
-        // Whole lanes: the rods beyond the last are the first again.
+        // Whole lanes: the places beyond the last rod repeat the first rods.
         let whole = count.next_multiple_of(LANES);
         for (units, x) in self.units.iter_mut().zip(positions) {
             units.clear();
@@ -77,7 +77,7 @@ impl Pairs {
     }
 }
 
-/// Lowers the least distance of every rod to the partners ahead and behind, over all pairs.
+/// Lowers every rod's smallest distance to the partners ahead (`least`) and `behind`, over all pairs.
 #[inline(always)]
 fn least_apart([u1, u2, u3]: [&[i16]; 3], count: usize, least: &mut [i16], behind: &mut [i16]) {
     let whole = least.len();
@@ -105,10 +105,10 @@ fn closer(own: [&[i16]; 3], other: [&[i16]; 3], ahead: &mut [i16], behind: &mut 
     }
 }
 
-/// Numbers of 16 bits that one instruction handles on every machine.
+/// How many numbers of 16 bits one instruction handles on every machine.
 const LANES: usize = 8;
 
-/// The nearest other rod closer than `reach`, of equally near ones the lowest index.
+/// The nearest other rod closer than `reach`; the lowest index if several are equally near.
 fn nearest(positions: &[Vec<f64>; 3], rod: usize, reach: f64) -> Option<Nearest> {
     let mut best = None;
     let mut best_square = reach * reach;

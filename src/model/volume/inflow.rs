@@ -1,4 +1,4 @@
-//! Rods carried through the control volume by any liquid of constant volume, and what flows in for those that leave.
+//! Moves rods through the control volume in any flow of constant volume, and replaces rods that leave by inflowing ones.
 
 #[cfg(test)]
 mod tests;
@@ -12,15 +12,15 @@ use rand_pcg::Pcg64Dxsm;
 /// The longest step: ‖L‖Δt in Frobenius's norm. Taylor's series of exp(Lτ) loses a factor of up to e^‖L‖τ in precision.
 pub const MAX_STEP: f64 = 8.0;
 
-/// Numbers of the stream that are set apart for one rod. A try takes five; on average fewer than ten are needed.
+/// Random numbers reserved for one rod. A try takes five; on average fewer than ten are needed.
 pub const NUMBERS: u128 = 1 << 20;
 
-/// One step of rods in a control volume whose liquid has any gradient L of trace 0 (eqs 2 and 3, with x from the volume's
+/// One step of rods in a control volume whose liquid has any gradient L of trace 0 (eqs 2 and 3, with x measured from the volume's
 /// corner).
 ///
-/// A rod that leaves comes back evenly distributed over the liquid that came in during the step: through a point of a face, with
-/// a density ∝ the inflow there, a time ago that is even in [0, Δt]. Evenly distributed rods therefore stay so, but for liquid
-/// that came in twice during the step, a part ∝ Δt³ of the volume. Plane Couette flow u_2 = G x_1 has eq. 14 instead
+/// A rod that leaves returns uniformly distributed over the liquid that came in during the step: through a point of a face, with a
+/// density ∝ the inflow there, at a time uniform in the step. Uniformly distributed rods therefore stay so, except in liquid that came
+/// in twice during the step, a part ∝ Δt³ of the volume. Plane Couette flow u_2 = G x_1 uses eq. 14 instead
 /// ([`ControlVolume::advance`]).
 ///
 /// ```
@@ -46,18 +46,18 @@ pub struct Inflow {
 /// A face through which liquid comes in.
 #[derive(Clone, Copy, Debug)]
 struct Face {
-    /// Its normal.
+    /// Index of the axis normal to the face.
     axis: usize,
-    /// x along `axis`: 0, or the side.
+    /// The face's coordinate along `axis`: 0 or the side.
     at: f64,
-    /// The largest inflow on it.
+    /// The largest inflow velocity on the face.
     most: f64,
-    /// Area × `most` of this face and those before it over that of all.
+    /// Cumulative share of area × `most`, up to and including this face.
     share: f64,
 }
 
 impl Inflow {
-    /// Steps of `step` > 0 in a liquid with this gradient; the unit of time is the gradient's.
+    /// Steps of `step` > 0 in a liquid with the velocity gradient `gradient`; the unit of time is the gradient's.
     pub fn new(volume: &ControlVolume, gradient: Matrix3<f64>, step: f64) -> Self {
         let mut inflow = Self {
             sides: volume.sides(),
@@ -87,18 +87,18 @@ impl Inflow {
         inflow
     }
 
-    /// L.
+    /// The velocity gradient L.
     pub fn gradient(&self) -> &Matrix3<f64> {
         &self.gradient
     }
 
-    /// Moves every rod with the liquid over the step, replaces those that left and returns how many.
+    /// Moves every rod with the liquid over the step and replaces those that left. Returns the number of rods replaced.
     pub fn advance(&self, positions: &mut [Vec<f64>; 3], rng: &mut Pcg64Dxsm) -> u64 {
         let replace = |axes: [&mut [f64]; 3], rng: &mut Pcg64Dxsm| self.replace(axes, rng);
         super::advance(positions, NUMBERS, rng, |axes| self.carry(axes), replace)
     }
 
-    /// Moves rods with the liquid, and counts those that are outside then.
+    /// Moves rods with the liquid and returns how many are then outside.
     fn carry(&self, axes: [&mut [f64]; 3]) -> u64 {
         let [x1, x2, x3] = axes;
         let mut left = 0;
@@ -110,7 +110,7 @@ impl Inflow {
         left
     }
 
-    /// Replaces the rods that are outside, each with numbers of its own.
+    /// Replaces the rods that are outside, each with its own numbers of the stream.
     fn replace(&self, [x1, x2, x3]: [&mut [f64]; 3], rng: &mut Pcg64Dxsm) {
         for ((x1, x2), x3) in x1.iter_mut().zip(x2).zip(x3) {
             if !self.holds(&Vector3::new(*x1, *x2, *x3)) {
@@ -120,7 +120,7 @@ impl Inflow {
         }
     }
 
-    /// Where a rod is that came in during the step.
+    /// A random position of a rod that came in during the step.
     fn come_in(&self, mut rng: Pcg64Dxsm) -> Vector3<f64> {
         loop {
             let [which, j, k, accepted, since]: [f64; 5] = std::array::from_fn(|_| rng.random());
@@ -138,7 +138,7 @@ impl Inflow {
         }
     }
 
-    /// The point of a face at these shares of its sides.
+    /// The point of `face` at these `shares` of its two sides.
     fn point(&self, face: &Face, shares: [f64; 2]) -> Vector3<f64> {
         let mut x = Vector3::from_element(face.at);
         for (axis, share) in across(face.axis).into_iter().zip(shares) {
@@ -147,7 +147,7 @@ impl Inflow {
         x
     }
 
-    /// The velocity into the volume at a point of a face.
+    /// The velocity into the volume at the point `x` of `face`.
     fn speed_in(&self, face: &Face, x: &Vector3<f64>) -> f64 {
         let velocity = self.gradient.row(face.axis).tr_dot(x);
         if face.at == 0.0 { velocity } else { -velocity }
@@ -178,7 +178,7 @@ fn carried(gradient: &Matrix3<f64>, x: Vector3<f64>, time: f64) -> Vector3<f64> 
     sum
 }
 
-/// The axes along a face with this normal.
+/// The two axes along a face with this normal.
 fn across(axis: usize) -> [usize; 2] {
     [[1, 2], [0, 2], [0, 1]][axis]
 }
