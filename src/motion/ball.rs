@@ -1,24 +1,24 @@
-//! Numbers that know their error: the sum of two doubles (106 bits), with a bound on how far the true value is from it.
+//! Numbers with an error bound: the sum of two doubles (106 bits) and a bound on its distance from the true value.
 //!
-//! Sums and products of double-doubles: Joldes, Muller & Popescu 2017, algorithms 6 (relative error 3 u²) and 11 (5 u²),
-//! u = 2⁻⁵³; errors are carried on as in interval arithmetic. What double-double holds exactly stays exact, so that 0 is 0.
+//! Sums and products of double-doubles: Joldes, Muller & Popescu 2017, algorithms 6 (relative error 3 u²) and 11 (5 u²), u = 2⁻⁵³;
+//! errors propagate as in interval arithmetic. Results that a double-double holds exactly have no error, so that 0 stays 0.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// More than every relative rounding error here, with room for the rounding of the bound itself.
+/// Exceeds every relative rounding error in this file, with a margin for the rounding of the bound itself.
 const ROUNDING: f64 = 1.0 / (1u128 << 102) as f64;
-/// A bound on what a product loses below the smallest normal number.
+/// A bound on the error of a product that underflows.
 const UNDERFLOW: f64 = 1e-320;
 const IN_DANGER: f64 = 1e-280;
 
-/// hi + lo, off by at most `error`. A value that is not known has an infinite or no error.
+/// The number hi + lo with an absolute error of at most `error`. An unknown value has an infinite or NaN error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
     /// The value, rounded to double.
     pub hi: f64,
-    /// The rest.
+    /// The value less `hi`.
     pub lo: f64,
-    /// The bound on the error.
+    /// The bound on the absolute error.
     pub error: f64,
 }
 
@@ -32,17 +32,17 @@ impl Ball {
     pub const LN_2: Self =
         Self { hi: std::f64::consts::LN_2, lo: 2.319_046_813_846_299_6e-17, error: ROUNDING };
 
-    /// A double.
+    /// The double `x`, without error.
     pub const fn exact(x: f64) -> Self {
         Self { hi: x, lo: 0.0, error: 0.0 }
     }
 
-    /// The same with `error` more of error.
+    /// The same number with `error` added to its bound.
     pub fn widened(self, error: f64) -> Self {
         Self { error: self.error + error, ..self }
     }
 
-    /// True if it is exactly 0.
+    /// True if the number is exactly 0.
     pub fn is_zero(self) -> bool {
         self.hi == 0.0 && self.error == 0.0
     }
@@ -51,29 +51,29 @@ impl Ball {
         self.lo == 0.0 && self.error == 0.0
     }
 
-    /// The most that its size can be.
+    /// An upper bound of |x|.
     pub fn most(self) -> f64 {
         (self.hi.abs() + self.error) * (1.0 + 2.0 * f64::EPSILON)
     }
 
-    /// The least that its size can be, 0 where it may be 0.
+    /// A lower bound of |x|; 0 if the number may be 0.
     pub fn least(self) -> f64 {
         let least = (self.hi.abs() - self.error) * (1.0 - 2.0 * f64::EPSILON);
         if least > 0.0 { least } else { 0.0 }
     }
 
-    /// Without its error: as if it were exact.
+    /// The same number with error 0.
     pub fn middle(self) -> Self {
         Self { error: 0.0, ..self }
     }
 
-    /// Times a power of two.
+    /// The number times `power`, a power of two.
     pub fn scaled(self, power: f64) -> Self {
         let scaled = Self { hi: self.hi * power, lo: self.lo * power, error: self.error * power };
         if self.hi != 0.0 && scaled.hi.abs() < IN_DANGER { scaled.widened(UNDERFLOW) } else { scaled }
     }
 
-    /// Times 2 to a power that need not be a double.
+    /// The number times 2^`power`, also where 2^`power` is not a double.
     pub fn shifted(self, power: i32) -> Self {
         let [hi, lo, error] = [self.hi, self.lo, self.error].map(|x| libm::scalbn(x, power));
         let shifted = Self { hi, lo, error };
@@ -108,12 +108,12 @@ impl Ball {
             return Self { hi: product, lo: rest, error: danger };
         }
         let (hi, lo) = quick_two_sum(product, rest + (self.hi * other.lo + self.lo * other.hi));
-        // |lo| ≤ ε|hi|: a little more than the product's own terms.
+        // |lo| ≤ ε|hi|: this bound is a little larger than the product's own terms.
         let carried = self.hi.abs() * other.error + other.hi.abs() * self.error + self.error * other.error;
         Self { hi, lo, error: carried * (1.0 + 8.0 * f64::EPSILON) + ROUNDING * hi.abs() + danger }
     }
 
-    /// The quotient; not known where the divisor may be 0.
+    /// The quotient; its error is infinite or NaN if the divisor may be 0.
     pub fn over(self, other: Self) -> Self {
         if self.is_zero() && other.least() > 0.0 {
             return Self::ZERO;
@@ -129,7 +129,7 @@ impl Ball {
         let (hi, lo) = quick_two_sum(hi, lo + third);
         let carried = (self.error + hi.abs() * other.error) / other.least();
         let danger = if hi.abs() < IN_DANGER { UNDERFLOW } else { 0.0 };
-        // The rest is known to some u² of |self|, and the quotient to as much of itself.
+        // The rest is known to a few u² of |self|, and the quotient to as much relative to itself.
         Self { hi, lo, error: carried * (1.0 + 8.0 * f64::EPSILON) + 4.0 * ROUNDING * hi.abs() + danger }
     }
 
@@ -152,13 +152,13 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - (sum - of_b)) + (b - of_b))
 }
 
-/// For |a| ≥ |b|.
+/// The sum of `a` and `b` and its rounding error, for |a| ≥ |b|.
 fn quick_two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     (sum, b - (sum - a))
 }
 
-/// Dekker's product: no fused multiply-add, which is a call where the machine's is not known to be there.
+/// Dekker's product: avoids a fused multiply-add, which is a function call if the machine may lack the instruction.
 fn two_product(a: f64, b: f64) -> (f64, f64) {
     let (a_high, a_low) = halves(a);
     let (b_high, b_low) = halves(b);

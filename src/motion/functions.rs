@@ -1,4 +1,4 @@
-//! Exponential, sine and cosine of numbers that know their error.
+//! Exponential, sine and cosine of numbers with an error bound.
 
 use super::ball::Ball;
 use std::sync::LazyLock;
@@ -12,17 +12,17 @@ pub(super) static INVERSE_FACTORIALS: LazyLock<[Ball; 34]> = LazyLock::new(|| {
     all
 });
 
-/// More than what is left of every series here: the next term, twice.
+/// A bound on the truncation error of every series here: twice the next term.
 const LEFT_OUT: f64 = 1e-33;
 
-/// Σ cₖ zᵏ over `coefficients`, the highest first.
+/// Σ zᵏ/n! with n from `coefficients`, highest first.
 fn horner(coefficients: impl Iterator<Item = usize>, z: Ball) -> Ball {
     coefficients.fold(Ball::ZERO, |sum, n| sum * z + INVERSE_FACTORIALS[n])
 }
 
 /// eˣ for x ≤ 0.
 pub(super) fn exp(x: Ball) -> Ball {
-    // Below e⁻⁶⁰⁰ it is 0 beside whatever it is added to, and known to be less than that.
+    // Below e⁻⁶⁰⁰ the result is negligible beside anything it is added to: 0 with a bound.
     if x.hi < -600.0 {
         return Ball::ZERO.widened(if x.hi + x.error < -590.0 { 1e-250 } else { 1.0 });
     }
@@ -30,12 +30,12 @@ pub(super) fn exp(x: Ball) -> Ball {
     value.scaled(libm::scalbn(1.0, power))
 }
 
-/// eˣ for x ≤ 0 as a number between ½ and 2 times 2 to a power: e^{−1000} underflows, and 2^{1000} times it does not.
+/// eˣ for x ≤ 0 as a number between ½ and 2 and a power of two: e^{−1000} underflows, but 2^{1000} times it does not.
 pub(super) fn exp_and_power(x: Ball) -> (Ball, i32) {
     if x.is_zero() {
         return (Ball::ONE, 0);
     }
-    // Below e⁻³⁰⁰⁰ < 2⁻⁴³²⁸ it is 0 beside any quotient of two doubles.
+    // Below e⁻³⁰⁰⁰ < 2⁻⁴³²⁸ the result is negligible beside any quotient of two doubles.
     if x.hi < -3000.0 {
         return match x.hi + x.error < -3000.0 {
             true => (Ball::ZERO.widened(1.0), -4328),
@@ -55,11 +55,11 @@ pub(super) fn exp_and_power(x: Ball) -> (Ball, i32) {
     (value, powers_of_two as i32)
 }
 
-/// The sine and cosine of 2π·turns: quarter turns are exact.
+/// The sine and cosine of 2π·`turns`; exact at quarter turns.
 pub(super) fn sin_cos(turns: Ball) -> (Ball, Ball) {
     let mut rest = turns.middle();
     let mut quarters = 0.0;
-    // Twice: of large turns the low part is not less than one either.
+    // Done twice: for large turns the low part is not less than one either.
     for _ in 0..2 {
         let nearest = (4.0 * rest.hi).round();
         rest = rest - Ball::exact(0.25 * nearest);
@@ -84,13 +84,13 @@ pub(super) fn sin_cos(turns: Ball) -> (Ball, Ball) {
     (widened(sin), widened(cos))
 }
 
-/// Σ zᵏ/n! over n = `last`, `last` − 2, … with k from the end: cosine from an even `last`, sine over its argument from an
-/// odd one.
+/// Σ zᵏ/n! over n = `last`, `last` − 2, … with k counted from the end: the cosine for an even `last`, the sine over its argument for
+/// an odd one.
 fn horner_of(z: Ball, last: usize) -> Ball {
     horner((0..=last).rev().step_by(2), z)
 }
 
-/// cosh √z and sinh √z / √z, which have no root in them, for |z| ≤ 1.
+/// cosh √z and sinh √z / √z, computed without a root, for |z| ≤ 1.
 pub(super) fn cosh_sinh_over(z: Ball) -> (Ball, Ball) {
     let (cosh, sinh) = (horner_of(z, 30), horner_of(z, 31));
     (cosh.widened(LEFT_OUT), sinh.widened(LEFT_OUT))

@@ -1,11 +1,11 @@
-//! A free rod in any velocity gradient: the matrix that moves it, and what its exponential is made of.
+//! The motion of a free rod in any velocity gradient: its matrix N, and the parts of the exponential of N.
 //!
-//! With Λ = (r_e² − 1)/(r_e² + 1), A = W + ΛD = (L − ρLᵀ)/(1 + ρ) for rods, ρ = 1/r_e²; a disc is the rod of 1/r_e in the
-//! flow −Lᵀ. Nothing cancels in N = L − ρLᵀ for long rods, and its invariants are polynomials in ρ whose coefficients come
-//! from L alone. A multiple of 1 in L changes |q| only and is taken out.
+//! With Λ = (r_e² − 1)/(r_e² + 1), A = W + ΛD = (L − ρLᵀ)/(1 + ρ) for rods, ρ = 1/r_e²; a disc moves as the rod of 1/r_e in the
+//! flow −Lᵀ. N = L − ρLᵀ has no cancellation for long rods, and its invariants are polynomials in ρ whose coefficients depend on L
+//! alone. A multiple of 1 in L changes |q| only and is removed.
 //!
-//! Coordinates that N does not couple are blocks, each with an exponential of its own. One of them all would lose the digits of a
-//! block that the start has little of, beside the rounding of another, and those of blocks whose rates nearly meet.
+//! Coordinates that N does not couple form blocks, each with its own exponential. One exponential of all coordinates would lose digits:
+//! of a block in which the start is small beside the rounding of another, and of blocks whose rates nearly coincide.
 
 use super::ball::Ball;
 use super::functions::exp_and_power;
@@ -16,28 +16,28 @@ use std::array::from_fn;
 
 pub(super) type Square = [[Ball; 3]; 3];
 
-/// N of one flow and one aspect ratio, with what its exponential needs.
+/// The matrix N of one flow and one aspect ratio, with the quantities that its exponential needs.
 #[derive(Clone, Debug)]
 pub(super) struct General {
     n: Square,
     n_squared: Square,
-    /// L was multiplied by two to this power, so that its largest component is about 1.
+    /// L was multiplied by 2^`power`, which makes its largest component about 1.
     power: i32,
-    /// 1/(1 + ρ): A = N · this.
+    /// 1/(1 + ρ): A = N · `slower`.
     slower: Ball,
-    /// (2 D:D)^½ of L as it was scaled.
+    /// (2 D:D)^½ of the scaled L.
     magnitude: Ball,
-    /// The roots of all three coordinates.
+    /// The eigenvalues of N.
     cubic: Cubic,
-    /// Δ of the roots m ± √Δ of the two coordinates that are left without the first, second or third.
+    /// Δ of the roots m ± √Δ of the two coordinates that remain without the first, second or third.
     squares: [Ball; 3],
 }
 
-/// exp(Nτ) by rows, up to a factor, of the coordinates that a start reaches.
+/// exp(Nτ) by rows, up to a common factor, for the coordinates that a start reaches.
 pub(super) struct Rows {
     /// a₀, a₁ and a₂ of each row's block.
     coefficients: Square,
-    /// The power of two that is left out of each row.
+    /// Exponent of the power of two that is left out of each row.
     powers: [i32; 3],
 }
 
@@ -79,37 +79,37 @@ impl General {
         }
     }
 
-    /// The period in units in which L is about 1, where there is one, and by how much the rest of the motion grows
-    /// against the turning in it: |ln| of the ratio.
+    /// The period in units in which L is about 1, and |ln| of the ratio by which the rest of the motion grows in it relative to
+    /// the rotating part; `None` if there is no period.
     pub fn period(&self) -> Option<(Ball, f64)> {
         let (period, drift) = self.cubic.period()?;
         Some((period.over(self.slower), drift))
     }
 
-    /// The period in s.
+    /// The period in s; `None` if the motion has none.
     pub fn period_s(&self) -> Option<f64> {
         self.period().map(|(period, _)| shifted(period.hi, self.power))
     }
 
-    /// The time in which the strain grows by `strain`.
+    /// The time in which the strain increases by `strain`.
     pub fn time_of_strain(&self, strain: Ball) -> Time {
         Time { span: strain.over(self.magnitude) * self.slower, turns: None }
     }
 
-    /// `time_s` seconds.
+    /// The time of `time_s` seconds.
     pub fn time_of_seconds(&self, time_s: f64) -> Time {
         let span = shifted(time_s, -self.power);
         let rounded = if shifted(span, self.power) == time_s { 0.0 } else { span * f64::EPSILON };
         Time { span: Ball::exact(span).widened(rounded) * self.slower, turns: None }
     }
 
-    /// The time of `turns` periods, where there is a period.
+    /// The time of `turns` periods; `None` if the motion has no period.
     pub fn time_of_periods(&self, turns: Ball) -> Option<Time> {
         let (period, _) = self.cubic.period()?;
         Some(Time { span: turns * period, turns: Some(turns) })
     }
 
-    /// As long as rods of another aspect ratio in this flow take for `turns` of their periods.
+    /// The time of `turns` periods of `mean`, the motion of another aspect ratio in this flow; `None` if it has no period.
     pub fn time_of_periods_of(&self, mean: &Self, turns: Ball) -> Option<Time> {
         let (period, _) = mean.period()?;
         Some(Time { span: turns * period * self.slower, turns: None })
@@ -123,7 +123,7 @@ impl General {
         from_fn(|i| map[i].map(|component| component.shifted(rows.powers[i] - most)))
     }
 
-    /// The map of the coordinates that `rows` reach, without the powers of two; its other columns mean nothing.
+    /// The map of the coordinates that `rows` reach, without the powers of two; its other columns are meaningless.
     pub fn map_of(&self, rows: &Rows) -> Square {
         from_fn(|i| {
             let [a0, a1, a2] = rows.coefficients[i];
@@ -134,7 +134,7 @@ impl General {
         })
     }
 
-    /// What moves a rod that starts along `p`, and that start times the rows' powers of two, the largest component about 1.
+    /// The rows that move a rod starting along `p`, and `p` times the rows' powers of two, scaled to a largest component of about 1.
     pub fn rows_from(&self, p: [f64; 3], time: Time) -> (Rows, [Ball; 3]) {
         let rows = self.rows(self.reached(p), time);
         let most =
@@ -146,7 +146,7 @@ impl General {
         (rows, start)
     }
 
-    /// Where a start of [`Self::rows_from`] goes, up to a factor.
+    /// The image of a start from [`Self::rows_from`], up to a factor.
     pub fn moved(&self, rows: &Rows, start: [Ball; 3]) -> [Ball; 3] {
         let once = times(&self.n, start);
         let twice = times(&self.n_squared, start);
@@ -156,7 +156,7 @@ impl General {
         })
     }
 
-    /// The coordinates that a rod along `p` can reach: one on an axis that is one of the flow's stays there.
+    /// The coordinates that a rod along `p` can reach: a rod on an axis that the flow maps to itself stays there.
     fn reached(&self, p: [f64; 3]) -> [bool; 3] {
         let mut reached = p.map(|component| component != 0.0);
         for _ in 0..2 {
@@ -165,7 +165,7 @@ impl General {
         reached
     }
 
-    /// exp(Nτ) of the reached coordinates, block by block.
+    /// exp(Nτ) of the `reached` coordinates, block by block.
     fn rows(&self, reached: [bool; 3], time: Time) -> Rows {
         let mut couplings = (0..3).filter(|&left_out| {
             let [i, j] = others(left_out);
@@ -177,7 +177,7 @@ impl General {
                 return Rows { coefficients: [self.cubic.coefficients(time); 3], powers: [0; 3] };
             }
         };
-        // The first coordinate of each one's block, and by that a block's coefficients and rate.
+        // The first coordinate of each coordinate's block, by which the block's coefficients and rate are found.
         let first: [usize; 3] = from_fn(|i| match alone {
             Some(alone) if i != alone => others(alone)[0],
             _ => i,
@@ -200,19 +200,19 @@ impl General {
         Rows { coefficients: first.map(|i| scaled[i].0), powers: first.map(|i| scaled[i].1) }
     }
 
-    /// The roots of the two coordinates that are left without one.
+    /// The roots of the two coordinates other than `left_out`.
     fn pair(&self, left_out: usize) -> Pair {
         let [i, j] = others(left_out);
         Pair { middle: (self.n[i][i] + self.n[j][j]).scaled(0.5), square: self.squares[left_out] }
     }
 }
 
-/// The two coordinates beside one.
+/// The two coordinates other than `left_out`.
 fn others(left_out: usize) -> [usize; 2] {
     [[1, 2], [0, 2], [0, 1]][left_out]
 }
 
-/// Δ of two coordinates: with h = (L_ii − L_jj)/2, (1 − ρ)²(h² + L_ij L_ji) − ρ(L_ij − L_ji)², which cancels neither for long rods nor
+/// Δ of two coordinates: (1 − ρ)²(h² + L_ij L_ji) − ρ(L_ij − L_ji)² with h = (L_ii − L_jj)/2, free of cancellation both for long rods and
 /// near spheres.
 fn square_of_pair(l: &Square, [i, j]: [usize; 2], rho: Ball, rest: Ball) -> Ball {
     let half = (l[i][i] - l[j][j]).scaled(0.5);
@@ -245,7 +245,7 @@ fn determinants(x: &Square) -> (Ball, Ball) {
     (determinant, with_transpose)
 }
 
-/// L times a power of two that makes its largest component about 1, and the power's exponent.
+/// L times the power of two that makes its largest component about 1, and the exponent of that power.
 fn scaled(flow: &VelocityGradient) -> (Square, i32) {
     let l = flow.per_s();
     let power = -exponent(l.amax());
@@ -258,7 +258,7 @@ fn scaled(flow: &VelocityGradient) -> (Square, i32) {
     (from_fn(|i| from_fn(|j| component(i, j))), power)
 }
 
-/// The exponent of the power of two below |x|, 0 for 0.
+/// The exponent of the largest power of two ≤ |x|; 0 for 0.
 fn exponent(x: f64) -> i32 {
     if x == 0.0 { 0 } else { libm::log2(x.abs()).floor() as i32 }
 }
@@ -278,7 +278,7 @@ fn magnitude(l: &Square) -> Ball {
     sum.scaled(0.5).sqrt()
 }
 
-/// L less a third of its trace, in two steps: where a third is a double, nothing is rounded.
+/// L less a third of its trace, in two steps: if a third of the trace is a double, nothing is rounded.
 fn traceless(mut l: Square) -> Square {
     for step in 0..2 {
         let sum = trace(&l);
@@ -290,13 +290,13 @@ fn traceless(mut l: Square) -> Square {
     l
 }
 
-/// A map times a power of two that makes its largest component about 1.
+/// The map times the power of two that makes its largest component about 1.
 pub(super) fn at_size_one(map: Square) -> Square {
     let largest = map.iter().flatten().fold(0.0, |largest: f64, component| largest.max(component.hi.abs()));
     map.map(|row| row.map(|component| component.shifted(-exponent(largest))))
 }
 
-/// The middle of a map as doubles, its largest component about 1, and its error against its own size.
+/// The middle of a map as doubles, scaled to a largest component of about 1, and its relative error.
 pub(super) fn rounded(map: &Square) -> (Matrix3<f64>, f64) {
     let middle = Matrix3::from_fn(|i, j| map[i][j].hi);
     let power = -exponent(middle.amax());
@@ -306,7 +306,7 @@ pub(super) fn rounded(map: &Square) -> (Matrix3<f64>, f64) {
     (middle, known(relative))
 }
 
-/// An error that is no number is one without bound.
+/// The error, or infinity if it is NaN.
 pub(super) fn known(error: f64) -> f64 {
     if error.is_nan() { f64::INFINITY } else { error }
 }

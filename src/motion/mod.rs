@@ -1,8 +1,8 @@
 //! The exact motion of a free rod over any time, with a bound on its error.
 //!
-//! The substitution p = q/|q| makes Jeffery's equation linear: q(t) = exp(At) p(0) with A = W + ΛD (the trace of A changes |q|
-//! only and is left out). Plane Couette flow along the axes has its closed form; every other flow goes
-//! through numbers of 106 bits that carry a bound on their error (`general.rs`), taking L, r_e and p as exact.
+//! The substitution p = q/|q| makes Jeffery's equation linear: q(t) = exp(At) p(0) with A = W + ΛD (the trace of A changes only |q|
+//! and is left out). Plane Couette flow along the axes uses its closed form; every other flow is computed
+//! with numbers of 106 bits that carry an error bound (`general.rs`), taking L, r_e and p as exact.
 
 mod ball;
 mod functions;
@@ -21,7 +21,7 @@ use nalgebra::{Matrix3, UnitVector3, Vector3};
 use std::f64::consts::TAU;
 use steps::Steps;
 
-/// The direction after the phase `phase` of a free rod in plane Couette flow with G > 0, p = q/|q| (`turned`).
+/// The direction p = q/|q| after the phase `phase` of a free rod in plane Couette flow with G > 0; q is given by `turned`.
 #[inline(always)]
 pub fn couette(p: [f64; 3], aspect_ratio: f64, phase: Phase) -> [f64; 3] {
     let q = turned(p, aspect_ratio, phase);
@@ -38,7 +38,7 @@ fn turned(p: [f64; 3], aspect_ratio: f64, phase: Phase) -> [f64; 3] {
     [q1, q2, p[2]]
 }
 
-/// How long a rod moves: a number ≥ 0 over another, in some unit.
+/// The length of a rod's motion: in seconds, or the quotient of a number ≥ 0 and another.
 ///
 /// ```
 /// use shearbed::motion::Span;
@@ -70,13 +70,13 @@ pub enum Span {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moved {
-    /// Its direction.
+    /// The direction at the end.
     pub p: UnitVector3<f64>,
-    /// A bound on the angle in rad to the true direction of a rod that started along exactly `p`; infinite where nothing
-    /// is known.
+    /// A bound on the angle in rad between `p` and the true direction of a rod that started exactly along the given direction; infinite
+    /// if no bound is known.
     pub error: f64,
-    /// ‖\|M\|\|p\|‖/‖M p‖ of the map q = M p: by how much more than they are, relative errors of the start's components may
-    /// turn the end.
+    /// ‖\|M\|\|p\|‖/‖M p‖ of the map q = M p: the factor by which relative errors of the start's components may be amplified at
+    /// the end.
     pub condition: f64,
 }
 
@@ -100,7 +100,7 @@ enum Motion {
     Couette { shear_rate_per_s: f64, aspect_ratio: f64 },
     /// Any flow.
     General(General),
-    /// Flows one after another, whose time is a strain.
+    /// A sequence of flows; spans are strains.
     Steps(Steps),
 }
 
@@ -113,19 +113,19 @@ impl Propagator {
         }
     }
 
-    /// The same without the closed form of plane Couette flow.
+    /// The same motion without the closed form of plane Couette flow.
     pub fn general(flow: &VelocityGradient, aspect_ratio: f64) -> Self {
         Self(Motion::General(General::new(flow, aspect_ratio)))
     }
 
-    /// The motion of rods with `aspect_ratio` > 0 in flows that follow one another, each with its strain; one at least. Its spans are
+    /// The motion of rods with `aspect_ratio` > 0 in a sequence of `flows`, at least one, each with its strain. Its spans must be
     /// strains.
     pub(crate) fn of_steps(flows: &[(VelocityGradient, f64)], aspect_ratio: f64) -> Self {
         Self(Motion::Steps(Steps::new(flows, aspect_ratio)))
     }
 
-    /// The period in s after which every direction is back where it was, but for [`Self::drift_per_period`]: that of the
-    /// turning part of the motion, where there is one.
+    /// The period in s of the rotating part of the motion, `None` if there is none. After a period every direction is back, except for
+    /// [`Self::drift_per_period`].
     pub fn period_s(&self) -> Option<f64> {
         match &self.0 {
             Motion::Couette { shear_rate_per_s, aspect_ratio } => {
@@ -136,7 +136,7 @@ impl Propagator {
         }
     }
 
-    /// Relative growth per period of the rotating part over the rest: 0 where every direction comes back.
+    /// Relative growth per period of the rotating part over the rest: 0 if every direction returns.
     pub fn drift_per_period(&self) -> Option<f64> {
         match &self.0 {
             Motion::Couette { .. } => Some(0.0),
@@ -145,8 +145,8 @@ impl Propagator {
         }
     }
 
-    /// The linear map q = M p, scaled by an arbitrary positive factor, and a bound on its error against its size (in
-    /// Frobenius's norm), the rounding to double left out; `None` where the span is in periods and there is none.
+    /// The linear map q = M p, scaled by an arbitrary positive factor, and a bound on its relative error (in Frobenius's norm),
+    /// without the rounding to double. `None` for a span in periods if the motion has no period.
     pub fn map(&self, span: Span) -> Option<(Matrix3<f64>, f64)> {
         match &self.0 {
             Motion::Couette { aspect_ratio, .. } => {
@@ -160,12 +160,12 @@ impl Propagator {
         }
     }
 
-    /// Where a rod goes that starts along `p`; `None` where the span is in periods and there is none.
+    /// The end of a rod that starts along `p`; `None` for a span in periods if the motion has no period.
     pub fn moved(&self, p: &UnitVector3<f64>, span: Span) -> Option<Moved> {
         self.moved_beside(self, p, span)
     }
 
-    /// The same over periods of `mean`, in whose flow the rod is.
+    /// Like `moved`, but periods in `span` are those of `mean`, rods in the same flow.
     pub(crate) fn moved_beside(&self, mean: &Self, p: &UnitVector3<f64>, span: Span) -> Option<Moved> {
         match &self.0 {
             Motion::Couette { aspect_ratio, .. } => {
@@ -187,8 +187,8 @@ impl Propagator {
         }
     }
 
-    /// The direction of a rod that started along `p`, and the bound of [`Moved::error`]; the span's periods are those of `mean`, in the
-    /// same flow. `None` where it has none.
+    /// The direction of a rod that started along `p`, and the bound of [`Moved::error`]; periods in `span` are those of `mean`, in the
+    /// same flow. `None` for a span in periods if `mean` has no period.
     pub(crate) fn direction_beside(&self, mean: &Self, p: [f64; 3], span: Span) -> Option<([f64; 3], f64)> {
         match &self.0 {
             Motion::General(general) => {
@@ -206,7 +206,7 @@ impl Propagator {
         }
     }
 
-    /// [`Self::map`] over periods of `mean`, for propagators of any flow.
+    /// Like [`Self::map`], but in a general flow periods in `span` are those of `mean`.
     pub(crate) fn map_beside(&self, mean: &Self, span: Span) -> Option<(Matrix3<f64>, f64)> {
         match &self.0 {
             Motion::General(general) => Some(rounded(&general.map(time_beside(general, mean, span)?))),
@@ -214,8 +214,8 @@ impl Propagator {
         }
     }
 
-    /// The phase in plane Couette flow, and what its rounding does to the map: sixteen roundings of one evaluation, and
-    /// of turns that come from seconds or strain four.
+    /// The phase in plane Couette flow, and the error that rounding adds to the map: sixteen roundings of one evaluation, and four
+    /// of turns computed from seconds or strain.
     fn phase(&self, span: Span) -> Option<(Phase, f64)> {
         let Motion::Couette { shear_rate_per_s, aspect_ratio } = self.0 else {
             return None;
@@ -241,7 +241,7 @@ impl Propagator {
     }
 }
 
-/// The map of flows one after another over a strain; `None` over any other span.
+/// The map of a sequence of flows over a strain; `None` for any other span.
 fn map_of_steps(steps: &Steps, span: Span) -> Option<Square> {
     match span {
         Span::Strain(ticks, each) => Some(steps.map(quotient(ticks, each))),
@@ -270,14 +270,14 @@ fn time(general: &General, span: Span) -> Option<modes::Time> {
     }
 }
 
-/// q/|q|, and the bound on the angle to the truth: sin of it is at most the error's length over that of q.
+/// q/|q|, and a bound on the angle to the true direction: its sine is at most the error's length over that of q.
 fn normalized(q: &[Ball; 3]) -> ([f64; 3], f64) {
     let largest = q.iter().fold(0.0, |largest: f64, q| largest.max(q.hi.abs()));
     let q = q.map(|q| [q.hi / largest, q.error / largest]);
     let length = |k: usize| (q[0][k] * q[0][k] + q[1][k] * q[1][k] + q[2][k] * q[2][k]).sqrt();
     let scale = 1.0 / length(0);
     let off = length(1) * scale;
-    // Up to 0.1, an arcsine is less than 1.01 times its sine. The direction itself is rounded to double.
+    // Up to 0.1, an arcsine is less than 1.01 times its argument. The direction itself is rounded to double.
     let error = if off < 0.1 { 1.01 * off + 4.0 * f64::EPSILON } else { f64::INFINITY };
     (q.map(|q| q[0] * scale), known(error))
 }

@@ -1,13 +1,13 @@
 //! exp(Nτ) = a₀ + a₁N + a₂N², up to a factor, from the roots of N's characteristic equation.
 //!
-//! With the real root λ that is farthest from 0 and the pair m ± √Δ of the others, χ = (x − λ)((x − m)² − Δ), and
+//! With the real root λ that is farthest from 0 and the pair m ± √Δ of the other roots, χ = (x − λ)((x − m)² − Δ), and
 //!
 //! exp(xτ) = h(x) + ((x − m)² − Δ)(e^{λτ} − h(λ))/χ′(λ),  h(x) = e^{mτ}(cosh √Δτ + (x − m) sinh √Δτ/√Δ)  modulo χ.
 //!
-//! h has no root in it and does not mind whether the pair is real, equal or complex; λ is a root of its own: where the
-//! sum of the roots is 0 and the largest of |c|^½ and |d|^⅓ is 1, χ′(λ) is never small (it is least, 1.9, where c = −1 and
-//! the others meet). So no kind of flow is told from another, and nothing is iterated but one Newton method that cannot
-//! but end. In a short time, where e^{λτ} − h(λ) would cancel, the series takes its place.
+//! h contains no root, and the formula is the same for a real, an equal and a complex pair; λ is well separated: if the roots' sum is 0
+//! and the largest of |c|^½ and |d|^⅓ is 1, χ′(λ) is never small (its minimum is 1.9, at c = −1, where the pair coincides). So the kinds
+//! of flow need no distinction, and the only iteration is a Newton method that always ends. For short times, where
+//! e^{λτ} − h(λ) would cancel, the series is used instead.
 
 use super::ball::Ball;
 use super::functions::{INVERSE_FACTORIALS, cosh_sinh_over, exp, sin_cos};
@@ -16,21 +16,21 @@ use super::functions::{INVERSE_FACTORIALS, cosh_sinh_over, exp, sin_cos};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Time {
     pub span: Ball,
-    /// The same in periods, where it was given in periods: quarter turns are exact.
+    /// The time in periods, if it was given in periods: quarter turns are exact.
     pub turns: Option<Ball>,
 }
 
-/// m ± √Δ.
+/// The pair of roots m ± √Δ: `middle` is m, `square` is Δ.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair {
     pub middle: Ball,
     pub square: Ball,
 }
 
-/// λ³ − tλ² + cλ − d.
+/// The cubic λ³ − tλ² + cλ − d and its roots.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cubic {
-    /// A power of two, about the larger of |c|^½ and |d|^⅓.
+    /// A power of two near the larger of |c|^½ and |d|^⅓.
     size: f64,
     /// t, c and d in units of size, size² and size³.
     of_size: [Ball; 3],
@@ -46,12 +46,12 @@ impl Pair {
         (coefficients, self.middle + rate)
     }
 
-    /// True if it is certainly complex.
+    /// True if the pair is certainly complex.
     fn turns(&self) -> bool {
         -self.square.hi > 2.0 * self.square.error
     }
 
-    /// √Δ where the pair is real and the time is long, else 0; cosh √Δτ and sinh √Δτ/√Δ over e to that times τ.
+    /// √Δ if the pair is real and the time is long, else 0; then cosh √Δτ and sinh √Δτ/√Δ, both divided by e to that rate times τ.
     fn at(&self, time: Time) -> (Ball, Ball, Ball) {
         let tau = time.span;
         let z = self.square * tau * tau;
@@ -64,7 +64,7 @@ impl Pair {
             let (sin, cos) = sin_cos(turns);
             (Ball::ZERO, cos, sin.over(omega))
         } else {
-            // Where Δ may be 0 its root, and with it the answer, is not known.
+            // If Δ may be 0, its root and so the result are unknown.
             let root = match self.square.hi > 2.0 * self.square.error {
                 true => self.square.sqrt(),
                 false => Ball::ONE.widened(f64::INFINITY),
@@ -94,7 +94,7 @@ impl Cubic {
         Self { size, of_size, root, pair: Pair { middle, square } }
     }
 
-    /// 2π/ω of a pair that is certainly complex, and |λ − m|·2π/ω.
+    /// The period 2π/ω if the pair is certainly complex, and |λ − m|·2π/ω; else `None`.
     pub fn period(&self) -> Option<(Ball, f64)> {
         if !self.pair.turns() {
             return None;
@@ -104,7 +104,7 @@ impl Cubic {
         Some((period, drift.most()))
     }
 
-    /// a₀, a₁ and a₂, all times one and the same factor > 0.
+    /// a₀, a₁ and a₂, all times the same positive factor.
     pub fn coefficients(&self, time: Time) -> [Ball; 3] {
         let tau = time.span;
         if self.size * tau.most() <= SHORT {
@@ -112,7 +112,7 @@ impl Cubic {
         }
         let Pair { middle, square } = self.pair;
         let (rate, cosh, sinh) = self.pair.at(time);
-        // The larger of both factors is taken out.
+        // The larger of the two factors is left out.
         let lead = (self.root - middle) * tau - rate * tau;
         let (of_root, of_pair) = if lead.hi > 0.0 { (Ball::ONE, exp(-lead)) } else { (exp(lead), Ball::ONE) };
         let (cosh, sinh) = (of_pair * cosh, of_pair * sinh);
@@ -131,7 +131,7 @@ impl Cubic {
             let [s0, s1, s2] = sum.map(|s| s * time);
             sum = [d * s2 + INVERSE_FACTORIALS[n], s0 - c * s2, s1 + t * s2];
         }
-        // The first term that is left out, twice; the time's own powers are in s₁ and s₂ too.
+        // Twice the first term that is left out; s₁ and s₂ also contain powers of the time.
         let left_out = 2.0 * INVERSE_FACTORIALS[TERMS].hi * libm::pow(2.0 * time.most(), TERMS as f64 - 2.0);
         let inverse = self.size.recip();
         let [s0, s1, s2] = sum;
@@ -143,18 +143,18 @@ impl Cubic {
     }
 }
 
-/// Times up to this in units of `size` take the series.
+/// Times up to this, in units of 1/`size`, use the series.
 const SHORT: f64 = 0.5;
-/// 2/30! < 10⁻³².
+/// Number of terms of the series: 2/30! < 10⁻³².
 const TERMS: usize = 30;
 
-/// The real root farthest from 0 of x³ − tx² + cx − d, |c|, |d| ≤ 1 and t next to 0.
+/// The real root farthest from 0 of x³ − tx² + cx − d, for |c|, |d| ≤ 1 and t close to 0.
 fn largest_root([t, c, d]: [Ball; 3]) -> Ball {
     if c.is_zero() && d.is_zero() {
         return Ball::ZERO;
     }
     let sign = if d.hi < 0.0 { -1.0 } else { 1.0 };
-    // From beyond the root (4/3 is), where the cubic is convex, Newton's method comes down to it and never passes it.
+    // Starting beyond the root (at 4/3), where the cubic is convex, Newton's method descends to the root and never passes it.
     let (c0, d0) = (c.hi, d.hi.abs());
     let mut x = 4.0 / 3.0;
     for _ in 0..200 {
@@ -171,7 +171,7 @@ fn largest_root([t, c, d]: [Ball; 3]) -> Ball {
     for _ in 0..2 {
         root = (root - value(root).over(slope(root))).middle();
     }
-    // Within this distance the slope changes by less than half of itself, and the value is made up for twice.
+    // Within this distance the slope changes by less than half of itself; the factor 2 allows for this.
     let (least, off) = (slope(root).least(), value(root).most());
     let error = 2.0 * off / least;
     root.widened(if 16.0 * error <= least { error } else { f64::INFINITY })

@@ -1,4 +1,4 @@
-//! The propagator by itself; the suite has it against an oracle in high precision.
+//! Tests of the propagator alone; the validation suite compares it with an oracle in high precision.
 
 use super::*;
 
@@ -49,7 +49,7 @@ proptest! {
         prop_assert!(((moved - p.into_inner()) / dt - rate).norm() < 1e-5);
     }
 
-    /// One flow in three parts is that flow; there and back is nowhere, whatever lies between.
+    /// One flow in three parts equals that flow; a flow there and back returns the rod, whatever comes between.
     #[test]
     fn flows_one_after_another_are_their_product(
         l in prop::array::uniform9(-1.0f64..1.0), phi in 0.0f64..6.2, theta in 0.0f64..3.1, r in 0.05f64..20.0,
@@ -74,7 +74,7 @@ proptest! {
         prop_assert!((map / map.amax() - Matrix3::identity()).amax() < 1e-8);
     }
 
-    /// Also where seconds are tiny or huge, with a trace, and by the map. Rounded times move a rod by 1e-11 here at most.
+    /// Also for tiny or huge seconds, with a trace, and by the map. Rounded times move a rod by 1e-11 at most here.
     #[test]
     fn a_time_is_the_same_in_seconds_strain_and_periods(
         l in prop::array::uniform9(-1.0f64..1.0), phi in 0.0f64..6.2, theta in 0.0f64..3.1,
@@ -100,7 +100,7 @@ proptest! {
         let (map, error) = rods.map(Span::Seconds(time_s)).unwrap();
         let by_map = UnitVector3::new_normalize(map * p.as_ref());
         prop_assert!(apart(&moved.p, &by_map) < 1e-9);
-        // Its largest component is about 1, and its error is that of 106 bits.
+        // The map's largest component is about 1, and its error is that of 106 bits.
         prop_assert!((0.5..=2.0).contains(&map.amax()) && error < 1e-24, "{} {error}", map.amax());
     }
 
@@ -120,7 +120,7 @@ proptest! {
             let by_modes = general.moved(&p, span).unwrap();
             prop_assert!(apart(&by_form.p, &by_modes.p) <= by_form.error + by_modes.error, "{span:?}");
             prop_assert!(by_modes.error < 1e-14);
-            // The longer of r_e and 1/r_e is by how much a direction can be turned more than its start, and a phase's error.
+            // The larger of r_e and 1/r_e is the condition, and the factor from a phase's error to a direction's.
             let longer = r.max(1.0 / r);
             prop_assert_eq!(by_form.condition, longer);
             let (_, of_phase) = closed.map(span).unwrap();
@@ -128,11 +128,11 @@ proptest! {
         }
     }
 
-    /// Rods of another aspect ratio are looked at when the mean's have turned.
+    /// Rods of another aspect ratio are observed at the mean rods' periods.
     #[test]
     fn periods_are_those_of_the_mean(phi in 0.0f64..6.2, theta in 0.0f64..3.1, r in 2.0f64..30.0, turns in 0.0f64..5.0) {
         let p = orientation::from_angles(phi, theta);
-        // Shear u_3 = x_2/2, and with it an extension that keeps the turning.
+        // Shear u_3 = x_2/2, alone and with an extension that leaves a rotating part.
         for rows in [
             [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.5, 0.0]],
             [[-0.2, 0.0, 0.0], [0.0, 0.1, -0.5], [0.0, 0.5, 0.1]],
@@ -157,7 +157,7 @@ proptest! {
     }
 }
 
-/// A turn is rounded, and of turns that come from seconds or strain four numbers are.
+/// Turns are rounded once; turns computed from seconds or strain have four roundings.
 #[test]
 fn the_error_of_a_phase_grows_with_its_turns() {
     let flow = VelocityGradient::plane_couette(0.5).unwrap();
@@ -182,16 +182,16 @@ fn a_direction_and_a_map_have_no_size() {
         let (p, error) = normalized(&q);
         let expected = [0.6, -0.8, 0.0];
         assert!((0..3).all(|k| (p[k] - expected[k]).abs() < 1e-15), "{p:?}");
-        // Its error has a length of 5e-6 · size, and it has one of 5 · size.
+        // The error has the length 5e-6 · size, the vector 5 · size.
         assert!((error / 1.01e-6 - 1.0).abs() < 1e-9, "{error}");
 
         let map =
             [0, 1, 2].map(|i| [0, 1, 2].map(|j| ball(if i == j { 4.0 * size } else { 0.0 }, 4e-20 * size)));
         let (_, error) = general::rounded(&map);
-        // Nine components with that error, three of that size.
+        // Nine components have that error, three have that size.
         assert!((error / (3f64.sqrt() * 1e-20) - 1.0).abs() < 1e-12, "{error}");
         let moved = moved(&map, &q, [0.6, -0.8, 0.0]);
-        // Here the map is of 4 where the rod has grown to 5.
+        // The map multiplies by 4, and the rod has grown to 5.
         assert!((moved.condition - 0.8).abs() < 1e-12, "{}", moved.condition);
     }
     let exact = [3.0, 4.0, 0.0].map(Ball::exact);
@@ -213,7 +213,7 @@ fn no_strain_overflows() {
     assert!(apart(&end, &UnitVector3::new_normalize(Vector3::repeat(1.0))) < 1e-15, "{end:?}");
 }
 
-/// Of an axis that the flow leads nowhere else, though it leads other axes there: L_21 = ρL_12, to the bit at r_e = 2.
+/// The flow leads from this axis nowhere else, though it leads other axes there: L_21 = ρL_12, to the bit at r_e = 2.
 #[test]
 fn a_rod_stays_on_an_axis_that_other_axes_lead_to() {
     let flow = flow([[-1.0, 1.0, 0.0], [0.25, 0.5, 0.3], [0.0, -0.2, 0.5]]);
@@ -226,7 +226,7 @@ fn a_spiral_keeps_its_phase_over_many_turns() {
     // Rotation about axis 3 with compression along it: p falls into the plane and turns there at ½.
     let spiral = flow([[0.1, -0.5, 0.0], [0.5, 0.1, 0.0], [0.0, 0.0, -0.2]]);
     let propagator = Propagator::new(&spiral, 5.0);
-    // Λ times growth at 0.1 against −0.2, while it turns once at ½.
+    // Λ times a growth at 0.1 against −0.2, while the rod turns at ½.
     let drift = propagator.drift_per_period().unwrap();
     let expected = 0.3 * jeffery::shape_factor(5.0) * 2.0 * TAU;
     assert!((drift / expected - 1.0).abs() < 1e-12, "{drift}");
@@ -234,12 +234,12 @@ fn a_spiral_keeps_its_phase_over_many_turns() {
     let turns = 1e6;
     let end = propagator.after(&p, turns * 2.0 * TAU);
     let expected = orientation::from_angles(0.3, std::f64::consts::FRAC_PI_2);
-    // The time itself, 1.3·10⁷ s, is rounded to 2·10⁻⁹ s.
+    // The time 1.3·10⁷ s is rounded to 2·10⁻⁹ s.
     assert!(apart(&end, &expected) < 1e-8, "{end:?}");
 }
 
-/// A rod that is drawn into the plane of axes 1 and 2 and turns in it by 1.5 rad, ever more slowly. Where all axes are coupled, by
-/// however little, cancellation hides the turning in the eigenvalues, until it is not known any more.
+/// A rod is drawn into the plane of axes 1 and 2 and turns in it by 1.5 rad, ever more slowly. If all axes are coupled, however weakly,
+/// cancellation hides the turning in the eigenvalues, until it is unknown.
 #[test]
 fn the_bound_on_a_slow_spiral_is_kept() {
     let p = UnitVector3::new_normalize(Vector3::new(0.6, 0.0, 0.8));
@@ -252,7 +252,7 @@ fn the_bound_on_a_slow_spiral_is_kept() {
                 let rods = Propagator::new(&flow, 3.3);
                 rods.moved(&p, Span::Seconds(1.5 / turning)).unwrap()
             };
-            // A hundred roundings, of 2⁻¹⁰², of the exponent are room for all on the way; a bound as wide as double's would fail.
+            // The bound allows a hundred roundings of 2⁻¹⁰² in the exponent; a bound as wide as double precision's would fail.
             let exponent = 1.05 / turning;
             let uncoupled = moved(0.0);
             assert!(
@@ -276,7 +276,7 @@ fn a_pure_rotation_has_the_period_of_its_vorticity() {
     assert!((period / (2.0 * TAU) - 1.0).abs() < 1e-14);
 }
 
-/// A sphere turns by Gt/2, whose sine and cosine the library has to the last digit.
+/// A sphere turns by Gt/2; the library's sine and cosine of it are right to the last digit.
 #[test]
 fn the_bound_on_a_phase_is_kept_and_nearly_reached() {
     let propagator = Propagator::new(&VelocityGradient::plane_couette(1.0).unwrap(), 1.0);
@@ -301,12 +301,12 @@ fn a_phase_of_1e8_periods_is_not_lost() {
         let propagator = Propagator::new(&flow, 11.6);
         let near = propagator.after_turns(&p, 0.125).unwrap();
         let far = propagator.after_turns(&p, 1e8 + 0.125).unwrap();
-        // 10⁸ + ⅛ turns are a number of their own; only the general way's own turns are 106 bits.
+        // 10⁸ + ⅛ turns is a double; but only the general method keeps turns in 106 bits.
         assert!(apart(&near, &far) < 4.0 * f64::EPSILON);
     }
 }
 
-/// Fifty stretches there and back: no number is lost on the way, though each map shrinks what the one before it has stretched.
+/// Fifty stretches there and back: no number overflows, though each map shrinks what the one before it stretched.
 #[test]
 fn many_flows_one_after_another_keep_their_size() {
     let there = flow([[2.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]]);

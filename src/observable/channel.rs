@@ -1,8 +1,8 @@
-//! The channels of observables, and their names.
+//! The channels of observables, by name and index.
 
 use super::Observable;
 
-/// One number of an observable: a column of its table.
+/// One channel of an observable: a column of its table.
 ///
 /// ```
 /// use shearbed::observable::Channel;
@@ -30,7 +30,7 @@ impl Channel {
         Self { observable, index }
     }
 
-    /// The name of its column.
+    /// The name of the channel's column.
     pub fn name(self) -> String {
         self.observable.columns()[self.index].to_owned()
     }
@@ -46,7 +46,7 @@ impl Channel {
         all.find(|channel| channel.name() == name)
     }
 
-    /// Which of the channels of `observables`, put one after the other, it is.
+    /// The index of this channel among the channels of `observables`, one observable after the other; `None` if it is not among them.
     pub(crate) fn place(self, observables: &[Observable]) -> Option<usize> {
         let before = observables.iter().position(|o| *o == self.observable)?;
         let start: usize = observables[..before].iter().map(|o| o.width()).sum();

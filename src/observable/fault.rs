@@ -1,39 +1,39 @@
-//! Nothing leaves a run that is no result. Every rod must have a direction, every sum must be
+//! Checks of results: every rod must have a unit direction, every sum must be
 //! finite, and the traces of ⟨pp⟩ and ⟨pppp⟩ must be 1.
 
 use crate::observable::{Block, Observe, Sum, lane_sum};
 
-/// How far the mean of |p|² over a block may be from 1: p = q/|q| is rounded some ten times on its way, each time by ε/2 of
-/// itself at most, and counts twice; the sum over 128 rods in 8 lanes is rounded 24 times.
+/// The largest deviation from 1 of a block's mean |p|²: p = q/|q| is rounded about ten times, each time by at most ε/2 relatively,
+/// and counts twice; the sum over 128 rods in 8 lanes is rounded 24 times.
 const DIRECTION: f64 = 32.0 * f64::EPSILON;
 
-/// How far the trace of ⟨pp⟩ may be from 1: 10⁸ rods are summed in lanes of 16, blocks of 512 and 1526 chunks, each sum
-/// rounded by ε/2 of itself at most.
+/// The largest deviation from 1 of the trace of ⟨pp⟩: 10⁸ rods are summed in lanes of 16, blocks of 512 and 1526 chunks, each sum
+/// with a relative rounding of at most ε/2.
 const TRACE: f64 = 4096.0 * f64::EPSILON;
 
-/// What is wrong with a replica at one output.
+/// A failed check of a replica at one output.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Fault {
-    /// Counted from the first rod that was looked at; `None` where it is not one rod's.
+    /// Index of the rod, counted from the first rod checked; `None` if the fault is not of a single rod.
     pub rod: Option<usize>,
     pub cause: String,
 }
 
-/// Refuses a block in which a rod has no direction: one that is longer or shorter by more than 5e-13, or not a number. All
-/// rods are told by one sum, which costs less than to compare each.
+/// Fails if a rod of `block` has no unit direction: if its length is off by more than 5e-13 or is not a number. One sum checks all
+/// rods, which costs less than a comparison per rod.
 #[inline]
 pub(crate) fn directions(block: &Block) -> Result<(), Fault> {
     let [p1, p2, p3] = &block.p;
     let square = move |k: usize| p1[k] * p1[k] + p2[k] * p2[k] + p3[k] * p3[k];
     let count = block.len as f64;
-    // NaN is not within anything.
+    // NaN fails this comparison too.
     match (lane_sum(block.len, square) - count).abs() <= count * DIRECTION {
         true => Ok(()),
         false => Err(farthest(block, square)),
     }
 }
 
-/// The rod whose |p|² is farthest from 1.
+/// A fault that names the rod whose |p|² is farthest from 1.
 fn farthest(block: &Block, square: impl Fn(usize) -> f64) -> Fault {
     let off = |rod: &usize| match (square(*rod) - 1.0).abs() {
         off if off.is_nan() => f64::INFINITY,
@@ -53,7 +53,7 @@ fn farthest(block: &Block, square: impl Fn(usize) -> f64) -> Fault {
     }
 }
 
-/// Refuses sums of an observable, to which this block was the last to be added, that are not finite.
+/// Fails if sums of an observable are not finite; `block` is the last that was added.
 #[inline]
 pub(crate) fn sums(observable: &dyn Observe, block: &Block, sums: &[Sum]) -> Result<(), Fault> {
     if sums.iter().all(Sum::is_finite) {
@@ -78,7 +78,7 @@ pub(crate) fn sums(observable: &dyn Observe, block: &Block, sums: &[Sum]) -> Res
     })
 }
 
-/// Refuses sums over `count` rods of a tensor whose trace, over all pairs of indices, is not 1.
+/// Fails if `sums` over `count` rods are of a tensor whose trace, over all pairs of indices, is not 1.
 pub(crate) fn trace(observable: &dyn Observe, sums: &[Sum], count: usize) -> Result<(), Fault> {
     let Some((tensor, sum)) = observable.trace(sums) else {
         return Ok(());
@@ -90,7 +90,7 @@ pub(crate) fn trace(observable: &dyn Observe, sums: &[Sum], count: usize) -> Res
     }
 }
 
-/// One rod of a block as a block.
+/// A block with only the rod `rod` of `block`.
 fn alone(block: &Block, rod: usize) -> Block {
     let mut one = Block { len: 1, ..Block::default() };
     for (axis, from) in one.p.iter_mut().zip(&block.p) {
@@ -107,7 +107,7 @@ mod tests {
     use crate::model::orientation::from_angles;
     use crate::observable::Observable;
 
-    /// A block of directions all over the sphere.
+    /// A block of `len` directions all over the sphere.
     fn block(len: usize) -> Block {
         let mut block = Block { len, ..Block::default() };
         for rod in 0..len {
@@ -138,7 +138,7 @@ mod tests {
                 assert!(fault.cause.contains("whose length is not 1"));
             }
         }
-        // What lies behind the block's end is nobody's.
+        // Values beyond the block's end are ignored.
         let mut short = block(10);
         short.len = 9;
         short.p[0][9] = f64::NAN;
@@ -161,7 +161,7 @@ mod tests {
         let fault = sums(&*Observable::Projections, &spoiled, &found).unwrap_err();
         assert_eq!(fault.rod, Some(13));
         assert_eq!(fault.cause, "its x3 came out as NaN, at r_e = 1");
-        // No rod of this block did it.
+        // No rod of this block caused it.
         let fault = sums(&*Observable::Projections, &good, &found).unwrap_err();
         assert_eq!((fault.rod, fault.cause.as_str()), (None, "the sum of projections is not finite"));
     }
@@ -172,7 +172,7 @@ mod tests {
         let mut found = vec![Sum::default(); 6];
         Observable::OrientationTensor.add(&good, &mut found);
         assert_eq!(trace(&*Observable::OrientationTensor, &found, 128), Ok(()));
-        // A rod that was lost on the way, and digits that were.
+        // A lost rod, then lost digits.
         assert!(trace(&*Observable::OrientationTensor, &found, 129).is_err());
         found[1].value += 1e-9;
         let fault = trace(&*Observable::OrientationTensor, &found, 128).unwrap_err();

@@ -1,5 +1,5 @@
-//! Observables: means over rods of a value per rod. A new one is a file beside this one, its `mod` line here
-//! and its row in the registry; everything else, from the key in a scene to files and pictures, comes from these.
+//! Observables: means over rods of a value per rod. A new observable needs a file beside this one, its `mod` line here
+//! and its row in the registry; everything else, from the key in a scene to files and pictures, follows from these.
 
 mod channel;
 mod cos_2phi;
@@ -24,7 +24,7 @@ pub use sum::{Spread, Sum};
 use crate::model::stress::Body;
 use crate::model::widest::widest;
 
-/// Rods handled at a time: their directions stay in the first cache while every observable reads them.
+/// Rods per block: a block's directions stay in the first-level cache while all observables read them.
 pub const BLOCK: usize = 128;
 
 /// Directions, aspect ratios and weights of up to [`BLOCK`] rods, as structure of arrays.
@@ -37,17 +37,17 @@ pub const BLOCK: usize = 128;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Block {
-    /// p₁, p₂ and p₃.
+    /// The components p₁, p₂ and p₃ of the rods' directions.
     pub p: [[f64; BLOCK]; 3],
-    /// r_e.
+    /// Equivalent aspect ratios r_e.
     pub aspect_ratio: [f64; BLOCK],
-    /// Of each rod in a stress: its cubed length over the mean cubed length of the suspension's rods.
+    /// Weight of each rod in a stress: its cubed length over the mean cubed length of the suspension's rods.
     pub weight: [f64; BLOCK],
-    /// What every rod is, for its stress.
+    /// The body of every rod, from which its stress follows.
     pub body: Body,
-    /// μ G n⟨a³⟩ in Pa, where the scene has a viscosity and a concentration.
+    /// μ G n⟨a³⟩ in Pa, if the scene has a viscosity and a concentration.
     pub stress_pa: f64,
-    /// How many rods are in the block.
+    /// Number of rods in the block.
     pub len: usize,
 }
 
@@ -65,7 +65,7 @@ impl Default for Block {
 }
 
 impl Block {
-    /// Puts every rod along `to(place in the block, direction in from, aspect ratio)`.
+    /// Sets every rod's direction to `to(index in the block, its direction in from, its aspect ratio)`.
     #[inline(always)]
     pub(crate) fn turn(&mut self, from: [&[f64]; 3], to: impl Fn(usize, [f64; 3], f64) -> [f64; 3]) {
         let Self { p: [p1, p2, p3], aspect_ratio, .. } = self;
@@ -76,7 +76,7 @@ impl Block {
     }
 }
 
-/// Moves every rod. The arrays are separate arguments, so that the compiler knows that they do not overlap.
+/// Turns every rod. The arrays are separate arguments, so that the compiler knows that they do not overlap.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
 fn turned(
@@ -96,8 +96,8 @@ fn turned(
     }
 }
 
-/// A value of each rod, whose mean over rods and replicas is computed against time with its standard error. Those that a scene
-/// can name are [`Observable::ALL`]; [`crate::run::own::observe`] takes any other.
+/// A value per rod whose mean over rods and replicas is computed against time, with its standard error. A scene can name those in
+/// [`Observable::ALL`]; [`crate::run::own::observe`] takes any other.
 ///
 /// ```
 /// use shearbed::observable::{Block, Observe, Sum};
@@ -125,16 +125,16 @@ fn turned(
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Observe: Sync {
-    /// The key in a scene file, and the stem of its file's name.
+    /// The observable's key in a scene file, and the stem of its result file.
     fn name(&self) -> &'static str;
 
-    /// What its axis in a picture is called, with the unit.
+    /// The axis label in a picture, with the unit.
     fn label(&self) -> &'static str;
 
-    /// The names of its columns; at least one.
+    /// The names of the columns; at least one.
     fn columns(&self) -> &[&'static str];
 
-    /// Adds the block's rods to the sums of its columns.
+    /// Adds the rods of `block` to `sums`, one per column.
     fn add(&self, block: &Block, sums: &mut [Sum]);
 
     /// The least and the largest mean that a column can have, by its place in [`Observe::columns`]: measured values beyond are
@@ -148,22 +148,22 @@ pub trait Observe: Sync {
         false
     }
 
-    /// True if it needs the liquid's viscosity and the rods' concentration.
+    /// True if the observable needs the liquid's viscosity and the rods' concentration.
     fn needs_viscosity(&self) -> bool {
         false
     }
 
-    /// True if rods count by their cubed length in it, as [`Block::weight`] says.
+    /// True if rods count by their cubed length, as in [`Block::weight`].
     fn weighs_rods(&self) -> bool {
         false
     }
 
-    /// True if its columns after the first are a density over [0, 1].
+    /// True if the columns after the first are a density over [0, 1].
     fn is_density(&self) -> bool {
         false
     }
 
-    /// A name, and a sum over all rods that must equal their number: the trace of a tensor.
+    /// For a tensor, its name and its trace summed over all rods, which must equal their number; else `None`.
     fn trace(&self, _sums: &[Sum]) -> Option<(&'static str, f64)> {
         None
     }
@@ -185,7 +185,7 @@ pub(crate) fn width(observables: &[Observable]) -> usize {
     observables.iter().map(|observable| observable.width()).sum()
 }
 
-/// Independent partial sums, so that the compiler may keep them side by side in a register.
+/// Number of independent partial sums, which the compiler may keep side by side in a register.
 const LANES: usize = 8;
 
 #[inline]

@@ -4,10 +4,10 @@ use super::BLOCK;
 use super::{Block, Observe, Sum};
 use crate::model::orientation::bounded_orbit_constant;
 
-/// The bins of the density of C_b over [0, 1].
+/// Number of bins of the density of C_b over [0, 1].
 const BINS: usize = 20;
 
-/// The mean, and each bin by its lower end.
+/// The columns: the mean, and each bin named by its lower end.
 const COLUMNS: [&str; 1 + BINS] = [
     "c_b",
     "density_from_0.00",

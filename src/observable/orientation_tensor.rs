@@ -1,4 +1,4 @@
-//! ⟨pp⟩.
+//! The orientation tensor ⟨pp⟩.
 
 use super::{Block, Observe, Sum, range_of_product};
 

@@ -1,8 +1,8 @@
-//! ⟨pppp⟩: its 15 components that differ.
+//! The orientation tensor ⟨pppp⟩: its 15 distinct components.
 
 use super::{Block, Observe, Sum, range_of_product};
 
-/// The components that differ, each as two of the pairs 11, 22, 33, 12, 13, 23 by their places.
+/// The distinct components, each as two indices into the pairs 11, 22, 33, 12, 13, 23.
 const QUADS: [[usize; 2]; 15] = [
     [0, 0],
     [0, 3],
@@ -21,7 +21,7 @@ const QUADS: [[usize; 2]; 15] = [
     [2, 2],
 ];
 
-/// Those whose sum over both pairs is the trace of the trace, which is 1, and how often each counts.
+/// The components of the double trace, which is 1, as (index, multiplicity).
 const TRACES: [(usize, f64); 6] = [(0, 1.0), (10, 1.0), (14, 1.0), (3, 2.0), (5, 2.0), (12, 2.0)];
 
 pub(super) struct OrientationTensor4;

@@ -1,4 +1,4 @@
-//! Means of |p_i| (eq. 4; with the signs, random rods would give 0).
+//! Means of |p_i| (eq. 4; without absolute values, random rods would give 0).
 
 use super::{Block, Observe, Sum};
 

@@ -57,12 +57,12 @@ observables! {
 }
 
 impl Observable {
-    /// Its channels, in the order of its columns.
+    /// The channels of this observable, in the order of its columns.
     pub fn channels(self) -> impl Iterator<Item = Channel> {
         (0..self.width()).map(move |index| Channel::new(self, index))
     }
 
-    /// How many channels there are.
+    /// Number of channels.
     pub fn width(self) -> usize {
         self.columns().len()
     }

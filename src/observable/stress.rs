@@ -1,5 +1,5 @@
-//! What dilute rods add to the stress in plane Couette flow, in Pa: shear stress σ₁₂ and normal stress differences N₁ = σ₂₂ − σ₁₁ (flow
-//! less gradient) and N₂ = σ₁₁ − σ₃₃, with the coefficients of the rods' own shape ([`crate::model::stress`]).
+//! The stress of dilute rods in plane Couette flow, in Pa: shear stress σ₁₂ and normal stress differences N₁ = σ₂₂ − σ₁₁ (flow less
+//! gradient) and N₂ = σ₁₁ − σ₃₃, with the coefficients of the rods' own shape ([`crate::model::stress`]).
 
 use super::{BLOCK, Block, Observe, Sum};
 

@@ -1,10 +1,10 @@
-//! Sums over rods, and how far the rods' values differ.
+//! Sums over rods, and the spread of the rods' values.
 
 use super::{BLOCK, lane_sum, lanes};
 use crate::model::widest::widest;
 use serde::{Deserialize, Serialize};
 
-/// The sum of a value over rods, and how far the rods' values differ where standard errors over rods are wanted.
+/// The sum of a value over rods, and the spread of the rods' values if standard errors over rods are wanted.
 ///
 /// ```
 /// use shearbed::observable::{Block, Observable, Observe, Sum};
@@ -18,13 +18,13 @@ use serde::{Deserialize, Serialize};
 pub struct Sum {
     /// Σ f.
     pub value: f64,
-    /// How far f differs between rods, or `None` where replicas give the standard errors.
+    /// The spread of f over rods; `None` if the standard errors come from replicas.
     pub spread: Option<Spread>,
 }
 
-/// Sums of differences from the value of the first rod. Where rods are nearly alike, differences keep the digits that
-/// Σf² − (Σf)²/n loses: however far the first rod is from the mean, the squared error is off by a relative n ε or so at most,
-/// for (f₁ − ⟨f⟩)² is one of the squares in it.
+/// Sums of differences from the value of the first rod. If rods are nearly alike, differences keep the digits that Σf² − (Σf)²/n
+/// loses: however far the first rod is from the mean, the squared error has a relative rounding of at most about n ε, for
+/// (f₁ − ⟨f⟩)² is one of the squares in it.
 ///
 /// ```
 /// use shearbed::observable::Spread;
@@ -35,9 +35,9 @@ pub struct Sum {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
-    /// How many rods.
+    /// Number of rods.
     rods: u64,
-    /// f₁, of the first rod.
+    /// f₁, the value of the first rod.
     first: f64,
     /// Σ (f − f₁).
     differences: f64,
@@ -46,7 +46,7 @@ pub struct Spread {
 }
 
 impl Sum {
-    /// Of no rods; `spread` says whether standard errors over rods are wanted.
+    /// The sum over no rods; `spread` says whether standard errors over rods are wanted.
     pub(crate) fn none(spread: bool) -> Self {
         Self { value: 0.0, spread: spread.then(Spread::default) }
     }
@@ -56,7 +56,7 @@ impl Sum {
         self.value.is_finite() && self.spread.is_none_or(|spread| spread.is_finite())
     }
 
-    /// True if it can be a sum over `rods` rods, with (`spread`) or without standard errors over them.
+    /// True if this can be a sum over `rods` rods; `spread` says whether standard errors over rods are wanted.
     pub(crate) fn is_over(&self, rods: usize, spread: bool) -> bool {
         let own = match self.spread {
             Some(found) => spread && found.rods == rods as u64,
@@ -65,7 +65,7 @@ impl Sum {
         own && self.is_finite()
     }
 
-    /// Adds what was summed over other rods.
+    /// Adds a sum over other rods.
     pub(crate) fn merge(&mut self, other: &Self) {
         self.value += other.value;
         if let (Some(spread), Some(other)) = (&mut self.spread, &other.spread) {
@@ -113,20 +113,20 @@ impl Spread {
         sum
     }
 
-    /// Adds other rods.
+    /// Adds the sums over other rods.
     pub fn merge(&mut self, other: &Self) {
         if self.rods == 0 {
             *self = *other;
             return;
         }
-        // The other's differences, from this first rod.
+        // The differences of `other`, taken from this first rod.
         let (n, apart) = (other.rods as f64, other.first - self.first);
         self.differences += other.differences + n * apart;
         self.squares += other.squares + apart * (2.0 * other.differences + n * apart);
         self.rods += other.rods;
     }
 
-    /// The standard error of the mean over its rods; NaN of one rod.
+    /// The standard error of the mean over the rods; NaN for one rod.
     pub fn standard_error(&self) -> f64 {
         let n = self.rods as f64;
         let squared_deviations = self.squares - self.differences * self.differences / n;

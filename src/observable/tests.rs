@@ -2,12 +2,12 @@ use super::*;
 use crate::model::stress::Body;
 use approx::assert_relative_eq;
 
-/// One rod, worked by hand: p = (2, −3, 6)/7 and r_e = 2.
+/// The sums for one rod worked by hand: p = (2, −3, 6)/7 and r_e = 2.
 fn observe(observable: Observable) -> Vec<f64> {
     observe_rod(observable, [2.0, -3.0, 6.0].map(|x| x / 7.0))
 }
 
-/// One rod along p, with r_e = 2.
+/// The sums for one rod along `p` with r_e = 2.
 fn observe_rod(observable: Observable, p: [f64; 3]) -> Vec<f64> {
     let mut block = Block { len: 1, ..Block::default() };
     block.p.iter_mut().zip(p).for_each(|(axis, x)| axis[0] = x);
@@ -17,7 +17,7 @@ fn observe_rod(observable: Observable, p: [f64; 3]) -> Vec<f64> {
     sums.iter().map(|sum| sum.value).collect()
 }
 
-/// A rod of twice the mean cube, in a suspension whose stresses count in 3 Pa, adds six times its own.
+/// A rod of twice the mean cubed length, with a stress unit of 3 Pa, adds six times its own stress.
 #[test]
 fn a_stress_in_pa_has_the_rod_s_weight_and_the_suspension_s_unit() {
     let mut block = Block { len: 1, ..Block::default() };
@@ -44,7 +44,7 @@ fn one_rod_by_hand() {
     let roots = [13f64, 45.0, 40.0].map(f64::sqrt);
     close(observe(Observable::PlanarProjections), sevenths(&roots));
     close(observe(Observable::MeanAngle), vec![1.5f64.atan()]);
-    // (4 − 9)/(4 + 9).
+    // By hand: (4 − 9)/(4 + 9).
     close(observe(Observable::Cos2Phi), vec![-5.0 / 13.0]);
     assert_eq!(observe_rod(Observable::Cos2Phi, [0.0, 0.0, 1.0]), [0.0]);
     let tensor = [4.0, 9.0, 36.0, -6.0, 12.0, -18.0].map(|x| x / 49.0);
@@ -149,7 +149,7 @@ fn by_two_passes(values: &[f64]) -> f64 {
     ((squares - sum * sum / n) / n / (n - 1.0)).sqrt()
 }
 
-/// In parts of any lengths, wherever the first of a part lies: also where it is the only one off.
+/// Sums in parts of any lengths, wherever the first rod of a part lies: also if it alone is off.
 #[test]
 fn parts_come_to_the_error_of_all() {
     let near = |k: usize| 1.0 + 1e-13 * libm::sin(k as f64);
@@ -166,7 +166,7 @@ fn parts_come_to_the_error_of_all() {
             rest = after;
         }
         let (found, expected) = (whole.standard_error(), by_two_passes(&all));
-        // n ε, with room for the rounding of both.
+        // The bound is n ε, with a factor for the rounding of both.
         let allowed = 4.0 * all.len() as f64 * f64::EPSILON;
         assert!((found / expected - 1.0).abs() < allowed, "{found:e}, expected {expected:e}");
     };

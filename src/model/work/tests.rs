@@ -1,4 +1,4 @@
-//! Counts add up.
+//! Tests that counts add up.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! Every operation against the same one in 300 bits: the exact result lies within the error that comes with the ball's.
+//! Tests every operation against 300-bit arithmetic: the exact result lies within the ball's error bound.
 
 use super::super::functions::{cosh_sinh_over, exp, exp_and_power, sin_cos};
 use super::*;
@@ -18,12 +18,12 @@ fn middle(ball: Ball) -> Big {
     big(ball.hi) + big(ball.lo)
 }
 
-/// A number of the ball: its middle and so much of its error.
+/// A number within the ball: its middle plus `share` of its error.
 fn within(ball: Ball, share: f64) -> Big {
     middle(ball) + big(share) * big(ball.error)
 }
 
-/// How far `exact` is from the middle, over the error; 0 where there is none.
+/// The distance of `exact` from the middle, in units of the error; 0 if they are equal.
 fn off(ball: Ball, exact: &Big) -> f64 {
     assert!(ball.error >= 0.0, "{ball:?}");
     let apart = middle(ball) - exact;
@@ -31,12 +31,12 @@ fn off(ball: Ball, exact: &Big) -> f64 {
     if apart == big(0.0) { 0.0 } else { (apart / big(ball.error)).to_f64().value() }
 }
 
-/// Balls of every kind: doubles, sums of two, with errors from none to a thousandth, of sizes from 10⁻²⁰ to 10²⁰.
+/// Balls of every kind: doubles and sums of two, with errors from 0 to a thousandth and sizes from 10⁻²⁰ to 10²⁰.
 fn ball() -> impl Strategy<Value = Ball> {
     ball_of(-20..20)
 }
 
-/// With powers of ten from a range.
+/// Balls with sizes of these powers of ten.
 fn ball_of(powers: std::ops::Range<i32>) -> impl Strategy<Value = Ball> {
     let size = (-1.0f64..1.0, powers).prop_map(|(x, power)| x * 10f64.powi(power));
     let low = prop_oneof![Just(0.0), -0.5f64..0.5];
@@ -52,13 +52,13 @@ fn share() -> impl Strategy<Value = f64> {
     prop_oneof![Just(-1.0), Just(1.0), -1.0f64..1.0]
 }
 
-/// The error itself is rounded up.
+/// The largest allowed distance in units of the error; the error itself is rounded up.
 const ONE: f64 = 1.0;
 
 proptest! {
     #![proptest_config(crate::fixed_seed(1000))]
 
-    /// Products down to where doubles end.
+    /// Products are tested down to the smallest doubles.
     #[test]
     fn sums_and_products_hold_the_exact_ones(a in ball(), b in ball(), s in share(), t in share(), power in prop_oneof![Just(0i32), -900i32..0]) {
         let small = b.scaled(libm::scalbn(1.0, power));
@@ -75,7 +75,7 @@ proptest! {
         prop_assert!(off(a + b, &(within(a, s) + within(b, t))) <= ONE, "{a:?} + {b:?}");
     }
 
-    /// Down to where doubles end.
+    /// Quotients are tested down to the smallest doubles.
     #[test]
     fn quotients_hold_the_exact_ones(a in ball(), b in ball(), s in share(), t in share(), power in prop_oneof![Just(0i32), 0i32..900]) {
         let b = b.scaled(libm::scalbn(1.0, power));
@@ -83,7 +83,7 @@ proptest! {
         prop_assert!(off(a.over(b), &(within(a, s) / within(b, t))) <= ONE, "{a:?} / {b:?}");
     }
 
-    /// Down to where doubles end, and in their usual range without any rounding.
+    /// Tested down to the smallest doubles; in the usual range scaling has no rounding.
     #[test]
     fn scaled_ones_hold_the_exact_ones(a in ball_of(-20..20), s in share(), power in -1060i32..900) {
         let scaled = a.scaled(libm::scalbn(1.0, power));
@@ -91,7 +91,7 @@ proptest! {
         prop_assert!(scaled.is_zero() && a.is_zero() || off(scaled, &exact) <= ONE, "{a:?} {scaled:?}");
         prop_assert!(power < -800 || scaled.error == a.error * libm::scalbn(1.0, power));
         prop_assert_eq!(a.shifted(power), scaled);
-        // A power of two that is no double.
+        // A power of two that is not a double.
         let far = a.shifted(-3000 - power);
         prop_assert!(far.hi == 0.0 && far.error == if a.is_zero() { 0.0 } else { UNDERFLOW }, "{far:?}");
     }
@@ -119,7 +119,7 @@ proptest! {
     fn sines_and_cosines_hold_the_exact_ones(a in ball_of(-20..18), s in share()) {
         let angle = within(a, s) * big(1.0).atan() * big(8.0);
         let (sin, cos) = sin_cos(a);
-        // At a quarter of a turn 300 bits of π leave something of what is 0.
+        // At quarter turns, 300 bits of π leave a small rest where the exact value is 0.
         let zero = |exact: &Big| exact.to_f64().value().abs() < 1e-60;
         let holds = |value: Ball, exact: &Big| off(value, exact) <= ONE || value.is_zero() && zero(exact);
         prop_assert!(holds(sin, &angle.sin()), "sine of {a:?} turns");
@@ -139,7 +139,7 @@ proptest! {
 
     #[test]
     fn an_error_is_no_wider_than_it_must_be(a in ball(), b in ball()) {
-        // A thousand roundings of 106 bits beside what comes with the operands: a bound as wide as double's would fail.
+        // A thousand roundings of 106 bits beside the operands' errors: a bound as wide as double precision's would fail.
         let rounding = 1e3 * 2f64.powi(-106);
         let (x, y) = (a.error / a.hi.abs(), b.error / b.hi.abs());
         prop_assert!((a * b).error <= (1.01 * (x + y) + x * y + rounding) * (a.hi * b.hi).abs());
@@ -157,7 +157,7 @@ proptest! {
         prop_assert!(power.error <= 1.01 * a.error + rounding, "{power:?}");
         let (sin, cos) = sin_cos(a);
         prop_assert!(sin.error.max(cos.error) <= 6.3 * a.error + rounding, "{sin:?} {cos:?}");
-        // The derivatives of both by z are below 0.6 here.
+        // The derivatives of both functions by z are below 0.6 here.
         let (cosh, sinh) = cosh_sinh_over(a);
         prop_assert!(cosh.error.max(sinh.error) <= 0.6 * a.error + 2.0 * rounding, "{cosh:?} {sinh:?}");
     }
@@ -168,7 +168,7 @@ fn the_most_and_the_least_are_ends_of_the_ball() {
     for (hi, error) in [(3.0, 0.0), (-3.0, 0.5), (1e-200, 1e-201), (2.0, 2.0), (0.25, 1.0)] {
         let ball = Ball { hi, lo: 0.0, error };
         let (most, least) = (hi.abs() + error, (hi.abs() - error).max(0.0));
-        // Beyond the ends, by no more than a few roundings.
+        // The bounds are beyond the ball's ends, by no more than a few roundings.
         assert!(ball.most() >= most && ball.most() <= most * (1.0 + 1e-15), "{ball:?}");
         assert!(ball.least() <= least && ball.least() >= least * (1.0 - 1e-15), "{ball:?}");
     }
@@ -189,7 +189,7 @@ fn what_is_exact_stays_exact() {
             assert!(most.is_infinite() || most.is_nan(), "{dividend:?} {divisor:?}");
         }
     }
-    // A quotient of doubles that is one, of which one is not known well.
+    // The quotient of these doubles is a double, but one of them has an error.
     let six = Ball::exact(6.0);
     assert!(six.widened(1e-3).over(half).error > 1e-3 && six.over(half.widened(1e-3)).error > 1e-2);
 }
@@ -217,6 +217,6 @@ fn what_is_as_good_as_nothing_is_known_to_be_that_small() {
     let wide = exp(Ball::exact(-601.0).widened(50.0));
     assert!(wide.hi == 0.0 && wide.error >= (-551.0f64).exp(), "{wide:?}");
     let known = exp(Ball::exact(-599.0));
-    // The argument has lost the digits of 600, and eight times as much by the doublings.
+    // The argument has lost the digits of 600, and the doublings lose a factor of eight more.
     assert!(known.hi > 0.0 && known.error < 1e-27 * known.hi, "{known:?}");
 }

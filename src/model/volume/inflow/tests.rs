@@ -2,7 +2,7 @@ use super::*;
 use crate::model::chunks::CHUNK;
 use crate::model::random::{Purpose, stream};
 
-/// Shear along other axes and oblique, extension of either sign, a rotation, and a flow with all components; sides of the volume.
+/// Velocity gradients and sides of volumes: shear along other axes and oblique, extension of either sign, a rotation, all components.
 fn flows() -> Vec<(Matrix3<f64>, [f64; 3])> {
     let of = |rows: [f64; 9]| Matrix3::from_row_slice(&rows);
     vec![
@@ -16,7 +16,7 @@ fn flows() -> Vec<(Matrix3<f64>, [f64; 3])> {
     ]
 }
 
-/// How far the numbers of points in 4 × 4 × 4 cells are from the expected ones: χ² over its mean, less one, in standard deviations.
+/// Deviation of the counts of points in 4 × 4 × 4 cells from the expected ones: χ² over its mean, less one, in standard deviations.
 fn off(points: &[Vector3<f64>], expected: &[f64], sides: [f64; 3]) -> f64 {
     let mut found = vec![0.0; 64];
     points.iter().for_each(|x| found[cell(x, sides)] += 1.0);
@@ -36,7 +36,7 @@ fn points(positions: &[Vec<f64>; 3]) -> Vec<Vector3<f64>> {
     (0..x1.len()).map(|rod| Vector3::new(x1[rod], x2[rod], x3[rod])).collect()
 }
 
-/// Those that come in are spread as all points of the volume are that were outside a step ago, found by trying.
+/// Rods that come in have the distribution of those points of the volume that were outside a step ago, found by sampling.
 #[test]
 fn what_comes_in_is_evenly_distributed_over_what_was_outside() {
     for (gradient, sides) in flows() {
@@ -55,14 +55,14 @@ fn what_comes_in_is_evenly_distributed_over_what_was_outside() {
         let come = |rod: u64| inflow.come_in(ahead(&rng, NUMBERS * u128::from(rod)));
         let found: Vec<_> = (0..COUNT).map(come).collect();
         let off = off(&found, &expected, sides);
-        // The expected numbers have a scatter too, of the same order where few are outside.
+        // The expected counts are random too, with a scatter of the same order where few points are outside.
         assert!(off.abs() < 12.0, "{off}: {gradient}");
         let wrong: Vec<_> = found.iter().map(|x| (x + Vector3::from(sides) / 2.0) / 2.0).collect();
         assert!(self::off(&wrong, &expected, sides) > 100.0);
     }
 }
 
-/// Evenly distributed rods stay so, and are all inside.
+/// Uniformly distributed rods stay so, and are all inside.
 #[test]
 fn an_even_suspension_stays_even() {
     const COUNT: usize = 100_000;
@@ -80,7 +80,7 @@ fn an_even_suspension_stays_even() {
     }
 }
 
-/// What comes in was outside when the step began, in a flow that takes liquid out and back in through one face within a long step.
+/// Rods that come in were outside when the step began, in a flow that takes liquid out and back in through a face within a long step.
 #[test]
 fn what_comes_in_was_outside() {
     let (gradient, sides) = flows().pop().unwrap();
