@@ -1,4 +1,4 @@
-//! Which values of a scene go together.
+//! Checks that the values of a scene are consistent.
 
 pub(super) mod rods;
 #[cfg(test)]
@@ -14,22 +14,22 @@ use crate::scene::{
     FlowStep, Interaction, Invalid, MAX_PER_UNIT, Scene, TimeUnit, refused, resolved_strain, step_maps,
 };
 
-/// The most steps and the most outputs of one scene.
+/// The largest number of steps, and of outputs, of one scene.
 const MAX_STEPS: f64 = 1e9;
-/// 52 channels of 10⁶ outputs are 2.5 GB of sums.
+/// The limit follows from memory: 52 channels of 10⁶ outputs are 2.5 GB of sums.
 const MAX_OUTPUTS: f64 = 1e6;
-/// How far a concentration may be from that of count and box, for a side in five digits or so: the box counts.
+/// Largest relative deviation of a concentration from that of count and box, for sides given to about five digits; the box is used.
 const AGREE: f64 = 1e-3;
-/// The trace of a gradient over its largest component up to which a liquid is taken to keep its volume: some rounded decimals.
+/// Largest ratio of trace to largest component for which a gradient counts as traceless: rounded decimals leave about this much.
 const INCOMPRESSIBLE: f64 = 1e-6;
-/// How often the liquid may cross the control volume in a step: places are drawn for a rod until one is inside.
+/// Largest number of times that the liquid may cross the control volume in a step: places are drawn for a rod until one is inside.
 const MAX_CROSSINGS: f64 = 30.0;
-/// Largest growth of the rotating part over the whole time for which a flow is called periodic: a rod misses its start by as many rad.
+/// Largest growth of the rotating part over the whole time for which a flow counts as periodic: a rod misses its start by as many rad.
 const MAX_DRIFT: f64 = 1e-6;
 
-/// What is wrong with a scene: every value that its key does not allow, or if there is none what does not go together: of the
-/// particles, and the first of the rest, whose checks build on one another. [`super::Plan::new`] alone sees whether double precision
-/// reaches the rods' motion.
+/// The mistakes in a scene: all values that their keys do not allow, or else inconsistent values: of the particles, and the first of the
+/// rest, whose checks depend on one another. Only [`super::Plan::new`] checks whether the rods' motion is within reach of double
+/// precision.
 pub(super) fn invalid(scene: &Scene) -> Vec<Invalid> {
     let wrong = scene.out_of_range();
     if !wrong.is_empty() {
@@ -41,7 +41,7 @@ pub(super) fn invalid(scene: &Scene) -> Vec<Invalid> {
     [rods::check_particles(scene), check_motion(scene)].into_iter().filter_map(Result::err).collect()
 }
 
-/// The gradient of the liquid.
+/// The velocity gradient of the liquid.
 pub(super) fn gradient(scene: &Scene) -> Result<VelocityGradient, Invalid> {
     scene.flow.gradient().ok_or_else(|| match scene.flow.shear_rate_per_s() {
         Some(g) => refused("flow.shear_rate_per_s", g),
@@ -54,7 +54,7 @@ pub(super) fn closed_form(scene: &Scene, flow: &VelocityGradient) -> bool {
     flow.shear_rate_per_s().is_some() && scene.time.unit == TimeUnit::Period
 }
 
-/// Stresses in Pa need a viscosity and a concentration. Orbit constants (eq. 13), shear stress and normal stress differences are those of plane Couette flow along the axes.
+/// Stresses in Pa need a viscosity and a concentration; orbit constants (eq. 13) and all stresses need plane Couette flow along the axes.
 fn check_observed(scene: &Scene, flow: &VelocityGradient) -> Result<(), Invalid> {
     let observables = &scene.output.observables;
     if let Some(asked) = observables.iter().find(|o| o.needs_viscosity()) {
@@ -97,7 +97,7 @@ fn check_motion(scene: &Scene) -> Result<(), Invalid> {
     }
 }
 
-/// Flows that follow one another: free rods, timed by strain, to the end of the last at most.
+/// Checks a sequence of flows: rods must be free, time must be a strain, and the run must end within the last flow.
 fn check_flow_steps(scene: &Scene, steps: &[FlowStep]) -> Result<(), Invalid> {
     let refused =
         |allowed: String| Err(Invalid::new("flow.steps", format!("{} steps", steps.len()), allowed));
@@ -110,7 +110,7 @@ fn check_flow_steps(scene: &Scene, steps: &[FlowStep]) -> Result<(), Invalid> {
         return Err(Invalid::new("time.periods", duration, allowed));
     }
     let all: f64 = steps.iter().map(|step| step.strain).sum();
-    // The slack takes in a sum that was rounded.
+    // The slack allows for the rounding of the sum.
     if duration > all * (1.0 + 4.0 * f64::EPSILON * steps.len() as f64) {
         return Err(Invalid::new(
             "time.strain",

@@ -1,4 +1,4 @@
-//! What the times of a plan are in seconds and in strain.
+//! The times of a plan in seconds and in strain.
 
 use crate::model::flow::VelocityGradient;
 use crate::model::jeffery::strain_per_period;
@@ -13,18 +13,18 @@ use crate::scene::{Scene, TimeUnit};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Elapsed {
-    /// In s.
+    /// The time in s.
     pub seconds: f64,
-    /// In shear strain ∫(2D:D)^½ dt.
+    /// The shear strain ∫(2D:D)^½ dt.
     pub strain: f64,
 }
 
-/// How a plan's times are counted.
+/// How a plan's times convert to seconds and strain.
 #[derive(Clone, Debug)]
 pub(super) enum Timing {
-    /// One flow: what a period or a unit of strain is.
+    /// One flow: the length of a period or of a unit of strain.
     Unit(Elapsed),
-    /// Flows one after another: when each begins, and its rate of strain in 1/s.
+    /// A sequence of flows: when each begins, and its rate of strain in 1/s.
     Steps(Vec<(Elapsed, f64)>),
 }
 

@@ -1,5 +1,5 @@
-//! Where free rods are at each output of a scene, other than in plane Couette flow by periods: worked out once for all
-//! replicas, and refused where it is not known.
+//! The motion of free rods to each output of a scene, except in plane Couette flow by periods: computed once for all replicas.
+//! A scene whose directions are not known accurately is refused.
 
 use crate::model::flow::VelocityGradient;
 use crate::model::orientation::from_degrees;
@@ -8,33 +8,33 @@ use crate::scene::{Invalid, Scene, TimeUnit};
 use nalgebra::{Matrix3, UnitVector3};
 use rayon::prelude::*;
 
-/// The largest angle in rad by which a direction may be off before a scene is refused: far below what any mean of rods
-/// resolves, far above round-off.
+/// The largest error of a direction in rad; a scene with a larger one is refused. It is far below the resolution of any mean over
+/// rods, and far above round-off.
 pub const MAX_ERROR_RAD: f64 = 1e-6;
-/// The relative error of a component of a direction that is given in degrees, with room: sine, cosine, product, length.
+/// A bound on the relative error of a component of a direction given in degrees: from sine, cosine, product and length.
 const ROUNDING_OF_START: f64 = 4.0 * f64::EPSILON;
 
 /// The motion of a scene's free rods.
 #[derive(Clone, Debug)]
 pub(crate) struct FreeMotion {
     pub way: Way,
-    /// The bound on the error of a direction in rad. Random directions, and each rod's own: of the map, relative to its size.
+    /// The bound on the error of a direction in rad; for random directions, and each rod's own, that of the map relative to its size.
     pub error_rad: f64,
 }
 
 #[derive(Clone, Debug)]
 pub(crate) enum Way {
-    /// All rods start alike and are alike: their direction at each output, periodically.
+    /// All rods have the same start and shape: their direction at each output, repeated periodically.
     Alike(Vec<[f64; 3]>),
-    /// All rods are alike: the map to each output, periodically.
+    /// All rods have the same shape: the map to each output, repeated periodically.
     Maps(Vec<Matrix3<f64>>),
-    /// A propagator for each rod, or one where they are alike; spans to each output, the propagator that has their periods, and whether
-    /// the starts are rounded from others, as random ones are not: they are the doubles that were drawn.
+    /// A propagator per rod, or one if the shapes are equal: `spans` to each output, `mean` with the periods, and whether the starts are
+    /// `rounded` from other numbers. Random starts are not: they are the doubles that were drawn.
     Each { mean: Box<Propagator>, spans: Vec<Span>, rounded: bool },
 }
 
 impl FreeMotion {
-    /// The motion of the scene's rods in `flow`; the error names the scene's duration.
+    /// The motion of the scene's rods in `flow`; an error names the scene's duration.
     pub fn new(scene: &Scene, flow: &VelocityGradient) -> Result<Self, Invalid> {
         let particles = &scene.particles;
         let r = particles.aspect_ratio;
@@ -42,10 +42,10 @@ impl FreeMotion {
         let mean = general(r);
         let mut spans = spans(scene);
         if scene.time.unit == TimeUnit::Period && mean.drift_per_period() == Some(0.0) {
-            // What comes back exactly is worked out once.
+            // A periodic motion is computed for one period.
             spans.truncate(scene.outputs_per_unit() as usize);
         }
-        // Each start of a file has an error of its own, which a map does not tell.
+        // The starts in a file have errors of their own, which a map does not show.
         let each = particles.own().is_some_and(|own| own.p.is_some());
         let start = particles.common_start_deg();
         let start = start.map(|[phi_deg, theta_deg]| from_degrees(phi_deg, theta_deg));
@@ -92,15 +92,15 @@ pub(crate) fn propagator(scene: &Scene, flow: &VelocityGradient, r: f64) -> Prop
     stepped(scene, r).unwrap_or_else(|| Propagator::new(flow, r))
 }
 
-/// The same where one flow follows another.
+/// Like `propagator`, for a sequence of flows; `None` for a single flow.
 fn stepped(scene: &Scene, r: f64) -> Option<Propagator> {
     let steps = scene.flow.steps()?.iter();
     let flows: Option<Vec<_>> = steps.map(|step| Some((step.gradient()?, step.strain))).collect();
     Some(Propagator::of_steps(&flows?, r))
 }
 
-/// Where a rod that starts along `start` goes, with its error and what of it is the rounding of the start; the span's periods are
-/// those of `mean`.
+/// The direction of a rod that started along `start`, its error in rad, and the part that comes from rounding the start; periods in
+/// `span` are those of `mean`.
 pub(crate) fn directed(
     propagator: &Propagator,
     mean: &Propagator,
@@ -112,26 +112,26 @@ pub(crate) fn directed(
     Some((moved.p.into_inner().into(), moved.error + rounding, rounding))
 }
 
-/// What `motion` gives at each span with its error and the start's part in it, and the largest error.
+/// `motion` at each span, with the largest error. `motion` returns a value, its error, and the part from rounding the start.
 fn at_each<T: Send>(
     scene: &Scene,
     spans: &[Span],
     motion: impl Fn(Span) -> Option<(T, f64, f64)> + Sync,
 ) -> Result<(Vec<T>, f64), Invalid> {
-    // Not into an option at once, which holds all of it twice.
+    // Not collected into an option directly: that would hold everything twice.
     let all: Vec<_> = spans.par_iter().map(|&span| motion(span)).collect();
     let all: Option<Vec<_>> = all.into_iter().collect();
-    // A scene in periods has been checked to have one.
+    // A scene in periods has been checked to have a period.
     let all = all.unwrap_or_default();
     let worst = all.iter().map(|(_, error, of_start)| (*error, *of_start));
     let (error, of_start) =
         worst.fold((0.0, 0.0), |worst, next| if next.0 > worst.0 || next.0.is_nan() { next } else { worst });
-    // An error that is no number is not known to be small.
+    // An error of NaN counts as large.
     if error.is_nan() || error > MAX_ERROR_RAD {
         return Err(unknown(scene, error, of_start));
     }
     let mut values: Vec<_> = all.into_iter().map(|(value, ..)| value).collect();
-    // They are collected where the errors were, and would keep that room.
+    // The vector reuses the larger allocation of the errors, and would keep it.
     values.shrink_to_fit();
     Ok((values, error))
 }
@@ -149,7 +149,7 @@ fn unknown(scene: &Scene, error: f64, of_start: f64) -> Invalid {
     )
 }
 
-/// Why a direction is not known: the part of the start's rounding in the error, or that of the rates.
+/// Why the error is too large: the rounding of the start, or that of the rates.
 fn cause(error: f64, of_start: f64) -> &'static str {
     if of_start > 0.5 * error {
         "this flow amplifies the rounding of the start beyond 1e-6 rad"
@@ -158,8 +158,8 @@ fn cause(error: f64, of_start: f64) -> &'static str {
     }
 }
 
-/// What is wrong with a rod of aspect ratio `r` whose bound on the error of its direction is `error` rad, `of_start` of it from the
-/// rounding of the start.
+/// The message for a rod of aspect ratio `r` whose direction has the error bound `error` in rad, `of_start` of it from rounding the
+/// start.
 pub(crate) fn refused_direction(r: f64, error: f64, of_start: f64) -> String {
     let bound = match error.is_finite() {
         true => format!("{error:.2e} rad"),
@@ -172,7 +172,7 @@ pub(crate) fn refused_direction(r: f64, error: f64, of_start: f64) -> String {
     )
 }
 
-/// The times of the outputs.
+/// The spans from the start to each output.
 fn spans(scene: &Scene) -> Vec<Span> {
     let each = scene.outputs_per_unit() as f64;
     (0..scene.outputs()).map(|k| scene.time.unit.span(k as f64, each)).collect()

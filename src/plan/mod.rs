@@ -1,4 +1,4 @@
-//! The plan of a scene: which stages run, which are left out, and why.
+//! The plan of a scene: which stages run, which are dropped, and why.
 
 mod check;
 mod elapsed;
@@ -20,16 +20,16 @@ use stages::{entries, rod_errors};
 use std::fmt;
 use std::sync::Arc;
 
-/// The units in which outputs and steps are counted.
+/// Units in which outputs and steps are counted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Clock {
-    /// Ticks per period of the mean aspect ratio: steps where there are steps, else outputs.
+    /// Ticks per period of the mean aspect ratio: steps if there are steps, else outputs.
     Periods { ticks: u64 },
-    /// Ticks per unit of strain: outputs.
+    /// Ticks per unit of strain; each is an output.
     Strain { ticks: u64 },
 }
 
-/// What will run for a scene: the scene, checked, and its stages.
+/// A checked scene and the stages that will run for it.
 ///
 /// ```
 /// let plan = shearbed::Plan::new(&shearbed::Scene::default())?;
@@ -41,7 +41,7 @@ pub struct Plan {
     scene: Scene,
     flow: VelocityGradient,
     timing: Timing,
-    /// Where rods that do not meet are, but in plane Couette flow by periods.
+    /// Motion of free rods, except in plane Couette flow by periods.
     free: Option<Arc<FreeMotion>>,
     entries: Vec<Entry>,
 }
@@ -51,7 +51,7 @@ impl Plan {
     ///
     /// # Errors
     ///
-    /// [`Error::Scene`] with every value that its key does not allow; or if there is none, values that do not go together.
+    /// [`Error::Scene`] with all values that their keys do not allow; or else with inconsistent values.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
         let one = |invalid| Error::Scene(vec![invalid]);
         let invalid = check::invalid(scene);
@@ -72,7 +72,7 @@ impl Plan {
     ///
     /// # Errors
     ///
-    /// [`Error::Text`]: every mistake that can be seen at once, each with its line.
+    /// [`Error::Text`] with every mistake that can be found at once, each with its line.
     ///
     /// ```
     /// let text = "title = 't'\nflow = { shear_rate_per_s = 1 }\ntime = { periods = 1e9 }\n[particles]\ncount = 10\nlength_mm = 1\n\
@@ -85,9 +85,9 @@ impl Plan {
         Self::new(&of_document(&document)?).map_err(|error| document.located(error))
     }
 
-    /// The same plan with `stage`, and what it needs, kept although the scene does not need it: for tests
-    /// that leaving it out changes nothing, and for measuring what it would cost. `None` where the scene
-    /// lacks what the stage works on: no `[interaction]` table, or free rods in other than plane Couette flow by periods.
+    /// The same plan with `stage`, and the stages that it needs, kept although the scene does not need them: to test that dropping
+    /// it changes nothing, and to measure its cost. `None` if the scene has nothing for the stage to work on: no `[interaction]` table,
+    /// or free rods in any but plane Couette flow by periods.
     pub fn keeping(&self, stage: Stage) -> Option<Self> {
         let needs: &[Stage] = match stage {
             Stage::Translation => &[Stage::Positions],
@@ -117,7 +117,7 @@ impl Plan {
         Some(plan)
     }
 
-    /// The same plan with this number of replicas, from 1 to [`crate::scene::MAX_REPLICAS`].
+    /// The same plan with `replicas` replicas, clamped to 1 to [`crate::scene::MAX_REPLICAS`].
     ///
     /// ```
     /// let plan = shearbed::Plan::new(&shearbed::Scene::default())?;
@@ -135,18 +135,18 @@ impl Plan {
         plan
     }
 
-    /// The scene.
+    /// The scene of the plan.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// The imposed flow, the first of several.
+    /// The imposed flow; the first one of a sequence.
     pub fn flow(&self) -> &VelocityGradient {
         &self.flow
     }
 
-    /// The bound on the error of free rods' directions in rad, where they do not move by the closed form of plane Couette
-    /// flow. Random directions: of the map that moves them, relative to its size.
+    /// The bound on the error of free rods' directions in rad; `None` for the closed form of plane Couette flow. For random
+    /// directions it is the error of the map that moves them, relative to its size.
     pub fn error_rad(&self) -> Option<f64> {
         self.free.as_ref().map(|free| free.error_rad)
     }
@@ -155,12 +155,12 @@ impl Plan {
         self.free.as_ref()
     }
 
-    /// The stages, kept and dropped, in the order in which they run.
+    /// The stages, kept and dropped, in the order of a run.
     pub fn entries(&self) -> &[Entry] {
         &self.entries
     }
 
-    /// True if a stage runs.
+    /// True if `stage` runs.
     pub fn keeps(&self, stage: Stage) -> bool {
         self.entries.iter().any(|entry| entry.stage == stage && entry.kept)
     }
@@ -175,17 +175,17 @@ impl Plan {
         .collect()
     }
 
-    /// The number of outputs, the one at t = 0 included.
+    /// The number of outputs, including that at t = 0.
     pub fn outputs(&self) -> usize {
         self.scene.outputs()
     }
 
-    /// The number of time steps; 0 where the exact motion goes straight to each output.
+    /// The number of time steps; 0 if the exact motion goes straight to each output.
     pub fn steps(&self) -> u64 {
         if self.keeps(Stage::Translation) { (self.outputs() as u64 - 1) * self.ticks_per_output() } else { 0 }
     }
 
-    /// The name of the time column: `t_over_T`, or `strain` where the scene's time is a strain.
+    /// The name of the time column: `t_over_T`, or `strain` if the scene's time is a strain.
     pub fn time_name(&self) -> &'static str {
         match self.scene.time.unit {
             TimeUnit::Period => "t_over_T",
@@ -193,7 +193,7 @@ impl Plan {
         }
     }
 
-    /// The seconds and the shear strain from the start to `time`, one of [`Plan::times`] or between them.
+    /// Seconds and shear strain from the start to `time`, which is in the unit of [`Plan::times`].
     pub fn elapsed(&self, time: f64) -> Elapsed {
         self.timing.at(time)
     }
@@ -204,7 +204,7 @@ impl Plan {
         (0..self.outputs()).map(|k| k as f64 / per_unit as f64).collect()
     }
 
-    /// The outputs at which every rod is wanted, each once, in the order of time.
+    /// The outputs at which the scene asks for every rod, without repetition, in the order of time.
     pub fn rods_outputs(&self) -> Vec<usize> {
         let times = self.scene.output.rods_at.iter();
         let mut outputs: Vec<_> = times.filter_map(|time| self.scene.output_at(*time)).collect();
@@ -216,7 +216,7 @@ impl Plan {
         outputs
     }
 
-    /// All rods that are wanted: of each replica at each of these outputs.
+    /// The number of rods that the scene asks for, over all replicas and outputs.
     pub fn rods_out(&self) -> u64 {
         let of_replica = self.rods_outputs().len() as u64 * self.scene.particles.count as u64;
         of_replica.saturating_mul(self.scene.ensemble.replicas)
@@ -230,7 +230,7 @@ impl Plan {
         }
     }
 
-    /// Steps between outputs; 1 where no steps are taken.
+    /// Steps between outputs; 1 if no steps are taken.
     pub(crate) fn ticks_per_output(&self) -> u64 {
         if self.keeps(Stage::Translation) {
             self.scene.steps_per_unit() / self.scene.outputs_per_unit()

@@ -1,11 +1,11 @@
-//! The stages of a run, and which of them a scene needs.
+//! The stages of a run, and whether a scene needs them.
 
 use crate::observable::Observable;
 use crate::scene::{Interaction, Orientation, Scene};
 use serde::Serialize;
 use std::fmt;
 
-/// A part of a run that can be left out.
+/// A part of a run that can be dropped.
 ///
 /// ```
 /// use shearbed::{Plan, Scene, plan::Stage};
@@ -73,13 +73,13 @@ impl fmt::Display for Stage {
 pub struct Entry {
     /// The stage.
     pub stage: Stage,
-    /// True if it runs.
+    /// True if the stage runs.
     pub kept: bool,
-    /// Why it runs or does not.
+    /// Why the stage runs or does not.
     pub reason: String,
 }
 
-/// Why no rods of this scene can meet, or `None` where they can.
+/// The reason why no rods of this scene can collide, or `None` if they can.
 pub(crate) fn no_interaction(scene: &Scene) -> Option<&'static str> {
     match &scene.interaction {
         None => Some("no [interaction] table: free rods"),
@@ -145,7 +145,7 @@ pub(super) fn entries(scene: &Scene) -> Vec<Entry> {
     entries
 }
 
-/// Standard errors over rods are those of a single replica.
+/// The stage of standard errors over rods, which are used for a single replica.
 pub(super) fn rod_errors(scene: &Scene) -> Entry {
     let kept = scene.ensemble.replicas == 1;
     let reason = match kept {

@@ -1,23 +1,23 @@
-//! What the reader of a scene's results should know before trusting them.
+//! Warnings about results that may be doubtful.
 
 use super::{Plan, Stage};
 use crate::observable::Observable;
 use crate::scene::{Orientation, Update, resolved_strain};
 
-/// The aspect ratio below which the slender limit of the rods' stress comes with a warning: a rule of thumb, for what the limit
-/// leaves out falls slowly with r_e, and there is no r_e at which it becomes right.
+/// The aspect ratio below which the slender limit of the rods' stress triggers a warning. A rule of thumb: the terms that the limit
+/// leaves out fall slowly with r_e, and vanish at no r_e.
 const SLENDER: f64 = 30.0;
 
-/// The aspect ratio below which colliding rods come with a warning. The paper asks for r_e ≫ 1 and states no bound. Its contact
-/// rule joins the rods' axes, so it leaves out their diameter, which is above a tenth of the length here; and it compares
+/// The aspect ratio below which colliding rods trigger a warning. The paper asks for r_e ≫ 1 and states no bound. Its contact
+/// rule joins the rods' axes, so it ignores their diameter, which is more than a tenth of the length here; and the paper compares
 /// no rods below r_e = 11.6 with measurements.
 const RULE_OF_LINES: f64 = 10.0;
 
-/// Relative difference between the mean r_e in a file and the scene's that triggers no warning: three standard errors of a few rods.
+/// Largest relative difference between the mean r_e of a file and the scene's without a warning: three standard errors of a few rods.
 const OWN_MEAN: f64 = 0.1;
 
 impl Plan {
-    /// What the reader of the results should know before trusting them.
+    /// Warnings that a reader of the results should know.
     pub fn warnings(&self) -> Vec<String> {
         [
             self.unresolved_steps(),
@@ -34,12 +34,12 @@ impl Plan {
         .collect()
     }
 
-    /// Steps that are too long for the motion.
+    /// Warns if steps are too long for the motion.
     fn unresolved_steps(&self) -> Option<String> {
         let (steps, motion) = (self.scene.steps_per_unit(), self.scene.motion_per_step());
         let resolved = resolved_strain(self.scene.particles.mean_aspect_ratio());
         (self.steps() > 0 && motion > resolved).then(|| {
-            // They are equal in shear, to round-off.
+            // In shear both are equal, to round-off.
             let what = match motion > 1.5 * self.elapsed(1.0).strain / steps as f64 {
                 true => "twice the angle by which the liquid turns in a step",
                 false => "the strain per step",
@@ -54,7 +54,7 @@ impl Plan {
         })
     }
 
-    /// Collisions that turn rods straight in a liquid that turns, other than in the paper's flow.
+    /// Warns if collisions turn rods straight in a liquid that rotates, except in the paper's flow.
     fn turned_straight(&self) -> Option<String> {
         let update = self.scene.interaction.as_ref()?.update;
         let turns = self.flow.shear_rate_per_s().is_none() && self.flow.turn_per_s() > 0.0;
@@ -65,7 +65,7 @@ impl Plan {
         })
     }
 
-    /// Directions from a file for rods whose aspect ratios or lengths are drawn anew.
+    /// Warns if directions come from a file, but the rods' aspect ratios or lengths are drawn.
     fn unrelated_sizes(&self) -> Option<String> {
         let particles = &self.scene.particles;
         let (file, own) = (&particles.rods.as_ref()?.file, particles.own()?);
@@ -82,7 +82,7 @@ impl Plan {
         ))
     }
 
-    /// A mean r_e of the rods of a file that is far from the scene's.
+    /// Warns if the mean r_e of the rods in a file is far from the scene's.
     fn other_mean(&self) -> Option<String> {
         let particles = &self.scene.particles;
         let mean = particles.mean_aspect_ratio();
@@ -96,7 +96,7 @@ impl Plan {
         })
     }
 
-    /// Keys that have no effect because the file gives what they would draw.
+    /// Warns about keys without effect because a file gives the values that they would draw.
     fn drawn_for_nothing(&self) -> Option<String> {
         let particles = &self.scene.particles;
         let own = particles.own()?;
@@ -114,12 +114,12 @@ impl Plan {
             .then(|| format!("{} has no effect: particles.rods gives it for each rod", unused.join(", ")))
     }
 
-    /// Places that leave part of the control volume empty, as they would after a change of its size.
+    /// Warns if the places in a file leave part of the control volume empty, as after a change of its size.
     fn half_empty(&self) -> Option<String> {
         let (places, sides) = (self.scene.particles.own()?.place_mm.as_ref()?, self.scene.sides_mm()?);
         let farthest = |axis: &Vec<f64>| axis.iter().copied().fold(0.0, f64::max);
         let short = places.iter().map(farthest).zip(sides);
-        // n uniform places all lie within this share of a side by chance once in a million.
+        // The probability that n uniform places all lie within this share of a side; below 1e-6 it is no accident.
         let rods = places[0].len() as f64;
         let by_chance = |share: f64| libm::pow(share, rods) < 1e-6;
         let (axis, (farthest, side)) =
@@ -130,7 +130,7 @@ impl Plan {
         ))
     }
 
-    /// Colliding rods that are too thick for the collision rule.
+    /// Warns if colliding rods are too thick for the collision rule.
     fn thick(&self) -> Option<String> {
         let mean = self.scene.particles.mean_aspect_ratio();
         (self.keeps(Stage::Contacts) && mean < RULE_OF_LINES).then(|| {
@@ -143,7 +143,7 @@ impl Plan {
         })
     }
 
-    /// The mean r_e with the key that gives it.
+    /// The mean r_e, with the key that gives it.
     fn mean_and_its_key(&self) -> String {
         let particles = &self.scene.particles;
         match particles.own().is_some_and(|own| own.aspect_ratio.is_some()) {
@@ -152,7 +152,7 @@ impl Plan {
         }
     }
 
-    /// A stress of slender rods for rods that are not.
+    /// Warns if the stress of slender rods is computed for rods that are not slender.
     fn not_slender(&self) -> Option<String> {
         let r = self.scene.particles.mean_aspect_ratio();
         (self.keeps(Stage::Observe(Observable::ParticleStress)) && r < SLENDER).then(|| {

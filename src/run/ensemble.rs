@@ -1,4 +1,4 @@
-//! Replicas over all cores, and the means and standard errors over them.
+//! Runs replicas on all cores; means and standard errors over them.
 
 #[cfg(test)]
 mod tests;
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// A channel of an observable against time: a column of its table.
+/// One channel of an observable against time: a column of its table.
 ///
 /// ```
 /// let plan = shearbed::Plan::new(&shearbed::Scene::default())?;
@@ -24,16 +24,16 @@ use std::ops::Range;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
-    /// Its name.
+    /// Name of the channel.
     pub name: String,
     /// The mean over rods and replicas, per output.
     pub mean: Vec<f64>,
-    /// The standard error of the mean: over replicas, or over rods where there is one replica. NaN where
-    /// there is one replica of one rod.
+    /// The standard error of the mean: over replicas, or over the rods of a single replica. NaN for a single rod of a single
+    /// replica.
     pub se: Vec<f64>,
 }
 
-/// An observable against time.
+/// One observable against time.
 ///
 /// ```
 /// let plan = shearbed::Plan::new(&shearbed::Scene::default())?;
@@ -44,9 +44,9 @@ pub struct Column {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// Which observable.
+    /// The observable.
     pub observable: Observable,
-    /// Its columns, in the order of [`Observable::channels`].
+    /// Its channels, in the order of [`Observable::channels`].
     pub columns: Vec<Column>,
 }
 
@@ -60,30 +60,30 @@ pub struct Series {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Results {
-    /// `t_over_T` or `strain`.
+    /// Name of the time column: `t_over_T` or `strain`.
     pub time_name: &'static str,
-    /// The outputs' times.
+    /// Times of the outputs, in periods or units of strain.
     pub times: Vec<f64>,
-    /// The same in s and in strain.
+    /// The same times in s and in strain.
     pub elapsed: Vec<Elapsed>,
     /// One per observable, in the order of the plan.
     pub series: Vec<Series>,
-    /// Every rod at each output that the scene asks for them: replica by replica, and in each in the order of time.
+    /// All rods at the outputs for which the scene asks for them, ordered by replica, then by time.
     pub snapshots: Vec<Snapshot>,
     /// Work over all replicas.
     pub counters: Counters,
 }
 
 impl Results {
-    /// The column with this name.
+    /// The column called `name`, or `None`.
     pub fn column(&self, name: &str) -> Option<&Column> {
         let mut all = self.series.iter().flat_map(|series| &series.columns);
         all.find(|column| column.name == name)
     }
 }
 
-/// Runs every replica of the plan on the threads of the current rayon pool. The results are the same bits for any number of
-/// threads. To follow the replicas, or to run them elsewhere, use [`fold`] and [`replicas_of`].
+/// Runs every replica of the plan on the threads of the current rayon pool. The results are the same bits for any number of threads. To
+/// show progress, or to run replicas elsewhere, use [`fold`] and [`replicas_of`].
 ///
 /// # Errors
 ///
@@ -92,8 +92,8 @@ pub fn run(plan: &Plan) -> Result<Results, Error> {
     fold(plan, |replicas| replicas_of(plan, replicas, &|| ()))
 }
 
-/// Runs some replicas of the plan on the threads of the current rayon pool, and returns them in order; `finished`
-/// is called after each.
+/// Runs `replicas` of the plan on the threads of the current rayon pool and returns them in order; calls `finished`
+/// after each.
 ///
 /// # Errors
 ///
@@ -111,12 +111,12 @@ pub fn replicas_of(
     replicas.into_par_iter().map(one).collect()
 }
 
-/// The results of a plan whose replicas `run` runs, a range of them at a time and wherever it likes, as long as it
-/// returns them in order. The results' bits do not depend on where.
+/// The results of a plan. `run` runs a range of replicas, on any machine, and returns them in order; the results' bits do not depend
+/// on where.
 ///
 /// # Errors
 ///
-/// The first of `run`.
+/// The first error of `run`.
 pub fn fold<E>(
     plan: &Plan,
     mut run: impl FnMut(Range<u64>) -> Result<Vec<Replica>, E>,
@@ -126,8 +126,8 @@ pub fn fold<E>(
     Ok(tally.results(plan))
 }
 
-/// Adds the next replicas of a plan to those that `tally` has, as [`fold`] does from the first on: the same bits as if all had
-/// been added at once.
+/// Adds the next replicas of a plan to `tally`, as [`fold`] does from the first on. The bits are the same as if all replicas had been
+/// added at once.
 ///
 /// ```
 /// use shearbed::run::ensemble::{Tally, extend, replicas_of, run};
@@ -141,7 +141,7 @@ pub fn fold<E>(
 ///
 /// # Errors
 ///
-/// The first of `run`.
+/// The first error of `run`.
 pub fn extend<E>(
     plan: &Plan,
     tally: &mut Tally,
@@ -149,12 +149,12 @@ pub fn extend<E>(
     mut run: impl FnMut(Range<u64>) -> Result<Vec<Replica>, E>,
 ) -> Result<(), E> {
     in_batches(batch(plan, width(plan)), replicas, |replicas| {
-        // `run` may return no replicas, where another process collects them.
+        // `run` may return no replicas, if another process collects them.
         run(replicas).map(|replicas| replicas.into_iter().for_each(|replica| tally.add(replica)))
     })
 }
 
-/// All of these replicas, `most` at a time.
+/// Calls `each` for all `replicas`, at most `most` at a time.
 pub(crate) fn in_batches<E>(
     most: u64,
     replicas: Range<u64>,
@@ -169,18 +169,18 @@ pub(crate) fn in_batches<E>(
     Ok(())
 }
 
-/// Sums per output.
+/// Number of sums per output.
 pub(crate) fn width(plan: &Plan) -> usize {
     observable::width(&plan.observables())
 }
 
-/// Replicas held in memory at a time: about 256 MB of sums, of which each output has `width`.
+/// Number of replicas held in memory at a time: about 256 MB of sums, `width` per output.
 pub(crate) fn batch(plan: &Plan, width: usize) -> u64 {
     let bytes = plan.outputs() * width * size_of::<Sum>();
     ((256 << 20) / bytes.max(1)).clamp(1, 4096) as u64
 }
 
-/// Replicas added up, one after the other: running means and squared deviations (Welford 1962).
+/// Running means and squared deviations over replicas, added one after the other (Welford 1962).
 ///
 /// ```
 /// use shearbed::{Plan, Scene, run::run_replica};
@@ -197,14 +197,14 @@ pub struct Tally {
     counters: Counters,
     mean: Vec<f64>,
     deviation: Vec<f64>,
-    /// Standard errors over the rods of one replica.
+    /// Standard errors over the rods of a single replica.
     over_rods: Vec<f64>,
-    /// Every rod at the outputs for which the scene asks for them.
+    /// All rods at the outputs for which the scene asks for them.
     snapshots: Vec<Snapshot>,
 }
 
 impl Tally {
-    /// An empty tally for this plan.
+    /// An empty tally for `plan`.
     pub fn new(plan: &Plan) -> Self {
         Self::of(plan.outputs() * width(plan))
     }
@@ -221,16 +221,16 @@ impl Tally {
         }
     }
 
-    /// The number of replicas in it: the first ones of the plan.
+    /// The number of replicas added: the first ones of the plan.
     pub fn replicas(&self) -> u64 {
         self.replicas
     }
 
-    /// Checks that it fits the plan.
+    /// Checks that the tally fits the plan.
     ///
     /// # Errors
     ///
-    /// What does not fit.
+    /// A sentence that says what does not fit.
     pub fn check(&self, plan: &Plan) -> Result<(), &'static str> {
         let len = plan.outputs() * width(plan);
         if [&self.mean, &self.deviation, &self.over_rods].map(Vec::len) != [len; 3]
@@ -256,7 +256,7 @@ impl Tally {
         self.snapshots.extend(replica.snapshots);
     }
 
-    /// Adds the sums of the next replica over its `rods` rods.
+    /// Adds the sums of the next replica, which has `rods` rods.
     pub(crate) fn add_sums(&mut self, rods: usize, sums: &[Sum]) {
         let n = rods as f64;
         self.replicas += 1;
@@ -272,7 +272,7 @@ impl Tally {
         }
     }
 
-    /// The standard errors of a channel's mean at each output; `None` where the plan does not observe it.
+    /// The standard errors of a channel's mean at each output; `None` if the plan does not observe the channel.
     pub fn standard_errors(&self, plan: &Plan, channel: Channel) -> Option<Vec<f64>> {
         let place = channel.place(&plan.observables())?;
         Some(self.column(channel.name(), place, width(plan)).se)
@@ -287,13 +287,13 @@ impl Tally {
         }
     }
 
-    /// The column at `place` of every output; each output has `width` sums.
+    /// The column at index `place` of the `width` sums of each output.
     pub(crate) fn column(&self, name: String, place: usize, width: usize) -> Column {
         let all = || (place..self.mean.len()).step_by(width);
         Column { name, mean: all().map(|k| self.mean[k]).collect(), se: all().map(|k| self.se(k)).collect() }
     }
 
-    /// The results of its replicas.
+    /// The results of the replicas added.
     pub fn results(self, plan: &Plan) -> Results {
         let width = width(plan);
         let mut start = 0;

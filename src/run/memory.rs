@@ -1,4 +1,4 @@
-//! What a run holds in memory, so that one that would not fit can say so before it starts.
+//! The memory that a run needs, so that a run that would not fit can be refused before it starts.
 
 use crate::model::collision::reach;
 use crate::motion::Propagator;
@@ -10,16 +10,16 @@ use crate::suspension::BYTES_OF_A_CANDIDATE;
 use crate::suspension::snapshot::Snapshot;
 use std::f64::consts::PI;
 
-/// About the most bytes that a run of the plan holds, with `at_once` replicas at a time.
+/// About the largest number of bytes that a run of `plan` holds, with `at_once` replicas at a time.
 ///
-/// Per rod of an interacting scene: its direction (24) and the step it dates from (4), position (24), R (8), aspect
-/// ratio (8), and in the search its copy in the order of space (32), cell (4), the cell's start (4) and a place on the
-/// list of those that need a search (4). Beside it, lists of who collides.
+/// Bytes per rod of an interacting scene: direction (24) and the step it dates from (4), position (24), R (8), aspect ratio (8),
+/// and in the search its copy in spatial order (32), cell (4), the cell's start (4) and an entry in the list of rods that need a
+/// search (4). Lists of collisions come on top.
 pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
     let scene = plan.scene();
     let replicas = scene.ensemble.replicas.min(at_once.max(1));
     let kept = |stage, bytes| if plan.keeps(stage) { bytes } else { 0 };
-    // A propagator for each rod, and what all replicas share for each output.
+    // A propagator per rod, and the data per output that all replicas share.
     let maps = match plan.free().map(|free| &free.way) {
         None => [0, 0],
         Some(Way::Each { spans, .. }) => {
@@ -44,13 +44,13 @@ pub fn bytes(plan: &Plan, at_once: u64) -> u64 {
     let rods = replicas * (lists as u64 + (scene.particles.count * per_rod) as u64) + maps[1] as u64;
     // Sums of replicas that wait to be added in order, and three running moments of 8 bytes.
     let sums = plan.outputs() as u64 * (waiting * per_output as u64 + 3 * 8 * width as u64);
-    // Every rod that is wanted is held to the end.
+    // All rods that the scene asks for are held until the end.
     let of_rod = Snapshot::bytes_per_rod(plan) as u64;
     (rods + sums).saturating_add(plan.rods_out().saturating_mul(of_rod))
 }
 
-/// The share of rods that make a candidate in a step: s* is farther than the nearest of rods scattered at random,
-/// ∫ 1 − exp(−4π n s*(R)³/3) dR.
+/// The expected share of rods that become candidates in a step: ∫ 1 − exp(−4π n s*(R)³/3) dR, the probability that the nearest of
+/// randomly placed rods is closer than s*.
 fn candidates(plan: &Plan) -> f64 {
     const POINTS: usize = 64;
     let scene = plan.scene();

@@ -1,4 +1,4 @@
-//! One replica of a scene, from its plan to the sums of its observables.
+//! Runs one replica of a scene, from its plan to the sums of its observables.
 
 pub mod ensemble;
 pub mod memory;
@@ -32,20 +32,20 @@ use std::ops::Range;
 pub struct Replica {
     observables: Vec<Observable>,
     pub(crate) rods: usize,
-    /// Per output, the channels of every observable of the plan, one after the other: sums over rods.
+    /// Sums over rods: per output, the channels of all observables of the plan, one after the other.
     pub(crate) sums: Vec<Sum>,
-    /// Every rod at each output that the scene asks for them.
+    /// All rods at the outputs for which the scene asks for them.
     pub snapshots: Vec<Snapshot>,
-    /// What was done.
+    /// Counts of the work done.
     pub counters: Counters,
 }
 
 impl Replica {
-    /// Checks that it fits the plan.
+    /// Checks that the replica fits the plan.
     ///
     /// # Errors
     ///
-    /// What does not fit.
+    /// A sentence that says what does not fit.
     pub fn check(&self, plan: &Plan) -> Result<(), &'static str> {
         let own = self.observables == plan.observables()
             && self.rods == plan.scene().particles.count
@@ -60,12 +60,12 @@ impl Replica {
         Ok(())
     }
 
-    /// The same for a plan of several replicas, where standard errors over the rods of one are not kept. No mean changes.
+    /// Drops the standard errors over rods, as a plan of several replicas needs none. Means do not change.
     pub fn drop_rod_errors(&mut self) {
         self.sums.iter_mut().for_each(|sum| sum.spread = None);
     }
 
-    /// The mean of a channel over the rods at an output; `None` where the scene does not observe it or has no such output.
+    /// The mean of `channel` over the rods at `output`; `None` if the scene does not observe it or has no such output.
     pub fn mean(&self, channel: Channel, output: usize) -> Option<f64> {
         let place = channel.place(&self.observables)?;
         let sum = self.sums.get(output * width(&self.observables) + place)?;
@@ -73,21 +73,21 @@ impl Replica {
     }
 }
 
-/// Runs one replica. Its bits depend on the scene, the seed and `replica` only.
+/// Runs one replica. Its bits depend only on the scene, the seed and `replica`.
 ///
 /// # Errors
 ///
-/// A kick that overflows, or a direction or a sum that is not a valid result.
+/// If a kick overflows, or if a direction or a sum is not a valid result.
 pub fn run_replica(plan: &Plan, replica: u64) -> Result<Replica, Error> {
     go_on(plan, replica, None, |_| ())
 }
 
-/// Runs one replica from its start or from halfway. `look` is called between its steps, for free rods between outputs, with
-/// what makes the state to go on from. The bits are those of [`run_replica`].
+/// Runs one replica from its start, or from the state `from`. Calls `look` between steps (for free rods, between outputs) with a
+/// function that returns the current state. The bits are those of [`run_replica`].
 ///
 /// # Errors
 ///
-/// As [`run_replica`], and a `from` that does not fit this plan.
+/// As [`run_replica`], and if `from` does not fit this plan.
 pub fn go_on(
     plan: &Plan,
     replica: u64,
@@ -123,7 +123,7 @@ pub fn go_on(
     })
 }
 
-/// Free rods: the exact motion straight to each output. A block of rods is read once for many outputs.
+/// Runs free rods by their exact motion straight to each output. A block of rods is read once for many outputs.
 fn straight(
     plan: &Plan,
     replica: u64,
@@ -146,10 +146,10 @@ fn straight(
     Ok(counters)
 }
 
-/// Outputs for which a block of rods is read once.
+/// Number of outputs for which a block of rods is read once.
 const OUTPUTS: usize = 64;
 
-/// Interacting rods: steps from output to output.
+/// Runs interacting rods by steps from output to output.
 fn stepped(
     plan: &Plan,
     mut suspension: Suspension,
@@ -180,7 +180,7 @@ struct Recorder<'a> {
     width: usize,
     empty: Sum,
     sums: Vec<Sum>,
-    /// Outputs that are done: the first ones.
+    /// Number of outputs done, counted from the first.
     done: usize,
     snapshots: Vec<Snapshot>,
 }
@@ -210,7 +210,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// What is done, with the rods where they interact.
+    /// The state so far, with `rods` if they interact.
     fn halfway(&self, rods: Option<Placed>) -> Halfway {
         Halfway {
             sums: self.sums[..self.done * self.width].to_vec(),
@@ -219,8 +219,8 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Sums the observables of all rods at these outputs; `orient(first, output, block)` fills a block of the rods from `first` on
-    /// with their directions, or says which is not known. Large runs: sums over chunks, and then their sum in order.
+    /// Sums the observables of all rods at `outputs`. `orient(first, output, block)` fills a block with the directions of the rods from
+    /// `first` on, or returns the rod whose direction is unknown. Large runs sum over chunks, and then add these sums in order.
     fn record(
         &mut self,
         outputs: Range<usize>,
@@ -284,7 +284,7 @@ impl<'a> Recorder<'a> {
     }
 }
 
-/// The error of a fault in a block whose first rod is `first`.
+/// The error for a `fault` in a block whose first rod is `first`.
 pub(crate) fn refused(plan: &Plan, replica: u64, first: usize, output: usize, fault: Fault) -> Error {
     Error::NoResult {
         rod: fault.rod.map(|rod| first + rod),
@@ -297,7 +297,7 @@ pub(crate) fn refused(plan: &Plan, replica: u64, first: usize, output: usize, fa
     }
 }
 
-/// Hands every rod of a replica at every output to `look`: output by output, the rods in blocks, with the first one's number.
+/// Calls `look(output, first, block)` for all rods of a replica at all outputs, in blocks; `first` is the index of the block's first rod.
 pub(crate) fn each_block(
     plan: &Plan,
     replica: u64,

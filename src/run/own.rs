@@ -1,4 +1,4 @@
-//! Observables of one's own, beside those that a scene file can name.
+//! Observables of your own, beside those that a scene file can name.
 
 #[cfg(test)]
 mod tests;
@@ -10,12 +10,12 @@ use crate::run::{each_block, refused};
 use crate::scene::Error;
 use rayon::prelude::*;
 
-/// Runs every replica of the plan, as [`crate::run::ensemble::run`] does, and returns the columns of an observable of one's own, one value
-/// for each of [`Plan::times`]. The bits are the same for any number of threads.
+/// Runs every replica of the plan, as [`crate::run::ensemble::run`] does, and returns the columns of your own observable `own`, with a
+/// value for each of [`Plan::times`]. The bits are the same for any number of threads.
 ///
 /// # Errors
 ///
-/// As [`crate::run::ensemble::run`], and a value that is not finite.
+/// As [`crate::run::ensemble::run`], and if a value is not finite.
 pub fn observe(plan: &Plan, own: &dyn Observe) -> Result<Vec<Column>, Error> {
     let names = own.columns();
     let width = names.len();

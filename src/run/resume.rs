@@ -1,7 +1,7 @@
-//! A replica in the middle of its work, to be kept and gone on from, bit for bit as if it had not stopped.
+//! Saves a replica in the middle of its work and resumes it, with the same bits as if it had not stopped.
 //!
-//! Kept is what the plan, the seed and the replica's number do not give: the sums so far and, where rods interact, their
-//! directions, positions and counts of work. Random streams are not: how many numbers were drawn is among the counts.
+//! The saved state is what the plan, the seed and the replica's number do not determine: the sums so far and, for interacting rods,
+//! directions, positions and counts of work. Random streams are not saved: the counts contain how many numbers were drawn.
 
 use crate::model::random::{Purpose, ahead, stream};
 use crate::model::work::Counters;
@@ -11,7 +11,7 @@ use crate::suspension::Suspension;
 use crate::suspension::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
 
-/// A replica in the middle of its work.
+/// The state of a replica in the middle of its work.
 ///
 /// ```
 /// use shearbed::scene::{Interaction, Scene};
@@ -26,31 +26,31 @@ use serde::{Deserialize, Serialize};
 pub struct Halfway {
     /// Sums of the outputs that are done.
     pub(crate) sums: Vec<Sum>,
-    /// Every rod at those of these outputs for which the scene asks for them; free rods are there at the end alone.
+    /// All rods at those of these outputs for which the scene asks for them; empty for free rods until the end.
     pub(crate) snapshots: Vec<Snapshot>,
-    /// The rods, where they interact.
+    /// The rods, if they interact.
     pub(crate) rods: Option<Placed>,
 }
 
-/// Interacting rods at a tick.
+/// The state of interacting rods at a tick.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Placed {
     counters: Counters,
     /// Each rod's direction at its tick `since`.
     directions: [Vec<f64>; 3],
     since: Vec<u32>,
-    /// In rod lengths.
+    /// Positions in mean rod lengths.
     positions: [Vec<f64>; 3],
 }
 
-/// By how much a squared length may be off 1: far above round-off, far below what any mean shows.
+/// Largest deviation of a squared length from 1: far above round-off, far below the resolution of any mean.
 const LENGTH: f64 = 1e-9;
 
 impl Halfway {
-    /// Bytes that one of the plan holds at most.
+    /// The largest number of bytes that a state of this plan holds.
     pub fn bytes(plan: &Plan) -> u64 {
         let sums = plan.outputs() * width(&plan.observables()) * size_of::<Sum>();
-        // Of free rods it holds neither directions nor snapshots.
+        // For free rods it holds neither directions nor snapshots.
         let of_rod = match plan.keeps(Stage::Translation) {
             true => 48 + 4 + plan.rods_outputs().len() * Snapshot::bytes_per_rod(plan),
             false => 0,
@@ -58,21 +58,21 @@ impl Halfway {
         (sums + plan.scene().particles.count * of_rod) as u64
     }
 
-    /// The same for a plan of several replicas, where standard errors over the rods of one are not kept. No mean changes.
+    /// Drops the standard errors over rods, as a plan of several replicas needs none. Means do not change.
     pub fn drop_rod_errors(&mut self) {
         self.sums.iter_mut().for_each(|sum| sum.spread = None);
     }
 
-    /// Outputs that are done.
+    /// Number of outputs done.
     pub(crate) fn outputs(&self, plan: &Plan) -> usize {
         self.sums.len() / width(&plan.observables()).max(1)
     }
 
-    /// Checks that it fits a replica of the plan.
+    /// Checks that the state fits a replica of the plan.
     ///
     /// # Errors
     ///
-    /// What of it cannot be.
+    /// A sentence that says what does not fit.
     pub fn check(&self, plan: &Plan) -> Result<(), &'static str> {
         let width = width(&plan.observables());
         let (rods, spread) = (plan.scene().particles.count, plan.keeps(Stage::RodErrors));
@@ -94,7 +94,7 @@ impl Halfway {
 }
 
 impl Placed {
-    /// Suspension of the replica as it was kept; `None` for a plan that takes no steps.
+    /// The suspension in the saved state; `None` for a plan that takes no steps.
     pub(crate) fn suspension(self, plan: &Plan, replica: u64) -> Option<Suspension> {
         let mut suspension = Suspension::new(plan, replica)?;
         let rng = |purpose, drawn: u128| ahead(&stream(plan.scene().ensemble.seed, replica, purpose), drawn);
@@ -147,7 +147,7 @@ impl Placed {
 }
 
 impl Suspension {
-    /// Its rods, to be kept.
+    /// The state of the rods, to be saved.
     pub(crate) fn placed(&self) -> Placed {
         let (directions, since) = self.rods.state();
         Placed { counters: self.counters, directions, since, positions: self.positions.clone() }

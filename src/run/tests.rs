@@ -11,7 +11,7 @@ fn plan(count: usize, replicas: u64) -> Plan {
     Plan::new(&scene::parse("s.toml", &text).unwrap()).unwrap()
 }
 
-/// A run whose propagation puts a rod along `wrong` at an output.
+/// Runs a replica in which the rod `rod` points along `wrong` at the output `at`.
 fn broken(count: usize, rod: usize, at: usize, wrong: [f64; 3]) -> Result<(), Error> {
     let plan = plan(count, 2);
     let (rods, _) = Rods::draw(&plan, 1);
@@ -26,7 +26,7 @@ fn broken(count: usize, rod: usize, at: usize, wrong: [f64; 3]) -> Result<(), Er
 
 #[test]
 fn a_broken_propagation_stops_the_run_and_names_rod_output_and_replica() {
-    // In the first block and the last, on one thread and on many.
+    // Rods in the first block and in the last, on one thread and on many.
     for (count, rod) in [(300, 0), (300, 299), (1, 0), (CHUNK + 200, CHUNK + 131)] {
         assert_eq!(broken(count, rod, 5, [0.6, 0.0, 0.8]), Ok(()));
         for wrong in [[0.0; 3], [f64::NAN; 3], [0.6, 0.8, 0.1]] {
@@ -48,7 +48,7 @@ fn of_several_wrong_rods_the_first_is_named_whatever_the_threads() {
     assert!(errors[0].to_string().starts_with("rod 0, output 0 "), "{}", errors[0]);
 }
 
-/// Beyond the first block: aspect ratio and weight are those of the block's own rods.
+/// Aspect ratios and weights are those of the block's own rods, also beyond the first block.
 #[test]
 fn every_block_has_its_own_rods() {
     let mut scene = plan(300, 1).scene().clone();
@@ -71,7 +71,7 @@ fn every_block_has_its_own_rods() {
     assert_eq!(seen, 300);
 }
 
-/// One rod, or many of several lengths, along `p`: σ₁₂, N₁ and N₂ in Pa at the start.
+/// σ₁₂, N₁ and N₂ in Pa at the start of the default scene with 300 rods, as altered by `change`.
 fn stress_pa(change: impl Fn(&mut scene::Scene)) -> [f64; 3] {
     let mut scene = scene::Scene::default();
     scene.particles.count = 300;
@@ -83,10 +83,10 @@ fn stress_pa(change: impl Fn(&mut scene::Scene)) -> [f64; 3] {
     ["s12_pa", "n1_pa", "n2_pa"].map(|name| results.column(name).unwrap().mean[0])
 }
 
-/// 50 bodies of 0.72 mm per cm³ at 0.5 1/s in 20 Pa s.
+/// μ G n⟨a³⟩ in Pa for 50 bodies of 0.72 mm per cm³ at 0.5 1/s in 20 Pa s.
 const UNIT_PA: f64 = 20.0 * 0.5 * 50.0 * 0.072 * 0.072 * 0.072;
 
-/// Einstein: 2.5 μφG to a billionth from a sphere, whatever way they point, and of several lengths with ⟨a³⟩ = 1 + 3·0.3².
+/// Einstein: spheres (to a billionth) have 2.5 μφG, in any direction, and also with several lengths, where ⟨a³⟩ = 1 + 3·0.3².
 #[test]
 fn spheres_have_einsteins_stress() {
     let einstein = 2.5 * std::f64::consts::PI / 6.0 * UNIT_PA;

@@ -1,4 +1,4 @@
-//! How the liquid moves: rods' rates, velocities past one another, and places.
+//! The motion of the liquid: the rods' rates, relative velocities, and positions.
 
 use crate::model::jeffery::{couette_rate, rate};
 use crate::model::volume::{COUETTE_NUMBERS, ControlVolume, INFLOW_NUMBERS, Inflow};
@@ -8,9 +8,9 @@ use rand_pcg::Pcg64Dxsm;
 
 #[derive(Clone, Debug)]
 pub(super) enum Liquid {
-    /// u_2 = ±x_1, with time in 1/|G| and rods that come back by eq. 14.
+    /// Flow u_2 = ±x_1, with time in 1/|G|; rods are replaced by eq. 14.
     Couette { volume: ControlVolume, sign: f64 },
-    /// Any gradient of trace 0, with time in that over its largest component.
+    /// Any gradient of trace 0, with time in units of the inverse of its largest component.
     Any(Box<Inflow>),
 }
 
@@ -35,7 +35,7 @@ impl Liquid {
         }
     }
 
-    /// The velocity of the liquid at one place relative to that at another.
+    /// The velocity of the liquid at one point relative to another, which differ by `separation`.
     pub fn velocity(&self, separation: &Vector3<f64>) -> Vector3<f64> {
         match self {
             Self::Couette { sign, .. } => Vector3::new(0.0, sign * separation.x, 0.0),
@@ -43,7 +43,7 @@ impl Liquid {
         }
     }
 
-    /// Moves every rod over a step and replaces those that leave, which are counted.
+    /// Moves every rod over a step and replaces those that leave. Returns the number of rods replaced.
     pub fn carry(&self, positions: &mut [Vec<f64>; 3], step: f64, rng: &mut Pcg64Dxsm) -> u64 {
         match self {
             Self::Couette { volume, sign } => volume.advance(positions, step, *sign, rng),
@@ -51,7 +51,7 @@ impl Liquid {
         }
     }
 
-    /// Numbers of the stream for each rod that is replaced.
+    /// Random numbers of the stream per replaced rod.
     pub fn numbers(&self) -> u128 {
         match self {
             Self::Couette { .. } => COUETTE_NUMBERS,

@@ -37,16 +37,16 @@ use rayon::prelude::*;
 pub struct Collision {
     /// The rod that drew R, and its nearest neighbour.
     pub rods: [usize; 2],
-    /// |ṗ′|Δt: the angles in rad by which the two turned.
+    /// |ṗ′|Δt: the angles in rad by which the two rods turned.
     pub angles_rad: [f64; 2],
-    /// |ṗ′ − ṗ|Δt: what of it the collision did, in rad.
+    /// |ṗ′ − ṗ|Δt: the part due to the collision, in rad.
     pub kicks_rad: [f64; 2],
 }
 
-/// One replica of an interacting scene: lengths in mean rod lengths.
+/// One replica of an interacting scene, with lengths in mean rod lengths.
 ///
-/// Inside a step: neighbours, draws and contacts from the state at its start; then every orientation
-/// moves; then every position, with replacements.
+/// Each step finds neighbours, draws and contacts from the state at its start; then every orientation moves;
+/// then every position, with replacements.
 ///
 /// ```
 /// use shearbed::scene::{Interaction, Scene};
@@ -61,7 +61,7 @@ pub struct Collision {
 pub struct Suspension {
     pub(crate) rods: Rods,
     pub(crate) counters: Counters,
-    /// Empty arrays where the plan drops them.
+    /// Coordinates in mean rod lengths; empty if the plan drops positions.
     pub(crate) positions: [Vec<f64>; 3],
     sides: [f64; 3],
     liquid: Liquid,
@@ -76,18 +76,18 @@ pub struct Suspension {
     drawn: Vec<f64>,
     candidates: Vec<Candidate>,
     collisions: Vec<Collision>,
-    /// For error messages.
+    /// Seed and replica, for error messages.
     seed: u64,
     replica: u64,
 }
 
-/// The square of a distance, the rod that drew R, its nearest neighbour.
+/// The squared distance, the index of the rod that drew R, and that of its nearest neighbour.
 type Candidate = (f64, u32, u32);
 
-/// From this number of candidates on, their contacts are computed on all threads.
+/// From this number of candidates on, contacts are computed on all threads.
 const MANY: usize = 1024;
 
-/// What a collision does to its two rods.
+/// The effect of a collision on its two rods.
 struct Turns {
     ends: [UnitVector3<f64>; 2],
     angles_rad: [f64; 2],
@@ -95,8 +95,8 @@ struct Turns {
     arms: [f64; 2],
 }
 
-/// Bytes for a rod with a neighbour near enough to collide with: as found and as a candidate, what the collision would do
-/// to both rods, and half a collision; each list has as much room again.
+/// Bytes per rod with a neighbour near enough to collide with: as found and as a candidate, the effect of the collision on both
+/// rods, and half a collision; every list may have twice the capacity.
 pub(crate) const BYTES_OF_A_CANDIDATE: usize = 2 * size_of::<Nearest>()
     + 2 * size_of::<Candidate>()
     + size_of::<Option<Turns>>()
@@ -145,8 +145,8 @@ impl Suspension {
         })
     }
 
-    /// Puts the rods at places in the control volume (three arrays of coordinates, in mean rod lengths) and along directions.
-    /// Returns `None` and changes nothing where a count is not that of the rods, or a place is outside the volume.
+    /// Moves the rods to `places` in the control volume (three arrays of coordinates, in mean rod lengths) and along `directions`.
+    /// Returns `None` and changes nothing if a count is not that of the rods, or a place is outside the volume.
     pub fn place(&mut self, places: [Vec<f64>; 3], directions: &[UnitVector3<f64>]) -> Option<()> {
         let count = self.rods.count();
         let inside = |(axis, side): (&Vec<f64>, &f64)| axis.iter().all(|x| (0.0..=*side).contains(x));
@@ -167,7 +167,7 @@ impl Suspension {
     ///
     /// # Errors
     ///
-    /// A kick that overflows; the suspension is then in the middle of its step.
+    /// If a kick overflows; the suspension is then in the middle of its step.
     pub fn step(&mut self) -> Result<&[Collision], Error> {
         self.find_candidates();
         self.collide()?;
@@ -179,7 +179,7 @@ impl Suspension {
         Ok(&self.collisions)
     }
 
-    /// Every rod draws R; its nearest neighbour within the reach of R makes a candidate (eqs 8 and 9).
+    /// Draws R for every rod; a nearest neighbour within the reach of R makes a candidate (eqs 8 and 9).
     fn find_candidates(&mut self) {
         self.candidates.clear();
         if let Some(draws) = &mut self.draws {
@@ -190,7 +190,7 @@ impl Suspension {
         let (Some(neighbours), false) = (&mut self.neighbours, self.drawn.is_empty()) else {
             return;
         };
-        // The bound first: most rods have no neighbour that near, and need no logarithm.
+        // The bound is tested first: most rods have no neighbour that near, and need no logarithm.
         let rods = &self.rods;
         let bound = |rod: usize| self.reach.bound(self.drawn[rod]) * rods.length(rod);
         let mut work = self.counters;
@@ -204,7 +204,7 @@ impl Suspension {
         self.counters.candidates += self.candidates.len() as u64;
     }
 
-    /// Takes candidates closest first (ties: lower index), each rod in one collision at most.
+    /// Makes candidates collide, closest first (ties: lower index); each rod collides at most once.
     fn collide(&mut self) -> Result<(), Error> {
         self.collisions.clear();
         if !self.contacts {
@@ -223,7 +223,7 @@ impl Suspension {
             }
         } else {
             candidates.par_sort_unstable_by(closest_first);
-            // From the state at the start of the step, so in any order.
+            // Computed from the state at the start of the step, so the order does not matter.
             let turns: Vec<_> = candidates.par_iter().map(|&(_, a, b)| self.turns(a, b)).collect();
             for (&(_, a, b), turns) in candidates.iter().zip(turns) {
                 if let (true, Some(turns)) = (self.both_free(a, b), turns) {
@@ -241,7 +241,7 @@ impl Suspension {
         ![a, b].iter().any(|&rod| self.rods.turned_after(rod as usize, self.tick))
     }
 
-    /// Where a collision would leave both rods, and the contact's arms; `None` without a contact.
+    /// The effect of a collision on both rods, and the contact's arms; `None` if there is no contact.
     fn turns(&self, a: u32, b: u32) -> Option<Turns> {
         let pair = [a as usize, b as usize];
         let p = pair.map(|rod| self.rods.direction(rod, self.tick));

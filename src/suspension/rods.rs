@@ -1,5 +1,5 @@
-//! The rods' directions: each rod keeps the direction it had after its last collision, and the exact
-//! motion takes it from there to whatever time is asked for. A free rod is never stepped.
+//! The rods' directions: each rod stores its direction after its last collision, and the exact motion gives the direction
+//! at any later time. A free rod takes no steps.
 
 mod draw;
 
@@ -22,17 +22,17 @@ use std::sync::Arc;
 /// Directions and aspect ratios of one replica's rods, as structure of arrays.
 #[derive(Clone, Debug)]
 pub(crate) struct Rods {
-    /// Each rod's direction at its tick `since`; now, where the motion goes by steps.
+    /// Each rod's direction at its tick `since`; the current one if the motion goes by steps.
     p: [Vec<f64>; 3],
-    /// Empty where no rod can collide: every rod then counts from tick 0.
+    /// The tick of each direction. Empty if no rod can collide: then it is 0 for every rod.
     since: Vec<u32>,
     shapes: Shapes,
-    /// Over the mean; empty where all rods have the same, or nothing asks.
+    /// Lengths over the mean; empty if all are equal, or if the plan needs none.
     lengths: Vec<f64>,
-    /// One over the mean of their cubes.
+    /// 1/⟨a³⟩, with a over the mean.
     per_cube: f64,
     body: Body,
-    /// μ G n⟨a³⟩ in Pa; 1 where nothing asks.
+    /// μ G n⟨a³⟩ in Pa; 1 if no observable needs it.
     stress_pa: f64,
     motion: Motion,
 }
@@ -47,14 +47,14 @@ enum Shapes {
 enum Motion {
     /// Plane Couette flow: phases from ticks.
     Couette(Ticks),
-    /// Anything else where rods meet: the map q = M p of one step, for each rod or one for all.
+    /// Any other flow with interacting rods: the map q = M p of one step, one per rod or one for all.
     Steps(Vec<Matrix3<f64>>),
-    /// Anything else as the plan has it; where rods are moved one by one with a propagator for each, or one for all.
+    /// Free rods in any other flow: the plan's motion, with a propagator per rod, or one for all, where it moves each rod by itself.
     Free { motion: Arc<FreeMotion>, propagators: Vec<Propagator> },
 }
 
 impl Rods {
-    /// Draws the rods of a replica; also counts what was drawn again.
+    /// Draws the rods of a replica; the counters hold the numbers of repeated draws.
     pub fn draw(plan: &Plan, replica: u64) -> (Self, Counters) {
         let (shapes, aspect_ratios_redrawn) = draw_shapes(plan, replica);
         let (lengths, lengths_redrawn) = draw_lengths(plan, replica);
@@ -91,23 +91,23 @@ impl Rods {
         }
     }
 
-    /// The rod's length over the mean.
+    /// The length of `rod` over the mean.
     #[inline]
     pub fn length(&self, rod: usize) -> f64 {
         self.lengths.get(rod).copied().unwrap_or(1.0)
     }
 
-    /// Every rod's length over the mean; none where all have the same.
+    /// Every rod's length over the mean; empty if all are equal.
     pub fn lengths(&self) -> &[f64] {
         &self.lengths
     }
 
-    /// True if the rod was turned by a collision in the step that ends after `tick`.
+    /// True if a collision turned `rod` in the step that ends after `tick`.
     pub fn turned_after(&self, rod: usize, tick: u64) -> bool {
         u64::from(self.since[rod]) > tick
     }
 
-    /// Puts the rod along `p` at `tick`.
+    /// Sets the direction of `rod` at `tick` to `p`.
     pub fn set(&mut self, rod: usize, p: &UnitVector3<f64>, tick: u64) {
         for (axis, value) in self.p.iter_mut().zip([p.x, p.y, p.z]) {
             axis[rod] = value;
@@ -115,18 +115,18 @@ impl Rods {
         self.since[rod] = tick as u32;
     }
 
-    /// Each rod's direction after its last collision, and the tick of that collision.
+    /// Each rod's direction after its last collision, and the tick of that direction.
     pub fn state(&self) -> ([Vec<f64>; 3], Vec<u32>) {
         (self.p.clone(), self.since.clone())
     }
 
-    /// Restores a [`Rods::state`].
+    /// Restores the result of [`Rods::state`].
     pub fn restore(&mut self, p: [Vec<f64>; 3], since: Vec<u32>) {
         self.p = p;
         self.since = since;
     }
 
-    /// The direction of one of the rods that meet at `tick`.
+    /// The direction of an interacting rod at `tick`.
     pub fn direction(&self, rod: usize, tick: u64) -> Vector3<f64> {
         let p = self.p.each_ref().map(|axis| axis[rod]);
         let Motion::Couette(clock) = &self.motion else {
@@ -137,7 +137,7 @@ impl Rods {
         couette(p, r, phase).into()
     }
 
-    /// Where one of the rods that meet at `tick` is a step later by itself.
+    /// The direction that an interacting rod at `tick` has after a free step.
     pub fn after_step(&self, rod: usize, tick: u64) -> Vector3<f64> {
         match &self.motion {
             Motion::Steps(maps) => mapped(map_of(maps, rod), self.p.each_ref().map(|axis| axis[rod])).into(),
@@ -145,7 +145,7 @@ impl Rods {
         }
     }
 
-    /// Moves the rods over the step from `tick` on that no collision has moved, where the motion goes by steps.
+    /// If the motion goes by steps: moves all rods that did not collide over the step that starts at `tick`.
     pub fn advance(&mut self, tick: u64) {
         let Self { p, since, motion: Motion::Steps(maps), .. } = self else {
             return;
@@ -160,7 +160,7 @@ impl Rods {
         });
     }
 
-    /// Sets the length, aspect ratios, weights and stress of `block` to those of the rods from `first` on, at most [`BLOCK`].
+    /// Fills `block` with the aspect ratios, weights and stress of the rods from `first` on, at most [`BLOCK`], and sets its length.
     pub fn select(&self, first: usize, block: &mut Block) {
         block.len = BLOCK.min(self.count() - first);
         (block.body, block.stress_pa) = (self.body, self.stress_pa);
@@ -176,12 +176,12 @@ impl Rods {
         }
     }
 
-    /// Fills a `block` that is [`Self::select`]ed from `first` on with the directions at `tick` (for flows other than plane Couette
-    /// flow: at that output).
+    /// Fills `block`, which [`Self::select`] has set for the rods from `first` on, with their directions at `tick` (in flows other
+    /// than plane Couette flow, `tick` is the output).
     ///
     /// # Errors
     ///
-    /// The first rod of the block whose direction is not known to [`MAX_ERROR_RAD`].
+    /// Returns the first rod of the block whose direction has an error above [`MAX_ERROR_RAD`].
     pub fn orient(&self, first: usize, tick: u64, block: &mut Block) -> Result<(), Fault> {
         let rods = first..first + block.len;
         let from = self.p.each_ref().map(|axis| &axis[rods.clone()]);
@@ -198,7 +198,7 @@ impl Rods {
                 let (clock, each, mut elapsed) = (*clock, self.of_several_shapes(), [tick as f64; BLOCK]);
                 if !self.since.is_empty() {
                     for (elapsed, since) in elapsed.iter_mut().zip(&self.since[rods]) {
-                        // At most 10⁹ steps, and none ahead of the present.
+                        // There are at most 10⁹ steps, and no rod is ahead of `tick`.
                         *elapsed = f64::from((tick as u32).wrapping_sub(*since) as i32);
                     }
                 }
@@ -250,14 +250,14 @@ impl Rods {
         Ok(())
     }
 
-    /// Ticks since the rod's last collision.
+    /// Ticks from the last collision of `rod` to `tick`.
     fn elapsed(&self, rod: usize, tick: u64) -> f64 {
         let since = self.since.get(rod).copied().map_or(0, u64::from);
         (tick - since) as f64
     }
 }
 
-/// What turns ticks into phases in plane Couette flow.
+/// Conversion of ticks to phases in plane Couette flow.
 #[derive(Clone, Copy, Debug)]
 struct Ticks {
     per_period: f64,
@@ -267,15 +267,15 @@ struct Ticks {
 }
 
 impl Ticks {
-    /// How often a rod of aspect ratio `r` turns, with the sign of G, while the mean rod turns once; `each`: rods have
-    /// aspect ratios of their own.
+    /// Turns of a rod of aspect ratio `r`, with the sign of G, in one period of the mean rod; `each` is true if rods differ
+    /// in aspect ratio.
     #[inline(always)]
     fn periods(&self, each: bool, r: f64) -> f64 {
         if each { self.strain_per_period / strain_per_period(r) } else { self.sign }
     }
 
-    /// The phase after `ticks` (a whole number) of a rod that turns `periods` times while the mean rod turns once. Whole
-    /// mean periods and the rest are taken apart, so that no digits of the phase are lost to the number of turns.
+    /// The phase after `ticks` (a whole number) of a rod that turns `periods` times per period of the mean rod. Whole mean periods and the
+    /// rest are treated separately, so that the phase loses no digits to the number of turns.
     #[inline(always)]
     fn phase(&self, ticks: f64, periods: f64) -> Phase {
         let whole = nearest_whole(ticks / self.per_period);
@@ -285,7 +285,7 @@ impl Ticks {
     }
 }
 
-/// The map of a rod, where each has one or all the same.
+/// The map of `rod`: its own, or the one of all rods.
 #[inline]
 fn map_of(maps: &[Matrix3<f64>], rod: usize) -> &Matrix3<f64> {
     maps.get(rod).unwrap_or(&maps[0])
@@ -311,7 +311,7 @@ fn choose_motion(plan: &Plan, shapes: &Shapes) -> Motion {
             Shapes::Shared(r) => std::slice::from_ref(r),
             Shapes::Each(all) => all,
         };
-        // A plan has been checked to have them.
+        // The plan has checked that these maps exist.
         let maps = step_maps(plan.scene(), flow, shapes).flatten();
         return Motion::Steps(maps.map(|(map, _)| map).collect());
     };

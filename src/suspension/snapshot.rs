@@ -1,4 +1,4 @@
-//! The rods of one replica as they are at one output, where a scene asks for them.
+//! The rods of one replica at one output, for scenes that ask for them.
 
 #[cfg(test)]
 mod tests;
@@ -23,45 +23,45 @@ use serde::{Deserialize, Serialize};
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
-    /// The replica, from 0.
+    /// Index of the replica, from 0.
     pub replica: u64,
-    /// The output, from 0.
+    /// Index of the output, from 0.
     pub output: usize,
-    /// p₁, p₂ and p₃.
+    /// The components p₁, p₂ and p₃ of the directions.
     pub p: [Vec<f64>; 3],
-    /// r_e.
+    /// Equivalent aspect ratios r_e.
     pub aspect_ratio: Vec<f64>,
-    /// Lengths over the mean; `None` where all are equal.
+    /// Lengths over the mean; `None` if all are equal.
     pub length: Option<Vec<f64>>,
-    /// Where the rods' centres are in the control volume, in mean rod lengths; `None` for free rods, which have no place.
+    /// Coordinates of the rods' centres in the control volume, in mean rod lengths; `None` for free rods, which have no position.
     pub place_in_lengths: Option<[Vec<f64>; 3]>,
     /// True if the rod collided in the step that ended at this output; free rods never do.
     pub collided: Vec<bool>,
 }
 
 impl Snapshot {
-    /// The length of a rod, whose scene this is.
+    /// The length of `rod` in mm; `scene` is that of the snapshot.
     pub fn length_mm(&self, scene: &Scene, rod: usize) -> f64 {
         scene.particles.length_mm * self.length.as_ref().map_or(1.0, |lengths| lengths[rod])
     }
 
-    /// Where the centre of a rod is in the control volume; `None` for free rods.
+    /// The position of the centre of `rod` in the control volume in mm; `None` for free rods.
     pub fn place_mm(&self, scene: &Scene, rod: usize) -> Option<[f64; 3]> {
         let (places, sides) = (self.place_in_lengths.as_ref()?, scene.sides_mm()?);
-        // What is rounded stays inside.
+        // Rounding must not put a rod outside.
         let place = |axis: usize| (places[axis][rod] * scene.particles.length_mm).min(sides[axis]);
         Some(std::array::from_fn(place))
     }
 
-    /// Bytes that one of the plan holds of each rod: its direction, aspect ratio, whether it collided, where rods interact its
-    /// place, and where they differ its length.
+    /// Bytes per rod of a snapshot of the plan: direction, aspect ratio and whether it collided; its position if rods interact; its
+    /// length if lengths differ.
     pub(crate) fn bytes_per_rod(plan: &Plan) -> usize {
         let placed = if plan.keeps(Stage::Translation) { 3 } else { 0 };
         let numbers = 4 + placed + usize::from(plan.keeps(Stage::Lengths));
         numbers * size_of::<f64>() + 1
     }
 
-    /// True if there are `count` of them and all fit the plan.
+    /// True if there are `count` snapshots and all fit the plan.
     pub(crate) fn all_fit(snapshots: &[Self], count: u64, plan: &Plan) -> bool {
         snapshots.len() as u64 == count && snapshots.iter().all(|snapshot| snapshot.fits(plan))
     }
@@ -79,12 +79,12 @@ impl Snapshot {
             && self.replica < plan.scene().ensemble.replicas
     }
 
-    /// Free rods at an output; a rod whose direction is not known is an error.
+    /// The snapshot of free rods at `output`; fails if a rod's direction is unknown.
     pub(crate) fn of_free(rods: &Rods, replica: u64, output: usize) -> Result<Self, Fault> {
         Self::of(rods, replica, output, output as u64)
     }
 
-    /// The rods of a suspension at an output, which is now.
+    /// The snapshot of `suspension` in its current state, which is at `output`.
     pub(crate) fn of_suspension(suspension: &Suspension, replica: u64, output: usize) -> Result<Self, Fault> {
         let (rods, tick) = (&suspension.rods, suspension.tick());
         let collided = |rod| tick > 0 && rods.turned_after(rod, tick - 1);

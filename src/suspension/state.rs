@@ -1,11 +1,11 @@
-//! What can be asked of a suspension.
+//! Read access to the state of a suspension.
 
 use super::Suspension;
 use crate::model::work::Counters;
 use nalgebra::Vector3;
 
 impl Suspension {
-    /// Numbers of the stream of replacements for each rod that is replaced.
+    /// Random numbers of the stream of replacements per replaced rod.
     pub(crate) fn numbers_per_replacement(&self) -> u128 {
         self.liquid.numbers()
     }
@@ -25,12 +25,12 @@ impl Suspension {
         self.sides
     }
 
-    /// The rods' positions in rod lengths: three arrays of coordinates.
+    /// The rods' positions in mean rod lengths: three arrays of coordinates.
     pub fn positions_in_lengths(&self) -> &[Vec<f64>; 3] {
         &self.positions
     }
 
-    /// The direction of every rod now.
+    /// The current direction of every rod.
     pub fn directions(&self) -> Vec<Vector3<f64>> {
         (0..self.rods.count()).map(|rod| self.rods.direction(rod, self.tick)).collect()
     }

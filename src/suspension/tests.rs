@@ -1,4 +1,4 @@
-//! Placing rods, and collisions against the paper's words.
+//! Tests of placing rods, and of collisions as the paper words them.
 
 use super::*;
 use crate::scene::{Interaction, Scene, Time};
@@ -37,7 +37,7 @@ fn a_state_of_other_counts_or_outside_the_volume_is_refused_and_changes_nothing(
     assert_eq!(suspension.positions_in_lengths(), &places(3));
 }
 
-/// Two rods that are sure to collide, in shear of either sign and in other flows.
+/// Two rods that are certain to collide, in shear of either sign and in other flows.
 #[test]
 fn a_collision_gives_both_contact_points_the_mean_velocity_along_the_line() {
     const STEPS: u64 = 100_000;
@@ -69,7 +69,7 @@ fn a_collision_gives_both_contact_points_the_mean_velocity_along_the_line() {
         suspension.place(places, &start).unwrap();
         assert_eq!(suspension.step().unwrap().len(), 1);
 
-        // By the paper's words, in units of strain: u at each contact point's centre plus r ṗ, along the line.
+        // As the paper words it, in units of strain: u at each rod's centre plus r ṗ, along the contact line.
         let per_strain = plan.flow().per_s() / plan.flow().magnitude_per_s();
         let (strain, spin) =
             (0.5 * (per_strain + per_strain.transpose()), 0.5 * (per_strain - per_strain.transpose()));
@@ -88,7 +88,7 @@ fn a_collision_gives_both_contact_points_the_mean_velocity_along_the_line() {
         assert!((before_a - before_b).abs() > 0.05, "they would part");
         let mean = 0.5 * (before_a + before_b);
         for velocity in along(&rates) {
-            // A step of 1e-5 bends the path by about as much.
+            // A step of 1e-5 bends the path by about the same amount.
             assert!((velocity - mean).abs() < 1e-3, "{gradient:?}: {velocity} {mean}");
         }
     }

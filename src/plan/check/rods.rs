@@ -1,8 +1,8 @@
-//! How the rods are shaped and where they start.
+//! Checks the rods' shapes and starts.
 
 use crate::scene::{Invalid, Misfit, RodsFile, Scene, equivalent, find};
 
-/// Checks that r_e is given once: by itself, or by a cylinder and a formula that gives one for it.
+/// Checks that r_e is given once: directly, or by a cylinder and a formula that gives r_e for it.
 pub(super) fn check_shape(scene: &Scene) -> Result<(), Invalid> {
     let particles = &scene.particles;
     let key = "particles.shape_correlation";
@@ -38,7 +38,7 @@ pub(super) fn check_shape(scene: &Scene) -> Result<(), Invalid> {
     }
 }
 
-/// Refuses a file of rods that has not been read.
+/// Fails if the scene names a file of rods that has not been loaded.
 pub(in crate::plan) fn check_rods_are_read(scene: &Scene) -> Result<(), Invalid> {
     match &scene.particles.rods {
         Some(RodsFile { file, own: None, .. }) => {
@@ -48,7 +48,7 @@ pub(in crate::plan) fn check_rods_are_read(scene: &Scene) -> Result<(), Invalid>
     }
 }
 
-/// Checks that the rods of a file are there, and can be those of the scene.
+/// Checks that the rods of a file are complete and consistent with the scene.
 pub(super) fn check_own_rods(scene: &Scene) -> Result<(), Invalid> {
     let Some(RodsFile { file, own: Some(own), .. }) = &scene.particles.rods else {
         return Ok(());
@@ -69,7 +69,7 @@ pub(super) fn check_own_rods(scene: &Scene) -> Result<(), Invalid> {
     }
 }
 
-/// Checks that r_e has the mean that its flow allows, and stays on its side of 1.
+/// Checks that the mean r_e is allowed in the scene, and that its spread stays on one side of 1.
 pub(super) fn check_particles(scene: &Scene) -> Result<(), Invalid> {
     let (r, sd) = (scene.particles.aspect_ratio, scene.particles.aspect_ratio_sd_percent);
     if scene.interaction.is_some() && r <= 1.0 {

@@ -1,4 +1,4 @@
-//! What goes together of shapes and starts, at both sides of each limit.
+//! Tests the checks of shapes and starts at both sides of each limit.
 
 use crate::model::shape::Correlation;
 use crate::scene::{Error, Interaction, OwnRods, RodsFile, Scene};
@@ -7,7 +7,7 @@ fn refusal(scene: &Scene) -> String {
     crate::Plan::new(scene).expect_err("it is refused").to_string()
 }
 
-/// 3σ reaches 1, or 0 of discs.
+/// The limit is where 3σ reaches 1, or 0 for discs.
 #[test]
 fn the_widest_spread_is_told_and_a_little_less_is_taken() {
     for (mean, widest) in [(4.0, 25.0), (1.5, 100.0 / 9.0), (0.25, 100.0 / 3.0), (0.8, 25.0 / 3.0)] {
@@ -50,7 +50,7 @@ fn a_stress_in_pa_needs_a_viscosity_and_a_concentration() {
     // Each rod counts by its own length.
     scene.particles.length_sd_percent = 10.0;
     assert!(crate::Plan::new(&scene).unwrap().keeps(crate::plan::Stage::Lengths));
-    // The viscosity is written and read, and no empty table.
+    // The viscosity survives serialisation; an empty table is not written.
     let written = serde_json::to_value(&scene).unwrap();
     assert_eq!(serde_json::from_value::<Scene>(written).unwrap(), scene);
     scene.liquid.viscosity_pa_s = None;
@@ -62,7 +62,7 @@ fn a_stress_in_pa_needs_a_viscosity_and_a_concentration() {
     assert!(refusal(&scene).contains("stress needs plane Couette flow"), "{}", refusal(&scene));
 }
 
-/// Two rods in 2 cm³: H = 12.6 mm.
+/// Two rods in 2 cm³: the side is H = 12.6 mm.
 #[test]
 fn rods_that_cannot_be_are_refused_by_number() {
     let sound = OwnRods {

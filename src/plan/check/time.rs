@@ -1,4 +1,4 @@
-//! How long a scene runs, and in how many steps and outputs.
+//! Checks a scene's duration and its numbers of steps and outputs.
 
 use super::*;
 use crate::scene::{Time, TimeUnit};
@@ -20,14 +20,14 @@ pub(super) fn check_time(scene: &Scene, flow: &VelocityGradient) -> Result<(), I
         TimeUnit::Strain => {
             outputs_fit()?;
             check_counted_steps(scene, outputs)?;
-            // A rate that overflows would take no time at all.
+            // If the rate overflows, the unit would take 0 s.
             let unit_s = 1.0 / flow.magnitude_per_s();
             check_seconds(scene, if unit_s > 0.0 { duration * unit_s } else { f64::INFINITY })
         }
     }
 }
 
-/// The period in s, where the flow has one over the whole duration.
+/// The period in s; fails if the flow is not periodic over the whole duration.
 fn check_period(scene: &Scene, flow: &VelocityGradient) -> Result<f64, Invalid> {
     let periods = scene.time.duration;
     let propagator = Propagator::new(flow, scene.particles.aspect_ratio);
@@ -45,7 +45,7 @@ fn check_period(scene: &Scene, flow: &VelocityGradient) -> Result<f64, Invalid> 
     Ok(period_s)
 }
 
-/// Checks that interacting rods take a feasible number of steps, a whole number of them for each output.
+/// Checks that interacting rods take a feasible number of steps, an integer for each output.
 fn check_counted_steps(scene: &Scene, outputs: u64) -> Result<(), Invalid> {
     if scene.interaction.is_none() {
         return Ok(());
@@ -66,7 +66,7 @@ fn check_counted_steps(scene: &Scene, outputs: u64) -> Result<(), Invalid> {
     Ok(())
 }
 
-/// Checks that a step of interacting rods, other than in plane Couette flow by periods, is short enough for double precision.
+/// Checks that steps of interacting rods are short enough for double precision; not for plane Couette flow by periods.
 pub(super) fn check_steps(scene: &Scene, flow: &VelocityGradient) -> Result<(), Invalid> {
     let steps = scene.steps_per_unit();
     let refused = |allowed: String| Err(Invalid::new(scene.time.unit.steps_key(), steps, allowed));
@@ -104,7 +104,7 @@ pub(super) fn check_steps(scene: &Scene, flow: &VelocityGradient) -> Result<(), 
     ))
 }
 
-/// Refuses a default of too many steps: fewer have to be asked for.
+/// Fails if the default number of steps is too large: then the scene must give a smaller one.
 fn check_default_steps(scene: &Scene, steps: u64) -> Result<(), Invalid> {
     if scene.time.steps_per_unit.is_some() || steps <= MAX_PER_UNIT {
         return Ok(());
@@ -122,7 +122,7 @@ fn check_default_steps(scene: &Scene, steps: u64) -> Result<(), Invalid> {
     Err(Invalid::missing(key, &allowed))
 }
 
-/// Where phases are not counted in periods they come from the time in seconds, which must not overflow.
+/// Checks that the duration in s is finite: without periods, phases are computed from seconds.
 fn check_seconds(scene: &Scene, duration_s: f64) -> Result<(), Invalid> {
     if duration_s.is_finite() {
         return Ok(());

@@ -1,13 +1,13 @@
-//! Means and standard errors, worked by hand.
+//! Tests of means and standard errors, by hand.
 
 use super::*;
 
-/// Without errors over rods.
+/// A sum without errors over rods.
 fn sum(value: f64) -> Sum {
     Sum { value, spread: None }
 }
 
-/// With errors over these rods.
+/// A sum with errors over these rods.
 fn over(rods: &[f64]) -> Sum {
     let mut sum = Sum::none(true);
     rods.iter().for_each(|value| sum.add_each(1, |_| *value));
@@ -16,7 +16,7 @@ fn over(rods: &[f64]) -> Sum {
 
 #[test]
 fn over_replicas_the_error_is_that_of_their_mean() {
-    // Two columns at one output; the second is the first turned round.
+    // Two columns at one output; the second is the negative of the first.
     let mut tally = Tally::of(2);
     for value in [1.0, 2.0, 6.0] {
         tally.add_sums(4, &[sum(4.0 * value), sum(-4.0 * value)]);

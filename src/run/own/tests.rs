@@ -1,11 +1,11 @@
-//! Against what the core observes itself.
+//! Compares own observables with those of the core.
 
 use super::*;
 use crate::observable::Block;
 use crate::scene::{Interaction, Scene};
 use approx::assert_relative_eq;
 
-/// |p_1| to |p_3|, and r_e.
+/// The observable |p_1| to |p_3|, and r_e.
 struct Own;
 
 impl Observe for Own {
@@ -34,7 +34,7 @@ fn what_the_core_observes_too_is_the_same() {
     for interaction in [None, Some(Interaction::default())] {
         for replicas in [1, 3] {
             let mut scene = Scene { interaction: interaction.clone(), ..Scene::default() };
-            // More than a block, and not a whole number of them.
+            // More than one block, and not a whole number of blocks.
             scene.particles.count = 300;
             scene.particles.aspect_ratio_sd_percent = 3.6;
             scene.time.outputs_per_unit = Some(10);
@@ -48,11 +48,11 @@ fn what_the_core_observes_too_is_the_same() {
                 assert_eq!(column.mean.len(), plan.outputs());
                 for k in 0..plan.outputs() {
                     assert_relative_eq!(column.mean[k], expected.mean[k], max_relative = 1e-13);
-                    // A variance loses digits where the mean is large beside it.
+                    // The variance loses digits if the mean is large beside it.
                     assert_relative_eq!(column.se[k], expected.se[k], max_relative = 1e-9);
                 }
             }
-            // 300 rods with a deviation of 3.6 % have a mean within 5 standard errors of 11.6, and it does not change.
+            // The mean of 300 rods with a deviation of 3.6 % is within 5 standard errors of 11.6, and it does not change.
             let r_e = &own[3].mean;
             assert!((r_e[0] / 11.6 - 1.0).abs() < 5.0 * 0.036 / 300f64.sqrt(), "{r_e:?}");
             assert!(r_e.iter().all(|r| r == &r_e[0]));
@@ -60,7 +60,7 @@ fn what_the_core_observes_too_is_the_same() {
     }
 }
 
-/// No number for any rod.
+/// An observable that is NaN for every rod.
 struct Broken;
 
 impl Observe for Broken {

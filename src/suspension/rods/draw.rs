@@ -1,4 +1,4 @@
-//! What is drawn of rods at t = 0 (eqs 11 and 12), or taken from a file.
+//! Draws the rods at t = 0 (eqs 11 and 12), or takes them from a file.
 
 use super::Shapes;
 use crate::model::chunks::{CHUNK, over_chunks};
@@ -20,7 +20,7 @@ pub(super) fn draw_shapes(plan: &Plan, replica: u64) -> (Shapes, u64) {
         return (Shapes::Each(own.to_vec()), 0);
     }
     let rng = stream(plan.scene().ensemble.seed, replica, Purpose::AspectRatios);
-    // A rod stays a rod and a disc a disc; a draw across r_e = 1 (or below 0) is drawn again (eq. 11).
+    // Rods stay rods and discs stay discs; a draw across r_e = 1 (or below 0) is repeated (eq. 11).
     let allowed = |r: f64| {
         if mean > 1.0 { r > 1.0 } else { r > 0.0 && r < 1.0 }
     };
@@ -29,7 +29,7 @@ pub(super) fn draw_shapes(plan: &Plan, replica: u64) -> (Shapes, u64) {
     (Shapes::Each(aspect_ratios), redrawn)
 }
 
-/// Lengths over their mean, of a file over the scene's length.
+/// Lengths over the mean, with the number of repeated draws; lengths of a file are divided by the scene's length.
 pub(super) fn draw_lengths(plan: &Plan, replica: u64) -> (Vec<f64>, u64) {
     let particles = &plan.scene().particles;
     if !plan.keeps(Stage::Lengths) {
@@ -43,7 +43,7 @@ pub(super) fn draw_lengths(plan: &Plan, replica: u64) -> (Vec<f64>, u64) {
     draw_gaussian(rng, particles.count, [1.0, deviation], |length| length > 0.0)
 }
 
-/// Numbers of this mean and standard deviation, drawn again where they are not allowed, and how many were.
+/// `count` Gaussian numbers with this `mean` and `deviation`, redrawn until `allowed`, and the number of repeated draws.
 fn draw_gaussian(
     mut rng: Pcg64Dxsm,
     count: usize,

@@ -1,4 +1,4 @@
-//! Rods that are read from a checkpoint or another rank are those of the plan, or are refused.
+//! Tests that rods read from a checkpoint or another rank are refused unless they fit the plan.
 
 use super::*;
 use crate::scene::{Interaction, Scene};
@@ -54,7 +54,7 @@ fn rods_that_are_not_the_plan_s_are_refused() {
 #[test]
 fn a_rod_that_meets_none_has_no_place() {
     let alone = plan(Some(Interaction::default()), 1);
-    // Neither has one whose positions alone are kept by request.
+    // Neither plan has positions in its snapshots, even if the stage of positions is kept by request.
     for plan in [&alone, &alone.keeping(Stage::Positions).unwrap()] {
         let whole = crate::run::run_replica(plan, 0).unwrap().snapshots;
         assert_eq!(whole[0].place_in_lengths, None);
