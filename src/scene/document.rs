@@ -1,4 +1,4 @@
-//! A TOML text as a tree of values that know their line, so that an error can name it; single values can be replaced.
+//! A TOML text as a tree of values with their line numbers, so that errors can name the line; single values can be replaced.
 //!
 //! ```
 //! use shearbed::scene::document::Document;
@@ -26,7 +26,7 @@ use std::sync::Arc;
 use toml::Value;
 use toml::de::{DeTable, DeValue};
 
-/// A TOML text, read; or values that were set without a text.
+/// A parsed TOML text, or values that were set without a text.
 #[derive(Clone, Debug)]
 pub struct Document {
     file: String,
@@ -39,7 +39,7 @@ type Entries = BTreeMap<String, Node>;
 
 #[derive(Clone, Debug)]
 struct Node {
-    /// Where the key stands, and its value; `None` for values set later.
+    /// Byte offset of the key and byte range of its value; `None` for values set later.
     place: Option<(usize, Range<usize>)>,
     content: Content,
 }
@@ -48,7 +48,7 @@ struct Node {
 enum Content {
     Table(Entries),
     Array(Vec<Node>),
-    /// `None`: a whole number with too many digits.
+    /// `None` stands for an integer with too many digits.
     Single(Option<Value>),
 }
 
@@ -57,7 +57,7 @@ impl Document {
     ///
     /// # Errors
     ///
-    /// The first place that is not TOML.
+    /// Names the first place that is not TOML.
     pub fn parse(file: &str, text: &str) -> Result<Self, Error> {
         let (lines, root) = (Lines::of(text), DeTable::parse(text));
         let root = root.map_err(|error| {
@@ -70,22 +70,22 @@ impl Document {
         Ok(Self { file: file.to_owned(), text: text.into(), lines, root: entries(root.get_ref()) })
     }
 
-    /// A document of values that have no lines.
+    /// A document of the values in `table`, which have no lines.
     pub(super) fn of(table: toml::Table) -> Self {
         let root = table.into_iter().map(|(key, value)| (key, Node::set(value))).collect();
         Self { file: String::new(), text: "".into(), lines: Lines::of(""), root }
     }
 
-    /// The whole document.
+    /// The table at the root of the document.
     pub fn root(&self) -> Table<'_> {
         Table { document: self, path: String::new(), offset: Some(0), entries: &self.root }
     }
 
-    /// Gives a key, as `interaction.alpha`, another value; tables above it that are missing are made.
+    /// Sets the value of a dotted key such as `interaction.alpha`; makes the tables above it if they are missing.
     ///
     /// # Errors
     ///
-    /// A part of the key before the last that holds something other than a table.
+    /// If a part of the key before the last is not a table.
     pub fn set(&mut self, key: &str, value: Value) -> Result<(), Error> {
         let (mut entries, mut rest) = (&mut self.root, key);
         while let Some((first, inner)) = rest.split_once('.') {
@@ -105,7 +105,7 @@ impl Document {
         Ok(())
     }
 
-    /// An error of the scene that was read from this document, with the line of each key; other errors unchanged.
+    /// Adds the line of each key to an error of the scene that was read from this document; returns other errors unchanged.
     pub fn located(&self, error: Error) -> Error {
         let Error::Scene(invalid) = error else {
             return error;
@@ -123,7 +123,7 @@ impl Document {
         self.refused(places.collect())
     }
 
-    /// The error of these messages, each with the byte of its line, in the order of lines.
+    /// The error with these messages, sorted by line; each comes with the byte offset of its line.
     pub(super) fn refused(&self, mut found: Vec<(Option<usize>, String)>) -> Error {
         found.sort();
         let problem = |(at, message): (Option<usize>, String)| SceneProblem {
@@ -133,7 +133,7 @@ impl Document {
         Error::Text { file: self.file.clone(), problems: found.into_iter().map(problem).collect() }
     }
 
-    /// The line at a byte of the text, shortened.
+    /// The line that contains the byte `offset` of the text, shortened.
     pub(super) fn line(&self, offset: usize) -> String {
         self.lines.line(&self.text, offset)
     }
@@ -143,44 +143,44 @@ impl Document {
 #[derive(Clone, Debug)]
 pub struct Table<'a> {
     document: &'a Document,
-    /// The path of its keys up to their names, as `x.`; empty for the whole document.
+    /// Prefix of the dotted paths of its keys, such as `x.`; empty for the whole document.
     path: String,
     offset: Option<usize>,
     entries: &'a Entries,
 }
 
 impl<'a> Table<'a> {
-    /// The names of its keys.
+    /// The names of the table's keys.
     pub fn keys(&self) -> impl Iterator<Item = &'a str> {
         self.entries.keys().map(String::as_str)
     }
 
-    /// True if it has the key.
+    /// True if the table has the key `key`.
     pub fn has(&self, key: &str) -> bool {
         self.entries.contains_key(key)
     }
 
-    /// The value of a key, where it is there and of that type. Write sequences of a fixed length as `Vec`: an array takes longer ones too.
+    /// The value of `key` if it has the type `T`, else `None`. Read sequences of a fixed length as `Vec`: an array accepts longer ones too.
     pub fn read<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
         self.value(key)?.try_into().ok()
     }
 
-    /// The value of a key.
+    /// The value of `key`, or `None`.
     pub fn value(&self, key: &str) -> Option<Value> {
         self.entries.get(key)?.value()
     }
 
-    /// All of it.
+    /// The whole table as TOML values.
     pub(super) fn whole(&self) -> Option<toml::Table> {
         values(self.entries)
     }
 
-    /// The table of a key.
+    /// The table at `key`; `None` if there is no table.
     pub fn table(&self, key: &str) -> Option<Table<'a>> {
         self.inner(key, self.entries.get(key)?)
     }
 
-    /// The tables of a key, one at least.
+    /// The array of tables at `key`; `None` if there is none, or if it is empty.
     pub fn tables(&self, key: &str) -> Option<Vec<Table<'a>>> {
         match &self.entries.get(key)?.content {
             Content::Array(nodes) if !nodes.is_empty() => {
@@ -198,7 +198,7 @@ impl<'a> Table<'a> {
         Some(Table { document: self.document, path: format!("{}{key}.", self.path), offset, entries })
     }
 
-    /// The line of a key, or of this table where it is missing; 1 where it was set without a text.
+    /// The line of `key`, or of this table if the key is missing; 1 for values set without a text.
     pub fn line(&self, key: &str) -> usize {
         self.offset(key).map_or(1, |at| self.document.lines.number(at))
     }
@@ -210,7 +210,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// The value as it is written, on one line and shortened.
+    /// The value of `key` as written in the text, on one line and shortened.
     pub fn written(&self, key: &str) -> Option<String> {
         let node = self.entries.get(key)?;
         let written = match &node.place {
@@ -220,7 +220,7 @@ impl<'a> Table<'a> {
         Some(shortened(&written.split_whitespace().collect::<Vec<_>>().join(" ")))
     }
 
-    /// The problem of a key that is missing, or whose value is not `allowed`.
+    /// The problem of a key that is missing or whose value is not allowed; `allowed` says what is.
     pub fn refused(&self, key: &str, allowed: impl std::fmt::Display) -> SceneProblem {
         let line = self.offset(key).map(|at| self.document.lines.number(at));
         SceneProblem { line, message: self.refusal(key, allowed) }

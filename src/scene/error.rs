@@ -1,6 +1,6 @@
-//! Why a scene is refused or a run stops.
+//! Errors of scenes and runs.
 
-/// Why a text is not a scene, a scene cannot be run, or a run stopped.
+/// The reason why a text is not a scene, a scene cannot run, or a run stopped.
 ///
 /// ```
 /// use shearbed::{Error, Plan, scene::{Particles, Scene}};
@@ -19,10 +19,10 @@ pub enum Error {
     Text {
         /// The file's name as given.
         file: String,
-        /// Every mistake that can be seen, in the order of lines; at least one.
+        /// Every mistake found, in the order of lines; at least one.
         problems: Vec<SceneProblem>,
     },
-    /// A scene with values that its keys do not allow, or that do not go together; at least one.
+    /// A scene with values that are not allowed or inconsistent; at least one.
     #[error("{}", joined(.0))]
     Scene(Vec<Invalid>),
     /// A rod's direction would have become NaN or infinite.
@@ -34,17 +34,17 @@ pub enum Error {
         step: u64,
         /// The scene's seed.
         seed: u64,
-        /// The replica, from 0.
+        /// Index of the replica, from 0.
         replica: u64,
-        /// What happened.
+        /// The cause, in words.
         cause: String,
     },
     /// A saved state that belongs to another plan.
     #[error("replica {replica} cannot go on from its saved state: {cause}")]
     Misfit {
-        /// The replica, from 0.
+        /// Index of the replica, from 0.
         replica: u64,
-        /// What does not fit.
+        /// What does not fit, in words.
         cause: &'static str,
     },
     /// A direction or a mean that is not a valid result.
@@ -53,25 +53,25 @@ pub enum Error {
         rod.map_or(String::new(), |rod| format!("rod {rod}, "))
     )]
     NoResult {
-        /// The rod's index, where a single rod is the cause.
+        /// Index of the rod, if a single rod is the cause.
         rod: Option<usize>,
-        /// The output, from 0.
+        /// Index of the output, from 0.
         output: usize,
-        /// `t_over_T` or `strain`.
+        /// Name of the time column: `t_over_T` or `strain`.
         time_name: &'static str,
-        /// The output's time.
+        /// Time of the output, in that unit.
         time: f64,
         /// The scene's seed.
         seed: u64,
-        /// The replica, from 0.
+        /// Index of the replica, from 0.
         replica: u64,
-        /// What is wrong with it.
+        /// The cause, in words.
         cause: String,
     },
 }
 
 impl Error {
-    /// Each mistake of a text or a scene, without file and line; other errors have one message.
+    /// All mistakes of a text or a scene, without file and line; other errors have one message.
     pub fn messages(&self) -> Vec<String> {
         match self {
             Self::Text { problems, .. } => problems.iter().map(|problem| problem.message.clone()).collect(),
@@ -97,21 +97,21 @@ fn joined(invalid: &[Invalid]) -> String {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct SceneProblem {
-    /// The line, from 1; `None` for a value that was set over the file's.
+    /// The line, from 1; `None` for a value set over the file's.
     pub line: Option<usize>,
     /// The key, its value and what is allowed.
     pub message: String,
 }
 
-/// A value of a scene that is not allowed: the key, the value, and what is allowed.
+/// A value of a scene that is not allowed, with its key and what is allowed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Invalid {
-    /// The table and key, as `particles.count`.
+    /// The dotted path of the key, such as `particles.count`.
     pub key: &'static str,
-    /// The value; `None` where the key is missing.
+    /// The value; `None` if the key is missing.
     pub value: Option<String>,
-    /// What is allowed.
+    /// The allowed values, in words.
     pub allowed: String,
 }
 

@@ -6,7 +6,7 @@ use crate::model::flow::VelocityGradient;
 use nalgebra::Matrix3;
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// `[flow]`: one of its three keys.
+/// The flow of a scene, by one of the three keys of `[flow]`.
 ///
 /// ```
 /// use shearbed::scene::{Flow, Scene, Time};
@@ -20,22 +20,22 @@ use serde::{Deserialize, Deserializer, Serialize};
 pub enum Flow {
     /// Plane Couette flow u_2 = G x_1.
     Shear {
-        /// G.
+        /// The shear rate G in 1/s.
         shear_rate_per_s: f64,
     },
-    /// Any flow.
+    /// Any constant velocity gradient.
     Gradient {
-        /// Row i and column j hold ∂u_i/∂x_j.
+        /// The velocity gradient in 1/s; row i and column j hold ∂u_i/∂x_j.
         gradient_per_s: [[f64; 3]; 3],
     },
-    /// One flow after another, for free rods: start-up, reversal, a path line.
+    /// A sequence of flows, for free rods: start-up, reversal, a path line.
     Steps {
-        /// In the order of time; one at least.
+        /// The flows in the order of time; at least one.
         steps: Vec<FlowStep>,
     },
 }
 
-/// A flow that lasts for some strain.
+/// A flow that lasts for a given strain.
 ///
 /// ```
 /// use shearbed::scene::{Flow, FlowStep, Scene, Time};
@@ -46,9 +46,9 @@ pub enum Flow {
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FlowStep {
-    /// Row i and column j hold ∂u_i/∂x_j.
+    /// The velocity gradient in 1/s; row i and column j hold ∂u_i/∂x_j.
     pub gradient_per_s: [[f64; 3]; 3],
-    /// How long, in shear strain ∫(2D:D)^½ dt.
+    /// Duration as a shear strain ∫(2D:D)^½ dt.
     pub strain: f64,
 }
 
@@ -64,12 +64,12 @@ fn is_positive(x: f64) -> bool {
 }
 
 impl FlowStep {
-    /// Plane Couette flow u_2 = G x_1 of this G in 1/s, which may be negative.
+    /// Plane Couette flow u_2 = G x_1 with the shear rate G in 1/s, which may be negative.
     pub fn shear(shear_rate_per_s: f64, strain: f64) -> Self {
         Self { gradient_per_s: [[0.0; 3], [shear_rate_per_s, 0.0, 0.0], [0.0; 3]], strain }
     }
 
-    /// A step as a scene file has it, with one of the two rates; the error is the key that is wrong, and what is allowed.
+    /// Reads a step from its keys in a scene file, with one of the two rates; the error is the wrong key, and what is allowed.
     fn of_keys(mut keys: toml::Table) -> Result<Self, (String, &'static str)> {
         const RATES: [&str; 2] = ["shear_rate_per_s", "gradient_per_s"];
         let wrong = |key: &str, allowed| (key.to_owned(), allowed);
@@ -92,26 +92,26 @@ impl FlowStep {
         step.filter(Self::is_allowed).ok_or(wrong(key, allowed))
     }
 
-    /// The flow; `None` where a component is not finite.
+    /// The velocity gradient; `None` if a component is not finite.
     pub(crate) fn gradient(&self) -> Option<VelocityGradient> {
         VelocityGradient::new(Matrix3::from_fn(|i, j| self.gradient_per_s[i][j]))
     }
 
-    /// (2D:D)^½ in 1/s; NaN where a component is not finite.
+    /// The rate of strain (2D:D)^½ in 1/s; NaN if a component is not finite.
     pub(crate) fn rate_per_s(&self) -> f64 {
         self.gradient().map_or(f64::NAN, |flow| {
-            // Of plane Couette flow without a rounding.
+            // Exactly |G| for plane Couette flow.
             flow.shear_rate_per_s().map_or_else(|| flow.magnitude_per_s(), f64::abs)
         })
     }
 
-    /// True if its strain is finite and > 0, and its rate of strain too.
+    /// True if the strain and its rate are finite and > 0.
     pub(super) fn is_allowed(&self) -> bool {
         is_positive(self.strain) && is_positive(self.rate_per_s())
     }
 }
 
-/// G = 0.5 1/s.
+/// Plane Couette flow with G = 0.5 1/s.
 impl Default for Flow {
     fn default() -> Self {
         Self::Shear { shear_rate_per_s: 0.5 }
@@ -141,7 +141,7 @@ impl From<Flow> for FlowKeys {
 }
 
 impl Flow {
-    /// G of plane Couette flow where it is given as that.
+    /// G in 1/s if the flow is given by its shear rate, else `None`.
     pub fn shear_rate_per_s(&self) -> Option<f64> {
         match self {
             Self::Shear { shear_rate_per_s } => Some(*shear_rate_per_s),
@@ -149,7 +149,7 @@ impl Flow {
         }
     }
 
-    /// The gradient where it is given as that.
+    /// The gradient in 1/s if the flow is given by its gradient, else `None`.
     pub fn gradient_per_s(&self) -> Option<[[f64; 3]; 3]> {
         match self {
             Self::Shear { .. } | Self::Steps { .. } => None,
@@ -157,7 +157,7 @@ impl Flow {
         }
     }
 
-    /// The flows one after another where they are given as that.
+    /// The sequence of flows if the flow is given by steps, else `None`.
     pub fn steps(&self) -> Option<&[FlowStep]> {
         match self {
             Self::Steps { steps } => Some(steps),
@@ -165,7 +165,7 @@ impl Flow {
         }
     }
 
-    /// The flow, of several the first; `None` where a value is not allowed.
+    /// The velocity gradient, of the first flow in a sequence; `None` if a value is not allowed.
     pub(crate) fn gradient(&self) -> Option<VelocityGradient> {
         match self {
             Self::Shear { shear_rate_per_s } => VelocityGradient::plane_couette(*shear_rate_per_s),

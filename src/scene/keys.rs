@@ -1,4 +1,4 @@
-//! What a key of a scene is: its meaning, unit, allowed values and default. The rows are in `table!` blocks, one for each table.
+//! The keys of a scene: meaning, unit, allowed values and default. Their rows are in `table!` blocks, one for each table.
 
 mod field;
 
@@ -15,19 +15,19 @@ use crate::observable::Observable;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Key {
-    /// Its table and name, as `particles.count`.
+    /// The dotted path of the key, such as `particles.count`.
     pub path: &'static str,
-    /// What it means.
+    /// What the key means.
     pub meaning: &'static str,
-    /// Its unit; empty where it has none.
+    /// The unit; empty if there is none.
     pub unit: &'static str,
     /// The allowed values.
     pub holds: Holds,
-    /// Its value where it is not given.
+    /// What applies if the key is not given.
     pub absent: Absent,
 }
 
-/// The value of a key that is not given.
+/// What applies if a key is not given.
 ///
 /// ```
 /// use shearbed::scene::{Absent, keys};
@@ -37,11 +37,11 @@ pub struct Key {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Absent {
-    /// It is required: in every scene, or in a table that is there.
+    /// The key is required: in every scene, or in a table that is given.
     Required,
-    /// It has this value, as TOML.
+    /// The default value, as TOML.
     Default(&'static str),
-    /// It is computed, or another key takes its place: in words.
+    /// The value is computed or given by another key, described in words.
     Other(&'static str),
 }
 
@@ -55,48 +55,48 @@ pub enum Absent {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Holds {
-    /// A table of keys, in words.
+    /// A table of keys, described in words.
     Table(&'static str),
     /// A text.
     Text,
-    /// A whole number.
+    /// An integer.
     Whole {
-        /// The least.
+        /// The smallest allowed value.
         least: u64,
-        /// The most.
+        /// The largest allowed value.
         most: u64,
     },
     /// A finite number > 0.
     Positive,
     /// A finite number ≥ 0.
     NotNegative,
-    /// A number in a range.
+    /// A number in a closed range.
     Between {
-        /// The least.
+        /// The smallest allowed value.
         least: f64,
-        /// The most.
+        /// The largest allowed value.
         most: f64,
     },
     /// Three rows of three finite numbers.
     Gradient,
-    /// Flows one after another.
+    /// A sequence of flows.
     Steps,
     /// Three finite numbers > 0.
     Sides,
     /// `"isotropic"` or two angles.
     Orientation,
-    /// A file with a row for each rod.
+    /// A file with one row per rod.
     Rods,
     /// One of these words.
     OneOf(&'static [&'static str]),
-    /// Observables, each once.
+    /// Observables, without repetition.
     Observables,
     /// Times of outputs.
     Times,
 }
 
 impl Holds {
-    /// True if the number is allowed; false for keys that do not hold a number.
+    /// True if the number `value` is allowed; false for keys that do not hold a number.
     pub fn allows(&self, value: f64) -> bool {
         value.is_finite()
             && match *self {
@@ -109,7 +109,7 @@ impl Holds {
 }
 
 impl std::fmt::Display for Holds {
-    /// What is allowed, in words.
+    /// Writes what is allowed, in words.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Table(words) => f.write_str(words),
@@ -147,13 +147,13 @@ impl std::fmt::Display for Holds {
     }
 }
 
-/// The largest count of rods: indices of rods are 32 bits wide, and 10⁸ rods fill several GB.
+/// The largest number of rods: indices of rods have 32 bits, and 10⁸ rods fill several GB.
 pub const MAX_COUNT: usize = 100_000_000;
-/// The most flows one after another.
+/// The largest number of flows in a sequence.
 pub const MAX_FLOW_STEPS: usize = 1000;
 /// The largest number of replicas.
 pub const MAX_REPLICAS: u64 = 10_000_000;
-/// The most steps or outputs per period, and outputs per unit of strain.
+/// The largest number of steps or outputs per period, or of outputs per unit of strain.
 pub const MAX_PER_UNIT: u64 = 10_000_000;
 /// The largest seed: the largest integer of a TOML file.
 pub const MAX_SEED: u64 = i64::MAX as u64;
@@ -165,9 +165,9 @@ pub(super) const fn whole(least: u64, most: u64) -> Holds {
 /// Steps or outputs per unit of time.
 pub(super) const PER_UNIT: Holds = whole(1, MAX_PER_UNIT);
 
-/// Declares a table of a scene, a row for each key: field, type, value in `Default`, then unit, allowed values, value of a scene file
-/// without the key, and meaning. Makes the struct, its `KEYS`, its reader (`read`), its check (`check`) and its `Serialize`. Keys of type
-/// `Option` are written where they are `Some`; `unwritten if` says when another key is left out.
+/// Declares a table of a scene, with a row for each key: field, type, value in `Default`, then unit, allowed values, value if a scene file
+/// lacks the key, and meaning. Makes the struct, its `KEYS`, its reader (`read`), its check (`check`) and its `Serialize`. Keys of type
+/// `Option` are written if they are `Some`; `unwritten if` says when another key is left out.
 macro_rules! table {
     (
         $(#[$meta:meta])*
@@ -197,7 +197,7 @@ macro_rules! table {
                 absent: $absent,
             }),*];
 
-            /// Reads every key; `None` where one of them is refused.
+            /// Reads every key; `None` if one of them is refused.
             pub(in crate::scene) fn read_keys(reader: &mut $crate::scene::read::Reader<'_>) -> Option<Self> {
                 $(let $field = reader.key(concat!($table, ".", stringify!($field)), $value);)*
                 Some(Self { $($field: $field?,)* })
@@ -223,7 +223,7 @@ macro_rules! table {
 }
 pub(super) use table;
 
-/// A table of a scene with its keys.
+/// A table of a scene and its keys.
 ///
 /// ```
 /// let [flow, ..] = &shearbed::scene::TABLES;
@@ -231,9 +231,9 @@ pub(super) use table;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Table {
-    /// The table itself.
+    /// The key of the table itself.
     pub key: Key,
-    /// Its keys.
+    /// The keys in the table.
     pub keys: &'static [Key],
 }
 
@@ -249,7 +249,7 @@ const fn of(
 
 use Absent::{Other, Required};
 
-/// The one key that is in no table.
+/// The only key outside the tables.
 pub(super) const TITLE: Key = Key {
     path: "title",
     meaning: "a line that says what the scene is",
@@ -270,27 +270,27 @@ pub const TABLES: [Table; 7] = [
     of("output", "what is observed", "a table [output]", Other("its keys' defaults"), Output::KEYS),
 ];
 
-/// The keys of a scene, in the order of the tables.
+/// All keys of a scene, in the order of the tables.
 pub fn keys() -> impl Iterator<Item = &'static Key> + Clone {
     const TITLES: &[Key] = &[TITLE];
     const ALL: &[Table] = &TABLES;
     TITLES.iter().chain(ALL.iter().flat_map(|table| table.keys))
 }
 
-/// The table or key with this path.
+/// The table or key with this path, or `None`.
 pub(crate) fn find(path: &str) -> Option<&'static Key> {
     const ALL: &[Table] = &TABLES;
     keys().chain(ALL.iter().map(|table| &table.key)).find(|key| key.path == path)
 }
 
-/// Checks a value by itself.
+/// Checks a value by itself, and adds an entry to `wrong` if its key does not allow it.
 pub(super) fn check(path: &'static str, value: &impl Field, wrong: &mut Vec<Invalid>) {
     if let Some(key) = find(path).filter(|key| !value.allowed(&key.holds)) {
         wrong.push(Invalid::new(path, value.shown(), key.holds.to_string()));
     }
 }
 
-/// A value that its key does not allow.
+/// The error of a `value` that its key does not allow.
 pub(crate) fn refused(key: &'static str, value: impl ToString) -> Invalid {
     Invalid::new(key, value, find(key).map_or_else(String::new, |key| key.holds.to_string()))
 }

@@ -1,4 +1,4 @@
-//! A scene: the content of a scene file, with units in the names of the keys.
+//! A scene: the content of a scene file; names of keys contain the units.
 
 use crate::model::volume::ControlVolume;
 use crate::observable::Observable;
@@ -30,8 +30,8 @@ pub(crate) use steps::step_maps;
 use time::TimeKeys;
 pub use time::{Time, TimeUnit};
 
-/// A whole scene. The tables and keys are those of the scene file ([`keys()`]). In code, start from the default and change what
-/// differs; [`crate::Plan::new`] checks it.
+/// A whole scene. Tables and keys are those of the scene file ([`keys()`]). In code, start from the default and change what
+/// differs; [`crate::Plan::new`] checks the scene.
 ///
 /// ```
 /// use shearbed::scene::{Interaction, Particles, Scene};
@@ -45,7 +45,7 @@ pub use time::{Time, TimeUnit};
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Scene {
-    /// A line that says what the scene is.
+    /// One line that describes the scene.
     pub title: String,
     /// The imposed velocity gradient.
     pub flow: Flow,
@@ -54,19 +54,19 @@ pub struct Scene {
     pub liquid: Liquid,
     /// The rods.
     pub particles: Particles,
-    /// How rods interact; without it they are free.
+    /// The interaction of rods; `None` for free rods.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interaction: Option<Interaction>,
-    /// How long, and how finely.
+    /// The duration, with the numbers of steps and outputs.
     pub time: Time,
     /// Replicas and seed.
     pub ensemble: Ensemble,
-    /// What is observed.
+    /// The observables, and the outputs at which every rod is saved.
     pub output: Output,
 }
 
 impl<'de> Deserialize<'de> for Scene {
-    /// By the keys of a scene file, as [`parse`].
+    /// Reads the keys of a scene file, as [`parse`] does.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let document = document::Document::of(toml::Table::deserialize(deserializer)?);
         of_document(&document).map_err(|error| serde::de::Error::custom(error.messages().join("; ")))
@@ -119,7 +119,7 @@ table! {
     }
 }
 
-/// How a colliding rod takes its step.
+/// How a colliding rod turns in its step.
 ///
 /// ```
 /// use shearbed::scene::{Interaction, Update};
@@ -131,9 +131,9 @@ table! {
 pub enum Update {
     /// Turn about p × ṗ′ by |ṗ′|Δt.
     Rotation,
-    /// A.14 to the letter, in φ and θ.
+    /// A.14 taken literally, in φ and θ.
     Angles,
-    /// Jeffery's exact step, then a turn about p × (ṗ′ − ṗ) by |ṗ′ − ṗ|Δt: a collision that changes nothing moves nothing.
+    /// Jeffery's exact step, then a turn about p × (ṗ′ − ṗ) by |ṗ′ − ṗ|Δt: a collision without a change of rate adds no turn.
     #[default]
     Kick,
 }
@@ -174,13 +174,13 @@ table! {
 }
 
 impl Output {
-    /// The key that asks for every rod at some output, `rods_at` where both do; `None` if no rods are wanted.
+    /// The key that asks for every rod at some output (`rods_at` if both do); `None` if no key does.
     pub fn rods_key(&self) -> Option<&'static str> {
         let every = self.rods_every.map(|_| "output.rods_every");
         if self.rods_at.is_empty() { every } else { Some("output.rods_at") }
     }
 
-    /// Asks for no single rods.
+    /// Removes the request for every rod at some outputs.
     pub fn drop_rods(&mut self) {
         self.rods_at.clear();
         self.rods_every = None;
@@ -204,7 +204,7 @@ impl Default for Scene {
 }
 
 impl Scene {
-    /// The same scene with every default that is used written out.
+    /// The same scene with all defaults in use written out.
     pub fn resolved(&self) -> Self {
         let mut scene = self.clone();
         scene.time.outputs_per_unit = Some(self.outputs_per_unit());
@@ -214,12 +214,12 @@ impl Scene {
         scene
     }
 
-    /// H₁, H₂ and H₃ where they are given.
+    /// The sides H₁, H₂ and H₃ in mm if they are given.
     pub fn box_mm(&self) -> Option<[f64; 3]> {
         self.interaction.as_ref()?.box_mm
     }
 
-    /// n, rods per cm³ of the control volume: as given, or what count and box make it.
+    /// n, rods per cm³ of the control volume: as given, or from count and box; `None` for free rods.
     pub fn concentration_per_cm3(&self) -> Option<f64> {
         match self.box_mm() {
             Some(sides) => {
@@ -230,7 +230,7 @@ impl Scene {
         }
     }
 
-    /// Sets the number of rods at the same concentration: a box grows or shrinks in proportion.
+    /// Sets the number of rods at the same concentration: a box changes in proportion.
     pub fn set_count(&mut self, count: usize) {
         let grown = libm::cbrt(count as f64 / self.particles.count as f64);
         if let Some(Interaction { box_mm: Some(sides), .. }) = &mut self.interaction {
@@ -239,24 +239,24 @@ impl Scene {
         self.particles.count = count;
     }
 
-    /// μ G n⟨a³⟩ in Pa of plane Couette flow, where the viscosity and the concentration are given: what rods' stresses count in.
+    /// The unit of the rods' stresses, μ G n⟨a³⟩ in Pa, in plane Couette flow; `None` without a viscosity or a concentration.
     pub(crate) fn stress_pa(&self) -> Option<f64> {
         let cubes = self.concentration()? * self.particles.mean_cube();
         Some(self.liquid.viscosity_pa_s? * self.flow.gradient()?.shear_rate_per_s()? * cubes)
     }
 
-    /// n a³, rods per cubed mean rod length.
+    /// n a³, the number of rods per cubed mean rod length; `None` for free rods.
     pub(crate) fn concentration(&self) -> Option<f64> {
         Some(self.concentration_per_cm3()? * (self.particles.length_mm / 10.0).powi(3))
     }
 
-    /// H₁, H₂ and H₃ of interacting rods' control volume.
+    /// The sides H₁, H₂ and H₃ in mm of the control volume; `None` for free rods.
     pub fn sides_mm(&self) -> Option<[f64; 3]> {
         let cube = || Some(self.volume()?.sides().map(|side| side * self.particles.length_mm));
         self.box_mm().or_else(cube)
     }
 
-    /// The control volume of interacting rods, in mean rod lengths.
+    /// The control volume, in mean rod lengths; `None` for free rods.
     pub(crate) fn volume(&self) -> Option<ControlVolume> {
         match self.box_mm() {
             Some(sides) => Some(ControlVolume::of(sides.map(|mm| mm / self.particles.length_mm))),
@@ -264,8 +264,8 @@ impl Scene {
         }
     }
 
-    /// Outputs per unit of time, given or by default: 50 a period or 10 a unit of strain, or where rods interact the largest divisor of
-    /// the steps up to that.
+    /// Outputs per unit of time, given or by default: 50 a period or 10 a unit of strain; if rods interact, the largest divisor
+    /// of the steps up to that.
     pub fn outputs_per_unit(&self) -> u64 {
         self.time.outputs_per_unit.unwrap_or_else(|| {
             let most = self.time.unit.default_outputs();
@@ -275,14 +275,14 @@ impl Scene {
         })
     }
 
-    /// Every value that its key does not allow.
+    /// All values that their keys do not allow.
     pub(crate) fn out_of_range(&self) -> Vec<Invalid> {
         let mut wrong = Vec::new();
         FlowKeys::from(self.flow.clone()).check(&mut wrong);
         self.liquid.check(&mut wrong);
         self.particles.check(&mut wrong);
         if self.particles.physical_aspect_ratio.is_some() {
-            // What a correlation makes of it is checked with the correlation.
+            // The value from a correlation is checked with the correlation.
             wrong.retain(|invalid| invalid.key != "particles.aspect_ratio");
         }
         self.interaction.iter().for_each(|interaction| interaction.check(&mut wrong));

@@ -1,4 +1,4 @@
-//! `[particles]`: the rods, how long and how slender they are, and where they point at the start.
+//! `[particles]`: the rods' number, lengths, aspect ratios and initial directions.
 
 use super::keys::{
     Absent::Default as Otherwise, Absent::Other, Absent::Required, Holds, MAX_COUNT, find, table, whole,
@@ -42,7 +42,7 @@ table! {
 }
 
 impl Particles {
-    /// r_e is given once, by itself or by a cylinder and a formula; directions are given, or a file of rods.
+    /// Reads the table: r_e is given once, directly or by a cylinder and a formula; and directions or a file of rods are given.
     pub(super) fn read(reader: &mut Reader<'_>) -> Option<Self> {
         let r_e = "particles.aspect_ratio";
         let allowed = |key| find(key).map_or_else(String::new, |key| key.holds.to_string());
@@ -60,7 +60,7 @@ impl Particles {
         Some(particles)
     }
 
-    /// ⟨a³⟩ over the cube of `length_mm`: of the rods of a file, or 1 + 3σ² of Gaussian lengths.
+    /// ⟨a³⟩ over the cube of `length_mm`: from the rods of a file, or 1 + 3σ² for Gaussian lengths.
     pub fn mean_cube(&self) -> f64 {
         match self.own().and_then(|own| own.length_mm.as_ref()) {
             Some(own) => {
@@ -71,7 +71,7 @@ impl Particles {
         }
     }
 
-    /// A cylinder where its length over diameter is given, else a spheroid.
+    /// The rods' body for stresses: a cylinder if its length over diameter is given, else a spheroid.
     pub(crate) fn body(&self) -> Body {
         match self.physical_aspect_ratio {
             Some(aspect_ratio) => Body::Cylinder { aspect_ratio },
@@ -79,7 +79,7 @@ impl Particles {
         }
     }
 
-    /// The mean r_e: of the rods of a file, or `aspect_ratio`.
+    /// The mean r_e: that of the rods in a file, or `aspect_ratio`.
     pub fn mean_aspect_ratio(&self) -> f64 {
         match self.own_aspect_ratios() {
             Some(own) => own.iter().sum::<f64>() / own.len() as f64,
@@ -87,7 +87,7 @@ impl Particles {
         }
     }
 
-    /// The least r_e, the scene's and the largest; of a Gaussian one those three standard deviations off.
+    /// The smallest r_e, the scene's and the largest; for Gaussian r_e the extremes are three standard deviations from the mean.
     pub(crate) fn extreme_aspect_ratios(&self) -> [f64; 3] {
         let r = self.aspect_ratio;
         let [least, most] = match self.own_aspect_ratios() {
@@ -99,24 +99,24 @@ impl Particles {
         [least, r, most]
     }
 
-    /// What a file says of each rod.
+    /// The rods of a file, or `None`.
     pub(crate) fn own(&self) -> Option<&OwnRods> {
         self.rods.as_ref()?.own.as_deref()
     }
 
-    /// The r_e of each rod of a file, where they are not all `aspect_ratio`.
+    /// The r_e of each rod in a file; `None` if there is none, or if all equal `aspect_ratio`.
     pub(crate) fn own_aspect_ratios(&self) -> Option<&[f64]> {
         let own = self.own()?.aspect_ratio.as_deref()?;
         own.iter().any(|r| *r != self.aspect_ratio).then_some(own)
     }
 
-    /// The length of each rod of a file, where they are not all `length_mm`.
+    /// The length of each rod in a file, in mm; `None` if there is none, or if all equal `length_mm`.
     pub(crate) fn own_lengths_mm(&self) -> Option<&[f64]> {
         let own = self.own()?.length_mm.as_deref()?;
         own.iter().any(|length| *length != self.length_mm).then_some(own)
     }
 
-    /// φ and θ in degrees of the direction in which all rods start, where they do.
+    /// φ and θ in degrees of the common initial direction; `None` if rods start in different directions.
     pub fn common_start_deg(&self) -> Option<[f64; 2]> {
         let of_file = self.own().is_some_and(|own| own.p.is_some());
         match self.orientation {
@@ -142,12 +142,12 @@ impl Particles {
     }
 }
 
-/// r_e of a cylinder by a formula, where both are given and it gives one.
+/// r_e of a cylinder by a formula; `None` if one of the two is missing, or the formula gives no value.
 pub(crate) fn equivalent(physical: Option<f64>, correlation: Option<Correlation>) -> Option<f64> {
     correlation?.formula().equivalent(physical?)
 }
 
-/// The directions at t = 0.
+/// The initial directions.
 ///
 /// ```
 /// use shearbed::scene::{Orientation, Particles};
@@ -162,13 +162,13 @@ pub(crate) fn equivalent(physical: Option<f64>, correlation: Option<Correlation>
     expecting = "\"isotropic\" or { phi_deg = number, theta_deg = number } is allowed"
 )]
 pub enum Orientation {
-    /// Drawn by eq. 12.
+    /// Random directions, drawn by eq. 12.
     Random(Isotropic),
-    /// The same for every rod.
+    /// The same direction for every rod.
     Given {
-        /// φ from axis 1 towards axis 2.
+        /// φ in degrees, from axis 1 towards axis 2.
         phi_deg: f64,
-        /// θ from axis 3.
+        /// θ in degrees, from axis 3.
         theta_deg: f64,
     },
 }
@@ -179,7 +179,7 @@ impl Default for Orientation {
     }
 }
 
-/// A file that says what each rod is, the same in every replica.
+/// A file with values for each rod, the same in every replica.
 ///
 /// ```
 /// use shearbed::scene::{OwnRods, Particles, RodsFile, Scene};
@@ -195,37 +195,37 @@ impl Default for Orientation {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RodsFile {
-    /// Its name: the core reads no files.
+    /// The file's name; this crate reads no files.
     pub file: String,
-    /// The CRC-32 of the file in hexadecimal digits: where it is given, the file must have it.
+    /// The CRC-32 of the file in hexadecimal digits, which the file must have if it is given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crc32: Option<String>,
-    /// What it has; `None` where nobody has read it yet.
+    /// The content; `None` if the file has not been loaded.
     #[serde(skip)]
     pub own: Option<Arc<OwnRods>>,
 }
 
 impl RodsFile {
-    /// A file of this name that has been read.
+    /// The file named `file` with its content `own`.
     pub fn with(file: &str, own: OwnRods) -> Self {
         Self { file: file.to_owned(), crc32: None, own: Some(own.into()) }
     }
 }
 
-/// What each rod is, as structure of arrays: as many numbers as there are rods, or `None` where that is drawn.
+/// Values of each rod, as structure of arrays, with one element per rod; `None` for values that are drawn.
 ///
 /// ```
 /// assert_eq!(shearbed::scene::OwnRods::default().p, None);
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OwnRods {
-    /// p₁, p₂ and p₃, |p| = 1.
+    /// Directions p₁, p₂ and p₃ with |p| = 1.
     pub p: Option<[Vec<f64>; 3]>,
-    /// r_e.
+    /// Equivalent aspect ratios r_e.
     pub aspect_ratio: Option<Vec<f64>>,
-    /// The full length a.
+    /// Full lengths a in mm.
     pub length_mm: Option<Vec<f64>>,
-    /// The place of the centre in the control volume of interacting rods.
+    /// Positions in mm of the centres of interacting rods in the control volume.
     pub place_mm: Option<[Vec<f64>; 3]>,
 }
 

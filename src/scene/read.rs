@@ -1,4 +1,4 @@
-//! Reading a scene from a document: each key by its row, with every mistake that can be seen at once.
+//! Reads a scene from a document: each key by its row, reporting all mistakes that can be found at once.
 
 #[cfg(test)]
 mod tests;
@@ -7,20 +7,20 @@ use super::document::{self, Document, shortened};
 use super::keys::{Field, Key, TABLES, TITLE, find};
 use super::{Absent, Ensemble, Error, Flow, Interaction, Liquid, Output, Particles, Scene, Time, keys};
 
-/// A byte of the text, and what is wrong there.
+/// A byte offset in the text, and a message.
 type Mistake = (Option<usize>, String);
 
-/// Reads a scene; `file` names the text in errors. Each value is one that its key allows; [`crate::Plan::new`] checks what goes
-/// together, and [`Document::located`] gives its error lines.
+/// Reads a scene; `file` names the text in errors. Every value is checked by itself; [`crate::Plan::new`] checks consistency, and
+/// [`Document::located`] adds the lines to its error.
 ///
 /// # Errors
 ///
-/// Every mistake that can be seen, each with its line.
+/// Every mistake found, each with its line.
 pub fn parse(file: &str, text: &str) -> Result<Scene, Error> {
     of_document(&Document::parse(file, text)?)
 }
 
-/// Reads a scene from a document, in which keys may have been set.
+/// Reads a scene from a document, in which keys may have been changed.
 ///
 /// ```
 /// use shearbed::scene::{document::Document, of_document};
@@ -66,16 +66,16 @@ pub fn of_document(document: &Document) -> Result<Scene, Error> {
     }
 }
 
-/// A table of the document that is read, and the mistakes so far.
+/// Reads a table of the document and collects mistakes.
 pub(super) struct Reader<'a> {
     table: document::Table<'a>,
-    /// Known keys that unknown ones may stand for: those are not reported as missing.
+    /// Known keys for which unknown ones may be misspellings: these are not reported as missing.
     meant: &'a [&'static str],
     wrong: &'a mut Vec<Mistake>,
 }
 
 impl Reader<'_> {
-    /// The value of a key, `default` where it may be left out; `None` where it is refused.
+    /// The value of the key `path`; `default` if an optional key is not given; `None` if the key is refused.
     pub fn key<T: Field>(&mut self, path: &'static str, default: T) -> Option<T> {
         let key = find(path)?;
         match self.table.value(last(path)) {
@@ -84,7 +84,7 @@ impl Reader<'_> {
             None if self.means(path) => (),
             None => self.refuse(path, &key.holds.to_string()),
             Some(value) => {
-                // No key takes a date, which would be read as a text.
+                // No key takes a date, which would otherwise be read as a text.
                 let value = Some(value).filter(|value| !value.is_datetime()).and_then(T::from_toml);
                 if let Some(value) = value.filter(|value| value.allowed(&key.holds)) {
                     return Some(value);
@@ -113,7 +113,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Which of some keys is given, where it is one: several are refused at the first of them, none as `missing`.
+    /// The key of `keys` that is given, if it is the only one. Reports two at the first of them, and none with the message `missing`.
     pub fn one_of<const N: usize>(&mut self, keys: [&'static str; N], missing: &str) -> Option<&'static str> {
         let given: Vec<_> = keys.into_iter().filter(|key| self.has(key)).collect();
         match given.as_slice() {
@@ -127,7 +127,7 @@ impl Reader<'_> {
         None
     }
 
-    /// Refuses the first of a key's tables in which a key is wrong, at its line; true if there is one.
+    /// Reports the first table in the array `path` for which `wrong_key` returns a key, at its line; true if there is one.
     pub fn refuses_table<'t>(
         &mut self,
         path: &str,
@@ -145,7 +145,7 @@ impl Reader<'_> {
         self.table.has(last(path))
     }
 
-    /// True if an unknown key may stand for this one.
+    /// True if an unknown key may be a misspelling of this one.
     pub fn means(&self, path: &str) -> bool {
         self.meant.contains(&path)
     }
@@ -155,10 +155,10 @@ impl Reader<'_> {
     }
 }
 
-/// The most unknown keys that are reported one by one.
+/// The largest number of unknown keys that are reported singly.
 const MOST_UNKNOWN: usize = 20;
 
-/// Reports unknown tables and keys; returns the known ones that they may stand for.
+/// Reports unknown tables and keys; returns the known ones of which they may be misspellings.
 fn unknown_keys(
     document: &Document,
     root: &document::Table<'_>,
@@ -189,14 +189,14 @@ fn unknown_keys(
     unknown.iter().filter_map(|(_, path)| nearest(path)).collect()
 }
 
-/// A key that was set, with its value.
+/// A key that was set without a text, with its value.
 fn written(root: &document::Table<'_>, path: &str) -> String {
     let within = root.table(above(path));
     let written = within.as_ref().unwrap_or(root).written(last(path)).unwrap_or_default();
     format!("{path} = {written}")
 }
 
-/// The known keys beside an unknown one, and the one that it may stand for.
+/// A message that lists the known keys beside an unknown one, and the key that it may be a misspelling of.
 fn unknown_key(path: &str) -> String {
     let known = all_paths().filter(|key| above(key) == above(path));
     let known: Vec<_> = known.map(|key| format!("`{}`", last(key))).collect();
@@ -212,9 +212,9 @@ fn unknown_key(path: &str) -> String {
     format!("unknown key `{}`, expected {expected}{meant}", shortened(last(path)))
 }
 
-/// The key or table whose last word is closest to that of an unknown one.
+/// The key or table whose last part is most similar to that of an unknown one; `None` if none is similar.
 fn nearest(path: &str) -> Option<&'static str> {
-    // Comparing megabytes takes seconds, and a word ten times as long as any key is close to none.
+    // Comparing megabytes takes seconds, and a name ten times as long as any key is similar to none.
     if last(path).len() > 200 {
         return None;
     }
@@ -222,11 +222,11 @@ fn nearest(path: &str) -> Option<&'static str> {
     let is_key = |key: &&str| keys().any(|known| known.path == *key);
     let all = all_paths().filter(|key| above(path).is_empty() || is_key(key));
     let (best, key) = all.map(|key| (likeness(key), key)).reduce(|a, b| if b.0 > a.0 { b } else { a })?;
-    // A letter too many, too few or exchanged leaves more than this in words of five letters.
+    // With one letter missing, added or exchanged, words of five letters are more similar than this.
     (best > 0.85).then_some(key)
 }
 
-/// Keys, then tables.
+/// The paths of all keys, then of all tables.
 fn all_paths() -> impl Iterator<Item = &'static str> {
     const ALL: &[super::Table] = &TABLES;
     keys().map(|key: &Key| key.path).chain(ALL.iter().map(|table| table.key.path))

@@ -1,4 +1,4 @@
-//! Which rods of a file a scene can have.
+//! Checks which rods of a file a scene allows.
 
 use super::{OwnRods, Scene, find};
 
@@ -12,21 +12,21 @@ use super::{OwnRods, Scene, find};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Misfit {
-    /// The rod, from 0.
+    /// Index of the rod, from 0.
     pub rod: usize,
-    /// The column that is at fault.
+    /// Name of the column with the value.
     pub column: &'static str,
-    /// What it has.
+    /// The value of the rod.
     pub value: f64,
-    /// What is allowed.
+    /// The allowed values, in words.
     pub allowed: String,
 }
 
-/// Allowed lengths of single rods over the scene's: their cubes and the sums of these stay finite.
+/// Allowed lengths of single rods over the scene's, such that their cubes and sums of cubes stay finite.
 const OWN_LENGTHS: std::ops::RangeInclusive<f64> = 1e-50..=1e50;
 
 impl Scene {
-    /// The first rod of a file that this scene cannot have; `None` if it can have all. The columns must be as long as `particles.count`.
+    /// The first rod of a file that this scene does not allow, or `None`. The columns must be as long as `particles.count`.
     pub fn misfit(&self, own: &OwnRods) -> Option<Misfit> {
         let key = |path| find(path).map(|key| key.holds);
         let shape = key("particles.aspect_ratio");
@@ -47,7 +47,7 @@ impl Scene {
         let directions = own.p.as_ref().and_then(|[p1, p2, p3]| {
             let squares: Vec<f64> =
                 p1.iter().zip(p2).zip(p3).map(|((a, b), c)| a * a + b * b + c * c).collect();
-            // NaN is not within anything.
+            // NaN fails this comparison too.
             let is_unit = |square: f64| (square - 1.0).abs() <= 16.0 * f64::EPSILON;
             first(&squares, &is_unit, "p1² + p2² + p3²", "1")
         });

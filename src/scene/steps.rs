@@ -1,4 +1,4 @@
-//! The steps of interacting rods: how many by default, and which is too long.
+//! The time steps of interacting rods: their default number and their largest length.
 
 use super::{Scene, TimeUnit};
 use crate::model::flow::VelocityGradient;
@@ -9,21 +9,21 @@ use nalgebra::Matrix3;
 /// Steps per period come in multiples of this, so that the default outputs fall on steps.
 const MULTIPLE: u64 = 50;
 
-/// The longest strain per step GΔt that resolves the motion of interacting rods: it leaves X̄₁ an error of 0.003 at most
-/// (measured, `docs/src/theory/time-step.md`). 0.37 for short rods, 4.4/r_e for longer ones, 0.09 for the longest.
+/// The longest strain per step GΔt that resolves the motion of interacting rods, with an error of X̄₁ of at most 0.003
+/// (measured, `docs/src/theory/time-step.md`): 0.37 for short rods, 4.4/r_e for longer ones, 0.09 for the longest.
 pub fn resolved_strain(aspect_ratio: f64) -> f64 {
     (4.4 / aspect_ratio).clamp(0.09, 0.37)
 }
 
 impl Scene {
-    /// The number of outputs, the one at t = 0 included.
+    /// The number of outputs, including that at t = 0.
     pub(crate) fn outputs(&self) -> usize {
         let all = self.time.duration * self.outputs_per_unit() as f64;
-        // The slack takes in a product that was rounded down.
+        // The slack allows for a product that was rounded down.
         1 + (all * (1.0 + 4.0 * f64::EPSILON)).floor() as usize
     }
 
-    /// The output at this time; `None` where it is farther than 1e-5 of their distance from all.
+    /// The index of the output at `time`; `None` if no output is within 1e-5 of the output interval.
     pub(crate) fn output_at(&self, time: f64) -> Option<usize> {
         let place = time * self.outputs_per_unit() as f64;
         let near = (place - place.round()).abs() <= 1e-5 && place.round() < self.outputs() as f64;
@@ -35,14 +35,14 @@ impl Scene {
         self.time.steps_per_unit.unwrap_or_else(|| self.resolving_steps())
     }
 
-    /// The strain of one step, or twice the angle in rad by which the liquid turns in it where that is larger: GΔt in plane
-    /// Couette flow.
+    /// The strain of one step, or twice the angle in rad by which the liquid rotates in it if that is larger; GΔt in plane Couette
+    /// flow.
     pub fn motion_per_step(&self) -> f64 {
         self.motion_per_unit() / self.steps_per_unit() as f64
     }
 
-    /// The smallest number of steps (a multiple of the outputs, where they are given, and for periods of 50) with a strain per
-    /// step of at most [`resolved_strain`] of the rods' mean r_e: 200 a period at r_e = 11.6. `u64::MAX` where there is none.
+    /// The smallest number of steps (a multiple of the outputs, if given, and of 50 for periods) with a strain per step of at most
+    /// [`resolved_strain`] of the rods' mean r_e: 200 a period at r_e = 11.6. `u64::MAX` if there is none.
     pub fn resolving_steps(&self) -> u64 {
         let outputs = self.time.outputs_per_unit;
         let unit = match self.time.unit {
@@ -56,14 +56,14 @@ impl Scene {
         let resolved = resolved_strain(self.particles.mean_aspect_ratio());
         let multiples = (motion / (resolved * unit as f64)).ceil().max(1.0) as u64;
         let steps = multiples.saturating_mul(unit);
-        // The quotient above is rounded, and may have come out as a whole number that is just too small.
+        // The rounded quotient may be an integer that is just too small.
         match motion / steps as f64 <= resolved {
             true => steps,
             false => steps.saturating_add(unit),
         }
     }
 
-    /// The seconds of a period of the mean aspect ratio or of a unit of strain, as the time is given; NaN where there is no period.
+    /// Seconds per unit of the scene's time: a period of the mean aspect ratio or a unit of strain. NaN if there is no period.
     pub(crate) fn seconds_per_unit(&self, flow: &VelocityGradient) -> f64 {
         match self.time.unit {
             TimeUnit::Strain => 1.0 / flow.magnitude_per_s(),
@@ -73,7 +73,7 @@ impl Scene {
         }
     }
 
-    /// The larger of strain and turn of the liquid in a period or a unit of strain.
+    /// The larger of the strain and twice the rotation of the liquid, in rad, per unit of the scene's time.
     pub(crate) fn motion_per_unit(&self) -> f64 {
         let r = self.particles.aspect_ratio;
         let Some(flow) = self.flow.gradient().filter(|flow| flow.shear_rate_per_s().is_none()) else {
@@ -90,8 +90,8 @@ impl Scene {
     }
 }
 
-/// The map q = M p of one step of a scene's rods that have these aspect ratios, and a bound on its error against its size; `None`
-/// where the steps are of a period that there is not.
+/// For each aspect ratio, the map q = M p of one step of the scene's rods, and a bound on its relative error; `None` for steps of a
+/// period if the flow has none.
 pub(crate) fn step_maps<'a>(
     scene: &Scene,
     flow: &'a VelocityGradient,

@@ -1,11 +1,11 @@
-//! `[time]`: how long a scene runs, and in how many steps and outputs.
+//! `[time]`: a scene's duration, and its numbers of steps and outputs.
 
 use super::keys::{Absent::Other, Holds, PER_UNIT, table};
 use super::read::Reader;
 use crate::motion::Span;
 use serde::Serialize;
 
-/// `[time]`: a duration in one unit, with steps and outputs per that unit. One period by default.
+/// `[time]`: a duration in one unit, with steps and outputs per unit. By default one period.
 ///
 /// ```
 /// use shearbed::scene::{Time, TimeUnit};
@@ -15,13 +15,13 @@ use serde::Serialize;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(into = "TimeKeys")]
 pub struct Time {
-    /// What the duration counts.
+    /// The unit of the duration.
     pub unit: TimeUnit,
-    /// How many of them: `periods` or `strain`.
+    /// The duration in that unit: the key `periods` or `strain`.
     pub duration: f64,
-    /// Steps per unit of an interacting scene (`steps_per_period`, `steps_per_strain`); by default as many as resolve the motion.
+    /// Steps of interacting rods per unit (`steps_per_period`, `steps_per_strain`); by default as many as resolve the motion.
     pub steps_per_unit: Option<u64>,
-    /// Outputs per unit (`outputs_per_period`, `outputs_per_strain`); 50 a period or 10 a unit of strain by default.
+    /// Outputs per unit (`outputs_per_period`, `outputs_per_strain`); by default 50 a period or 10 a unit of strain.
     pub outputs_per_unit: Option<u64>,
 }
 
@@ -40,7 +40,7 @@ pub enum TimeUnit {
 }
 
 impl TimeUnit {
-    /// Outputs per unit by default.
+    /// Default number of outputs per unit.
     pub(crate) fn default_outputs(self) -> u64 {
         match self {
             Self::Period => 50,
@@ -48,7 +48,7 @@ impl TimeUnit {
         }
     }
 
-    /// A quotient of numbers of this unit.
+    /// The span of `number`/`over` units.
     pub(crate) fn span(self, number: f64, over: f64) -> Span {
         match self {
             Self::Period => Span::Periods(number, over),
@@ -134,12 +134,12 @@ impl From<Time> for TimeKeys {
 }
 
 impl Time {
-    /// A number of periods of the mean aspect ratio, with default steps and outputs.
+    /// A duration in periods of the mean aspect ratio, with default steps and outputs.
     pub fn periods(duration: f64) -> Self {
         Self { unit: TimeUnit::Period, duration, steps_per_unit: None, outputs_per_unit: None }
     }
 
-    /// A shear strain, with default steps and outputs.
+    /// A duration as a shear strain, with default steps and outputs.
     pub fn strain(duration: f64) -> Self {
         Self { unit: TimeUnit::Strain, ..Self::periods(duration) }
     }

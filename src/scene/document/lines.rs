@@ -1,9 +1,9 @@
-//! Places in a text, and the lines that they are in.
+//! Byte offsets in a text, and the lines that contain them.
 
 use toml::de::DeTable;
 
-/// The byte at which the TOML parser stopped. It gives no place for a key with too many parts: then, the start of the first
-/// line up to which the text has that error.
+/// The byte at which the TOML parser stopped. The parser gives no place for a key with too many parts; then this is the start of the
+/// first line up to which the text has that error.
 pub(super) fn stopped_at(text: &str, error: &toml::de::Error) -> usize {
     let placeless = |end: usize| {
         let (_, errors) = DeTable::parse_recoverable(&text[..end]);
@@ -20,7 +20,7 @@ pub(super) fn stopped_at(text: &str, error: &toml::de::Error) -> usize {
     }
 }
 
-/// The lines of a text: where each starts.
+/// The byte offset at which each line of a text starts.
 #[derive(Clone, Debug)]
 pub(super) struct Lines {
     starts: Vec<usize>,
@@ -33,18 +33,18 @@ impl Lines {
         Self { starts: std::iter::once(0).chain(after).collect() }
     }
 
-    /// The number of the line of the byte `offset`, from 1.
+    /// The number, from 1, of the line that contains the byte `offset`.
     pub fn number(&self, offset: usize) -> usize {
         self.starts.partition_point(|start| *start <= offset)
     }
 
-    /// The line of the byte `offset`, without the space around it; the start of a long one.
+    /// The line that contains the byte `offset`, trimmed and shortened.
     pub fn line(&self, text: &str, offset: usize) -> String {
         let start = self.starts[self.number(offset) - 1];
         if start == text.len() {
             return "(end of file)".to_owned();
         }
-        // No further than is shown: many keys may stand in one line.
+        // Searches no further than is shown: one line may have many keys.
         let rest = text[start..].char_indices();
         let end = |(at, c): &(usize, char)| *c == '\n' || *at > 4 * SHOWN;
         let end = rest.clone().find(end).map_or(text.len(), |(at, _)| start + at);
@@ -53,10 +53,10 @@ impl Lines {
     }
 }
 
-/// The most characters that are shown of a line or a value.
+/// The largest number of characters shown of a line or a value.
 const SHOWN: usize = 160;
 
-/// The start of a long text, with a mark that there is more.
+/// The text, cut to the length shown; a mark stands for the rest.
 pub(in crate::scene) fn shortened(text: &str) -> String {
     match text.char_indices().nth(SHOWN) {
         Some((end, _)) => format!("{} …", &text[..end]),
@@ -66,7 +66,7 @@ pub(in crate::scene) fn shortened(text: &str) -> String {
 
 #[cfg(test)]
 thread_local! {
-    /// Bytes of texts that were looked through on this thread.
+    /// Number of bytes of text searched on this thread.
     pub(in crate::scene) static LOOKED_THROUGH: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
 }
 

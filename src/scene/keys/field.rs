@@ -1,33 +1,33 @@
-//! The types that a key can have.
+//! The types that the value of a key can have.
 
 use super::{Holds, MAX_FLOW_STEPS};
 use crate::observable::Observable;
 use crate::scene::document::{as_toml, decimal};
 use crate::scene::{FlowStep, Orientation, RodsFile, Update};
 
-/// A type that a key can have.
+/// A type that the value of a key can have.
 pub(in crate::scene) trait Field: serde::de::DeserializeOwned {
-    /// The value from TOML; `None` where it has another type.
+    /// The value from TOML; `None` if it has another type.
     fn from_toml(value: toml::Value) -> Option<Self> {
         value.try_into().ok()
     }
 
-    /// True if a key that allows `holds` allows it.
+    /// True if `holds` allows the value.
     fn allowed(&self, _holds: &Holds) -> bool {
         true
     }
 
-    /// In an error.
+    /// The value as it appears in an error.
     fn shown(&self) -> String {
         String::new()
     }
 
-    /// False for a key that is left out.
+    /// False if the key is not given.
     fn is_given(&self) -> bool {
         true
     }
 
-    /// The value where a scene file lacks the key.
+    /// The value if a scene file lacks the key.
     fn absent(default: Self) -> Self {
         default
     }
@@ -109,7 +109,7 @@ impl Field for Orientation {
 }
 
 impl Field for [f64; 3] {
-    /// Three of a list: reading into an array would ignore what follows.
+    /// Reads a list of three: reading into an array would ignore further elements.
     fn from_toml(value: toml::Value) -> Option<Self> {
         Vec::from_toml(value)?.try_into().ok()
     }
@@ -151,7 +151,7 @@ impl Field for Vec<FlowStep> {
     }
 }
 
-/// Times of outputs: that they are outputs depends on other keys.
+/// Times of outputs. Whether they coincide with outputs depends on other keys.
 impl Field for Vec<f64> {
     fn allowed(&self, _: &Holds) -> bool {
         self.iter().all(|time| time.is_finite() && *time >= 0.0) && self.is_sorted_by(|a, b| a < b)

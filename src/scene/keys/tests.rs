@@ -1,9 +1,9 @@
-//! What each row promises.
+//! Tests that the rows of the tables of keys hold.
 
 use super::*;
 use crate::scene;
 
-/// The least text with every required key, and `line` in its table.
+/// The shortest scene with every required key, and the key `path` with `value` in its table.
 fn text(path: &str, value: &str) -> String {
     let (table, name) = path.rsplit_once('.').unwrap_or(("", path));
     let mut text = "title = \"t\"\n".to_owned();

@@ -1,4 +1,4 @@
-//! How much of a text is looked through, and shown.
+//! Tests how much of a text is searched and shown.
 
 use super::*;
 use crate::scene::SceneProblem;
@@ -7,7 +7,7 @@ use crate::scene::document::LOOKED_THROUGH;
 const SCENE: &str = "title = \"t\"\nflow = { shear_rate_per_s = 1 }\ntime = { periods = 1 }\n[particles]\ncount = 10\n\
     length_mm = 1\naspect_ratio = 5\norientation = \"isotropic\"\n";
 
-/// What is said of a text, and how many bytes were looked through for it.
+/// The problems of a text, their messages, and the number of bytes searched for them.
 fn refused(text: &str) -> (Vec<SceneProblem>, String, usize) {
     LOOKED_THROUGH.set(0);
     let error = parse("s.toml", text).unwrap_err();
@@ -16,7 +16,7 @@ fn refused(text: &str) -> (Vec<SceneProblem>, String, usize) {
     (problems, words, LOOKED_THROUGH.get())
 }
 
-/// In lines of their own, and all in one line.
+/// Tested with keys in separate lines, and with all keys in one line.
 #[test]
 fn of_many_unknown_keys_the_first_have_a_line_each_and_the_rest_one() {
     let keys: Vec<_> = (0..40_000).map(|k| format!("k{k} = 1")).collect();
@@ -29,10 +29,10 @@ fn of_many_unknown_keys_the_first_have_a_line_each_and_the_rest_one() {
         assert!(problems[0].message.contains("unknown key `k0`"), "{error}");
         let rest = format!("\ns.toml:{next}: 39980 more unknown keys from here on");
         assert!(error.ends_with(&rest), "{error}");
-        // Once for the lines, and some of each line that is shown.
+        // The whole text once for the lines, and a part of each line that is shown.
         assert!(looked_through < text.len() + 1000 * MOST_UNKNOWN, "{looked_through}");
     }
-    // As many as have a line of their own.
+    // As many unknown keys as are reported singly.
     let few = keys[..MOST_UNKNOWN].join("\n");
     let (problems, error, _) = refused(&format!("{SCENE}{few}"));
     assert_eq!(problems.len(), MOST_UNKNOWN);
@@ -57,7 +57,7 @@ fn of_a_long_line_or_value_the_start_is_shown() {
             assert!(!problem.message.contains(&long[..500]), "{}", problem.message);
         }
     }
-    // What is not long is shown whole.
+    // A short value is shown whole.
     let (_, error, _) = refused(&SCENE.replace("count = 10", "count = \"x\""));
     assert!(error.contains("particles.count = \"x\" is not allowed"), "{error}");
 }
