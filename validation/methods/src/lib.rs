@@ -1,8 +1,8 @@
-//! What the suite of shearbed computes with, and what it grades beside other programs: integrators of a free rod's motion, closures
-//! and models of orientation tensors, rods that diffuse, and the least squares of fits. A crate of its own, because it is optimised
-//! and the suite is not.
+//! Numerical methods of the validation suite: integrators of a free rod's motion, closures and models of orientation tensors, rods that
+//! diffuse, and the least squares of fits. Some of them are graded beside other programs. They form a crate of their own because it is
+//! optimised and the suite is not.
 //!
-//! None of this judges the simulator: that is the oracles'.
+//! Nothing here judges the simulator; that is done by the oracles.
 
 pub mod coefficients;
 pub mod integrators;
@@ -11,7 +11,7 @@ pub mod projections;
 pub mod tensors;
 pub mod textbook;
 
-/// A plain sum, in lanes that the compiler may keep side by side: what the machine must do at the least with an array.
+/// A plain sum, in lanes that the compiler may keep side by side: the least work that a machine can do with an array.
 pub fn plain_sum(values: &[f64]) -> f64 {
     let mut lanes = [0.0; 8];
     for chunk in values.chunks_exact(8) {

@@ -1,9 +1,9 @@
-//! Means of |p_i| of rods that were isotropic, by a formula that the oracles do not use.
+//! Means of |p_i| of initially isotropic rods, by a formula that the oracles do not use.
 
 use nalgebra::{Matrix3, Vector3};
 
-/// ⟨|p_i|⟩ of directions M p(0)/|M p(0)| where p(0) is isotropic: (1/π) ∫ (adj N)_ii^½ x^½/det N d(ln x), N = (M Mᵀ)⁻¹ + x
-/// with det M = 1, by the trapezoid rule, which leaves e^(−2π²/h).
+/// ⟨|p_i|⟩ of directions M p(0)/|M p(0)| for isotropic p(0): (1/π) ∫ (adj N)_ii^½ x^½/det N d(ln x), N = (M Mᵀ)⁻¹ + x with
+/// det M = 1, by the trapezoid rule with an error of e^(−2π²/h).
 pub fn projections(map: &Matrix3<f64>) -> Option<Vector3<f64>> {
     const STEP: f64 = 0.5;
     let map = map / map.determinant().abs().cbrt();

@@ -1,5 +1,5 @@
-//! Synthetic rods that turn by Jeffery's equation and by rotary diffusion: Folgar & Tucker's model itself, rod by rod. It shares
-//! no code with the core.
+//! Synthetic rods that turn by Jeffery's equation and by rotary diffusion: Folgar & Tucker's model itself, rod by rod, sharing no
+//! code with the core.
 
 use super::{Means, Watched};
 use nalgebra::{Matrix3, Vector3};
@@ -7,10 +7,10 @@ use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Dxsm;
 
-/// What turns the rods, in strain of u_2 = x_1.
+/// Parameters of the rods' motion in u_2 = x_1, where time is strain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Diffusion {
-    /// Λ.
+    /// The shape factor Λ.
     pub shape_factor: f64,
     /// Rotary diffusivity over G; C_I δ is Folgar & Tucker's.
     pub diffusivity: Matrix3<f64>,
@@ -28,7 +28,7 @@ impl Diffusion {
 /// The rods of one replica.
 #[derive(Clone, Debug)]
 pub struct Diffusing {
-    /// Their directions.
+    /// The rods' directions.
     pub rods: Vec<Vector3<f64>>,
     half: Matrix3<f64>,
     diffusion: Diffusion,
@@ -37,7 +37,7 @@ pub struct Diffusing {
     rng: Pcg64Dxsm,
 }
 
-/// exp((W + ΛD)γ): p goes along its product with p, over a strain γ. (W + ΛD)² is −ω² in axes 1 and 2.
+/// exp((W + ΛD)γ) over a strain γ: p turns to the direction of its product with p. (W + ΛD)² is −ω² in axes 1 and 2.
 pub fn free(shape_factor: f64, strain: f64) -> Matrix3<f64> {
     let omega = 0.5 * (1.0 - shape_factor * shape_factor).sqrt();
     let (s, c) = (omega * strain).sin_cos();
@@ -100,13 +100,13 @@ mod tests {
         rods.rods.fill(Vector3::z());
         (0..500).for_each(|_| rods.step());
         let mean = rods.rods.iter().map(|p| p.z).sum::<f64>() / 20_000.0;
-        // p₃ is within 1: five standard errors of 20 000 are 0.035 at most; the step's own error is 3·2C_I·0.01 = 0.6 %.
+        // |p₃| ≤ 1: five standard errors of 20 000 rods are 0.035 at most; the step's own error is 3·2C_I·0.01 = 0.6 %.
         assert!((mean - (-1.0_f64).exp()).abs() < 0.035 + 0.006, "{mean}");
     }
 
     #[test]
     fn free_rods_keep_their_orbits() {
-        // A.5 for r_e = 3: r_e²p₁² + p₂² over p₃² stays.
+        // A.5 for r_e = 3: the ratio of r_e²p₁² + p₂² to p₃² is constant.
         let p = Vector3::new(0.2, 0.5, 0.7);
         let c = |p: Vector3<f64>| (9.0 * p.x * p.x + p.y * p.y) / (p.z * p.z);
         for strain in [0.1, 1.0, 7.0] {

@@ -1,5 +1,5 @@
-//! What collisions do to ⟨pp⟩, as fibre-orientation codes have it: Folgar & Tucker's coefficient C_I, with ⟨pppp⟩ measured
-//! and not closed.
+//! The effect of collisions on ⟨pp⟩ in the terms of fibre-orientation codes: Folgar & Tucker's coefficient C_I, with ⟨pppp⟩ measured
+//! instead of closed.
 //!
 //! In plane Couette flow, per unit of strain,
 //!   da/dγ = W·a − a·W + Λ(D·a + a·D − 2 ⟨pp p₁p₂⟩) + J,
@@ -21,7 +21,7 @@ use shearbed_oracle::spheroid;
 /// Means over rods and over a window of time, of one replica or several.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Means {
-    /// ⟨p_i p_j⟩.
+    /// The tensor ⟨p_i p_j⟩.
     pub second: Matrix3<f64>,
     /// ⟨p_i p_j p_k p_l⟩.
     pub fourth: Fourth,
@@ -39,7 +39,7 @@ impl Default for Means {
 }
 
 impl Means {
-    /// The means of several replicas, or of all but one.
+    /// The means of several replicas, leaving out the one with index `without`.
     pub fn of(all: &[Self], without: Option<usize>) -> Self {
         let kept = all.iter().enumerate().filter(|(k, _)| Some(*k) != without);
         let count = (all.len() - usize::from(without.is_some())) as f64;
@@ -58,7 +58,7 @@ impl Means {
         Matrix3::from_fn(|i, j| self.fourth.at(i, j, 0, 1))
     }
 
-    /// 2(1 − 3a): what rotary diffusion does for C_I = 1.
+    /// 2(1 − 3a): the effect of rotary diffusion with C_I = 1.
     pub fn diffusion(&self) -> Matrix3<f64> {
         (Matrix3::identity() - self.second * 3.0) * 2.0
     }
@@ -95,13 +95,13 @@ impl Means {
         (beta, (self.gain - fitted).norm() / self.gain.norm())
     }
 
-    /// The stress of the rods over μ_fiber G: σ₁₂, N₁ = σ₂₂ − σ₁₁ and N₂ = σ₁₁ − σ₃₃.
+    /// The rods' stress over μ_fiber G: σ₁₂, N₁ = σ₂₂ − σ₁₁ and N₂ = σ₁₁ − σ₃₃.
     pub fn stress(&self) -> [f64; 3] {
         let s = self.sheared();
         [s[(0, 1)], s[(1, 1)] - s[(0, 0)], s[(0, 0)] - s[(2, 2)]]
     }
 
-    /// σ₁₂/(μG n a³) of rods that are spheroids of finite r_e.
+    /// σ₁₂/(μG n a³) of spheroids with the finite aspect ratio r_e.
     pub fn spheroids(&self, aspect_ratio: f64) -> f64 {
         let in_plane = self.second[(0, 0)] + self.second[(1, 1)];
         spheroid::shear_stress(aspect_ratio, self.sheared()[(0, 1)], in_plane)

@@ -1,4 +1,4 @@
-//! Methods of other people's libraries that choose their own steps.
+//! Methods with step control, from libraries of other authors.
 
 use super::{Failure, Integrator, RodProblem, Theory};
 use differential_equations::linalg::Matrix;
@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, System};
 
-/// Steps after which a method gives up: a tenth of a second, about.
+/// Number of steps after which a method gives up; they take about a tenth of a second.
 const MOST_STEPS: usize = 100_000;
 
 impl System<f64, Vector3<f64>> for RodProblem {
@@ -16,12 +16,12 @@ impl System<f64, Vector3<f64>> for RodProblem {
     }
 }
 
-/// Explicit Runge–Kutta of order 8 with its own step (Dormand & Prince 8(5,3), Hairer's DOP853) of `ode_solvers`.
+/// Explicit Runge–Kutta of order 8 with step control (Dormand & Prince 8(5,3), Hairer's DOP853) from `ode_solvers`.
 pub fn dormand_prince() -> Integrator {
     Integrator::new("Dormand–Prince 8(5,3)", Theory::Adaptive, |problem, start, setting| {
         let (tolerance, end) = (setting.tolerance()?, problem.strain());
         let mut solver = Dop853::new(*problem, 0.0, end, end, start.into_inner(), tolerance, tolerance);
-        // Steps, not dense output: the last one ends at `end`.
+        // Output at steps, not dense: the last step ends at `end`.
         solver.set_output(OutputType::Sparse);
         solver.integrate().map_err(|error| Failure::Gave(error.to_string()))?;
         solver.y_out().last().copied().ok_or(Failure::NotFinite)
@@ -43,12 +43,12 @@ impl ODE<f64, [f64; 3]> for RodProblem {
     }
 }
 
-/// Implicit Runge–Kutta of order 5 for stiff equations with its own step (Radau IIA, Hairer's RADAU5) of
+/// Implicit Runge–Kutta of order 5 for stiff equations with step control (Radau IIA, Hairer's RADAU5) from
 /// `differential-equations`.
 pub fn radau() -> Integrator {
     Integrator::new("Radau IIA 5", Theory::Adaptive, |problem, start, setting| {
         let (tolerance, end) = (setting.tolerance()?, problem.strain());
-        // One tolerance for each component: version 0.7 rescales a single one as often as there are components.
+        // One tolerance per component: version 0.7 rescales a single tolerance once per component.
         let method =
             ImplicitRungeKutta::radau5().rtol([tolerance; 3]).atol([tolerance; 3]).max_steps(MOST_STEPS);
         let solution = IVP::ode(problem, 0.0, end, start.into_inner().into())
@@ -66,7 +66,7 @@ pub fn radau() -> Integrator {
 mod tests {
     use super::*;
 
-    /// Radau would find its way with another slope too, in more steps.
+    /// Radau would converge with a wrong Jacobian too, in more steps.
     #[test]
     fn the_slope_that_radau_is_given_is_the_problems() {
         let (problem, start) = RodProblem::mid_flip(5.0);

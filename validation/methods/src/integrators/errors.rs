@@ -1,25 +1,25 @@
-//! How far a direction is from the closed form.
+//! The errors of a direction against the closed form.
 
 use super::RodProblem;
 use nalgebra::{UnitVector3, Vector3};
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 
-/// The errors of a direction at the end of a problem. All but the length are of the direction alone.
+/// The errors of a direction at the end of a problem. Only `length` depends on |p|.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Errors {
-    /// The angle to the reference in rad, p and −p being the same rod, in [0, π/2].
+    /// The angle to the reference in rad, in [0, π/2]; p and −p are the same rod.
     pub orientation_rad: f64,
-    /// How far C_b = C/(1 + C) is from its value at the start (eq. 13), in [0, 1]: C itself may be infinite.
+    /// |C_b − C_b(0)| of C_b = C/(1 + C) (eq. 13), in [0, 1]; C itself may be infinite.
     pub orbit_constant: f64,
-    /// How far the phase is off, in periods, in [0, ¼]: half a period is the same rod.
+    /// Error of the phase in periods, in [0, ¼]: half a period gives the same rod.
     pub phase_turns: f64,
-    /// How far |p| is from 1.
+    /// The deviation of |p| from 1.
     pub length: f64,
 }
 
 impl Errors {
-    /// The errors of the direction `end`, with its length.
+    /// The errors of `end`, the computed direction with its length.
     pub fn of(end: &Vector3<f64>, problem: &RodProblem, start: &UnitVector3<f64>) -> Self {
         let reference = problem.reference(start);
         let r = problem.aspect_ratio;
@@ -33,12 +33,12 @@ impl Errors {
     }
 }
 
-/// The angle in rad between two directions of any length, p and −p being the same: accurate near 0 and near π/2.
+/// The angle in rad between two directions of any length, p and −p being the same rod; accurate near 0 and near π/2.
 pub fn apart_rad(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
     a.cross(b).norm().atan2(a.dot(b).abs())
 }
 
-/// κ with tan φ = r_e tan κ, the phase that grows evenly (A.4).
+/// The phase κ in rad, with tan φ = r_e tan κ; it grows uniformly in time (A.4).
 fn phase(p: &Vector3<f64>, aspect_ratio: f64) -> f64 {
     (p.y / aspect_ratio).atan2(p.x)
 }
@@ -64,7 +64,7 @@ mod tests {
         }
     }
 
-    /// The other end of a rod, and a rod that is three tenths of a turn ahead, which is two tenths behind its other end.
+    /// Tests the other end of a rod, and a rod that is 0.3 turns ahead and so 0.2 turns behind its other end.
     #[test]
     fn a_phase_is_told_head_or_tail_alike() {
         let r = 4.0;

@@ -1,4 +1,4 @@
-//! Integrators that take no steps.
+//! Integrators without time steps.
 
 use super::{Integrator, RodProblem, Theory};
 use nalgebra::{UnitVector3, Vector3};
@@ -15,7 +15,7 @@ pub fn exact_propagator() -> Integrator {
     .keeping_length()
 }
 
-/// A.4 for φ, then A.5 for θ, as the paper has them: what the exact propagator does without angles.
+/// A.4 for φ, then A.5 for θ, as the paper has them; the exact propagator does the same without angles.
 pub fn closed_form() -> Integrator {
     Integrator::new("A.4 and A.5 in angles", Theory::Exact, |problem, start, _| Ok(in_angles(problem, start)))
         .keeping_length()
@@ -23,7 +23,7 @@ pub fn closed_form() -> Integrator {
 
 fn in_angles(problem: &RodProblem, start: &UnitVector3<f64>) -> Vector3<f64> {
     let r = problem.aspect_ratio;
-    // A.5 gives θ up to π/2: of p and −p, the one in that half.
+    // A.5 gives θ up to π/2: take that one of p and −p.
     let p = if start.z < 0.0 { -*start } else { *start };
     let before = (p.y / r).atan2(p.x) / TAU;
     let phi = phi_rad(r, before + problem.turns);
@@ -56,7 +56,7 @@ mod tests {
         assert!((last - 2.0 * TAU).abs() < 1e-12);
     }
 
-    /// Whole turns are taken off before they are multiplied by π: a long rod flips so fast that their rounding would show.
+    /// Whole turns are subtracted before the factor π: a long rod flips so fast that their rounding would be visible.
     #[test]
     fn many_turns_cost_the_phase_no_digits() {
         let (k, x) = (f64::from(1 << 20), 1.0 / f64::from(1 << 20));

@@ -3,7 +3,7 @@
 use super::Integrator;
 use std::ops::{Add, Mul};
 
-/// y + h f(y).
+/// Euler's step y + h f(y).
 #[inline]
 pub fn explicit_euler<Y>(f: impl Fn(Y) -> Y, y: Y, h: f64) -> Y
 where

@@ -1,4 +1,4 @@
-//! The one type of all integrators, and how to make one from a step, a closed form or a library.
+//! The type of all integrators, and how to make one from a step, a closed form or a library.
 
 use super::{Failure, RodProblem, Setting, Theory};
 use nalgebra::{SVector, UnitVector3, Vector2, Vector3};
@@ -9,18 +9,18 @@ type AdvanceAll =
 
 /// A method that turns a free rod.
 pub struct Integrator {
-    /// Its name, in a few words.
+    /// A short name.
     pub name: String,
-    /// How its error is said to fall.
+    /// How the error should fall.
     pub theory: Theory,
-    /// True if it is said to keep |p| = 1.
+    /// True if the method claims to keep |p| = 1.
     pub keeps_length: bool,
     advance: Box<Advance>,
     advance_all: Option<Box<AdvanceAll>>,
 }
 
 impl Integrator {
-    /// An integrator from `advance`: the direction at the end of a problem from its start. It is not said to keep |p| = 1.
+    /// An integrator from `advance`, which returns the direction at the end of a problem for a start. It does not claim to keep |p| = 1.
     pub fn new(
         name: impl Into<String>,
         theory: Theory,
@@ -33,8 +33,8 @@ impl Integrator {
         Self { name, theory, keeps_length: false, advance: Box::new(advance), advance_all: None }
     }
 
-    /// An integrator of this order that steps p with equal steps: `step` is p after one step of length h in 1/G, NaN where it
-    /// cannot be taken.
+    /// An integrator of order `order` that steps p with equal steps: `step` returns p after a step of length h in 1/G, or NaN if the step
+    /// fails.
     pub fn in_p(
         name: &str,
         order: u32,
@@ -45,7 +45,7 @@ impl Integrator {
         })
     }
 
-    /// An integrator of this order that steps (φ, θ) in rad with equal steps of length h in 1/G. It has no length to lose.
+    /// An integrator of order `order` that steps (φ, θ) in rad with equal steps of length h in 1/G. Angles have no length to lose.
     pub fn in_angles(
         name: &str,
         order: u32,
@@ -61,12 +61,12 @@ impl Integrator {
         .keeping_length()
     }
 
-    /// The same, said to keep |p| = 1.
+    /// The same integrator, with the claim to keep |p| = 1.
     pub fn keeping_length(self) -> Self {
         Self { keeps_length: true, ..self }
     }
 
-    /// The same, with a way to turn many rods at once: a program in another process is asked once.
+    /// The same integrator with a way to turn many rods at once, so that a program in another process is called once.
     pub fn with_many(
         self,
         advance_all: impl Fn(&RodProblem, &[UnitVector3<f64>], Setting) -> Result<Vec<Vector3<f64>>, Failure>
@@ -77,7 +77,7 @@ impl Integrator {
         Self { advance_all: Some(Box::new(advance_all)), ..self }
     }
 
-    /// The direction at the end of `problem` of a rod that starts along `start`; its length is judged too.
+    /// The direction at the end of `problem` of a rod that starts along `start`; its length is graded too.
     pub fn advance(
         &self,
         problem: &RodProblem,
@@ -87,7 +87,7 @@ impl Integrator {
         (self.advance)(problem, start, setting)
     }
 
-    /// The directions at the end of `problem` of many rods.
+    /// The directions at the end of `problem` of rods that start along `starts`.
     pub fn advance_all(
         &self,
         problem: &RodProblem,
@@ -110,7 +110,7 @@ fn last<const N: usize>(
 ) -> Result<SVector<f64, N>, Failure> {
     let steps = setting.steps()?;
     let h = problem.strain() / steps as f64;
-    // A rod that is lost stays lost: no more steps are spent on it.
+    // Stops at the first state that is not finite.
     (0..steps)
         .try_fold(first, |state, _| Some(step(problem, state, h)).filter(|state| state.sum().is_finite()))
         .ok_or(Failure::NotFinite)

@@ -1,4 +1,4 @@
-//! Integrators of a free rod's motion, all of one type: an integrator of your own is graded by the same code
+//! Integrators of a free rod's motion, all of one type; your own integrator is graded by the same code
 //! (`examples/bring_your_own.rs`).
 
 mod adaptive;
@@ -20,23 +20,23 @@ pub use fixed::{explicit_euler, rk4};
 pub use integrator::Integrator;
 pub use problem::RodProblem;
 
-/// How the error is said to fall, which also says which settings an integrator takes.
+/// How the error should fall, which also says what settings an integrator takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Theory {
-    /// It takes no steps: [`Setting::Once`].
+    /// The integrator takes no steps: [`Setting::Once`].
     Exact,
-    /// Error ∝ Δtᵖ in [`Setting::Steps`], with this p.
+    /// Error ∝ Δtᵖ in [`Setting::Steps`], with this order p.
     Order(u32),
-    /// It chooses its steps by [`Setting::Tolerance`].
+    /// The integrator chooses its steps by [`Setting::Tolerance`].
     Adaptive,
 }
 
-/// How accurate an integrator is asked to be.
+/// The accuracy asked of an integrator.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Setting {
-    /// No setting: it takes no steps.
+    /// No setting, for integrators without steps.
     Once,
     /// The number of equal steps over the whole problem.
     Steps(u64),
@@ -45,7 +45,7 @@ pub enum Setting {
 }
 
 impl Setting {
-    /// The number of steps, for integrators that take equal ones.
+    /// The number of steps; an error unless the setting is a number of equal steps > 0.
     pub fn steps(self) -> Result<u64, Failure> {
         match self {
             Self::Steps(steps) if steps > 0 => Ok(steps),
@@ -53,7 +53,7 @@ impl Setting {
         }
     }
 
-    /// The tolerance, for integrators that choose their steps.
+    /// The tolerance; an error unless the setting is a tolerance > 0.
     pub fn tolerance(self) -> Result<f64, Failure> {
         match self {
             Self::Tolerance(tolerance) if tolerance > 0.0 => Ok(tolerance),
@@ -75,11 +75,11 @@ impl fmt::Display for Setting {
 /// The reason why there is no direction at the end.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Failure {
-    /// A component is infinite or no number.
+    /// A component is infinite or NaN.
     NotFinite,
-    /// The integrator takes other settings.
+    /// The integrator does not take this setting.
     Setting,
-    /// The integrator's own reason.
+    /// The integrator failed for this reason.
     Gave(String),
 }
 
@@ -93,7 +93,7 @@ impl fmt::Display for Failure {
     }
 }
 
-/// The errors of an integrator on a problem; a direction that is not finite is a failure.
+/// The errors of an integrator on a problem; fails if the direction is not finite.
 pub fn grade(
     subject: &Integrator,
     problem: &RodProblem,
@@ -107,7 +107,7 @@ pub fn grade(
     }
 }
 
-/// Every integrator of this project, in the order of the tables: what the cases judge.
+/// All integrators of this project, in the order of the tables; the cases judge these.
 pub fn own() -> Vec<Integrator> {
     let mut own = vec![exact_propagator(), closed_form()];
     own.extend(fixed::all());
@@ -135,7 +135,7 @@ mod tests {
         }
     }
 
-    /// Tables and pictures know them by these.
+    /// Tables and pictures identify the integrators by these names.
     #[test]
     fn subjects_have_their_names_and_some_keep_the_length() {
         let said: Vec<_> = own()

@@ -1,4 +1,4 @@
-//! The problem that every subject solves: one free rod in plane Couette flow u_2 = G x_1.
+//! The problem that every integrator solves: one free rod in plane Couette flow u_2 = G x_1.
 
 use nalgebra::{Matrix3, UnitVector3, Vector2, Vector3};
 use shearbed_oracle::closed_form;
@@ -6,10 +6,10 @@ use std::f64::consts::TAU;
 
 /// One free rod in plane Couette flow, in units of 1/G, over a number of its periods.
 ///
-/// Its right-hand sides are written out here, apart from the core's, so that no digits cancel where r_e is large.
+/// The right-hand sides are written anew, apart from the core's, without cancellation at large r_e.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RodProblem {
-    /// r_e > 0.
+    /// The aspect ratio r_e > 0.
     pub aspect_ratio: f64,
     /// t/T at the end.
     pub turns: f64,
@@ -26,13 +26,13 @@ impl RodProblem {
         Self { aspect_ratio, turns, long: 1.0 / (1.0 + 1.0 / square), short: 1.0 / (1.0 + square) }
     }
 
-    /// From φ = 0.2, θ = 1 through a whole period, two flips, into the third to φ = 2π + 1: whoever has the phase or
-    /// the orbit wrong is seen here, and not where long rods lie along the flow, whatever they did before.
+    /// From φ = 0.2, θ = 1 through a whole period, two flips, into the third to φ = 2π + 1: errors in phase or orbit are visible
+    /// there, but not where long rods lie along the flow, whatever they did before.
     pub fn mid_flip(aspect_ratio: f64) -> (Self, UnitVector3<f64>) {
         Self::into_flip(aspect_ratio, 0.2, 1.0, 1.0)
     }
 
-    /// From φ and θ (rad) through `turns` periods, and on to where φ = 1, head or tail alike: into the middle of the
+    /// From φ and θ (rad) through `turns` periods, and on to φ = 1 of either end of the rod: into the middle of the
     /// next flip.
     pub fn into_flip(aspect_ratio: f64, phi: f64, theta: f64, turns: f64) -> (Self, UnitVector3<f64>) {
         let phase = |phi: f64| (phi.sin() / aspect_ratio).atan2(phi.cos()) / TAU;
@@ -41,7 +41,7 @@ impl RodProblem {
         (problem, direction(phi, theta))
     }
 
-    /// GT t/T: how long it lasts, in 1/G (eq. 15).
+    /// The duration GT t/T in 1/G (eq. 15).
     pub fn strain(&self) -> f64 {
         TAU * (self.aspect_ratio + 1.0 / self.aspect_ratio) * self.turns
     }
@@ -53,7 +53,7 @@ impl RodProblem {
         self.pull(p) - p * along
     }
 
-    /// ṗ/G = Ap − p (p·Ap)/|p|²: the same at |p| = 1, and at right angles to p at any length.
+    /// ṗ/G = Ap − p (p·Ap)/|p|²: equal to `rate` at |p| = 1, and at right angles to p at any length.
     #[inline]
     pub fn tangent_rate(&self, p: &Vector3<f64>) -> Vector3<f64> {
         let along = (self.long - self.short) * p.x * p.y / p.norm_squared();
@@ -96,12 +96,12 @@ impl RodProblem {
         )
     }
 
-    /// Where the rod is at the end, by A.4 and A.5: closed forms that no subject uses.
+    /// The direction at the end by the closed forms A.4 and A.5, which no integrator uses.
     ///
     /// Their error is 2·10⁻¹⁵ max(r_e, 1/r_e), and a few 10⁻¹⁶ near whole turns, where the phase is small.
     pub fn reference(&self, start: &UnitVector3<f64>) -> UnitVector3<f64> {
         let (phi, theta) = (start.y.atan2(start.x), start.x.hypot(start.y).atan2(start.z));
-        // Whole turns change nothing, and would cost φ its digits.
+        // Whole turns change nothing, but φ would lose digits.
         let rest = self.turns - self.turns.round();
         let (phi, theta) = closed_form::angles_at(phi, theta, self.aspect_ratio, rest);
         direction(phi, theta)
@@ -157,7 +157,7 @@ mod tests {
             let mut e = Vector3::zeros();
             e[axis] = 1e-5;
             let difference = (problem.rate(&(m + e)) - problem.rate(&(m - e))) / 2e-5;
-            // h² times a third derivative of 3Λ/3! at most, and ε/h.
+            // The error is at most h² times a third derivative of 3Λ/3!, and ε/h.
             assert!((slope.column(axis) - difference).norm() < 1e-9);
         }
     }

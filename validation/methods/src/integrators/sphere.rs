@@ -1,20 +1,20 @@
-//! Steps that stay on the sphere by themselves (Hairer, Lubich & Wanner, Geometric Numerical Integration, IV).
+//! Steps that stay on the sphere by construction (Hairer, Lubich & Wanner, Geometric Numerical Integration, IV).
 
 use super::{Integrator, RodProblem};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-/// Newton's iteration ends when the midpoint moves by less than this, in units of |p|: its next move would be the
-/// square of it.
+/// Newton's iteration ends when the midpoint moves by less than this, in units of |p|: the next move would be the
+/// square of this.
 pub const NEWTON_TOLERANCE: f64 = 1e-12;
 
-/// Steps of Newton's iteration before it is given up: near the longest step with one solution it converges slowly.
+/// Newton steps before the iteration is given up: near the longest step that has one solution, it converges slowly.
 const MOST_ITERATIONS: usize = 500;
 
-/// Halvings of one of its changes.
+/// Largest number of halvings of one Newton step.
 const MOST_HALVINGS: usize = 20;
 
-/// The implicit midpoint rule p′ = p + h f(m), m = ½(p + p′): as f(m) ⊥ m, |p′| = |p|. Newton's method, its change
-/// halved until the equation is missed by less: plain Newton goes round in circles at long steps that have a solution.
+/// The implicit midpoint rule p′ = p + h f(m), m = ½(p + p′): as f(m) ⊥ m, |p′| = |p|. Newton's method, with each step halved
+/// until the residual falls: plain Newton cycles at long steps that have a solution.
 fn implicit_midpoint(problem: &RodProblem, p: Vector3<f64>, h: f64) -> Vector3<f64> {
     let half = 0.5 * h;
     let miss_at = |m: &Vector3<f64>| m - p - problem.tangent_rate(m) * half;
@@ -47,12 +47,12 @@ fn implicit_midpoint(problem: &RodProblem, p: Vector3<f64>, h: f64) -> Vector3<f
     Vector3::repeat(f64::NAN)
 }
 
-/// p × ṗ, the rate at which p turns, in units of G.
+/// The angular velocity p × ṗ of p, in units of G.
 fn spin(problem: &RodProblem, p: &Vector3<f64>) -> Vector3<f64> {
     p.cross(&problem.tangent_rate(p))
 }
 
-/// The midpoint rule by rotations: p turns at the rate of half a step ahead. Order 2.
+/// The midpoint rule by rotations: p turns at the rate found half a step ahead. Order 2.
 fn rotation_midpoint(problem: &RodProblem, p: Vector3<f64>, h: f64) -> Vector3<f64> {
     let half = Rotation3::new(spin(problem, &p) * (0.5 * h)) * p;
     Rotation3::new(spin(problem, &half) * h) * p
@@ -117,11 +117,11 @@ mod tests {
         for h in [10.0, 100.0] {
             let end = implicit_midpoint(&problem, p, h);
             let miss = end - p - problem.tangent_rate(&(0.5 * (p + end))) * h;
-            // m is within 10⁻¹², and h f(m) that times h.
+            // m has an error of 10⁻¹² at most, and h f(m) h times that.
             assert!(miss.norm() <= 1e-12 * (2.0 + 2.0 * h), "{h}: {miss:?}");
             assert!((end.norm() - 1.0).abs() <= 1e-12);
         }
-        // The square of what is missed overflows: no change can be seen to help.
+        // The square of the residual overflows, so that no change can reduce it.
         for h in [1e300, f64::INFINITY] {
             let end = implicit_midpoint(&problem, p, h);
             assert!(end.iter().all(|component| component.is_nan()), "{h}: {end:?}");

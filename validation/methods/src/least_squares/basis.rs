@@ -1,25 +1,25 @@
-//! Where in a box of parameters the model runs, and the polynomials that run through what it finds there.
+//! The nodes in a box of parameters at which the model runs, and the polynomials fitted to its results.
 
 use nalgebra::{DMatrix, DVector};
 
-/// The most parameters that can be fitted at once: the runs grow with their number as a power.
+/// The largest number of parameters that can be fitted at once: the number of runs grows as a power of it.
 pub const MOST_PARAMETERS: usize = 3;
 
-/// Chebyshev–Lobatto nodes along each axis, and the total degree of the polynomials, by the number of parameters: fewer
+/// Chebyshev–Lobatto nodes along each axis, and the total degree of the polynomials, by the number of parameters. There are fewer
 /// coefficients than nodes, so that the polynomials smooth the noise of the runs instead of following it.
 const DESIGNS: [(usize, usize); MOST_PARAMETERS] = [(7, 4), (7, 6), (5, 4)];
 
-/// Chebyshev polynomials over the box [−1, 1]^p and the nodes by which they are fitted (least squares).
+/// Chebyshev polynomials over the box [−1, 1]^p and the nodes to which they are fitted (least squares).
 #[derive(Clone, Debug)]
 pub struct Basis {
-    /// The degree of every term in every parameter.
+    /// The degree of each term in each parameter.
     degrees: Vec<Vec<usize>>,
-    /// Every node, the corners among them.
+    /// All nodes, including the corners.
     pub nodes: Vec<Vec<f64>>,
-    /// A row for each coefficient and a column for each node: from values at the nodes to coefficients.
+    /// Maps values at the nodes to coefficients: a row for each coefficient, a column for each node.
     pub project: DMatrix<f64>,
-    /// From coefficients to those of what polynomials of a degree less miss at the nodes: terms × terms. It tells how good the
-    /// polynomials are.
+    /// Maps coefficients to those of the residual that polynomials of one degree less leave at the nodes: terms × terms. It
+    /// measures how good the polynomials are.
     pub missed: DMatrix<f64>,
 }
 
@@ -37,7 +37,7 @@ impl Basis {
         let project = projection(&degrees, &nodes);
         let highest = |degrees: &Vec<usize>| degrees.iter().sum::<usize>() == degree;
         let lower: Vec<_> = degrees.iter().filter(|d| !highest(d)).cloned().collect();
-        // What has no part of the highest degree is not missed; for the rest, the lower terms that come nearest are taken away.
+        // Terms below the highest degree leave no residual; from each of the others, the best fit by lower terms is subtracted.
         let nearest = projection(&lower, &nodes) * design(&degrees, &nodes);
         let mut missed = DMatrix::identity(degrees.len(), degrees.len());
         let kept = (0..degrees.len()).filter(|k| !highest(&degrees[*k]));
@@ -48,7 +48,7 @@ impl Basis {
         Self { missed, project, degrees, nodes }
     }
 
-    /// Every term at a place of the box.
+    /// The value of every term at a place of the box.
     pub fn terms(&self, place: &[f64]) -> DVector<f64> {
         terms(&self.degrees, place)
     }
@@ -66,7 +66,7 @@ impl Basis {
     }
 }
 
-/// Every combination of numbers from 0 to below `along`.
+/// All combinations of `axes` numbers from 0 to `along` − 1.
 fn grid(axes: usize, along: usize) -> Vec<Vec<usize>> {
     (0..along.pow(axes as u32))
         .map(|mut k| {
@@ -87,7 +87,7 @@ fn terms(degrees: &[Vec<usize>], place: &[f64]) -> DVector<f64> {
     DVector::from_iterator(degrees.len(), degrees.iter().map(term))
 }
 
-/// T_k(x) and its derivative for every degree that is used.
+/// T_k(x) and its derivative for all degrees in use.
 fn chebyshev(x: f64) -> [(f64, f64); 7] {
     let mut all = [(1.0, 0.0); 7];
     all[1] = (x, 1.0);
@@ -98,13 +98,13 @@ fn chebyshev(x: f64) -> [(f64, f64); 7] {
     all
 }
 
-/// The terms at the nodes, a row for each node.
+/// The terms at the nodes, with a row for each node.
 fn design(degrees: &[Vec<usize>], nodes: &[Vec<f64>]) -> DMatrix<f64> {
     let rows: Vec<_> = nodes.iter().map(|node| terms(degrees, node).transpose()).collect();
     DMatrix::from_rows(&rows)
 }
 
-/// Their pseudo-inverse.
+/// The pseudo-inverse of `design`; NaN if it has none.
 fn projection(degrees: &[Vec<usize>], nodes: &[Vec<f64>]) -> DMatrix<f64> {
     let design = design(degrees, nodes);
     let normal = design.tr_mul(&design).cholesky();
@@ -118,7 +118,7 @@ fn projection(degrees: &[Vec<usize>], nodes: &[Vec<f64>]) -> DMatrix<f64> {
 mod tests {
     use super::*;
 
-    /// A polynomial of total degree 3 in up to three parameters, with its derivatives.
+    /// A polynomial of total degree 3 in up to three parameters, and its derivatives.
     fn cubic(place: &[f64]) -> (f64, Vec<f64>) {
         let [x, y, z] = std::array::from_fn(|k| place.get(k).copied().unwrap_or(0.0));
         let value = 1.0 + x - 2.0 * y + x * y * z + 0.5 * x.powi(3) - y * y * x;
@@ -137,7 +137,7 @@ mod tests {
                 let place = &place[..parameters];
                 let (value, slopes) = cubic(place);
                 let found = basis.terms(place).dot(&coefficients);
-                // Sums of some twenty terms of order 1.
+                // The rounding of sums of about twenty terms of order 1.
                 assert!((found - value).abs() < 1e-13, "{found} {value}");
                 let found = basis.slopes(place).tr_mul(&coefficients);
                 for (found, slope) in found.iter().zip(slopes) {

@@ -1,4 +1,4 @@
-//! The place that fits best.
+//! The best-fitting place in a box of parameters.
 
 use super::Datum;
 use super::emulator::Emulator;
@@ -7,23 +7,23 @@ use super::minimise::minimise;
 use super::scarce::{added, scatter_of_covariance};
 use nalgebra::DMatrix;
 
-/// The place that fits best in a box, by generalised least squares: V is that at the best place, found by turns.
+/// The best-fitting place in a box, by generalised least squares. V is taken at the best place; the two are found by iteration.
 #[derive(Clone, Debug)]
 pub struct Best {
-    /// In the box, from −1 to 1.
+    /// The coordinates in the box, from −1 to 1.
     pub place: Vec<f64>,
-    /// χ² there.
+    /// χ² at this place.
     pub chi_square: f64,
-    /// χ² over the box with V held.
+    /// χ² over the box at fixed V.
     pub surface: ChiSquare,
     /// V by its causes.
     pub causes: Causes,
-    /// The covariance of the parameters by cause, on the box's scale: A V_cause Aᵀ, A = (JᵀV⁻¹J)⁻¹JᵀV⁻¹, the replicas' noise subtracted from
-    /// the first. The last is what the finite number of replicas behind V adds.
+    /// The covariance of the parameters by cause, on the box's scale: A V_cause Aᵀ, A = (JᵀV⁻¹J)⁻¹JᵀV⁻¹, with the replicas' noise
+    /// subtracted in JᵀV⁻¹J. The last one is added for the finite number of replicas behind V.
     pub spread: Vec<DMatrix<f64>>,
-    /// By how much, relatively, χ² is larger on average because V is known from a finite number of replicas.
+    /// The average relative excess of χ² due to the finite number of replicas behind V.
     pub excess: f64,
-    /// A: parameters × points, by how much an estimate follows each point.
+    /// A, parameters × points: the sensitivity of each estimate to each point.
     pub influence: DMatrix<f64>,
 }
 
@@ -34,44 +34,44 @@ impl Best {
         self.spread.iter().fold(zero, |sum, one| sum + one)
     }
 
-    /// The best place where the replicas' noise is not subtracted: for a control.
+    /// The best place if the replicas' noise is not subtracted, for a control.
     pub fn with_noise(&self) -> Self {
         let surface = self.surface.with_noise();
         let (place, chi_square) = minimise(&surface, &vec![None; self.place.len()], &[&self.place]);
         Self { place, chi_square, surface, ..self.clone() }
     }
 
-    /// The largest share that a cause has in the variance of a parameter. Replicas have theirs in the mean curve and in V.
+    /// The largest share of a cause in the variance of any parameter. For replicas it includes their part in the mean curve and in V.
     pub fn share(&self, cause: usize) -> f64 {
         let all = self.covariance().diagonal();
         let share = |cause: usize| self.spread[cause].diagonal().component_div(&all);
         match cause {
-            // Half of what is added corrects a covariance that is too small.
+            // Half of the last covariance corrects one that is too small.
             REPLICAS => (share(REPLICAS) + share(CAUSES.len()) * 0.5).max(),
             cause => share(cause).max(),
         }
     }
 
-    /// The share of the variance of a parameter that χ² shows by its curvature: the least of some parameters.
+    /// The smallest share, over `axes`, of a parameter's variance that the curvature of χ² shows.
     pub fn shown(&self, axes: &[usize]) -> f64 {
         let (hidden, all) = (&self.spread[CAUSES.len()], self.covariance());
         axes.iter().map(|&axis| 1.0 - hidden[(axis, axis)] / all[(axis, axis)]).fold(1.0, f64::min)
     }
 
-    /// χ² without what the noise of V adds to it on average.
+    /// χ² without the average contribution of the noise of V.
     pub fn chi_square_of_points(&self) -> f64 {
         self.chi_square * (1.0 - self.excess)
     }
 }
 
-/// The variance that is added, over the variance there is, where replicas are too few to tell: it asks for more of them.
+/// Added variance over the present one, if the replicas are too few to estimate it; the result is a request for more replicas.
 const UNKNOWN: f64 = 99.0;
 
-/// The most rounds in which V follows the best place, and the move of that, in half boxes, below which it stays.
+/// The largest number of iterations of V and best place, and the move in half boxes below which they end.
 const ROUNDS: usize = 6;
 const STAYS: f64 = 1e-3;
 
-/// The best place; `None` where V or the information is not positive, or χ² is not finite.
+/// The best place; `None` if V or the information is not positive definite, or χ² is not finite.
 pub fn best(data: &[Datum], emulator: &Emulator, rods_over_measured: &[f64]) -> Option<Best> {
     let parameters = emulator.basis.nodes[0].len();
     let mut place = vec![0.0; parameters];
@@ -97,7 +97,7 @@ pub fn best(data: &[Datum], emulator: &Emulator, rods_over_measured: &[f64]) -> 
     let weighted = inverse.solve(&slopes);
     let told = slopes.tr_mul(&weighted);
     let projector = inverse.inverse() - &weighted * told.clone().cholesky()?.solve(&weighted.transpose());
-    // Without the noise, unless nothing is left then.
+    // The noise is subtracted, unless the rest is not positive definite.
     let own = (&told - surface.noise(&place)).cholesky();
     let solver = own.or_else(|| told.cholesky())?;
     let influence = solver.solve(&weighted.transpose());

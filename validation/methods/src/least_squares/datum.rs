@@ -5,24 +5,24 @@ use serde::Serialize;
 /// A measured point.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Datum {
-    /// Which data set it is of.
+    /// Index of its data set.
     pub set: usize,
-    /// Its line in the file.
+    /// Line number in the file.
     pub line: usize,
-    /// The column, as `x1`.
+    /// Name of the column, such as `x1`.
     pub column: String,
-    /// Its time in the unit of the file's column.
+    /// Time in the unit of the file's time column.
     pub time: f64,
-    /// What was measured.
+    /// The measured value.
     pub value: f64,
-    /// One standard deviation of the time; 0 where none is given.
+    /// One standard deviation of the time; 0 if none is given.
     pub u_time: f64,
     /// One standard deviation of the value.
     pub u: f64,
 }
 
 impl Datum {
-    /// A place where a point could be: without a line, a value and uncertainties.
+    /// A possible point, without line, value and uncertainties.
     pub fn place(set: usize, column: &str, time: f64) -> Self {
         Self { set, line: 0, column: column.into(), time, value: f64::NAN, u_time: 0.0, u: f64::NAN }
     }

@@ -1,51 +1,51 @@
-//! The model between the nodes: one polynomial for each measured point, and how far it may be off.
+//! The model between the nodes: a polynomial for each measured point, and an estimate of its error.
 
 use super::basis::Basis;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// What the model says of one measured point: at its time, and at √3 standard deviations of that time before and after.
+/// The model's prediction of a measured point: at its time, and at √3 standard deviations of that time before and after.
 pub type Prediction = [f64; 3];
 
-/// Predictions of some points, each with the point's place among all.
+/// Predictions of some points, each with the point's index among all points.
 pub type Predictions = Vec<(usize, Prediction)>;
 
-/// Parts that have run in a replica, by what they depend on.
+/// Results of the parts that have run in a replica, by the values that they depend on.
 pub type Known = HashMap<Vec<u64>, Predictions>;
 
-/// A part of the model with given parameters, as one of several suspensions.
+/// A part of the model with given parameters, such as one of several suspensions.
 pub struct Part {
-    /// The values that its predictions depend on: of parts with the same values one runs. `None`: it always runs.
+    /// The values that the predictions depend on: parts with equal values run once. `None`: the part always runs.
     pub depends_on: Option<Vec<u64>>,
-    /// The predictions of a replica.
+    /// Returns the predictions of a replica.
     pub run: Box<dyn Fn(u64) -> Result<Predictions, String> + Send + Sync>,
 }
 
-/// The model with given parameters, whose parts predict each point once.
+/// The model with given parameters, as parts that predict each point once.
 pub struct Replica(pub Vec<Part>);
 
 impl Replica {
-    /// A model of one part, which predicts all points in their order.
+    /// A model of one part that predicts all points in order.
     pub fn whole(run: impl Fn(u64) -> Result<Vec<Prediction>, String> + Send + Sync + 'static) -> Self {
         let run = move |replica| Ok(run(replica)?.into_iter().enumerate().collect());
         Self(vec![Part { depends_on: None, run: Box::new(run) }])
     }
 
-    /// Every prediction of a replica, in the order of the points.
+    /// All predictions of a replica, in the order of the points.
     ///
     /// # Errors
     ///
-    /// Why a run was not finished.
+    /// The reason why a run failed.
     pub fn run(&self, replica: u64) -> Result<Vec<Prediction>, String> {
         self.run_beside(replica, &mut Known::new())
     }
 
-    /// The same, without the parts that have run in this replica already: `known` gets those that run now.
+    /// Like `run`, but takes results of parts from `known`, and adds those of parts that run now.
     ///
     /// # Errors
     ///
-    /// Why a run was not finished.
+    /// The reason why a run failed.
     pub fn run_beside(&self, replica: u64, known: &mut Known) -> Result<Vec<Prediction>, String> {
         let mut all = Vec::new();
         for part in &self.0 {
@@ -62,33 +62,33 @@ impl Replica {
     }
 }
 
-/// The model with parameters of these values. The same replica has the same random numbers whatever the values.
+/// The model as a function of its parameters. A replica has the same random numbers for all values.
 pub type Model<'a> = dyn Fn(&[f64]) -> Result<Replica, String> + Sync + 'a;
 
-/// A place of the box on the scale of the ranges: both ends of each side.
+/// A box on the scale of the parameters' ranges: both ends of each side.
 pub type Sides = Vec<(f64, f64)>;
 
-/// Standard errors beyond which a polynomial is off by more than the noise of the replicas.
+/// Standard errors of the replicas' noise; a residual of a polynomial beyond them counts as its error.
 const CERTAIN: f64 = 2.0;
 
-/// The runs of a model at every node of a box. Polynomials are linear in what they run through, so that each replica has
-/// polynomials of its own: their mean is the model, their scatter its error, and what replicas share between parameter
-/// values cancels as it should.
+/// The runs of a model at every node of a box. Polynomials are linear in the values at the nodes, so each replica has its own
+/// polynomials: their mean is the model, their scatter its error, and noise that replicas share between parameter values
+/// cancels as it should.
 #[derive(Clone, Debug)]
 pub struct Emulator {
-    /// The polynomials, and the nodes that they run through.
+    /// The polynomials and their nodes.
     pub basis: Basis,
-    /// A row for each coefficient, a column for each point: of the mean over replicas, at, before and after.
+    /// Means over replicas of the coefficients, at a point's time, before and after: a row for each coefficient, a column for each point.
     mean: [DMatrix<f64>; 3],
-    /// Each replica's coefficients less the mean's, at.
+    /// Deviations of each replica's coefficients from the mean, at a point's time.
     deviations: Vec<DMatrix<f64>>,
 }
 
-/// The coefficients of one replica: at, before and after.
+/// The coefficients of one replica: at a point's time, before and after.
 pub type Coefficients = [DMatrix<f64>; 3];
 
-/// Runs some replicas at every node of a box; `value` turns a node's coordinates into parameters. The order of the result
-/// is that of the replicas, on any number of threads. A part that depends on the same at several nodes runs once in each replica.
+/// Runs `replicas` at every node of a box, in parallel, and returns their coefficients in order; `value` converts a node's coordinates to
+/// parameters. Parts with the same dependencies at several nodes run once per replica.
 pub fn coefficients(
     basis: &Basis,
     model: &Model<'_>,
@@ -113,7 +113,7 @@ pub fn coefficients(
 }
 
 impl Emulator {
-    /// The emulator of these replicas, two at least.
+    /// The emulator of these replicas; at least two are needed.
     pub fn new(basis: &Basis, replicas: &[Coefficients]) -> Self {
         let share = 1.0 / replicas.len() as f64;
         let mean = |which: usize| {
@@ -129,36 +129,36 @@ impl Emulator {
         }
     }
 
-    /// Replicas behind it.
+    /// Number of replicas.
     pub fn replicas(&self) -> usize {
         self.deviations.len()
     }
 
-    /// Measured points.
+    /// Number of measured points.
     pub fn points(&self) -> usize {
         self.mean().ncols()
     }
 
-    /// Coefficients of the mean, a row for each term and a column for each point.
+    /// Coefficients of the mean: a row for each term, a column for each point.
     pub fn mean(&self) -> &DMatrix<f64> {
         &self.mean[0]
     }
 
-    /// Every prediction at a place of the box.
+    /// All predictions at a place of the box.
     pub fn at(&self, place: &[f64]) -> DVector<f64> {
         self.mean[0].tr_mul(&self.basis.terms(place))
     }
 
-    /// The variance that an uncertain time gives each point: the mean of (S(t + ε) − S(t))² over a Gaussian ε by
-    /// Gauss–Hermite's rule of three nodes, which is right on a peak too, where the slope alone would be 0.
+    /// The variance of each point due to its uncertain time: the mean of (S(t + ε) − S(t))² over a Gaussian ε by Gauss–Hermite's
+    /// rule of three nodes. It is right at a peak too, where the slope alone would give 0.
     pub fn time_variance(&self, place: &[f64]) -> DVector<f64> {
         let terms = self.basis.terms(place);
         let [at, before, after] = [0, 1, 2].map(|which| self.mean[which].tr_mul(&terms));
         ((before - &at).map(|d| d * d) + (after - &at).map(|d| d * d)) / 6.0
     }
 
-    /// How far polynomials of a degree less are from these, without what the replicas' noise adds to its square: that has its
-    /// place in [`Emulator::covariance`].
+    /// The difference between these polynomials and those of one degree less, without the contribution of the replicas' noise to its
+    /// square, which is part of [`Emulator::covariance`].
     pub fn lack_of_fit(&self, place: &[f64]) -> DVector<f64> {
         let terms = self.basis.missed.tr_mul(&self.basis.terms(place));
         let n = self.replicas() as f64;
@@ -171,8 +171,8 @@ impl Emulator {
         self.mean().tr_mul(&terms).zip_map(&squares, own)
     }
 
-    /// What the noise of the replicas adds on average to C V⁻¹ Cᵀ, where C are the mean's coefficients (a row for each term) and
-    /// `inverse` is V⁻¹: terms × terms.
+    /// The average contribution of the replicas' noise to C V⁻¹ Cᵀ, terms × terms, where C are the mean's coefficients (a row for each
+    /// term) and `inverse` is V⁻¹.
     pub fn noise(&self, inverse: &DMatrix<f64>) -> DMatrix<f64> {
         let n = self.replicas() as f64;
         let terms = self.mean().nrows();
@@ -201,7 +201,7 @@ mod tests {
     use super::*;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    /// Two suspensions with a parameter each: the runs of either are those of its own values, and the answer is as if all had run.
+    /// Two suspensions with one parameter each: each runs once per value of its own, and the result is as if all had run.
     #[test]
     fn a_part_runs_once_for_each_of_its_own_values() {
         static RUNS: AtomicUsize = AtomicUsize::new(0);
@@ -211,7 +211,7 @@ mod tests {
                     let value = values[set];
                     let run = move |replica: u64| {
                         RUNS.fetch_add(1, Ordering::Relaxed);
-                        // Points of the two by turns.
+                        // The points of the two suspensions alternate.
                         Ok(vec![(set, [value + replica as f64; 3]), (2 + set, [value * value; 3])])
                     };
                     Part { depends_on: shared.then(|| vec![set as u64, value.to_bits()]), run: Box::new(run) }

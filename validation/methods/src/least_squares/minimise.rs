@@ -1,16 +1,16 @@
-//! The least value of χ² in a box of one to three parameters.
+//! The minimum of χ² in a box of one to three parameters.
 
 use super::likelihood::ChiSquare;
 use nalgebra::{DMatrix, DVector};
 
-/// Places along each free axis from which the search starts at the best one, by the number of free axes.
+/// Grid points along each free axis, by the number of free axes; the search starts at the best of them.
 const STARTS: [usize; 4] = [1, 33, 13, 9];
 
-/// Steps of Levenberg and Marquardt: a few suffice, more are for flat valleys.
+/// Largest number of Levenberg–Marquardt steps: a few suffice, except in flat valleys.
 const STEPS: usize = 100;
 
-/// The place with the least χ² in the box [−1, 1]^p, and that χ². Parameters that `fixed` gives a place stay there. The
-/// search goes down from the best place of a grid and from each of `starts`, so that of several valleys the deepest is found.
+/// The place with the smallest χ² in the box [−1, 1]^p, and that χ². Parameters with a value in `fixed` keep it. The search descends
+/// from the best point of a grid and from each of `starts`, to find the deepest of several valleys.
 pub fn minimise(surface: &ChiSquare, fixed: &[Option<f64>], starts: &[&[f64]]) -> (Vec<f64>, f64) {
     let free: Vec<usize> = (0..fixed.len()).filter(|k| fixed[*k].is_none()).collect();
     let mut best = descend(surface, fixed, &free, best_of_grid(surface, fixed, &free));
@@ -23,7 +23,7 @@ pub fn minimise(surface: &ChiSquare, fixed: &[Option<f64>], starts: &[&[f64]]) -
     best
 }
 
-/// Down into the valley of one place.
+/// Descends from `start` to the bottom of its valley.
 fn descend(surface: &ChiSquare, fixed: &[Option<f64>], free: &[usize], start: Vec<f64>) -> (Vec<f64>, f64) {
     let mut place = start;
     for (place, fixed) in place.iter_mut().zip(fixed) {
@@ -33,7 +33,7 @@ fn descend(surface: &ChiSquare, fixed: &[Option<f64>], free: &[usize], start: Ve
     let mut damping = 1e-3;
     for _ in 0..STEPS {
         let (gradient, curvature) = surface.slopes(&place);
-        // A parameter at an edge that χ² pushes outwards stays there.
+        // A parameter at an edge is held there if χ² falls outwards.
         let inwards = |k: &usize| place[*k].abs() < 1.0 || gradient[*k] * place[*k] > 0.0;
         let moving: Vec<usize> = free.iter().copied().filter(inwards).collect();
         if moving.is_empty() {
@@ -60,7 +60,7 @@ fn descend(surface: &ChiSquare, fixed: &[Option<f64>], free: &[usize], start: Ve
         } else {
             damping *= 10.0;
         }
-        // Far below any uncertainty, which is some tenth of a box: χ² then changes by 1e-11.
+        // Far below any uncertainty, which is about a tenth of a box: χ² then changes by 1e-11.
         if moved < 1e-6 {
             break;
         }

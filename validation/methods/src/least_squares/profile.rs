@@ -1,67 +1,67 @@
-//! Intervals by profile likelihood: how far a parameter can go while the others follow it.
+//! Intervals by profile likelihood: the range of one parameter while the others are re-optimised.
 
 use super::best::Best;
 use super::minimise::minimise;
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-/// The places of a profile between the edges of the box.
+/// Number of places of a profile between the edges of the box.
 const PLACES: usize = 61;
 
-/// Halvings that find where a profile crosses a level between two places: to 3e-8 of half a box.
+/// Number of halvings to find where a profile crosses a level between two places: to 3e-8 of half a box.
 const HALVINGS: usize = 20;
 
 /// An interval of one parameter, on the scale of the box.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Interval {
-    /// Its lower end.
+    /// The lower end.
     pub low: f64,
-    /// Its upper end.
+    /// The upper end.
     pub high: f64,
-    /// Whether the profile has not risen to the level before the box ends, below and above.
+    /// True, below and above, if the profile does not reach the level before the edge of the box.
     pub open: [bool; 2],
-    /// Whether the profile jumps over the level at an end: the inner minima of its two sides belong to different valleys.
+    /// True if the profile jumps over the level at an end: the inner minima on both sides belong to different valleys.
     #[serde(skip)]
     pub jumps: [bool; 2],
 }
 
-/// How far χ² rises along one parameter, the others at their best.
+/// The rise of χ² along one parameter, with the others at their best.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
-    /// The parameter's places in the box, rising.
+    /// The parameter's places in the box, ascending.
     pub place: Vec<f64>,
-    /// How far χ² has risen, as it counts beside the noise of the replicas.
+    /// The rise of χ², reduced for the noise of the replicas.
     pub rise: Vec<f64>,
-    /// What that noise would have added on average, and is subtracted.
+    /// The average contribution of that noise, which is subtracted.
     pub noise: Vec<f64>,
-    /// The share of the parameter's variance that χ² shows: its rise counts by so much.
+    /// The share of the parameter's variance that χ² shows; the rise is multiplied by it.
     pub shown: f64,
-    /// Where all parameters are there.
+    /// All parameters at each place.
     pub at: Vec<Vec<f64>>,
 }
 
-/// By how much χ² rises at the ends of an interval of this confidence for one parameter.
+/// The rise of χ² at the ends of an interval of this confidence for one parameter.
 pub fn rise_of(confidence: f64) -> f64 {
     rise_of_several(confidence, 1)
 }
 
-/// The same for the region of several parameters together.
+/// The rise of χ² at the edge of a joint region of this confidence for several parameters.
 pub fn rise_of_several(confidence: f64, parameters: usize) -> f64 {
     ChiSquared::new(parameters as f64).map_or(f64::NAN, |law| law.inverse_cdf(confidence))
 }
 
-/// How far χ² rises from the best place to another.
+/// The rise of χ² from the best place to another.
 struct Rise {
-    /// Where all parameters are there.
+    /// All parameters at the other place.
     at: Vec<f64>,
     /// χ² − χ²_min.
     own: f64,
-    /// What the replicas' noise would have added, and is subtracted.
+    /// The average contribution of the replicas' noise, which is subtracted.
     noise: f64,
 }
 
 impl Rise {
-    /// From the best place to the least χ² where some parameters are fixed.
+    /// The rise from the best place to the smallest χ² with some parameters fixed.
     fn to(best: &Best, fixed: &[Option<f64>], starts: &[&[f64]]) -> Self {
         let (at, chi_square) = minimise(&best.surface, fixed, starts);
         Self {
@@ -71,14 +71,14 @@ impl Rise {
         }
     }
 
-    /// The same where one parameter is fixed.
+    /// The rise with the parameter `axis` fixed at `place`.
     fn along(best: &Best, axis: usize, place: f64, starts: &[&[f64]]) -> Self {
         let mut fixed = vec![None; best.place.len()];
         fixed[axis] = Some(place);
         Self::to(best, &fixed, starts)
     }
 
-    /// What counts for an interval. Noise in the slopes makes the variance of an estimate larger than the curvature of χ² says,
+    /// The rise that counts for an interval. Noise in the slopes makes the variance of an estimate larger than the curvature of χ² shows,
     /// by the factor (own + noise) / own: χ² has to rise that much further.
     fn beside_noise(&self) -> f64 {
         match self.own > 0.0 {
@@ -88,8 +88,8 @@ impl Rise {
     }
 }
 
-/// The profile of one parameter over the box, its best place among the places. The inner minima are sought from a grid,
-/// from the best place, and from those of the neighbours on both sides.
+/// The profile of one parameter over the box, with its best place among the places. The inner minima are searched from a grid,
+/// from the best place, and from the minima of the neighbours on both sides.
 pub fn profile(best: &Best, axis: usize) -> Profile {
     let even = (0..PLACES).map(|k| -1.0 + 2.0 * k as f64 / (PLACES - 1) as f64);
     let mut place: Vec<f64> = even.chain([best.place[axis]]).collect();
@@ -115,8 +115,8 @@ pub fn profile(best: &Best, axis: usize) -> Profile {
 }
 
 impl Profile {
-    /// The share that the replicas' noise would have in the rise at the ends of an interval, where it is larger; 0 where the profile does
-    /// not rise to this level.
+    /// The larger share of the replicas' noise in the rise at the two ends of an interval; 0 if the profile does not reach
+    /// `level`.
     pub fn feigned(&self, level: f64) -> f64 {
         let outside = |k: &usize| self.rise[*k] > level;
         let inside: Vec<usize> = (0..self.place.len()).filter(|k| !outside(k)).collect();
@@ -134,11 +134,11 @@ impl Profile {
     }
 }
 
-/// Two sides of an end that is found to 3e-8 of half a box differ by less than this in χ² unless the profile jumps there:
-/// it would rise by 1e5 over half a box otherwise, where four standard deviations, 16, are a box's end.
+/// If the profile does not jump at an end, which is found to 3e-8 of half a box, χ² on its two sides differs by less than this:
+/// else it would rise by 1e5 over half a box, where four standard deviations, 16, reach the edge of a box.
 const JUMP: f64 = 0.01;
 
-/// Where a profile is below `level`: from its outermost crossing on either side, so that a second valley is inside.
+/// The interval in which a profile is below `level`, between the outermost crossings, so that a second valley is included.
 pub fn interval(best: &Best, axis: usize, profile: &Profile, level: f64) -> Interval {
     let inside: Vec<usize> = (0..profile.place.len()).filter(|k| profile.rise[*k] <= level).collect();
     let last = profile.place.len() - 1;
@@ -146,7 +146,7 @@ pub fn interval(best: &Best, axis: usize, profile: &Profile, level: f64) -> Inte
         (Some(first), Some(last)) => (*first, *last),
         _ => (0, last),
     };
-    // The end between a place inside and one outside, and whether the profile jumps there.
+    // The crossing between a place inside and one outside, and whether the profile jumps there.
     let crossing = |inside: usize, outside: usize| {
         let (mut inner, mut outer) = (profile.place[inside], profile.place[outside]);
         let starts = [&best.place[..], &profile.at[inside], &profile.at[outside]];
@@ -173,15 +173,15 @@ pub fn interval(best: &Best, axis: usize, profile: &Profile, level: f64) -> Inte
     Interval { low, high, open, jumps: [low_jumps, high_jumps] }
 }
 
-/// How far χ² rises, as it counts beside the noise of the replicas, where some parameters are fixed and the others follow.
+/// The rise of χ², reduced for the noise of the replicas, with some parameters fixed and the others re-optimised.
 pub fn rise_to(best: &Best, fixed: &[Option<f64>]) -> f64 {
     let axes: Vec<usize> = (0..fixed.len()).filter(|axis| fixed[*axis].is_some()).collect();
     best.shown(&axes) * Rise::to(best, fixed, &[&best.place]).beside_noise()
 }
 
-/// Where the region of two parameters, `axes`, ends in every direction from the best place: a closed curve, cut at the edges
-/// of the box. Directions are even where the covariance is a circle, so that a long thin region has its share of them. Other
-/// parameters are at their best.
+/// The boundary of the joint region of two parameters, `axes`, as a closed curve around the best place, cut at the edges of the box. The
+/// directions are uniform in the scale where the covariance is a circle, so that they resolve a long thin region. Other parameters are
+/// at their best.
 pub fn contour(best: &Best, axes: [usize; 2], level: f64) -> Vec<[f64; 2]> {
     const DIRECTIONS: usize = 144;
     let [a, b] = axes;

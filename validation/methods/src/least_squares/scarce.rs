@@ -1,17 +1,17 @@
-//! What a finite number of replicas behind the covariance of the points does to a fit.
+//! The effect on a fit of the finite number of replicas behind the covariance of the points.
 //!
-//! V is V₀ + K∘Ĉ, where Ĉ is the covariance of a replica as n replicas have it. Its noise δV makes the generalised least squares
-//! weigh the points wrongly. To first order in 1/n the estimates scatter more by A E[δV P δV] Aᵀ, the covariance (JᵀV⁻¹J)⁻¹ is too
-//! small by as much, and χ² is too large by tr(P E[δV P δV]), with A the influence of the points and P = V⁻¹ − V⁻¹JA. For Gaussian
-//! replicas E[δC Q δC] = (C Qᵀ C + C tr(QC))/(n − 1). Where V is all from replicas, the corrections below are exact in the number of
-//! replicas but for terms ∝ 1/n (J. Hartlap, P. Simon & P. Schneider, Astron. Astrophys. 464 (2007) 399, for the inverse;
+//! V is V₀ + K∘Ĉ, where Ĉ is the covariance of a replica as estimated from n replicas. Its noise δV gives the points wrong weights in
+//! generalised least squares. To first order in 1/n, A E[δV P δV] Aᵀ adds to the scatter of the estimates, the covariance (JᵀV⁻¹J)⁻¹ is
+//! too small by as much, and χ² is too large by tr(P E[δV P δV]), with A the influence of the points and P = V⁻¹ − V⁻¹JA. For Gaussian
+//! replicas E[δC Q δC] = (C Qᵀ C + C tr(QC))/(n − 1). If V comes only from replicas, the corrections below are exact in the number of
+//! replicas except for terms ∝ 1/n (J. Hartlap, P. Simon & P. Schneider, Astron. Astrophys. 464 (2007) 399, for the inverse;
 //! S. Dodelson & M. D. Schneider, Phys. Rev. D 88 (2013) 063537, for the estimates).
 
 use super::Datum;
 use super::emulator::Emulator;
 use nalgebra::DMatrix;
 
-/// E[δV P δV], points × points. `rods_over_measured` as for `causes`.
+/// E[δV P δV], points × points. `rods_over_measured` is as for `causes`.
 pub fn scatter_of_covariance(
     data: &[Datum],
     emulator: &Emulator,
@@ -20,7 +20,7 @@ pub fn scatter_of_covariance(
     projector: &DMatrix<f64>,
 ) -> DMatrix<f64> {
     let n = emulator.replicas() as f64;
-    // K∘C is a sum of parts of C: all of it by 1/n, and the points of each set by that set's weight.
+    // K∘C is a sum of parts of C: all of C with the weight 1/n, and the points of each set with that set's weight.
     let sets = (0..rods_over_measured.len()).map(|set| (rods_over_measured[set], Some(set)));
     let parts: Vec<(f64, Option<usize>)> = [(1.0 / n, None)].into_iter().chain(sets).collect();
     let within = |set: Option<usize>, k: usize| set.is_none_or(|set| data[k].set == set);
@@ -40,8 +40,8 @@ pub fn scatter_of_covariance(
     sum
 }
 
-/// What is to be added to a covariance of the parameters that is too small by `scatter`, and too small by it again as the
-/// estimates scatter: C(C − X)⁻¹C(C − X)⁻¹C − C. `None` where the replicas are too few for that.
+/// The covariance to add to a covariance of the parameters that is too small by `scatter`, while the estimates scatter more by as much:
+/// C(C − X)⁻¹C(C − X)⁻¹C − C. `None` if there are too few replicas.
 pub fn added(covariance: &DMatrix<f64>, scatter: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let rest = (covariance - scatter).cholesky()?;
     let ratio = rest.solve(covariance);

@@ -4,7 +4,7 @@ use super::{ibof, natural, orthotropic};
 use nalgebra::{Matrix3, Matrix6, SymmetricEigen, Vector3, Vector6};
 use serde::{Deserialize, Serialize};
 
-/// The pairs (i, j) that rows and columns of [`Fourth`] stand for.
+/// The index pairs (i, j) of the rows and columns of [`Fourth`].
 pub const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
 /// a_ijkl with a_ijkl = a_jikl = a_ijlk: row (i, j), column (k, l) by [`PAIRS`].
@@ -20,20 +20,20 @@ impl Fourth {
         }))
     }
 
-    /// a_ijkl, indices from 0.
+    /// The component a_ijkl, indices from 0.
     pub fn at(&self, i: usize, j: usize, k: usize, l: usize) -> f64 {
         self.0[(place(i, j), place(k, l))]
     }
 
-    /// a_ijkl m_kl of a symmetric m.
+    /// The contraction a_ijkl m_kl with a symmetric `m`.
     pub fn contract(&self, m: &Matrix3<f64>) -> Matrix3<f64> {
         let twice = |n: usize| if n < 3 { 1.0 } else { 2.0 };
         let product = self.0 * Vector6::from_fn(|n, _| twice(n) * m[PAIRS[n]]);
         Matrix3::from_fn(|i, j| product[place(i, j)])
     }
 
-    /// a_ijkl of a distribution with these planes of symmetry: axes are the columns, `mixed` is a_2233, a_3311, a_1122 in them,
-    /// `values` a_11, a_22, a_33. a_iiii follows from a_iikk = a_ii.
+    /// a_ijkl of an orthotropic distribution: the columns of `axes` are its axes, `mixed` is a_2233, a_3311, a_1122 in them, `values` is
+    /// a_11, a_22, a_33. a_iiii follows from a_iikk = a_ii.
     pub(super) fn orthotropic(axes: &Matrix3<f64>, values: &Vector3<f64>, mixed: &Vector3<f64>) -> Self {
         let all = Matrix3::from_fn(|i, j| match i == j {
             true => values[i] - mixed[(i + 1) % 3] - mixed[(i + 2) % 3],
@@ -47,7 +47,7 @@ impl Fourth {
         principal.turned(axes)
     }
 
-    /// The same tensor in other axes: the columns of `axes` are those in which it is given.
+    /// The same tensor in other axes: it is given in those that are the columns of `axes`.
     pub(super) fn turned(&self, axes: &Matrix3<f64>) -> Self {
         let turn = Matrix6::from_fn(|row, column| {
             let ((i, j), (m, n)) = (PAIRS[row], PAIRS[column]);
@@ -62,7 +62,7 @@ fn place(i: usize, j: usize) -> usize {
     if i == j { i } else { i + j + 2 }
 }
 
-/// Eigenvalues of a from the largest, and their axes as columns.
+/// The eigenvalues of a, in descending order, and their axes as columns.
 pub(super) fn principal(a: &Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
     let eigen = SymmetricEigen::new(*a);
     let mut order = [0, 1, 2];
@@ -71,7 +71,7 @@ pub(super) fn principal(a: &Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
     (Vector3::from(order.map(|k| eigen.eigenvalues[k])), axes)
 }
 
-/// A closure.
+/// A closure: a_ijkl as a function of a_ij.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Closure {
@@ -79,15 +79,15 @@ pub enum Closure {
     Linear,
     /// a_ij a_kl, exact for aligned rods (Doi 1981; Advani & Tucker 1987, eq. 24).
     Quadratic,
-    /// Between the two by f = 1 − 27 det a (Advani & Tucker 1990).
+    /// The linear and the quadratic closure, mixed by f = 1 − 27 det a (Advani & Tucker 1990).
     Hybrid,
-    /// Exact for rods without diffusion that started isotropic (Verleye & Dupret 1993; Montgomery-Smith et al. 2011).
+    /// Exact for rods without diffusion that were isotropic at first (Verleye & Dupret 1993; Montgomery-Smith et al. 2011).
     Natural,
-    /// A fit of the natural one by polynomials of degree 4 (Verweyst 1998).
+    /// A fit of the natural closure by polynomials of degree 4 (Verweyst 1998).
     Ore,
-    /// Fitted over C_I from 10⁻⁴ to 10⁻¹ (Chung & Kwon 2001).
+    /// A fit over C_I from 10⁻⁴ to 10⁻¹ (Chung & Kwon 2001).
     Orw,
-    /// By invariants of a, fitted likewise (Chung & Kwon 2002).
+    /// A fit over the same C_I in the invariants of a (Chung & Kwon 2002).
     Ibof,
 }
 
@@ -96,7 +96,7 @@ impl Closure {
     pub const ALL: [Self; 7] =
         [Self::Linear, Self::Quadratic, Self::Hybrid, Self::Natural, Self::Ore, Self::Orw, Self::Ibof];
 
-    /// Its name in the field's words.
+    /// The usual name of the closure.
     pub fn name(self) -> &'static str {
         match self {
             Self::Linear => "linear",
@@ -109,7 +109,7 @@ impl Closure {
         }
     }
 
-    /// Where it is from.
+    /// The source of the closure.
     pub fn source(self) -> &'static str {
         match self {
             Self::Linear => "the linear closure: Advani & Tucker 1987, J. Rheol. 31, 751",
@@ -129,7 +129,7 @@ impl Closure {
         }
     }
 
-    /// a_ijkl by it.
+    /// a_ijkl by this closure.
     pub fn fourth(self, a: &Matrix3<f64>) -> Fourth {
         match self {
             Self::Linear => linear(a),

@@ -1,20 +1,20 @@
 //! The invariant-based optimal fitting closure (Chung & Kwon 2002, J. Rheol. 46, 169).
 //!
 //! a_ijkl = β₁S(δδ) + β₂S(δa) + β₃S(aa) + β₄S(δaa) + β₅S(a aa) + β₆S(aa aa), S the symmetric part. β₃, β₄, β₆ are polynomials of
-//! degree 5 of the invariants; the other three follow from a_ijkk = a_ij. The 63 coefficients were read in `closeA4.m` of
+//! degree 5 in the invariants; the other three follow from a_ijkk = a_ij. The 63 coefficients were read in `closeA4.m` of
 //! charlestucker3/Fiber-Orientation-Tools, commit 266a6ee (MIT), and are the same in fiberoripy, commit 08d401d (MIT).
 
 use super::closures::Fourth;
 use nalgebra::Matrix3;
 
-/// The powers (of II, of III) of each row.
+/// The exponents (of II, of III) of each row of `COEFFICIENTS`.
 #[rustfmt::skip]
 pub const POWERS: [(i32, i32); 21] = [
     (0, 0), (1, 0), (2, 0), (0, 1), (0, 2), (1, 1), (2, 1), (1, 2), (3, 0), (0, 3), (3, 1), (2, 2), (1, 3), (4, 0), (0, 4), (4, 1),
     (3, 2), (2, 3), (1, 4), (5, 0), (0, 5),
 ];
 
-/// Of β₃, β₄, β₆.
+/// The coefficients of β₃, β₄, β₆.
 #[rustfmt::skip]
 pub const COEFFICIENTS: [[f64; 3]; 21] = [
     [0.24940908165786e2, -0.497217790110754e0, 0.234146291570999e2],

@@ -1,4 +1,4 @@
-//! a_ij in time.
+//! Integrates a_ij in time.
 
 use super::models::Equation;
 use nalgebra::{Matrix3, Matrix6, Vector6};
@@ -7,7 +7,7 @@ use ode_solvers::{Dop853, System};
 
 const PAIRS: [(usize, usize); 6] = super::closures::PAIRS;
 
-/// Steps to a time after which the method gives up: a hundred times what the problems take.
+/// Number of steps up to an output time after which the method gives up: a hundred times what the problems take.
 const MOST_STEPS: u32 = 20_000;
 
 struct Rate<'a>(&'a Equation);
@@ -23,8 +23,8 @@ fn matrix(a: &Vector6<f64>) -> Matrix3<f64> {
     Matrix3::new(a[0], a[3], a[4], a[3], a[1], a[5], a[4], a[5], a[2])
 }
 
-/// a_ij at `times_s` ≥ 0, which ascend, from `start`; by Dormand & Prince's method of order 8 with this relative and absolute
-/// tolerance a step. `None` where it gives up or a is not finite.
+/// a_ij at `times_s` ≥ 0 in ascending order, from `start`, by Dormand & Prince's method of order 8 with `tolerance` as relative and
+/// absolute tolerance of a step. `None` if the method gives up or a is not finite.
 pub fn at(
     equation: &Equation,
     start: &Matrix3<f64>,
@@ -37,7 +37,7 @@ pub fn at(
     for time in times_s {
         if *time > now {
             let span = time - now;
-            // The defaults of the library, but for the steps after which it gives up: kinks of a closure are such a place.
+            // The library's defaults, except for the number of steps: at kinks of a closure the method may not get through.
             let (rate, out) = (Rate(equation), OutputType::Sparse);
             let mut solver = Dop853::from_param(
                 rate, 0.0, span, span, a, tolerance, tolerance, 0.9, 0.0, 0.333, 6.0, span, 0.0, MOST_STEPS,
@@ -92,7 +92,7 @@ fn newton(equation: &Equation, settled: &Matrix3<f64>) -> Option<Matrix3<f64>> {
     let (mut a, mut least) = (*settled, f64::INFINITY);
     for _ in 0..50 {
         let here = rate(&a);
-        // The trace stays: its row is one that adds it to the rate of a_33.
+        // The trace is constant: its equation is added to that of a_33.
         let slope = Matrix6::from_fn(|row, column| {
             const STEP: f64 = 1e-6;
             let away = |sign: f64| {

@@ -1,7 +1,7 @@
 //! Orientation tensors as the field computes them: closures of the fourth moments, models of a_ij's rate, and their integration.
 //!
-//! This is code that is judged, by published values and by the exact distribution; no oracle uses it.
-//! a is symmetric with trace 1; axes as everywhere here, 1 = gradient, 2 = flow in shear.
+//! This code is graded, by published values and by the exact distribution; no oracle uses it.
+//! a is symmetric with trace 1; axes are as everywhere in this project, 1 = gradient, 2 = flow in shear.
 
 pub mod closures;
 pub mod ibof;
@@ -17,10 +17,10 @@ pub use closures::{Closure, Fourth};
 pub use integrate::{at, steady};
 pub use models::{Equation, Model};
 
-/// a_ij at a start with axes of its own: some models, and ORW, need them.
+/// An initial a_ij with three distinct axes, which some models, and ORW, need.
 pub const APART: [[f64; 3]; 3] = [[0.1875, 0.125, 0.0], [0.125, 0.5, 0.0], [0.0, 0.0, 0.3125]];
 
-/// a of directions that are all alike.
+/// a_ij of isotropic directions.
 pub fn isotropic() -> nalgebra::Matrix3<f64> {
     nalgebra::Matrix3::identity() / 3.0
 }

@@ -7,54 +7,54 @@ use super::closures::{Closure, Fourth, principal};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// A model with its parameters, all without a unit.
+/// A model with its parameters, all dimensionless.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Model {
     /// C = C_I δ (Folgar & Tucker 1984; Advani & Tucker 1987, eq. 32).
     FolgarTucker {
-        /// C_I.
+        /// The coefficient C_I.
         c_i: f64,
     },
     /// Folgar & Tucker's with the eigenvalues' rates times κ (Wang, O'Gara & Tucker 2008, J. Rheol. 52, 1179).
     Rsc {
-        /// C_I.
+        /// The coefficient C_I.
         c_i: f64,
-        /// κ.
+        /// The factor κ.
         kappa: f64,
     },
     /// C = b₁δ + b₂a + b₃a² + b₄D/γ̇ + b₅D²/γ̇², with κ as above (Phelps & Tucker 2009).
     PhelpsTucker {
-        /// b₁ to b₅.
+        /// The coefficients b₁ to b₅.
         b: [f64; 5],
-        /// κ.
+        /// The factor κ.
         kappa: f64,
     },
     /// C = C_I(δ − 4C_M D²/γ̇²) (Tseng, Chang & Hsu 2016, J. Rheol. 60, 215).
     Iard {
-        /// C_I.
+        /// The coefficient C_I.
         c_i: f64,
-        /// C_M.
+        /// The coefficient C_M.
         c_m: f64,
     },
     /// C = C_I diag(1, Ω, 1 − Ω) in the axes of a, from the largest eigenvalue (Tseng, Chang & Hsu 2018, J. Rheol. 62, 313).
     Pard {
-        /// C_I.
+        /// The coefficient C_I.
         c_i: f64,
-        /// Ω.
+        /// The parameter Ω.
         omega: f64,
     },
     /// C = C_I diag(d) in the axes of a, from the largest eigenvalue (Bakharev, Yu, Speight & Wang 2018, ANTEC).
     Mrd {
-        /// C_I.
+        /// The coefficient C_I.
         c_i: f64,
-        /// D₁, D₂, D₃.
+        /// The coefficients D₁, D₂, D₃.
         d: [f64; 3],
     },
 }
 
 impl Model {
-    /// Its name in the field's words.
+    /// The usual name of the model.
     pub fn name(self) -> &'static str {
         match self {
             Self::FolgarTucker { .. } => "Folgar–Tucker",
@@ -66,7 +66,7 @@ impl Model {
         }
     }
 
-    /// Where it is from, and its equation in words.
+    /// The source of the model, with its equation.
     pub fn source(self) -> &'static str {
         match self {
             Self::FolgarTucker { .. } => {
@@ -94,7 +94,7 @@ impl Model {
         }
     }
 
-    /// C; `d` is D, `rate` γ̇.
+    /// The diffusivity C; `d` is D, and `rate` is γ̇ in 1/s.
     fn diffusivity(self, a: &Matrix3<f64>, d: &Matrix3<f64>, rate: f64) -> Matrix3<f64> {
         let one = Matrix3::identity();
         let along = |c_i: f64, d: [f64; 3]| {
@@ -112,7 +112,7 @@ impl Model {
         }
     }
 
-    /// Every parameter.
+    /// All parameters of the model.
     pub fn parameters(self) -> Vec<f64> {
         match self {
             Self::FolgarTucker { c_i } => vec![c_i],
@@ -124,7 +124,7 @@ impl Model {
         }
     }
 
-    /// κ.
+    /// The factor κ; 1 for models without it.
     fn slowness(self) -> f64 {
         match self {
             Self::Rsc { kappa, .. } | Self::PhelpsTucker { kappa, .. } => kappa,
@@ -133,26 +133,26 @@ impl Model {
     }
 }
 
-/// An equation for a_ij: closed.
+/// A closed equation for a_ij.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Equation {
-    /// L, 1/s.
+    /// The velocity gradient L in 1/s.
     pub gradient_per_s: Matrix3<f64>,
-    /// Λ.
+    /// The shape factor Λ.
     pub shape_factor: f64,
-    /// What stands for a_ijkl.
+    /// The closure for a_ijkl.
     pub closure: Closure,
-    /// What stands for what rods do to each other.
+    /// The model of the interaction of rods.
     pub model: Model,
 }
 
 impl Equation {
-    /// da_ij/dt, 1/s.
+    /// The rate da_ij/dt in 1/s, with the fourth moments of the closure.
     pub fn rate(&self, a: &Matrix3<f64>) -> Matrix3<f64> {
         self.rate_with(a, &self.closure.fourth(a))
     }
 
-    /// da_ij/dt, 1/s, with these fourth moments.
+    /// The rate da_ij/dt in 1/s, with the fourth moments `fourth`.
     pub fn rate_with(&self, a: &Matrix3<f64>, fourth: &Fourth) -> Matrix3<f64> {
         let l = &self.gradient_per_s;
         let (w, d) = ((l - l.transpose()) * 0.5, (l + l.transpose()) * 0.5);
@@ -184,7 +184,7 @@ pub(crate) fn diffusion(a: &Matrix3<f64>, fourth: &Fourth, c: &Matrix3<f64>) -> 
 fn slowed(kappa: f64, a: &Matrix3<f64>, fourth: &Fourth, c: &Matrix3<f64>) -> (Fourth, Matrix3<f64>) {
     let (values, axes) = principal(a);
     let own = fourth.turned(&axes.transpose());
-    // In the axes of a: 𝕄 keeps the rows of eeee.
+    // In the axes of a, 𝕄 selects the rows of eeee.
     let slow = Fourth::from_fn(|i, j, k, l| match i == j {
         true => {
             let target = if k == i && l == i { values[i] } else { 0.0 };

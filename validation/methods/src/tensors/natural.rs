@@ -1,20 +1,20 @@
-//! The natural closure, exact: a_ijkl of the directions M p/|M p| with isotropic p that have this a_ij.
+//! The exact natural closure: a_ijkl of the directions M p/|M p| for isotropic p that have this a_ij.
 //!
 //! In the axes of a, with z_i the logarithms of the eigenvalues of M Mᵀ and b_i = e^(−z_i), Σz = 0:
 //! a_i = ½∫ds/((b_i + s)R) and a_iijj = ¼∫s ds/((b_i + s)(b_j + s)R), R = ((b_1 + s)(b_2 + s)(b_3 + s))^½ (Verleye & Dupret 1993;
-//! Montgomery-Smith, He, Jack & Smith 2011). a is the slope of the convex function ⟨ln Σ e^(z_i) p_i²⟩ of z, and its own slope is
-//! ∂a_i/∂z_j = a_i δ_ij − a_iijj: Newton's method finds z from a with the fourth moments alone.
+//! Montgomery-Smith, He, Jack & Smith 2011). a is the gradient of the convex function ⟨ln Σ e^(z_i) p_i²⟩ of z, with the derivatives
+//! ∂a_i/∂z_j = a_i δ_ij − a_iijj: Newton's method finds z from a with only the fourth moments.
 
 use super::closures::{Fourth, principal};
 use nalgebra::{Matrix3, Vector3};
 
-/// The least eigenvalue that is told from 0.
+/// The smallest eigenvalue distinguished from 0.
 const LEAST: f64 = 1e-12;
 
 pub(super) fn fourth(a: &Matrix3<f64>) -> Fourth {
     let (values, axes) = principal(a);
     let values = values.map(|value| value.max(LEAST));
-    // Of degree 1 in a, so that a trace that is off by a rounding stays so.
+    // The result is homogeneous of degree 1 in a, so that a rounding error of the trace is kept.
     let trace = values.sum();
     let values = values / trace;
     let mut z = values.map(|value| 2.0 * value.ln());
@@ -27,7 +27,7 @@ pub(super) fn fourth(a: &Matrix3<f64>) -> Fourth {
         while part > 1e-3 {
             next.0 = z + step * part;
             next.1 = moments(&mut next.0);
-            // It converges quadratically: what a small step leaves is below a rounding, where nothing falls any more.
+            // Convergence is quadratic: after a small step the residual is below a rounding, and cannot fall any more.
             if step.amax() < 1e-8 || (values - next.1.0).norm() < residual.norm() {
                 break;
             }
@@ -41,7 +41,7 @@ pub(super) fn fourth(a: &Matrix3<f64>) -> Fourth {
     Fourth::orthotropic(&axes, &(values * trace), &(now.1 * trace))
 }
 
-/// a_i, and a_2233, a_3311, a_1122, by the trapezoid rule in ln s, which leaves e^(−2π²/h). `z` is made to sum to 0.
+/// a_i, and a_2233, a_3311, a_1122, by the trapezoid rule in ln s with an error of e^(−2π²/h). Shifts `z` to sum to 0.
 fn moments(z: &mut Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
     const STEP: f64 = 0.5;
     z.add_scalar_mut(-z.mean());
@@ -58,7 +58,7 @@ fn moments(z: &mut Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
     (second, mixed)
 }
 
-/// ∂a_i/∂z_j, with the direction that changes nothing filled up.
+/// The matrix ∂a_i/∂z_j, made regular in the direction in which a does not change.
 fn slope(mixed: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::from_fn(|i, j| match i == j {
         true => mixed[(i + 1) % 3] + mixed[(i + 2) % 3] + 1.0,

@@ -1,8 +1,8 @@
 //! Orthotropic closures with fitted coefficients: a_1111, a_2222, a_3333 in the axes of a as polynomials of its two largest
-//! eigenvalues, the rest from a_iikk = a_ii (Cintra & Tucker 1995).
+//! eigenvalues; the other components follow from a_iikk = a_ii (Cintra & Tucker 1995).
 //!
-//! The coefficients were read in `closeA4.m` of charlestucker3/Fiber-Orientation-Tools, commit 266a6ee (MIT); results that others
-//! published with them hold them (`published/tensor-models`).
+//! The coefficients were read in `closeA4.m` of charlestucker3/Fiber-Orientation-Tools, commit 266a6ee (MIT); they are checked by
+//! results that others published with them (`published/tensor-models`).
 
 use super::closures::{Fourth, principal};
 use nalgebra::{Matrix3, Vector3};
@@ -65,7 +65,7 @@ pub(super) fn orw(a: &Matrix3<f64>) -> Fourth {
     })
 }
 
-/// a_1111, a_2222, a_3333 by `of` the two largest eigenvalues.
+/// The closure in which `of` gives a_1111, a_2222, a_3333 from the two largest eigenvalues.
 fn fitted(a: &Matrix3<f64>, of: impl Fn(f64, f64) -> Vector3<f64>) -> Fourth {
     let (values, axes) = principal(a);
     let fourth = of(values.x, values.y);

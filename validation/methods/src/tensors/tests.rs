@@ -15,7 +15,7 @@ pub fn matrix(rows: [[f64; 3]; 3]) -> Matrix3<f64> {
     Matrix3::from_fn(|i, j| rows[i][j])
 }
 
-/// a with these eigenvalues, in no one's axes.
+/// The tensor a with these eigenvalues, in axes without symmetry.
 fn turned(values: [f64; 3]) -> Matrix3<f64> {
     let axes = Rotation3::from_euler_angles(0.3, -0.8, 1.9);
     axes.matrix() * Matrix3::from_diagonal(&Vector3::from(values)) * axes.matrix().transpose()
@@ -24,12 +24,12 @@ fn turned(values: [f64; 3]) -> Matrix3<f64> {
 const SOME: [[f64; 3]; 5] =
     [[0.5, 0.3, 0.2], [0.8, 0.15, 0.05], [0.4, 0.4, 0.2], [0.62, 0.19, 0.19], [0.97, 0.02, 0.01]];
 
-/// |a_iikk − a_ii| of a tensor that need not be symmetric in all its indices.
+/// The largest |a_iikk − a_ii| of a tensor that need not be symmetric in all indices.
 fn trace_off(fourth: &Fourth, a: &Matrix3<f64>) -> f64 {
     (fourth.contract(&Matrix3::identity()) - a).amax()
 }
 
-/// |a_ijkl − a_ikjl|.
+/// The largest |a_ijkl − a_ikjl| over permutations of the indices.
 fn asymmetry(fourth: &Fourth) -> f64 {
     let off = QUADRUPLES.iter().flat_map(|q| {
         let [i, j, k, l] = q.map(|i| i - 1);
@@ -45,7 +45,7 @@ fn every_closure_has_the_trace_of_a_and_all_but_two_every_symmetry() {
         let a = turned(values);
         for closure in Closure::ALL {
             let fourth = closure.fourth(&a);
-            // IBOF's terms reach 10³ times its result.
+            // IBOF's terms are up to 10³ times its result.
             let off = trace_off(&fourth, &a);
             assert!(off < 1e-12, "{closure:?}: {off:e}");
             assert!(trace_off(&fourth, &(a * 1.001)) > 1e-5);
@@ -58,7 +58,7 @@ fn every_closure_has_the_trace_of_a_and_all_but_two_every_symmetry() {
     }
 }
 
-/// a_ijkl of a distribution that has these values in all orders of indices.
+/// The largest difference between `fourth` and a symmetric a_ijkl given by `of`.
 fn apart(fourth: &Fourth, of: impl Fn([usize; 4]) -> f64) -> f64 {
     let off = QUADRUPLES.iter().map(|q| {
         let q = q.map(|i| i - 1);
@@ -87,27 +87,27 @@ fn closures_are_exact_in_the_limits_that_they_claim() {
         ]
     };
     for closure in Closure::ALL {
-        // The random, aligned and planar limit: 1 where nothing is claimed.
+        // Tolerances in the random, aligned and planar limits; 1 if the closure is not exact there.
         let allowed = match closure {
             Closure::Linear => [1e-15, 1.0, 1.0],
             Closure::Quadratic => [1.0, 1e-15, 1.0],
             Closure::Hybrid => [1e-15, 1e-15, 1.0],
-            // Eigenvalues below 10⁻¹² are taken to be that; a_1122 is not above a_22.
+            // Eigenvalues below 10⁻¹² are replaced by it; a_1122 is not above a_22.
             Closure::Natural => [1e-14, 1e-11, 1e-11],
-            // 15 digits of coefficients that are made to meet the limits; others are fitted to C_I of 10⁻⁴ to 10⁻¹, to 1 % or so.
+            // ORE's 15 digits are constrained to the limits; the others are fitted to C_I of 10⁻⁴ to 10⁻¹, to about 1 %.
             Closure::Ore => [1e-12; 3],
             Closure::Orw | Closure::Ibof => [1e-2; 3],
         };
         let found = limits(closure);
         for (found, allowed) in found.iter().zip(allowed) {
             assert!(*found <= allowed, "{closure:?}: {found:e} > {allowed:e}");
-            // Where a limit is not claimed it is missed.
+            // In limits where it is not exact, the closure must be off.
             assert!(allowed < 1.0 || *found > 0.01, "{closure:?}: {found:e}");
         }
     }
 }
 
-/// a_ij and a_ijkl of free rods that started isotropic, exact, after a strain.
+/// The exact a_ij and a_ijkl after a strain, of free rods that were isotropic at first.
 fn free(motion: &Motion, strain: f64) -> (Matrix3<f64>, [f64; 15]) {
     let exact = Covariance::at(motion, &Bits(64).of(strain), Unit::Second).unwrap();
     let second = exact.second().map(|x| x.to_f64().value());
@@ -131,7 +131,7 @@ fn the_natural_closure_is_exact_for_free_rods_that_started_isotropic() {
             };
             let error = off(Closure::Natural, &a);
             assert!(error < 1e-12, "{aspect_ratio} {strain}: {error:e}");
-            // Its fit is good to a few 10⁻³, and another a has another a_ijkl.
+            // The fit is good to a few 10⁻³; a different a has a different a_ijkl.
             let fit = off(Closure::Ore, &a);
             assert!(fit < 1e-2 && (strain < 0.1 || fit > 1e-6), "{fit:e}");
             assert!(off(Closure::Natural, &(a * 0.999 + isotropic() * 0.001)) > 1e-6 || strain < 0.1);
@@ -139,7 +139,7 @@ fn the_natural_closure_is_exact_for_free_rods_that_started_isotropic() {
     }
 }
 
-/// ȧ of Jeffery's rods with the exact a_ijkl is the natural closure's: the path of a is that of the free rods.
+/// For Jeffery's rods the natural closure is exact: its path of a is that of the free rods.
 #[test]
 fn free_rods_follow_from_the_natural_closure_alone() {
     let motion = Motion { gradient_per_s: ASKEW, aspect_ratio: 3.0 };
@@ -160,8 +160,8 @@ fn free_rods_follow_from_the_natural_closure_alone() {
     assert!(off(Closure::Natural, 0.81) > 1e-4);
 }
 
-/// Rates of a single direction's pp by diffusion: ∇·(P C P ∇(x_i x_j/|x|²)) by differences, against 2C − 2 tr C a − 5(Ca + aC) +
-/// 10 𝔸:C with a = pp, 𝔸 = pppp.
+/// Rates of a single direction's pp by diffusion, ∇·(P C P ∇(x_i x_j/|x|²)) by finite differences, against
+/// 2C − 2 tr C a − 5(Ca + aC) + 10 𝔸:C with a = pp, 𝔸 = pppp.
 #[test]
 fn the_term_of_diffusion_is_the_mean_of_the_diffusion_operator() {
     let c = turned([0.05, 0.02, 0.001]);
@@ -186,7 +186,7 @@ fn the_term_of_diffusion_is_the_mean_of_the_diffusion_operator() {
     let (a, fourth) = (p * p.transpose(), Fourth::from_fn(|i, j, k, l| p[i] * p[j] * p[k] * p[l]));
     let off = (diffusion(&a, &fourth, &c) - by_differences).amax();
     assert!(off < 1e-10, "{off:e}");
-    // A 4 in place of the 5.
+    // A mistake: 4 in place of 5.
     assert!((diffusion(&a, &fourth, &c) + c * a + a * c - by_differences).amax() > 1e-3);
 }
 
@@ -194,7 +194,7 @@ fn in_shear(closure: Closure, model: Model) -> Equation {
     Equation { gradient_per_s: matrix(SHEAR), shape_factor: 1.0, closure, model }
 }
 
-/// In no one's symmetry, with all axes apart.
+/// A tensor without symmetry to the axes, with three distinct eigenvalues.
 fn start() -> Matrix3<f64> {
     turned([0.5, 0.3, 0.2])
 }
@@ -218,7 +218,7 @@ fn richer_models_reduce_to_folgar_and_tuckers() {
         assert!(off(same) < 1e-14, "{same:?}: {:e}", off(same));
         assert!(off(other) > 1e-4, "{other:?}");
     }
-    // The paths of 𝔸 and C through the axes of a, with what leaves both as they are.
+    // 𝔸 and C go through the axes of a, with a factor that leaves both unchanged.
     assert!(off(Model::Rsc { c_i, kappa: 1.0 - 1e-12 }) < 1e-11);
     let rate = |model| Equation { model, ..flow }.rate(&start());
     let pard = rate(Model::Pard { c_i, omega: 0.7 }) - rate(Model::Mrd { c_i, d: [1.0, 0.7, 0.3] });

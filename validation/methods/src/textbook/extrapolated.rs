@@ -1,4 +1,4 @@
-//! The classical fourth order, and extrapolated methods of any order.
+//! The classical method of order 4, and extrapolated methods of any order.
 
 use crate::integrators::rk4;
 use nalgebra::{Matrix3, Vector3};
@@ -8,13 +8,13 @@ pub fn jeffery_rate(a: &Matrix3<f64>, p: Vector3<f64>) -> Vector3<f64> {
     a * p - p * p.dot(&(a * p))
 }
 
-/// `steps` steps of `h` s of the classical method of fourth order.
+/// p after `steps` steps of `h` s of the classical method of order 4.
 pub fn rk4_in_p(a: &Matrix3<f64>, p: Vector3<f64>, h: f64, steps: u64) -> Vector3<f64> {
     (0..steps).fold(p, |p, _| rk4(|p| jeffery_rate(a, p), p, h))
 }
 
-/// `steps` steps of `h` s of this order: Euler's method with 1, 2, … steps in each, extrapolated (Aitken & Neville; Hairer, Nørsett &
-/// Wanner, Solving Ordinary Differential Equations I, II.9). `normalised`: |p| is taken back to 1 after each.
+/// p after `steps` steps of `h` s of an extrapolated method: Euler's with 1, 2, … substeps (Aitken & Neville; Hairer, Nørsett & Wanner,
+/// Solving Ordinary Differential Equations I, II.9), of order `order`. If `normalised`, |p| is reset to 1 after each step.
 pub fn extrapolated(
     order: usize,
     normalised: bool,
@@ -46,8 +46,8 @@ fn one_step(order: usize, a: &Matrix3<f64>, p: Vector3<f64>, h: f64) -> Vector3<
 mod tests {
     use super::*;
 
-    /// Twice the steps: 2ᵖ times as near. With 32 steps the errors of higher orders are no larger than that of
-    /// the reference, some 10⁻¹².
+    /// Twice the steps reduce the error by 2ᵖ. With 32 steps the errors of higher orders are no larger than that of
+    /// the reference, about 10⁻¹².
     #[test]
     fn they_are_of_their_order() {
         let a = Matrix3::new(0.0, -0.1, 0.2, 0.9, 0.1, -0.3, 0.0, 0.4, -0.2);

@@ -1,4 +1,4 @@
-//! Ways to step ṗ = Ap − p(p·Ap) in doubles, by which the grader's rules are tried. They share no code with what grades them.
+//! Methods for ṗ = Ap − p(p·Ap) in double precision, by which the grader's rules are tested. They share no code with the grader.
 
 pub mod extrapolated;
 pub mod tableaus;
@@ -8,21 +8,21 @@ use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{Dop853, System};
 use tableaus::Tableau;
 
-/// p, or q.
+/// The vector p or q.
 pub type Vector = [f64; 3];
-/// Rows of a matrix.
+/// A matrix by rows.
 pub type Matrix = [[f64; 3]; 3];
 
-/// What is stepped.
+/// The variable that is stepped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Form {
-    /// p as it comes.
+    /// p, without normalisation.
     Raw,
     /// p, divided by |p| after each step.
     Normalised,
-    /// q of q̇ = Aq, divided by |q| after each step.
+    /// q with q̇ = Aq, divided by |q| after each step.
     Linear,
-    /// φ and θ, by A.13.
+    /// The angles φ and θ, by A.13.
     Angles,
 }
 
@@ -31,53 +31,53 @@ pub enum Form {
 pub enum Method {
     /// An explicit Runge–Kutta method.
     RungeKutta(Tableau),
-    /// Adams–Bashforth, with coefficients from the newest rate to the oldest, and the steps that start it.
+    /// Adams–Bashforth, with weights from the newest rate to the oldest, and a method for the first steps.
     Adams {
-        /// Weights.
+        /// Weights of the rates.
         b: Vec<f64>,
-        /// Steps that start it.
+        /// Method for the first steps.
         starter: Tableau,
     },
     /// Adams–Bashforth, then Adams–Moulton once (PECE).
     PredictorCorrector {
-        /// Weights.
+        /// Weights of the predictor.
         b: Vec<f64>,
         /// Weights of the corrector.
         moulton: Vec<f64>,
-        /// Steps that start it.
+        /// Method for the first steps.
         starter: Tableau,
     },
-    /// Implicit Runge–Kutta by fixed-point iteration: a, b.
+    /// Implicit Runge–Kutta by fixed-point iteration.
     Implicit {
         /// Weights of the stages.
         a: Vec<Vec<f64>>,
-        /// Weights.
+        /// Weights of the stages in the step.
         b: Vec<f64>,
     },
-    /// Implicit midpoint steps of these lengths, one after the other.
+    /// Implicit midpoint steps of these relative lengths, one after the other.
     Composed(Vec<f64>),
-    /// Rotations about ω = p × Ap: stages and weights as of a tableau, with the commutators of order 4 where `rkmk`.
+    /// Rotations about ω = p × Ap, with the commutators of order 4 if `rkmk`.
     LieGroup {
         /// Stages and weights.
         tableau: Tableau,
-        /// True with commutators.
+        /// True for the method with commutators.
         rkmk: bool,
     },
-    /// Exact steps of W and of ΛD by turns, with these lengths.
+    /// Exact steps of W and of ΛD in turn, with these relative lengths.
     Splitting {
         /// Lengths of the steps of W.
         turning: Vec<f64>,
         /// Lengths of the steps of ΛD.
         stretching: Vec<f64>,
     },
-    /// An embedded pair with step control by a tolerance: b of the estimate's other method.
+    /// An embedded pair with step control by a tolerance.
     Adaptive {
         /// Stages and weights.
         tableau: Tableau,
-        /// Weights of the estimate.
+        /// Weights of the other method, for the error estimate.
         other: Vec<f64>,
     },
-    /// Dormand and Prince's 8(5,3) with its own step, of `ode_solvers`.
+    /// Dormand and Prince's 8(5,3) with step control, from `ode_solvers`.
     DormandPrince8,
 }
 
@@ -97,12 +97,12 @@ fn unit(p: &Vector) -> Vector {
     let length = dot(p, p).sqrt();
     p.map(|x| x / length)
 }
-/// x + h Σ w k.
+/// The vector x + h Σ w k.
 fn sum(x: &Vector, h: f64, weights: &[f64], k: &[Vector]) -> Vector {
     [0, 1, 2].map(|i| x[i] + h * weights.iter().zip(k).map(|(w, k)| w * k[i]).sum::<f64>())
 }
 
-/// A = W + ΛD, row i column j of L being ∂u_i/∂x_j, without the cancellation of Λ near 1.
+/// A = W + ΛD for L with L_ij = ∂u_i/∂x_j and the aspect ratio `ratio`, without the cancellation of Λ near 1.
 pub fn rate_matrix(l: &Matrix, ratio: f64) -> Matrix {
     let square = ratio * ratio;
     let (long, short) = (square / (square + 1.0), 1.0 / (square + 1.0));
@@ -166,7 +166,7 @@ fn stages(motion: &Motion, tableau: &Tableau, x: &Vector, h: f64, k: &mut Vec<Ve
     }
 }
 
-/// How far to go.
+/// The choice of the steps.
 #[derive(Clone, Copy)]
 pub enum Setting {
     /// This number of equal steps.
@@ -175,7 +175,7 @@ pub enum Setting {
     Tolerance(f64),
 }
 
-/// The direction after `end_s` from `p`; none where the method takes another setting, or gives up.
+/// The direction at `end_s` seconds after `p`; `None` if the method does not take this setting, or gives up.
 pub fn advance(
     method: &Method,
     form: Form,
@@ -287,7 +287,7 @@ fn fixed(method: &Method, motion: &Motion, mut x: Vector, end_s: f64, steps: u64
     x
 }
 
-/// One step of an implicit method: iterated until nothing changes any more.
+/// One step of an implicit method, by iteration until nothing changes.
 fn implicit(motion: &Motion, a: &[Vec<f64>], b: &[f64], x: &Vector, h: f64) -> Vector {
     let mut k = vec![motion.rate(x); b.len()];
     let mut before = f64::INFINITY;
@@ -307,7 +307,7 @@ fn implicit(motion: &Motion, a: &[Vec<f64>], b: &[f64], x: &Vector, h: f64) -> V
     sum(x, h, b, &k)
 }
 
-/// exp of the rotation vector, by Rodrigues's formula.
+/// The rotation of `p` by the rotation vector `about`, by Rodrigues's formula.
 fn turned(about: &Vector, p: &Vector) -> Vector {
     let angle = dot(about, about).sqrt();
     let (s, c) = match angle < 1e-4 {
@@ -337,7 +337,7 @@ fn lie(motion: &Motion, tableau: &Tableau, rkmk: bool, p: &Vector, h: f64) -> Ve
     turned(&sum(&[0.0; 3], h, &tableau.b, &k), p)
 }
 
-/// exp(mt) by scaling and squaring of its series.
+/// The exponential exp(mt), by scaling and squaring of its series.
 fn exponential(m: &Matrix, t: f64) -> Matrix {
     let norm = m.iter().flatten().map(|x| (x * t).abs()).sum::<f64>();
     let halvings = norm.max(1e-300).log2().ceil().max(0.0) as i32 + 3;
@@ -355,7 +355,7 @@ fn exponential(m: &Matrix, t: f64) -> Matrix {
     all
 }
 
-/// Steps, taken or not, after which an adaptive method gives up.
+/// Number of steps, accepted or rejected, after which an adaptive method gives up.
 const MOST_STEPS: u64 = 2_000_000;
 
 fn adaptive(

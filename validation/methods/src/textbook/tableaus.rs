@@ -1,13 +1,13 @@
-//! Coefficients of explicit Runge–Kutta methods: of each its name, its order, the rows of a below the diagonal, and b.
+//! Coefficients of explicit Runge–Kutta methods: name, order, the rows of a below the diagonal, and b.
 
 /// An explicit Runge–Kutta method.
 #[derive(Clone)]
 pub struct Tableau {
-    /// Its name.
+    /// Name of the method.
     pub name: &'static str,
-    /// Its order.
+    /// Order of the method.
     pub order: u32,
-    /// Weights of the stages before, row by row.
+    /// Weights of the earlier stages in each stage, row by row.
     pub a: Vec<Vec<f64>>,
     /// Weights of the stages in the step.
     pub b: Vec<f64>,
@@ -18,7 +18,7 @@ fn tableau(name: &'static str, order: u32, a: &[&[f64]], b: &[f64]) -> Tableau {
     Tableau { name, order, a: rows, b: b.to_vec() }
 }
 
-/// Orders 1 to 8.
+/// Methods of orders 1 to 8.
 #[rustfmt::skip]
 pub fn all() -> Vec<Tableau> {
     let s = 21f64.sqrt();
@@ -81,7 +81,7 @@ const DORMAND_PRINCE: [&[f64]; 6] = [&[0.2], &[3.0 / 40.0, 9.0 / 40.0], &[44.0 /
     &[9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0],
     &[35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0]];
 
-/// Embedded pairs: the method that goes on, and b of the one that its error is estimated by.
+/// Embedded pairs: the method that is continued, and b of the method for its error estimate.
 #[rustfmt::skip]
 pub fn pairs() -> Vec<(Tableau, Vec<f64>)> {
     vec![
@@ -97,8 +97,8 @@ pub fn pairs() -> Vec<(Tableau, Vec<f64>)> {
     ]
 }
 
-/// Polynomial extrapolation of Euler's steps (order: as many as there are numbers of substeps), or of Gragg's midpoint rule
-/// (twice that), written as a tableau.
+/// Polynomial extrapolation of Euler's steps (its order is the number of entries in `substeps`), or of Gragg's midpoint rule
+/// (twice that), as a tableau.
 fn extrapolated(name: &'static str, substeps: &[usize], midpoint: bool) -> Tableau {
     let power = if midpoint { 2 } else { 1 };
     let weight = |j: usize| -> f64 {
@@ -109,7 +109,7 @@ fn extrapolated(name: &'static str, substeps: &[usize], midpoint: bool) -> Table
     let (mut a, mut b) = (vec![Vec::new()], vec![0.0; stages]);
     for (j, n) in substeps.iter().enumerate() {
         let h = 1.0 / *n as f64;
-        // The weights of the stages in y_0, y_1, ..., y_n; the first stage is shared, the others come one by one.
+        // The weights of the stages in y_0, y_1, ..., y_n; the first stage is shared, the others are added one by one.
         let mut y = vec![vec![0.0; stages], vec![0.0; stages]];
         y[1][0] = h;
         for k in 1..*n {

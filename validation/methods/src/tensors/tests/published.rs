@@ -1,4 +1,4 @@
-//! Results that others published, in `validation/published/tensor-models`.
+//! Compares with published results of others in `validation/published/tensor-models`.
 
 use super::{SHEAR, matrix, turned};
 use crate::tensors::{Closure, Equation, Model, at, isotropic, steady};
@@ -10,9 +10,9 @@ struct Row {
     source: String,
     model: String,
     closure: Closure,
-    /// C_I, then the model's others; each with half a unit of its last printed digit.
+    /// C_I, then the model's other parameters, each with half a unit of its last printed digit.
     parameters: Vec<(f64, f64)>,
-    /// None once it is steady.
+    /// The strain; `None` for the steady state.
     strain: Option<f64>,
     place: (usize, usize),
     value: (f64, f64),
@@ -54,7 +54,7 @@ impl Row {
         };
         let equation =
             Equation { gradient_per_s: matrix(SHEAR), shape_factor: 1.0, closure: self.closure, model };
-        // The axes of an isotropic a are anyone's: MRD and pARD get some.
+        // An isotropic a has no axes of its own: MRD and pARD start slightly off it.
         let start = match model {
             Model::Mrd { .. } | Model::Pard { .. } => isotropic() * 0.99 + turned([0.6, 0.3, 0.1]) * 0.01,
             _ => isotropic(),
@@ -67,8 +67,8 @@ impl Row {
     }
 }
 
-/// The ten-digit rows to 10⁻⁹ and seven digits to half a unit; drifting rows to 10⁻⁴; fitted rows to what the printed digits of
-/// parameters and value leave.
+/// Tolerances: 10⁻⁹ for rows of ten digits, half a unit for seven digits, 10⁻⁴ for drifting rows; for fitted rows, what the printed
+/// digits of parameters and value allow.
 #[test]
 fn results_of_others_are_met() {
     let mut seen = 0;
@@ -91,7 +91,7 @@ fn results_of_others_are_met() {
         let off = (found - row.value.0).abs();
         let name = format!("{} {:?} {:?} {p:?}", row.model, row.closure, row.place);
         assert!(off <= allowed, "{name}: {found} off by {off:e}, allowed {allowed:e}");
-        // A mistake: another C_I by 2 % of it.
+        // A mistake: C_I off by 2 %.
         let mut wrong = p.clone();
         wrong[0] *= 1.02;
         let strict = row.source == "nimasam";
