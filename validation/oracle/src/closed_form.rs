@@ -72,7 +72,7 @@ pub fn phase_means(orbit_constant: f64, aspect_ratio: f64) -> [f64; 3] {
     let r = aspect_ratio;
     let sin_beta = orbit_constant.recip().hypot(1.0).recip();
     let cos_beta = orbit_constant.hypot(1.0).recip();
-    // |q|² at ωt = π/2, where it is 1 at ωt = 0.
+    // |q|² at ωt = π/2, relative to 1 at ωt = 0.
     let far = cos_beta * cos_beta + (r * sin_beta).powi(2);
     let s = ((r - 1.0) * (r + 1.0)).abs().sqrt();
     let x = s * sin_beta;
@@ -125,7 +125,7 @@ mod tests {
     use super::super::quadrature::{integrate, mean_angle_by_quadrature, phase_means_by_quadrature, spread};
     use super::*;
 
-    /// Far from 1 enough that a wrong use of r_e must show.
+    /// True if r_e is far enough from 1 for a wrong use of r_e to show.
     fn is_rod_or_disc(aspect_ratio: f64) -> bool {
         aspect_ratio.ln().abs() > 0.1
     }
@@ -171,14 +171,14 @@ mod tests {
             // Conditioning: the round-off of ωt is stretched by r_e or 1/r_e.
             let tolerance = 5e-15 * r.max(1.0 / r);
             assert!(apart((phi, theta)) < tolerance, "{r} {phi0} {theta0} {turns}");
-            // The branch: φ and phase agree to within a quarter turn, so φ gains turns to within half a turn.
+            // The branch: φ and phase agree to within a quarter turn, so φ − φ₀ is right to within half a turn.
             assert!((phi - phi0 - TAU * turns).abs() < PI);
             assert!((0.0..=PI).contains(&theta) && (theta > FRAC_PI_2) == (theta0 > FRAC_PI_2));
             // Wrong variant: A.4 without the initial phase, φ − φ₀ = atan(r_e tan ωt).
             let wrong = apart((phi0 + stretch(TAU * turns, r), theta));
             caught += usize::from(wrong > tolerance);
         }
-        // A few slender rods lie along the flow before and after, where no phase shows.
+        // A few slender rods lie along the flow before and after, where the phase is invisible.
         assert!(caught > 285, "{caught}");
     }
 
@@ -215,7 +215,7 @@ mod tests {
         for (u, _) in spread(200) {
             let r = 1e8f64.powf(2.0 * u - 1.0);
             let value = mean_angle(r);
-            // The quadrature's own round-off.
+            // The tolerance is the quadrature's own round-off.
             assert!((value - mean_angle_by_quadrature(r)).abs() < 2e-15, "{r}");
             assert!((value + mean_angle(1.0 / r) - FRAC_PI_2).abs() < 1e-15);
             // Wrong variant: φ at the middle of the quarter, T/8.
@@ -236,7 +236,7 @@ mod tests {
             let (r, c) = (1e4f64.powf(1.5 * u - 0.5), 1e3f64.powf(2.0 * v - 1.0));
             let (closed, direct) = (phase_means(c, r), phase_means_by_quadrature(c, r));
             for i in 0..3 {
-                // Eight panels and their halvings, each with its round-off.
+                // The tolerance is the round-off of eight panels and their halvings.
                 assert!((closed[i] - direct[i]).abs() < 1e-14, "{r} {c} {i}");
             }
             // Wrong variant: r_e upside down.
@@ -249,7 +249,7 @@ mod tests {
             let (plane, near) = (phase_means(f64::INFINITY, r), phase_means(1e17, r));
             assert!((0..3).all(|i| (plane[i] - near[i]).abs() < 1e-15));
         }
-        // A sphere turns uniformly: sin β · 2/π twice, and cos β.
+        // A sphere turns uniformly: its means are sin β · 2/π twice, and cos β.
         let sphere = phase_means(0.75, 1.0);
         let exact = [0.6 * FRAC_2_PI, 0.6 * FRAC_2_PI, 0.8];
         assert!((0..3).all(|i| (sphere[i] - exact[i]).abs() < 2e-16));

@@ -1,9 +1,9 @@
 //! Jeffery's motion in any velocity gradient to hundreds of bits: exp(Aτ) p by Taylor's series and squaring.
 //!
-//! L, r_e and p are taken as exact, A = (r_e² L − Lᵀ)/(r_e² + 1) less a third of its trace. The answer is worked out twice,
-//! once with 128 bits more, and again with twice as many until both agree to 90 bits: what cancels is paid for in bits. The
-//! first has enough of them to hold A and A² beside all that is small in them, so that two answers cannot agree by
-//! leaving out the same.
+//! L, r_e and p are taken as exact, A = (r_e² L − Lᵀ)/(r_e² + 1) less a third of its trace. The answer is computed twice, the second
+//! time with 128 bits more; the bits are doubled until both agree to 90 bits, so that digits lost to cancellation are replaced. The
+//! first computation has enough bits to hold A and A² together with their smallest parts, so that two answers cannot agree because
+//! both lose the same part.
 
 #[cfg(test)]
 mod tests;
@@ -13,14 +13,14 @@ use std::array::from_fn;
 
 type Square = [[FBig; 3]; 3];
 
-/// How long a rod moves.
+/// The length of a rod's motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Span {
     /// Units of strain: (2 D:D)^½ t.
     Strain(f64),
     /// Seconds.
     Seconds(f64),
-    /// A quotient of whole numbers of periods 2π(r_e + 1/r_e)/G of Couette flow with the shear rate G in 1/s.
+    /// A number of periods 2π(r_e + 1/r_e)/G, as a quotient of whole numbers; the third is the shear rate G of Couette flow in 1/s.
     CouettePeriods(f64, f64, f64),
 }
 
@@ -29,29 +29,29 @@ pub enum Span {
 pub struct Rod {
     /// ∂u_i/∂x_j in 1/s, row i and column j.
     pub gradient_per_s: [[f64; 3]; 3],
-    /// r_e.
+    /// The aspect ratio r_e.
     pub aspect_ratio: f64,
-    /// The direction at first; its length does not matter.
+    /// The initial direction; its length does not matter.
     pub p: [f64; 3],
 }
 
-/// Two answers that agree to this are taken as right: 2⁻⁹⁰.
+/// Two answers whose directions differ by less than this are accepted: 2⁻⁹⁰.
 const AGREED: f64 = 1.0 / (1u128 << 90) as f64;
-/// Bits beyond which the answer is given up.
+/// Number of bits beyond which the computation gives up.
 const MOST_BITS: usize = 20_000;
 
 impl Rod {
     /// The direction after `span`, with length 1 to double precision.
     ///
     /// # Panics
-    /// Where 20 000 bits do not settle it.
+    /// If 20 000 bits do not settle it.
     pub fn after(&self, span: Span) -> [f64; 3] {
         (self.settled(span))
             .unwrap_or_else(|| panic!("{self:?} after {span:?} is not settled by {MOST_BITS} bits"))
     }
 
-    /// The same, or none where 20 000 bits do not settle it: a start so near a dividing plane of the
-    /// flow that more bits would be needed to see that it leaves.
+    /// The direction after `span`, or `None` if 20 000 bits do not settle it: the start is so near a dividing plane of the flow
+    /// that more bits would be needed to see that it leaves.
     pub fn settled(&self, span: Span) -> Option<[f64; 3]> {
         let mut bits = self.bits_of_the_input();
         while bits < MOST_BITS {
@@ -64,7 +64,7 @@ impl Rod {
         None
     }
 
-    /// 320, and those that lie between the largest and the least of r_e⁴, 1 and the components.
+    /// 320 bits, and those that span the sizes of r_e⁴, 1 and the components.
     fn bits_of_the_input(&self) -> usize {
         let sizes = self.gradient_per_s.iter().flatten().filter(|x| **x != 0.0);
         let (least, most) =
@@ -73,7 +73,7 @@ impl Rod {
         320 + (4.0 * self.aspect_ratio.log2().abs() + spread).ceil() as usize
     }
 
-    /// exp(Aτ)p, its largest component between 1 and 2 in size.
+    /// exp(Aτ)p, scaled such that the size of its largest component is between 1 and 2.
     fn end(&self, span: Span, bits: usize) -> [FBig; 3] {
         let big = |x| big(x, bits);
         let l = self.gradient_per_s.map(|row| row.map(big));
@@ -119,9 +119,9 @@ fn time_s(l: &Square, aspect_ratio: f64, span: Span, bits: usize) -> FBig {
     }
 }
 
-/// exp(X), up to a factor: the series of X/2ˢ, squared s times.
+/// exp(X) up to a factor: the series of X/2ˢ, squared s times.
 fn exponential(mut x: Square, bits: usize) -> Square {
-    // Beyond 2⁻²⁴ a term of the series costs less than the squaring that it saves.
+    // Down to 2⁻²⁴ a halving saves more terms of the series than its squaring costs.
     let halvings = (exponent(&x) + 2 + 24).max(0);
     for component in x.iter_mut().flatten() {
         *component = component.clone() >> halvings;
@@ -159,12 +159,12 @@ fn product(a: &Square, b: &Square) -> Square {
     from_fn(|i| from_fn(|j| &a[i][0] * &b[0][j] + &a[i][1] * &b[1][j] + &a[i][2] * &b[2][j]))
 }
 
-/// The exponent of the power of two below x; the least there is for 0.
+/// The exponent of the largest power of two ≤ |x|; the smallest integer for 0.
 fn exponent_of(x: &FBig) -> isize {
     if x.repr().significand().is_zero() { isize::MIN } else { x.repr().exponent() + x.digits() as isize - 1 }
 }
 
-/// The exponent of the power of two below the largest component.
+/// The exponent of the largest power of two in the largest component.
 fn exponent(x: &Square) -> isize {
     x.iter().flatten().map(exponent_of).max().unwrap_or(isize::MIN)
 }

@@ -23,7 +23,7 @@ pub fn mean_projections(aspect_ratio: f64, turns: f64) -> [f64; 3] {
         let [first, second, third] = mean_projections(r.recip(), turns);
         return [second, first, third];
     }
-    // Only |sin ωt| and |cos ωt| enter. Whole quarter turns are taken out first, so that a small one keeps its digits.
+    // Only |sin ωt| and |cos ωt| matter. Whole quarter turns are removed first, so that a small rest keeps its digits.
     let quarters = (4.0 * turns).round();
     let (near, far) = (TAU * (turns - 0.25 * quarters)).sin_cos();
     let (s, c) = if quarters % 2.0 == 0.0 { (near.abs(), far) } else { (far, near.abs()) };
@@ -62,8 +62,8 @@ pub fn mean_projections_polydisperse(
 
 /// The mean of `f(r, t/T(r))` over aspect ratios r, Gaussian with a standard deviation above 0.
 ///
-/// The Gaussian is cut at ±8 standard deviations and at r = 0, and normalised over what is left: nothing (< 1e-14) is cut
-/// below a deviation of 12.5 %. Panels end where rods have made a whole number of half turns, because there X₁ has its peaks.
+/// The Gaussian is cut at ±8 standard deviations and at r = 0, and normalised over the rest; below a deviation of 12.5 % the loss is
+/// nothing (< 1e-14). Panels end where rods have made a whole number of half turns, because X₁ has its peaks there.
 pub fn mean_over_aspect_ratios<const N: usize>(
     mean_aspect_ratio: f64,
     sd_percent: f64,
@@ -90,7 +90,7 @@ pub fn mean_over_aspect_ratios<const N: usize>(
 
     let mass = gaussian.cdf(high) - gaussian.cdf(low);
     std::array::from_fn(|axis| {
-        // The rule uses its end points, and r = 0 is one of them when the Gaussian is cut there.
+        // The rule evaluates its end points; one of them is r = 0 if the Gaussian is cut there.
         let weighted = |r: f64| {
             let r = r.max(1e-12);
             gaussian.pdf(r) * f(r, turns_at(r))[axis]
@@ -99,11 +99,11 @@ pub fn mean_over_aspect_ratios<const N: usize>(
     })
 }
 
-/// The long-time plateau: means of |p₁|, |p₂|, |p₃| once the phases are mixed, for one aspect ratio r_e > 0.
+/// The long-time plateau: means of |p₁|, |p₂|, |p₃| when the phases are mixed, for one aspect ratio r_e > 0.
 ///
 /// A free rod keeps its orbit constant, so isotropic rods keep their distribution of C whatever their phases become:
 /// ∫ f(C) ⟨|p_i|⟩_C dC. In ln C the integrand is smooth and falls off as C² and 1/C.
-/// Also the mean over time of `mean_projections`. Measured against that: 3e-15 relative for 1e-3 ≤ r_e ≤ 1e4.
+/// It is also the mean over time of `mean_projections`. Measured against that: 3e-15 relative for 1e-3 ≤ r_e ≤ 1e4.
 pub fn plateau_projections(aspect_ratio: f64) -> [f64; 3] {
     // C lies between 1 and 1/r_e where p₁ and p₂ are comparable with p₃.
     let knee = -aspect_ratio.ln();
@@ -132,7 +132,7 @@ mod tests {
         (0..3).map(|i| (a[i] / b[i] - 1.0).abs()).fold(0.0, f64::max)
     }
 
-    /// The same means by another road: z = cos θ₀ is integrated in closed form, φ₀ numerically.
+    /// The same means by another method: z = cos θ₀ is integrated in closed form, φ₀ numerically.
     /// With n = (cos φ₀, sin φ₀), f = F n in axes 1 and 2 and g = |f|²: ∫ z dz/|q| = 1/(1 + √g),
     /// ∫ (1 − z²)^½ dz/|q| = R_D(0, g, 1)/3.
     fn by_integral_over_phi(r: f64, turns: f64) -> [f64; 3] {
@@ -173,7 +173,7 @@ mod tests {
             let exact = mean_projections(r, turns);
             // Midpoint rule: kinks and the root at z = 1 leave h^{3/2} ~ 1e-4, with a small factor.
             assert!(most_apart(exact, sum) < 5e-5, "{r} {turns} {exact:?} {sum:?}");
-            // Wrong variant: the time counted in T/2.
+            // Wrong variant: time in units of T/2.
             assert!(most_apart(mean_projections(r, 2.0 * turns), sum) > 1e-3);
         }
     }
@@ -230,7 +230,7 @@ mod tests {
                 sum
             };
             let exact = mean_projections_polydisperse(mean, sd_percent, turns);
-            // Both rules converge geometrically; 1e-11 a panel was asked for.
+            // Both rules converge geometrically; the tolerance per panel is 1e-11.
             let error = most_apart(exact, trapezoid(false));
             assert!(error < 1e-10, "{mean} {sd_percent} {turns} {error:e}");
             // Wrong variant: all rods with the period of the mean rod.
@@ -248,7 +248,7 @@ mod tests {
             let narrow = mean_projections_polydisperse(r, 1e-4, turns);
             assert!(most_apart(narrow, uniform) < 1e-7);
             assert!(most_apart(mean_projections_polydisperse(r, 5.0, 0.0), [0.5; 3]) < 1e-13);
-            // Deviations that reach r = 0 are cut there and stay normalised; at t = 0 nothing else can show.
+            // Deviations that reach r = 0 are cut there, and the means stay normalised; at t = 0 nothing else can show.
             assert!(most_apart(mean_projections_polydisperse(r, 30.0, 0.0), [0.5; 3]) < 1e-11);
         }
     }
@@ -261,10 +261,10 @@ mod tests {
             let quarter =
                 |i: usize| integrate(|t| mean_projections(r, t)[i], &[0.0, knee, 0.25], 1e-15).value;
             let (plateau, over_time) = (plateau_projections(r), [0, 1, 2].map(|i| 4.0 * quarter(i)));
-            // Round-off of some ten panels on either side.
+            // The tolerance is the round-off of about ten panels on either side.
             let error = largest_ratio_error(plateau, over_time);
             assert!(error < 1e-14, "{r} {error:e}");
-            // Wrong variant: phases mixed in an orbit taken by all rods, the median one of a sphere, C = √3.
+            // Wrong variant: all rods in a single orbit with mixed phases, the median one of a sphere, C = √3.
             assert!(most_apart(phase_means(3f64.sqrt(), r), over_time) > 1e-4);
         }
         assert!(most_apart(plateau_projections(1.0), [0.5; 3]) < 1e-15);

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 /// ω in 1/s (A.1 as printed) of a spheroid with the half axes `a` along the unit vector p and `b` across it, in the velocity
-/// gradient L_ij = ∂u_i/∂x_j in 1/s. The particle's axes: 1 along its long axis a, 2 and 3 along its short axes b.
+/// gradient L_ij = ∂u_i/∂x_j in 1/s. In the particle's axes, 1 is along the long axis a, 2 and 3 are along the short axes b.
 pub fn angular_velocity_per_s(l: &Matrix3<f64>, a: f64, b: f64, p: &Vector3<f64>) -> Vector3<f64> {
     let helper = if p.x.abs() < 0.5 { Vector3::x() } else { Vector3::y() };
     let second = p.cross(&helper).normalize();

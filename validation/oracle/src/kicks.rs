@@ -1,4 +1,4 @@
-//! How large and how frequent kicks are: the formulas of docs/src/theory/time-step.md.
+//! The size and frequency of kicks: the formulas of docs/src/theory/time-step.md.
 //!
 //! A kick is |ṗ′ − ṗ|Δt = |g|Δt/(2|r|), with g the relative velocity of the contact points along the contact line
 //! and r the rod's arm. Lengths are in rod lengths, time in 1/G. D is the rate of strain of u_2 = x_1.
@@ -22,7 +22,7 @@ fn strain(a: Vector, b: Vector) -> f64 {
     0.5 * (a[0] * b[1] + a[1] * b[0])
 }
 
-/// 1 − Λ without cancellation.
+/// 1 − Λ, computed without cancellation.
 fn rest(aspect_ratio: f64) -> f64 {
     2.0 / (aspect_ratio * aspect_ratio + 1.0)
 }
@@ -44,8 +44,8 @@ pub fn kicks(separation: Vector, directions: [Vector; 2], aspect_ratios: [f64; 2
     arms.map(|r| (0.5 * gap / r).abs())
 }
 
-/// The largest kick over GΔt where no arm is shorter than `min_arm`, at centre distance `distance`; for the rod
-/// `own` against `other`: ¼[(2 − Λ_other) s/r_min + 2 − Λ_own − Λ_other].
+/// The largest kick over GΔt of the rod `own` against `other`, at the centre distance `distance`, if no arm is shorter than
+/// `min_arm`: ¼[(2 − Λ_other) s/r_min + 2 − Λ_own − Λ_other].
 ///
 /// |h| ≤ s, |ℓ·D·ℓ| and |ℓ·D·p| are ½ at most, and |r_B| ≤ |r_A| + s.
 pub fn largest_kick(distance: f64, min_arm: f64, own: f64, other: f64) -> f64 {
@@ -69,18 +69,18 @@ pub fn chance_of_pair(p_a: Vector, p_b: Vector, aspect_ratio_b: f64, scaled: f64
     (0.5 * q / scaled).atan() / FRAC_PI_2
 }
 
-/// The limit of Y × that probability for Y → ∞ and isotropic rods of one aspect ratio:
+/// The limit for Y → ∞ of Y × the probability of `chance_of_pair`, for isotropic rods of one aspect ratio:
 /// ¼⟨√((ℓ·D·ℓ)² + (1 − Λ)² (ℓ·D·p)²)⟩ over all right-angled pairs ℓ, p. For threads 1/(6π).
 pub fn tail_of_isotropic(aspect_ratio: f64) -> f64 {
     let epsilon = rest(aspect_ratio);
-    // Over the turns χ of p about ℓ, ℓ·D·p = b cos χ with b² = |Dℓ|² − (ℓ·D·ℓ)²: an elliptic integral.
+    // Averaged over the angle χ of p about ℓ, ℓ·D·p = b cos χ with b² = |Dℓ|² − (ℓ·D·ℓ)² gives an elliptic integral.
     let over_turns = |along: f64, across_square: f64| {
         let square = epsilon * epsilon * across_square;
         let sum = along * along + square;
         let modulus = if sum > 0.0 { square / sum } else { 0.0 };
         sum.sqrt() * ellipe(modulus.min(1.0)).unwrap_or(f64::NAN) / FRAC_PI_2
     };
-    // One of the eight equal parts of the sphere; in each, two equal halves of φ.
+    // Integrates over one of the eight equal parts of the sphere, which consists of two equal halves of φ.
     let over_height = |phi: f64| {
         let sin = (2.0 * phi).sin();
         let at = |height: f64| {
@@ -94,8 +94,8 @@ pub fn tail_of_isotropic(aspect_ratio: f64) -> f64 {
     0.25 * eighth / (0.25 * PI)
 }
 
-/// The probability that a collision of two isotropic threads (Λ = 1) kicks a given one of them by more than
-/// `scaled` × GΔt, to 2·10⁻⁴ of itself where `scaled` ≥ 1: 1/(6πY) (1 − 1/(140 Y²) + …).
+/// The probability that a collision of two isotropic threads (Λ = 1) kicks a given one of them by more than `scaled` × GΔt:
+/// 1/(6πY) (1 − 1/(140 Y²) + …), with a relative error of 2·10⁻⁴ for `scaled` ≥ 1.
 pub fn chance_of_threads(scaled: f64) -> f64 {
     (1.0 - 1.0 / (140.0 * scaled * scaled)) / (6.0 * PI * scaled)
 }
@@ -119,7 +119,7 @@ mod tests {
         (0..count).map(move |_| [direction(), direction(), direction()])
     }
 
-    /// The kicks of both by A.7 to A.13, and the arms.
+    /// The kicks of both rods by A.7 to A.13, and the arms.
     fn collided(a: Vector, b: Vector, separation: Vector, aspect_ratios: [f64; 2]) -> ([f64; 2], [f64; 2]) {
         let before = [(a, aspect_ratios[0]), (b, aspect_ratios[1])].map(|(p, r)| jeffery(p, r, GRADIENT));
         let contact = collide([0.0; 3], a, before[0], separation, b, before[1], GRADIENT).unwrap();
@@ -142,7 +142,7 @@ mod tests {
             compared += 1;
             let found = kicks(d, [a, b], ratios);
             for i in 0..2 {
-                // Terms up to 20 arms long, each known to ε/sin².
+                // There are terms up to 20 arms long, each with an error of ε/sin².
                 closest = closest.max((found[i] - expected[i]).abs());
                 let bound = largest_kick(1.0, shortest, ratios[i], ratios[1 - i]);
                 sharpest = sharpest.max(expected[i] / bound);
@@ -161,15 +161,15 @@ mod tests {
                 larger += f64::from(collided(a, b, d, [ratio; 2]).0[0] > scaled) / count as f64;
                 chance += chance_of_pair(a, b, ratio, scaled) / count as f64;
             }
-            // 1 − Λ = 0.4 at r_e = 2 is left out of terms in 1/Y².
+            // At r_e = 2, 1 − Λ = 0.4 is neglected in terms of 1/Y².
             let allowed =
                 4.5 * (larger / count as f64).sqrt() + if ratio < 3.0 { 0.01 * larger } else { 0.0 };
             assert!((larger - chance).abs() < allowed, "{ratio} {scaled}: {larger} {chance}");
-            // The tail's constant, for Y at which the next term of the series is known or below 10⁻³.
+            // The constant of the tail, for Y where the next term of the series is known or below 10⁻³.
             if scaled >= 1.0 {
                 let series = chance_of_threads(scaled) * tail_of_isotropic(ratio) * 6.0 * PI;
                 assert!((series - chance).abs() < allowed, "{ratio} {scaled}: {series} {chance}");
-                // A mean over κ of the wrong power, or a factor of π.
+                // Wrong variants: a mean over κ of the wrong power, or a factor of π.
                 assert!((series * scaled - chance).abs() > allowed || scaled == 1.0);
                 assert!((series * 1.1 - chance).abs() > allowed);
             }
@@ -181,7 +181,7 @@ mod tests {
         assert!((tail_of_isotropic(1e9) * 6.0 * PI - 1.0).abs() < 1e-8);
         let tails = [100.0, 11.6, 2.0, 1.0, 0.5].map(tail_of_isotropic);
         assert!(tails.is_sorted(), "{tails:?}");
-        // Spheres are carried round alike: ⟨√((ℓ·D·ℓ)² + (ℓ·D·p)²)⟩ by the midpoint rule over three angles.
+        // For spheres the mean ⟨√((ℓ·D·ℓ)² + (ℓ·D·p)²)⟩ is computed by the midpoint rule over three angles.
         let n = 60;
         let mut sum = 0.0;
         for (i, j, k) in (0..n * n * n).map(|q| (q / n / n, q / n % n, q % n)) {
@@ -194,7 +194,7 @@ mod tests {
             let p = [0, 1, 2].map(|i| across[i] * chi.cos() + up[i] * chi.sin());
             sum += strain(line, line).hypot(strain(line, p)) / f64::from(n).powi(3);
         }
-        // The midpoint rule is off by h²/24 of second derivatives of order 10.
+        // The error of the midpoint rule is h²/24 of second derivatives of order 10.
         assert!((0.25 * sum / tail_of_isotropic(1.0) - 1.0).abs() < 1e-3);
     }
 }

@@ -1,6 +1,6 @@
-//! What judges the simulator `shearbed`: closed forms, quadratures, values in any precision and a naive reference.
+//! The oracles that judge the simulator `shearbed`: closed forms, quadratures, values in any precision and a naive reference.
 //!
-//! Nothing here uses the simulator: the crate does not depend on it, so that the compiler holds it to that.
+//! Nothing here uses the simulator: the crate does not depend on it, so the compiler enforces this.
 
 pub mod closed_form;
 pub mod diffusion;

@@ -27,7 +27,7 @@ pub fn fourth(aspect_ratio: f64, turns: f64, indices: [usize; 4]) -> f64 {
     })
 }
 
-/// ⟨p_i p_j⟩ at `turns`.
+/// ⟨p_i p_j⟩ at `turns` = t/T of rods of one aspect ratio r_e > 0.
 pub fn second(aspect_ratio: f64, turns: f64, [i, j]: [usize; 2]) -> f64 {
     let sigma = covariance(aspect_ratio, turns);
     over_x(|x| 0.5 / root(sigma, x) * inverse(sigma, x)[i][j])
@@ -45,7 +45,7 @@ fn inverse([s11, s22, s12]: [f64; 3], x: f64) -> [[f64; 3]; 3] {
     [[(s11 + x) / det, off, 0.0], [off, (s22 + x) / det, 0.0], [0.0, 0.0, 1.0 / (1.0 + x)]]
 }
 
-/// ∫₀^∞ f dx with x = (y/(1 − y))²; f falls as x^-5/2, so what is left falls as (1 − y)².
+/// ∫₀^∞ f dx with x = (y/(1 − y))²; f falls as x^-5/2, so the integrand in y falls as (1 − y)².
 fn over_x(f: impl Fn(f64) -> f64) -> f64 {
     let mapped = |y: f64| match y {
         y if y >= 1.0 => 0.0,
@@ -78,7 +78,7 @@ mod tests {
         }
     }
 
-    /// The same by a rule on the sphere of starts, rod by rod.
+    /// The same moments by a rule on the sphere of starts, rod by rod.
     #[test]
     fn a_sum_over_starts_agrees() {
         let (r, turns) = (3.0, 0.17);
@@ -87,7 +87,7 @@ mod tests {
         for indices in [[0, 0, 0, 0], [0, 0, 1, 1], [1, 1, 1, 1], [0, 1, 1, 1], [0, 0, 0, 1], [0, 1, 2, 2]] {
             let mut sum = 0.0;
             for height in 0..heights {
-                // Midpoints in cos θ: second order.
+                // The midpoint rule in cos θ has order 2.
                 let z = -1.0 + (2.0 * f64::from(height) + 1.0) / f64::from(heights);
                 for angle in 0..angles {
                     let phi = TAU * f64::from(angle) / f64::from(angles);

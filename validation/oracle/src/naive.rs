@@ -36,26 +36,26 @@ use rand_pcg::Pcg64Dxsm;
 use random::{ASPECT_RATIOS, COLLISIONS, LENGTHS, ORIENTATIONS, POSITIONS, REPLACEMENTS, uniform};
 use std::f64::consts::TAU;
 
-/// The suspension as it is now.
+/// The current state of the suspension.
 #[derive(Debug)]
 pub struct Naive {
     /// Centres of mass, mm.
     pub positions_mm: Vec<[f64; 3]>,
     /// Unit axes.
     pub orientations: Vec<[f64; 3]>,
-    /// r_e of every rod.
+    /// Aspect ratio r_e of every rod.
     pub aspect_ratios: Vec<f64>,
-    /// a of every rod, mm.
+    /// Length a of every rod, mm.
     pub lengths_mm: Vec<f64>,
-    /// Collisions so far.
+    /// Number of collisions so far.
     pub collisions: u64,
-    /// Rods that have left the volume so far.
+    /// Number of rods that have left the volume so far.
     pub replacements: u64,
-    /// Aspect ratios drawn again because they were 1 or less, and lengths because they were not positive.
+    /// Number of repeated draws of aspect ratios that were 1 or less, and of lengths that were not positive.
     pub redraws: u64,
-    /// Rods (i, j) that collided in the last step, in the order taken; i is the one whose draw it was.
+    /// Rods (i, j) that collided in the last step, in order; i is the rod whose draw led to the collision.
     pub last_collisions: Vec<(usize, usize)>,
-    /// |pdot'| dt of i and of j for each of these, rad: the whole turn, Jeffery's share included.
+    /// |pdot'| dt of i and of j for each of these collisions, rad: the whole turn, including Jeffery's part.
     pub last_turns_rad: Vec<[f64; 2]>,
     problem: NaiveProblem,
     propagators: Vec<Matrix3<f64>>,
@@ -139,7 +139,7 @@ impl Naive {
             for (rod, pdot) in [(i, contact.pdot_a_per_s), (j, contact.pdot_b_per_s)] {
                 let (p, made) = (old[rod], self.problem.mistake);
                 self.orientations[rod] = match self.problem.update {
-                    // phi has no meaning at the pole
+                    // phi is undefined at the pole
                     Update::Angles if sin_theta(p) != 0.0 => moved_by_angles(p, pdot, dt_s, made),
                     Update::Angles | Update::Rotation => rotated(p, pdot, dt_s),
                     Update::ExactStepAndKick => {
@@ -166,7 +166,7 @@ impl Naive {
             if taken[i] || taken[j] {
                 continue;
             }
-            // no contact is no collision: both rods stay free for a later candidate
+            // without contact there is no collision: both rods stay free for a later candidate
             if let Some(contact) = self.contact(i, j) {
                 (taken[i], taken[j]) = (true, true);
                 contacts.push((i, j, contact));
@@ -175,7 +175,7 @@ impl Naive {
         contacts
     }
 
-    /// Every rod i whose draw is below P_c, with its nearest neighbour, in the order in which they are taken.
+    /// Every rod i whose draw is below P_c, with its nearest neighbour, in the order of collisions.
     fn candidates(&mut self) -> Vec<(usize, usize)> {
         let problem = &self.problem;
         let (n, m, made, who) = (problem.count, problem.m, problem.mistake, problem.reading.who);
@@ -183,7 +183,7 @@ impl Naive {
         let (images, edges_mm) = (problem.reading.images, problem.edges_mm());
         let neighbour = |i| nearest(&self.positions_mm, i, images, edges_mm);
         let neighbours: Vec<_> = (0..n).map(neighbour).collect();
-        // drawn whatever the distance, so that one rod's fate never shifts another's draw
+        // drawn at any distance, so that no rod's draw depends on another rod
         let draws: Vec<_> = (0..n).map(|_| uniform(&mut self.collision_stream)).collect();
         let mut candidates = Vec::new();
         for i in 0..n {
@@ -204,7 +204,7 @@ impl Naive {
         candidates.into_iter().map(|(i, j, _)| (i, j)).collect()
     }
 
-    /// What s is taken over where rod i draws, its neighbour being j.
+    /// The length in mm by which s is divided when rod i draws and j is its neighbour.
     fn length_mm(&self, i: usize, j: usize) -> f64 {
         let [own, partners] = [i, j].map(|rod| self.lengths_mm[rod]);
         match (self.problem.mistake, self.problem.reading.length) {
@@ -215,13 +215,13 @@ impl Naive {
         }
     }
 
-    /// Where rod i sees rod j.
+    /// The position of rod j, or of its image, as seen from rod i.
     fn seen_from(&self, i: usize, j: usize) -> [f64; 3] {
         let images = self.problem.reading.images;
         images.nearest_mm(self.positions_mm[j], self.positions_mm[i], self.problem.edges_mm())
     }
 
-    /// What a collision of i and j does; `None` where they make no contact.
+    /// The effect of a collision of i and j; `None` if they make no contact.
     fn contact(&self, i: usize, j: usize) -> Option<Contact> {
         let problem = &self.problem;
         let gradient = problem.gradient_per_s();
@@ -244,8 +244,8 @@ impl Naive {
         arms.into_iter().all(reached).then_some(contact)
     }
 
-    /// x_2 grows by G x_1 dt; whoever leaves the volume comes back by eq. 14, orientation and r_e kept. In other flows
-    /// x becomes exp(L dt) x, and whoever leaves comes back with the liquid that came in.
+    /// x_2 grows by G x_1 dt; rods that leave the volume come back by eq. 14 and keep orientation and r_e. In other flows
+    /// x becomes exp(L dt) x, and rods that leave come back with the liquid that came in.
     fn translate(&mut self, dt_s: f64) {
         if self.problem.other_flow.is_some() {
             let (flow, edges_mm) = (self.problem.gradient_per_s(), self.problem.edges_mm());
@@ -265,7 +265,7 @@ impl Naive {
             if made == Some(Mistake::ReplacementNone) {
                 continue;
             }
-            // inflow through the face is proportional to u_2, so to x_1: hence the root
+            // the inflow through the face is proportional to u_2, and so to x_1: hence the root
             let draw = uniform(&mut self.replacement_stream);
             let h1_mm = either(made, Mistake::ReplacementAlongFlow, h2_mm, h1_mm);
             x[0] = h1_mm * either(made, Mistake::ReplacementUniform, draw, draw.sqrt());

@@ -1,23 +1,23 @@
-//! Which nearest pairs collide, and how likely: the rule's probabilities without its draws.
+//! The nearest pairs and their probabilities of colliding: the rule's probabilities without its draws.
 //!
-//! Rods draw independently, so the chance of every pair follows from the places alone (docs/src/theory/time-step.md). A rod's
-//! nearest neighbour is nearer than whoever has that rod for its own nearest neighbour. So a rod is always free
-//! when its own draw is looked at, unless the two are each other's nearest; only its neighbour may be taken.
+//! Rods draw independently, so the probability of every pair follows from the positions alone (docs/src/theory/time-step.md). A
+//! rod's nearest neighbour is nearer than any rod that has this rod as its nearest neighbour. So a rod is always free when its own
+//! draw is considered, unless the two are each other's nearest; only its neighbour may have collided.
 
 /// A nearest pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
-    /// The rod that draws and its nearest neighbour; the lower index first where they are each other's nearest.
+    /// The rod that draws and its nearest neighbour; the lower index first if they are each other's nearest.
     pub rods: [usize; 2],
-    /// Their distance, in the unit of the places.
+    /// Their distance, in the unit of the positions.
     pub distance: f64,
     /// The probability that they collide in a step.
     pub chance: f64,
 }
 
-/// Every nearest pair, closest first, of rods at `places`.
+/// Every nearest pair of rods at `places`, closest first.
 ///
-/// `probability` is P_c of a distance; `contact` says whether two rods make a contact, without which there is no
+/// `probability` is P_c as a function of distance; `contact` is true if two rods make a contact, without which there is no
 /// collision and both stay free.
 pub fn nearest_pairs(
     places: &[[f64; 3]],
@@ -74,7 +74,7 @@ mod tests {
     use crate::naive::stream;
     use rand::RngExt;
 
-    /// How likely each two rods collide, by trying every outcome of the draws and the rule in its own words.
+    /// The probability that each two rods collide, by trying every outcome of the draws with the rule as worded.
     fn by_enumeration(
         places: &[[f64; 3]],
         chance: &[f64],
@@ -124,11 +124,11 @@ mod tests {
 
     #[test]
     fn pairs_by_hand() {
-        // 0 and 1 are each other's nearest; 2 looks at 1, 3 at 2.
+        // 0 and 1 are each other's nearest; 2 draws with 1, 3 with 2.
         let places = [0.0, 1.0, 2.5, 4.5].map(|x| [x, 0.0, 0.0]);
         let pairs = nearest_pairs(&places, |_| 0.5, |_, _| true);
         let chances: Vec<_> = pairs.iter().map(|pair| (pair.rods, pair.chance)).collect();
-        // ¾; ½ of ¼; ½ of what 2 has left, 1 − ⅛.
+        // ¾; ½ of ¼; ½ of the probability 1 − ⅛ that 2 is free.
         assert_eq!(chances, [([0, 1], 0.75), ([2, 1], 0.125), ([3, 2], 0.4375)]);
         assert_eq!(pairs[1].distance, 1.5);
         assert!(nearest_pairs(&places[..1], |_| 0.5, |_, _| true).is_empty());

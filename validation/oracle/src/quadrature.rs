@@ -1,26 +1,26 @@
-//! Numerical integrals of the free rod's motion: the second opinion on `closed_form`.
+//! Numerical integrals of the free rod's motion, as a check of `closed_form`.
 //!
 //! The rule is Clenshaw-Curtis (crate `quadrature`, up to 257 points) on panels that are halved until a panel and its
-//! two halves agree. The crate's double-exponential rule is not used: it leaves out 3e-14 of ∫ 1 dx, and no error
-//! estimate of its own can see that.
+//! two halves agree. The crate's double-exponential rule is not used: it misses 3e-14 of ∫ 1 dx, which its own error
+//! estimate cannot show.
 
 use quadrature::clenshaw_curtis;
 use std::f64::consts::TAU;
 
-/// An integral and what is known of its error.
+/// An integral and an estimate of its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Integral {
     /// The integral.
     pub value: f64,
-    /// Sum over the panels of |panel − its two halves|: of the order of the error of the coarser rule, so cautious.
+    /// Sum over the panels of |panel − its two halves|: of the order of the error of the coarser rule, so an overestimate.
     pub error_estimate: f64,
 }
 
 /// ∫ f from the first to the last of `breaks` (ascending; repeated values make empty panels and are harmless).
 ///
 /// Put a break at every kink of f and near every narrow peak. A panel is halved until it and its halves agree within
-/// `absolute_tolerance` or to a few units of round-off; after 40 halvings the difference is taken into the error
-/// estimate as it is. f must be finite on the closed interval: the crate would quietly read a NaN as 0.
+/// `absolute_tolerance` or to a few units of round-off; after 40 halvings the difference is added to the error estimate
+/// as it is. f must be finite on the closed interval: the crate would silently read a NaN as 0.
 ///
 /// Measured: 2e-15 absolute on Lorentz peaks of unit height × width and widths down to 1e-8, next to a break.
 pub fn integrate(f: impl Fn(f64) -> f64, breaks: &[f64], absolute_tolerance: f64) -> Integral {
@@ -41,7 +41,7 @@ pub fn integrate(f: impl Fn(f64) -> f64, breaks: &[f64], absolute_tolerance: f64
     sum
 }
 
-/// One panel. A tenth of the tolerance, because the crate's estimate trusts two successive rules to disagree.
+/// One panel, with a tenth of the tolerance: the crate's error estimate assumes that two successive rules differ.
 fn panel(f: &impl Fn(f64) -> f64, a: f64, b: f64, tolerance: f64) -> f64 {
     clenshaw_curtis::integrate(f, a, b, 0.1 * tolerance).integral
 }
@@ -96,14 +96,14 @@ pub fn phase_means_by_quadrature(orbit_constant: f64, aspect_ratio: f64) -> [f64
             let (s, c) = (TAU * turns).sin_cos();
             let q = [sin_beta * c, aspect_ratio * sin_beta * s, cos_beta];
             let length = q[0].hypot(q[1]).hypot(q[2]);
-            // The rod along the vorticity axis keeps q₃ = 1, so the length is 0 nowhere.
+            // A rod along the vorticity axis keeps q₃ = 1, so the length is never 0.
             (q[axis] / length).abs()
         };
         integrate(modulus, &breaks, 1e-15).value
     })
 }
 
-/// `count` points that fill the unit square evenly (additive recurrence of the plastic number): the parameters of tests.
+/// `count` points that fill the unit square uniformly (additive recurrence of the plastic number), as parameters of tests.
 pub fn spread(count: u32) -> impl Iterator<Item = (f64, f64)> {
     let g = 1.324_717_957_244_746;
     (1..=count).map(move |i| {
@@ -119,15 +119,15 @@ mod tests {
 
     #[test]
     fn peaks_of_known_area_are_integrated() {
-        // ∫₀¹ w/(w² + x²) dx = atan(1/w): a Lorentz peak of width w at the end of the range, seen only by halving.
+        // ∫₀¹ w/(w² + x²) dx = atan(1/w): a Lorentz peak of width w at the end of the range, visible only after halving.
         for (u, _) in spread(50) {
             let w = 10f64.powf(-8.0 * u);
             let lorentz = integrate(|x| w / (w * w + x * x), &[0.0, 1.0], 1e-15);
             let exact = w.recip().atan();
-            // Some 30 panels of round-off.
+            // The tolerance is the round-off of about 30 panels.
             assert!((lorentz.value - exact).abs() < 4e-15, "{w} {lorentz:?}");
             assert!(lorentz.error_estimate < 1e-13);
-            // A fixed rule without halving misses what is narrow.
+            // A fixed rule without halving misses a narrow peak.
             let fixed = panel(&|x| w / (w * w + x * x), 0.0, 1.0, 0.0);
             assert!(w > 1e-4 || (fixed - exact).abs() > 1e-3, "{w}");
         }

@@ -18,7 +18,7 @@ pub fn stress_coefficients(r: f64) -> [f64; 3] {
 fn integrals(r: f64) -> [f64; 4] {
     let square = r * r;
     let over_u = |scale: f64, f: &dyn Fn(f64, f64) -> f64| {
-        // 1 − u² from u's own distance to 1, and a peak of width r² at 0 or r⁻² at 1.
+        // 1 − u² is computed from 1 − u; there is a peak of width r² at 0 or r⁻² at 1.
         let by_rest = |x: f64| {
             let u = 1.0 - x;
             f(u, x * (1.0 + u))
@@ -26,7 +26,7 @@ fn integrals(r: f64) -> [f64; 4] {
         let mut breaks = vec![0.0, 0.01, 0.1, 0.5, 1.0, 1.0 - r.min(0.9), 1.0 - (0.1 * r).min(0.9)];
         breaks.extend([1.0, 10.0, 100.0].map(|k| (k / square).min(1.0)));
         breaks.sort_by(f64::total_cmp);
-        // Panels as they are give the size, to which the tolerance is relative.
+        // A first integral without refinement gives the size, to which the tolerance is relative.
         let size = integrate(by_rest, &breaks, f64::INFINITY).value;
         scale * integrate(by_rest, &breaks, 1e-14 * size).value
     };
@@ -40,14 +40,14 @@ fn integrals(r: f64) -> [f64; 4] {
     ]
 }
 
-/// [`stress_coefficients`] over those of a volume: of σ/(μ n a³), with n spheroids of length a per volume.
+/// The coefficients of [`stress_coefficients`] for σ/(μ n a³), with n spheroids of length a per volume.
 pub fn by_number(r: f64) -> [f64; 3] {
     // 2φ/(na³), with φ = πna³/(6r²).
     stress_coefficients(r).map(|k| PI / (3.0 * r * r) * k)
 }
 
-/// The same of blunt cylinders of length over diameter r. Along them, a slender body's π/(6 ln 2r) times Batchelor's series in 1/ln 2r (1970b,
-/// as others quote it); across them 4φD, that of an endless cylinder, with φ = πna³/(4r²).
+/// Like `by_number`, for blunt cylinders of length over diameter r: along them π/(6 ln 2r) of a slender body times Batchelor's
+/// series in 1/ln 2r (1970b, as quoted by others); across them 4φD of an infinite cylinder, with φ = πna³/(4r²).
 pub fn of_cylinder(r: f64) -> [f64; 3] {
     let log = r.ln() + 2f64.ln();
     let series = (log + 0.64) / (log - 1.5) + 1.659 / (log * log);
@@ -64,7 +64,7 @@ pub fn shear_stress(r: f64, sheared: f64, in_plane: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The largest difference, relative to 1 or to the value where that is larger.
+    /// The largest difference, relative to the larger of 1 and the value.
     fn off(found: [f64; 3], expected: [f64; 3]) -> f64 {
         (0..3).map(|k| (found[k] - expected[k]).abs() / expected[k].abs().max(1.0)).fold(0.0, f64::max)
     }
@@ -118,7 +118,7 @@ mod tests {
         assert!((c / (8.0 * inverse) - 1.0).abs() < 2e-3, "{c}");
     }
 
-    /// A strain in the plane normal to p has two diagonal and one off-diagonal form: α₀″ and β₀″ make the first, α₀′ the second.
+    /// A strain in the plane normal to p may be diagonal or off-diagonal: α₀″ and β₀″ give the first, α₀′ the second.
     #[test]
     fn the_strain_normal_to_p_has_no_preferred_direction() {
         for r in [0.01, 0.5, 1.0, 3.0, 11.6, 100.0] {

@@ -1,24 +1,24 @@
-//! The axes of the harmonics: those in which few of them are needed.
+//! The axes of the harmonics, chosen such that few harmonics are needed.
 //!
-//! Rods gather about one axis. About a pole they need many degrees l, but orders m for the shape of the peak alone. Where the
-//! flow has a plane of reflection through that axis, the azimuth is counted from it and ψ has cosines alone.
+//! Rods gather about one axis. If it is the pole, they need many degrees l, but orders m only for the shape of the peak. If the
+//! flow has a plane of reflection through that axis, the azimuth is counted from the plane and ψ has only cosines.
 
 use super::operator::Motion;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
-/// Axes, and what turns rods in them.
+/// The axes of the harmonics, and the motion of rods in them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
-    /// Its rows are the axes x, y, z of the harmonics.
+    /// The rows are the axes x, y, z of the harmonics, in laboratory coordinates.
     pub axes: Matrix3<f64>,
-    /// In these axes.
+    /// The motion in these axes.
     pub motion: Motion,
-    /// Whether ψ is even in the azimuth, if it was at t = 0.
+    /// True if ψ stays even in the azimuth when it is even at t = 0.
     pub even: bool,
 }
 
 impl Frame {
-    /// The axes for a motion that is given in those of the laboratory.
+    /// The axes for a motion that is given in the laboratory's axes.
     pub fn of(motion: &Motion) -> Self {
         let spin = motion.spin;
         if spin == Vector3::zeros() {
@@ -45,7 +45,7 @@ impl Frame {
         Self { axes, motion, even: true }
     }
 
-    /// The axes of an extension: the one that stretches most is the pole.
+    /// The axes of an extension: the pole is the axis of the largest stretching.
     fn of_extension(motion: &Motion) -> Self {
         let eigen = SymmetricEigen::new(motion.strain);
         let mut order = [0, 1, 2];
@@ -57,12 +57,12 @@ impl Frame {
         Self { axes, motion, even: true }
     }
 
-    /// A direction of the harmonics' axes in those of the laboratory.
+    /// Converts a direction from the harmonics' axes to the laboratory's.
     pub fn outward(&self, p: [f64; 3]) -> [f64; 3] {
         (self.axes.transpose() * Vector3::from(p)).into()
     }
 
-    /// A direction of the laboratory in the harmonics' axes.
+    /// Converts a direction from the laboratory's axes to the harmonics'.
     pub fn inward(&self, p: [f64; 3]) -> [f64; 3] {
         (self.axes * Vector3::from(p)).into()
     }
@@ -70,11 +70,11 @@ impl Frame {
 
 fn turned(motion: &Motion, axes: &Matrix3<f64>) -> Motion {
     let strain = axes * motion.strain * axes.transpose();
-    // Axes of the right hand: ω turns as a vector.
+    // The axes are right-handed: ω transforms as a vector.
     Motion { strain: (strain + strain.transpose()) * 0.5, spin: axes * motion.spin, ..*motion }
 }
 
-/// The axis about which free rods are, on average over a long time. Any axis is right; this one needs few orders m.
+/// The mean axis of free rods over a long time. Any axis would be right; with this one, few orders m are needed.
 fn gathered(motion: &Motion) -> Vector3<f64> {
     const STEPS: usize = 4000;
     let generator = motion.strain + motion.spin.cross_matrix();

@@ -1,40 +1,40 @@
-//! Real spherical harmonics of even degree, orthonormal, and how p_i p_j multiplies them.
+//! Real spherical harmonics of even degree, orthonormal, and their products with p_i p_j.
 //!
 //! Y_lm are the complex harmonics with the Condon–Shortley phase. A real density is
-//! ψ = Σ_l [b_l0 Y_l0 + 2 Re Σ_{m>0} b_lm Y_lm]; the unknowns are b_l0, √2 Re b_lm and, where the flow has no plane of
+//! ψ = Σ_l [b_l0 Y_l0 + 2 Re Σ_{m>0} b_lm Y_lm]. The unknowns are b_l0, √2 Re b_lm and, in flows without a plane of
 //! reflection, √2 Im b_lm, so that their Euclidean norm is the norm of ψ.
 
 use std::f64::consts::{PI, SQRT_2};
 
-/// The harmonics that are kept: even degrees l ≤ `degree` (even), orders m ≤ `order`.
+/// The harmonics of an expansion: even degrees l ≤ `degree` (even), orders m ≤ `order`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Basis {
     /// The largest l, even.
     pub degree: usize,
     /// The largest m.
     pub order: usize,
-    /// True where ψ is even in the azimuth, so that every b_lm is real.
+    /// True if ψ is even in the azimuth, so that every b_lm is real.
     pub even: bool,
 }
 
 impl Basis {
-    /// How many unknowns degree `l` has.
+    /// Number of unknowns of degree `l`.
     pub fn width(&self, l: usize) -> usize {
         let order = l.min(self.order);
         if self.even { order + 1 } else { 2 * order + 1 }
     }
 
-    /// Where those of degree `l` begin.
+    /// Index of the first unknown of degree `l`.
     pub fn offset(&self, l: usize) -> usize {
         (0..l).step_by(2).map(|l| self.width(l)).sum()
     }
 
-    /// How many unknowns there are.
+    /// Number of unknowns.
     pub fn len(&self) -> usize {
         self.offset(self.degree + 2)
     }
 
-    /// (l, m, whether it is the imaginary part) of each unknown, in order.
+    /// (l, m, true for the imaginary part) of each unknown, in order.
     pub fn unknowns(&self) -> impl Iterator<Item = (usize, usize, bool)> {
         let basis = *self;
         (0..=basis.degree).step_by(2).flat_map(move |l| {
@@ -45,7 +45,7 @@ impl Basis {
         })
     }
 
-    /// The place of an unknown within its degree.
+    /// Index of an unknown within its degree.
     pub fn place(&self, m: usize, imaginary: bool) -> usize {
         match self.even {
             true => m,
@@ -53,7 +53,7 @@ impl Basis {
         }
     }
 
-    /// The values of the unknowns of another basis in this one; those that it lacks are 0.
+    /// Converts the unknowns of the basis `from` to this one; those that `from` lacks are 0.
     pub fn take(&self, from: &Basis, values: &[f64]) -> Vec<f64> {
         let mut taken = vec![0.0; self.len()];
         let (mut there, mut here) = (0, 0);
@@ -119,7 +119,7 @@ pub fn quadratic((l_to, m_to): (i64, i64), (l, m): (i64, i64)) -> f64 {
     if m_to < m {
         return quadratic((l, m), (l_to, m_to));
     }
-    // By way of the odd degrees that are one away from both and have the order in between.
+    // The sum goes over the odd degrees next to both, at the order in between.
     let via = |order: i64, step: &dyn Fn(i64) -> f64| {
         let degrees = [l - 1, l + 1].into_iter().filter(|b| (b - l_to).abs() == 1 && *b >= order.abs());
         degrees.map(step).sum::<f64>()
@@ -135,7 +135,7 @@ pub fn quadratic((l_to, m_to): (i64, i64), (l, m): (i64, i64)) -> f64 {
     }
 }
 
-/// ⟨|cos|⟩ over P_l: 2π ∫₋₁¹ |x| P_l dx for even l up to `degree`: what |n·p| makes of harmonics (Funk & Hecke).
+/// Factors of Funk & Hecke for |n·p|: 2π ∫₋₁¹ |x| P_l dx for even l up to `degree`.
 pub fn modulus(degree: usize) -> Vec<f64> {
     let mut half = 0.5;
     let each = |l: usize| {
@@ -146,7 +146,7 @@ pub fn modulus(degree: usize) -> Vec<f64> {
     (0..=degree).step_by(2).map(each).collect()
 }
 
-/// Nodes and weights of Gauss & Legendre's rule on [−1, 1].
+/// Nodes and weights of Gauss–Legendre's rule on [−1, 1].
 pub fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
     let n = count as f64;
     let node = |k: usize| {

@@ -1,4 +1,4 @@
-//! The density in time: exp(At) of the sparse operator by Taylor's series, with as many harmonics as it needs at each time.
+//! The density in time: exp(At) of the sparse operator by Taylor's series, with as many harmonics as each time needs.
 
 use super::NoAnswer;
 use super::frame::Frame;
@@ -6,19 +6,19 @@ use super::harmonics::Basis;
 use super::means::{Functionals, MEANS};
 use super::operator::Operator;
 
-/// How exact a solution is.
+/// The accuracy of a solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accuracy {
-    /// The norm of what lies beyond the harmonics that are kept.
+    /// The norm of the harmonics that are left out.
     pub tail: f64,
     /// The norm of the operator times a step.
     pub step: f64,
 }
 
-/// Multiplications that a solution may take: about a minute.
+/// Largest number of multiplications of a solution: about a minute.
 const MOST_WORK: f64 = 1e11;
 
-/// A density on its way.
+/// A density that is integrated in time.
 pub struct Density<'a> {
     frame: &'a Frame,
     accuracy: Accuracy,
@@ -29,18 +29,18 @@ pub struct Density<'a> {
 }
 
 impl<'a> Density<'a> {
-    /// Starts from these unknowns of `basis`.
+    /// Starts from the unknowns `unknowns` of `basis`.
     pub fn new(frame: &'a Frame, accuracy: Accuracy, basis: Basis, unknowns: Vec<f64>) -> Self {
         let operator = Operator::new(&frame.motion, basis);
         let norm = frame.motion.norm(basis.degree);
         Self { frame, accuracy, operator, unknowns, norm, work: 0.0 }
     }
 
-    /// Goes on for `time_s`.
+    /// Advances the density by `time_s` seconds.
     ///
     /// # Errors
     ///
-    /// Where that takes too much work.
+    /// If that takes too much work.
     pub fn advance(&mut self, time_s: f64) -> Result<(), NoAnswer> {
         let mut left = time_s;
         while left > 0.0 {
@@ -48,7 +48,7 @@ impl<'a> Density<'a> {
             let after = self.after(left / steps)?;
             let basis = self.operator.basis;
             let (degree, order) = needed(&basis, &after, self.accuracy.tail);
-            // A step is taken where what it leaves has an empty margin, and else again with more harmonics.
+            // A step is accepted if its result leaves the margin empty; else it is repeated with more harmonics.
             let full = (degree + 2 > basis.degree, order + 1 > basis.order && basis.order < basis.degree);
             if full.0 || full.1 {
                 let more = |now: usize, full: bool| if full { now + now / 4 + 4 } else { now };
@@ -57,7 +57,7 @@ impl<'a> Density<'a> {
             }
             self.unknowns = after;
             left = if steps == 1.0 { 0.0 } else { left - left / steps };
-            // Fewer where many are empty.
+            // Reduces the harmonics if many are empty.
             if 2 * basis.degree > 3 * degree + 32 || 2 * basis.order > 3 * order + 16 {
                 self.keep(degree + degree / 4 + 8, order + order / 4 + 4);
             }
@@ -65,7 +65,7 @@ impl<'a> Density<'a> {
         Ok(())
     }
 
-    /// Σ (hA)^k/k! of the unknowns, up to terms that no sum of doubles sees.
+    /// Σ (hA)^k/k! applied to the unknowns, up to terms below the rounding of doubles.
     fn after(&mut self, time_s: f64) -> Result<Vec<f64>, NoAnswer> {
         let mut sum = self.unknowns.clone();
         let mut term = sum.clone();
@@ -86,7 +86,7 @@ impl<'a> Density<'a> {
         if self.work > MOST_WORK { Err(NoAnswer::TooMuchWork) } else { Ok(sum) }
     }
 
-    /// Goes over to this many harmonics.
+    /// Changes to this many harmonics.
     fn keep(&mut self, degree: usize, order: usize) {
         let basis = self.operator.basis;
         let degree = (degree + 1) & !1;
@@ -96,13 +96,13 @@ impl<'a> Density<'a> {
         self.norm = self.frame.motion.norm(degree);
     }
 
-    /// Means at this time.
+    /// The means at the current time.
     pub fn means(&self) -> [f64; MEANS] {
         Functionals::new(self.frame, &self.operator.basis).of(&self.unknowns)
     }
 }
 
-/// The degree and the order beyond which the norm is below `tail`.
+/// The smallest degree and order beyond which the norm is below `tail`.
 fn needed(basis: &Basis, unknowns: &[f64], tail: f64) -> (usize, usize) {
     let (mut degrees, mut orders) = (vec![0.0; basis.degree + 1], vec![0.0; basis.order + 1]);
     for ((l, m, _), value) in basis.unknowns().zip(unknowns) {

@@ -4,7 +4,7 @@ use super::frame::Frame;
 use super::harmonics::{Basis, modulus, sphere_rule};
 use crate::reference::isotropic::{PAIRS, QUADRUPLES};
 
-/// How many means there are: ⟨|p_i|⟩, ⟨p_i p_j⟩, ⟨p_i p_j p_k p_l⟩.
+/// Number of means: ⟨|p_i|⟩, ⟨p_i p_j⟩, ⟨p_i p_j p_k p_l⟩.
 pub const MEANS: usize = 3 + 6 + 15;
 
 /// Means over infinitely many rods.
@@ -16,7 +16,7 @@ pub struct Means {
     pub second: [f64; 6],
     /// a_ijkl = ⟨p_i p_j p_k p_l⟩ in the order of [`QUADRUPLES`].
     pub fourth: [f64; 15],
-    /// An upper estimate of the error of each of them, absolute.
+    /// An upper estimate of the absolute error of each mean.
     pub error: f64,
 }
 
@@ -30,7 +30,7 @@ impl Means {
         }
     }
 
-    /// One of the means, rounded to as many decimals as the error leaves, eleven at most.
+    /// A mean rounded to as many decimals as the error allows, eleven at most.
     pub fn certain(&self, mean: f64) -> f64 {
         let decimals = -(2.0 * self.error.max(1e-12)).log10();
         format!("{mean:.*}", decimals.clamp(0.0, 11.0) as usize).parse::<f64>().unwrap_or(mean) + 0.0
@@ -40,14 +40,14 @@ impl Means {
 /// The means as linear functions of the unknowns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Functionals {
-    /// ⟨|p_i|⟩ has a share of every degree.
+    /// Rows of ⟨|p_i|⟩, to which every degree contributes.
     pub moduli: [Vec<f64>; 3],
-    /// Moments, of the unknowns up to degree 4.
+    /// Rows of the moments, over the unknowns up to degree 4.
     pub moments: Vec<Vec<f64>>,
 }
 
 impl Functionals {
-    /// The means in the laboratory's axes of a density in the frame's.
+    /// The means in the laboratory's axes, of a density in the frame's axes.
     pub fn new(frame: &Frame, basis: &Basis) -> Self {
         let shares = modulus(basis.degree);
         let moduli = [0, 1, 2].map(|axis| {
@@ -61,7 +61,7 @@ impl Functionals {
         });
         let low = Basis { degree: 4.min(basis.degree), ..*basis };
         let mut moments = vec![vec![0.0; low.len()]; MEANS - 3];
-        // Products of four components times harmonics of degree 4: degree 8.
+        // Products of four components and harmonics of degree 4 have degree 8.
         for (direction, weight) in sphere_rule(5) {
             let (values, p) = (low.values(direction), frame.outward(direction));
             let second = PAIRS.map(|(i, j)| p[i] * p[j]);
@@ -73,7 +73,7 @@ impl Functionals {
         Self { moduli, moments }
     }
 
-    /// The means of these unknowns.
+    /// The means of the density with these unknowns.
     pub fn of(&self, unknowns: &[f64]) -> [f64; MEANS] {
         let mut means = [0.0; MEANS];
         let rows = self.moduli.iter().chain(&self.moments);

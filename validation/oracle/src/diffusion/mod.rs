@@ -1,10 +1,10 @@
-//! Rods with rotary diffusion: the exact distribution of directions in any steady flow, infinitely many rods.
+//! Rods with rotary diffusion: the exact distribution of directions of infinitely many rods in any steady flow.
 //!
 //! ∂ψ/∂t = −∇·(ṗψ) + D_r∇²ψ on the sphere with Jeffery's ṗ = ω × p + Λ(D·p − p p·Dp) and D_r = C_I γ̇, γ̇ = (2D:D)^½ (Folgar &
-//! Tucker 1984; no closure). Galerkin's method on even spherical harmonics: the operator reaches |l' − l| ≤ 2 and |m' − m| ≤ 2,
-//! and a smooth ψ needs harmonics up to about the inverse width of its peak. A steady ψ comes by elimination from the highest
-//! degree down ([`steady`]), ψ in time by Taylor's series of exp(At) ([`at`]). Each answer is worked out at least twice, with
-//! other harmonics and other steps; what separates the two is its stated error.
+//! Tucker 1984; no closure). Galerkin's method on even spherical harmonics: the operator couples |l' − l| ≤ 2 and |m' − m| ≤ 2,
+//! and a smooth ψ needs harmonics up to about the inverse width of its peak. A steady ψ is found by elimination from the highest
+//! degree down ([`steady`]), ψ in time by Taylor's series of exp(At) ([`at`]). Each answer is computed at least twice, with
+//! other harmonics and other steps; the difference is its stated error.
 
 mod frame;
 mod harmonics;
@@ -27,14 +27,14 @@ use march::{Accuracy, Density};
 use means::MEANS;
 use std::fmt;
 
-/// Why there is no answer.
+/// The reason why there is no answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoAnswer {
-    /// It would take more work than is allowed: a weaker diffusion or a longer time than this method reaches.
+    /// The computation exceeds the allowed work: the diffusion is too weak or the time too long for this method.
     TooMuchWork,
-    /// No steady distribution: without diffusion, or without a flow, directions do not settle independently of their start.
+    /// There is no steady distribution: without diffusion, or without a flow, directions keep a memory of their start.
     Unsettled,
-    /// The start has more detail than 128 degrees of harmonics hold, or no positive mean.
+    /// The start needs more than 128 degrees of harmonics, or has no positive mean.
     RoughStart,
 }
 
@@ -50,18 +50,18 @@ impl fmt::Display for NoAnswer {
 
 impl std::error::Error for NoAnswer {}
 
-/// The error that an answer is refined to, absolute.
+/// The absolute error to which answers are refined.
 const WANTED: f64 = 4e-12;
 
-/// Means over the rods at `times_s` ≥ 0, which ascend.
+/// Means over the rods at `times_s` ≥ 0, in ascending order.
 ///
-/// Their stated error is the largest difference between two solutions, the second with a tail of harmonics ten times smaller
-/// and with shorter steps: an upper estimate of the second's error, and the second is returned. Where it is above 4·10⁻¹² a
-/// third one follows, unless that takes too much work.
+/// Their stated error is the largest difference between two solutions; the second has a ten times smaller tail of harmonics and
+/// shorter steps. It is an upper estimate of the error of the second, which is returned. If it is above 4·10⁻¹², a third solution
+/// follows, unless that takes too much work.
 ///
 /// # Errors
 ///
-/// Where two solutions take too much work, or the start is not smooth.
+/// If two solutions take too much work, or the start is not smooth.
 pub fn at(motion: &Motion, start: Start, times_s: &[f64]) -> Result<Vec<Means>, NoAnswer> {
     let frame = Frame::of(motion);
     let of = |tail, step| solution(&frame, start, times_s, Accuracy { tail, step });
@@ -94,7 +94,7 @@ fn solution(
     let mut now = 0.0;
     let mut all = Vec::new();
     for time in times_s {
-        // d|ψ − ψ_steady|²/dt ≤ −2(6D_r − 3/2 of the largest rate of ΛD)|ψ − ψ_steady|²: what is left is below e⁻⁴⁵.
+        // d|ψ − ψ_steady|²/dt ≤ −2(6D_r − 3/2 of the largest rate of ΛD)|ψ − ψ_steady|²: the difference is below e⁻⁴⁵.
         if frame.motion.least_decay() * time > 45.0 {
             all.push(settled::refined(frame)?.0);
             continue;
@@ -106,14 +106,14 @@ fn solution(
     Ok(all)
 }
 
-/// Means over the rods once their distribution no longer changes.
+/// Means over the rods in the steady distribution.
 ///
 /// Degrees and orders are raised until neither changes a mean by more than 4·10⁻¹²; the larger of the last changes is the
 /// stated error.
 ///
 /// # Errors
 ///
-/// Where nothing settles, or it takes too much work.
+/// If there is no steady distribution, or it takes too much work.
 pub fn steady(motion: &Motion) -> Result<Means, NoAnswer> {
     let (means, error) = settled::refined(&Frame::of(motion))?;
     Ok(Means::new(&means, error))

@@ -1,26 +1,26 @@
 //! The Fokker–Planck operator −∇·(ṗψ) + D_r∇²ψ as a sparse matrix between spherical harmonics.
 //!
 //! ṗ = ω × p + ∇V with V = ½Λ p·Dp, D traceless (a trace turns no rod). V is a harmonic of degree 2, so
-//! −∇·(ψ∇V) = ½[−∇²(Vψ) + V∇²ψ + 6Vψ]: between degrees l and l' that is ½(l'(l'+1) − l(l+1) + 6) times the matrix of V, which
-//! reaches |l' − l| ≤ 2 and |m' − m| ≤ 2. −(ω × p)·∇ψ = −i ω·Lψ keeps l, and ∇²ψ = −l(l+1)ψ.
+//! −∇·(ψ∇V) = ½[−∇²(Vψ) + V∇²ψ + 6Vψ]: between degrees l and l' this is ½(l'(l'+1) − l(l+1) + 6) times the matrix of V, which
+//! couples |l' − l| ≤ 2 and |m' − m| ≤ 2. −(ω × p)·∇ψ = −i ω·Lψ conserves l, and ∇²ψ = −l(l+1)ψ.
 
 use super::harmonics::{Basis, quadratic};
 use nalgebra::{Complex, Matrix3, SymmetricEigen, Vector3};
 use std::f64::consts::SQRT_2;
 
-/// What turns rods, per second, in some axes.
+/// The motion of rods in some axes, in 1/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
-    /// ΛD, symmetric and traceless.
+    /// ΛD in 1/s, symmetric and traceless.
     pub strain: Matrix3<f64>,
-    /// ω, half the vorticity.
+    /// ω in 1/s, half the vorticity.
     pub spin: Vector3<f64>,
-    /// D_r.
+    /// The rotary diffusivity D_r in 1/s.
     pub diffusivity: f64,
 }
 
 impl Motion {
-    /// Rods of this aspect ratio (∞ for Λ = 1) with D_r = C_I γ̇ in the flow L, row i and column j: ∂u_i/∂x_j.
+    /// Rods of this aspect ratio (∞ for Λ = 1) with D_r = C_I γ̇ in the flow L; row i and column j hold ∂u_i/∂x_j.
     pub fn new(gradient_per_s: [[f64; 3]; 3], aspect_ratio: f64, c_i: f64) -> Self {
         let l = Matrix3::from_fn(|i, j| gradient_per_s[i][j]);
         let (strain, turning) = ((l + l.transpose()) * 0.5, (l - l.transpose()) * 0.5);
@@ -33,12 +33,12 @@ impl Motion {
         }
     }
 
-    /// A rate at which every difference from the steady density decays, where it is positive.
+    /// If positive, a rate in 1/s at which every deviation from the steady density decays at least.
     pub(super) fn least_decay(&self) -> f64 {
         6.0 * self.diffusivity - 1.5 * SymmetricEigen::new(self.strain).eigenvalues.max()
     }
 
-    /// A bound of the operator's norm up to this degree: how fast a rod turns at most times the slope of a harmonic, and so on.
+    /// A bound of the operator's norm up to this degree, from the largest rate of turning and the slopes of harmonics.
     pub fn norm(&self, degree: usize) -> f64 {
         let l = degree as f64;
         let rates = SymmetricEigen::new(self.strain).eigenvalues;
@@ -46,7 +46,7 @@ impl Motion {
         self.diffusivity * l * (l + 1.0) + (l + 1.0) * turning + 3.0 * rates.amax()
     }
 
-    /// The factors of the products of `quadratic` in p·(ΛD)p for m' − m = 0, 1, 2.
+    /// The factors of the products of `quadratic` in p·(ΛD)p, for m' − m = 0, 1, 2.
     fn factors(&self) -> [Complex<f64>; 3] {
         let d = &self.strain;
         [
@@ -56,7 +56,7 @@ impl Motion {
         ]
     }
 
-    /// What b_lm adds to the rate of b_l'm'.
+    /// The contribution of b_lm to the rate of b_l'm'.
     fn element(&self, factors: &[Complex<f64>; 3], to: (i64, i64), from: (i64, i64)) -> Complex<f64> {
         let ((l_to, m_to), (l, m)) = (to, from);
         let shift = m_to - m;
@@ -79,10 +79,10 @@ impl Motion {
     }
 }
 
-/// Λ = (r² − 1)/(r² + 1), 1 for r = ∞.
+/// The shape factor Λ = (r² − 1)/(r² + 1); 1 for r = ∞.
 fn shape_factor(aspect_ratio: f64) -> f64 {
     let r = aspect_ratio.abs();
-    // Through 1/r where r² may overflow.
+    // Uses 1/r, because r² may overflow.
     let square = r.min(r.recip()).powi(2);
     let size = (1.0 - square) / (1.0 + square);
     if r < 1.0 { -size } else { size }
@@ -91,7 +91,7 @@ fn shape_factor(aspect_ratio: f64) -> f64 {
 /// A sparse matrix, row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Operator {
-    /// What its rows and columns are.
+    /// The harmonics of its rows and columns.
     pub basis: Basis,
     ends: Vec<usize>,
     columns: Vec<u32>,
@@ -149,7 +149,7 @@ impl Operator {
         operator
     }
 
-    /// How many entries are kept.
+    /// Number of stored entries.
     pub fn len(&self) -> usize {
         self.entries.len()
     }
@@ -160,14 +160,14 @@ impl Operator {
         self.columns[range.clone()].iter().map(|at| *at as usize).zip(self.entries[range].iter().copied())
     }
 
-    /// `into` = `scale` × this × `values`.
+    /// Sets `into` to `scale` × this matrix × `values`.
     pub fn apply(&self, scale: f64, values: &[f64], into: &mut [f64]) {
         for (row, sum) in into.iter_mut().enumerate() {
             *sum = scale * self.row(row).map(|(at, entry)| entry * values[at]).sum::<f64>();
         }
     }
 
-    /// The same without one of its entries: a coupling that is missing.
+    /// The operator with one entry set to 0, as if a coupling were missing.
     #[cfg(test)]
     pub fn without(&self, entry: usize) -> Self {
         let mut wrong = self.clone();

@@ -1,8 +1,8 @@
-//! The orbits of rods with weak rotary diffusion in plane Couette flow, once they are steady.
+//! The steady distribution over orbits of rods with weak rotary diffusion in plane Couette flow.
 //!
-//! A free rod keeps its orbit constant C (eq. 13). Diffusion that is weak against the turning, D_r → 0, moves C slowly: on
-//! average over an orbit, uniform in its phase τ, its drift is D_r B and its diffusivity D_r A with B = ⟨∇²C⟩ and A = ⟨|∇C|²⟩
-//! on the sphere. Nothing flows where it is steady: (A p)′ = B p (Leal & Hinch 1971, J. Fluid Mech. 46, 685). With
+//! A free rod keeps its orbit constant C (eq. 13). Diffusion that is weak against the rotation, D_r → 0, changes C slowly: averaged
+//! over an orbit, uniform in its phase τ, its drift is D_r B and its diffusivity D_r A with B = ⟨∇²C⟩ and A = ⟨|∇C|²⟩ on the
+//! sphere. The steady flux is 0: (A p)′ = B p (Leal & Hinch 1971, J. Fluid Mech. 46, 685). With
 //! p ∝ (C cos τ, r C sin τ, 1), u = C² and s = r² + r⁻² the averages are polynomials in u, and
 //!   p(C) ∝ C A^(−3/4) exp(−(3/32)(s − 2) ∫_u^∞ dv/A(v)),
 //!   A = ½(1 + r⁻²) + (7/4 + s/8) u + ½(1 + r²) u².
@@ -11,7 +11,7 @@
 use crate::closed_form::orbit_constant_density;
 use crate::quadrature::integrate;
 
-/// The density of C before it is normalised.
+/// The density of C, not normalised.
 fn weight(c: f64, aspect_ratio: f64) -> f64 {
     if aspect_ratio.is_infinite() {
         return 4.0 * c / (4.0 * c * c + 1.0).powf(1.5);
@@ -20,7 +20,7 @@ fn weight(c: f64, aspect_ratio: f64) -> f64 {
     let s = square + square.recip();
     let [a0, a1, a2] = [0.5 * (1.0 + square.recip()), 1.75 + s / 8.0, 0.5 * (1.0 + square)];
     let a = a0 + u * (a1 + u * a2);
-    // a₁² − 4a₀a₂.
+    // The discriminant a₁² − 4a₀a₂.
     let discriminant = (s - 2.0) * (s - 34.0) / 64.0;
     let (root, slope) = (discriminant.abs().sqrt(), 2.0 * a2 * u + a1);
     let rest = match root / slope {
@@ -43,7 +43,7 @@ pub fn cdf(c_b: f64, aspect_ratio: f64) -> f64 {
 
 /// ∫ f p dC up to C/(1 + C) = `up_to`, over ∫ p dC.
 fn ratio(aspect_ratio: f64, up_to: f64, f: impl Fn(f64) -> f64) -> f64 {
-    // In C_b; p falls as C⁻², which dC/dC_b = (1 − C_b)⁻² makes finite at C_b = 1.
+    // Integrated over C_b; p falls as C⁻², which dC/dC_b = (1 − C_b)⁻² makes finite at C_b = 1.
     let integral = |breaks: &[f64], f: &dyn Fn(f64) -> f64| {
         let weighted = |c_b: f64| {
             let c = c_b / (1.0 - c_b).max(f64::EPSILON);
@@ -51,7 +51,7 @@ fn ratio(aspect_ratio: f64, up_to: f64, f: impl Fn(f64) -> f64) -> f64 {
         };
         integrate(weighted, breaks, 1e-16).value
     };
-    // p and means over orbits turn near C = 1 and C = 1/r.
+    // p and means over orbits change most near C = 1 and C = 1/r.
     let knee = 1.0 / (1.0 + aspect_ratio);
     let mut whole = vec![0.0, 0.1 * knee, knee, 0.5, 0.9, 1.0];
     whole.sort_by(f64::total_cmp);
@@ -74,7 +74,7 @@ pub fn shear_stress_of_orbit(c: f64, aspect_ratio: f64) -> f64 {
     (aspect_ratio * c * c / (long + wide)).powi(2) / (2.0 * long * wide)
 }
 
-/// σ₁₂ over μ_fiber G of rods in the orbits of isotropic directions, uniform in phase: the mean over a period of free rods that started so.
+/// σ₁₂ over μ_fiber G of rods in the orbits of isotropic directions, uniform in phase: the mean over a period of initially isotropic rods.
 pub fn shear_stress_of_isotropic(aspect_ratio: f64) -> f64 {
     let of_c = |c_b: f64| {
         let c = c_b / (1.0 - c_b).max(f64::EPSILON);

@@ -1,4 +1,4 @@
-//! The density that no longer changes: degree by degree from the highest, which eliminates all but ψ's mean.
+//! The steady density by elimination, degree by degree from the highest, of all unknowns but ψ's mean.
 
 use super::frame::Frame;
 use super::harmonics::Basis;
@@ -9,10 +9,10 @@ use crate::reference::isotropic::QUADRUPLES;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
 
-/// Multiplications that an elimination may take: some ten seconds.
+/// Largest number of multiplications of an elimination: about ten seconds.
 const MOST_WORK: f64 = 3e10;
 
-/// Means over the steady density, and by how much fewer harmonics change them.
+/// Means over the steady density, and their change when harmonics were last added.
 pub(super) fn refined(frame: &Frame) -> Result<([f64; MEANS], f64), NoAnswer> {
     if frame.motion.diffusivity == f64::INFINITY {
         return Ok((isotropic(), 0.0));
@@ -38,7 +38,7 @@ pub(super) fn refined(frame: &Frame) -> Result<([f64; MEANS], f64), NoAnswer> {
         if degrees.max(orders) <= WANTED {
             return Ok((wider, degrees.max(orders)));
         }
-        // What changes less is not raised.
+        // Degree or order is not raised if its change is less than a tenth of the other's.
         if degrees > 0.1 * orders {
             degree = more(degree);
             means = higher;
@@ -50,7 +50,7 @@ pub(super) fn refined(frame: &Frame) -> Result<([f64; MEANS], f64), NoAnswer> {
     }
 }
 
-/// The means over all directions alike.
+/// The means over isotropic directions.
 fn isotropic() -> [f64; MEANS] {
     let mut means = [0.0; MEANS];
     means[..3].fill(0.5);
@@ -67,10 +67,10 @@ fn isotropic() -> [f64; MEANS] {
     means
 }
 
-/// Means over the steady density with these harmonics. `None` where it is not settled: rods without diffusion.
+/// Means over the steady density with these harmonics; `None` if there is none: rods without diffusion.
 ///
 /// With S_L = A_LL and S_{l−2} = A_{l−2,l−2} − A_{l−2,l} K_l, K_l = S_l⁻¹ A_{l,l−2}: u_l = −K_l u_{l−2}. A row g of a mean
-/// goes down with it, g_{l−2} ← g_{l−2} − g_l K_l, so that no K of a high degree is kept.
+/// is reduced along with it, g_{l−2} ← g_{l−2} − g_l K_l, so that no K of a high degree is stored.
 pub(super) fn steady(frame: &Frame, basis: Basis) -> Option<[f64; MEANS]> {
     let operator = Operator::new(&frame.motion, basis);
     let functionals = Functionals::new(frame, &basis);

@@ -1,4 +1,4 @@
-//! Where rods point at t = 0.
+//! The density of directions at t = 0.
 
 use super::NoAnswer;
 use super::frame::Frame;
@@ -9,7 +9,7 @@ use std::fmt;
 /// The density of directions at t = 0.
 #[derive(Clone, Copy)]
 pub enum Start<'a> {
-    /// All directions alike.
+    /// Isotropic directions.
     Isotropic,
     /// A smooth function of p with ψ(−p) = ψ(p), in the laboratory's axes. It need not be normalised.
     Density(&'a (dyn Fn([f64; 3]) -> f64 + Sync)),
@@ -25,7 +25,7 @@ impl fmt::Debug for Start<'_> {
 }
 
 impl Start<'_> {
-    /// Its harmonics in the frame's axes, normalised.
+    /// The harmonics of the start in the frame's axes, normalised.
     pub(super) fn unknowns(&self, frame: &Frame) -> Result<(Basis, Vec<f64>), NoAnswer> {
         let mean = (4.0 * PI).recip().sqrt();
         match self {
@@ -37,7 +37,7 @@ impl Start<'_> {
             }
             Self::Density(density) => {
                 for degree in [16, 32, 64, 128] {
-                    // It need not have the flow's plane of reflection.
+                    // The start need not have the flow's plane of reflection.
                     let basis = Basis { degree, order: degree, even: false };
                     let unknowns = projected(&basis, &|p| density(frame.outward(p)));
                     let high = unknowns[basis.offset(degree - 4)..].iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -52,7 +52,7 @@ impl Start<'_> {
     }
 }
 
-/// The harmonics of a function.
+/// The harmonics of `function`.
 pub(super) fn projected(basis: &Basis, function: &dyn Fn([f64; 3]) -> f64) -> Vec<f64> {
     let mut unknowns = vec![0.0; basis.len()];
     for (p, weight) in sphere_rule(basis.degree + 8) {

@@ -1,4 +1,4 @@
-//! The oracle against closed forms.
+//! Tests the oracle against closed forms.
 
 use super::*;
 use std::f64::consts::{PI, TAU};
@@ -30,7 +30,7 @@ fn couette_flow_is_a4_and_a5() {
 
 #[test]
 fn couette_flow_comes_back_at_any_aspect_ratio() {
-    // r_e = 10¹⁰⁰: more bits than the first answer has.
+    // r_e = 10¹⁰⁰ needs more bits than the first computation has.
     let p = [0.6, 0.0, 0.8];
     for r in [1e-100, 1e100] {
         let rod = Rod { gradient_per_s: [[0.0; 3], [0.5, 0.0, 0.0], [0.0; 3]], aspect_ratio: r, p };
@@ -47,7 +47,7 @@ fn a_rotation_turns_by_half_the_vorticity() {
         p: [1.0, 0.0, 1.0],
     };
     near(rod.after(Span::Seconds(PI)), [0.0, 1.0, 1.0], 2.0 * f64::EPSILON);
-    // 10⁶ turns, whose time is a double: the phase is known from its rounding.
+    // The time of 10⁶ turns is a double; the phase follows from its rounding.
     let time_s = 1e6 * 2.0 * TAU;
     let phase = -1e6f64.mul_add(TAU, -0.5 * time_s);
     let off = -1e6 * 2.449_293_598_294_706_4e-16;
@@ -64,7 +64,7 @@ fn an_extension_stretches_each_axis_and_does_not_mind_its_trace() {
         let expected = [p[0] * (2.0 * shape).exp(), p[1] * (-0.5 * shape).exp(), p[2] * (-1.5 * shape).exp()];
         near(rod.after(Span::Seconds(2.0)), expected, 4.0 * f64::EPSILON);
     }
-    // A rod on an axis stays there, however long.
+    // A rod on an axis stays there for any time.
     let rod = Rod {
         gradient_per_s: [[1.0, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, -0.5]],
         aspect_ratio: 1e100,
@@ -84,7 +84,7 @@ fn a_chain_of_shears_is_a_polynomial() {
     near(rod.after(Span::Seconds(3.0)), [4.5, 3.0, 1.0], 2.0 * f64::EPSILON);
 }
 
-/// p₂ = p₃ is kept by this flow for ever, and left by any rounding.
+/// This flow keeps p₂ = p₃ for ever, but any rounding leaves it.
 #[test]
 fn what_more_bits_than_there_are_would_settle_is_not_answered() {
     let rod = Rod {

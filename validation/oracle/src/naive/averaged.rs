@@ -1,7 +1,7 @@
-//! The averaged motion: what is left of the model as dt -> 0 where arms are bounded below.
+//! The averaged motion: the limit of the model as dt -> 0 if arms have a lower bound.
 //!
-//! In place of draws, every nearest pair that makes a contact turns both of its rods by the change of pdot that a
-//! collision would make, weighted with the probability that it collides. Places move as in the model.
+//! Instead of by draws, every nearest pair that makes a contact turns both of its rods by the change of pdot that a
+//! collision would make, times the probability that it collides. Positions move as in the model.
 
 use super::motion::{jeffery, turned, vector};
 use super::{Naive, collision_probability};
@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 
 impl Naive {
     /// One time step of the averaged motion: Jeffery's exact step, then the turn by the mean change.
-    /// No draw of a collision is used; the places are those of [`Naive::step`] with the same seed.
+    /// No collision is drawn; positions are those of [`Naive::step`] with the same seed.
     pub fn step_averaged(&mut self) {
         let problem = &self.problem;
         let dt_s = problem.time_step_s();
@@ -46,8 +46,8 @@ mod tests {
         rods.map(|(a, b)| (vector(*a) - vector(*b)).norm()).fold(0.0, f64::max)
     }
 
-    /// Two rods, always each other's nearest, over one short step: the mean over the draws is between the free
-    /// step and the collided one, as likely as one of two draws is below P_c.
+    /// Two rods, always each other's nearest, over one short step: the mean over the draws lies between the free step
+    /// and the step with a collision, weighted by the probability that one of two draws is below P_c.
     #[test]
     fn one_step_of_two_rods_is_the_mean_of_the_model_s() {
         let mut turned = 0;
@@ -72,7 +72,7 @@ mod tests {
                 let [free, collided, averaged] =
                     [&free, &collided, &averaged].map(|run| vector(run.orientations[rod]));
                 let expected = free + (collided - free) * (1.0 - missed * missed);
-                // GΔt = 7·10⁻⁴, kicks of some ten times that: what is left out is of the second order.
+                // GΔt = 7·10⁻⁴, kicks are about ten times that: the neglected terms are of second order.
                 assert!((averaged - expected).norm() < 1e-4 * (collided - free).norm() + 1e-6, "{replica}");
             }
         }

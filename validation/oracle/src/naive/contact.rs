@@ -1,17 +1,17 @@
-//! The contact of two rods and what it does to them (A.7 to A.13).
+//! The contact of two rods and its effect on them (A.7 to A.13).
 
 use super::motion::{matrix, vector};
 use super::problem::{Mistake, either};
 use nalgebra::{Matrix3, Unit, Vector3};
 
-/// Two rods in contact and how they turn because of it.
+/// Two rods in contact and their rates after the collision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     /// Unit contact line L, along p_A x p_B.
     pub line: [f64; 3],
     /// Signed distance from A's centre to its contact point, along p_A, mm.
     pub arm_a_mm: f64,
-    /// The same for B.
+    /// Signed distance from B's centre to its contact point, along p_B, mm.
     pub arm_b_mm: f64,
     /// From A's contact point to B's, along the contact line, signed, mm.
     pub gap_mm: f64,
@@ -21,12 +21,12 @@ pub struct Contact {
     pub pdot_b_per_s: [f64; 3],
 }
 
-/// A rod as a collision sees it: centre (mm), axis, rate of the axis (1/s).
+/// The state of a rod before a collision: centre (mm), axis, rate of the axis (1/s).
 pub(super) type Rod = [Vector3<f64>; 3];
 
 /// A.7 to A.13 for rods at `xa`, `xb` (mm) along `pa`, `pb`, turning at `pdot_a`, `pdot_b` (1/s) in u = L x (L in 1/s).
 ///
-/// `None` where there is no contact: parallel rods, or an arm of exactly 0.
+/// `None` if there is no contact: parallel rods, or an arm of exactly 0.
 pub fn collide(
     xa: [f64; 3],
     pa: [f64; 3],

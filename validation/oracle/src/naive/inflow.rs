@@ -1,4 +1,4 @@
-//! Rods in any flow that keeps the liquid's volume: whoever leaves comes back with the liquid that came in.
+//! Rods in any flow of constant volume: rods that leave come back with the liquid that came in.
 
 use super::motion::{matrix, vector};
 use super::problem::{Mistake, either};
@@ -6,7 +6,7 @@ use super::random::uniform;
 use nalgebra::Matrix3;
 use rand_pcg::Pcg64Dxsm;
 
-/// L in place of plane Couette flow, with steps of a unit of strain.
+/// A flow in place of plane Couette flow, with steps per unit of strain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OtherFlow {
     /// L_ij = du_i/dx_j, 1/s, of trace 0.
@@ -23,10 +23,10 @@ impl OtherFlow {
     }
 }
 
-/// One rod's numbers are this many of the stream apart from the next rod's.
+/// Random numbers reserved for each rod in the stream.
 const NUMBERS: u128 = 1 << 20;
 
-/// Where the liquid takes a place over a step.
+/// The position after `dt_s` of the liquid at `x_mm`.
 pub(super) fn carried(gradient: Matrix3<f64>, x_mm: [f64; 3], dt_s: f64) -> [f64; 3] {
     ((gradient * dt_s).exp() * vector(x_mm)).into()
 }
@@ -35,12 +35,12 @@ pub(super) fn inside(x_mm: [f64; 3], edges_mm: [f64; 3]) -> bool {
     (0..3).all(|k| 0.0 <= x_mm[k] && x_mm[k] < edges_mm[k])
 }
 
-/// A face of the volume: its normal axis, and whether it is the one away from the origin.
+/// A face of the volume: its normal axis, and true for the face away from the origin.
 type Face = (usize, bool);
 
 const FACES: [Face; 6] = [(0, false), (0, true), (1, false), (1, true), (2, false), (2, true)];
 
-/// A place on a face, at these shares of its edges.
+/// The point of a face at these shares of its edges, in mm.
 fn place((axis, far): Face, shares: [f64; 2], edges_mm: [f64; 3]) -> [f64; 3] {
     let at = if far { edges_mm[axis] } else { 0.0 };
     let [j, k] = shares;
@@ -52,13 +52,13 @@ fn place((axis, far): Face, shares: [f64; 2], edges_mm: [f64; 3]) -> [f64; 3] {
     }
 }
 
-/// The velocity into the volume at a place on a face, mm/s.
+/// The velocity into the volume at a point of a face, mm/s.
 fn inflow((axis, far): Face, gradient: Matrix3<f64>, x_mm: [f64; 3]) -> f64 {
     let along = (gradient * vector(x_mm))[axis];
     if far { -along } else { along }
 }
 
-/// Moves every place (mm) in the volume with the liquid over a step. Whoever leaves comes back; `replaced` counts them.
+/// Moves every position (mm) with the liquid over a step. Rods that leave come back; `replaced` counts them.
 pub fn carry(
     places_mm: &mut [[f64; 3]],
     gradient_per_s: [[f64; 3]; 3],
@@ -78,9 +78,9 @@ pub fn carry(
     }
 }
 
-/// Where rod number `rod` of all that have left comes back, anywhere in the liquid that came in during the step with
-/// equal chance: through a face chosen by its largest inflow and area, at a place kept by the inflow there, a time ago
-/// that is drawn; drawn again if it would have left, or was inside when the step began.
+/// The position at which rod number `rod` of all that have left comes back, uniform in the liquid that came in during the step:
+/// it enters through a face drawn by largest inflow and area, at a point accepted by the inflow there, at a drawn time. It is
+/// drawn again if the rod would have left, or was inside when the step began.
 pub(super) fn come_in(
     gradient: Matrix3<f64>,
     edges_mm: [f64; 3],
@@ -115,7 +115,7 @@ pub(super) fn come_in(
         if !either(made, Mistake::InflowUniform, inflow(face, gradient, entry_mm) > 0.0, let_in) {
             continue;
         }
-        // not the whole step: who stood on a face was inside
+        // not the whole step: a rod on a face was inside
         let since = either(made, Mistake::InflowAtOnce, 0.999, since);
         let x_mm = carried(gradient, entry_mm, since * dt_s);
         if inside(x_mm, edges_mm) && !inside(carried(gradient, x_mm, -dt_s), edges_mm) {

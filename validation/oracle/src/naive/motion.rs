@@ -1,4 +1,4 @@
-//! How an axis turns: Jeffery's motion, and the moves of a rod in collision.
+//! The rotation of an axis: Jeffery's motion, and the moves of a rod in a collision.
 
 use super::problem::{Mistake, either};
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
@@ -29,7 +29,7 @@ pub fn jeffery(p: [f64; 3], aspect_ratio: f64, gradient_per_s: [[f64; 3]; 3]) ->
     (q - vector(p) * vector(p).dot(&q)).into()
 }
 
-/// sin theta of an axis; exactly 0 at both poles, which sin(acos(p_3)) is not at p_3 = -1.
+/// sin theta of an axis; exactly 0 at both poles, unlike sin(acos(p_3)) at p_3 = -1.
 pub(super) fn sin_theta(p: [f64; 3]) -> f64 {
     p[0].hypot(p[1])
 }
@@ -45,10 +45,10 @@ pub(super) fn axis([phi, theta]: [f64; 2]) -> [f64; 3] {
     [sin * phi.cos(), sin * phi.sin(), theta.cos()]
 }
 
-/// Phidot' and thetadot' (A.13), rad/s; `w` is V'_r / r.
+/// phidot' and thetadot' (A.13), rad/s; `w` is V'_r / r.
 pub(super) fn angle_rates_per_s([phi, theta]: [f64; 2], w: [f64; 3], made: Option<Mistake>) -> [f64; 2] {
     let (sin, cos) = theta.sin_cos();
-    // the print exchanges sin and cos, and does not divide by sin
+    // the printed equation exchanges sin and cos, and does not divide by sin
     let (sin, cos, divisor) = either(made, Mistake::PrintedA13, (cos, sin, 1.0), (sin, cos, sin));
     let along = w[0] * phi.cos() + w[1] * phi.sin();
     let across = -w[0] * phi.sin() + w[1] * phi.cos();

@@ -1,4 +1,4 @@
-//! Who is near, and how likely a collision is (eq. 7).
+//! Nearest neighbours, and the probability of a collision (eq. 7).
 
 use super::reading::Images;
 
@@ -7,7 +7,7 @@ pub fn collision_probability(s_mm: f64, a_mm: f64, alpha: f64, m: f64) -> f64 {
     if alpha == 0.0 { 0.0 } else { (alpha / (s_mm / a_mm + alpha)).powf(m) }
 }
 
-/// Nearest other rod; the lower index where two are equally near.
+/// The nearest other rod of rod i; the lowest index if several are equally near.
 pub fn nearest(positions_mm: &[[f64; 3]], i: usize, images: Images, edges_mm: [f64; 3]) -> Option<usize> {
     let x = positions_mm[i];
     let (mut best, mut least_mm2) = (None, f64::INFINITY);
@@ -25,7 +25,7 @@ fn square_mm2(x: [f64; 3], y: [f64; 3]) -> f64 {
     a * a + b * b + c * c
 }
 
-/// Distance of two places.
+/// The distance of two positions, mm.
 pub(super) fn distance_mm(x: [f64; 3], y: [f64; 3]) -> f64 {
     square_mm2(x, y).sqrt()
 }

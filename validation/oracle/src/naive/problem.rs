@@ -1,4 +1,4 @@
-//! What is run: the suspension, and the mistakes that can be made in it.
+//! The problem for the naive reference: a suspension, and the mistakes that can be made in it.
 
 use super::inflow::OtherFlow;
 use super::reading::Reading;
@@ -11,26 +11,26 @@ pub enum Start {
     Isotropic,
     /// Every rod at the same angles.
     Fixed {
-        /// From axis 1 towards axis 2, rad.
+        /// phi from axis 1 towards axis 2, rad.
         phi_rad: f64,
-        /// From axis 3, rad.
+        /// theta from axis 3, rad.
         theta_rad: f64,
     },
 }
 
-/// How a colliding rod is moved over the step.
+/// How a colliding rod turns over the step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Update {
     /// p turns about p x pdot' by |pdot'| dt: A.14 without its pole.
     Rotation,
-    /// A.14 to the letter, with the corrected A.13.
+    /// A.14 taken literally, with the corrected A.13.
     Angles,
-    /// Jeffery's exact step, then turned about p x (pdot' - pdot) by |pdot' - pdot| dt: a contact that changes
-    /// nothing moves the rod as if it were free.
+    /// Jeffery's exact step, then a turn about p x (pdot' - pdot) by |pdot' - pdot| dt: a contact without a change of
+    /// rate leaves the free motion.
     ExactStepAndKick,
 }
 
-/// Deliberate errors: a check that a sabotaged model passes too shows nothing.
+/// Deliberate mistakes: a check that also passes on a model with a mistake shows nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mistake {
     /// The change of a collision is added with the wrong sign (A.10).
@@ -45,7 +45,7 @@ pub enum Mistake {
     SpinIgnored,
     /// V_tr is not subtracted again (A.12).
     TranslationKept,
-    /// A.13 as printed; shows with `Update::Angles` only.
+    /// A.13 as printed; shows only with `Update::Angles`.
     PrintedA13,
     /// Lambda = 1 in free motion.
     LambdaOne,
@@ -53,13 +53,13 @@ pub enum Mistake {
     PeriodHalved,
     /// cm^-3 converted as if it were cm^-2.
     ConcentrationUnits,
-    /// Collides where P_c < R (eqs. 8, 9).
+    /// Collisions where P_c < R (eqs. 8, 9).
     ProbabilityComplement,
     /// m + 1 in place of m (eq. 7).
     ProbabilityExponent,
     /// Rod i + 1 (mod N) in place of the nearest one.
     AnyNeighbour,
-    /// Candidates taken by index, not closest first.
+    /// Candidates are taken by index, not closest first.
     IndexOrder,
     /// x_1 = H R in place of H sqrt(R) (eq. 14).
     ReplacementUniform,
@@ -77,16 +77,16 @@ pub enum Mistake {
     ReplacementAlongFlow,
     /// In other flows: L transposed.
     GradientTransposed,
-    /// In other flows: rods come in anywhere on a face with equal chance, not as the liquid does.
+    /// In other flows: rods come in uniformly over a face, not in proportion to the inflow.
     InflowUniform,
     /// In other flows: a face is chosen by its area alone.
     FacesByArea,
-    /// In other flows: rods come in at the beginning of the step, all of them.
+    /// In other flows: all rods come in at the beginning of the step.
     InflowAtOnce,
 }
 
 impl Mistake {
-    /// All of them, for checks that try each.
+    /// All mistakes, for checks that try each.
     #[rustfmt::skip]
     pub const ALL: [Self; 25] = [
         Self::KickSign, Self::SumInsteadOfMean, Self::ArmsSwapped, Self::ArmUnsigned, Self::SpinIgnored,
@@ -105,7 +105,7 @@ pub struct NaiveProblem {
     pub count: usize,
     /// G, 1/s, not zero.
     pub shear_rate_per_s: f64,
-    /// In place of plane Couette flow.
+    /// A flow in place of plane Couette flow.
     pub other_flow: Option<OtherFlow>,
     /// a, the full length of a rod, or its mean, mm.
     pub length_mm: f64,
@@ -119,30 +119,30 @@ pub struct NaiveProblem {
     pub orientation: Start,
     /// n, rods per cm^3.
     pub concentration_per_cm3: f64,
-    /// H_1, H_2 and H_3 (eqs. 12, 14), mm, in place of the cube that n makes.
+    /// H_1, H_2 and H_3 (eqs. 12, 14), mm, in place of the cube that follows from n.
     pub box_mm: Option<[f64; 3]>,
-    /// alpha of eq. 7; 0: no collision ever.
+    /// alpha of eq. 7; 0: no collisions.
     pub alpha: f64,
     /// m of eq. 7.
     pub m: f64,
-    /// Arms shorter than this, in units of the rod's own length, are no contact.
+    /// Shortest arm of a contact, in units of the rod's own length.
     pub min_contact_arm: f64,
-    /// How a colliding rod is moved.
+    /// How a colliding rod turns.
     pub update: Update,
-    /// How the paper is read where it leaves something open.
+    /// The interpretation of the paper where it leaves something open.
     pub reading: Reading,
     /// dt = T / steps_per_period, T that of the mean r_e.
     pub steps_per_period: usize,
     /// Seed of all streams.
     pub seed: u64,
-    /// Number of the replica.
+    /// Index of the replica.
     pub replica: u64,
-    /// A deliberate error, or none.
+    /// A deliberate mistake, or `None`.
     pub mistake: Option<Mistake>,
 }
 
 impl NaiveProblem {
-    /// Fig. 7 at 50 per cm^3 with rods of one size, as the project reads the paper, with the update `rotation`.
+    /// Fig. 7 at 50 per cm^3 with rods of one size, in the project's interpretation of the paper, with the update `rotation`.
     pub fn paper(seed: u64, replica: u64) -> Self {
         Self {
             count: 100,
@@ -174,7 +174,7 @@ impl NaiveProblem {
         factor * strain / self.shear_rate_per_s.abs()
     }
 
-    /// dt, s.
+    /// The time step dt, s.
     pub fn time_step_s(&self) -> f64 {
         match self.other_flow {
             Some(flow) => flow.time_step_s(),
@@ -182,7 +182,7 @@ impl NaiveProblem {
         }
     }
 
-    /// H_1, H_2 and H_3, mm: as given, or the cube's (N/n)^(1/3).
+    /// H_1, H_2 and H_3, mm: as given, or (N/n)^(1/3) of the cube.
     pub fn edges_mm(&self) -> [f64; 3] {
         let cm3_per_mm3 = either(self.mistake, Mistake::ConcentrationUnits, 1e-2, 1e-3);
         let volume_mm3 = self.count as f64 / (self.concentration_per_cm3 * cm3_per_mm3);
@@ -204,7 +204,7 @@ impl NaiveProblem {
     }
 }
 
-/// How a mistake enters an expression.
+/// `wrong` if the mistake `mistake` is made, else `right`.
 pub(super) fn either<T>(made: Option<Mistake>, mistake: Mistake, wrong: T, right: T) -> T {
     if made == Some(mistake) { wrong } else { right }
 }

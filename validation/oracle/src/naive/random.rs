@@ -6,7 +6,7 @@ use rand_pcg::Pcg64Dxsm;
 /// SplitMix64's increment, 2^64 over the golden ratio.
 pub(super) const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
-/// Purposes of the random streams, so that one use of chance never shifts another.
+/// Purposes of the random streams; each has its own, so that no use of random numbers shifts another.
 pub(super) const ASPECT_RATIOS: u64 = 0;
 pub(super) const ORIENTATIONS: u64 = 1;
 pub(super) const POSITIONS: u64 = 2;

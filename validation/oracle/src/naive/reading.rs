@@ -1,19 +1,19 @@
-//! How the paper is read where it leaves something open. The default of each is the reading of the simulator.
+//! Interpretations of the paper where it leaves something open. The default of each is that of the simulator.
 //!
-//! None of these is a mistake: each is a model that the paper's words allow.
+//! None of them is a mistake: each is a model that the paper's words allow.
 
-/// One way to read the paper; `Update` and `min_contact_arm` of the problem are part of it too.
+/// One interpretation of the paper; `Update` and `min_contact_arm` of the problem belong to it too.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Reading {
     /// Which candidates collide.
     pub who: Who,
     /// How far a contact line reaches.
     pub lines: Lines,
-    /// Whether the volume is repeated.
+    /// Whether the volume has periodic images.
     pub images: Images,
     /// Where a rod that left comes back.
     pub replacement: Replacement,
-    /// The length that distances are measured by.
+    /// The length by which distances are divided.
     pub length: Length,
 }
 
@@ -23,7 +23,7 @@ pub enum Who {
     /// Every rod draws for itself and its nearest neighbour, so that mutual neighbours have two draws; closest first.
     #[default]
     EachDraws,
-    /// Two rods that are each other's nearest have one draw, that of the lower index; all else as `EachDraws`.
+    /// Two rods that are each other's nearest have one draw, that of the lower index; otherwise as `EachDraws`.
     PairDraws,
     /// As `EachDraws`, but candidates are taken in the order of the rods that drew.
     IndexOrder,
@@ -35,15 +35,15 @@ pub enum Lines {
     /// The contact point may lie beyond a rod's end.
     #[default]
     Infinite,
-    /// A contact point beyond an end of either rod, |r| > a/2, is no contact.
+    /// There is no contact if the contact point is beyond an end of either rod, |r| > a/2.
     CutAtEnds,
 }
 
-/// Whether the volume is repeated: every rod is then seen at the image that is nearest.
+/// Periodic images of the volume: every rod counts at its nearest image.
 ///
-/// A rod's own images are never its neighbour. The liquid moves an image as it moves whatever is at that place, so
-/// one across the faces of x_1 is faster or slower by G H. Images across x_1 are not shifted along x_2 as time goes
-/// (Lees and Edwards), because no rod keeps its place along x_2 for long: it leaves and comes back elsewhere.
+/// A rod's own images are never its neighbours. The liquid moves an image with the velocity at its position, so an image across
+/// the faces of x_1 is faster or slower by G H. Images across x_1 are not shifted along x_2 with time (Lees and Edwards), because
+/// no rod keeps its position along x_2 for long: it leaves and comes back elsewhere.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Images {
     /// No images: rods near a face have fewer neighbours.
@@ -74,24 +74,24 @@ impl Images {
     }
 }
 
-/// The length a that s is taken over in eq. 7, where rods are of unequal length.
+/// The length a by which s is divided in eq. 7, if rods have unequal lengths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Length {
-    /// That of the rod that draws.
+    /// The length of the rod that draws.
     #[default]
     Own,
-    /// Its neighbour's.
+    /// The length of its neighbour.
     Partners,
-    /// The mean of both.
+    /// The mean of both lengths.
     MeanOfBoth,
 }
 
 /// Where a rod that left comes back.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Replacement {
-    /// As deep in the volume as it overshot (eq. 14).
+    /// At a depth equal to its overshoot (eq. 14).
     #[default]
     Overshoot,
-    /// As deep as its new x_1 would have taken it since it left: the overshoot times x_1(new)/x_1(old).
+    /// At the depth that its new x_1 would have given since it left: the overshoot times x_1(new)/x_1(old).
     ScaledOvershoot,
 }

@@ -34,7 +34,7 @@ fn streams_match_reference_output() {
     let published = [6457827717110365317, 3203168211198807973, 9817491932198370423];
     let state = |k| GOLDEN.wrapping_mul(k).wrapping_add(1234567);
     assert_eq!([1, 2, 3].map(|k| mix(state(k))), published);
-    // computed apart, in unlimited integers, from the protocol and the definition of PCG-DXSM
+    // computed independently, in unlimited integers, from the protocol and the definition of PCG-DXSM
     let fresh = || stream(0xFEDC_BA98_7654_3210, 0x0123_4567_89AB_CDEF, 0xF0E1_D2C3_B4A5_9687);
     let expected: [u64; 3] = [11167359422600035530, 6655880631465208119, 3148222621115903633];
     let mut draws = fresh();
@@ -87,7 +87,7 @@ fn a_free_rod_follows_a4_and_a5() {
             naive.step();
             let [phi, theta] = angles_rad(naive.orientations[0]);
             let turn = TAU * k as f64 / 200.0;
-            // both as cross products, so that no tangent runs to infinity
+            // both as cross products, so that no tangent becomes infinite
             let a4 = phi.sin() * turn.cos() - r * phi.cos() * turn.sin();
             let a5 = theta.sin() * (r * phi.cos()).hypot(phi.sin()) - c * r * theta.cos();
             worst = worst.max(a4.abs()).max(a5.abs());
@@ -98,7 +98,7 @@ fn a_free_rod_follows_a4_and_a5() {
     assert!(worst(Some(Mistake::LambdaOne)) > 1e-2);
 }
 
-/// The rods of the contact worked by hand, before a step in which they are candidates.
+/// The two rods of the contact worked by hand, before a step in which they are candidates.
 fn hand_pair_at_rest(change: impl FnOnce(&mut NaiveProblem)) -> Naive {
     let mut naive = Naive::new(fibres(2, 1e30, |p| {
         (p.shear_rate_per_s, p.concentration_per_cm3) = (2.0, 0.002);
@@ -109,7 +109,7 @@ fn hand_pair_at_rest(change: impl FnOnce(&mut NaiveProblem)) -> Naive {
     naive
 }
 
-/// The same after it.
+/// The same rods after the step.
 fn hand_pair(change: impl FnOnce(&mut NaiveProblem)) -> Naive {
     let mut naive = hand_pair_at_rest(change);
     naive.step();
@@ -167,7 +167,7 @@ fn only_an_arm_below_the_least_is_no_contact() {
 
 #[test]
 fn arms_are_in_units_of_their_own_rods() {
-    // arms of 2 mm of the first and 3 mm of the second
+    // the arms are 2 mm (first rod) and 3 mm (second)
     let collisions = |lengths_mm: [f64; 2]| {
         let mut naive = hand_pair_at_rest(|p| p.min_contact_arm = 4.0);
         naive.lengths_mm = lengths_mm.into();
@@ -182,7 +182,7 @@ fn arms_are_in_units_of_their_own_rods() {
 fn a_rod_draws_by_its_own_length() {
     let mut draws = stream(1, 0, 3);
     let r = [0; 2].map(|_| uniform(&mut draws));
-    // each reaches its partner where s = a alpha (R^(-1/m) - 1), a its own
+    // each reaches its partner where s = a alpha (R^(-1/m) - 1), with its own length a
     let needed = r.map(|r: f64| 1.0 / (0.5 * (r.powf(-1.0 / 3.0) - 1.0)));
     let reached = |length, lengths_mm: [f64; 2]| {
         let mut naive = Naive::new(fibres(2, 0.5, |p| p.reading.length = length));
@@ -199,7 +199,7 @@ fn a_rod_draws_by_its_own_length() {
         assert_eq!(reached(Length::Own, [a, b]), taken);
         assert_eq!(reached(Length::Partners, [b, a]), taken);
     }
-    // whoever needs less draws, however unequal the two are
+    // the rod that needs less draws, however unequal the two are
     let enough = f64::min(needed[0], needed[1]);
     let both = |factor: f64| reached(Length::MeanOfBoth, [1.5 * factor * enough, 0.5 * factor * enough]);
     assert_eq!([both(least).len(), both(most).len()], [0, 1]);
@@ -211,11 +211,11 @@ fn lengths_follow_the_protocol() {
     let normal = Normal::new(0.72, 0.216).expect("0.216 is finite");
     let drawn = normal.sample_iter(stream(1, 0, 5)).take(50);
     assert_eq!((naive.redraws, naive.lengths_mm.len()), (0, 50));
-    // a rounding of the mean and of the deviation apart
+    // mean and deviation are rounded separately
     assert!((naive.lengths_mm.iter().zip(drawn)).all(|(a, drawn): (&f64, f64)| (a - drawn).abs() < 1e-15));
 }
 
-/// Collisions of one step of rods on axis 1, all of them candidates unless changed.
+/// Collisions in one step of rods on axis 1, all of which are candidates unless `change` alters that.
 fn taken(x1_mm: &[f64], parallel: [usize; 2], change: impl FnOnce(&mut NaiveProblem)) -> Vec<(usize, usize)> {
     let mut naive = Naive::new(fibres(x1_mm.len(), 1e30, change));
     naive.positions_mm = x1_mm.iter().map(|&x| [x, 0.0, 0.0]).collect();
@@ -244,7 +244,7 @@ fn who_collides_by_order() {
     assert_eq!(taken(&[0.0, 1.0, 3.0, 4.0], [0, 0], |_| ()), [(0, 1), (2, 3)]);
     let x1_mm = [0.0, 10.0, 11.0, 30.0];
     assert_eq!(taken(&x1_mm, [0, 0], |_| ()), [(1, 2)]);
-    // a parallel pair is dropped before it is taken: its rods are free for later candidates
+    // a parallel pair is dropped without a collision: its rods are free for later candidates
     assert_eq!(taken(&x1_mm, [1, 2], |_| ()), [(0, 1), (3, 2)]);
     let by_index = taken(&x1_mm, [0, 0], |p| p.mistake = Some(Mistake::IndexOrder));
     assert_eq!(by_index, [(0, 1), (3, 2)]);
@@ -284,13 +284,13 @@ fn replaced([h1, h2, h3]: [f64; 3], box_mm: Option<[f64; 3]>) {
     }
     assert!(leavers > 100);
     assert_eq!((naive.replacements, naive.positions_mm.len()), (leavers, 50));
-    // nobody collided, so after one period a rod that left and came back is where it pointed
+    // without collisions, a rod that left and came back has its initial direction after one period
     assert!(far(&naive.orientations, &start) < 1e-9);
 }
 
 #[test]
 fn every_mistake_changes_a_run() {
-    // rods of unequal length, whose concentration is that of a cube or of a box, and in another flow
+    // rods of unequal length; a concentration given by a cube or a box; and another flow
     let state = |mistake| {
         let flow = OtherFlow {
             gradient_per_s: [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]],

@@ -1,4 +1,4 @@
-//! Binary numbers of any precision, and how they are read and written.
+//! Binary numbers of any precision, their input and output.
 //!
 //! Arithmetic and elementary functions of the crate `dashu-float` are correctly rounded; the result of an operation has
 //! the larger of its operands' precisions.
@@ -7,15 +7,15 @@ use dashu_float::{DBig, FBig, ops::EstimatedLog2, round::mode::HalfEven};
 use std::cmp::Ordering;
 use std::str::FromStr;
 
-/// A binary number of any precision, without an exponent's limits.
+/// A binary number of any precision and size.
 pub type Big = FBig<HalfEven, 2>;
 
-/// How many bits a calculation keeps.
+/// The precision of a calculation in bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bits(pub usize);
 
 impl Bits {
-    /// A double, exactly, for a calculation of this precision.
+    /// The double `x`, exactly, for a calculation of this precision.
     ///
     /// # Panics
     /// If `x` is not finite.
@@ -24,7 +24,7 @@ impl Bits {
         self.round(exact)
     }
 
-    /// π.
+    /// π to this precision.
     pub fn pi(self) -> Big {
         Big::pi(self.0)
     }
@@ -35,7 +35,7 @@ impl Bits {
     }
 }
 
-/// log₂|x| rounded up, and 0 for 0: how far x is from 1.
+/// |log₂|x|| rounded up, the distance of |x| from 1 in powers of two; 0 for 0.
 pub fn magnitude(x: f64) -> usize {
     match x == 0.0 {
         true => 0,
@@ -48,21 +48,21 @@ pub fn double(x: &Big) -> f64 {
     x.to_f64().value()
 }
 
-/// A decimal number as it is written, exact to 400 bits. `None` where it is no finite number that a double can hold.
+/// A decimal number as written, exact to 400 bits; `None` if it is not a finite number within the range of a double.
 pub fn decimal(text: &str) -> Option<Big> {
     let text = text.trim();
-    // The double's grammar and range: of two parsers the stricter.
+    // Requires the double's grammar and range too, so that the stricter of two parsers decides.
     text.parse::<f64>().ok().filter(|x| x.is_finite())?;
     let exact = DBig::from_str(text.trim_start_matches('+')).ok()?;
     Some(exact.with_rounding::<HalfEven>().with_base_and_precision::<2>(400).value())
 }
 
-/// `x` with `digits` significant decimal digits, as `1.2345e-6`, without zeros at their end; 0 as `0`.
+/// `x` with `digits` significant decimal digits, as `1.2345e-6`, without trailing zeros; 0 as `0`.
 pub fn digits(x: &Big, digits: usize) -> String {
     if *x == Big::ZERO {
         return "0".into();
     }
-    // Powers of ten are rounded: some more bits than the digits hold. (The crate's change of base takes half a millisecond.)
+    // Powers of ten are rounded, so it takes more bits than the digits hold. (The crate's change of base takes half a millisecond.)
     let bits = Bits(4 * digits + 80);
     let size = bits.round(x.sqr().sqrt());
     let mut exponent = (f64::from(size.log2_est()) * std::f64::consts::LOG10_2).floor() as i64;
@@ -93,7 +93,7 @@ pub fn length([x, y, z]: &[Big; 3]) -> Big {
     (x.sqr() + y.sqr() + z.sqr()).sqrt()
 }
 
-/// Calls `each` with the powers of `base` from 0 to `right`, then from −1 to −`left`: the places of the trapezoid rule in ln x.
+/// Calls `each` with the powers of `base` from 0 to `right`, then from −1 to −`left`: the nodes of the trapezoid rule in ln x.
 pub(super) fn each_power(one: &Big, base: &Big, left: usize, right: usize, mut each: impl FnMut(&Big)) {
     let inverse = one / base;
     let mut x = one.clone();
@@ -130,7 +130,7 @@ mod tests {
         assert_eq!(digits(&Bits(200).of(0.0), 22), "0");
         assert_eq!(digits(&Bits(200).of(1e22), 22), "1e22");
         assert_eq!(digits(&(Bits(200).of(1.0) - Bits(200).of(1e-30)), 22), "1e0");
-        // Sizes of all kinds, against the crate's own change of base.
+        // Numbers of all sizes, compared with the crate's own change of base.
         for k in -320..=300 {
             let x = &third * Bits(200).of(10.0).powi(k.into()) * Bits(200).of(1.0 + 0.001 * f64::from(k));
             let decimal = x.clone().with_base_and_precision::<10>(22).value();

@@ -1,4 +1,4 @@
-//! What does not change with time in plane Couette flow: T, ⟨φ⟩, orbits, and what is left when phases have mixed.
+//! Constants of a motion in plane Couette flow: T, ⟨φ⟩, orbits, and the means when phases are mixed.
 
 use super::big::{Big, Bits, each_power};
 use super::motion::Motion;
@@ -6,16 +6,16 @@ use super::rod::{self, Direction};
 
 const BITS: Bits = Bits(192);
 
-/// A number that describes a motion.
+/// A constant of a motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Constant {
-    /// Its name.
+    /// Name of the constant.
     pub quantity: &'static str,
-    /// Its value.
+    /// Value in `unit`.
     pub value: Big,
-    /// Its unit, `1` for pure numbers.
+    /// Unit, `1` for pure numbers.
     pub unit: &'static str,
-    /// Where it comes from: equation numbers are Lee & Springer's.
+    /// Source: equation numbers are Lee & Springer's.
     pub equation: &'static str,
 }
 
@@ -23,7 +23,7 @@ fn constant(quantity: &'static str, value: Big, unit: &'static str, equation: &'
     Constant { quantity, value, unit, equation }
 }
 
-/// Those of plane Couette flow for one r_e; `start` of one rod, or none for rods that are isotropic at t = 0.
+/// The constants of plane Couette flow for one r_e; `start` is that of a single rod, or `None` for rods isotropic at t = 0.
 ///
 /// `None` in any other flow.
 pub fn constants(motion: &Motion, start: Option<Direction>) -> Option<Vec<Constant>> {
@@ -130,7 +130,7 @@ fn phase_means(sine: &Big, cosine: &Big, r: &Big) -> [Big; 6] {
     ]
 }
 
-/// Means of |p₁|, |p₂|, |p₃|, p₁², p₂², p₃² once the phases of isotropic rods are mixed: orbits do not change.
+/// Means of |p₁|, |p₂|, |p₃|, p₁², p₂², p₃² when the phases of isotropic rods are mixed: their orbits do not change.
 ///
 /// ∫ f(C) ⟨…⟩_C dC with f(C) = (2r_e/π) C E(m)/((1 + C²)^½(1 + r_e²C²)), m = (1 − r_e²)C²/(1 + C²), by the trapezoid rule in
 /// u = ln C. It is analytic for |Im u| < π/2, so the error falls as e^{−2π·½π/h}: with h = ln 9/8 that is e^{−80} at 0.95 of it.
@@ -147,7 +147,7 @@ fn plateaus(r: &Big) -> [Big; 6] {
         let k = (&long / &whole).sqrt();
         let cosine = &one / whole.sqrt();
         let sine = c * &cosine;
-        // f(C) C without its factor 2r_e/π.
+        // f(C) C without the factor 2r_e/π.
         let weight = square * complete(&k, &one, &k.sqr()) * &cosine / long;
         for (sum, mean) in sums.iter_mut().zip(phase_means(&sine, &cosine, r)) {
             *sum += mean * &weight;
@@ -172,7 +172,7 @@ fn complete(k: &Big, a: &Big, b: &Big) -> Big {
         p += g;
         let last = m.clone();
         m += &k;
-        // The next step would square this.
+        // The next step would square this difference.
         let apart = (&last - &k) / &last;
         if apart.sqr() <= BITS.of(2f64.powi(-200)) {
             return BITS.pi() / &two * (a * &m + b) / (&m * (&m + p));
@@ -203,7 +203,7 @@ mod tests {
         for (u, _) in spread(60) {
             let r = 1e6f64.powf(2.0 * u - 1.0);
             let found = mean_angle(&BITS.of(r));
-            // What the quadrature claims.
+            // The tolerance is the claimed accuracy of the quadrature.
             assert!(apart(&found, mean_angle_by_quadrature(r)) < 2e-15, "{r}");
             let sum = found + mean_angle(&(BITS.of(1.0) / BITS.of(r)));
             assert!(((sum - BITS.pi() / BITS.of(2.0)) * BITS.of(1e50)).sqr() < BITS.of(1.0));
@@ -222,7 +222,7 @@ mod tests {
             let found = phase_means(&(BITS.of(c) * &cosine), &cosine, &BITS.of(r));
             let expected = phase_means_by_quadrature(c, r);
             assert!((0..3).all(|i| apart(&found[i], expected[i]) < 1e-14), "{r} {c}");
-            // The motion itself, on a fine grid of phases: converges geometrically for p².
+            // The motion itself, on a fine grid of phases, which converges geometrically for p².
             let n = 200_000;
             let (mut squares, beta) = ([0.0; 3], c.atan());
             for k in 0..n {
@@ -242,7 +242,7 @@ mod tests {
         for r in [0.01, 0.3, 3.0, 11.6, 300.0] {
             let (found, expected) = (plateaus(&BITS.of(r)), plateau_projections(r));
             for i in 0..3 {
-                // What is claimed of the doubles' quadrature.
+                // The tolerance is the claimed accuracy of the quadrature in doubles.
                 assert!((double(&found[i]) / expected[i] - 1.0).abs() < 5e-15, "{r} {i}");
             }
             let sum: f64 = doubles(&found[3..]).iter().sum();

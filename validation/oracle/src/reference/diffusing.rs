@@ -6,21 +6,21 @@ use super::motion::{Motion, Unit};
 use super::table::{Column, NoValue, Table, of_time, times};
 use crate::diffusion::{self, Means, Start};
 
-/// Rods with rotary diffusion, and what is asked about them.
+/// Rods with rotary diffusion, and the values requested for them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Diffusing {
     /// The flow and r_e, which may be ∞.
     pub motion: Motion,
-    /// C_I = D_r/γ̇, γ̇ = (2D:D)^½; above 0, and ∞ for rods of all directions alike.
+    /// C_I = D_r/γ̇, γ̇ = (2D:D)^½; above 0, and ∞ for isotropic rods.
     pub c_i: f64,
-    /// Whether a_4 is asked for in place of ⟨|p_i|⟩ and a_ij.
+    /// True for a_4 in place of ⟨|p_i|⟩ and a_ij.
     pub fourth: bool,
-    /// Whether the steady distribution is asked for, after the times.
+    /// True for the steady distribution too, after the times.
     pub steady: bool,
 }
 
 impl Diffusing {
-    /// The columns.
+    /// The columns of the table.
     pub fn columns(&self) -> Vec<Column> {
         let column = |name: String, equation| Column { name, unit: "1", equation };
         let mut columns = of_time();
@@ -35,9 +35,9 @@ impl Diffusing {
         columns
     }
 
-    /// Values at `at` ≥ 0, which ascend, doubles in `unit`; below them the steady ones, at the time ∞.
+    /// A table of values at `at` ≥ 0, ascending doubles in `unit`, followed by the steady values at the time ∞ if requested.
     ///
-    /// Each is rounded to as many decimals as its stated error leaves, eleven at most.
+    /// Each value is rounded to as many decimals as its stated error allows, eleven at most.
     pub fn table(&self, at: &[f64], unit: Unit) -> Result<Table, NoValue> {
         if at.iter().any(|time| *time < 0.0) {
             return Err(NoValue::Past);

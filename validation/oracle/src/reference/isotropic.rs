@@ -1,4 +1,4 @@
-//! Free rods that were isotropic at t = 0, infinitely many: means of |p_i|, p_i p_j and p_i p_j p_k p_l in any flow.
+//! Infinitely many free rods that were isotropic at t = 0: means of |p_i|, p_i p_j and p_i p_j p_k p_l in any flow.
 //!
 //! An isotropic p₀ is the direction of a normal vector, so p has the direction of a normal q = F p₀ with the covariance
 //! Σ = F Fᵀ, det Σ = 1. With B = Σ⁻¹ and M(x) = B + x, the normal integrals over 1/|q|, 1/|q|² and 1/|q|⁴ written as
@@ -6,26 +6,26 @@
 //!   ⟨|p_i|⟩ = (1/π) ∫₀^∞ (adj M)_ii^½ x^{-½} (det M)⁻¹ dx,
 //!   ⟨p_i p_j⟩ = ½ ∫₀^∞ (adj M)_ij (det M)^{-3/2} dx,
 //!   ⟨p_i p_j p_k p_l⟩ = ¼ ∫₀^∞ x (N_ij N_kl + N_ik N_jl + N_il N_jk) (det M)^{-½} dx, N = adj M/det M,
-//! complete and incomplete elliptic integrals in plane Couette flow. adj M = x² + x(tr B − B) + Σ and
+//! These are complete and incomplete elliptic integrals in plane Couette flow. adj M = x² + x(tr B − B) + Σ and
 //! det M = x³ + x² tr B + x tr Σ + 1 have no negative coefficient on their diagonals: nothing cancels.
 
 use super::big::{Big, Bits, double, each_power};
 use super::motion::{Matrix, Motion, Unit, matrix, product};
 
-/// The six different entries of a symmetric matrix, in the order of the columns `a11,a22,a33,a12,a13,a23`.
+/// The six distinct entries of a symmetric matrix, in the order of the columns `a11,a22,a33,a12,a13,a23`.
 pub const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
-/// The fifteen different entries of a_4, by indices from 1, ascending.
+/// The fifteen distinct entries of a_4, by indices from 1, ascending.
 #[rustfmt::skip]
 pub const QUADRUPLES: [[usize; 4]; 15] = [
     [1, 1, 1, 1], [1, 1, 1, 2], [1, 1, 1, 3], [1, 1, 2, 2], [1, 1, 2, 3], [1, 1, 3, 3], [1, 2, 2, 2], [1, 2, 2, 3],
     [1, 2, 3, 3], [1, 3, 3, 3], [2, 2, 2, 2], [2, 2, 2, 3], [2, 2, 3, 3], [2, 3, 3, 3], [3, 3, 3, 3],
 ];
 
-/// Bits that the integrals keep; their quadrature is good to 80.
+/// Precision of the integrals in bits; their quadrature is good to 80.
 const KEPT: Bits = Bits(160);
 
-/// Σ and its inverse B.
+/// The covariance Σ and its inverse B.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Covariance {
     sigma: Matrix,
@@ -33,7 +33,7 @@ pub struct Covariance {
 }
 
 impl Covariance {
-    /// Of rods that were isotropic at t = 0; `None` where the unit has no meaning in this flow.
+    /// Σ at `time` of rods that were isotropic at t = 0; `None` if the unit is undefined in this flow.
     pub fn at(motion: &Motion, time: &Big, unit: Unit) -> Option<Self> {
         let bits = motion.bits(double(time), unit, KEPT.0 + 96);
         let map = motion.map(time, unit, bits)?;
@@ -51,7 +51,7 @@ impl Covariance {
         })
     }
 
-    /// ⟨|p₁|⟩, ⟨|p₂|⟩, ⟨|p₃|⟩.
+    /// The means ⟨|p₁|⟩, ⟨|p₂|⟩, ⟨|p₃|⟩.
     pub fn projections(&self) -> [Big; 3] {
         let sums = self.integral(|x, adjugate, determinant| {
             // x dx = x² d(ln x); (adj M)^½ x^{-½} x = (adj M · x)^½.
@@ -102,7 +102,7 @@ impl Covariance {
         let left = steps(double(&trace_sigma.ln()) + 117.0);
         let right = steps(double(&trace_inverse.ln()) + 39.0);
         let one = KEPT.of(1.0);
-        // tr B − B_ii, without the difference.
+        // tr B − B_ii, computed without a difference.
         let others = [0, 1, 2].map(|i| {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
             &self.inverse[j][j] + &self.inverse[k][k]
@@ -152,14 +152,14 @@ mod tests {
                 (at(COUETTE, r, turns, Unit::Period).projections(), mean_projections(r, turns));
             let wrong = mean_projections(r, 1.01 * turns);
             for i in 0..3 {
-                // What is claimed of the doubles' formula.
+                // The tolerance is the claimed accuracy of the formula in doubles.
                 assert!(relative(&found[i], expected[i]) < 4e-15, "{r} {turns} {i}");
             }
             assert!((0..3).any(|i| relative(&found[i], wrong[i]) > 1e-9));
         }
     }
 
-    /// A mean over isotropic starts of the moving rods: z = cos θ₀ by Clenshaw-Curtis, φ₀ by the trapezoid rule, which
+    /// A mean over isotropic starts of moving rods: z = cos θ₀ by Clenshaw-Curtis, φ₀ by the trapezoid rule, which
     /// converges geometrically.
     fn by_rods(motion: &Motion, time_s: f64, f: impl Fn([f64; 3]) -> f64) -> f64 {
         let map = motion.map(&Bits(100).of(time_s), Unit::Second, Bits(100)).unwrap();
@@ -197,7 +197,7 @@ mod tests {
             let mut caught = false;
             for ((found, wrong), (i, j)) in covariance.second().iter().zip(&wrong).zip(PAIRS) {
                 let expected = by_rods(&motion, time_s, |p| p[i] * p[j]);
-                // Some dozen panels, each to 1e-13.
+                // The tolerance is that of about a dozen panels, each to 1e-13.
                 assert!((double(found) - expected).abs() < 1e-12, "{aspect_ratio} {i} {j}");
                 caught |= (double(wrong) - expected).abs() > 1e-6;
             }

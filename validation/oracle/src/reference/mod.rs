@@ -1,6 +1,6 @@
-//! Exact values without a simulation, to the digits that a double holds: one free rod, and rods that are isotropic at t = 0.
+//! Exact values without a simulation, to the digits of a double: for one free rod, and for rods that are isotropic at t = 0.
 //!
-//! Computed with 100 bits and more; inputs are doubles and are taken as exact. Nothing here uses the core.
+//! They are computed with 100 bits and more; inputs are doubles, taken as exact. Nothing here uses the core.
 
 pub mod big;
 pub mod constants;

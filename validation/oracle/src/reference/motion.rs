@@ -4,7 +4,7 @@
 
 use super::big::{Big, Bits, double, magnitude};
 
-/// The largest |A|t, in units of strain, up to which a flow other than plane Couette flow is followed.
+/// The largest |A|t in units of strain that is computed, in flows other than plane Couette flow.
 pub const LARGEST_STRAIN: f64 = 5000.0;
 
 /// A 3×3 matrix, by rows.
@@ -24,14 +24,14 @@ pub enum Unit {
 /// A rod or disc in a steady flow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
-    /// L, row i and column j: ∂u_i/∂x_j, 1/s; finite.
+    /// L in 1/s; row i and column j hold ∂u_i/∂x_j; finite.
     pub gradient_per_s: [[f64; 3]; 3],
     /// r_e > 0; ∞ for Λ = 1.
     pub aspect_ratio: f64,
 }
 
 impl Motion {
-    /// G (1/s), where the flow is u₂ = G x₁ and nothing else, and rods turn in it: r_e is finite.
+    /// G in 1/s if the flow is u₂ = G x₁ and rods turn in it, that is if r_e is finite; else `None`.
     pub fn couette(&self) -> Option<f64> {
         let rate = self.gradient_per_s[1][0];
         let others = self.gradient_per_s.as_flattened().iter().filter(|x| **x != 0.0).count();
@@ -52,7 +52,7 @@ impl Motion {
         (sum / bits.of(2.0)).sqrt()
     }
 
-    /// A time in another unit. `None` where there is no period or no strain.
+    /// Converts a time to another unit; `None` if there is no period or no strain.
     pub fn convert(&self, time: &Big, from: Unit, to: Unit, bits: Bits) -> Option<Big> {
         if from == to {
             return Some(time.clone());
@@ -67,7 +67,7 @@ impl Motion {
         }
     }
 
-    /// How many seconds a unit is.
+    /// The number of seconds per unit; `None` if the unit is undefined in this flow.
     fn unit_s(&self, unit: Unit, bits: Bits) -> Option<Big> {
         let rate = self.strain_rate_per_s(bits);
         match unit {
@@ -78,11 +78,11 @@ impl Motion {
         }
     }
 
-    /// The bits of a calculation that loses some by the size of r_e and of the time, and keeps `kept`.
+    /// The precision of a calculation that keeps `kept` bits after the losses due to the size of r_e and of the time.
     pub fn bits(&self, time: f64, unit: Unit, kept: usize) -> Bits {
         let shape = if self.aspect_ratio.is_finite() { 8 * magnitude(self.aspect_ratio) } else { 0 };
         if self.couette().is_some() {
-            // The time's whole turns, and T in seconds.
+            // Losses come from the time's whole turns, and from T in seconds.
             return Bits(kept + shape + magnitude(time) + magnitude(self.gradient_per_s[1][0]));
         }
         // F and its inverse grow as e^{|A|t} at most, their products of four as its fourth power.
@@ -98,10 +98,10 @@ impl Motion {
         seconds.map_or(f64::INFINITY, |seconds| double(&(norm * seconds)).abs())
     }
 
-    /// F at `time`. `None` where the unit has no meaning in this flow.
+    /// F at `time`; `None` if the unit is undefined in this flow.
     ///
     /// In plane Couette flow, with ω = 2π/T: q₁ = p₁ cos ωt − (p₂/r_e) sin ωt, q₂ = r_e p₁ sin ωt + p₂ cos ωt, q₃ = p₃
-    /// (A.4, A.5). Else the exponential of the traceless part of At; the trace only stretches q.
+    /// (A.4, A.5). Otherwise the exponential of the traceless part of At; the trace only stretches q.
     pub fn map(&self, time: &Big, unit: Unit, bits: Bits) -> Option<Matrix> {
         match self.couette() {
             Some(rate) => {
@@ -170,12 +170,12 @@ pub fn matrix(entry: impl Fn(usize, usize) -> Big) -> Matrix {
     [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)))
 }
 
-/// a b.
+/// The matrix product a b.
 pub fn product(a: &Matrix, b: &Matrix) -> Matrix {
     matrix(|i, j| &a[i][0] * &b[0][j] + &a[i][1] * &b[1][j] + &a[i][2] * &b[2][j])
 }
 
-/// a x.
+/// The vector a x.
 pub fn image(a: &Matrix, x: &[Big; 3]) -> [Big; 3] {
     [0, 1, 2].map(|i| &a[i][0] * &x[0] + &a[i][1] * &x[1] + &a[i][2] * &x[2])
 }
@@ -199,7 +199,7 @@ mod tests {
             let seconds = bits.of(strain) / bits.of(rate.abs());
             let closed = motion.map(&seconds, Unit::Second, bits).unwrap();
             let series = exponential(&motion.generator(&seconds, bits), strain, bits);
-            // 300 bits less some for entries of r_e and a hundred squarings.
+            // The tolerance is 300 bits, less some for entries of r_e and a hundred squarings.
             assert!(apart(&closed, &series) < 1e-75, "{rate} {aspect_ratio}");
             let wrong = Motion { aspect_ratio: aspect_ratio * (1.0 + f64::EPSILON), ..motion };
             let wrong = exponential(&wrong.generator(&seconds, bits), strain, bits);

@@ -1,39 +1,39 @@
-//! One free rod: where it points.
+//! The direction of one free rod.
 
 use super::big::{Big, Bits, length};
 use super::motion::{Motion, Unit, image};
 
-/// Where a rod starts.
+/// The initial direction of a rod.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Direction {
-    /// In degrees: φ from axis 1 towards axis 2, θ from axis 3, 0 ≤ θ ≤ 180. Whole quarter turns are exact.
+    /// Angles in degrees: φ from axis 1 towards axis 2, θ from axis 3, 0 ≤ θ ≤ 180. Whole quarter turns are exact.
     Angles {
-        /// φ.
+        /// φ in degrees.
         phi_deg: f64,
-        /// θ.
+        /// θ in degrees.
         theta_deg: f64,
     },
-    /// Along p, whose length does not matter.
+    /// The direction p, whose length does not matter.
     Vector([f64; 3]),
 }
 
-/// A rod at a time.
+/// The state of a rod at a time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rod {
-    /// p, of length 1.
+    /// The direction p, of length 1.
     pub p: [Big; 3],
-    /// φ in (−π, π], rad; on the vorticity axis the φ of A.4, where the start has one, else none.
+    /// φ in (−π, π], rad. On the vorticity axis it is the φ of A.4 if the start has one, else `None`.
     pub phi: Option<Big>,
     /// θ in [0, π], rad.
     pub theta: Big,
-    /// C/(1 + C) with the orbit constant C of eq. 13; none but in plane Couette flow.
+    /// C/(1 + C) with the orbit constant C of eq. 13; `None` except in plane Couette flow.
     pub c_b: Option<Big>,
 }
 
-/// Bits of the answers: 128 more than what is lost on the way.
+/// Bits of the answers: 128 more than may be lost.
 const KEPT: usize = 256;
 
-/// The rod at `time`; `None` where the unit has no meaning in this flow.
+/// The rod at `time`; `None` if the unit is undefined in this flow.
 ///
 /// p by A.4 and A.5 in the form p = F p₀/|F p₀| (`motion.rs`), φ and θ by p = (sin θ cos φ, sin θ sin φ, cos θ),
 /// C = (r_e² p₁² + p₂²)^½/(r_e|p₃|) (eq. 13). Every number holds to 100 bits and more.
@@ -62,7 +62,7 @@ pub fn at(motion: &Motion, start: Direction, time: &Big, unit: Unit) -> Option<R
     })
 }
 
-/// p at t = 0, and C_b, which does not change in plane Couette flow and means nothing in another.
+/// p at t = 0, and C_b, which is constant in plane Couette flow and meaningless in others.
 pub fn orbit(motion: &Motion, start: Direction) -> ([Big; 3], Big) {
     let bits = motion.bits(0.0, Unit::Period, KEPT);
     let start = Start::new(start, bits);
@@ -70,7 +70,7 @@ pub fn orbit(motion: &Motion, start: Direction) -> ([Big; 3], Big) {
     (start.p, c_b)
 }
 
-/// C_b of a rod along p; C_b is the same at all times in plane Couette flow.
+/// C_b of a rod along p, which is constant in plane Couette flow.
 fn c_b(p: &[Big; 3], aspect_ratio: f64, bits: Bits) -> Big {
     let r = bits.of(aspect_ratio);
     let across = ((&r * &p[0]).sqr() + p[1].sqr()).sqrt();
@@ -78,10 +78,10 @@ fn c_b(p: &[Big; 3], aspect_ratio: f64, bits: Bits) -> Big {
     &across / (along + &across)
 }
 
-/// A start in numbers.
+/// A start as numbers.
 struct Start {
     p: [Big; 3],
-    /// (cos φ, sin φ, 0), where angles are given: it turns as A.4 says for every θ.
+    /// (cos φ, sin φ, 0) if the start is given by angles: it turns by A.4 for every θ.
     along: Option<[Big; 3]>,
 }
 
@@ -126,7 +126,7 @@ mod tests {
             let found = rod(r, phi_deg, theta_deg, 3.0 * v);
             let (phi0, theta0) = (phi_deg.to_radians(), theta_deg.to_radians());
             let (phi, theta) = angles_at(phi0, theta0, r, 3.0 * v);
-            // The conditioning of the doubles' formula, and of φ₀ up to 4π.
+            // The tolerance covers the conditioning of the formula in doubles, and φ₀ up to 4π.
             let tolerance = 2e-14 * r.max(1.0 / r);
             let apart = |phi: f64| {
                 let turns = (double(found.phi.as_ref().unwrap()) - phi) / TAU;

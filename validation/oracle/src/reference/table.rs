@@ -8,59 +8,59 @@ use super::unequal;
 use crate::diffusion::NoAnswer;
 use rayon::prelude::*;
 
-/// What is at t = 0.
+/// The rods at t = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Start {
-    /// Infinitely many free rods of all directions alike (eq. 12). Means over them are asked for.
+    /// Infinitely many free rods with isotropic directions (eq. 12), for means over them.
     Isotropic {
         /// Standard deviation of a Gaussian r_e (eq. 11), percent of the mean.
         aspect_ratio_sd_percent: f64,
-        /// Whether a_4 is asked for in place of ⟨|p_i|⟩ and a_ij.
+        /// True for a_4 in place of ⟨|p_i|⟩ and a_ij.
         fourth: bool,
     },
     /// One free rod.
     Rod(Direction),
 }
 
-/// What a column is.
+/// A column of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// Its name.
+    /// Name of the column.
     pub name: String,
-    /// Its unit, `1` for pure numbers.
+    /// Unit, `1` for pure numbers.
     pub unit: &'static str,
-    /// Where it comes from: equation numbers are Lee & Springer's (1982).
+    /// Source: equation numbers are Lee & Springer's (1982).
     pub equation: &'static str,
 }
 
-/// Times and values, a row a time. A value is none where it has no meaning: t/T and C_b in flows without them, φ on axis 3.
+/// Times and values, one row per time. Undefined values are `None`: t/T and C_b in flows without them, φ on axis 3.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    /// The columns.
+    /// The columns of the table.
     pub columns: Vec<Column>,
-    /// The rows.
+    /// The rows of the table.
     pub rows: Vec<Vec<Option<f64>>>,
 }
 
-/// Why there is no value.
+/// The reason why there is no value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NoValue {
     /// The flow has no period, or no strain.
     Unit,
-    /// |L|t is beyond [`LARGEST_STRAIN`] in a flow that is not plane Couette flow.
+    /// |L|t is above [`LARGEST_STRAIN`] in a flow that is not plane Couette flow.
     Strain,
-    /// A time in another unit is no finite double.
+    /// A time in another unit is not a finite double.
     Time,
-    /// A deviation for which eight of them reach r_e = 1, a flow other than plane Couette flow, more than a thousand
-    /// periods, or a_4, with rods of unequal r_e.
+    /// Rods of unequal r_e with a deviation eight times which reaches r_e = 1, in a flow other than plane Couette flow, for more than a
+    /// thousand periods, or with a_4.
     Unequal,
     /// A time before the start, with diffusion.
     Past,
-    /// Rods with diffusion whose distribution is not found.
+    /// The distribution of rods with diffusion was not found.
     Diffusion(NoAnswer),
 }
 
-/// The columns of a time.
+/// The columns that give the time in several units.
 pub(super) fn of_time() -> Vec<Column> {
     let column = |name: &str, unit, equation| Column { name: name.into(), unit, equation };
     vec![
@@ -100,7 +100,7 @@ pub fn columns(start: Start) -> Vec<Column> {
     columns
 }
 
-/// Values at `times`, doubles in `unit`, each correctly rounded but for means over unequal rods (`unequal.rs`).
+/// Values at `times`, doubles in `unit`; each is correctly rounded except for means over unequal rods (`unequal.rs`).
 pub fn table(motion: &Motion, start: Start, times: &[f64], unit: Unit) -> Result<Table, NoValue> {
     let rows = times.par_iter().map(|time| row(motion, start, *time, unit));
     Ok(Table { columns: columns(start), rows: rows.collect::<Result<_, _>>()? })
@@ -137,7 +137,7 @@ fn row(motion: &Motion, start: Start, time: f64, unit: Unit) -> Result<Vec<Optio
     Ok(row)
 }
 
-/// A time in seconds, periods and strain.
+/// A time in seconds, periods and strain; `None` for units that the flow does not have.
 pub(super) fn times(motion: &Motion, time: &Big, unit: Unit) -> Result<Vec<Option<f64>>, NoValue> {
     if motion.convert(time, unit, Unit::Second, Bits(64)).is_none() {
         return Err(NoValue::Unit);
@@ -149,7 +149,7 @@ pub(super) fn times(motion: &Motion, time: &Big, unit: Unit) -> Result<Vec<Optio
     each.into_iter().collect()
 }
 
-/// The nearest double, without a negative zero.
+/// The nearest double; never a negative zero.
 fn number(x: &Big) -> f64 {
     double(x) + 0.0
 }

@@ -8,13 +8,13 @@ use ellip::elliprd;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
-/// The longest time, in periods of the mean rod: the number of panels grows with it.
+/// The longest time, in periods of the mean rod; the number of panels grows with time.
 pub const LONGEST_TURNS: f64 = 1000.0;
 
-/// ⟨|p₁|⟩, ⟨|p₂|⟩, ⟨|p₃|⟩ and a₁₁, a₂₂, a₃₃, a₁₂, a₁₃, a₂₃ at `turns` = t/T of the mean rod (negative: the flow runs
-/// backwards), by quadrature over r_e, Gaussian with this mean and deviation, cut at eight deviations.
+/// ⟨|p₁|⟩, ⟨|p₂|⟩, ⟨|p₃|⟩ and a₁₁, a₂₂, a₃₃, a₁₂, a₁₃, a₂₃ at `turns` = t/T of the mean rod (negative: the flow is
+/// reversed), by quadrature over Gaussian r_e with this mean and deviation, cut at eight deviations.
 ///
-/// `None` where eight deviations reach r_e = 1, for more than [`LONGEST_TURNS`], and outside 10⁻⁴ ≤ r_e ≤ 10⁴.
+/// `None` if eight deviations reach r_e = 1, beyond [`LONGEST_TURNS`], and outside 10⁻⁴ ≤ r_e ≤ 10⁴.
 pub fn means(aspect_ratio: f64, sd_percent: f64, turns: f64) -> Option<[f64; 9]> {
     let reach = 8.0 * 0.01 * sd_percent * aspect_ratio;
     let apart = (aspect_ratio - 1.0).abs() > reach && reach < aspect_ratio;
@@ -31,7 +31,7 @@ pub fn means(aspect_ratio: f64, sd_percent: f64, turns: f64) -> Option<[f64; 9]>
     Some([x1, x2, x3, a11, a22, a33, a12, 0.0, 0.0])
 }
 
-/// The means are good to half a unit of the eleventh decimal.
+/// Rounds a mean to eleven decimals: its error is half a unit of the last.
 fn to_eleven_decimals(x: f64) -> f64 {
     format!("{x:.11}").parse::<f64>().unwrap_or(x) + 0.0
 }
@@ -55,7 +55,7 @@ pub fn means_to_22_digits(
     let first = ((aspect_ratio - reach) / step).ceil() as i64;
     let last = ((aspect_ratio + reach) / step).floor() as i64;
     let node = |k: i64| {
-        // Exact: few bits.
+        // Exact, because k has few bits.
         let r = k as f64 * step;
         let motion =
             Motion { gradient_per_s: [[0.0; 3], [shear_rate_per_s, 0.0, 0.0], [0.0; 3]], aspect_ratio: r };
@@ -78,7 +78,7 @@ pub fn means_to_22_digits(
 /// of 1/λ is at β from axis 1, tan 2β = 2|cos ωt|/(|sin ωt|(r_e + 1/r_e)).
 fn second_moments(r: f64, turns: f64) -> [f64; 4] {
     if r < 1.0 {
-        // A disc moves as a rod of 1/r_e with axes 1 and 2 exchanged and time reversed.
+        // A disc of r_e moves as a rod of 1/r_e with axes 1 and 2 exchanged and time reversed.
         let [first, second, third, shear] = second_moments(r.recip(), -turns);
         return [second, first, third, shear];
     }

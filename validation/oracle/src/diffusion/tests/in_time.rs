@@ -1,4 +1,4 @@
-//! Densities in time: diffusion alone, free rods, the equation of the moments, rods one by one.
+//! Tests of densities in time: diffusion alone, free rods, the equation of the moments, single rods.
 
 use super::*;
 use crate::reference::big::{Bits, double};
@@ -9,7 +9,7 @@ use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
-/// At rest the part of degree l decays as e^{−l(l+1)D_r t}: a_ij − δ/3 as e^{−6D_r t}, and of a₄ one part as e^{−20D_r t}.
+/// At rest the part of degree l decays as e^{−l(l+1)D_r t}: a_ij − δ/3 as e^{−6D_r t}, and one part of a₄ as e^{−20D_r t}.
 #[test]
 fn diffusion_alone_has_the_known_decay() {
     let start = |p: [f64; 3]| 1.0 + (p[0] * p[1]).powi(2) + 0.5 * p[2] * (p[2] + p[0]);
@@ -21,7 +21,7 @@ fn diffusion_alone_has_the_known_decay() {
             let third = if k < 3 { 1.0 / 3.0 } else { 0.0 };
             third + (first.second[k] - third) * two
         });
-        // a₁₂₁₂: the degrees 0 and 2 from the second moments.
+        // Degrees 0 and 2 of a₁₂₁₂ follow from the second moments.
         let low = |a: [f64; 6]| 1.0 / 15.0 + (a[0] + a[1] - 2.0 / 3.0) / 7.0;
         let fourth = low(expected) + (first.fourth[3] - low(first.second)) * four;
         off(&last.second, &expected).max((last.fourth[3] - fourth).abs())
@@ -34,7 +34,7 @@ fn diffusion_alone_has_the_known_decay() {
     );
 }
 
-/// C_I → 0: free rods, whose means are elliptic integrals.
+/// C_I → 0 gives free rods, whose means are elliptic integrals.
 #[test]
 fn without_diffusion_rods_are_free() {
     for (gradient, aspect_ratio) in
@@ -62,7 +62,7 @@ fn without_diffusion_rods_are_free() {
     }
 }
 
-/// Simpson's rule over the rate of the second moments gives their change.
+/// The change of the second moments, from Simpson's rule over their rate.
 #[test]
 fn second_moments_change_by_their_own_equation() {
     let start = |p: [f64; 3]| (1.5 * p[0] * p[2] + p[1] * p[1]).exp();
@@ -88,7 +88,7 @@ fn second_moments_change_by_their_own_equation() {
     }
 }
 
-/// Rods one by one: half a turn by diffusion, Jeffery's motion, half a turn by diffusion, for four standard errors.
+/// Single rods, with half the diffusion before and half after Jeffery's motion in each step; the tolerance is four standard errors.
 #[test]
 fn rods_one_by_one_agree() {
     const RODS: usize = 20_000;
@@ -101,7 +101,7 @@ fn rods_one_by_one_agree() {
     let mut normal = |_: usize| -> f64 { StandardNormal.sample(&mut random) };
     let mut rods: Vec<Vector3<f64>> =
         (0..RODS).map(|_| Vector3::from_fn(|i, _| normal(i)).normalize()).collect();
-    // A step of variance 2D_r h across p in each direction; the error of its length is of the order of D_r²h.
+    // A step across p has the variance 2D_r h in each direction; the error of its length is of the order of D_r²h.
     let size = (motion.diffusivity * step).sqrt();
     for _ in 0..STEPS {
         for p in &mut rods {

@@ -1,4 +1,4 @@
-//! Each check is a function of what it judges, and fails for the right answer with a mistake in it.
+//! Each check is a function of the model that it judges, and fails for the right model with a mistake in it.
 
 mod in_time;
 mod of_operator;
@@ -15,7 +15,7 @@ const COUETTE: [[f64; 3]; 3] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]];
 /// A flow with no symmetry and no trace.
 const ASKEW: [[f64; 3]; 3] = [[0.3, -0.5, 0.1], [0.8, 0.1, -0.2], [0.4, 0.6, -0.4]];
 
-/// What a wrong model would turn rods by.
+/// Wrong motions of rods.
 fn mistakes(motion: Motion) -> [(&'static str, Motion); 3] {
     [
         ("the vorticity's sign", Motion { spin: -motion.spin, ..motion }),

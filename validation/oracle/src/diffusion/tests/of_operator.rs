@@ -1,4 +1,4 @@
-//! The operator against functions whose derivatives are known, and its harmonics against quadratures.
+//! Compares the operator with functions of known derivatives, and its harmonics with quadratures.
 
 use super::*;
 use crate::diffusion::frame::Frame;
@@ -43,7 +43,7 @@ fn by_hand(motion: &Motion, m: &Matrix3<f64>, p: [f64; 3]) -> (f64, f64) {
     (value, value * (3.0 * p.dot(&strain) - rate.dot(&slope) + motion.diffusivity * curved))
 }
 
-/// A manufactured solution: the operator of ψ's harmonics is the harmonics of what it should be.
+/// A manufactured solution: the operator applied to ψ's harmonics gives the harmonics of its known rate.
 #[test]
 fn a_manufactured_solution_has_the_rate_that_is_worked_out_by_hand() {
     let m = Matrix3::new(0.9, 0.2, -0.4, 0.2, -0.5, 0.3, -0.4, 0.3, 0.1);
@@ -54,7 +54,7 @@ fn a_manufactured_solution_has_the_rate_that_is_worked_out_by_hand() {
     let error = |operator: &Operator| {
         let mut found = vec![0.0; basis.len()];
         operator.apply(1.0, &unknowns, &mut found);
-        // The highest degree lacks what lies beyond.
+        // The highest degree lacks contributions from beyond.
         found.iter().zip(&due).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     };
     let right = error(&Operator::new(&motion, basis));
@@ -63,7 +63,7 @@ fn a_manufactured_solution_has_the_rate_that_is_worked_out_by_hand() {
         let wrong = error(&Operator::new(&wrong, basis));
         assert!(wrong > 1e-3, "{name}: {wrong:e}");
     }
-    // A coupling that is missing: one entry of the many.
+    // A missing coupling: one of many entries.
     let whole = Operator::new(&motion, basis);
     for entry in [0, 40, 333] {
         let wrong = error(&whole.without(entry));
@@ -71,7 +71,7 @@ fn a_manufactured_solution_has_the_rate_that_is_worked_out_by_hand() {
     }
 }
 
-/// A symmetric flow in the laboratory's axes with all harmonics, against cosines in its own.
+/// A symmetric flow in the laboratory's axes with all harmonics, compared with cosines in its own axes.
 #[test]
 fn axes_and_reflections_change_no_mean() {
     for motion in [
@@ -90,7 +90,7 @@ fn axes_and_reflections_change_no_mean() {
         };
         let (found, expected) = (with(&Frame { axes, motion: plain, even: false }), with(&own));
         assert!(off(&found, &expected) < 1e-13, "{:e}", off(&found, &expected));
-        // A vector that is turned the other way.
+        // A vector transformed with the wrong sign.
         let mirrored = Motion { spin: -spin, ..plain };
         assert!(off(&with(&Frame { axes, motion: mirrored, even: false }), &expected) > 1e-3);
     }

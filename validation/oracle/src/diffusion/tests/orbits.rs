@@ -1,4 +1,4 @@
-//! Orbits of rods with weak diffusion: the closed form, and the Fokker–Planck equation as C_I → 0.
+//! Tests of the orbits of rods with weak diffusion: the closed form, and the Fokker–Planck equation as C_I → 0.
 
 use super::*;
 use crate::diffusion::orbits::{
@@ -7,12 +7,12 @@ use crate::diffusion::orbits::{
 
 #[test]
 fn the_share_of_long_orbits_is_the_known_one() {
-    // 1 − C_b-distribution at ½, C = 1: 1/√5 for r → ∞.
+    // The share with C_b > ½ (C > 1) is 1/√5 for r → ∞.
     let above = |r: f64| 1.0 - cdf(0.5, r);
     assert!((above(f64::INFINITY) - 0.2f64.sqrt()).abs() < 1e-14);
     assert!((above(1e7) - 0.2f64.sqrt()).abs() < 1e-6);
     assert!((above(11.6) - 0.461).abs() < 5e-4, "{}", above(11.6));
-    // A sphere's orbits are those of all directions alike: P(C > 1) = 1/√2.
+    // A sphere's orbits are those of isotropic directions: P(C > 1) = 1/√2.
     assert!((above(1.0) - 0.5f64.sqrt()).abs() < 1e-13, "{}", above(1.0));
     for r in [0.1, 1.0, 3.0, 5.9, 11.6, 1e3, f64::INFINITY] {
         assert!((cdf(1.0, r) - 1.0).abs() < 1e-13 && cdf(0.0, r) == 0.0);
@@ -38,7 +38,7 @@ fn moments_of_an_orbit_are_those_of_its_phases() {
     }
 }
 
-/// Turning the flow round turns C_I's sign in a_ii, so a_ii = a_ii(0) + O(C_I²): two C_I leave the fourth power.
+/// Reversing the flow changes the sign of C_I in a_ii, so a_ii = a_ii(0) + O(C_I²): two values of C_I leave an error ∝ C_I⁴.
 #[test]
 fn weak_diffusion_is_the_limit_of_the_fokker_planck_equation() {
     for r in [0.3, 2.0, 3.0] {
@@ -51,7 +51,7 @@ fn weak_diffusion_is_the_limit_of_the_fokker_planck_equation() {
         let limit = std::array::from_fn(|i| near[i] + (near[i] - far[i]) / 3.0);
         let (first, second) = (off(&near, &expected), off(&limit, &expected));
         assert!(second < 1e-7 && first > 10.0 * second, "{r}: {first:e} {second:e}");
-        // The orbits of isotropic rods, which free rods keep, and those of another r.
+        // Wrong orbits: those of isotropic rods, which free rods keep, and those of another r.
         let free = [0, 1, 2].map(|i| {
             let of_c = |c_b: f64| {
                 let c = c_b / (1.0 - c_b);
@@ -69,7 +69,7 @@ fn weak_diffusion_is_the_limit_of_the_fokker_planck_equation() {
 
 #[test]
 fn the_shear_stress_of_isotropic_rods_is_that_of_their_fourth_moments() {
-    // The mean over half a period of ⟨p₁²p₂²⟩ of free rods that started isotropic, by the closed integral in time.
+    // The mean of ⟨p₁²p₂²⟩ over half a period of initially isotropic free rods, from the closed integral in time.
     const TIMES: usize = 400;
     for r in [1.5, 3.0, 5.0] {
         let at = |k: usize| crate::moments::fourth(r, 0.5 * k as f64 / TIMES as f64, [0, 0, 1, 1]);
@@ -78,7 +78,7 @@ fn the_shear_stress_of_isotropic_rods_is_that_of_their_fourth_moments() {
         assert!((found - mean).abs() < 1e-9, "{r}: {found} {mean}");
         assert!((shear_stress_of_isotropic(1.1 * r) - mean).abs() > 1e-4);
     }
-    // A sphere's rods stay isotropic: ⟨p₁²p₂²⟩ = 1/15.
+    // Spheres stay isotropic: ⟨p₁²p₂²⟩ = 1/15.
     assert!((shear_stress_of_isotropic(1.0 + 1e-9) - 1.0 / 15.0).abs() < 1e-8);
 }
 

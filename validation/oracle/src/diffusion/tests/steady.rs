@@ -1,4 +1,4 @@
-//! Steady distributions: closed forms in extension, the equation of the moments, weak flows, large C_I.
+//! Tests of steady distributions: closed forms in extension, the equation of the moments, weak flows, large C_I.
 
 use super::*;
 use crate::diffusion::frame::Frame;
@@ -6,7 +6,7 @@ use crate::diffusion::harmonics::Basis;
 use crate::diffusion::settled;
 use crate::quadrature::integrate;
 
-/// In a flow without vorticity ψ ∝ exp(p·(ΛD)p/2D_r) exactly, of any strength.
+/// In flows without vorticity of any strength, ψ ∝ exp(p·(ΛD)p/2D_r) exactly.
 #[test]
 fn extension_has_the_density_of_bingham() {
     for (rate, aspect_ratio, c_i) in
@@ -51,7 +51,7 @@ fn extension_has_the_density_of_bingham() {
     }
 }
 
-/// Planar extension, where both angles matter.
+/// Planar extension, in which both angles matter.
 #[test]
 fn planar_extension_agrees_with_a_rule_over_the_sphere() {
     let motion = Motion::new([[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0; 3]], 6.0, 0.05);
@@ -71,7 +71,7 @@ fn planar_extension_agrees_with_a_rule_over_the_sphere() {
     assert!(mistakes(motion)[1..].iter().all(|(_, wrong)| error(wrong) > 1e-3));
 }
 
-/// The second moments of a steady density stand still by their own equation, in every flow.
+/// The equation of the second moments gives a steady density the rate 0, in every flow.
 #[test]
 fn steady_moments_stand_still() {
     for (gradient, aspect_ratio, c_i) in [
@@ -86,19 +86,19 @@ fn steady_moments_stand_still() {
         let motion = Motion::new(gradient, aspect_ratio, c_i);
         let means = steady(&motion).unwrap();
         assert!(means.error < 4.1e-12 && means.error >= 0.0);
-        // The rates' factors are about 1, and 6D_r.
+        // The terms of the rate have factors of about 1, and 6D_r.
         let bound = 1e-13 * (10.0 + 6.0 * motion.diffusivity);
         let right = rate(&motion, &means).amax();
         assert!(right < bound, "{gradient:?} {aspect_ratio} {c_i}: {right:e}");
         for (name, wrong) in mistakes(motion) {
             let wrong = rate(&motion, &steady(&wrong).unwrap()).amax();
-            // A sphere is isotropic in any case, and so is any rod whose diffusion prevails: to first order in 1/C_I.
+            // A sphere is isotropic in any case; so is any rod with dominating diffusion, to first order in 1/C_I.
             assert!(aspect_ratio == 1.0 || wrong > 1e-5, "{name}: {wrong:e}");
         }
     }
 }
 
-/// The moments' equation holds with too few harmonics as well; twice as many show what is missing.
+/// Too few harmonics also satisfy the moments' equation; twice as many show the difference.
 #[test]
 fn refinement_does_not_stop_too_early() {
     for (gradient, aspect_ratio, c_i) in [
@@ -129,14 +129,14 @@ fn strong_diffusion_has_its_series() {
     };
     let (near, far) = (error(50.0, 1.0), error(100.0, 1.0));
     assert!((near / far - 4.0).abs() < 0.1, "{near:e} {far:e}");
-    // A wrong factor leaves an error that only halves.
+    // With a wrong factor the error only halves.
     let (near, far) = (error(50.0, 1.1), error(100.0, 1.1));
     assert!((near / far - 2.0).abs() < 0.2, "{near:e} {far:e}");
     assert_eq!(steady(&Motion::new(ASKEW, 4.0, f64::INFINITY)).unwrap().second[3], 0.0);
 }
 
-/// What others found: the natural closure's C_I for A11 = 0.8261 is 0.0053, where the distribution's own value is lower; at
-/// C_I = 0.0311 IBOF's is 0.6494 and the distribution's lower by 0.022.
+/// Findings of others: the natural closure needs C_I = 0.0053 for A11 = 0.8261, where the distribution has a lower value; at
+/// C_I = 0.0311 IBOF has 0.6494, and the distribution is lower by 0.022.
 #[test]
 fn closures_are_above_the_distribution() {
     let along = |c_i| steady(&Motion::new(COUETTE, f64::INFINITY, c_i)).unwrap().second[1];

@@ -1,4 +1,4 @@
-//! Contacts and the rates that they give.
+//! Tests of contacts and of the rates after them.
 
 use super::*;
 use crate::naive::contact::Rod;
@@ -28,7 +28,7 @@ fn a_contact_worked_by_hand() {
     assert_eq!(with([0.0, 5.0, 3.0], e3), None, "no arm");
 }
 
-/// Worst violation of the geometry, of A.9, of A.10 and of "twice is once" over random pairs.
+/// Largest violation of the geometry, of A.9, of A.10 and of "twice is once" over random pairs.
 fn contact_defect(made: Option<Mistake>) -> f64 {
     let mut draws = stream(7, 0, 0);
     let mut cube = || Vector3::from_fn(|_, _| 2.0 * uniform(&mut draws) - 1.0);

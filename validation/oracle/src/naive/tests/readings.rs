@@ -1,4 +1,4 @@
-//! Tests of the readings: each does what it says, and no less than that.
+//! Tests that each interpretation does what its description says, and changes a run.
 
 use super::*;
 
@@ -10,13 +10,13 @@ fn a_mutual_pair_may_have_one_draw() {
         let change = |who| move |p: &mut NaiveProblem| (p.alpha, p.seed, p.reading.who) = (0.5, seed, who);
         let mut draws = stream(seed, 0, 3);
         let r = [0; 3].map(|_| uniform(&mut draws));
-        // 0 and 1 are mutual: the limit is that of the smaller draw, or of the lower index
+        // 0 and 1 are mutual neighbours: the limit follows from the smaller draw, or from that of the lower index
         for (who, r) in [(Who::EachDraws, r[0].min(r[1])), (Who::PairDraws, r[0])] {
             let count = |factor| taken(&[0.0, far_mm(r) * factor], [0, 0], change(who)).len();
             assert_eq!([1.0 - 1e-9, 1.0 + 1e-9].map(count), [1, 0], "{who:?}, seed {seed}");
         }
         second_draw_decides += usize::from(r[1] < r[0]);
-        // 2's nearest is 1, whose nearest is 0, to which it is parallel: 2 draws for itself
+        // 2's nearest is 1, whose nearest is 0, to which it is parallel: 2 draws by itself
         let one_sided = |factor| {
             let s_mm = far_mm(r[2]) * factor;
             taken(&[0.0, 0.5 * s_mm, 1.5 * s_mm], [0, 1], change(Who::PairDraws))
@@ -45,7 +45,7 @@ fn contact_lines_may_end_with_the_rods() {
 
 #[test]
 fn the_nearest_rod_may_be_an_image() {
-    // across each face a rod 1 mm away, inside one 2 mm away
+    // across each face a rod at 1 mm, inside one at 2 mm
     for k in 0..3 {
         let place = |x| {
             let mut place = [5.0; 3];
@@ -58,7 +58,7 @@ fn the_nearest_rod_may_be_an_image() {
         assert_eq!(found(Images::None), Some(2));
         assert_eq!(found(Images::FlowAndVorticity), Some(two));
         assert_eq!(found(Images::All), Some(1));
-        // and seen from the other side
+        // and from the other side
         assert_eq!(nearest(&positions_mm, 1, Images::All, [10.0; 3]), Some(0));
     }
     assert_eq!(Images::All.nearest_mm([9.0, 1.0, 4.0], [1.0, 9.0, 6.0], [10.0; 3]), [-1.0, 11.0, 4.0]);
@@ -66,7 +66,7 @@ fn the_nearest_rod_may_be_an_image() {
 
 #[test]
 fn an_image_collides_as_a_rod_at_its_place_would() {
-    // the volume's edge is 100 mm
+    // the volume's side is 100 mm
     let after = |images, x1_mm| {
         let mut naive = Naive::new(fibres(2, 1e30, |p| {
             (p.concentration_per_cm3, p.reading.images) = (0.002, images);
@@ -147,7 +147,7 @@ fn a_scaled_overshoot_keeps_the_filling_even() {
         };
         distance(0).max(distance(1))
     };
-    // Kolmogorov: the places of an even filling come so far with a probability of 10^-3
+    // Kolmogorov: with a uniform filling, positions deviate this much with a probability of 10^-3
     assert!(unevenness(Replacement::ScaledOvershoot) < 0.014);
     assert!(unevenness(Replacement::Overshoot) > 0.03);
 }
