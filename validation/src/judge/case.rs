@@ -14,35 +14,35 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::time::Instant;
 
-/// One number and the rule it is judged by.
+/// A number and the rule that judges it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Evidence {
-    /// What was measured, in a few words.
+    /// The measured quantity, in a few words.
     pub what: String,
-    /// How it is judged.
+    /// The rule.
     pub rule: Rule,
 }
 
 impl Evidence {
-    /// `error` is at most `tolerance`, and why.
+    /// The rule that `error` is at most `tolerance`, with its reason.
     pub fn within(what: impl Into<String>, error: f64, tolerance: f64, because: impl Into<Text>) -> Self {
         Self::new(what, Rule::within(error, tolerance, because))
     }
 
-    /// Nothing is off at all.
+    /// The rule that `error` is 0.
     pub fn exact(what: impl Into<String>, error: f64) -> Self {
         Self::new(what, Rule::exact(error))
     }
 
-    /// `rule` applied to what `what` says.
+    /// The rule `rule` for the quantity `what`.
     pub fn new(what: impl Into<String>, rule: Rule) -> Self {
         Self { what: what.into(), rule }
     }
 }
 
-/// What a check brings home: evidence, or the error that kept it from any, which fails it without a number.
+/// The result of a check: evidence, or an error, which fails the check without a number.
 pub trait Findings {
-    /// As evidence.
+    /// The result as evidence.
     fn evidence(self) -> Vec<Evidence>;
 }
 
@@ -60,23 +60,23 @@ impl<E: fmt::Display> Findings for Result<Vec<Evidence>, E> {
 
 type Check = Box<dyn Fn(&Effort) -> Vec<Evidence> + Send + Sync>;
 
-/// What a case says of itself.
+/// Description of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct About {
-    /// Its name, in words joined by `-`.
+    /// Name of the case, in words joined by `-`.
     pub name: &'static str,
-    /// What it judges.
+    /// The kind of subject that it judges.
     pub judges: Judges,
     /// The claim, in one sentence.
     pub claim: &'static str,
     /// Equations, figures or sections of the paper, in words.
     pub source: &'static str,
-    /// The equations it tests, by their numbers: the traceability table is made from these.
+    /// Numbers of the equations that it tests, from which the traceability table is made.
     pub equations: &'static [&'static str],
 }
 
 impl About {
-    /// What it can be chosen by: what it judges, and its equations as `eq-15`.
+    /// The tags of the case: the kind that it judges, and its equations as `eq-15`.
     pub fn tags(&self) -> Vec<String> {
         let equations = self.equations.iter().map(|number| format!("eq-{number}"));
         std::iter::once(self.judges.tag().to_owned()).chain(equations).collect()
@@ -85,52 +85,52 @@ impl About {
 
 /// One claim with its check and its controls.
 pub struct Case {
-    /// What it says of itself.
+    /// Description of the case.
     pub about: About,
     check: Check,
     controls: Vec<(&'static str, Check)>,
-    /// What a control that was not caught makes of a case whose evidence passes.
+    /// The verdict of a case whose evidence passes while a control is not caught.
     uncaught: Verdict,
 }
 
 impl Case {
-    /// Verification of the simulator's core.
+    /// A case that verifies the simulator's core.
     pub fn core(name: &'static str) -> Draft {
         Draft::new(name, Judges::Core)
     }
 
-    /// Verification of whole runs and of the program.
+    /// A case that verifies whole runs and the program.
     pub fn program(name: &'static str) -> Draft {
         Draft::new(name, Judges::Program)
     }
 
-    /// Verification of integrators.
+    /// A case that verifies integrators.
     pub fn integrator(name: &'static str) -> Draft {
         Draft::new(name, Judges::Integrator)
     }
 
-    /// Verification of an oracle.
+    /// A case that verifies an oracle.
     pub fn oracle(name: &'static str) -> Draft {
         Draft::new(name, Judges::Oracle)
     }
 
-    /// A modelling choice where the paper is open.
+    /// A case on a modelling choice where the paper is open.
     pub fn interpretation(name: &'static str) -> Draft {
         Draft::new(name, Judges::Interpretation)
     }
 
-    /// A sentence of the paper.
+    /// A case on a sentence of the paper.
     pub fn statement(name: &'static str) -> Draft {
         Draft::new(name, Judges::Statement)
     }
 
-    /// Validation by points that others measured: where they are too few to catch a control, that is no fault of the
-    /// code, and the case is under-powered.
+    /// A case that validates the model by measured points. If these are too few to catch a control, it is not the code's fault, and the
+    /// case is underpowered.
     pub fn measurement(name: &'static str) -> Draft {
         Draft::new(name, Judges::Measurement)
     }
 
-    /// Runs the check, then every control. Without data there is nothing that a control could fail on.
+    /// Runs the check, then every control. Without data, controls are not run, as they could not fail.
     pub fn run(&self, effort: &Effort) -> Outcome {
         let start = Instant::now();
         let evidence: Vec<_> = (self.check)(effort).into_iter().map(Judged::new).collect();
@@ -151,7 +151,7 @@ impl Case {
     }
 }
 
-/// A case that still lacks what it judges.
+/// A case that still lacks its subject.
 pub struct Draft(About);
 
 impl Draft {
@@ -171,13 +171,13 @@ impl Draft {
         self
     }
 
-    /// The equations it tests, by their numbers.
+    /// Numbers of the equations that the case tests.
     pub fn equations(mut self, equations: &'static [&'static str]) -> Self {
         self.0.equations = equations;
         self
     }
 
-    /// What is judged: a function, a scene, a model.
+    /// The subject that is judged: a function, a scene, a model.
     pub fn subject<S>(self, subject: S) -> Subjected<S> {
         Subjected { about: self.0, subject, mistakes: Vec::new() }
     }
@@ -197,13 +197,13 @@ impl<S: Send + Sync + 'static> Subjected<S> {
         self
     }
 
-    /// Several controls.
+    /// Adds several controls.
     pub fn mistakes(mut self, broken: impl IntoIterator<Item = (&'static str, S)>) -> Self {
         self.mistakes.extend(broken);
         self
     }
 
-    /// The check of the subject and of every mistake.
+    /// Completes the case with the check of the subject and of every mistake.
     pub fn check<F: Findings + 'static>(self, check: fn(&S, &Effort) -> F) -> Case {
         let bind = |subject: S| -> Check { Box::new(move |effort| check(&subject, effort).evidence()) };
         Case {

@@ -1,5 +1,5 @@
-//! How a claim is judged: cases with controls, rules of acceptance with their errors, statistics, the paper's problem as a scene.
-//! It may use the oracles and what is below.
+//! How claims are judged: cases with controls, rules of acceptance with their errors, statistics, the paper's problem as a scene.
+//! This module may use the oracles and all modules below.
 
 pub mod accept;
 pub mod case;

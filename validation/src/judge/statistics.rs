@@ -1,4 +1,4 @@
-//! Small statistics of independent values, for runs, figures, cases and studies alike.
+//! Statistics of independent values, for runs, figures, cases and studies.
 
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
@@ -9,9 +9,9 @@ use statrs::statistics::Statistics;
 pub struct Sample {
     /// The mean.
     pub mean: f64,
-    /// Its standard error.
+    /// The standard error of the mean.
     pub se: f64,
-    /// How many values.
+    /// Number of values.
     pub samples: u64,
 }
 
@@ -41,12 +41,12 @@ impl Sample {
 pub struct Estimate {
     /// The number.
     pub value: f64,
-    /// Its standard error.
+    /// The standard error of the number.
     pub se: f64,
 }
 
 impl Estimate {
-    /// Whether it is known from 0: two standard errors or more.
+    /// True if the number differs from 0 by two standard errors or more.
     pub fn readable(&self) -> bool {
         self.value.abs() >= 2.0 * self.se
     }
@@ -57,8 +57,8 @@ impl Estimate {
         Self { value: mean, se }
     }
 
-    /// A statistic with the standard error of the delete-one jackknife, se² = (n−1)/n Σ(s_k − s̄)², s_k being the
-    /// statistic without the k-th value (Efron & Stein 1981).
+    /// A statistic with the standard error of the delete-one jackknife, se² = (n−1)/n Σ(s_k − s̄)², where s_k is the statistic
+    /// without the k-th value (Efron & Stein 1981).
     pub fn jackknife(value: f64, without: &[f64]) -> Self {
         let n = without.len() as f64;
         let mean = without.mean();
@@ -67,17 +67,17 @@ impl Estimate {
     }
 }
 
-/// The larger of two errors; NaN stays.
+/// The larger of two errors; NaN if one of them is NaN.
 pub fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
-/// The largest of errors, 0 where there are none; NaN stays.
+/// The largest error, 0 if there are none; NaN if one of them is NaN.
 pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
     errors.into_iter().fold(0.0, larger)
 }
 
-/// The covariance of as many pairs as both have.
+/// The covariance of pairs; surplus values of the longer list are ignored.
 pub fn covariance(a: &[f64], b: &[f64]) -> f64 {
     let count = a.len().min(b.len());
     let (a, b) = (&a[..count], &b[..count]);
@@ -91,7 +91,7 @@ pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
     covariance(a, b) / (covariance(a, a) * covariance(b, b)).sqrt()
 }
 
-/// The slope of a straight line through points, by least squares.
+/// The slope of the least-squares line through points.
 pub fn slope(points: &[(f64, f64)]) -> f64 {
     let (x, y): (Vec<_>, Vec<_>) = points.iter().copied().unzip();
     covariance(&x, &y) / covariance(&x, &x)
@@ -100,7 +100,7 @@ pub fn slope(points: &[(f64, f64)]) -> f64 {
 /// The two-sided critical value of Student's t at `level` for a mean of `samples` independent values.
 pub fn student(level: f64, samples: u64) -> f64 {
     let (freedom, p) = (freedom(samples), 1.0 - 0.5 * level);
-    // statrs 0.19 loses digits from some 10⁵ degrees of freedom on, and does not end from 10⁷ on.
+    // statrs 0.19 loses digits above about 10⁵ degrees of freedom, and does not return above 10⁷.
     if freedom < MANY {
         return StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |t| t.inverse_cdf(p));
     }
@@ -113,8 +113,8 @@ pub fn student(level: f64, samples: u64) -> f64 {
     z + terms.iter().rev().fold(0.0, |sum, term| (sum + term) / freedom)
 }
 
-/// Degrees of freedom from which Student's t is a series in their inverse around the normal (Abramowitz & Stegun 26.7.5): three
-/// terms leave 10⁻⁸ of a critical value of 6, and 10⁻¹² of one of 2.
+/// Degrees of freedom from which Student's t is computed by a series in their inverse around the normal (Abramowitz & Stegun 26.7.5):
+/// three terms leave an error of 10⁻⁸ in a critical value of 6, and of 10⁻¹² in one of 2.
 const MANY: f64 = 1000.0;
 
 /// The degrees of freedom of the standard deviation of `samples` values.
@@ -139,7 +139,7 @@ mod tests {
         for (samples, expected) in [(2, 12.706), (11, 2.228), (101, 1.984), (1001, 1.962)] {
             assert!((student(0.05, samples) - expected).abs() < 6e-4, "{samples}");
         }
-        // Both ways where they meet; the value of 1000 degrees of freedom, to 16 digits; the normal's in the limit.
+        // Both methods where they meet; the value for 1000 degrees of freedom, to 16 digits; the limit, which is the normal's.
         let [below, above] = [1000, 1001].map(|samples| student(0.05, samples));
         // The slope is 2.4 over the square of 1000.
         assert!((below - above - 2.37e-6).abs() < 2e-8, "{below} {above}");
@@ -157,7 +157,7 @@ mod tests {
         let mean = Estimate::mean_of(&values);
         assert_eq!(mean.value, 3.0);
         assert!((mean.se - (7f64 / 3.0).sqrt()).abs() < 1e-15);
-        // Against −1, 0, 4 less 1: −2·−2 − 1·−1 + 3·3; a value more on one side has no pair.
+        // With −1, 0, 4 less their mean 1: −2·−2 − 1·−1 + 3·3; a surplus value on one side has no pair.
         let others = [-1.0, 0.0, 4.0, 100.0];
         assert_eq!(covariance(&values, &others), 7.0);
         assert_eq!(correlation(&values, &[2.0, 1.0, -3.0]), -1.0);
@@ -165,7 +165,7 @@ mod tests {
         let sample = Sample::of_differences(&[2.0, 4.0, 9.0], &[1.0, 2.0, 3.0]);
         assert_eq!((sample.mean, sample.samples), (3.0, 3));
         assert!((sample.se - (7f64 / 3.0).sqrt()).abs() < 1e-15);
-        // Of two degrees of freedom t is 4.3027 at 5 %.
+        // With two degrees of freedom, t is 4.3027 at 5 %.
         assert!((sample.half_width() / sample.se - 4.3027).abs() < 1e-4);
         assert_eq!([1, 2, 10].map(freedom), [1.0, 1.0, 9.0]);
         let readable = |value| Estimate { value, se: 2.0 }.readable();

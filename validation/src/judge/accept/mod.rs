@@ -1,7 +1,7 @@
-//! Every rule by which a number is accepted. The default tolerance is zero; a looser one says why.
+//! The rules by which numbers are accepted. The default tolerance is zero; a looser one gives its reason.
 //!
-//! A statistical rule has two errors: correct code that turns red, and a mistake that stays unseen. Both have a bound
-//! for each check, and samples are sized by calculation so that both hold ([`Design`]).
+//! A statistical rule has two errors: correct code fails, or a mistake passes. Both have a bound for each check, and the sizes of
+//! samples are computed such that both hold ([`Design`]).
 
 mod sizes;
 #[cfg(test)]
@@ -14,108 +14,108 @@ use serde::{Deserialize, Serialize};
 use sizes::{massart, needed_noncentrality, noncentral};
 use std::borrow::Cow;
 
-/// The probability that a run of the registry on correct code turns red for any reason, at most.
+/// The largest probability that a run of the registry on correct code fails for any reason.
 pub const FALSE_ALARM_BUDGET: f64 = 1e-3;
-/// The probability that one statistical check of correct code fails, and that its data turn out to be too little.
+/// The probability that a statistical check of correct code fails, and that of too few data for it.
 pub const LEVEL: f64 = 2e-6;
-/// The probability that one statistical check does not see the effect it is sized for.
+/// The probability that a statistical check misses the effect for which it is sized.
 pub const MISS: f64 = 4e-6;
 
-/// How a check or a case ended.
+/// The result of a check or a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
-    /// The rule holds, and where it is statistical there was enough data.
+    /// The rule holds, and if it is statistical there were enough data.
     Pass,
     /// The rule does not hold, or a control was not caught.
     Fail,
-    /// Too little data to say.
+    /// There are too few data to decide.
     Underpowered,
-    /// The case needs measured points that are not at hand.
+    /// The case needs measured points that are not available.
     NoData,
 }
 
-/// A sentence of the source, or of another rank.
+/// A text of the source code, or received from another rank.
 pub type Text = Cow<'static, str>;
 
-/// A rule with the number it judges.
+/// A rule with the number that it judges.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "rule", rename_all = "snake_case")]
 pub enum Rule {
     /// |error| ≤ tolerance.
     Within {
-        /// What was found off.
+        /// The error found.
         error: f64,
-        /// What is allowed.
+        /// The largest error allowed.
         tolerance: f64,
-        /// Why that much.
+        /// The reason for the tolerance.
         because: Text,
     },
-    /// |mean − reference| ≤ t·se + allowance at [`LEVEL`], on a sample that would have shown `effect`.
+    /// |mean − reference| ≤ t·se + allowance at [`LEVEL`], for a sample large enough to show `effect`.
     Mean {
         /// The mean over independent replicas or samples.
         mean: f64,
-        /// Its standard error.
+        /// The standard error of the mean.
         se: f64,
-        /// Independent samples behind it.
+        /// Number of independent samples.
         samples: u64,
-        /// What it should be.
+        /// The expected mean.
         reference: f64,
-        /// A systematic difference that is allowed, 0 unless the reason says more.
+        /// An allowed systematic difference; 0 unless the reason says more.
         allowance: f64,
-        /// The smallest |μ − reference| − allowance that must be seen.
+        /// The smallest |μ − reference| − allowance that must be detected.
         effect: f64,
-        /// Why this allowance and this effect.
+        /// The reason for the allowance and the effect.
         because: Text,
     },
-    /// mean − t·se > bound at [`LEVEL`]; on a sample that would have shown `effect`, anything else is a failure, and on any
-    /// sample mean + t·se < bound is.
+    /// mean − t·se > bound at [`LEVEL`]. Otherwise the rule fails if the sample is large enough to show `effect`, or if
+    /// mean + t·se < bound.
     Above {
         /// The mean over independent replicas or samples.
         mean: f64,
-        /// Its standard error.
+        /// The standard error of the mean.
         se: f64,
-        /// Independent samples behind it.
+        /// Number of independent samples.
         samples: u64,
-        /// What it must exceed.
+        /// The bound that the mean must exceed.
         bound: f64,
-        /// By how much the expectation of correct code exceeds the bound, at least.
+        /// The smallest excess of the expectation of correct code over the bound.
         effect: f64,
-        /// Why this bound and this effect.
+        /// The reason for the bound and the effect.
         because: Text,
     },
     /// p ≥ [`LEVEL`], for a test on at least `enough` samples.
     PValue {
         /// The p-value of a goodness-of-fit test.
         p: f64,
-        /// The samples it is from.
+        /// Number of samples of the test.
         samples: u64,
-        /// The samples below which the test has no power.
+        /// The number of samples below which the test has no power.
         enough: u64,
-        /// The largest distance between the two distribution functions, where that is what is tested.
+        /// The largest distance between the two distribution functions, if the test is about that.
         distance: Option<f64>,
-        /// Which test, and why that many samples.
+        /// The test, and the reason for the number of samples.
         because: Text,
     },
-    /// Needs measured points that are not at hand.
+    /// Measured points are needed but not available.
     NoData {
-        /// How to supply them.
+        /// How to supply the points.
         supply: Text,
     },
 }
 
 impl Rule {
-    /// Nothing off at all.
+    /// The rule that `error` is 0.
     pub fn exact(error: f64) -> Self {
         Self::Within { error, tolerance: 0.0, because: "exact".into() }
     }
 
-    /// |error| ≤ tolerance, and why.
+    /// The rule |error| ≤ tolerance, with its reason.
     pub fn within(error: f64, tolerance: f64, because: impl Into<Text>) -> Self {
         Self::Within { error, tolerance, because: because.into() }
     }
 
-    /// Whether the rule shares in the family-wise false-alarm rate.
+    /// True if the rule contributes to the family-wise false-alarm rate.
     pub fn is_statistical(&self) -> bool {
         matches!(self, Self::Mean { .. } | Self::Above { .. } | Self::PValue { .. })
     }
@@ -131,7 +131,7 @@ impl Rule {
         }
     }
 
-    /// The bound on the error; for a p-value, the level; for [`Rule::Above`] what the mean must exceed.
+    /// The bound on the error; the level for a p-value; for [`Rule::Above`] the number that the mean must exceed.
     pub fn tolerance(&self) -> f64 {
         match self {
             Self::Within { tolerance, .. } => *tolerance,
@@ -142,10 +142,10 @@ impl Rule {
         }
     }
 
-    /// The probability, at most, that correct code does not pass this rule.
+    /// The largest probability that correct code does not pass this rule.
     pub fn false_alarm(&self) -> f64 {
         match self {
-            // That the mean is far, and that the scatter is larger than planned.
+            // The mean may be far off, or the scatter larger than planned.
             Self::Mean { .. } => 2.0 * LEVEL,
             Self::Above { .. } => MISS + LEVEL,
             Self::PValue { .. } => LEVEL,
@@ -153,21 +153,21 @@ impl Rule {
         }
     }
 
-    /// By how many standard deviations of the test's statistic a rule that fails does so: at another seed it would not fail
-    /// with the probability [`upper_tail`] of it, by the noncentral t distribution, for Kolmogorov's by Massart's bound.
-    /// `None` where nothing is drawn, or no effect is told.
+    /// By how many standard deviations of the test's statistic a failing rule fails: at another seed it would pass with the
+    /// probability [`upper_tail`] of this, by the noncentral t distribution, or for Kolmogorov's test by Massart's bound. `None` if
+    /// nothing is random, or no distance is given.
     pub fn margin(&self) -> Option<f64> {
         match self {
             Self::Mean { se, samples, allowance, .. } => {
                 Some(-noncentral(student(LEVEL, *samples), (self.error() - allowance) / se, *samples))
             }
             Self::Above { mean, se, samples, bound, .. } => {
-                // Values that do not scatter fail at every seed.
+                // Values without scatter fail at every seed.
                 if *se == 0.0 && mean <= bound {
                     return Some(f64::INFINITY);
                 }
                 let critical = student(LEVEL, *samples);
-                // With fewer values than its effect needs, it fails only where the mean is below.
+                // With fewer values than its effect needs, the rule fails only if the mean is below the bound.
                 let t = if self.has_enough() { critical } else { -critical };
                 Some(noncentral(t, (mean - bound) / se, *samples))
             }
@@ -179,7 +179,7 @@ impl Rule {
         }
     }
 
-    /// Whether the sample shows the effect that it is meant to show.
+    /// True if the sample is large enough to show the effect.
     fn has_enough(&self) -> bool {
         match self {
             Self::Mean { se, samples, effect, .. } | Self::Above { se, samples, effect, .. } => {
@@ -190,7 +190,7 @@ impl Rule {
         }
     }
 
-    /// Whether the mean may be above its bound, for all that the sample shows.
+    /// True if the sample does not exclude that the mean is above its bound.
     fn is_hidden(&self) -> bool {
         match self {
             Self::Above { mean, se, samples, bound, .. } => mean + student(LEVEL, *samples) * se >= *bound,
@@ -198,7 +198,7 @@ impl Rule {
         }
     }
 
-    /// Why the bound is what it is.
+    /// The reason for the bound.
     pub fn because(&self) -> &str {
         match self {
             Self::Within { because, .. }
@@ -219,7 +219,7 @@ pub fn judge(rule: &Rule) -> Verdict {
         Rule::NoData { .. } => return Verdict::NoData,
     };
     match (holds, rule.has_enough()) {
-        // Noise can hide a difference, but it cannot make a mean come out close, nor below the bound by many of its errors.
+        // Noise can hide a difference, but can bring a mean neither close to its reference nor many standard errors below its bound.
         (false, false) if rule.is_hidden() => Verdict::Underpowered,
         (false, _) => Verdict::Fail,
         (true, false) => Verdict::Underpowered,
@@ -228,7 +228,7 @@ pub fn judge(rule: &Rule) -> Verdict {
 }
 
 impl Sample {
-    /// The rule that this mean is `reference`, up to an `allowance`, by a sample that would show `effect` beyond it.
+    /// The rule that this mean is `reference` up to `allowance`; the sample must be large enough to show `effect` beyond it.
     pub fn is(self, reference: f64, allowance: f64, effect: f64, because: impl Into<Text>) -> Rule {
         Rule::Mean {
             mean: self.mean,
@@ -241,7 +241,7 @@ impl Sample {
         }
     }
 
-    /// The rule that this mean exceeds `bound`, by a sample that shows it where it does so by `effect`.
+    /// The rule that this mean exceeds `bound`; the sample must be large enough to show an excess of `effect`.
     pub fn exceeds(self, bound: f64, effect: f64, because: impl Into<Text>) -> Rule {
         Rule::Above {
             mean: self.mean,

@@ -1,26 +1,26 @@
-//! How many values a sample needs, and how surely a rule that failed would fail again.
+//! Sizes of samples, and the probability that a failed rule fails again.
 
 use super::{LEVEL, MISS};
 use crate::judge::statistics::{freedom, student};
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 
-/// What a sample is sized for: an effect that must be seen, in values that scatter by `sd`.
+/// The design of a sample: an effect that must be detected, in values that scatter by `sd`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Design {
-    /// The smallest effect that must be seen.
+    /// The smallest effect that must be detected.
     pub effect: f64,
-    /// The standard deviation of one value, at most.
+    /// The largest standard deviation of one value.
     pub sd: f64,
 }
 
 impl Design {
-    /// To see `effect` in values whose standard deviation is `sd` at most.
+    /// A sample that detects `effect` in values with a standard deviation of at most `sd`.
     pub const fn new(effect: f64, sd: f64) -> Self {
         Self { effect, sd }
     }
 
-    /// The fewest independent values that see the effect but for a probability [`MISS`], at a false-alarm probability
-    /// [`LEVEL`], and whose standard error is small enough to say so but for another [`LEVEL`] (χ² quantile, Gaussian
+    /// The smallest number of independent values that misses the effect with the probability [`MISS`] at most, at the false-alarm
+    /// probability [`LEVEL`], and whose standard error is too large to decide with another [`LEVEL`] at most (χ² quantile, Gaussian
     /// values).
     pub fn samples(self) -> u64 {
         self.samples_at(LEVEL, MISS)
@@ -47,32 +47,32 @@ impl Design {
     }
 }
 
-/// Below this a mean is not Gaussian enough for a level of 10⁻⁶.
+/// With fewer values, a mean is not Gaussian enough for a level of 10⁻⁶.
 const FEWEST: u64 = 16;
-/// No case can run more.
+/// More values than any case can run.
 const MOST: u64 = 1 << 40;
 
-/// The fewest values by which a Kolmogorov–Smirnov test sees a distance of `distance` between two distribution
-/// functions but for a probability [`MISS`], at a false-alarm probability [`LEVEL`] (Massart's bound for both).
+/// The smallest number of values with which a Kolmogorov–Smirnov test misses a `distance` between two distribution functions with the
+/// probability [`MISS`] at most, at the false-alarm probability [`LEVEL`] (Massart's bound for both).
 pub fn kolmogorov_samples(distance: f64) -> u64 {
     ((massart(LEVEL) + massart(MISS)) / distance).powi(2).ceil() as u64
 }
 
-/// How much larger than its expectation a standard deviation of `samples` Gaussian values is, but for a probability
+/// The ratio of a standard deviation of `samples` Gaussian values to its expectation that is exceeded with the probability
 /// `level`.
 fn scatter(level: f64, samples: u64) -> f64 {
     let freedom = freedom(samples);
     ChiSquared::new(freedom).map_or(f64::NAN, |chi| (chi.inverse_cdf(1.0 - level) / freedom).sqrt())
 }
 
-/// The effect over its standard error that a mean of `samples` values shows at `level` but for a probability `miss`.
+/// The effect over its standard error that a mean of `samples` values at `level` misses with the probability `miss`.
 pub(super) fn needed_noncentrality(level: f64, miss: f64, samples: u64) -> f64 {
     let (critical, nu) = (student(level, samples), freedom(samples));
     let normal = normal().inverse_cdf(1.0 - miss);
     critical * (1.0 - 0.25 / nu) + normal * (1.0 + 0.5 * critical * critical / nu).sqrt()
 }
 
-/// The normal deviate that has the probability P(T ≤ t) of the noncentral t distribution of a mean of `samples` values
+/// The normal deviate with the probability P(T ≤ t) of the noncentral t distribution of a mean of `samples` values
 /// (Abramowitz & Stegun 26.7.10).
 pub(super) fn noncentral(t: f64, noncentrality: f64, samples: u64) -> f64 {
     let nu = freedom(samples);
@@ -84,7 +84,7 @@ pub fn upper_tail(deviate: f64) -> f64 {
     normal().sf(deviate)
 }
 
-/// The √n D that Kolmogorov's distance D exceeds with a probability of at most `probability` (Massart 1990).
+/// The value that √n D, with Kolmogorov's distance D, exceeds with at most this probability (Massart 1990).
 pub(super) fn massart(probability: f64) -> f64 {
     (0.5 * (2.0 / probability).ln()).sqrt()
 }
@@ -117,7 +117,7 @@ mod tests {
                 .count();
             let found = below as f64 / f64::from(trials);
             let expected = upper_tail(-noncentral(t, noncentrality, samples));
-            // Five standard errors of a share, and the approximation's own error in the middle of the distribution.
+            // Five standard errors of a share, and the approximation's own error at the centre of the distribution.
             assert!((found - expected).abs() < 5.0 * 0.0036 + 0.005, "{found} {expected}");
         }
     }
@@ -126,7 +126,7 @@ mod tests {
         StandardNormal.sample(rng)
     }
 
-    /// At levels that can be simulated: both errors come out as designed, approached from both sides.
+    /// At levels that can be simulated, both error rates are as designed, approached from both sides.
     #[test]
     fn a_designed_sample_has_both_error_rates() {
         const LEVEL: f64 = 0.02;
@@ -153,7 +153,7 @@ mod tests {
             assert!((share(far) - LEVEL).abs() < 0.005, "{ratio}: far {}", share(far));
             assert!((share(wide) - LEVEL).abs() < 0.008, "{ratio}: wide {}", share(wide));
             assert!(share(blind) < MISS + 0.008, "{ratio}: blind {}", share(blind));
-            // And the sample is not much larger than needed: half the effect is often missed.
+            // The sample is not much larger than needed: half the effect is often missed.
             assert!(share(blind_of_half) > 0.15, "{ratio}: half {}", share(blind_of_half));
         }
     }

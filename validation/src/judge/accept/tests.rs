@@ -14,7 +14,7 @@ fn a_mean_needs_closeness_and_enough_data() {
     assert_eq!(mean(f64::NAN, 0.01, 0.0), Verdict::Fail);
 }
 
-/// A mean of 400 values that is to exceed 0, and by 0.1 surely does.
+/// A mean of 400 values that must exceed 0, with an effect of 0.1.
 fn above_zero(mean: f64, se: f64) -> Rule {
     Rule::Above { mean, se, samples: 400, bound: 0.0, effect: 0.1, because: "".into() }
 }
@@ -25,7 +25,7 @@ fn a_difference_needs_to_be_seen() {
     assert_eq!(above(0.1, 0.01), Verdict::Pass);
     assert_eq!(above(0.02, 0.01), Verdict::Fail);
     assert_eq!(above(0.02, 0.1), Verdict::Underpowered);
-    // Below the bound by four of its errors: hidden; by six: a failure.
+    // Below the bound by four standard errors: underpowered; by six: a failure.
     assert_eq!(above(-0.4, 0.1), Verdict::Underpowered);
     assert_eq!(above(-0.6, 0.1), Verdict::Fail);
     assert_eq!(above(0.0, 0.0), Verdict::Fail, "values that are all at the bound do not exceed it");
@@ -33,12 +33,12 @@ fn a_difference_needs_to_be_seen() {
     assert_eq!(above(f64::NAN, 0.01), Verdict::Fail);
 }
 
-/// How surely a mean that is not above its bound is seen again.
+/// The margin of a mean that is not above its bound.
 #[test]
 fn a_failure_has_a_margin_where_its_values_scatter_and_is_certain_where_they_do_not() {
     let margin = |mean, se| above_zero(mean, se).margin().unwrap();
     assert_eq!(margin(0.0, 0.0), f64::INFINITY);
-    // A large sample fails unless its mean is above by `student`, a small one only where it is below by that.
+    // A large sample fails unless its mean is above by `student`, a small one only if its mean is below by that.
     let large = margin(0.0, 0.01);
     assert!((4.0..6.0).contains(&large), "{large}");
     assert!((margin(0.0, 0.1) + large).abs() < 0.2);
@@ -77,13 +77,13 @@ fn of_a_million(mean: f64, reference: f64) -> Rule {
     }
 }
 
-/// Which rules draw, and what each adds to the budget.
+/// Tests which rules are statistical, and their contributions to the budget.
 #[test]
 fn the_false_alarms_of_each_rule_by_hand() {
     for (rule, expected) in [
-        // That the mean is far, or its scatter.
+        // The mean may be far off, or its scatter.
         (of_a_million(1.0, 1.0), 4e-6),
-        // That the effect is missed, or its scatter is too large.
+        // The effect may be missed, or the scatter too large.
         (above_zero(1.0, 0.1), 6e-6),
         (distance(None, 10), 2e-6),
         (Rule::exact(0.0), 0.0),
@@ -93,7 +93,7 @@ fn the_false_alarms_of_each_rule_by_hand() {
     }
 }
 
-/// Of many values the noncentral t distribution is a Gaussian one: by how much a statistic is beyond its critical value.
+/// For many values the noncentral t distribution is Gaussian: the margin is the distance of a statistic from its critical value.
 #[test]
 fn margins_by_hand() {
     let critical = student(LEVEL, 1_000_000);
@@ -101,7 +101,7 @@ fn margins_by_hand() {
         let margin = margin.unwrap();
         assert!((margin - expected).abs() < 1e-3, "{margin} {expected}");
     };
-    // Seven off, of which one is allowed, at errors of ½.
+    // Seven off, one of them allowed, with standard errors of ½.
     near(of_a_million(10.0, 3.0).margin(), 12.0 - critical);
     near(of_a_million(-4.0, 3.0).margin(), 12.0 - critical);
     let below =
@@ -115,7 +115,7 @@ fn margins_by_hand() {
     assert_eq!((distance(None, 10).margin(), Rule::exact(1.0).margin()), (None, None));
 }
 
-/// What a sample is sized for, and what its rule then misses, are one number.
+/// The size of a sample and the miss rate of its rule are consistent.
 #[test]
 fn a_size_is_that_of_its_miss() {
     for (level, miss) in [(LEVEL, MISS), (0.05, 0.02)] {
@@ -125,7 +125,7 @@ fn a_size_is_that_of_its_miss() {
             assert!((missed / miss - 1.0).abs() < 1e-6, "{samples}: {missed}");
         }
     }
-    // Of many values the deviates add up: 4.7534 for 10⁻⁶ on each side, and 4.4652 for 4·10⁻⁶.
+    // For many values the deviates add up: 4.7534 for 10⁻⁶ on each side, and 4.4652 for 4·10⁻⁶.
     assert!((needed_noncentrality(LEVEL, MISS, 1_000_000) - 9.2186).abs() < 1e-3);
     // (½ ln 10⁶)^½ + (½ ln 5·10⁵)^½ = 5.18974 over 0.1, squared.
     assert_eq!(kolmogorov_samples(0.1), 2694);

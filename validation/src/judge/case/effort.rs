@@ -1,16 +1,16 @@
-//! How hard a case works, and from which random streams.
+//! The effort and the random streams of cases.
 
 use crate::judge::accept::Design;
 use std::path::PathBuf;
 
-/// How hard a case works, and from which random streams.
+/// The effort and the random streams of a case.
 #[derive(Clone, Debug)]
 pub struct Effort {
-    /// More replicas and samples, the same cases.
+    /// True for more replicas and samples in the same cases.
     pub full: bool,
-    /// The seed from which every case takes its seeds.
+    /// The seed from which all seeds of cases are derived.
     pub seed: u64,
-    /// A folder with measured points, where the user has them.
+    /// A folder with measured points, if the user has one.
     pub data: Option<PathBuf>,
 }
 
@@ -18,22 +18,22 @@ pub struct Effort {
 pub const GATE_SEED: u64 = 1;
 
 impl Effort {
-    /// That of `cargo test`.
+    /// The effort of `cargo test`.
     pub fn gate() -> Self {
         Self { full: false, seed: GATE_SEED, data: None }
     }
 
-    /// `quick` for the gate, `full` for `--full`.
+    /// `quick` for the gate, `full` with `--full`.
     pub fn pick<T>(&self, quick: T, full: T) -> T {
         if self.full { full } else { quick }
     }
 
-    /// The values that a sample needs; four times as many in a full run.
+    /// The number of values that a sample needs; four times as many in a full run.
     pub fn samples(&self, design: Design) -> u64 {
         self.pick(1, 4) * design.samples()
     }
 
-    /// The seed of one of a case's streams: another for every `stream` and every seed of the run.
+    /// The seed of one of a case's streams, different for every `stream` and every seed of the run.
     pub fn seed(&self, stream: u64) -> u64 {
         // SplitMix64's output function on both; 63 bits, as scenes allow.
         let mix = |z: u64| {

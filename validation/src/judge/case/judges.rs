@@ -1,9 +1,9 @@
-//! What a case judges.
+//! The kinds of subjects that cases judge.
 
 use serde::Serialize;
 
-/// What a case judges. Verification asks whether the equations are solved right; validation, whether they are the right
-/// equations, by measurements. What tests our own choices or the paper's sentences is neither.
+/// The kind of subject that a case judges. Verification asks if the equations are solved right; validation asks, by measurements, if they
+/// are the right equations. Tests of our own choices or of the paper's sentences are neither.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Judges {
@@ -24,7 +24,7 @@ pub enum Judges {
 }
 
 impl Judges {
-    /// All, in the order in which they are counted.
+    /// All kinds, in the order of the report's counts.
     pub const ALL: [Self; 7] = [
         Self::Core,
         Self::Program,
@@ -35,7 +35,7 @@ impl Judges {
         Self::Measurement,
     ];
 
-    /// In one word, as `validate --tag` takes it.
+    /// One word for `validate --tag`.
     pub fn tag(self) -> &'static str {
         match self {
             Self::Core => "core",
@@ -48,7 +48,7 @@ impl Judges {
         }
     }
 
-    /// In words, as the headline counts them.
+    /// The plural for the report's headline.
     pub fn name(self) -> &'static str {
         match self {
             Self::Core => "core",

@@ -1,10 +1,10 @@
-//! How a case ended: its evidence and its controls, judged.
+//! The outcome of a case: its evidence and its controls, judged.
 
 use super::{About, Evidence};
 use crate::judge::accept::{MISS, Rule, Text, Verdict, judge};
 use serde::{Deserialize, Serialize};
 
-/// A case passes when all its evidence does and every control was caught.
+/// The verdict of a case: it passes if all its evidence passes and every control was caught.
 pub(super) fn overall(evidence: &[Judged], controls: &[Control], uncaught: Verdict) -> Verdict {
     let has = |verdict| evidence.iter().any(|judged| judged.verdict == verdict);
     if has(Verdict::NoData) {
@@ -25,7 +25,7 @@ pub(super) fn overall(evidence: &[Judged], controls: &[Control], uncaught: Verdi
 pub struct Judged {
     /// The evidence.
     pub evidence: Evidence,
-    /// How it ended.
+    /// The verdict of its rule.
     pub verdict: Verdict,
 }
 
@@ -36,21 +36,21 @@ impl Judged {
     }
 }
 
-/// A deliberate mistake and whether the check failed on it.
+/// A deliberate mistake, and the result of the check on it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Control {
     /// The mistake in the model.
     pub mistake: Text,
-    /// Whether the check failed, as it must, on numbers.
+    /// True if the check failed on numbers, as it must.
     pub caught: bool,
-    /// Whether it was caught by drawn numbers alone, so that it could be missed at another seed.
+    /// True if only random numbers caught it, so that it could be missed at another seed.
     pub drawn: bool,
-    /// By how many standard deviations the surest of its rules failed ([`Rule::margin`]).
+    /// By how many standard deviations the clearest of its rules failed ([`Rule::margin`]).
     pub margin: Option<f64>,
 }
 
 impl Control {
-    /// A check that ends in no numbers has broken, and has caught nothing.
+    /// Judges a control: a check with NaN has broken, and has caught nothing.
     pub(super) fn new(mistake: &'static str, evidence: &[Evidence]) -> Self {
         let broke = evidence.iter().any(|e| e.rule.error().is_nan());
         let failed: Vec<_> = (evidence.iter().map(|e| &e.rule))
@@ -69,27 +69,27 @@ impl Control {
 /// The outcome of a case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Outcome {
-    /// Which case.
+    /// Description of the case.
     pub about: About,
-    /// How it ended.
+    /// The verdict of the case.
     pub verdict: Verdict,
-    /// Everything measured.
+    /// All evidence.
     pub evidence: Vec<Judged>,
-    /// Every control.
+    /// All controls.
     pub controls: Vec<Control>,
-    /// Wall time of check and controls.
+    /// Wall time of check and controls in s.
     pub seconds: f64,
 }
 
 impl Outcome {
-    /// The probability, at most, that correct code turns this case red: its checks, and a control that is not caught.
+    /// The largest probability that correct code fails this case: by its checks, or by a control that is not caught.
     pub fn false_alarm(&self) -> f64 {
         if self.verdict == Verdict::NoData {
             return 0.0;
         }
         let rules = || self.evidence.iter().map(|judged| &judged.evidence.rule);
         let checks: f64 = rules().map(Rule::false_alarm).sum();
-        // What is sized for a control misses it with this probability at most.
+        // A check sized for a control misses it with this probability at most.
         checks + MISS * self.controls.iter().filter(|control| control.drawn).count() as f64
     }
 }

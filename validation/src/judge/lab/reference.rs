@@ -1,10 +1,10 @@
-//! A scene as the naive reference takes it.
+//! Converts a scene to the form of the naive reference.
 
 use super::interaction;
 use crate::oracle::naive::{self, Mistake, NaiveProblem, OtherFlow, Reading, Start};
 use shearbed::scene::{Orientation, Scene, Update};
 
-/// The scene as the naive reference takes it.
+/// The scene in the form of the naive reference.
 pub fn problem(scene: &Scene, replica: u64, mistake: Option<Mistake>) -> NaiveProblem {
     let mut scene = scene.clone();
     let interaction = interaction(&mut scene).clone();

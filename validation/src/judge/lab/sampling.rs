@@ -1,4 +1,4 @@
-//! Independent samples: one value per replica, and whether values are spread evenly.
+//! Independent samples: one value per replica, and a test of uniformity.
 
 use super::plan;
 use crate::judge::accept::{Rule, Text, kolmogorov_samples};
@@ -10,7 +10,7 @@ use statrs::distribution::Uniform;
 use statrs::stats_tests::NaNPolicy;
 use statrs::stats_tests::ks_test::{KSOneSampleAlternativeMethod, ks_onesample};
 
-/// One value per replica of a scene, made of the replica's means: `mean(channel, output)`.
+/// One value per replica of a scene, computed by `value` from the replica's means `mean(channel, output)`.
 pub fn per_replica<T: Send>(
     scene: &Scene,
     replicas: u64,
@@ -18,7 +18,7 @@ pub fn per_replica<T: Send>(
 ) -> Vec<T> {
     let plan = plan(scene);
     let of_replica = |replica| {
-        // A run that stopped fails whatever is asked of it: every mean is NaN.
+        // A run that stopped fails every check: all its means are NaN.
         let found = run_replica(&plan, replica).ok();
         value(&|channel, output| {
             found.as_ref().and_then(|found| found.mean(channel, output)).unwrap_or(f64::NAN)
@@ -27,7 +27,7 @@ pub fn per_replica<T: Send>(
     (0..replicas).into_par_iter().map(of_replica).collect()
 }
 
-/// The Kolmogorov–Smirnov test that `values` in [0, 1] are uniform there, by as many as would show a `distance` between
+/// The Kolmogorov–Smirnov test that `values` in [0, 1] are uniform; there must be enough values to show a `distance` between
 /// the two distribution functions.
 pub fn uniform(values: Vec<f64>, distance: f64, because: impl Into<Text>) -> Rule {
     let samples = values.len() as u64;

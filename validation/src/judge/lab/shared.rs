@@ -1,4 +1,4 @@
-//! What a check and its controls have in common, worked out once: a control that is a wrong formula needs no run of its
+//! Values that a check shares with its controls, computed once: a control that is a wrong formula needs no run of its
 //! own.
 
 use crate::judge::case::Effort;
@@ -20,12 +20,12 @@ impl<K: Ord, T> Default for Shared<K, T> {
 }
 
 impl<K: Ord, T> Shared<K, T> {
-    /// Nothing yet.
+    /// An empty store.
     pub const fn new() -> Self {
         Self(Mutex::new(Kept { run: (0, false), values: BTreeMap::new() }))
     }
 
-    /// The value with this `key`, which must depend on the key and the effort alone; another run forgets it.
+    /// The value for `key`, computed by `work_out` if it is missing. It must depend only on key and effort; another run clears it.
     pub fn get(&self, effort: &Effort, key: K, work_out: impl FnOnce() -> T) -> Arc<T> {
         let held = || {
             let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -39,7 +39,7 @@ impl<K: Ord, T> Shared<K, T> {
         if let Some(found) = held().values.get(&key) {
             return Arc::clone(found);
         }
-        // Not under the lock: who waits for other threads may be given other work of theirs, which may want it too.
+        // Not under the lock: while it waits, a thread may be given another thread's work, which may need the lock too.
         let found = Arc::new(work_out());
         held().values.insert(key, Arc::clone(&found));
         found
